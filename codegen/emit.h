@@ -1,0 +1,29 @@
+// Code generation: IR to C++ files, the symbol map and the manifest (design §8). In: a verified ir::Module. Out: file
+// contents by relative path, deterministic to the byte; write.h puts them on disk. Called by the driver.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ir/ir.h"
+
+namespace rung::codegen {
+
+struct EmitOptions {
+  std::string module_name = "plc";  // --name: the prefix of every external symbol
+  bool line_directives = true;
+  bool with_tests = false;  // `rung test`: entries of the tests instead of tasks
+};
+
+struct OutputFile {
+  std::string path;
+  std::string content;
+};
+
+// Headers and sources of the module; `.cpp` files are the ones to compile. Sorted by path.
+std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& options);
+
+// The C++ name of a user's name: `nan` -> `nan_`. Never a keyword, macro or POSIX name, never two user names in one.
+std::string mangle(std::string_view name);
+
+}  // namespace rung::codegen

@@ -1,0 +1,21 @@
+// Puts a set of generated files into a folder: all or nothing, files with equal content untouched, files of an earlier
+// run that the manifest (`rung.manifest`) lists and that are no longer made deleted.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "codegen/emit.h"
+
+namespace rung::codegen {
+
+struct WriteResult {
+  std::string error;  // empty: written
+  std::vector<std::string> written, kept, deleted;
+};
+[[nodiscard]] WriteResult writeOutputs(const std::string& folder, const std::vector<OutputFile>& files);
+
+// A depfile (make syntax): `target` depends on each source; blanks and `#` escaped.
+std::string depfile(const std::string& target, const std::vector<std::string>& sources);
+
+}  // namespace rung::codegen

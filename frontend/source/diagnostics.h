@@ -1,0 +1,111 @@
+// Diagnostics: what is wrong, where, and what to do. One registry, diagnostics.def, names every code.
+// In: reports from all phases. Out: an ordered list that render.h prints as text, JSON or SARIF.
+// A report is data, not output: phases go on after it and use the Error type to silence what follows from it.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/source/files.h"
+
+namespace rung {
+
+enum class Severity : uint8_t { Note, Info, Warning, Error };
+
+// Codes: RUNG_ERROR(E0412, UnknownName, "…"), RUNG_WARNING(W0101, …), RUNG_INFO(I0001, …) rows of diagnostics.def.
+// {0} {1} … are replaced by the arguments of report().
+enum class Diag : uint16_t {
+#define RUNG_ERROR(code, name, text) name,
+#define RUNG_WARNING(code, name, text) name,
+#define RUNG_INFO(code, name, text) name,
+#define RUNG_NOTE(name, text)
+#include "frontend/source/diagnostics.def"
+};
+
+enum class Note : uint16_t {
+#define RUNG_ERROR(code, name, text)
+#define RUNG_WARNING(code, name, text)
+#define RUNG_INFO(code, name, text)
+#define RUNG_NOTE(name, text) name,
+#include "frontend/source/diagnostics.def"
+};
+
+struct DiagInfo {
+  const char* code;  // "E0412"
+  const char* name;  // "UnknownName"
+  const char* text;  // the template
+  Severity severity;
+};
+const DiagInfo& diagInfo(Diag diag);
+// The row with this code ("E0412", any case), or null.
+const DiagInfo* findDiag(std::string_view code);
+uint32_t diagCount();
+
+struct Diagnostic {
+  struct Attached {
+    Loc loc;  // nowhere: belongs to the whole diagnostic
+    std::string message;
+  };
+  Diag diag;
+  Severity severity;
+  Loc loc;
+  std::string path;  // used when loc is nowhere: a file that could not be read, say
+  uint32_t length = 0;  // bytes to underline; 0: the token at loc
+  std::string message;
+  std::string element;  // of a diagram: `POU main, network 3, contact "start", localId 12`
+  std::vector<Attached> notes;
+};
+
+// Chained after a report: diagnostics.error(...).note(...). Does nothing when the report was dropped.
+class Report {
+ public:
+  explicit Report(Diagnostic* diagnostic) : diagnostic_(diagnostic) {}
+  Report& note(Loc loc, Note note, std::initializer_list<std::string_view> args = {});
+  Report& didYouMean(std::string_view candidate);  // empty: nothing is added
+  Report& length(uint32_t bytes);
+  Report& element(std::string text);
+  Report& path(std::string path);
+
+ private:
+  Diagnostic* diagnostic_;
+};
+
+class Diagnostics {
+ public:
+  explicit Diagnostics(const Sources& sources) : sources_(sources) {}
+
+  // Drops a second diagnostic with the same code at the same place, warnings switched off, and all errors
+  // after max_errors (they are counted). References stay good until the next report.
+  Report report(Diag diag, Loc loc, std::initializer_list<std::string_view> args = {});
+
+  bool hasErrors() const { return error_count_ > 0; }
+  uint32_t errorCount() const { return error_count_; }
+  uint32_t warningCount() const { return warning_count_; }
+  uint32_t droppedCount() const { return dropped_count_; }
+  // True once max_errors is reached: parsers and checkers may stop early.
+  bool full() const { return error_count_ >= max_errors; }
+  const std::vector<Diagnostic>& all() const { return list_; }
+  // By file, then place; equal places keep the order of reporting. Whole-file diagnostics first.
+  void sort();
+
+  uint32_t max_errors = 100;
+  bool warnings_are_errors = false;
+  // -W options: "no-W0101" or "no-unused-variable" style switches, see cli.md. False when the name is unknown.
+  bool setWarning(std::string_view name, bool on);
+  bool enabled(Diag diag) const;
+
+ private:
+  const Sources& sources_;
+  std::vector<Diagnostic> list_;
+  std::vector<bool> disabled_;
+  uint32_t error_count_ = 0, warning_count_ = 0, dropped_count_ = 0;
+  std::vector<uint64_t> seen_;  // (code, loc) hash set, open addressing
+};
+
+// The candidate nearest to what was written (Damerau-Levenshtein, case folded), or empty when none is near enough.
+std::string_view nearest(std::string_view written, const std::vector<std::string_view>& candidates);
+
+}  // namespace rung

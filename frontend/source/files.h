@@ -1,0 +1,76 @@
+// Sources: the text of every input file and the 32-bit locations that point into it.
+// In: paths or text. Out: Loc (offset in one address space over all files), and line and column of a Loc.
+// Files get consecutive ranges; each text ends in a NUL that is not part of the file, so lexers need no end test.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rung {
+
+struct Loc {
+  uint32_t offset = 0;  // 0: nowhere
+  explicit operator bool() const { return offset != 0; }
+  friend bool operator==(Loc, Loc) = default;
+  friend auto operator<=>(Loc, Loc) = default;
+};
+
+struct FileId {
+  uint32_t index = 0;  // 0: no file
+  explicit operator bool() const { return index != 0; }
+  friend bool operator==(FileId, FileId) = default;
+};
+
+struct Place {
+  FileId file;
+  uint32_t line = 0;    // from 1
+  uint32_t column = 0;  // from 1, in characters (UTF-8 code points)
+};
+
+class Sources {
+ public:
+  Sources();
+  Sources(const Sources&) = delete;
+  Sources& operator=(const Sources&) = delete;
+
+  // Adds a text under the path that diagnostics print (relative to the project root where it is below it).
+  // A BOM is dropped. Returns no file when the 32-bit space is full.
+  FileId add(std::string path, std::string text);
+
+  Loc begin(FileId file) const { return {files_[file.index].base}; }
+  std::string_view path(FileId file) const { return files_[file.index].path; }
+  std::string_view text(FileId file) const { return files_[file.index].text; }  // text().data()[size()] is NUL
+  uint32_t fileCount() const { return static_cast<uint32_t>(files_.size()) - 1; }
+
+  FileId fileOf(Loc loc) const;
+  Place place(Loc loc) const;
+  std::string_view line(FileId file, uint32_t line) const;  // without its line end
+
+  // The token that starts at loc: an identifier, number, string, or one operator; what a caret underlines.
+  std::string_view tokenAt(Loc loc) const;
+
+ private:
+  struct File {
+    std::string path;
+    std::string text;
+    uint32_t base;
+    mutable std::vector<uint32_t> line_starts;  // filled when first asked for
+  };
+  std::deque<File> files_;
+  mutable uint32_t last_file_ = 0;
+};
+
+// Reads a whole file. The error says what the system said ("No such file or directory").
+struct ReadResult {
+  std::string text;
+  std::string error;  // empty: read
+};
+[[nodiscard]] ReadResult readFile(const std::string& path);
+
+// First byte that is not UTF-8, or npos. Vendor exports in Latin-1 are told apart by it.
+size_t findInvalidUtf8(std::string_view text);
+
+}  // namespace rung

@@ -1,0 +1,16 @@
+// RUNG_INVARIANT(cond, "what must hold"): our own mistakes. On in release builds; prints phase, POU and place and
+// exits with 70 after asking for a report. Never reachable from user input.
+#pragma once
+
+namespace rung {
+
+[[noreturn]] void invariantFailed(const char* condition, const char* what, const char* file, int line);
+
+// Named in an internal error: the phase ("lowering") and the POU at hand. Set by the driver and by each phase.
+void setPhase(const char* phase);
+void setPhaseSubject(const char* name, unsigned long length);
+
+}  // namespace rung
+
+#define RUNG_INVARIANT(cond, what) \
+  (__builtin_expect(static_cast<bool>(cond), 1) ? void() : ::rung::invariantFailed(#cond, what, __FILE__, __LINE__))

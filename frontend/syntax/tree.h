@@ -1,0 +1,594 @@
+// The syntax tree that every language ends in. In: nodes from the parsers (and from the schedulers of diagrams, IL and
+// NCT). Out: the same tree, annotated by sema, read by lowering and by the ST printer.
+// Nodes are trivial structs in one arena, addressed by typed 32-bit ids; references to nodes stay good for ever.
+// nodes.def lists the kinds. Fields marked "sema" are empty until sema fills them.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "frontend/source/files.h"
+#include "frontend/source/invariant.h"
+#include "frontend/source/names.h"
+#include "frontend/syntax/ids.h"
+
+namespace rung {
+
+enum class ExprKind : uint8_t {
+#define RUNG_EXPR(kind, word) kind,
+#include "frontend/syntax/nodes.def"
+};
+enum class StmtKind : uint8_t {
+#define RUNG_STMT(kind, word) kind,
+#include "frontend/syntax/nodes.def"
+};
+enum class TypeExprKind : uint8_t {
+#define RUNG_TYPE_EXPR(kind, word) kind,
+#include "frontend/syntax/nodes.def"
+};
+enum class DeclKind : uint8_t {
+#define RUNG_DECL(kind, word) kind,
+#include "frontend/syntax/nodes.def"
+};
+
+// A name with its place; the element of name lists.
+struct Ident {
+  NameId name;
+  Loc loc;
+};
+
+// Text stored in the tree: strings of literals (decoded) and values of pragmas. WSTRING text is UTF-8 too.
+struct TextId {
+  uint32_t first = 0, length = 0;
+};
+
+// {name 'value'}, {name := 'value'}, {attribute 'name' := 'value'}: one form. The parser lower-cases nothing.
+struct Pragma {
+  NameId name;
+  TextId value;
+  Loc loc;
+};
+
+enum class UnaryOp : uint8_t { Not, Negate, Plus };
+enum class BinaryOp : uint8_t {
+  Or,
+  OrElse,
+  Xor,
+  And,
+  AndThen,
+  Equal,
+  NotEqual,
+  Less,
+  LessEqual,
+  Greater,
+  GreaterEqual,
+  Add,
+  Subtract,
+  Multiply,
+  Divide,
+  Modulo,
+  Power,
+};
+// As ST spells it: "OR", "<=".
+const char* spelling(BinaryOp op);
+const char* spelling(UnaryOp op);
+
+enum class LiteralKind : uint8_t {
+  Bool,       // value 0 or 1
+  Integer,    // value: magnitude; `negative` for INT#-5
+  Real,       // value: bits of a double
+  String,     // text
+  WString,    // text, UTF-8
+  Duration,   // value: nanoseconds (int64 bits); long_form for LT#
+  Date,       // value: nanoseconds since 1970-01-01 (int64 bits)
+  TimeOfDay,  // value: nanoseconds since midnight
+  DateTime,   // value: nanoseconds since 1970-01-01
+  Null,       // NULL
+};
+
+// ---- expressions ----------------------------------------------------------------------------------------------
+
+struct ExprHeader {
+  ExprKind kind;
+  uint8_t in_parens : 1;    // written in parentheses (the printer and `-2**2` want to know)
+  uint8_t is_constant : 1;  // sema: value known at compile time
+  uint8_t writable : 1;     // sema: a place that may be assigned
+  uint8_t op;               // UnaryOp, BinaryOp or LiteralKind
+  uint8_t bits;             // LiteralExpr: flags below; ConvertExpr: none
+  Loc loc;                  // first token; for Binary the operator, for Member the member name, for Call the callee
+  TypeId type;              // sema
+};
+
+struct ErrorExpr {
+  ExprHeader h;
+};
+
+enum LiteralBits : uint8_t { kLiteralLong = 1, kLiteralNegative = 2, kLiteralBased = 4 };
+struct LiteralExpr {
+  ExprHeader h;        // op: LiteralKind, bits: LiteralBits
+  NameId prefix;       // INT in INT#5; none for untyped and for T#, D#, …
+  uint32_t low, high;  // value, or TextId for strings
+  LiteralKind literal() const { return static_cast<LiteralKind>(h.op); }
+  uint64_t value() const { return low | (static_cast<uint64_t>(high) << 32); }
+  TextId text() const { return {low, high}; }
+  void setValue(uint64_t v) {
+    low = static_cast<uint32_t>(v);
+    high = static_cast<uint32_t>(v >> 32);
+  }
+};
+
+struct NameExpr {
+  ExprHeader h;
+  NameId name;
+  Entity entity; /* sema */
+};
+struct TypedNameExpr {
+  ExprHeader h;
+  Ident type_name;
+  Ident item;
+  Entity entity; /* sema */
+};
+struct MemberExpr {  // h.loc is the member's name
+  ExprHeader h;
+  ExprId base;
+  NameId member;
+  Entity entity;  // sema: Var for a field or pin (base is the record), else what `base.member` names as a whole
+};
+struct IndexExpr {
+  ExprHeader h;
+  ExprId base;
+  Slice<ExprId> indices;
+};
+struct DerefExpr {
+  ExprHeader h;
+  ExprId base;
+};
+struct BitAccessExpr {  // width 1: bit, 8, 16, 32: part of a bit string; position in units of width
+  ExprHeader h;
+  ExprId base;
+  uint32_t position;
+  uint8_t width;
+};
+
+enum class ImageArea : uint8_t { Input, Output, Memory };
+struct DirectAddress {  // %IX0.3, %QW*, %M5
+  ImageArea area;
+  char size;             // 'X' 'B' 'W' 'D' 'L'
+  bool incomplete;       // %I*
+  bool size_given;       // %I5 has none
+  Slice<uint32_t> path;  // 0, 3
+};
+struct AddressExpr {
+  ExprHeader h;
+  DirectAddress address;
+};
+
+struct UnaryExpr {
+  ExprHeader h;
+  ExprId operand;
+  UnaryOp op() const { return static_cast<UnaryOp>(h.op); }
+};
+struct BinaryExpr {  // h.loc is the operator
+  ExprHeader h;
+  ExprId left, right;
+  BinaryOp op() const { return static_cast<BinaryOp>(h.op); }
+};
+
+struct Argument {  // a | pin := a | pin => a | NOT pin => a | pin := (left open)
+  Ident pin;       // none: positional
+  ExprId value;    // none: left open
+  bool is_output;  // =>
+  bool negated;    // NOT pin =>
+  Loc loc;
+};
+struct CallExpr {
+  ExprHeader h;
+  ExprId callee;
+  Slice<Argument> arguments;
+  Loc end;      // the closing parenthesis
+  CallId call;  // sema
+};
+struct RangeExpr {
+  ExprHeader h;
+  ExprId low, high;
+};
+struct ArrayInitExpr {
+  ExprHeader h;
+  Slice<ExprId> elements;
+};
+struct RepeatExpr {
+  ExprHeader h;
+  ExprId count;
+  Slice<ExprId> elements;
+};  // 3(), 3(0), 2(1,2,3)
+struct FieldInit {
+  Ident field;
+  ExprId value;
+};
+struct StructInitExpr {
+  ExprHeader h;
+  Slice<FieldInit> fields;
+};
+struct ConvertExpr {
+  ExprHeader h;
+  ExprId operand;
+};
+
+// ---- statements -----------------------------------------------------------------------------------------------
+
+struct StmtHeader {
+  StmtKind kind;
+  uint8_t op;
+  uint16_t spare;
+  Loc loc;
+};
+enum class AssignOp : uint8_t { Assign, Set, Reset, Reference, Add, Subtract, Multiply, Divide };  // := S= R= REF= += …
+struct ErrorStmt {
+  StmtHeader h;
+};
+struct EmptyStmt {
+  StmtHeader h;
+};
+struct AssignStmt {
+  StmtHeader h;  // op: AssignOp; loc: the operator
+  ExprId target, value;
+  AssignOp op() const { return static_cast<AssignOp>(h.op); }
+};
+struct CallStmt {
+  StmtHeader h;
+  ExprId call;
+};  // a CallExpr; a bare `x;` is reported by the parser
+struct IfBranch {
+  ExprId condition;
+  Slice<StmtId> body;
+};
+struct IfStmt {
+  StmtHeader h;
+  Slice<IfBranch> branches;
+  Slice<StmtId> otherwise;
+};  // IF, ELSIF …; ELSE
+struct CaseBranch {
+  Slice<ExprId> labels;
+  Slice<StmtId> body;
+};  // labels: expressions and ranges
+struct CaseStmt {
+  StmtHeader h;
+  ExprId selector;
+  Slice<CaseBranch> branches;
+  Slice<StmtId> otherwise;
+  bool has_else;
+};
+struct ForStmt {  // FOR control := from TO to BY step DO body END_FOR
+  StmtHeader h;
+  ExprId control, from, to;
+  ExprId step;  // none: 1
+  Slice<StmtId> body;
+};
+struct WhileStmt {
+  StmtHeader h;
+  ExprId condition;
+  Slice<StmtId> body;
+};
+struct RepeatStmt {
+  StmtHeader h;
+  Slice<StmtId> body;
+  ExprId until;
+};
+struct ExitStmt {
+  StmtHeader h;
+};
+struct ContinueStmt {
+  StmtHeader h;
+};
+struct ReturnStmt {
+  StmtHeader h;
+};
+struct JumpStmt {
+  StmtHeader h;
+  Ident label;
+};
+struct LabelStmt {
+  StmtHeader h;
+  Ident label;
+};
+
+// ---- types as written -----------------------------------------------------------------------------------------
+
+struct TypeExprHeader {
+  TypeExprKind kind;
+  uint8_t bits;
+  uint16_t spare;
+  Loc loc;
+  TypeId type;  // sema
+};
+struct ErrorTypeExpr {
+  TypeExprHeader h;
+};
+struct NamedTypeExpr {
+  TypeExprHeader h;
+  Slice<Ident> path;
+};  // Lib.Motor
+struct TextTypeExpr {
+  TypeExprHeader h;
+  ExprId length;
+  bool wide;
+};  // none: default
+struct SubrangeTypeExpr {
+  TypeExprHeader h;
+  TypeExprId base;
+  ExprId low, high;
+};
+struct EnumItem {
+  Ident item;
+  ExprId value;
+};
+struct EnumTypeExpr {
+  TypeExprHeader h;
+  Slice<EnumItem> items;
+  TypeExprId base;
+};
+struct ArrayBound {
+  ExprId low, high;
+};  // both none: [*]
+struct ArrayTypeExpr {
+  TypeExprHeader h;
+  Slice<ArrayBound> bounds;
+  TypeExprId element;
+};
+struct StructTypeExpr {
+  TypeExprHeader h;
+  Slice<DeclId> fields;
+  TypeExprId base;
+  bool is_union;
+};  // fields: VarDecl
+enum class PointerForm : uint8_t { Pointer, Reference, RefTo };
+struct PointerTypeExpr {
+  TypeExprHeader h;
+  TypeExprId target;
+  PointerForm form;
+};
+
+// ---- declarations ---------------------------------------------------------------------------------------------
+
+struct DeclHeader {
+  DeclKind kind;
+  uint8_t bits;
+  uint16_t spare;
+  Loc loc;  // of the name where there is one, else the keyword
+  Loc doc;  // first `///` line above, or nowhere
+  Slice<Pragma> pragmas;
+};
+struct TypeDecl {
+  DeclHeader h;
+  NameId name;
+  TypeExprId type;
+  ExprId init;
+};
+
+enum class PouKind : uint8_t { Function, FunctionBlock, Program };
+enum class BodyKind : uint8_t { None, St, Native };
+struct PouDecl {
+  DeclHeader h;
+  NameId name;
+  PouKind pou_kind;
+  BodyKind body_kind;
+  bool closed;        // has its END_…
+  TypeExprId result;  // functions; none: no result
+  Slice<DeclId> sections;
+  Slice<StmtId> body;
+  Loc begin, end;  // the header keyword; one past END_…: the text of the whole POU
+};
+
+enum class SectionKind : uint8_t { Local, Input, Output, InOut, Temp, External, Global, Stat, Access, Config };
+enum SectionBits : uint8_t { kConstant = 1, kRetain = 2, kPersistent = 4, kNonRetain = 8 };
+struct SectionDecl {
+  DeclHeader h; /* bits: SectionBits */
+  SectionKind section;
+  Slice<DeclId> vars;
+};
+
+enum class EdgeKind : uint8_t { None, Rising, Falling };
+struct VarDecl {
+  DeclHeader h;
+  Slice<Ident> names;  // empty: an unnamed located variable
+  TypeExprId type;
+  ExprId init;  // none: the type's default
+  EdgeKind edge;
+  bool located;
+  DirectAddress address;  // when located
+};
+
+struct ConfigurationDecl {
+  DeclHeader h;
+  NameId name;
+  Slice<DeclId> members;
+};  // sections, resources, tasks, programs
+struct ResourceDecl {
+  DeclHeader h;
+  NameId name;
+  NameId target;
+  Slice<DeclId> members;
+};
+struct TaskDecl {
+  DeclHeader h;
+  NameId name;
+  Slice<Argument> settings;
+};                            // INTERVAL := T#10ms, …
+struct ProgramInstanceDecl {  // PROGRAM name WITH task : type(args)
+  DeclHeader h;
+  NameId name;
+  Ident task;  // none: no WITH
+  Slice<Ident> type;
+  Slice<Argument> arguments;
+  uint8_t section_bits;  // PROGRAM RETAIN name
+};
+
+// ---- the tree -------------------------------------------------------------------------------------------------
+
+// The declarations of one file, in source order: TypeDecl, PouDecl, SectionDecl (VAR_GLOBAL), ConfigurationDecl.
+struct FileUnit {
+  FileId file;
+  Slice<DeclId> decls;
+};
+
+class Tree {
+ public:
+  Tree();
+  Tree(const Tree&) = delete;
+  Tree& operator=(const Tree&) = delete;
+
+  // ---- reading. The node must be of the kind asked for (checked in debug builds).
+  ExprKind kind(ExprId id) const { return header<ExprHeader>(id.word).kind; }
+  StmtKind kind(StmtId id) const { return header<StmtHeader>(id.word).kind; }
+  DeclKind kind(DeclId id) const { return header<DeclHeader>(id.word).kind; }
+  TypeExprKind kind(TypeExprId id) const { return header<TypeExprHeader>(id.word).kind; }
+  ExprHeader& expr(ExprId id) { return header<ExprHeader>(id.word); }
+  const ExprHeader& expr(ExprId id) const { return header<ExprHeader>(id.word); }
+  const StmtHeader& stmt(StmtId id) const { return header<StmtHeader>(id.word); }
+  DeclHeader& decl(DeclId id) { return header<DeclHeader>(id.word); }
+  const DeclHeader& decl(DeclId id) const { return header<DeclHeader>(id.word); }
+  TypeExprHeader& typeExpr(TypeExprId id) { return header<TypeExprHeader>(id.word); }
+  const TypeExprHeader& typeExpr(TypeExprId id) const { return header<TypeExprHeader>(id.word); }
+  Loc loc(ExprId id) const { return expr(id).loc; }
+  Loc loc(StmtId id) const { return stmt(id).loc; }
+  Loc loc(DeclId id) const { return decl(id).loc; }
+  Loc loc(TypeExprId id) const { return typeExpr(id).loc; }
+  // Where the text of an expression begins: the leftmost token of its operands.
+  Loc begin(ExprId id) const;
+
+  template <class Node>
+  Node& as(ExprId id) {
+    return header<Node>(id.word);
+  }
+  template <class Node>
+  Node& as(StmtId id) {
+    return header<Node>(id.word);
+  }
+  template <class Node>
+  Node& as(DeclId id) {
+    return header<Node>(id.word);
+  }
+  template <class Node>
+  Node& as(TypeExprId id) {
+    return header<Node>(id.word);
+  }
+  template <class Node>
+  const Node& as(ExprId id) const {
+    return header<Node>(id.word);
+  }
+  template <class Node>
+  const Node& as(StmtId id) const {
+    return header<Node>(id.word);
+  }
+  template <class Node>
+  const Node& as(DeclId id) const {
+    return header<Node>(id.word);
+  }
+  template <class Node>
+  const Node& as(TypeExprId id) const {
+    return header<Node>(id.word);
+  }
+
+  // ---- writing
+  template <class Id, class Node>
+  Id add(const Node& node) {
+    return Id{store(&node, sizeof(Node))};
+  }
+
+  // Lists of ids and of small structs. The span is good until the next list of that element type is added.
+  template <class T>
+  Slice<T> addList(std::span<const T> items);
+  template <class T>
+  std::span<T> list(Slice<T> slice);
+  template <class T>
+  std::span<const T> list(Slice<T> slice) const;
+
+  TextId addText(std::string_view text);
+  std::string_view text(TextId id) const { return {text_.data() + id.first, id.length}; }
+
+  std::vector<FileUnit> files;
+
+ private:
+  static constexpr uint32_t kChunkWords = 1u << 16;
+  template <class Node>
+  Node& header(uint32_t word) const {
+    return *std::launder(reinterpret_cast<Node*>(chunks_[word / kChunkWords].get() + word % kChunkWords));
+  }
+  uint32_t store(const void* node, size_t bytes);
+
+  std::vector<std::unique_ptr<uint32_t[]>> chunks_;
+  uint32_t next_word_ = 1;
+  std::vector<char> text_;
+  // One vector per element type of addList.
+  std::vector<ExprId> expr_ids_;
+  std::vector<StmtId> stmt_ids_;
+  std::vector<DeclId> decl_ids_;
+  std::vector<Ident> idents_;
+  std::vector<Argument> arguments_;
+  std::vector<IfBranch> if_branches_;
+  std::vector<CaseBranch> case_branches_;
+  std::vector<FieldInit> field_inits_;
+  std::vector<EnumItem> enum_items_;
+  std::vector<ArrayBound> array_bounds_;
+  std::vector<Pragma> pragmas_;
+  std::vector<uint32_t> numbers_;
+
+  template <class T>
+  std::vector<T>& storage();
+};
+
+template <class T>
+std::vector<T>& Tree::storage() {
+  if constexpr (std::is_same_v<T, ExprId>)
+    return expr_ids_;
+  else if constexpr (std::is_same_v<T, StmtId>)
+    return stmt_ids_;
+  else if constexpr (std::is_same_v<T, DeclId>)
+    return decl_ids_;
+  else if constexpr (std::is_same_v<T, Ident>)
+    return idents_;
+  else if constexpr (std::is_same_v<T, Argument>)
+    return arguments_;
+  else if constexpr (std::is_same_v<T, IfBranch>)
+    return if_branches_;
+  else if constexpr (std::is_same_v<T, CaseBranch>)
+    return case_branches_;
+  else if constexpr (std::is_same_v<T, FieldInit>)
+    return field_inits_;
+  else if constexpr (std::is_same_v<T, EnumItem>)
+    return enum_items_;
+  else if constexpr (std::is_same_v<T, ArrayBound>)
+    return array_bounds_;
+  else if constexpr (std::is_same_v<T, Pragma>)
+    return pragmas_;
+  else {
+    static_assert(std::is_same_v<T, uint32_t>, "a list element type needs its storage");
+    return numbers_;
+  }
+}
+template <class T>
+Slice<T> Tree::addList(std::span<const T> items) {
+  std::vector<T>& to = storage<T>();
+  Slice<T> slice{static_cast<uint32_t>(to.size()), static_cast<uint32_t>(items.size())};
+  to.insert(to.end(), items.begin(), items.end());
+  return slice;
+}
+template <class T>
+std::span<T> Tree::list(Slice<T> slice) {
+  return std::span<T>(storage<T>()).subspan(slice.first, slice.count);
+}
+template <class T>
+std::span<const T> Tree::list(Slice<T> slice) const {
+  return std::span<const T>(const_cast<Tree*>(this)->storage<T>()).subspan(slice.first, slice.count);
+}
+
+// The tree as indented text (rung emit --emit=tree), the words of nodes.def; golden tests read it.
+std::string printTree(const Tree& tree, const Names& names, const FileUnit& unit);
+
+}  // namespace rung

@@ -1,0 +1,26 @@
+// The parser of Structured Text files. In: one source text. Out: its declarations in the tree, and diagnostics.
+// One mistake gives one error: after it the parser resumes at the next statement, section or POU (recovery in
+// recover.cpp). Called by the driver for each file and by sema for library declarations on first use.
+#pragma once
+
+#include "frontend/source/diagnostics.h"
+#include "frontend/syntax/tree.h"
+
+namespace rung::text {
+
+enum class Standard : uint8_t { Iec2, Iec3, Codesys };
+
+// Parses a whole file and appends it to tree.files.
+FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+                   Diagnostics& diagnostics);
+
+// Parses the one declaration (POU or TYPE entry block) that stands in [begin, end) of its file: a library declaration
+// on first use, or a fresh copy of a generic function. Not appended to tree.files.
+Slice<DeclId> parseDeclarations(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Standard standard,
+                                Diagnostics& diagnostics);
+
+// Parses `text` of `file` as a lone expression (for --set, --stop-on and --inputs cells); none when it is not one.
+ExprId parseExpression(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+                       Diagnostics& diagnostics);
+
+}  // namespace rung::text

@@ -1,0 +1,257 @@
+// The intermediate representation: typed, structured, small; everything implicit in the source is explicit here.
+// In: bodies made by lowering (lower.h) or read from text (text.h). Out: what passes rewrite, the interpreter runs and
+// codegen prints. Types are those of types::TypeTable, aliases stripped; no generic and no untyped literal types.
+// verify.h lists every invariant. Nothing here needs C++ to be understood.
+//
+// An expression has no side effect and may be evaluated in full wherever it stands: what is conditional in the source
+// (short-circuit operands that call or fault) was made a statement by lowering. Its only effect is a fault of a node
+// whose `checks` are set. Evaluation is left to right, so codegen may place all checks of a statement's expressions
+// before the statement, in order. Places (Local, Self, Global, Program, Image, Field, Index, Deref, Bits) are
+// expressions; as operands they are read.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "frontend/source/files.h"
+#include "frontend/source/names.h"
+#include "frontend/syntax/ids.h"
+#include "sema/types/arithmetic.h"
+#include "sema/types/types.h"
+
+namespace rung::ir {
+
+using types::Op;
+
+struct ExprId {
+  uint32_t index = 0;
+  explicit operator bool() const { return index != 0; }
+  friend bool operator==(ExprId, ExprId) = default;
+};
+struct StmtId {
+  uint32_t index = 0;
+  explicit operator bool() const { return index != 0; }
+  friend bool operator==(StmtId, StmtId) = default;
+};
+struct BodyId {
+  uint32_t index = 0;
+  explicit operator bool() const { return index != 0; }
+  friend bool operator==(BodyId, BodyId) = default;
+};
+
+enum class ExprKind : uint8_t {
+  None,
+  Const,  // scalar; bits as types::Value
+  Text,   // a: NameId of the text; type STRING[n] or WSTRING[n]
+  Data,   // a: index into Module::data: the constant bytes of an array or record
+  Zero,   // all bytes zero of an array, record or text
+  // places
+  Local,    // a: index into Body::locals (a by-reference local is the variable behind it)
+  Self,     // the instance of a block body; type is the record
+  Global,   // a: index into Module::lists; type is the list's record
+  Program,  // a: index into Module::programs; type is the program's record
+  Image,    // a: area (0 I, 1 Q, 2 M), b: byte, c: bit 0..7 for a BOOL, else kNoBit
+  Field,    // a: base place, b: field index. A by-reference field is the variable behind it (checks: null)
+  Index,    // a: base place, (b, c): slice of Body::operands, one index per dimension (checks: index)
+  Deref,    // a: pointer value (checks: null)
+  Bits,     // a: base place of an integer or bit string, b: position in units of the type's width. %X %B %W %D
+  // values
+  Unary,    // op a
+  Binary,   // a op b (checks: div)
+  Convert,  // a to `type`: numeric conversion of the kernel (checks: subrange, convert); text to text: cut to capacity
+  Select,   // a ? b : c, both evaluated
+  Call,     // a: BodyId of a pure, fault-free function; (b, c): operands
+  Address,  // a: place; type is a pointer
+};
+inline constexpr uint32_t kNoBit = ~0u;
+
+// Which checks a node carries; passes clear what they prove.
+enum Check : uint8_t {
+  kCheckDiv = 1,
+  kCheckIndex = 2,
+  kCheckNull = 4,
+  kCheckCast = 8,
+  kCheckSubrange = 16,
+  kCheckConvert = 32,
+  kCheckOverflow = 64
+};
+
+struct Expr {
+  ExprKind kind = ExprKind::None;
+  Op op = Op::Add;
+  uint8_t checks = 0;
+  uint8_t spare = 0;
+  TypeId type;
+  Loc loc;
+  uint32_t a = 0, b = 0, c = 0;  // Const: bits = a | b << 32
+  uint64_t bits() const { return a | (static_cast<uint64_t>(b) << 32); }
+};
+
+enum class StmtKind : uint8_t {
+  None,
+  Assign,    // a: place, b: value. Arrays, records and texts are copied whole; text cut to the place's capacity
+  Call,      // a: BodyId, b: self place or none, (c, d): operands, one per parameter: the value, or the place for a
+             // by-reference parameter (none: a discarded output), e: place for the result or none
+  If,        // a: condition, b: then block, c: else block (a block is its first statement, linked by `next`)
+  Switch,    // a: selector, (b, c): slice of Body::cases, d: else block
+  Loop,      // a: body block, b: block run before each next turn (by `continue` too). Endless but for break
+  For,       // a: control place (scalar integer), b: from, c: to, d: step (non-zero Const), e: body block.
+             // from and to are evaluated once, in that order. Leaves the control variable as design §8 says
+  Break,     // leaves the innermost Loop or For
+  Continue,  // next turn of the innermost Loop or For
+  Return,
+  Jump,      // a: label number
+  Label,     // a: label number
+  Try,       // a: body block, b: catch block, c: finally block, d: place for the fault's number or none
+  Fault,     // op: types::Fault, a: value for the message or none
+  Assert,    // of a test. op: sema::Assertion, a: condition or expected, b: actual, c: tolerance, d: text (NameId)
+  Evaluate,  // a: expression, evaluated for its checks only
+};
+
+struct Stmt {
+  StmtKind kind = StmtKind::None;
+  uint8_t op = 0;
+  uint16_t spare = 0;
+  Loc loc;
+  StmtId next;
+  uint32_t a = 0, b = 0, c = 0, d = 0, e = 0;
+};
+
+struct CaseRange {
+  int64_t low, high;
+};  // in the selector type's bits, low <= high
+struct Case {
+  uint32_t first_range, range_count;  // slice of Body::ranges
+  StmtId block;
+};
+
+enum class LocalKind : uint8_t {
+  Temp,      // made by the compiler, name `t1`
+  Variable,  // VAR of a function, VAR_TEMP
+  Input,
+  Output,
+  InOut,  // parameters of a function
+  Result,
+};
+struct Local {
+  NameId name;
+  TypeId type;
+  LocalKind kind = LocalKind::Temp;
+  bool by_reference = false;  // Output, InOut; Input of array, record or text type (read only); Result of such a type
+  Loc loc;
+};
+
+enum class BodyKind : uint8_t {
+  Function,  // parameters are the locals of kind Input, Output, InOut, in order
+  Block,     // of an FB or program: self is the instance
+  Init,      // sets a record to its initial values: self is the record (struct, FB, program or global list)
+};
+
+// The code of one function, block or initialiser.
+struct Body {
+  NameId name;      // unique over the module: `Ramp`, `LIMIT__REAL`; an Init has its record's name
+  NameId spelling;  // as the user wrote it: in faults and comments
+  BodyKind kind = BodyKind::Function;
+  bool native = false;  // no code: a C function of the library's runtime part
+  bool pure = false;    // no effect but its result, and no fault
+  bool may_fault = false;
+  bool library = false;
+  bool has_labels = false;  // analyses are conservative
+  bool test = false;
+  NameId library_name;  // native: which library's C function
+  TypeId self;          // Block, Init
+  TypeId result;        // Function; none: no result
+  Loc loc;
+  FileId file;
+
+  std::vector<Local> locals;
+  std::vector<Expr> exprs;  // [0] unused
+  std::vector<Stmt> stmts;  // [0] unused
+  std::vector<ExprId> operands;
+  std::vector<Case> cases;
+  std::vector<CaseRange> ranges;
+  std::vector<NameId> labels;  // by label number
+  StmtId first;
+
+  Expr& expr(ExprId id) { return exprs[id.index]; }
+  const Expr& expr(ExprId id) const { return exprs[id.index]; }
+  Stmt& stmt(StmtId id) { return stmts[id.index]; }
+  const Stmt& stmt(StmtId id) const { return stmts[id.index]; }
+};
+
+// Constant bytes in the target's layout (little-endian), of arrays and records without pointers.
+struct Data {
+  TypeId type;
+  std::vector<uint8_t> bytes;
+};
+
+// A struct, FB, program or global list that has memory. The layout is in the type table.
+struct Record {
+  TypeId type;
+  NameId name;  // unique over the module
+  BodyId init;
+  BodyId body;  // FB, program: its Block body
+  Loc loc;
+  FileId file;
+  bool library = false;
+};
+struct List {
+  NameId name;
+  TypeId record;
+  BodyId init;
+};
+struct ProgramInstance {
+  NameId name;
+  TypeId record;
+  BodyId init, body;
+  uint32_t task = 0; /* index + 1; 0: none */
+  NameId resource, configuration;
+};
+
+enum class TaskKind : uint8_t { Cyclic, Freewheeling, Event, Status, External };
+struct Task {
+  NameId name;
+  TaskKind kind = TaskKind::Cyclic;
+  int64_t interval_ns = 0;
+  uint32_t priority = 0;
+  // Event, Status: the BOOL variable: a Global/Program/Image place, as a path of the symbol map.
+  std::string trigger;
+  std::string external_event;
+  int64_t watchdog_ns = 0;
+  uint32_t sensitivity = 0;
+};
+
+// A located variable: name as a symbol, view of the image.
+struct Located {
+  NameId name;
+  TypeId type;
+  uint8_t area;
+  uint32_t byte;
+  uint32_t bit;               /* kNoBit: none */
+  uint32_t owner_program = 0; /* index into programs + 1; 0: a global or unnamed */
+};
+
+struct Module {
+  Module(types::TypeTable& types, Names& names, const Sources& sources)
+      : types(types), names(names), sources(sources) {}
+  types::TypeTable& types;
+  Names& names;
+  const Sources& sources;
+
+  std::deque<Body> bodies{1};   // [0] unused
+  std::vector<Record> records;  // in dependency order: what is held comes first
+  std::vector<List> lists;      // sorted by name
+  std::vector<ProgramInstance> programs;
+  std::vector<Task> tasks;
+  std::vector<Located> located;
+  std::deque<Data> data;
+  std::vector<BodyId> tests;  // Block or Function bodies marked {test}; a Block's instance is in `programs`
+  uint32_t image_bytes[3] = {0, 0, 0};
+
+  Body& body(BodyId id) { return bodies[id.index]; }
+  const Body& body(BodyId id) const { return bodies[id.index]; }
+};
+
+}  // namespace rung::ir

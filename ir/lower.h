@@ -1,0 +1,17 @@
+// Lowering: checked syntax trees to IR. In: a sema::Project without errors. Out: an ir::Module whose bodies hold the
+// code of every POU in use; each call, conversion, check and initial value explicit. Called by the driver after
+// check().
+#pragma once
+
+#include "ir/ir.h"
+#include "sema/project.h"
+
+namespace rung::ir {
+
+struct LowerOptions {
+  uint8_t checks = kCheckDiv | kCheckIndex | kCheckNull | kCheckCast;
+};
+// With errors in the project: must not be called.
+void lower(const sema::Project& project, const LowerOptions& options, Module& module);
+
+}  // namespace rung::ir

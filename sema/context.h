@@ -1,0 +1,72 @@
+// What the parts of sema share: the project, the scope at hand, and the few functions through which declarations
+// (declarations/, types, constants, libraries) and bodies (bodies/, calls, checks/) use each other. Internal to sema/.
+#pragma once
+
+#include <optional>
+
+#include "sema/project.h"
+
+namespace rung::sema {
+
+struct Scopes;  // scopes.h: hash tables of the project, of each POU, of libraries
+
+struct Context {
+  Project& project;
+  Scopes& scopes;
+  PouId pou;    // whose declarations or body are at hand; none: file level
+  FileId file;  // for diagnostics and for names that a library file sees first
+  uint32_t loop_depth = 0;
+
+  Tree& tree() const { return project.tree; }
+  types::TypeTable& types() const { return project.types; }
+  Names& names() const { return project.names; }
+  Report report(Diag diag, Loc loc, std::initializer_list<std::string_view> args = {}) const {
+    return project.diagnostics.report(diag, loc, args);
+  }
+  bool iec() const { return project.options.standard != text::Standard::Codesys; }
+};
+
+// ---- declarations (declarations/)
+
+// What a name stands for where `context` is: variables of the POU, then POUs, types, globals, enumeration items and
+// lists of the project, then libraries, which are read on first use. None when unknown; nothing is reported.
+Entity lookUp(Context& context, NameId name);
+// `qualifier.name`: members of a GVL, of a namespace, of an enumeration type.
+Entity lookUpIn(Context& context, Entity qualifier, NameId name);
+// The name of what is in scope nearest to a misspelled one, or empty.
+std::string_view nearestName(Context& context, NameId written);
+
+// The type that is written; reports what is wrong and gives types::kError then. Writes TypeExprHeader::type.
+TypeId resolveType(Context& context, TypeExprId type);
+// Makes sure that a POU's result, pins and variables are resolved (not its body). Safe against cycles.
+void resolvePou(Context& context, PouId pou);
+// A field or pin of a record, by name; none when there is none. Pins answer to their aliases too.
+VarId findMember(Context& context, TypeId record, NameId name);
+
+// The value of an expression that was checked, when it is constant (literals, constants, operators on them,
+// conversions, SIZEOF). Faults in it (1/0, overflow) are reported once.
+std::optional<types::Value> evaluate(Context& context, ExprId expr);
+// The same, with an error that a constant is needed here when it is none.
+std::optional<types::Value> requireConstant(Context& context, ExprId expr, TypeId type);
+
+// Checks the initial value of a variable, field or type against its type, converting in place; arrays, structures and
+// FB instances by their initialisers.
+void checkInitializer(Context& context, ExprId& init, TypeId type);
+
+// A fresh instance of a generic or extensible library function for these pin types (parsed again from its text).
+// `types_by_pin` has one type per declared pin; extra inputs of an extensible pin share that pin's type.
+PouId instantiate(Context& context, PouId generic, std::span<const TypeId> types_by_pin, TypeId result);
+
+// ---- bodies (bodies/)
+
+// Checks an expression and gives its type (kError after a report). `expected` (or none) is what the context wants: it
+// types literals and picks enumeration items; no conversion is done here. May replace the expression.
+TypeId checkExpr(Context& context, ExprId& expr, TypeId expected = {});
+// Checks, then converts implicitly to `to` where the rules of the dialect allow it (wraps in ConvertExpr), else
+// reports. `what` says what for: "assigned to `x`", for the message.
+bool checkExprAs(Context& context, ExprId& expr, TypeId to, std::string_view what);
+// A place that may be written: reports constants, inputs, literals.
+TypeId checkPlace(Context& context, ExprId& expr, std::string_view what);
+void checkBody(Context& context, PouId pou);
+
+}  // namespace rung::sema

@@ -1,0 +1,202 @@
+// The project as sema understands it: every variable, POU, type, list and task, resolved and laid out.
+// In: the syntax trees of all files and the libraries they use. Out: tables that lowering, code generation, the symbol
+// map and the tools read. Ids are indices into the vectors here; index 0 of each is unused.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "frontend/source/diagnostics.h"
+#include "frontend/syntax/tree.h"
+#include "frontend/text/parse.h"
+#include "sema/types/arithmetic.h"
+#include "sema/types/types.h"
+
+namespace rung::sema {
+
+struct VarId {
+  uint32_t index = 0;
+  explicit operator bool() const { return index != 0; }
+  friend bool operator==(VarId, VarId) = default;
+};
+struct PouId {
+  uint32_t index = 0;
+  explicit operator bool() const { return index != 0; }
+  friend bool operator==(PouId, PouId) = default;
+};
+struct ListId {
+  uint32_t index = 0;
+  explicit operator bool() const { return index != 0; }
+};
+
+// Where a variable lives.
+enum class Storage : uint8_t {
+  Field,     // of an FB or program instance: Pou::record, field index
+  Local,     // of one call: function variables and pins, VAR_TEMP
+  Global,    // of a global list: GlobalList::record, field index
+  Image,     // located: a view of the process image
+  Constant,  // a named value without memory of its own (enumeration items are not variables)
+};
+
+struct ImageView {  // 8-bit byte offset in its area, and the bit for %X
+  ImageArea area = ImageArea::Input;
+  uint32_t byte = 0;
+  uint8_t bit = 0;
+  bool is_bit = false;
+};
+
+struct Var {
+  NameId name;  // none: an unnamed located variable
+  Loc loc;
+  TypeId type;
+  SectionKind section = SectionKind::Local;
+  Storage storage = Storage::Local;
+  EdgeKind edge = EdgeKind::None;
+  bool constant = false, retain = false, persistent = false;
+  bool has_value = false;  // constant scalar or text with a known value: see `value`
+  bool required = false, lazy = false,
+       extensible = false;             // pins of library declarations: {required} {lazy} {extensible}
+  bool read = false, written = false;  // by any body: for the warnings
+  PouId pou;                           // owner, or none
+  ListId list;                         // owner when global
+  uint32_t field = 0;  // Storage::Field and Global: index in the record; Local: position among the POU's vars
+  ExprId init;         // none: the type's default; checked and converted to `type`
+  DeclId decl;
+  ImageView image;
+  types::Value value;           // when has_value
+  VarId external;               // VAR_EXTERNAL: the global it names
+  std::vector<NameId> aliases;  // {alias 'R'}
+};
+
+struct Pou {
+  NameId name;
+  Loc loc;
+  PouKind kind = PouKind::Program;
+  DeclId decl;
+  TypeId record;            // FB and program: the instance type; function: none
+  TypeId result;            // functions; none: no result
+  VarId result_var;         // the variable that the function's name is inside its body
+  std::vector<VarId> vars;  // all, in order of declaration (result_var is not among them)
+  bool library = false, native = false, pure = false, test = false;
+  bool extensible = false;  // has an {extensible} pin
+  bool checked = false;     // its body was checked (library bodies: when used)
+  bool used = false;
+  bool may_fault = false;
+  types::Op op = types::Op::Add;
+  enum class Operator : uint8_t {
+    None,
+    Op,
+    Select,
+    Mux,
+    Convert,
+    Move
+  } operator_kind = Operator::None;  // {operator '…'}
+  NameId library_name;               // `Standard`
+  // A generic function is never lowered itself: each tuple of types makes an instance of its own, named as C++ and the
+  // IR spell it (`LIMIT__REAL`).
+  bool generic = false;
+  PouId generic_of;
+  NameId unique_name;  // unique over the project; equals name unless it is an instance of a generic function
+  FileId file;
+};
+
+struct EnumValue {
+  NameId name;
+  TypeId type;
+  int64_t value;
+  Loc loc;
+};
+
+// VAR_GLOBAL of one file (or of a configuration or resource): a record in memory.
+struct GlobalList {
+  NameId name;  // the file's stem, the configuration's or the resource's name
+  bool qualified_only = false;
+  TypeId record;
+  std::vector<VarId> vars;
+  Loc loc;
+};
+
+enum class TaskKind : uint8_t { Cyclic, Freewheeling, Event, Status, External };
+struct Task {
+  NameId name;
+  TaskKind kind = TaskKind::Cyclic;
+  int64_t interval_ns = 0;
+  uint32_t priority = 0;
+  VarId trigger;               // Event (SINGLE or TRIGGER), Status
+  std::string external_event;  // External
+  int64_t watchdog_ns = 0;
+  uint32_t sensitivity = 0;
+  Loc loc;
+};
+struct ProgramInstance {  // a task may be none: then it never runs (warned)
+  NameId name;
+  NameId resource, configuration;
+  PouId program;
+  uint32_t task = 0;  // index into Project::tasks + 1; 0: none
+  Loc loc;
+};
+
+// One actual of a call, in the order of the callee's pins, EN and ENO apart.
+struct Binding {
+  VarId pin;
+  ExprId value;            // converted to the pin's type; none: left open (function input: its default; FB input: kept)
+  bool is_output = false;  // copied to `value` after the call
+  bool negated = false;    // NOT pin =>
+};
+enum class CallKind : uint8_t { Function, Instance, Program, Operator, Assertion };
+enum class Assertion : uint8_t { Assert, AssertEq, AssertNear };
+struct Call {
+  CallKind kind = CallKind::Function;
+  PouId pou;                      // callee; the instance of a generic function
+  ExprId instance;                // CallKind::Instance: the FB variable
+  std::vector<Binding> bindings;  // Operator: operands in order, pin none
+  ExprId en;                      // EN := …
+  ExprId eno;                     // ENO => …
+  Assertion assertion = Assertion::Assert;
+};
+
+// The conversions that -W, --std and rung.project choose.
+struct Options {
+  text::Standard standard = text::Standard::Codesys;
+  uint32_t pointer_size = 8;
+};
+
+struct Project {
+  Project(Sources& sources, Names& names, Diagnostics& diagnostics, Tree& tree, Options options);
+
+  Sources& sources;
+  Names& names;
+  Diagnostics& diagnostics;
+  Tree& tree;
+  Options options;
+  types::TypeTable types;
+
+  std::deque<Var> vars;
+  std::deque<Pou> pous;
+  std::vector<EnumValue> enum_values;
+  std::deque<GlobalList> global_lists;
+  std::vector<Task> tasks;
+  std::vector<ProgramInstance> instances;
+  std::deque<Call> calls;
+  std::vector<ExprId> type_inits;                // by TypeId: the declared initial value of a named type, or none
+  std::vector<std::vector<ExprId>> field_inits;  // by TypeId of a record: declared initial value per field, or none
+  uint32_t image_bytes[3] = {0, 0, 0};           // I, Q, M: end of the last used byte
+
+  Var& var(VarId id) { return vars[id.index]; }
+  const Var& var(VarId id) const { return vars[id.index]; }
+  Pou& pou(PouId id) { return pous[id.index]; }
+  const Pou& pou(PouId id) const { return pous[id.index]; }
+  Call& call(CallId id) { return calls[id.index]; }
+  const Call& call(CallId id) const { return calls[id.index]; }
+};
+
+// Checks the whole project: collects the declarations of tree.files, resolves types and layout, checks every body,
+// resolves libraries on demand. Errors go to project.diagnostics. Bodies of library POUs are checked when used.
+// Afterwards each expression of a checked body has its type, implicit conversions are ConvertExpr nodes, untyped
+// literals have their context's type, and project.pous lists user POUs and the library POUs in use.
+void check(Project& project);
+
+}  // namespace rung::sema

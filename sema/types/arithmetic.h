@@ -1,0 +1,62 @@
+// The arithmetic kernel: IEC semantics on typed values, the one place that knows them (design §6). In: values and an
+// operator. Out: a value or the fault that it raises. Serves constants in sema, folding in the IR and the interpreter;
+// generated code must agree with it, and the differential tests see to that.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "sema/types/types.h"
+
+namespace rung::types {
+
+enum class Op : uint8_t {
+#define RUNG_OPERATOR(name, word, operands) name,
+#include "sema/types/operators.def"
+};
+const char* word(Op op);
+int operandCount(Op op);
+// The operator with this word; false when there is none.
+bool findOp(std::string_view word, Op& op);
+bool isComparison(Op op);
+
+// A scalar or a text. Integers, BOOL, bit strings, times, dates, enumerations: sign- or zero-extended to 64 bits.
+// REAL and LREAL: the bits of a double (a REAL's value is exact in it). STRING, WSTRING: the NameId of the exact text
+// (WSTRING as UTF-8).
+struct Value {
+  TypeId type;
+  uint64_t bits = 0;
+  int64_t asSigned() const { return static_cast<int64_t>(bits); }
+  double asReal() const;
+  static Value ofReal(TypeId type, double value);
+  friend bool operator==(const Value&, const Value&) = default;
+};
+
+enum class Fault : uint8_t { None, Div, Index, Null, Cast, Subrange, Convert, Overflow };
+const char* word(Fault fault);
+
+struct Outcome {
+  Value value;
+  Fault fault = Fault::None;  // value is then what unchecked code yields (x/0 = 0)
+  bool overflow = false;      // the exact result did not fit and wrapped, saturated or became infinite
+};
+
+// Both operands already have the operator's type (comparisons give BOOL; shifts take any integer as N; Power takes any
+// numeric exponent).
+Outcome apply(const TypeTable& table, const Names& names, Op op, const Value& left, const Value& right = {});
+
+// Conversion between elementary types, enumerations and subranges included: integers wrap at the target's width, REAL
+// to integer rounds half to even and saturates (NaN gives 0), subranges saturate, TIME <-> LTIME scales.
+// `outcome.overflow` when the value changed beyond rounding. Text is not converted here (runtime/text does it).
+Outcome convert(const TypeTable& table, const Value& value, TypeId to);
+
+// The default of a type's memory when nothing is declared: 0, '' or the lower bound of a subrange, the first enum item.
+Value defaultValue(const TypeTable& table, Names& names, TypeId type);
+
+// True when every value of `from` is a value of `to`: INT to DINT, REAL to LREAL, BYTE to WORD, USINT to INT.
+bool isLossless(const TypeTable& table, TypeId from, TypeId to);
+
+// As the trace and messages print it (design §11): `TRUE`, `-5`, `0.5`, `T#1s500ms`, `'a$L'`, `Red`.
+std::string spell(const TypeTable& table, const Names& names, const Value& value);
+
+}  // namespace rung::types

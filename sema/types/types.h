@@ -1,0 +1,193 @@
+// Types of the language and their layout in memory. In: what sema resolves from declarations, or the IR reader.
+// Out: TypeIds that syntax annotations, IR, code generation and the interpreter share.
+// Structural types (arrays, strings, pointers, references) are interned: equal types have equal ids. Named types
+// (enumerations, subranges, records, aliases) are one id per declaration.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "frontend/source/names.h"
+#include "frontend/syntax/ids.h"
+
+namespace rung::types {
+
+enum class TypeKind : uint8_t {
+  None,
+  Error,
+  Bool,
+  Byte,
+  Word,
+  DWord,
+  LWord,
+  SInt,
+  Int,
+  DInt,
+  LInt,
+  USInt,
+  UInt,
+  UDInt,
+  ULInt,
+  Real,
+  LReal,
+  Time,
+  LTime,
+  Date,
+  LDate,
+  TimeOfDay,
+  LTimeOfDay,
+  DateTime,
+  LDateTime,
+  Char,
+  WChar,
+  String,
+  WString,  // length: characters
+  // Untyped literals, before their context gives them a type. Never in IR.
+  IntegerLiteral,
+  RealLiteral,
+  NullLiteral,
+  // Generic pin types of library declarations. Never in IR.
+  Any,
+  AnyElementary,
+  AnyMagnitude,
+  AnyNum,
+  AnyReal,
+  AnyInt,
+  AnyUnsigned,
+  AnySigned,
+  AnyDuration,
+  AnyBit,
+  AnyChars,
+  AnyString,
+  AnyChar,
+  AnyDate,
+  AnyDerived,
+  Enum,
+  Subrange,
+  Alias,
+  Array,
+  Record,
+  Pointer,
+  Reference,
+  Count_,
+};
+
+// Ids of elementary types are their kinds: TypeId{(uint32_t)TypeKind::Int} is INT.
+constexpr TypeId idOf(TypeKind kind) { return TypeId{static_cast<uint32_t>(kind)}; }
+inline constexpr TypeId kError = idOf(TypeKind::Error), kBool = idOf(TypeKind::Bool), kByte = idOf(TypeKind::Byte),
+                        kWord = idOf(TypeKind::Word), kDWord = idOf(TypeKind::DWord), kLWord = idOf(TypeKind::LWord),
+                        kSInt = idOf(TypeKind::SInt), kInt = idOf(TypeKind::Int), kDInt = idOf(TypeKind::DInt),
+                        kLInt = idOf(TypeKind::LInt), kUSInt = idOf(TypeKind::USInt), kUInt = idOf(TypeKind::UInt),
+                        kUDInt = idOf(TypeKind::UDInt), kULInt = idOf(TypeKind::ULInt), kReal = idOf(TypeKind::Real),
+                        kLReal = idOf(TypeKind::LReal), kTime = idOf(TypeKind::Time), kLTime = idOf(TypeKind::LTime);
+
+enum class RecordKind : uint8_t { Struct, Union, FunctionBlock, Program, GlobalList };
+
+enum class FieldRole : uint8_t { Member, Local, Input, Output, InOut };
+struct Field {
+  NameId name;
+  TypeId type;
+  FieldRole role = FieldRole::Member;
+  bool by_reference = false;  // VAR_IN_OUT: the memory holds a pointer to the variable
+  bool retain = false, persistent = false, constant = false;
+  uint32_t offset = 0;  // after layout
+};
+
+struct Dimension {
+  int64_t low = 0, high = -1;
+  uint64_t count() const { return static_cast<uint64_t>(high - low) + 1; }
+};
+
+struct TypeInfo {
+  TypeKind kind = TypeKind::None;
+  RecordKind record_kind = RecordKind::Struct;
+  bool laid_out = false;
+  bool strict = false;  // enumerations: TYPE#item only ({attribute 'strict'}, edition 3 strict form)
+  NameId name;          // named types
+  TypeId base;          // Enum, Subrange: the integer type; Alias, Array (element), Pointer, Reference: the target
+  uint32_t length = 0;  // String, WString: capacity in characters
+  int64_t low = 0, high = 0;  // Subrange: bounds in the base type's bits
+  uint64_t size = 0;          // bytes, after layout
+  uint32_t align = 1;
+  std::vector<Dimension> dimensions;              // Array; empty: ARRAY[*]
+  std::vector<Field> fields;                      // Record
+  std::vector<std::pair<NameId, int64_t>> items;  // Enum: in order of declaration
+};
+
+class TypeTable {
+ public:
+  // pointer_size: 4 or 8, the target's (--target-pointer).
+  TypeTable(Names& names, uint32_t pointer_size);
+  TypeTable(const TypeTable&) = delete;
+  TypeTable& operator=(const TypeTable&) = delete;
+
+  const TypeInfo& info(TypeId id) const { return types_[id.index]; }
+  uint32_t count() const { return static_cast<uint32_t>(types_.size()); }
+  uint32_t pointerSize() const { return pointer_size_; }
+  const Names& names() const { return names_; }
+
+  // The kind behind aliases. `plain` also goes through subranges and enumerations to the integer type in memory.
+  TypeId resolve(TypeId id) const {
+    while (types_[id.index].kind == TypeKind::Alias) id = types_[id.index].base;
+    return id;
+  }
+  TypeId plain(TypeId id) const;
+  TypeKind kind(TypeId id) const { return types_[resolve(id).index].kind; }
+  TypeKind plainKind(TypeId id) const { return types_[plain(id).index].kind; }
+
+  // The elementary type with this name (any case; TOD and TIME_OF_DAY alike), generic types included; or none.
+  TypeId elementary(NameId name) const;
+
+  TypeId string(uint32_t length);
+  TypeId wstring(uint32_t length);
+  TypeId array(TypeId element, std::span<const Dimension> dimensions);
+  TypeId pointer(TypeId target);
+  TypeId reference(TypeId target);
+  TypeId addEnum(NameId name, TypeId base);
+  TypeId addSubrange(NameId name, TypeId base, int64_t low, int64_t high);
+  TypeId addAlias(NameId name, TypeId target);
+  TypeId addRecord(RecordKind kind, NameId name);
+  // Filled while the declaration is resolved; not after layout().
+  TypeInfo& edit(TypeId id) { return types_[id.index]; }
+
+  // Sets size, align and field offsets of a type and of what it holds: natural alignment, 64-bit scalars alignas(8),
+  // arrays row-major, strings length+1 units, in-outs a pointer. A record that holds itself must have been reported
+  // and cut before. False when the size does not fit 2 GiB.
+  bool layout(TypeId id);
+
+  // As messages name it: `INT`, `STRING[20]`, `ARRAY[1..10] OF REAL`, `POINTER TO Motor`, `Color`.
+  std::string spell(TypeId id) const;
+
+  // ---- classes of elementary kinds
+  static bool isSignedInteger(TypeKind k) { return k >= TypeKind::SInt && k <= TypeKind::LInt; }
+  static bool isUnsignedInteger(TypeKind k) { return k >= TypeKind::USInt && k <= TypeKind::ULInt; }
+  static bool isInteger(TypeKind k) { return k >= TypeKind::SInt && k <= TypeKind::ULInt; }
+  static bool isBits(TypeKind k) { return k >= TypeKind::Byte && k <= TypeKind::LWord; }  // without BOOL
+  static bool isReal(TypeKind k) { return k == TypeKind::Real || k == TypeKind::LReal; }
+  static bool isDuration(TypeKind k) { return k == TypeKind::Time || k == TypeKind::LTime; }
+  static bool isDate(TypeKind k) { return k >= TypeKind::Date && k <= TypeKind::LDateTime; }
+  static bool isText(TypeKind k) { return k == TypeKind::String || k == TypeKind::WString; }
+  static bool isElementary(TypeKind k) { return k >= TypeKind::Bool && k <= TypeKind::WString; }
+  static bool isGeneric(TypeKind k) { return k >= TypeKind::Any && k <= TypeKind::AnyDerived; }
+  static bool isScalar(TypeKind k) { return k >= TypeKind::Bool && k <= TypeKind::WChar; }  // elementary, no text
+  static uint32_t bitWidth(TypeKind k);  // BOOL 1, INT 16, TIME 32, LTIME 64, …; 0 for what is no scalar
+  // What an elementary kind is in memory: signed or unsigned integer of bitWidth, or floating point.
+  // TIME is unsigned in codesys and signed in iec2/iec3.
+  bool isSigned(TypeKind k) const;
+  bool time_is_signed = false;
+  // True when `kind` belongs to the generic type (ANY_NUM holds INT).
+  static bool belongsTo(TypeKind kind, TypeKind generic);
+
+ private:
+  Names& names_;
+  uint32_t pointer_size_;
+  std::deque<TypeInfo> types_;
+  std::unordered_map<uint64_t, TypeId> interned_;
+  std::unordered_map<uint32_t, TypeId> elementary_;  // by name key
+};
+
+}  // namespace rung::types
