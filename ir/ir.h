@@ -92,6 +92,7 @@ struct Expr {
 enum class StmtKind : uint8_t {
   None,
   Assign,    // a: place, b: value. Arrays, records and texts are copied whole; text cut to the place's capacity
+  Bind,      // a: Field place whose field is by-reference, b: place: the field refers to that variable from now on
   Call,      // a: BodyId, b: self place or none, (c, d): operands, one per parameter: the value, or the place for a
              // by-reference parameter (none: a discarded output), e: place for the result or none
   If,        // a: condition, b: then block, c: else block (a block is its first statement, linked by `next`)
