@@ -107,9 +107,11 @@ enum class StmtKind : uint8_t {
   Label,     // a: label number
   Try,       // a: body block, b: catch block, c: finally block, d: place for the fault's number or none
   Fault,     // op: types::Fault, a: value for the message or none
-  Assert,    // of a test. op: sema::Assertion, a: condition or expected, b: actual, c: tolerance, d: text (NameId)
+  Assert,    // of a test. op: Assertion, a: condition or expected, b: actual, c: tolerance, d: text (NameId)
   Evaluate,  // a: expression, evaluated for its checks only
 };
+
+enum class Assertion : uint8_t { Assert, AssertEq, AssertNear };  // in the order of sema::Assertion
 
 struct Stmt {
   StmtKind kind = StmtKind::None;
@@ -150,6 +152,12 @@ enum class BodyKind : uint8_t {
   Init,      // sets a record to its initial values: self is the record (struct, FB, program or global list)
 };
 
+// Where a body or record read from IR text comes from: its `loc` points into the text, its header names the source.
+struct Origin {
+  NameId path;
+  uint32_t line = 0;
+};
+
 // The code of one function, block or initialiser.
 struct Body {
   NameId name;      // unique over the module: `Ramp`, `LIMIT__REAL`; an Init has its record's name
@@ -166,6 +174,7 @@ struct Body {
   TypeId result;        // Function; none: no result
   Loc loc;
   FileId file;
+  Origin origin;
 
   std::vector<Local> locals;
   std::vector<Expr> exprs;  // [0] unused
@@ -196,6 +205,7 @@ struct Record {
   BodyId body;  // FB, program: its Block body
   Loc loc;
   FileId file;
+  Origin origin;
   bool library = false;
 };
 struct List {

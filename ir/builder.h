@@ -1,0 +1,109 @@
+// Builds expressions and statements of one body: the constructors that lowering, the text reader and passes share.
+// In: ids of operands already made. Out: ids in the body's pools. An expression is a tree: an id is used as operand
+// once; `copy` gives a second one. Statements are appended to the open block:
+//   Block outer = b.open();  b.assign(…);  StmtId then = b.close(outer);  b.ifElse(condition, then, {});
+#pragma once
+
+#include <initializer_list>
+#include <span>
+
+#include "ir/ir.h"
+
+namespace rung::ir {
+
+// A list of statements under construction.
+struct Block {
+  StmtId first, last;
+};
+
+class Builder {
+ public:
+  Builder(Module& module, Body& body) : module(module), body(body) {}
+  Module& module;
+  Body& body;
+  Loc loc;  // given to what is made next
+
+  // ---- variables of the body
+  uint32_t local(NameId name, TypeId type, LocalKind kind);  // by_reference follows from kind and type
+  uint32_t temp(TypeId type);                                // `t1`, `t2`, …
+  uint32_t label(NameId name);                               // its number
+
+  // ---- constants
+  ExprId constant(TypeId type, uint64_t bits);
+  ExprId constant(const types::Value& value);  // scalar or text
+  ExprId boolean(bool value) { return constant(types::kBool, value); }
+  ExprId integer(TypeId type, int64_t value) { return constant(type, static_cast<uint64_t>(value)); }
+  ExprId real(TypeId type, double value) { return constant(types::Value::ofReal(type, value)); }
+  ExprId text(TypeId type, NameId characters);
+  ExprId data(uint32_t index);  // of Module::data
+  ExprId zero(TypeId type);
+
+  // ---- places
+  ExprId localPlace(uint32_t local);
+  ExprId self();
+  ExprId global(uint32_t list);
+  ExprId program(uint32_t instance);
+  ExprId image(TypeId type, uint32_t area, uint32_t byte, uint32_t bit = kNoBit);
+  ExprId field(ExprId base, uint32_t index, uint8_t checks = 0);
+  ExprId index(ExprId base, std::span<const ExprId> indices, uint8_t checks = 0);
+  ExprId index(ExprId base, ExprId one, uint8_t checks = 0) { return index(base, {&one, 1}, checks); }
+  ExprId deref(ExprId pointer, uint8_t checks = 0);
+  ExprId bits(ExprId base, TypeId part, uint32_t position);  // part: BOOL, BYTE, WORD or DWORD
+
+  // ---- values
+  ExprId unary(Op op, ExprId a, uint8_t checks = 0);
+  ExprId binary(Op op, ExprId a, ExprId b, uint8_t checks = 0);  // a comparison is BOOL, else of a's plain type
+  ExprId convert(TypeId to, ExprId a, uint8_t checks = 0);
+  ExprId select(ExprId condition, ExprId yes, ExprId no);
+  ExprId call(BodyId function, std::span<const ExprId> operands);
+  ExprId address(TypeId pointer, ExprId place);
+  ExprId negation(ExprId condition);  // NOT of a BOOL; takes a double one away
+  ExprId copy(ExprId expr);           // the whole tree
+
+  // ---- blocks
+  Block open() {
+    Block outer = block_;
+    block_ = {};
+    return outer;
+  }
+  StmtId close(Block outer) {
+    StmtId first = block_.first;
+    block_ = outer;
+    return first;
+  }
+  Block& block() { return block_; }
+
+  // ---- statements, appended to the open block
+  StmtId assign(ExprId place, ExprId value);
+  StmtId callStmt(BodyId callee, ExprId self, std::span<const ExprId> operands, ExprId result = {});
+  StmtId ifElse(ExprId condition, StmtId then_block, StmtId else_block = {});
+  StmtId switchStmt(ExprId selector, std::span<const Case> cases, StmtId else_block = {});
+  StmtId loop(StmtId body_block, StmtId next_block = {});
+  StmtId forLoop(ExprId control, ExprId from, ExprId to, ExprId step, StmtId body_block);
+  StmtId breakLoop() { return append(StmtKind::Break); }
+  StmtId continueLoop() { return append(StmtKind::Continue); }
+  StmtId returnBody() { return append(StmtKind::Return); }
+  StmtId jump(uint32_t label) { return append(StmtKind::Jump, label); }
+  StmtId placeLabel(uint32_t label);
+  StmtId tryCatch(StmtId body_block, StmtId catch_block, StmtId finally_block, ExprId number = {});
+  StmtId fault(types::Fault fault, ExprId value = {});
+  StmtId assertion(Assertion what, ExprId a, ExprId b, ExprId c, NameId text);
+  StmtId evaluate(ExprId expr) { return append(StmtKind::Evaluate, expr.index); }
+  StmtId append(StmtKind kind, uint32_t a = 0, uint32_t b = 0, uint32_t c = 0, uint32_t d = 0, uint32_t e = 0);
+  // A case of a switch: its ranges go to the body's pool. Collect the result and give all to switchStmt.
+  Case makeCase(std::span<const CaseRange> ranges, StmtId block);
+
+ private:
+  ExprId add(ExprKind kind, TypeId type, uint32_t a = 0, uint32_t b = 0, uint32_t c = 0, uint8_t checks = 0);
+  TypeId strip(TypeId type) const { return module.types.resolve(type); }
+  Block block_;
+  uint32_t temps_ = 0;
+};
+
+// Whether a variable of this kind and type is passed by reference (Local::by_reference).
+bool isPassedByReference(const types::TypeTable& types, LocalKind kind, TypeId type);
+// Arrays, records and texts: copied whole, passed by reference.
+bool isAggregate(const types::TypeTable& types, TypeId type);
+bool isPlace(ExprKind kind);
+
+}  // namespace rung::ir
