@@ -1,0 +1,170 @@
+/* What generated code includes, besides its own headers: C++17, no <cmath>, no templates. In: nothing but the compiler
+ * and <string.h>. Out: inline helpers for arithmetic with the semantics of design §6, image access, and the
+ * declarations of what librung_runtime holds out of line (stdlib/runtime/src). The names of the helpers are a contract
+ * with codegen/expressions.cpp; they agree with the arithmetic kernel (sema/types/arithmetic.cpp) bit for bit. */
+#ifndef RUNG_CODE_H
+#define RUNG_CODE_H
+
+#include <string.h>
+
+#include "rung/module.h"
+
+#define RUNG_UNLIKELY(condition) __builtin_expect((condition), 0)
+#define RUNG_MAY_ALIAS __attribute__((may_alias))
+#define RUNG_COLD __attribute__((cold, noinline))
+#define RUNG_PURE __attribute__((pure))
+
+/* Scalars behind POINTER and UNION: memory of any type. */
+typedef int8_t RUNG_MAY_ALIAS rung_i8_at;
+typedef int16_t RUNG_MAY_ALIAS rung_i16_at;
+typedef int32_t RUNG_MAY_ALIAS rung_i32_at;
+typedef int64_t RUNG_MAY_ALIAS rung_i64_at;
+typedef uint8_t RUNG_MAY_ALIAS rung_u8_at;
+typedef uint16_t RUNG_MAY_ALIAS rung_u16_at;
+typedef uint32_t RUNG_MAY_ALIAS rung_u32_at;
+typedef uint64_t RUNG_MAY_ALIAS rung_u64_at;
+typedef float RUNG_MAY_ALIAS rung_f32_at;
+typedef double RUNG_MAY_ALIAS rung_f64_at;
+typedef void *RUNG_MAY_ALIAS rung_pointer_at;
+
+/* ---- division: x/0 = 0 and x MOD 0 = 0 where the check is off, INT_MIN/-1 wraps. 8 and 16 bits go through 32. */
+static inline int32_t rung_div_i32(int32_t a, int32_t b) {
+  if (b == 0) return 0;
+  if (b == -1) return (int32_t)(0u - (uint32_t)a);
+  return a / b;
+}
+static inline int32_t rung_mod_i32(int32_t a, int32_t b) { return b == 0 || b == -1 ? 0 : a % b; }
+static inline uint32_t rung_div_u32(uint32_t a, uint32_t b) { return b == 0 ? 0 : a / b; }
+static inline uint32_t rung_mod_u32(uint32_t a, uint32_t b) { return b == 0 ? 0 : a % b; }
+static inline int64_t rung_div_i64(int64_t a, int64_t b) {
+  if (b == 0) return 0;
+  if (b == -1) return (int64_t)(0u - (uint64_t)a);
+  return a / b;
+}
+static inline int64_t rung_mod_i64(int64_t a, int64_t b) { return b == 0 || b == -1 ? 0 : a % b; }
+static inline uint64_t rung_div_u64(uint64_t a, uint64_t b) { return b == 0 ? 0 : a / b; }
+static inline uint64_t rung_mod_u64(uint64_t a, uint64_t b) { return b == 0 ? 0 : a % b; }
+
+/* ---- shifts by a count in 64 bits (a negative one is huge): counts from the width on give 0; rotations are modulo
+ * the width. `a` is zero-extended. */
+static inline uint32_t rung_shl(uint32_t a, uint64_t n) { return n >= 32 ? 0 : a << n; }
+static inline uint32_t rung_shr(uint32_t a, uint64_t n) { return n >= 32 ? 0 : a >> n; }
+static inline uint64_t rung_shl64(uint64_t a, uint64_t n) { return n >= 64 ? 0 : a << n; }
+static inline uint64_t rung_shr64(uint64_t a, uint64_t n) { return n >= 64 ? 0 : a >> n; }
+static inline uint8_t rung_rol8(uint8_t a, uint64_t n) { return (uint8_t)(a << (n & 7) | a >> (-n & 7)); }
+static inline uint16_t rung_rol16(uint16_t a, uint64_t n) { return (uint16_t)((uint32_t)a << (n & 15) | a >> (-n & 15)); }
+static inline uint32_t rung_rol32(uint32_t a, uint64_t n) { return a << (n & 31) | a >> (-n & 31); }
+static inline uint64_t rung_rol64(uint64_t a, uint64_t n) { return a << (n & 63) | a >> (-n & 63); }
+
+/* ---- conversions. REAL and LREAL to integer round half to even, saturate, and give 0 for NaN. The sum with 2^52
+ * rounds in the default mode, which needs no libm. */
+static inline int64_t rung_round(double x, int64_t low, int64_t high) {
+  if (!(x == x)) return 0;
+  if (x <= (double)low) return low;
+  if (x >= (double)high) return high;
+  if (x >= 4503599627370496.0 || x <= -4503599627370496.0) return (int64_t)x;
+  const double shift = x < 0.0 ? -4503599627370496.0 : 4503599627370496.0;
+  return (int64_t)((x + shift) - shift);
+}
+static inline int32_t rung_round_i32(double x) { return (int32_t)rung_round(x, INT32_MIN, INT32_MAX); }
+static inline int64_t rung_round_i64(double x) { return rung_round(x, INT64_MIN, INT64_MAX); }
+static inline uint64_t rung_round_u64(double x) {
+  if (x < 9223372036854775808.0) return (uint64_t)rung_round(x, 0, INT64_MAX);
+  if (!(x == x)) return 0;
+  return x >= 18446744073709551616.0 ? UINT64_MAX : (uint64_t)x;
+}
+static inline int64_t rung_clamp(int64_t x, int64_t low, int64_t high) { return x < low ? low : x > high ? high : x; }
+static inline uint64_t rung_clamp_u(uint64_t x, uint64_t low, uint64_t high) {
+  return x < low ? low : x > high ? high : x;
+}
+/* Base and exponent of `**`; a REAL base casts the result to float. */
+double rung_power(double base, double exponent);
+double rung_power_integer(double base, int64_t exponent);
+
+/* ---- process image: little-endian at any address, on any machine. */
+static inline uint16_t rung_get16(const uint8_t *p) { return (uint16_t)(p[0] | p[1] << 8); }
+static inline uint32_t rung_get32(const uint8_t *p) {
+  return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+}
+static inline uint64_t rung_get64(const uint8_t *p) { return rung_get32(p) | (uint64_t)rung_get32(p + 4) << 32; }
+static inline void rung_put16(uint8_t *p, uint16_t v) {
+  p[0] = (uint8_t)v;
+  p[1] = (uint8_t)(v >> 8);
+}
+static inline void rung_put32(uint8_t *p, uint32_t v) {
+  rung_put16(p, (uint16_t)v);
+  rung_put16(p + 2, (uint16_t)(v >> 16));
+}
+static inline void rung_put64(uint8_t *p, uint64_t v) {
+  rung_put32(p, (uint32_t)v);
+  rung_put32(p + 4, (uint32_t)(v >> 32));
+}
+static inline void rung_put_bit(uint8_t *p, uint32_t bit, bool v) {
+  *p = (uint8_t)((*p & ~(1u << bit)) | (uint32_t)v << bit);
+}
+static inline float rung_f32_of(uint32_t bits) {
+  float v;
+  memcpy(&v, &bits, sizeof v);
+  return v;
+}
+static inline double rung_f64_of(uint64_t bits) {
+  double v;
+  memcpy(&v, &bits, sizeof v);
+  return v;
+}
+static inline uint32_t rung_bits_of_f32(float v) {
+  uint32_t bits;
+  memcpy(&bits, &v, sizeof bits);
+  return bits;
+}
+static inline uint64_t rung_bits_of_f64(double v) {
+  uint64_t bits;
+  memcpy(&bits, &v, sizeof bits);
+  return bits;
+}
+
+#ifdef __cplusplus
+extern "C" {
+
+/* ---- text. In place, NUL-terminated, `capacity` without the NUL; too long results are cut. `to` may be `from`, also
+ * in part. The same holds for every native function of a library: `out` may be one of its text inputs. */
+void rung_text_assign(char *to, uint32_t capacity, const char *from);
+void rung_wtext_assign(char16_t *to, uint32_t capacity, const char16_t *from);
+/* Below, at or above 0, by unsigned units. */
+int rung_text_compare(const char *a, const char *b) RUNG_PURE;
+int rung_wtext_compare(const char16_t *a, const char16_t *b) RUNG_PURE;
+uint32_t rung_wtext_length(const char16_t *text) RUNG_PURE;
+/* STRING is UTF-8 here, WSTRING UTF-16; what is no code point becomes '?'. */
+void rung_text_of_wtext(char *to, uint32_t capacity, const char16_t *from);
+void rung_wtext_of_text(char16_t *to, uint32_t capacity, const char *from);
+/* A scalar as text, as <T>_TO_STRING spells it, and back. `kind`: rung_type_kind; `bits`: the value, sign- or
+ * zero-extended (REAL and LREAL: the bits of a double). Reading gives 0 where the text is no such value; the result
+ * is to be cut to the type's width. */
+void rung_text_of_scalar(char *to, uint32_t capacity, uint8_t kind, uint64_t bits);
+void rung_wtext_of_scalar(char16_t *to, uint32_t capacity, uint8_t kind, uint64_t bits);
+uint64_t rung_scalar_of_text(uint8_t kind, const char *text) RUNG_PURE;
+uint64_t rung_scalar_of_wtext(uint8_t kind, const char16_t *text) RUNG_PURE;
+
+/* ---- faults */
+/* Runs `run(frame)` and catches its faults: RUNG_FAULT_NONE, or the kind, details in ctx->fault. Nests. For __TRY. */
+uint8_t rung_try(rung_context *ctx, void (*run)(void *frame), void *frame);
+
+/* ---- assertions of tests. `text` may be null. Values are reported to ctx->host->assertion as the trace spells them.
+ * The same kinds and bits as rung_text_of_scalar; equal means IEC `=` (NaN is equal to NaN here). */
+void rung_assert(rung_context *ctx, const char *file, uint32_t line, bool good, const char *text);
+void rung_assert_equal(rung_context *ctx, const char *file, uint32_t line, uint8_t kind, uint64_t expected,
+                       uint64_t actual, const char *text);
+void rung_assert_equal_text(rung_context *ctx, const char *file, uint32_t line, const char *expected,
+                            const char *actual, const char *text);
+void rung_assert_equal_wtext(rung_context *ctx, const char *file, uint32_t line, const char16_t *expected,
+                             const char16_t *actual, const char *text);
+/* Enumerations: `items` is `name\0value\0name\0value\0\0`, values decimal. */
+void rung_assert_equal_enum(rung_context *ctx, const char *file, uint32_t line, const char *items, int64_t expected,
+                            int64_t actual, const char *text);
+/* kind: RUNG_REAL or RUNG_LREAL; good when |expected - actual| <= tolerance, or both are equal. */
+void rung_assert_near(rung_context *ctx, const char *file, uint32_t line, uint8_t kind, double expected, double actual,
+                      double tolerance, const char *text);
+
+} /* extern "C" */
+#endif
+#endif
