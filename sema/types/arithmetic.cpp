@@ -1,1 +1,450 @@
-// x
+// The arithmetic kernel (see arithmetic.h). Compiled with -ffp-contract=off: a REAL result is rounded after each
+// operation, as in generated code.
+#include "sema/types/arithmetic.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "frontend/source/invariant.h"
+
+namespace rung::types {
+
+namespace {
+
+using Int128 = __int128;
+
+struct OpRow {
+  const char* word;
+  int operands;
+};
+constexpr OpRow kOps[] = {
+#define RUNG_OPERATOR(name, word, operands) {word, operands},
+#include "sema/types/operators.def"
+};
+
+// The value that `bits` has after a store in a variable of this kind: cut to its width, then extended.
+uint64_t wrap(const TypeTable& table, TypeKind kind, uint64_t bits) {
+  const uint32_t width = TypeTable::bitWidth(kind);
+  if (width == 0 || width >= 64) return bits;
+  const uint64_t mask = (uint64_t{1} << width) - 1;
+  bits &= mask;
+  if (table.isSigned(kind) && (bits >> (width - 1)) != 0) bits |= ~mask;
+  return bits;
+}
+
+Int128 exact(const TypeTable& table, TypeKind kind, uint64_t bits) {
+  return table.isSigned(kind) ? Int128{static_cast<int64_t>(bits)} : Int128{bits};
+}
+
+struct Range {
+  Int128 low, high;
+};
+Range rangeOf(const TypeTable& table, TypeKind kind) {
+  const uint32_t width = TypeTable::bitWidth(kind);
+  if (table.isSigned(kind)) return {-(Int128{1} << (width - 1)), (Int128{1} << (width - 1)) - 1};
+  return {0, (Int128{1} << width) - 1};
+}
+
+Outcome ofExact(const TypeTable& table, TypeId type, TypeKind kind, Int128 value) {
+  Outcome out;
+  out.value = {type, wrap(table, kind, static_cast<uint64_t>(value))};
+  out.overflow = exact(table, kind, out.value.bits) != value;
+  return out;
+}
+
+Outcome ofBool(bool value) {
+  Outcome out;
+  out.value = {kBool, value ? 1u : 0u};
+  return out;
+}
+
+Outcome compare(Op op, int order, bool unordered) {
+  if (unordered) return ofBool(op == Op::Ne);
+  if (op == Op::Eq) return ofBool(order == 0);
+  if (op == Op::Ne) return ofBool(order != 0);
+  if (op == Op::Lt) return ofBool(order < 0);
+  if (op == Op::Le) return ofBool(order <= 0);
+  if (op == Op::Gt) return ofBool(order > 0);
+  return ofBool(order >= 0);
+}
+
+// The next UTF-16 unit of a UTF-8 text; surrogate pairs come as two. 0 at the end.
+struct Utf16Units {
+  std::string_view text;
+  size_t at = 0;
+  uint32_t low_surrogate = 0;
+  uint32_t next() {
+    if (low_surrogate != 0) {
+      const uint32_t unit = low_surrogate;
+      low_surrogate = 0;
+      return unit;
+    }
+    if (at >= text.size()) return 0;
+    const auto byte = [&](size_t i) -> uint32_t { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+    const uint32_t lead = byte(at);
+    uint32_t point = lead;
+    size_t length = 1;
+    if (lead >= 0xf0) {
+      point = (lead & 7) << 18 | (byte(at + 1) & 63) << 12 | (byte(at + 2) & 63) << 6 | (byte(at + 3) & 63);
+      length = 4;
+    } else if (lead >= 0xe0) {
+      point = (lead & 15) << 12 | (byte(at + 1) & 63) << 6 | (byte(at + 2) & 63);
+      length = 3;
+    } else if (lead >= 0xc0) {
+      point = (lead & 31) << 6 | (byte(at + 1) & 63);
+      length = 2;
+    }
+    at += length;
+    if (point < 0x10000) return point;
+    low_surrogate = 0xdc00 + ((point - 0x10000) & 0x3ff);
+    return 0xd800 + ((point - 0x10000) >> 10);
+  }
+};
+
+// The shorter text counts as padded with NUL.
+int compareTexts(std::string_view a, std::string_view b, bool wide) {
+  if (!wide) return a.compare(b);
+  Utf16Units left{a}, right{b};
+  for (;;) {
+    const uint32_t x = left.next(), y = right.next();
+    if (x != y) return x < y ? -1 : 1;
+    if (x == 0) return 0;
+  }
+}
+
+Outcome applyText(const Names& names, Op op, const Value& left, const Value& right, bool wide) {
+  const int order = compareTexts(names.text(NameId{static_cast<uint32_t>(left.bits)}),
+                                 names.text(NameId{static_cast<uint32_t>(right.bits)}), wide);
+  if (isComparison(op)) return compare(op, order, false);
+  Outcome out;
+  out.value = (op == Op::Min) == (order < 0) ? left : right;
+  return out;
+}
+
+template <class Float>
+Outcome applyReal(const TypeTable& table, Op op, const Value& left, const Value& right) {
+  const auto a = static_cast<Float>(left.asReal());
+  Float b = 0;
+  if (operandCount(op) == 2) {
+    const TypeKind kind = table.plainKind(right.type);
+    if (op == Op::Power && !TypeTable::isReal(kind) && kind != TypeKind::RealLiteral) {
+      // An integer exponent: exact in a double up to 2^53, and nothing beyond matters to pow.
+      const double exponent =
+          table.isSigned(kind) ? static_cast<double>(right.asSigned()) : static_cast<double>(right.bits);
+      Outcome out;
+      out.value = Value::ofReal(left.type, static_cast<Float>(std::pow(static_cast<double>(a), exponent)));
+      out.overflow = std::isinf(out.value.asReal()) && std::isfinite(a);
+      return out;
+    }
+    b = static_cast<Float>(right.asReal());
+  }
+  if (isComparison(op)) return compare(op, a < b ? -1 : (a > b ? 1 : 0), std::isnan(a) || std::isnan(b));
+  Float result = 0;
+  switch (op) {
+    case Op::Add: result = a + b; break;
+    case Op::Sub: result = a - b; break;
+    case Op::Mul: result = a * b; break;
+    case Op::Div: result = a / b; break;
+    case Op::Mod: result = std::fmod(a, b); break;
+    case Op::Power: result = static_cast<Float>(std::pow(static_cast<double>(a), static_cast<double>(b))); break;
+    case Op::Neg: result = -a; break;
+    case Op::Abs: result = std::fabs(a); break;
+    case Op::Min: result = b < a ? b : a; break;
+    case Op::Max: result = b > a ? b : a; break;
+    case Op::And:
+    case Op::Or:
+    case Op::Xor:
+    case Op::Not:
+    case Op::Shl:
+    case Op::Shr:
+    case Op::Rol:
+    case Op::Ror:
+    case Op::Eq:
+    case Op::Ne:
+    case Op::Lt:
+    case Op::Le:
+    case Op::Gt:
+    case Op::Ge: RUNG_INVARIANT(false, "bit operators have no REAL operands");
+  }
+  Outcome out;
+  out.value = Value::ofReal(left.type, static_cast<double>(result));
+  out.overflow = std::isinf(result) && std::isfinite(a) && std::isfinite(b);
+  return out;
+}
+
+// x ** n for integers by squaring, modulo 2^64; a negative exponent leaves 0, 1 or -1.
+Outcome integerPower(const TypeTable& table, const Value& left, const Value& right, TypeKind kind) {
+  const bool negative = table.isSigned(table.plainKind(right.type)) && right.asSigned() < 0;
+  const Int128 base = exact(table, kind, left.bits);
+  Outcome out;
+  if (negative) {
+    if (base == 0) {
+      out.value = {left.type, 0};
+      out.fault = Fault::Div;
+      return out;
+    }
+    if (base == 1) return ofExact(table, left.type, kind, 1);
+    if (base == -1) return ofExact(table, left.type, kind, (right.bits & 1) != 0 ? -1 : 1);
+    return ofExact(table, left.type, kind, 0);
+  }
+  uint64_t result = 1, factor = left.bits;
+  for (uint64_t n = right.bits; n != 0; n >>= 1) {
+    if ((n & 1) != 0) result *= factor;
+    factor *= factor;
+  }
+  out.value = {left.type, wrap(table, kind, result)};
+  out.overflow = std::fabs(std::pow(static_cast<double>(base), static_cast<double>(right.bits))) >
+                 static_cast<double>(rangeOf(table, kind).high) + 1.0;
+  return out;
+}
+
+Outcome applyInteger(const TypeTable& table, Op op, const Value& left, const Value& right, TypeKind kind) {
+  const uint32_t width = TypeTable::bitWidth(kind);
+  const uint64_t mask = width >= 64 ? ~uint64_t{0} : (uint64_t{1} << width) - 1;
+  const Int128 a = exact(table, kind, left.bits), b = exact(table, kind, right.bits);
+  const auto ofBits = [&](uint64_t bits) {
+    Outcome out;
+    out.value = {left.type, wrap(table, kind, bits)};
+    return out;
+  };
+  switch (op) {
+    case Op::Add: return ofExact(table, left.type, kind, a + b);
+    case Op::Sub: return ofExact(table, left.type, kind, a - b);
+    case Op::Mul: {
+      if (width < 64) return ofExact(table, left.type, kind, a * b);
+      Outcome out = ofBits(left.bits * right.bits);
+      if (table.isSigned(kind)) {
+        int64_t ignored;
+        out.overflow = __builtin_mul_overflow(left.asSigned(), right.asSigned(), &ignored);
+      } else {
+        uint64_t ignored;
+        out.overflow = __builtin_mul_overflow(left.bits, right.bits, &ignored);
+      }
+      return out;
+    }
+    case Op::Div:
+    case Op::Mod: {
+      if (b == 0) {
+        Outcome out = ofBits(0);
+        out.fault = Fault::Div;
+        return out;
+      }
+      return ofExact(table, left.type, kind, op == Op::Div ? a / b : a % b);
+    }
+    case Op::Power: return integerPower(table, left, right, kind);
+    case Op::Neg: return ofExact(table, left.type, kind, -a);
+    case Op::Abs: return ofExact(table, left.type, kind, a < 0 ? -a : a);
+    case Op::And: return ofBits(left.bits & right.bits);
+    case Op::Or: return ofBits(left.bits | right.bits);
+    case Op::Xor: return ofBits(left.bits ^ right.bits);
+    case Op::Not: return ofBits(~left.bits);
+    case Op::Shl: return ofBits(right.bits >= width ? 0 : left.bits << right.bits);
+    case Op::Shr: return ofBits(right.bits >= width ? 0 : (left.bits & mask) >> right.bits);
+    case Op::Rol:
+    case Op::Ror: {
+      const uint32_t n = static_cast<uint32_t>(right.bits % width);
+      const uint32_t left_by = op == Op::Rol ? n : width - n;
+      if (n == 0) return ofBits(left.bits);
+      const uint64_t bits = left.bits & mask;
+      return ofBits(bits << left_by | bits >> (width - left_by));
+    }
+    case Op::Eq:
+    case Op::Ne:
+    case Op::Lt:
+    case Op::Le:
+    case Op::Gt:
+    case Op::Ge: return compare(op, a < b ? -1 : (a > b ? 1 : 0), false);
+    case Op::Min: return ofBits(a < b ? left.bits : right.bits);
+    case Op::Max: return ofBits(a > b ? left.bits : right.bits);
+  }
+  return {};
+}
+
+// Nanoseconds of one unit of a duration or date kind.
+int64_t unitOf(TypeKind kind) {
+  if (kind == TypeKind::Time || kind == TypeKind::TimeOfDay) return 1'000'000;
+  if (kind == TypeKind::Date || kind == TypeKind::DateTime) return 1'000'000'000;
+  return 1;
+}
+bool isTimeOfDay(TypeKind kind) { return kind == TypeKind::TimeOfDay || kind == TypeKind::LTimeOfDay; }
+bool isDateTime(TypeKind kind) { return kind == TypeKind::DateTime || kind == TypeKind::LDateTime; }
+bool isDay(TypeKind kind) { return kind == TypeKind::Date || kind == TypeKind::LDate; }
+
+// Conversions that change the unit: TIME and LTIME, times of day, and the parts of a date and time.
+bool scales(TypeKind from, TypeKind to) {
+  const bool from_span = TypeTable::isDuration(from) || isTimeOfDay(from);
+  const bool to_span = TypeTable::isDuration(to) || isTimeOfDay(to);
+  const bool from_date = isDay(from) || isDateTime(from);
+  const bool to_date = isDay(to) || isDateTime(to);
+  return (from_span && to_span) || (from_date && to_date) || (isDateTime(from) && isTimeOfDay(to));
+}
+
+Outcome realToInteger(const TypeTable& table, double value, TypeId to, TypeKind kind) {
+  Outcome out;
+  out.value.type = to;
+  if (std::isnan(value)) {
+    out.overflow = true;
+    return out;
+  }
+  if (kind == TypeKind::Bool) {
+    out.value.bits = value != 0 ? 1 : 0;
+    return out;
+  }
+  const double rounded = std::nearbyint(value);  // half to even: the rounding mode is never changed
+  const Range range = rangeOf(table, kind);
+  if (rounded < static_cast<double>(range.low)) {
+    out.value.bits = static_cast<uint64_t>(range.low);
+    out.overflow = true;
+  } else if (rounded >= static_cast<double>(range.high) + 1.0) {
+    out.value.bits = static_cast<uint64_t>(range.high);
+    out.overflow = true;
+  } else {
+    out.value.bits = static_cast<uint64_t>(static_cast<Int128>(rounded));
+  }
+  return out;
+}
+
+}  // namespace
+
+const char* word(Op op) { return kOps[static_cast<size_t>(op)].word; }
+int operandCount(Op op) { return kOps[static_cast<size_t>(op)].operands; }
+bool findOp(std::string_view word, Op& op) {
+  for (size_t i = 0; i < std::size(kOps); ++i) {
+    if (word == kOps[i].word) {
+      op = static_cast<Op>(i);
+      return true;
+    }
+  }
+  return false;
+}
+bool isComparison(Op op) { return op >= Op::Eq && op <= Op::Ge; }
+
+const char* word(Fault fault) {
+  switch (fault) {
+    case Fault::None: return "none";
+    case Fault::Div: return "div";
+    case Fault::Index: return "index";
+    case Fault::Null: return "null";
+    case Fault::Cast: return "cast";
+    case Fault::Subrange: return "subrange";
+    case Fault::Convert: return "convert";
+    case Fault::Overflow: return "overflow";
+  }
+  return "none";
+}
+
+double Value::asReal() const {
+  double value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+Value Value::ofReal(TypeId type, double value) {
+  Value result;
+  result.type = type;
+  std::memcpy(&result.bits, &value, sizeof value);
+  return result;
+}
+
+Outcome apply(const TypeTable& table, const Names& names, Op op, const Value& left, const Value& right) {
+  const TypeKind kind = table.plainKind(left.type);
+  if (TypeTable::isText(kind)) return applyText(names, op, left, right, kind == TypeKind::WString);
+  if (kind == TypeKind::Real) return applyReal<float>(table, op, left, right);
+  if (kind == TypeKind::LReal || kind == TypeKind::RealLiteral) return applyReal<double>(table, op, left, right);
+  // Untyped integers count as LINT until their context types them.
+  return applyInteger(table, op, left, right, kind == TypeKind::IntegerLiteral ? TypeKind::LInt : kind);
+}
+
+Outcome convert(const TypeTable& table, const Value& value, TypeId to) {
+  const TypeKind written_from = table.plainKind(value.type), kind = table.plainKind(to);
+  const TypeKind from = written_from == TypeKind::IntegerLiteral ? TypeKind::LInt : written_from;
+  Outcome out;
+  const bool from_real = TypeTable::isReal(from) || from == TypeKind::RealLiteral;
+  if (kind == TypeKind::Real || kind == TypeKind::LReal || kind == TypeKind::RealLiteral) {
+    double number = value.asReal();
+    if (kind == TypeKind::Real) {
+      const float narrow = from_real              ? static_cast<float>(number)
+                           : table.isSigned(from) ? static_cast<float>(value.asSigned())
+                                                  : static_cast<float>(value.bits);
+      out.overflow = from_real && std::isinf(narrow) && std::isfinite(number);
+      number = narrow;
+    } else if (!from_real) {
+      number = table.isSigned(from) ? static_cast<double>(value.asSigned()) : static_cast<double>(value.bits);
+    }
+    out.value = Value::ofReal(to, number);
+    return out;
+  }
+  if (!TypeTable::isScalar(kind)) {
+    out.value = {to, value.bits};
+    return out;
+  }
+  if (from_real) {
+    out = realToInteger(table, value.asReal(), to, kind);
+  } else if (kind == TypeKind::Bool) {
+    out.value = {to, value.bits != 0 ? 1u : 0u};
+    out.overflow = value.bits > 1;
+  } else {
+    Int128 number = exact(table, from, value.bits);
+    if (from != kind && scales(from, kind)) {
+      constexpr Int128 kDay = Int128{86'400} * 1'000'000'000;
+      number *= unitOf(from);
+      if (isDateTime(from) && isTimeOfDay(kind)) number %= kDay;
+      if (isDateTime(from) && isDay(kind)) number -= number % kDay;
+      number /= unitOf(kind);
+    }
+    out = ofExact(table, to, kind, number);
+  }
+  const TypeInfo& target = table.info(table.resolve(to));
+  if (target.kind == TypeKind::Subrange) {
+    const Int128 low = exact(table, kind, static_cast<uint64_t>(target.low));
+    const Int128 high = exact(table, kind, static_cast<uint64_t>(target.high));
+    const Int128 now = exact(table, kind, out.value.bits);
+    if (now < low || now > high) {
+      out.value.bits = static_cast<uint64_t>(now < low ? target.low : target.high);
+      out.overflow = true;
+    }
+  }
+  return out;
+}
+
+Value defaultValue(const TypeTable& table, Names& names, TypeId type) {
+  const TypeInfo& info = table.info(table.resolve(type));
+  Value value{type, 0};
+  if (info.kind == TypeKind::Subrange) value.bits = static_cast<uint64_t>(info.low);
+  if (info.kind == TypeKind::Enum && !info.items.empty()) value.bits = static_cast<uint64_t>(info.items[0].second);
+  if (TypeTable::isText(info.kind)) value.bits = names.intern("").index;
+  return value;
+}
+
+bool isLossless(const TypeTable& table, TypeId from, TypeId to) {
+  if (table.resolve(from) == table.resolve(to)) return true;
+  const TypeInfo& source = table.info(table.resolve(from));
+  const TypeInfo& target = table.info(table.resolve(to));
+  const TypeKind a = table.plainKind(from), b = table.plainKind(to);
+  if (TypeTable::isText(a)) return a == b && source.length <= target.length;
+  if (!TypeTable::isScalar(a) || !TypeTable::isScalar(b)) return false;
+  if (target.kind == TypeKind::Enum) return false;  // but its own items, which have its type
+  const auto isNumber = [](TypeKind k) { return TypeTable::isInteger(k) || TypeTable::isBits(k); };
+  if (isNumber(a) && isNumber(b)) {
+    Range from_range = rangeOf(table, a), to_range = rangeOf(table, b);
+    if (source.kind == TypeKind::Subrange) {
+      from_range = {exact(table, a, static_cast<uint64_t>(source.low)),
+                    exact(table, a, static_cast<uint64_t>(source.high))};
+    }
+    if (target.kind == TypeKind::Subrange) {
+      to_range = {exact(table, b, static_cast<uint64_t>(target.low)),
+                  exact(table, b, static_cast<uint64_t>(target.high))};
+    }
+    return from_range.low >= to_range.low && from_range.high <= to_range.high;
+  }
+  if (isNumber(a) && b == TypeKind::Real) return TypeTable::bitWidth(a) <= 16;
+  if (isNumber(a) && b == TypeKind::LReal) return TypeTable::bitWidth(a) <= 32;
+  if (a == TypeKind::Real) return b == TypeKind::LReal || b == TypeKind::Real;
+  if (a == TypeKind::Bool) return b == TypeKind::Bool || TypeTable::isBits(b);
+  return a == b || (a == TypeKind::Time && b == TypeKind::LTime) || (a == TypeKind::Date && b == TypeKind::LDate) ||
+         (a == TypeKind::TimeOfDay && b == TypeKind::LTimeOfDay) ||
+         (a == TypeKind::DateTime && b == TypeKind::LDateTime) || (a == TypeKind::Char && b == TypeKind::WChar);
+}
+
+}  // namespace rung::types

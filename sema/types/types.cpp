@@ -1,1 +1,311 @@
-// x
+// The type table: elementary types by name, interned structural types, named types (layout.cpp lays them out).
+#include "sema/types/types.h"
+
+#include "frontend/source/invariant.h"
+
+namespace rung::types {
+
+namespace {
+
+struct ElementaryName {
+  const char* name;
+  TypeKind kind;
+};
+// The first name of a kind is the one that messages use.
+constexpr ElementaryName kElementaryNames[] = {
+    {"BOOL", TypeKind::Bool},
+    {"BYTE", TypeKind::Byte},
+    {"WORD", TypeKind::Word},
+    {"DWORD", TypeKind::DWord},
+    {"LWORD", TypeKind::LWord},
+    {"SINT", TypeKind::SInt},
+    {"INT", TypeKind::Int},
+    {"DINT", TypeKind::DInt},
+    {"LINT", TypeKind::LInt},
+    {"USINT", TypeKind::USInt},
+    {"UINT", TypeKind::UInt},
+    {"UDINT", TypeKind::UDInt},
+    {"ULINT", TypeKind::ULInt},
+    {"REAL", TypeKind::Real},
+    {"LREAL", TypeKind::LReal},
+    {"TIME", TypeKind::Time},
+    {"LTIME", TypeKind::LTime},
+    {"DATE", TypeKind::Date},
+    {"LDATE", TypeKind::LDate},
+    {"TIME_OF_DAY", TypeKind::TimeOfDay},
+    {"TOD", TypeKind::TimeOfDay},
+    {"LTIME_OF_DAY", TypeKind::LTimeOfDay},
+    {"LTOD", TypeKind::LTimeOfDay},
+    {"DATE_AND_TIME", TypeKind::DateTime},
+    {"DT", TypeKind::DateTime},
+    {"LDATE_AND_TIME", TypeKind::LDateTime},
+    {"LDT", TypeKind::LDateTime},
+    {"CHAR", TypeKind::Char},
+    {"WCHAR", TypeKind::WChar},
+    {"STRING", TypeKind::String},
+    {"WSTRING", TypeKind::WString},
+    {"ANY", TypeKind::Any},
+    {"ANY_ELEMENTARY", TypeKind::AnyElementary},
+    {"ANY_MAGNITUDE", TypeKind::AnyMagnitude},
+    {"ANY_NUM", TypeKind::AnyNum},
+    {"ANY_REAL", TypeKind::AnyReal},
+    {"ANY_INT", TypeKind::AnyInt},
+    {"ANY_UNSIGNED", TypeKind::AnyUnsigned},
+    {"ANY_SIGNED", TypeKind::AnySigned},
+    {"ANY_DURATION", TypeKind::AnyDuration},
+    {"ANY_BIT", TypeKind::AnyBit},
+    {"ANY_CHARS", TypeKind::AnyChars},
+    {"ANY_STRING", TypeKind::AnyString},
+    {"ANY_CHAR", TypeKind::AnyChar},
+    {"ANY_DATE", TypeKind::AnyDate},
+    {"ANY_DERIVED", TypeKind::AnyDerived},
+};
+constexpr uint32_t kDefaultLength = 80;
+
+uint64_t internKey(TypeKind kind, uint64_t value) { return static_cast<uint64_t>(kind) << 56 ^ value; }
+
+}  // namespace
+
+TypeTable::TypeTable(Names& names, uint32_t pointer_size) : names_(names), pointer_size_(pointer_size) {
+  types_.resize(static_cast<size_t>(TypeKind::Count_));
+  for (uint32_t i = 0; i < types_.size(); ++i) {
+    TypeInfo& info = types_[i];
+    info.kind = static_cast<TypeKind>(i);
+    if (isScalar(info.kind)) {
+      info.size = (bitWidth(info.kind) + 7) / 8;
+      info.align = static_cast<uint32_t>(info.size);
+      info.laid_out = true;
+    } else if (isText(info.kind)) {
+      info.length = kDefaultLength;
+    }
+  }
+  for (const ElementaryName& row : kElementaryNames) {
+    const NameId name = names.intern(row.name);
+    elementary_.emplace(names.key(name).index, idOf(row.kind));
+    TypeInfo& info = types_[static_cast<size_t>(row.kind)];
+    if (!info.name) info.name = name;
+  }
+  // STRING and WSTRING without a length are the same types as with the default one.
+  interned_.emplace(internKey(TypeKind::String, kDefaultLength), idOf(TypeKind::String));
+  interned_.emplace(internKey(TypeKind::WString, kDefaultLength), idOf(TypeKind::WString));
+}
+
+TypeId TypeTable::plain(TypeId id) const {
+  for (;;) {
+    const TypeInfo& info = types_[id.index];
+    if (info.kind != TypeKind::Alias && info.kind != TypeKind::Subrange && info.kind != TypeKind::Enum) return id;
+    id = info.base;
+  }
+}
+
+TypeId TypeTable::elementary(NameId name) const {
+  const auto found = elementary_.find(names_.key(name).index);
+  return found == elementary_.end() ? TypeId{} : found->second;
+}
+
+namespace {
+
+TypeId append(std::deque<TypeInfo>& types, TypeInfo info) {
+  types.push_back(std::move(info));
+  return TypeId{static_cast<uint32_t>(types.size() - 1)};
+}
+
+}  // namespace
+
+TypeId TypeTable::string(uint32_t length) {
+  TypeId& id = interned_[internKey(TypeKind::String, length)];
+  if (!id) {
+    TypeInfo info;
+    info.kind = TypeKind::String;
+    info.length = length;
+    id = append(types_, std::move(info));
+  }
+  return id;
+}
+
+TypeId TypeTable::wstring(uint32_t length) {
+  TypeId& id = interned_[internKey(TypeKind::WString, length)];
+  if (!id) {
+    TypeInfo info;
+    info.kind = TypeKind::WString;
+    info.length = length;
+    id = append(types_, std::move(info));
+  }
+  return id;
+}
+
+TypeId TypeTable::array(TypeId element, std::span<const Dimension> dimensions) {
+  uint64_t hash = element.index + 0x9e3779b97f4a7c15u;
+  for (const Dimension& dimension : dimensions) {
+    for (const int64_t bound : {dimension.low, dimension.high}) {
+      hash = (hash ^ static_cast<uint64_t>(bound)) * 0xbf58476d1ce4e5b9u;
+      hash ^= hash >> 29;
+    }
+  }
+  for (;; ++hash) {  // the key of another array with the same hash is stepped over
+    TypeId& id = interned_[internKey(TypeKind::Array, hash & 0x00ffffffffffffffu)];
+    if (id) {
+      const TypeInfo& known = types_[id.index];
+      bool equal = known.base == element && known.dimensions.size() == dimensions.size();
+      for (size_t i = 0; equal && i < dimensions.size(); ++i) {
+        equal = known.dimensions[i].low == dimensions[i].low && known.dimensions[i].high == dimensions[i].high;
+      }
+      if (equal) return id;
+      continue;
+    }
+    TypeInfo info;
+    info.kind = TypeKind::Array;
+    info.base = element;
+    info.dimensions.assign(dimensions.begin(), dimensions.end());
+    return id = append(types_, std::move(info));
+  }
+}
+
+TypeId TypeTable::pointer(TypeId target) {
+  TypeId& id = interned_[internKey(TypeKind::Pointer, target.index)];
+  if (!id) {
+    TypeInfo info;
+    info.kind = TypeKind::Pointer;
+    info.base = target;
+    id = append(types_, std::move(info));
+  }
+  return id;
+}
+
+TypeId TypeTable::reference(TypeId target) {
+  TypeId& id = interned_[internKey(TypeKind::Reference, target.index)];
+  if (!id) {
+    TypeInfo info;
+    info.kind = TypeKind::Reference;
+    info.base = target;
+    id = append(types_, std::move(info));
+  }
+  return id;
+}
+
+TypeId TypeTable::addEnum(NameId name, TypeId base) {
+  TypeInfo info;
+  info.kind = TypeKind::Enum;
+  info.name = name;
+  info.base = base;
+  return append(types_, std::move(info));
+}
+
+TypeId TypeTable::addSubrange(NameId name, TypeId base, int64_t low, int64_t high) {
+  TypeInfo info;
+  info.kind = TypeKind::Subrange;
+  info.name = name;
+  info.base = base;
+  info.low = low;
+  info.high = high;
+  return append(types_, std::move(info));
+}
+
+TypeId TypeTable::addAlias(NameId name, TypeId target) {
+  TypeInfo info;
+  info.kind = TypeKind::Alias;
+  info.name = name;
+  info.base = target;
+  return append(types_, std::move(info));
+}
+
+TypeId TypeTable::addRecord(RecordKind kind, NameId name) {
+  TypeInfo info;
+  info.kind = TypeKind::Record;
+  info.record_kind = kind;
+  info.name = name;
+  return append(types_, std::move(info));
+}
+
+uint32_t TypeTable::bitWidth(TypeKind k) {
+  switch (k) {
+    case TypeKind::Bool: return 1;
+    case TypeKind::Byte:
+    case TypeKind::SInt:
+    case TypeKind::USInt:
+    case TypeKind::Char: return 8;
+    case TypeKind::Word:
+    case TypeKind::Int:
+    case TypeKind::UInt:
+    case TypeKind::WChar: return 16;
+    case TypeKind::DWord:
+    case TypeKind::DInt:
+    case TypeKind::UDInt:
+    case TypeKind::Real:
+    case TypeKind::Time:
+    case TypeKind::Date:
+    case TypeKind::TimeOfDay:
+    case TypeKind::DateTime: return 32;
+    case TypeKind::LWord:
+    case TypeKind::LInt:
+    case TypeKind::ULInt:
+    case TypeKind::LReal:
+    case TypeKind::LTime:
+    case TypeKind::LDate:
+    case TypeKind::LTimeOfDay:
+    case TypeKind::LDateTime: return 64;
+    case TypeKind::None:
+    case TypeKind::Error:
+    case TypeKind::String:
+    case TypeKind::WString:
+    case TypeKind::IntegerLiteral:
+    case TypeKind::RealLiteral:
+    case TypeKind::NullLiteral:
+    case TypeKind::Any:
+    case TypeKind::AnyElementary:
+    case TypeKind::AnyMagnitude:
+    case TypeKind::AnyNum:
+    case TypeKind::AnyReal:
+    case TypeKind::AnyInt:
+    case TypeKind::AnyUnsigned:
+    case TypeKind::AnySigned:
+    case TypeKind::AnyDuration:
+    case TypeKind::AnyBit:
+    case TypeKind::AnyChars:
+    case TypeKind::AnyString:
+    case TypeKind::AnyChar:
+    case TypeKind::AnyDate:
+    case TypeKind::AnyDerived:
+    case TypeKind::Enum:
+    case TypeKind::Subrange:
+    case TypeKind::Alias:
+    case TypeKind::Array:
+    case TypeKind::Record:
+    case TypeKind::Pointer:
+    case TypeKind::Reference:
+    case TypeKind::Count_: return 0;
+  }
+  return 0;
+}
+
+bool TypeTable::isSigned(TypeKind k) const {
+  return isSignedInteger(k) || isReal(k) || (isDuration(k) && time_is_signed);
+}
+
+// The tree of generic types, IEC 61131-3 ed. 3 figure 5.
+bool TypeTable::belongsTo(TypeKind kind, TypeKind generic) {
+  const bool integer = isInteger(kind);
+  const bool magnitude = integer || isReal(kind) || isDuration(kind);
+  const bool bits = kind == TypeKind::Bool || isBits(kind);
+  const bool chars = isText(kind) || kind == TypeKind::Char || kind == TypeKind::WChar;
+  if (generic == TypeKind::Any) return kind != TypeKind::None;
+  if (generic == TypeKind::AnyElementary) return magnitude || bits || chars || isDate(kind);
+  if (generic == TypeKind::AnyMagnitude) return magnitude;
+  if (generic == TypeKind::AnyNum) return integer || isReal(kind);
+  if (generic == TypeKind::AnyReal) return isReal(kind);
+  if (generic == TypeKind::AnyInt) return integer;
+  if (generic == TypeKind::AnyUnsigned) return isUnsignedInteger(kind);
+  if (generic == TypeKind::AnySigned) return isSignedInteger(kind);
+  if (generic == TypeKind::AnyDuration) return isDuration(kind);
+  if (generic == TypeKind::AnyBit) return bits;
+  if (generic == TypeKind::AnyChars) return chars;
+  if (generic == TypeKind::AnyString) return isText(kind);
+  if (generic == TypeKind::AnyChar) return kind == TypeKind::Char || kind == TypeKind::WChar;
+  if (generic == TypeKind::AnyDate) return isDate(kind);
+  if (generic == TypeKind::AnyDerived) {
+    return kind == TypeKind::Enum || kind == TypeKind::Subrange || kind == TypeKind::Array || kind == TypeKind::Record;
+  }
+  return false;
+}
+
+}  // namespace rung::types
