@@ -1,1 +1,174 @@
-// to be written
+// The registry's tables and the list of reports: switches, limits, duplicates, order.
+#include "frontend/source/diagnostics.h"
+
+#include <algorithm>
+
+#include "frontend/source/names.h"
+
+namespace rung {
+namespace {
+
+constexpr DiagInfo kInfos[] = {
+#define RUNG_ERROR(code, name, text) {#code, #name, text, Severity::Error},
+#define RUNG_WARNING(code, name, text) {#code, #name, text, Severity::Warning},
+#define RUNG_INFO(code, name, text) {#code, #name, text, Severity::Info},
+#define RUNG_NOTE(name, text)
+#include "frontend/source/diagnostics.def"
+};
+
+constexpr const char* kNotes[] = {
+#define RUNG_ERROR(code, name, text)
+#define RUNG_WARNING(code, name, text)
+#define RUNG_INFO(code, name, text)
+#define RUNG_NOTE(name, text) text,
+#include "frontend/source/diagnostics.def"
+};
+
+constexpr size_t kMaxArgumentBytes = 400;  // a name of a megabyte must not make a message of a megabyte
+
+void appendArgument(std::string& out, std::string_view argument) {
+  if (argument.size() <= kMaxArgumentBytes) {
+    out += argument;
+    return;
+  }
+  size_t end = kMaxArgumentBytes;
+  while (end > 0 && (static_cast<unsigned char>(argument[end]) & 0xc0) == 0x80) --end;
+  out += argument.substr(0, end);
+  out += "...";
+}
+
+std::string format(const char* text, std::initializer_list<std::string_view> args) {
+  std::string out;
+  for (const char* at = text; *at != '\0'; ++at) {
+    const bool place = at[0] == '{' && at[1] >= '0' && at[1] <= '9' && at[2] == '}';
+    if (!place) {
+      out += *at;
+      continue;
+    }
+    const auto index = static_cast<size_t>(at[1] - '0');
+    if (index < args.size()) appendArgument(out, args.begin()[index]);
+    at += 2;
+  }
+  return out;
+}
+
+// "UnusedVariable" is switched as "unused-variable".
+bool isSwitchName(std::string_view name, const char* enumerator) {
+  size_t n = 0;
+  for (const char* at = enumerator; *at != '\0'; ++at) {
+    const bool upper = *at >= 'A' && *at <= 'Z';
+    if (upper && at != enumerator && (n >= name.size() || name[n++] != '-')) return false;
+    if (n >= name.size() || name[n++] != (upper ? static_cast<char>(*at + 32) : *at)) return false;
+  }
+  return n == name.size();
+}
+
+}  // namespace
+
+const DiagInfo& diagInfo(Diag diag) { return kInfos[static_cast<size_t>(diag)]; }
+
+const DiagInfo* findDiag(std::string_view code) {
+  for (const DiagInfo& info : kInfos) {
+    if (sameIdentifier(info.code, code)) return &info;
+  }
+  return nullptr;
+}
+
+uint32_t diagCount() { return static_cast<uint32_t>(std::size(kInfos)); }
+
+Report& Report::note(Loc loc, Note note, std::initializer_list<std::string_view> args) {
+  if (diagnostic_ != nullptr) diagnostic_->notes.push_back({loc, format(kNotes[static_cast<size_t>(note)], args)});
+  return *this;
+}
+
+Report& Report::didYouMean(std::string_view candidate) {
+  return candidate.empty() ? *this : note({}, Note::DidYouMean, {candidate});
+}
+
+Report& Report::length(uint32_t bytes) {
+  if (diagnostic_ != nullptr) diagnostic_->length = bytes;
+  return *this;
+}
+
+Report& Report::element(std::string text) {
+  if (diagnostic_ != nullptr) diagnostic_->element = std::move(text);
+  return *this;
+}
+
+Report& Report::path(std::string path) {
+  if (diagnostic_ != nullptr) diagnostic_->path = std::move(path);
+  return *this;
+}
+
+Report Diagnostics::report(Diag diag, Loc loc, std::initializer_list<std::string_view> args) {
+  if (!enabled(diag) || !firstAt(diag, loc)) return Report(nullptr);
+  const DiagInfo& info = diagInfo(diag);
+  Severity severity = info.severity;
+  if (severity == Severity::Warning && warnings_are_errors) severity = Severity::Error;
+  if (severity == Severity::Error) {
+    if (error_count_++ >= max_errors) {
+      ++dropped_count_;
+      return Report(nullptr);
+    }
+  } else if (severity == Severity::Warning) {
+    if (warning_count_++ >= uint64_t{max_errors} * 10) {
+      ++dropped_warning_count_;
+      return Report(nullptr);
+    }
+  }
+  list_.push_back({diag, severity, loc, {}, 0, format(info.text, args), {}, {}});
+  return Report(&list_.back());
+}
+
+// A place is a mistake only once per code. What has no place is told apart by its path and message: never dropped.
+bool Diagnostics::firstAt(Diag diag, Loc loc) {
+  if (!loc) return true;
+  if ((seen_count_ + 1) * 2 > seen_.size()) {
+    std::vector<uint64_t> old(seen_.empty() ? 64 : seen_.size() * 2);
+    old.swap(seen_);
+    for (const uint64_t key : old) {
+      if (key == 0) continue;
+      size_t at = key * 0x9e3779b97f4a7c15u >> 32 & (seen_.size() - 1);
+      while (seen_[at] != 0) at = (at + 1) & (seen_.size() - 1);
+      seen_[at] = key;
+    }
+  }
+  const uint64_t key = uint64_t{loc.offset} << 16 | static_cast<uint64_t>(diag);
+  size_t at = key * 0x9e3779b97f4a7c15u >> 32 & (seen_.size() - 1);
+  for (; seen_[at] != 0; at = (at + 1) & (seen_.size() - 1)) {
+    if (seen_[at] == key) return false;
+  }
+  seen_[at] = key;
+  ++seen_count_;
+  return true;
+}
+
+void Diagnostics::sort() {
+  // Locations grow with files in the order of adding; paths decide between what has no location.
+  std::stable_sort(list_.begin(), list_.end(), [](const Diagnostic& a, const Diagnostic& b) {
+    return a.loc != b.loc ? a.loc < b.loc : a.path < b.path;
+  });
+}
+
+bool Diagnostics::enabled(Diag diag) const {
+  const auto index = static_cast<size_t>(diag);
+  return index >= disabled_.size() || !disabled_[index];
+}
+
+bool Diagnostics::setWarning(std::string_view name, bool on) {
+  if (name.starts_with("no-")) {
+    name.remove_prefix(3);
+    on = !on;
+  }
+  bool known = false;
+  for (size_t i = 0; i < std::size(kInfos); ++i) {
+    if (kInfos[i].severity == Severity::Error) continue;
+    if (name != "all" && !sameIdentifier(name, kInfos[i].code) && !isSwitchName(name, kInfos[i].name)) continue;
+    if (disabled_.empty()) disabled_.resize(std::size(kInfos));
+    disabled_[i] = !on;
+    known = true;
+  }
+  return known || name == "all";
+}
+
+}  // namespace rung

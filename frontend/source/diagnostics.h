@@ -52,7 +52,7 @@ struct Diagnostic {
   Diag diag;
   Severity severity;
   Loc loc;
-  std::string path;  // used when loc is nowhere: a file that could not be read, say
+  std::string path;     // used when loc is nowhere: a file that could not be read, say
   uint32_t length = 0;  // bytes to underline; 0: the token at loc
   std::string message;
   std::string element;  // of a diagram: `POU main, network 3, contact "start", localId 12`
@@ -84,7 +84,8 @@ class Diagnostics {
   bool hasErrors() const { return error_count_ > 0; }
   uint32_t errorCount() const { return error_count_; }
   uint32_t warningCount() const { return warning_count_; }
-  uint32_t droppedCount() const { return dropped_count_; }
+  uint32_t droppedCount() const { return dropped_count_; }                 // errors
+  uint32_t droppedWarningCount() const { return dropped_warning_count_; }  // beyond ten times max_errors
   // True once max_errors is reached: parsers and checkers may stop early.
   bool full() const { return error_count_ >= max_errors; }
   const std::vector<Diagnostic>& all() const { return list_; }
@@ -101,8 +102,11 @@ class Diagnostics {
   const Sources& sources_;
   std::vector<Diagnostic> list_;
   std::vector<bool> disabled_;
-  uint32_t error_count_ = 0, warning_count_ = 0, dropped_count_ = 0;
+  uint32_t error_count_ = 0, warning_count_ = 0, dropped_count_ = 0, dropped_warning_count_ = 0;
+  bool firstAt(Diag diag, Loc loc);
+
   std::vector<uint64_t> seen_;  // (code, loc) hash set, open addressing
+  size_t seen_count_ = 0;
 };
 
 // The candidate nearest to what was written (Damerau-Levenshtein, case folded), or empty when none is near enough.

@@ -1,1 +1,252 @@
-// to be written
+// The table of input texts and the way back from a 32-bit location to file, line and column.
+// Line starts are found when a file is first asked for; a file that is plain ASCII needs no counting of characters.
+#include "frontend/source/files.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace rung {
+namespace {
+
+constexpr size_t kMaxFileBytes = size_t{1} << 30;
+
+bool isContinuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
+
+bool isWordChar(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' ||
+         static_cast<unsigned char>(c) >= 0x80;
+}
+
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
+bool isAscii(std::string_view text) {
+  constexpr uint64_t kHigh = 0x8080808080808080u;
+  size_t i = 0;
+  for (; i + 8 <= text.size(); i += 8) {
+    uint64_t word = 0;
+    std::memcpy(&word, text.data() + i, 8);
+    if (word & kHigh) return false;
+  }
+  for (; i < text.size(); ++i) {
+    if (static_cast<unsigned char>(text[i]) >= 0x80) return false;
+  }
+  return true;
+}
+
+uint32_t countCharacters(std::string_view text) {
+  return static_cast<uint32_t>(std::count_if(text.begin(), text.end(), [](char c) { return !isContinuation(c); }));
+}
+
+// LF, CR LF and a lone CR each end a line.
+std::vector<uint32_t> findLineStarts(std::string_view text) {
+  std::vector<uint32_t> starts = {0};
+  starts.reserve(text.size() / 24 + 1);
+  for (uint32_t i = 0; i < text.size(); ++i) {
+    if (text[i] > '\r') continue;
+    if (text[i] == '\n' || (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n'))) starts.push_back(i + 1);
+  }
+  return starts;
+}
+
+// The length of a word and, where `#` follows it, of the literal that it begins: INT#5, 16#ff, T#1s500ms,
+// DT#1970-01-01-00:00:00.
+size_t literalLength(std::string_view text) {
+  size_t n = 0;
+  const bool number = isDigit(text[0]);
+  while (n < text.size() && isWordChar(text[n])) ++n;
+  if (number && n + 1 < text.size() && text[n] == '.' && isDigit(text[n + 1])) {
+    ++n;
+    while (n < text.size() && isWordChar(text[n])) ++n;
+  }
+  if (number && n + 1 < text.size() && (text[n] == '+' || text[n] == '-') && (text[n - 1] | 0x20) == 'e' &&
+      isDigit(text[n + 1])) {
+    ++n;
+    while (n < text.size() && isWordChar(text[n])) ++n;
+  }
+  if (n < text.size() && text[n] == '#') {
+    const char first = static_cast<char>(text[0] | 0x20);
+    const bool date = !number && (first == 'd' || first == 'l' || first == 't');
+    ++n;
+    while (n < text.size()) {
+      const bool inside = isWordChar(text[n]) || (date && (text[n] == '-' || text[n] == ':')) ||
+                          (text[n] == '.' && n + 1 < text.size() && isDigit(text[n + 1]));
+      if (!inside) break;
+      ++n;
+    }
+  }
+  return n;
+}
+
+size_t quotedLength(std::string_view text) {
+  for (size_t n = 1; n < text.size() && text[n] != '\n' && text[n] != '\r'; ++n) {
+    if (text[n] == '$') {
+      ++n;
+    } else if (text[n] == text[0]) {
+      return n + 1;
+    }
+  }
+  return 1;
+}
+
+size_t addressLength(std::string_view text) {
+  size_t n = 1;
+  while (n < text.size() && (isWordChar(text[n]) || text[n] == '.' || text[n] == '*')) ++n;
+  return n;
+}
+
+}  // namespace
+
+Sources::Sources() { files_.push_back({{}, {}, 0, {}, true}); }
+
+FileId Sources::add(std::string path, std::string text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  const File& last = files_.back();
+  const uint64_t base = uint64_t{last.base} + last.text.size() + 1;  // one past the NUL: the end of a file is its own
+  if (base + text.size() + 1 > UINT32_MAX) return {};
+  files_.push_back({std::move(path), std::move(text), static_cast<uint32_t>(base), {}, false});
+  return {static_cast<uint32_t>(files_.size() - 1)};
+}
+
+FileId Sources::fileOf(Loc loc) const {
+  if (!loc) return {};
+  const auto holds = [&](uint32_t i) {
+    return loc.offset >= files_[i].base && loc.offset - files_[i].base <= files_[i].text.size();
+  };
+  if (last_file_ != 0 && holds(last_file_)) return {last_file_};
+  const auto after = std::upper_bound(files_.begin() + 1, files_.end(), loc.offset,
+                                      [](uint32_t offset, const File& file) { return offset < file.base; });
+  const auto index = static_cast<uint32_t>(after - files_.begin() - 1);
+  if (index == 0 || !holds(index)) return {};
+  last_file_ = index;
+  return {index};
+}
+
+const std::vector<uint32_t>& Sources::lineStarts(const File& file) const {
+  if (file.line_starts.empty()) {
+    file.line_starts = findLineStarts(file.text);
+    file.ascii = isAscii(file.text);
+  }
+  return file.line_starts;
+}
+
+uint32_t Sources::lineNumber(Loc loc) const {
+  const FileId id = fileOf(loc);
+  if (!id) return 0;
+  const File& file = files_[id.index];
+  const std::vector<uint32_t>& starts = lineStarts(file);
+  const uint32_t at = loc.offset - file.base;
+  // Places are mostly asked for in order: try the last line and the next one before searching.
+  for (uint32_t line = last_line_; line <= last_line_ + 1 && line != 0 && line <= starts.size(); ++line) {
+    if (starts[line - 1] <= at && (line == starts.size() || at < starts[line])) return last_line_ = line;
+  }
+  return last_line_ = static_cast<uint32_t>(std::upper_bound(starts.begin(), starts.end(), at) - starts.begin());
+}
+
+Place Sources::place(Loc loc) const {
+  const uint32_t line = lineNumber(loc);
+  if (line == 0) return {};
+  const FileId id{last_file_};
+  const File& file = files_[id.index];
+  const uint32_t start = file.line_starts[line - 1];
+  const uint32_t at = loc.offset - file.base;
+  if (file.ascii) return {id, line, at - start + 1};
+  // Counting goes on from the last place of the same line, so that one very long line does not cost its square.
+  const bool resume = last_place_.file == id && last_place_.line == line && last_place_at_ <= at;
+  const uint32_t from = resume ? last_place_at_ : start;
+  const uint32_t column = resume ? last_place_.column : 1;
+  last_place_ = {id, line, column + countCharacters(std::string_view(file.text).substr(from, at - from))};
+  last_place_at_ = at;
+  return last_place_;
+}
+
+std::string_view Sources::line(FileId id, uint32_t line) const {
+  const File& file = files_[id.index];
+  const std::vector<uint32_t>& starts = lineStarts(file);
+  if (line == 0 || line > starts.size()) return {};
+  std::string_view text = file.text;
+  text = text.substr(starts[line - 1], line < starts.size() ? starts[line] - starts[line - 1] : std::string_view::npos);
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.remove_suffix(1);
+  return text;
+}
+
+std::string_view Sources::tokenAt(Loc loc) const {
+  const FileId id = fileOf(loc);
+  if (!id) return {};
+  const std::string_view text = std::string_view(files_[id.index].text).substr(loc.offset - files_[id.index].base);
+  if (text.empty() || text[0] == '\n' || text[0] == '\r') return {};
+  if (isWordChar(text[0])) return text.substr(0, literalLength(text));
+  if (text[0] == '\'' || text[0] == '"') return text.substr(0, quotedLength(text));
+  if (text[0] == '%') return text.substr(0, addressLength(text));
+  for (const std::string_view op : {":=", "=>", "<=", ">=", "<>", "**", "..", "?=", "(*", "*)", "//", "/*", "*/"}) {
+    if (text.starts_with(op)) return text.substr(0, op.size());
+  }
+  return text.substr(0, 1);
+}
+
+ReadResult readFile(const std::string& path) {
+  ReadResult result;
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) {
+    result.error = std::strerror(errno);
+    return result;
+  }
+  struct stat info = {};
+  const bool regular = ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
+  size_t used = 0;
+  // One byte more than the size: the read that fills it not is also the one that sees the end.
+  result.text.resize(regular ? std::min(static_cast<size_t>(info.st_size), kMaxFileBytes) + 1 : 64 * 1024);
+  for (;;) {
+    if (used == result.text.size()) result.text.resize(used * 2);
+    const ssize_t n = ::read(fd, result.text.data() + used, result.text.size() - used);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) result.error = std::strerror(errno);
+    if (n <= 0) break;
+    used += static_cast<size_t>(n);
+    if (used > kMaxFileBytes) {
+      result.error = "larger than 1 GiB";
+      break;
+    }
+  }
+  ::close(fd);
+  result.text.resize(result.error.empty() ? used : 0);
+  return result;
+}
+
+size_t findInvalidUtf8(std::string_view text) {
+  constexpr uint64_t kHigh = 0x8080808080808080u;
+  size_t i = 0;
+  while (i < text.size()) {
+    if (i + 8 <= text.size()) {
+      uint64_t word = 0;
+      std::memcpy(&word, text.data() + i, 8);
+      if ((word & kHigh) == 0) {
+        i += 8;
+        continue;
+      }
+    }
+    const auto lead = static_cast<unsigned char>(text[i]);
+    if (lead < 0x80) {
+      ++i;
+      continue;
+    }
+    const size_t size = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+    if (lead < 0xc2 || lead > 0xf4 || text.size() - i < size) return i;
+    for (size_t k = 1; k < size; ++k) {
+      if (!isContinuation(text[i + k])) return i;
+    }
+    const auto second = static_cast<unsigned char>(text[i + 1]);
+    const bool overlong = (lead == 0xe0 && second < 0xa0) || (lead == 0xf0 && second < 0x90);
+    const bool surrogate = lead == 0xed && second >= 0xa0;
+    const bool beyond = lead == 0xf4 && second >= 0x90;
+    if (overlong || surrogate || beyond) return i;
+    i += size;
+  }
+  return std::string_view::npos;
+}
+
+}  // namespace rung

@@ -1,6 +1,7 @@
 // Sources: the text of every input file and the 32-bit locations that point into it.
 // In: paths or text. Out: Loc (offset in one address space over all files), and line and column of a Loc.
 // Files get consecutive ranges; each text ends in a NUL that is not part of the file, so lexers need no end test.
+// Questions about places fill caches: one thread at a time.
 #pragma once
 
 #include <cstdint>
@@ -47,6 +48,7 @@ class Sources {
 
   FileId fileOf(Loc loc) const;
   Place place(Loc loc) const;
+  uint32_t lineNumber(Loc loc) const;  // place(loc).line without the counting of columns; 0: nowhere
   std::string_view line(FileId file, uint32_t line) const;  // without its line end
 
   // The token that starts at loc: an identifier, number, string, or one operator; what a caret underlines.
@@ -58,9 +60,14 @@ class Sources {
     std::string text;
     uint32_t base;
     mutable std::vector<uint32_t> line_starts;  // filled when first asked for
+    mutable bool ascii;                         // known once line_starts is
   };
+  const std::vector<uint32_t>& lineStarts(const File& file) const;
+
   std::deque<File> files_;
-  mutable uint32_t last_file_ = 0;
+  mutable uint32_t last_file_ = 0, last_line_ = 0;  // where the last questions led: the next is likely near
+  mutable Place last_place_;
+  mutable uint32_t last_place_at_ = 0;
 };
 
 // Reads a whole file. The error says what the system said ("No such file or directory").

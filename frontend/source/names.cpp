@@ -1,1 +1,110 @@
-// to be written
+// Interning of identifiers: a chained hash table over the case-folded spelling. A hit costs one hash, one bucket and
+// one comparison and allocates nothing; all spellings of an identifier lie in one chain, so a miss finds its key there.
+// Called by lexers for every identifier of the input: this is on the hot path of the compiler.
+#include "frontend/source/names.h"
+
+#include <cstring>
+
+namespace rung {
+namespace {
+
+constexpr size_t kBlockBytes = 64 * 1024;
+
+template <class Word>
+uint64_t load(const char* at) {
+  Word word = 0;
+  std::memcpy(&word, at, sizeof word);
+  return word;
+}
+
+// Up to seven bytes without a loop: two loads that may overlap.
+uint64_t loadShort(const char* at, size_t count) {
+  if (count >= 4) return load<uint32_t>(at) | load<uint32_t>(at + count - 4) << 32;
+  if (count >= 2) return load<uint16_t>(at) | load<uint16_t>(at + count - 2) << 16;
+  return count == 1 ? static_cast<unsigned char>(*at) : 0;
+}
+
+// Setting bit 5 of every byte folds letters; that it also joins some other characters costs collisions, not answers.
+uint32_t foldedHash(std::string_view text) {
+  constexpr uint64_t kFold = 0x2020202020202020u;
+  const auto mix = [](uint64_t hash, uint64_t word) {
+    hash = (hash ^ (word | kFold)) * 0xff51afd7ed558ccdu;
+    return hash ^ hash >> 32;
+  };
+  const char* at = text.data();
+  const size_t size = text.size();
+  uint64_t hash = size * 0x9e3779b97f4a7c15u;
+  if (size < 8) {
+    hash = mix(hash, loadShort(at, size));
+  } else {
+    const char* const last = at + size - 8;
+    for (; at < last; at += 8) hash = mix(hash, load<uint64_t>(at));
+    hash = mix(hash, load<uint64_t>(last));
+  }
+  hash *= 0xc4ceb9fe1a85ec53u;
+  return static_cast<uint32_t>(hash ^ hash >> 32);
+}
+
+char folded(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; }
+
+}  // namespace
+
+bool sameIdentifier(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  for (size_t i = 0; i < a.size(); ++i) {
+    if (a[i] != b[i] && folded(a[i]) != folded(b[i])) return false;
+  }
+  return true;
+}
+
+Names::Names() : entries_(1), buckets_(1024) { entries_.reserve(1024); }
+
+NameId Names::intern(std::string_view spelling) {
+  if (spelling.empty()) return {};
+  const uint32_t hash = foldedHash(spelling);
+  NameId key;
+  for (uint32_t i = buckets_[hash & (buckets_.size() - 1)]; i != 0; i = entries_[i].next) {
+    const Entry& entry = entries_[i];
+    if (entry.hash != hash || entry.text.size() != spelling.size()) continue;
+    if (std::memcmp(entry.text.data(), spelling.data(), spelling.size()) == 0) return {i};
+    if (!key && sameIdentifier(entry.text, spelling)) key = entry.key;
+  }
+
+  if (entries_.size() > buckets_.size()) grow();
+  const NameId id{count()};
+  uint32_t& bucket = buckets_[hash & (buckets_.size() - 1)];
+  entries_.push_back({store(spelling), key ? key : id, hash, bucket});
+  bucket = id.index;
+  return id;
+}
+
+NameId Names::find(std::string_view spelling) const {
+  if (spelling.empty()) return {};
+  const uint32_t hash = foldedHash(spelling);
+  for (uint32_t i = buckets_[hash & (buckets_.size() - 1)]; i != 0; i = entries_[i].next) {
+    if (entries_[i].hash == hash && sameIdentifier(entries_[i].text, spelling)) return entries_[i].key;
+  }
+  return {};
+}
+
+void Names::grow() {
+  buckets_.assign(buckets_.size() * 4, 0);
+  for (uint32_t i = 1; i < entries_.size(); ++i) {
+    uint32_t& bucket = buckets_[entries_[i].hash & (buckets_.size() - 1)];
+    entries_[i].next = bucket;
+    bucket = i;
+  }
+}
+
+// Blocks never grow past their reservation, so the texts handed out stay where they are.
+std::string_view Names::store(std::string_view spelling) {
+  if (storage_.empty() || storage_.back().capacity() - storage_.back().size() < spelling.size()) {
+    storage_.emplace_back().reserve(spelling.size() > kBlockBytes ? spelling.size() : kBlockBytes);
+  }
+  std::vector<char>& block = storage_.back();
+  const size_t start = block.size();
+  block.insert(block.end(), spelling.begin(), spelling.end());
+  return {block.data() + start, spelling.size()};
+}
+
+}  // namespace rung

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "frontend/source/diagnostics.h"
 
@@ -13,6 +14,8 @@ enum class DiagnosticFormat { Text, Json, Sarif };
 struct RenderOptions {
   DiagnosticFormat format = DiagnosticFormat::Text;
   bool color = false;
+  // The page of a code, as `rung explain` shows it, for SARIF's rule help; null or empty: the message template.
+  std::string_view (*page)(std::string_view code) = nullptr;
 };
 
 std::string render(const Diagnostics& diagnostics, const Sources& sources, const RenderOptions& options);
