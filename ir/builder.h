@@ -75,6 +75,7 @@ class Builder {
 
   // ---- statements, appended to the open block
   StmtId assign(ExprId place, ExprId value);
+  StmtId bind(ExprId field, ExprId place) { return append(StmtKind::Bind, field.index, place.index); }
   StmtId callStmt(BodyId callee, ExprId self, std::span<const ExprId> operands, ExprId result = {});
   StmtId ifElse(ExprId condition, StmtId then_block, StmtId else_block = {});
   StmtId switchStmt(ExprId selector, std::span<const Case> cases, StmtId else_block = {});

@@ -78,6 +78,10 @@ void forEachRoot(const Module& module, BodyT& body, StmtT& stmt, F&& f) {
       visit(stmt.a, Use::Write);
       visit(stmt.b, Use::Read);
       return;
+    case StmtKind::Bind:
+      visit(stmt.a, Use::Write);
+      visit(stmt.b, Use::Reference);
+      return;
     case StmtKind::Call: {
       visit(stmt.b, Use::Reference);
       const Body& callee = module.body(BodyId{stmt.a});
@@ -118,6 +122,7 @@ void forEachBlock(BodyT& body, StmtT& stmt, F&& f) {
   switch (stmt.kind) {
     case StmtKind::None:
     case StmtKind::Assign:
+    case StmtKind::Bind:
     case StmtKind::Call:
     case StmtKind::Break:
     case StmtKind::Continue:
