@@ -8,7 +8,8 @@
 
 namespace rung::sema {
 
-struct Scopes;  // scopes.h: hash tables of the project, of each POU, of libraries
+struct Scopes;     // scopes.h: hash tables of the project, of each POU, of libraries
+struct BodyState;  // bodies/bodies.h: what the statements of one body share
 
 struct Context {
   Project& project;
@@ -16,6 +17,8 @@ struct Context {
   PouId pou;    // whose declarations or body are at hand; none: file level
   FileId file;  // for diagnostics and for names that a library file sees first
   uint32_t loop_depth = 0;
+  uint32_t depth = 0;         // of the expression at hand, against input that nests without end
+  BodyState* body = nullptr;  // none outside of a body
 
   Tree& tree() const { return project.tree; }
   types::TypeTable& types() const { return project.types; }
@@ -68,5 +71,7 @@ bool checkExprAs(Context& context, ExprId& expr, TypeId to, std::string_view wha
 // A place that may be written: reports constants, inputs, literals.
 TypeId checkPlace(Context& context, ExprId& expr, std::string_view what);
 void checkBody(Context& context, PouId pou);
+// The rules that need all bodies: recursion, unused variables. check() calls it once, when every body is checked.
+void checkAfterBodies(Context& context);
 
 }  // namespace rung::sema

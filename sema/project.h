@@ -80,6 +80,8 @@ struct Pou {
   TypeId result;            // functions; none: no result
   VarId result_var;         // the variable that the function's name is inside its body
   std::vector<VarId> vars;  // all, in order of declaration (result_var is not among them)
+  std::vector<VarId> pins;  // the inputs, in-outs and outputs among them; filled by bodies/ at the first call
+  bool pins_ready = false;
   bool library = false, native = false, pure = false, test = false;
   bool extensible = false;  // has an {extensible} pin
   bool checked = false;     // its body was checked (library bodies: when used)
@@ -183,6 +185,13 @@ struct Project {
   std::deque<Call> calls;
   std::vector<ExprId> type_inits;                // by TypeId: the declared initial value of a named type, or none
   std::vector<std::vector<ExprId>> field_inits;  // by TypeId of a record: declared initial value per field, or none
+  // Who calls whom, in the order of the calls, with the place of the call: for the recursion rule.
+  struct CallEdge {
+    PouId caller, callee;
+    Loc loc;
+  };
+  std::vector<CallEdge> call_edges;
+  std::vector<PouId> record_pous;  // by TypeId of a record: whose instance it is; filled by bodies/ as needed
   uint32_t image_bytes[3] = {0, 0, 0};           // I, Q, M: end of the last used byte
 
   Var& var(VarId id) { return vars[id.index]; }
