@@ -69,9 +69,10 @@ size_t literalLength(std::string_view text) {
     while (n < text.size() && isWordChar(text[n])) ++n;
   }
   if (n < text.size() && text[n] == '#') {
-    const char first = static_cast<char>(text[0] | 0x20);
-    const bool date = !number && (first == 'd' || first == 'l' || first == 't');
+    const std::string_view prefix = text.substr(0, n);
+    const bool date = prefix.find_first_of("dDlLtT") == 0 && prefix.find_first_of("dD") != std::string_view::npos;
     ++n;
+    if (n < text.size() && (text[n] == '-' || text[n] == '+')) ++n;
     while (n < text.size()) {
       const bool inside = isWordChar(text[n]) || (date && (text[n] == '-' || text[n] == ':')) ||
                           (text[n] == '.' && n + 1 < text.size() && isDigit(text[n + 1]));

@@ -1,0 +1,31 @@
+// "Did you mean": near names are found whatever their case; far ones and ties behave.
+#include <gtest/gtest.h>
+
+#include "frontend/source/diagnostics.h"
+
+namespace rung {
+namespace {
+
+TEST(Nearest, FindsSlips) {
+  EXPECT_EQ(nearest("presure", {"level", "pressure", "flow"}), "pressure");
+  EXPECT_EQ(nearest("PRESSRUE", {"level", "pressure"}), "pressure");
+  EXPECT_EQ(nearest("conveyorOn", {"conveyor_on", "conveyor_off"}), "conveyor_on");
+  EXPECT_EQ(nearest("tno", {"TON", "TP"}), "TON");
+  EXPECT_EQ(nearest("xy", {"x", "zz"}), "x");
+}
+
+TEST(Nearest, IsSilentWhenNothingIsNear) {
+  EXPECT_EQ(nearest("pump", {"valve", "level"}), "");
+  EXPECT_EQ(nearest("x", {"y", "z"}), "");
+  EXPECT_EQ(nearest("ab", {"cd"}), "");
+  EXPECT_EQ(nearest("pump", {}), "");
+  EXPECT_EQ(nearest(std::string(1000, 'a'), {"a"}), "");
+}
+
+TEST(Nearest, DoesNotDependOnTheOrder) {
+  EXPECT_EQ(nearest("in3", {"in2", "in1"}), "in1");
+  EXPECT_EQ(nearest("in3", {"in1", "in2"}), "in1");
+}
+
+}  // namespace
+}  // namespace rung
