@@ -118,7 +118,7 @@ struct Stmt {
   uint8_t op = 0;
   uint16_t spare = 0;
   Loc loc;
-  StmtId next;
+  StmtId next = {};
   uint32_t a = 0, b = 0, c = 0, d = 0, e = 0;
 };
 

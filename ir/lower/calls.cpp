@@ -1,0 +1,349 @@
+// Lowering of calls: functions, FB and program instances, operators in call form, assertions. In: calls that sema has
+// resolved. Out: Call statements with temporaries for their results; pure functions stay expressions.
+#include "ir/lower/lowering.h"
+
+namespace rung::ir {
+
+ExprId BodyLowering::lowerCall(rung::ExprId id, ExprId target, bool* stored) {
+  const CallExpr& node = tree_.as<CallExpr>(id);
+  const sema::Call& call = project_.call(node.call);
+  Loc loc = node.h.loc;
+
+  auto plain = [&](ExprId to, bool* was_stored) -> ExprId {
+    switch (call.kind) {
+      case sema::CallKind::Function: return lowerFunctionCall(call, node, to, was_stored);
+      case sema::CallKind::Operator: return lowerOperator(call, node);
+      case sema::CallKind::Instance: lowerBlockCall(call, node, stable(lowerPlace(call.instance))); return {};
+      case sema::CallKind::Program: lowerBlockCall(call, node, lowerPlace(node.callee)); return {};
+      case sema::CallKind::Assertion: lowerAssertion(call, node); return {};
+    }
+    return {};
+  };
+  if (!call.en && !call.eno) return plain(target, stored);
+
+  // EN and ENO: nothing runs when EN is FALSE; a check that fails inside sets ENO FALSE and leaves the outputs alone.
+  ExprId en = call.en ? lowerValue(call.en) : constantBool(true, loc);
+  ExprId eno = temp(types::kBool, loc);
+  assign(eno, en, loc);
+  ExprId result;
+  TypeId result_type = node.h.type ? strip(node.h.type) : TypeId{};
+  bool has_result = result_type && types_.kind(result_type) != TypeKind::None &&
+                    call.kind != sema::CallKind::Instance && call.kind != sema::CallKind::Program &&
+                    call.kind != sema::CallKind::Assertion;
+  if (has_result && !target) {
+    result = temp(result_type, loc);
+    assign(result, zero(result_type, loc), loc);
+  }
+  StmtId body = block([&] {
+    ExprId value = plain({}, nullptr);
+    if (!has_result || !value) return;
+    assign(target ? target : result, target ? convertValue(value, typeOf(target), loc) : value, loc);
+  });
+  if (call.eno) {
+    StmtId guarded = body;
+    body = block([&] {
+      StmtId failed = block([&] { assign(eno, constantBool(false, loc), loc); });
+      append({.kind = StmtKind::Try, .loc = loc, .a = guarded.index, .b = failed.index});
+    });
+  }
+  append({.kind = StmtKind::If, .loc = loc, .a = eno.index, .b = body.index});
+  if (call.eno) storeOutput(call.eno, eno, false, loc);
+  if (has_result && target && stored) *stored = true;
+  return target ? target : result;
+}
+
+void BodyLowering::storeOutput(rung::ExprId target, ExprId value, bool negated, Loc loc) {
+  if (negated) value = unary(Op::Not, typeOf(value), value, loc);
+  ExprId place = lowerAfter({&value}, [&] { return lowerPlace(target); });
+  assign(place, convertValue(value, typeOf(place), loc), loc);
+}
+
+// ---- operators in call form ------------------------------------------------------------------------------------
+
+ExprId BodyLowering::operandOr0(const sema::Binding& binding, TypeId type, Loc loc) {
+  return binding.value ? lowerValue(binding.value) : ofValue(types::defaultValue(types_, in_.module.names, type), loc);
+}
+
+ExprId BodyLowering::lowerOperator(const sema::Call& call, const CallExpr& node) {
+  const sema::Pou& pou = project_.pou(call.pou);
+  switch (pou.operator_kind) {
+    case sema::Pou::Operator::Op: return lowerArithmeticOperator(call, node);
+    case sema::Pou::Operator::Select: return lowerSelect(call, node);
+    case sema::Pou::Operator::Mux: return lowerMux(call, node);
+    case sema::Pou::Operator::Move:
+    case sema::Pou::Operator::Convert:
+    case sema::Pou::Operator::None:
+      return convertValue(operandOr0(call.bindings.front(), strip(node.h.type), node.h.loc), node.h.type, node.h.loc);
+  }
+  return {};
+}
+
+ExprId BodyLowering::lowerArithmeticOperator(const sema::Call& call, const CallExpr& node) {
+  Op op = project_.pou(call.pou).op;
+  Loc loc = node.h.loc;
+  TypeId type = strip(node.h.type);
+  TypeId operand_type = type;
+  for (const sema::Binding& binding : call.bindings)
+    if (binding.value) {
+      operand_type = strip(tree_.expr(binding.value).type);
+      break;
+    }
+  std::vector<ExprId> operands;
+  for (const sema::Binding& binding : call.bindings) {
+    StmtId marker = block_.last;
+    ExprId operand = operandOr0(binding, operand_type, loc);
+    if (block_.last.index != marker.index)  // an operand with a call: what was read before it moves in front
+      for (size_t i = operands.size(); i-- > 0;) spill(marker, {&operands[i]});
+    operands.push_back(operand);
+  }
+  if (types::operandCount(op) == 1) return unary(op, type, operands[0], loc);
+  if (!types::isComparison(op) || operands.size() == 2) {
+    ExprId value = operands[0];
+    for (size_t i = 1; i < operands.size(); ++i) value = binary(op, type, value, operands[i], loc);
+    return value;
+  }
+  // A chain: GT(a, b, c) is (a > b) AND (b > c), each operand evaluated once.
+  ExprId value;
+  for (size_t i = 0; i + 1 < operands.size(); ++i) {
+    ExprId& right = operands[i + 1];
+    if (i + 2 < operands.size() && !isStable(right) && !isAggregate(typeOf(right))) right = toTemp(right, loc);
+    ExprId link = binary(op, types::kBool, operands[i], right, loc);
+    value = value ? binary(Op::And, types::kBool, value, link, loc) : link;
+  }
+  return value;
+}
+
+// SEL(G, IN0, IN1): only the chosen input is evaluated where that can be seen.
+ExprId BodyLowering::lowerSelect(const sema::Call& call, const CallExpr& node) {
+  Loc loc = node.h.loc;
+  TypeId type = strip(node.h.type);
+  RUNG_INVARIANT(call.bindings.size() == 3, "SEL has a selector and two inputs");
+  ExprId selector = operandOr0(call.bindings[0], types::kBool, loc);
+  Block outer = block_;
+  auto branch = [&](const sema::Binding& binding, Block& made) {
+    block_ = {};
+    ExprId value = convertValue(operandOr0(binding, type, loc), type, loc);
+    made = block_;
+    block_ = outer;
+    return value;
+  };
+  Block made0, made1;
+  ExprId value0 = branch(call.bindings[1], made0);
+  ExprId value1 = branch(call.bindings[2], made1);
+  bool plain = !made0.first && !made1.first && !mayFault(value0) && !mayFault(value1);
+  if (plain && !isAggregate(type))
+    return add({.kind = ExprKind::Select,
+                .type = type,
+                .loc = loc,
+                .a = selector.index,
+                .b = value1.index,
+                .c = value0.index});
+  ExprId result = temp(type, loc);
+  auto finish = [&](Block made, ExprId value) {
+    block_ = made;
+    assign(result, value, loc);
+    StmtId first = block_.first;
+    block_ = outer;
+    return first;
+  };
+  StmtId when_true = finish(made1, value1);
+  StmtId when_false = finish(made0, value0);
+  append({.kind = StmtKind::If, .loc = loc, .a = selector.index, .b = when_true.index, .c = when_false.index});
+  return result;
+}
+
+// MUX(K, IN0, IN1, …): any K outside 0..n-1 chooses the last input (syntax manual 5.4.1.3.4, TM/TP 6.2.2).
+ExprId BodyLowering::lowerMux(const sema::Call& call, const CallExpr& node) {
+  Loc loc = node.h.loc;
+  TypeId type = strip(node.h.type);
+  RUNG_INVARIANT(call.bindings.size() >= 2, "MUX has a selector and inputs");
+  ExprId selector = lowerValue(call.bindings[0].value);
+  ExprId result = temp(type, loc);
+  uint32_t inputs = static_cast<uint32_t>(call.bindings.size()) - 1;
+  std::vector<StmtId> blocks;
+  for (uint32_t i = 0; i < inputs; ++i)
+    blocks.push_back(
+        block([&] { assign(result, convertValue(operandOr0(call.bindings[i + 1], type, loc), type, loc), loc); }));
+  uint32_t first_case = static_cast<uint32_t>(body_.cases.size());
+  for (uint32_t i = 0; i + 1 < inputs; ++i) {
+    body_.cases.push_back({static_cast<uint32_t>(body_.ranges.size()), 1, blocks[i]});
+    body_.ranges.push_back({i, i});
+  }
+  append({.kind = StmtKind::Switch,
+          .loc = loc,
+          .a = selector.index,
+          .b = first_case,
+          .c = inputs - 1,
+          .d = blocks.back().index});
+  return result;
+}
+
+// ---- functions -------------------------------------------------------------------------------------------------
+
+ExprId BodyLowering::defaultArgument(sema::VarId pin_id, Loc loc) {
+  const sema::Var& pin = project_.var(pin_id);
+  TypeId type = strip(pin.type);
+  if (!isAggregate(type)) {
+    if (pin.init)
+      if (auto value = constantOf(project_, pin.init)) return convertValue(ofValue(*value, loc), type, loc);
+    if (in_.isZero(type)) return zero(type, loc);
+  }
+  ExprId place = temp(type, loc);
+  storeInitial(place, type, pin.init, false);
+  return place;
+}
+
+// The place of a by-reference input: the variable itself when nothing can change it during the call, else a copy.
+ExprId BodyLowering::argumentPlace(rung::ExprId value, TypeId pin_type, bool may_alias) {
+  ExprId place = lowerValue(value);
+  const Expr& expr = body_.expr(place);
+  bool constant_memory = expr.kind == ExprKind::Text || expr.kind == ExprKind::Data || expr.kind == ExprKind::Zero;
+  bool is_value = expr.kind == ExprKind::Convert || expr.kind == ExprKind::Select || expr.kind == ExprKind::Call;
+  bool same = typeOf(place) == strip(pin_type) || TypeTable::isText(types_.kind(pin_type));
+  if (constant_memory || (same && !is_value && !may_alias)) return place;
+  if (expr.kind == ExprKind::Local && body_.locals[expr.a].kind == LocalKind::Temp) return place;
+  ExprId copy = temp(same ? typeOf(place) : strip(pin_type), expr.loc);
+  assign(copy, place, tree_.loc(value));
+  return copy;
+}
+
+ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& node, ExprId target, bool* stored) {
+  const sema::Pou& pou = project_.pou(call.pou);
+  BodyId callee_id = in_.bodyOf(call.pou);
+  Loc loc = node.h.loc;
+
+  struct AfterCall {
+    rung::ExprId target;
+    ExprId value;
+    bool negated;
+  };
+  std::vector<ExprId> arguments;
+  std::vector<AfterCall> after;
+  bool callee_is_pure = in_.module.body(callee_id).pure;
+  bool has_reference_outputs = false;
+  for (const sema::Binding& binding : call.bindings) {
+    SectionKind section = project_.var(binding.pin).section;
+    if (section == SectionKind::InOut || section == SectionKind::Output) has_reference_outputs = true;
+  }
+
+  size_t next_binding = 0;
+  for (sema::VarId pin_id : pou.vars) {
+    const sema::Var& pin = project_.var(pin_id);
+    if (pin.section != SectionKind::Input && pin.section != SectionKind::Output && pin.section != SectionKind::InOut)
+      continue;
+    // Bindings stand in the order of the pins; an open pin may be absent.
+    const sema::Binding* binding = nullptr;
+    for (size_t i = 0; i < call.bindings.size(); ++i) {
+      const sema::Binding& candidate = call.bindings[(next_binding + i) % call.bindings.size()];
+      if (candidate.pin == pin_id) {
+        binding = &candidate;
+        next_binding += i + 1;
+        break;
+      }
+    }
+    bool open = binding == nullptr || !binding->value;
+    TypeId pin_type = strip(pin.type);
+    StmtId marker = block_.last;
+    ExprId argument;
+    if (pin.section == SectionKind::Input) {
+      if (open)
+        argument = defaultArgument(pin_id, loc);
+      else if (isAggregate(pin_type))
+        argument = argumentPlace(binding->value, pin_type, !callee_is_pure && (!pou.native || has_reference_outputs));
+      else
+        argument = lowerValue(binding->value);
+    } else if (pin.section == SectionKind::InOut) {
+      RUNG_INVARIANT(!open, "sema reports an open VAR_IN_OUT");
+      argument = stable(lowerPlace(binding->value));
+      const Expr& place = body_.expr(argument);
+      bool part_of_byte = place.kind == ExprKind::Bits || (place.kind == ExprKind::Image && place.c != kNoBit);
+      if (part_of_byte) {  // a copy that is written back
+        ExprId copy = toTemp(argument, loc);
+        after.push_back({binding->value, copy, false});
+        argument = copy;
+      }
+    } else if (!open) {
+      argument = temp(pin_type, loc);
+      after.push_back({binding->value, argument, binding->negated});
+    }
+    if (block_.last.index != marker.index)
+      for (ExprId& earlier : arguments) spill(marker, {&earlier});
+    arguments.push_back(argument);
+  }
+
+  TypeId result_type = pou.result ? strip(pou.result) : TypeId{};
+  uint32_t first = static_cast<uint32_t>(body_.operands.size());
+  body_.operands.insert(body_.operands.end(), arguments.begin(), arguments.end());
+  uint32_t count = static_cast<uint32_t>(arguments.size());
+  if (callee_is_pure && result_type && !isAggregate(result_type) && after.empty())
+    return add({.kind = ExprKind::Call, .type = result_type, .loc = loc, .a = callee_id.index, .b = first, .c = count});
+
+  ExprId result;
+  if (result_type) {
+    // A native text function writes straight into the target: it copes with inputs that are the target itself.
+    bool direct = target && stored && pou.native && TypeTable::isText(types_.kind(result_type)) &&
+                  types_.kind(typeOf(target)) == types_.kind(result_type);
+    if (direct) *stored = true;
+    result = direct ? target : temp(result_type, loc);
+  }
+  append({.kind = StmtKind::Call, .loc = loc, .a = callee_id.index, .c = first, .d = count, .e = result.index});
+  for (const AfterCall& output : after) storeOutput(output.target, output.value, output.negated, loc);
+  return result;
+}
+
+// ---- function blocks and programs ------------------------------------------------------------------------------
+
+void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, ExprId instance) {
+  Loc loc = node.h.loc;
+  struct CopyBack {
+    rung::ExprId target;
+    ExprId value;
+  };
+  std::vector<CopyBack> copies;
+  for (const sema::Binding& binding : call.bindings) {
+    if (binding.is_output || !binding.value) continue;
+    const sema::Var& pin = project_.var(binding.pin);
+    TypeId type = strip(pin.type);
+    Loc at = tree_.loc(binding.value);
+    ExprId place = field(instance, pin.field, type, at);
+    if (pin.section == SectionKind::InOut) {
+      ExprId variable = stable(lowerPlace(binding.value));
+      const Expr& expr = body_.expr(variable);
+      if (expr.kind == ExprKind::Bits || (expr.kind == ExprKind::Image && expr.c != kNoBit)) {
+        ExprId copy = toTemp(variable, at);
+        copies.push_back({binding.value, copy});
+        variable = copy;
+      }
+      append({.kind = StmtKind::Bind, .loc = at, .a = place.index, .b = variable.index});
+    } else {
+      assign(place, lowerValue(binding.value), at);
+    }
+  }
+  append({.kind = StmtKind::Call, .loc = loc, .a = in_.bodyOf(call.pou).index, .b = instance.index});
+  for (const CopyBack& copy : copies) storeOutput(copy.target, copy.value, false, loc);
+  for (const sema::Binding& binding : call.bindings) {
+    if (!binding.is_output || !binding.value) continue;
+    const sema::Var& pin = project_.var(binding.pin);
+    storeOutput(binding.value, field(instance, pin.field, strip(pin.type), loc), binding.negated, loc);
+  }
+}
+
+// ---- assertions ------------------------------------------------------------------------------------------------
+
+void BodyLowering::lowerAssertion(const sema::Call& call, const CallExpr& node) {
+  Stmt stmt{.kind = StmtKind::Assert, .op = static_cast<uint8_t>(call.assertion), .loc = node.h.loc};
+  size_t count = call.bindings.size();
+  size_t operands = call.assertion == sema::Assertion::Assert ? 1 : call.assertion == sema::Assertion::AssertEq ? 2 : 3;
+  RUNG_INVARIANT(count >= operands, "an assertion has its operands");
+  ExprId a = lowerValue(call.bindings[0].value), b, c;
+  if (operands > 1) b = lowerAfter({&a}, [&] { return lowerValue(call.bindings[1].value); });
+  if (operands > 2) c = lowerAfter({&a, &b}, [&] { return lowerValue(call.bindings[2].value); });
+  stmt.a = a.index;
+  stmt.b = b.index;
+  stmt.c = c.index;
+  if (count > operands && call.bindings[operands].value)
+    if (auto text = constantOf(project_, call.bindings[operands].value)) stmt.d = static_cast<uint32_t>(text->bits);
+  append(stmt);
+}
+
+}  // namespace rung::ir

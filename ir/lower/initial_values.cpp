@@ -1,0 +1,300 @@
+// Lowering of initial values. In: checked initialisers and type defaults. Out: assignments that give a place its
+// initial value; arrays of constants become one blob of bytes.
+#include <cstring>
+
+#include "ir/lower/lowering.h"
+
+namespace rung::ir {
+
+namespace {
+
+uint64_t elementCount(const TypeInfo& array) {
+  uint64_t count = 1;
+  for (const types::Dimension& d : array.dimensions) count *= d.count();
+  return count;
+}
+
+bool storeText(const TypeTable& types, TypeId type, std::string_view text, uint8_t* to) {
+  const TypeInfo& info = types.info(types.resolve(type));
+  if (info.kind == TypeKind::String) {
+    size_t length = std::min<size_t>(text.size(), info.length);
+    std::memcpy(to, text.data(), length);
+    return true;
+  }
+  uint32_t unit = 0;
+  for (size_t i = 0; i < text.size() && unit < info.length;) {
+    unsigned char lead = static_cast<unsigned char>(text[i]);
+    uint32_t code = lead;
+    size_t extra = lead >= 0xf0 ? 3 : lead >= 0xe0 ? 2 : lead >= 0xc0 ? 1 : 0;
+    if (extra > 0) code = lead & (0x3fu >> extra);
+    for (size_t k = 1; k <= extra && i + k < text.size(); ++k)
+      code = (code << 6) | (static_cast<unsigned char>(text[i + k]) & 0x3fu);
+    i += extra + 1;
+    auto put = [&](uint32_t value) {
+      to[2 * unit] = static_cast<uint8_t>(value);
+      to[2 * unit + 1] = static_cast<uint8_t>(value >> 8);
+      ++unit;
+    };
+    if (code >= 0x10000 && unit + 1 < info.length) {
+      put(0xd800 + ((code - 0x10000) >> 10));
+      put(0xdc00 + ((code - 0x10000) & 0x3ff));
+    } else {
+      put(code);
+    }
+  }
+  return true;
+}
+
+bool storeScalar(const TypeTable& types, const Value& value, TypeId type, uint8_t* to) {
+  TypeKind kind = types.plainKind(type);
+  uint32_t width = TypeTable::bitWidth(kind);
+  if (width == 0) return false;
+  uint64_t bits = value.bits;
+  if (kind == TypeKind::Real) {
+    float single = static_cast<float>(value.asReal());
+    uint32_t single_bits;
+    std::memcpy(&single_bits, &single, sizeof single);
+    bits = single_bits;
+  }
+  for (uint32_t i = 0; i < (width + 7) / 8; ++i) to[i] = static_cast<uint8_t>(bits >> (8 * i));
+  return true;
+}
+
+}  // namespace
+
+// The bytes of a type's default. False: not expressible as bytes (it needs code).
+bool BodyLowering::writeDefault(TypeId declared, uint8_t* to) {
+  for (TypeId t = declared;; t = types_.info(t).base) {
+    if (t.index < project_.type_inits.size() && project_.type_inits[t.index])
+      return writeBytes(declared, project_.type_inits[t.index], to);
+    if (types_.info(t).kind != TypeKind::Alias) break;
+  }
+  TypeId type = strip(declared);
+  const TypeInfo& info = types_.info(type);
+  if (info.kind == TypeKind::Array) {
+    uint64_t count = elementCount(info), size = types_.info(strip(info.base)).size;
+    if (count == 0 || in_.isZero(info.base)) return true;
+    if (!writeDefault(info.base, to)) return false;
+    for (uint64_t i = 1; i < count; ++i) std::memcpy(to + i * size, to, size);
+    return true;
+  }
+  if (info.kind == TypeKind::Record) {
+    if (in_.isZero(type)) return true;
+    if (info.record_kind == types::RecordKind::FunctionBlock || info.record_kind == types::RecordKind::Program)
+      return false;
+    bool has_inits = type.index < project_.field_inits.size();
+    for (size_t i = 0; i < info.fields.size(); ++i) {
+      rung::ExprId init;
+      if (has_inits && i < project_.field_inits[type.index].size()) init = project_.field_inits[type.index][i];
+      uint8_t* at = to + info.fields[i].offset;
+      if (!(init ? writeBytes(info.fields[i].type, init, at) : writeDefault(info.fields[i].type, at))) return false;
+    }
+    return true;
+  }
+  if (types_.plainKind(type) == TypeKind::Pointer || types_.plainKind(type) == TypeKind::Reference) return true;
+  Value value = types::defaultValue(types_, in_.module.names, type);
+  if (TypeTable::isText(types_.plainKind(type))) return true;
+  return storeScalar(types_, value, type, to);
+}
+
+bool BodyLowering::writeBytes(TypeId type, rung::ExprId init, uint8_t* to) {
+  type = strip(type);
+  if (tree_.kind(init) == rung::ExprKind::ArrayInit) return writeArray(type, init, to);
+  if (tree_.kind(init) == rung::ExprKind::StructInit) {
+    if (!writeDefault(type, to)) return false;
+    const TypeInfo& info = types_.info(type);
+    for (const FieldInit& given : tree_.list(tree_.as<StructInitExpr>(init).fields))
+      for (const types::Field& f : info.fields)
+        if (project_.names.same(f.name, given.field.name)) {
+          std::memset(to + f.offset, 0, types_.info(strip(f.type)).size);
+          if (!writeBytes(f.type, given.value, to + f.offset)) return false;
+        }
+    return true;
+  }
+  auto value = constantOf(project_, init);
+  if (!value) return false;
+  if (TypeTable::isText(types_.plainKind(type)))
+    return storeText(types_, type, project_.names.text(NameId{static_cast<uint32_t>(value->bits)}), to);
+  if (!TypeTable::isScalar(types_.plainKind(type))) return false;
+  return storeScalar(types_, types::convert(types_, *value, type).value, type, to);
+}
+
+// Array initial values fill the elements in row-major order; what is missing gets the element's default, what is too
+// much is dropped (syntax manual 5.3.3; sema warns).
+bool BodyLowering::writeArray(TypeId type, rung::ExprId init, uint8_t* to) {
+  const TypeInfo& info = types_.info(type);
+  TypeId element = info.base;
+  const uint64_t size = types_.info(strip(element)).size, count = elementCount(info);
+  uint64_t next = 0;
+  bool good = true;
+  auto fill = [&](auto& self_fill, std::span<const rung::ExprId> elements) -> void {
+    for (rung::ExprId item : elements) {
+      if (!good || next >= count) return;
+      if (tree_.kind(item) == rung::ExprKind::Repeat) {
+        const RepeatExpr& repeat = tree_.as<RepeatExpr>(item);
+        auto times = constantOf(project_, repeat.count);
+        if (!times) {
+          good = false;
+          return;
+        }
+        uint64_t begin = next;
+        uint64_t turns = times->bits;
+        if (repeat.elements.empty()) {
+          for (uint64_t i = 0; i < turns && next < count && good; ++i) good = writeDefault(element, to + next++ * size);
+          continue;
+        }
+        if (turns == 0) continue;
+        self_fill(self_fill, tree_.list(repeat.elements));
+        uint64_t group = next - begin;
+        for (uint64_t i = group; i < group * turns && next < count; ++i, ++next)
+          std::memcpy(to + next * size, to + (next - group) * size, size);
+        continue;
+      }
+      good = writeBytes(element, item, to + next++ * size);
+    }
+  };
+  fill(fill, tree_.list(tree_.as<ArrayInitExpr>(init).elements));
+  for (; good && next < count; ++next) good = writeDefault(element, to + next * size);
+  return good;
+}
+
+void BodyLowering::forEachElement(ExprId array, TypeId type, Loc loc, uint32_t dimension, std::vector<ExprId>& indices,
+                                  const std::function<void(ExprId)>& store) {
+  const TypeInfo& info = types_.info(type);
+  if (dimension == info.dimensions.size()) {
+    uint32_t first = static_cast<uint32_t>(body_.operands.size());
+    body_.operands.insert(body_.operands.end(), indices.begin(), indices.end());
+    store(add({.kind = ExprKind::Index,
+               .type = strip(info.base),
+               .loc = loc,
+               .a = array.index,
+               .b = first,
+               .c = static_cast<uint32_t>(indices.size())}));
+    return;
+  }
+  ExprId control = temp(types::kDInt, loc);
+  indices.push_back(control);
+  StmtId body = block([&] { forEachElement(array, type, loc, dimension + 1, indices, store); });
+  indices.pop_back();
+  auto bound = [&](int64_t value) { return constant(types::kDInt, static_cast<uint64_t>(value), loc); };
+  append({.kind = StmtKind::For,
+          .loc = loc,
+          .a = control.index,
+          .b = bound(info.dimensions[dimension].low).index,
+          .c = bound(info.dimensions[dimension].high).index,
+          .d = bound(1).index,
+          .e = body.index});
+}
+
+void BodyLowering::storeInitialRecord(ExprId place, TypeId type, rung::ExprId init) {
+  Loc loc = body_.expr(place).loc;
+  if (BodyId initializer = in_.initOf(type))
+    append({.kind = StmtKind::Call, .loc = loc, .a = initializer.index, .b = place.index});
+  if (!init) return;
+  const TypeInfo& info = types_.info(type);
+  for (uint32_t g = 0; g < tree_.as<StructInitExpr>(init).fields.count; ++g) {
+    const FieldInit given = tree_.list(tree_.as<StructInitExpr>(init).fields)[g];
+    for (uint32_t i = 0; i < info.fields.size(); ++i)
+      if (project_.names.same(info.fields[i].name, given.field.name)) {
+        storeInitial(field(place, i, info.fields[i].type, loc), info.fields[i].type, given.value, false);
+        break;
+      }
+  }
+}
+
+void BodyLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero) {
+  Loc loc = body_.expr(place).loc;
+  const TypeInfo& info = types_.info(type);
+  std::vector<uint8_t> bytes(info.size);
+  bool constant_bytes = init ? writeBytes(type, init, bytes.data()) : writeDefault(type, bytes.data());
+  if (constant_bytes) {
+    bool all_zero = true;
+    for (uint8_t b : bytes) all_zero = all_zero && b == 0;
+    if (all_zero) {
+      if (!place_is_zero) assign(place, zero(type, loc), loc);
+      return;
+    }
+    in_.module.data.push_back({type, std::move(bytes)});
+    uint32_t index = static_cast<uint32_t>(in_.module.data.size() - 1);
+    assign(place, add({.kind = ExprKind::Data, .type = type, .loc = loc, .a = index}), loc);
+    return;
+  }
+  // Elements with code of their own: FB instances, and whatever holds them.
+  std::vector<ExprId> indices;
+  forEachElement(place, type, loc, 0, indices, [&](ExprId element) { storeInitial(element, info.base, {}, false); });
+  if (!init || tree_.kind(init) != rung::ExprKind::ArrayInit) return;
+  // The elements that the initialiser names, one by one.
+  std::vector<rung::ExprId> items;
+  uint64_t count = elementCount(info);
+  auto flatten = [&](auto& self_flatten, std::span<const rung::ExprId> elements) -> void {
+    for (rung::ExprId item : elements) {
+      if (items.size() >= count) return;
+      if (tree_.kind(item) != rung::ExprKind::Repeat) {
+        items.push_back(item);
+        continue;
+      }
+      const RepeatExpr& repeat = tree_.as<RepeatExpr>(item);
+      auto times = constantOf(project_, repeat.count);
+      for (uint64_t i = 0; times && i < times->bits && items.size() < count; ++i) {
+        if (repeat.elements.empty())
+          items.push_back({});
+        else
+          self_flatten(self_flatten, tree_.list(repeat.elements));
+      }
+    }
+  };
+  flatten(flatten, tree_.list(tree_.as<ArrayInitExpr>(init).elements));
+  for (uint64_t i = 0; i < items.size() && i < count; ++i) {
+    if (!items[i]) continue;
+    uint64_t rest = i;
+    std::vector<ExprId> at(info.dimensions.size());
+    for (size_t d = info.dimensions.size(); d-- > 0;) {
+      const types::Dimension& dimension = info.dimensions[d];
+      at[d] = constant(types::kDInt,
+                       static_cast<uint64_t>(dimension.low + static_cast<int64_t>(rest % dimension.count())), loc);
+      rest /= dimension.count();
+    }
+    uint32_t first = static_cast<uint32_t>(body_.operands.size());
+    body_.operands.insert(body_.operands.end(), at.begin(), at.end());
+    ExprId element = add({.kind = ExprKind::Index,
+                          .type = strip(info.base),
+                          .loc = loc,
+                          .a = place.index,
+                          .b = first,
+                          .c = static_cast<uint32_t>(at.size())});
+    storeInitial(element, info.base, items[i], false);
+  }
+}
+
+void BodyLowering::storeInitial(ExprId place, TypeId declared, rung::ExprId init, bool place_is_zero) {
+  Loc loc = body_.expr(place).loc;
+  if (!init)
+    for (TypeId t = declared;; t = types_.info(t).base) {
+      if (t.index < project_.type_inits.size() && project_.type_inits[t.index]) {
+        init = project_.type_inits[t.index];
+        break;
+      }
+      if (types_.info(t).kind != TypeKind::Alias) break;
+    }
+  TypeId type = strip(declared);
+  if (!init && in_.isZero(type)) {
+    if (!place_is_zero) assign(place, zero(type, loc), loc);
+    return;
+  }
+  TypeKind kind = types_.kind(type);
+  if (kind == TypeKind::Array && (!init || tree_.kind(init) == rung::ExprKind::ArrayInit))
+    return storeInitialArray(place, type, init, place_is_zero);
+  if (kind == TypeKind::Record && (!init || tree_.kind(init) == rung::ExprKind::StructInit))
+    return storeInitialRecord(place, type, init);
+  if (!init) {
+    Value value = types::defaultValue(types_, in_.module.names, type);
+    assign(place, ofValue(value, loc), loc);
+    return;
+  }
+  ExprId value = convertValue(lowerValue(init), type, loc);
+  const Expr& expr = body_.expr(value);
+  if (place_is_zero && expr.kind == ExprKind::Const && expr.bits() == 0) return;
+  assign(place, value, loc);
+}
+
+}  // namespace rung::ir

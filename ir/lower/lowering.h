@@ -1,0 +1,190 @@
+// The parts of lowering and what they share. Internal to ir/lower/. ModuleLowering (module.cpp) declares the bodies,
+// records and instances of a project; BodyLowering walks one checked body and appends IR to it: places.cpp, values.cpp,
+// calls.cpp, statements.cpp and initial_values.cpp are its subjects.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "ir/builder.h"
+#include "ir/lower.h"
+
+namespace rung::ir {
+
+using types::TypeInfo;
+using types::TypeKind;
+using types::TypeTable;
+using types::Value;
+
+struct ModuleLowering {
+  ModuleLowering(const sema::Project& from, const LowerOptions& with, Module& to);
+
+  void run();
+  // The body of a POU's code; declares its parameters when first asked for.
+  BodyId bodyOf(sema::PouId pou);
+  // The initialiser of a record, or none when its initial value is all zeros.
+  BodyId initOf(TypeId record);
+  uint32_t listIndex(sema::ListId list) const { return list_index[list.index]; }
+  // The instance that a program's name stands for; made when the program has none.
+  uint32_t instanceOf(sema::PouId program);
+  bool isZero(TypeId type);  // initial value of a type: all bytes zero
+
+  const sema::Project& project;
+  const LowerOptions& options;
+  Module& module;
+  const Tree& tree;
+  TypeTable& types;
+
+ private:
+  void declareRecordsOf(TypeId type);
+  void addRecord(TypeId record);
+  void addPrograms();
+  void addLists();
+  void addTasks();
+  void addLocated();
+  std::string pathOf(sema::VarId var);
+
+  std::vector<BodyId> body_of_;                         // by PouId
+  std::unordered_map<uint32_t, BodyId> init_of_;        // by record TypeId
+  std::unordered_set<uint32_t> record_seen_;            // by TypeId
+  std::unordered_map<uint32_t, bool> zero_;             // by TypeId
+  std::vector<sema::PouId> pou_of_record_;              // by TypeId
+  std::vector<sema::ListId> list_of_record_;            // by TypeId
+  std::vector<uint32_t> list_index;                     // by ListId
+  std::unordered_map<uint32_t, uint32_t> instance_of_;  // by PouId: index in Module::programs
+  std::vector<sema::PouId> to_lower_;
+};
+
+// The scalar or text behind a checked constant expression, or none when it is not that simple.
+std::optional<Value> constantOf(const sema::Project& project, rung::ExprId expr);
+
+class BodyLowering {
+ public:
+  BodyLowering(ModuleLowering& in, Body& body, sema::PouId pou);
+
+  void lowerPou();
+  // For Init bodies: code that gives `place` the initial value of a variable of `type` declared with `init` (or none).
+  void storeInitial(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero);
+
+  // ---- building
+  ExprId add(Expr expr);
+  ExprId constant(TypeId type, uint64_t bits, Loc loc);
+  ExprId constantBool(bool value, Loc loc) { return constant(types::kBool, value ? 1 : 0, loc); }
+  ExprId textConstant(TypeId type, NameId text, Loc loc);
+  ExprId ofValue(const Value& value, Loc loc);
+  ExprId zero(TypeId type, Loc loc);  // a scalar's 0, else all bytes zero
+  ExprId local(uint32_t index, Loc loc);
+  ExprId temp(TypeId type, Loc loc);  // a new temporary, as a place
+  ExprId field(ExprId base, uint32_t index, TypeId type, Loc loc);
+  ExprId self(Loc loc);
+  ExprId unary(Op op, TypeId type, ExprId operand, Loc loc);
+  ExprId binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc);
+  ExprId convert(ExprId operand, TypeId to, Loc loc);
+  void assign(ExprId place, ExprId value, Loc loc);
+  StmtId append(Stmt stmt);
+  void finish();  // the body is complete
+  TypeId typeOf(ExprId expr) const { return body_.expr(expr).type; }
+  TypeId strip(TypeId type) const { return types_.resolve(type); }
+  bool isAggregate(TypeId type) const;  // array, record or text: in memory, passed by reference
+
+ private:
+  friend struct ModuleLowering;
+
+  // Lowers into a block of its own; gives its first statement.
+  template <class Fill>
+  StmtId block(Fill fill) {
+    Block outer = block_;
+    block_ = {};
+    fill();
+    StmtId first = block_.first;
+    block_ = outer;
+    return first;
+  }
+  StmtId make(Stmt stmt);
+  StmtId insertAfter(StmtId marker, Stmt stmt);
+  uint32_t attach(uint32_t expr);  // as operand: a node that already has a parent is copied
+  uint32_t copyTree(uint32_t expr);
+
+  // places.cpp
+  ExprId lowerPlace(rung::ExprId expr);
+  ExprId varPlace(sema::VarId var, Loc loc);
+  ExprId memberPlace(rung::ExprId expr);
+  // The same place without operands that a later statement could change: indices and pointers go to temporaries.
+  ExprId stable(ExprId place);
+  bool mayFault(ExprId expr) const;
+  bool isStable(ExprId expr) const;  // a constant or a temporary: reading it later gives the same
+  ExprId rootOf(ExprId place) const;
+
+  // values.cpp
+  ExprId lowerValue(rung::ExprId expr);
+  ExprId lowerLiteral(rung::ExprId expr);
+  ExprId lowerUnary(rung::ExprId expr);
+  ExprId lowerBinary(rung::ExprId expr);
+  ExprId lowerLogical(rung::ExprId expr, bool is_and, bool short_circuit);
+  ExprId lowerConvert(rung::ExprId expr);
+  ExprId convertValue(ExprId value, TypeId to, Loc loc);
+  // Lowers `next`; when that emitted statements, `before` was read too early and moves to a temporary in front of them.
+  template <class Lower>
+  ExprId lowerAfter(std::initializer_list<ExprId*> before, Lower next) {
+    StmtId marker = block_.last;
+    ExprId value = next();
+    if (block_.last.index != marker.index) spill(marker, before);
+    return value;
+  }
+  void spill(StmtId marker, std::initializer_list<ExprId*> values);
+  ExprId toTemp(ExprId value, Loc loc);
+
+  // calls.cpp
+  // Lowers a call; the result as a value (none: the callee has no result). `target`: the place of an assignment whose
+  // value is this call, or none; when the result went there directly, *stored is set.
+  ExprId lowerCall(rung::ExprId expr, ExprId target = {}, bool* stored = nullptr);
+  ExprId lowerOperator(const sema::Call& call, const CallExpr& node);
+  ExprId lowerArithmeticOperator(const sema::Call& call, const CallExpr& node);
+  ExprId lowerSelect(const sema::Call& call, const CallExpr& node);
+  ExprId lowerMux(const sema::Call& call, const CallExpr& node);
+  ExprId lowerFunctionCall(const sema::Call& call, const CallExpr& node, ExprId target, bool* stored);
+  void lowerBlockCall(const sema::Call& call, const CallExpr& node, ExprId instance);
+  void lowerAssertion(const sema::Call& call, const CallExpr& node);
+  ExprId argumentPlace(rung::ExprId value, TypeId pin_type, bool may_alias);
+  ExprId defaultArgument(sema::VarId pin, Loc loc);
+  void storeOutput(rung::ExprId target, ExprId value, bool negated, Loc loc);
+  ExprId operandOr0(const sema::Binding& binding, TypeId type, Loc loc);
+
+  // statements.cpp
+  void lowerStatements(Slice<rung::StmtId> statements);
+  void lowerStatement(rung::StmtId stmt);
+  void lowerAssign(const AssignStmt& stmt);
+  void lowerIf(const IfStmt& stmt);
+  void lowerIfFrom(std::span<const IfBranch> branches, Slice<rung::StmtId> otherwise, Loc loc);
+  void lowerCase(const CaseStmt& stmt);
+  void lowerFor(const ForStmt& stmt);
+  void lowerForWithVariableStep(const ForStmt& stmt, ExprId control, TypeId type);
+  void lowerWhile(const WhileStmt& stmt);
+  void lowerRepeat(const RepeatStmt& stmt);
+  uint32_t labelNumber(NameId label);
+
+  // initial_values.cpp
+  void storeInitialArray(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero);
+  void storeInitialRecord(ExprId place, TypeId type, rung::ExprId init);
+  void forEachElement(ExprId array, TypeId type, Loc loc, uint32_t dimension, std::vector<ExprId>& indices,
+                      const std::function<void(ExprId)>& store);
+  bool writeBytes(TypeId type, rung::ExprId init, uint8_t* to);
+  bool writeDefault(TypeId type, uint8_t* to);
+  bool writeArray(TypeId type, rung::ExprId init, uint8_t* to);
+
+  ModuleLowering& in_;
+  const sema::Project& project_;
+  const Tree& tree_;
+  TypeTable& types_;
+  Body& body_;
+  sema::PouId pou_;
+  Block block_;
+  std::vector<uint32_t> local_of_;  // by Var::field of a local: local index + 1
+  uint32_t result_local_ = kNoBit;
+  uint32_t temp_count_ = 0;
+};
+
+}  // namespace rung::ir

@@ -1,0 +1,394 @@
+// Lowering of a whole project: which bodies, records, lists, program instances and tasks the module has. In: a checked
+// sema::Project. Out: a complete ir::Module. The order of everything follows names and declarations, never hashing.
+#include <algorithm>
+
+#include "ir/lower/lowering.h"
+
+namespace rung::ir {
+
+void lower(const sema::Project& project, const LowerOptions& options, Module& module) {
+  setPhase("lowering");
+  ModuleLowering(project, options, module).run();
+}
+
+ModuleLowering::ModuleLowering(const sema::Project& from, const LowerOptions& with, Module& to)
+    : project(from), options(with), module(to), tree(from.tree), types(to.types) {
+  body_of_.resize(project.pous.size());
+  list_index.resize(project.global_lists.size());
+  pou_of_record_.resize(types.count());
+  list_of_record_.resize(types.count());
+  for (uint32_t i = 1; i < project.pous.size(); ++i)
+    if (project.pous[i].record) pou_of_record_[project.pous[i].record.index] = {i};
+  for (uint32_t i = 1; i < project.global_lists.size(); ++i)
+    if (project.global_lists[i].record) list_of_record_[project.global_lists[i].record.index] = {i};
+}
+
+void ModuleLowering::run() {
+  addLists();
+  addPrograms();
+  for (uint32_t i = 1; i < project.pous.size(); ++i) {
+    const sema::Pou& pou = project.pous[i];
+    if (pou.generic || pou.operator_kind != sema::Pou::Operator::None) continue;
+    if (pou.library && !pou.used) continue;
+    bodyOf({i});
+  }
+  // Lowering a body may ask for further ones.
+  for (uint32_t next = 0; next < to_lower_.size(); ++next) {
+    const sema::Pou& pou = project.pou(to_lower_[next]);
+    if (pou.native) continue;
+    std::string_view name = project.names.text(pou.name);
+    setPhaseSubject(name.data(), name.size());
+    Body& body = module.body(body_of_[to_lower_[next].index]);
+    BodyLowering lowering(*this, body, to_lower_[next]);
+    lowering.lowerPou();
+    lowering.finish();
+  }
+  for (List& list : module.lists) list.init = initOf(list.record);
+  for (ProgramInstance& instance : module.programs) instance.init = initOf(instance.record);
+  for (Record& record : module.records) record.init = initOf(record.type);
+  addTasks();
+  addLocated();
+  for (int area = 0; area < 3; ++area) module.image_bytes[area] = project.image_bytes[area];
+  setPhaseSubject("", 0);
+}
+
+// ---- bodies ----------------------------------------------------------------------------------------------------
+
+BodyId ModuleLowering::bodyOf(sema::PouId id) {
+  BodyId& known = body_of_[id.index];
+  if (known) return known;
+  const sema::Pou& pou = project.pou(id);
+  module.bodies.emplace_back();
+  known = {static_cast<uint32_t>(module.bodies.size() - 1)};
+  Body& body = module.bodies.back();
+  body.name = pou.unique_name ? pou.unique_name : pou.name;
+  body.spelling = pou.name;
+  body.kind = pou.kind == PouKind::Function ? BodyKind::Function : BodyKind::Block;
+  body.native = pou.native;
+  body.pure = pou.pure;
+  body.library = pou.library;
+  body.library_name = pou.library_name;
+  body.test = pou.test;
+  body.self = pou.record;
+  body.loc = pou.loc;
+  body.file = pou.file;
+  if (pou.record) declareRecordsOf(pou.record);
+  for (sema::VarId var_id : pou.vars) {
+    const sema::Var& var = project.var(var_id);
+    if (var.storage != sema::Storage::Local) continue;
+    LocalKind kind = LocalKind::Variable;
+    if (body.kind == BodyKind::Function) {
+      if (var.section == SectionKind::Input) kind = LocalKind::Input;
+      if (var.section == SectionKind::Output) kind = LocalKind::Output;
+      if (var.section == SectionKind::InOut) kind = LocalKind::InOut;
+    }
+    TypeId type = types.resolve(var.type);
+    declareRecordsOf(type);
+    body.locals.push_back({var.name, type, kind, isPassedByReference(types, kind, type), var.loc});
+  }
+  if (pou.result && types.kind(pou.result) != TypeKind::None) {
+    TypeId type = types.resolve(pou.result);
+    declareRecordsOf(type);
+    body.result = type;
+    body.locals.push_back(
+        {pou.name, type, LocalKind::Result, isPassedByReference(types, LocalKind::Result, type), pou.loc});
+  }
+  to_lower_.push_back(id);
+  if (pou.record) {
+    for (Record& record : module.records)
+      if (record.type == pou.record) record.body = known;
+    if (pou.test) module.tests.push_back(known);
+  } else if (pou.test) {
+    module.tests.push_back(known);
+  }
+  return known;
+}
+
+// ---- records and their initial values --------------------------------------------------------------------------
+
+void ModuleLowering::declareRecordsOf(TypeId type) {
+  type = types.resolve(type);
+  const TypeInfo& info = types.info(type);
+  if (info.kind == TypeKind::Array || info.kind == TypeKind::Pointer || info.kind == TypeKind::Reference)
+    return declareRecordsOf(info.base);
+  if (info.kind != TypeKind::Record) return;
+  if (!record_seen_.insert(type.index).second) return;
+  for (const types::Field& f : info.fields) declareRecordsOf(f.type);
+  addRecord(type);
+}
+
+void ModuleLowering::addRecord(TypeId type) {
+  const TypeInfo& info = types.info(type);
+  Record record;
+  record.type = type;
+  record.name = info.name;
+  if (sema::PouId pou = pou_of_record_[type.index]) {
+    const sema::Pou& owner = project.pou(pou);
+    record.name = owner.unique_name ? owner.unique_name : owner.name;
+    record.loc = owner.loc;
+    record.file = owner.file;
+    record.library = owner.library;
+  }
+  module.records.push_back(record);
+  if (sema::PouId pou = pou_of_record_[type.index]) {
+    BodyId body = bodyOf(pou);
+    for (Record& made : module.records)
+      if (made.type == type) made.body = body;
+  }
+}
+
+bool ModuleLowering::isZero(TypeId declared) {
+  auto known = zero_.find(declared.index);
+  if (known != zero_.end()) return known->second;
+  zero_[declared.index] = false;  // a record behind a pointer to itself is not asked again
+  auto decide = [&]() -> bool {
+    if (declared.index < project.type_inits.size() && project.type_inits[declared.index]) return false;
+    const TypeInfo& info = types.info(declared);
+    switch (info.kind) {
+      case TypeKind::Alias:
+      case TypeKind::Array: return isZero(info.base);
+      case TypeKind::Enum:
+      case TypeKind::Subrange: return types::defaultValue(types, module.names, declared).bits == 0;
+      case TypeKind::Record: {
+        if (sema::PouId pou = pou_of_record_[declared.index]) {
+          for (sema::VarId id : project.pou(pou).vars) {
+            const sema::Var& var = project.var(id);
+            if (var.storage == sema::Storage::Image && var.init) return false;
+            if (var.storage == sema::Storage::Field &&
+                (var.init || (var.section != SectionKind::InOut && !isZero(var.type))))
+              return false;
+          }
+          return true;
+        }
+        if (sema::ListId list = list_of_record_[declared.index]) {
+          for (sema::VarId id : project.global_lists[list.index].vars) {
+            const sema::Var& var = project.var(id);
+            if (var.init || (var.storage == sema::Storage::Global && !isZero(var.type))) return false;
+          }
+          return true;
+        }
+        bool has_inits = declared.index < project.field_inits.size();
+        for (size_t i = 0; i < info.fields.size(); ++i) {
+          if (has_inits && i < project.field_inits[declared.index].size() && project.field_inits[declared.index][i])
+            return false;
+          if (!isZero(info.fields[i].type)) return false;
+          if (info.record_kind == types::RecordKind::Union) break;
+        }
+        return true;
+      }
+      case TypeKind::None:
+      case TypeKind::Error:
+      case TypeKind::Bool:
+      case TypeKind::Byte:
+      case TypeKind::Word:
+      case TypeKind::DWord:
+      case TypeKind::LWord:
+      case TypeKind::SInt:
+      case TypeKind::Int:
+      case TypeKind::DInt:
+      case TypeKind::LInt:
+      case TypeKind::USInt:
+      case TypeKind::UInt:
+      case TypeKind::UDInt:
+      case TypeKind::ULInt:
+      case TypeKind::Real:
+      case TypeKind::LReal:
+      case TypeKind::Time:
+      case TypeKind::LTime:
+      case TypeKind::Date:
+      case TypeKind::LDate:
+      case TypeKind::TimeOfDay:
+      case TypeKind::LTimeOfDay:
+      case TypeKind::DateTime:
+      case TypeKind::LDateTime:
+      case TypeKind::Char:
+      case TypeKind::WChar:
+      case TypeKind::String:
+      case TypeKind::WString:
+      case TypeKind::IntegerLiteral:
+      case TypeKind::RealLiteral:
+      case TypeKind::NullLiteral:
+      case TypeKind::Any:
+      case TypeKind::AnyElementary:
+      case TypeKind::AnyMagnitude:
+      case TypeKind::AnyNum:
+      case TypeKind::AnyReal:
+      case TypeKind::AnyInt:
+      case TypeKind::AnyUnsigned:
+      case TypeKind::AnySigned:
+      case TypeKind::AnyDuration:
+      case TypeKind::AnyBit:
+      case TypeKind::AnyChars:
+      case TypeKind::AnyString:
+      case TypeKind::AnyChar:
+      case TypeKind::AnyDate:
+      case TypeKind::AnyDerived:
+      case TypeKind::Pointer:
+      case TypeKind::Reference:
+      case TypeKind::Count_: return true;
+    }
+    return true;
+  };
+  bool result = decide();
+  zero_[declared.index] = result;
+  return result;
+}
+
+BodyId ModuleLowering::initOf(TypeId type) {
+  auto known = init_of_.find(type.index);
+  if (known != init_of_.end()) return known->second;
+  if (isZero(type)) return init_of_[type.index] = {};
+  module.bodies.emplace_back();
+  BodyId id{static_cast<uint32_t>(module.bodies.size() - 1)};
+  init_of_[type.index] = id;
+  Body& body = module.bodies.back();
+  const TypeInfo& info = types.info(type);
+  sema::PouId pou = pou_of_record_[type.index];
+  sema::ListId list = list_of_record_[type.index];
+  body.name = info.name;
+  if (pou) {
+    const sema::Pou& owner = project.pou(pou);
+    body.name = owner.unique_name ? owner.unique_name : owner.name;
+    body.library = owner.library;
+    body.loc = owner.loc;
+    body.file = owner.file;
+  }
+  body.spelling = info.name ? info.name : body.name;
+  body.kind = BodyKind::Init;
+  body.self = type;
+
+  BodyLowering lowering(*this, body, pou);
+  Loc loc = body.loc;
+  lowering.assign(lowering.self(loc), lowering.zero(type, loc), loc);
+  auto storeVar = [&](sema::VarId id_of_var) {
+    const sema::Var& var = project.var(id_of_var);
+    if (var.storage == sema::Storage::Image) {
+      if (var.init)
+        lowering.storeInitial(lowering.varPlace(id_of_var, var.loc), types.resolve(var.type), var.init, false);
+      return;
+    }
+    if (var.storage != sema::Storage::Field && var.storage != sema::Storage::Global) return;
+    if (var.section == SectionKind::InOut) return;
+    if (!var.init && isZero(var.type)) return;
+    lowering.storeInitial(lowering.field(lowering.self(var.loc), var.field, var.type, var.loc), var.type, var.init,
+                          true);
+  };
+  if (pou)
+    for (sema::VarId var : project.pou(pou).vars) storeVar(var);
+  else if (list)
+    for (sema::VarId var : project.global_lists[list.index].vars) storeVar(var);
+  else
+    for (uint32_t i = 0; i < info.fields.size(); ++i) {
+      rung::ExprId init;
+      if (type.index < project.field_inits.size() && i < project.field_inits[type.index].size())
+        init = project.field_inits[type.index][i];
+      if (init || !isZero(info.fields[i].type))
+        lowering.storeInitial(lowering.field(lowering.self(loc), i, info.fields[i].type, loc), info.fields[i].type,
+                              init, true);
+      if (info.record_kind == types::RecordKind::Union) break;
+    }
+  body.first = lowering.block_.first;
+  lowering.finish();
+  return id;
+}
+
+// ---- lists, programs, tasks ------------------------------------------------------------------------------------
+
+namespace {
+
+std::string folded(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
+}  // namespace
+
+void ModuleLowering::addLists() {
+  std::vector<std::pair<std::string, uint32_t>> order;
+  for (uint32_t i = 1; i < project.global_lists.size(); ++i)
+    if (project.global_lists[i].record) order.push_back({folded(project.names.text(project.global_lists[i].name)), i});
+  std::sort(order.begin(), order.end());
+  for (const auto& [name, index] : order) {
+    const sema::GlobalList& list = project.global_lists[index];
+    list_index[index] = static_cast<uint32_t>(module.lists.size());
+    declareRecordsOf(list.record);
+    module.lists.push_back({list.name, list.record, {}});
+  }
+}
+
+void ModuleLowering::addPrograms() {
+  for (const sema::ProgramInstance& instance : project.instances) {
+    if (!instance.program) continue;
+    const sema::Pou& pou = project.pou(instance.program);
+    ProgramInstance made;
+    made.name = instance.name;
+    made.record = pou.record;
+    made.task = instance.task;
+    made.resource = instance.resource;
+    made.configuration = instance.configuration;
+    instance_of_.insert({instance.program.index, static_cast<uint32_t>(module.programs.size())});
+    module.programs.push_back(made);
+    module.programs.back().body = bodyOf(instance.program);
+  }
+  for (uint32_t i = 1; i < project.pous.size(); ++i)
+    if (project.pous[i].test && project.pous[i].record) instanceOf({i});
+}
+
+uint32_t ModuleLowering::instanceOf(sema::PouId program) {
+  auto known = instance_of_.find(program.index);
+  if (known != instance_of_.end()) return known->second;
+  const sema::Pou& pou = project.pou(program);
+  uint32_t index = static_cast<uint32_t>(module.programs.size());
+  instance_of_[program.index] = index;
+  ProgramInstance made;
+  made.name = pou.name;
+  made.record = pou.record;
+  module.programs.push_back(made);
+  BodyId body = bodyOf(program);
+  module.programs[index].body = body;
+  return index;
+}
+
+std::string ModuleLowering::pathOf(sema::VarId id) {
+  const sema::Var& var = project.var(id);
+  std::string path;
+  if (var.pou) {
+    path = project.names.text(module.programs[instanceOf(var.pou)].name);
+    path += '.';
+  }
+  path += project.names.text(var.name);
+  return path;
+}
+
+void ModuleLowering::addTasks() {
+  for (const sema::Task& task : project.tasks) {
+    Task made;
+    made.name = task.name;
+    made.kind = static_cast<TaskKind>(task.kind);
+    made.interval_ns = task.interval_ns;
+    made.priority = task.priority;
+    if (task.trigger) made.trigger = pathOf(task.trigger);
+    made.external_event = task.external_event;
+    made.watchdog_ns = task.watchdog_ns;
+    made.sensitivity = task.sensitivity;
+    module.tasks.push_back(made);
+  }
+}
+
+void ModuleLowering::addLocated() {
+  for (const sema::Var& var : project.vars) {
+    if (var.storage != sema::Storage::Image || !var.name || var.external) continue;
+    Located made;
+    made.name = var.name;
+    made.type = types.resolve(var.type);
+    made.area = static_cast<uint8_t>(var.image.area);
+    made.byte = var.image.byte;
+    made.bit = var.image.is_bit ? var.image.bit : kNoBit;
+    if (var.pou && project.pou(var.pou).kind == PouKind::Program) made.owner_program = instanceOf(var.pou) + 1;
+    module.located.push_back(made);
+  }
+}
+
+}  // namespace rung::ir

@@ -1,0 +1,288 @@
+// Lowering of places: variables, fields, elements, image views. In: checked expressions. Out: IR place expressions.
+#include "ir/lower/lowering.h"
+
+namespace rung::ir {
+
+ExprId BodyLowering::varPlace(sema::VarId id, Loc loc) {
+  const sema::Var* var = &project_.var(id);
+  if (var->external) var = &project_.var(id = var->external);
+  TypeId type = strip(var->type);
+  switch (var->storage) {
+    case sema::Storage::Field: {
+      if (var->pou == pou_ || !var->pou) return field(self(loc), var->field, type, loc);
+      // A variable of another program, named through the program.
+      uint32_t instance = in_.instanceOf(var->pou);
+      TypeId record = in_.module.programs[instance].record;
+      return field(add({.kind = ExprKind::Program, .type = record, .loc = loc, .a = instance}), var->field, type, loc);
+    }
+    case sema::Storage::Local:
+      RUNG_INVARIANT(var->field < local_of_.size() && local_of_[var->field] != 0,
+                     "a local variable belongs to its POU");
+      return local(local_of_[var->field] - 1, loc);
+    case sema::Storage::Global: {
+      uint32_t list = in_.listIndex(var->list);
+      ExprId base = add({.kind = ExprKind::Global, .type = in_.module.lists[list].record, .loc = loc, .a = list});
+      return field(base, var->field, type, loc);
+    }
+    case sema::Storage::Image:
+      return add({.kind = ExprKind::Image,
+                  .type = type,
+                  .loc = loc,
+                  .a = static_cast<uint32_t>(var->image.area),
+                  .b = var->image.byte,
+                  .c = var->image.is_bit ? var->image.bit : kNoBit});
+    case sema::Storage::Constant: return ofValue(var->value, loc);
+  }
+  return {};
+}
+
+ExprId BodyLowering::memberPlace(rung::ExprId id) {
+  const MemberExpr& node = tree_.as<MemberExpr>(id);
+  if (node.entity.what() != EntityKind::Var) return lowerValue(id);
+  sema::VarId var_id{node.entity.index};
+  const sema::Var& var = project_.var(var_id);
+  TypeId base_type = strip(tree_.expr(node.base).type);
+  bool of_record = base_type && types_.kind(base_type) == TypeKind::Record && var.storage == sema::Storage::Field;
+  if (!of_record) return varPlace(var_id, node.h.loc);
+  ExprId base = lowerPlace(node.base);
+  return field(base, var.field, strip(var.type), node.h.loc);
+}
+
+ExprId BodyLowering::lowerPlace(rung::ExprId id) {
+  Loc loc = tree_.loc(id);
+  switch (tree_.kind(id)) {
+    case rung::ExprKind::Name: {
+      const NameExpr& node = tree_.as<NameExpr>(id);
+      switch (node.entity.what()) {
+        case EntityKind::Var: {
+          sema::VarId var{node.entity.index};
+          if (result_local_ != kNoBit && var == project_.pou(pou_).result_var) return local(result_local_, loc);
+          return varPlace(var, loc);
+        }
+        case EntityKind::Pou:
+        case EntityKind::Program: {
+          sema::PouId program{node.entity.index};
+          if (node.entity.what() == EntityKind::Program) program = project_.instances[node.entity.index].program;
+          uint32_t instance = in_.instanceOf(program);
+          TypeId record = in_.module.programs[instance].record;
+          return add({.kind = ExprKind::Program, .type = record, .loc = loc, .a = instance});
+        }
+        case EntityKind::None:
+        case EntityKind::Error:
+        case EntityKind::Type:
+        case EntityKind::EnumValue:
+        case EntityKind::GlobalList:
+        case EntityKind::Namespace: return lowerValue(id);
+      }
+      return {};
+    }
+    case rung::ExprKind::Member: return memberPlace(id);
+    case rung::ExprKind::Index: {
+      const IndexExpr& node = tree_.as<IndexExpr>(id);
+      ExprId base = lowerPlace(node.base);
+      std::vector<ExprId> indices;
+      for (rung::ExprId index : tree_.list(node.indices)) {
+        ExprId value = lowerAfter({&base}, [&] { return lowerValue(index); });
+        indices.push_back(value);
+      }
+      uint32_t first = static_cast<uint32_t>(body_.operands.size());
+      body_.operands.insert(body_.operands.end(), indices.begin(), indices.end());
+      return add({.kind = ExprKind::Index,
+                  .checks = static_cast<uint8_t>(in_.options.checks & kCheckIndex),
+                  .type = strip(node.h.type),
+                  .loc = loc,
+                  .a = base.index,
+                  .b = first,
+                  .c = static_cast<uint32_t>(indices.size())});
+    }
+    case rung::ExprKind::Deref: {
+      ExprId pointer = lowerValue(tree_.as<DerefExpr>(id).base);
+      return add({.kind = ExprKind::Deref,
+                  .checks = static_cast<uint8_t>(in_.options.checks & kCheckNull),
+                  .type = strip(tree_.expr(id).type),
+                  .loc = loc,
+                  .a = pointer.index});
+    }
+    case rung::ExprKind::BitAccess: {
+      const BitAccessExpr& node = tree_.as<BitAccessExpr>(id);
+      ExprId base = lowerPlace(node.base);
+      return add({.kind = ExprKind::Bits, .type = strip(node.h.type), .loc = loc, .a = base.index, .b = node.position});
+    }
+    case rung::ExprKind::Address: {
+      const DirectAddress& address = tree_.as<AddressExpr>(id).address;
+      auto path = tree_.list(address.path);
+      TypeId type = strip(tree_.expr(id).type);
+      uint32_t width = TypeTable::bitWidth(types_.kind(type));
+      uint32_t byte = path.empty() ? 0 : path[0];
+      uint32_t bit = kNoBit;
+      if (width == 1) {
+        bit = path.size() > 1 ? path[1] : 0;
+        if (path.size() == 1) {  // %IX5 is byte 0, bit 5
+          bit = byte % 8;
+          byte = byte / 8;
+        }
+      } else {
+        byte *= width / 8;
+      }
+      return add({.kind = ExprKind::Image,
+                  .type = type,
+                  .loc = loc,
+                  .a = static_cast<uint32_t>(address.area),
+                  .b = byte,
+                  .c = bit});
+    }
+    case rung::ExprKind::Error:
+    case rung::ExprKind::Literal:
+    case rung::ExprKind::TypedName:
+    case rung::ExprKind::Unary:
+    case rung::ExprKind::Binary:
+    case rung::ExprKind::Call:
+    case rung::ExprKind::Range:
+    case rung::ExprKind::ArrayInit:
+    case rung::ExprKind::Repeat:
+    case rung::ExprKind::StructInit:
+    case rung::ExprKind::Convert: return lowerValue(id);
+  }
+  return {};
+}
+
+bool BodyLowering::isStable(ExprId id) const {
+  const Expr& expr = body_.expr(id);
+  switch (expr.kind) {
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::Text:
+    case ExprKind::Data:
+    case ExprKind::Zero:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program: return true;
+    case ExprKind::Local: return body_.locals[expr.a].kind == LocalKind::Temp;
+    case ExprKind::Convert: return expr.checks == 0 && isStable(ExprId{expr.a});
+    case ExprKind::Image:
+    case ExprKind::Field:
+    case ExprKind::Index:
+    case ExprKind::Deref:
+    case ExprKind::Bits:
+    case ExprKind::Unary:
+    case ExprKind::Binary:
+    case ExprKind::Select:
+    case ExprKind::Call:
+    case ExprKind::Address: return false;
+  }
+  return false;
+}
+
+ExprId BodyLowering::stable(ExprId place) {
+  const Expr expr = body_.expr(place);
+  switch (expr.kind) {
+    case ExprKind::Field:
+    case ExprKind::Bits: {
+      ExprId base = stable(ExprId{expr.a});
+      if (base.index == expr.a) return place;
+      Expr copy = expr;
+      copy.a = base.index;
+      return add(copy);
+    }
+    case ExprKind::Index: {
+      if (expr.checks != 0) {  // checked once, here
+        Stmt check{.kind = StmtKind::Evaluate, .loc = expr.loc, .a = place.index};
+        bool plain = true;
+        for (uint32_t i = 0; i < expr.c; ++i) plain = plain && isStable(body_.operands[expr.b + i]);
+        if (plain) {
+          append(check);
+          Expr copy = expr;
+          copy.checks = 0;
+          copy.a = stable(ExprId{expr.a}).index;
+          return add(copy);
+        }
+      }
+      Expr copy = expr;
+      copy.a = stable(ExprId{expr.a}).index;
+      std::vector<ExprId> indices;
+      for (uint32_t i = 0; i < expr.c; ++i) {
+        ExprId index = body_.operands[expr.b + i];
+        indices.push_back(isStable(index) ? index : toTemp(index, expr.loc));
+      }
+      copy.b = static_cast<uint32_t>(body_.operands.size());
+      body_.operands.insert(body_.operands.end(), indices.begin(), indices.end());
+      if (copy.checks != 0) {
+        ExprId checked = add(copy);
+        append({.kind = StmtKind::Evaluate, .loc = expr.loc, .a = checked.index});
+        copy.checks = 0;
+      }
+      return add(copy);
+    }
+    case ExprKind::Deref: {
+      Expr copy = expr;
+      if (!isStable(ExprId{expr.a})) copy.a = toTemp(ExprId{expr.a}, expr.loc).index;
+      if (copy.checks != 0) {
+        ExprId checked = add(copy);
+        append({.kind = StmtKind::Evaluate, .loc = expr.loc, .a = checked.index});
+        copy.checks = 0;
+      }
+      return add(copy);
+    }
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::Text:
+    case ExprKind::Data:
+    case ExprKind::Zero:
+    case ExprKind::Local:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program:
+    case ExprKind::Image:
+    case ExprKind::Unary:
+    case ExprKind::Binary:
+    case ExprKind::Convert:
+    case ExprKind::Select:
+    case ExprKind::Call:
+    case ExprKind::Address: return place;
+  }
+  return place;
+}
+
+ExprId BodyLowering::rootOf(ExprId place) const {
+  for (;;) {
+    const Expr& expr = body_.expr(place);
+    if (expr.kind != ExprKind::Field && expr.kind != ExprKind::Index && expr.kind != ExprKind::Bits) return place;
+    // What is behind a by-reference field is somewhere else.
+    place = ExprId{expr.a};
+  }
+}
+
+bool BodyLowering::mayFault(ExprId id) const {
+  const Expr& expr = body_.expr(id);
+  if (expr.checks != 0) return true;
+  switch (expr.kind) {
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::Text:
+    case ExprKind::Data:
+    case ExprKind::Zero:
+    case ExprKind::Local:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program:
+    case ExprKind::Image: return false;
+    case ExprKind::Field:
+    case ExprKind::Bits:
+    case ExprKind::Deref:
+    case ExprKind::Unary:
+    case ExprKind::Convert:
+    case ExprKind::Address: return mayFault(ExprId{expr.a});
+    case ExprKind::Binary: return mayFault(ExprId{expr.a}) || mayFault(ExprId{expr.b});
+    case ExprKind::Select: return mayFault(ExprId{expr.a}) || mayFault(ExprId{expr.b}) || mayFault(ExprId{expr.c});
+    case ExprKind::Index:
+      if (mayFault(ExprId{expr.a})) return true;
+      [[fallthrough]];
+    case ExprKind::Call:
+      for (uint32_t i = 0; i < expr.c; ++i)
+        if (mayFault(body_.operands[expr.b + i])) return true;
+      return false;
+  }
+  return false;
+}
+
+}  // namespace rung::ir

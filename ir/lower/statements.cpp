@@ -1,0 +1,260 @@
+// Lowering of statements and of a whole POU. In: a checked body. Out: the statements of an ir::Body.
+#include "ir/lower/lowering.h"
+
+namespace rung::ir {
+
+void BodyLowering::lowerPou() {
+  const sema::Pou& pou = project_.pou(pou_);
+  // Locals of one call start from their initial values; parameters that go out start from theirs.
+  for (sema::VarId id : pou.vars) {
+    const sema::Var& var = project_.var(id);
+    if (var.storage != sema::Storage::Local) continue;
+    if (var.section == SectionKind::Input || var.section == SectionKind::InOut) continue;
+    storeInitial(local(local_of_[var.field] - 1, var.loc), strip(var.type), var.init, false);
+  }
+  if (result_local_ != kNoBit) {
+    const Local& result = body_.locals[result_local_];
+    storeInitial(local(result_local_, result.loc), result.type, {}, false);
+  }
+  lowerStatements(tree_.as<PouDecl>(pou.decl).body);
+  body_.first = block_.first;
+}
+
+void BodyLowering::lowerStatements(Slice<rung::StmtId> statements) {
+  for (uint32_t i = 0; i < statements.count; ++i) lowerStatement(tree_.list(statements)[i]);
+}
+
+void BodyLowering::lowerStatement(rung::StmtId id) {
+  Loc loc = tree_.loc(id);
+  switch (tree_.kind(id)) {
+    case rung::StmtKind::Empty: return;
+    case rung::StmtKind::Assign: return lowerAssign(tree_.as<AssignStmt>(id));
+    case rung::StmtKind::Call: {
+      ExprId value = lowerCall(tree_.as<CallStmt>(id).call);
+      // A pure call as a statement has no effect; what may fault in it still counts.
+      if (value && mayFault(value)) append({.kind = StmtKind::Evaluate, .loc = loc, .a = value.index});
+      return;
+    }
+    case rung::StmtKind::If: return lowerIf(tree_.as<IfStmt>(id));
+    case rung::StmtKind::Case: return lowerCase(tree_.as<CaseStmt>(id));
+    case rung::StmtKind::For: return lowerFor(tree_.as<ForStmt>(id));
+    case rung::StmtKind::While: return lowerWhile(tree_.as<WhileStmt>(id));
+    case rung::StmtKind::Repeat: return lowerRepeat(tree_.as<RepeatStmt>(id));
+    case rung::StmtKind::Exit: append({.kind = StmtKind::Break, .loc = loc}); return;
+    case rung::StmtKind::Continue: append({.kind = StmtKind::Continue, .loc = loc}); return;
+    case rung::StmtKind::Return: append({.kind = StmtKind::Return, .loc = loc}); return;
+    case rung::StmtKind::Jump:
+      append({.kind = StmtKind::Jump, .loc = loc, .a = labelNumber(tree_.as<JumpStmt>(id).label.name)});
+      return;
+    case rung::StmtKind::Label:
+      append({.kind = StmtKind::Label, .loc = loc, .a = labelNumber(tree_.as<LabelStmt>(id).label.name)});
+      return;
+    case rung::StmtKind::Error: break;
+  }
+  RUNG_INVARIANT(false, "a statement with an error is not lowered");
+}
+
+uint32_t BodyLowering::labelNumber(NameId label) {
+  body_.has_labels = true;
+  for (uint32_t i = 0; i < body_.labels.size(); ++i)
+    if (project_.names.same(body_.labels[i], label)) return i;
+  body_.labels.push_back(label);
+  return static_cast<uint32_t>(body_.labels.size() - 1);
+}
+
+void BodyLowering::lowerAssign(const AssignStmt& stmt) {
+  Loc loc = stmt.h.loc;
+  switch (stmt.op()) {
+    case AssignOp::Assign: {
+      rung::ExprId source = stmt.value;
+      // A call may write its result straight into the target, and EN guards the whole assignment.
+      if (tree_.kind(source) == rung::ExprKind::Convert) {
+        rung::ExprId operand = tree_.as<ConvertExpr>(source).operand;
+        if (tree_.kind(operand) == rung::ExprKind::Call && TypeTable::isText(types_.kind(tree_.expr(operand).type)))
+          source = operand;  // text is cut to the target's capacity by the assignment itself
+      }
+      if (tree_.kind(source) == rung::ExprKind::Call) {
+        const sema::Call& call = project_.call(tree_.as<CallExpr>(source).call);
+        bool text = TypeTable::isText(types_.kind(tree_.expr(source).type));
+        if (text || call.en) {
+          ExprId target = stable(lowerPlace(stmt.target));
+          bool stored = false;
+          ExprId value = lowerCall(source, target, &stored);
+          if (!stored) assign(target, convertValue(value, typeOf(target), loc), loc);
+          return;
+        }
+      }
+      ExprId value = lowerValue(stmt.value);
+      ExprId target = lowerAfter({&value}, [&] { return lowerPlace(stmt.target); });
+      assign(target, convertValue(value, typeOf(target), loc), loc);
+      return;
+    }
+    case AssignOp::Set:
+    case AssignOp::Reset: {
+      ExprId condition = lowerValue(stmt.value);
+      StmtId then = block([&] { assign(lowerPlace(stmt.target), constantBool(stmt.op() == AssignOp::Set, loc), loc); });
+      append({.kind = StmtKind::If, .loc = loc, .a = condition.index, .b = then.index});
+      return;
+    }
+    case AssignOp::Add:
+    case AssignOp::Subtract:
+    case AssignOp::Multiply:
+    case AssignOp::Divide: {
+      Op op = stmt.op() == AssignOp::Add        ? Op::Add
+              : stmt.op() == AssignOp::Subtract ? Op::Sub
+              : stmt.op() == AssignOp::Multiply ? Op::Mul
+                                                : Op::Div;
+      ExprId value = lowerValue(stmt.value);
+      ExprId target = stable(lowerAfter({&value}, [&] { return lowerPlace(stmt.target); }));
+      TypeId type = typeOf(target);
+      assign(target, binary(op, type, target, convertValue(value, type, loc), loc), loc);
+      return;
+    }
+    case AssignOp::Reference: break;
+  }
+  RUNG_INVARIANT(false, "REF= is not lowered yet; sema reports it");
+}
+
+void BodyLowering::lowerIf(const IfStmt& stmt) { lowerIfFrom(tree_.list(stmt.branches), stmt.otherwise, stmt.h.loc); }
+
+// ELSIF nests in the else block; written as a loop so that a thousand of them need no deep stack.
+void BodyLowering::lowerIfFrom(std::span<const IfBranch> branches, Slice<rung::StmtId> otherwise, Loc loc) {
+  struct Level {
+    Block outer;
+    StmtId branch;
+  };
+  std::vector<Level> levels;
+  for (size_t i = 0; i < branches.size(); ++i) {
+    if (i > 0) {
+      levels.push_back({block_, block_.last});
+      block_ = {};
+      loc = tree_.loc(branches[i].condition);
+    }
+    ExprId condition = lowerValue(branches[i].condition);
+    StmtId then = block([&] { lowerStatements(branches[i].body); });
+    append({.kind = StmtKind::If, .loc = loc, .a = condition.index, .b = then.index});
+  }
+  StmtId last = block_.last;
+  StmtId otherwise_block = block([&] { lowerStatements(otherwise); });
+  body_.stmt(last).c = otherwise_block.index;
+  while (!levels.empty()) {
+    StmtId first = block_.first;
+    block_ = levels.back().outer;
+    body_.stmt(levels.back().branch).c = first.index;
+    levels.pop_back();
+  }
+}
+
+void BodyLowering::lowerCase(const CaseStmt& stmt) {
+  ExprId selector = lowerValue(stmt.selector);
+  std::vector<Case> cases;
+  for (uint32_t i = 0; i < stmt.branches.count; ++i) {
+    const CaseBranch branch = tree_.list(stmt.branches)[i];
+    StmtId body = block([&] { lowerStatements(branch.body); });
+    Case made{static_cast<uint32_t>(body_.ranges.size()), 0, body};
+    for (rung::ExprId label : tree_.list(branch.labels)) {
+      rung::ExprId low = label, high = label;
+      if (tree_.kind(label) == rung::ExprKind::Range) {
+        low = tree_.as<RangeExpr>(label).low;
+        high = tree_.as<RangeExpr>(label).high;
+      }
+      auto from = constantOf(project_, low), to = constantOf(project_, high);
+      RUNG_INVARIANT(from && to, "a CASE label is constant");
+      body_.ranges.push_back({from->asSigned(), to->asSigned()});
+      ++made.range_count;
+    }
+    cases.push_back(made);
+  }
+  StmtId otherwise = block([&] { lowerStatements(stmt.otherwise); });
+  uint32_t first = static_cast<uint32_t>(body_.cases.size());
+  body_.cases.insert(body_.cases.end(), cases.begin(), cases.end());
+  append({.kind = StmtKind::Switch,
+          .loc = stmt.h.loc,
+          .a = selector.index,
+          .b = first,
+          .c = static_cast<uint32_t>(cases.size()),
+          .d = otherwise.index});
+}
+
+void BodyLowering::lowerFor(const ForStmt& stmt) {
+  Loc loc = stmt.h.loc;
+  ExprId control = stable(lowerPlace(stmt.control));
+  TypeId type = typeOf(control);
+  std::optional<Value> step = Value{type, 1};
+  if (stmt.step) {
+    step = constantOf(project_, stmt.step);
+    if (!step) return lowerForWithVariableStep(stmt, control, type);
+  }
+  ExprId from = lowerValue(stmt.from);
+  ExprId to = lowerAfter({&from}, [&] { return lowerValue(stmt.to); });
+  StmtId body = block([&] { lowerStatements(stmt.body); });
+  append({.kind = StmtKind::For,
+          .loc = loc,
+          .a = control.index,
+          .b = convertValue(from, type, loc).index,
+          .c = convertValue(to, type, loc).index,
+          .d = constant(type, step->bits, loc).index,
+          .e = body.index});
+}
+
+// FOR with a step that is only known at run time: the direction is tested in each turn, and the loop ends when the next
+// value does not fit the type (design §8).
+void BodyLowering::lowerForWithVariableStep(const ForStmt& stmt, ExprId control, TypeId type) {
+  Loc loc = stmt.h.loc;
+  auto evaluate = [&](rung::ExprId expr) { return toTemp(convertValue(lowerValue(expr), type, loc), loc); };
+  ExprId from = evaluate(stmt.from), to = evaluate(stmt.to), step = evaluate(stmt.step);
+  assign(control, from, loc);
+  bool is_signed = types_.isSigned(types_.plainKind(type));
+  ExprId upward = toTemp(
+      is_signed ? binary(Op::Ge, types::kBool, step, constant(type, 0, loc), loc) : constantBool(true, loc), loc);
+  ExprId next = temp(type, loc);
+  StmtId leave = block([&] { append({.kind = StmtKind::Break, .loc = loc}); });
+  auto chosen = [&](ExprId when_up, ExprId when_down) {
+    return add({.kind = ExprKind::Select,
+                .type = types::kBool,
+                .loc = loc,
+                .a = upward.index,
+                .b = when_up.index,
+                .c = when_down.index});
+  };
+  StmtId body = block([&] {
+    ExprId past =
+        chosen(binary(Op::Gt, types::kBool, control, to, loc), binary(Op::Lt, types::kBool, control, to, loc));
+    append({.kind = StmtKind::If, .loc = loc, .a = past.index, .b = leave.index});
+    lowerStatements(stmt.body);
+  });
+  StmtId advance = block([&] {
+    assign(next, binary(Op::Add, type, control, step, loc), loc);
+    ExprId wrapped =
+        chosen(binary(Op::Lt, types::kBool, next, control, loc), binary(Op::Gt, types::kBool, next, control, loc));
+    StmtId stop = block([&] { append({.kind = StmtKind::Break, .loc = loc}); });
+    append({.kind = StmtKind::If, .loc = loc, .a = wrapped.index, .b = stop.index});
+    assign(control, next, loc);
+  });
+  append({.kind = StmtKind::Loop, .loc = loc, .a = body.index, .b = advance.index});
+}
+
+void BodyLowering::lowerWhile(const WhileStmt& stmt) {
+  Loc loc = stmt.h.loc;
+  StmtId body = block([&] {
+    ExprId condition = lowerValue(stmt.condition);
+    StmtId leave = block([&] { append({.kind = StmtKind::Break, .loc = loc}); });
+    append(
+        {.kind = StmtKind::If, .loc = loc, .a = unary(Op::Not, types::kBool, condition, loc).index, .b = leave.index});
+    lowerStatements(stmt.body);
+  });
+  append({.kind = StmtKind::Loop, .loc = loc, .a = body.index});
+}
+
+void BodyLowering::lowerRepeat(const RepeatStmt& stmt) {
+  Loc loc = tree_.loc(stmt.until);
+  StmtId body = block([&] { lowerStatements(stmt.body); });
+  StmtId test = block([&] {
+    ExprId condition = lowerValue(stmt.until);
+    StmtId leave = block([&] { append({.kind = StmtKind::Break, .loc = loc}); });
+    append({.kind = StmtKind::If, .loc = loc, .a = condition.index, .b = leave.index});
+  });
+  append({.kind = StmtKind::Loop, .loc = stmt.h.loc, .a = body.index, .b = test.index});
+}
+
+}  // namespace rung::ir

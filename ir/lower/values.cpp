@@ -1,0 +1,309 @@
+// Lowering of values: literals, operators, conversions, and the order of evaluation. In: checked expressions. Out: IR
+// expressions; calls inside them become statements in front, and what was read before a call moves to a temporary.
+#include <cmath>
+
+#include "ir/lower/lowering.h"
+
+namespace rung::ir {
+
+namespace {
+
+constexpr int64_t kNanosecondsPerMillisecond = 1'000'000;
+constexpr int64_t kNanosecondsPerSecond = 1'000'000'000;
+
+Value literalValue(const sema::Project& project, const LiteralExpr& node) {
+  const TypeTable& types = project.types;
+  TypeId type = types.resolve(node.h.type);
+  TypeKind kind = types.plainKind(type);
+  uint64_t bits = node.value();
+  bool negative = (node.h.bits & kLiteralNegative) != 0;
+  switch (node.literal()) {
+    case LiteralKind::Bool: return {type, bits};
+    case LiteralKind::Integer:
+      if (TypeTable::isReal(kind)) {
+        double value = static_cast<double>(bits);
+        return Value::ofReal(type, negative ? -value : value);
+      }
+      return {type, negative ? 0 - bits : bits};
+    case LiteralKind::Real: {
+      double value;
+      std::memcpy(&value, &bits, sizeof value);
+      if (kind == TypeKind::Real) value = static_cast<float>(value);
+      return Value::ofReal(type, value);
+    }
+    case LiteralKind::Duration:
+    case LiteralKind::TimeOfDay: {
+      int64_t value = static_cast<int64_t>(bits);
+      bool in_milliseconds = kind == TypeKind::Time || kind == TypeKind::TimeOfDay;
+      if (in_milliseconds) value /= kNanosecondsPerMillisecond;
+      // 32-bit times keep their width: sign- or zero-extended as the type is.
+      if (in_milliseconds)
+        return {type, types.isSigned(kind) ? static_cast<uint64_t>(static_cast<int64_t>(static_cast<int32_t>(value)))
+                                           : static_cast<uint32_t>(value)};
+      return {type, static_cast<uint64_t>(value)};
+    }
+    case LiteralKind::Date:
+    case LiteralKind::DateTime: {
+      int64_t value = static_cast<int64_t>(bits);
+      if (kind == TypeKind::Date || kind == TypeKind::DateTime)
+        return {type, static_cast<uint32_t>(value / kNanosecondsPerSecond)};
+      return {type, static_cast<uint64_t>(value)};
+    }
+    case LiteralKind::String:
+    case LiteralKind::WString: {
+      std::string_view text = project.tree.text(node.text());
+      if (kind == TypeKind::Char || kind == TypeKind::WChar) {
+        uint64_t code = text.empty() ? 0 : static_cast<unsigned char>(text[0]);
+        if (kind == TypeKind::WChar && text.size() > 1) {  // UTF-8 to one 16-bit unit
+          unsigned char lead = static_cast<unsigned char>(text[0]);
+          auto next = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) & 0x3fu : 0u; };
+          if (lead >= 0xe0)
+            code = ((lead & 0x0fu) << 12) | (next(1) << 6) | next(2);
+          else if (lead >= 0xc0)
+            code = ((lead & 0x1fu) << 6) | next(1);
+        }
+        return {type, code};
+      }
+      return {type, project.names.intern(text).index};
+    }
+    case LiteralKind::Null: return {type, 0};
+  }
+  return {type, 0};
+}
+
+}  // namespace
+
+std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
+  const Tree& tree = project.tree;
+  const TypeTable& types = project.types;
+  switch (tree.kind(id)) {
+    case rung::ExprKind::Literal: return literalValue(project, tree.as<LiteralExpr>(id));
+    case rung::ExprKind::Name:
+    case rung::ExprKind::Member:
+    case rung::ExprKind::TypedName: {
+      Entity entity = tree.kind(id) == rung::ExprKind::Name     ? tree.as<NameExpr>(id).entity
+                      : tree.kind(id) == rung::ExprKind::Member ? tree.as<MemberExpr>(id).entity
+                                                                : tree.as<TypedNameExpr>(id).entity;
+      if (entity.what() == EntityKind::EnumValue) {
+        const sema::EnumValue& value = project.enum_values[entity.index];
+        return Value{types.resolve(value.type), static_cast<uint64_t>(value.value)};
+      }
+      if (entity.what() != EntityKind::Var) return std::nullopt;
+      const sema::Var* var = &project.vars[entity.index];
+      if (var->external) var = &project.var(var->external);
+      if (!var->constant || !var->has_value) return std::nullopt;
+      return Value{types.resolve(var->value.type), var->value.bits};
+    }
+    case rung::ExprKind::Convert: {
+      auto operand = constantOf(project, tree.as<ConvertExpr>(id).operand);
+      if (!operand) return std::nullopt;
+      TypeId to = types.resolve(tree.expr(id).type);
+      bool from_text = TypeTable::isText(types.plainKind(operand->type));
+      if (from_text) {
+        if (types.plainKind(to) != types.plainKind(operand->type)) return std::nullopt;
+        std::string_view text = project.names.text(NameId{static_cast<uint32_t>(operand->bits)});
+        if (text.size() > types.info(types.plain(to)).length) return std::nullopt;
+        return Value{to, operand->bits};
+      }
+      if (!TypeTable::isScalar(types.plainKind(to))) return std::nullopt;
+      return types::convert(types, *operand, to).value;
+    }
+    case rung::ExprKind::Unary: {
+      const UnaryExpr& node = tree.as<UnaryExpr>(id);
+      auto operand = constantOf(project, node.operand);
+      if (!operand || !TypeTable::isScalar(types.plainKind(operand->type))) return std::nullopt;
+      switch (node.op()) {
+        case UnaryOp::Plus: return operand;
+        case UnaryOp::Not: return types::apply(types, project.names, Op::Not, *operand).value;
+        case UnaryOp::Negate: return types::apply(types, project.names, Op::Neg, *operand).value;
+      }
+      return std::nullopt;
+    }
+    case rung::ExprKind::Error:
+    case rung::ExprKind::Index:
+    case rung::ExprKind::Deref:
+    case rung::ExprKind::BitAccess:
+    case rung::ExprKind::Address:
+    case rung::ExprKind::Binary:
+    case rung::ExprKind::Call:
+    case rung::ExprKind::Range:
+    case rung::ExprKind::ArrayInit:
+    case rung::ExprKind::Repeat:
+    case rung::ExprKind::StructInit: return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+void BodyLowering::spill(StmtId marker, std::initializer_list<ExprId*> values) {
+  for (ExprId* value : values) {
+    if (!*value || isStable(*value)) continue;
+    Loc loc = body_.expr(*value).loc;
+    TypeId type = typeOf(*value);
+    if (isAggregate(type)) {  // a place of which a part is read later: keep the place, fix what it is reached by
+      continue;
+    }
+    ExprId place = temp(type, loc);
+    Stmt assign{.kind = StmtKind::Assign, .loc = loc, .a = place.index, .b = value->index};
+    if (marker) {
+      marker = insertAfter(marker, assign);
+    } else {  // in front of the block
+      assign.next = block_.first;
+      marker = block_.first = make(assign);
+    }
+    *value = place;
+  }
+}
+
+ExprId BodyLowering::toTemp(ExprId value, Loc loc) {
+  ExprId place = temp(typeOf(value), loc);
+  assign(place, value, loc);
+  return place;
+}
+
+ExprId BodyLowering::lowerLiteral(rung::ExprId id) {
+  return ofValue(literalValue(project_, tree_.as<LiteralExpr>(id)), tree_.loc(id));
+}
+
+ExprId BodyLowering::lowerValue(rung::ExprId id) {
+  switch (tree_.kind(id)) {
+    case rung::ExprKind::Literal: return lowerLiteral(id);
+    case rung::ExprKind::Name:
+    case rung::ExprKind::Member:
+    case rung::ExprKind::TypedName: {
+      if (auto value = constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
+      if (tree_.kind(id) == rung::ExprKind::Member) {
+        // lowerPlace comes back here only for what is no place.
+        const MemberExpr& node = tree_.as<MemberExpr>(id);
+        RUNG_INVARIANT(node.entity.what() == EntityKind::Var, "a member is a variable or a constant");
+      }
+      return lowerPlace(id);
+    }
+    case rung::ExprKind::Index:
+    case rung::ExprKind::Deref:
+    case rung::ExprKind::BitAccess:
+    case rung::ExprKind::Address: return lowerPlace(id);
+    case rung::ExprKind::Unary: return lowerUnary(id);
+    case rung::ExprKind::Binary: return lowerBinary(id);
+    case rung::ExprKind::Convert: return lowerConvert(id);
+    case rung::ExprKind::Call: return lowerCall(id);
+    case rung::ExprKind::Error:
+    case rung::ExprKind::Range:
+    case rung::ExprKind::ArrayInit:
+    case rung::ExprKind::Repeat:
+    case rung::ExprKind::StructInit: break;
+  }
+  RUNG_INVARIANT(false, "an expression without a value is not lowered");
+  return {};
+}
+
+ExprId BodyLowering::lowerUnary(rung::ExprId id) {
+  const UnaryExpr& node = tree_.as<UnaryExpr>(id);
+  if (auto value = constantOf(project_, id)) return ofValue(*value, node.h.loc);
+  ExprId operand = lowerValue(node.operand);
+  TypeId type = strip(node.h.type);
+  switch (node.op()) {
+    case UnaryOp::Plus: return operand;
+    case UnaryOp::Not: return unary(Op::Not, type, operand, node.h.loc);
+    case UnaryOp::Negate: return unary(Op::Neg, type, operand, node.h.loc);
+  }
+  return {};
+}
+
+namespace {
+
+Op operatorOf(BinaryOp op) {
+  switch (op) {
+    case BinaryOp::Or:
+    case BinaryOp::OrElse: return Op::Or;
+    case BinaryOp::Xor: return Op::Xor;
+    case BinaryOp::And:
+    case BinaryOp::AndThen: return Op::And;
+    case BinaryOp::Equal: return Op::Eq;
+    case BinaryOp::NotEqual: return Op::Ne;
+    case BinaryOp::Less: return Op::Lt;
+    case BinaryOp::LessEqual: return Op::Le;
+    case BinaryOp::Greater: return Op::Gt;
+    case BinaryOp::GreaterEqual: return Op::Ge;
+    case BinaryOp::Add: return Op::Add;
+    case BinaryOp::Subtract: return Op::Sub;
+    case BinaryOp::Multiply: return Op::Mul;
+    case BinaryOp::Divide: return Op::Div;
+    case BinaryOp::Modulo: return Op::Mod;
+    case BinaryOp::Power: return Op::Power;
+  }
+  return Op::Add;
+}
+
+}  // namespace
+
+ExprId BodyLowering::lowerBinary(rung::ExprId id) {
+  const BinaryExpr& node = tree_.as<BinaryExpr>(id);
+  BinaryOp op = node.op();
+  bool logical = op == BinaryOp::And || op == BinaryOp::Or || op == BinaryOp::AndThen || op == BinaryOp::OrElse;
+  if (logical && types_.plainKind(strip(node.h.type)) == TypeKind::Bool) {
+    bool is_and = op == BinaryOp::And || op == BinaryOp::AndThen;
+    bool short_circuit =
+        op == BinaryOp::AndThen || op == BinaryOp::OrElse || project_.options.standard != text::Standard::Codesys;
+    return lowerLogical(id, is_and, short_circuit);
+  }
+  ExprId left = lowerValue(node.left);
+  ExprId right = lowerAfter({&left}, [&] { return lowerValue(node.right); });
+  return binary(operatorOf(op), strip(node.h.type), left, right, node.h.loc);
+}
+
+// BOOL AND and OR (design §6). codesys: calls in both operands run, but a check in the right one counts only when the
+// left lets its value matter. iec and AND_THEN, OR_ELSE: the right operand is not evaluated at all then.
+ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circuit) {
+  const BinaryExpr& node = tree_.as<BinaryExpr>(id);
+  Loc loc = node.h.loc;
+  Op op = is_and ? Op::And : Op::Or;
+  ExprId left = lowerValue(node.left);
+  auto guarded = [&](ExprId result, StmtId right_block) {
+    Stmt branch{.kind = StmtKind::If, .loc = loc, .a = result.index};
+    if (!is_and) branch.a = unary(Op::Not, types::kBool, result, loc).index;
+    branch.b = right_block.index;
+    append(branch);
+    return result;
+  };
+
+  if (!short_circuit) {
+    ExprId right = lowerAfter({&left}, [&] { return lowerValue(node.right); });
+    if (!mayFault(right)) return binary(op, types::kBool, left, right, loc);
+    ExprId result = temp(types::kBool, loc);
+    assign(result, left, loc);
+    return guarded(result, block([&] { assign(result, right, loc); }));
+  }
+
+  Block outer = block_;
+  block_ = {};
+  ExprId right = lowerValue(node.right);
+  Block inner = block_;
+  block_ = outer;
+  if (!inner.first && !mayFault(right)) return binary(op, types::kBool, left, right, loc);
+  ExprId result = temp(types::kBool, loc);
+  assign(result, left, loc);
+  Block before = block_;
+  block_ = inner;
+  assign(result, right, loc);
+  StmtId right_block = block_.first;
+  block_ = before;
+  return guarded(result, right_block);
+}
+
+ExprId BodyLowering::lowerConvert(rung::ExprId id) {
+  if (auto value = constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
+  const ConvertExpr& node = tree_.as<ConvertExpr>(id);
+  return convertValue(lowerValue(node.operand), strip(node.h.type), node.h.loc);
+}
+
+ExprId BodyLowering::convertValue(ExprId value, TypeId to, Loc loc) {
+  to = strip(to);
+  TypeId from = typeOf(value);
+  if (from == to) return value;
+  if (body_.expr(value).kind == ExprKind::Const && TypeTable::isScalar(types_.plainKind(to)) &&
+      TypeTable::isScalar(types_.plainKind(from)))
+    return ofValue(types::convert(types_, {from, body_.expr(value).bits()}, to).value, loc);
+  return convert(value, to, loc);
+}
+
+}  // namespace rung::ir
