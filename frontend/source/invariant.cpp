@@ -28,6 +28,10 @@ void setPhaseSubject(const char* name, unsigned long length) {
   subject[n] = '\0';
 }
 
+const char* currentPhase() { return phase != nullptr ? phase : "start"; }
+
+const char* currentPhaseSubject() { return subject; }
+
 void invariantFailed(const char* condition, const char* what, const char* file, int line) {
   std::fputs("rung: internal error", stderr);
   if (phase != nullptr) std::fprintf(stderr, " in %s", phase);

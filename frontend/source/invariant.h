@@ -9,6 +9,9 @@ namespace rung {
 // Named in an internal error: the phase ("lowering") and the POU at hand. Set by the driver and by each phase.
 void setPhase(const char* phase);
 void setPhaseSubject(const char* name, unsigned long length);
+// What was set last, never null: for the tool's handler of signals.
+const char* currentPhase();
+const char* currentPhaseSubject();
 
 }  // namespace rung
 
