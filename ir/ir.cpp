@@ -154,9 +154,7 @@ ExprId Builder::call(BodyId function, std::span<const ExprId> operands) {
              static_cast<uint32_t>(operands.size()));
 }
 
-ExprId Builder::address(TypeId pointer, ExprId place) {
-  return add(ExprKind::Address, strip(pointer), place.index);
-}
+ExprId Builder::address(TypeId pointer, ExprId place) { return add(ExprKind::Address, strip(pointer), place.index); }
 
 ExprId Builder::negation(ExprId condition) {
   const Expr& expr = body.expr(condition);
