@@ -229,6 +229,7 @@ struct StmtHeader {
   Loc loc;
 };
 enum class AssignOp : uint8_t { Assign, Set, Reset, Reference, Add, Subtract, Multiply, Divide };  // := S= R= REF= += …
+const char* spelling(AssignOp op);
 struct ErrorStmt {
   StmtHeader h;
 };
@@ -382,7 +383,7 @@ struct PouDecl {
   TypeExprId result;  // functions; none: no result
   Slice<DeclId> sections;
   Slice<StmtId> body;
-  Loc begin, end;  // the header keyword; one past END_…: the text of the whole POU
+  Loc begin, end;  // the first pragma before it, else the header keyword; one past END_…: the text of the whole POU
 };
 
 enum class SectionKind : uint8_t { Local, Input, Output, InOut, Temp, External, Global, Stat, Access, Config };
@@ -396,7 +397,7 @@ struct SectionDecl {
 enum class EdgeKind : uint8_t { None, Rising, Falling };
 struct VarDecl {
   DeclHeader h;
-  Slice<Ident> names;  // empty: an unnamed located variable
+  Slice<Ident> names;  // empty: an unnamed located variable; VAR_CONFIG: the path; VAR_ACCESS: the name, then the path
   TypeExprId type;
   ExprId init;  // none: the type's default
   EdgeKind edge;

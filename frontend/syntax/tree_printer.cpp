@@ -1,1 +1,557 @@
-// x
+// The tree as text: a line per declaration, statement and type, expressions in parentheses on the line that holds them.
+#include <charconv>
+#include <string>
+
+#include "frontend/syntax/tree.h"
+
+namespace rung {
+namespace {
+
+const char* word(ExprKind kind) {
+  static const char* const kWords[] = {
+#define RUNG_EXPR(kind, word) word,
+#include "frontend/syntax/nodes.def"
+  };
+  return kWords[static_cast<size_t>(kind)];
+}
+const char* word(StmtKind kind) {
+  static const char* const kWords[] = {
+#define RUNG_STMT(kind, word) word,
+#include "frontend/syntax/nodes.def"
+  };
+  return kWords[static_cast<size_t>(kind)];
+}
+const char* word(TypeExprKind kind) {
+  static const char* const kWords[] = {
+#define RUNG_TYPE_EXPR(kind, word) word,
+#include "frontend/syntax/nodes.def"
+  };
+  return kWords[static_cast<size_t>(kind)];
+}
+const char* word(DeclKind kind) {
+  static const char* const kWords[] = {
+#define RUNG_DECL(kind, word) word,
+#include "frontend/syntax/nodes.def"
+  };
+  return kWords[static_cast<size_t>(kind)];
+}
+
+class Printer {
+ public:
+  Printer(const Tree& tree, const Names& names) : tree_(tree), names_(names) {}
+  std::string text;
+
+  void decl(DeclId id, int depth);
+
+ private:
+  void line(int depth) {
+    if (!text.empty()) text += '\n';
+    text.append(static_cast<size_t>(depth) * 2, ' ');
+  }
+  void name(NameId id) { text += names_.text(id); }
+  void number(uint64_t n) { text += std::to_string(n); }
+  void quoted(std::string_view s);
+  void path(Slice<Ident> idents, const char* between) {
+    bool first = true;
+    for (const Ident& ident : tree_.list(idents)) {
+      if (!first) text += between;
+      first = false;
+      name(ident.name);
+    }
+  }
+  void pragmas(const DeclHeader& h);
+  void address(const DirectAddress& a);
+  void literal(const LiteralExpr& e);
+  void expr(ExprId id, int depth = 0);
+  void exprs(Slice<ExprId> list, int depth) {
+    for (ExprId e : tree_.list(list)) {
+      text += ' ';
+      expr(e, depth + 1);
+    }
+  }
+  void arguments(Slice<Argument> list, int depth);
+  void stmts(Slice<StmtId> list, int depth) {
+    for (StmtId s : tree_.list(list)) stmt(s, depth);
+  }
+  void stmt(StmtId id, int depth);
+  void typeExpr(TypeExprId id, int depth);
+
+  const Tree& tree_;
+  const Names& names_;
+};
+
+void Printer::quoted(std::string_view s) {
+  static const char* const kHex = "0123456789ABCDEF";
+  text += '\'';
+  for (char c : s) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\'' || c == '$') {
+      text += '$';
+      text += c;
+    } else if (byte < 0x20 || byte == 0x7f) {
+      text += '$';
+      text += kHex[byte >> 4];
+      text += kHex[byte & 15];
+    } else {
+      text += c;
+    }
+  }
+  text += '\'';
+}
+
+void Printer::pragmas(const DeclHeader& h) {
+  for (const Pragma& p : tree_.list(h.pragmas)) {
+    text += " {";
+    name(p.name);
+    if (p.value.length > 0) {
+      text += ' ';
+      quoted(tree_.text(p.value));
+    }
+    text += '}';
+  }
+}
+
+void Printer::address(const DirectAddress& a) {
+  text += '%';
+  text += a.area == ImageArea::Input ? 'I' : a.area == ImageArea::Output ? 'Q' : 'M';
+  if (a.size_given) text += a.size;
+  if (a.incomplete) text += '*';
+  bool first = true;
+  for (uint32_t n : tree_.list(a.path)) {
+    if (!first) text += '.';
+    first = false;
+    number(n);
+  }
+}
+
+void Printer::literal(const LiteralExpr& e) {
+  if (e.prefix) {
+    name(e.prefix);
+    text += '#';
+  }
+  const bool negative = (e.h.bits & kLiteralNegative) != 0;
+  const auto nanoseconds = [&](const char* short_prefix, const char* long_prefix) {
+    text += (e.h.bits & kLiteralLong) != 0 ? long_prefix : short_prefix;
+    if (e.literal() == LiteralKind::Duration && !negative)
+      number(e.value());
+    else
+      text += std::to_string(static_cast<int64_t>(e.value()));
+    text += "ns";
+  };
+  switch (e.literal()) {
+    case LiteralKind::Bool: text += e.value() != 0 ? "TRUE" : "FALSE"; break;
+    case LiteralKind::Integer:
+      if (negative) text += '-';
+      number(e.value());
+      break;
+    case LiteralKind::Real: {
+      double value = 0;
+      const uint64_t bits = e.value();
+      std::memcpy(&value, &bits, sizeof value);
+      char buffer[40];
+      const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
+      const std::string_view shown(buffer, static_cast<size_t>(end - buffer));
+      text += shown;
+      if (shown.find_first_of(".en") == std::string_view::npos) text += ".0";
+      break;
+    }
+    case LiteralKind::String: quoted(tree_.text(e.text())); break;
+    case LiteralKind::WString:
+      text += 'w';
+      quoted(tree_.text(e.text()));
+      break;
+    case LiteralKind::Duration: nanoseconds("t#", "lt#"); break;
+    case LiteralKind::Date: nanoseconds("d#", "ld#"); break;
+    case LiteralKind::TimeOfDay: nanoseconds("tod#", "ltod#"); break;
+    case LiteralKind::DateTime: nanoseconds("dt#", "ldt#"); break;
+    case LiteralKind::Null: text += "NULL"; break;
+  }
+}
+
+void Printer::arguments(Slice<Argument> list, int depth) {
+  for (const Argument& a : tree_.list(list)) {
+    text += ' ';
+    if (a.pin.name) {
+      if (a.negated) text += "NOT ";
+      name(a.pin.name);
+      text += a.is_output ? " => " : " := ";
+    }
+    if (a.value)
+      expr(a.value, depth + 1);
+    else
+      text += "open";
+  }
+}
+
+void Printer::expr(ExprId id, int depth) {
+  if (!id) {
+    text += "none";
+    return;
+  }
+  if (depth > 5000) {  // left-deep chains; the parser limits them
+    text += "...";
+    return;
+  }
+  text += '(';
+  text += word(tree_.kind(id));
+  text += ' ';
+  switch (tree_.kind(id)) {
+    case ExprKind::Error: text.pop_back(); break;
+    case ExprKind::Literal: literal(tree_.as<LiteralExpr>(id)); break;
+    case ExprKind::Name: name(tree_.as<NameExpr>(id).name); break;
+    case ExprKind::TypedName:
+      name(tree_.as<TypedNameExpr>(id).type_name.name);
+      text += '#';
+      name(tree_.as<TypedNameExpr>(id).item.name);
+      break;
+    case ExprKind::Member:
+      expr(tree_.as<MemberExpr>(id).base, depth + 1);
+      text += ' ';
+      name(tree_.as<MemberExpr>(id).member);
+      break;
+    case ExprKind::Index:
+      expr(tree_.as<IndexExpr>(id).base, depth + 1);
+      exprs(tree_.as<IndexExpr>(id).indices, depth);
+      break;
+    case ExprKind::Deref: expr(tree_.as<DerefExpr>(id).base, depth + 1); break;
+    case ExprKind::BitAccess: {
+      const auto& e = tree_.as<BitAccessExpr>(id);
+      expr(e.base, depth + 1);
+      text += e.width == 1 ? " bit " : e.width == 8 ? " byte " : e.width == 16 ? " word " : " dword ";
+      number(e.position);
+      break;
+    }
+    case ExprKind::Address: address(tree_.as<AddressExpr>(id).address); break;
+    case ExprKind::Unary:
+      text += spelling(tree_.as<UnaryExpr>(id).op());
+      text += ' ';
+      expr(tree_.as<UnaryExpr>(id).operand, depth + 1);
+      break;
+    case ExprKind::Binary:
+      text += spelling(tree_.as<BinaryExpr>(id).op());
+      text += ' ';
+      expr(tree_.as<BinaryExpr>(id).left, depth + 1);
+      text += ' ';
+      expr(tree_.as<BinaryExpr>(id).right, depth + 1);
+      break;
+    case ExprKind::Call:
+      expr(tree_.as<CallExpr>(id).callee, depth + 1);
+      arguments(tree_.as<CallExpr>(id).arguments, depth);
+      break;
+    case ExprKind::Range:
+      expr(tree_.as<RangeExpr>(id).low, depth + 1);
+      text += ' ';
+      expr(tree_.as<RangeExpr>(id).high, depth + 1);
+      break;
+    case ExprKind::ArrayInit:
+      text.pop_back();
+      exprs(tree_.as<ArrayInitExpr>(id).elements, depth);
+      break;
+    case ExprKind::Repeat:
+      expr(tree_.as<RepeatExpr>(id).count, depth + 1);
+      exprs(tree_.as<RepeatExpr>(id).elements, depth);
+      break;
+    case ExprKind::StructInit:
+      text.pop_back();
+      for (const FieldInit& f : tree_.list(tree_.as<StructInitExpr>(id).fields)) {
+        text += ' ';
+        name(f.field.name);
+        text += " := ";
+        expr(f.value, depth + 1);
+      }
+      break;
+    case ExprKind::Convert: expr(tree_.as<ConvertExpr>(id).operand, depth + 1); break;
+  }
+  text += ')';
+}
+
+void Printer::stmt(StmtId id, int depth) {
+  line(depth);
+  text += word(tree_.kind(id));
+  const auto block = [&](const char* label, Slice<StmtId> list) {
+    line(depth + 1);
+    text += label;
+    stmts(list, depth + 2);
+  };
+  switch (tree_.kind(id)) {
+    case StmtKind::Error:
+    case StmtKind::Empty:
+    case StmtKind::Exit:
+    case StmtKind::Continue:
+    case StmtKind::Return: break;
+    case StmtKind::Assign: {
+      const auto& s = tree_.as<AssignStmt>(id);
+      text += ' ';
+      text += spelling(s.op());
+      text += ' ';
+      expr(s.target);
+      text += ' ';
+      expr(s.value);
+      break;
+    }
+    case StmtKind::Call:
+      text += ' ';
+      expr(tree_.as<CallStmt>(id).call);
+      break;
+    case StmtKind::If: {
+      const auto& s = tree_.as<IfStmt>(id);
+      for (const IfBranch& b : tree_.list(s.branches)) {
+        line(depth + 1);
+        text += "then ";
+        expr(b.condition);
+        stmts(b.body, depth + 2);
+      }
+      if (!s.otherwise.empty()) block("else", s.otherwise);
+      break;
+    }
+    case StmtKind::Case: {
+      const auto& s = tree_.as<CaseStmt>(id);
+      text += ' ';
+      expr(s.selector);
+      for (const CaseBranch& b : tree_.list(s.branches)) {
+        line(depth + 1);
+        text += "of";
+        exprs(b.labels, 0);
+        stmts(b.body, depth + 2);
+      }
+      if (s.has_else) block("else", s.otherwise);
+      break;
+    }
+    case StmtKind::For: {
+      const auto& s = tree_.as<ForStmt>(id);
+      text += ' ';
+      expr(s.control);
+      text += ' ';
+      expr(s.from);
+      text += ' ';
+      expr(s.to);
+      if (s.step) {
+        text += " by ";
+        expr(s.step);
+      }
+      stmts(s.body, depth + 1);
+      break;
+    }
+    case StmtKind::While:
+      text += ' ';
+      expr(tree_.as<WhileStmt>(id).condition);
+      stmts(tree_.as<WhileStmt>(id).body, depth + 1);
+      break;
+    case StmtKind::Repeat:
+      text += " until ";
+      expr(tree_.as<RepeatStmt>(id).until);
+      stmts(tree_.as<RepeatStmt>(id).body, depth + 1);
+      break;
+    case StmtKind::Jump:
+      text += ' ';
+      name(tree_.as<JumpStmt>(id).label.name);
+      break;
+    case StmtKind::Label:
+      text += ' ';
+      name(tree_.as<LabelStmt>(id).label.name);
+      break;
+  }
+}
+
+void Printer::typeExpr(TypeExprId id, int depth) {
+  if (!id) return;
+  line(depth);
+  text += word(tree_.kind(id));
+  switch (tree_.kind(id)) {
+    case TypeExprKind::Error: break;
+    case TypeExprKind::Named:
+      text += ' ';
+      path(tree_.as<NamedTypeExpr>(id).path, ".");
+      break;
+    case TypeExprKind::Text: {
+      const auto& t = tree_.as<TextTypeExpr>(id);
+      text += t.wide ? " WSTRING" : " STRING";
+      if (t.length) {
+        text += ' ';
+        expr(t.length);
+      }
+      break;
+    }
+    case TypeExprKind::Subrange: {
+      const auto& t = tree_.as<SubrangeTypeExpr>(id);
+      text += ' ';
+      expr(t.low);
+      text += ' ';
+      expr(t.high);
+      typeExpr(t.base, depth + 1);
+      break;
+    }
+    case TypeExprKind::Enum: {
+      const auto& t = tree_.as<EnumTypeExpr>(id);
+      for (const EnumItem& item : tree_.list(t.items)) {
+        line(depth + 1);
+        text += "item ";
+        name(item.item.name);
+        if (item.value) {
+          text += ' ';
+          expr(item.value);
+        }
+      }
+      typeExpr(t.base, depth + 1);
+      break;
+    }
+    case TypeExprKind::Array: {
+      const auto& t = tree_.as<ArrayTypeExpr>(id);
+      for (const ArrayBound& b : tree_.list(t.bounds)) {
+        text += " [";
+        if (b.low) {
+          expr(b.low);
+          text += ' ';
+          expr(b.high);
+        } else {
+          text += '*';
+        }
+        text += ']';
+      }
+      typeExpr(t.element, depth + 1);
+      break;
+    }
+    case TypeExprKind::Struct: {
+      const auto& t = tree_.as<StructTypeExpr>(id);
+      if (t.is_union) text += " union";
+      if (t.base) {
+        line(depth + 1);
+        text += "extends";
+        typeExpr(t.base, depth + 2);
+      }
+      for (DeclId d : tree_.list(t.fields)) decl(d, depth + 1);
+      break;
+    }
+    case TypeExprKind::Pointer: {
+      const auto& t = tree_.as<PointerTypeExpr>(id);
+      text += t.form == PointerForm::Pointer ? " pointer" : t.form == PointerForm::Reference ? " reference" : " ref_to";
+      typeExpr(t.target, depth + 1);
+      break;
+    }
+  }
+}
+
+void Printer::decl(DeclId id, int depth) {
+  line(depth);
+  text += word(tree_.kind(id));
+  const DeclHeader& h = tree_.decl(id);
+  const auto bits = [&](uint8_t b) {
+    if ((b & kConstant) != 0) text += " constant";
+    if ((b & kRetain) != 0) text += " retain";
+    if ((b & kPersistent) != 0) text += " persistent";
+    if ((b & kNonRetain) != 0) text += " non_retain";
+  };
+  switch (h.kind) {
+    case DeclKind::Type: {
+      const auto& d = tree_.as<TypeDecl>(id);
+      text += ' ';
+      name(d.name);
+      pragmas(h);
+      if (d.init) {
+        text += " := ";
+        expr(d.init);
+      }
+      typeExpr(d.type, depth + 1);
+      break;
+    }
+    case DeclKind::Pou: {
+      const auto& d = tree_.as<PouDecl>(id);
+      static const char* const kKinds[] = {" function ", " function_block ", " program "};
+      text += kKinds[static_cast<size_t>(d.pou_kind)];
+      name(d.name);
+      pragmas(h);
+      if (!d.closed) text += " open";
+      if (d.result) {
+        line(depth + 1);
+        text += "result";
+        typeExpr(d.result, depth + 2);
+      }
+      for (DeclId s : tree_.list(d.sections)) decl(s, depth + 1);
+      if (d.body_kind == BodyKind::Native) {
+        line(depth + 1);
+        text += "native";
+      }
+      if (!d.body.empty()) {
+        line(depth + 1);
+        text += "body";
+        stmts(d.body, depth + 2);
+      }
+      break;
+    }
+    case DeclKind::Section: {
+      const auto& d = tree_.as<SectionDecl>(id);
+      static const char* const kSections[] = {" local",    " input",  " output", " in_out", " temp",
+                                              " external", " global", " stat",   " access", " config"};
+      text += kSections[static_cast<size_t>(d.section)];
+      bits(h.bits);
+      pragmas(h);
+      for (DeclId v : tree_.list(d.vars)) decl(v, depth + 1);
+      break;
+    }
+    case DeclKind::Var: {
+      const auto& d = tree_.as<VarDecl>(id);
+      text += ' ';
+      path(d.names, ", ");
+      if (d.located) {
+        text += " at ";
+        address(d.address);
+      }
+      if (d.edge != EdgeKind::None) text += d.edge == EdgeKind::Rising ? " r_edge" : " f_edge";
+      pragmas(h);
+      if (d.init) {
+        text += " := ";
+        expr(d.init);
+      }
+      typeExpr(d.type, depth + 1);
+      break;
+    }
+    case DeclKind::Configuration: {
+      const auto& d = tree_.as<ConfigurationDecl>(id);
+      text += ' ';
+      name(d.name);
+      for (DeclId m : tree_.list(d.members)) decl(m, depth + 1);
+      break;
+    }
+    case DeclKind::Resource: {
+      const auto& d = tree_.as<ResourceDecl>(id);
+      text += ' ';
+      name(d.name);
+      text += " on ";
+      name(d.target);
+      for (DeclId m : tree_.list(d.members)) decl(m, depth + 1);
+      break;
+    }
+    case DeclKind::Task: {
+      const auto& d = tree_.as<TaskDecl>(id);
+      text += ' ';
+      name(d.name);
+      arguments(d.settings, 0);
+      break;
+    }
+    case DeclKind::ProgramInstance: {
+      const auto& d = tree_.as<ProgramInstanceDecl>(id);
+      text += ' ';
+      name(d.name);
+      bits(d.section_bits);
+      if (d.task.name) {
+        text += " with ";
+        name(d.task.name);
+      }
+      text += " of ";
+      path(d.type, ".");
+      arguments(d.arguments, 0);
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+std::string printTree(const Tree& tree, const Names& names, const FileUnit& unit) {
+  Printer printer(tree, names);
+  for (DeclId d : tree.list(unit.decls)) printer.decl(d, 0);
+  printer.text += '\n';
+  return std::move(printer.text);
+}
+
+}  // namespace rung
