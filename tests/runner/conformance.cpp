@@ -1,0 +1,184 @@
+// Conformance tests, tests/conformance/**.st: what the language promises, feature by feature. Line 1 says what is
+// shown;
+//   // features: 43/1a 43/1b      rows of the standard's tables, at most six     // covers: tm-tp-library:SR
+// A file without `// expect:` lines is run by `rung test`, many files in one process, each a project of its own, once
+// for each way (-O0, -O1); every {test} POU counts. A file with them is checked like a golden file.
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "tests/runner/diff.h"
+#include "tests/runner/support.h"
+
+namespace rung::tests {
+
+Result runDiagnosticsTest(const Setting& setting, const std::string& file);  // golden.cpp
+
+namespace {
+
+constexpr size_t kBatch = 40;  // files of one `rung test`: few enough to keep two processors busy
+constexpr size_t kMaxFeatures = 6;
+
+struct File {
+  std::string path, features, covers;
+};
+
+struct TestCase {
+  std::string file, name, failure;
+  bool failed;
+};
+
+std::string unescaped(std::string text) {
+  const std::pair<const char*, const char*> entities[] = {{"&lt;", "<"},   {"&gt;", ">"},   {"&quot;", "\""},
+                                                          {"&apos;", "'"}, {"&#10;", "\n"}, {"&amp;", "&"}};
+  for (const auto& [entity, character] : entities) {
+    for (size_t at = text.find(entity); at != std::string::npos; at = text.find(entity, at + 1)) {
+      text.replace(at, std::string(entity).size(), character);
+    }
+  }
+  return text;
+}
+
+std::string attribute(const std::string& tag, const std::string& name) {
+  const size_t at = tag.find(" " + name + "=\"");
+  if (at == std::string::npos) return {};
+  const size_t start = at + name.size() + 3;
+  return unescaped(tag.substr(start, tag.find('"', start) - start));
+}
+
+// The test cases of a JUnit file: <testcase file=… name=…/> with <failure> or <error> inside when it failed.
+std::vector<TestCase> readJunit(const std::string& xml) {
+  std::vector<TestCase> cases;
+  size_t at = 0;
+  while ((at = xml.find("<testcase ", at)) != std::string::npos) {
+    const size_t tag_end = xml.find('>', at);
+    if (tag_end == std::string::npos) break;
+    const std::string tag = xml.substr(at, tag_end - at);
+    TestCase test{attribute(tag, "file"), attribute(tag, "name"), {}, false};
+    if (test.file.empty()) test.file = attribute(tag, "classname");
+    if (tag.back() != '/') {
+      const size_t end = std::min(xml.find("</testcase>", tag_end), xml.size());
+      const std::string body = xml.substr(tag_end + 1, end - tag_end - 1);
+      test.failed = body.find("<failure") != std::string::npos || body.find("<error") != std::string::npos;
+      for (size_t f = body.find("<failure"); f != std::string::npos; f = body.find("<failure", f + 1)) {
+        const std::string open = body.substr(f, body.find('>', f) - f);
+        test.failure += "  " + attribute(open, "message") + "\n";
+      }
+    }
+    cases.push_back(std::move(test));
+    at = tag_end;
+  }
+  return cases;
+}
+
+Command testCommand(const Setting& setting, const std::vector<File>& files, const std::string& options,
+                    const std::string& junit) {
+  Command c;
+  c.arguments = {setting.rung, "test"};
+  for (const std::string& word : splitWords(options)) c.arguments.push_back(word);
+  if (files.size() > 1) c.arguments.push_back("--separate");
+  if (!junit.empty()) c.arguments.insert(c.arguments.end(), {"--junit", junit});
+  for (const File& file : files) c.arguments.push_back(file.path);
+  c.folder = setting.root;
+  c.seconds = 600;
+  return c;
+}
+
+// Runs files together. Nothing: they could not all be built, and nobody knows which one is to blame.
+std::optional<Result> runTogether(const Setting& setting, const std::vector<File>& files, const std::string& options) {
+  const std::string junit = freshFolder(setting) + "/junit.xml";
+  const Output output = run(testCommand(setting, files, options, junit));
+  const std::vector<TestCase> cases = readJunit(readText(junit));
+  Result result;
+  std::map<std::string, unsigned> seen;
+  for (const TestCase& test : cases) {
+    const auto owner = std::find_if(files.begin(), files.end(), [&](const File& file) {
+      return files.size() == 1 || test.file == file.path || test.file.ends_with("/" + file.path);
+    });
+    if (owner == files.end()) return std::nullopt;
+    ++seen[owner->path];
+    result.rows.push_back({owner->path, test.name, !test.failed, owner->features, owner->covers});
+    if (!test.failed) {
+      result.pass();
+      continue;
+    }
+    std::string what = test.failure;
+    if (trimmed(what).empty()) what = (output.out + output.err).substr(0, 4000);
+    Command again = testCommand(setting, {*owner}, options, "");
+    again.arguments.insert(again.arguments.end(), {"--filter", test.name});
+    result.fail(owner->path + ": " + test.name + " (" + options + ")", what, spelled(again));
+  }
+  const bool finished = output.exit_code == 0 || output.exit_code == 4;
+  if (files.size() > 1) return finished && seen.size() == files.size() ? std::optional(result) : std::nullopt;
+  if (!finished || cases.empty()) {
+    std::string what =
+        "  exit code " + std::to_string(output.exit_code) + ", " + std::to_string(cases.size()) + " tests ran\n";
+    what += (output.err + output.out).substr(0, 4000);
+    result.fail(files[0].path + " (" + options + ")", what, spelled(testCommand(setting, files, options, "")));
+    result.rows.push_back({files[0].path, "", false, files[0].features, files[0].covers});
+  }
+  return result;
+}
+
+Result runBatch(const Setting& setting, const std::vector<File>& files, const std::string& options) {
+  if (std::optional<Result> together = runTogether(setting, files, options)) return *std::move(together);
+  // Halves find the file that does not build in few runs.
+  Result all;
+  const auto middle = files.begin() + static_cast<std::ptrdiff_t>(files.size() / 2);
+  for (const auto& half : {std::vector<File>(files.begin(), middle), std::vector<File>(middle, files.end())}) {
+    Result part = runBatch(setting, half, options);
+    all.passed += part.passed;
+    all.failed += part.failed;
+    all.log += part.log;
+    all.rows.insert(all.rows.end(), part.rows.begin(), part.rows.end());
+  }
+  return all;
+}
+
+std::string headProblem(const std::vector<std::string>& lines, const File& file) {
+  std::string problem = purposeProblem(lines);
+  if (file.features.empty() && file.covers.empty()) problem += "  there is no `// features:` or `// covers:` line\n";
+  const size_t named = splitWords(file.features).size();
+  if (named > kMaxFeatures) problem += "  it names " + std::to_string(named) + " features; at most six\n";
+  return problem;
+}
+
+}  // namespace
+
+void addConformance(const Setting& setting, std::vector<Job>& jobs) {
+  std::map<std::string, std::vector<File>> by_options;
+  for (const std::string& path : filesBelow(setting, "tests/conformance", ".st")) {
+    const std::vector<std::string> lines = splitLines(readText(setting.root + "/" + path));
+    File file{path, valueOf(lines, "features"), valueOf(lines, "covers")};
+    if (const std::string problem = headProblem(lines, file); !problem.empty()) {
+      jobs.push_back({path, 0, [path, problem] {
+                        Result result;
+                        result.fail(path, problem, "");
+                        return result;
+                      }});
+    }
+    if (!valuesOf(lines, "expect").empty()) {
+      jobs.push_back({path, 0, [&setting, file] {
+                        Result result = runDiagnosticsTest(setting, file.path);
+                        result.rows.push_back({file.path, "", result.failed == 0, file.features, file.covers});
+                        return result;
+                      }});
+    } else if (!setting.update) {
+      by_options[valueOf(lines, "args")].push_back(std::move(file));
+    }
+  }
+  for (const auto& [options, files] : by_options) {
+    for (const std::string& way : setting.ways) {
+      const size_t batches = (files.size() + kBatch - 1) / kBatch;
+      for (size_t i = 0; i < batches; ++i) {
+        std::vector<File> batch;  // every n-th file: equal work in each
+        for (size_t k = i; k < files.size(); k += batches) batch.push_back(files[k]);
+        const std::string all_options = trimmed(way + " " + options);
+        jobs.push_back({"conformance " + all_options, static_cast<int>(batch.size()),
+                        [&setting, batch, all_options] { return runBatch(setting, batch, all_options); }});
+      }
+    }
+  }
+}
+
+}  // namespace rung::tests

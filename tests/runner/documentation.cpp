@@ -1,0 +1,183 @@
+// The programs in the documentation: fenced blocks of docs/**.md, README.md, CONTRIBUTING.md and samples/**.md.
+//   ```st wrong [options]     on docs/errors/E0231.md: `rung check` reports that code and no other error
+//   ```st mended [options]    on such a page: no error, and not that code
+//   ```st run [options]       `rung run` ends well; an ```output block after it is what it prints
+//   ```st check [options]     no error
+//   ```st name.st             a file for the console blocks of the same page (any language, any ending)
+//   ```console                a session (console.h), in a folder that looks like the project's root;
+//   ```console wrong          a session that must mention the page's code
+#include <algorithm>
+#include <filesystem>
+
+#include "tests/runner/console.h"
+#include "tests/runner/diff.h"
+#include "tests/runner/support.h"
+
+namespace rung::tests {
+namespace {
+
+struct Block {
+  std::string language, kind;  // of "```st wrong --std=iec3": st, wrong
+  std::vector<std::string> options;
+  std::vector<std::string> lines;
+  size_t line;  // of the fence, from 1
+};
+
+std::vector<Block> blocksOf(const std::vector<std::string>& lines) {
+  std::vector<Block> blocks;
+  for (size_t i = 0; i < lines.size(); ++i) {
+    const size_t ticks = std::min(lines[i].find_first_not_of('`'), lines[i].size());
+    if (ticks < 3) continue;
+    const std::string fence(ticks, '`');
+    std::vector<std::string> words = splitWords(lines[i].substr(ticks));
+    Block block;
+    block.line = i + 1;
+    if (!words.empty()) block.language = words[0];
+    if (words.size() > 1) block.kind = words[1];
+    if (words.size() > 2) block.options.assign(words.begin() + 2, words.end());
+    for (++i; i < lines.size() && lines[i] != fence; ++i) block.lines.push_back(lines[i]);
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
+std::string textOf(const Block& block) {
+  std::string text;
+  for (const std::string& line : block.lines) text += line + '\n';
+  return text;
+}
+
+bool isErrorPage(const std::string& file) {
+  const std::string name = nameOf(file);
+  return startsWith(file, "docs/errors/") && name.size() == 8 && std::string("EWI").find(name[0]) != std::string::npos;
+}
+
+class Page {
+ public:
+  Page(const Setting& setting, const std::string& file) : setting_(setting), file_(file) {
+    lines_ = splitLines(readText(setting.root + "/" + file));
+    if (isErrorPage(file)) code_ = nameOf(file).substr(0, 5);
+  }
+
+  Result run() {
+    const std::vector<Block> blocks = blocksOf(lines_);
+    bool wrong = false, mended = false;
+    for (size_t i = 0; i < blocks.size(); ++i) {
+      const Block& block = blocks[i];
+      wrong = wrong || block.kind == "wrong";
+      mended = mended || block.kind == "mended";
+      const Block* after = i + 1 < blocks.size() && blocks[i + 1].language == "output" ? &blocks[i + 1] : nullptr;
+      if (block.language == "console") {
+        runConsole(block);
+      } else if (block.language == "st" && (block.kind == "wrong" || block.kind == "mended" || block.kind == "check")) {
+        runCheck(block);
+      } else if (block.language == "st" && block.kind == "run") {
+        runProgram(block, after);
+      } else if (block.kind.find('.') != std::string::npos) {
+        writeText(folder() + "/" + block.kind, textOf(block));
+      }
+    }
+    if (!code_.empty() && !(wrong && mended)) {
+      result_.fail(file_, "  a page needs a ```st wrong and a ```st mended program (or ```console wrong)\n", "");
+    }
+    return std::move(result_);
+  }
+
+ private:
+  const std::string& folder() {
+    if (folder_.empty()) folder_ = folderLikeRoot(setting_);
+    return folder_;
+  }
+
+  std::string nameOfBlock(const Block& block) const { return file_ + ":" + std::to_string(block.line); }
+
+  Command commandFor(const Block& block, const char* verb) {
+    Command c;
+    c.folder = freshFolder(setting_);
+    writeText(c.folder + "/example.st", textOf(block));
+    c.arguments = {setting_.rung, verb, "example.st"};
+    c.arguments.insert(c.arguments.end(), block.options.begin(), block.options.end());
+    return c;
+  }
+
+  void runCheck(const Block& block) {
+    const Command check = commandFor(block, "check");
+    const Output output = rung::tests::run(check);
+    std::string problem;
+    bool reported = false;
+    for (const std::string& heading : headingsOf(output.err)) {
+      const bool own = !code_.empty() && heading.find("[" + code_ + "]") != std::string::npos;
+      const bool error = heading.find(": error[") != std::string::npos;
+      reported = reported || own;
+      if (error && !(own && block.kind == "wrong")) problem += "  " + heading + "\n";
+      if (!error && own && block.kind == "mended") problem += "  " + heading + "\n";
+    }
+    if (block.kind == "wrong" && !reported) problem += "  " + code_ + " is not reported\n";
+    if (output.exit_code != 0 && output.exit_code != 1)
+      problem += "  exit code " + std::to_string(output.exit_code) + "\n";
+    finish(block, problem, spelled(check));
+  }
+
+  void runProgram(const Block& block, const Block* expected) {
+    const Command c = commandFor(block, "run");
+    const Output output = rung::tests::run(c);
+    std::string problem;
+    if (output.exit_code != 0)
+      problem = "  exit code " + std::to_string(output.exit_code) + "\n" + output.err.substr(0, 4000);
+    if (expected != nullptr) problem += diffWithGaps(expected->lines, splitLines(output.out));
+    finish(block, problem, spelled(c));
+  }
+
+  void runConsole(const Block& block) {
+    std::vector<std::string> updated;
+    Result session;
+    runSession(setting_, nameOfBlock(block), block.lines, folder(), updated, session);
+    std::string problem = session.log;
+    const bool mentioned = std::any_of(updated.begin(), updated.end(), [&](const std::string& line) {
+      return line.find("[" + code_ + "]") != std::string::npos;
+    });
+    if (block.kind == "wrong" && !mentioned) problem += "  " + code_ + " is not reported\n";
+    if (setting_.update && updated != block.lines) {
+      lines_.erase(lines_.begin() + static_cast<std::ptrdiff_t>(block.line + shift_),
+                   lines_.begin() + static_cast<std::ptrdiff_t>(block.line + shift_ + block.lines.size()));
+      lines_.insert(lines_.begin() + static_cast<std::ptrdiff_t>(block.line + shift_), updated.begin(), updated.end());
+      shift_ += updated.size() - block.lines.size();
+      std::string text;
+      for (const std::string& line : lines_) text += line + '\n';
+      writeText(setting_.root + "/" + file_, text);
+      result_.log += "updated " + nameOfBlock(block) + "\n";
+    }
+    finish(block, problem, "");
+  }
+
+  void finish(const Block& block, const std::string& problem, const std::string& command) {
+    if (problem.empty()) {
+      result_.pass();
+    } else {
+      result_.fail(nameOfBlock(block) + " (" + block.language + " " + block.kind + ")", problem, command);
+    }
+  }
+
+  const Setting& setting_;
+  std::string file_, code_, folder_;
+  std::vector<std::string> lines_;
+  size_t shift_ = 0;  // lines that updates have added so far; wraps where they have removed some
+  Result result_;
+};
+
+}  // namespace
+
+void addDocumentation(const Setting& setting, std::vector<Job>& jobs) {
+  std::vector<std::string> pages;
+  for (const char* folder : {"docs", "samples"}) {
+    for (std::string& file : filesBelow(setting, folder, ".md")) pages.push_back(std::move(file));
+  }
+  for (const char* file : {"README.md", "CONTRIBUTING.md"}) {
+    if (isWanted(setting, file) && std::filesystem::exists(setting.root + "/" + file)) pages.emplace_back(file);
+  }
+  for (const std::string& file : pages) {
+    jobs.push_back({file, isErrorPage(file) ? 0 : 5, [&setting, file] { return Page(setting, file).run(); }});
+  }
+}
+
+}  // namespace rung::tests

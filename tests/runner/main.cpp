@@ -1,0 +1,193 @@
+// The one runner of all kinds of tests. Each failure prints the difference and the command that reproduces it; the last
+// line is `N passed, N failed`. Called by tools/test.sh and tests/update.
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+
+#include "tests/runner/diff.h"
+#include "tests/runner/support.h"
+
+namespace rung::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char kHelp[] =
+    R"(rung_test_runner [options] [FILE|FOLDER...]     without files: every test
+
+  --update        rewrite golden text (tests/update)
+  --ways=LIST     options that programs run with, separated by commas: -O0,-O1
+  -j N            processes at once (default: one per processor)
+  --list          only print the jobs
+
+  tests/golden/**.st        `// expect: ` headings of `rung check`; `// expect tree:` and other emitted text
+  tests/golden/**.test      sessions at a console
+  tests/golden/ir/*.ir      passes, with rung_ir_test
+  tests/conformance/**.st   {test} POUs by `rung test`, or `// expect:`
+  tests/programs/**         `// run: ` options and `// trace: ` lines
+  docs/**.md, README.md     ```st wrong, mended, check, run; ```console
+  unit/NAME, tools/house    GoogleTest programs; the checks of tools/precommit.sh
+)";
+
+struct Arguments {
+  unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
+  bool list = false;
+  std::string error;
+};
+
+// The project is the folder above the build folder, or the one we stand in, that holds tests/runner.
+std::string findRoot(const std::string& bin) {
+  std::error_code error;
+  for (fs::path start : {fs::current_path(error), fs::path(bin)}) {
+    for (; start.has_relative_path(); start = start.parent_path()) {
+      if (fs::exists(start / "tests/runner/main.cpp", error)) return start.string();
+    }
+  }
+  return {};
+}
+
+Arguments parse(int argc, char** argv, Setting& setting) {
+  Arguments arguments;
+  std::error_code error;
+  setting.bin = fs::read_symlink("/proc/self/exe", error).parent_path().string();
+  setting.rung = setting.bin + "/rung";
+  setting.root = findRoot(setting.bin);
+#ifdef RUNG_SOURCE_ROOT
+  if (setting.root.empty()) setting.root = RUNG_SOURCE_ROOT;
+#endif
+  setting.ways = {"-O0", "-O1"};
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--help") {
+      std::fputs(kHelp, stdout);
+      std::exit(0);
+    } else if (word == "--update") {
+      setting.update = true;
+    } else if (word == "--list") {
+      arguments.list = true;
+    } else if (word == "-j" && i + 1 < argc) {
+      arguments.jobs = static_cast<unsigned>(std::max(1, std::atoi(argv[++i])));
+    } else if (startsWith(word, "--ways=")) {
+      setting.ways.clear();
+      for (size_t at = 7; at <= word.size();) {
+        const size_t end = std::min(word.find(',', at), word.size());
+        setting.ways.push_back(word.substr(at, end - at));
+        at = end + 1;
+      }
+    } else if (startsWith(word, "-")) {
+      arguments.error = "there is no option " + word;
+    } else if (startsWith(word, "unit/")) {
+      setting.wanted.push_back(word);
+    } else if (!fs::exists(word, error) && !fs::exists(setting.root + "/" + word, error)) {
+      arguments.error = "there is no file " + word;
+    } else {
+      const fs::path path = fs::exists(word, error) ? fs::canonical(word, error) : fs::path(setting.root) / word;
+      setting.wanted.push_back(path.lexically_relative(setting.root).string());
+    }
+  }
+  if (setting.root.empty()) arguments.error = "run it inside the project";
+  return arguments;
+}
+
+// A folder for this run below the build folder. Those of runs that have ended go.
+void makeScratch(Setting& setting) {
+  const fs::path folder = fs::path(setting.bin).parent_path() / "test-scratch";
+  std::error_code error;
+  fs::create_directories(folder, error);
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const int pid = std::atoi(entry.path().filename().c_str());
+    if (pid <= 0 || (kill(pid, 0) != 0 && errno == ESRCH)) fs::remove_all(entry.path(), error);
+  }
+  setting.scratch = folder / std::to_string(getpid());
+  fs::create_directories(setting.scratch, error);
+}
+
+// A cache and a search path of the tests' own: what the user has must neither help nor be touched.
+void setEnvironment(const Setting& setting) {
+  const char* path = std::getenv("PATH");
+  setenv("PATH", (setting.bin + ":" + (path != nullptr ? path : "/usr/bin:/bin")).c_str(), 1);
+  setenv("XDG_CACHE_HOME", (setting.bin + "/../test-cache").c_str(), 1);
+  setenv("RUNG_SOURCE", setting.root.c_str(), 1);
+  setenv("RUNG_VERIFY", "1", 1);
+  setenv("LC_ALL", "C.UTF-8", 1);
+  unsetenv("RUNG_HOME");
+}
+
+void writeRows(const Setting& setting, std::vector<Row> rows) {
+  std::sort(rows.begin(), rows.end(),
+            [](const Row& a, const Row& b) { return a.file != b.file ? a.file < b.file : a.test < b.test; });
+  std::string text = "file\ttest\tstatus\tfeatures\tcovers\n";
+  for (const Row& row : rows) {
+    text += row.file + "\t" + row.test + "\t" + (row.passed ? "passed" : "failed") + "\t" + row.features + "\t" +
+            row.covers + "\n";
+  }
+  writeText(setting.bin + "/../test-results.tsv", text);
+}
+
+int runAll(const Setting& setting, const Arguments& arguments, std::vector<Job>& jobs) {
+  std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.cost > b.cost; });
+  std::atomic<size_t> next{0};
+  std::mutex mutex;  // guards what follows
+  unsigned passed = 0, failed = 0;
+  std::vector<Row> rows;
+
+  const auto work = [&] {
+    for (size_t i = next++; i < jobs.size(); i = next++) {
+      Result result = jobs[i].run();
+      const std::lock_guard lock(mutex);
+      passed += result.passed;
+      failed += result.failed;
+      rows.insert(rows.end(), result.rows.begin(), result.rows.end());
+      std::fputs(result.log.c_str(), stdout);
+      std::fflush(stdout);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (unsigned i = 1; i < arguments.jobs; ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+
+  if (setting.wanted.empty() && !setting.update) writeRows(setting, std::move(rows));
+  std::printf("%u passed, %u failed\n", passed, failed);
+  return failed == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace rung::tests
+
+int main(int argc, char** argv) {
+  using namespace rung::tests;
+  Setting setting;
+  const Arguments arguments = parse(argc, argv, setting);
+  if (!arguments.error.empty()) {
+    std::fprintf(stderr, "rung_test_runner: %s\n", arguments.error.c_str());
+    return 2;
+  }
+  makeScratch(setting);
+  setEnvironment(setting);
+
+  std::vector<Job> jobs;
+  addUnit(setting, jobs);
+  addConformance(setting, jobs);
+  addPrograms(setting, jobs);
+  addDocumentation(setting, jobs);
+  addConsole(setting, jobs);
+  addGolden(setting, jobs);
+  int exit_code = 0;
+  if (arguments.list) {
+    for (const Job& job : jobs) std::printf("%s\n", job.name.c_str());
+  } else {
+    exit_code = runAll(setting, arguments, jobs);
+  }
+  std::error_code error;
+  if (exit_code == 0) std::filesystem::remove_all(setting.scratch, error);  // else: for the commands that were printed
+  return exit_code;
+}

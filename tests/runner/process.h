@@ -1,0 +1,27 @@
+// Child processes of the tests. In: a command, a folder, a time limit. Out: exit code and what was printed.
+// Safe to call from several threads.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace rung::tests {
+
+struct Command {
+  std::vector<std::string> arguments;  // [0]: the program, a path
+  std::string folder;
+  int seconds = 120;    // after which it and its children are killed
+  bool merged = false;  // stderr goes where stdout goes
+};
+
+struct Output {
+  int exit_code = -1;  // 128 + signal; 124: out of time
+  std::string out, err;
+};
+
+Output run(const Command& command);
+
+// The command as a user types it from the project's root.
+std::string spelled(const Command& command);
+
+}  // namespace rung::tests

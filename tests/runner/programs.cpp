@@ -1,0 +1,68 @@
+// Programs with an expected trace, tests/programs/**.st, or a folder that holds test.txt and a project:
+//   // run: --cycles 5 --watch a,b     options of `rung run`; --trace - is added
+//   // trace: cycle,time_ms,a,b        the expected CSV, line by line, computed by hand or from a manual
+//   // exit: 3                         where the program faults; `// expect:` then gives the heading on stderr
+// Each program runs once for each way (-O0, -O1).
+#include <algorithm>
+#include <filesystem>
+
+#include "tests/runner/diff.h"
+#include "tests/runner/support.h"
+
+namespace rung::tests {
+namespace {
+
+Result runProgram(const Setting& setting, const std::string& file) {
+  Result result;
+  const std::vector<std::string> lines = splitLines(readText(setting.root + "/" + file));
+  if (const std::string problem = purposeProblem(lines); !problem.empty()) result.fail(file, problem, "");
+  const std::string exit_text = valueOf(lines, "exit");
+  const int exit_code = exit_text.empty() ? 0 : std::stoi(exit_text);
+  const bool folder = nameOf(file) == "test.txt";
+
+  for (const std::string& way : setting.ways) {
+    Command c;
+    c.arguments = {setting.rung, "run", folder ? "." : nameOf(file)};
+    for (const std::string& word : splitWords(way + " " + valueOf(lines, "run"))) c.arguments.push_back(word);
+    if (std::find(c.arguments.begin(), c.arguments.end(), "--trace") == c.arguments.end()) {
+      c.arguments.insert(c.arguments.end(), {"--trace", "-"});
+    }
+    c.folder = setting.root + "/" + folderOf(file);
+    const Output output = run(c);
+    std::string problem;
+    if (output.exit_code != exit_code) {
+      problem = "  exit code " + std::to_string(output.exit_code) + " for " + std::to_string(exit_code) + "\n" +
+                output.err.substr(0, 4000);
+    }
+    problem += diff(valuesOf(lines, "trace"), splitLines(output.out));
+    const std::vector<std::string> headings = valuesOf(lines, "expect");
+    if (!headings.empty()) problem += diff(headings, headingsOf(output.err));
+    if (problem.empty()) {
+      result.pass();
+    } else {
+      result.fail(file + " (" + way + ")", problem, spelled(c));
+    }
+  }
+  result.rows.push_back({file, "", result.failed == 0, valueOf(lines, "features"), valueOf(lines, "covers")});
+  return result;
+}
+
+}  // namespace
+
+void addPrograms(const Setting& setting, std::vector<Job>& jobs) {
+  if (setting.update) return;  // traces are asserted values
+  std::vector<std::string> files = filesBelow(setting, "tests/programs", "/test.txt");
+  const std::vector<std::string> projects = files;
+  for (const std::string& file : filesBelow(setting, "tests/programs", ".st")) {
+    const bool part = std::any_of(projects.begin(), projects.end(), [&](const std::string& project) {
+      return startsWith(file, folderOf(project) + "/");
+    });
+    if (!part) files.push_back(file);
+  }
+  for (const std::string& file : files) {
+    jobs.push_back(
+        {file, 2 * static_cast<int>(setting.ways.size()), [&setting, file] { return runProgram(setting, file); }});
+  }
+}
+
+}  // namespace rung::tests

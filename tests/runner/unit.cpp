@@ -1,0 +1,61 @@
+// Unit tests (the GoogleTest programs that CMake lists in unit_tests.list) and the checks of tools/house.
+#include <cstdlib>
+
+#include "tests/runner/diff.h"
+#include "tests/runner/support.h"
+
+namespace rung::tests {
+namespace {
+
+// N of a line like "[  PASSED  ] N tests."
+unsigned countAfter(const std::string& text, const std::string& mark) {
+  const size_t at = text.find(mark);
+  return at == std::string::npos ? 0
+                                 : static_cast<unsigned>(std::strtoul(text.c_str() + at + mark.size(), nullptr, 10));
+}
+
+Result runUnit(const Setting& setting, const std::string& name) {
+  Command c;
+  c.arguments = {setting.bin + "/" + name, "--gtest_brief=1"};
+  c.folder = setting.root;
+  c.merged = true;
+  c.seconds = 600;
+  const Output output = run(c);
+  Result result;
+  result.passed = countAfter(output.out, "[  PASSED  ] ");
+  const unsigned failed = countAfter(output.out, "[  FAILED  ] ");
+  if (output.exit_code == 0 && failed == 0) return result;
+  result.fail("unit/" + name, output.out.substr(0, 8000), spelled(c));
+  if (failed > 1) result.failed = failed;
+  return result;
+}
+
+Result runHouse(const Setting& setting, const std::string& script) {
+  Command c;
+  c.arguments = {setting.root + "/" + script};
+  c.folder = setting.root;
+  c.merged = true;
+  const Output output = run(c);
+  Result result;
+  if (output.exit_code == 0) {
+    result.pass();
+  } else {
+    result.fail(script, output.out.substr(0, 4000), script);
+  }
+  return result;
+}
+
+}  // namespace
+
+void addUnit(const Setting& setting, std::vector<Job>& jobs) {
+  if (setting.update) return;
+  for (const std::string& name : splitLines(readText(setting.bin + "/../unit_tests.list"))) {
+    if (name.empty() || !isWanted(setting, "unit/" + name)) continue;
+    jobs.push_back({"unit/" + name, 5, [&setting, name] { return runUnit(setting, name); }});
+  }
+  for (const std::string& script : filesBelow(setting, "tools/house", ".sh")) {
+    jobs.push_back({script, 2, [&setting, script] { return runHouse(setting, script); }});
+  }
+}
+
+}  // namespace rung::tests

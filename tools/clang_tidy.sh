@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# clang-tidy over the project's own sources, or over the files named; no output means clean.
+#   tools/clang_tidy.sh [FILE.cpp...]      needs a configured build folder (BUILD=build)
+set -eu
+cd "$(dirname "$0")/.."
+build=${BUILD:-build}
+[ -f "$build/compile_commands.json" ] || cmake --preset release >/dev/null
+if [ $# -gt 0 ]; then
+  files=("$@")
+else
+  mapfile -t files < <(git ls-files '*.cpp' ':!tests/unit' ':!tests/fuzz')
+fi
+printf '%s\0' "${files[@]}" | xargs -0 -n 4 -P "$(nproc)" clang-tidy --quiet -p "$build" 2> >(grep -v 'warnings generated' >&2)

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Every code of diagnostics.def has a page in docs/errors and a test program that provokes it, and every page has a code.
+set -eu
+cd "$(dirname "$0")/../.."
+bad=0
+codes=$(sed -nE 's/^RUNG_(ERROR|WARNING|INFO)\(([EWI][0-9]{4}),.*/\2/p' frontend/source/diagnostics.def)
+for code in $(echo "$codes" | sort | uniq -d); do echo "frontend/source/diagnostics.def: $code is used twice"; bad=1; done
+provoked=$(grep -rhoE '(error|warning|info)\[[EWI][0-9]{4}\]' tests/golden tests/conformance tests/programs 2>/dev/null |
+  grep -oE '[EWI][0-9]{4}' | sort -u || true)
+for code in $codes; do
+  page=docs/errors/$code.md
+  if [ ! -f "$page" ]; then
+    echo "$code: there is no page $page"
+    bad=1
+  elif ! head -1 "$page" | grep -q "^# $code: "; then
+    echo "$page:1: the title is not \`# $code: ...\`"
+    bad=1
+  fi
+  # The wrong program of the page is run by the tests, too.
+  if ! grep -qx "$code" <<<"$provoked" && ! grep -qsE '^```[a-z]+ wrong' "$page"; then
+    echo "$code: no test provokes it"
+    bad=1
+  fi
+done
+for page in docs/errors/[EWI][0-9][0-9][0-9][0-9].md; do
+  [ -e "$page" ] || continue
+  code=$(basename "$page" .md)
+  grep -qx "$code" <<<"$codes" || { echo "$page: there is no code $code"; bad=1; }
+done
+exit $bad

@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# No file includes a header of a later layer (design: each layer uses only those before it), the runtime includes no
+# compiler code, and tests are included by nobody.
+set -eu
+cd "$(dirname "$0")/../.."
+git ls-files '*.h' '*.cpp' '*.def' | grep -v '^tests/' | xargs grep -Hn '^#include "' | awk '
+  # The layers in order; a path belongs to the longest prefix that matches. Equal numbers may not see each other,
+  # except through their own folder.
+  BEGIN {
+    layer["frontend/source/"] = 1
+    layer["frontend/syntax/"] = 2
+    layer["sema/types/"] = 3
+    layer["frontend/text/"] = 4;  layer["frontend/xml/"] = 4;  layer["frontend/diagram/"] = 5
+    layer["frontend/plcopen/"] = 6;  layer["frontend/nct/"] = 6;  layer["frontend/vendor/"] = 7
+    layer["sema/"] = 8
+    layer["ir/"] = 9
+    layer["codegen/"] = 10
+    layer["tools/"] = 11
+    layer["stdlib/"] = -1; layer["cam/"] = -2
+  }
+  function prefix(path,   p, best) {
+    best = ""
+    for (p in layer) if (index(path, p) == 1 && length(p) > length(best)) best = p
+    return best
+  }
+  {
+    split($0, part, ":"); file = part[1]; line = part[2]
+    header = $0; sub(/^[^"]*"/, "", header); sub(/".*$/, "", header)
+    from = prefix(file); to = prefix(header)
+    if (header ~ /^rung\//) to = "stdlib/"                 # the public headers of the runtime
+    if (header ~ /^tests\//) { print file ":" line ": includes a test, " header; bad = 1; next }
+    if (from == "" || to == "" || from == to) next
+    if (layer[from] < 0 && layer[to] > 0) { print file ":" line ": the runtime includes compiler code, " header; bad = 1 }
+    if (layer[from] > 0 && layer[to] < 0 && layer[from] < 11 && header != "rung/module.h" && to == "stdlib/") {
+      print file ":" line ": the compiler includes the runtime, " header; bad = 1
+    }
+    if (layer[from] > 0 && layer[to] >= layer[from]) {
+      print file ":" line ": " from " may not use " to ", a layer that is not before it: " header; bad = 1
+    }
+  }
+  END { exit bad }'

@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# From a fresh clone to a running program: installs packages, builds the compiler, runs a sample and shows its trace.
+set -eu
+cd "$(dirname "$0")/.."
+tools/install-packages.sh
+echo "building (a minute or two)"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+{ cmake --preset release && cmake --build build --target rung; } >"$log" 2>&1 || { tail -40 "$log"; exit 1; }
+
+command=(build/bin/rung run samples/conveyor --cycles 12 --trace -)
+[ ! -f samples/conveyor/inputs.csv ] || command+=(--inputs samples/conveyor/inputs.csv)
+echo "\$ ${command[*]}"
+"${command[@]}"
