@@ -1,1 +1,49 @@
-int main() { return 0; }
+// rung: reads the command line and calls the command. Exit codes are those of options.h; nothing else decides them.
+#include <cstdio>
+
+#include "frontend/source/invariant.h"
+#include "tools/rung/commands.h"
+#include "tools/rung/compile.h"
+#include "tools/rung/crash.h"
+
+namespace {
+
+int runCommand(const rung::tool::Options& options) {
+  using rung::tool::Command;
+  switch (options.command) {
+    case Command::Check: return rung::tool::runCheck(options);
+    case Command::Emit: return rung::tool::runEmit(options);
+    case Command::Build: return rung::tool::runBuild(options);
+    case Command::Run: return rung::tool::runRun(options);
+    case Command::Test: return rung::tool::runTest(options);
+    case Command::List: return rung::tool::runList(options);
+    case Command::Explain: return rung::tool::runExplain(options);
+    case Command::Version: return rung::tool::runVersion(options);
+    case Command::None:
+    case Command::Help: break;
+  }
+  return rung::tool::kUsage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  rung::tool::installCrashHandler(argv + 1, argc > 0 ? argc - 1 : 0);
+  rung::setPhase("command line");
+  std::vector<std::string> words;
+  for (int i = 1; i < argc; i++) words.emplace_back(argv[i]);
+  if (words.empty()) {
+    fputs(rung::tool::helpText(rung::tool::Command::None).c_str(), stderr);
+    return rung::tool::kUsage;
+  }
+  rung::tool::Options options;
+  std::string error = rung::tool::expandResponseFiles(words);
+  if (error.empty()) error = rung::tool::parseOptions(words, options);
+  if (error.empty() && !options.help) error = rung::tool::checkDumpName(options.dump_after);
+  if (!error.empty()) return rung::tool::usageError(error);
+  if (options.help) {
+    error = rung::tool::printOut(rung::tool::helpText(options.command));
+    return error.empty() ? rung::tool::kGood : rung::tool::usageError(error);
+  }
+  return runCommand(options);
+}

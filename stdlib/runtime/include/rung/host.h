@@ -34,6 +34,16 @@ struct TestOptions {
 };
 int test(const rung_module& module, const TestOptions& options);
 
+// The same in two steps, for a run over many modules: runs and prints the tests of one, then writes all results.
+struct TestResults {
+  uint32_t passed = 0, failed = 0;
+  std::string junit;  // <testsuite> elements
+};
+// Empty, or why the module cannot run here. `options.junit_path` is not written.
+std::string runTests(const rung_module& module, const TestOptions& options, TestResults& results);
+// 0, 2 or 4, as test() gives them.
+int reportTests(const TestResults& results, const TestOptions& options);
+
 // main() of an executable made by `rung build`: the options of `rung run` on its own command line.
 int applicationMain(const rung_module& module, int argc, char** argv);
 

@@ -1,0 +1,43 @@
+// `rung build`: emit, compile and link to an executable with the bundled host, a shared or a static library.
+#include <sys/stat.h>
+
+#include <cstdio>
+
+#include "tools/rung/commands.h"
+#include "tools/rung/compile.h"
+#include "tools/rung/crash.h"
+#include "tools/rung/native.h"
+
+namespace rung::tool {
+
+int runBuild(const Options& options) {
+  struct stat info;
+  if (stat(options.output.c_str(), &info) == 0 && S_ISDIR(info.st_mode))
+    return usageError("`" + options.output + "` is a folder; `-o` names the file to build");
+
+  PhaseTimes times;
+  Compilation compilation(options, times);
+  NativeRequest request;
+  request.parts.resize(1);
+  const bool good = compilation.emit(false, request.parts[0].files);
+  int exit = compilation.finish();
+  if (good && exit == kGood) {
+    times.begin("c++");
+    Cache cache;
+    request.level = "-O2";
+    request.jobs = options.jobs;
+    request.keep = options.keep;
+    NativeResult result =
+        makeOutput(cache, request, options.build, compilation.options.moduleName(), options.output);
+    times.end();
+    exit = result.exit;
+    if (exit == kInternal)
+      printInternalError(result.message.c_str());
+    else if (exit != kGood)
+      usageError(result.message);
+  }
+  if (options.time_phases) fputs(times.table().c_str(), stderr);
+  return exit;
+}
+
+}  // namespace rung::tool

@@ -1,0 +1,17 @@
+// The commands of rung, one file each. In: Options. Out: the exit code. Called by main.cpp.
+#pragma once
+
+#include "tools/rung/options.h"
+
+namespace rung::tool {
+
+int runCheck(const Options& options);
+int runEmit(const Options& options);
+int runBuild(const Options& options);
+int runRun(const Options& options);
+int runTest(const Options& options);
+int runList(const Options& options);
+int runExplain(const Options& options);
+int runVersion(const Options& options);
+
+}  // namespace rung::tool

@@ -1,0 +1,263 @@
+// The driver; see compile.h.
+#include "tools/rung/compile.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+
+#include "frontend/source/invariant.h"
+#include "frontend/source/render.h"
+#include "frontend/text/parse.h"
+#include "ir/lower.h"
+#include "ir/passes/passes.h"
+#include "ir/text.h"
+#include "ir/verify.h"
+#include "tools/rung/crash.h"
+
+namespace rung::tool {
+namespace {
+
+uint64_t clockNs(clockid_t clock) {
+  timespec t;
+  clock_gettime(clock, &t);
+  return static_cast<uint64_t>(t.tv_sec) * 1'000'000'000u + static_cast<uint64_t>(t.tv_nsec);
+}
+
+}  // namespace
+
+void PhaseTimes::begin(const char* phase) {
+  end();
+  setPhase(phase);
+  running_ = phase;
+  cpu_begin_ = clockNs(CLOCK_PROCESS_CPUTIME_ID);
+  wall_begin_ = clockNs(CLOCK_MONOTONIC);
+}
+
+void PhaseTimes::end() {
+  if (running_ == nullptr) return;
+  uint64_t cpu = clockNs(CLOCK_PROCESS_CPUTIME_ID) - cpu_begin_, wall = clockNs(CLOCK_MONOTONIC) - wall_begin_;
+  for (Row& row : rows_) {
+    if (strcmp(row.phase, running_) != 0) continue;
+    row.cpu_ns += cpu;
+    row.wall_ns += wall;
+    running_ = nullptr;
+    return;
+  }
+  rows_.push_back({running_, cpu, wall});
+  running_ = nullptr;
+}
+
+std::string PhaseTimes::table() const {
+  char line[160];
+  std::string out = "phase          CPU s     wall s      lines/s\n";
+  uint64_t cpu = 0, wall = 0;
+  auto add = [&](const char* name, uint64_t cpu_ns, uint64_t wall_ns) {
+    double seconds = static_cast<double>(cpu_ns) * 1e-9;
+    snprintf(line, sizeof line, "%-10s %9.4f  %9.4f %12.0f\n", name, seconds, static_cast<double>(wall_ns) * 1e-9,
+             seconds > 0 ? static_cast<double>(lines) / seconds : 0.0);
+    out += line;
+  };
+  for (const Row& row : rows_) {
+    add(row.phase, row.cpu_ns, row.wall_ns);
+    cpu += row.cpu_ns;
+    wall += row.wall_ns;
+  }
+  add("total", cpu, wall);
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  snprintf(line, sizeof line, "%llu lines, %llu bytes, peak memory %.1f MiB\n", static_cast<unsigned long long>(lines),
+           static_cast<unsigned long long>(bytes), static_cast<double>(usage.ru_maxrss) / 1024.0);
+  return out + line;
+}
+
+Compilation::Compilation(const Options& given, PhaseTimes& times)
+    : options(given), diagnostics(sources), times_(times) {
+  diagnostics.max_errors = options.max_errors;
+  diagnostics.warnings_are_errors = options.werror;
+}
+
+bool Compilation::read() {
+  times_.begin("read");
+  readInputs(options, sources, diagnostics, inputs);
+  if (inputs.project.file) applyProjectFile(inputs.project, options);
+  for (const WarningSwitch& warning : options.warnings)
+    if (!diagnostics.setWarning(warning.name, warning.on) && usage_error_.empty())
+      usage_error_ = "unknown warning `" + warning.name + "` in `-W`; `rung explain` knows the codes";
+  for (const InputFile& file : inputs.files) {
+    std::string_view text = sources.text(file.file);
+    times_.lines += static_cast<uint64_t>(std::count(text.begin(), text.end(), '\n'));
+    times_.bytes += text.size();
+  }
+  times_.end();
+  return usage_error_.empty() && !inputs.io_error && !diagnostics.hasErrors();
+}
+
+bool Compilation::parse() {
+  if (!read()) return false;
+  times_.begin("parse");
+  for (const InputFile& file : inputs.files) {
+    if (diagnostics.full()) break;
+    setPhaseSubject(file.below.data(), file.below.size());
+    text::parseFile(tree, names, sources, file.file, options.standard, diagnostics);
+  }
+  if (!inputs.project.configuration.empty()) {
+    FileId file = sources.add("rung.project", inputs.project.configuration);
+    if (file) text::parseFile(tree, names, sources, file, options.standard, diagnostics);
+  }
+  setPhaseSubject("", 0);
+  times_.end();
+  if (options.dump_after == "parse")
+    for (const FileUnit& unit : tree.files) dump(printTree(tree, names, unit));
+  return true;
+}
+
+bool Compilation::check() {
+  if (!parse()) return false;
+  times_.begin("check");
+  // Errors of the parser do not keep the rest from being checked: one run shows as much as it can.
+  if (!diagnostics.full()) {
+    sema::Options sema_options;
+    sema_options.standard = options.standard;
+    project = std::make_unique<sema::Project>(sources, names, diagnostics, tree, sema_options);
+    sema::check(*project);
+  }
+  setPhaseSubject("", 0);
+  times_.end();
+  return !diagnostics.hasErrors();
+}
+
+bool Compilation::lower() {
+  if (!check()) return false;
+  times_.begin("lower");
+  module = std::make_unique<ir::Module>(project->types, names, sources);
+  ir::LowerOptions lower_options;
+  lower_options.checks = options.checks;
+  ir::lower(*project, lower_options, *module);
+  setPhaseSubject("", 0);
+  times_.end();
+  if (options.dump_after == "lower") dump(ir::print(*module));
+  if (options.verify && !verified("lower")) return false;
+
+  times_.begin("optimize");
+  ir::optimize(*module, options.level, [this](const ir::Pass& pass, ir::Body& body) {
+    if (options.dump_after == pass.name) dump(ir::print(*module, body));
+    if (!options.verify || !internal_error_.empty()) return;
+    for (const std::string& problem : ir::verify(*module, body)) {
+      internal_error_ = "the IR of `" + std::string(names.text(body.spelling)) + "` is broken after pass " + pass.name +
+                        ": " + problem;
+      break;
+    }
+  });
+  setPhaseSubject("", 0);
+  times_.end();
+  return internal_error_.empty();
+}
+
+bool Compilation::emit(bool with_tests, std::vector<codegen::OutputFile>& files) {
+  if (!lower()) return false;
+  times_.begin("emit");
+  codegen::EmitOptions emit_options;
+  emit_options.module_name = options.moduleName();
+  emit_options.with_tests = with_tests;
+  files = codegen::emitCpp(*module, emit_options);
+  setPhaseSubject("", 0);
+  times_.end();
+  return true;
+}
+
+bool Compilation::verified(const char* after) {
+  std::vector<std::string> problems = ir::verify(*module);
+  if (problems.empty()) return true;
+  internal_error_ = std::string("the IR is broken after ") + after + ": " + problems[0];
+  return false;
+}
+
+void Compilation::dump(const std::string& text) const { fputs(text.c_str(), stderr); }
+
+int Compilation::exitCode() const {
+  if (!internal_error_.empty()) return kInternal;
+  if (!usage_error_.empty() || inputs.io_error) return kUsage;
+  return diagnostics.hasErrors() ? kInputErrors : kGood;
+}
+
+std::string Compilation::diagnosticsText() {
+  if (diagnostics.all().empty() && options.format == DiagnosticFormat::Text) return {};
+  diagnostics.sort();
+  // The output names files from the project's root; people get the path that they typed. The same texts in the same
+  // order have the same locations.
+  Sources shown;
+  for (uint32_t i = 1; i <= sources.fileCount(); i++) {
+    std::string path(sources.path({i}));
+    for (const InputFile& file : inputs.files)
+      if (file.file.index == i) path = file.shown;
+    if (inputs.project.file.index == i || path == "rung.project") path = inputs.project.folder + "/rung.project";
+    shown.add(std::move(path), std::string(sources.text({i})));
+  }
+  RenderOptions render_options;
+  render_options.format = options.format;
+  render_options.color = useColor(options);
+  return render(diagnostics, shown, render_options);
+}
+
+int Compilation::finish() {
+  if (!usage_error_.empty()) return usageError(usage_error_);
+  std::string text = diagnosticsText();
+  fwrite(text.data(), 1, text.size(), stderr);
+  if (!internal_error_.empty()) printInternalError(internal_error_.c_str());
+  return exitCode();
+}
+
+std::string checkDumpName(const std::string& name) {
+  if (name.empty()) return {};
+  std::vector<std::string_view> known = {"parse", "lower"};
+  for (const ir::Pass& pass : ir::bodyPasses(2)) known.push_back(pass.name);
+  for (std::string_view candidate : known)
+    if (candidate == name) return {};
+  std::string message = "`--dump-after` knows no `" + name + "`";
+  std::string_view near = nearest(name, known);
+  if (!near.empty()) return message + "; did you mean `" + std::string(near) + "`?";
+  const char* separator = "; it takes ";
+  for (std::string_view candidate : known) {
+    message += separator + std::string(candidate);
+    separator = ", ";
+  }
+  return message;
+}
+
+std::string writeFile(const std::string& path, const std::string& text) {
+  const std::string part = path + ".part" + std::to_string(getpid());
+  FILE* file = fopen(part.c_str(), "wb");
+  if (file == nullptr) return "cannot write `" + path + "`: " + strerror(errno);
+  bool good = fwrite(text.data(), 1, text.size(), file) == text.size();
+  good = fclose(file) == 0 && good;
+  if (good && rename(part.c_str(), path.c_str()) == 0) return {};
+  std::string error = "cannot write `" + path + "`: " + strerror(errno);
+  unlink(part.c_str());
+  return error;
+}
+
+std::string printOut(const std::string& text) {
+  if (fwrite(text.data(), 1, text.size(), stdout) == text.size() && fflush(stdout) == 0) return {};
+  return std::string("cannot write to stdout: ") + strerror(errno);
+}
+
+bool useColor(const Options& options) {
+  if (options.color != Color::Auto) return options.color == Color::Always;
+  const char* no_color = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
+  if (no_color != nullptr && no_color[0] != '\0') return false;
+  return isatty(2) && terminal != nullptr && strcmp(terminal, "dumb") != 0;
+}
+
+int usageError(const std::string& message) {
+  fprintf(stderr, "rung: error: %s\n", message.c_str());
+  return kUsage;
+}
+
+}  // namespace rung::tool

@@ -1,0 +1,86 @@
+// The driver: read → parse → check → lower → optimize → emit, with timings, dumps and the verifier between phases.
+// In: Options. Out: the tree, the project, the IR module, generated files; diagnostics go to stderr at the end of the
+// run. Called by the commands, one Compilation for each project.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "codegen/emit.h"
+#include "frontend/source/diagnostics.h"
+#include "frontend/syntax/tree.h"
+#include "ir/ir.h"
+#include "sema/project.h"
+#include "tools/rung/inputs.h"
+#include "tools/rung/options.h"
+
+namespace rung::tool {
+
+// CPU seconds of each phase of a run, for --time-phases. One for all compilations of `rung test --separate`.
+class PhaseTimes {
+ public:
+  void begin(const char* phase);  // ends the one before
+  void end();
+  uint64_t lines = 0, bytes = 0;
+  std::string table() const;
+
+ private:
+  struct Row {
+    const char* phase;
+    uint64_t cpu_ns, wall_ns;
+  };
+  std::vector<Row> rows_;
+  const char* running_ = nullptr;
+  uint64_t cpu_begin_ = 0, wall_begin_ = 0;
+};
+
+class Compilation {
+ public:
+  // Options are taken over: rung.project may change them.
+  Compilation(const Options& options, PhaseTimes& times);
+
+  // Each runs what comes before it. False: stop, finish() says with which exit code.
+  bool read();
+  bool parse();
+  bool check();
+  bool lower();  // and optimize
+  bool emit(bool with_tests, std::vector<codegen::OutputFile>& files);
+
+  // Prints the diagnostics to stderr and gives the exit code: 0, 1, 2 or 70.
+  int finish();
+  // The same as text, for `rung test --separate`.
+  std::string diagnosticsText();
+  int exitCode() const;
+
+  Options options;
+  Sources sources;
+  Names names;
+  Diagnostics diagnostics;
+  Tree tree;
+  Inputs inputs;
+  std::unique_ptr<sema::Project> project;
+  std::unique_ptr<ir::Module> module;
+
+ private:
+  bool readLibrariesAndOptions();
+  void dump(const std::string& text) const;
+  bool verified(const char* after);
+
+  PhaseTimes& times_;
+  std::string usage_error_, internal_error_;
+};
+
+// True for `parse`, `lower` and the names of passes; else a message with a suggestion.
+[[nodiscard]] std::string checkDumpName(const std::string& name);
+
+// Writes a file whole or not at all.
+[[nodiscard]] std::string writeFile(const std::string& path, const std::string& text);
+// To stdout; the error when the text did not get there.
+[[nodiscard]] std::string printOut(const std::string& text);
+bool useColor(const Options& options);
+
+// "rung: error: MESSAGE" on stderr; gives kUsage.
+int usageError(const std::string& message);
+
+}  // namespace rung::tool

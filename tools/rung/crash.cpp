@@ -1,0 +1,98 @@
+// What happens when rung itself breaks; see crash.h.
+#include "tools/rung/crash.h"
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <unistd.h>
+
+#include "frontend/source/invariant.h"
+#include "tools/rung/installation.h"
+#include "tools/rung/options.h"
+
+namespace rung::tool {
+namespace {
+
+const char* const* words = nullptr;
+int word_count = 0;
+volatile sig_atomic_t program_runs = 0, program_checked = 0;
+char alternate_stack[64 * 1024];
+
+const char* signalName(int number) {
+  switch (number) {
+    case SIGSEGV: return "SIGSEGV (memory access outside anything, or a stack overflow)";
+    case SIGBUS: return "SIGBUS (memory access outside a file)";
+    case SIGFPE: return "SIGFPE (arithmetic)";
+    case SIGILL: return "SIGILL (no such machine instruction)";
+    case SIGABRT: return "SIGABRT";
+    default: return "a signal";
+  }
+}
+
+void put(const char* text) {
+  ssize_t ignored = write(2, text, strlen(text));
+  (void)ignored;
+}
+
+// Only calls that are safe in a signal handler.
+void handle(int number) {
+  if (program_runs && !program_checked) {
+    put("rung: the program crashed with ");
+    put(signalName(number));
+    put("; run it with the checks div,index,null,cast to see the place\n");
+    _exit(kFault);
+  }
+  put("rung: internal error: ");
+  put(signalName(number));
+  put(program_runs ? " in generated code" : " in phase ");
+  if (!program_runs) {
+    put(currentPhase());
+    if (currentPhaseSubject()[0] != '\0') {
+      put(", at `");
+      put(currentPhaseSubject());
+      put("`");
+    }
+  }
+  put("\nthis is a mistake in rung ");
+  put(version());
+  put(", not in your program; please report it with the input and this command:\n  rung");
+  for (int i = 0; i < word_count; i++) {
+    put(" ");
+    put(words[i]);
+  }
+  put("\n");
+  _exit(kInternal);
+}
+
+}  // namespace
+
+void installCrashHandler(const char* const* command_words, int count) {
+  words = command_words;
+  word_count = count;
+  stack_t stack = {};
+  stack.ss_sp = alternate_stack;
+  stack.ss_size = sizeof alternate_stack;
+  sigaltstack(&stack, nullptr);
+  struct sigaction action = {};
+  action.sa_handler = handle;
+  action.sa_flags = SA_ONSTACK | static_cast<int>(SA_RESETHAND);
+  for (int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(number, &action, nullptr);
+}
+
+void setProgramRuns(bool runs, bool checked) {
+  program_runs = runs;
+  program_checked = checked;
+}
+
+void printInternalError(const char* what) {
+  fprintf(stderr,
+          "rung: internal error: %s\nthis is a mistake in rung %s, not in your program; please report it with the input "
+          "and this command:\n  rung",
+          what, version());
+  for (int i = 0; i < word_count; i++) fprintf(stderr, " %s", words[i]);
+  fputc('\n', stderr);
+}
+
+}  // namespace rung::tool

@@ -1,0 +1,36 @@
+// `rung explain CODE`: the page of a diagnostic, from docs/errors, which is embedded in the tool.
+#include <string_view>
+
+#include "errors_pages.h"
+#include "frontend/source/diagnostics.h"
+#include "tools/rung/commands.h"
+#include "tools/rung/compile.h"
+
+namespace rung::tool {
+namespace {
+
+std::string pageOf(const DiagInfo& info) {
+  const std::string name = std::string(info.code) + ".md";
+  for (size_t i = 0; i < embedded::errors_pages_count; i++)
+    if (embedded::errors_pages[i].name == name) return std::string(embedded::errors_pages[i].text);
+  return std::string("# ") + info.code + "\n" + info.text + "\n";
+}
+
+}  // namespace
+
+int runExplain(const Options& options) {
+  std::string code = options.inputs[0];
+  for (char& c : code) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+  const DiagInfo* info = findDiag(code);
+  if (info == nullptr) {
+    std::vector<std::string_view> codes;
+    for (uint32_t i = 0; i < diagCount(); i++) codes.push_back(diagInfo(static_cast<Diag>(i)).code);
+    std::string_view near = nearest(code, codes);
+    return usageError("there is no diagnostic `" + options.inputs[0] + "`" +
+                      (near.empty() ? "" : "; did you mean `" + std::string(near) + "`?"));
+  }
+  std::string error = printOut(pageOf(*info));
+  return error.empty() ? kGood : usageError(error);
+}
+
+}  // namespace rung::tool

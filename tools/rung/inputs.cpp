@@ -1,0 +1,344 @@
+// The inputs of a run; see inputs.h.
+#include "tools/rung/inputs.h"
+
+#include <dirent.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+namespace rung::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool hasExtension(std::string_view path, std::string_view extension) {
+  if (path.size() <= extension.size()) return false;
+  std::string_view end = path.substr(path.size() - extension.size());
+  for (size_t i = 0; i < end.size(); i++) {
+    char c = end[i] >= 'A' && end[i] <= 'Z' ? static_cast<char>(end[i] + 32) : end[i];
+    if (c != extension[i]) return false;
+  }
+  return true;
+}
+
+struct Extension {
+  const char* extension;
+  FileKind kind;
+};
+constexpr Extension kExtensions[] = {{".st", FileKind::St},   {".iecst", FileKind::St}, {".il", FileKind::Il},
+                                     {".xml", FileKind::Xml}, {".nct", FileKind::Nct},  {".cam", FileKind::Cam}};
+
+FileKind kindOfExtension(std::string_view path) {
+  if (path == "rung.project" || path.ends_with("/rung.project")) return FileKind::Project;
+  for (const Extension& row : kExtensions)
+    if (hasExtension(path, row.extension)) return row.kind;
+  return FileKind::Unknown;
+}
+
+// Control characters and bytes that are not UTF-8 in a fifth of the first bytes, or a NUL: no text of any encoding that
+// editors of PLC code write.
+bool isBinary(std::string_view text) {
+  std::string_view head = text.substr(0, 4096);
+  if (head.find('\0') != std::string_view::npos) return true;
+  size_t bad = 0;
+  for (size_t i = 0; i < head.size(); i++) {
+    unsigned char c = static_cast<unsigned char>(head[i]);
+    if (c < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f' && c != '\v' && c != 0x1a) bad++;
+    if (c < 0x80) continue;
+    size_t follow = c >= 0xf0 ? 3 : c >= 0xe0 ? 2 : c >= 0xc0 ? 1 : 0;
+    size_t good = 0;
+    while (good < follow && i + good + 1 < head.size() && (head[i + good + 1] & 0xc0) == 0x80) good++;
+    if (follow == 0 || good < follow) bad++;
+    i += good;
+  }
+  return bad * 5 > head.size();
+}
+
+// The first word behind blanks, comments and pragmas, in upper case.
+std::string firstWord(std::string_view text) {
+  size_t i = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
+  while (i < text.size()) {
+    std::string_view rest = text.substr(i);
+    size_t end = std::string_view::npos;
+    if (rest[0] == ' ' || rest[0] == '\t' || rest[0] == '\r' || rest[0] == '\n') {
+      i++;
+      continue;
+    }
+    if (rest.starts_with("//"))
+      end = rest.find('\n');
+    else if (rest.starts_with("(*"))
+      end = rest.find("*)");
+    else if (rest.starts_with("/*"))
+      end = rest.find("*/");
+    else if (rest.starts_with("{"))
+      end = rest.find('}');
+    else
+      break;
+    if (end == std::string_view::npos) return {};
+    i += end + (rest[0] == '{' || rest.starts_with("//") ? 1 : 2);
+  }
+  std::string word;
+  for (; i < text.size(); i++) {
+    char c = text[i];
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
+    if (!((c >= 'A' && c <= 'Z') || c == '_')) break;
+    word += c;
+  }
+  return word;
+}
+
+bool startsDeclaration(std::string_view text) {
+  static constexpr const char* kWords[] = {"PROGRAM",   "FUNCTION",      "FUNCTION_BLOCK", "TYPE",
+                                           "INTERFACE", "CONFIGURATION", "VAR_GLOBAL",     "NAMESPACE"};
+  std::string word = firstWord(text);
+  for (const char* known : kWords)
+    if (word == known) return true;
+  return false;
+}
+
+const char* describe(FileKind kind) {
+  switch (kind) {
+    case FileKind::Il: return "Instruction List";
+    case FileKind::Xml: return "XML";
+    case FileKind::Nct: return "machine-tool ladder";
+    case FileKind::Cam: return "a cam table";
+    case FileKind::Unknown:
+    case FileKind::St:
+    case FileKind::Project:
+    case FileKind::Binary: break;
+  }
+  return "of another kind";
+}
+
+class Collector {
+ public:
+  Collector(const Options& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs)
+      : options_(options), sources_(sources), diagnostics_(diagnostics), inputs_(inputs) {}
+
+  void collect() {
+    for (const std::string& word : options_.inputs) addInput(word);
+    if (inputs_.io_error) return;
+    findRoot();
+    for (Candidate& candidate : candidates_)
+      candidate.below = fs::path(candidate.absolute).lexically_relative(inputs_.root).generic_string();
+    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+      return a.below != b.below ? a.below < b.below : a.named > b.named;
+    });
+    const Candidate* last = nullptr;
+    for (const Candidate& candidate : candidates_) {
+      if (last == nullptr || last->below != candidate.below) addFile(candidate);
+      last = &candidate;
+    }
+    if (inputs_.files.empty() && !inputs_.io_error && !diagnostics_.hasErrors() && !options_.inputs.empty())
+      fail(Diag::EmptyFolder, options_.inputs[0], {options_.inputs[0]});
+  }
+
+ private:
+  struct Candidate {
+    std::string absolute, path, below;
+    bool named;  // on the command line or in rung.project, not found in a folder
+  };
+
+  void fail(Diag diag, const std::string& path, std::initializer_list<std::string_view> args,
+            std::string_view suggestion = {}) {
+    diagnostics_.report(diag, {}, args).path(path).didYouMean(suggestion);
+    inputs_.io_error = true;
+  }
+
+  static std::string absolute(const std::string& path) {
+    std::error_code error;
+    fs::path full = fs::absolute(path, error);
+    std::string normal = (error ? fs::path(path) : full).lexically_normal().generic_string();
+    while (normal.size() > 1 && normal.back() == '/') normal.pop_back();
+    return normal;
+  }
+
+  // A name in the same folder that is nearly the one that does not exist.
+  std::string similar(const std::string& path) const {
+    size_t slash = path.rfind('/');
+    std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+    std::vector<std::string> names;
+    if (DIR* dir = opendir(folder.c_str())) {
+      while (const dirent* entry = readdir(dir))
+        if (entry->d_name[0] != '.') names.push_back(entry->d_name);
+      closedir(dir);
+    }
+    std::sort(names.begin(), names.end());
+    std::vector<std::string_view> views(names.begin(), names.end());
+    std::string_view near = nearest(std::string_view(path).substr(slash == std::string::npos ? 0 : slash + 1), views);
+    if (near.empty()) return {};
+    return (slash == std::string::npos ? "" : path.substr(0, slash + 1)) + std::string(near);
+  }
+
+  void addInput(const std::string& word) {
+    struct stat info;
+    if (stat(word.c_str(), &info) != 0) {
+      const char* why = strerror(errno);
+      fail(Diag::CannotRead, word, {word, why}, similar(word));
+    } else if (S_ISDIR(info.st_mode)) {
+      bases_.push_back(absolute(word));
+      addProjectFolder(word);
+    } else if (!S_ISREG(info.st_mode)) {
+      fail(Diag::CannotRead, word, {word, "it is neither a file nor a folder"});
+    } else if (kindOfExtension(word) == FileKind::Project) {
+      size_t slash = word.rfind('/');
+      std::string folder = slash == std::string::npos ? "." : word.substr(0, slash);
+      bases_.push_back(absolute(folder));
+      addProjectFolder(folder);
+    } else {
+      bases_.push_back(absolute(word.find('/') == std::string::npos ? "." : word.substr(0, word.rfind('/') + 1)));
+      candidates_.push_back({absolute(word), word, {}, true});
+    }
+  }
+
+  void addProjectFolder(const std::string& folder) {
+    const std::string file = (folder.back() == '/' ? folder : folder + "/") + "rung.project";
+    struct stat info;
+    if (stat(file.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return addFolder(folder);
+    if (inputs_.project.file) {
+      fail(Diag::CannotRead, file, {file, "another folder of this run has a rung.project already"});
+      return;
+    }
+    ReadResult read = readFile(file);
+    if (!read.error.empty()) return fail(Diag::CannotRead, file, {file, read.error});
+    inputs_.read.push_back(file);
+    if (isBinary(read.text)) return fail(Diag::BinaryFile, file, {file});
+    FileId id = sources_.add("rung.project", std::move(read.text));
+    if (!id) return fail(Diag::TooMuchInput, file, {file});
+    inputs_.project.folder = folder;
+    project_shown_ = file;
+    parseProjectFile(sources_, id, diagnostics_, inputs_.project);
+    if (inputs_.project.sources.empty()) return addFolder(folder);
+    for (const std::string& source : inputs_.project.sources) {
+      std::string path = source[0] == '/' ? source : (folder.back() == '/' ? folder : folder + "/") + source;
+      struct stat entry;
+      if (stat(path.c_str(), &entry) != 0) {
+        const char* why = strerror(errno);
+        fail(Diag::CannotRead, path, {path, why}, similar(path));
+      } else if (S_ISDIR(entry.st_mode)) {
+        addFolder(path);
+      } else {
+        candidates_.push_back({absolute(path), path, {}, true});
+      }
+    }
+  }
+
+  // Hidden entries and links to folders are passed over: neither loops nor `.git` belong to a project.
+  void addFolder(const std::string& folder) {
+    const size_t before = candidates_.size();
+    inputs_.read.push_back(folder);
+    scan(folder, 0);
+    if (candidates_.size() == before) fail(Diag::EmptyFolder, folder, {folder});
+  }
+
+  void scan(const std::string& folder, int depth) {
+    DIR* dir = opendir(folder.c_str());
+    if (dir == nullptr) {
+      const char* why = strerror(errno);
+      return fail(Diag::CannotRead, folder, {folder, why});
+    }
+    std::vector<std::string> folders;
+    const std::string prefix = folder.back() == '/' ? folder : folder + "/";
+    while (const dirent* entry = readdir(dir)) {
+      if (entry->d_name[0] == '.') continue;
+      std::string path = prefix + entry->d_name;
+      unsigned char type = entry->d_type;
+      if (type == DT_UNKNOWN || type == DT_LNK) {
+        struct stat info;
+        if (stat(path.c_str(), &info) != 0) continue;  // a dangling link
+        if (S_ISREG(info.st_mode))
+          type = DT_REG;
+        else if (S_ISDIR(info.st_mode) && type == DT_UNKNOWN)
+          type = DT_DIR;
+      }
+      if (type == DT_DIR) {
+        folders.push_back(std::move(path));
+      } else if (type == DT_REG) {
+        FileKind kind = kindOfExtension(path);
+        if (kind == FileKind::Unknown || kind == FileKind::Project) continue;
+        candidates_.push_back({absolute(path), std::move(path), {}, false});
+      }
+    }
+    closedir(dir);
+    for (const std::string& inner : folders) {
+      if (depth > 100) continue;
+      inputs_.read.push_back(inner);
+      scan(inner, depth + 1);
+    }
+  }
+
+  void findRoot() {
+    if (!options_.root.empty()) {
+      inputs_.root = absolute(options_.root);
+      struct stat info;
+      if (stat(inputs_.root.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
+        fail(Diag::CannotRead, options_.root, {options_.root, "`--root` takes a folder"});
+      return;
+    }
+    if (bases_.empty()) return;
+    std::string root = bases_[0];
+    for (const std::string& base : bases_) {
+      while (base != root && !base.starts_with(root == "/" ? root : root + "/")) {
+        size_t slash = root.rfind('/');
+        root = slash == 0 || slash == std::string::npos ? "/" : root.substr(0, slash);
+      }
+    }
+    inputs_.root = root;
+  }
+
+  void addFile(const Candidate& candidate) {
+    ReadResult read = readFile(candidate.path);
+    if (!read.error.empty()) return fail(Diag::CannotRead, candidate.path, {candidate.path, read.error});
+    inputs_.read.push_back(candidate.path);
+    if (read.text.starts_with("\xff\xfe") || read.text.starts_with("\xfe\xff"))
+      return fail(Diag::Utf16File, candidate.path, {candidate.path});
+    FileKind kind = kindOf(candidate.path, read.text);
+    switch (kind) {
+      case FileKind::St: break;
+      case FileKind::Binary: return fail(Diag::BinaryFile, candidate.path, {candidate.path});
+      case FileKind::Unknown: return fail(Diag::UnknownFileKind, candidate.path, {candidate.path});
+      case FileKind::Il:
+      case FileKind::Xml:
+      case FileKind::Nct:
+      case FileKind::Cam:
+        if (candidate.named) return fail(Diag::KindNotRead, candidate.path, {candidate.path, describe(kind)});
+        diagnostics_.report(Diag::KindPassedOver, {}, {candidate.path, describe(kind)}).path(candidate.path);
+        return;
+      case FileKind::Project: return;
+    }
+    FileId file = sources_.add(candidate.below, std::move(read.text));
+    if (!file) return fail(Diag::TooMuchInput, candidate.path, {candidate.path});
+    inputs_.files.push_back({candidate.path, candidate.path, candidate.below, kind, file});
+  }
+
+  const Options& options_;
+  Sources& sources_;
+  Diagnostics& diagnostics_;
+  Inputs& inputs_;
+  std::vector<Candidate> candidates_;
+  std::vector<std::string> bases_;  // folders of the inputs, absolute
+  std::string project_shown_;
+};
+
+}  // namespace
+
+FileKind kindOf(std::string_view path, std::string_view text) {
+  FileKind by_name = kindOfExtension(path);
+  if (isBinary(text)) return FileKind::Binary;
+  std::string_view start = text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
+  size_t first = start.find_first_not_of(" \t\r\n");
+  if (first != std::string_view::npos && start.substr(first).starts_with("<") && by_name != FileKind::St)
+    return FileKind::Xml;
+  if (by_name == FileKind::Unknown && startsDeclaration(text)) return FileKind::St;
+  if (by_name == FileKind::Xml) return FileKind::Unknown;  // named so, but no XML
+  return by_name;
+}
+
+void readInputs(const Options& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
+  Collector(options, sources, diagnostics, inputs).collect();
+}
+
+}  // namespace rung::tool

@@ -1,0 +1,529 @@
+// The command line of rung; see options.h.
+#include "tools/rung/options.h"
+
+#include <cstdlib>
+#include <iterator>
+
+#include "frontend/source/diagnostics.h"
+#include "ir/ir.h"
+
+namespace rung::tool {
+namespace {
+
+constexpr uint32_t bit(Command command) { return 1u << static_cast<uint32_t>(command); }
+constexpr uint32_t kCompile =
+    bit(Command::Check) | bit(Command::Emit) | bit(Command::Build) | bit(Command::Run) | bit(Command::Test);
+constexpr uint32_t kReads = kCompile | bit(Command::List);
+constexpr uint32_t kAll = ~0u;
+
+struct CommandRow {
+  Command command;
+  const char* name;
+  const char* arguments;
+  const char* summary;
+};
+constexpr CommandRow kCommands[] = {
+    {Command::Check, "check", "FILE|DIR ...", "parse and check, no output"},
+    {Command::Emit, "emit", "FILE|DIR ... -o DIR", "write C++ (or print the IR or the tree)"},
+    {Command::Build, "build", "FILE|DIR ... -o FILE", "emit, compile and link"},
+    {Command::Run, "run", "FILE|DIR ...", "simulate, with inputs and traces"},
+    {Command::Test, "test", "FILE|DIR ...", "run the POUs marked {test}"},
+    {Command::List, "list", "libraries | pous FILE|DIR ... | --signature NAME", "show what there is"},
+    {Command::Explain, "explain", "CODE", "the page of a diagnostic, such as E0401"},
+    {Command::Version, "version", "", "version of rung"},
+};
+
+enum class Key : uint8_t {
+  Output,
+  Library,
+  Root,
+  Name,
+  Standard,
+  Checks,
+  Level,
+  Warning,
+  Werror,
+  MaxErrors,
+  Format,
+  Jobs,
+  Color,
+  DumpAfter,
+  TimePhases,
+  Emit,
+  Depfile,
+  DepfileTarget,
+  ListOutputs,
+  Bundles,
+  Shared,
+  Static,
+  Keep,
+  Host,
+  Filter,
+  Junit,
+  Separate,
+  Signature,
+  Help,
+};
+
+struct OptionRow {
+  Key key;
+  const char* name;   // as written: "--root", "-o"
+  const char* value;  // what follows; null: nothing does
+  uint32_t commands;
+  const char* help;  // null: not in the help
+};
+constexpr OptionRow kOptions[] = {
+    {Key::Output, "-o", "PATH", bit(Command::Emit) | bit(Command::Build), "where the output goes"},
+    {Key::Emit, "--emit", "cpp|ir|tree", bit(Command::Emit), "what to write; ir and tree go to stdout (cpp)"},
+    {Key::Depfile, "--depfile", "FILE", bit(Command::Emit), "write the inputs as a make rule"},
+    {Key::DepfileTarget, "--depfile-target", "PATH", bit(Command::Emit), "the rule's target (DIR/rung.manifest)"},
+    {Key::ListOutputs, "--list-outputs", nullptr, bit(Command::Emit), "print the files that -o would hold, write none"},
+    {Key::Bundles, "--bundles", "N", bit(Command::Emit), "N more files NAME_bundle_K.cpp that include all .cpp files"},
+    {Key::Shared, "--shared", nullptr, bit(Command::Build), "make a shared library"},
+    {Key::Static, "--static", nullptr, bit(Command::Build), "make a static library"},
+    {Key::Keep, "--keep", nullptr, bit(Command::Build) | bit(Command::Run) | bit(Command::Test),
+     "keep the generated C++ and say where it is"},
+    {Key::Host, "--cycles", "N", bit(Command::Run), "run N cycles (100, or as far as --inputs goes)"},
+    {Key::Host, "--for", "T", bit(Command::Run), "run for a time, such as T#2s"},
+    {Key::Host, "--interval", "T", bit(Command::Run), "cycle time where no task is configured (T#10ms)"},
+    {Key::Host, "--inputs", "FILE", bit(Command::Run), "CSV with header cycle,PATH,...: set variables before cycles"},
+    {Key::Host, "--set", "PATH=VALUE", bit(Command::Run), "set a variable before cycle 0; may be repeated"},
+    {Key::Host, "--watch", "PATH,...", bit(Command::Run), "variables to trace (all of all programs)"},
+    {Key::Host, "--trace", "FILE", bit(Command::Run), "write a CSV row after each cycle; - is stdout"},
+    {Key::Host, "--retain", "FILE", bit(Command::Run), "keep retained variables in FILE"},
+    {Key::Host, "--start", "cold|warm|origin", bit(Command::Run), "how to start (warm when the retain file exists)"},
+    {Key::Host, "--realtime", nullptr, bit(Command::Run), "pace the run by the clock"},
+    {Key::Filter, "--filter", "GLOB", bit(Command::Test), "only tests whose name matches"},
+    {Key::Junit, "--junit", "FILE", bit(Command::Test), "write the results as JUnit XML"},
+    {Key::Separate, "--separate", nullptr, bit(Command::Test), "each file is a project of its own"},
+    {Key::Signature, "--signature", "NAME", bit(Command::List), "the declaration of a function, block or type"},
+    {Key::Standard, "--std", "codesys|iec3|iec2", kReads, "dialect (codesys)"},
+    {Key::Checks, "--checks", "LIST", kCompile, "run-time checks: div,index,null,cast,subrange,convert,overflow,\n"
+                                                "default, all or none (default: div,index,null,cast)"},
+    {Key::Level, "-O", "0|1|2", kCompile, "optimization (1)"},
+    {Key::Warning, "-W", "NAME", kReads, "-Wno-NAME switches a warning off, -WNAME on; NAME or code"},
+    {Key::Werror, "--werror", nullptr, kReads, "warnings are errors"},
+    {Key::MaxErrors, "--max-errors", "N", kReads, "stop listing after N errors; 0: never (100)"},
+    {Key::Format, "--format", "text|json|sarif", kReads, "form of diagnostics (text)"},
+    {Key::Color, "--color", "auto|always|never", kReads, "colours (auto: on a terminal)"},
+    {Key::Library, "-I", "DIR", kReads, "folder with libraries; may be repeated"},
+    {Key::Root, "--root", "DIR", kReads, "paths in the output are relative to DIR"},
+    {Key::Name, "--name", "ID", kCompile, "prefix of the module's symbols (plc)"},
+    {Key::Jobs, "-j", "N", bit(Command::Build) | bit(Command::Run) | bit(Command::Test), "C++ compilers at a time"},
+    {Key::DumpAfter, "--dump-after", "NAME", kCompile, "print tree, IR or a pass's result to stderr: parse, lower, PASS"},
+    {Key::TimePhases, "--time-phases", nullptr, kCompile, "print time and lines per second of each phase"},
+    {Key::Help, "--help", nullptr, kAll, nullptr},
+    {Key::Help, "-h", nullptr, kAll, nullptr},
+};
+
+struct CheckRow {
+  const char* name;
+  uint8_t bits;
+};
+constexpr uint8_t kDefaultChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
+constexpr uint8_t kAllChecks = kDefaultChecks | ir::kCheckSubrange | ir::kCheckConvert | ir::kCheckOverflow;
+constexpr CheckRow kChecks[] = {
+    {"div", ir::kCheckDiv},         {"index", ir::kCheckIndex},         {"null", ir::kCheckNull},
+    {"cast", ir::kCheckCast},       {"subrange", ir::kCheckSubrange},   {"convert", ir::kCheckConvert},
+    {"overflow", ir::kCheckOverflow}, {"default", kDefaultChecks},      {"all", kAllChecks},
+    {"none", 0},
+};
+
+std::string quoted(std::string_view text) { return "`" + std::string(text) + "`"; }
+
+std::string withSuggestion(std::string message, std::string_view written,
+                           const std::vector<std::string_view>& candidates) {
+  std::string_view near = nearest(written, candidates);
+  if (!near.empty()) message += "; did you mean " + quoted(near) + "?";
+  return message;
+}
+
+// One of `a|b|c` by position.
+std::string parseChoice(std::string_view option, std::string_view value, std::string_view choices, uint32_t& index) {
+  uint32_t position = 0;
+  std::vector<std::string_view> names;
+  for (std::string_view rest = choices;;) {
+    size_t bar = rest.find('|');
+    std::string_view name = rest.substr(0, bar);
+    if (name == value) {
+      index = position;
+      return {};
+    }
+    names.push_back(name);
+    if (bar == std::string_view::npos) break;
+    rest.remove_prefix(bar + 1);
+    position++;
+  }
+  return withSuggestion(quoted(value) + " is no value of " + quoted(option) + "; it takes " + std::string(choices), value,
+                        names);
+}
+
+std::string parseNumber(std::string_view option, std::string_view value, uint32_t low, uint32_t high, uint32_t& number) {
+  uint64_t n = 0;
+  bool good = !value.empty() && value.size() <= 10;
+  for (char c : value) {
+    if (c < '0' || c > '9') good = false;
+    if (good) n = n * 10 + static_cast<uint64_t>(c - '0');
+  }
+  if (good && n >= low && n <= high) {
+    number = static_cast<uint32_t>(n);
+    return {};
+  }
+  return quoted(option) + " takes a number from " + std::to_string(low) + " to " + std::to_string(high) + ", not " +
+         quoted(value);
+}
+
+std::string apply(const OptionRow& row, const std::string& value, Options& options) {
+  uint32_t choice = 0;
+  std::string error;
+  switch (row.key) {
+    case Key::Output:
+      if (!options.output.empty()) return "`-o` is given twice";
+      options.output = value;
+      return {};
+    case Key::Library: options.library_paths.push_back(value); return {};
+    case Key::Root: options.root = value; return {};
+    case Key::Name:
+      if (!isIdentifier(value)) return quoted(value) + " is no C identifier; `--name` takes letters, digits and `_`";
+      options.name = value;
+      return {};
+    case Key::Standard:
+      options.standard_given = true;
+      return parseStandard(value, options.standard);
+    case Key::Checks:
+      options.checks_given = true;
+      return parseChecks(value, options.checks);
+    case Key::Level:
+      options.level_given = true;
+      error = parseChoice("-O", value, "0|1|2", choice);
+      options.level = static_cast<int>(choice);
+      return error;
+    case Key::Warning:
+      if (value == "error") {
+        options.werror = true;
+      } else if (value.starts_with("no-")) {
+        options.warnings.push_back({value.substr(3), false});
+      } else {
+        options.warnings.push_back({value, true});
+      }
+      return {};
+    case Key::Werror: options.werror = true; return {};
+    case Key::MaxErrors:
+      error = parseNumber(row.name, value, 0, 1'000'000'000, options.max_errors);
+      if (error.empty() && options.max_errors == 0) options.max_errors = ~0u;
+      return error;
+    case Key::Format:
+      error = parseChoice(row.name, value, row.value, choice);
+      options.format = static_cast<DiagnosticFormat>(choice);
+      return error;
+    case Key::Jobs: return parseNumber(row.name, value, 1, 1024, options.jobs);
+    case Key::Color:
+      error = parseChoice(row.name, value, row.value, choice);
+      options.color = static_cast<Color>(choice);
+      return error;
+    case Key::DumpAfter: options.dump_after = value; return {};
+    case Key::TimePhases: options.time_phases = true; return {};
+    case Key::Emit:
+      error = parseChoice(row.name, value, row.value, choice);
+      options.emit = static_cast<EmitKind>(choice);
+      return error;
+    case Key::Depfile: options.depfile = value; return {};
+    case Key::DepfileTarget: options.depfile_target = value; return {};
+    case Key::ListOutputs: options.list_outputs = true; return {};
+    case Key::Bundles: return parseNumber(row.name, value, 1, 1000, options.bundles);
+    case Key::Shared:
+    case Key::Static: {
+      BuildKind kind = row.key == Key::Shared ? BuildKind::Shared : BuildKind::Static;
+      if (options.build != BuildKind::Executable && options.build != kind)
+        return "`--shared` and `--static` exclude each other";
+      options.build = kind;
+      return {};
+    }
+    case Key::Keep: options.keep = true; return {};
+    case Key::Host: options.host_arguments.push_back(row.value ? row.name + ("=" + value) : row.name); return {};
+    case Key::Filter: options.filter = value; return {};
+    case Key::Junit: options.junit = value; return {};
+    case Key::Separate: options.separate = true; return {};
+    case Key::Signature: options.signature = value; return {};
+    case Key::Help: options.help = true; return {};
+  }
+  return {};
+}
+
+const OptionRow* findOption(std::string_view name) {
+  for (const OptionRow& row : kOptions)
+    if (name == row.name) return &row;
+  return nullptr;
+}
+
+// `-O2`, `-Wno-x`, `-Idir`, `-j4`, `-oout`: the value is glued to a one-letter option.
+const OptionRow* findGlued(std::string_view word) {
+  if (word.size() < 3 || word[1] == '-') return nullptr;
+  const OptionRow* row = findOption(word.substr(0, 2));
+  return row != nullptr && row->value != nullptr ? row : nullptr;
+}
+
+std::string unknownOption(std::string_view word, Command command) {
+  std::vector<std::string_view> candidates;
+  std::string_view name = word.substr(0, word.find('='));
+  for (const OptionRow& row : kOptions)
+    if (row.help != nullptr && (row.commands & bit(command))) candidates.push_back(row.name);
+  return withSuggestion("unknown option " + quoted(name) + " of `rung " + commandName(command) + "`", name, candidates) +
+         " (`rung " + commandName(command) + " --help` lists all)";
+}
+
+std::string elsewhere(const OptionRow& row, Command command) {
+  std::string message =
+      quoted(row.name) + " is no option of `rung " + commandName(command) + "`; it belongs to";
+  const char* separator = " ";
+  for (const CommandRow& other : kCommands) {
+    if (!(row.commands & bit(other.command))) continue;
+    message += separator + quoted(std::string("rung ") + other.name);
+    separator = ", ";
+  }
+  return message;
+}
+
+Command findCommand(std::string_view word) {
+  for (const CommandRow& row : kCommands)
+    if (word == row.name) return row.command;
+  if (word == "help" || word == "--help" || word == "-h") return Command::Help;
+  if (word == "--version" || word == "-V") return Command::Version;
+  return Command::None;
+}
+
+std::string checkCombination(const Options& options) {
+  const std::string name = commandName(options.command);
+  switch (options.command) {
+    case Command::Check:
+    case Command::Run:
+    case Command::Test:
+    case Command::Emit:
+    case Command::Build:
+      if (options.inputs.empty()) return "`rung " + name + "` needs files or folders to read";
+      break;
+    case Command::Explain:
+      if (options.inputs.size() != 1) return "`rung explain` takes one code, such as E0401";
+      break;
+    case Command::List:
+      if (options.inputs.empty() && options.signature.empty())
+        return "`rung list` takes `libraries`, `pous FILE|DIR ...` or `--signature NAME`";
+      break;
+    case Command::None:
+    case Command::Version:
+    case Command::Help: break;
+  }
+  if (options.command == Command::Emit) {
+    if (options.emit == EmitKind::Cpp && options.output.empty() && !options.list_outputs)
+      return "`rung emit` needs a folder for the C++ files: add `-o DIR`, or `--emit=ir` to print the IR";
+    if (options.emit != EmitKind::Cpp) {
+      if (!options.output.empty() || !options.depfile.empty() || options.list_outputs || options.bundles > 0)
+        return "`--emit=ir` and `--emit=tree` print to stdout and take no `-o`, `--depfile`, `--list-outputs` or "
+               "`--bundles`";
+    }
+    if (!options.depfile_target.empty() && options.depfile.empty()) return "`--depfile-target` needs `--depfile`";
+    if (!options.depfile.empty() && options.output.empty() && options.depfile_target.empty())
+      return "`--depfile` needs `-o` or `--depfile-target`";
+  }
+  if (options.command == Command::Build && options.output.empty())
+    return "`rung build` needs a name for its output: add `-o FILE`";
+  return {};
+}
+
+void appendRow(std::string& out, const std::string& left, const char* help) {
+  constexpr size_t kColumn = 30;
+  out += "  " + left;
+  if (left.size() + 2 >= kColumn)
+    out += "\n" + std::string(kColumn, ' ');
+  else
+    out.append(kColumn - 2 - left.size(), ' ');
+  for (const char* c = help; *c != '\0'; c++) {
+    out += *c;
+    if (*c == '\n') out.append(kColumn, ' ');
+  }
+  out += '\n';
+}
+
+std::string spelled(const OptionRow& row) {
+  std::string out = row.name;
+  if (row.value == nullptr) return out;
+  if (row.key == Key::Level || row.key == Key::Warning) return out + row.value;
+  return out + (out.starts_with("--") ? "=" : " ") + row.value;
+}
+
+}  // namespace
+
+bool isIdentifier(std::string_view name) {
+  if (name.empty() || name.size() > 200 || (name[0] >= '0' && name[0] <= '9')) return false;
+  for (char c : name)
+    if (!((c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_')) return false;
+  return true;
+}
+
+const char* commandName(Command command) {
+  for (const CommandRow& row : kCommands)
+    if (row.command == command) return row.name;
+  return "help";
+}
+
+std::string parseStandard(std::string_view name, text::Standard& standard) {
+  uint32_t choice = 0;
+  std::string error = parseChoice("--std", name, "iec2|iec3|codesys", choice);
+  if (error.empty()) standard = static_cast<text::Standard>(choice);
+  return error;
+}
+
+std::string parseChecks(std::string_view list, uint8_t& checks) {
+  uint8_t bits = 0;
+  std::vector<std::string_view> names;
+  for (const CheckRow& row : kChecks) names.push_back(row.name);
+  for (std::string_view rest = list;;) {
+    size_t comma = rest.find(',');
+    std::string_view name = rest.substr(0, comma);
+    bool known = false;
+    for (const CheckRow& row : kChecks) {
+      if (name != row.name) continue;
+      bits |= row.bits;
+      known = true;
+    }
+    if (!known) return withSuggestion("unknown check " + quoted(name) + " in `--checks`", name, names);
+    if (comma == std::string_view::npos) break;
+    rest.remove_prefix(comma + 1);
+  }
+  checks = bits;
+  return {};
+}
+
+std::string expandResponseFiles(std::vector<std::string>& words) {
+  uint32_t files = 0;
+  for (size_t i = 0; i < words.size(); i++) {
+    if (words[i].size() < 2 || words[i][0] != '@') continue;
+    std::string path = words[i].substr(1);
+    if (++files > 100) return "more than 100 response files; does " + quoted(words[i]) + " name itself?";
+    ReadResult read = readFile(path);
+    if (!read.error.empty()) return "cannot read response file " + quoted(path) + ": " + read.error;
+
+    std::vector<std::string> inner;
+    std::string word;
+    bool in_word = false;
+    char quote = 0;
+    for (size_t k = 0; k < read.text.size(); k++) {
+      char c = read.text[k];
+      if (c == '\\' && quote != '\'' && k + 1 < read.text.size()) {
+        word += read.text[++k];
+        in_word = true;
+      } else if (quote != 0) {
+        if (c == quote)
+          quote = 0;
+        else
+          word += c;
+      } else if (c == '\'' || c == '"') {
+        quote = c;
+        in_word = true;
+      } else if (c == ' ' || c == '\t' || c == '\n' || c == '\r') {
+        if (in_word) inner.push_back(std::move(word));
+        word.clear();
+        in_word = false;
+      } else {
+        word += c;
+        in_word = true;
+      }
+    }
+    if (quote != 0) return "response file " + quoted(path) + " ends inside a quoted word";
+    if (in_word) inner.push_back(std::move(word));
+    words.erase(words.begin() + static_cast<ptrdiff_t>(i));
+    words.insert(words.begin() + static_cast<ptrdiff_t>(i), std::make_move_iterator(inner.begin()),
+                 std::make_move_iterator(inner.end()));
+    i--;  // the first of the new words may be a response file too
+  }
+  return {};
+}
+
+std::string parseOptions(const std::vector<std::string>& words, Options& options) {
+  options.checks = kDefaultChecks;
+  if (words.empty()) return "no command; `rung --help` lists them";
+  options.command = findCommand(words[0]);
+  if (options.command == Command::None) {
+    std::vector<std::string_view> names;
+    for (const CommandRow& row : kCommands) names.push_back(row.name);
+    return withSuggestion("unknown command " + quoted(words[0]), words[0], names) + " (`rung --help` lists all)";
+  }
+  if (options.command == Command::Help) {
+    options.help = true;
+    if (words.size() > 1) options.command = findCommand(words[1]);
+    if (options.command == Command::Help) options.command = Command::None;
+    return {};
+  }
+
+  bool only_inputs = false;
+  for (size_t i = 1; i < words.size(); i++) {
+    const std::string& word = words[i];
+    if (only_inputs || word.empty() || word[0] != '-' || word == "-") {
+      if (word.empty()) return "an input has an empty name";
+      options.inputs.push_back(word);
+      continue;
+    }
+    if (word == "--") {
+      only_inputs = true;
+      continue;
+    }
+
+    const size_t equals = word.starts_with("--") ? word.find('=') : std::string::npos;
+    const OptionRow* row = findOption(word.substr(0, equals));
+    std::string value;
+    bool has_value = equals != std::string::npos;
+    if (has_value) value = word.substr(equals + 1);
+    if (row == nullptr) {
+      row = findGlued(word);
+      if (row != nullptr) {
+        value = word.substr(2);
+        has_value = true;
+      }
+    }
+    if (row == nullptr) return unknownOption(word, options.command);
+    if (!(row->commands & bit(options.command))) return elsewhere(*row, options.command);
+    if (row->value == nullptr && has_value) return quoted(row->name) + " takes no value";
+    if (row->value != nullptr && !has_value) {
+      if (i + 1 >= words.size()) return quoted(row->name) + " needs a value: " + spelled(*row);
+      value = words[++i];
+    }
+    if (row->value != nullptr && value.empty()) return quoted(row->name) + " has an empty value";
+    std::string error = apply(*row, value, options);
+    if (!error.empty()) return error;
+  }
+  if (options.help) return {};
+#ifndef NDEBUG
+  options.verify = true;
+#endif
+  const char* verify = std::getenv("RUNG_VERIFY");
+  if (verify != nullptr && verify[0] != '\0') options.verify = verify[0] != '0';
+  return checkCombination(options);
+}
+
+std::string helpText(Command command) {
+  std::string out;
+  if (command == Command::None || command == Command::Help) {
+    out = "rung: a compiler for the languages of IEC 61131-3\n\nusage: rung COMMAND [options] FILE|DIR ...\n\n";
+    for (const CommandRow& row : kCommands) appendRow(out, row.name, row.summary);
+    out +=
+        "\n`rung COMMAND --help` lists the options of a command. Inputs are files or folders; `@file` reads words\n"
+        "from a file. Diagnostics go to stderr.\n\n"
+        "exit codes: 0 good, 1 the input has errors, 2 usage or I/O, 3 the program faulted, 4 a test failed,\n"
+        "70 an internal error of rung\n";
+    return out;
+  }
+  for (const CommandRow& row : kCommands)
+    if (row.command == command)
+      out = std::string("rung ") + row.name + ": " + row.summary + "\n\nusage: rung " + row.name + " [options] " +
+            row.arguments + "\n";
+  bool first = true;
+  for (const OptionRow& row : kOptions) {
+    if (row.help == nullptr || !(row.commands & bit(command))) continue;
+    if (first) out += "\noptions (what is taken without them stands in parentheses):\n";
+    first = false;
+    appendRow(out, spelled(row), row.help);
+  }
+  return out;
+}
+
+}  // namespace rung::tool

@@ -1,0 +1,96 @@
+// The command line of rung: its commands and options, from one table that the parser, "did you mean" and --help read.
+// In: argv. Out: Options, or a Usage error (exit 2). Called by main.cpp; the commands read the result.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/source/render.h"
+#include "frontend/text/parse.h"
+
+namespace rung::tool {
+
+enum class Command : uint8_t { None, Check, Emit, Build, Run, Test, List, Explain, Version, Help };
+inline constexpr uint32_t kCommandCount = static_cast<uint32_t>(Command::Help) + 1;
+
+enum class EmitKind : uint8_t { Cpp, Ir, Tree };
+enum class BuildKind : uint8_t { Executable, Shared, Static };
+enum class Color : uint8_t { Auto, Always, Never };
+
+// The exit codes of rung (docs/cli.md).
+enum Exit : int { kGood = 0, kInputErrors = 1, kUsage = 2, kFault = 3, kTestFailed = 4, kInternal = 70 };
+
+struct WarningSwitch {
+  std::string name;
+  bool on;
+};
+
+struct Options {
+  Command command = Command::None;
+  bool help = false;  // `rung CMD --help`
+  std::vector<std::string> inputs;
+
+  // common
+  std::string output;                      // -o
+  std::vector<std::string> library_paths;  // -I
+  std::string root;                        // --root
+  std::string name;                        // --name; empty: plc
+  text::Standard standard = text::Standard::Codesys;
+  bool standard_given = false;
+  uint8_t checks = 0;  // ir::Check bits
+  bool checks_given = false;
+  int level = 1;  // -O
+  bool level_given = false;
+  std::vector<WarningSwitch> warnings;
+  bool werror = false;
+  uint32_t max_errors = 100;
+  DiagnosticFormat format = DiagnosticFormat::Text;
+  uint32_t jobs = 0;  // 0: one per processor
+  Color color = Color::Auto;
+  std::string dump_after;
+  bool time_phases = false;
+  bool verify = false;  // set by RUNG_VERIFY=1 and in debug builds
+
+  // emit
+  EmitKind emit = EmitKind::Cpp;
+  std::string depfile, depfile_target;
+  bool list_outputs = false;
+  uint32_t bundles = 0;
+
+  // build
+  BuildKind build = BuildKind::Executable;
+  bool keep = false;
+
+  // run: options that the host parses (rung::host::parseRunOptions), one `--name=value` each
+  std::vector<std::string> host_arguments;
+
+  // test
+  std::string filter, junit;
+  bool separate = false;
+
+  // list
+  std::string signature;
+
+  std::string moduleName() const { return name.empty() ? "plc" : name; }
+};
+
+// Parses the words after the program's name. The error is one message for the user; empty: good.
+[[nodiscard]] std::string parseOptions(const std::vector<std::string>& words, Options& options);
+
+// Reads `@file` words (shell-like: blanks separate, quotes and backslash group) in place; files may name files.
+[[nodiscard]] std::string expandResponseFiles(std::vector<std::string>& words);
+
+// The bits of `div,index,…`, `default`, `all` or `none`.
+[[nodiscard]] std::string parseChecks(std::string_view list, uint8_t& checks);
+[[nodiscard]] std::string parseStandard(std::string_view name, text::Standard& standard);
+
+// One screen of help: of rung (Command::None) or of one command.
+std::string helpText(Command command);
+const char* commandName(Command command);
+
+// The valid C identifier nearest to what --name or a file's stem says.
+bool isIdentifier(std::string_view name);
+
+}  // namespace rung::tool

@@ -1,0 +1,49 @@
+// rung.project: the INI file that a project folder may hold (docs/cli.md lists its sections and keys).
+// In: its text. Out: settings that stand where the command line says nothing, and one generated CONFIGURATION for the
+// tasks. Unknown sections and keys are errors at their place. Called by inputs.cpp.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/source/diagnostics.h"
+#include "tools/rung/options.h"
+
+namespace rung::tool {
+
+struct ProjectEntry {
+  std::string key, value;
+  Loc key_loc, value_loc;
+};
+struct ProjectSection {
+  std::string kind, name;  // [axis conveyor]: "axis", "conveyor"
+  Loc loc;
+  std::vector<ProjectEntry> entries;
+
+  const ProjectEntry* find(std::string_view key) const;
+};
+
+struct ProjectFile {
+  FileId file;  // none: the project has no rung.project
+  std::string folder;
+  std::vector<ProjectSection> sections;  // all, in order: later layers read module, axis, safe, nc, pool
+
+  std::vector<std::string> sources, libraries;  // paths relative to `folder`
+  std::string name;
+  bool has_standard = false, has_checks = false, has_level = false;
+  text::Standard standard = text::Standard::Codesys;
+  uint8_t checks = 0;
+  int level = 1;
+  std::vector<WarningSwitch> warnings;
+
+  // The tasks as a CONFIGURATION in ST, each on the line of its section; empty: no [task] section.
+  std::string configuration;
+};
+
+void parseProjectFile(const Sources& sources, FileId file, Diagnostics& diagnostics, ProjectFile& project);
+
+// Settings of the file where the command line was silent.
+void applyProjectFile(const ProjectFile& project, Options& options);
+
+}  // namespace rung::tool

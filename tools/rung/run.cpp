@@ -1,0 +1,59 @@
+// `rung run`: compiles to a shared object in the cache and runs it here on the bundled host.
+#include <cstdio>
+
+#include "ir/ir.h"
+#include "rung/host.h"
+#include "tools/rung/commands.h"
+#include "tools/rung/compile.h"
+#include "tools/rung/crash.h"
+#include "tools/rung/module_library.h"
+#include "tools/rung/native.h"
+
+namespace rung::tool {
+
+int runRun(const Options& options) {
+  host::RunOptions run_options;
+  std::vector<std::string> rest;
+  std::string error = host::parseRunOptions(options.host_arguments, run_options, rest);
+  if (error.empty() && !rest.empty()) error = "unknown option `" + rest[0] + "` of `rung run`";
+  if (!error.empty()) return usageError(error);
+  run_options.color = useColor(options);
+
+  PhaseTimes times;
+  Compilation compilation(options, times);
+  NativeRequest request;
+  request.parts.resize(1);
+  const bool good = compilation.emit(false, request.parts[0].files);
+  int exit = compilation.finish();
+  if (!good || exit != kGood) {
+    if (options.time_phases) fputs(times.table().c_str(), stderr);
+    return exit;
+  }
+
+  times.begin("c++");
+  Cache cache;
+  request.jobs = options.jobs;
+  request.keep = options.keep;
+  NativeResult result = makeShared(cache, request);
+  if (result.exit == kInternal) printInternalError(result.message.c_str());
+  if (result.exit == kUsage) usageError(result.message);
+  if (result.exit != kGood) return result.exit;
+  ModuleLibrary library;
+  error = library.open(result.path);
+  const rung_module* module = error.empty() ? library.find(compilation.options.moduleName(), error) : nullptr;
+  if (module == nullptr) {
+    printInternalError(error.c_str());
+    return kInternal;
+  }
+
+  times.begin("run");
+  constexpr uint8_t kMemoryChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
+  setProgramRuns(true, (compilation.options.checks & kMemoryChecks) == kMemoryChecks);
+  exit = host::run(*module, run_options);
+  setProgramRuns(false, false);
+  times.end();
+  if (options.time_phases) fputs(times.table().c_str(), stderr);
+  return exit;
+}
+
+}  // namespace rung::tool

@@ -1,0 +1,155 @@
+// `rung test`: all POUs marked {test} in one shared object, run here on the bundled host. With --separate each file is
+// a project of its own, so that names of different files never clash; a few C++ units include the code of many.
+#include <cstdio>
+
+#include "ir/ir.h"
+#include "rung/host.h"
+#include "tools/rung/commands.h"
+#include "tools/rung/compile.h"
+#include "tools/rung/crash.h"
+#include "tools/rung/module_library.h"
+#include "tools/rung/native.h"
+
+namespace rung::tool {
+namespace {
+
+// Modules in one C++ unit: enough that starting g++ costs little, few enough that one changed file costs little.
+constexpr size_t kModulesPerUnit = 16;
+
+struct Module {
+  std::string name, shown;
+  bool good = false;
+  int exit = kGood;
+  std::string messages;
+};
+
+constexpr uint8_t kMemoryChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
+
+// A power of two, so that one file more seldom moves the others to other units.
+uint32_t batchCount(size_t modules) {
+  uint32_t count = 1;
+  while (count * kModulesPerUnit < modules) count *= 2;
+  return count;
+}
+
+class Tester {
+ public:
+  explicit Tester(const Options& options) : options_(options) { test_options_.filter = options.filter; }
+
+  int run() {
+    int exit = options_.separate ? compileSeparately() : compileTogether();
+    if (exit == kGood) exit = buildAndRun();
+    times_.end();
+    if (options_.time_phases) fputs(times_.table().c_str(), stderr);
+    return exit;
+  }
+
+ private:
+  int compileTogether() {
+    Compilation compilation(options_, times_);
+    request_.parts.resize(1);
+    const bool good = compilation.emit(true, request_.parts[0].files);
+    const int exit = compilation.finish();
+    checked_ = (compilation.options.checks & kMemoryChecks) == kMemoryChecks;
+    if (good) modules_.push_back({compilation.options.moduleName(), {}, true, kGood, {}});
+    return exit;
+  }
+
+  int compileSeparately() {
+    // The files are found once, as one project; the texts are read again for each.
+    Compilation all(options_, times_);
+    if (!all.read()) return all.finish();
+    std::string root = options_.root.empty() ? all.inputs.root : options_.root;
+    for (size_t i = 0; i < all.inputs.files.size(); i++) {
+      const InputFile& file = all.inputs.files[i];
+      Options one = options_;
+      one.inputs = {file.path};
+      one.root = root;
+      one.name = all.options.moduleName() + "_" + std::to_string(i);
+      Compilation compilation(one, times_);
+      NativePart part;
+      part.folder = one.name;
+      Module module{one.name, file.shown, compilation.emit(true, part.files), kGood, {}};
+      module.exit = compilation.exitCode();
+      if (module.exit == kInternal)
+        compilation.finish();
+      else
+        module.messages = compilation.diagnosticsText();
+      module.good = module.good && module.exit == kGood;
+      if (module.good) request_.parts.push_back(std::move(part));
+      modules_.push_back(std::move(module));
+    }
+    checked_ = (all.options.checks & kMemoryChecks) == kMemoryChecks;
+    request_.batches = batchCount(request_.parts.size());
+    return kGood;
+  }
+
+  int buildAndRun() {
+    Cache cache;
+    ModuleLibrary library;
+    if (!request_.parts.empty()) {
+      times_.begin("c++");
+      request_.jobs = options_.jobs;
+      request_.keep = options_.keep;
+      NativeResult result = makeShared(cache, request_);
+      if (result.exit == kInternal) printInternalError(result.message.c_str());
+      if (result.exit == kUsage) usageError(result.message);
+      if (result.exit != kGood) return result.exit;
+      std::string error = library.open(result.path);
+      if (!error.empty()) {
+        printInternalError(error.c_str());
+        return kInternal;
+      }
+    }
+    times_.begin("run");
+    host::TestResults results;
+    test_options_.junit_path = options_.junit;
+    int worst = kGood;
+    for (const Module& module : modules_) {
+      const int exit = runModule(module, library, results);
+      if (exit == kUsage || exit == kInternal) return exit;
+      if (exit != kGood && worst != kInputErrors) worst = exit;
+    }
+    fflush(stderr);
+    const int exit = host::reportTests(results, test_options_);
+    return exit == kUsage || worst == kGood ? exit : worst;
+  }
+
+  int runModule(const Module& module, const ModuleLibrary& library, host::TestResults& results) {
+    if (!module.messages.empty()) fputs(module.messages.c_str(), stderr);
+    if (!module.good) {
+      printf("FAIL %s: does not compile\n", module.shown.c_str());
+      results.failed++;
+      return module.exit;
+    }
+    std::string error;
+    const rung_module* description = library.find(module.name, error);
+    if (description == nullptr) {
+      printInternalError(error.c_str());
+      return kInternal;
+    }
+    const uint32_t passed = results.passed, failed = results.failed;
+    setProgramRuns(true, checked_);
+    error = host::runTests(*description, test_options_, results);
+    setProgramRuns(false, false);
+    if (!error.empty()) return usageError(error);
+    if (options_.separate)
+      printf("%s %s: %u passed, %u failed\n", results.failed == failed ? "ok  " : "FAIL", module.shown.c_str(),
+             results.passed - passed, results.failed - failed);
+    fflush(stdout);
+    return kGood;
+  }
+
+  const Options& options_;
+  host::TestOptions test_options_;
+  PhaseTimes times_;
+  NativeRequest request_;
+  std::vector<Module> modules_;
+  bool checked_ = true;
+};
+
+}  // namespace
+
+int runTest(const Options& options) { return Tester(options).run(); }
+
+}  // namespace rung::tool
