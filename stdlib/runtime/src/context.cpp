@@ -1,1 +1,43 @@
-// x
+// Entering and leaving generated code: a fault is a longjmp to the innermost guard. In: the context of a task. Out: the
+// kind of fault, details in ctx->fault. Called by hosts for each activation, and by checks of generated code.
+// Nothing with a destructor may live across a call into generated code.
+#include <setjmp.h>
+#include <stdlib.h>
+
+#include "rung/code.h"
+
+uint8_t rung_guarded(rung_context* ctx, void (*run)(rung_context*)) {
+  jmp_buf target;
+  void* const outer = ctx->fault_target;
+  ctx->fault_target = &target;
+  ctx->fault.kind = RUNG_FAULT_NONE;
+  // No local changes after setjmp, so all of them are still valid after longjmp.
+  if (setjmp(target) == 0) {
+    run(ctx);
+    ctx->fault_target = outer;
+    return RUNG_FAULT_NONE;
+  }
+  ctx->fault_target = outer;
+  return ctx->fault.kind;
+}
+
+void rung_raise(rung_context* ctx, uint8_t kind, uint32_t site, int64_t value) {
+  ctx->fault.kind = kind;
+  ctx->fault.site = site;
+  ctx->fault.value = value;
+  if (ctx->fault_target == nullptr) abort();  // the host called generated code without a guard: its bug
+  longjmp(*static_cast<jmp_buf*>(ctx->fault_target), 1);
+}
+
+uint8_t rung_try(rung_context* ctx, void (*run)(void* frame), void* frame) {
+  jmp_buf target;
+  void* const outer = ctx->fault_target;
+  ctx->fault_target = &target;
+  if (setjmp(target) == 0) {
+    run(frame);
+    ctx->fault_target = outer;
+    return RUNG_FAULT_NONE;
+  }
+  ctx->fault_target = outer;
+  return ctx->fault.kind;
+}

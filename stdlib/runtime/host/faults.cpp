@@ -1,0 +1,50 @@
+#include "faults.h"
+
+namespace rung::host {
+
+std::string describeFault(const rung_module& module, const rung_fault& fault) {
+  static const rung_site nowhere{};
+  const bool known = fault.site < module.site_count;
+  const rung_site& site = known ? module.sites[fault.site] : nowhere;
+  const std::string value = std::to_string(fault.value);
+  const std::string range = std::to_string(site.low) + ".." + std::to_string(site.high);
+  std::string word = "unknown", what = "number " + std::to_string(fault.kind);
+  switch (static_cast<rung_fault_kind>(fault.kind)) {
+    case RUNG_FAULT_NONE: break;
+    case RUNG_FAULT_DIV:
+      word = "div";
+      what = "division by zero";
+      break;
+    case RUNG_FAULT_INDEX:
+      word = "index";
+      what = "index " + value + " is outside " + range;
+      break;
+    case RUNG_FAULT_NULL:
+      word = "null";
+      what = "a pointer, reference or in-out refers to nothing";
+      break;
+    case RUNG_FAULT_CAST:
+      word = "cast";
+      what = "the object is not of the type that the cast names";
+      break;
+    case RUNG_FAULT_SUBRANGE:
+      word = "subrange";
+      what = "value " + value + " is outside " + range;
+      break;
+    case RUNG_FAULT_CONVERT:
+      word = "convert";
+      what = "value " + value + " does not fit the type that it is converted to";
+      break;
+    case RUNG_FAULT_OVERFLOW:
+      word = "overflow";
+      what = "the result does not fit its type";
+      break;
+  }
+  std::string text;
+  if (known) text = std::string(module.text + site.file) + ':' + std::to_string(site.line) + ": ";
+  text += "fault[" + word + "]: " + what;
+  if (known && module.text[site.pou] != 0) text += std::string(" in `") + (module.text + site.pou) + '`';
+  return text;
+}
+
+}  // namespace rung::host

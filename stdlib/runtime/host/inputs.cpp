@@ -1,0 +1,107 @@
+#include "inputs.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+
+#include "csv.h"
+#include "value_text.h"
+
+namespace rung::host {
+namespace {
+
+// `a[1,2]` unquoted in a header was split at its comma: joined again while brackets are open.
+void joinBrackets(std::vector<std::string>& header) {
+  std::vector<std::string> joined;
+  bool open = false;
+  for (std::string& cell : header) {
+    if (open) joined.back() += ',' + cell;
+    else joined.push_back(std::move(cell));
+    open = std::count(joined.back().begin(), joined.back().end(), '[') >
+           std::count(joined.back().begin(), joined.back().end(), ']');
+  }
+  header = std::move(joined);
+}
+
+}  // namespace
+
+bool readFile(const std::string& path, std::string& content, std::string& error) {
+  FILE* const file = path == "-" ? stdin : fopen(path.c_str(), "rb");
+  if (file == nullptr) {
+    error = path + ": " + strerror(errno);
+    return false;
+  }
+  char buffer[1 << 16];
+  content.clear();
+  for (size_t n; (n = fread(buffer, 1, sizeof buffer, file)) > 0;) content.append(buffer, n);
+  const bool good = ferror(file) == 0;
+  if (!good) error = path + ": " + strerror(errno);
+  if (file != stdin) fclose(file);
+  return good;
+}
+
+bool Inputs::load(const std::string& path, std::string& error) {
+  std::string content;
+  std::vector<CsvRow> rows;
+  if (!readFile(path, content, error)) return false;
+  const std::string place = (path == "-" ? "standard input" : path) + ":";
+  if (!readCsv(content, rows, error)) return error = place + error, false;
+  const auto fail = [&](const CsvRow& row, const std::string& what) {
+    error = place + std::to_string(row.line) + ": " + what;
+    return false;
+  };
+  if (rows.empty()) return error = place + "1: the header `cycle,<path>,...` is missing", false;
+
+  std::vector<std::string> header = rows[0].cells;
+  joinBrackets(header);
+  if (lowerCase(header[0]) != "cycle") return fail(rows[0], "the first column must be `cycle`, not `" + header[0] + "`");
+  constexpr uint32_t kIgnored = ~0u;
+  std::vector<uint32_t> columns = {kIgnored};
+  for (size_t i = 1; i < header.size(); ++i) {
+    if (header[i] == "time_ms") {  // a trace may be an input
+      columns.push_back(kIgnored);
+      continue;
+    }
+    Variable variable;
+    std::string what;
+    if (!symbols_.find(header[i], variable, what)) return fail(rows[0], what);
+    columns.push_back(static_cast<uint32_t>(variables_.size()));
+    variables_.push_back(std::move(variable));
+  }
+
+  for (size_t r = 1; r < rows.size(); ++r) {
+    CsvRow& row = rows[r];
+    int64_t cycle = 0;
+    const std::string& first = row.cells[0];
+    const std::from_chars_result read = std::from_chars(first.data(), first.data() + first.size(), cycle);
+    if (read.ec != std::errc{} || read.ptr != first.data() + first.size() || cycle < 0)
+      return fail(row, "`" + first + "` is no cycle; write 0, 1, 2, ...");
+    if (row.cells.size() > columns.size())
+      return fail(row, "the row has " + std::to_string(row.cells.size()) + " cells, the header " + std::to_string(columns.size()));
+    last_cycle_ = std::max(last_cycle_, cycle);
+    for (size_t i = 1; i < row.cells.size(); ++i) {
+      if (columns[i] == kIgnored || row.cells[i].empty()) continue;
+      const std::string what = assignValue(symbols_.module(), variables_[columns[i]], row.cells[i], true);
+      if (!what.empty()) return fail(row, what);
+      settings_.push_back({cycle, columns[i], std::move(row.cells[i])});
+    }
+  }
+  std::stable_sort(settings_.begin(), settings_.end(), [](const Setting& a, const Setting& b) { return a.cycle < b.cycle; });
+  return true;
+}
+
+void Inputs::apply(int64_t cycle) {
+  for (; next_ < settings_.size() && settings_[next_].cycle <= cycle; ++next_)
+    assignValue(symbols_.module(), variables_[settings_[next_].variable], settings_[next_].value);
+}
+
+std::string applySet(const Symbols& symbols, const std::string& path, const std::string& value) {
+  Variable variable;
+  std::string error;
+  if (!symbols.find(path, variable, error)) return error;
+  return assignValue(symbols.module(), variable, value);
+}
+
+}  // namespace rung::host

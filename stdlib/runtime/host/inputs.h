@@ -1,0 +1,41 @@
+// What is set from outside: the table of --inputs and the values of --set (design §11). In: paths and literals. Out:
+// variables set before their cycle. Everything is checked before the run begins.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "symbols.h"
+
+namespace rung::host {
+
+class Inputs {
+ public:
+  explicit Inputs(const Symbols& symbols) : symbols_(symbols) {}
+  // False: `error` is complete, with file and line.
+  bool load(const std::string& path, std::string& error);
+  // Sets the variables of all rows of this cycle; called with rising cycles.
+  void apply(int64_t cycle);
+  // The last cycle that a row names, or -1.
+  int64_t lastCycle() const { return last_cycle_; }
+
+ private:
+  struct Setting {
+    int64_t cycle;
+    uint32_t variable;
+    std::string value;
+  };
+  const Symbols& symbols_;
+  std::vector<Variable> variables_;
+  std::vector<Setting> settings_;
+  size_t next_ = 0;
+  int64_t last_cycle_ = -1;
+};
+
+// PATH=VALUE of --set. Empty: good, else what is wrong.
+std::string applySet(const Symbols& symbols, const std::string& path, const std::string& value);
+
+// Reads a whole file ("-": standard input); false when the system refused, `error` says why.
+bool readFile(const std::string& path, std::string& content, std::string& error);
+
+}  // namespace rung::host

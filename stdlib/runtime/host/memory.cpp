@@ -1,0 +1,45 @@
+#include "memory.h"
+
+#include <cstring>
+
+namespace rung::host {
+namespace {
+
+uint8_t* place(std::vector<std::unique_ptr<uint8_t[]>>& storage, size_t size, size_t align) {
+  if (align == 0) align = 1;
+  // Eight bytes more: a 64-bit view at the end of an image stays inside.
+  storage.push_back(std::make_unique<uint8_t[]>(size + align + 8));
+  const uintptr_t address = reinterpret_cast<uintptr_t>(storage.back().get());
+  return storage.back().get() + ((address + align - 1) / align * align - address);
+}
+
+}  // namespace
+
+const char* refusal(const rung_module& module) {
+  if (module.abi != RUNG_MODULE_ABI) return "the program was made for another version of the runtime; build it again";
+  if (module.pointer_size != sizeof(void*)) return "the program was made for another pointer size (--target-pointer)";
+  return nullptr;
+}
+
+Memory::Memory(const rung_module& module) : module_(module) {
+  for (uint32_t i = 0; i < module.block_count; ++i) {
+    blocks_.push_back(place(storage_, module.blocks[i].size, module.blocks[i].align));
+    block_pointers_.push_back(blocks_.back());
+  }
+  for (uint32_t area = 0; area < 3; ++area) images_[area] = place(storage_, module.image_bytes[area], 8);
+  context_.blocks = block_pointers_.data();
+  for (uint32_t area = 0; area < 3; ++area) context_.image[area] = images_[area];
+  context_.module = &module;
+}
+
+uint8_t Memory::reset() {
+  for (uint32_t i = 0; i < module_.block_count; ++i) memset(blocks_[i], 0, module_.blocks[i].size);
+  for (uint32_t area = 0; area < 3; ++area) memset(images_[area], 0, module_.image_bytes[area]);
+  context_.now_ns = 0;
+  context_.fault = {};
+  return module_.init == nullptr ? uint8_t{RUNG_FAULT_NONE} : rung_guarded(&context_, module_.init);
+}
+
+void Memory::makeOutputsSafe() { memset(images_[RUNG_IN_OUTPUTS - RUNG_IN_INPUTS], 0, module_.image_bytes[1]); }
+
+}  // namespace rung::host

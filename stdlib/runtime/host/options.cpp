@@ -1,0 +1,114 @@
+// The options of `rung run`, for the tool and for executables of `rung build`. See rung/host.h.
+#include <charconv>
+#include <cstdio>
+
+#include "rung/host.h"
+#include "rung/values.h"
+#include "symbols.h"
+
+namespace rung::host {
+namespace {
+
+// `T#10ms`, `10ms`, `1.5s`: nanoseconds above 0.
+bool readDuration(const std::string& text, int64_t& ns) {
+  const std::string literal = text.find('#') == std::string::npos ? "LT#" + text : text;
+  return rung_parse(RUNG_LTIME, true, 0, literal.data(), literal.size(), &ns) && ns > 0;
+}
+
+const char kHelp[] =
+    "options\n"
+    "  --cycles N            run N cycles of the fastest task (default 100, or as far as --inputs goes)\n"
+    "  --for TIME            run this long: --for T#2s\n"
+    "  --interval TIME       period of programs without tasks (default T#10ms)\n"
+    "  --inputs FILE         CSV with header cycle,PATH,...: variables set before each cycle\n"
+    "  --set PATH=VALUE      set a variable once, before cycle 0\n"
+    "  --watch PATH,...      the variables to trace (default: all of all programs)\n"
+    "  --trace FILE|-        write a CSV row after each cycle\n"
+    "  --retain FILE         keep retained variables in FILE\n"
+    "  --start cold|warm|origin   default: warm when the retain file exists, else cold\n"
+    "  --realtime            run by the clock, until the cycles are done or Ctrl-C\n";
+
+}  // namespace
+
+std::string parseRunOptions(const std::vector<std::string>& arguments, RunOptions& options, std::vector<std::string>& rest) {
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    std::string name = argument, value;
+    const size_t equals = argument.find('=');
+    bool has_value = argument.compare(0, 2, "--") == 0 && equals != std::string::npos;
+    if (has_value) {
+      name = argument.substr(0, equals);
+      value = argument.substr(equals + 1);
+    }
+    static const char* const with_value[] = {"--cycles", "--for", "--interval", "--inputs", "--set",
+                                             "--watch", "--trace", "--retain", "--start"};
+    bool takes_value = false;
+    for (const char* const known : with_value) takes_value = takes_value || name == known;
+    if (name == "--realtime") {
+      if (has_value) return "--realtime takes no value";
+      options.realtime = true;
+      continue;
+    }
+    if (!takes_value) {
+      rest.push_back(argument);
+      continue;
+    }
+    if (!has_value) {
+      if (i + 1 == arguments.size()) return name + " needs a value";
+      value = arguments[++i];
+    }
+    if (name == "--cycles") {
+      const std::from_chars_result read = std::from_chars(value.data(), value.data() + value.size(), options.cycles);
+      if (read.ec != std::errc{} || read.ptr != value.data() + value.size() || options.cycles < 0)
+        return "--cycles needs a number, not `" + value + "`";
+    } else if (name == "--for") {
+      if (!readDuration(value, options.for_ns)) return "--for needs a time such as T#2s, not `" + value + "`";
+    } else if (name == "--interval") {
+      if (!readDuration(value, options.interval_ns)) return "--interval needs a time such as T#10ms, not `" + value + "`";
+    } else if (name == "--inputs") {
+      options.inputs_path = value;
+    } else if (name == "--set") {
+      const size_t mark = value.find('=');
+      if (mark == std::string::npos || mark == 0) return "--set needs PATH=VALUE, not `" + value + "`";
+      options.sets.emplace_back(value.substr(0, mark), value.substr(mark + 1));
+    } else if (name == "--watch") {
+      options.watch += (options.watch.empty() ? "" : ",") + value;
+    } else if (name == "--trace") {
+      options.trace_path = value;
+    } else if (name == "--retain") {
+      options.retain_path = value;
+    } else {
+      const std::string start = lowerCase(value);
+      if (start == "cold") options.start = RUNG_COLD;
+      else if (start == "warm") options.start = RUNG_WARM;
+      else if (start == "origin") options.start = RUNG_ORIGIN;
+      else return "--start needs cold, warm or origin, not `" + value + "`";
+    }
+  }
+  return "";
+}
+
+int applicationMain(const rung_module& module, int argc, char** argv) {
+  RunOptions options;
+  std::vector<std::string> rest;
+  const std::string wrong = parseRunOptions(std::vector<std::string>(argv + (argc > 0 ? 1 : 0), argv + argc), options, rest);
+  if (!wrong.empty()) {
+    fprintf(stderr, "error: %s\n", wrong.c_str());
+    return 2;
+  }
+  for (const std::string& argument : rest) {
+    if (argument == "--help" || argument == "-h") {
+      printf("%s, compiled by %s\n%s", module.name, module.compiler, kHelp);
+      return 0;
+    }
+    if (argument == "--version") {
+      printf("%s, compiled by %s\n", module.name, module.compiler);
+      return 0;
+    }
+    fprintf(stderr, "error: unknown option `%s`; --help lists them\n", argument.c_str());
+    return 2;
+  }
+  return run(module, options);
+}
+
+}  // namespace rung::host

@@ -1,0 +1,216 @@
+#include "realtime.h"
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <ctime>
+#include <memory>
+#include <mutex>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <thread>
+
+namespace rung::host {
+namespace {
+
+constexpr int64_t kSecond = 1'000'000'000;
+volatile sig_atomic_t signalled = 0;
+void onSignal(int) { signalled = 1; }
+
+int64_t monotonicNs() {
+  timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * kSecond + now.tv_nsec;
+}
+
+void sleepUntil(int64_t ns) {
+  const timespec until = {static_cast<time_t>(ns / kSecond), static_cast<long>(ns % kSecond)};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != 0 && signalled == 0) {
+  }
+}
+
+struct Worker {
+  const Schedule::Item* item;
+  rung_context context;  // the shared memory, an own time and fault
+  bool makes_rows = false;
+  std::atomic<int64_t> running_since{0};  // 0: idle
+  int64_t activations = 0, skipped = 0, overruns_in_a_row = 0;
+  int64_t worst_late_ns = 0, longest_run_ns = 0;
+  std::thread thread;
+};
+
+struct Shared {
+  std::atomic<bool> stop{false};
+  std::atomic<int64_t> rows_done{0};
+  int64_t rows, start;
+  std::mutex mutex;  // guards the result
+  RealtimeResult result;
+  const std::function<void(int64_t)>*before, *after;
+};
+
+// Priority 0 is the highest of 32; SCHED_FIFO needs a right that the user may not have, and then is not used.
+void raisePriority(uint32_t priority) {
+  sched_param parameters{};
+  parameters.sched_priority = std::max(1, 80 - 2 * static_cast<int>(std::min(priority, 31u)));
+  pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+}
+
+// One activation with its watchdog; false when the run must stop.
+bool activate(Shared& shared, Worker& worker, int64_t now_ns) {
+  const int64_t begin = monotonicNs();
+  worker.running_since.store(begin);
+  worker.context.now_ns = now_ns;
+  const uint8_t fault = rung_guarded(&worker.context, worker.item->task->run);
+  worker.running_since.store(0);
+  const int64_t took = monotonicNs() - begin;
+  worker.longest_run_ns = std::max(worker.longest_run_ns, took);
+  ++worker.activations;
+  if (fault != RUNG_FAULT_NONE) {
+    const std::lock_guard<std::mutex> lock(shared.mutex);
+    if (!shared.result.faulted) shared.result.fault = worker.context.fault;
+    shared.result.faulted = true;
+    shared.stop.store(true);
+    return false;
+  }
+  // Too long `sensitivity` times in a row stops the run; the caller's thread sees tasks that never end.
+  const int64_t limit = worker.item->task->watchdog_ns;
+  worker.overruns_in_a_row = limit > 0 && took > limit ? worker.overruns_in_a_row + 1 : 0;
+  if (limit > 0 && worker.overruns_in_a_row >= std::max<int64_t>(1, worker.item->task->sensitivity)) {
+    const std::lock_guard<std::mutex> lock(shared.mutex);
+    shared.result.watchdog = worker.context.module->text + worker.item->task->name;
+    shared.stop.store(true);
+    return false;
+  }
+  return true;
+}
+
+void runCyclic(Shared& shared, Worker& worker) {
+  const int64_t interval = worker.item->interval_ns;
+  for (int64_t n = 0; !shared.stop.load(); ++n) {
+    const int64_t deadline = shared.start + n * interval;
+    sleepUntil(deadline);
+    if (shared.stop.load()) return;
+    const int64_t late = monotonicNs() - deadline;
+    worker.worst_late_ns = std::max(worker.worst_late_ns, late);
+    if (worker.makes_rows) (*shared.before)(n);
+    if (!activate(shared, worker, n * interval)) return;
+    if (worker.makes_rows) {
+      (*shared.after)(n);
+      shared.rows_done.store(n + 1);
+      if (shared.rows >= 0 && n + 1 >= shared.rows) shared.stop.store(true);
+    } else {
+      // A missed start is skipped and counted; the task that makes rows catches up instead, so that no row is lost.
+      const int64_t missed = (monotonicNs() - deadline) / interval;
+      if (missed > 0) {
+        worker.skipped += missed;
+        n += missed;
+      }
+    }
+  }
+}
+
+void runOnCondition(Shared& shared, Worker& worker, int64_t poll_ns) {
+  bool was_true = false;
+  for (int64_t next = shared.start; !shared.stop.load(); next = std::max(next + poll_ns, monotonicNs())) {
+    sleepUntil(next);
+    bool due = worker.item->task->kind == RUNG_FREEWHEELING;
+    if (!due && worker.item->trigger.type != nullptr) {
+      const bool is_true = readBool(worker.item->trigger);
+      due = is_true && (worker.item->task->kind == RUNG_STATUS || !was_true);
+      was_true = is_true;
+    }
+    if (due && !shared.stop.load() && !activate(shared, worker, monotonicNs() - shared.start)) return;
+  }
+}
+
+std::string microseconds(int64_t ns) { return std::to_string((ns + 500) / 1000) + " us"; }
+
+}  // namespace
+
+RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t rows,
+                           const std::function<void(int64_t)>& before, const std::function<void(int64_t)>& after,
+                           const std::function<void()>& idle) {
+  Shared shared;
+  shared.rows = rows;
+  shared.before = &before;
+  shared.after = &after;
+  signalled = 0;
+  struct sigaction action{}, old_interrupt{}, old_terminate{};
+  action.sa_handler = onSignal;
+  sigaction(SIGINT, &action, &old_interrupt);
+  sigaction(SIGTERM, &action, &old_terminate);
+  mlockall(MCL_CURRENT | MCL_FUTURE);  // where permitted
+
+  std::vector<std::unique_ptr<Worker>> workers;
+  Worker* fastest = nullptr;
+  for (const Schedule::Item& item : schedule.items()) {
+    auto worker = std::make_unique<Worker>();
+    worker->item = &item;
+    worker->context = context;
+    if (item.task->kind == RUNG_CYCLIC && (fastest == nullptr || item.interval_ns < fastest->item->interval_ns)) fastest = worker.get();
+    workers.push_back(std::move(worker));
+  }
+  if (fastest != nullptr) fastest->makes_rows = true;
+  shared.start = monotonicNs() + 1'000'000;
+  for (const std::unique_ptr<Worker>& worker : workers) {
+    if (worker->item->task->kind == RUNG_EXTERNAL) continue;
+    worker->thread = std::thread([&shared, &worker = *worker, &schedule] {
+      raisePriority(worker.item->task->priority);
+      if (worker.item->task->kind == RUNG_CYCLIC) runCyclic(shared, worker);
+      else runOnCondition(shared, worker, std::min<int64_t>(schedule.rowNs(), 1'000'000));
+    });
+  }
+
+  // This thread makes the rows when no cyclic task does, and watches for signals and for tasks that never end.
+  int64_t next_idle = shared.start + kSecond, row = 0;
+  bool hung = false;
+  while (!shared.stop.load() && !hung) {
+    const int64_t poll = fastest != nullptr ? std::min<int64_t>(schedule.rowNs(), 10'000'000) : schedule.rowNs();
+    if (fastest == nullptr) {
+      sleepUntil(shared.start + row * schedule.rowNs());
+      before(row);
+      after(row);
+      shared.rows_done.store(++row);
+      if (rows >= 0 && row >= rows) break;
+    } else {
+      sleepUntil(monotonicNs() + poll);
+    }
+    if (signalled != 0) break;
+    const int64_t now = monotonicNs();
+    for (const std::unique_ptr<Worker>& worker : workers) {
+      const int64_t since = worker->running_since.load();
+      const int64_t limit = worker->item->task->watchdog_ns * std::max<int64_t>(1, worker->item->task->sensitivity);
+      if (since == 0 || limit <= 0 || now - since <= limit) continue;
+      const std::lock_guard<std::mutex> lock(shared.mutex);
+      shared.result.watchdog = context.module->text + worker->item->task->name;
+      hung = true;
+    }
+    if (now >= next_idle) {
+      next_idle = now + kSecond;
+      idle();
+    }
+  }
+  shared.stop.store(true);
+  for (const std::unique_ptr<Worker>& worker : workers) {
+    if (!worker->thread.joinable()) continue;
+    if (hung && worker->running_since.load() != 0) worker->thread.detach();  // never ends; the process will
+    else worker->thread.join();
+  }
+  sigaction(SIGINT, &old_interrupt, nullptr);
+  sigaction(SIGTERM, &old_terminate, nullptr);
+
+  shared.result.rows = shared.rows_done.load();
+  for (const std::unique_ptr<Worker>& worker : workers) {
+    if (worker->item->task->kind != RUNG_CYCLIC) continue;
+    const char* const name = context.module->text + worker->item->task->name;
+    shared.result.statistics += std::string("task ") + (*name != 0 ? name : "(default)") + ": " + std::to_string(worker->activations) +
+                                " activations, " + std::to_string(worker->skipped) + " skipped, latest start " +
+                                microseconds(worker->worst_late_ns) + " late, longest run " + microseconds(worker->longest_run_ns) + '\n';
+  }
+  if (hung)
+    for (std::unique_ptr<Worker>& worker : workers) (void)worker.release();  // detached threads still use them
+  return shared.result;
+}
+
+}  // namespace rung::host

@@ -1,0 +1,50 @@
+// Retained and persistent variables in a file (--retain). The file has two slots, each with sequence number, layout
+// hash, length and CRC-32. A save writes the older slot and syncs it before it returns, so that a power cut at any
+// instruction leaves the old or the new state, whole. In: the ranges of the module. Out: memory restored.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "memory.h"
+#include "symbols.h"
+
+namespace rung::host {
+
+class Retain {
+ public:
+  Retain(const rung_module& module, Memory& memory, std::string path);
+  ~Retain();
+  Retain(const Retain&) = delete;
+  Retain& operator=(const Retain&) = delete;
+
+  bool exists() const;
+  // Restores after init: warm what is retained and persistent, cold what is persistent, origin nothing. A file of
+  // another layout restores what has the same path and type. False: `error` says what the system refused.
+  bool restore(rung_start start, const Symbols& symbols, std::string& error);
+  // Writes the present values.
+  bool save(const Symbols& symbols, std::string& error);
+
+ private:
+  struct Slot {
+    uint64_t sequence = 0;
+    uint64_t layout_hash = 0;
+    uint32_t value_bytes = 0;  // the directory follows
+    std::string payload;
+  };
+  bool readSlot(int index, Slot& slot) const;
+  std::string directory(const Symbols& symbols) const;
+  bool open(std::string& error);
+  void restoreByName(const Slot& slot, rung_start start, const Symbols& symbols);
+
+  const rung_module& module_;
+  Memory& memory_;
+  std::string path_;
+  int file_ = -1;
+  uint64_t sequence_ = 0;
+  std::string directory_;
+};
+
+uint32_t crc32(const void* data, size_t size, uint32_t crc = 0);
+
+}  // namespace rung::host

@@ -1,0 +1,180 @@
+// `rung run` and executables of `rung build`: a module in virtual or real time (design §11). See rung/host.h.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <optional>
+#include <unistd.h>
+
+#include "faults.h"
+#include "inputs.h"
+#include "realtime.h"
+#include "retain.h"
+#include "rung/host.h"
+#include "schedule.h"
+#include "trace.h"
+
+namespace rung::host {
+namespace {
+
+constexpr int kGood = 0, kUsage = 2, kFaulted = 3;
+constexpr int64_t kDefaultCycles = 100;
+
+int refuse(const std::string& what) {
+  fflush(stdout);
+  fprintf(stderr, "error: %s\n", what.c_str());
+  return kUsage;
+}
+
+// In virtual time the wall clock starts at 0 with the program.
+int64_t virtualClock(void* data) { return static_cast<const rung_context*>(data)->now_ns; }
+int64_t systemClock(void*) {
+  timespec now;
+  clock_gettime(CLOCK_REALTIME, &now);
+  return now.tv_sec * int64_t{1'000'000'000} + now.tv_nsec;
+}
+
+std::string durationText(int64_t ns) {
+  const std::string ms = millisecondsOf(ns % 1'000'000'000);
+  std::string text;
+  if (ns >= 1'000'000'000) text = std::to_string(ns / 1'000'000'000) + " s";
+  if (ms != "0" || text.empty()) text += (text.empty() ? "" : " ") + ms + " ms";
+  return text;
+}
+
+int64_t processorNs() {
+  timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * int64_t{1'000'000'000} + now.tv_nsec;
+}
+
+struct Run {
+  Run(const rung_module& chosen, const RunOptions& chosen_options)
+      : module(chosen), options(chosen_options), memory(chosen), symbols(chosen, memory),
+        schedule(symbols, chosen_options.interval_ns), inputs(symbols), trace(symbols) {}
+
+  int prepare();
+  int runVirtual();
+  int runInRealTime();
+  int finish(bool faulted, const rung_fault& fault, const std::string& extra);
+  std::string saveRetained() {
+    std::string error;
+    if (retain && !retain->save(symbols, error)) return error;
+    return "";
+  }
+
+  const rung_module& module;
+  const RunOptions& options;
+  Memory memory;
+  Symbols symbols;
+  Schedule schedule;
+  Inputs inputs;
+  Trace trace;
+  std::optional<Retain> retain;
+  rung_host host{};
+  int64_t cycles = 0;
+  int64_t rows_done = 0;
+};
+
+int Run::prepare() {
+  std::string error;
+  if (!schedule.prepare(error)) return refuse(error);
+  // Everything that the user wrote is checked before anything runs or is written.
+  if (!options.inputs_path.empty() && !inputs.load(options.inputs_path, error)) return refuse(error);
+  if (!trace.choose(options.watch, error)) return refuse(error);
+
+  rung_context& context = memory.context();
+  host.wall_clock = options.realtime ? systemClock : virtualClock;
+  context.host = &host;
+  context.host_data = &context;
+  if (memory.reset() != RUNG_FAULT_NONE) {
+    fprintf(stderr, "%s\n", describeFault(module, context.fault).c_str());
+    return kFaulted;
+  }
+  if (!options.retain_path.empty()) {
+    retain.emplace(module, memory, options.retain_path);
+    const rung_start start = options.start >= 0 ? static_cast<rung_start>(options.start)
+                             : retain->exists() ? RUNG_WARM
+                                                : RUNG_COLD;
+    if (!retain->restore(start, symbols, error)) return refuse(error);
+  }
+  for (const auto& [path, value] : options.sets) {
+    const std::string what = applySet(symbols, path, value);
+    if (!what.empty()) return refuse("--set: " + what);
+  }
+  if (!trace.open(options.trace_path, error)) return refuse(error);
+
+  const int64_t row_ns = schedule.rowNs();
+  if (options.cycles >= 0) cycles = options.cycles;
+  else if (options.for_ns >= 0) cycles = options.for_ns / row_ns + (options.for_ns % row_ns != 0 ? 1 : 0);
+  else cycles = options.realtime ? -1 : inputs.lastCycle() >= 0 ? inputs.lastCycle() + 1 : kDefaultCycles;
+  return kGood;
+}
+
+int Run::finish(bool faulted, const rung_fault& fault, const std::string& extra) {
+  std::string error;
+  if (faulted) memory.makeOutputsSafe();
+  const std::string refused = saveRetained();
+  if (!trace.close(error)) return refuse(error);
+  if (options.trace_path.empty()) {
+    const std::string lines = faulted ? "" : trace.lastRow();
+    printf("%s%lld cycles of %s, %s of program time\n", lines.c_str(), static_cast<long long>(rows_done),
+           durationText(schedule.rowNs()).c_str(), durationText(rows_done * schedule.rowNs()).c_str());
+  }
+  if (!extra.empty()) fputs(extra.c_str(), options.trace_path == "-" ? stderr : stdout);
+  fflush(stdout);
+  if (faulted) {
+    fprintf(stderr, "%s\n", describeFault(module, fault).c_str());
+    return kFaulted;
+  }
+  return refused.empty() ? kGood : refuse(refused);
+}
+
+int Run::runVirtual() {
+  rung_context& context = memory.context();
+  const int64_t row_ns = schedule.rowNs();
+  int64_t next_save = processorNs() + 1'000'000'000;
+  for (int64_t row = 0; row < cycles; ++row) {
+    inputs.apply(row);
+    if (schedule.run(row, context) != RUNG_FAULT_NONE) return finish(true, context.fault, "");
+    trace.row(row, row * row_ns);
+    rows_done = row + 1;
+    if (retain && row % 64 == 0 && processorNs() >= next_save) {
+      const std::string refused = saveRetained();
+      if (!refused.empty()) return refuse(refused);
+      next_save = processorNs() + 1'000'000'000;
+    }
+  }
+  return finish(false, {}, "");
+}
+
+int Run::runInRealTime() {
+  const int64_t row_ns = schedule.rowNs();
+  if (cycles == 0) return finish(false, {}, "");
+  const RealtimeResult result = runRealtime(
+      schedule, memory.context(), cycles, [&](int64_t row) { inputs.apply(row); },
+      [&](int64_t row) { trace.row(row, row * row_ns); }, [&] { saveRetained(); });
+  rows_done = result.rows;
+  if (!result.watchdog.empty()) {
+    memory.makeOutputsSafe();
+    std::string error;
+    trace.close(error);
+    fflush(stdout);
+    fprintf(stderr, "fault[watchdog]: task `%s` ran longer than its watchdog allows\n", result.watchdog.c_str());
+    fflush(stderr);
+    _exit(kFaulted);  // a thread may hang in the program
+  }
+  return finish(result.faulted, result.fault, result.statistics);
+}
+
+}  // namespace
+
+int run(const rung_module& module, const RunOptions& options) {
+  if (const char* const why = refusal(module)) return refuse(why);
+  Run run(module, options);
+  const int prepared = run.prepare();
+  if (prepared != kGood) return prepared;
+  return options.realtime ? run.runInRealTime() : run.runVirtual();
+}
+
+}  // namespace rung::host

@@ -1,0 +1,339 @@
+#include "symbols.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+
+namespace rung::host {
+namespace {
+
+rung_type elementary(rung_type_kind kind, uint32_t size) { return {static_cast<uint8_t>(kind), 0, 0, size, RUNG_NONE, 0, 0, 0}; }
+const rung_type kBoolType = elementary(RUNG_BOOL, 1);
+const rung_type kByteType = elementary(RUNG_BYTE, 1);
+const rung_type kWordType = elementary(RUNG_WORD, 2);
+const rung_type kDWordType = elementary(RUNG_DWORD, 4);
+const rung_type kLWordType = elementary(RUNG_LWORD, 8);
+
+bool isNameCharacter(char c) {
+  return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+         static_cast<unsigned char>(c) >= 0x80 || c == '%';
+}
+bool equalNames(std::string_view a, const char* b) {
+  for (const char c : a) {
+    if (*b == 0) return false;
+    const char d = *b++;
+    const char x = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    const char y = d >= 'A' && d <= 'Z' ? static_cast<char>(d + 32) : d;
+    if (x != y) return false;
+  }
+  return *b == 0;
+}
+
+bool isInteger(const rung_type& type) { return type.kind >= RUNG_BYTE && type.kind <= RUNG_ULINT; }
+
+std::string quoted(std::string_view text) { return "`" + std::string(text) + "`"; }
+
+}  // namespace
+
+std::string lowerCase(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+  return lower;
+}
+
+std::string didYouMean(std::string_view written, const std::vector<std::string_view>& candidates) {
+  const std::string from = lowerCase(written.substr(0, 64));
+  size_t best = std::max<size_t>(from.size() < 4 ? 1 : 2, from.size() / 3) + 1;
+  std::string_view nearest;
+  std::vector<size_t> row;
+  for (const std::string_view candidate : candidates) {
+    const std::string to = lowerCase(candidate.substr(0, 64));
+    if (to.size() > from.size() + best || from.size() > to.size() + best) continue;
+    row.resize(to.size() + 1);
+    for (size_t j = 0; j <= to.size(); ++j) row[j] = j;
+    for (size_t i = 1; i <= from.size(); ++i) {
+      size_t diagonal = row[0];
+      row[0] = i;
+      for (size_t j = 1; j <= to.size(); ++j) {
+        const size_t replaced = diagonal + (from[i - 1] == to[j - 1] ? 0 : 1);
+        diagonal = row[j];
+        row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+      }
+    }
+    if (row[to.size()] < best) {
+      best = row[to.size()];
+      nearest = candidate;
+    }
+  }
+  return nearest.empty() ? "" : "; did you mean " + quoted(nearest) + "?";
+}
+
+std::vector<std::string> splitList(std::string_view list) {
+  std::vector<std::string> parts;
+  int depth = 0;
+  size_t begin = 0;
+  for (size_t i = 0; i <= list.size(); ++i) {
+    if (i < list.size() && list[i] == '[') ++depth;
+    if (i < list.size() && list[i] == ']') --depth;
+    if (i < list.size() && (list[i] != ',' || depth > 0)) continue;
+    std::string_view part = list.substr(begin, i - begin);
+    while (!part.empty() && part.front() == ' ') part.remove_prefix(1);
+    while (!part.empty() && part.back() == ' ') part.remove_suffix(1);
+    if (!part.empty()) parts.emplace_back(part);
+    begin = i + 1;
+  }
+  return parts;
+}
+
+Symbols::Symbols(const rung_module& module, const Memory& memory) : module_(module), memory_(memory) {
+  for (uint32_t i = 0; i < module.symbol_count; ++i) {
+    const std::string name = lowerCase(text(module.symbols[i].name));
+    if (name.empty()) continue;
+    roots_.emplace(name, i);
+    // `Config.Resource.` may stand before it, and `Resource.` alone.
+    const std::string prefix = lowerCase(text(module.symbols[i].path));
+    for (size_t begin = 0; begin < prefix.size();) {
+      roots_.emplace(prefix.substr(begin) + name, i);
+      const size_t dot = prefix.find('.', begin);
+      if (dot == std::string::npos) break;
+      begin = dot + 1;
+    }
+  }
+}
+
+Variable Symbols::root(uint32_t index) const {
+  const rung_symbol& symbol = module_.symbols[index];
+  Variable variable;
+  variable.path = text(symbol.name);
+  variable.type = &module_.types[symbol.type];
+  variable.base = symbol.place == RUNG_IN_BLOCK ? memory_.block(symbol.block)
+                                                : memory_.image(static_cast<uint32_t>(symbol.place - RUNG_IN_INPUTS));
+  variable.offsets[0] = symbol.offset;
+  variable.bit = symbol.bit;
+  variable.flags = symbol.flags;
+  if ((symbol.flags & RUNG_FIELD_BY_REFERENCE) != 0) variable.offsets.push_back(0);
+  return variable;
+}
+
+// `%IX0.3`, `%QB4`, `%MW6`: the image itself, declared or not.
+bool Symbols::findAddress(std::string_view path, Variable& variable, std::string& error) const {
+  const std::string lower = lowerCase(path);
+  size_t at = 1;
+  static const char kAreas[] = "iqm";
+  const char* const area = at < lower.size() ? strchr(kAreas, lower[at]) : nullptr;
+  if (area == nullptr) {
+    error = quoted(path) + " is no address; write `%IX0.0`, `%QB1`, `%MW2`";
+    return false;
+  }
+  ++at;
+  const uint32_t index = static_cast<uint32_t>(area - kAreas);
+  const rung_type* type = &kBoolType;
+  if (at < lower.size() && lower[at] >= 'a') {
+    switch (lower[at++]) {
+      case 'x': break;
+      case 'b': type = &kByteType; break;
+      case 'w': type = &kWordType; break;
+      case 'd': type = &kDWordType; break;
+      case 'l': type = &kLWordType; break;
+      default: error = quoted(path) + " has an unknown size; write X, B, W, D or L"; return false;
+    }
+  }
+  uint64_t byte = 0, bit = 0;
+  const char* const end = lower.data() + lower.size();
+  std::from_chars_result read = std::from_chars(lower.data() + at, end, byte);
+  bool good = read.ec == std::errc{};
+  if (good && type == &kBoolType && read.ptr != end && *read.ptr == '.') {
+    read = std::from_chars(read.ptr + 1, end, bit);
+    good = read.ec == std::errc{} && bit < 8;
+  } else if (type == &kBoolType) {
+    bit = byte % 8;  // %IX5 is byte 0, bit 5
+    byte /= 8;
+  }
+  if (!good || read.ptr != end) {
+    error = quoted(path) + " is no address; write `%IX0.0`, `%QB1`, `%MW2`";
+    return false;
+  }
+  if (byte + type->size > module_.image_bytes[index]) {
+    error = quoted(path) + " lies outside the image: the program uses " + std::to_string(module_.image_bytes[index]) + " bytes of it";
+    return false;
+  }
+  variable = Variable{};
+  variable.path = std::string(path);
+  variable.type = type;
+  variable.base = memory_.image(index);
+  variable.offsets[0] = static_cast<uint32_t>(byte);
+  if (type == &kBoolType) variable.bit = static_cast<uint8_t>(bit);
+  return true;
+}
+
+// One `.field`, `[i,j]`, `^` or `.bit` at the front of `rest`.
+bool Symbols::step(Variable& variable, std::string_view& rest, std::string& error) const {
+  const rung_type& type = *variable.type;
+  if (rest.front() == '^') {
+    if (type.kind != RUNG_POINTER) return error = quoted(variable.path) + " is no pointer", false;
+    rest.remove_prefix(1);
+    variable.type = &module_.types[type.element];
+    variable.offsets.push_back(0);
+    variable.path += '^';
+    return true;
+  }
+  if (rest.front() == '[') {
+    if (type.kind != RUNG_ARRAY) return error = quoted(variable.path) + " is no array", false;
+    const size_t close = rest.find(']');
+    if (close == std::string_view::npos) return error = "`]` is missing after " + quoted(variable.path) + "[", false;
+    const std::vector<std::string> indices = splitList(rest.substr(1, close - 1));
+    if (indices.size() != type.count)
+      return error = quoted(variable.path) + " has " + std::to_string(type.count) + " dimension(s), not " + std::to_string(indices.size()), false;
+    uint64_t element = 0;
+    variable.path += '[';
+    for (uint32_t d = 0; d < type.count; ++d) {
+      const rung_dimension& dimension = module_.dimensions[type.first + d];
+      int64_t index = 0;
+      const std::string& written = indices[d];
+      const std::from_chars_result read = std::from_chars(written.data(), written.data() + written.size(), index);
+      if (read.ec != std::errc{} || read.ptr != written.data() + written.size())
+        return error = quoted(written) + " is no index; write a number", false;
+      if (index < dimension.low || index > dimension.high)
+        return error = "index " + written + " of " + quoted(std::string_view(variable.path).substr(0, variable.path.find_last_of('['))) + " is outside " +
+                       std::to_string(dimension.low) + ".." + std::to_string(dimension.high), false;
+      element = element * static_cast<uint64_t>(dimension.high - dimension.low + 1) + static_cast<uint64_t>(index - dimension.low);
+      variable.path += (d > 0 ? "," : "") + std::to_string(index);
+    }
+    variable.path += ']';
+    variable.type = &module_.types[type.element];
+    variable.offsets.back() += static_cast<uint32_t>(element * variable.type->size);
+    rest.remove_prefix(close + 1);
+    return true;
+  }
+  if (rest.front() != '.') return error = "after " + quoted(variable.path) + " write `.field`, `[index]` or nothing", false;
+  rest.remove_prefix(1);
+  size_t length = 0;
+  while (length < rest.size() && isNameCharacter(rest[length])) ++length;
+  const std::string_view name = rest.substr(0, length);
+  if (isInteger(type) && variable.bit == 255) {
+    std::string_view digits = name;
+    if (digits.size() > 2 && digits[0] == '%' && (digits[1] == 'x' || digits[1] == 'X')) digits.remove_prefix(2);
+    uint32_t bit = 0;
+    const std::from_chars_result read = std::from_chars(digits.data(), digits.data() + digits.size(), bit);
+    if (read.ec == std::errc{} && read.ptr == digits.data() + digits.size() && bit < type.size * 8) {
+      variable.type = &kBoolType;
+      variable.offsets.back() += bit / 8;  // little-endian
+      variable.bit = static_cast<uint8_t>(bit % 8);
+      variable.path += '.' + std::string(name);
+      rest.remove_prefix(length);
+      return true;
+    }
+    return error = quoted(variable.path) + " has no bit " + quoted(name), false;
+  }
+  if (type.kind != RUNG_RECORD) return error = quoted(variable.path) + " has no fields", false;
+  std::vector<std::string_view> names;
+  for (uint32_t i = 0; i < type.count; ++i) {
+    const rung_field& field = module_.fields[type.first + i];
+    names.push_back(text(field.name));
+    if (!equalNames(name, text(field.name))) continue;
+    variable.path += '.';
+    variable.path += text(field.name);
+    variable.type = &module_.types[field.type];
+    variable.offsets.back() += field.offset;
+    variable.flags = field.flags;
+    if ((field.flags & RUNG_FIELD_BY_REFERENCE) != 0) variable.offsets.push_back(0);
+    rest.remove_prefix(length);
+    return true;
+  }
+  error = quoted(variable.path) + " has no variable " + quoted(name) + didYouMean(name, names);
+  return false;
+}
+
+bool Symbols::find(std::string_view path, Variable& variable, std::string& error) const {
+  while (!path.empty() && path.front() == ' ') path.remove_prefix(1);
+  while (!path.empty() && path.back() == ' ') path.remove_suffix(1);
+  if (path.empty()) return error = "a path is missing", false;
+
+  // The longest root that ends where a name ends.
+  const std::string lower = lowerCase(path);
+  size_t root_length = 0;
+  for (size_t i = 1; i <= lower.size(); ++i) {
+    if (i < lower.size() && isNameCharacter(lower[i])) continue;
+    if (roots_.count(lower.substr(0, i)) != 0) root_length = i;
+    if (i < lower.size() && lower[i] != '.') break;
+  }
+  if (root_length == 0) {
+    if (path.front() == '%') return findAddress(path, variable, error);
+    std::vector<std::string_view> names;
+    for (uint32_t i = 0; i < module_.symbol_count; ++i) names.push_back(text(module_.symbols[i].name));
+    const std::string_view first = path.substr(0, path.find_first_of(".[^"));
+    error = "unknown variable " + quoted(path) + didYouMean(first, names);
+    return false;
+  }
+  variable = root(roots_.at(lower.substr(0, root_length)));
+  std::string_view rest = path.substr(root_length);
+  while (!rest.empty())
+    if (!step(variable, rest, error)) return false;
+  return true;
+}
+
+void Symbols::expand(const Variable& variable, std::vector<Variable>& to) const {
+  const rung_type& type = *variable.type;
+  if (type.kind == RUNG_RECORD) {
+    for (uint32_t i = 0; i < type.count; ++i) {
+      const rung_field& field = module_.fields[type.first + i];
+      const char* const name = text(field.name);
+      if ((field.flags & (RUNG_FIELD_BY_REFERENCE | RUNG_FIELD_CONSTANT)) != 0 || *name == 0 || strncmp(name, "__", 2) == 0) continue;
+      Variable part = variable;
+      part.path += '.';
+      part.path += name;
+      part.type = &module_.types[field.type];
+      part.offsets.back() += field.offset;
+      part.flags = field.flags;
+      expand(part, to);
+    }
+  } else if (type.kind == RUNG_ARRAY) {
+    const rung_type& element = module_.types[type.element];
+    std::vector<int64_t> index;
+    for (uint32_t d = 0; d < type.count; ++d) {
+      const rung_dimension& dimension = module_.dimensions[type.first + d];
+      if (dimension.high < dimension.low) return;
+      index.push_back(dimension.low);
+    }
+    for (uint32_t n = 0;; ++n) {
+      Variable part = variable;
+      part.path += '[';
+      for (size_t d = 0; d < index.size(); ++d) part.path += (d > 0 ? "," : "") + std::to_string(index[d]);
+      part.path += ']';
+      part.type = &element;
+      part.offsets.back() += n * element.size;
+      expand(part, to);
+      size_t d = index.size();
+      while (d > 0 && ++index[d - 1] > module_.dimensions[type.first + d - 1].high) {
+        index[d - 1] = module_.dimensions[type.first + d - 1].low;
+        --d;
+      }
+      if (d == 0) return;
+    }
+  } else if (type.kind != RUNG_POINTER) {
+    to.push_back(variable);
+  }
+}
+
+std::vector<Variable> Symbols::ofPrograms() const {
+  std::vector<Variable> all;
+  for (uint32_t i = 0; i < module_.symbol_count; ++i) {
+    if (!module_.symbols[i].is_program) continue;
+    expand(root(i), all);
+    // Its located variables are roots of their own: `Main.valve`.
+    const std::string prefix = std::string(text(module_.symbols[i].name)) + '.';
+    for (uint32_t j = 0; j < module_.symbol_count; ++j)
+      if (strncmp(text(module_.symbols[j].name), prefix.c_str(), prefix.size()) == 0 && !module_.symbols[j].is_program)
+        expand(root(j), all);
+  }
+  return all;
+}
+
+std::vector<Variable> Symbols::roots() const {
+  std::vector<Variable> all;
+  for (uint32_t i = 0; i < module_.symbol_count; ++i) all.push_back(root(i));
+  return all;
+}
+
+}  // namespace rung::host

@@ -1,0 +1,66 @@
+// Paths of variables, `Instance.var[1,2].field` (design §11). In: the module's symbol tables and its memory. Out:
+// variables that can be read, printed and set. Used by inputs, traces, --set, tasks' triggers and retain files.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "memory.h"
+
+namespace rung::host {
+
+struct Variable {
+  std::string path;
+  const rung_type* type = nullptr;
+  uint8_t* base = nullptr;
+  uint8_t bit = 255;                   // BOOL inside an image or integer: 0..63, else 255
+  std::vector<uint32_t> offsets = {0};  // from the second on: after following the pointer that stands there
+  uint32_t flags = 0;                  // rung_field_flags of the last field
+
+  // nullptr when a pointer on the way is null.
+  uint8_t* address() const {
+    uint8_t* at = base + offsets[0];
+    for (size_t i = 1; i < offsets.size(); ++i) {
+      at = *reinterpret_cast<uint8_t**>(at);
+      if (at == nullptr) return nullptr;
+      at += offsets[i];
+    }
+    return at;
+  }
+};
+
+class Symbols {
+ public:
+  Symbols(const rung_module& module, const Memory& memory);
+
+  // True, or false with what is wrong in `error` ("did you mean" included).
+  bool find(std::string_view path, Variable& variable, std::string& error) const;
+  // The elementary variables, enumerations and pointers that `variable` holds, in order of declaration.
+  void expand(const Variable& variable, std::vector<Variable>& to) const;
+  // All elementary variables of all program instances; in-outs, pointers and constants are passed over.
+  std::vector<Variable> ofPrograms() const;
+  // Every root, whole.
+  std::vector<Variable> roots() const;
+
+  const rung_module& module() const { return module_; }
+  const char* text(uint32_t offset) const { return module_.text + offset; }
+
+ private:
+  Variable root(uint32_t symbol) const;
+  bool findAddress(std::string_view path, Variable& variable, std::string& error) const;
+  bool step(Variable& variable, std::string_view& rest, std::string& error) const;
+
+  const rung_module& module_;
+  const Memory& memory_;
+  std::unordered_map<std::string, uint32_t> roots_;  // lower case, with and without their prefixes
+};
+
+// "; did you mean `x`?" for the candidate nearest to `written`, or empty.
+std::string didYouMean(std::string_view written, const std::vector<std::string_view>& candidates);
+std::string lowerCase(std::string_view text);
+// Splits at commas outside brackets and quotes; blanks around the parts go.
+std::vector<std::string> splitList(std::string_view list);
+
+}  // namespace rung::host

@@ -1,0 +1,42 @@
+// The trace of a run (design §11): CSV rows after each cycle, or the last row as `path = value` lines. In: the watched
+// variables. Out: a file that appears whole or not at all, or standard output.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "symbols.h"
+
+namespace rung::host {
+
+class Trace {
+ public:
+  explicit Trace(const Symbols& symbols) : symbols_(symbols) {}
+  ~Trace();
+  Trace(const Trace&) = delete;
+  Trace& operator=(const Trace&) = delete;
+
+  // `watch`: the list of --watch, or empty for all variables of all programs. False: `error` says what is wrong.
+  bool choose(const std::string& watch, std::string& error);
+  // `path`: --trace, "-" for standard output, empty for none.
+  bool open(const std::string& path, std::string& error);
+  void row(int64_t cycle, int64_t time_ns);
+  // Writes what is left and puts the file into place.
+  bool close(std::string& error);
+  // `path = value` lines of the variables now.
+  std::string lastRow() const;
+
+ private:
+  bool flush();
+
+  const Symbols& symbols_;
+  std::vector<Variable> variables_;
+  FILE* file_ = nullptr;
+  std::string path_, temporary_, buffer_, cell_;
+};
+
+// Milliseconds without trailing zeros: `20`, `0.5`.
+std::string millisecondsOf(int64_t ns);
+
+}  // namespace rung::host

@@ -1,0 +1,16 @@
+// Values of variables as text and back, enumerations by name (design §11). In: a variable of the symbol map. Out: its
+// text in the trace; or the variable set from a literal.
+#pragma once
+
+#include "symbols.h"
+
+namespace rung::host {
+
+// Appends the value; nothing when a pointer on the way is null.
+void spellValue(const rung_module& module, const Variable& variable, std::string& to);
+// Sets the variable from a literal, or says what is wrong. `dry`: only checks.
+std::string assignValue(const rung_module& module, const Variable& variable, std::string_view text, bool dry = false);
+// The type as messages name it.
+std::string typeName(const rung_module& module, const rung_type& type);
+
+}  // namespace rung::host

@@ -1,0 +1,29 @@
+/* Elementary values as text, and text as values, spelled as design §11 says. In: a kind of rung_type_kind and the
+ * memory of a value. Out: text, or the value. Serves traces, inputs, assertions and the TO_STRING functions.
+ * No heap, no locale. */
+#ifndef RUNG_VALUES_H
+#define RUNG_VALUES_H
+
+#include "rung/module.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Characters that any scalar may need; a STRING[n] needs up to 5n+2. */
+#define RUNG_SPELLED_SCALAR 64u
+
+/* Writes a value as the trace prints it: `TRUE`, `-5`, `0.5`, `T#1s500ms`, `'a$L'`. `is_signed` matters for durations
+ * (rung_type::is_signed). For RUNG_STRING and RUNG_WSTRING `value` is the text itself. Cuts at `capacity` characters,
+ * ends with NUL (out has capacity + 1 bytes); returns the length written. */
+uint32_t rung_spell(uint8_t kind, bool is_signed, const void *value, char *out, uint32_t capacity);
+
+/* Reads what rung_spell writes and any literal of the language (INT#5, 16#FF, 1_000, T#1.5s, DT#...). All of `text` must
+ * be the literal. Texts are cut to `length` characters. False: it is none, or its value does not fit the type; then
+ * nothing is written. */
+bool rung_parse(uint8_t kind, bool is_signed, uint32_t length, const char *text, size_t size, void *value);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,226 @@
+// STRING and WSTRING in place (rung/code.h): assignment, comparison, conversion between the two and to scalars.
+// In: NUL-terminated texts. Out: texts of at most `capacity` characters. `to` may overlap `from`.
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+
+#include "rung/code.h"
+#include "rung/values.h"
+
+namespace {
+
+// Text of a scalar that TO_STRING spells; enough for every elementary type.
+constexpr uint32_t kScalarRoom = RUNG_SPELLED_SCALAR;
+
+uint32_t spellScalar(uint8_t kind, uint64_t bits, char* out) {
+  if (kind == RUNG_CHAR) {
+    out[0] = static_cast<char>(bits);
+    out[1] = 0;
+    return 1;
+  }
+  if (kind == RUNG_REAL) {
+    const float value = static_cast<float>(rung_f64_of(bits));
+    return rung_spell(kind, false, &value, out, kScalarRoom);
+  }
+  // Sign-extended where the type is signed, so the sign of 64 bits is the sign of the value.
+  return rung_spell(kind, static_cast<int64_t>(bits) < 0, &bits, out, kScalarRoom);
+}
+
+bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+// Sign, `16#`, `8#`, `2#`, digits; stops at the first other character.
+uint64_t readLeadingInteger(const char* text) {
+  bool negative = false;
+  if (*text == '-' || *text == '+') negative = *text++ == '-';
+  uint32_t base = 10;
+  if (strncmp(text, "16#", 3) == 0) base = 16, text += 3;
+  else if (strncmp(text, "8#", 2) == 0) base = 8, text += 2;
+  else if (strncmp(text, "2#", 2) == 0) base = 2, text += 2;
+  uint64_t value = 0;
+  for (;; ++text) {
+    const char c = *text;
+    const uint32_t digit = c >= '0' && c <= '9'   ? static_cast<uint32_t>(c - '0')
+                           : c >= 'a' && c <= 'f' ? static_cast<uint32_t>(c - 'a' + 10)
+                           : c >= 'A' && c <= 'F' ? static_cast<uint32_t>(c - 'A' + 10)
+                                                  : 99u;
+    if (digit >= base) break;
+    value = value * base + digit;
+  }
+  return negative ? 0 - value : value;
+}
+
+template <class T>
+T readLeadingReal(const char* text) {
+  T value = 0;
+  const bool negative = *text == '-';
+  if (*text == '-' || *text == '+') ++text;
+  if (*text == '-' || *text == '+') return 0;
+  const std::from_chars_result read = std::from_chars(text, text + strlen(text), value);
+  if (read.ec == std::errc::result_out_of_range) {
+    // Too large or too small: the exponent's sign tells.
+    for (const char* p = text; p != read.ptr; ++p)
+      if ((*p == 'e' || *p == 'E') && p[1] == '-') return 0;
+    value = static_cast<T>(__builtin_inf());
+  }
+  return negative ? -value : value;
+}
+
+}  // namespace
+
+void rung_text_assign(char* to, uint32_t capacity, const char* from) {
+  const size_t length = strnlen(from, capacity);
+  memmove(to, from, length);
+  to[length] = 0;
+}
+
+void rung_wtext_assign(char16_t* to, uint32_t capacity, const char16_t* from) {
+  uint32_t length = 0;
+  while (length < capacity && from[length] != 0) ++length;
+  memmove(to, from, length * sizeof *from);
+  to[length] = 0;
+}
+
+int rung_text_compare(const char* a, const char* b) { return strcmp(a, b); }
+
+int rung_wtext_compare(const char16_t* a, const char16_t* b) {
+  for (; *a == *b && *a != 0; ++a, ++b) {
+  }
+  return *a < *b ? -1 : *a > *b ? 1 : 0;
+}
+
+uint32_t rung_wtext_length(const char16_t* text) {
+  uint32_t length = 0;
+  while (text[length] != 0) ++length;
+  return length;
+}
+
+void rung_text_of_wtext(char* to, uint32_t capacity, const char16_t* from) {
+  uint32_t length = 0;
+  for (; *from != 0; ++from) {
+    uint32_t code = *from;
+    if (code >= 0xd800 && code < 0xdc00 && from[1] >= 0xdc00 && from[1] < 0xe000) {
+      code = 0x10000 + ((code - 0xd800) << 10) + (from[1] - 0xdc00u);
+      ++from;
+    } else if (code >= 0xd800 && code < 0xe000) {
+      code = '?';
+    }
+    char bytes[4];
+    uint32_t count = 0;
+    if (code < 0x80) {
+      bytes[count++] = static_cast<char>(code);
+    } else {
+      if (code >= 0x10000) bytes[count++] = static_cast<char>(0xf0 | code >> 18);
+      if (code >= 0x10000) bytes[count++] = static_cast<char>(0x80 | (code >> 12 & 0x3f));
+      else if (code >= 0x800) bytes[count++] = static_cast<char>(0xe0 | code >> 12);
+      bytes[count++] = static_cast<char>(code >= 0x800 ? 0x80 | (code >> 6 & 0x3f) : 0xc0 | code >> 6);
+      bytes[count] = static_cast<char>(0x80 | (code & 0x3f));
+      ++count;
+    }
+    if (length + count > capacity) break;  // never half a character
+    memcpy(to + length, bytes, count);
+    length += count;
+  }
+  to[length] = 0;
+}
+
+void rung_wtext_of_text(char16_t* to, uint32_t capacity, const char* from) {
+  uint32_t length = 0;
+  const unsigned char* at = reinterpret_cast<const unsigned char*>(from);
+  while (*at != 0) {
+    uint32_t code = *at++;
+    const int more = code < 0x80 ? 0 : code >= 0xf0 && code < 0xf5 ? 3 : code >= 0xe0 && code < 0xf0 ? 2 : code >= 0xc2 && code < 0xe0 ? 1 : -1;
+    if (more < 0) {
+      code = '?';
+    } else if (more > 0) {
+      uint32_t decoded = code & (0x3fu >> more);
+      int i = 0;
+      for (; i < more && (at[i] & 0xc0) == 0x80; ++i) decoded = decoded << 6 | (at[i] & 0x3fu);
+      const bool good = i == more && decoded >= (more == 1 ? 0x80u : more == 2 ? 0x800u : 0x10000u) &&
+                        decoded < 0x110000 && !(decoded >= 0xd800 && decoded < 0xe000);
+      code = good ? decoded : '?';
+      at += i;
+    }
+    const uint32_t units = code >= 0x10000 ? 2 : 1;
+    if (length + units > capacity) break;
+    if (units == 2) {
+      to[length++] = static_cast<char16_t>(0xd800 + ((code - 0x10000) >> 10));
+      to[length++] = static_cast<char16_t>(0xdc00 + ((code - 0x10000) & 0x3ff));
+    } else {
+      to[length++] = static_cast<char16_t>(code);
+    }
+  }
+  to[length] = 0;
+}
+
+void rung_text_of_scalar(char* to, uint32_t capacity, uint8_t kind, uint64_t bits) {
+  if (kind == RUNG_WCHAR) {
+    const char16_t one[2] = {static_cast<char16_t>(bits), 0};
+    return rung_text_of_wtext(to, capacity, one);
+  }
+  char text[kScalarRoom + 1];
+  spellScalar(kind, bits, text);
+  rung_text_assign(to, capacity, text);
+}
+
+void rung_wtext_of_scalar(char16_t* to, uint32_t capacity, uint8_t kind, uint64_t bits) {
+  if (kind == RUNG_WCHAR) {
+    const char16_t one[2] = {static_cast<char16_t>(bits), 0};
+    return rung_wtext_assign(to, capacity, one);
+  }
+  char text[kScalarRoom + 1];
+  spellScalar(kind, bits, text);
+  rung_wtext_of_text(to, capacity, text);
+}
+
+uint64_t rung_scalar_of_text(uint8_t kind, const char* text) {
+  if (kind == RUNG_CHAR || kind == RUNG_WCHAR) {
+    char16_t one[2];
+    if (kind == RUNG_CHAR) return static_cast<unsigned char>(*text);
+    rung_wtext_of_text(one, 1, text);
+    return one[0];
+  }
+  while (isBlank(*text)) ++text;
+  size_t size = strlen(text);
+  while (size > 0 && isBlank(text[size - 1])) --size;
+  switch (static_cast<rung_type_kind>(kind)) {
+    case RUNG_BOOL: {
+      uint8_t value = 0;
+      return rung_parse(RUNG_BOOL, false, 0, text, size, &value) ? value : 0;
+    }
+    case RUNG_REAL: return rung_bits_of_f64(readLeadingReal<float>(text));
+    case RUNG_LREAL: return rung_bits_of_f64(readLeadingReal<double>(text));
+    case RUNG_TIME:
+    case RUNG_LTIME: {
+      int64_t wide = 0;
+      int32_t narrow = 0;
+      if (kind == RUNG_LTIME) {
+        if (!rung_parse(kind, true, 0, text, size, &wide)) rung_parse(kind, false, 0, text, size, &wide);
+        return static_cast<uint64_t>(wide);
+      }
+      if (rung_parse(kind, true, 0, text, size, &narrow)) return static_cast<uint64_t>(static_cast<int64_t>(narrow));
+      rung_parse(kind, false, 0, text, size, &narrow);
+      return static_cast<uint32_t>(narrow);
+    }
+    case RUNG_DATE:
+    case RUNG_TOD:
+    case RUNG_DT: {
+      uint32_t value = 0;
+      return rung_parse(kind, false, 0, text, size, &value) ? value : 0;
+    }
+    case RUNG_LDATE:
+    case RUNG_LTOD:
+    case RUNG_LDT: {
+      uint64_t value = 0;
+      return rung_parse(kind, false, 0, text, size, &value) ? value : 0;
+    }
+    default: return readLeadingInteger(text);
+  }
+}
+
+uint64_t rung_scalar_of_wtext(uint8_t kind, const char16_t* text) {
+  if (kind == RUNG_WCHAR) return *text;
+  while (*text == ' ') ++text;
+  char narrow[4 * kScalarRoom + 1];
+  rung_text_of_wtext(narrow, sizeof narrow - 1, text);
+  return rung_scalar_of_text(kind, narrow);
+}

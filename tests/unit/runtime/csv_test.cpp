@@ -1,0 +1,35 @@
+// CSV as RFC 4180 says.
+#include "stdlib/runtime/host/csv.h"
+
+#include <gtest/gtest.h>
+
+using namespace rung::host;
+
+TEST(Csv, ReadsQuotesLineEndsAndEmptyCells) {
+  std::vector<CsvRow> rows;
+  std::string error;
+  ASSERT_TRUE(readCsv("\xEF\xBB\xBF" "cycle,\"a[1,2]\"\r\n\r\n0,\"say \"\"hi\"\"\nx\"\n3,", rows, error));
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].cells, (std::vector<std::string>{"cycle", "a[1,2]"}));
+  EXPECT_EQ(rows[1].cells, (std::vector<std::string>{"0", "say \"hi\"\nx"}));
+  EXPECT_EQ(rows[1].line, 3u);
+  EXPECT_EQ(rows[2].cells, (std::vector<std::string>{"3", ""}));
+  EXPECT_EQ(rows[2].line, 5u);
+}
+
+TEST(Csv, NamesTheLineOfAMistake) {
+  std::vector<CsvRow> rows;
+  std::string error;
+  EXPECT_FALSE(readCsv("a\nb,\"c\nd\n", rows, error));
+  EXPECT_EQ(error, "2: the quote of a cell is not closed");
+  EXPECT_FALSE(readCsv("\"a\"b\n", rows, error));
+  EXPECT_EQ(error, "1: text after the closing quote of a cell");
+}
+
+TEST(Csv, QuotesWhereNeeded) {
+  std::string text;
+  appendCell(text, "plain");
+  appendCell(text, "a,b");
+  appendCell(text, "\"w\"");
+  EXPECT_EQ(text, "plain\"a,b\"\"\"\"w\"\"\"");
+}
