@@ -5,7 +5,7 @@
 // for each way (-O0, -O1); every {test} POU counts. A file with them is checked like a golden file.
 #include <algorithm>
 #include <map>
-#include <optional>
+#include <set>
 
 #include "tests/runner/diff.h"
 #include "tests/runner/support.h"
@@ -61,8 +61,10 @@ std::vector<TestCase> readJunit(const std::string& xml) {
       const std::string body = xml.substr(tag_end + 1, end - tag_end - 1);
       test.failed = body.find("<failure") != std::string::npos || body.find("<error") != std::string::npos;
       for (size_t f = body.find("<failure"); f != std::string::npos; f = body.find("<failure", f + 1)) {
-        const std::string open = body.substr(f, body.find('>', f) - f);
-        test.failure += "  " + attribute(open, "message") + "\n";
+        const size_t text = std::min(body.find('>', f), body.size() - 1) + 1;
+        for (const std::string& line : splitLines(unescaped(body.substr(text, body.find("</failure>", text) - text)))) {
+          if (!trimmed(line).empty()) test.failure += "  " + line + "\n";
+        }
       }
     }
     cases.push_back(std::move(test));
@@ -77,6 +79,7 @@ Command testCommand(const Setting& setting, const std::vector<File>& files, cons
   c.arguments = {setting.rung, "test"};
   for (const std::string& word : splitWords(options)) c.arguments.push_back(word);
   if (files.size() > 1) c.arguments.push_back("--separate");
+  c.arguments.insert(c.arguments.end(), {"--root", "."});
   if (!junit.empty()) c.arguments.insert(c.arguments.end(), {"--junit", junit});
   for (const File& file : files) c.arguments.push_back(file.path);
   c.folder = setting.root;
@@ -84,55 +87,60 @@ Command testCommand(const Setting& setting, const std::vector<File>& files, cons
   return c;
 }
 
-// Runs files together. Nothing: they could not all be built, and nobody knows which one is to blame.
-std::optional<Result> runTogether(const Setting& setting, const std::vector<File>& files, const std::string& options) {
+void add(Result& all, Result part) {
+  all.passed += part.passed;
+  all.failed += part.failed;
+  all.log += part.log;
+  all.rows.insert(all.rows.end(), part.rows.begin(), part.rows.end());
+}
+
+// Counts what one process says of its files, and leaves in `files` those of which it says nothing.
+Output runOnce(const Setting& setting, std::vector<File>& files, const std::string& options, Result& result) {
   const std::string junit = freshFolder(setting) + "/junit.xml";
-  const Output output = run(testCommand(setting, files, options, junit));
-  const std::vector<TestCase> cases = readJunit(readText(junit));
-  Result result;
-  std::map<std::string, unsigned> seen;
-  for (const TestCase& test : cases) {
-    const auto owner = std::find_if(files.begin(), files.end(), [&](const File& file) {
-      return files.size() == 1 || test.file == file.path || test.file.ends_with("/" + file.path);
-    });
-    if (owner == files.end()) return std::nullopt;
-    ++seen[owner->path];
+  Output output = run(testCommand(setting, files, options, junit));
+  std::set<std::string> seen;
+  for (const TestCase& test : readJunit(readText(junit))) {
+    const auto owner =
+        std::find_if(files.begin(), files.end(), [&](const File& file) { return test.file == file.path; });
+    if (owner == files.end()) continue;
+    seen.insert(owner->path);
     result.rows.push_back({owner->path, test.name, !test.failed, owner->features, owner->covers});
     if (!test.failed) {
       result.pass();
       continue;
     }
-    std::string what = test.failure;
-    if (trimmed(what).empty()) what = (output.out + output.err).substr(0, 4000);
     Command again = testCommand(setting, {*owner}, options, "");
     again.arguments.insert(again.arguments.end(), {"--filter", test.name});
+    const std::string what = test.failure.empty() ? (output.out + output.err).substr(0, 4000) : test.failure;
     result.fail(owner->path + ": " + test.name + " (" + options + ")", what, spelled(again));
   }
-  const bool finished = output.exit_code == 0 || output.exit_code == 4;
-  if (files.size() > 1) return finished && seen.size() == files.size() ? std::optional(result) : std::nullopt;
-  if (!finished || cases.empty()) {
-    std::string what =
-        "  exit code " + std::to_string(output.exit_code) + ", " + std::to_string(cases.size()) + " tests ran\n";
-    what += (output.err + output.out).substr(0, 4000);
-    result.fail(files[0].path + " (" + options + ")", what, spelled(testCommand(setting, files, options, "")));
-    result.rows.push_back({files[0].path, "", false, files[0].features, files[0].covers});
-  }
-  return result;
+  std::erase_if(files, [&](const File& file) { return seen.count(file.path) != 0; });
+  return output;
 }
 
-Result runBatch(const Setting& setting, const std::vector<File>& files, const std::string& options) {
-  if (std::optional<Result> together = runTogether(setting, files, options)) return *std::move(together);
-  // Halves find the file that does not build in few runs.
-  Result all;
-  const auto middle = files.begin() + static_cast<std::ptrdiff_t>(files.size() / 2);
-  for (const auto& half : {std::vector<File>(files.begin(), middle), std::vector<File>(middle, files.end())}) {
-    Result part = runBatch(setting, half, options);
-    all.passed += part.passed;
-    all.failed += part.failed;
-    all.log += part.log;
-    all.rows.insert(all.rows.end(), part.rows.begin(), part.rows.end());
+Result runBatch(const Setting& setting, std::vector<File> files, const std::string& options) {
+  Result result;
+  const size_t count = files.size();
+  const Output output = runOnce(setting, files, options, result);
+  if (files.empty()) {
+    // Every file has spoken; an exit code that says something else is a failure of its own.
+    if (output.exit_code != (result.failed == 0 ? 0 : 4)) {
+      result.fail("conformance (" + options + ")",
+                  "  exit code " + std::to_string(output.exit_code) + "\n" + output.err, "");
+    }
+  } else if (count == 1) {
+    const std::string what =
+        "  no test ran, exit code " + std::to_string(output.exit_code) + "\n" + output.err + output.out;
+    result.fail(files[0].path + " (" + options + ")", what.substr(0, 4000),
+                spelled(testCommand(setting, files, options, "")));
+    result.rows.push_back({files[0].path, "", false, files[0].features, files[0].covers});
+  } else {
+    // A file that does not build, or that ends the process, silences others: halves find it in few runs.
+    const auto middle = files.begin() + static_cast<std::ptrdiff_t>(files.size() / 2);
+    if (files.begin() != middle) add(result, runBatch(setting, {files.begin(), middle}, options));
+    add(result, runBatch(setting, {middle, files.end()}, options));
   }
-  return all;
+  return result;
 }
 
 std::string headProblem(const std::vector<std::string>& lines, const File& file) {
