@@ -3,7 +3,7 @@
 # and tests, links in the documentation. Each check is a script of its own that prints what is wrong.
 #   tools/precommit.sh              ln -s ../../tools/precommit.sh .git/hooks/pre-commit
 set -u
-cd "$(git rev-parse --show-toplevel)" || exit 2
+cd "$(dirname "$(readlink -f "$0")")/.." || exit 2
 failed=0
 for check in tools/house/*.sh; do
   "$check" || { echo "$check: failed"; failed=1; }

@@ -6,5 +6,5 @@ if ! clang-format --version 2>/dev/null | grep -q 'version 14\.'; then
   echo "format: skipped, there is no clang-format 14"
   exit 0
 fi
-git ls-files -z '*.h' '*.cpp' ':!**/seeds/**' | xargs -0 -n 20 -P 2 clang-format --dry-run --Werror 2>&1 | grep 'error:' && exit 1
+tools/house/tracked .h .cpp | xargs -d '\n' -n 20 -P 2 clang-format --dry-run --Werror 2>&1 | grep 'error:' && exit 1
 exit 0

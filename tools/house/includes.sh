@@ -3,7 +3,7 @@
 # compiler code, and tests are included by nobody.
 set -eu
 cd "$(dirname "$0")/../.."
-git ls-files '*.h' '*.cpp' '*.def' | grep -v '^tests/' | xargs grep -Hn '^#include "' | awk '
+tools/house/tracked .h .cpp .def | grep -v '^tests/' | xargs -d '\n' grep -Hn '^#include "' | awk '
   # The layers in order; a path belongs to the longest prefix that matches. Equal numbers may not see each other,
   # except through their own folder.
   BEGIN {

@@ -10,10 +10,10 @@ while IFS=: read -r file line link; do
   target=${target%%#*}
   case $target in '' | http://* | https://* | mailto:*) continue ;; esac
   [ -e "$(dirname "$file")/$target" ] || { echo "$file:$line: dead link to $target"; bad=1; }
-done < <(git ls-files -z '*.md' | xargs -0 -r grep -HnoE '\]\([^) ]+\)' || true)
+done < <(tools/house/tracked .md | xargs -d '\n' -r grep -HnoE '\]\([^) ]+\)' || true)
 while IFS=: read -r file line path; do
   path=${path//\`/}
   [ -e "$path" ] || { echo "$file:$line: there is no $path"; bad=1; }
-done < <(git ls-files -z 'docs/*.md' README.md CONTRIBUTING.md |
-  xargs -0 -r grep -HnoE '`(frontend|sema|ir|codegen|stdlib|cam|tools|tests|samples|cmake)/[A-Za-z0-9_./-]+\.[a-z]+`' || true)
+done < <(tools/house/tracked .md | grep -E '^(docs/|README|CONTRIBUTING)' |
+  xargs -d '\n' -r grep -HnoE '`(frontend|sema|ir|codegen|stdlib|cam|tools|tests|samples|cmake)/[A-Za-z0-9_./-]+\.[a-z]+`' || true)
 exit $bad
