@@ -1,0 +1,122 @@
+#include "tools/rung/inputs.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "tests/unit/tools/temporary_folder.h"
+
+namespace rung::tool {
+namespace {
+
+constexpr const char* kProgram = "PROGRAM p\nEND_PROGRAM\n";
+
+class InputsTest : public testing::Test {
+ protected:
+  void read(std::vector<std::string> words) {
+    options.inputs = std::move(words);
+    readInputs(options, sources, diagnostics, inputs);
+  }
+  std::string onlyMessage() const {
+    return diagnostics.all().size() == 1 ? diagnostics.all()[0].message : std::to_string(diagnostics.all().size());
+  }
+  std::vector<std::string> paths() const {
+    std::vector<std::string> out;
+    for (const InputFile& file : inputs.files) out.push_back(file.below);
+    return out;
+  }
+
+  TemporaryFolder folder;
+  Options options;
+  Sources sources;
+  Diagnostics diagnostics{sources};
+  Inputs inputs;
+};
+
+TEST_F(InputsTest, FolderInSortedOrderWithoutOtherKinds) {
+  folder.write("p/b.st", kProgram);
+  folder.write("p/a/z.iecst", kProgram);
+  folder.write("p/a.ST", kProgram);
+  folder.write("p/notes.txt", "Program notes");
+  folder.write("p/.hidden/x.st", kProgram);
+  read({folder.path() + "/p"});
+  EXPECT_EQ(paths(), (std::vector<std::string>{"a.ST", "a/z.iecst", "b.st"}));
+  EXPECT_EQ(inputs.files[0].shown, folder.path() + "/p/a.ST");
+  EXPECT_FALSE(inputs.io_error);
+}
+
+TEST_F(InputsTest, OrderOfWordsDoesNotShowAndRepeatsCountOnce) {
+  std::string a = folder.write("p/a.st", kProgram), b = folder.write("p/q/b.st", kProgram);
+  read({b, a, folder.path() + "/p", a});
+  EXPECT_EQ(paths(), (std::vector<std::string>{"a.st", "q/b.st"}));
+}
+
+TEST_F(InputsTest, UnknownFile) {
+  folder.write("pump.st", kProgram);
+  read({folder.path() + "/pmup.st"});
+  EXPECT_TRUE(inputs.io_error);
+  EXPECT_EQ(onlyMessage(), "cannot read `" + folder.path() + "/pmup.st`: No such file or directory");
+  ASSERT_EQ(diagnostics.all()[0].notes.size(), 1u);
+  EXPECT_EQ(diagnostics.all()[0].notes[0].message, "did you mean `" + folder.path() + "/pump.st`?");
+}
+
+TEST_F(InputsTest, EmptyFolder) {
+  folder.write("p/readme.md", "nothing");
+  read({folder.path() + "/p"});
+  EXPECT_TRUE(inputs.io_error);
+  EXPECT_EQ(diagnostics.all()[0].diag, Diag::EmptyFolder);
+}
+
+TEST_F(InputsTest, UnreadableFile) {
+  if (geteuid() == 0) GTEST_SKIP() << "root reads everything";
+  std::string path = folder.write("a.st", kProgram);
+  chmod(path.c_str(), 0);
+  read({path});
+  EXPECT_TRUE(inputs.io_error);
+  EXPECT_EQ(diagnostics.all()[0].diag, Diag::CannotRead);
+}
+
+TEST_F(InputsTest, BinaryAndUtf16) {
+  std::string noise;
+  uint32_t x = 1;
+  for (int i = 0; i < 500; i++) noise += static_cast<char>((x = x * 1664525 + 1013904223) >> 24 | 1);
+  read({folder.write("noise.st", noise)});
+  EXPECT_EQ(diagnostics.all()[0].diag, Diag::BinaryFile);
+  EXPECT_TRUE(inputs.io_error);
+
+  Diagnostics more(sources);
+  Inputs second;
+  options.inputs = {folder.write("wide.st", std::string("\xff\xfeP\0R\0", 6))};
+  readInputs(options, sources, more, second);
+  EXPECT_EQ(more.all()[0].diag, Diag::Utf16File);
+}
+
+TEST_F(InputsTest, DeviceIsNoFile) {
+  read({"/dev/null"});
+  EXPECT_TRUE(inputs.io_error);
+}
+
+TEST_F(InputsTest, ProjectFileNamesItsSources) {
+  folder.write("p/rung.project", "[project]\nsources = main.st, lib\nstd = iec3\n");
+  folder.write("p/main.st", kProgram);
+  folder.write("p/other.st", kProgram);
+  folder.write("p/lib/x.st", kProgram);
+  read({folder.path() + "/p"});
+  EXPECT_EQ(paths(), (std::vector<std::string>{"lib/x.st", "main.st"}));
+  applyProjectFile(inputs.project, options);
+  EXPECT_EQ(options.standard, text::Standard::Iec3);
+}
+
+TEST(KindOf, ContentThenExtension) {
+  EXPECT_EQ(kindOf("a.st", kProgram), FileKind::St);
+  EXPECT_EQ(kindOf("a.txt", "(* head *) // x\n{attribute 'a'}\nfunction_block b"), FileKind::St);
+  EXPECT_EQ(kindOf("a.txt", "just text"), FileKind::Unknown);
+  EXPECT_EQ(kindOf("a.exp", "\xef\xbb\xbf<?xml version='1.0'?>"), FileKind::Xml);
+  EXPECT_EQ(kindOf("a.st", ""), FileKind::St);
+  EXPECT_EQ(kindOf("a.st", std::string("\0\0", 2)), FileKind::Binary);
+  EXPECT_EQ(kindOf("a.st", "(* \xe4\xf6\xfc in Latin-1, as editors of the nineties wrote it *)"), FileKind::St);
+  EXPECT_EQ(kindOf("a.txt", "(* never closed"), FileKind::Unknown);
+}
+
+}  // namespace
+}  // namespace rung::tool

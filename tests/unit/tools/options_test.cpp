@@ -1,0 +1,122 @@
+#include "tools/rung/options.h"
+
+#include <gtest/gtest.h>
+
+#include "ir/ir.h"
+#include "tests/unit/tools/temporary_folder.h"
+
+namespace rung::tool {
+namespace {
+
+Options parsed(const std::vector<std::string>& words) {
+  Options options;
+  EXPECT_EQ(parseOptions(words, options), "");
+  return options;
+}
+std::string errorOf(const std::vector<std::string>& words) {
+  Options options;
+  return parseOptions(words, options);
+}
+
+TEST(Options, EveryFormOfAValue) {
+  EXPECT_EQ(parsed({"emit", "a.st", "-o", "out"}).output, "out");
+  EXPECT_EQ(parsed({"emit", "a.st", "-oout"}).output, "out");
+  EXPECT_EQ(parsed({"check", "a.st", "--name=x"}).name, "x");
+  EXPECT_EQ(parsed({"check", "a.st", "--name", "x"}).name, "x");
+  EXPECT_EQ(parsed({"check", "-O2", "a.st"}).level, 2);
+  EXPECT_EQ(parsed({"run", "-j4", "a.st"}).jobs, 4u);
+  EXPECT_EQ(parsed({"check", "-I", "lib", "-Ilib2", "a.st"}).library_paths.size(), 2u);
+  EXPECT_EQ(parsed({"check", "--", "-strange.st"}).inputs[0], "-strange.st");
+}
+
+TEST(Options, Defaults) {
+  Options options = parsed({"check", "a.st"});
+  EXPECT_EQ(options.standard, text::Standard::Codesys);
+  EXPECT_EQ(options.checks, ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast);
+  EXPECT_EQ(options.level, 1);
+  EXPECT_EQ(options.max_errors, 100u);
+  EXPECT_EQ(options.moduleName(), "plc");
+}
+
+TEST(Options, Checks) {
+  uint8_t checks = 0;
+  EXPECT_EQ(parseChecks("none", checks), "");
+  EXPECT_EQ(checks, 0);
+  EXPECT_EQ(parseChecks("default,overflow", checks), "");
+  EXPECT_EQ(checks, ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast | ir::kCheckOverflow);
+  EXPECT_EQ(parseChecks("dvi", checks), "unknown check `dvi` in `--checks`; did you mean `div`?");
+  EXPECT_NE(parseChecks("", checks), "");
+}
+
+TEST(Options, Warnings) {
+  Options options = parsed({"check", "a.st", "-Wno-W0101", "-Wunused", "-Werror"});
+  ASSERT_EQ(options.warnings.size(), 2u);
+  EXPECT_FALSE(options.warnings[0].on);
+  EXPECT_EQ(options.warnings[0].name, "W0101");
+  EXPECT_TRUE(options.warnings[1].on);
+  EXPECT_TRUE(options.werror);
+}
+
+TEST(Options, MistakesSayWhatToDo) {
+  EXPECT_EQ(errorOf({"chekc", "a.st"}), "unknown command `chekc`; did you mean `check`? (`rung --help` lists all)");
+  EXPECT_EQ(errorOf({"check", "--max-error=3", "a.st"}),
+            "unknown option `--max-error` of `rung check`; did you mean `--max-errors`? (`rung check --help` lists all)");
+  EXPECT_EQ(errorOf({"check", "-o", "x", "a.st"}),
+            "`-o` is no option of `rung check`; it belongs to `rung emit`, `rung build`");
+  EXPECT_EQ(errorOf({"check"}), "`rung check` needs files or folders to read");
+  EXPECT_EQ(errorOf({"check", "a.st", "--std=iec4"}),
+            "`iec4` is no value of `--std`; it takes iec2|iec3|codesys; did you mean `iec2`?");
+  EXPECT_EQ(errorOf({"check", "a.st", "-O3"}), "`3` is no value of `-O`; it takes 0|1|2");
+  EXPECT_EQ(errorOf({"check", "a.st", "--max-errors=many"}),
+            "`--max-errors` takes a number from 0 to 1000000000, not `many`");
+  EXPECT_EQ(errorOf({"check", "a.st", "--name=9x"}),
+            "`9x` is no C identifier; `--name` takes letters, digits and `_`");
+  EXPECT_EQ(errorOf({"check", "a.st", "--name"}), "`--name` needs a value: --name=ID");
+  EXPECT_EQ(errorOf({"check", "a.st", "--werror=1"}), "`--werror` takes no value");
+  EXPECT_NE(errorOf({"emit", "a.st"}), "");
+  EXPECT_NE(errorOf({"emit", "a.st", "--emit=ir", "-o", "x"}), "");
+  EXPECT_NE(errorOf({"build", "a.st"}), "");
+  EXPECT_NE(errorOf({"build", "a.st", "-o", "x", "--shared", "--static"}), "");
+  EXPECT_NE(errorOf({"check", ""}), "");
+  EXPECT_NE(errorOf({}), "");
+}
+
+TEST(Options, HostOptionsArePassedOn) {
+  Options options = parsed({"run", "a.st", "--cycles", "5", "--set=a=3", "--realtime"});
+  EXPECT_EQ(options.host_arguments, (std::vector<std::string>{"--cycles=5", "--set=a=3", "--realtime"}));
+}
+
+TEST(Options, HelpFitsAScreen) {
+  for (uint32_t i = 0; i < kCommandCount; i++) {
+    std::string help = helpText(static_cast<Command>(i));
+    size_t lines = 0, column = 0, widest = 0;
+    for (char c : help) {
+      column = c == '\n' ? 0 : column + 1;
+      lines += c == '\n';
+      widest = std::max(widest, column);
+    }
+    EXPECT_LE(lines, 40u) << help;
+    EXPECT_LE(widest, 110u) << help;
+  }
+  EXPECT_TRUE(parsed({"run", "--help"}).help);
+  EXPECT_EQ(parsed({"help", "run"}).command, Command::Run);
+}
+
+TEST(Options, ResponseFiles) {
+  TemporaryFolder folder;
+  std::string inner = folder.write("inner", "b.st 'c d.st'\n");
+  std::string outer = folder.write("outer", "--name x @" + inner + " \"e\\\"f\" ''");
+  std::vector<std::string> words = {"check", "@" + outer, "z"};
+  EXPECT_EQ(expandResponseFiles(words), "");
+  EXPECT_EQ(words, (std::vector<std::string>{"check", "--name", "x", "b.st", "c d.st", "e\"f", "", "z"}));
+
+  words = {"@" + folder.path() + "/none"};
+  EXPECT_NE(expandResponseFiles(words), "");
+  words = {"@" + folder.write("self", "@" + folder.path() + "/self")};
+  EXPECT_NE(expandResponseFiles(words), "");
+  words = {"@" + folder.write("open", "'abc")};
+  EXPECT_NE(expandResponseFiles(words), "");
+}
+
+}  // namespace
+}  // namespace rung::tool

@@ -1,0 +1,87 @@
+#include "tools/rung/project_file.h"
+
+#include <gtest/gtest.h>
+
+namespace rung::tool {
+namespace {
+
+class ProjectFileTest : public testing::Test {
+ protected:
+  void read(const std::string& text) {
+    FileId file = sources.add("rung.project", text);
+    parseProjectFile(sources, file, diagnostics, project);
+  }
+  // "line:column: message" of each.
+  std::vector<std::string> messages() {
+    diagnostics.sort();
+    std::vector<std::string> out;
+    for (const Diagnostic& diagnostic : diagnostics.all()) {
+      Place place = sources.place(diagnostic.loc);
+      out.push_back(std::to_string(place.line) + ":" + std::to_string(place.column) + ": " + diagnostic.message);
+    }
+    return out;
+  }
+  Sources sources;
+  Diagnostics diagnostics{sources};
+  ProjectFile project;
+};
+
+TEST_F(ProjectFileTest, AllSections) {
+  read("# a press\n[project]\nname = press\nstd = iec2\nchecks = div, index\noptimize = 2\nwarnings = no-W0101\n"
+       "[axis feed]\nfPositionPeriod = 360\n[safe]\nvalve.open = FALSE\n[nc]\nmax_feed = 3\n[pool R]\nsize = 9\n"
+       "[module slot1]\ntype = DI16\n");
+  EXPECT_EQ(messages(), std::vector<std::string>{});
+  EXPECT_EQ(project.name, "press");
+  EXPECT_EQ(project.level, 2);
+  ASSERT_EQ(project.sections.size(), 6u);
+  EXPECT_EQ(project.sections[1].name, "feed");
+  EXPECT_EQ(project.sections[1].find("fPositionPeriod")->value, "360");
+
+  Options options;
+  applyProjectFile(project, options);
+  EXPECT_EQ(options.standard, text::Standard::Iec2);
+  EXPECT_EQ(options.moduleName(), "press");
+  Options chosen;
+  chosen.standard_given = true;
+  chosen.standard = text::Standard::Iec3;
+  applyProjectFile(project, chosen);
+  EXPECT_EQ(chosen.standard, text::Standard::Iec3);  // the command line wins
+}
+
+TEST_F(ProjectFileTest, MistakesHaveTheirPlace) {
+  read("std = iec3\n[projekt]\nx = 1\n[project]\n  nmae = a\nstd=iec9\nwhat\n[task]\n[safe all]\n[project\n");
+  EXPECT_EQ(messages(), (std::vector<std::string>{
+                            "1:1: `std` stands before the first section; write `[project]` above it",
+                            "2:2: unknown section `projekt`",
+                            "5:3: unknown key `nmae` in section `project`",
+                            "6:5: wrong value for `std`: `iec9` is no value of `--std`; it takes iec2|iec3|codesys; did "
+                            "you mean `iec2`?",
+                            "7:1: this is no `[section]`, `key = value` or `# comment`",
+                            "8:2: a section `task` needs a name: `[task NAME]`",
+                            "9:2: the section `safe` takes no name: `[safe]`",
+                            "10:1: this is no `[section]`, `key = value` or `# comment`",
+                        }));
+}
+
+TEST_F(ProjectFileTest, KeySetTwice) {
+  read("[project]\nname = a\nname = b\n");
+  EXPECT_EQ(messages(), (std::vector<std::string>{"3:1: `name` is set twice in its section"}));
+  EXPECT_EQ(project.name, "a");
+}
+
+TEST_F(ProjectFileTest, TasksBecomeAConfiguration) {
+  read("[task fast]\ninterval = 10ms\npriority = 1\nprograms = Main, second : Other\n[task slow]\nkind = freewheeling\n");
+  EXPECT_EQ(messages(), std::vector<std::string>{});
+  EXPECT_EQ(project.configuration,
+            "CONFIGURATION rung_project RESOURCE rung_project_resource ON PLC TASK fast(INTERVAL := T#10ms, PRIORITY := "
+            "1);\n\n\n\nTASK slow(KIND := FREEWHEELING); PROGRAM Main WITH fast : Main; PROGRAM second WITH fast : "
+            "Other; END_RESOURCE END_CONFIGURATION\n");
+}
+
+TEST_F(ProjectFileTest, ValuesCannotBreakOutOfTheirPlace) {
+  read("[task t]\npriority = 1); PROGRAM x\nprograms = a b\n");
+  EXPECT_EQ(messages().size(), 2u);
+}
+
+}  // namespace
+}  // namespace rung::tool
