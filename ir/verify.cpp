@@ -1,1 +1,651 @@
-// x
+// The verifier (see verify.h), and with it the specification of the IR. What must hold of a module:
+//
+//    1  Names are unique: of records, lists, program instances and tasks, each by itself; of functions and blocks
+//       together; of initialisers.
+//    2  A record's `init` is an Init body with that self, its `body` a Block body with that self; a list and a program
+//       instance have a record type; task numbers, owners of located variables and tests exist.
+//    3  A record stands after the records that it holds.
+//    4  Data has as many bytes as its type.
+//
+// Of a body:
+//
+//    5  Ids are in range. Every expression and every statement is used at most once: both form trees.
+//    6  Types are those of the language: no alias, generic or untyped literal type, no Error.
+//    7  Of a Function at most one local is its Result, of the body's result type; other bodies have neither parameters
+//       nor Result. `by_reference` follows from kind and type (isPassedByReference). Two named locals have two names,
+//       two temps too.
+//    8  Block and Init bodies have a record as self; `self` stands only in bodies that have one.
+//    9  A Const is a scalar or null, its bits extended as its type demands; a Text has a text type, a Data its item's
+//       type, Zero an array, record or text type.
+//   10  Local, Global, Program and Image name what exists and have its type; an image view lies inside its area, and
+//       has a bit 0..7 only as a BOOL.
+//   11  Field: a field of a record place, of the field's type; null check only if the field is by reference.
+//   12  Index: an array place, one index of integer type per dimension, the element type; index check only.
+//   13  Deref: of a pointer or reference, of its target type; null and cast check only.
+//   14  Bits: of a place of integer or bit string type; BOOL, BYTE, WORD or DWORD, inside the width.
+//   15  Unary, Binary: the operator takes that many operands. Operands have one plain type, which is the operator's
+//       (comparisons are BOOL; a shift's right operand is any integer, a power's any number). Div check only on
+//       integer division, MOD and power; overflow check on numbers; no other.
+//   16  Convert: scalar to scalar, text to text, pointer to pointer; subrange, convert and overflow check only.
+//   17  Select: a BOOL condition, two operands of its type.
+//   18  Call in an expression: a pure function that cannot fault, one value per parameter.
+//   19  Address: a pointer or reference to a place that has one (no bit).
+//   20  Assign: a place that is no by-reference Input, a value of its type (texts: of its kind).
+//   21  Bind: a by-reference field, a place of the field's type.
+//   22  Call statement: one operand per parameter, a value of its type or, for a by-reference one, a place (none only
+//       for an output); a self place of the callee's record where it has one; a result place only of a function with
+//       result, of its type.
+//   23  If, Assert: conditions are BOOL. Assert: as many operands as its kind takes.
+//   24  Switch: an integer, bit string or enumeration as selector; ranges in the selector's order, low <= high, no
+//       value twice.
+//   25  For: an integer control place without checks; from, to and step of its plain type; step a Const other than 0.
+//   26  Break and continue stand in a loop and not in its `next` block.
+//   27  A label is placed exactly once, in the block of each jump to it or in one around that; labels have distinct
+//       names; a body with labels says so (`has_labels`).
+//   28  Fault: one of the faults. Try: its number goes to an integer place.
+//   29  A body with a check, a fault or a call of a body that may fault `may_fault`; a pure one may not, and neither
+//       assigns outside of its locals nor calls what is not pure.
+//   30  A native body has no code.
+#include "ir/verify.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "ir/builder.h"
+#include "ir/walk.h"
+
+namespace rung::ir {
+
+using types::RecordKind;
+using types::TypeInfo;
+using types::TypeKind;
+using types::TypeTable;
+
+namespace {
+
+bool isPointer(TypeKind kind) { return kind == TypeKind::Pointer || kind == TypeKind::Reference; }
+bool isIntegral(TypeKind kind) { return TypeTable::isInteger(kind) || TypeTable::isBits(kind); }
+bool isParameter(const Local& local) {
+  return local.kind == LocalKind::Input || local.kind == LocalKind::Output || local.kind == LocalKind::InOut;
+}
+
+class Verifier {
+ public:
+  explicit Verifier(const Module& module) : module_(module), types_(module.types) {}
+  std::vector<std::string> problems;
+
+  void checkModule();
+  void checkBody(const Body& body);
+
+ private:
+  bool require(bool holds, int rule, std::string_view what);
+  std::string spell(TypeId type) const { return types_.spell(type); }
+
+  void checkRecordOrder();
+  bool known(TypeId type);
+  void locals();
+  void block(StmtId first);
+  void stmt(StmtId id);
+  void callStmt(const Stmt& s);
+  void switchStmt(const Stmt& s);
+  void callOperands(const Body& callee, uint32_t first, uint32_t count, int rule, bool pure);
+  bool value(uint32_t id);  // checks the tree below; false when there is none
+  bool place(uint32_t id, int rule);
+  void node(const Expr& e);
+  void constant(const Expr& e);
+  void operatorNode(const Expr& e);
+  bool fits(TypeId place_type, TypeId value_type) const;
+  TypeId typeOf(uint32_t id) const { return body_->exprs[id].type; }
+  TypeKind plainOf(uint32_t id) const { return types_.plainKind(typeOf(id)); }
+  void wantType(const Expr& e, TypeId type, int rule) {
+    require(e.type == types_.resolve(type), rule,
+            "the node is " + spell(e.type) + ", what it names is " + spell(types_.resolve(type)));
+  }
+  void allowChecks(const Expr& e, unsigned allowed, int rule) {
+    require((e.checks & ~allowed) == 0, rule, "a check that this node cannot have");
+  }
+
+  const Module& module_;
+  const TypeTable& types_;
+  const Body* body_ = nullptr;
+  std::vector<bool> expr_seen_, stmt_seen_;
+  std::vector<uint32_t> label_block_;  // by label: the number of the block where it stands, or 0
+  std::vector<uint32_t> open_blocks_;
+  std::vector<std::pair<uint32_t, std::vector<uint32_t>>> jumps_;  // label, blocks around
+  uint32_t block_count_ = 0;
+  uint32_t loops_ = 0;
+  bool in_next_ = false;
+  bool found_fault_ = false, found_effect_ = false;
+};
+
+bool Verifier::require(bool holds, int rule, std::string_view what) {
+  if (holds) return true;
+  std::string line = "[" + std::to_string(rule) + "] ";
+  if (body_ != nullptr) line += "body `" + std::string(module_.names.text(body_->name)) + "`: ";
+  problems.push_back(line + std::string(what));
+  return false;
+}
+
+// ---- module
+
+void Verifier::checkModule() {
+  std::unordered_set<uint32_t> seen;
+  auto unique = [&](NameId name, std::string_view what) {
+    require(seen.insert(name.index).second, 1,
+            std::string(what) + " `" + std::string(module_.names.text(name)) + "` stands twice");
+  };
+  auto isRecord = [&](TypeId type) {
+    return type.index < types_.count() && types_.kind(type) == TypeKind::Record;
+  };
+  auto isBodyOf = [&](BodyId id, BodyKind kind, TypeId record) {
+    if (!id) return true;
+    if (id.index >= module_.bodies.size()) return false;
+    const Body& body = module_.body(id);
+    return body.kind == kind && types_.resolve(body.self) == types_.resolve(record);
+  };
+  for (const Record& record : module_.records) {
+    unique(record.name, "record");
+    require(isRecord(record.type), 2, "a record without a record type");
+    require(isBodyOf(record.init, BodyKind::Init, record.type), 2, "a record whose init is none of it");
+    require(isBodyOf(record.body, BodyKind::Block, record.type), 2, "a record whose body is none of it");
+  }
+  seen.clear();
+  for (const List& list : module_.lists) {
+    unique(list.name, "list");
+    require(isRecord(list.record), 2, "a list without a record type");
+    require(isBodyOf(list.init, BodyKind::Init, list.record), 2, "a list whose init is none of its record");
+  }
+  seen.clear();
+  for (const ProgramInstance& program : module_.programs) {
+    unique(program.name, "program instance");
+    require(isRecord(program.record), 2, "a program instance without a record type");
+    require(isBodyOf(program.init, BodyKind::Init, program.record), 2, "a program whose init is none of its record");
+    require(isBodyOf(program.body, BodyKind::Block, program.record), 2, "a program whose body is none of its record");
+    require(program.task <= module_.tasks.size(), 2, "a program in a task that does not exist");
+  }
+  seen.clear();
+  for (const Task& task : module_.tasks) unique(task.name, "task");
+  for (const Located& located : module_.located)
+    require(located.owner_program <= module_.programs.size(), 2, "a located variable of a program that does not exist");
+  for (BodyId test : module_.tests)
+    require(test && test.index < module_.bodies.size() && module_.body(test).kind != BodyKind::Init, 2,
+            "a test that is no function or block");
+  seen.clear();
+  for (size_t i = 1; i < module_.bodies.size(); ++i)
+    if (module_.bodies[i].kind != BodyKind::Init) unique(module_.bodies[i].name, "body");
+  seen.clear();
+  for (size_t i = 1; i < module_.bodies.size(); ++i)
+    if (module_.bodies[i].kind == BodyKind::Init) unique(module_.bodies[i].name, "initialiser");
+  checkRecordOrder();
+  for (const Data& data : module_.data)
+    require(known(data.type) && types_.info(types_.resolve(data.type)).size == data.bytes.size(), 4,
+            "data of another size than its type " + spell(data.type));
+}
+
+void Verifier::checkRecordOrder() {
+  std::vector<bool> later(types_.count());
+  for (const Record& record : module_.records)
+    if (record.type.index < types_.count()) later[types_.resolve(record.type).index] = true;
+  for (const Record& record : module_.records) {
+    if (record.type.index >= types_.count()) continue;
+    for (const types::Field& field : types_.info(types_.resolve(record.type)).fields) {
+      if (field.by_reference) continue;
+      TypeId held = types_.resolve(field.type);
+      while (types_.info(held).kind == TypeKind::Array) held = types_.resolve(types_.info(held).base);
+      require(!later[held.index], 3, spell(record.type) + " holds " + spell(held) + ", which does not stand before it");
+    }
+    later[types_.resolve(record.type).index] = false;
+  }
+}
+
+bool Verifier::known(TypeId type) {
+  if (!require(type && type.index < types_.count(), 6, "a type that does not exist")) return false;
+  const TypeKind kind = types_.info(type).kind;
+  return require(TypeTable::isElementary(kind) || (kind >= TypeKind::Enum && kind != TypeKind::Alias &&
+                                                   kind != TypeKind::Count_),
+                 6, spell(type) + " is no type of the IR");
+}
+
+// ---- body
+
+void Verifier::checkBody(const Body& body) {
+  body_ = &body;
+  expr_seen_.assign(body.exprs.size(), false);
+  stmt_seen_.assign(body.stmts.size(), false);
+  label_block_.assign(body.labels.size(), 0);
+  open_blocks_.clear();
+  jumps_.clear();
+  block_count_ = loops_ = 0;
+  in_next_ = found_fault_ = found_effect_ = false;
+
+  locals();
+  if (body.kind != BodyKind::Function || body.self)
+    require(body.self && body.self.index < types_.count() && types_.info(body.self).kind == TypeKind::Record, 8,
+            "a body whose self is no record");
+  if (body.native) require(!body.first, 30, "a native body has code");
+  block(body.first);
+
+  for (const auto& [label, blocks] : jumps_) {
+    const uint32_t at = label_block_[label];
+    if (!require(at != 0, 27, "a jump to a label that is not placed")) continue;
+    require(std::find(blocks.begin(), blocks.end(), at) != blocks.end(), 27, "a jump into a block");
+  }
+  if (!body.labels.empty()) require(body.has_labels, 27, "a body with labels that does not say so");
+  std::unordered_set<uint32_t> names;
+  for (NameId label : body.labels) require(names.insert(label.index).second, 27, "two labels of one name");
+  if (found_fault_) require(body.may_fault, 29, "the body may fault and does not say so");
+  if (body.pure) require(!body.may_fault && !found_effect_, 29, "a pure body faults, or has an effect");
+  body_ = nullptr;
+}
+
+void Verifier::locals() {
+  std::unordered_set<uint32_t> names, temps;
+  uint32_t results = 0;
+  for (const Local& local : body_->locals) {
+    known(local.type);
+    if (local.type.index < types_.count())
+      require(local.by_reference == isPassedByReference(types_, local.kind, local.type), 7,
+              "by_reference of a local does not follow from its kind and type");
+    if (local.kind == LocalKind::Result) {
+      ++results;
+      require(body_->result && types_.resolve(body_->result) == local.type, 7, "the result local is not of the result type");
+    } else {
+      require((local.kind == LocalKind::Temp ? temps : names).insert(local.name.index).second, 7,
+              "two locals are named `" + std::string(module_.names.text(local.name)) + "`");
+    }
+    if (body_->kind != BodyKind::Function)
+      require(local.kind == LocalKind::Temp || local.kind == LocalKind::Variable, 7, "parameters in a body without");
+  }
+  require(results <= 1, 7, "two result locals");
+}
+
+void Verifier::block(StmtId first) {
+  if (!first) return;
+  open_blocks_.push_back(++block_count_);
+  for (StmtId id = first; id; id = body_->stmt(id).next) {
+    if (!require(id.index < body_->stmts.size(), 5, "a statement id out of range")) break;
+    if (!require(!stmt_seen_[id.index], 5, "a statement that stands twice")) break;
+    stmt_seen_[id.index] = true;
+    stmt(id);
+  }
+  open_blocks_.pop_back();
+}
+
+bool Verifier::fits(TypeId place_type, TypeId value_type) const {
+  if (place_type == value_type || place_type == types_.plain(value_type)) return true;
+  const TypeKind a = types_.kind(place_type), b = types_.kind(value_type);
+  if (TypeTable::isText(a)) return a == b;
+  if (isPointer(a) && isPointer(b))
+    return types_.resolve(types_.info(place_type).base) == types_.resolve(types_.info(value_type).base);
+  return false;
+}
+
+void Verifier::stmt(StmtId id) {
+  const Stmt& s = body_->stmt(id);
+  switch (s.kind) {
+    case StmtKind::None: require(false, 5, "a statement without kind"); return;
+    case StmtKind::Assign: {
+      if (!place(s.a, 20) | !value(s.b)) return;
+      const Expr& root = body_->expr(rootOf(*body_, ExprId{s.a}));
+      require(fits(typeOf(s.a), typeOf(s.b)), 20, spell(typeOf(s.b)) + " is assigned to " + spell(typeOf(s.a)));
+      if (root.kind == ExprKind::Local && root.a < body_->locals.size()) {
+        const Local& local = body_->locals[root.a];
+        require(!(local.by_reference && local.kind == LocalKind::Input), 20, "a by-reference input is assigned");
+        // A local pointer inside a record local stays local; Deref is another root.
+      } else {
+        found_effect_ = true;
+      }
+      return;
+    }
+    case StmtKind::Bind: {
+      if (!place(s.a, 21) | !place(s.b, 21)) return;
+      const Expr& field = body_->exprs[s.a];
+      const TypeId record = field.kind == ExprKind::Field ? typeOf(field.a) : TypeId{};
+      require(record && types_.info(record).fields[field.b].by_reference, 21, "bind of what is no by-reference field");
+      require(typeOf(s.a) == typeOf(s.b), 21, "bind of a place of another type");
+      found_effect_ = true;
+      return;
+    }
+    case StmtKind::Call: callStmt(s); return;
+    case StmtKind::If:
+      if (value(s.a)) require(types_.kind(typeOf(s.a)) == TypeKind::Bool, 23, "a condition that is no BOOL");
+      block(StmtId{s.b});
+      block(StmtId{s.c});
+      return;
+    case StmtKind::Switch: switchStmt(s); return;
+    case StmtKind::Loop: {
+      ++loops_;
+      const bool outer = in_next_;
+      in_next_ = false;
+      block(StmtId{s.a});
+      in_next_ = true;
+      block(StmtId{s.b});
+      in_next_ = outer;
+      --loops_;
+      return;
+    }
+    case StmtKind::For: {
+      if (place(s.a, 25)) {
+        const TypeKind control = plainOf(s.a);
+        require(isIntegral(control), 25, "a FOR over " + spell(typeOf(s.a)));
+        forEachExpr(*body_, ExprId{s.a}, [&](ExprId part) {
+          require(body_->expr(part).checks == 0, 25, "a check in a FOR control place");
+        });
+        for (uint32_t bound : {s.b, s.c, s.d})
+          if (value(bound)) require(plainOf(bound) == control, 25, "a FOR bound of another type than its control");
+        if (s.d < body_->exprs.size())
+          require(body_->exprs[s.d].kind == ExprKind::Const && body_->exprs[s.d].bits() != 0, 25,
+                  "a FOR step that is no constant other than 0");
+        if (body_->expr(rootOf(*body_, ExprId{s.a})).kind != ExprKind::Local) found_effect_ = true;
+      }
+      ++loops_;
+      const bool outer = in_next_;
+      in_next_ = false;
+      block(StmtId{s.e});
+      in_next_ = outer;
+      --loops_;
+      return;
+    }
+    case StmtKind::Break:
+    case StmtKind::Continue: require(loops_ > 0 && !in_next_, 26, "break or continue outside of a loop"); return;
+    case StmtKind::Return: return;
+    case StmtKind::Jump:
+      if (require(s.a < body_->labels.size(), 27, "a jump to no label")) jumps_.push_back({s.a, open_blocks_});
+      return;
+    case StmtKind::Label:
+      if (!require(s.a < body_->labels.size(), 27, "a label without name")) return;
+      require(label_block_[s.a] == 0, 27, "a label that stands twice");
+      label_block_[s.a] = open_blocks_.back();
+      return;
+    case StmtKind::Try:
+      block(StmtId{s.a});
+      if (s.d != 0 && place(s.d, 28)) require(isIntegral(plainOf(s.d)), 28, "a fault's number goes to no integer");
+      block(StmtId{s.b});
+      block(StmtId{s.c});
+      return;
+    case StmtKind::Fault:
+      require(s.op > 0 && s.op <= static_cast<uint8_t>(types::Fault::Overflow), 28, "a fault that does not exist");
+      if (s.a != 0) value(s.a);
+      found_fault_ = true;
+      return;
+    case StmtKind::Assert: {
+      const uint32_t wanted = s.op == 0 ? 1 : s.op == 1 ? 2 : 3;
+      require(s.op <= 2 && (s.a != 0) + (s.b != 0) + (s.c != 0) == static_cast<int>(wanted) && s.a != 0, 23,
+              "an assertion with too many or too few operands");
+      if (s.a != 0 && value(s.a) && s.op == 0)
+        require(types_.kind(typeOf(s.a)) == TypeKind::Bool, 23, "an assertion that is no BOOL");
+      if (s.b != 0) value(s.b);
+      if (s.c != 0) value(s.c);
+      found_effect_ = true;
+      return;
+    }
+    case StmtKind::Evaluate: value(s.a); return;
+  }
+}
+
+void Verifier::callOperands(const Body& callee, uint32_t first, uint32_t count, int rule, bool pure) {
+  uint32_t parameters = 0;
+  for (const Local& local : callee.locals) parameters += isParameter(local);
+  if (!require(parameters == count && first + count <= body_->operands.size(), rule,
+               "a call of `" + std::string(module_.names.text(callee.name)) + "` with " + std::to_string(count) +
+                   " operands for " + std::to_string(parameters) + " parameters"))
+    return;
+  uint32_t i = first;
+  for (const Local& local : callee.locals) {
+    if (!isParameter(local)) continue;
+    const uint32_t id = body_->operands[i++].index;
+    if (id == 0) {
+      require(local.kind == LocalKind::Output && !pure, rule, "an operand is missing that is no output");
+      continue;
+    }
+    if (!value(id)) continue;
+    const bool is_value = local.kind == LocalKind::Input;
+    if (!is_value) {
+      require(isPlace(body_->exprs[id].kind), rule, "a by-reference operand that is no place");
+      const Expr& root = body_->expr(rootOf(*body_, ExprId{id}));
+      if (root.kind != ExprKind::Local) found_effect_ = true;
+    }
+    const TypeId wanted = types_.resolve(local.type), given = typeOf(id);
+    // A text of any capacity may stand for an in-out or input text; ARRAY[*] takes every array of its element.
+    const bool same_text = TypeTable::isText(types_.kind(wanted)) && types_.kind(wanted) == types_.kind(given);
+    const bool open_array = types_.kind(wanted) == TypeKind::Array && types_.info(wanted).dimensions.empty() &&
+                            types_.kind(given) == TypeKind::Array;
+    require((is_value ? fits(wanted, given) : wanted == given) || same_text || open_array, rule,
+            spell(given) + " is given to a parameter of " + spell(wanted));
+  }
+}
+
+void Verifier::callStmt(const Stmt& s) {
+  if (!require(s.a != 0 && s.a < module_.bodies.size(), 22, "a call of no body")) return;
+  const Body& callee = module_.bodies[s.a];
+  if (callee.may_fault) found_fault_ = true;
+  if (!callee.pure) found_effect_ = true;
+  if (require((s.b != 0) == static_cast<bool>(callee.self), 22, "a call with a self that its callee has not, or without") &&
+      s.b != 0 && place(s.b, 22))
+    require(typeOf(s.b) == types_.resolve(callee.self), 22, "a call on " + spell(typeOf(s.b)));
+  callOperands(callee, s.c, s.d, 22, false);
+  if (s.e != 0 && place(s.e, 22))
+    require(callee.result && fits(typeOf(s.e), types_.resolve(callee.result)), 22,
+            "a result of another type than its place");
+}
+
+void Verifier::switchStmt(const Stmt& s) {
+  if (!value(s.a)) return;
+  const TypeKind kind = plainOf(s.a);
+  require(isIntegral(kind), 24, "a switch over " + spell(typeOf(s.a)));
+  const bool is_signed = types_.isSigned(kind);
+  auto less = [&](int64_t a, int64_t b) {
+    return is_signed ? a < b : static_cast<uint64_t>(a) < static_cast<uint64_t>(b);
+  };
+  std::vector<CaseRange> all;
+  if (!require(s.b + s.c <= body_->cases.size(), 5, "cases out of range")) return;
+  for (uint32_t i = 0; i < s.c; ++i) {
+    const Case& one = body_->cases[s.b + i];
+    if (!require(one.first_range + one.range_count <= body_->ranges.size(), 5, "case ranges out of range")) return;
+    require(one.range_count > 0, 24, "a case without values");
+    for (uint32_t k = 0; k < one.range_count; ++k) {
+      const CaseRange& range = body_->ranges[one.first_range + k];
+      require(!less(range.high, range.low), 24, "a case range from high to low");
+      all.push_back(range);
+    }
+  }
+  std::sort(all.begin(), all.end(), [&](const CaseRange& a, const CaseRange& b) { return less(a.low, b.low); });
+  for (size_t i = 1; i < all.size(); ++i)
+    require(less(all[i - 1].high, all[i].low), 24, "a value in two cases");
+  for (uint32_t i = 0; i < s.c; ++i) block(body_->cases[s.b + i].block);
+  block(StmtId{s.d});
+}
+
+// ---- expressions
+
+bool Verifier::place(uint32_t id, int rule) {
+  return value(id) && require(isPlace(body_->exprs[id].kind), rule, "a place is needed where a value stands");
+}
+
+bool Verifier::value(uint32_t id) {
+  if (!require(id != 0 && id < body_->exprs.size(), 5, "an expression id out of range")) return false;
+  if (!require(!expr_seen_[id], 5, "an expression that is used twice")) return false;
+  expr_seen_[id] = true;
+  const Expr& e = body_->exprs[id];
+  if (!known(e.type)) return false;
+  if (e.checks != 0) found_fault_ = true;
+  bool good = true;
+  if (e.kind == ExprKind::Index || e.kind == ExprKind::Call)
+    good = require(e.b + e.c <= body_->operands.size(), 5, "operands out of range");
+  if (good && e.kind != ExprKind::Call)
+    forEachSlot(*body_, e, [&](const uint32_t& slot) { good = value(slot) && good; });
+  if (good) node(e);
+  return good;
+}
+
+void Verifier::constant(const Expr& e) {
+  const TypeKind kind = types_.plainKind(e.type);
+  if (!require(TypeTable::isScalar(kind) || isPointer(kind), 9, "a constant of " + spell(e.type))) return;
+  if (TypeTable::isReal(kind)) {
+    const double real = types::Value{e.type, e.bits()}.asReal();
+    require(kind != TypeKind::Real || real != real || static_cast<double>(static_cast<float>(real)) == real, 9,
+            "a REAL constant that no REAL holds");
+    return;
+  }
+  const uint32_t width = TypeTable::bitWidth(kind);
+  if (width == 0 || width >= 64) return;
+  const auto shift = 64 - width;
+  const uint64_t extended = types_.isSigned(kind)
+                                ? static_cast<uint64_t>(static_cast<int64_t>(e.bits() << shift) >> shift)
+                                : e.bits() << shift >> shift;
+  require(extended == e.bits(), 9, "a constant whose bits do not fit " + spell(e.type));
+}
+
+void Verifier::node(const Expr& e) {
+  auto base = [&](int rule) { return require(isPlace(body_->exprs[e.a].kind), rule, "the base is no place"); };
+  switch (e.kind) {
+    case ExprKind::None: require(false, 5, "an expression without kind"); return;
+    case ExprKind::Const: constant(e); break;
+    case ExprKind::Text: require(TypeTable::isText(types_.kind(e.type)), 9, "a text of " + spell(e.type)); break;
+    case ExprKind::Data:
+      if (require(e.a < module_.data.size(), 9, "data that does not exist")) wantType(e, module_.data[e.a].type, 9);
+      break;
+    case ExprKind::Zero: require(isAggregate(types_, e.type), 9, "zero of " + spell(e.type)); break;
+    case ExprKind::Local:
+      if (require(e.a < body_->locals.size(), 10, "a local that does not exist"))
+        wantType(e, body_->locals[e.a].type, 10);
+      break;
+    case ExprKind::Self:
+      if (require(static_cast<bool>(body_->self), 8, "self in a body without")) wantType(e, body_->self, 8);
+      break;
+    case ExprKind::Global:
+      if (require(e.a < module_.lists.size(), 10, "a list that does not exist"))
+        wantType(e, module_.lists[e.a].record, 10);
+      break;
+    case ExprKind::Program:
+      if (require(e.a < module_.programs.size(), 10, "a program that does not exist"))
+        wantType(e, module_.programs[e.a].record, 10);
+      break;
+    case ExprKind::Image: {
+      if (!require(e.a < 3, 10, "an image area that does not exist")) return;
+      const uint64_t size = e.c == kNoBit ? types_.info(e.type).size : 1;
+      require(e.b + size <= module_.image_bytes[e.a], 10, "an image view outside of its area");
+      if (e.c != kNoBit) require(e.c < 8 && types_.plainKind(e.type) == TypeKind::Bool, 10, "an image bit that is none");
+      break;
+    }
+    case ExprKind::Field: {
+      const TypeInfo& info = types_.info(typeOf(e.a));
+      if (!base(11) || !require(info.kind == TypeKind::Record && e.b < info.fields.size(), 11, "a field of no record"))
+        return;
+      wantType(e, info.fields[e.b].type, 11);
+      allowChecks(e, info.fields[e.b].by_reference ? unsigned{kCheckNull} : 0u, 11);
+      return;
+    }
+    case ExprKind::Index: {
+      const TypeInfo& info = types_.info(typeOf(e.a));
+      if (!base(12) || !require(info.kind == TypeKind::Array, 12, "an index into no array")) return;
+      require(info.dimensions.empty() || info.dimensions.size() == e.c, 12, "another number of indices than dimensions");
+      for (uint32_t i = 0; i < e.c; ++i)
+        require(isIntegral(plainOf(body_->operands[e.b + i].index)), 12, "an index that is no integer");
+      wantType(e, info.base, 12);
+      allowChecks(e, kCheckIndex, 12);
+      return;
+    }
+    case ExprKind::Deref: {
+      const TypeInfo& info = types_.info(typeOf(e.a));
+      if (!require(isPointer(info.kind), 13, "a deref of no pointer")) return;
+      wantType(e, info.base, 13);
+      allowChecks(e, kCheckNull | kCheckCast, 13);
+      return;
+    }
+    case ExprKind::Bits: {
+      const TypeKind kind = plainOf(e.a), part = types_.kind(e.type);
+      if (!base(14) || !require(isIntegral(kind), 14, "a part of " + spell(typeOf(e.a)))) return;
+      const bool is_part = part == TypeKind::Bool || part == TypeKind::Byte || part == TypeKind::Word ||
+                           part == TypeKind::DWord;
+      require(is_part && (uint64_t{e.b} + 1) * TypeTable::bitWidth(part) <= TypeTable::bitWidth(kind), 14,
+              "a part outside of " + spell(typeOf(e.a)));
+      break;
+    }
+    case ExprKind::Unary:
+    case ExprKind::Binary: operatorNode(e); return;
+    case ExprKind::Convert: {
+      const TypeKind from = plainOf(e.a), to = types_.plainKind(e.type);
+      require((TypeTable::isScalar(from) && TypeTable::isScalar(to)) ||
+                  (TypeTable::isText(from) && TypeTable::isText(to)) ||
+                  ((isPointer(from) || isIntegral(from)) && isPointer(to)) || (isPointer(from) && isIntegral(to)),
+              16, "a conversion of " + spell(typeOf(e.a)) + " to " + spell(e.type));
+      allowChecks(e, kCheckSubrange | kCheckConvert | kCheckOverflow, 16);
+      return;
+    }
+    case ExprKind::Select:
+      require(types_.kind(typeOf(e.a)) == TypeKind::Bool, 17, "a select whose condition is no BOOL");
+      require(fits(e.type, typeOf(e.b)) && fits(e.type, typeOf(e.c)), 17, "a select of another type than its operands");
+      break;
+    case ExprKind::Call: {
+      if (!require(e.a != 0 && e.a < module_.bodies.size(), 18, "a call of no body")) return;
+      const Body& callee = module_.bodies[e.a];
+      require(callee.pure && !callee.may_fault && callee.kind == BodyKind::Function && callee.result, 18,
+              "`" + std::string(module_.names.text(callee.name)) + "` is called in an expression and is not pure");
+      if (callee.result) wantType(e, callee.result, 18);
+      for (const Local& local : callee.locals)
+        if (isParameter(local)) require(local.kind == LocalKind::Input, 18, "a call in an expression with an output");
+      callOperands(callee, e.b, e.c, 18, true);
+      break;
+    }
+    case ExprKind::Address: {
+      const Expr& place_expr = body_->exprs[e.a];
+      require(isPointer(types_.kind(e.type)), 19, "an address of type " + spell(e.type));
+      require(isPlace(place_expr.kind) && place_expr.kind != ExprKind::Bits &&
+                  !(place_expr.kind == ExprKind::Image && place_expr.c != kNoBit),
+              19, "the address of what has none");
+      break;
+    }
+  }
+  allowChecks(e, 0, e.kind <= ExprKind::Zero ? 9 : e.kind <= ExprKind::Image ? 10 : 15);
+}
+
+void Verifier::operatorNode(const Expr& e) {
+  const bool is_unary = e.kind == ExprKind::Unary;
+  const std::string word = types::word(e.op);
+  if (!require(types::operandCount(e.op) == (is_unary ? 1 : 2), 15, word + " has another number of operands")) return;
+  const TypeId left = types_.plain(typeOf(e.a));
+  const TypeKind kind = types_.kind(left);
+  if (types::isComparison(e.op))
+    require(types_.kind(e.type) == TypeKind::Bool, 15, word + " that is no BOOL");
+  else
+    require(types_.plain(e.type) == left || (TypeTable::isText(kind) && types_.kind(e.type) == kind), 15,
+            word + " of " + spell(typeOf(e.a)) + " gives " + spell(e.type));
+  if (!is_unary) {
+    const TypeId right = types_.plain(typeOf(e.b));
+    const TypeKind right_kind = types_.kind(right);
+    const bool is_shift = e.op == Op::Shl || e.op == Op::Shr || e.op == Op::Rol || e.op == Op::Ror;
+    const bool same = left == right || (TypeTable::isText(kind) && kind == right_kind) ||
+                      (isPointer(kind) && isPointer(right_kind));
+    if (is_shift)
+      require(isIntegral(right_kind), 15, word + " by " + spell(typeOf(e.b)));
+    else if (e.op == Op::Power)
+      require(isIntegral(right_kind) || TypeTable::isReal(right_kind), 15, word + " to " + spell(typeOf(e.b)));
+    else
+      require(same, 15, word + " of " + spell(typeOf(e.a)) + " and " + spell(typeOf(e.b)));
+  }
+  unsigned allowed = 0;
+  const bool number = TypeTable::isScalar(kind) && kind != TypeKind::Bool;
+  if (number) allowed |= kCheckOverflow;
+  if (number && !TypeTable::isReal(kind) && (e.op == Op::Div || e.op == Op::Mod || e.op == Op::Power))
+    allowed |= kCheckDiv;
+  allowChecks(e, allowed, 15);
+}
+
+}  // namespace
+
+std::vector<std::string> verify(const Module& module) {
+  Verifier verifier(module);
+  verifier.checkModule();
+  for (size_t i = 1; i < module.bodies.size(); ++i) verifier.checkBody(module.bodies[i]);
+  return std::move(verifier.problems);
+}
+
+std::vector<std::string> verify(const Module& module, const Body& body) {
+  Verifier verifier(module);
+  verifier.checkBody(body);
+  return std::move(verifier.problems);
+}
+
+}  // namespace rung::ir

@@ -1,1 +1,36 @@
-// x
+// The list of passes: see passes.h.
+#include "ir/passes/passes.h"
+
+#include "ir/passes/fold_constants.h"
+#include "ir/passes/remove_dead_code.h"
+#include "ir/passes/simplify_branches.h"
+
+namespace rung::ir {
+
+namespace {
+constexpr Pass kBodyPasses[] = {
+    {"constants", foldConstants},
+    {"branches", simplifyBranches},
+    {"dead-code", removeDeadCode},
+};
+}  // namespace
+
+std::span<const Pass> bodyPasses(int level) {
+  if (level <= 0) return {};
+  return kBodyPasses;
+}
+
+void optimize(Module& module, Body& body, int level, const std::function<void(const Pass&, Body&)>& after) {
+  if (body.native || !body.first) return;
+  for (const Pass& pass : bodyPasses(level)) {
+    pass.run(module, body);
+    if (after) after(pass, body);
+  }
+}
+
+void optimize(Module& module, int level, const std::function<void(const Pass&, Body&)>& after) {
+  if (level <= 0) return;
+  for (size_t i = 1; i < module.bodies.size(); ++i) optimize(module, module.bodies[i], level, after);
+}
+
+}  // namespace rung::ir
