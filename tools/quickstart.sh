@@ -8,7 +8,7 @@ log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 { cmake --preset release && cmake --build build --target rung; } >"$log" 2>&1 || { tail -40 "$log"; exit 1; }
 
-command=(build/bin/rung run samples/conveyor --cycles 12 --trace -)
-[ ! -f samples/conveyor/inputs.csv ] || command+=(--inputs samples/conveyor/inputs.csv)
+command=(build/bin/rung run samples/conveyor --inputs samples/conveyor/shift.csv --cycles 21
+  --watch Main.start,Main.part,Main.motor,Main.horn,Main.belt.state,Main.belt.parts --trace -)
 echo "\$ ${command[*]}"
 "${command[@]}"
