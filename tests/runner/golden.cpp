@@ -3,7 +3,7 @@
 //   // expect: name.st:4:1: error[E0231]: ...              what `rung check` reports, heading by heading
 //   // expect tree:  (or ir:)                              what `rung emit --emit=tree` prints, on `// ` lines below
 //   // expect Ramp.h:                                      a file that `rung emit` writes, likewise
-// A file in diagnostics/ without expectation expects no report. tests/golden/ir/*.ir belong to rung_ir_test.
+// A file in diagnostics/ without expectation expects no report. tests/golden/ir/*.ir belong to ir_golden.
 #include <algorithm>
 #include <filesystem>
 
@@ -147,13 +147,13 @@ Result runGolden(const Setting& setting, const std::string& file) {
 Result runIr(const Setting& setting, const std::string& file) {
   Result result;
   Command test;
-  test.arguments = {setting.bin + "/rung_ir_test"};
+  test.arguments = {setting.bin + "/ir_golden"};
   if (setting.update) test.arguments.push_back("--update");
   test.arguments.push_back(file);
   test.folder = setting.root;
   test.merged = true;
   if (!fs::exists(test.arguments[0])) {
-    result.fail(file, "  rung_ir_test is not built\n", "");
+    result.fail(file, "  ir_golden is not built\n", "");
     return result;
   }
   const Output output = run(test);

@@ -30,7 +30,7 @@ const char kHelp[] =
 
   tests/golden/**.st        `// expect: ` headings of `rung check`; `// expect tree:` and other emitted text
   tests/golden/**.test      sessions at a console
-  tests/golden/ir/*.ir      passes, with rung_ir_test
+  tests/golden/ir/*.ir      passes, with ir_golden
   tests/conformance/**.st   {test} POUs by `rung test`, or `// expect:`
   tests/programs/**         `// run: ` options and `// trace: ` lines
   docs/**.md, README.md     ```st wrong, mended, check, run; ```console
@@ -57,7 +57,8 @@ std::string findRoot(const std::string& bin) {
 Arguments parse(int argc, char** argv, Setting& setting) {
   Arguments arguments;
   std::error_code error;
-  setting.bin = fs::read_symlink("/proc/self/exe", error).parent_path().string();
+  setting.bin = fs::weakly_canonical(argv[0], error).parent_path().string();
+  if (setting.bin.empty()) setting.bin = fs::read_symlink("/proc/self/exe", error).parent_path().string();
   setting.rung = setting.bin + "/rung";
   setting.root = findRoot(setting.bin);
 #ifdef RUNG_SOURCE_ROOT
