@@ -154,6 +154,7 @@ class BodyLowering {
   ExprId operandOr0(const sema::Binding& binding, TypeId type, Loc loc);
 
   // statements.cpp
+  void detectEdges();
   void lowerStatements(Slice<rung::StmtId> statements);
   void lowerStatement(rung::StmtId stmt);
   void lowerAssign(const AssignStmt& stmt);
@@ -182,7 +183,8 @@ class BodyLowering {
   Body& body_;
   sema::PouId pou_;
   Block block_;
-  std::vector<uint32_t> local_of_;  // by Var::field of a local: local index + 1
+  std::vector<uint32_t> local_of_;                          // by Var::field of a local: local index + 1
+  std::vector<std::pair<uint32_t, uint32_t>> edge_locals_;  // R_EDGE, F_EDGE pins: VarId and the local with the edge
   uint32_t result_local_ = kNoBit;
   uint32_t temp_count_ = 0;
 };

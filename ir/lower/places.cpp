@@ -9,6 +9,8 @@ ExprId BodyLowering::varPlace(sema::VarId id, Loc loc) {
   TypeId type = strip(var->type);
   switch (var->storage) {
     case sema::Storage::Field: {
+      for (const auto& [pin, edge] : edge_locals_)
+        if (pin == id.index) return local(edge, loc);
       if (var->pou == pou_ || !var->pou) return field(self(loc), var->field, type, loc);
       // A variable of another program, named through the program.
       uint32_t instance = in_.instanceOf(var->pou);

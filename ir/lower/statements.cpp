@@ -16,8 +16,29 @@ void BodyLowering::lowerPou() {
     const Local& result = body_.locals[result_local_];
     storeInitial(local(result_local_, result.loc), result.type, {}, false);
   }
+  detectEdges();
   lowerStatements(tree_.as<PouDecl>(pou.decl).body);
   body_.first = block_.first;
+}
+
+// An R_EDGE or F_EDGE pin is TRUE inside the block for the one call in which the input has changed (ed. 3 table 12).
+void BodyLowering::detectEdges() {
+  for (sema::VarId id : project_.pou(pou_).vars) {
+    const sema::Var& var = project_.var(id);
+    if (!var.edge_memory) continue;
+    auto input = [&] { return field(self(var.loc), var.field, types::kBool, var.loc); };
+    auto memory = [&] { return field(self(var.loc), project_.var(var.edge_memory).field, types::kBool, var.loc); };
+    auto inverse = [&](ExprId value) { return unary(Op::Not, types::kBool, value, var.loc); };
+    bool rising = var.edge == EdgeKind::Rising;
+    ExprId edge = temp(types::kBool, var.loc);
+    uint32_t edge_local = body_.expr(edge).a;
+    assign(edge,
+           binary(Op::And, types::kBool, rising ? input() : inverse(input()), rising ? inverse(memory()) : memory(),
+                  var.loc),
+           var.loc);
+    assign(memory(), input(), var.loc);
+    edge_locals_.push_back({id.index, edge_local});
+  }
 }
 
 void BodyLowering::lowerStatements(Slice<rung::StmtId> statements) {
