@@ -1,6 +1,8 @@
 // The commands of rung, one file each. In: Options. Out: the exit code. Called by main.cpp.
 #pragma once
 
+#include <string_view>
+
 #include "tools/rung/options.h"
 
 namespace rung::tool {
@@ -13,5 +15,8 @@ int runTest(const Options& options);
 int runList(const Options& options);
 int runExplain(const Options& options);
 int runVersion(const Options& options);
+
+// The page of a code, as `rung explain` shows it; empty: there is none.
+std::string_view errorPage(std::string_view code);
 
 }  // namespace rung::tool

@@ -18,6 +18,7 @@
 #include "ir/passes/passes.h"
 #include "ir/text.h"
 #include "ir/verify.h"
+#include "tools/rung/commands.h"
 #include "tools/rung/crash.h"
 
 namespace rung::tool {
@@ -202,6 +203,7 @@ std::string Compilation::diagnosticsText() {
   RenderOptions render_options;
   render_options.format = options.format;
   render_options.color = useColor(options);
+  render_options.page = errorPage;
   return render(diagnostics, shown, render_options);
 }
 

@@ -10,13 +10,19 @@ namespace rung::tool {
 namespace {
 
 std::string pageOf(const DiagInfo& info) {
-  const std::string name = std::string(info.code) + ".md";
-  for (size_t i = 0; i < embedded::errors_pages_count; i++)
-    if (embedded::errors_pages[i].name == name) return std::string(embedded::errors_pages[i].text);
-  return std::string("# ") + info.code + "\n" + info.text + "\n";
+  std::string_view page = errorPage(info.code);
+  return page.empty() ? std::string("# ") + info.code + "\n" + info.text + "\n" : std::string(page);
 }
 
 }  // namespace
+
+std::string_view errorPage(std::string_view code) {
+  for (size_t i = 0; i < embedded::errors_pages_count; i++) {
+    std::string_view name = embedded::errors_pages[i].name;
+    if (name.size() == code.size() + 3 && name.starts_with(code)) return embedded::errors_pages[i].text;
+  }
+  return {};
+}
 
 int runExplain(const Options& options) {
   std::string code = options.inputs[0];

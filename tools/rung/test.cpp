@@ -17,9 +17,8 @@ namespace {
 constexpr size_t kModulesPerUnit = 16;
 
 struct Module {
-  std::string name, shown;
+  std::string name, shown, below;
   bool good = false;
-  int exit = kGood;
   std::string messages;
 };
 
@@ -51,7 +50,7 @@ class Tester {
     const bool good = compilation.emit(true, request_.parts[0].files);
     const int exit = compilation.finish();
     checked_ = (compilation.options.checks & kMemoryChecks) == kMemoryChecks;
-    if (good) modules_.push_back({compilation.options.moduleName(), {}, true, kGood, {}});
+    if (good) modules_.push_back({compilation.options.moduleName(), {}, {}, true, {}});
     return exit;
   }
 
@@ -69,13 +68,10 @@ class Tester {
       Compilation compilation(one, times_);
       NativePart part;
       part.folder = one.name;
-      Module module{one.name, file.shown, compilation.emit(true, part.files), kGood, {}};
-      module.exit = compilation.exitCode();
-      if (module.exit == kInternal)
-        compilation.finish();
-      else
-        module.messages = compilation.diagnosticsText();
-      module.good = module.good && module.exit == kGood;
+      Module module{one.name, file.shown, file.below, compilation.emit(true, part.files), {}};
+      if (compilation.exitCode() == kInternal) return compilation.finish();
+      module.messages = compilation.diagnosticsText();
+      module.good = module.good && compilation.exitCode() == kGood;
       if (module.good) request_.parts.push_back(std::move(part));
       modules_.push_back(std::move(module));
     }
@@ -104,15 +100,12 @@ class Tester {
     times_.begin("run");
     host::TestResults results;
     test_options_.junit_path = options_.junit;
-    int worst = kGood;
     for (const Module& module : modules_) {
       const int exit = runModule(module, library, results);
-      if (exit == kUsage || exit == kInternal) return exit;
-      if (exit != kGood && worst != kInputErrors) worst = exit;
+      if (exit != kGood) return exit;
     }
     fflush(stderr);
-    const int exit = host::reportTests(results, test_options_);
-    return exit == kUsage || worst == kGood ? exit : worst;
+    return host::reportTests(results, test_options_);
   }
 
   int runModule(const Module& module, const ModuleLibrary& library, host::TestResults& results) {
@@ -120,7 +113,8 @@ class Tester {
     if (!module.good) {
       printf("FAIL %s: does not compile\n", module.shown.c_str());
       results.failed++;
-      return module.exit;
+      results.junit += host::brokenSuite(module.below, module.messages);
+      return kGood;  // the other files count; the exit code says that a test failed
     }
     std::string error;
     const rung_module* description = library.find(module.name, error);

@@ -126,6 +126,16 @@ std::string runTests(const rung_module& module, const TestOptions& options, Test
   return "";
 }
 
+std::string brokenSuite(const std::string& file, const std::string& messages) {
+  std::string name, text, out;
+  appendXml(name, file);
+  appendXml(text, messages);
+  out = "  <testsuite name=\"" + name + '"' + counts(0, 1) + ">\n    <testcase name=\"compile\" classname=\"" + name +
+        "\" file=\"" + name + "\">\n      <failure message=\"does not compile\">" + text +
+        "</failure>\n    </testcase>\n  </testsuite>\n";
+  return out;
+}
+
 int reportTests(const TestResults& results, const TestOptions& options) {
   printf("%u passed, %u failed\n", results.passed, results.failed);
   fflush(stdout);

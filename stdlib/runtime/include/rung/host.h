@@ -41,6 +41,8 @@ struct TestResults {
 };
 // Empty, or why the module cannot run here. `options.junit_path` is not written.
 std::string runTests(const rung_module& module, const TestOptions& options, TestResults& results);
+// The <testsuite> of a file that did not compile: one failure with its messages.
+std::string brokenSuite(const std::string& file, const std::string& messages);
 // 0, 2 or 4, as test() gives them.
 int reportTests(const TestResults& results, const TestOptions& options);
 
