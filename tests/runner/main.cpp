@@ -57,8 +57,9 @@ std::string findRoot(const std::string& bin) {
 Arguments parse(int argc, char** argv, Setting& setting) {
   Arguments arguments;
   std::error_code error;
-  setting.bin = fs::weakly_canonical(argv[0], error).parent_path().string();
-  if (setting.bin.empty()) setting.bin = fs::read_symlink("/proc/self/exe", error).parent_path().string();
+  fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (program.empty()) program = fs::weakly_canonical(argv[0], error);  // where /proc is not mounted
+  setting.bin = program.parent_path().string();
   setting.rung = setting.bin + "/rung";
   setting.root = findRoot(setting.bin);
 #ifdef RUNG_SOURCE_ROOT
