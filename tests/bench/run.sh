@@ -1,0 +1,146 @@
+#!/usr/bin/env bash
+# All benchmarks, as figures and ratios measured in one run.
+#   tests/bench/run.sh [--input FILE.st]... [--kernels DIR] [compiler|cxx|start|kernels]...
+# compiler  lines per second of each phase for about 1 000, 10 000 and 100 000 generated lines, and for each --input
+# cxx       CPU seconds of the C++ compiler at -O2 for the output of 100 000 lines (and of each --input)
+# start     wall milliseconds of `rung check` for a program of 20 lines
+# kernels   generated code against hand-written C++ at -O2; --kernels names a folder with another kernels.st (blocks
+#           K_NAME with rounds and check) and hand.cpp, which is measured too
+# RUNG names the tool (build/bin/rung), CXX the compiler (g++).
+set -eu
+cd "$(dirname "$0")/../.."
+root=$PWD
+rung=$(readlink -f "${RUNG:-build/bin/rung}")
+cxx=${CXX:-g++}
+include=$root/stdlib/runtime/include
+[ -x "$rung" ] || { echo "no $rung; build first (cmake --preset release && cmake --build build)" >&2; exit 2; }
+runtime=$(dirname "$(dirname "$rung")")/lib/librung_runtime.a
+
+inputs=() parts=() other_kernels=
+while [ $# -gt 0 ]; do
+  case $1 in
+    --input) inputs+=("$(readlink -f "$2")"); shift 2 ;;
+    --kernels) other_kernels=$(readlink -f "$2"); shift 2 ;;
+    compiler|cxx|start|kernels) parts+=("$1"); shift ;;
+    *) sed -n '2,11s/^# \{0,1\}//p' "$0"; exit 2 ;;
+  esac
+done
+[ ${#parts[@]} -gt 0 ] || parts=(compiler cxx start kernels)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+$cxx -std=c++17 -O2 tests/bench/generate.cpp -o "$work/generate"
+for lines in 1000 10000 100000; do "$work/generate" "$lines" >"$work/$lines.st"; done
+
+compiler() {
+  echo "== compiler: rung emit -O1"
+  for file in "$work"/{1000,10000,100000}.st "${inputs[@]}"; do
+    echo "-- $(basename "$file"), $(wc -l <"$file") lines"
+    # The second of two runs: the first brings the tool and the input into memory.
+    "$rung" emit "$file" -o "$work/out" 2>/dev/null || true
+    rm -rf "$work/out"
+    "$rung" emit --time-phases "$file" -o "$work/out" || echo "failed with exit code $?"
+    rm -rf "$work/out"
+  done
+}
+
+cxx_seconds() {  # folder
+  local files=("$1"/*.cpp)
+  ( TIMEFORMAT='%U %S'; time for file in "${files[@]}"; do
+      $cxx -std=c++17 -O2 -ffp-contract=off -I "$include" -c "$file" -o "$work/x.o"
+    done ) 2>&1 | awk -v files="${#files[@]}" 'NF == 2 { printf "%.2f CPU s for %d files\n", $1 + $2, files; next } { print }'
+}
+
+cxx() {
+  echo "== C++ compiler: $cxx -O2 on the output"
+  for file in "$work/100000.st" "${inputs[@]}"; do
+    rm -rf "$work/out"
+    "$rung" emit "$file" -o "$work/out" || { echo "failed with exit code $?"; continue; }
+    echo "-- $(basename "$file"): $(cat "$work"/out/*.cpp "$work"/out/*.h | wc -l) lines of C++, $(cxx_seconds "$work/out")"
+  done
+}
+
+start() {
+  echo "== start: rung check of 20 lines"
+  cat >"$work/small.st" <<'ST'
+FUNCTION_BLOCK Lamp
+VAR_INPUT button : BOOL; END_VAR
+VAR_OUTPUT on : BOOL; END_VAR
+VAR
+  edge : R_TRIG;
+  off : TON;
+END_VAR
+edge(CLK := button);
+IF edge.Q THEN on := NOT on; END_IF;
+off(IN := on, PT := T#10s);
+IF off.Q THEN on := FALSE; END_IF;
+END_FUNCTION_BLOCK
+
+PROGRAM Main
+VAR
+  hall : Lamp;
+  press : BOOL;
+END_VAR
+hall(button := press);
+END_PROGRAM
+ST
+  for _ in $(seq 21); do
+    local begin=${EPOCHREALTIME/[.,]/}
+    "$rung" check "$work/small.st" || { echo "failed with exit code $?"; return; }
+    echo $((${EPOCHREALTIME/[.,]/} - begin))
+  done | sort -n | awk '{ t[NR] = $1 } END { printf "%.1f ms best, %.1f ms median of %d\n", t[1] / 1000, t[int((NR + 1) / 2)] / 1000, NR }'
+}
+
+# Our form (program NAME, task T_NAME, instance P_NAME) around a file of blocks K_NAME.
+wrap() {
+  sed '/^PROGRAM /,$d' "$1/kernels.st"
+  local names=(pid sort matmul string case calls) name
+  for name in "${names[@]}"; do
+    echo "PROGRAM W_$name VAR_INPUT rounds : DINT; END_VAR VAR_OUTPUT check : DINT; END_VAR VAR k : K_${name^^}; END_VAR"
+    echo "k(rounds := rounds); check := k.check; END_PROGRAM"
+  done
+  echo "CONFIGURATION Bench RESOURCE Host ON PLC"
+  for name in "${names[@]}"; do echo "TASK T_$name(INTERVAL := T#10ms, PRIORITY := 1);"; done
+  for name in "${names[@]}"; do echo "PROGRAM P_$name WITH T_$name : W_$name;"; done
+  echo "END_RESOURCE END_CONFIGURATION"
+}
+
+measure_kernels() {  # kernels.st hand.cpp
+  $cxx -std=c++17 -O2 "$2" -o "$work/hand"
+  "$work/hand" >"$work/hand.tsv"
+  local rounds checks
+  rounds=$(awk -F'\t' '{ printf "%s=%s ", $2, $3 }' "$work/hand.tsv")
+  for checks in none default; do
+    rm -rf "$work/out"
+    "$rung" emit "$1" --checks=$checks -o "$work/out" || { echo "failed with exit code $?"; return; }
+    $cxx -std=c++17 -O2 -ffp-contract=off -I "$include" "$work"/out/*.cpp tests/bench/kernels/measure.cpp "$runtime" -o "$work/rung_kernels"
+    # shellcheck disable=SC2086
+    "$work/rung_kernels" $rounds >"$work/$checks.tsv" || { echo "failed with exit code $?"; return; }
+  done
+  awk -F'\t' '
+    FNR == 1 { file++ }
+    file == 1 { hand[$2] = $4; sum[$2] = $5; order[++n] = $2; next }
+    { time[file, $2] = $4; if ($5 != sum[$2]) wrong = wrong " " $2 "(" $5 " for " sum[$2] ")" }
+    function median(f,   i, k, v, t) {
+      for (i = 1; i <= n; i++) v[i] = time[f, order[i]] / hand[order[i]]
+      for (i = 2; i <= n; i++) for (k = i; k > 1 && v[k - 1] > v[k]; k--) { t = v[k]; v[k] = v[k - 1]; v[k - 1] = t }
+      return n % 2 ? v[(n + 1) / 2] : (v[n / 2] + v[n / 2 + 1]) / 2
+    }
+    END {
+      printf "%-10s %8s %12s %15s\n", "kernel", "hand s", "checks=none", "checks=default"
+      for (i = 1; i <= n; i++) { k = order[i]; printf "%-10s %8.4f %11.2fx %14.2fx\n", k, hand[k], time[2, k] / hand[k], time[3, k] / hand[k] }
+      printf "%-10s %8s %11.2fx %14.2fx\n", "median", "", median(2), median(3)
+      if (wrong != "") print "check sums differ:" wrong
+    }' "$work/hand.tsv" "$work/none.tsv" "$work/default.tsv"
+}
+
+kernels() {
+  echo "== kernels: generated code at -O2, as multiples of hand-written C++"
+  measure_kernels tests/bench/kernels/kernels.st tests/bench/kernels/hand.cpp
+  if [ -n "$other_kernels" ]; then
+    echo "-- $other_kernels"
+    wrap "$other_kernels" >"$work/other.st"
+    measure_kernels "$work/other.st" "$other_kernels/hand.cpp"
+  fi
+}
+
+for part in "${parts[@]}"; do "$part"; done
