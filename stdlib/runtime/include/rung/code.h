@@ -27,6 +27,14 @@ typedef float RUNG_MAY_ALIAS rung_f32_at;
 typedef double RUNG_MAY_ALIAS rung_f64_at;
 typedef void *RUNG_MAY_ALIAS rung_pointer_at;
 
+/* A check in front of a statement: `at` is number << 3 | kind of fault; the label is at the end of the body. */
+#define RUNG_CHECK(bad, number, what) \
+  if (RUNG_UNLIKELY(bad)) {           \
+    at = (number);                    \
+    value = (int64_t)(what);          \
+    goto fault;                       \
+  }
+
 /* ---- division: x/0 = 0 and x MOD 0 = 0 where the check is off, INT_MIN/-1 wraps. 8 and 16 bits go through 32. */
 static inline int32_t rung_div_i32(int32_t a, int32_t b) {
   if (b == 0) return 0;
@@ -80,6 +88,35 @@ static inline uint64_t rung_clamp_u(uint64_t x, uint64_t low, uint64_t high) {
 /* Base and exponent of `**`; a REAL base casts the result to float. */
 double rung_power(double base, double exponent);
 double rung_power_integer(double base, int64_t exponent);
+/* Integer base, modulo 2^64; 0 to a negative power is 0 where the check is off. */
+static inline uint64_t rung_integer_power(uint64_t base, uint64_t exponent, bool negative) {
+  if (negative) return base == 1 ? 1 : base == UINT64_MAX ? ((exponent & 1) != 0 ? base : 1) : 0;
+  uint64_t result = 1;
+  for (; exponent != 0; exponent >>= 1, base *= base) {
+    if ((exponent & 1) != 0) result *= base;
+  }
+  return result;
+}
+/* True when a conversion of x to an integer type with these limits (as reals) saturates. */
+static inline bool rung_round_saturates(double x, double low, double high) {
+  return !(x >= low - 0.5 && x <= high + 0.5);
+}
+
+/* ---- minimum, maximum, magnitude. As the kernel does: the first operand unless the second is beyond it. */
+static inline int32_t rung_min_i32(int32_t a, int32_t b) { return a < b ? a : b; }
+static inline int32_t rung_max_i32(int32_t a, int32_t b) { return a > b ? a : b; }
+static inline uint32_t rung_min_u32(uint32_t a, uint32_t b) { return a < b ? a : b; }
+static inline uint32_t rung_max_u32(uint32_t a, uint32_t b) { return a > b ? a : b; }
+static inline int64_t rung_min_i64(int64_t a, int64_t b) { return a < b ? a : b; }
+static inline int64_t rung_max_i64(int64_t a, int64_t b) { return a > b ? a : b; }
+static inline uint64_t rung_min_u64(uint64_t a, uint64_t b) { return a < b ? a : b; }
+static inline uint64_t rung_max_u64(uint64_t a, uint64_t b) { return a > b ? a : b; }
+static inline float rung_min_f32(float a, float b) { return b < a ? b : a; }
+static inline float rung_max_f32(float a, float b) { return b > a ? b : a; }
+static inline double rung_min_f64(double a, double b) { return b < a ? b : a; }
+static inline double rung_max_f64(double a, double b) { return b > a ? b : a; }
+static inline int32_t rung_abs_i32(int32_t a) { return a < 0 ? (int32_t)(0u - (uint32_t)a) : a; }
+static inline int64_t rung_abs_i64(int64_t a) { return a < 0 ? (int64_t)(0u - (uint64_t)a) : a; }
 
 /* ---- process image: little-endian at any address, on any machine. */
 static inline uint16_t rung_get16(const uint8_t *p) { return (uint16_t)(p[0] | p[1] << 8); }
