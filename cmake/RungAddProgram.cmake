@@ -1,0 +1,68 @@
+# rung_add_program(<target> SOURCES <file|folder>... [NAME <id>] [ROOT <folder>] [OPTIONS <option>...] [FILES <n>])
+#
+# Compiles PLC programs with `rung emit` and adds the C++ to <target> (an executable or a library that exists already);
+# the module is <id>_module() of rung/module.h. Sources are emitted again when one of them changes; a C++ file is compiled
+# again only when its content did. SOURCES may be folders: then a file that appears in one is found, too.
+# NAME: prefix of the module's symbols (the target's name). ROOT: paths in messages are relative to it (the folder of the
+# call). OPTIONS: further options of `rung emit`. FILES: into how many C++ files the code is grouped (8); their names do
+# not depend on the program, so that CMake need not run again.
+#
+# Uses the target Rung::rung (the tool; set RUNG_EXECUTABLE to another one when cross-compiling) and Rung::runtime.
+include_guard(GLOBAL)
+
+function(rung_add_program target)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "NAME;ROOT;FILES" "SOURCES;OPTIONS")
+  if(ARG_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "rung_add_program(${target}): unknown arguments: ${ARG_UNPARSED_ARGUMENTS}")
+  endif()
+  if(NOT ARG_SOURCES)
+    message(FATAL_ERROR "rung_add_program(${target}): SOURCES are missing")
+  endif()
+  if(NOT ARG_NAME)
+    string(MAKE_C_IDENTIFIER "${target}" ARG_NAME)
+  endif()
+  if(NOT ARG_ROOT)
+    set(ARG_ROOT ${CMAKE_CURRENT_SOURCE_DIR})
+  endif()
+  if(NOT ARG_FILES)
+    set(ARG_FILES 8)
+  endif()
+  if(RUNG_EXECUTABLE)
+    set(tool ${RUNG_EXECUTABLE})
+  else()
+    set(tool $<TARGET_FILE:Rung::rung>)
+  endif()
+
+  set(sources)
+  foreach(source ${ARG_SOURCES})
+    get_filename_component(source ${source} ABSOLUTE)
+    list(APPEND sources ${source})
+  endforeach()
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.rung/${ARG_NAME})
+  set(stamp ${folder}.stamp)
+  set(bundles)
+  math(EXPR last "${ARG_FILES} - 1")
+  foreach(number RANGE ${last})
+    list(APPEND bundles ${folder}/${ARG_NAME}_bundle_${number}.cpp)
+  endforeach()
+
+  # The stamp is the first output and the depfile's target, the C++ files are by-products: so neither Ninja nor make runs
+  # rung again when there is nothing to do, and neither compiles a file that rung left untouched.
+  add_custom_command(
+    OUTPUT ${stamp}
+    BYPRODUCTS ${bundles}
+    COMMAND ${tool} emit --bundles=${ARG_FILES} --name=${ARG_NAME} --root=${ARG_ROOT} --depfile=${stamp}.d
+            --depfile-target=${stamp} -o ${folder} ${ARG_OPTIONS} -- ${sources}
+    COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
+    DEPFILE ${stamp}.d
+    DEPENDS ${tool}
+    COMMENT "Compiling ${ARG_NAME} with rung"
+    COMMAND_EXPAND_LISTS
+    VERBATIM)
+  target_sources(${target} PRIVATE ${stamp} ${bundles})
+  set_source_files_properties(${stamp} PROPERTIES HEADER_FILE_ONLY TRUE)
+  set_source_files_properties(${bundles} PROPERTIES GENERATED TRUE OBJECT_DEPENDS ${stamp} SKIP_AUTOGEN TRUE
+                                                    COMPILE_OPTIONS "-ffp-contract=off")
+  target_compile_features(${target} PRIVATE cxx_std_17)
+  target_link_libraries(${target} PRIVATE Rung::runtime)
+endfunction()
