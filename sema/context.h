@@ -19,6 +19,7 @@ struct Context {
   uint32_t loop_depth = 0;
   uint32_t depth = 0;         // of the expression at hand, against input that nests without end
   BodyState* body = nullptr;  // none outside of a body
+  bool library = false;       // a library's text is at hand: read as codesys, names of the project do not count
 
   Tree& tree() const { return project.tree; }
   types::TypeTable& types() const { return project.types; }
@@ -26,7 +27,7 @@ struct Context {
   Report report(Diag diag, Loc loc, std::initializer_list<std::string_view> args = {}) const {
     return project.diagnostics.report(diag, loc, args);
   }
-  bool iec() const { return project.options.standard != text::Standard::Codesys; }
+  bool iec() const { return !library && project.options.standard != text::Standard::Codesys; }
 };
 
 // ---- declarations (declarations/)
@@ -36,6 +37,8 @@ struct Context {
 Entity lookUp(Context& context, NameId name);
 // `qualifier.name`: members of a GVL, of a namespace, of an enumeration type.
 Entity lookUpIn(Context& context, Entity qualifier, NameId name);
+// True when several enumerations have an item of this bare name: its context must tell which is meant.
+bool isAmbiguousItem(Context& context, Entity item);
 // The name of what is in scope nearest to a misspelled one, or empty.
 std::string_view nearestName(Context& context, NameId written);
 
@@ -45,6 +48,14 @@ TypeId resolveType(Context& context, TypeExprId type);
 void resolvePou(Context& context, PouId pou);
 // A field or pin of a record, by name; none when there is none. Pins answer to their aliases too.
 VarId findMember(Context& context, TypeId record, NameId name);
+
+// A variable or pin of a POU by name or alias; none when there is none.
+VarId findPin(Context& context, PouId pou, NameId name);
+// The view of the image that an address means; reports what is wrong with it and gives nothing then. `type`: of the
+// variable, or none for a bare address, whose type is the one of its size (see addressType). Notes the bytes used.
+std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& address, Loc loc, TypeId type);
+// BOOL, BYTE, WORD, DWORD or LWORD, by the size letter.
+TypeId addressType(const DirectAddress& address);
 
 // The value of an expression that was checked, when it is constant (literals, constants, operators on them,
 // conversions, SIZEOF). Faults in it (1/0, overflow) are reported once.

@@ -1,1 +1,74 @@
-// x
+// The project and its check: collect, resolve, then every body; library POUs join as they are used.
+#include "sema/project.h"
+
+#include "frontend/source/invariant.h"
+#include "sema/declarations/configuration.h"
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+Project::Project(Sources& the_sources, Names& the_names, Diagnostics& the_diagnostics, Tree& the_tree,
+                 Options the_options)
+    : sources(the_sources),
+      names(the_names),
+      diagnostics(the_diagnostics),
+      tree(the_tree),
+      options(the_options),
+      types(the_names, the_options.pointer_size) {
+  types.time_is_signed = options.standard != text::Standard::Codesys;
+  vars.emplace_back();
+  pous.emplace_back();
+  enum_values.emplace_back();
+  global_lists.emplace_back();
+  calls.emplace_back();
+}
+
+namespace {
+
+void checkBodies(Context& context) {
+  Project& project = context.project;
+  for (uint32_t i = 1; i < project.pous.size(); ++i) {  // grows while bodies use library POUs
+    Pou& pou = project.pous[i];
+    if (pou.generic || pou.checked) continue;
+    pou.checked = true;
+    if (pou.native) continue;
+    const std::string_view name = project.names.text(pou.name);
+    setPhaseSubject(name.data(), name.size());
+    Context there = atPou(context, PouId{i});
+    checkBody(there, PouId{i});
+  }
+  setPhaseSubject("", 0);
+}
+
+// Warns of programs that no task runs and nobody calls. Manual 5.1: compiled, but never executed.
+void checkProgramsRun(Context& context) {
+  Project& project = context.project;
+  if (project.instances.empty()) return;
+  std::vector<bool> runs(project.pous.size());
+  for (const ProgramInstance& instance : project.instances) runs[instance.program.index] = true;
+  for (const Project::CallEdge& edge : project.call_edges) runs[edge.callee.index] = true;
+  for (uint32_t i = 1; i < project.pous.size(); ++i) {
+    const Pou& pou = project.pous[i];
+    if (pou.kind != PouKind::Program || pou.library || pou.test || runs[i]) continue;
+    context.report(Diag::ProgramNeverRuns, pou.loc, {project.names.text(pou.name)});
+  }
+}
+
+}  // namespace
+
+void check(Project& project) {
+  setPhase("sema");
+  Scopes scopes;
+  Context context{.project = project, .scopes = scopes, .pou = {}, .file = {}};
+  initWords(context);
+  indexLibraries(context);
+  collectFiles(context);
+  collectConfigurations(context);
+  settleDeclarations(context);
+  resolveConfigurations(context);
+  checkBodies(context);
+  checkAfterBodies(context);
+  checkProgramsRun(context);
+}
+
+}  // namespace rung::sema

@@ -5,7 +5,9 @@
 
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -68,6 +70,8 @@ struct Var {
   ImageView image;
   types::Value value;           // when has_value
   VarId external;               // VAR_EXTERNAL: the global it names
+  TypeId record;                // field of a structure or union: its type
+  VarId edge_memory;            // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
   std::vector<NameId> aliases;  // {alias 'R'}
 };
 
@@ -160,10 +164,18 @@ struct Call {
   Assertion assertion = Assertion::Assert;
 };
 
-// The conversions that -W, --std and rung.project choose.
+// One file of a library that is built into the compiler.
+struct LibraryFile {
+  const char* library;  // `Standard`
+  const char* path;     // as diagnostics and faults print it
+  std::string_view text;
+};
+// What the command line and rung.project choose.
 struct Options {
   text::Standard standard = text::Standard::Codesys;
   uint32_t pointer_size = 8;
+  std::span<const LibraryFile> libraries;  // texts that outlive the project; declarations are parsed on first use
+  int64_t default_interval_ns = 10'000'000;  // of the task that is made when there is no CONFIGURATION
 };
 
 struct Project {
@@ -191,7 +203,6 @@ struct Project {
     Loc loc;
   };
   std::vector<CallEdge> call_edges;
-  std::vector<PouId> record_pous;  // by TypeId of a record: whose instance it is; filled by bodies/ as needed
   uint32_t image_bytes[3] = {0, 0, 0};           // I, Q, M: end of the last used byte
 
   Var& var(VarId id) { return vars[id.index]; }

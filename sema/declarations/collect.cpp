@@ -1,0 +1,310 @@
+// Collects declarations: every POU, type, enumeration item and global of the files gets its entity and its name, so
+// that the order of files and declarations does not matter. Nothing is resolved here.
+#include <string>
+
+#include "sema/declarations/configuration.h"
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+using types::RecordKind;
+using types::TypeKind;
+
+void initWords(Context& context) {
+  const auto word = [&](std::string_view text) { return context.names().key(context.names().intern(text)); };
+  Scopes::Words& words = context.scopes.words;
+  words.attribute_qualified_only = word("qualified_only");
+  words.attribute_strict = word("strict");
+  words.test = word("test");
+  words.alias = word("alias");
+  words.required = word("required");
+  words.lazy = word("lazy");
+  words.extensible = word("extensible");
+  words.pure = word("pure");
+  words.native = word("native");
+  words.op = word("operator");
+  words.std = word("std");
+}
+
+const Pragma* findPragma(const Context& context, const DeclHeader& header, NameId key) {
+  if (header.pragmas.empty()) return nullptr;
+  const Tree& tree = context.tree();
+  for (const Pragma& pragma : tree.list(header.pragmas)) {
+    if (keyOf(context, pragma.name) == key) return &pragma;
+  }
+  return nullptr;
+}
+
+// Forbids two declarations of one name in one scope. IEC 61131-3 ed. 3, 6.1.2.
+//   passes  FUNCTION f … FUNCTION g …
+//   fails   FUNCTION f … FUNCTION F …                  E0301
+void reportTwice(Context& context, NameId name, Loc loc, Loc first) {
+  Report report = context.report(Diag::DeclaredTwice, loc, {context.names().text(name)});
+  if (first) report.note(first, Note::AlsoDeclaredHere);
+}
+
+NamedType& addNamed(Context& context, TypeId type) {
+  Scopes& scopes = context.scopes;
+  if (scopes.named_of_type.size() <= type.index) scopes.named_of_type.resize(type.index + 1, 0);
+  scopes.named_of_type[type.index] = static_cast<uint32_t>(scopes.named_types.size());
+  scopes.named_types.emplace_back();
+  scopes.declared_types.push_back(type);
+  return scopes.named_types.back();
+}
+
+namespace {
+
+Loc locOf(Context& context, Entity found) {
+  Project& project = context.project;
+  switch (found.what()) {
+    case EntityKind::Var: return project.vars[found.index].loc;
+    case EntityKind::Pou: return project.pous[found.index].loc;
+    case EntityKind::Type: {
+      NamedType* named = context.scopes.named(TypeId{found.index});
+      return named != nullptr && named->decl ? context.tree().loc(named->decl) : Loc{};
+    }
+    case EntityKind::EnumValue: return project.enum_values[found.index].loc;
+    case EntityKind::GlobalList: return project.global_lists[found.index].loc;
+    case EntityKind::Program: return project.instances[found.index].loc;
+    case EntityKind::None:
+    case EntityKind::Error:
+    case EntityKind::Namespace: return {};
+  }
+  return {};
+}
+
+// Forbids an elementary type's name for anything else. Design §5.
+//   fails   FUNCTION int : INT …                       E0302
+bool isElementaryName(Context& context, NameId name, Loc loc) {
+  const TypeId type = context.types().elementary(name);
+  if (!type || types::TypeTable::isGeneric(context.types().info(type).kind)) return false;
+  context.report(Diag::ElementaryTypeName, loc, {context.names().text(name)});
+  return true;
+}
+
+void declare(Context& context, NameMap& names, NameId name, Loc loc, Entity declared) {
+  if (!name || isElementaryName(context, name, loc)) return;
+  const NameId key = keyOf(context, name);
+  if (!names.insert(key, declared)) reportTwice(context, name, loc, locOf(context, names.find(key)));
+}
+
+void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
+  Project& project = context.project;
+  Scopes& scopes = context.scopes;
+  const PouDecl& decl = context.tree().as<PouDecl>(id);
+  const Scopes::Words& words = scopes.words;
+  const PouId pou_id{static_cast<uint32_t>(project.pous.size())};
+  project.pous.emplace_back();
+  scopes.pous.emplace_back();
+  Pou& pou = project.pous.back();
+  pou.name = pou.unique_name = decl.name;
+  pou.loc = decl.h.loc;
+  pou.kind = decl.pou_kind;
+  pou.decl = id;
+  pou.file = file;
+  pou.native = decl.body_kind == BodyKind::Native || findPragma(context, decl.h, words.native) != nullptr;
+  pou.pure = findPragma(context, decl.h, words.pure) != nullptr;
+  pou.test = findPragma(context, decl.h, words.test) != nullptr;
+  if (const Pragma* pragma = findPragma(context, decl.h, words.op)) {
+    const std::string_view word = context.tree().text(pragma->value);
+    pou.operator_kind = word == "select"              ? Pou::Operator::Select
+                        : word == "mux"               ? Pou::Operator::Mux
+                        : word == "convert"           ? Pou::Operator::Convert
+                        : word == "move"              ? Pou::Operator::Move
+                        : types::findOp(word, pou.op) ? Pou::Operator::Op
+                                                      : Pou::Operator::None;
+  }
+  if (pou.kind != PouKind::Function) {
+    pou.record = context.types().addRecord(
+        pou.kind == PouKind::Program ? RecordKind::Program : RecordKind::FunctionBlock, pou.name);
+    NamedType& named = addNamed(context, pou.record);
+    named.pou = pou_id;
+    named.file = file;
+    named.library = library != kNoLibrary;
+  }
+  if (library == kNoLibrary) {
+    declare(context, scopes.pous_and_types, pou.name, pou.loc, entity(pou_id));
+    return;
+  }
+  pou.library = pou.used = true;
+  pou.library_name = scopes.libraries.list[library].name;
+  declare(context, scopes.libraries.list[library].names, pou.name, pou.loc, entity(pou_id));
+  if (scopes.pous_and_types.find(keyOf(context, pou.name))) {  // a block of the project has the name: both may be used
+    pou.unique_name = context.names().intern(spelled(context, pou.library_name) + "__" + spelled(context, pou.name));
+    if (pou.record) context.types().edit(pou.record).name = pou.unique_name;
+  }
+}
+
+void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
+  Scopes& scopes = context.scopes;
+  Tree& tree = context.tree();
+  const TypeDecl& decl = tree.as<TypeDecl>(id);
+  types::TypeTable& table = context.types();
+  NameId name = decl.name;
+  NameMap& names = library == kNoLibrary ? scopes.pous_and_types : scopes.libraries.list[library].names;
+  if (library != kNoLibrary && name && scopes.pous_and_types.find(keyOf(context, name))) {
+    name =
+        context.names().intern(spelled(context, scopes.libraries.list[library].name) + "__" + spelled(context, name));
+  }
+  TypeId type = types::kError;
+  switch (tree.kind(decl.type)) {
+    case TypeExprKind::Enum: type = table.addEnum(name, types::kInt); break;
+    case TypeExprKind::Subrange: type = table.addSubrange(name, types::kInt, 0, 0); break;
+    case TypeExprKind::Struct:
+      type =
+          table.addRecord(tree.as<StructTypeExpr>(decl.type).is_union ? RecordKind::Union : RecordKind::Struct, name);
+      break;
+    case TypeExprKind::Error:
+    case TypeExprKind::Named:
+    case TypeExprKind::Text:
+    case TypeExprKind::Array:
+    case TypeExprKind::Pointer: type = table.addAlias(name, types::kError); break;
+  }
+  NamedType& named = addNamed(context, type);
+  named.decl = id;
+  named.type = decl.type;
+  named.file = file;
+  named.library = library != kNoLibrary;
+  declare(context, names, decl.name, decl.h.loc, entity(type));
+  if (tree.kind(decl.type) == TypeExprKind::Enum) {
+    const bool strict = findPragma(context, decl.h, scopes.words.attribute_strict) != nullptr ||
+                        findPragma(context, decl.h, scopes.words.attribute_qualified_only) != nullptr;
+    table.edit(type).strict = strict;
+    NameMap* bare = library == kNoLibrary ? &scopes.items : &scopes.libraries.list[library].names;
+    declareItems(context, type, decl.type, strict ? nullptr : bare, library == kNoLibrary);
+  }
+}
+
+// The name of a global list: the stem of its file, as an identifier.
+std::string listName(std::string_view path) {
+  const size_t slash = path.find_last_of("/\\");
+  if (slash != std::string_view::npos) path.remove_prefix(slash + 1);
+  const size_t dot = path.find_last_of('.');
+  if (dot != std::string_view::npos && dot > 0) path = path.substr(0, dot);
+  std::string name;
+  for (const char c : path) {
+    const bool good = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    name += good ? c : '_';
+  }
+  if (name.empty() || (name[0] >= '0' && name[0] <= '9')) name = "globals_" + name;
+  return name;
+}
+
+}  // namespace
+
+// The list of this name, made when there is none yet.
+ListId listNamed(Context& context, std::string name, FileId file, Loc loc, NameMap& qualifiers) {
+  Project& project = context.project;
+  Scopes& scopes = context.scopes;
+  NameId id = context.names().intern(name);
+  const Entity known = qualifiers.find(keyOf(context, id));
+  if (known.what() == EntityKind::GlobalList) return ListId{known.index};
+  const ListId list_id{static_cast<uint32_t>(project.global_lists.size())};
+  qualifiers.insert(keyOf(context, id), Entity::of(EntityKind::GlobalList, list_id.index));
+  // The list's record shares a name space with POUs and types in generated code.
+  if (scopes.pous_and_types.find(keyOf(context, id))) id = context.names().intern(name + "_globals");
+  project.global_lists.emplace_back();
+  scopes.lists.emplace_back();
+  GlobalList& list = project.global_lists.back();
+  list.name = id;
+  list.loc = loc;
+  list.record = context.types().addRecord(RecordKind::GlobalList, id);
+  scopes.lists.back().file = file;
+  NamedType& named = addNamed(context, list.record);
+  named.file = file;
+  return list_id;
+}
+
+void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& bare) {
+  Project& project = context.project;
+  Scopes& scopes = context.scopes;
+  const SectionDecl& section = context.tree().as<SectionDecl>(section_id);
+  GlobalList& list = project.global_lists[list_id.index];
+  ListScope& scope = scopes.lists[list_id.index];
+  const bool qualified_only = findPragma(context, section.h, scopes.words.attribute_qualified_only) != nullptr;
+  if (qualified_only) list.qualified_only = true;
+  const size_t first = list.vars.size();
+  for (uint32_t i = 0; i < section.vars.count; ++i) {
+    const DeclId decl = context.tree().list(section.vars)[i];
+    scope.decls.push_back(decl);
+    declareVars(context, decl, section, {}, list_id, &scope.names, list.vars);
+  }
+  if (list.qualified_only) return;
+  for (size_t i = first; i < list.vars.size(); ++i) {
+    const Var& var = project.var(list.vars[i]);
+    if (!var.name) continue;
+    const NameId key = keyOf(context, var.name);
+    if (bare.insert(key, entity(list.vars[i]))) continue;
+    const Entity other = bare.find(key);
+    if (other.what() != EntityKind::Var || project.vars[other.index].list.index == list_id.index) continue;
+    const std::string_view here = context.names().text(list.name);
+    const std::string_view there =
+        context.names().text(project.global_lists[project.vars[other.index].list.index].name);
+    context.report(Diag::GlobalAlsoDeclared, var.loc, {context.names().text(var.name), there, here})
+        .note(project.vars[other.index].loc, Note::AlsoDeclaredHere);
+  }
+}
+
+void declareItems(Context& context, TypeId type, TypeExprId written, NameMap* bare, bool project_wide) {
+  Project& project = context.project;
+  Scopes& scopes = context.scopes;
+  NamedType& named = *scopes.named(type);
+  const EnumTypeExpr& expr = context.tree().as<EnumTypeExpr>(written);
+  for (const EnumItem& item : context.tree().list(expr.items)) {
+    const auto index = static_cast<uint32_t>(project.enum_values.size());
+    project.enum_values.push_back({item.item.name, type, 0, item.item.loc});
+    const Entity declared = Entity::of(EntityKind::EnumValue, index);
+    const NameId key = keyOf(context, item.item.name);
+    if (!named.members.insert(key, declared)) {
+      reportTwice(context, item.item.name, item.item.loc, locOf(context, named.members.find(key)));
+      continue;
+    }
+    if (bare == nullptr || bare->insert(key, declared)) continue;
+    const Entity first = bare->find(key);
+    if (!project_wide || first.what() != EntityKind::EnumValue) continue;
+    if (scopes.item_is_ambiguous.size() <= first.index) scopes.item_is_ambiguous.resize(first.index + 1, false);
+    scopes.item_is_ambiguous[first.index] = true;
+  }
+}
+
+void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
+  switch (context.tree().kind(decl)) {
+    case DeclKind::Pou: return collectPou(context, decl, file, library);
+    case DeclKind::Type: return collectType(context, decl, file, library);
+    case DeclKind::Section: {
+      const Loc loc = context.tree().loc(decl);
+      const std::string stem = listName(context.project.sources.path(file));
+      if (library == kNoLibrary) {
+        const ListId list = listNamed(context, stem, file, loc, context.scopes.qualifiers);
+        return addGlobals(context, list, decl, context.scopes.globals);
+      }
+      Library& from = context.scopes.libraries.list[library];
+      std::string name = spelled(context, from.name) + "_" + stem;
+      if (context.project.global_lists.size() > 1)
+        name += "_" + std::to_string(loc.offset - context.project.sources.begin(file).offset);
+      const ListId list = listNamed(context, name, file, loc, from.names);
+      context.scopes.named(context.project.global_lists[list.index].record)->library = true;
+      return addGlobals(context, list, decl, from.names);
+    }
+    case DeclKind::Configuration:  // collectConfigurations
+    case DeclKind::Resource:
+    case DeclKind::Task:
+    case DeclKind::ProgramInstance:
+    case DeclKind::Var: return;
+  }
+}
+
+void collectFiles(Context& context) {
+  Tree& tree = context.tree();
+  // POUs and types first: a global list is named differently when a POU has its name.
+  for (const bool sections : {false, true}) {
+    for (const FileUnit& unit : tree.files) {
+      for (uint32_t i = 0; i < unit.decls.count; ++i) {
+        const DeclId decl = tree.list(unit.decls)[i];
+        if ((tree.kind(decl) == DeclKind::Section) == sections) collectDecl(context, decl, unit.file, kNoLibrary);
+      }
+    }
+  }
+}
+
+}  // namespace rung::sema

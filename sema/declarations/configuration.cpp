@@ -1,0 +1,353 @@
+// CONFIGURATION, RESOURCE, TASK and PROGRAM … WITH: the tasks and program instances of the project (design §9), or the
+// one task that a project without a configuration gets.
+#include "sema/declarations/configuration.h"
+
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+using types::TypeKind;
+using types::TypeTable;
+
+namespace {
+
+// A part of a configuration with its own globals: the configuration itself, or a resource.
+struct Part {
+  NameId configuration, resource;
+  FileId file;
+};
+
+template <class Visit>
+void forEachMember(Context& context, Visit visit) {
+  Tree& tree = context.tree();
+  for (const FileUnit& unit : tree.files) {
+    for (uint32_t i = 0; i < unit.decls.count; ++i) {
+      const DeclId id = tree.list(unit.decls)[i];
+      if (tree.kind(id) != DeclKind::Configuration) continue;
+      const ConfigurationDecl& configuration = tree.as<ConfigurationDecl>(id);
+      Part part{configuration.name, {}, unit.file};
+      for (uint32_t m = 0; m < configuration.members.count; ++m) {
+        const DeclId member = tree.list(configuration.members)[m];
+        if (tree.kind(member) != DeclKind::Resource) {
+          visit(part, member);
+          continue;
+        }
+        const ResourceDecl& resource = tree.as<ResourceDecl>(member);
+        Part inner{configuration.name, resource.name, unit.file};
+        for (uint32_t r = 0; r < resource.members.count; ++r) visit(inner, tree.list(resource.members)[r]);
+      }
+    }
+  }
+}
+
+std::string fold(std::string_view text) {
+  std::string folded(text);
+  for (char& c : folded) {
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  }
+  return folded;
+}
+
+// What a setting names without being a variable: FREEWHEELING, AX_INTERRUPT_1, 'event'.
+std::string wordOf(Context& context, ExprId expr) {
+  Tree& tree = context.tree();
+  if (tree.kind(expr) == ExprKind::Name) return std::string(context.names().text(tree.as<NameExpr>(expr).name));
+  if (tree.kind(expr) == ExprKind::Literal) {
+    const LiteralExpr& literal = tree.as<LiteralExpr>(expr);
+    if (literal.literal() == LiteralKind::String || literal.literal() == LiteralKind::WString) {
+      return std::string(tree.text(literal.text()));
+    }
+  }
+  return {};
+}
+
+struct TaskReader {
+  Context& context;
+  Task& task;
+  bool has_kind = false, has_interval = false, has_single = false;
+  ExprId trigger = {};
+
+  // A time in nanoseconds. A literal keeps what TIME would cut: T#500us is a good interval.
+  std::optional<int64_t> time(ExprId& expr, std::string_view setting) {
+    Tree& tree = context.tree();
+    if (tree.kind(expr) == ExprKind::Literal && tree.as<LiteralExpr>(expr).literal() == LiteralKind::Duration) {
+      return static_cast<int64_t>(tree.as<LiteralExpr>(expr).value());
+    }
+    const TypeId type = checkExpr(context, expr, types::kTime);
+    if (type == types::kError) return std::nullopt;
+    if (!TypeTable::isDuration(context.types().plainKind(type))) {
+      context.report(Diag::TaskSettingType, tree.begin(expr), {setting, "a TIME"});
+      return std::nullopt;
+    }
+    const auto value = requireConstant(context, expr, {});
+    if (!value) return std::nullopt;
+    return types::convert(context.types(), *value, types::kLTime).value.asSigned();
+  }
+
+  std::optional<int64_t> number(ExprId& expr, std::string_view setting, int64_t low, int64_t high) {
+    const auto value = constantBound(context, expr);
+    if (!value) return std::nullopt;
+    if (*value >= low && *value <= high) return value;
+    context.report(Diag::TaskSettingRange, context.tree().begin(expr),
+                   {setting, std::to_string(low), std::to_string(high)});
+    return std::nullopt;
+  }
+
+  void kind(ExprId expr) {
+    const std::string word = fold(wordOf(context, expr));
+    has_kind = true;
+    if (word == "CYCLIC") {
+      task.kind = TaskKind::Cyclic;
+    } else if (word == "FREEWHEELING") {
+      task.kind = TaskKind::Freewheeling;
+    } else if (word == "EVENT") {
+      task.kind = TaskKind::Event;
+    } else if (word == "STATUS") {
+      task.kind = TaskKind::Status;
+    } else if (word == "EXTERNAL") {
+      task.kind = TaskKind::External;
+    } else {
+      context.report(Diag::TaskKindUnknown, context.tree().begin(expr));
+    }
+  }
+
+  // Forbids settings that a task does not have. Design §9.
+  //   fails   TASK t(INTERVALL := T#10ms);                E0811, did you mean `INTERVAL`?
+  void setting(Argument& argument) {
+    const std::string name = fold(context.names().text(argument.pin.name));
+    if (!argument.value || context.tree().kind(argument.value) == ExprKind::Error) return;
+    if (name == "INTERVAL") {
+      if (const auto ns = time(argument.value, name)) {
+        has_interval = *ns != 0 || !has_single;
+        if (*ns < 0 || (*ns == 0 && !has_single)) {
+          context.report(Diag::TaskInterval, context.tree().begin(argument.value));
+        } else {
+          task.interval_ns = *ns;
+        }
+      }
+    } else if (name == "PRIORITY") {
+      if (const auto value = number(argument.value, name, 0, 31)) task.priority = static_cast<uint32_t>(*value);
+    } else if (name == "SINGLE") {
+      has_single = true;
+      trigger = argument.value;
+    } else if (name == "KIND") {
+      kind(argument.value);
+    } else if (name == "TRIGGER") {
+      trigger = argument.value;
+    } else if (name == "WATCHDOG") {
+      if (const auto ns = time(argument.value, name)) task.watchdog_ns = *ns;
+    } else if (name == "SENSITIVITY") {
+      if (const auto value = number(argument.value, name, 0, 1'000'000))
+        task.sensitivity = static_cast<uint32_t>(*value);
+    } else {
+      const std::string_view written = context.names().text(argument.pin.name);
+      context.report(Diag::TaskSettingUnknown, argument.pin.loc, {written})
+          .didYouMean(
+              nearest(written, {"INTERVAL", "PRIORITY", "SINGLE", "KIND", "TRIGGER", "WATCHDOG", "SENSITIVITY"}));
+    }
+  }
+
+  // Forbids a trigger that is no BOOL of the whole project. IEC 61131-3 ed. 3, 6.8.2.
+  //   fails   TASK t(SINGLE := 1);                        E0813
+  void resolveTrigger(Loc loc) {
+    if (task.kind == TaskKind::External) {
+      if (trigger) task.external_event = wordOf(context, trigger);
+      if (task.external_event.empty()) {
+        context.report(Diag::TaskNeedsTrigger, loc, {context.names().text(task.name), "the name of an event"});
+      }
+      return;
+    }
+    if (task.kind != TaskKind::Event && task.kind != TaskKind::Status) return;
+    if (!trigger) {
+      context.report(Diag::TaskNeedsTrigger, loc, {context.names().text(task.name), "a BOOL variable"});
+      return;
+    }
+    const TypeId type = checkExpr(context, trigger, types::kBool);
+    if (type == types::kError) return;
+    Entity found;
+    if (context.tree().kind(trigger) == ExprKind::Name) found = context.tree().as<NameExpr>(trigger).entity;
+    if (context.tree().kind(trigger) == ExprKind::Member) found = context.tree().as<MemberExpr>(trigger).entity;
+    const bool is_bool = context.types().kind(type) == TypeKind::Bool;
+    if (found.what() != EntityKind::Var || !is_bool ||
+        (context.project.vars[found.index].storage == Storage::Field &&
+         (!context.project.vars[found.index].pou ||
+          context.project.pou(context.project.vars[found.index].pou).kind != PouKind::Program))) {
+      context.report(Diag::TaskTriggerType, context.tree().begin(trigger), {context.names().text(task.name)});
+      return;
+    }
+    task.trigger = VarId{found.index};
+    context.project.var(task.trigger).read = true;
+  }
+
+  void read(const TaskDecl& decl) {
+    for (uint32_t pass = 0; pass < 2; ++pass) {  // SINGLE first: INTERVAL := 0 beside it means nothing
+      for (uint32_t i = 0; i < decl.settings.count; ++i) {
+        Argument argument = context.tree().list(decl.settings)[i];
+        const bool is_single = sameIdentifier(context.names().text(argument.pin.name), "SINGLE");
+        if (is_single == (pass == 0)) setting(argument);
+        context.tree().list(decl.settings)[i] = argument;
+      }
+    }
+    if (!has_kind) {
+      task.kind = has_single ? TaskKind::Event : has_interval ? TaskKind::Cyclic : TaskKind::Freewheeling;
+    }
+    if (task.kind == TaskKind::Cyclic && !has_interval) {
+      context.report(Diag::TaskInterval, decl.h.loc);
+    }
+    resolveTrigger(decl.h.loc);
+  }
+};
+
+struct DeclaredTask {
+  NameId key, resource_key;
+  uint32_t number;
+};
+
+// Forbids an instance of what is no program, a task that is not declared, and connections at the instance.
+//   passes  PROGRAM p WITH t : Main;
+//   fails   PROGRAM p WITH tt : Main;                     E0815, did you mean `t`?
+void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& decl,
+                 const std::vector<DeclaredTask>& tasks) {
+  Project& project = context.project;
+  ProgramInstance instance;
+  instance.name = decl.name;
+  instance.resource = part.resource;
+  instance.configuration = part.configuration;
+  instance.loc = decl.h.loc;
+  const Ident type = context.tree().list(decl.type)[decl.type.count - 1];
+  Entity found = context.scopes.pous_and_types.find(keyOf(context, type.name));
+  if (!found) found = lookUpLibrary(context, keyOf(context, type.name));
+  if (found.what() == EntityKind::Pou && project.pous[found.index].kind == PouKind::Program) {
+    instance.program = PouId{found.index};
+  } else {
+    std::vector<std::string_view> programs;
+    for (const Pou& pou : project.pous) {
+      if (pou.kind == PouKind::Program && pou.name && !pou.library) programs.push_back(context.names().text(pou.name));
+    }
+    const std::string_view text = context.names().text(type.name);
+    context.report(Diag::NoProgram, type.loc, {text}).didYouMean(nearest(text, programs));
+    return;
+  }
+  if (decl.task.name) {
+    const NameId key = keyOf(context, decl.task.name);
+    std::vector<std::string_view> names;
+    for (const DeclaredTask& task : tasks) {
+      if (task.resource_key && !(part.resource && keyOf(context, part.resource) == task.resource_key)) continue;
+      if (task.key == key) instance.task = task.number;
+      names.push_back(context.names().text(project.tasks[task.number - 1].name));
+    }
+    if (instance.task == 0) {
+      const std::string_view text = context.names().text(decl.task.name);
+      context.report(Diag::UnknownTask, decl.task.loc, {text}).didYouMean(nearest(text, names));
+    }
+  } else {
+    context.report(Diag::ProgramWithoutTask, decl.h.loc, {context.names().text(decl.name)});
+  }
+  if (!decl.arguments.empty()) {
+    const Argument& first = context.tree().list(decl.arguments)[0];
+    context.report(Diag::ProgramConnections, first.loc, {context.names().text(decl.name)});
+  }
+  for (const ProgramInstance& other : project.instances) {
+    if (!context.names().same(other.name, instance.name) || !(other.resource == instance.resource)) continue;
+    reportTwice(context, instance.name, instance.loc, other.loc);
+    return;
+  }
+  const auto index = static_cast<uint32_t>(project.instances.size());
+  project.instances.push_back(instance);
+  const NameId key = keyOf(context, instance.name);
+  if (!context.scopes.pous_and_types.find(key)) {
+    context.scopes.qualifiers.insert(key, Entity::of(EntityKind::Program, index));
+  }
+}
+
+// PLC_PRG or MAIN if there is one, else every PROGRAM in source order, in one cyclic task. Design §11.
+void addDefaultTask(Context& context) {
+  Project& project = context.project;
+  PouId only;
+  for (const char* name : {"PLC_PRG", "MAIN"}) {
+    const NameId id = context.names().find(name);
+    const Entity found = id ? context.scopes.pous_and_types.find(keyOf(context, id)) : Entity{};
+    if (only || found.what() != EntityKind::Pou) continue;
+    const Pou& pou = project.pous[found.index];
+    if (pou.kind == PouKind::Program && !pou.test) only = PouId{found.index};
+  }
+  for (uint32_t i = 1; i < project.pous.size(); ++i) {
+    const Pou& pou = project.pous[i];
+    if (pou.kind != PouKind::Program || pou.test || pou.library || !pou.name) continue;
+    if (only && only.index != i) continue;
+    if (project.tasks.empty()) {
+      Task task;
+      task.name = context.names().intern("MainTask");
+      task.interval_ns = project.options.default_interval_ns;
+      task.priority = 1;
+      project.tasks.push_back(task);
+    }
+    ProgramInstance instance;
+    instance.name = pou.name;
+    instance.program = PouId{i};
+    instance.task = 1;
+    instance.loc = pou.loc;
+    project.instances.push_back(instance);
+  }
+}
+
+}  // namespace
+
+void collectConfigurations(Context& context) {
+  Tree& tree = context.tree();
+  forEachMember(context, [&](const Part& part, DeclId member) {
+    if (tree.kind(member) != DeclKind::Section) return;
+    const SectionDecl& section = tree.as<SectionDecl>(member);
+    if (section.section == SectionKind::Access) {
+      context.report(Diag::AccessPathsIgnored, section.h.loc);
+      return;
+    }
+    if (section.section == SectionKind::Config) {
+      context.report(Diag::InstanceConfiguration, section.h.loc);
+      return;
+    }
+    const NameId name = part.resource ? part.resource : part.configuration;
+    const ListId list = listNamed(context, std::string(context.names().text(name)), part.file, section.h.loc,
+                                  context.scopes.qualifiers);
+    addGlobals(context, list, member, context.scopes.globals);
+  });
+}
+
+void resolveConfigurations(Context& context) {
+  Tree& tree = context.tree();
+  Project& project = context.project;
+  std::vector<DeclaredTask> tasks;
+  bool configured = false;
+  forEachMember(context, [&](const Part& part, DeclId member) {
+    if (tree.kind(member) == DeclKind::ProgramInstance) configured = true;
+    if (tree.kind(member) != DeclKind::Task) return;
+    const TaskDecl& decl = tree.as<TaskDecl>(member);
+    const NameId resource_key = part.resource ? keyOf(context, part.resource) : NameId{};
+    for (const DeclaredTask& other : tasks) {
+      if (other.key == keyOf(context, decl.name) && other.resource_key == resource_key) {
+        reportTwice(context, decl.name, decl.h.loc, project.tasks[other.number - 1].loc);
+        return;
+      }
+    }
+    Task task;
+    task.name = decl.name;
+    task.priority = 1;
+    task.loc = decl.h.loc;
+    Context there = at(context, {}, part.file, false);
+    TaskReader reader{.context = there, .task = task};
+    reader.read(decl);
+    project.tasks.push_back(task);
+    tasks.push_back({keyOf(context, decl.name), resource_key, static_cast<uint32_t>(project.tasks.size())});
+  });
+  if (!configured) {
+    if (project.tasks.empty()) addDefaultTask(context);
+    return;
+  }
+  forEachMember(context, [&](const Part& part, DeclId member) {
+    if (tree.kind(member) != DeclKind::ProgramInstance) return;
+    Context there = at(context, {}, part.file, false);
+    addInstance(there, part, tree.as<ProgramInstanceDecl>(member), tasks);
+  });
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,19 @@
+// CONFIGURATION and what stands in it. collectConfigurations() declares its globals; resolveConfigurations() makes the
+// tasks and program instances, after all declarations are resolved. Called by check().
+#pragma once
+
+#include <string>
+
+#include "sema/context.h"
+#include "sema/scopes.h"
+
+namespace rung::sema {
+
+void collectConfigurations(Context& context);
+void resolveConfigurations(Context& context);
+
+// ---- collect.cpp: global lists, which files, configurations and resources have
+ListId listNamed(Context& context, std::string name, FileId file, Loc loc, NameMap& qualifiers);
+void addGlobals(Context& context, ListId list, DeclId section, NameMap& bare);
+
+}  // namespace rung::sema

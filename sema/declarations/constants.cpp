@@ -1,0 +1,295 @@
+// Constant expressions: their values by the arithmetic kernel.
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+using types::Op;
+using types::Outcome;
+using types::TypeKind;
+using types::TypeTable;
+using types::Value;
+
+namespace {
+
+constexpr uint32_t kMaxDepth = 2000;
+
+bool isUntypedLiteral(TypeKind kind) { return kind == TypeKind::IntegerLiteral || kind == TypeKind::RealLiteral; }
+
+Value literalValue(Context& context, const LiteralExpr& literal) {
+  const TypeTable& table = context.types();
+  const TypeId type = literal.h.type;
+  const TypeKind kind = table.plainKind(type);
+  const bool negative = (literal.h.bits & kLiteralNegative) != 0;
+  switch (literal.literal()) {
+    case LiteralKind::Bool:
+    case LiteralKind::Null: return {type, literal.value()};
+    case LiteralKind::Integer: {
+      const uint64_t bits = negative ? 0 - literal.value() : literal.value();
+      if (isUntypedLiteral(kind) && kind == TypeKind::IntegerLiteral) return {type, bits};
+      if (TypeTable::isReal(kind) || kind == TypeKind::RealLiteral) {
+        const Value whole{types::idOf(negative ? TypeKind::LInt : TypeKind::ULInt), bits};
+        return types::convert(table, whole, type).value;
+      }
+      return types::convert(table, {types::idOf(negative ? TypeKind::LInt : TypeKind::ULInt), bits},
+                            TypeTable::isScalar(kind) ? type : types::idOf(TypeKind::LInt))
+          .value;
+    }
+    case LiteralKind::Real: {
+      Value number{types::kLReal, literal.value()};
+      if (negative) number = Value::ofReal(types::kLReal, -number.asReal());
+      if (kind == TypeKind::RealLiteral) return {type, number.bits};
+      return types::convert(table, number, type).value;
+    }
+    case LiteralKind::String:
+    case LiteralKind::WString: {
+      const std::string_view text = context.tree().text(literal.text());
+      if (kind == TypeKind::Char) return {type, text.empty() ? 0u : static_cast<unsigned char>(text[0])};
+      return {type, context.names().intern(text).index};
+    }
+    case LiteralKind::Duration: return types::convert(table, {types::kLTime, literal.value()}, type).value;
+    case LiteralKind::Date: return types::convert(table, {types::idOf(TypeKind::LDate), literal.value()}, type).value;
+    case LiteralKind::TimeOfDay:
+      return types::convert(table, {types::idOf(TypeKind::LTimeOfDay), literal.value()}, type).value;
+    case LiteralKind::DateTime:
+      return types::convert(table, {types::idOf(TypeKind::LDateTime), literal.value()}, type).value;
+  }
+  return {type, 0};
+}
+
+Op opOf(BinaryOp op) {
+  switch (op) {
+    case BinaryOp::Or:
+    case BinaryOp::OrElse: return Op::Or;
+    case BinaryOp::Xor: return Op::Xor;
+    case BinaryOp::And:
+    case BinaryOp::AndThen: return Op::And;
+    case BinaryOp::Equal: return Op::Eq;
+    case BinaryOp::NotEqual: return Op::Ne;
+    case BinaryOp::Less: return Op::Lt;
+    case BinaryOp::LessEqual: return Op::Le;
+    case BinaryOp::Greater: return Op::Gt;
+    case BinaryOp::GreaterEqual: return Op::Ge;
+    case BinaryOp::Add: return Op::Add;
+    case BinaryOp::Subtract: return Op::Sub;
+    case BinaryOp::Multiply: return Op::Mul;
+    case BinaryOp::Divide: return Op::Div;
+    case BinaryOp::Modulo: return Op::Mod;
+    case BinaryOp::Power: return Op::Power;
+  }
+  return Op::Add;
+}
+
+// Forbids constant expressions that fault; warns of those that overflow. Design §6.
+//   fails   VAR CONSTANT n : INT := 1 / 0; END_VAR      E0323
+std::optional<Value> checked(Context& context, const Outcome& outcome, Loc loc) {
+  if (outcome.fault == types::Fault::Div) {
+    context.report(Diag::ConstantDivision, loc);
+    return std::nullopt;
+  }
+  if (outcome.overflow) {
+    context.report(
+        Diag::ConstantOverflow, loc,
+        {context.types().spell(outcome.value.type), types::spell(context.types(), context.names(), outcome.value)});
+  }
+  return outcome.value;
+}
+
+std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth);
+
+bool isOperand(const TypeTable& table, TypeId type) {
+  const TypeKind kind = table.plainKind(type);
+  return TypeTable::isElementary(kind) || isUntypedLiteral(kind);
+}
+
+std::optional<Value> applyChecked(Context& context, Op op, Value left, Value right, Loc loc) {
+  const TypeTable& table = context.types();
+  if (!isOperand(table, left.type) || !isOperand(table, right.type)) return std::nullopt;
+  const TypeKind a = table.plainKind(left.type), b = table.plainKind(right.type);
+  const bool is_shift = op == Op::Shl || op == Op::Shr || op == Op::Rol || op == Op::Ror;
+  if (a != b && !is_shift && op != Op::Power) {  // an untyped operand takes the type of the other
+    if (isUntypedLiteral(a) && b != TypeKind::IntegerLiteral) {
+      left = types::convert(table, left, right.type).value;
+    } else if (isUntypedLiteral(b)) {
+      right = types::convert(table, right, left.type).value;
+    }
+  }
+  if (op == Op::Power && a == TypeKind::IntegerLiteral && TypeTable::isReal(b)) {
+    left = types::convert(table, left, right.type).value;
+  }
+  return checked(context, types::apply(table, context.names(), op, left, right), loc);
+}
+
+std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32_t depth) {
+  if (!node.call) return std::nullopt;
+  const Project& project = context.project;
+  const Call& call = project.call(node.call);
+  if (call.kind != CallKind::Operator || !call.pou || call.en || call.eno) return std::nullopt;
+  const Pou& pou = project.pou(call.pou);
+  std::vector<Value> operands;
+  for (const Binding& binding : call.bindings) {
+    if (!binding.value || binding.is_output) return std::nullopt;
+    const auto value = evaluateAt(context, binding.value, depth + 1);
+    if (!value) return std::nullopt;
+    operands.push_back(*value);
+  }
+  if (operands.empty()) return std::nullopt;
+  switch (pou.operator_kind) {
+    case Pou::Operator::Move: return operands[0];
+    case Pou::Operator::Convert:
+      if (TypeTable::isText(context.types().plainKind(operands[0].type)) ||
+          TypeTable::isText(context.types().plainKind(node.h.type))) {
+        return std::nullopt;
+      }
+      return types::convert(context.types(), operands[0], node.h.type).value;
+    case Pou::Operator::Op: {
+      if (types::operandCount(pou.op) == 1) return applyChecked(context, pou.op, operands[0], operands[0], node.h.loc);
+      if (types::isComparison(pou.op)) {  // GT(a, b, c): a > b and b > c
+        bool all = true;
+        for (size_t i = 1; i < operands.size(); ++i) {
+          const auto pair = applyChecked(context, pou.op, operands[i - 1], operands[i], node.h.loc);
+          if (!pair) return std::nullopt;
+          all = all && pair->bits != 0;
+        }
+        return Value{types::kBool, all ? 1u : 0u};
+      }
+      Value result = operands[0];
+      for (size_t i = 1; i < operands.size(); ++i) {
+        const auto next = applyChecked(context, pou.op, result, operands[i], node.h.loc);
+        if (!next) return std::nullopt;
+        result = *next;
+      }
+      return result;
+    }
+    case Pou::Operator::Select:
+    case Pou::Operator::Mux:
+    case Pou::Operator::None: return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
+  Tree& tree = context.tree();
+  const ExprHeader& header = tree.expr(id);
+  if (!header.type || header.type == types::kError || depth > kMaxDepth) return std::nullopt;
+  switch (header.kind) {
+    case ExprKind::Literal: return literalValue(context, tree.as<LiteralExpr>(id));
+    case ExprKind::Name:
+    case ExprKind::TypedName:
+    case ExprKind::Member: {
+      const Entity found = header.kind == ExprKind::Name        ? tree.as<NameExpr>(id).entity
+                           : header.kind == ExprKind::TypedName ? tree.as<TypedNameExpr>(id).entity
+                                                                : tree.as<MemberExpr>(id).entity;
+      if (found.what() == EntityKind::EnumValue) {
+        const EnumValue& item = context.project.enum_values[found.index];
+        return Value{item.type, static_cast<uint64_t>(item.value)};
+      }
+      if (found.what() != EntityKind::Var) return std::nullopt;
+      const Var& var = context.project.vars[found.index];
+      if (!var.constant || !var.has_value) return std::nullopt;
+      return var.value;
+    }
+    case ExprKind::Convert: {
+      const auto value = evaluateAt(context, tree.as<ConvertExpr>(id).operand, depth + 1);
+      if (!value) return std::nullopt;
+      const TypeKind from = context.types().plainKind(value->type), to = context.types().plainKind(header.type);
+      if (TypeTable::isText(from) && from == to) {
+        const std::string_view text = context.names().text(NameId{static_cast<uint32_t>(value->bits)});
+        const uint32_t capacity = context.types().info(context.types().resolve(header.type)).length;
+        if (to == TypeKind::WString || text.size() <= capacity) return Value{header.type, value->bits};
+        return Value{header.type, context.names().intern(text.substr(0, capacity)).index};
+      }
+      if (TypeTable::isText(from) || !TypeTable::isScalar(to)) return std::nullopt;
+      return types::convert(context.types(), *value, header.type).value;
+    }
+    case ExprKind::Unary: {
+      const UnaryExpr& node = tree.as<UnaryExpr>(id);
+      const auto value = evaluateAt(context, node.operand, depth + 1);
+      if (!value || !isOperand(context.types(), value->type)) return std::nullopt;
+      if (TypeTable::isText(context.types().plainKind(value->type))) return std::nullopt;
+      if (node.op() == UnaryOp::Plus) return value;
+      return applyChecked(context, node.op() == UnaryOp::Not ? Op::Not : Op::Neg, *value, *value, node.h.loc);
+    }
+    case ExprKind::Binary: {
+      const BinaryExpr& node = tree.as<BinaryExpr>(id);
+      const auto left = evaluateAt(context, node.left, depth + 1);
+      if (!left) return std::nullopt;
+      const auto right = evaluateAt(context, node.right, depth + 1);
+      if (!right) return std::nullopt;
+      return applyChecked(context, opOf(node.op()), *left, *right, node.h.loc);
+    }
+    case ExprKind::Call: return evaluateCall(context, tree.as<CallExpr>(id), depth);
+    case ExprKind::Error:
+    case ExprKind::Index:
+    case ExprKind::Deref:
+    case ExprKind::BitAccess:
+    case ExprKind::Address:
+    case ExprKind::Range:
+    case ExprKind::ArrayInit:
+    case ExprKind::Repeat:
+    case ExprKind::StructInit: return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+// A plain integer as most bounds are: no need to check it as an expression.
+std::optional<int64_t> plainInteger(Context& context, ExprId id) {
+  Tree& tree = context.tree();
+  bool negate = false;
+  if (tree.kind(id) == ExprKind::Unary && tree.as<UnaryExpr>(id).op() == UnaryOp::Negate) {
+    tree.expr(id).type = types::idOf(TypeKind::LInt);
+    id = tree.as<UnaryExpr>(id).operand;
+    negate = true;
+  }
+  if (tree.kind(id) != ExprKind::Literal) return std::nullopt;
+  LiteralExpr& literal = tree.as<LiteralExpr>(id);
+  if (literal.literal() != LiteralKind::Integer || literal.prefix || literal.high >> 31 != 0) return std::nullopt;
+  literal.h.type = types::idOf(TypeKind::LInt);
+  literal.h.is_constant = 1;
+  const auto value = static_cast<int64_t>(literal.value());
+  return negate != ((literal.h.bits & kLiteralNegative) != 0) ? -value : value;
+}
+
+}  // namespace
+
+std::optional<Value> evaluate(Context& context, ExprId expr) { return evaluateAt(context, expr, 0); }
+
+std::optional<Value> requireConstant(Context& context, ExprId expr, TypeId type) {
+  if (context.tree().expr(expr).type == types::kError) return std::nullopt;
+  const uint32_t errors = context.project.diagnostics.errorCount();
+  const auto value = evaluate(context, expr);
+  if (!value) {
+    if (context.project.diagnostics.errorCount() == errors) {
+      context.report(Diag::ConstantNeeded, context.tree().begin(expr));
+    }
+    return std::nullopt;
+  }
+  if (!type || type == types::kError || context.types().plain(type) == context.types().plain(value->type)) return value;
+  if (!TypeTable::isScalar(context.types().plainKind(type)) || !isOperand(context.types(), value->type) ||
+      TypeTable::isText(context.types().plainKind(value->type))) {
+    return value;
+  }
+  return types::convert(context.types(), *value, type).value;
+}
+
+std::optional<int64_t> constantBound(Context& context, ExprId& expr) {
+  if (const auto number = plainInteger(context, expr)) return number;
+  if (context.tree().kind(expr) == ExprKind::Error) return std::nullopt;
+  const TypeId type = checkExpr(context, expr);
+  if (type == types::kError) return std::nullopt;
+  const TypeKind kind = context.types().plainKind(type);
+  if (!TypeTable::isInteger(kind) && !TypeTable::isBits(kind) && kind != TypeKind::IntegerLiteral) {
+    context.report(Diag::IntegerNeeded, context.tree().begin(expr), {context.types().spell(type)});
+    return std::nullopt;
+  }
+  const auto value = requireConstant(context, expr, {});
+  if (!value) return std::nullopt;
+  if (kind == TypeKind::ULInt || kind == TypeKind::LWord) {
+    if (value->asSigned() < 0) {
+      context.report(Diag::NoValueOfType, context.tree().begin(expr), {std::to_string(value->bits), "LINT"});
+      return std::nullopt;
+    }
+  }
+  return value->asSigned();
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,75 @@
+// What the files of declarations/ share. Declarations are resolved on demand: collect() gives every name its entity,
+// settleDeclarations() resolves, lays out and checks whatever was declared since the last time, and a library
+// declaration joins when it is first looked up. The rest of sema uses the functions of context.h.
+#pragma once
+
+#include "sema/context.h"
+#include "sema/scopes.h"
+
+namespace rung::sema {
+
+inline constexpr uint32_t kMaxDeclarationDepth = 500;
+
+// The same project seen from another place.
+inline Context at(Context& context, PouId pou, FileId file, bool library) {
+  return Context{.project = context.project, .scopes = context.scopes, .pou = pou, .file = file, .library = library};
+}
+inline Context atPou(Context& context, PouId pou) {
+  return at(context, pou, context.project.pou(pou).file, context.project.pou(pou).library);
+}
+inline Entity entity(VarId id) { return Entity::of(EntityKind::Var, id.index); }
+inline Entity entity(PouId id) { return Entity::of(EntityKind::Pou, id.index); }
+inline Entity entity(TypeId id) { return Entity::of(EntityKind::Type, id.index); }
+inline NameId keyOf(const Context& context, NameId name) { return context.names().key(name); }
+inline std::string spelled(const Context& context, NameId name) { return std::string(context.names().text(name)); }
+
+// ---- collect.cpp
+void initWords(Context& context);
+// The declarations of all files of the tree.
+void collectFiles(Context& context);
+// One declaration; of a library when `library` is given.
+void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library);
+inline constexpr uint32_t kNoLibrary = ~0u;
+NamedType& addNamed(Context& context, TypeId type);
+// The pragma with this name key, or null.
+const Pragma* findPragma(const Context& context, const DeclHeader& header, NameId key);
+void reportTwice(Context& context, NameId name, Loc loc, Loc first);
+// Items of an enumeration into a table, values to be resolved.
+void declareItems(Context& context, TypeId type, TypeExprId written, NameMap* bare, bool project_wide);
+
+// ---- variables.cpp
+// Gives the variables of one VarDecl their ids and names. Types come later.
+void declareVars(Context& context, DeclId decl, const SectionDecl& section, PouId pou, ListId list, NameMap* names,
+                 std::vector<VarId>& into);
+void ensureVarType(Context& context, VarId id);
+// The declared initial value of the variables of one VarDecl: checked once; constants get their values.
+void ensureInitialValue(Context& context, VarId id);
+void declarePou(Context& context, PouId pou);
+void resolveList(Context& context, ListId list);
+// The field of a record that holds a variable.
+void addField(Context& context, TypeId record, VarId id);
+
+// ---- addresses.cpp: see resolveAddress in context.h
+
+// ---- types.cpp
+void resolveNamed(Context& context, TypeId type);
+TypeId lookUpType(Context& context, NameId name);
+
+// ---- settle.cpp
+void settleDeclarations(Context& context);
+// Lays out a type, with what it holds resolved first. False when it is too large.
+bool ensureLayout(Context& context, TypeId type);
+
+// ---- constants.cpp
+// A constant integer, as in bounds and lengths; reports when it is none.
+std::optional<int64_t> constantBound(Context& context, ExprId& expr);
+
+// ---- initial_values.cpp
+void checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string_view what);
+
+// ---- libraries.cpp
+void indexLibraries(Context& context);
+// A name of the libraries, read on first use; of one library only when `library` is given.
+Entity lookUpLibrary(Context& context, NameId name, uint32_t library = kNoLibrary);
+
+}  // namespace rung::sema

@@ -1,0 +1,261 @@
+// Initial values of variables, fields and types: lists for arrays, members for structures and instances, and one
+// constant for what is elementary. In: what is written and the type. Out: the same, checked and converted in place;
+// surplus array elements are cut off and repetition counts are literals.
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+using types::RecordKind;
+using types::TypeInfo;
+using types::TypeKind;
+using types::TypeTable;
+
+namespace {
+
+struct Initializer {
+  Context& context;
+  std::string_view what;  // "the initial value of `x`"
+
+  Tree& tree() const { return context.tree(); }
+
+  // The literals that long lists are made of, without a full check.
+  bool plainLiteral(ExprId id, TypeId type) const {
+    if (tree().kind(id) != ExprKind::Literal) return false;
+    LiteralExpr& literal = tree().as<LiteralExpr>(id);
+    if (literal.prefix || (literal.h.bits & kLiteralNegative) != 0) return false;
+    const TypeKind kind = context.types().kind(type);
+    bool good = false;
+    if (literal.literal() == LiteralKind::Integer) {
+      if (kind == TypeKind::Bool) {
+        good = literal.value() <= 1 && !context.iec();
+      } else if (TypeTable::isInteger(kind) || TypeTable::isBits(kind)) {
+        const uint32_t width = TypeTable::bitWidth(kind) - (context.types().isSigned(kind) ? 1u : 0u);
+        good = width >= 64 || (literal.value() >> width) == 0;
+      }
+    } else if (literal.literal() == LiteralKind::Bool) {
+      good = kind == TypeKind::Bool;
+    } else if (literal.literal() == LiteralKind::Real) {
+      good = kind == TypeKind::LReal;
+    }
+    if (!good) return false;
+    literal.h.type = type;
+    literal.h.is_constant = 1;
+    return true;
+  }
+
+  // What may stand in an initial value: constants, operators and functions on them, and addresses.
+  bool isStatic(ExprId id, uint32_t depth) const {
+    if (depth > 1000) return false;
+    const ExprHeader& header = tree().expr(id);
+    if (header.type == types::kError) return true;
+    switch (header.kind) {
+      case ExprKind::Literal: return true;
+      case ExprKind::Convert: return isStatic(tree().as<ConvertExpr>(id).operand, depth + 1);
+      case ExprKind::Unary: return isStatic(tree().as<UnaryExpr>(id).operand, depth + 1);
+      case ExprKind::Binary:
+        return isStatic(tree().as<BinaryExpr>(id).left, depth + 1) &&
+               isStatic(tree().as<BinaryExpr>(id).right, depth + 1);
+      case ExprKind::Call: {
+        const CallExpr& node = tree().as<CallExpr>(id);
+        if (!node.call) return true;
+        const Call& call = context.project.call(node.call);
+        if (call.kind != CallKind::Function && call.kind != CallKind::Operator) return false;
+        for (const Binding& binding : call.bindings) {
+          if (binding.is_output || (binding.value && !isStatic(binding.value, depth + 1))) return false;
+        }
+        return true;
+      }
+      case ExprKind::Name:
+      case ExprKind::TypedName:
+      case ExprKind::Member: return evaluate(context, id).has_value();
+      case ExprKind::Error: return true;
+      case ExprKind::Index:
+      case ExprKind::Deref:
+      case ExprKind::BitAccess:
+      case ExprKind::Address:
+      case ExprKind::Range:
+      case ExprKind::ArrayInit:
+      case ExprKind::Repeat:
+      case ExprKind::StructInit: return false;
+    }
+    return false;
+  }
+
+  // Forbids initial values that are not known before the program runs. IEC 61131-3 ed. 3, 6.5.1.2. Variables of one
+  // call (of functions, VAR_TEMP) are set when the call begins, and may use what is known then in codesys.
+  //   fails   VAR a : INT; b : INT := a; END_VAR in a block      E0325
+  void scalar(ExprId& init, TypeId type) {
+    const ExprKind kind = tree().kind(init);
+    if (kind == ExprKind::ArrayInit || kind == ExprKind::StructInit || kind == ExprKind::Repeat) {
+      context.report(Diag::ListForOneValue, tree().loc(init), {context.types().spell(type)});
+      init = {};
+      return;
+    }
+    if (plainLiteral(init, type)) return;
+    if (!checkExprAs(context, init, type, std::string("used as ") + std::string(what))) return;
+    const TypeKind to = context.types().kind(type);
+    if (to == TypeKind::Pointer || to == TypeKind::Reference) return;
+    const bool of_call = context.pou && context.project.pou(context.pou).kind == PouKind::Function;
+    if (of_call && !context.iec()) return;
+    const uint32_t errors = context.project.diagnostics.errorCount();
+    if (isStatic(init, 0) || context.project.diagnostics.errorCount() != errors) {
+      if (tree().kind(init) == ExprKind::Binary || tree().kind(init) == ExprKind::Unary) evaluate(context, init);
+      return;
+    }
+    context.report(Diag::InitialValueNotConstant, tree().begin(init), {what});
+    init = {};
+  }
+
+  ExprId countLiteral(Loc loc, uint64_t value) const {
+    LiteralExpr literal{};
+    literal.h.kind = ExprKind::Literal;
+    literal.h.op = static_cast<uint8_t>(LiteralKind::Integer);
+    literal.h.is_constant = 1;
+    literal.h.loc = loc;
+    literal.h.type = types::idOf(TypeKind::LInt);
+    literal.setValue(value);
+    return tree().add<ExprId>(literal);
+  }
+
+  // Checks the elements that have a place; gives how many values there are, the surplus included.
+  uint64_t elements(Slice<ExprId>& slice, TypeId element, uint64_t room, Loc& surplus) {
+    uint64_t count = 0;
+    uint32_t kept = slice.count;
+    for (uint32_t i = 0; i < slice.count; ++i) {
+      ExprId id = tree().list(slice)[i];
+      if (count >= room && kept == slice.count) {
+        kept = i;
+        if (!surplus) surplus = tree().begin(id);
+      }
+      if (tree().kind(id) == ExprKind::Repeat) {
+        RepeatExpr& repeat = tree().as<RepeatExpr>(id);
+        const auto turns = constantBound(context, repeat.count);
+        if (!turns) {
+          count = room;
+          continue;
+        }
+        if (*turns < 0) {
+          context.report(Diag::RepetitionNegative, tree().begin(repeat.count), {std::to_string(*turns)});
+          continue;
+        }
+        if (tree().kind(repeat.count) != ExprKind::Literal) {
+          repeat.count = countLiteral(tree().loc(repeat.count), static_cast<uint64_t>(*turns));
+        }
+        uint64_t group = 1;
+        Loc inner;
+        if (!repeat.elements.empty()) {
+          group = elements(repeat.elements, element, count < room ? room - count : 0, inner);
+        }
+        const uint64_t total = group * std::min<uint64_t>(static_cast<uint64_t>(*turns), uint64_t{1} << 32);
+        if (count < room && total > room - count && !surplus) surplus = tree().begin(id);
+        count += total;
+        continue;
+      }
+      if (count < room) {
+        value(id, element);
+        tree().list(slice)[i] = id;
+      }
+      ++count;
+    }
+    slice.count = kept;
+    return count;
+  }
+
+  // Surplus elements are dropped with a warning, missing ones have their default. Manual 5.3.1.2.4, 5.3.3.
+  //   passes  a : ARRAY[1..6] OF INT := [1, 2, 3(4), 6];
+  //   fails   a : ARRAY[1..6] OF INT := 1;                        E0326
+  void array(ExprId& init, TypeId type) {
+    const TypeInfo& info = context.types().info(context.types().resolve(type));
+    if (tree().kind(init) != ExprKind::ArrayInit) {
+      context.report(Diag::ArrayListExpected, tree().begin(init), {context.types().spell(type)});
+      init = {};
+      return;
+    }
+    uint64_t room = 1;
+    for (const types::Dimension& dimension : info.dimensions) room *= dimension.count();
+    ArrayInitExpr& node = tree().as<ArrayInitExpr>(init);
+    node.h.type = type;
+    Loc surplus;
+    const uint64_t count = elements(node.elements, info.base, room, surplus);
+    if (surplus) context.report(Diag::SurplusElements, surplus, {std::to_string(count), std::to_string(room)});
+  }
+
+  // Forbids members that do not exist, that are set twice, or that an initial value cannot set. Design §6: inputs, and
+  // in codesys outputs and locals too.
+  //   passes  t : TON := (PT := T#5s);
+  //   fails   t : TON := (PTX := T#5s);                           E0329
+  void record(ExprId& init, TypeId type) {
+    if (tree().kind(init) != ExprKind::StructInit) {
+      context.report(Diag::MembersExpected, tree().begin(init), {context.types().spell(type)});
+      init = {};
+      return;
+    }
+    StructInitExpr& node = tree().as<StructInitExpr>(init);
+    node.h.type = type;
+    NameMap seen;
+    for (uint32_t i = 0; i < node.fields.count; ++i) {
+      FieldInit given = tree().list(node.fields)[i];
+      const std::string_view name = context.names().text(given.field.name);
+      const VarId member = findMember(context, type, given.field.name);
+      if (!member) {
+        context.report(Diag::UnknownMember, given.field.loc, {context.types().spell(type), name})
+            .didYouMean(nearestMember(type, given.field.name));
+        continue;
+      }
+      const Var& var = context.project.var(member);
+      if (!seen.insert(keyOf(context, var.name), entity(member))) {
+        context.report(Diag::MemberSetTwice, given.field.loc, {name});
+        continue;
+      }
+      const bool settable = var.storage == Storage::Field && var.section != SectionKind::InOut &&
+                            (!var.pou || var.section == SectionKind::Input || !context.iec());
+      if (!settable) {
+        context.report(Diag::MemberNotSettable, given.field.loc, {name, context.types().spell(type)})
+            .note(var.loc, Note::DeclaredHere);
+        continue;
+      }
+      given.field.name = var.name;  // an alias stands for its pin
+      if (given.value) value(given.value, var.type);
+      tree().list(node.fields)[i] = given;
+    }
+    dropEmpty(node);
+  }
+
+  // Members whose value was wrong have none any more.
+  void dropEmpty(StructInitExpr& node) const {
+    auto fields = tree().list(node.fields);
+    uint32_t kept = 0;
+    for (const FieldInit& given : fields) {
+      if (given.value) fields[kept++] = given;
+    }
+    node.fields.count = kept;
+  }
+
+  std::string_view nearestMember(TypeId type, NameId written) const {
+    std::vector<std::string_view> candidates;
+    for (const types::Field& field : context.types().info(context.types().resolve(type)).fields) {
+      candidates.push_back(context.names().text(field.name));
+    }
+    return nearest(context.names().text(written), candidates);
+  }
+
+  void value(ExprId& init, TypeId type) {
+    if (tree().kind(init) == ExprKind::Error || type == types::kError || !type) return;
+    const TypeKind kind = context.types().kind(type);
+    if (kind == TypeKind::Array) return array(init, type);
+    if (kind == TypeKind::Record) return record(init, type);
+    scalar(init, type);
+  }
+};
+
+}  // namespace
+
+void checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string_view what) {
+  Initializer{context, what}.value(init, type);
+}
+
+void checkInitializer(Context& context, ExprId& init, TypeId type) {
+  checkInitializerAs(context, init, type, "the initial value");
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,279 @@
+// Library declarations: indexed by a light scan, read on first use. A library costs a program that does not use it
+// nothing but the scan.
+#include "sema/declarations/libraries.h"
+
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+namespace {
+
+bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
+// Words, punctuation and pragmas of a text; comments, strings and numbers are stepped over.
+class Scanner {
+ public:
+  explicit Scanner(std::string_view text) : text_(text) {}
+
+  enum class Kind : uint8_t { End, Word, Pragma, Mark };
+  Kind next() {
+    while (at_ < text_.size()) {
+      const char c = text_[at_];
+      begin_ = at_;
+      if (isLetter(c)) {
+        while (at_ < text_.size() && (isLetter(text_[at_]) || isDigit(text_[at_]))) ++at_;
+        return Kind::Word;
+      }
+      if (c == ' ' || c == '\n' || c == '\r' || c == '\t') {
+        ++at_;
+      } else if (isDigit(c)) {  // 16#FF, 1.5e3: no words in it
+        while (at_ < text_.size() && (isLetter(text_[at_]) || isDigit(text_[at_]) || text_[at_] == '#')) ++at_;
+      } else if (c == '/' && peek(1) == '/') {
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      } else if (c == '/' && peek(1) == '*') {
+        const size_t end = text_.find("*/", at_ + 2);
+        at_ = end == std::string_view::npos ? text_.size() : end + 2;
+      } else if (c == '(' && peek(1) == '*') {
+        skipComment();
+      } else if (c == '\'' || c == '"') {
+        skipString(c);
+      } else if (c == '{') {
+        at_ = std::min(text_.find('}', at_), text_.size() - 1) + 1;
+        return Kind::Pragma;
+      } else {
+        ++at_;
+        return Kind::Mark;
+      }
+    }
+    begin_ = at_;
+    return Kind::End;
+  }
+
+  std::string_view token() const { return text_.substr(begin_, at_ - begin_); }
+  bool is(std::string_view word) const { return sameIdentifier(token(), word); }
+  bool isMark(char c) const { return text_[begin_] == c; }
+  uint32_t begin() const { return static_cast<uint32_t>(begin_); }
+  uint32_t end() const { return static_cast<uint32_t>(at_); }
+
+ private:
+  char peek(size_t ahead) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
+  void skipComment() {
+    uint32_t depth = 0;
+    do {
+      if (text_[at_] == '(' && peek(1) == '*') {
+        ++depth;
+        at_ += 2;
+      } else if (text_[at_] == '*' && peek(1) == ')') {
+        --depth;
+        at_ += 2;
+      } else {
+        ++at_;
+      }
+    } while (depth > 0 && at_ < text_.size());
+  }
+  void skipString(char quote) {
+    for (++at_; at_ < text_.size() && text_[at_] != quote; ++at_) {
+      if (text_[at_] == '$') ++at_;
+    }
+    at_ = std::min(at_ + 1, text_.size());
+  }
+
+  std::string_view text_;
+  size_t begin_ = 0, at_ = 0;
+};
+
+using Kind = Scanner::Kind;
+
+// Steps over everything up to one of the words; true when it was found.
+bool skipTo(Scanner& scan, std::string_view word) {
+  for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
+    if (kind == Kind::Word && (scan.token()[0] | 32) == 'e' && scan.is(word)) return true;
+  }
+  return false;
+}
+
+void skipToMark(Scanner& scan, char mark) {
+  for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
+    if (kind == Kind::Mark && scan.isMark(mark)) return;
+  }
+}
+
+// The items of an enumeration; the opening parenthesis was read.
+void scanItems(Scanner& scan, std::vector<std::string_view>& names) {
+  uint32_t depth = 1;
+  bool expected = true;
+  for (Kind kind = scan.next(); kind != Kind::End && depth > 0; kind = scan.next()) {
+    if (kind == Kind::Word && expected) names.push_back(scan.token());
+    expected = false;
+    if (kind != Kind::Mark) continue;
+    if (scan.isMark('(')) ++depth;
+    if (scan.isMark(')') && --depth == 0) return;
+    if (scan.isMark(',') && depth == 1) expected = true;
+  }
+}
+
+void scanTypes(Scanner& scan, std::vector<std::string_view>& names) {
+  for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
+    if (kind != Kind::Word) continue;
+    if (scan.is("END_TYPE")) return;
+    names.push_back(scan.token());
+    skipToMark(scan, ':');
+    kind = scan.next();
+    while (kind == Kind::Pragma) kind = scan.next();
+    if (kind == Kind::Mark && scan.isMark('(')) {
+      scanItems(scan, names);
+      skipToMark(scan, ';');
+    } else if (kind == Kind::Word && scan.is("STRUCT")) {
+      skipTo(scan, "END_STRUCT");
+    } else if (kind == Kind::Word && scan.is("UNION")) {
+      skipTo(scan, "END_UNION");
+    } else {
+      skipToMark(scan, ';');
+    }
+  }
+}
+
+void scanGlobals(Scanner& scan, std::vector<std::string_view>& names) {
+  bool in_name = true;
+  for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
+    if (kind == Kind::Mark) {
+      if (scan.isMark(':')) in_name = false;
+      if (scan.isMark(';')) in_name = true;
+    } else if (kind == Kind::Word) {
+      if (scan.is("END_VAR")) return;
+      const bool qualifier =
+          scan.is("CONSTANT") || scan.is("RETAIN") || scan.is("PERSISTENT") || scan.is("NON_RETAIN") || scan.is("AT");
+      if (in_name && !qualifier) names.push_back(scan.token());
+    }
+  }
+}
+
+uint8_t standardsOf(std::string_view pragma) {
+  uint8_t standards = 0;
+  if (pragma.find("iec2") != std::string_view::npos) standards |= 1u << static_cast<int>(text::Standard::Iec2);
+  if (pragma.find("iec3") != std::string_view::npos) standards |= 1u << static_cast<int>(text::Standard::Iec3);
+  if (pragma.find("codesys") != std::string_view::npos) standards |= 1u << static_cast<int>(text::Standard::Codesys);
+  return standards;
+}
+
+}  // namespace
+
+std::vector<IndexedBlock> indexLibrary(std::string_view text) {
+  std::vector<IndexedBlock> blocks;
+  Scanner scan(text);
+  bool has_pragma = false;
+  IndexedBlock block;
+  for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
+    if (kind == Kind::Pragma) {
+      if (!has_pragma) block.begin = scan.begin();
+      has_pragma = true;
+      std::string_view pragma = scan.token().substr(1);
+      while (!pragma.empty() && pragma[0] == ' ') pragma.remove_prefix(1);
+      if (pragma.starts_with("std ")) block.standards = standardsOf(pragma);
+      continue;
+    }
+    if (kind != Kind::Word) continue;
+    if (!has_pragma) block.begin = scan.begin();
+    const char* end = scan.is("FUNCTION_BLOCK") ? "END_FUNCTION_BLOCK"
+                      : scan.is("FUNCTION")     ? "END_FUNCTION"
+                      : scan.is("PROGRAM")      ? "END_PROGRAM"
+                                                : nullptr;
+    if (end != nullptr) {
+      if (scan.next() != Kind::Word) continue;
+      block.names.push_back(scan.token());
+      skipTo(scan, end);
+    } else if (scan.is("TYPE")) {
+      scanTypes(scan, block.names);
+    } else if (scan.is("VAR_GLOBAL")) {
+      scanGlobals(scan, block.names);
+    } else {
+      continue;
+    }
+    block.end = scan.end();
+    blocks.push_back(std::move(block));
+    block = {};
+    has_pragma = false;
+  }
+  return blocks;
+}
+
+void indexLibraries(Context& context) {
+  Libraries& libraries = context.scopes.libraries;
+  const auto files = context.project.options.libraries;
+  const auto standard = static_cast<unsigned>(context.project.options.standard);
+  libraries.library_of_file.resize(files.size());
+  libraries.sources.resize(files.size());
+  for (uint32_t f = 0; f < files.size(); ++f) {
+    const NameId name = context.names().intern(files[f].library);
+    const NameId key = keyOf(context, name);
+    Entity space = libraries.namespaces.find(key);
+    if (!space) {
+      space = Entity::of(EntityKind::Namespace, static_cast<uint32_t>(libraries.list.size()));
+      libraries.namespaces.insert(key, space);
+      libraries.list.push_back({name, {}});
+    }
+    libraries.library_of_file[f] = space.index;
+    for (const IndexedBlock& block : indexLibrary(files[f].text)) {
+      if ((block.standards >> standard & 1u) == 0) continue;
+      const auto number = static_cast<uint32_t>(libraries.blocks.size());
+      libraries.blocks.push_back({f, block.begin, block.end, false});
+      for (const std::string_view text : block.names) {
+        const NameId declared = keyOf(context, context.names().intern(text));
+        const auto entry = static_cast<uint32_t>(libraries.names.size());
+        libraries.names.push_back({declared, number, 0});
+        if (libraries.index.insert(declared, Entity::of(EntityKind::Namespace, entry))) continue;
+        uint32_t last = libraries.index.find(declared).index;
+        while (libraries.names[last].next != 0) last = libraries.names[last].next;
+        libraries.names[last].next = entry;
+      }
+    }
+  }
+}
+
+namespace {
+
+void load(Context& context, LibraryBlock& block) {
+  block.loaded = true;
+  Libraries& libraries = context.scopes.libraries;
+  Project& project = context.project;
+  const LibraryFile& file = project.options.libraries[block.file];
+  FileId& source = libraries.sources[block.file];
+  if (!source) source = project.sources.add(file.path, std::string(file.text));
+  if (!source) return;
+  const uint32_t base = project.sources.begin(source).offset;
+  const FileId from = source;
+  const uint32_t library = libraries.library_of_file[block.file];
+  const Slice<DeclId> decls =
+      text::parseDeclarations(project.tree, project.names, project.sources, Loc{base + block.begin},
+                              Loc{base + block.end}, text::Standard::Codesys, project.diagnostics);
+  for (uint32_t i = 0; i < decls.count; ++i) collectDecl(context, project.tree.list(decls)[i], from, library);
+}
+
+}  // namespace
+
+Entity lookUpLibrary(Context& context, NameId key, uint32_t library) {
+  Libraries& libraries = context.scopes.libraries;
+  const Entity first = libraries.index.find(key);
+  if (!first) return {};
+  if (library == kNoLibrary && context.library) {  // a library's own names come first
+    for (uint32_t f = 0; f < libraries.sources.size(); ++f) {
+      if (!(libraries.sources[f] == context.file)) continue;
+      if (const Entity own = lookUpLibrary(context, key, libraries.library_of_file[f])) return own;
+      break;
+    }
+  }
+  for (uint32_t n = first.index; n != 0; n = libraries.names[n].next) {
+    LibraryBlock& block = libraries.blocks[libraries.names[n].block];
+    const uint32_t from = libraries.library_of_file[block.file];
+    if (library != kNoLibrary && from != library) continue;
+    if (!block.loaded) {
+      load(context, block);
+      settleDeclarations(context);
+    }
+    if (const Entity found = libraries.list[from].names.find(key)) return found;
+  }
+  return {};
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,23 @@
+// The index of a library text: which names it declares and where, found by a light scan without parsing. In: the text
+// of one library file. Out: its declarations with the range of text to parse when one of them is first used.
+// Called by check() at its start, for every library file.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "frontend/text/parse.h"
+
+namespace rung::sema {
+
+// A POU, a TYPE block or a VAR_GLOBAL block, from the pragmas before it to the end of its END_… word.
+struct IndexedBlock {
+  uint32_t begin = 0, end = 0;
+  std::vector<std::string_view> names;  // the POU; the types and enumeration items; the variables
+  // {std 'iec2 iec3'}: the dialects that have it; bit number: text::Standard.
+  uint8_t standards = 7;
+};
+std::vector<IndexedBlock> indexLibrary(std::string_view text);
+
+}  // namespace rung::sema

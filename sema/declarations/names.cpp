@@ -1,0 +1,144 @@
+// Name lookup: what a name stands for at a place, members of records, the nearest name to a misspelled one.
+#include <vector>
+
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+bool NameMap::insert(NameId key, Entity entity) {
+  if ((count_ + 1) * 4 > slots_.size() * 3) {
+    std::vector<Slot> old(slots_.empty() ? 8 : slots_.size() * 2);
+    old.swap(slots_);
+    for (const Slot& slot : old) {
+      if (!slot.key) continue;
+      uint32_t i = hash(slot.key);
+      while (slots_[i & (slots_.size() - 1)].key) ++i;
+      slots_[i & (slots_.size() - 1)] = slot;
+    }
+  }
+  for (uint32_t i = hash(key);; ++i) {
+    Slot& slot = slots_[i & (slots_.size() - 1)];
+    if (slot.key == key) return false;
+    if (slot.key) continue;
+    slot = {key, entity};
+    ++count_;
+    return true;
+  }
+}
+
+namespace {
+
+// What is found must be usable at once: its type resolved, its value known when it is constant.
+Entity ready(Context& context, Entity found) {
+  switch (found.what()) {
+    case EntityKind::Var: {
+      const VarId id{found.index};
+      ensureVarType(context, id);
+      if (context.project.var(id).constant) ensureInitialValue(context, id);
+      break;
+    }
+    case EntityKind::EnumValue: resolveNamed(context, context.project.enum_values[found.index].type); break;
+    case EntityKind::Type: resolveNamed(context, TypeId{found.index}); break;
+    case EntityKind::Pou: resolvePou(context, PouId{found.index}); break;
+    case EntityKind::None:
+    case EntityKind::Error:
+    case EntityKind::GlobalList:
+    case EntityKind::Namespace:
+    case EntityKind::Program: break;
+  }
+  return found;
+}
+
+Entity findName(Context& context, NameId key) {
+  Scopes& scopes = context.scopes;
+  if (context.pou) {
+    if (const Entity found = scopes.pous[context.pou.index].names.find(key)) return found;
+  }
+  if (context.library) {  // a library is never captured by names of the project
+    if (const Entity found = lookUpLibrary(context, key)) return found;
+  }
+  if (const Entity found = scopes.pous_and_types.find(key)) return found;
+  if (const Entity found = scopes.globals.find(key)) return found;
+  if (const Entity found = scopes.items.find(key)) return found;
+  if (const Entity found = scopes.qualifiers.find(key)) return found;
+  if (!context.library) {
+    if (const Entity found = lookUpLibrary(context, key)) return found;
+  }
+  return scopes.libraries.namespaces.find(key);
+}
+
+}  // namespace
+
+Entity lookUp(Context& context, NameId name) { return ready(context, findName(context, keyOf(context, name))); }
+
+bool isAmbiguousItem(Context& context, Entity item) {
+  return item.what() == EntityKind::EnumValue && item.index < context.scopes.item_is_ambiguous.size() &&
+         context.scopes.item_is_ambiguous[item.index];
+}
+
+Entity lookUpIn(Context& context, Entity qualifier, NameId name) {
+  const NameId key = keyOf(context, name);
+  Scopes& scopes = context.scopes;
+  switch (qualifier.what()) {
+    case EntityKind::GlobalList: return ready(context, scopes.lists[qualifier.index].names.find(key));
+    case EntityKind::Namespace: return ready(context, lookUpLibrary(context, key, qualifier.index));
+    case EntityKind::Type: {
+      const TypeId type = context.types().resolve(TypeId{qualifier.index});
+      resolveNamed(context, type);
+      if (context.types().info(type).kind != types::TypeKind::Enum) return {};
+      NamedType* named = scopes.named(type);
+      return named == nullptr ? Entity{} : named->members.find(key);
+    }
+    case EntityKind::None:
+    case EntityKind::Error:
+    case EntityKind::Var:
+    case EntityKind::Pou:
+    case EntityKind::EnumValue:
+    case EntityKind::Program: return {};
+  }
+  return {};
+}
+
+VarId findMember(Context& context, TypeId record, NameId name) {
+  const TypeId type = context.types().resolve(record);
+  NamedType* named = context.scopes.named(type);
+  if (named == nullptr || context.types().info(type).kind != types::TypeKind::Record) return {};
+  if (named->pou) return findPin(context, named->pou, name);
+  resolveNamed(context, type);
+  const Entity found = named->members.find(keyOf(context, name));
+  return found.what() == EntityKind::Var ? VarId{found.index} : VarId{};
+}
+
+VarId findPin(Context& context, PouId pou, NameId name) {
+  resolvePou(context, pou);
+  const Entity found = context.scopes.pous[pou.index].names.find(keyOf(context, name));
+  if (found.what() != EntityKind::Var) return {};
+  const VarId id{found.index};
+  if (context.project.var(id).pou != pou || id == context.project.pou(pou).result_var) return {};
+  ensureVarType(context, id);
+  return id;
+}
+
+std::string_view nearestName(Context& context, NameId written) {
+  if (context.project.diagnostics.full()) return {};  // nobody would see it, and the search looks at every name
+  std::vector<std::string_view> candidates;
+  const Names& names = context.names();
+  const auto add = [&](NameId key, Entity) { candidates.push_back(names.text(key)); };
+  const auto addDeclared = [&](NameId key, Entity found) {
+    NameId spelling = key;
+    if (found.what() == EntityKind::Var) spelling = context.project.vars[found.index].name;
+    if (found.what() == EntityKind::Pou) spelling = context.project.pous[found.index].name;
+    if (found.what() == EntityKind::EnumValue) spelling = context.project.enum_values[found.index].name;
+    if (found.what() == EntityKind::Type) spelling = context.types().info(TypeId{found.index}).name;
+    candidates.push_back(names.text(spelling && names.same(spelling, key) ? spelling : key));
+  };
+  if (context.pou) context.scopes.pous[context.pou.index].names.forEach(addDeclared);
+  context.scopes.pous_and_types.forEach(addDeclared);
+  context.scopes.globals.forEach(addDeclared);
+  context.scopes.items.forEach(addDeclared);
+  context.scopes.qualifiers.forEach(add);
+  context.scopes.libraries.index.forEach(add);
+  return nearest(names.text(written), candidates);
+}
+
+}  // namespace rung::sema

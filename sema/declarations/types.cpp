@@ -1,0 +1,401 @@
+// Types as written become TypeIds: elementary types, names, arrays, strings, subranges, enumerations, structures,
+// pointers. Named types are resolved on first use; records only get their fields when somebody asks for them, so that
+// long chains of blocks within blocks need no deep recursion.
+#include "sema/declarations/declarations.h"
+
+#include <limits>
+
+namespace rung::sema {
+
+using types::Dimension;
+using types::RecordKind;
+using types::TypeInfo;
+using types::TypeKind;
+using types::TypeTable;
+
+namespace {
+
+constexpr int64_t kMaxTextLength = 1 << 20;
+
+// Marks in TypeExprHeader::bits.
+constexpr uint8_t kBusy = 1;
+
+std::string spelled(int64_t number) { return std::to_string(number); }
+
+// Forbids a type name that nothing declares, and names of things that are no types.
+//   passes  m : Motor;       fails  m : Moter;         E0402, did you mean `Motor`?
+void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
+  const std::string_view text = context.names().text(name);
+  if (found.what() == EntityKind::Pou) {
+    context.report(Diag::FunctionAsType, loc, {text}).note(context.project.pous[found.index].loc, Note::DeclaredHere);
+    return;
+  }
+  if (context.project.diagnostics.full()) {
+    context.report(Diag::UnknownType, loc, {text});
+    return;
+  }
+  std::vector<std::string_view> candidates;
+  const auto add = [&](NameId key, Entity declared) {
+    if (declared.what() == EntityKind::Type) {
+      const NameId spelling = context.types().info(TypeId{declared.index}).name;
+      candidates.push_back(context.names().text(spelling ? spelling : key));
+    } else if (declared.what() == EntityKind::Pou && context.project.pous[declared.index].kind != PouKind::Function) {
+      candidates.push_back(context.names().text(context.project.pous[declared.index].name));
+    }
+  };
+  context.scopes.pous_and_types.forEach(add);
+  context.scopes.libraries.index.forEach([&](NameId key, Entity) { candidates.push_back(context.names().text(key)); });
+  for (uint32_t kind = 0; kind < static_cast<uint32_t>(TypeKind::Any); ++kind) {
+    const NameId elementary = context.types().info(TypeId{kind}).name;
+    if (elementary) candidates.push_back(context.names().text(elementary));
+  }
+  context.report(Diag::UnknownType, loc, {text}).didYouMean(nearest(text, candidates));
+}
+
+// A type or block by name: of the project, then of libraries (a library's own names first for its texts).
+Entity findType(Context& context, NameId name) {
+  const NameId key = keyOf(context, name);
+  if (context.library) {
+    if (const Entity found = lookUpLibrary(context, key)) return found;
+  }
+  if (const Entity found = context.scopes.pous_and_types.find(key)) return found;
+  return context.library ? Entity{} : lookUpLibrary(context, key);
+}
+
+TypeId typeOf(Context& context, Entity found) {
+  if (found.what() == EntityKind::Type) {
+    const TypeId type{found.index};
+    if (context.types().info(type).kind != TypeKind::Record) resolveNamed(context, type);
+    return type;
+  }
+  if (found.what() == EntityKind::Pou) return context.project.pous[found.index].record;
+  return {};
+}
+
+TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
+  const uint32_t length = expr.path.count;
+  const Ident first = context.tree().list(expr.path)[0];
+  const Ident last = context.tree().list(expr.path)[length - 1];
+  Entity found;
+  if (length == 1) {
+    if (const TypeId elementary = context.types().elementary(first.name)) {
+      const TypeKind kind = context.types().info(elementary).kind;
+      if (!TypeTable::isGeneric(kind) || !context.pou) return elementary;
+      for (const Substitution& put : context.scopes.pous[context.pou.index].substitutions) {
+        if (put.generic == kind) return put.type;
+      }
+      return elementary;
+    }
+    found = findType(context, first.name);
+  } else {
+    // Lib.Motor, or Lib.Sub.Motor of nested name spaces.
+    Entity qualifier = context.scopes.libraries.namespaces.find(keyOf(context, first.name));
+    if (!qualifier) {
+      context.report(Diag::UnknownName, first.loc, {context.names().text(first.name)})
+          .didYouMean(nearestName(context, first.name));
+      return types::kError;
+    }
+    found = lookUpLibrary(context, keyOf(context, last.name), qualifier.index);
+  }
+  const TypeId type = typeOf(context, found);
+  if (type) return type;
+  reportUnknownType(context, last.name, last.loc, found);
+  return types::kError;
+}
+
+TypeId resolveText(Context& context, TypeExprId id) {
+  TextTypeExpr& expr = context.tree().as<TextTypeExpr>(id);
+  if (!expr.length) return types::idOf(expr.wide ? TypeKind::WString : TypeKind::String);
+  const auto length = constantBound(context, expr.length);
+  if (!length) return types::kError;
+  if (*length < 1 || *length > kMaxTextLength) {
+    context.report(Diag::TextLength, context.tree().begin(expr.length), {spelled(*length), spelled(kMaxTextLength)});
+    return types::kError;
+  }
+  const auto capacity = static_cast<uint32_t>(*length);
+  return expr.wide ? context.types().wstring(capacity) : context.types().string(capacity);
+}
+
+// Forbids array bounds that are not constant or that are reversed. IEC 61131-3 ed. 3, 6.4.4.5.
+//   passes  ARRAY[1..10] OF INT        fails  ARRAY[10..1] OF INT      E0306
+TypeId resolveArray(Context& context, TypeExprId id) {
+  ArrayTypeExpr& expr = context.tree().as<ArrayTypeExpr>(id);
+  std::vector<Dimension> dimensions;
+  bool good = true;
+  for (uint32_t i = 0; i < expr.bounds.count; ++i) {
+    ArrayBound bound = context.tree().list(expr.bounds)[i];
+    if (!bound.low) {
+      context.report(Diag::OpenArray, expr.h.loc);
+      good = false;
+      continue;
+    }
+    const auto low = constantBound(context, bound.low);
+    const auto high = constantBound(context, bound.high);
+    context.tree().list(expr.bounds)[i] = bound;
+    if (!low || !high) {
+      good = false;
+    } else if (*low > *high) {
+      context.report(Diag::ArrayBoundsReversed, context.tree().begin(bound.low), {spelled(*low), spelled(*high)});
+      good = false;
+    } else if (*low < std::numeric_limits<int32_t>::min() || *high > std::numeric_limits<int32_t>::max()) {
+      context.report(Diag::ArrayBoundOutside, context.tree().begin(bound.low));
+      good = false;
+    } else {
+      dimensions.push_back({*low, *high});
+    }
+  }
+  const TypeId element = resolveType(context, expr.element);
+  if (!good || element == types::kError) return types::kError;
+  return context.types().array(element, dimensions);
+}
+
+// The integer type that a subrange or an enumeration stands on.
+//   fails   TYPE t : REAL (0..1); END_TYPE              E0308
+TypeId integerBase(Context& context, TypeExprId base, Diag diag) {
+  const TypeId type = resolveType(context, base);
+  if (type == types::kError) return type;
+  const TypeKind kind = context.types().kind(type);
+  if (TypeTable::isInteger(kind) || TypeTable::isBits(kind)) return context.types().resolve(type);
+  context.report(diag, context.tree().loc(base), {context.types().spell(type)});
+  return types::kError;
+}
+
+// True when the number is a value of the integer type; reports when not.
+bool fits(Context& context, TypeId base, int64_t number, Loc loc) {
+  const types::Value value{types::idOf(TypeKind::LInt), static_cast<uint64_t>(number)};
+  if (!types::convert(context.types(), value, base).overflow) return true;
+  context.report(Diag::NoValueOfType, loc, {spelled(number), context.types().spell(base)});
+  return false;
+}
+
+void fillSubrange(Context& context, TypeId type, TypeExprId id) {
+  SubrangeTypeExpr& expr = context.tree().as<SubrangeTypeExpr>(id);
+  const TypeId base = integerBase(context, expr.base, Diag::SubrangeBase);
+  const auto low = constantBound(context, expr.low);
+  const auto high = constantBound(context, expr.high);
+  TypeInfo& info = context.types().edit(type);
+  info.base = base;
+  bool good = base != types::kError && low && high;
+  if (good) {
+    good = fits(context, base, *low, context.tree().begin(expr.low)) &&
+           fits(context, base, *high, context.tree().begin(expr.high));
+  }
+  if (good && *low > *high) {
+    context.report(Diag::SubrangeReversed, context.tree().begin(expr.low), {spelled(*low), spelled(*high)});
+    good = false;
+  }
+  if (!good) {  // what uses it is silent
+    info.kind = TypeKind::Alias;
+    info.base = types::kError;
+    return;
+  }
+  info.low = *low;
+  info.high = *high;
+}
+
+// Items without a value follow the one before, from 0. IEC 61131-3 ed. 3, 6.4.4.2 and table 11, 3.
+void fillEnum(Context& context, TypeId type, TypeExprId id) {
+  EnumTypeExpr& expr = context.tree().as<EnumTypeExpr>(id);
+  Project& project = context.project;
+  TypeId base = types::kInt;
+  if (expr.base) {
+    base = integerBase(context, expr.base, Diag::EnumBase);
+    if (base == types::kError) base = types::kInt;
+  }
+  context.types().edit(type).base = base;
+  NamedType& named = *context.scopes.named(type);
+  int64_t next = 0;
+  for (uint32_t i = 0; i < expr.items.count; ++i) {
+    EnumItem item = context.tree().list(expr.items)[i];
+    bool good = true;
+    if (item.value) {
+      const auto value = constantBound(context, item.value);
+      context.tree().list(expr.items)[i].value = item.value;
+      if (value) {
+        next = *value;
+      } else {
+        good = false;
+      }
+    }
+    if (good && !fits(context, base, next, item.value ? context.tree().begin(item.value) : item.item.loc)) next = 0;
+    context.types().edit(type).items.emplace_back(item.item.name, next);
+    const Entity declared = named.members.find(keyOf(context, item.item.name));
+    if (declared.what() == EntityKind::EnumValue && project.enum_values[declared.index].loc == item.item.loc) {
+      project.enum_values[declared.index].value = next;
+    }
+    ++next;
+  }
+}
+
+// A field for each field of the structure that this one extends, at the same offsets.
+void inheritFields(Context& context, TypeId record, TypeExprId base_expr) {
+  const TypeId base = context.types().resolve(resolveType(context, base_expr));
+  if (base == types::kError) return;
+  NamedType* named_base = context.scopes.named(base);
+  const TypeInfo& info = context.types().info(base);
+  if (named_base == nullptr || info.kind != TypeKind::Record || info.record_kind != RecordKind::Struct) {
+    context.report(Diag::ExtendsNoStruct, context.tree().loc(base_expr), {context.types().spell(base)});
+    return;
+  }
+  resolveNamed(context, base);
+  NamedType& named = *context.scopes.named(record);
+  for (size_t i = 0; i < named_base->fields.size(); ++i) {
+    Var var = context.project.var(named_base->fields[i]);
+    ensureInitialValue(context, named_base->fields[i]);
+    var.init = context.project.var(named_base->fields[i]).init;
+    const VarId id{static_cast<uint32_t>(context.project.vars.size())};
+    var.record = record;
+    var.decl = {};  // checked where it is written
+    context.project.vars.push_back(var);
+    named.members.insert(keyOf(context, var.name), entity(id));
+    addField(context, record, id);
+  }
+}
+
+void fillRecord(Context& context, TypeId type, TypeExprId id) {
+  const StructTypeExpr& expr = context.tree().as<StructTypeExpr>(id);
+  Project& project = context.project;
+  NamedType& named = *context.scopes.named(type);
+  if (expr.base) inheritFields(context, type, expr.base);
+  SectionDecl section{};
+  section.section = SectionKind::Local;
+  std::vector<VarId> vars;
+  for (uint32_t i = 0; i < expr.fields.count; ++i) {
+    const DeclId decl = context.tree().list(expr.fields)[i];
+    if (context.tree().kind(decl) != DeclKind::Var) continue;
+    declareVars(context, decl, section, {}, {}, &named.members, vars);
+  }
+  for (const VarId var : vars) {
+    project.var(var).record = type;
+    project.var(var).storage = Storage::Field;
+  }
+  for (const VarId var : vars) {
+    ensureVarType(context, var);
+    addField(context, type, var);
+  }
+}
+
+// Types written in place, in VAR: a name of their own for generated code.
+NameId nameInPlace(Context& context, Loc loc) {
+  const Place place = context.project.sources.place(loc);
+  std::string name = context.pou ? spelled(context, context.project.pou(context.pou).unique_name) : "Type";
+  name += "__" + std::to_string(place.line) + "_" + std::to_string(place.column);
+  return context.names().intern(name);
+}
+
+NamedType& addInPlace(Context& context, TypeId type, TypeExprId written) {
+  NamedType& named = addNamed(context, type);
+  named.type = written;
+  named.owner = context.pou;
+  named.file = context.file;
+  named.library = context.library;
+  return named;
+}
+
+TypeId resolveWritten(Context& context, TypeExprId id) {
+  Tree& tree = context.tree();
+  types::TypeTable& table = context.types();
+  switch (tree.kind(id)) {
+    case TypeExprKind::Error: return types::kError;
+    case TypeExprKind::Named: return resolveNamedExpr(context, tree.as<NamedTypeExpr>(id));
+    case TypeExprKind::Text: return resolveText(context, id);
+    case TypeExprKind::Array: return resolveArray(context, id);
+    case TypeExprKind::Subrange: {
+      const TypeId type = table.addSubrange({}, types::kInt, 0, 0);
+      addInPlace(context, type, id).resolved = State::Done;
+      fillSubrange(context, type, id);
+      return type;
+    }
+    case TypeExprKind::Enum: {
+      const TypeId type = table.addEnum({}, types::kInt);
+      addInPlace(context, type, id).resolved = State::Done;
+      NameMap* bare = context.pou ? &context.scopes.pous[context.pou.index].names : &context.scopes.items;
+      declareItems(context, type, id, bare, false);
+      fillEnum(context, type, id);
+      return type;
+    }
+    case TypeExprKind::Struct: {
+      const bool is_union = tree.as<StructTypeExpr>(id).is_union;
+      const TypeId type =
+          table.addRecord(is_union ? RecordKind::Union : RecordKind::Struct, nameInPlace(context, tree.loc(id)));
+      addInPlace(context, type, id);
+      return type;
+    }
+    case TypeExprKind::Pointer: {
+      const PointerTypeExpr& expr = tree.as<PointerTypeExpr>(id);
+      const TypeId target = resolveType(context, expr.target);
+      if (target == types::kError) return target;
+      return expr.form == PointerForm::Pointer ? table.pointer(target) : table.reference(target);
+    }
+  }
+  return types::kError;
+}
+
+}  // namespace
+
+TypeId lookUpType(Context& context, NameId name) {
+  if (const TypeId elementary = context.types().elementary(name)) return elementary;
+  return typeOf(context, findType(context, name));
+}
+
+TypeId resolveType(Context& context, TypeExprId id) {
+  TypeExprHeader& header = context.tree().typeExpr(id);
+  if (header.type) return header.type;
+  if ((header.bits & kBusy) != 0 || context.scopes.depth > kMaxDeclarationDepth) {
+    // An array bound or length that needs the type itself.
+    context.report(Diag::TypeOfItself, header.loc);
+    return header.type = types::kError;
+  }
+  header.bits |= kBusy;
+  ++context.scopes.depth;
+  const TypeId type = resolveWritten(context, id);
+  --context.scopes.depth;
+  header.bits &= static_cast<uint8_t>(~kBusy);
+  if (!header.type) header.type = type;
+  return header.type;
+}
+
+void resolveNamed(Context& context, TypeId type) {
+  NamedType* named = context.scopes.named(type);
+  if (named == nullptr || named->resolved == State::Done) return;
+  if (named->pou) return resolvePou(context, named->pou);
+  if (!named->type) return;  // a global list
+  if (named->resolved == State::Busy) {
+    TypeInfo& info = context.types().edit(type);
+    if (info.kind == TypeKind::Alias && info.base == types::kError && named->decl) {
+      // Forbids an alias of itself.   fails  TYPE a : b; b : a; END_TYPE       E0304
+      const TypeDecl& decl = context.tree().as<TypeDecl>(named->decl);
+      context.report(Diag::AliasOfItself, decl.h.loc, {context.names().text(decl.name)});
+    }
+    return;
+  }
+  if (context.scopes.depth > kMaxDeclarationDepth) {
+    context.report(Diag::DeclarationsTooDeep, context.tree().loc(named->type),
+                   {context.names().text(context.types().info(type).name)});
+    named->resolved = State::Done;
+    return;
+  }
+  named->resolved = State::Busy;
+  ++context.scopes.depth;
+  Context there = at(context, named->owner, named->file, named->library);
+  switch (context.tree().kind(named->type)) {
+    case TypeExprKind::Enum: fillEnum(there, type, named->type); break;
+    case TypeExprKind::Subrange: fillSubrange(there, type, named->type); break;
+    case TypeExprKind::Struct: fillRecord(there, type, named->type); break;
+    case TypeExprKind::Error: break;
+    case TypeExprKind::Named:
+    case TypeExprKind::Text:
+    case TypeExprKind::Array:
+    case TypeExprKind::Pointer: {
+      const TypeId target = resolveType(there, named->type);
+      TypeId step = target;  // an alias that leads back here was reported
+      while (step != type && context.types().info(step).kind == TypeKind::Alias) step = context.types().info(step).base;
+      context.types().edit(type).base = step == type ? types::kError : target;
+      break;
+    }
+  }
+  --context.scopes.depth;
+  context.scopes.named(type)->resolved = State::Done;
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,395 @@
+// Variables of POUs and global lists: their names first, then types and storage, then initial values; each on demand.
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+using types::Field;
+using types::FieldRole;
+using types::RecordKind;
+using types::TypeKind;
+
+namespace {
+
+const char* sectionWord(SectionKind kind) {
+  switch (kind) {
+    case SectionKind::Local: return "VAR";
+    case SectionKind::Input: return "VAR_INPUT";
+    case SectionKind::Output: return "VAR_OUTPUT";
+    case SectionKind::InOut: return "VAR_IN_OUT";
+    case SectionKind::Temp: return "VAR_TEMP";
+    case SectionKind::External: return "VAR_EXTERNAL";
+    case SectionKind::Global: return "VAR_GLOBAL";
+    case SectionKind::Stat: return "VAR_STAT";
+    case SectionKind::Access: return "VAR_ACCESS";
+    case SectionKind::Config: return "VAR_CONFIG";
+  }
+  return "VAR";
+}
+
+const char* kindWord(PouKind kind) {
+  return kind == PouKind::Function ? "FUNCTION" : kind == PouKind::Program ? "PROGRAM" : "FUNCTION_BLOCK";
+}
+
+Storage storageOf(const Context& context, SectionKind section, PouId pou, bool located) {
+  if (located) return Storage::Image;
+  if (!pou || section == SectionKind::External) return Storage::Global;
+  if (section == SectionKind::Temp || context.project.pou(pou).kind == PouKind::Function) return Storage::Local;
+  return Storage::Field;
+}
+
+Context contextOf(Context& context, const Var& var) {
+  if (var.pou) return atPou(context, var.pou);
+  if (const NamedType* named = var.record ? context.scopes.named(var.record) : nullptr) {
+    return at(context, named->owner, named->file, named->library);
+  }
+  const NamedType* list = nullptr;
+  if (var.list) list = context.scopes.named(context.project.global_lists[var.list.index].record);
+  return at(context, {}, context.project.sources.fileOf(var.loc), list != nullptr && list->library);
+}
+
+}  // namespace
+
+void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, PouId pou, ListId list, NameMap* names,
+                 std::vector<VarId>& into) {
+  Project& project = context.project;
+  const Scopes::Words& words = context.scopes.words;
+  const VarDecl& decl = context.tree().as<VarDecl>(decl_id);
+  Var var;
+  var.decl = decl_id;
+  var.section = section.section;
+  var.storage = storageOf(context, section.section, pou, decl.located);
+  var.edge = decl.edge;
+  var.constant = (section.h.bits & kConstant) != 0;
+  var.persistent = (section.h.bits & kPersistent) != 0;
+  var.retain = (section.h.bits & kRetain) != 0 || var.persistent;
+  var.pou = pou;
+  var.list = list;
+  if (!decl.h.pragmas.empty()) {
+    var.required = findPragma(context, decl.h, words.required) != nullptr;
+    var.lazy = findPragma(context, decl.h, words.lazy) != nullptr;
+    var.extensible = findPragma(context, decl.h, words.extensible) != nullptr;
+    for (const Pragma& pragma : context.tree().list(decl.h.pragmas)) {
+      if (keyOf(context, pragma.name) == words.alias) {
+        var.aliases.push_back(context.names().intern(context.tree().text(pragma.value)));
+      }
+    }
+  }
+  const uint32_t count = decl.names.empty() ? 1 : decl.names.count;  // an unnamed located variable
+  for (uint32_t i = 0; i < count; ++i) {
+    const VarId id{static_cast<uint32_t>(project.vars.size())};
+    var.loc = decl.h.loc;
+    if (!decl.names.empty()) {
+      const Ident& ident = context.tree().list(decl.names)[i];
+      var.name = ident.name;
+      var.loc = ident.loc;
+    }
+    project.vars.push_back(var);
+    into.push_back(id);
+    if (!var.name) continue;
+    const TypeId elementary = context.types().elementary(var.name);
+    if (elementary && !types::TypeTable::isGeneric(context.types().info(elementary).kind)) {
+      context.report(Diag::ElementaryTypeName, var.loc, {context.names().text(var.name)});
+      continue;
+    }
+    const NameId key = keyOf(context, var.name);
+    if (!names->insert(key, entity(id))) {
+      const Entity first = names->find(key);
+      const Loc loc = first.what() == EntityKind::Var ? project.vars[first.index].loc : Loc{};
+      reportTwice(context, var.name, var.loc, loc);
+      continue;
+    }
+    for (const NameId alias : var.aliases) names->insert(keyOf(context, alias), entity(id));
+  }
+}
+
+void addField(Context& context, TypeId record, VarId id) {
+  Var& var = context.project.var(id);
+  Field field;
+  field.name = var.name;
+  field.type = var.type;
+  field.role = var.section == SectionKind::Input    ? FieldRole::Input
+               : var.section == SectionKind::Output ? FieldRole::Output
+               : var.section == SectionKind::InOut  ? FieldRole::InOut
+               : var.pou                            ? FieldRole::Local
+                                                    : FieldRole::Member;
+  field.by_reference = var.section == SectionKind::InOut;
+  field.retain = var.retain;
+  field.persistent = var.persistent;
+  field.constant = var.constant;
+  types::TypeInfo& info = context.types().edit(record);
+  var.field = static_cast<uint32_t>(info.fields.size());
+  info.fields.push_back(field);
+  context.scopes.named(record)->fields.push_back(id);
+}
+
+namespace {
+
+// Forbids R_EDGE and F_EDGE on anything but a BOOL input of a block. IEC 61131-3 ed. 3 table 40, 4.
+//   fails   VAR_INPUT clk : INT R_EDGE; END_VAR        E0333
+void checkEdge(Context& context, const Var& var) {
+  if (var.edge == EdgeKind::None || var.type == types::kError) return;
+  const bool block = var.pou && context.project.pou(var.pou).kind != PouKind::Function;
+  if (block && var.section == SectionKind::Input && context.types().kind(var.type) == TypeKind::Bool) return;
+  context.report(Diag::EdgeNotBool, var.loc, {context.names().text(var.name)});
+}
+
+// Forbids a VAR_EXTERNAL without its VAR_GLOBAL, or with another type. IEC 61131-3 ed. 3, 6.5.2.2.
+//   passes  VAR_GLOBAL level : REAL; END_VAR … VAR_EXTERNAL level : REAL; END_VAR
+//   fails   VAR_EXTERNAL level : INT; END_VAR          E0335
+void matchExternal(Context& context, VarId id) {
+  Project& project = context.project;
+  const NameId name = project.var(id).name;
+  const Loc loc = project.var(id).loc;
+  const Entity found = context.scopes.globals.find(keyOf(context, name));
+  if (found.what() != EntityKind::Var) {
+    std::vector<std::string_view> candidates;
+    context.scopes.globals.forEach(
+        [&](NameId, Entity global) { candidates.push_back(context.names().text(project.vars[global.index].name)); });
+    context.report(Diag::ExternalUnknown, loc, {context.names().text(name)})
+        .didYouMean(nearest(context.names().text(name), candidates));
+    project.var(id).type = types::kError;
+    return;
+  }
+  const VarId global_id{found.index};
+  ensureVarType(context, global_id);
+  Var& var = project.var(id);
+  const Var& global = project.var(global_id);
+  const types::TypeTable& table = context.types();
+  if (var.type != types::kError && global.type != types::kError &&
+      table.resolve(var.type) != table.resolve(global.type)) {
+    context
+        .report(Diag::ExternalType, loc, {context.names().text(name), table.spell(var.type), table.spell(global.type)})
+        .note(global.loc, Note::DeclaredHere);
+    var.type = types::kError;
+    return;
+  }
+  if (global.constant) var.constant = true;
+  var.external = global_id;
+  var.storage = global.storage;
+  var.list = global.list;
+  var.field = global.field;
+  var.image = global.image;
+  if (global.constant) {
+    ensureInitialValue(context, global_id);
+    var.has_value = project.var(global_id).has_value;
+    var.value = project.var(global_id).value;
+  }
+}
+
+// Forbids initial values where none can act. IEC 61131-3 ed. 3, 6.5.1.3; manual 5.3.3.
+//   fails   VAR_EXTERNAL level : REAL := 1.0; END_VAR  E0324
+bool mayHaveInitialValue(Context& context, const Var& var, ExprId init) {
+  if (var.section != SectionKind::External && var.section != SectionKind::InOut) return true;
+  context.report(Diag::InitialValueNotAllowed, context.tree().begin(init), {sectionWord(var.section)});
+  return false;
+}
+
+uint32_t firstOfDecl(const Project& project, uint32_t index) {
+  while (index > 1 && project.vars[index - 1].decl == project.vars[index].decl) --index;
+  return index;
+}
+
+}  // namespace
+
+void ensureVarType(Context& context, VarId id) {
+  Project& project = context.project;
+  if (project.var(id).type || !project.var(id).decl) return;
+  Context there = contextOf(context, project.var(id));
+  VarDecl& decl = context.tree().as<VarDecl>(project.var(id).decl);
+  if (context.scopes.depth > kMaxDeclarationDepth) {
+    context.report(Diag::DeclarationsTooDeep, project.var(id).loc, {context.names().text(project.var(id).name)});
+    project.var(id).type = types::kError;
+    return;
+  }
+  ++context.scopes.depth;
+  TypeId type = types::kError;
+  if (decl.type) type = resolveType(there, decl.type);
+  --context.scopes.depth;
+  const uint32_t first = firstOfDecl(project, id.index);
+  for (uint32_t i = first; i < project.vars.size() && project.vars[i].decl == project.vars[id.index].decl; ++i) {
+    Var& var = project.vars[i];
+    if (var.type) continue;
+    var.type = type;
+    checkEdge(there, var);
+    if (decl.located) {
+      if (const auto view = resolveAddress(there, decl.address, decl.h.loc, type)) {
+        var.image = *view;
+      } else {
+        var.type = types::kError;
+      }
+    }
+    if (var.section == SectionKind::External) matchExternal(there, VarId{i});
+  }
+}
+
+// Forbids a constant without a value, and one whose value needs itself. IEC 61131-3 ed. 3, 6.5.1.
+//   passes  VAR CONSTANT a : INT := b + 1; b : INT := 2; END_VAR
+//   fails   VAR CONSTANT a : INT := b; b : INT := a; END_VAR       E0321
+void ensureInitialValue(Context& context, VarId id) {
+  Project& project = context.project;
+  if (!project.var(id).decl) return;
+  VarDecl& decl = context.tree().as<VarDecl>(project.var(id).decl);
+  if (decl.h.spare == static_cast<uint16_t>(State::Done)) return;
+  if (project.var(id).section == SectionKind::External && project.var(id).external && !decl.init) return;
+  Context there = contextOf(context, project.var(id));
+  const auto setUnknown = [&] {  // what follows from the mistake is silent
+    Var& var = project.var(id);
+    const TypeKind kind = context.types().plainKind(var.type);
+    if (!types::TypeTable::isElementary(kind)) return;
+    var.has_value = true;
+    var.value = types::defaultValue(context.types(), context.names(), var.type);
+    if (types::TypeTable::isReal(kind)) var.value = types::Value::ofReal(var.type, 1.0);
+    if (types::TypeTable::isInteger(kind) && var.value.bits == 0) var.value.bits = 1;
+  };
+  if (decl.h.spare == static_cast<uint16_t>(State::Busy)) {
+    if (project.var(id).constant && !project.var(id).has_value) {
+      context.report(Diag::ConstantCycle, project.var(id).loc, {context.names().text(project.var(id).name)});
+      setUnknown();
+    }
+    return;
+  }
+  ensureVarType(context, id);
+  if (context.scopes.depth > kMaxDeclarationDepth) {
+    context.report(Diag::DeclarationsTooDeep, project.var(id).loc, {context.names().text(project.var(id).name)});
+    return setUnknown();
+  }
+  decl.h.spare = static_cast<uint16_t>(State::Busy);
+  const TypeId type = project.var(id).type;
+  ExprId init = decl.init;
+  const Var& var = project.var(id);
+  if (!init && var.constant && var.section != SectionKind::External && var.section != SectionKind::Input &&
+      var.section != SectionKind::InOut && type != types::kError) {
+    context.report(Diag::ConstantWithoutValue, var.loc, {context.names().text(var.name)});
+  }
+  bool good = true;
+  if (init && !mayHaveInitialValue(there, var, init)) init = {};
+  if (init) {
+    ++context.scopes.depth;
+    const uint32_t errors = project.diagnostics.errorCount();
+    std::string what = "the initial value of `" + spelled(context, var.name) + "`";
+    checkInitializerAs(there, init, type, what);
+    good = project.diagnostics.errorCount() == errors;
+    --context.scopes.depth;
+    decl.init = init;
+  }
+  decl.h.spare = static_cast<uint16_t>(State::Done);
+  const TypeKind kind = context.types().plainKind(type);
+  std::optional<types::Value> value;
+  if (var.constant && init && types::TypeTable::isElementary(kind)) {
+    if (good) value = evaluate(there, init);
+    if (value) value->type = type;
+  }
+  for (uint32_t i = firstOfDecl(project, id.index);
+       i < project.vars.size() && project.vars[i].decl == project.vars[id.index].decl; ++i) {
+    project.vars[i].init = init;
+    if (value) {
+      project.vars[i].has_value = true;
+      project.vars[i].value = *value;
+    } else if (var.constant && init && !good) {
+      id = VarId{i};
+      setUnknown();
+    }
+  }
+}
+
+void declarePou(Context& context, PouId id) {
+  PouScope& scope = context.scopes.pous[id.index];
+  if (scope.declared) return;
+  scope.declared = true;
+  Project& project = context.project;
+  Tree& tree = context.tree();
+  const PouDecl& decl = tree.as<PouDecl>(project.pou(id).decl);
+  Context there = atPou(context, id);
+  const PouKind kind = decl.pou_kind;
+  if (decl.result) {
+    Var var;
+    var.name = decl.name;
+    var.loc = decl.h.loc;
+    var.section = SectionKind::Output;
+    var.pou = id;
+    project.vars.push_back(var);
+    project.pou(id).result_var = VarId{static_cast<uint32_t>(project.vars.size() - 1)};
+  }
+  for (uint32_t s = 0; s < decl.sections.count; ++s) {
+    const SectionDecl& section = tree.as<SectionDecl>(tree.list(decl.sections)[s]);
+    // Forbids sections that a POU cannot have. IEC 61131-3 ed. 3 table 14.
+    const bool misplaced = section.section == SectionKind::Global || section.section == SectionKind::Access ||
+                           section.section == SectionKind::Config ||
+                           (section.section == SectionKind::Stat && kind == PouKind::Function);
+    if (misplaced) {
+      there.report(Diag::SectionNotAllowed, section.h.loc, {sectionWord(section.section), kindWord(kind)});
+      if (section.section != SectionKind::Global && section.section != SectionKind::Stat) continue;
+    }
+    for (uint32_t i = 0; i < section.vars.count; ++i) {
+      declareVars(there, tree.list(section.vars)[i], section, id, {}, &scope.names, project.pou(id).vars);
+    }
+  }
+  if (project.pou(id).result_var) {
+    // The name is the result inside the body, unless a pin has it (reported by nobody: the pin hides it).
+    scope.names.insert(keyOf(context, decl.name), entity(project.pou(id).result_var));
+  }
+}
+
+void resolvePou(Context& context, PouId id) {
+  PouScope& scope = context.scopes.pous[id.index];
+  if (scope.resolved != State::New) return;
+  scope.resolved = State::Busy;
+  declarePou(context, id);
+  Project& project = context.project;
+  Context there = atPou(context, id);
+  Pou& pou = project.pou(id);
+  const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
+  if (decl.result) {
+    const TypeId result = resolveType(there, decl.result);
+    pou.result = result;
+    project.var(pou.result_var).type = result;
+    if (types::TypeTable::isGeneric(context.types().kind(result))) pou.generic = true;
+  }
+  std::vector<VarId> edges;
+  for (size_t i = 0; i < pou.vars.size(); ++i) {
+    const VarId var_id = pou.vars[i];
+    ensureVarType(there, var_id);
+    Var& var = project.var(var_id);
+    if (var.storage == Storage::Local) var.field = static_cast<uint32_t>(i);
+    if (var.storage == Storage::Field) addField(there, pou.record, var_id);
+    if (types::TypeTable::isGeneric(context.types().kind(var.type))) pou.generic = true;
+    if (var.extensible) pou.extensible = true;
+    if (var.edge != EdgeKind::None && var.storage == Storage::Field) edges.push_back(var_id);
+  }
+  // Forbids generic types outside of functions: an instance of a block has one layout.
+  if (pou.generic && pou.kind != PouKind::Function) {
+    context.report(Diag::GenericBlock, pou.loc, {context.names().text(pou.name)});
+    pou.generic = false;
+  }
+  for (const VarId edge : edges) {
+    Var memory;
+    memory.name = context.names().intern(spelled(context, project.var(edge).name) + "__edge");
+    memory.loc = project.var(edge).loc;
+    memory.type = types::kBool;
+    memory.storage = Storage::Field;
+    memory.pou = id;
+    memory.read = memory.written = true;
+    const VarId memory_id{static_cast<uint32_t>(project.vars.size())};
+    project.vars.push_back(memory);
+    project.var(edge).edge_memory = memory_id;
+    pou.vars.push_back(memory_id);
+    addField(there, pou.record, memory_id);
+  }
+  scope.resolved = State::Done;
+}
+
+void resolveList(Context& context, ListId id) {
+  ListScope& scope = context.scopes.lists[id.index];
+  if (scope.resolved != State::New) return;
+  scope.resolved = State::Busy;
+  Project& project = context.project;
+  const TypeId record = project.global_lists[id.index].record;
+  for (size_t i = 0; i < project.global_lists[id.index].vars.size(); ++i) {
+    const VarId var = project.global_lists[id.index].vars[i];
+    ensureVarType(context, var);
+    if (project.var(var).storage == Storage::Global) addField(context, record, var);
+  }
+  scope.resolved = State::Done;
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,139 @@
+// Scopes: the hash tables behind names, and what sema remembers of declarations while it resolves them on demand.
+// Lives as long as one check(). Tables are keyed by Names::key, so that every spelling of an identifier is the same.
+// Internal to sema/.
+#pragma once
+
+#include <deque>
+#include <string_view>
+#include <vector>
+
+#include "sema/project.h"
+
+namespace rung::sema {
+
+// From a name key to what it stands for. Open addressing; one allocation; 8 bytes a slot.
+class NameMap {
+ public:
+  Entity find(NameId key) const {
+    if (count_ == 0) return {};
+    for (uint32_t i = hash(key);; ++i) {
+      const Slot& slot = slots_[i & (slots_.size() - 1)];
+      if (slot.key == key) return slot.entity;
+      if (!slot.key) return {};
+    }
+  }
+  // False when the key stands for something already.
+  bool insert(NameId key, Entity entity);
+  template <class Visit>
+  void forEach(Visit visit) const {
+    for (const Slot& slot : slots_)
+      if (slot.key) visit(slot.key, slot.entity);
+  }
+
+ private:
+  struct Slot {
+    NameId key;
+    Entity entity;
+  };
+  static uint32_t hash(NameId key) { return (key.index * 0x9e3779b1u) >> 7; }
+  std::vector<Slot> slots_;
+  uint32_t count_ = 0;
+};
+
+enum class State : uint8_t { New, Busy, Done };
+
+// A named type, or the record of a POU or global list.
+struct NamedType {
+  DeclId decl;      // TypeDecl; none for records of POUs and lists, and for types written in place
+  TypeExprId type;  // what is written
+  PouId pou;        // the POU whose record it is
+  PouId owner;      // the POU in whose VAR it is written
+  FileId file;
+  State resolved = State::New;
+  State cut = State::New;  // looked at by the search for types that contain themselves
+  bool library = false;
+  NameMap members;            // of records: Var; of enumerations: EnumValue
+  std::vector<VarId> fields;  // of records, by field index
+};
+
+struct Substitution {  // of an instance of a generic function
+  types::TypeKind generic;
+  TypeId type;
+};
+
+struct PouScope {
+  State resolved = State::New;
+  bool declared = false;  // its variables have their names
+  NameMap names;
+  std::vector<Substitution> substitutions;
+};
+
+struct ListScope {
+  State resolved = State::New;
+  NameMap names;
+  std::vector<DeclId> decls;  // VarDecl, in order
+  FileId file;
+};
+
+// ---- libraries: what index tells, and what was read so far
+
+// One declaration of a library file: a POU, a TYPE block or a VAR_GLOBAL block.
+struct LibraryBlock {
+  uint32_t file = 0;  // index into Options::libraries
+  uint32_t begin = 0, end = 0;
+  bool loaded = false;
+};
+struct LibraryName {
+  NameId key;
+  uint32_t block = 0;
+  uint32_t next = 0;  // another declaration of the name, 0: none
+};
+struct Library {
+  NameId name;
+  NameMap names;  // what was read so far
+};
+struct Libraries {
+  std::vector<Library> list;              // by namespace index
+  std::vector<uint32_t> library_of_file;  // of Options::libraries
+  std::vector<FileId> sources;            // of Options::libraries; none: not yet added to Sources
+  std::vector<LibraryBlock> blocks;
+  std::vector<LibraryName> names{1};
+  NameMap index;       // name -> LibraryName (the entity's index; its kind says nothing)
+  NameMap namespaces;  // library name -> Namespace
+};
+
+struct Scopes {
+  NameMap pous_and_types;
+  NameMap globals;
+  NameMap items;                        // enumeration items by their bare name: the first that was declared
+  NameMap qualifiers;                   // global lists, program instances
+  std::vector<bool> item_is_ambiguous;  // by index of the first EnumValue
+
+  std::vector<uint32_t> named_of_type;  // by TypeId: index into named_types, 0: none
+  std::deque<NamedType> named_types{1};
+  std::deque<PouScope> pous{1};
+  std::deque<ListScope> lists{1};
+  NameMap instances;  // of generic functions, by unique name
+
+  // Everything declared, in order; settle() resolves from these marks on.
+  std::vector<TypeId> declared_types;
+  size_t settled_types = 0, checked_types = 0;
+  size_t settled_pous = 1, checked_pous = 1;
+  size_t settled_lists = 1, checked_lists = 1;
+  bool settling = false;
+  uint32_t depth = 0;  // of declarations resolved within each other
+
+  Libraries libraries;
+
+  // Pragmas and words that declarations look for, as name keys.
+  struct Words {
+    NameId attribute_qualified_only, attribute_strict, test, alias, required, lazy, extensible, pure, native, op, std;
+  } words;
+
+  NamedType* named(TypeId type) {
+    const uint32_t index = type.index < named_of_type.size() ? named_of_type[type.index] : 0;
+    return index == 0 ? nullptr : &named_types[index];
+  }
+};
+
+}  // namespace rung::sema
