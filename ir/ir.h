@@ -154,6 +154,7 @@ enum class BodyKind : uint8_t {
 
 // Where a body or record read from IR text comes from: its `loc` points into the text, its header names the source.
 struct Origin {
+  bool from_text = false;
   NameId path;
   uint32_t line = 0;
 };

@@ -246,6 +246,7 @@ void Reader::declareType() {
 
 Origin Reader::origin() {
   Origin result;
+  result.from_text = true;
   if (failed_ || token().kind != TokenKind::String) return result;
   result.path = module_.names.intern(quotedText(TokenKind::String));
   expect(":");
@@ -521,8 +522,8 @@ void Reader::declareItem() {
 }
 
 bool Reader::read() {
-  findItems();
   const bool had_errors = diagnostics_.hasErrors();
+  findItems();
   auto forEachItem = [&](auto&& f) {
     for (size_t item : items_) {
       at_ = item;
@@ -542,6 +543,8 @@ bool Reader::read() {
   });
   for (const auto& entry : type_by_name_)
     if (!diagnostics_.hasErrors()) types_.layout(entry.second);
+  if (!diagnostics_.hasErrors())
+    for (const Data& data : module_.data) types_.layout(data.type);
   auto initOf = [&](TypeId record) {
     auto found = record_by_type_.find(record.index);
     return found == record_by_type_.end() ? Record{} : module_.records[found->second];

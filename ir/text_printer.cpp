@@ -268,7 +268,7 @@ void Printer::typeDeclarations() {
 void Printer::origin(const Origin& origin, Loc loc) {
   std::string_view path;
   uint32_t line = 0;
-  if (origin.path) {
+  if (origin.from_text) {
     path = module_.names.text(origin.path);
     line = origin.line;
   } else if (loc) {

@@ -17,8 +17,9 @@ class Simplifier {
     if (!body_.first) return false;
     if (body_.has_labels) {
       jumps_.assign(body_.labels.size(), 0);
-      for (const Stmt& s : body_.stmts)  // may count jumps that are removed below: the next run sees fewer
-        if (s.kind == StmtKind::Jump) ++jumps_[s.a];
+      forEachStmt(body_, body_.first, [&](StmtId id) {
+        if (body_.stmt(id).kind == StmtKind::Jump) ++jumps_[body_.stmt(id).a];
+      });
     }
     block(body_.first.index);
     if (body_.has_labels && labels_kept_ == 0) {
@@ -75,7 +76,8 @@ class Simplifier {
         }
       } else if (s.kind == StmtKind::If && s.b == 0) {
         negate(s);
-      } else if (s.kind == StmtKind::Loop && s.a != 0 && body_.stmts[s.a].kind == StmtKind::Break) {
+      } else if (s.kind == StmtKind::Loop && s.a != 0 && body_.stmts[s.a].kind == StmtKind::Break &&
+                 !body_.stmts[s.a].next) {
         relink(s.next.index);  // WHILE FALSE
         continue;
       }

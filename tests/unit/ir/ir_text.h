@@ -1,0 +1,27 @@
+// A module read from IR text, with all that it needs to live. For the tests of ir/.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "ir/text.h"
+
+namespace rung::ir {
+
+struct TestModule {
+  explicit TestModule(std::string text, std::string path = "test.ir");
+  Sources sources;
+  Names names;
+  Diagnostics diagnostics;
+  types::TypeTable types;
+  Module module;
+  bool good;
+
+  std::string errors() const;          // one line each: line:column code message
+  Body* find(std::string_view name);   // function or block
+};
+
+// Blanks and line ends folded to one blank: for comparison of printed bodies.
+std::string squeeze(std::string_view text);
+
+}  // namespace rung::ir
