@@ -1,0 +1,94 @@
+// ASSERT(cond [, 'text']), ASSERT_EQ(expected, actual [, 'text']), ASSERT_NEAR(expected, actual, tolerance [, 'text'])
+// of tests (design §11). In: a call of one of these names that is not declared otherwise. Out: CallKind::Assertion
+// with the operands in order, both sides brought to one type.
+#include "sema/bodies/bodies.h"
+
+namespace rung::sema {
+
+std::optional<Assertion> assertionOf(const Names& names, NameId name) {
+  const std::string_view spelled = names.text(name);
+  if (sameIdentifier(spelled, "ASSERT")) return Assertion::Assert;
+  if (sameIdentifier(spelled, "ASSERT_EQ")) return Assertion::AssertEq;
+  if (sameIdentifier(spelled, "ASSERT_NEAR")) return Assertion::AssertNear;
+  return std::nullopt;
+}
+
+TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  const uint32_t needed = assertion == Assertion::Assert ? 1 : assertion == Assertion::AssertEq ? 2 : 3;
+  const std::string_view name = text(context, context.tree().as<NameExpr>(node.callee).name);
+  std::vector<ExprId> operands;
+  for (uint32_t i = 0; i < node.arguments.count; ++i) {
+    const Argument argument = context.tree().list(node.arguments)[i];
+    if (argument.value && !argument.pin.name) operands.push_back(argument.value);
+  }
+  if (operands.size() != node.arguments.count || operands.size() < needed || operands.size() > needed + 1) {
+    context.report(
+        Diag::WrongArgumentCount, node.h.loc,
+        {name, std::to_string(needed) + " or " + std::to_string(needed + 1), std::to_string(operands.size())});
+    checkLooseArguments(context, node);
+    return node.h.type = types::kError;
+  }
+  bool good = true;
+  if (assertion == Assertion::Assert) {
+    good = checkAs(context, operands[0], types::kBool, Purpose{"used as the condition of ASSERT", {}, {}});
+  } else {
+    const TypeId first = check(context, operands[0], {}, Access::Read);
+    const TypeId hint = isUntyped(context, first) ? TypeId{} : first;
+    const TypeId second = check(context, operands[1], hint, Access::Read);
+    if (second != types::kError && !isUntyped(context, second) && first != second && first != types::kError &&
+        (entityOf(context, operands[0]).what() == EntityKind::EnumValue ||
+         context.tree().kind(operands[0]) == ExprKind::Literal)) {
+      check(context, operands[0], second, Access::Read);  // T#1s beside an LTIME, an item of the other's enumeration
+    }
+    if (assertion == Assertion::AssertNear) {
+      check(context, operands[2], first, Access::Read);
+      for (uint32_t i = 0; i < 3; ++i) {
+        good = good && context.tree().expr(operands[i]).type != types::kError;
+      }
+      TypeId common = types::kReal;
+      for (uint32_t i = 0; good && i < 3; ++i) {
+        const TypeId type = context.tree().expr(operands[i]).type;
+        if (isUntyped(context, type)) continue;
+        const TypeId with = commonNumber(context, common, type);
+        if (!with) {
+          context.report(Diag::OperandType, context.tree().loc(operands[i]), {name, context.types().spell(type)});
+          good = false;
+        } else {
+          common = with;
+        }
+      }
+      if (!types::TypeTable::isReal(context.types().plainKind(common))) common = types::kLReal;
+      for (uint32_t i = 0; good && i < 3; ++i)
+        good = convert(context, operands[i], common, Purpose{"compared with ASSERT_NEAR", {}, {}});
+    } else {
+      good = unify(context, std::span(operands).first(2), Operands::Equatable, {}, name, node.h.loc) != types::kError;
+    }
+  }
+  if (operands.size() > needed) {
+    ExprId& words = operands[needed];
+    const bool literal = context.tree().kind(words) == ExprKind::Literal &&
+                         context.tree().as<LiteralExpr>(words).literal() == LiteralKind::String;
+    if (!literal) {
+      check(context, words, {}, Access::Read);
+      context.report(Diag::AssertionText, context.tree().begin(words), {name});
+      good = false;
+    } else {
+      check(context, words, {}, Access::Read);
+    }
+  }
+  for (uint32_t i = 0; i < node.arguments.count; ++i) context.tree().list(node.arguments)[i].value = operands[i];
+  if (!good) return node.h.type = types::kError;
+  Call call;
+  call.kind = CallKind::Assertion;
+  call.assertion = assertion;
+  for (const ExprId operand : operands) {
+    Binding binding;
+    binding.value = operand;
+    call.bindings.push_back(binding);
+  }
+  node.call = addCall(context, std::move(call));
+  return node.h.type = {};
+}
+
+}  // namespace rung::sema

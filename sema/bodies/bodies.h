@@ -1,0 +1,170 @@
+// What the files of bodies/ share: how an expression is checked, converted and written to. Internal to bodies/ and
+// checks/; the rest of sema uses the functions of context.h.
+// Every function that may replace an expression takes the id by reference: it is the parent's child field.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sema/context.h"
+
+namespace rung::sema {
+
+using types::TypeKind;
+
+// What is done with the place that an expression names.
+enum class Access : uint8_t {
+  Read,
+  Write,      // the target of an assignment or an output binding
+  ReadWrite,  // an in-out argument, an instance that is called
+  Qualifier,  // the base of a member: may be a list, a library, a type or a program
+  Address,    // ADR, SIZEOF: neither read nor written here
+};
+
+// What a value is wanted for, in words only when there is a message: "assigned to `x`".
+struct Purpose {
+  std::string_view words;  // "assigned to", "used as the condition of IF"
+  NameId name;             // `x`
+  NameId of;               // of `TON`
+  std::string spell(const Context& context) const;
+};
+
+// The statements of one body.
+struct BodyState {
+  struct LoopControl {
+    VarId var;
+    Loc loc;
+  };
+  struct LabelUse {
+    Ident label;
+    uint32_t block;
+  };
+  std::vector<LoopControl> loop_controls;
+  uint32_t stmt_depth = 0;
+  uint32_t block = 0;                   // the statement list at hand
+  std::vector<uint32_t> block_parents;  // of each statement list of the body; filled only with labels in use
+  std::vector<LabelUse> labels, jumps;
+  uint32_t ways_out = 0;  // EXIT, RETURN and JMP seen so far: a loop without one between its ends never ends
+};
+
+// ---- expressions.cpp
+TypeId check(Context& context, ExprId& expr, TypeId expected, Access access);
+
+// ---- names.cpp
+TypeId checkName(Context& context, ExprId& expr, TypeId expected, Access access);
+TypeId checkTypedName(Context& context, ExprId& expr);
+TypeId checkMember(Context& context, ExprId& expr, TypeId expected, Access access);
+// True when a member expression names a thing as a whole (`GVL.x`, `Lib.f`, `Color.Red`), not a field of its base.
+bool isWhole(const Context& context, const MemberExpr& node);
+// The FB or program whose instance a record type is; none for structures.
+PouId pouOf(Context& context, TypeId record);
+// Resolves a name to what it stands for in operand position; reports and gives Error when it is unknown.
+Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected);
+// The entity that an expression names, when it names one.
+Entity entityOf(const Context& context, ExprId expr);
+void markAccess(Context& context, VarId var, Access access);
+
+// ---- literals.cpp
+inline bool isUntyped(const Context& context, TypeId type) {
+  const TypeKind kind = context.types().info(type).kind;
+  return kind == TypeKind::IntegerLiteral || kind == TypeKind::RealLiteral;
+}
+TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected);
+// The type that an untyped expression has when nothing around it gives one: INT, DINT, LINT, ULINT; REAL.
+TypeId defaultType(Context& context, ExprId expr);
+// The value of an untyped integer expression; false when it is too large or not known.
+bool untypedValue(const Context& context, ExprId expr, __int128& value);
+// True when the untyped integer fits the type without a message.
+bool untypedFits(Context& context, ExprId expr, TypeId to);
+// Gives an untyped expression a type; reports what does not fit.
+bool adapt(Context& context, ExprId& expr, TypeId to, const Purpose& purpose);
+// Gives it its default type, or the expected one where that is a number.
+TypeId settle(Context& context, ExprId& expr, TypeId expected = {});
+
+// ---- conversions.cpp
+enum class Fit : uint8_t {
+  Same,       // nothing to do
+  Lossless,   // converted silently
+  Lossy,      // a warning in codesys, an error in iec
+  Pointer,    // a pointer to something else: the same
+  Extension,  // codesys alone: bit strings and enumerations as integers
+  No,
+};
+Fit fit(const Context& context, TypeId from, TypeId to);
+bool sameType(const Context& context, TypeId a, TypeId b);
+// The expression was checked: adapts literals, converts to `to`, or reports.
+bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose);
+bool checkAs(Context& context, ExprId& expr, TypeId to, const Purpose& purpose);
+void wrapConvert(Context& context, ExprId& expr, TypeId to);
+// The BOOL of IF, WHILE, UNTIL.
+void checkCondition(Context& context, ExprId& expr, std::string_view words);
+// The type both sides are brought to; none when they do not combine.
+TypeId commonNumber(const Context& context, TypeId a, TypeId b);
+// Error or warning as the fit demands; false for an error.
+bool reportFit(Context& context, Fit fit, ExprId expr, TypeId from, TypeId to, const Purpose& purpose);
+
+// ---- operators.cpp
+TypeId checkUnary(Context& context, ExprId& expr, TypeId expected);
+TypeId checkBinary(Context& context, ExprId& expr, TypeId expected);
+// Both operands are checked: types them, converts them and says what the result is. `self` is the BinaryExpr, which
+// may be replaced (time arithmetic).
+TypeId combine(Context& context, ExprId& self, TypeId expected);
+// x ** n of checked operands: the base becomes REAL or LREAL, the exponent keeps its type.
+TypeId power(Context& context, ExprId& base_expr, ExprId& exponent_expr, TypeId expected, Loc loc);
+// The common type of several operands of one operator (ADD, MAX, EQ, MUX …), which are converted to it.
+enum class Operands : uint8_t { Number, NumberOrTime, Bits, Comparable, Equatable, Anything };
+TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, TypeId expected, std::string_view what,
+             Loc loc);
+
+// ---- time_arithmetic.cpp
+// TIME * INT, DT - DT, TOD + TIME …: rewritten as arithmetic on integers. None when the types do not combine so.
+TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, ExprId right);
+
+// ---- calls.cpp
+TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statement);
+std::span<const VarId> pinsOf(Context& context, PouId pou);
+// Which pin each argument belongs to, EN and ENO apart. Arguments without a pin are reported and checked alone.
+// `slots` has the argument's index + 1 by position among the pins; those of an {extensible} pin follow the last pin.
+struct Arguments {
+  std::vector<uint32_t> slots;
+  uint32_t en = 0, eno = 0;  // index + 1
+  uint32_t positional = 0;   // how many have no name
+  bool good = true;
+};
+Arguments matchArguments(Context& context, const CallExpr& node, PouId pou);
+void bindControlPins(Context& context, const CallExpr& node, const Arguments& arguments, Call& call);
+// Checks the arguments of a call that cannot be resolved, so that what is wrong in them is said too.
+void checkLooseArguments(Context& context, const CallExpr& node);
+void noteCall(Context& context, PouId callee, Loc loc);
+CallId addCall(Context& context, Call&& call);
+
+// ---- operator_calls.cpp
+TypeId checkOperatorCall(Context& context, ExprId& expr, PouId pou, TypeId expected, TypeId forced);
+// ---- conversion_calls.cpp
+// `INT_TO_REAL(x)`, `TO_INT(x)`, `REAL_TRUNC_INT(x)`, `MUX_INT(…)`: names that follow a rule. None when it is no such
+// name.
+TypeId checkRuleCall(Context& context, ExprId& expr, NameId name, TypeId expected);
+// ---- assertions.cpp
+TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion);
+std::optional<Assertion> assertionOf(const Names& names, NameId name);
+
+// ---- statements.cpp
+// Checks a list of statements; true when the end of the list can be reached.
+bool checkStatements(Context& context, Slice<StmtId> list);
+
+// ---- small things
+inline NameId nameOf(const Context& context, ExprId expr) {
+  if (context.tree().kind(expr) == ExprKind::Name) return context.tree().as<NameExpr>(expr).name;
+  if (context.tree().kind(expr) == ExprKind::Member) return context.tree().as<MemberExpr>(expr).member;
+  return {};
+}
+inline std::string_view text(const Context& context, NameId name) { return context.names().text(name); }
+// A constant integer that costs nothing to know, or evaluates. None when the expression is no constant.
+std::optional<int64_t> constantInteger(Context& context, ExprId expr);
+
+constexpr uint32_t kMaxExprDepth = 1000;
+constexpr uint32_t kMaxStmtDepth = 2000;
+
+}  // namespace rung::sema

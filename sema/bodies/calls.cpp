@@ -1,0 +1,459 @@
+// Calls: who is called, which argument goes to which pin, and what the result is. In: CallExpr. Out: a sema::Call with
+// the bindings in the order of the pins. Called by expressions.cpp and statements.cpp.
+// Generic and extensible functions are in generic_calls.cpp, operators in operator_calls.cpp, names that follow a rule
+// (INT_TO_REAL) in conversion_calls.cpp.
+#include "sema/bodies/bodies.h"
+#include "sema/bodies/generic_calls.h"
+#include "sema/checks/required_pins.h"
+#include "sema/checks/writable.h"
+
+namespace rung::sema {
+
+namespace {
+
+bool isPin(SectionKind section) {
+  return section == SectionKind::Input || section == SectionKind::InOut || section == SectionKind::Output;
+}
+
+const char* wordOf(SectionKind section) {
+  if (section == SectionKind::Input) return "an input";
+  return section == SectionKind::Output ? "an output" : "an in-out";
+}
+
+std::string_view nearestPin(Context& context, PouId pou, NameId written) {
+  std::vector<std::string_view> candidates;
+  for (const VarId pin : pinsOf(context, pou)) candidates.push_back(text(context, context.project.var(pin).name));
+  return nearest(text(context, written), candidates);
+}
+
+// The slot of `IN5` of a function whose last input, {extensible}, is `IN2`; -1 for another name.
+int extensibleSlot(Context& context, PouId pou, NameId written) {
+  const std::span<const VarId> pins = pinsOf(context, pou);
+  for (size_t i = 0; i < pins.size(); ++i) {
+    const Var& pin = context.project.var(pins[i]);
+    if (!pin.extensible) continue;
+    const std::string_view own = text(context, pin.name), other = text(context, written);
+    size_t stem = own.size();
+    while (stem > 0 && own[stem - 1] >= '0' && own[stem - 1] <= '9') --stem;
+    if (other.size() <= stem || other.size() > stem + 4 ||
+        !sameIdentifier(own.substr(0, stem), other.substr(0, stem))) {
+      return -1;
+    }
+    int first = 0, number = 0;
+    for (const char c : own.substr(stem)) first = first * 10 + (c - '0');
+    for (const char c : other.substr(stem)) {
+      if (c < '0' || c > '9') return -1;
+      number = number * 10 + (c - '0');
+    }
+    if (number <= first) return -1;
+    return static_cast<int>(pins.size()) + number - first - 1;
+  }
+  return -1;
+}
+
+bool isNamed(const Context& context, NameId name, std::string_view word) {
+  const std::string_view spelled = text(context, name);
+  return spelled.size() == word.size() && sameIdentifier(spelled, word);
+}
+
+struct Slots {
+  Context& context;
+  const CallExpr& node;
+  Arguments& out;
+
+  bool put(size_t slot, uint32_t index) {
+    if (out.slots.size() <= slot) out.slots.resize(slot + 1);
+    if (out.slots[slot] != 0) {
+      const Argument& argument = context.tree().list(node.arguments)[index];
+      const Argument& first = context.tree().list(node.arguments)[out.slots[slot] - 1];
+      const Ident& pin = argument.pin.name ? argument.pin : first.pin;
+      context.report(Diag::PinGivenTwice, argument.pin.name ? argument.pin.loc : argument.loc,
+                     {text(context, pin.name)});
+      out.good = false;
+      return false;
+    }
+    out.slots[slot] = index + 1;
+    return true;
+  }
+};
+
+void checkLoose(Context& context, const CallExpr& node, uint32_t index) {
+  const Argument argument = context.tree().list(node.arguments)[index];
+  if (!argument.value) return;
+  ExprId value = argument.value;
+  if (isUntyped(context, check(context, value, {}, argument.is_output ? Access::Write : Access::Read))) {
+    settle(context, value);
+  }
+  context.tree().list(node.arguments)[index].value = value;
+}
+
+bool sameInOut(const Context& context, TypeId pin, TypeId actual) {
+  const types::TypeTable& table = context.types();
+  const types::TypeInfo& wanted = table.info(table.resolve(pin));
+  const types::TypeInfo& given = table.info(table.resolve(actual));
+  if (wanted.kind == TypeKind::Array && wanted.dimensions.empty() && given.kind == TypeKind::Array) {
+    return sameType(context, wanted.base, given.base);
+  }
+  if (types::TypeTable::isText(wanted.kind) && wanted.kind == given.kind) return wanted.length <= given.length;
+  return sameType(context, pin, actual);
+}
+
+void bindOutput(Context& context, const Pou& pou, const Var& pin, Binding& binding, const Argument& argument) {
+  binding.is_output = true;
+  binding.negated = argument.negated;
+  const Purpose purpose{"bound to output", pin.name, pou.name};
+  const TypeId place = check(context, binding.value, {}, Access::Write);
+  if (place == types::kError || !checkWritable(context, binding.value, purpose)) return;
+  if (argument.negated && context.types().plainKind(pin.type) != TypeKind::Bool) {
+    context.report(Diag::NegatedPin, argument.pin.loc, {text(context, pin.name), context.types().spell(pin.type)});
+    return;
+  }
+  // The value flows from the pin to the place; lowering converts it there.
+  reportFit(context, fit(context, pin.type, place), binding.value, pin.type, place,
+            Purpose{"copied from output", pin.name, pou.name});
+}
+
+void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& binding) {
+  const Purpose purpose{"bound to in-out", pin.name, pou.name};
+  const TypeId actual = check(context, binding.value, pin.type, Access::ReadWrite);
+  if (actual == types::kError || pin.type == types::kError) return;
+  if (isUntyped(context, actual)) settle(context, binding.value);
+  if (pin.constant) {  // VAR_IN_OUT CONSTANT takes any value of the type
+    convert(context, binding.value, pin.type, purpose);
+    return;
+  }
+  if (!checkWritable(context, binding.value, purpose)) return;
+  if (!sameInOut(context, pin.type, actual)) {
+    context.report(Diag::OtherInOutType, context.tree().loc(binding.value),
+                   {context.types().spell(actual), text(context, pin.name), text(context, pou.name),
+                    context.types().spell(pin.type)});
+  }
+}
+
+void bindInput(Context& context, const Pou& pou, const Var& pin, Binding& binding) {
+  const types::TypeInfo& wanted = context.types().info(context.types().resolve(pin.type));
+  if (wanted.kind == TypeKind::Array && wanted.dimensions.empty()) {
+    const TypeId actual = check(context, binding.value, {}, Access::Read);
+    if (actual != types::kError && !sameInOut(context, pin.type, actual)) {
+      reportFit(context, Fit::No, binding.value, actual, pin.type, Purpose{"passed to", pin.name, pou.name});
+    }
+    return;
+  }
+  checkAs(context, binding.value, pin.type, Purpose{"passed to", pin.name, pou.name});
+}
+
+// The bindings of a call whose pins have types of their own.
+void bind(Context& context, const CallExpr& node, PouId callee, const Arguments& arguments, Call& call) {
+  const std::span<const VarId> pins = pinsOf(context, callee);
+  const Pou& pou = context.project.pou(callee);
+  call.bindings.reserve(arguments.slots.size());
+  for (size_t i = 0; i < arguments.slots.size() && i < pins.size(); ++i) {
+    if (arguments.slots[i] == 0) continue;
+    const uint32_t index = arguments.slots[i] - 1;
+    const Argument argument = context.tree().list(node.arguments)[index];
+    if (!argument.value) continue;
+    Binding binding;
+    binding.pin = pins[i];
+    binding.value = argument.value;
+    const Var& pin = context.project.var(pins[i]);
+    switch (pin.section) {
+      case SectionKind::Output: bindOutput(context, pou, pin, binding, argument); break;
+      case SectionKind::InOut: bindInOut(context, pou, pin, binding); break;
+      case SectionKind::Input:
+      case SectionKind::Local:
+      case SectionKind::Temp:
+      case SectionKind::External:
+      case SectionKind::Global:
+      case SectionKind::Stat:
+      case SectionKind::Access:
+      case SectionKind::Config: bindInput(context, pou, pin, binding); break;
+    }
+    context.tree().list(node.arguments)[index].value = binding.value;
+    call.bindings.push_back(binding);
+  }
+}
+
+TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, bool as_statement) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  resolvePou(context, pou);
+  const Pou& callee = context.project.pou(pou);
+  noteCall(context, pou, node.h.loc);
+  if (callee.operator_kind != Pou::Operator::None) return checkOperatorCall(context, expr, pou, expected, {});
+  if (callee.generic || callee.extensible) return checkGenericCall(context, expr, pou, expected, {});
+  const Arguments arguments = matchArguments(context, node, pou);
+  Call call;
+  call.kind = CallKind::Function;
+  call.pou = pou;
+  bindControlPins(context, node, arguments, call);
+  bind(context, node, pou, arguments, call);
+  if (arguments.good) checkRequiredPins(context, node, pou, arguments);
+  node.call = addCall(context, std::move(call));
+  if (!callee.result && !as_statement) {
+    context.report(Diag::NoResult, node.h.loc, {text(context, callee.name)});
+    return node.h.type = types::kError;
+  }
+  return node.h.type = callee.result;
+}
+
+TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool as_statement) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  resolvePou(context, pou);
+  noteCall(context, pou, node.h.loc);
+  const Arguments arguments = matchArguments(context, node, pou);
+  Call call;
+  call.kind = kind;
+  call.pou = pou;
+  if (kind == CallKind::Instance) call.instance = node.callee;
+  bindControlPins(context, node, arguments, call);
+  bind(context, node, pou, arguments, call);
+  if (arguments.good) checkRequiredPins(context, node, pou, arguments);
+  node.call = addCall(context, std::move(call));
+  if (!as_statement) {
+    context.report(Diag::BlockCallAsValue, node.h.loc, {text(context, context.project.pou(pou).name)});
+    return node.h.type = types::kError;
+  }
+  return node.h.type = {};
+}
+
+TypeId refuse(Context& context, CallExpr& node) {
+  checkLooseArguments(context, node);
+  return node.h.type = types::kError;
+}
+
+TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool as_statement) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  const Pou& callee = context.project.pou(pou);
+  switch (callee.kind) {
+    case PouKind::Function: return callFunction(context, expr, pou, expected, as_statement);
+    case PouKind::FunctionBlock:
+      context.report(Diag::CallOfBlockType, node.h.loc, {text(context, callee.name)});
+      return refuse(context, node);
+    case PouKind::Program:
+      if (context.iec()) {
+        context.report(Diag::CallOfProgram, node.h.loc, {text(context, callee.name)});
+        return refuse(context, node);
+      }
+      return callBlock(context, expr, pou, CallKind::Program, as_statement);
+  }
+  return types::kError;
+}
+
+// The callee is a value: an instance, or nothing that can be called.
+TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  if (type == types::kError) return refuse(context, node);
+  const PouId pou = pouOf(context, type);
+  if (pou && context.project.pou(pou).kind == PouKind::FunctionBlock) {
+    return callBlock(context, expr, pou, CallKind::Instance, as_statement);
+  }
+  const NameId name = nameOf(context, node.callee);
+  context.report(Diag::NotCallable, node.h.loc,
+                 {name ? text(context, name) : std::string_view("this"), context.types().spell(type)});
+  return refuse(context, node);
+}
+
+// SIZEOF(x): a number of bytes, known here.
+TypeId sizeOf(Context& context, ExprId& expr) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  if (node.arguments.count != 1) {
+    context.report(Diag::WrongArgumentCount, node.h.loc, {"SIZEOF", "1", std::to_string(node.arguments.count)});
+    return refuse(context, node);
+  }
+  ExprId operand = context.tree().list(node.arguments)[0].value;
+  TypeId type;
+  if (operand && context.tree().kind(operand) == ExprKind::Name) {
+    type = context.types().elementary(context.tree().as<NameExpr>(operand).name);
+  }
+  if (!type) type = check(context, operand, {}, Access::Address);
+  if (isUntyped(context, type)) type = settle(context, operand);
+  if (!type || type == types::kError) return node.h.type = types::kError;
+  if (const PouId pou = pouOf(context, type)) resolvePou(context, pou);
+  if (!context.types().layout(type)) return node.h.type = types::kError;
+  LiteralExpr size{};
+  size.h.kind = ExprKind::Literal;
+  size.h.op = static_cast<uint8_t>(LiteralKind::Integer);
+  size.h.loc = node.h.loc;
+  size.h.is_constant = 1;
+  size.h.type = types::idOf(TypeKind::IntegerLiteral);
+  size.setValue(context.types().info(context.types().resolve(type)).size);
+  expr = context.tree().add<ExprId>(size);
+  return size.h.type;
+}
+
+TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  if (const auto assertion = assertionOf(context.names(), name)) return checkAssertion(context, expr, *assertion);
+  if (isNamed(context, name, "SIZEOF")) return sizeOf(context, expr);
+  if (const TypeId type = checkRuleCall(context, expr, name, expected)) return type;
+  context.report(Diag::UnknownName, node.h.loc, {text(context, name)}).didYouMean(nearestName(context, name));
+  context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);
+  return refuse(context, node);
+}
+
+}  // namespace
+
+std::span<const VarId> pinsOf(Context& context, PouId id) {
+  Pou& pou = context.project.pou(id);
+  if (!pou.pins_ready) {
+    resolvePou(context, id);
+    pou.pins.clear();
+    for (const VarId var : pou.vars) {
+      if (isPin(context.project.var(var).section)) pou.pins.push_back(var);
+    }
+    pou.pins_ready = true;
+  }
+  return pou.pins;
+}
+
+void noteCall(Context& context, PouId callee, Loc loc) {
+  Pou& pou = context.project.pou(callee);
+  pou.used = true;
+  if (!pou.library && context.pou) context.project.call_edges.push_back({context.pou, callee, loc});
+}
+
+CallId addCall(Context& context, Call&& call) {
+  context.project.calls.push_back(std::move(call));
+  return CallId{static_cast<uint32_t>(context.project.calls.size() - 1)};
+}
+
+void checkLooseArguments(Context& context, const CallExpr& node) {
+  for (uint32_t i = 0; i < node.arguments.count; ++i) checkLoose(context, node, i);
+}
+
+Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
+  Arguments out;
+  const std::span<const VarId> pins = pinsOf(context, pou);
+  Slots slots{context, node, out};
+  out.slots.reserve(pins.size());
+  size_t next = 0;  // the pin after the last one named: calls mostly keep the order
+  size_t input = 0, output = 0, extra = pins.size();
+  const auto isOutput = [&](size_t i) { return context.project.var(pins[i]).section == SectionKind::Output; };
+  for (uint32_t i = 0; i < node.arguments.count; ++i) {
+    const Argument argument = context.tree().list(node.arguments)[i];
+    if (!argument.pin.name) {
+      ++out.positional;
+      while (input < pins.size() && isOutput(input)) ++input;
+      if (input < pins.size()) {
+        if (!slots.put(input++, i)) checkLoose(context, node, i);
+        continue;
+      }
+      if (context.project.pou(pou).extensible) {
+        slots.put(extra++, i);
+        continue;
+      }
+      while (output < pins.size() && !isOutput(output)) ++output;
+      if (output < pins.size()) {
+        slots.put(output++, i);
+        continue;
+      }
+      if (out.good) {
+        size_t inputs = 0;
+        for (size_t p = 0; p < pins.size(); ++p) inputs += isOutput(p) ? 0 : 1;
+        const Loc loc = argument.value ? context.tree().begin(argument.value) : argument.loc;
+        context.report(Diag::TooManyArguments, loc,
+                       {text(context, context.project.pou(pou).name), std::to_string(inputs)});
+      }
+      out.good = false;
+      checkLoose(context, node, i);
+      continue;
+    }
+    size_t slot = pins.size();
+    if (next < pins.size() && context.names().same(context.project.var(pins[next]).name, argument.pin.name)) {
+      slot = next;
+    } else if (const VarId found = findPin(context, pou, argument.pin.name)) {
+      for (slot = 0; slot < pins.size() && pins[slot] != found;) ++slot;
+    }
+    if (slot == pins.size()) {
+      if (isNamed(context, argument.pin.name, "EN") && !argument.is_output) {
+        out.en = i + 1;
+        continue;
+      }
+      if (isNamed(context, argument.pin.name, "ENO") && argument.is_output) {
+        out.eno = i + 1;
+        continue;
+      }
+      const int more = context.project.pou(pou).extensible ? extensibleSlot(context, pou, argument.pin.name) : -1;
+      if (more >= 0 && !argument.is_output) {
+        if (!slots.put(static_cast<size_t>(more), i)) checkLoose(context, node, i);
+        continue;
+      }
+      out.good = false;
+      context
+          .report(Diag::UnknownPin, argument.pin.loc,
+                  {text(context, context.project.pou(pou).name), text(context, argument.pin.name)})
+          .didYouMean(nearestPin(context, pou, argument.pin.name));
+      checkLoose(context, node, i);
+      continue;
+    }
+    next = slot + 1;
+    const Var& pin = context.project.var(pins[slot]);
+    if (argument.is_output != (pin.section == SectionKind::Output)) {
+      out.good = false;
+      context.report(argument.is_output ? Diag::ArrowToInput : Diag::AssignToOutputPin, argument.pin.loc,
+                     {text(context, pin.name), text(context, context.project.pou(pou).name), wordOf(pin.section)});
+      checkLoose(context, node, i);
+      continue;
+    }
+    if (!slots.put(slot, i)) checkLoose(context, node, i);
+  }
+  return out;
+}
+
+void bindControlPins(Context& context, const CallExpr& node, const Arguments& arguments, Call& call) {
+  if (arguments.en != 0) {
+    ExprId en = context.tree().list(node.arguments)[arguments.en - 1].value;
+    if (en) checkAs(context, en, types::kBool, Purpose{"passed to `EN`", {}, {}});
+    context.tree().list(node.arguments)[arguments.en - 1].value = en;
+    call.en = en;
+  }
+  if (arguments.eno != 0) {
+    ExprId eno = context.tree().list(node.arguments)[arguments.eno - 1].value;
+    if (eno) {
+      const TypeId type = check(context, eno, {}, Access::Write);
+      const Purpose purpose{"bound to output `ENO`", {}, {}};
+      if (type != types::kError && checkWritable(context, eno, purpose)) {
+        reportFit(context, fit(context, types::kBool, type), eno, types::kBool, type,
+                  Purpose{"copied from output `ENO`", {}, {}});
+      }
+    }
+    context.tree().list(node.arguments)[arguments.eno - 1].value = eno;
+    call.eno = eno;
+  }
+}
+
+TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statement) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  if (context.tree().kind(node.callee) == ExprKind::Name) {
+    NameExpr& callee = context.tree().as<NameExpr>(node.callee);
+    callee.entity = lookUp(context, callee.name);
+    switch (callee.entity.what()) {
+      case EntityKind::None: return callUnknown(context, expr, callee.name, expected);
+      case EntityKind::Pou: return callPou(context, expr, PouId{callee.entity.index}, expected, as_statement);
+      case EntityKind::Error: return refuse(context, node);
+      case EntityKind::Var:
+        if (VarId{callee.entity.index} == context.project.pou(context.pou).result_var) {
+          return callPou(context, expr, context.pou, expected, as_statement);  // recursion
+        }
+        [[fallthrough]];
+      case EntityKind::Type:
+      case EntityKind::EnumValue:
+      case EntityKind::GlobalList:
+      case EntityKind::Namespace:
+      case EntityKind::Program: break;
+    }
+    return callValue(context, expr, checkName(context, node.callee, {}, Access::ReadWrite), as_statement);
+  }
+  if (context.tree().kind(node.callee) == ExprKind::Member) {
+    const TypeId type = check(context, node.callee, {}, Access::Qualifier);
+    const Entity entity = entityOf(context, node.callee);
+    if (!type && entity.what() == EntityKind::Pou) {
+      return callPou(context, expr, PouId{entity.index}, expected, as_statement);
+    }
+    if (!type) return refuse(context, node);
+    if (entity.what() == EntityKind::Var) markAccess(context, VarId{entity.index}, Access::ReadWrite);
+    return callValue(context, expr, type, as_statement);
+  }
+  return callValue(context, expr, check(context, node.callee, {}, Access::ReadWrite), as_statement);
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,246 @@
+// Calls whose names follow a rule instead of a declaration: conversions `<A>_TO_<B>`, `TO_<B>`, `ANY_TO_<B>`,
+// `<A>_TRUNC_<B>`, `TRUNC_<B>`, and typed names `<FUNC>_<TYPE>` (MUX_INT, ADD_TIME). In: a call of a name that is not
+// declared. Out: a ConvertExpr, or a call of the library function that the rule names.
+// Texts are converted by library functions: TO_STRING, TO_WSTRING, STRING_TO_<B>.
+#include <string>
+
+#include "sema/bodies/bodies.h"
+#include "sema/bodies/generic_calls.h"
+
+namespace rung::sema {
+
+namespace {
+
+using types::TypeTable;
+
+struct Rule {
+  enum class Kind : uint8_t { None, Convert, Truncate } kind = Kind::None;
+  TypeId from, to;
+};
+
+TypeId typeNamed(Context& context, std::string_view word) {
+  const NameId name = context.names().find(word);
+  if (!name) return {};
+  if (const TypeId type = context.types().elementary(name)) {
+    return TypeTable::isGeneric(context.types().info(type).kind) ? TypeId{} : type;
+  }
+  const Entity entity = lookUp(context, name);
+  if (entity.what() != EntityKind::Type) return {};
+  const TypeKind plain = context.types().plainKind(TypeId{entity.index});
+  return TypeTable::isElementary(plain) ? TypeId{entity.index} : TypeId{};
+}
+
+std::string upper(std::string_view word) {
+  std::string out(word);
+  for (char& c : out)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return out;
+}
+
+Rule ruleOf(Context& context, std::string_view name) {
+  struct Word {
+    std::string_view infix;
+    Rule::Kind kind;
+  };
+  for (const Word& word : {Word{"_TO_", Rule::Kind::Convert}, Word{"_TRUNC_", Rule::Kind::Truncate}}) {
+    const std::string_view prefix = word.infix.substr(1);
+    if (name.starts_with(prefix)) {
+      if (const TypeId to = typeNamed(context, name.substr(prefix.size()))) return {word.kind, {}, to};
+    }
+    for (size_t at = name.find(word.infix); at != std::string_view::npos; at = name.find(word.infix, at + 1)) {
+      const TypeId to = typeNamed(context, name.substr(at + word.infix.size()));
+      if (!to) continue;
+      if (name.substr(0, at) == "ANY") return {word.kind, {}, to};
+      if (const TypeId from = typeNamed(context, name.substr(0, at))) return {word.kind, from, to};
+    }
+  }
+  return {};
+}
+
+// The value of a call with exactly one input, and its EN and ENO.
+struct OneInput {
+  ExprId value;
+  uint32_t index = 0;
+  ExprId en, eno;
+  bool good = false;
+};
+
+OneInput oneInput(Context& context, const CallExpr& node, NameId name) {
+  OneInput out;
+  uint32_t inputs = 0;
+  for (uint32_t i = 0; i < node.arguments.count; ++i) {
+    const Argument argument = context.tree().list(node.arguments)[i];
+    const std::string_view pin = argument.pin.name ? text(context, argument.pin.name) : std::string_view();
+    if (sameIdentifier(pin, "EN") && !argument.is_output) {
+      out.en = argument.value;
+    } else if (sameIdentifier(pin, "ENO") && argument.is_output) {
+      out.eno = argument.value;
+    } else if (!pin.empty() && !sameIdentifier(pin, "IN")) {
+      context.report(Diag::UnknownPin, argument.pin.loc, {text(context, name), pin}).didYouMean("IN");
+      return out;
+    } else {
+      ++inputs;
+      out.value = argument.value;
+      out.index = i;
+    }
+  }
+  out.good = inputs == 1 && out.value;
+  if (!out.good) {
+    context.report(Diag::WrongArgumentCount, node.h.loc, {text(context, name), "1", std::to_string(inputs)});
+  }
+  return out;
+}
+
+// Lets a library function do it: the callee becomes its name.
+TypeId callLibrary(Context& context, ExprId& expr, std::string_view function, TypeId expected, NameId written) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  NameExpr& callee = context.tree().as<NameExpr>(node.callee);
+  const NameId name = context.names().intern(function);
+  if (lookUp(context, name).what() != EntityKind::Pou) {
+    context.report(Diag::UnknownName, node.h.loc, {text(context, written)});
+    return node.h.type = types::kError;
+  }
+  callee.name = name;
+  return checkCall(context, expr, expected, false);
+}
+
+// The operand as a value of `type`; what is typed is not typed again.
+bool operandAs(Context& context, ExprId& value, TypeId type, NameId function) {
+  if (!checkAs(context, value, type, Purpose{"passed to", function, {}})) return false;
+  if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.tree().expr(value).type);
+  return true;
+}
+
+// MOVE(EN := …, IN := converted, ENO => …): a conversion has no pins of its own.
+TypeId guarded(Context& context, ExprId& expr, const OneInput& input, ExprId value, NameId name) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  context.tree().list(node.arguments)[input.index].value = value;
+  return callLibrary(context, expr, "MOVE", context.tree().expr(value).type, name);
+}
+
+TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& rule, TypeId expected) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  const OneInput input = oneInput(context, node, name);
+  if (!input.good) {
+    checkLooseArguments(context, node);
+    return node.h.type = types::kError;
+  }
+  ExprId value = input.value;
+  TypeId from;
+  if (rule.from) {
+    if (!checkAs(context, value, rule.from, Purpose{"passed to", name, {}})) return node.h.type = types::kError;
+    from = rule.from;
+  } else {
+    from = check(context, value, {}, Access::Read);
+    if (isUntyped(context, from)) {
+      const bool direct = untypedFits(context, value, rule.to) && rule.kind == Rule::Kind::Convert;
+      from = settle(context, value, direct ? rule.to : TypeId{});
+    }
+    if (from == types::kError) return node.h.type = types::kError;
+  }
+  const TypeKind source = context.types().plainKind(from), target = context.types().plainKind(rule.to);
+  const bool text_source = TypeTable::isText(source) || source == TypeKind::Char || source == TypeKind::WChar;
+  const bool text_target = TypeTable::isText(target) || target == TypeKind::Char || target == TypeKind::WChar;
+  if (!TypeTable::isElementary(source)) {
+    context.report(Diag::NotOfGeneric, context.tree().loc(value),
+                   {context.types().spell(from), text(context, name), "ANY_ELEMENTARY"});
+    return node.h.type = types::kError;
+  }
+  const auto replaceArgument = [&] {
+    if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.tree().expr(value).type);
+    context.tree().list(node.arguments)[input.index].value = value;
+  };
+  if (text_target && rule.kind == Rule::Kind::Convert) {
+    if (source == target) {
+      expr = value;
+      return context.tree().expr(expr).type;
+    }
+    replaceArgument();
+    return callLibrary(context, expr,
+                       std::string("TO_") + std::string(text(context, context.types().info(types::idOf(target)).name)),
+                       expected, name);
+  }
+  if (text_source && rule.kind == Rule::Kind::Convert) {
+    const std::string function = std::string(text(context, context.types().info(types::idOf(source)).name)) + "_TO_" +
+                                 std::string(text(context, context.types().info(types::idOf(target)).name));
+    if (sameIdentifier(function, text(context, name))) return {};  // the library has no such function
+    replaceArgument();
+    return callLibrary(context, expr, function, expected, name);
+  }
+  if (rule.kind == Rule::Kind::Truncate) {
+    const Entity trunc = lookUp(context, context.names().intern("TRUNC"));
+    if (!TypeTable::isReal(source) || !(TypeTable::isInteger(target) || TypeTable::isBits(target))) {
+      context.report(Diag::NotOfGeneric, context.tree().loc(value),
+                     {context.types().spell(from), text(context, name), "ANY_REAL"});
+      return node.h.type = types::kError;
+    }
+    if (trunc.what() != EntityKind::Pou) return {};
+    replaceArgument();
+    return checkGenericCall(context, expr, PouId{trunc.index}, expected, rule.to);
+  }
+  wrapConvert(context, value, rule.to);
+  context.tree().expr(value).loc = node.h.loc;
+  if (input.en || input.eno) return guarded(context, expr, input, value, name);
+  expr = value;
+  return rule.to;
+}
+
+// MUX_INT, ADD_TIME, SUB_DATE_DATE: a generic function and the types of its inputs.
+TypeId checkTypedCall(Context& context, ExprId& expr, std::string_view name, TypeId expected) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  const size_t cut = name.find('_');
+  if (cut == std::string_view::npos || cut == 0) return {};
+  const NameId function = context.names().find(name.substr(0, cut));
+  if (!function) return {};
+  std::vector<TypeId> operand_types;
+  for (size_t at = cut + 1; at <= name.size();) {
+    size_t end = name.find('_', at);
+    TypeId type = typeNamed(context, name.substr(at));  // TIME_OF_DAY has underscores of its own
+    if (type) {
+      end = name.size();
+    } else {
+      if (end == std::string_view::npos) return {};
+      type = typeNamed(context, name.substr(at, end - at));
+    }
+    if (!type) return {};
+    operand_types.push_back(type);
+    at = end + 1;
+  }
+  const Entity entity = lookUp(context, function);
+  if (entity.what() != EntityKind::Pou || operand_types.empty()) return {};
+  const PouId id{entity.index};
+  const Pou& pou = context.project.pou(id);
+  if (pou.kind != PouKind::Function || (pou.operator_kind == Pou::Operator::None && !pou.generic)) return {};
+  pinsOf(context, id);
+  noteCall(context, id, node.h.loc);
+  context.tree().as<NameExpr>(node.callee).entity = entity;
+  TypeId forced = operand_types[0];
+  if (operand_types.size() > 1) {
+    forced = {};
+    for (uint32_t i = 0; i < node.arguments.count && i < operand_types.size(); ++i) {
+      ExprId value = context.tree().list(node.arguments)[i].value;
+      if (!value) continue;
+      const bool good = operandAs(context, value, operand_types[i], function);
+      context.tree().list(node.arguments)[i].value = value;
+      if (!good) return node.h.type = types::kError;
+    }
+  }
+  if (pou.operator_kind != Pou::Operator::None) return checkOperatorCall(context, expr, id, expected, forced);
+  return checkGenericCall(context, expr, id, expected, forced);
+}
+
+}  // namespace
+
+TypeId checkRuleCall(Context& context, ExprId& expr, NameId name, TypeId expected) {
+  const std::string spelled = upper(text(context, name));
+  if (spelled.find('_') == std::string::npos) return {};
+  const Rule rule = ruleOf(context, spelled);
+  if (rule.kind != Rule::Kind::None) {
+    const TypeId type = checkConversion(context, expr, name, rule, expected);
+    if (type) context.tree().expr(expr).type = type;
+    return type;
+  }
+  return checkTypedCall(context, expr, spelled, expected);
+}
+
+}  // namespace rung::sema

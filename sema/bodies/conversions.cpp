@@ -1,0 +1,222 @@
+// Conversions: which are implicit, which lose values, which need a function. In: checked expressions and the type
+// that is wanted. Out: ConvertExpr nodes in the parent's child field, or one message. Design §6, dialect table.
+#include "sema/bodies/bodies.h"
+#include "sema/types/arithmetic.h"
+
+namespace rung::sema {
+
+namespace {
+
+using types::TypeTable;
+
+bool isNumberKind(TypeKind k) { return TypeTable::isInteger(k) || TypeTable::isBits(k) || TypeTable::isReal(k); }
+bool isWholeKind(TypeKind k) { return TypeTable::isInteger(k) || TypeTable::isBits(k); }
+
+Fit fitNumbers(const Context& context, TypeId from, TypeId to) {
+  const TypeKind a = context.types().plainKind(from), b = context.types().plainKind(to);
+  if (TypeTable::isReal(a) && isWholeKind(b)) return Fit::No;
+  const bool lossless = types::isLossless(context.types(), from, to);
+  if (context.iec() && TypeTable::isBits(a) != TypeTable::isBits(b)) return Fit::Extension;
+  return lossless ? Fit::Lossless : Fit::Lossy;
+}
+
+// DATE and LDATE, TIME and LTIME …: the same quantity in another size.
+bool sameQuantity(TypeKind a, TypeKind b) {
+  const auto group = [](TypeKind k) {
+    if (TypeTable::isDuration(k)) return 1;
+    if (k == TypeKind::Date || k == TypeKind::LDate) return 2;
+    if (k == TypeKind::TimeOfDay || k == TypeKind::LTimeOfDay) return 3;
+    return k == TypeKind::DateTime || k == TypeKind::LDateTime ? 4 : 0;
+  };
+  return group(a) != 0 && group(a) == group(b);
+}
+
+// The name of the function that converts, when there is one.
+std::string conversionName(const Context& context, TypeId from, TypeId to) {
+  const auto word = [&](TypeId type) -> std::string {
+    const TypeId plain = context.types().plain(type);
+    const TypeKind kind = context.types().info(plain).kind;
+    if (!TypeTable::isElementary(kind)) return {};
+    return std::string(text(context, context.types().info(types::idOf(kind)).name));
+  };
+  const std::string source = word(from), target = word(to);
+  if (source.empty() || target.empty() || source == target) return {};
+  return source + "_TO_" + target;
+}
+
+}  // namespace
+
+std::string Purpose::spell(const Context& context) const {
+  std::string out(words);
+  if (name) out.append(" `").append(text(context, name)).append("`");
+  if (of) out.append(" of `").append(text(context, of)).append("`");
+  return out;
+}
+
+bool sameType(const Context& context, TypeId a, TypeId b) {
+  const types::TypeTable& table = context.types();
+  a = table.resolve(a);
+  b = table.resolve(b);
+  if (a == b) return true;
+  const types::TypeInfo& left = table.info(a);
+  const types::TypeInfo& right = table.info(b);
+  if (left.kind != right.kind) return false;
+  if (left.kind == TypeKind::Pointer || left.kind == TypeKind::Reference) {
+    return sameType(context, left.base, right.base);
+  }
+  if (left.kind != TypeKind::Array || left.dimensions.size() != right.dimensions.size()) return false;
+  for (size_t i = 0; i < left.dimensions.size(); ++i) {
+    if (left.dimensions[i].low != right.dimensions[i].low || left.dimensions[i].high != right.dimensions[i].high) {
+      return false;
+    }
+  }
+  return sameType(context, left.base, right.base);
+}
+
+Fit fit(const Context& context, TypeId from, TypeId to) {
+  const types::TypeTable& table = context.types();
+  from = table.resolve(from);
+  to = table.resolve(to);
+  if (from == to || from == types::kError || to == types::kError) return Fit::Same;
+  const types::TypeInfo& source = table.info(from);
+  const types::TypeInfo& target = table.info(to);
+  const TypeKind a = table.plainKind(from), b = table.plainKind(to);
+  if (source.kind == TypeKind::Enum || target.kind == TypeKind::Enum) {
+    if (source.kind == target.kind || source.strict || target.strict) return Fit::No;
+    if (!isNumberKind(a) || !isNumberKind(b)) return Fit::No;
+    if (TypeTable::isReal(a)) return Fit::No;
+    if (context.iec()) return Fit::Extension;
+    if (target.kind == TypeKind::Enum) return Fit::Lossy;
+    const Fit plain = fit(context, table.plain(from), to);
+    return plain == Fit::Same ? Fit::Lossless : plain;
+  }
+  if (source.kind == TypeKind::Subrange || target.kind == TypeKind::Subrange) {
+    const Fit plain = fit(context, table.plain(from), table.plain(to));
+    if (plain == Fit::Same) return Fit::Lossless;
+    return plain == Fit::Lossy && types::isLossless(table, from, to) ? Fit::Lossless : plain;
+  }
+  if (isNumberKind(a) && isNumberKind(b)) return fitNumbers(context, from, to);
+  if (sameQuantity(a, b)) return types::isLossless(table, from, to) ? Fit::Lossless : Fit::Lossy;
+  if (TypeTable::isText(a) && a == b) return Fit::Same;  // cut to the capacity where it is stored
+  if (target.kind == TypeKind::Pointer) {
+    if (source.kind == TypeKind::NullLiteral) return Fit::Same;
+    if (source.kind == TypeKind::Pointer) return sameType(context, from, to) ? Fit::Same : Fit::Pointer;
+    return Fit::No;
+  }
+  return sameType(context, from, to) ? Fit::Same : Fit::No;
+}
+
+TypeId commonNumber(const Context& context, TypeId a, TypeId b) {
+  const types::TypeTable& table = context.types();
+  a = table.plain(a);
+  b = table.plain(b);
+  if (a == b) return a;
+  const TypeKind x = table.info(a).kind, y = table.info(b).kind;
+  if (!isNumberKind(x) || !isNumberKind(y)) return {};
+  if (TypeTable::isBits(x) && TypeTable::isInteger(y) && TypeTable::bitWidth(x) == TypeTable::bitWidth(y)) {
+    return TypeTable::isUnsignedInteger(y)
+               ? b
+               : commonNumber(context, table.plain(b),
+                              types::idOf(static_cast<TypeKind>(static_cast<uint32_t>(TypeKind::USInt) +
+                                                                static_cast<uint32_t>(x) -
+                                                                static_cast<uint32_t>(TypeKind::Byte))));
+  }
+  if (TypeTable::isBits(y) && TypeTable::isInteger(x)) {
+    if (TypeTable::bitWidth(x) == TypeTable::bitWidth(y)) return commonNumber(context, b, a);
+  }
+  if (types::isLossless(table, a, b)) return b;
+  if (types::isLossless(table, b, a)) return a;
+  if (TypeTable::isReal(x)) return a;
+  if (TypeTable::isReal(y)) return b;
+  for (const TypeId wider : {types::kInt, types::kDInt, types::kLInt}) {
+    if (types::isLossless(table, a, wider) && types::isLossless(table, b, wider)) return wider;
+  }
+  return types::kLInt;
+}
+
+void wrapConvert(Context& context, ExprId& expr, TypeId to) {
+  Tree& tree = context.tree();
+  ConvertExpr node{};
+  node.h.kind = ExprKind::Convert;
+  node.h.loc = tree.loc(expr);
+  node.h.type = to;
+  node.h.is_constant = tree.expr(expr).is_constant;
+  node.operand = expr;
+  expr = tree.add<ExprId>(node);
+}
+
+bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId to, const Purpose& purpose) {
+  const Loc loc = context.tree().loc(expr);
+  switch (fitness) {
+    case Fit::Same:
+    case Fit::Lossless: return true;
+    case Fit::Lossy: {
+      if (context.library) return true;
+      const std::string function = conversionName(context, from, to);
+      if (context.types().info(context.types().resolve(to)).kind == TypeKind::Enum) {
+        context.report(Diag::NumberToEnum, loc,
+                       {context.types().spell(from), purpose.spell(context), context.types().spell(to)});
+        return true;
+      }
+      context.report(context.iec() ? Diag::LossyConversion : Diag::MayLoseValues, loc,
+                     {context.types().spell(from), purpose.spell(context), context.types().spell(to), function});
+      return !context.iec();
+    }
+    case Fit::Pointer:
+      context.report(context.iec() ? Diag::OtherPointer : Diag::PointerToOther, loc,
+                     {context.types().spell(from), purpose.spell(context), context.types().spell(to)});
+      return !context.iec();
+    case Fit::Extension:
+    case Fit::No: break;
+  }
+  const std::string function = conversionName(context, from, to);
+  if (function.empty()) {
+    context.report(Diag::WrongType, loc,
+                   {context.types().spell(from), purpose.spell(context), context.types().spell(to)});
+  } else {
+    context.report(Diag::NeedsConversion, loc,
+                   {context.types().spell(from), purpose.spell(context), context.types().spell(to), function});
+  }
+  return false;
+}
+
+bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
+  const TypeId from = context.tree().expr(expr).type;
+  if (from == to) return from != types::kError;
+  if (!from || from == types::kError || to == types::kError) return false;
+  if (isUntyped(context, from)) return adapt(context, expr, to, purpose);
+  const Fit fitness = fit(context, from, to);
+  if (!reportFit(context, fitness, expr, from, to, purpose)) {
+    context.tree().expr(expr).type = types::kError;
+    return false;
+  }
+  if (fitness == Fit::Same) {
+    if (context.types().info(from).kind == TypeKind::NullLiteral) context.tree().expr(expr).type = to;
+    const types::TypeInfo& info = context.types().info(context.types().resolve(to));
+    if (TypeTable::isText(info.kind) && context.tree().kind(expr) == ExprKind::Literal &&
+        context.types().info(context.types().resolve(from)).length > info.length) {
+      context.report(Diag::TextTooLong, context.tree().loc(expr),
+                     {std::to_string(context.types().info(context.types().resolve(from)).length),
+                      context.types().spell(to), std::to_string(info.length)});
+    }
+    return true;
+  }
+  wrapConvert(context, expr, to);
+  return true;
+}
+
+bool checkAs(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
+  if (!expr) return false;
+  if (check(context, expr, to, Access::Read) == types::kError) return false;
+  return convert(context, expr, to, purpose);
+}
+
+bool checkExprAs(Context& context, ExprId& expr, TypeId to, std::string_view what) {
+  return checkAs(context, expr, to, Purpose{what, {}, {}});
+}
+
+void checkCondition(Context& context, ExprId& expr, std::string_view words) {
+  checkAs(context, expr, types::kBool, Purpose{words, {}, {}});
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,193 @@
+// Expressions: dispatch over the kinds, and those that are no names, literals, operators or calls.
+// In: an expression of a body or an initial value, and the type that its context wants. Out: types, entities and
+// conversions written into the tree. Called by statements.cpp and by the declarations.
+#include "sema/bodies/bodies.h"
+#include "sema/checks/constant_index.h"
+#include "sema/checks/writable.h"
+
+namespace rung::sema {
+
+namespace {
+
+using types::TypeTable;
+
+TypeId checkIndex(Context& context, ExprId& expr, Access access) {
+  IndexExpr& node = context.tree().as<IndexExpr>(expr);
+  const TypeId base = check(context, node.base, {}, access == Access::Qualifier ? Access::Read : access);
+  const uint32_t count = node.indices.count;
+  const types::TypeInfo* info = &context.types().info(context.types().resolve(base));
+  if (info->kind == TypeKind::Pointer && count == 1) {
+    // CODESYS indexes a pointer like an array; here it must say what it means.
+    context.report(Diag::IndexOfPointer, node.h.loc);
+    return node.h.type = types::kError;
+  }
+  const bool array = info->kind == TypeKind::Array;
+  if (!array && base != types::kError) {
+    if (TypeTable::isText(info->kind) && count == 1) {
+      ExprId index = context.tree().list(node.indices)[0];
+      checkAs(context, index, types::kDInt, {"used as an index", {}, {}});
+      context.tree().list(node.indices)[0] = index;
+      node.h.writable = 1;
+      return node.h.type = info->kind == TypeKind::String ? types::kByte : types::kWord;
+    }
+    context.report(Diag::NotAnArray, node.h.loc, {context.types().spell(base)});
+  } else if (array && !info->dimensions.empty() && info->dimensions.size() != count) {
+    context.report(Diag::WrongIndexCount, node.h.loc,
+                   {context.types().spell(base), std::to_string(info->dimensions.size()), std::to_string(count)});
+  }
+  bool good = array && (info->dimensions.empty() || info->dimensions.size() == count);
+  for (uint32_t i = 0; i < count; ++i) {
+    ExprId index = context.tree().list(node.indices)[i];
+    TypeId type = check(context, index, {}, Access::Read);
+    if (isUntyped(context, type)) type = settle(context, index);
+    const TypeKind kind = context.types().plainKind(type);
+    if (type == types::kError) {
+      good = false;
+    } else if (!TypeTable::isInteger(kind) && !(TypeTable::isBits(kind) && !context.iec())) {
+      if (context.types().kind(type) == TypeKind::Enum || !TypeTable::isBits(kind)) {
+        context.report(Diag::IndexNotInteger, context.tree().loc(index), {context.types().spell(type)});
+        good = false;
+      }
+    } else if (context.types().kind(type) == TypeKind::Enum && context.iec()) {
+      context.report(Diag::IndexNotInteger, context.tree().loc(index), {context.types().spell(type)});
+      good = false;
+    } else if (good) {
+      checkConstantIndex(context, index, info->dimensions.empty() ? nullptr : &info->dimensions[i], base);
+    }
+    context.tree().list(node.indices)[i] = index;
+  }
+  if (!good) return node.h.type = types::kError;
+  node.h.writable = context.tree().expr(node.base).writable;
+  return node.h.type = info->base;
+}
+
+TypeId checkDeref(Context& context, ExprId& expr) {
+  DerefExpr& node = context.tree().as<DerefExpr>(expr);
+  const TypeId base = check(context, node.base, {}, Access::Read);
+  if (base == types::kError) return node.h.type = types::kError;
+  const types::TypeInfo& info = context.types().info(context.types().resolve(base));
+  if (info.kind != TypeKind::Pointer) {
+    context.report(Diag::NotAPointer, node.h.loc, {context.types().spell(base)});
+    return node.h.type = types::kError;
+  }
+  node.h.writable = 1;
+  return node.h.type = info.base;
+}
+
+TypeId checkBitAccess(Context& context, ExprId& expr, Access access) {
+  BitAccessExpr& node = context.tree().as<BitAccessExpr>(expr);
+  const TypeId base = check(context, node.base, {}, access == Access::Write ? Access::ReadWrite : access);
+  if (base == types::kError) return node.h.type = types::kError;
+  const TypeKind kind = context.types().plainKind(base);
+  const bool integer = TypeTable::isInteger(kind);
+  if ((!TypeTable::isBits(kind) && !integer) || (integer && context.iec())) {
+    context.report(Diag::NoBits, node.h.loc, {context.types().spell(base)});
+    return node.h.type = types::kError;
+  }
+  const uint32_t count = TypeTable::bitWidth(kind) / node.width;
+  if (node.position >= count) {
+    if (count == 0) {
+      context.report(Diag::NoBits, node.h.loc, {context.types().spell(base)});
+    } else {
+      context.report(Diag::BitOutOfRange, node.h.loc,
+                     {std::to_string(node.position), context.types().spell(base), std::to_string(count - 1)});
+    }
+    return node.h.type = types::kError;
+  }
+  node.h.writable = context.tree().expr(node.base).writable;
+  switch (node.width) {
+    case 8: return node.h.type = types::kByte;
+    case 16: return node.h.type = types::kWord;
+    case 32: return node.h.type = types::kDWord;
+    default: return node.h.type = types::kBool;
+  }
+}
+
+// %IX0.3, %QW5: a view of the image without a declaration.
+TypeId checkAddress(Context& context, ExprId& expr) {
+  AddressExpr& node = context.tree().as<AddressExpr>(expr);
+  node.h.writable = 1;
+  if (!resolveAddress(context, node.address, node.h.loc, {})) return node.h.type = types::kError;
+  return node.h.type = addressType(node.address);
+}
+
+TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) {
+  Tree& tree = context.tree();
+  switch (tree.kind(expr)) {
+    case ExprKind::Error: return tree.expr(expr).type = types::kError;
+    case ExprKind::Literal: return checkLiteral(context, expr, expected);
+    case ExprKind::Name: return checkName(context, expr, expected, access);
+    case ExprKind::TypedName: return checkTypedName(context, expr);
+    case ExprKind::Member: return checkMember(context, expr, expected, access);
+    case ExprKind::Index: return checkIndex(context, expr, access);
+    case ExprKind::Deref: return checkDeref(context, expr);
+    case ExprKind::BitAccess: return checkBitAccess(context, expr, access);
+    case ExprKind::Address: return checkAddress(context, expr);
+    case ExprKind::Unary: return checkUnary(context, expr, expected);
+    case ExprKind::Binary: return checkBinary(context, expr, expected);
+    case ExprKind::Call: return checkCall(context, expr, expected, false);
+    case ExprKind::Convert: return tree.expr(expr).type;  // checked before
+    case ExprKind::ArrayInit:
+    case ExprKind::StructInit: {
+      const TypeKind wanted = expected ? context.types().kind(expected) : TypeKind::None;
+      if (wanted == TypeKind::Error) return tree.expr(expr).type = types::kError;
+      if (wanted != (tree.kind(expr) == ExprKind::ArrayInit ? TypeKind::Array : TypeKind::Record)) {
+        context.report(Diag::InitializerOutOfPlace, tree.loc(expr));
+        return tree.expr(expr).type = types::kError;
+      }
+      checkInitializer(context, expr, expected);
+      return tree.expr(expr).type = expected;
+    }
+    case ExprKind::Range:
+    case ExprKind::Repeat:
+      context.report(Diag::InitializerOutOfPlace, tree.loc(expr));
+      return tree.expr(expr).type = types::kError;
+  }
+  return types::kError;
+}
+
+}  // namespace
+
+TypeId check(Context& context, ExprId& expr, TypeId expected, Access access) {
+  if (!expr) return types::kError;
+  if (context.depth >= kMaxExprDepth) {
+    context.report(Diag::ExpressionTooDeep, context.tree().loc(expr), {std::to_string(kMaxExprDepth)});
+    return context.tree().expr(expr).type = types::kError;
+  }
+  ++context.depth;
+  const TypeId type = dispatch(context, expr, expected, access);
+  --context.depth;
+  return type;
+}
+
+TypeId checkExpr(Context& context, ExprId& expr, TypeId expected) {
+  const TypeId type = check(context, expr, expected, Access::Read);
+  return isUntyped(context, type) ? settle(context, expr, expected) : type;
+}
+
+TypeId checkPlace(Context& context, ExprId& expr, std::string_view what) {
+  const TypeId type = check(context, expr, {}, Access::Write);
+  if (type == types::kError || !type) return types::kError;
+  return checkWritable(context, expr, Purpose{what, {}, {}}) ? type : types::kError;
+}
+
+std::optional<int64_t> constantInteger(Context& context, ExprId expr) {
+  const Tree& tree = context.tree();
+  if (!tree.expr(expr).is_constant) return std::nullopt;
+  if (tree.kind(expr) == ExprKind::Literal) {
+    const LiteralExpr& node = tree.as<LiteralExpr>(expr);
+    if (node.literal() != LiteralKind::Integer && node.literal() != LiteralKind::Bool) return std::nullopt;
+    const auto value = static_cast<int64_t>(node.value());
+    return (node.h.bits & kLiteralNegative) != 0 ? -value : value;
+  }
+  const Entity entity = entityOf(context, expr);
+  if (entity.what() == EntityKind::EnumValue) return context.project.enum_values[entity.index].value;
+  const std::optional<types::Value> value = evaluate(context, expr);
+  if (!value || !TypeTable::isScalar(context.types().plainKind(value->type)) ||
+      TypeTable::isReal(context.types().plainKind(value->type))) {
+    return std::nullopt;
+  }
+  return value->asSigned();
+}
+
+}  // namespace rung::sema

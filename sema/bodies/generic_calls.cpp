@@ -1,0 +1,235 @@
+#include "sema/bodies/generic_calls.h"
+
+#include "sema/checks/required_pins.h"
+#include "sema/checks/writable.h"
+#include "sema/types/arithmetic.h"
+
+namespace rung::sema {
+
+namespace {
+
+using types::TypeTable;
+
+Operands classOf(TypeKind generic) {
+  if (generic >= TypeKind::AnyNum && generic <= TypeKind::AnySigned) return Operands::Number;
+  if (generic == TypeKind::AnyMagnitude || generic == TypeKind::AnyDuration) return Operands::NumberOrTime;
+  if (generic == TypeKind::AnyBit) return Operands::Bits;
+  if (generic == TypeKind::AnyElementary || generic == TypeKind::AnyDate) return Operands::Comparable;
+  if (generic >= TypeKind::AnyChars && generic <= TypeKind::AnyChar) return Operands::Comparable;
+  return Operands::Anything;
+}
+
+// In codesys bit strings are numbers, and integers are bit strings.
+bool belongs(const Context& context, TypeId type, TypeKind generic) {
+  const TypeKind kind = context.types().kind(type), plain = context.types().plainKind(type);
+  if (TypeTable::belongsTo(kind, generic) || TypeTable::belongsTo(plain, generic)) return true;
+  if (generic == TypeKind::Any) return true;
+  if (context.iec()) return false;
+  if (TypeTable::isBits(plain)) {
+    return generic == TypeKind::AnyInt || generic == TypeKind::AnyUnsigned || generic == TypeKind::AnyNum ||
+           generic == TypeKind::AnyMagnitude;
+  }
+  return generic == TypeKind::AnyBit && TypeTable::isInteger(plain);
+}
+
+TypeId groupType(Context& context, std::span<ExprId> operands, TypeKind generic, TypeId expected, const Pou& pou,
+                 Loc loc) {
+  // SQRT(2) and SIN(intVar): what is no REAL becomes one where only REAL is taken.
+  if (generic == TypeKind::AnyReal) {
+    TypeId real = expected && TypeTable::isReal(context.types().plainKind(expected)) ? context.types().plain(expected)
+                                                                                     : types::kReal;
+    bool typed_real = false;
+    for (const ExprId operand : operands) {
+      const TypeId type = context.tree().expr(operand).type;
+      if (isUntyped(context, type) || type == types::kError) continue;
+      const TypeId plain = context.types().plain(type);
+      const TypeKind kind = context.types().info(plain).kind;
+      if (TypeTable::isReal(kind)) {
+        real = typed_real ? commonNumber(context, real, plain) : plain;
+        typed_real = true;
+      } else if (!typed_real && (TypeTable::isInteger(kind) || TypeTable::isBits(kind)) &&
+                 !types::isLossless(context.types(), plain, real)) {
+        real = types::kLReal;
+      }
+    }
+    for (ExprId& operand : operands) {
+      if (!convert(context, operand, real, Purpose{"passed to", pou.name, {}})) return types::kError;
+    }
+    return real;
+  }
+  const TypeId common = unify(context, operands, classOf(generic), expected, text(context, pou.name), loc);
+  if (common == types::kError) return common;
+  if (!belongs(context, common, generic)) {
+    context.report(
+        Diag::NotOfGeneric, operands.size() == 1 ? context.tree().loc(operands[0]) : loc,
+        {context.types().spell(common), text(context, pou.name), context.types().spell(types::idOf(generic))});
+    return types::kError;
+  }
+  return common;
+}
+
+// f(a, b, c) of a function with two inputs, the second extensible: f(f(a, b), c).
+TypeId foldCall(Context& context, ExprId& expr, PouId pou, const Arguments& arguments, TypeId expected) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  const size_t declared = pinsOf(context, pou).size();
+  std::vector<Argument> values;
+  for (const uint32_t index : arguments.slots) {
+    Argument argument{};
+    if (index != 0) argument = context.tree().list(node.arguments)[index - 1];
+    argument.pin = {};
+    values.push_back(argument);
+  }
+  ExprId inner;
+  for (size_t from = 0; from < values.size();) {
+    std::vector<Argument> some;
+    if (inner) some.push_back(Argument{{}, inner, false, false, node.h.loc});
+    while (some.size() < declared && from < values.size()) some.push_back(values[from++]);
+    CallExpr link = node;
+    if (from == values.size()) {  // EN and ENO belong to the whole
+      for (const uint32_t control : {arguments.en, arguments.eno}) {
+        if (control != 0) some.push_back(context.tree().list(node.arguments)[control - 1]);
+      }
+    }
+    link.arguments = context.tree().addList<Argument>(some);
+    inner = context.tree().add<ExprId>(link);
+  }
+  expr = inner;
+  return checkGenericCall(context, expr, pou, expected, {});
+}
+
+}  // namespace
+
+TypeId GenericOperands::typeFor(const Context& context, TypeId declared) const {
+  const TypeKind kind = context.types().info(declared).kind;
+  if (!TypeTable::isGeneric(kind)) return declared;
+  for (const Group& group : groups) {
+    if (group.generic == declared) return group.type;
+  }
+  return {};
+}
+
+GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, const Arguments& arguments,
+                              TypeId expected, TypeId forced) {
+  GenericOperands out;
+  const std::span<const VarId> pins = pinsOf(context, id);
+  const Pou& pou = context.project.pou(id);
+  out.values.resize(arguments.slots.size());
+  out.pin_types.resize(arguments.slots.size());
+  TypeId extensible_type;
+  for (const VarId pin : pins) {
+    if (context.project.var(pin).extensible) extensible_type = context.project.var(pin).type;
+  }
+  const bool result_is_generic = pou.result && TypeTable::isGeneric(context.types().info(pou.result).kind);
+  for (size_t i = 0; i < arguments.slots.size(); ++i) {
+    const TypeId declared = i < pins.size() ? context.project.var(pins[i]).type : extensible_type;
+    out.pin_types[i] = declared;
+    if (arguments.slots[i] == 0) continue;
+    const uint32_t index = arguments.slots[i] - 1;
+    const Argument argument = context.tree().list(node.arguments)[index];
+    if (!argument.value) continue;
+    ExprId value = argument.value;
+    const Purpose purpose{"passed to", i < pins.size() ? context.project.var(pins[i]).name : argument.pin.name,
+                          pou.name};
+    const SectionKind section = i < pins.size() ? context.project.var(pins[i]).section : SectionKind::Input;
+    if (section == SectionKind::Output) {
+      out.good &= check(context, value, {}, Access::Write) != types::kError && checkWritable(context, value, purpose);
+    } else if (!TypeTable::isGeneric(context.types().info(declared).kind)) {
+      out.good &= checkAs(context, value, declared, purpose);
+    } else if (forced && (!result_is_generic || declared == pou.result)) {
+      out.good &= checkAs(context, value, forced, purpose);
+    } else {
+      const TypeId hint = declared == pou.result ? expected : TypeId{};
+      out.good &= check(context, value, hint, Access::Read) != types::kError;
+    }
+    context.tree().list(node.arguments)[index].value = value;
+    out.values[i] = value;
+  }
+  if (!out.good) return out;
+  std::vector<ExprId> operands;
+  for (size_t i = 0; i < out.values.size(); ++i) {
+    const TypeId generic = out.pin_types[i];
+    if (!out.values[i] || !TypeTable::isGeneric(context.types().info(generic).kind)) continue;
+    bool seen = false;
+    for (const auto& group : out.groups) seen |= group.generic == generic;
+    if (seen) continue;
+    operands.clear();
+    for (size_t k = i; k < out.values.size(); ++k) {
+      if (out.pin_types[k] == generic && out.values[k]) operands.push_back(out.values[k]);
+    }
+    const TypeKind kind = context.types().info(generic).kind;
+    const TypeId type =
+        groupType(context, operands, kind, generic == pou.result ? expected : TypeId{}, pou, node.h.loc);
+    out.groups.push_back({generic, type});
+    if (type == types::kError) {
+      out.good = false;
+      return out;
+    }
+    size_t at = 0;
+    for (size_t k = i; k < out.values.size(); ++k) {
+      if (out.pin_types[k] != generic || !out.values[k]) continue;
+      out.values[k] = operands[at++];
+      context.tree().list(node.arguments)[arguments.slots[k] - 1].value = out.values[k];
+    }
+  }
+  return out;
+}
+
+TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expected, TypeId forced) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  Arguments arguments = matchArguments(context, node, pou);
+  const size_t declared = pinsOf(context, pou).size();
+  if (arguments.slots.size() > declared) return foldCall(context, expr, pou, arguments, expected);
+  if (!arguments.good) {
+    for (const uint32_t index : arguments.slots) {
+      if (index == 0) continue;
+      ExprId value = context.tree().list(node.arguments)[index - 1].value;
+      if (value && isUntyped(context, check(context, value, {}, Access::Read))) settle(context, value);
+    }
+    return node.h.type = types::kError;
+  }
+  Call call;
+  call.kind = CallKind::Function;
+  bindControlPins(context, node, arguments, call);
+  if (!checkRequiredPins(context, node, pou, arguments)) return node.h.type = types::kError;
+  GenericOperands operands = groupOperands(context, node, pou, arguments, expected, forced);
+  if (!operands.good) return node.h.type = types::kError;
+  // A text has its largest capacity inside: one instance serves every length.
+  const auto normal = [&](TypeId type) {
+    const TypeKind kind = context.types().plainKind(type);
+    if (kind == TypeKind::String) return context.types().string(255);
+    if (kind == TypeKind::WString) return context.types().wstring(255);
+    return type;
+  };
+  std::vector<TypeId> types_by_pin;
+  const Pou& generic = context.project.pou(pou);
+  for (size_t i = 0; i < declared; ++i) {
+    const TypeId pin = context.project.var(pinsOf(context, pou)[i]).type;
+    const TypeId type = operands.typeFor(context, pin);
+    types_by_pin.push_back(type ? normal(type) : types::kInt);
+  }
+  TypeId result = generic.result ? operands.typeFor(context, generic.result) : TypeId{};
+  if (generic.result && !result) {  // TRUNC: the result is any integer that is wanted
+    result = forced ? forced : types::kDInt;
+    if (!forced && expected && belongs(context, expected, context.types().info(generic.result).kind)) {
+      result = context.types().plain(expected);
+    }
+  }
+  if (result) result = normal(result);
+  call.pou = generic.generic ? instantiate(context, pou, types_by_pin, result) : pou;
+  if (!call.pou) return node.h.type = types::kError;
+  context.project.pou(call.pou).used = true;
+  const std::span<const VarId> pins = pinsOf(context, call.pou);
+  for (size_t i = 0; i < operands.values.size() && i < pins.size(); ++i) {
+    if (!operands.values[i]) continue;
+    Binding binding;
+    binding.pin = pins[i];
+    binding.value = operands.values[i];
+    binding.is_output = context.project.var(pins[i]).section == SectionKind::Output;
+    call.bindings.push_back(binding);
+  }
+  const TypeId type = context.project.pou(call.pou).result;
+  node.call = addCall(context, std::move(call));
+  return node.h.type = type;
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,415 @@
+// Literals. In: literals as parsed. Out: typed literals; untyped numbers keep the type IntegerLiteral or RealLiteral
+// until what stands around them gives them one (adapt) or they take their default (settle).
+// An untyped expression is a tree of untyped literals and arithmetic on them: it is computed exactly, and only its
+// result must fit. Each such tree is typed once, so the cost is linear.
+#include <bit>
+#include <cmath>
+
+#include "sema/bodies/bodies.h"
+#include "sema/types/arithmetic.h"
+
+namespace rung::sema {
+
+namespace {
+
+using Int128 = __int128;
+
+struct Bounds {
+  Int128 low, high;
+};
+
+Bounds boundsOf(const types::TypeTable& table, TypeKind kind) {
+  const uint32_t width = types::TypeTable::bitWidth(kind);
+  if (table.isSigned(kind)) return {-(Int128{1} << (width - 1)), (Int128{1} << (width - 1)) - 1};
+  return {0, (Int128{1} << width) - 1};
+}
+
+std::string spellNumber(Int128 value) {
+  if (value == 0) return "0";
+  const bool negative = value < 0;
+  std::string digits;
+  for (unsigned __int128 rest = negative ? -static_cast<unsigned __int128>(value)
+                                         : static_cast<unsigned __int128>(value);
+       rest != 0; rest /= 10) {
+    digits.insert(digits.begin(), static_cast<char>('0' + static_cast<int>(rest % 10)));
+  }
+  return negative ? "-" + digits : digits;
+}
+
+Int128 literalValue(const LiteralExpr& node) {
+  const Int128 value = node.value();
+  return (node.h.bits & kLiteralNegative) != 0 ? -value : value;
+}
+
+bool isIntegerLike(TypeKind kind) { return types::TypeTable::isInteger(kind) || types::TypeTable::isBits(kind); }
+
+bool reportRange(Context& context, ExprId expr, Int128 value, TypeId to, Bounds bounds) {
+  context.report(Diag::ConstantOutOfRange, context.tree().begin(expr),
+                 {spellNumber(value), context.types().spell(to), spellNumber(bounds.low), spellNumber(bounds.high)});
+  context.tree().expr(expr).type = types::kError;
+  return false;
+}
+
+double realValue(const LiteralExpr& node) {
+  if (node.literal() == LiteralKind::Integer) return static_cast<double>(literalValue(node));
+  return std::bit_cast<double>(node.value());
+}
+
+// A whole quotient is wanted where a fraction would do: `1 / 2`.
+bool dividesIntegers(const Context& context, ExprId expr) {
+  const Tree& tree = context.tree();
+  if (tree.kind(expr) == ExprKind::Unary) return dividesIntegers(context, tree.as<UnaryExpr>(expr).operand);
+  if (tree.kind(expr) != ExprKind::Binary) return false;
+  const BinaryExpr& node = tree.as<BinaryExpr>(expr);
+  if (node.op() == BinaryOp::Divide || node.op() == BinaryOp::Modulo) return true;
+  return dividesIntegers(context, node.left) || dividesIntegers(context, node.right);
+}
+
+// True when a part of the expression needs more room than its result.
+bool partsExceed(const Context& context, ExprId expr, Bounds bounds) {
+  const Tree& tree = context.tree();
+  Int128 value;
+  if (!untypedValue(context, expr, value) || value < bounds.low || value > bounds.high) return true;
+  if (tree.kind(expr) == ExprKind::Unary) {
+    const UnaryExpr& node = tree.as<UnaryExpr>(expr);
+    if (node.op() == UnaryOp::Negate && tree.kind(node.operand) == ExprKind::Literal) return false;
+    return partsExceed(context, node.operand, bounds);
+  }
+  if (tree.kind(expr) == ExprKind::Binary) {
+    const BinaryExpr& node = tree.as<BinaryExpr>(expr);
+    return partsExceed(context, node.left, bounds) || partsExceed(context, node.right, bounds);
+  }
+  return false;
+}
+
+void setIntegerType(Context& context, ExprId& expr, TypeId to) {
+  Tree& tree = context.tree();
+  tree.expr(expr).type = to;
+  tree.expr(expr).is_constant = 1;
+  if (tree.kind(expr) == ExprKind::Unary) {
+    UnaryExpr& node = tree.as<UnaryExpr>(expr);
+    setIntegerType(context, node.operand, to);
+    if (node.op() == UnaryOp::Negate && tree.kind(node.operand) == ExprKind::Literal) {
+      // -32768 is one value: its magnitude alone does not fit.
+      LiteralExpr& literal = tree.as<LiteralExpr>(node.operand);
+      literal.h.bits ^= kLiteralNegative;
+      expr = node.operand;
+    }
+  } else if (tree.kind(expr) == ExprKind::Binary) {
+    BinaryExpr& node = tree.as<BinaryExpr>(expr);
+    setIntegerType(context, node.left, to);
+    setIntegerType(context, node.right, to);
+  }
+}
+
+bool adaptInteger(Context& context, ExprId& expr, TypeId to, Bounds bounds) {
+  Tree& tree = context.tree();
+  Int128 value;
+  if (tree.kind(expr) == ExprKind::Literal) {
+    LiteralExpr& node = tree.as<LiteralExpr>(expr);
+    value = literalValue(node);
+    if (value < bounds.low || value > bounds.high) return reportRange(context, expr, value, to, bounds);
+    node.h.type = to;
+    return true;
+  }
+  if (!untypedValue(context, expr, value)) {  // NOT, or too large for any type
+    setIntegerType(context, expr, to);
+    return true;
+  }
+  if (value < bounds.low || value > bounds.high) return reportRange(context, expr, value, to, bounds);
+  if (!partsExceed(context, expr, bounds)) {
+    setIntegerType(context, expr, to);
+    return true;
+  }
+  LiteralExpr folded{};
+  folded.h.kind = ExprKind::Literal;
+  folded.h.op = static_cast<uint8_t>(LiteralKind::Integer);
+  folded.h.loc = tree.begin(expr);
+  folded.h.is_constant = 1;
+  folded.h.bits = value < 0 ? kLiteralNegative : 0;
+  folded.h.type = to;
+  folded.setValue(static_cast<uint64_t>(value < 0 ? -value : value));
+  expr = tree.add<ExprId>(folded);
+  return true;
+}
+
+bool adaptReal(Context& context, ExprId& expr, TypeId to) {
+  Tree& tree = context.tree();
+  ExprHeader& header = tree.expr(expr);
+  const Purpose none{};
+  if (header.type == types::idOf(TypeKind::IntegerLiteral) && dividesIntegers(context, expr)) {
+    context.report(Diag::IntegerDivision, header.loc);
+    settle(context, expr);
+    wrapConvert(context, expr, to);
+    return true;
+  }
+  switch (header.kind) {
+    case ExprKind::Literal: {
+      header.type = to;
+      header.is_constant = 1;
+      const double value = std::fabs(realValue(tree.as<LiteralExpr>(expr)));
+      if (context.types().plainKind(to) == TypeKind::Real && value > 3.4028235677973366e38) {
+        context.report(Diag::RealOutOfRange, header.loc, {"REAL"});
+        header.type = types::kError;
+        return false;
+      }
+      return true;
+    }
+    case ExprKind::Unary: header.type = to; return adaptReal(context, tree.as<UnaryExpr>(expr).operand, to);
+    case ExprKind::Binary: {
+      BinaryExpr& node = tree.as<BinaryExpr>(expr);
+      header.type = to;
+      if (!adaptReal(context, node.left, to)) return false;
+      if (node.op() == BinaryOp::Power && tree.expr(node.right).type == types::idOf(TypeKind::IntegerLiteral)) {
+        return settle(context, node.right) != types::kError;
+      }
+      return adaptReal(context, node.right, to);
+    }
+    case ExprKind::Error:
+    case ExprKind::Name:
+    case ExprKind::TypedName:
+    case ExprKind::Member:
+    case ExprKind::Index:
+    case ExprKind::Deref:
+    case ExprKind::BitAccess:
+    case ExprKind::Address:
+    case ExprKind::Call:
+    case ExprKind::Range:
+    case ExprKind::ArrayInit:
+    case ExprKind::Repeat:
+    case ExprKind::StructInit:
+    case ExprKind::Convert: break;
+  }
+  return convert(context, expr, to, none);
+}
+
+// The number of characters that a text has in memory: bytes, or UTF-16 units.
+uint32_t lengthOf(std::string_view value, bool wide) {
+  if (!wide) return static_cast<uint32_t>(value.size());
+  uint32_t units = 0;
+  for (const char c : value) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xc0) != 0x80) units += byte >= 0xf0 ? 2 : 1;
+  }
+  return units;
+}
+
+TypeId prefixType(Context& context, LiteralExpr& node) {
+  if (const TypeId elementary = context.types().elementary(node.prefix)) return elementary;
+  const Entity entity = lookUp(context, node.prefix);
+  if (entity.what() == EntityKind::Type) return TypeId{entity.index};
+  if (!entity) {
+    context.report(Diag::UnknownName, node.h.loc, {text(context, node.prefix)})
+        .didYouMean(nearestName(context, node.prefix));
+  } else {
+    context.report(Diag::NotALiteralType, node.h.loc, {text(context, node.prefix)});
+  }
+  return types::kError;
+}
+
+TypeId checkTypedNumber(Context& context, ExprId& expr) {
+  LiteralExpr& node = context.tree().as<LiteralExpr>(expr);
+  const TypeId type = prefixType(context, node);
+  if (type == types::kError) return node.h.type = type;
+  const TypeKind kind = context.types().plainKind(type);
+  if (types::TypeTable::isReal(kind) &&
+      (node.literal() == LiteralKind::Real || node.literal() == LiteralKind::Integer)) {
+    return adaptReal(context, expr, type) ? type : types::kError;
+  }
+  if (isIntegerLike(kind) && node.literal() == LiteralKind::Integer) {
+    return adaptInteger(context, expr, type, boundsOf(context.types(), kind)) ? type : types::kError;
+  }
+  if (kind == TypeKind::Bool && node.literal() == LiteralKind::Integer) {
+    if (node.value() > 1) {
+      reportRange(context, expr, literalValue(node), type, {0, 1});
+      return types::kError;
+    }
+    return node.h.type = type;
+  }
+  if (kind == TypeKind::Bool && node.literal() == LiteralKind::Bool) return node.h.type = type;
+  if ((types::TypeTable::isText(kind) || kind == TypeKind::Char || kind == TypeKind::WChar) &&
+      (node.literal() == LiteralKind::String || node.literal() == LiteralKind::WString)) {
+    const bool wide = kind == TypeKind::WString || kind == TypeKind::WChar;
+    if (!types::TypeTable::isText(kind)) return node.h.type = type;
+    const uint32_t length = lengthOf(context.tree().text(node.text()), wide);
+    return node.h.type = wide ? context.types().wstring(length) : context.types().string(length);
+  }
+  context.report(Diag::NotALiteralType, node.h.loc, {text(context, node.prefix)});
+  return node.h.type = types::kError;
+}
+
+// T# and the like: the long form where it is written or wanted, else the short one when the value fits.
+TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind shorter, TypeKind longer,
+                 int64_t unit) {
+  const TypeKind wanted = expected ? context.types().plainKind(expected) : TypeKind::None;
+  if ((node.h.bits & kLiteralLong) != 0 || wanted == longer) return node.h.type = types::idOf(longer);
+  const int64_t count = static_cast<int64_t>(node.value()) / unit;
+  const Bounds bounds = boundsOf(context.types(), shorter);
+  const bool negative = static_cast<int64_t>(node.value()) < 0;
+  if (count < bounds.low || count > bounds.high || (negative && bounds.low == 0)) {
+    const types::Value low{types::idOf(shorter), static_cast<uint64_t>(bounds.low)};
+    const types::Value high{types::idOf(shorter), static_cast<uint64_t>(bounds.high)};
+    context.report(
+        Diag::ConstantOutOfRange, node.h.loc,
+        {context.project.sources.tokenAt(node.h.loc), context.types().spell(types::idOf(shorter)),
+         types::spell(context.types(), context.names(), low), types::spell(context.types(), context.names(), high)});
+    return node.h.type = types::kError;
+  }
+  return node.h.type = types::idOf(shorter);
+}
+
+TypeId checkText(Context& context, LiteralExpr& node, TypeId expected) {
+  const bool wide = node.literal() == LiteralKind::WString;
+  const uint32_t length = lengthOf(context.tree().text(node.text()), wide);
+  const TypeKind wanted = expected ? context.types().kind(expected) : TypeKind::None;
+  if (length == 1 && wanted == (wide ? TypeKind::WChar : TypeKind::Char)) return node.h.type = expected;
+  return node.h.type = wide ? context.types().wstring(length) : context.types().string(length);
+}
+
+}  // namespace
+
+TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected) {
+  LiteralExpr& node = context.tree().as<LiteralExpr>(expr);
+  node.h.is_constant = 1;
+  switch (node.literal()) {
+    case LiteralKind::Bool: return node.prefix ? checkTypedNumber(context, expr) : node.h.type = types::kBool;
+    case LiteralKind::Integer:
+      return node.prefix ? checkTypedNumber(context, expr) : node.h.type = types::idOf(TypeKind::IntegerLiteral);
+    case LiteralKind::Real:
+      return node.prefix ? checkTypedNumber(context, expr) : node.h.type = types::idOf(TypeKind::RealLiteral);
+    case LiteralKind::String:
+    case LiteralKind::WString:
+      return node.prefix ? checkTypedNumber(context, expr) : checkText(context, node, expected);
+    case LiteralKind::Duration: return checkSpan(context, node, expected, TypeKind::Time, TypeKind::LTime, 1'000'000);
+    case LiteralKind::Date: return checkSpan(context, node, expected, TypeKind::Date, TypeKind::LDate, 1'000'000'000);
+    case LiteralKind::TimeOfDay:
+      return checkSpan(context, node, expected, TypeKind::TimeOfDay, TypeKind::LTimeOfDay, 1'000'000);
+    case LiteralKind::DateTime:
+      return checkSpan(context, node, expected, TypeKind::DateTime, TypeKind::LDateTime, 1'000'000'000);
+    case LiteralKind::Null: return node.h.type = types::idOf(TypeKind::NullLiteral);
+  }
+  return node.h.type = types::kError;
+}
+
+bool untypedValue(const Context& context, ExprId expr, Int128& value) {
+  const Tree& tree = context.tree();
+  if (tree.kind(expr) == ExprKind::Literal) {
+    const LiteralExpr& node = tree.as<LiteralExpr>(expr);
+    value = literalValue(node);
+    return node.literal() == LiteralKind::Integer;
+  }
+  if (tree.kind(expr) == ExprKind::Unary) {
+    const UnaryExpr& node = tree.as<UnaryExpr>(expr);
+    if (node.op() == UnaryOp::Not || !untypedValue(context, node.operand, value)) return false;
+    if (node.op() == UnaryOp::Negate) value = -value;
+    return true;
+  }
+  if (tree.kind(expr) != ExprKind::Binary) return false;
+  const BinaryExpr& node = tree.as<BinaryExpr>(expr);
+  Int128 left, right;
+  if (!untypedValue(context, node.left, left) || !untypedValue(context, node.right, right)) return false;
+  constexpr Int128 kLimit = Int128{1} << 100;
+  const auto inLimit = [&] { return value < kLimit && value > -kLimit; };
+  switch (node.op()) {
+    case BinaryOp::Add: value = left + right; return inLimit();
+    case BinaryOp::Subtract: value = left - right; return inLimit();
+    case BinaryOp::Multiply: return !__builtin_mul_overflow(left, right, &value) && inLimit();
+    case BinaryOp::Divide:
+      if (right == 0) return false;
+      value = left / right;
+      return true;
+    case BinaryOp::Modulo:
+      if (right == 0) return false;
+      value = left % right;
+      return true;
+    case BinaryOp::And: value = left & right; return true;
+    case BinaryOp::Or: value = left | right; return true;
+    case BinaryOp::Xor: value = left ^ right; return true;
+    case BinaryOp::OrElse:
+    case BinaryOp::AndThen:
+    case BinaryOp::Equal:
+    case BinaryOp::NotEqual:
+    case BinaryOp::Less:
+    case BinaryOp::LessEqual:
+    case BinaryOp::Greater:
+    case BinaryOp::GreaterEqual:
+    case BinaryOp::Power: return false;
+  }
+  return false;
+}
+
+TypeId defaultType(Context& context, ExprId expr) {
+  if (context.tree().expr(expr).type == types::idOf(TypeKind::RealLiteral)) return types::kReal;
+  Int128 value;
+  if (!untypedValue(context, expr, value)) return types::kLInt;
+  for (const TypeId type : {types::kInt, types::kDInt, types::kLInt}) {
+    const Bounds bounds = boundsOf(context.types(), context.types().kind(type));
+    if (value >= bounds.low && value <= bounds.high) return type;
+  }
+  return types::kULInt;
+}
+
+bool untypedFits(Context& context, ExprId expr, TypeId to) {
+  const TypeKind kind = context.types().plainKind(to);
+  const bool integer = context.tree().expr(expr).type == types::idOf(TypeKind::IntegerLiteral);
+  if (types::TypeTable::isReal(kind)) return true;
+  if (!integer) return false;
+  Int128 value;
+  if (kind == TypeKind::Bool) return untypedValue(context, expr, value) && value >= 0 && value <= 1;
+  if (!isIntegerLike(kind)) return false;
+  if (!untypedValue(context, expr, value)) return true;
+  const Bounds bounds = boundsOf(context.types(), kind);
+  return value >= bounds.low && value <= bounds.high;
+}
+
+bool adapt(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
+  ExprHeader& header = context.tree().expr(expr);
+  if (to == types::kError || header.type == types::kError) return to != types::kError;
+  const TypeId target = context.types().resolve(to);
+  const types::TypeInfo& info = context.types().info(target);
+  const TypeKind kind = context.types().plainKind(target);
+  if (types::TypeTable::isReal(kind)) return adaptReal(context, expr, to);
+  if (header.type == types::idOf(TypeKind::IntegerLiteral)) {
+    if (info.kind == TypeKind::Subrange) {
+      const Bounds bounds = boundsOf(context.types(), kind);
+      Int128 value;
+      if (untypedValue(context, expr, value) && value >= bounds.low && value <= bounds.high) {
+        const bool is_signed = context.types().isSigned(kind);
+        const Int128 low = is_signed ? Int128{info.low} : Int128{static_cast<uint64_t>(info.low)};
+        const Int128 high = is_signed ? Int128{info.high} : Int128{static_cast<uint64_t>(info.high)};
+        if (value < low || value > high) {
+          context.report(Diag::OutsideSubrange, context.tree().begin(expr),
+                         {spellNumber(value), context.types().spell(to), spellNumber(low), spellNumber(high)});
+          if (!adaptInteger(context, expr, info.base, bounds)) return false;
+          wrapConvert(context, expr, to);
+          return true;
+        }
+      }
+      return adaptInteger(context, expr, to, bounds);
+    }
+    if (isIntegerLike(kind) && info.kind != TypeKind::Enum) {
+      return adaptInteger(context, expr, to, boundsOf(context.types(), kind));
+    }
+    if (kind == TypeKind::Bool) {
+      Int128 value;
+      if (context.tree().kind(expr) == ExprKind::Literal && untypedValue(context, expr, value) && value >= 0 &&
+          value <= 1) {
+        header.type = to;
+        return true;
+      }
+    }
+  }
+  const TypeId own = settle(context, expr);
+  if (own == types::kError) return false;
+  return convert(context, expr, to, purpose);
+}
+
+TypeId settle(Context& context, ExprId& expr, TypeId expected) {
+  const TypeId now = context.tree().expr(expr).type;
+  if (!isUntyped(context, now)) return now;
+  TypeId to = defaultType(context, expr);
+  if (expected && untypedFits(context, expr, expected)) to = expected;
+  return adapt(context, expr, to, {}) ? to : types::kError;
+}
+
+}  // namespace rung::sema

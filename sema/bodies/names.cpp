@@ -1,0 +1,310 @@
+// Names in expressions: variables, enumeration items, members of records, and what `GVL.x`, `Lib.f`, `Prog.x` mean.
+// In: NameExpr, TypedNameExpr, MemberExpr. Out: their entity and type. Called for every operand of every body.
+#include "sema/bodies/bodies.h"
+#include "sema/checks/outside_access.h"
+#include "sema/scopes.h"
+
+namespace rung::sema {
+
+namespace {
+
+const char* wordOf(EntityKind kind) {
+  switch (kind) {
+    case EntityKind::Type: return "a type";
+    case EntityKind::GlobalList: return "a list of globals";
+    case EntityKind::Namespace: return "a library";
+    case EntityKind::Program: return "a program";
+    case EntityKind::None:
+    case EntityKind::Error:
+    case EntityKind::Var:
+    case EntityKind::Pou:
+    case EntityKind::EnumValue: return "a name";
+  }
+  return "a name";
+}
+
+const char* wordOf(PouKind kind) {
+  switch (kind) {
+    case PouKind::Function: return "a function; call it with `(...)`";
+    case PouKind::FunctionBlock: return "a block type; declare an instance of it";
+    case PouKind::Program: return "a program; name one of its variables after a `.`";
+  }
+  return "a POU";
+}
+
+// A REFERENCE is used like what it refers to.
+TypeId throughReference(Context& context, ExprId& expr, TypeId type) {
+  const types::TypeInfo& info = context.types().info(context.types().resolve(type));
+  if (info.kind != TypeKind::Reference) return type;
+  context.tree().expr(expr).type = type;
+  DerefExpr deref{};
+  deref.h.kind = ExprKind::Deref;
+  deref.h.loc = context.tree().loc(expr);
+  deref.h.writable = 1;
+  deref.h.type = info.base;
+  deref.base = expr;
+  expr = context.tree().add<ExprId>(deref);
+  return info.base;
+}
+
+TypeId typeOf(const Context& context, VarId id) {
+  const TypeId type = context.project.var(id).type;
+  return type ? type : types::kError;
+}
+
+TypeId useVar(Context& context, ExprId& expr, VarId id, Access access) {
+  markAccess(context, id, access);
+  const Var& var = context.project.var(id);
+  ExprHeader& header = context.tree().expr(expr);
+  header.is_constant = var.constant && var.has_value;
+  header.writable = !var.constant;
+  const TypeId type = typeOf(context, id);
+  header.type = type;
+  return throughReference(context, expr, type);
+}
+
+TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
+  const EnumValue& item = context.project.enum_values[index];
+  ExprHeader& header = context.tree().expr(expr);
+  header.is_constant = 1;
+  header.type = item.type;
+  if (bare && (context.iec() || context.types().info(item.type).strict)) {
+    context.report(context.iec() ? Diag::BareEnumItem : Diag::StrictEnumItem, header.loc,
+                   {text(context, item.name), text(context, context.types().info(item.type).name)});
+    return header.type = types::kError;
+  }
+  return item.type;
+}
+
+// What an entity is as an operand; a qualifier has no type and is no value.
+TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId name, Access access, bool bare) {
+  ExprHeader& header = context.tree().expr(expr);
+  switch (entity.what()) {
+    case EntityKind::Var: return useVar(context, expr, VarId{entity.index}, access);
+    case EntityKind::EnumValue: return useEnumValue(context, expr, entity.index, bare);
+    case EntityKind::None:
+    case EntityKind::Error: return header.type = types::kError;
+    case EntityKind::Pou: {
+      const Pou& pou = context.project.pou(PouId{entity.index});
+      if (access == Access::Qualifier && pou.kind != PouKind::FunctionBlock) return header.type = {};
+      if (access == Access::Address) return header.type = pou.record ? pou.record : types::kError;
+      context.report(Diag::NotAValue, loc, {text(context, name), wordOf(pou.kind)});
+      return header.type = types::kError;
+    }
+    case EntityKind::Type:
+      if (access == Access::Address) return header.type = TypeId{entity.index};
+      [[fallthrough]];
+    case EntityKind::GlobalList:
+    case EntityKind::Namespace:
+    case EntityKind::Program:
+      if (access == Access::Qualifier) return header.type = {};
+      context.report(Diag::NotAValue, loc, {text(context, name), wordOf(entity.what())});
+      return header.type = types::kError;
+  }
+  return header.type = types::kError;
+}
+
+// The base of a member: a value, or a qualifier (then without a type).
+TypeId checkBase(Context& context, ExprId& base, Access access) {
+  const ExprKind kind = context.tree().kind(base);
+  if (kind != ExprKind::Name && kind != ExprKind::Member) return check(context, base, {}, access);
+  const TypeId type = check(context, base, {}, Access::Qualifier);
+  const Entity entity = entityOf(context, base);
+  if (type && entity.what() == EntityKind::Var) markAccess(context, VarId{entity.index}, access);
+  return type;
+}
+
+std::string_view nearestField(Context& context, TypeId record, NameId written) {
+  const types::TypeInfo& info = context.types().info(context.types().resolve(record));
+  std::vector<std::string_view> candidates;
+  for (const types::Field& field : info.fields) candidates.push_back(text(context, field.name));
+  for (const auto& item : info.items) candidates.push_back(text(context, item.first));
+  return nearest(text(context, written), candidates);
+}
+
+std::string_view nearestIn(Context& context, Entity qualifier, NameId written) {
+  if (qualifier.what() == EntityKind::Type) return nearestField(context, TypeId{qualifier.index}, written);
+  if (qualifier.what() == EntityKind::GlobalList) {
+    return nearestField(context, context.project.global_lists[qualifier.index].record, written);
+  }
+  return {};
+}
+
+TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access access) {
+  MemberExpr& node = context.tree().as<MemberExpr>(expr);
+  Entity found;
+  TypeId record;
+  if (qualifier.what() == EntityKind::Pou) {
+    const PouId pou{qualifier.index};
+    resolvePou(context, pou);
+    record = context.project.pou(pou).record;
+  } else if (qualifier.what() == EntityKind::Program) {
+    const PouId pou = context.project.instances[qualifier.index].program;
+    resolvePou(context, pou);
+    record = context.project.pou(pou).record;
+  } else {
+    found = lookUpIn(context, qualifier, node.member);
+  }
+  if (record) {
+    if (const VarId var = findMember(context, record, node.member)) found = Entity::of(EntityKind::Var, var.index);
+  }
+  if (!found) {
+    context
+        .report(Diag::UnknownMember, node.h.loc,
+                {text(context, nameOf(context, node.base)), text(context, node.member)})
+        .didYouMean(record ? nearestField(context, record, node.member) : nearestIn(context, qualifier, node.member));
+    node.entity = Entity::of(EntityKind::Error, 0);
+    return node.h.type = types::kError;
+  }
+  node.entity = found;
+  return useEntity(context, expr, found, node.h.loc, node.member, access, false);
+}
+
+}  // namespace
+
+void markAccess(Context& context, VarId id, Access access) {
+  if (access == Access::Qualifier) return;
+  for (VarId at = id; at; at = context.project.var(at).external) {
+    Var& var = context.project.var(at);
+    if (access != Access::Write) var.read = true;
+    if (access != Access::Read) var.written = true;
+  }
+}
+
+Entity entityOf(const Context& context, ExprId expr) {
+  const Tree& tree = context.tree();
+  switch (tree.kind(expr)) {
+    case ExprKind::Name: return tree.as<NameExpr>(expr).entity;
+    case ExprKind::TypedName: return tree.as<TypedNameExpr>(expr).entity;
+    case ExprKind::Member: return tree.as<MemberExpr>(expr).entity;
+    case ExprKind::Error:
+    case ExprKind::Literal:
+    case ExprKind::Index:
+    case ExprKind::Deref:
+    case ExprKind::BitAccess:
+    case ExprKind::Address:
+    case ExprKind::Unary:
+    case ExprKind::Binary:
+    case ExprKind::Call:
+    case ExprKind::Range:
+    case ExprKind::ArrayInit:
+    case ExprKind::Repeat:
+    case ExprKind::StructInit:
+    case ExprKind::Convert: return {};
+  }
+  return {};
+}
+
+bool isWhole(const Context& context, const MemberExpr& node) {
+  return !context.tree().expr(node.base).type && entityOf(context, node.base);
+}
+
+PouId pouOf(Context& context, TypeId record) {
+  const NamedType* named = context.scopes.named(context.types().resolve(record));
+  return named == nullptr ? PouId{} : named->pou;
+}
+
+Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected) {
+  Entity entity = lookUp(context, name);
+  const TypeId wanted = expected ? context.types().resolve(expected) : expected;
+  if (wanted && context.types().info(wanted).kind == TypeKind::Enum) {
+    const bool other_item = entity.what() == EntityKind::EnumValue &&
+                            context.types().resolve(context.project.enum_values[entity.index].type) != wanted;
+    if (!entity || other_item) {
+      if (const Entity item = lookUpIn(context, Entity::of(EntityKind::Type, wanted.index), name)) entity = item;
+    }
+  }
+  if (entity) {
+    const bool decided = wanted && entity.what() == EntityKind::EnumValue &&
+                         context.types().resolve(context.project.enum_values[entity.index].type) == wanted;
+    if (!decided && isAmbiguousItem(context, entity)) {
+      const TypeId type = context.project.enum_values[entity.index].type;
+      context.report(Diag::AmbiguousItem, loc, {text(context, name), context.types().spell(type)});
+      return Entity::of(EntityKind::Error, 0);
+    }
+    return entity;
+  }
+  context.report(Diag::UnknownName, loc, {text(context, name)}).didYouMean(nearestName(context, name));
+  return Entity::of(EntityKind::Error, 0);
+}
+
+TypeId checkName(Context& context, ExprId& expr, TypeId expected, Access access) {
+  NameExpr& node = context.tree().as<NameExpr>(expr);
+  node.entity = resolveName(context, node.name, node.h.loc, expected);
+  if (node.entity.what() == EntityKind::Pou && node.entity.index == context.pou.index) {
+    // The name of a function is its result inside its body.
+    if (const VarId result = context.project.pou(context.pou).result_var) {
+      node.entity = Entity::of(EntityKind::Var, result.index);
+    }
+  }
+  return useEntity(context, expr, node.entity, node.h.loc, node.name, access, true);
+}
+
+TypeId checkTypedName(Context& context, ExprId& expr) {
+  TypedNameExpr& node = context.tree().as<TypedNameExpr>(expr);
+  Entity type = lookUp(context, node.type_name.name);
+  if (type.what() != EntityKind::Type) {
+    node.entity = Entity::of(EntityKind::Error, 0);
+    if (!type && !context.types().elementary(node.type_name.name)) {
+      context.report(Diag::UnknownName, node.type_name.loc, {text(context, node.type_name.name)})
+          .didYouMean(nearestName(context, node.type_name.name));
+    } else {
+      context.report(Diag::NotAnEnumeration, node.type_name.loc, {text(context, node.type_name.name)});
+    }
+    return node.h.type = types::kError;
+  }
+  const TypeId enumeration = context.types().resolve(TypeId{type.index});
+  if (context.types().info(enumeration).kind != TypeKind::Enum) {
+    node.entity = Entity::of(EntityKind::Error, 0);
+    if (enumeration != types::kError) {
+      context.report(Diag::NotAnEnumeration, node.type_name.loc, {text(context, node.type_name.name)});
+    }
+    return node.h.type = types::kError;
+  }
+  node.entity = lookUpIn(context, Entity::of(EntityKind::Type, enumeration.index), node.item.name);
+  if (node.entity.what() != EntityKind::EnumValue) {
+    context
+        .report(Diag::UnknownMember, node.item.loc, {text(context, node.type_name.name), text(context, node.item.name)})
+        .didYouMean(nearestField(context, enumeration, node.item.name));
+    node.entity = Entity::of(EntityKind::Error, 0);
+    return node.h.type = types::kError;
+  }
+  node.h.is_constant = 1;
+  return node.h.type = context.project.enum_values[node.entity.index].type;
+}
+
+TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
+  MemberExpr& node = context.tree().as<MemberExpr>(expr);
+  const TypeId base = checkBase(context, node.base, access);
+  if (!base) return checkWhole(context, expr, entityOf(context, node.base), access);
+  if (base == types::kError) return node.h.type = types::kError;
+  const TypeId record = context.types().resolve(base);
+  const types::TypeInfo& info = context.types().info(record);
+  if (info.kind != TypeKind::Record) {
+    node.entity = Entity::of(EntityKind::Error, 0);
+    if (info.kind == TypeKind::Pointer) {
+      context.report(Diag::MemberOfPointer, node.h.loc, {text(context, node.member)});
+    } else {
+      context.report(Diag::NotARecord, node.h.loc, {text(context, node.member), context.types().spell(base)});
+    }
+    return node.h.type = types::kError;
+  }
+  const VarId member = findMember(context, record, node.member);
+  if (!member) {
+    node.entity = Entity::of(EntityKind::Error, 0);
+    context.report(Diag::UnknownMember, node.h.loc, {context.types().spell(base), text(context, node.member)})
+        .didYouMean(nearestField(context, record, node.member));
+    return node.h.type = types::kError;
+  }
+  node.entity = Entity::of(EntityKind::Var, member.index);
+  if (info.record_kind != types::RecordKind::Struct && info.record_kind != types::RecordKind::Union) {
+    if (!checkOutsideAccess(context, node, member, record, access)) {
+      typeOf(context, member);
+      return node.h.type = types::kError;
+    }
+  }
+  const TypeId type = useVar(context, expr, member, access);
+  return type;
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,151 @@
+// Operators in call form: ADD(a, b, c), SEL, MUX, MOVE, SHL … (library functions with {operator '…'}).
+// In: a call of such a function. Out: CallKind::Operator with the operands in order, left-open ones without a value
+// (they count as 0), or a BinaryExpr where times and dates meet, or a ConvertExpr for {operator 'convert'}.
+#include "sema/bodies/bodies.h"
+#include "sema/bodies/generic_calls.h"
+#include "sema/checks/division_by_zero.h"
+#include "sema/checks/real_equality.h"
+#include "sema/checks/required_pins.h"
+
+namespace rung::sema {
+
+namespace {
+
+using types::TypeTable;
+
+bool binaryOf(types::Op op, BinaryOp& out) {
+  switch (op) {
+    case types::Op::Add: out = BinaryOp::Add; return true;
+    case types::Op::Sub: out = BinaryOp::Subtract; return true;
+    case types::Op::Mul: out = BinaryOp::Multiply; return true;
+    case types::Op::Div: out = BinaryOp::Divide; return true;
+    case types::Op::Mod: out = BinaryOp::Modulo; return true;
+    case types::Op::Power: out = BinaryOp::Power; return true;
+    case types::Op::Neg:
+    case types::Op::And:
+    case types::Op::Or:
+    case types::Op::Xor:
+    case types::Op::Not:
+    case types::Op::Shl:
+    case types::Op::Shr:
+    case types::Op::Rol:
+    case types::Op::Ror:
+    case types::Op::Eq:
+    case types::Op::Ne:
+    case types::Op::Lt:
+    case types::Op::Le:
+    case types::Op::Gt:
+    case types::Op::Ge:
+    case types::Op::Min:
+    case types::Op::Max:
+    case types::Op::Abs: return false;
+  }
+  return false;
+}
+
+bool isTime(const Context& context, TypeId type) {
+  const TypeKind kind = context.types().plainKind(type);
+  return TypeTable::isDuration(kind) || TypeTable::isDate(kind);
+}
+
+// ADD(tod, t), MUL(t, 2): the same as the infix form. None when no time or date is among the operands.
+TypeId infixTimes(Context& context, ExprId& expr, const Arguments& arguments, BinaryOp op, TypeId expected,
+                  TypeId forced) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  bool times = false;
+  std::vector<ExprId> operands;
+  for (const uint32_t index : arguments.slots) {
+    if (index == 0) return {};
+    ExprId value = context.tree().list(node.arguments)[index - 1].value;
+    if (!value) return {};
+    const TypeId type = check(context, value, {}, Access::Read);
+    if (type == types::kError) return type;
+    const bool first_only = op == BinaryOp::Multiply || op == BinaryOp::Divide;
+    if (forced && isTime(context, forced) && (operands.empty() || !first_only)) {
+      if (!convert(context, value, forced, Purpose{"passed to", context.tree().as<NameExpr>(node.callee).name, {}})) {
+        return types::kError;
+      }
+    }
+    if (!isUntyped(context, type)) times |= isTime(context, type);
+    // What is checked is not checked again: a conversion to the own type stops at it.
+    if (!isUntyped(context, type)) wrapConvert(context, value, context.tree().expr(value).type);
+    context.tree().list(node.arguments)[index - 1].value = value;
+    operands.push_back(value);
+  }
+  if (!times || operands.size() < 2) return {};
+  ExprId value = operands[0];
+  for (size_t i = 1; i < operands.size(); ++i) {
+    BinaryExpr link{};
+    link.h.kind = ExprKind::Binary;
+    link.h.op = static_cast<uint8_t>(op);
+    link.h.loc = node.h.loc;
+    link.h.in_parens = 1;
+    link.left = value;
+    link.right = operands[i];
+    value = context.tree().add<ExprId>(link);
+    if (combine(context, value, expected) == types::kError) return types::kError;
+  }
+  expr = value;
+  return context.tree().expr(value).type;
+}
+
+}  // namespace
+
+TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expected, TypeId forced) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  const Pou& pou = context.project.pou(id);
+  const Arguments arguments = matchArguments(context, node, id);
+  if (!arguments.good) {
+    for (const uint32_t index : arguments.slots) {
+      if (index == 0) continue;
+      ExprId value = context.tree().list(node.arguments)[index - 1].value;
+      if (value && isUntyped(context, check(context, value, {}, Access::Read))) settle(context, value);
+    }
+    return node.h.type = types::kError;
+  }
+  if (!checkRequiredPins(context, node, id, arguments)) return node.h.type = types::kError;
+  BinaryOp infix;
+  if (pou.operator_kind == Pou::Operator::Op && binaryOf(pou.op, infix) && infix != BinaryOp::Power &&
+      arguments.en == 0 && arguments.eno == 0) {
+    if (const TypeId type = infixTimes(context, expr, arguments, infix, expected, forced)) {
+      return context.tree().expr(expr).type = type;
+    }
+  }
+  GenericOperands operands = groupOperands(context, node, id, arguments, expected, forced);
+  if (!operands.good) return node.h.type = types::kError;
+  TypeId result = pou.result ? operands.typeFor(context, pou.result) : types::kError;
+  if (!result) result = expected ? expected : types::kDInt;
+  if (pou.operator_kind == Pou::Operator::Op) {
+    if (pou.op == types::Op::Power && operands.values.size() == 2 && operands.values[0] && operands.values[1]) {
+      result = power(context, operands.values[0], operands.values[1], expected, node.h.loc);
+      if (result == types::kError) return node.h.type = result;
+    }
+    if ((pou.op == types::Op::Div || pou.op == types::Op::Mod) && operands.values.size() > 1 && operands.values[1]) {
+      const BinaryOp op = pou.op == types::Op::Div ? BinaryOp::Divide : BinaryOp::Modulo;
+      if (!checkDivisor(context, operands.values[1], op)) return node.h.type = types::kError;
+    }
+  }
+  if (pou.operator_kind == Pou::Operator::Convert && arguments.en == 0 && arguments.eno == 0) {
+    ExprId value = operands.values.empty() ? ExprId{} : operands.values[0];
+    if (!value) return node.h.type = types::kError;
+    wrapConvert(context, value, forced ? forced : result);
+    expr = value;
+    return context.tree().expr(expr).type;
+  }
+  Call call;
+  call.kind = CallKind::Operator;
+  call.pou = id;
+  bindControlPins(context, node, arguments, call);
+  for (const ExprId value : operands.values) {
+    Binding binding;
+    binding.value = value;
+    call.bindings.push_back(binding);
+  }
+  bool constant = arguments.en == 0 && arguments.eno == 0;
+  for (const ExprId value : operands.values) constant &= !value || context.tree().expr(value).is_constant;
+  node.h.is_constant = constant;
+  node.call = addCall(context, std::move(call));
+  return node.h.type = result;
+}
+
+}  // namespace rung::sema

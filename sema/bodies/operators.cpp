@@ -1,0 +1,365 @@
+// Operators: the common type of both sides, and what the result is. In: UnaryExpr, BinaryExpr, and the operands of
+// operator functions (ADD, MAX, EQ …), which follow the same rules. Out: types, and conversions of the operands.
+// Design §6: integers keep their own width in every subexpression, so what a result is assigned to does not widen it.
+#include "sema/bodies/bodies.h"
+#include "sema/checks/division_by_zero.h"
+#include "sema/checks/real_equality.h"
+#include "sema/types/arithmetic.h"
+
+namespace rung::sema {
+
+namespace {
+
+using types::TypeTable;
+
+constexpr Purpose kOperand{"brought to the type of the other operand", {}, {}};
+
+bool isNumberKind(TypeKind k) { return TypeTable::isInteger(k) || TypeTable::isBits(k) || TypeTable::isReal(k); }
+bool isTimeKind(TypeKind k) { return TypeTable::isDuration(k) || TypeTable::isDate(k); }
+
+TypeId reportOperand(Context& context, std::string_view what, TypeId type, Loc loc) {
+  const TypeKind kind = context.types().plainKind(type);
+  const bool extension = context.iec() && (TypeTable::isBits(kind) || TypeTable::isInteger(kind));
+  context.report(extension ? Diag::OperandExtension : Diag::OperandType, loc, {what, context.types().spell(type)});
+  return types::kError;
+}
+
+TypeId reportOperands(Context& context, std::string_view what, TypeId a, TypeId b, Loc loc) {
+  const auto word = [&](TypeId type) {
+    const TypeKind kind = context.types().info(type).kind;
+    if (kind == TypeKind::IntegerLiteral) return std::string("INT");
+    if (kind == TypeKind::RealLiteral) return std::string("REAL");
+    return context.types().spell(type);
+  };
+  context.report(Diag::OperandTypes, loc, {what, word(a), word(b)});
+  return types::kError;
+}
+
+// The type that two typed operands share, before what the operator accepts is looked at. None: they do not combine.
+TypeId join(Context& context, TypeId a, TypeId b) {
+  types::TypeTable& table = context.types();
+  if (sameType(context, a, b)) return a;
+  const TypeKind x = table.plainKind(a), y = table.plainKind(b);
+  if (isNumberKind(x) && isNumberKind(y)) {
+    const bool enums = table.kind(a) == TypeKind::Enum || table.kind(b) == TypeKind::Enum;
+    if (enums && (context.iec() || table.kind(a) == table.kind(b))) return {};
+    if (context.iec() && TypeTable::isBits(x) != TypeTable::isBits(y)) return {};
+    return commonNumber(context, a, b);
+  }
+  const TypeId left = table.resolve(a), right = table.resolve(b);
+  if (TypeTable::isText(x) && x == y) return table.info(left).length >= table.info(right).length ? a : b;
+  if (fit(context, a, b) == Fit::Lossless) return b;
+  if (fit(context, b, a) == Fit::Lossless) return a;
+  if (table.info(left).kind == TypeKind::NullLiteral && table.info(right).kind == TypeKind::Pointer) return b;
+  if (table.info(right).kind == TypeKind::NullLiteral && table.info(left).kind == TypeKind::Pointer) return a;
+  if (table.info(left).kind == TypeKind::Pointer && table.info(right).kind == TypeKind::Pointer && !context.iec()) {
+    return a;
+  }
+  return {};
+}
+
+// The type that a typed operand and an untyped one share: the typed one's where the literal fits it.
+TypeId joinUntyped(Context& context, TypeId typed, ExprId literal, TypeId expected) {
+  types::TypeTable& table = context.types();
+  const TypeId plain = table.plain(typed);
+  const TypeKind kind = table.info(plain).kind;
+  if (table.kind(typed) == TypeKind::Enum && context.iec()) return {};
+  if (untypedFits(context, literal, plain)) return plain;
+  if (context.tree().expr(literal).type == types::idOf(TypeKind::RealLiteral)) {
+    if (!isNumberKind(kind) || (context.iec() && TypeTable::isBits(kind))) return {};
+    const TypeKind wanted = expected ? table.plainKind(expected) : TypeKind::None;
+    if (TypeTable::isReal(wanted)) return types::idOf(wanted);
+    return types::isLossless(table, plain, types::kReal) ? types::kReal : types::kLReal;
+  }
+  if (TypeTable::isBits(kind)) {
+    for (const TypeId wider : {types::kWord, types::kDWord, types::kLWord}) {
+      if (untypedFits(context, literal, wider)) return wider;
+    }
+    if (context.iec()) return {};
+  }
+  if (!isNumberKind(kind)) return {};
+  return commonNumber(context, plain, defaultType(context, literal));
+}
+
+bool accepts(Context& context, Operands accepted, TypeId type) {
+  const TypeKind kind = context.types().kind(type);
+  const TypeKind plain = context.types().plainKind(type);
+  const bool enumeration = kind == TypeKind::Enum;
+  if (enumeration && accepted != Operands::Anything && accepted != Operands::Equatable) {
+    if (context.iec() ||
+        (context.types().info(context.types().resolve(type)).strict && accepted != Operands::Comparable)) {
+      return false;
+    }
+  }
+  const bool bits = TypeTable::isBits(plain);
+  switch (accepted) {
+    case Operands::Number: return isNumberKind(plain) && !(bits && context.iec());
+    case Operands::NumberOrTime:
+      return (isNumberKind(plain) && !(bits && context.iec())) || TypeTable::isDuration(plain);
+    case Operands::Bits: return plain == TypeKind::Bool || bits || (TypeTable::isInteger(plain) && !context.iec());
+    case Operands::Comparable:
+    case Operands::Equatable:
+      return TypeTable::isElementary(plain) || kind == TypeKind::Pointer || kind == TypeKind::NullLiteral;
+    case Operands::Anything: return true;
+  }
+  return false;
+}
+
+bool keepsOwnType(Operands accepted) {
+  return accepted == Operands::Anything || accepted == Operands::Comparable || accepted == Operands::Equatable;
+}
+
+Operands operandsOf(BinaryOp op) {
+  switch (op) {
+    case BinaryOp::Or:
+    case BinaryOp::OrElse:
+    case BinaryOp::Xor:
+    case BinaryOp::And:
+    case BinaryOp::AndThen: return Operands::Bits;
+    case BinaryOp::Equal:
+    case BinaryOp::NotEqual: return Operands::Equatable;
+    case BinaryOp::Less:
+    case BinaryOp::LessEqual:
+    case BinaryOp::Greater:
+    case BinaryOp::GreaterEqual: return Operands::Comparable;
+    case BinaryOp::Add:
+    case BinaryOp::Subtract: return Operands::NumberOrTime;
+    case BinaryOp::Multiply:
+    case BinaryOp::Divide:
+    case BinaryOp::Modulo:
+    case BinaryOp::Power: return Operands::Number;
+  }
+  return Operands::Number;
+}
+
+bool isComparison(BinaryOp op) { return op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual; }
+
+// Both sides are untyped: the result is, too, but for comparisons. None when the sides must be typed first.
+TypeId combineUntyped(Context& context, BinaryExpr& node) {
+  const bool real = context.tree().expr(node.left).type == types::idOf(TypeKind::RealLiteral) ||
+                    context.tree().expr(node.right).type == types::idOf(TypeKind::RealLiteral);
+  switch (node.op()) {
+    case BinaryOp::Add:
+    case BinaryOp::Subtract:
+    case BinaryOp::Multiply: break;
+    case BinaryOp::Modulo:
+      if (real) return reportOperand(context, "MOD", types::kReal, node.h.loc);
+      [[fallthrough]];
+    case BinaryOp::Divide:
+      if (!checkDivisor(context, node.right, node.op())) return types::kError;
+      break;
+    case BinaryOp::Power: return types::idOf(TypeKind::RealLiteral);
+    case BinaryOp::Or:
+    case BinaryOp::Xor:
+    case BinaryOp::And:
+      if (real) return reportOperand(context, spelling(node.op()), types::kReal, node.h.loc);
+      break;
+    case BinaryOp::OrElse:
+    case BinaryOp::AndThen:
+    case BinaryOp::Equal:
+    case BinaryOp::NotEqual:
+    case BinaryOp::Less:
+    case BinaryOp::LessEqual:
+    case BinaryOp::Greater:
+    case BinaryOp::GreaterEqual: return {};
+  }
+  return types::idOf(real ? TypeKind::RealLiteral : TypeKind::IntegerLiteral);
+}
+
+}  // namespace
+
+TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, TypeId expected, std::string_view what,
+             Loc loc) {
+  Tree& tree = context.tree();
+  TypeId common;
+  bool untyped = false, real = false;
+  for (const ExprId operand : operands) {
+    const TypeId type = tree.expr(operand).type;
+    if (!type || type == types::kError) return types::kError;
+    if (isUntyped(context, type)) {
+      untyped = true;
+      real |= type == types::idOf(TypeKind::RealLiteral);
+      continue;
+    }
+    if (!accepts(context, accepted, type)) {
+      const Loc place = operands.size() == 2 ? loc : tree.loc(operand);
+      if (common && !accepts(context, Operands::Bits, type) && accepted == Operands::Bits) {
+        return reportOperands(context, what, common, type, place);
+      }
+      return reportOperand(context, what, type, place);
+    }
+    const TypeId joined = common ? join(context, common, type) : type;
+    if (!joined) return reportOperands(context, what, common, type, loc);
+    common = joined;
+  }
+  if (common && !keepsOwnType(accepted)) common = context.types().plain(common);
+  if (untyped && common) {
+    const TypeId typed = common;
+    for (const ExprId operand : operands) {
+      if (!isUntyped(context, tree.expr(operand).type)) continue;
+      const TypeId joined = accepted == Operands::Anything && untypedFits(context, operand, common)
+                                ? common
+                                : joinUntyped(context, common, operand, expected);
+      if (!joined) return reportOperands(context, what, typed, tree.expr(operand).type, loc);
+      common = joined;
+    }
+    if (!accepts(context, accepted, common)) return reportOperands(context, what, typed, common, loc);
+  } else if (untyped) {
+    bool fits = static_cast<bool>(expected) && !isUntyped(context, expected) && accepts(context, accepted, expected);
+    for (const ExprId operand : operands) fits = fits && untypedFits(context, operand, expected);
+    if (fits) {
+      common = context.types().plain(expected);
+    } else if (real) {
+      common = types::kReal;
+    } else {
+      for (const ExprId operand : operands) {
+        const TypeId own = defaultType(context, operand);
+        common = common ? commonNumber(context, common, own) : own;
+      }
+    }
+    if (!accepts(context, accepted, common)) return reportOperand(context, what, common, loc);
+  }
+  if (TypeTable::isText(context.types().plainKind(common))) return common;
+  for (ExprId& operand : operands) {
+    if (!convert(context, operand, common, kOperand)) return types::kError;
+  }
+  return common;
+}
+
+// x ** n: the base becomes REAL or LREAL; the exponent keeps its type.
+TypeId power(Context& context, ExprId& base_expr, ExprId& exponent_expr, TypeId expected, Loc loc) {
+  for (ExprId* side : {&base_expr, &exponent_expr}) {
+    const TypeId type = context.tree().expr(*side).type;
+    if (isUntyped(context, type)) continue;
+    const TypeKind kind = context.types().plainKind(type);
+    if (!isNumberKind(kind) || !accepts(context, Operands::Number, type)) {
+      return reportOperand(context, "**", type, loc);
+    }
+  }
+  TypeId base = context.tree().expr(base_expr).type;
+  if (!TypeTable::isReal(context.types().plainKind(base))) {
+    const TypeId exponent = context.tree().expr(exponent_expr).type;
+    const TypeKind wanted = expected ? context.types().plainKind(expected) : TypeKind::None;
+    TypeId real = types::kReal;
+    if (TypeTable::isReal(wanted)) {
+      real = types::idOf(wanted);
+    } else if (!isUntyped(context, exponent) && context.types().plainKind(exponent) == TypeKind::LReal) {
+      real = types::kLReal;
+    } else if (!isUntyped(context, base) && !types::isLossless(context.types(), context.types().plain(base), real)) {
+      real = types::kLReal;
+    }
+    if (!convert(context, base_expr, real, kOperand)) return types::kError;
+    base = real;
+  } else {
+    base = context.types().plain(base);
+  }
+  if (context.tree().expr(exponent_expr).type == types::idOf(TypeKind::RealLiteral)) {
+    if (!adapt(context, exponent_expr, base, kOperand)) return types::kError;
+  } else if (settle(context, exponent_expr) == types::kError) {
+    return types::kError;
+  }
+  const TypeId exponent = context.types().plain(context.tree().expr(exponent_expr).type);
+  if (TypeTable::isReal(context.types().info(exponent).kind) && exponent != base) {
+    if (base == types::kReal) {
+      wrapConvert(context, base_expr, types::kLReal);
+      base = types::kLReal;
+    } else {
+      wrapConvert(context, exponent_expr, types::kLReal);
+    }
+  } else if (exponent != context.tree().expr(exponent_expr).type) {
+    wrapConvert(context, exponent_expr, exponent);
+  }
+  return base;
+}
+
+TypeId combine(Context& context, ExprId& self, TypeId expected) {
+  BinaryExpr& node = context.tree().as<BinaryExpr>(self);
+  const TypeId left = context.tree().expr(node.left).type, right = context.tree().expr(node.right).type;
+  if (!left || !right || left == types::kError || right == types::kError) return node.h.type = types::kError;
+  const BinaryOp op = node.op();
+  const bool comparison = isComparison(op);
+  const bool untyped_left = isUntyped(context, left), untyped_right = isUntyped(context, right);
+  node.h.is_constant = context.tree().expr(node.left).is_constant & context.tree().expr(node.right).is_constant;
+  if (untyped_left && untyped_right) {
+    if (const TypeId type = combineUntyped(context, node)) return node.h.type = type;
+  }
+  if (op == BinaryOp::Power) {
+    const Loc loc = node.h.loc;
+    return node.h.type = power(context, node.left, node.right, expected, loc);
+  }
+  if (!comparison && operandsOf(op) != Operands::Bits) {
+    const TypeKind a = untyped_left ? TypeKind::None : context.types().plainKind(left);
+    const TypeKind b = untyped_right ? TypeKind::None : context.types().plainKind(right);
+    if (isTimeKind(a) || isTimeKind(b)) {
+      const Loc loc = node.h.loc;
+      if (const TypeId type = combineTimes(context, self, op, node.left, node.right)) {
+        return context.tree().expr(self).type = type;
+      }
+      return node.h.type = reportOperands(context, spelling(op), left, right, loc);
+    }
+  }
+  ExprId operands[2] = {node.left, node.right};
+  const TypeId common =
+      unify(context, operands, operandsOf(op), comparison ? TypeId{} : expected, spelling(op), node.h.loc);
+  node.left = operands[0];
+  node.right = operands[1];
+  if (common == types::kError) return node.h.type = types::kError;
+  const TypeKind kind = context.types().plainKind(common);
+  if (comparison) {
+    if (op == BinaryOp::Equal || op == BinaryOp::NotEqual) checkRealEquality(context, node);
+    return node.h.type = types::kBool;
+  }
+  if ((op == BinaryOp::AndThen || op == BinaryOp::OrElse) && kind != TypeKind::Bool) {
+    return node.h.type = reportOperand(context, spelling(op), common, node.h.loc);
+  }
+  if (op == BinaryOp::Modulo && TypeTable::isReal(kind)) {
+    return node.h.type = reportOperand(context, "MOD", common, node.h.loc);
+  }
+  if (op == BinaryOp::Divide || op == BinaryOp::Modulo) {
+    if (!checkDivisor(context, node.right, op)) return node.h.type = types::kError;
+  }
+  return node.h.type = common;
+}
+
+TypeId checkBinary(Context& context, ExprId& expr, TypeId expected) {
+  BinaryExpr& node = context.tree().as<BinaryExpr>(expr);
+  const bool comparison = isComparison(node.op());
+  const TypeId hint = comparison ? TypeId{} : expected;
+  const TypeId left = check(context, node.left, hint, Access::Read);
+  // The other side of a comparison says which enumeration a bare item belongs to, and T# literals their size.
+  const TypeId right = check(context, node.right, comparison && !isUntyped(context, left) ? left : hint, Access::Read);
+  if (comparison && left != right && left != types::kError && right != types::kError) {
+    const Entity entity = entityOf(context, node.left);
+    const bool item = entity.what() == EntityKind::EnumValue && context.types().kind(right) == TypeKind::Enum;
+    if (item && context.tree().kind(node.left) == ExprKind::Name) check(context, node.left, right, Access::Read);
+  }
+  return combine(context, expr, expected);
+}
+
+TypeId checkUnary(Context& context, ExprId& expr, TypeId expected) {
+  UnaryExpr& node = context.tree().as<UnaryExpr>(expr);
+  const TypeId type = check(context, node.operand, expected, Access::Read);
+  node.h.is_constant = context.tree().expr(node.operand).is_constant;
+  if (!type || type == types::kError) return node.h.type = types::kError;
+  if (isUntyped(context, type)) {
+    if (node.op() == UnaryOp::Not) {
+      if (type == types::idOf(TypeKind::RealLiteral)) {
+        return node.h.type = reportOperand(context, "NOT", types::kReal, node.h.loc);
+      }
+      if (expected && context.types().plainKind(expected) == TypeKind::Bool &&
+          untypedFits(context, node.operand, expected)) {
+        adapt(context, node.operand, types::kBool, kOperand);
+        return node.h.type = types::kBool;
+      }
+    }
+    return node.h.type = type;
+  }
+  const TypeId plain = context.types().plain(type);
+  const bool good = node.op() == UnaryOp::Not ? accepts(context, Operands::Bits, type)
+                                              : accepts(context, Operands::NumberOrTime, type);
+  if (!good) return node.h.type = reportOperand(context, spelling(node.op()), type, node.h.loc);
+  if (plain != type) convert(context, node.operand, plain, kOperand);
+  return node.h.type = plain;
+}
+
+}  // namespace rung::sema

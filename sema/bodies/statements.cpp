@@ -1,0 +1,360 @@
+// Statements. In: the statement list of a POU. Out: the same tree with every expression checked and converted.
+// Called by checkBody() below, which sema::check() calls for each POU and for each library POU in use.
+#include "sema/bodies/bodies.h"
+#include "sema/checks/case_labels.h"
+#include "sema/checks/constant_condition.h"
+#include "sema/checks/for_header.h"
+#include "sema/checks/jump_labels.h"
+#include "sema/checks/recursion.h"
+#include "sema/checks/result_assigned.h"
+#include "sema/checks/unused_variables.h"
+#include "sema/checks/writable.h"
+
+namespace rung::sema {
+
+namespace {
+
+// The name that a message gives a place: `a` of `a[i]`, `q` of `x.q`.
+NameId placeName(const Context& context, ExprId expr) {
+  const Tree& tree = context.tree();
+  for (;;) {
+    if (tree.kind(expr) == ExprKind::Index) {
+      expr = tree.as<IndexExpr>(expr).base;
+    } else if (tree.kind(expr) == ExprKind::Deref) {
+      expr = tree.as<DerefExpr>(expr).base;
+    } else if (tree.kind(expr) == ExprKind::BitAccess) {
+      expr = tree.as<BitAccessExpr>(expr).base;
+    } else {
+      return nameOf(context, expr);
+    }
+  }
+}
+
+TypeId checkTarget(Context& context, ExprId& target, Access access) {
+  const TypeId type = check(context, target, {}, access);
+  if (!type || type == types::kError) return types::kError;
+  if (isUntyped(context, type)) settle(context, target);
+  return checkWritable(context, target, Purpose{"assigned to", {}, {}}) ? type : types::kError;
+}
+
+// x REF= y: the reference itself is the target.
+void checkReferenceAssign(Context& context, AssignStmt& node) {
+  const TypeId type = check(context, node.target, {}, Access::Write);
+  const TypeId value = check(context, node.value, {}, Access::ReadWrite);
+  if (type == types::kError || value == types::kError) return;
+  const bool reference = context.tree().kind(node.target) == ExprKind::Deref;
+  if (reference) node.target = context.tree().as<DerefExpr>(node.target).base;
+  const TypeId own = context.tree().expr(node.target).type;
+  if (context.types().kind(own) != TypeKind::Reference) {
+    context.report(Diag::NotAReference, context.tree().loc(node.target), {context.types().spell(own)});
+  } else if (!sameType(context, type, value)) {
+    context.report(Diag::WrongType, context.tree().loc(node.value),
+                   {context.types().spell(value), "bound to the reference", context.types().spell(type)});
+  }
+}
+
+BinaryOp binaryOf(AssignOp op) {
+  switch (op) {
+    case AssignOp::Subtract: return BinaryOp::Subtract;
+    case AssignOp::Multiply: return BinaryOp::Multiply;
+    case AssignOp::Divide: return BinaryOp::Divide;
+    case AssignOp::Add:
+    case AssignOp::Assign:
+    case AssignOp::Set:
+    case AssignOp::Reset:
+    case AssignOp::Reference: return BinaryOp::Add;
+  }
+  return BinaryOp::Add;
+}
+
+// a += b is a := a + b; lowering keeps the short form where both sides have the target's type.
+void checkCompoundAssign(Context& context, AssignStmt& node) {
+  const TypeId type = checkTarget(context, node.target, Access::ReadWrite);
+  if (type == types::kError) {
+    checkExpr(context, node.value);
+    return;
+  }
+  BinaryExpr sum{};
+  sum.h.kind = ExprKind::Binary;
+  sum.h.op = static_cast<uint8_t>(binaryOf(node.op()));
+  sum.h.loc = node.h.loc;
+  sum.left = node.target;
+  sum.right = node.value;
+  ExprId value = context.tree().add<ExprId>(sum);
+  check(context, context.tree().as<BinaryExpr>(value).right, type, Access::Read);
+  if (combine(context, value, type) == types::kError) return;
+  if (context.tree().kind(value) == ExprKind::Binary) {
+    const BinaryExpr& made = context.tree().as<BinaryExpr>(value);
+    if (made.h.type == context.types().resolve(type) && made.left == node.target) {
+      node.value = made.right;
+      return;
+    }
+  }
+  node.value = value;
+  node.h.op = static_cast<uint8_t>(AssignOp::Assign);
+  convert(context, node.value, type, Purpose{"assigned to", placeName(context, node.target), {}});
+}
+
+void checkAssign(Context& context, AssignStmt& node) {
+  switch (node.op()) {
+    case AssignOp::Assign: {
+      const TypeId type = checkTarget(context, node.target, Access::Write);
+      if (type == types::kError) {
+        checkExpr(context, node.value);
+        return;
+      }
+      checkAs(context, node.value, type, Purpose{"assigned to", placeName(context, node.target), {}});
+      return;
+    }
+    case AssignOp::Set:
+    case AssignOp::Reset: {
+      const TypeId type = checkTarget(context, node.target, Access::ReadWrite);
+      checkAs(context, node.value, types::kBool, Purpose{"used as the condition of S= or R=", {}, {}});
+      if (type != types::kError && context.types().plainKind(type) != TypeKind::Bool) {
+        context.report(Diag::SetNeedsBool, context.tree().loc(node.target), {context.types().spell(type)});
+      }
+      return;
+    }
+    case AssignOp::Reference: checkReferenceAssign(context, node); return;
+    case AssignOp::Add:
+    case AssignOp::Subtract:
+    case AssignOp::Multiply:
+    case AssignOp::Divide: checkCompoundAssign(context, node); return;
+  }
+}
+
+void checkCallStatement(Context& context, StmtId id) {
+  CallStmt& node = context.tree().as<CallStmt>(id);
+  if (context.tree().kind(node.call) != ExprKind::Call) {
+    check(context, node.call, {}, Access::Read);
+    return;
+  }
+  checkCall(context, node.call, {}, true);
+  if (context.tree().kind(node.call) == ExprKind::Call) return;
+  const TypeId type = context.tree().expr(node.call).type;
+  if (isUntyped(context, type)) settle(context, node.call);
+  if (type != types::kError) context.report(Diag::ResultUnused, node.h.loc);
+  node.h.kind = StmtKind::Empty;  // a conversion: nothing happens
+}
+
+bool checkIf(Context& context, const IfStmt& node) {
+  bool falls = false;
+  for (uint32_t i = 0; i < node.branches.count; ++i) {
+    IfBranch branch = context.tree().list(node.branches)[i];
+    checkCondition(context, branch.condition,
+                   i == 0 ? "used as the condition of IF" : "used as the condition of ELSIF");
+    context.tree().list(node.branches)[i].condition = branch.condition;
+    checkConstantCondition(context, branch.condition);
+    falls |= checkStatements(context, branch.body);
+  }
+  const bool otherwise = checkStatements(context, node.otherwise);
+  return falls || otherwise;
+}
+
+ExprId checkLabel(Context& context, ExprId label, TypeId selector, CaseLabels& labels, int64_t* value) {
+  const bool enumeration = context.types().kind(selector) == TypeKind::Enum;
+  TypeId type = check(context, label, selector, Access::Read);
+  if (type == types::kError) return label;
+  TypeId wanted = selector;
+  if (enumeration && isUntyped(context, type) && !context.iec() &&
+      !context.types().info(context.types().resolve(selector)).strict) {
+    wanted = context.types().plain(selector);
+  }
+  if (!convert(context, label, wanted, Purpose{"used as a CASE label", {}, {}})) return label;
+  const std::optional<int64_t> known = constantInteger(context, label);
+  if (!known) {
+    context.report(Diag::LabelNotConstant, context.tree().begin(label));
+    return label;
+  }
+  *value = *known;
+  labels.good = true;
+  return label;
+}
+
+bool checkCase(Context& context, CaseStmt& node) {
+  TypeId selector = check(context, node.selector, {}, Access::Read);
+  if (isUntyped(context, selector)) selector = settle(context, node.selector);
+  const TypeKind kind = context.types().plainKind(selector);
+  if (selector != types::kError && !types::TypeTable::isInteger(kind) && !types::TypeTable::isBits(kind)) {
+    context.report(Diag::CaseSelector, context.tree().loc(node.selector), {context.types().spell(selector)});
+    selector = types::kError;
+  }
+  CaseLabels labels;
+  bool falls = false;
+  for (uint32_t b = 0; b < node.branches.count; ++b) {
+    const CaseBranch branch = context.tree().list(node.branches)[b];
+    for (uint32_t i = 0; i < branch.labels.count; ++i) {
+      ExprId label = context.tree().list(branch.labels)[i];
+      const Loc loc = context.tree().begin(label);
+      if (selector == types::kError) {
+        if (context.tree().kind(label) != ExprKind::Range) checkExpr(context, label);
+      } else if (context.tree().kind(label) == ExprKind::Range) {
+        RangeExpr& range = context.tree().as<RangeExpr>(label);
+        int64_t low = 0, high = 0;
+        labels.good = false;
+        range.low = checkLabel(context, range.low, selector, labels, &low);
+        const bool good = labels.good;
+        labels.good = false;
+        range.high = checkLabel(context, range.high, selector, labels, &high);
+        range.h.type = selector;
+        if (good && labels.good) addCaseLabel(context, labels, low, high, loc, context.types().isSigned(kind));
+      } else {
+        int64_t value = 0;
+        labels.good = false;
+        label = checkLabel(context, label, selector, labels, &value);
+        if (labels.good) addCaseLabel(context, labels, value, value, loc, true);
+      }
+      context.tree().list(branch.labels)[i] = label;
+    }
+    falls |= checkStatements(context, branch.body);
+  }
+  checkCaseLabels(context, labels, selector, context.types().isSigned(kind));
+  const bool otherwise = checkStatements(context, node.otherwise);
+  return falls || otherwise || !node.has_else;
+}
+
+void checkFor(Context& context, ForStmt& node) {
+  const TypeId type = checkForControl(context, node);
+  const NameId name = placeName(context, node.control);
+  const auto bound = [&](ExprId& expr, std::string_view words) {
+    if (!expr) return;
+    if (type == types::kError) {
+      checkExpr(context, expr);
+    } else {
+      checkAs(context, expr, type, Purpose{words, name, {}});
+    }
+  };
+  bound(node.from, "assigned to");
+  bound(node.to, "used as the limit of");
+  bound(node.step, "added to");
+  if (type != types::kError) checkForBounds(context, node);
+  VarId control;
+  if (context.tree().kind(node.control) == ExprKind::Name) {
+    const Entity entity = context.tree().as<NameExpr>(node.control).entity;
+    if (entity.what() == EntityKind::Var) control = VarId{entity.index};
+  }
+  if (control) context.body->loop_controls.push_back({control, context.tree().loc(node.control)});
+  ++context.loop_depth;
+  checkStatements(context, node.body);
+  --context.loop_depth;
+  if (control) context.body->loop_controls.pop_back();
+}
+
+// A loop whose condition is the constant that keeps it going, and that nothing leaves.
+bool endless(Context& context, ExprId condition, bool goes_on, uint32_t ways_out_before, Loc loc) {
+  const Tree& tree = context.tree();
+  if (tree.kind(condition) != ExprKind::Literal || tree.expr(condition).type != types::kBool) return false;
+  if ((tree.as<LiteralExpr>(condition).value() != 0) != goes_on) return false;
+  if (context.body->ways_out != ways_out_before) return false;
+  context.report(Diag::EndlessLoop, loc);
+  return true;
+}
+
+bool checkStatement(Context& context, StmtId id) {
+  Tree& tree = context.tree();
+  BodyState& body = *context.body;
+  switch (tree.kind(id)) {
+    case StmtKind::Error:
+    case StmtKind::Empty: return true;
+    case StmtKind::Assign: checkAssign(context, tree.as<AssignStmt>(id)); return true;
+    case StmtKind::Call: checkCallStatement(context, id); return true;
+    case StmtKind::If: return checkIf(context, tree.as<IfStmt>(id));
+    case StmtKind::Case: return checkCase(context, tree.as<CaseStmt>(id));
+    case StmtKind::For: checkFor(context, tree.as<ForStmt>(id)); return true;
+    case StmtKind::While: {
+      WhileStmt& node = tree.as<WhileStmt>(id);
+      const uint32_t before = body.ways_out;
+      checkCondition(context, node.condition, "used as the condition of WHILE");
+      ++context.loop_depth;
+      checkStatements(context, node.body);
+      --context.loop_depth;
+      return !endless(context, node.condition, true, before, node.h.loc);
+    }
+    case StmtKind::Repeat: {
+      RepeatStmt& node = tree.as<RepeatStmt>(id);
+      const uint32_t before = body.ways_out;
+      ++context.loop_depth;
+      const bool falls = checkStatements(context, node.body);
+      --context.loop_depth;
+      checkCondition(context, node.until, "used as the condition of UNTIL");
+      return !endless(context, node.until, false, before, node.h.loc) && (falls || body.ways_out != before);
+    }
+    case StmtKind::Exit:
+    case StmtKind::Continue:
+      if (context.loop_depth == 0) {
+        const bool exit = tree.kind(id) == StmtKind::Exit;
+        context.report(Diag::OutsideLoop, tree.loc(id), {exit ? "EXIT" : "CONTINUE"});
+        return true;
+      }
+      if (tree.kind(id) == StmtKind::Exit) ++body.ways_out;
+      return false;
+    case StmtKind::Return: ++body.ways_out; return false;
+    case StmtKind::Jump:
+      ++body.ways_out;
+      body.jumps.push_back({tree.as<JumpStmt>(id).label, body.block});
+      return false;
+    case StmtKind::Label: body.labels.push_back({tree.as<LabelStmt>(id).label, body.block}); return true;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool checkStatements(Context& context, Slice<StmtId> list) {
+  if (list.empty()) return true;
+  BodyState& body = *context.body;
+  if (body.stmt_depth >= kMaxStmtDepth) {
+    context.report(Diag::StatementsTooDeep, context.tree().loc(context.tree().list(list)[0]),
+                   {std::to_string(kMaxStmtDepth)});
+    return true;
+  }
+  ++body.stmt_depth;
+  const uint32_t outer = body.block;
+  body.block_parents.push_back(outer);
+  body.block = static_cast<uint32_t>(body.block_parents.size());  // 0 is above all
+  bool reachable = true, told = false;
+  for (uint32_t i = 0; i < list.count; ++i) {
+    const StmtId id = context.tree().list(list)[i];
+    const StmtKind kind = context.tree().kind(id);
+    if (kind == StmtKind::Label) reachable = true;
+    if (!reachable && !told && kind != StmtKind::Empty && kind != StmtKind::Error) {
+      context.report(Diag::Unreachable, kind == StmtKind::Assign
+                                            ? context.tree().begin(context.tree().as<AssignStmt>(id).target)
+                                            : context.tree().loc(id));
+      told = true;
+    }
+    const bool falls = checkStatement(context, id);
+    reachable = reachable && falls;
+  }
+  body.block = outer;
+  --body.stmt_depth;
+  return reachable;
+}
+
+void checkBody(Context& context, PouId id) {
+  Pou& pou = context.project.pou(id);
+  pou.checked = true;
+  if (!pou.decl) return;
+  resolvePou(context, id);
+  const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
+  if (decl.body_kind != BodyKind::St || pou.generic) return;
+  const std::string_view name = text(context, pou.name);
+  setPhaseSubject(name.data(), name.size());
+  BodyState body;
+  Context inner{.project = context.project,
+                .scopes = context.scopes,
+                .pou = id,
+                .file = pou.file,
+                .body = &body,
+                .library = pou.library};
+  checkStatements(inner, decl.body);
+  checkJumpLabels(inner);
+  checkResultAssigned(inner);
+}
+
+void checkAfterBodies(Context& context) {
+  checkRecursion(context);
+  checkUnusedVariables(context);
+}
+
+}  // namespace rung::sema

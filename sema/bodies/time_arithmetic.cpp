@@ -1,0 +1,164 @@
+// Arithmetic on times and dates: TIME * INT, TIME / REAL, DT - DT, TOD + TIME … (IEC 61131-3 ed. 3 table 35).
+// In: a BinaryExpr with a time or date on one side. Out: the same as arithmetic on integers of the type's own unit,
+// with conversions at the rim, so that lowering and the kernel know one kind of arithmetic.
+// TIME and TOD count milliseconds, DATE and DT seconds, the L forms nanoseconds.
+#include "sema/bodies/bodies.h"
+
+namespace rung::sema {
+
+namespace {
+
+using types::TypeTable;
+
+bool isLong(TypeKind k) { return TypeTable::bitWidth(k) == 64; }
+bool isTimeOfDay(TypeKind k) { return k == TypeKind::TimeOfDay || k == TypeKind::LTimeOfDay; }
+bool isSeconds(TypeKind k) { return k == TypeKind::Date || k == TypeKind::DateTime; }
+TypeId durationFor(TypeKind k) { return isLong(k) ? types::kLTime : types::kTime; }
+
+// The integer type that counts this type's units.
+TypeId counter(const Context& context, TypeKind k) {
+  if (context.types().isSigned(k)) return isLong(k) ? types::kLInt : types::kDInt;
+  return isLong(k) ? types::kULInt : types::kUDInt;
+}
+
+ExprId binary(Context& context, BinaryOp op, ExprId left, ExprId right, TypeId type, Loc loc) {
+  BinaryExpr node{};
+  node.h.kind = ExprKind::Binary;
+  node.h.op = static_cast<uint8_t>(op);
+  node.h.loc = loc;
+  node.h.type = type;
+  node.h.in_parens = 1;
+  node.left = left;
+  node.right = right;
+  return context.tree().add<ExprId>(node);
+}
+
+ExprId number(Context& context, uint64_t value, TypeId type, Loc loc) {
+  LiteralExpr node{};
+  node.h.kind = ExprKind::Literal;
+  node.h.op = static_cast<uint8_t>(LiteralKind::Integer);
+  node.h.loc = loc;
+  node.h.type = type;
+  node.h.is_constant = 1;
+  node.setValue(value);
+  return context.tree().add<ExprId>(node);
+}
+
+ExprId converted(Context& context, ExprId expr, TypeId to) {
+  if (context.tree().expr(expr).type != to) wrapConvert(context, expr, to);
+  return expr;
+}
+
+// A duration as a count of the units of `type` (a date, a time of day, or a duration).
+ExprId spanIn(Context& context, ExprId span, TypeKind kind, Loc loc) {
+  span = converted(context, span, durationFor(kind));
+  const TypeId units = counter(context, kind);
+  const TypeId count = counter(context, context.types().kind(durationFor(kind)));
+  span = converted(context, span, count);
+  if (isSeconds(kind)) {
+    span = binary(context, BinaryOp::Divide, span, number(context, 1000, count, loc), count, loc);
+  }
+  return converted(context, span, units);
+}
+
+// span * number, span / number
+TypeId scale(Context& context, ExprId& self, BinaryOp op, ExprId span, ExprId factor, TypeKind kind, Loc loc) {
+  const TypeId duration = types::idOf(kind);
+  const TypeKind by = context.types().plainKind(context.tree().expr(factor).type);
+  if (TypeTable::isReal(by) || by == TypeKind::RealLiteral) {
+    if (by == TypeKind::RealLiteral && !adapt(context, factor, types::kLReal, {})) return types::kError;
+    span = converted(context, converted(context, span, counter(context, kind)), types::kLReal);
+    self = binary(context, op, span, converted(context, factor, types::kLReal), types::kLReal, loc);
+    // The count is rounded as any REAL is.
+    self = converted(context, converted(context, self, counter(context, kind)), duration);
+    return duration;
+  }
+  const TypeId units = counter(context, kind);
+  if (by == TypeKind::IntegerLiteral) {
+    if (!adapt(context, factor, untypedFits(context, factor, units) ? units : defaultType(context, factor), {})) {
+      return types::kError;
+    }
+  } else if (!TypeTable::isInteger(by) && !(TypeTable::isBits(by) && !context.iec())) {
+    return {};
+  }
+  if (op == BinaryOp::Divide) {
+    if (const auto value = constantInteger(context, factor); value && *value == 0) {
+      context.report(Diag::DivisionByZero, context.tree().loc(factor));
+      return types::kError;
+    }
+  }
+  span = converted(context, span, units);
+  self = binary(context, op, span, converted(context, factor, units), units, loc);
+  self = converted(context, self, duration);
+  return duration;
+}
+
+}  // namespace
+
+TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, ExprId right) {
+  const TypeKind a = context.types().plainKind(context.tree().expr(left).type);
+  const TypeKind b = context.types().plainKind(context.tree().expr(right).type);
+  const Loc loc = context.tree().loc(self);
+  const bool span_left = TypeTable::isDuration(a), span_right = TypeTable::isDuration(b);
+  if (op == BinaryOp::Multiply) {
+    if (span_left && !span_right && !TypeTable::isDate(b)) return scale(context, self, op, left, right, a, loc);
+    if (span_right && !span_left && !TypeTable::isDate(a)) return scale(context, self, op, right, left, b, loc);
+    return {};
+  }
+  if (op == BinaryOp::Divide) {
+    if (span_left && !span_right && !TypeTable::isDate(b)) return scale(context, self, op, left, right, a, loc);
+    return {};
+  }
+  if (op == BinaryOp::Modulo && span_left && span_right && !context.iec()) {
+    const TypeKind kind = isLong(a) || isLong(b) ? TypeKind::LTime : TypeKind::Time;
+    const TypeId units = counter(context, kind);
+    self = binary(context, op, spanIn(context, left, kind, loc), spanIn(context, right, kind, loc), units, loc);
+    self = converted(context, self, types::idOf(kind));
+    return types::idOf(kind);
+  }
+  if (op != BinaryOp::Add && op != BinaryOp::Subtract) return {};
+  if (span_left && span_right) {
+    const TypeId type = isLong(a) || isLong(b) ? types::kLTime : types::kTime;
+    BinaryExpr& node = context.tree().as<BinaryExpr>(self);
+    node.left = converted(context, left, type);
+    node.right = converted(context, right, type);
+    return type;
+  }
+  if (TypeTable::isDate(a) && span_right) {
+    if (a == TypeKind::Date || a == TypeKind::LDate) return {};  // a DATE has no time of day to add to
+    const TypeId units = counter(context, a);
+    self = binary(context, op, converted(context, left, units), spanIn(context, right, a, loc), units, loc);
+    self = converted(context, self, types::idOf(a));
+    return types::idOf(a);
+  }
+  if (op == BinaryOp::Add && span_left && TypeTable::isDate(b) && b != TypeKind::Date && b != TypeKind::LDate) {
+    const TypeId units = counter(context, b);
+    self = binary(context, op, spanIn(context, left, b, loc), converted(context, right, units), units, loc);
+    self = converted(context, self, types::idOf(b));
+    return types::idOf(b);
+  }
+  if (op == BinaryOp::Subtract && TypeTable::isDate(a) && TypeTable::isDate(b)) {
+    TypeKind kind = a;
+    if (a != b) {
+      const bool same_quantity = isTimeOfDay(a) == isTimeOfDay(b) && isLong(a) != isLong(b);
+      if (!same_quantity) return {};
+      kind = isLong(a) ? a : b;
+    }
+    left = converted(context, left, types::idOf(kind));
+    right = converted(context, right, types::idOf(kind));
+    const TypeId units = counter(context, kind);
+    const TypeId span = durationFor(kind);
+    const TypeId count = counter(context, context.types().kind(span));
+    ExprId difference =
+        binary(context, op, converted(context, left, units), converted(context, right, units), units, loc);
+    difference = converted(context, difference, count);
+    if (isSeconds(kind)) {
+      difference = binary(context, BinaryOp::Multiply, difference, number(context, 1000, count, loc), count, loc);
+    }
+    self = converted(context, difference, span);
+    return span;
+  }
+  return {};
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,29 @@
+// Forbids a division, or MOD, by a constant zero. IEC 61131-3 ed. 3, 7.3.2 (an error that can be seen here).
+//   passes  share := total / 4;
+//   fails   share := total / 0;   share := 7 MOD 0;
+// Called for each infix division and for DIV and MOD.
+#include "sema/checks/division_by_zero.h"
+
+namespace rung::sema {
+
+bool checkDivisor(Context& context, ExprId divisor, BinaryOp op) {
+  const ExprHeader& header = context.tree().expr(divisor);
+  bool zero = false;
+  if (isUntyped(context, header.type)) {
+    __int128 value;
+    if (header.type == types::idOf(TypeKind::IntegerLiteral)) {
+      zero = untypedValue(context, divisor, value) && value == 0;
+    } else if (context.tree().kind(divisor) == ExprKind::Literal) {
+      zero = context.tree().as<LiteralExpr>(divisor).value() == 0;
+    }
+  } else if (types::TypeTable::isReal(context.types().plainKind(header.type))) {
+    zero = context.tree().kind(divisor) == ExprKind::Literal && context.tree().as<LiteralExpr>(divisor).value() == 0;
+  } else {
+    zero = constantInteger(context, divisor) == 0;
+  }
+  if (!zero) return true;
+  context.report(Diag::DivisionByZero, context.tree().begin(divisor), {spelling(op)});
+  return false;
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,11 @@
+// Forbids a division by a constant zero; see division_by_zero.cpp.
+#pragma once
+
+#include "sema/bodies/bodies.h"
+
+namespace rung::sema {
+
+// False after an error.
+bool checkDivisor(Context& context, ExprId divisor, BinaryOp op);
+
+}  // namespace rung::sema

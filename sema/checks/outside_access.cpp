@@ -1,0 +1,38 @@
+// Forbids what a block does not show: its locals; writing its outputs and in-outs from outside; in iec also reading
+// its inputs, and writing them but in a call. IEC 61131-3 ed. 3, 6.6.3.4; design §6, dialect table.
+//   passes  x := timer.Q;   timer.PT := T#5s (codesys);
+//   fails   timer.Q := TRUE;   x := mixer.step (a VAR)
+// Called by names.cpp for each `instance.pin`.
+#include "sema/checks/outside_access.h"
+
+namespace rung::sema {
+
+bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, TypeId record, Access access) {
+  if (access == Access::Address) return true;
+  const Var& var = context.project.var(member);
+  const bool program = context.types().info(record).record_kind == types::RecordKind::Program;
+  const bool writes = access == Access::Write || access == Access::ReadWrite;
+  const std::string_view pin = text(context, var.name);
+  const std::string block = context.types().spell(record);
+  const auto refuse = [&](Diag diag) {
+    context.report(diag, node.h.loc, {pin, block}).note(var.loc, Note::DeclaredHere);
+    return false;
+  };
+  switch (var.section) {
+    case SectionKind::Input:
+      if (!context.iec() || program) return true;
+      return writes ? refuse(Diag::InputWrittenOutside) : access == Access::Qualifier || refuse(Diag::InputReadOutside);
+    case SectionKind::Output: return writes ? refuse(Diag::OutputWrittenOutside) : true;
+    case SectionKind::InOut: return writes ? refuse(Diag::InOutWrittenOutside) : true;
+    case SectionKind::Local:
+    case SectionKind::Temp:
+    case SectionKind::External:
+    case SectionKind::Stat: return program ? true : refuse(Diag::InternalVariable);
+    case SectionKind::Global:
+    case SectionKind::Access:
+    case SectionKind::Config: return true;
+  }
+  return true;
+}
+
+}  // namespace rung::sema

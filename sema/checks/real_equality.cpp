@@ -1,0 +1,20 @@
+// Warns of `=` and `<>` between REAL values: rounding makes equal results differ. PLCopen coding rule CP8.
+// Comparison with a literal 0 is the usual guard of a division and passes.
+//   passes  IF ABS(a - b) < 0.001 THEN   IF b <> 0.0 THEN
+//   fails   IF a = b THEN
+// Called by operators.cpp when both sides are typed.
+#include "sema/checks/real_equality.h"
+
+namespace rung::sema {
+
+void checkRealEquality(Context& context, const BinaryExpr& node) {
+  if (context.library) return;
+  const Tree& tree = context.tree();
+  if (!types::TypeTable::isReal(context.types().plainKind(tree.expr(node.left).type))) return;
+  for (const ExprId side : {node.left, node.right}) {
+    if (tree.kind(side) == ExprKind::Literal && tree.as<LiteralExpr>(side).value() == 0) return;
+  }
+  context.report(Diag::RealEquality, node.h.loc, {spelling(node.op())});
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,52 @@
+// Forbids a POU that calls itself, directly or through others (codesys: warning). IEC 61131-3 ed. 3, 6.6.1.
+//   passes  Outer calls Inner
+//   fails   Fact := n * Fact(n - 1);
+// Called once, when all bodies are checked. One depth-first walk over the calls, without recursion of its own.
+#include "sema/checks/recursion.h"
+
+#include <algorithm>
+
+namespace rung::sema {
+
+void checkRecursion(Context& context) {
+  std::vector<Project::CallEdge>& edges = context.project.call_edges;
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const auto& a, const auto& b) { return a.caller.index < b.caller.index; });
+  const size_t count = context.project.pous.size();
+  std::vector<uint32_t> first(count + 1, 0);
+  for (const auto& edge : edges) ++first[edge.caller.index + 1];
+  for (size_t i = 0; i < count; ++i) first[i + 1] += first[i];
+  enum : uint8_t { kNew, kOpen, kDone };
+  std::vector<uint8_t> state(count, kNew);
+  std::vector<std::pair<uint32_t, uint32_t>> path;  // POU, next edge
+  for (uint32_t root = 1; root < count; ++root) {
+    if (state[root] != kNew) continue;
+    path.push_back({root, first[root]});
+    state[root] = kOpen;
+    while (!path.empty()) {
+      auto& [pou, next] = path.back();
+      if (next == first[pou + 1]) {
+        state[pou] = kDone;
+        path.pop_back();
+        continue;
+      }
+      const Project::CallEdge& edge = edges[next++];
+      const uint32_t callee = edge.callee.index;
+      if (state[callee] == kNew) {
+        state[callee] = kOpen;
+        path.push_back({callee, first[callee]});
+      } else if (state[callee] == kOpen) {
+        std::string cycle;
+        for (size_t i = 0; i < path.size(); ++i) {
+          if (cycle.empty() && path[i].first != callee) continue;
+          if (!cycle.empty()) cycle += " calls ";
+          cycle.append("`").append(text(context, context.project.pous[path[i].first].name)).append("`");
+        }
+        cycle.append(" calls `").append(text(context, context.project.pous[callee].name)).append("`");
+        context.report(context.iec() ? Diag::Recursion : Diag::RecursionAllowed, edge.loc, {cycle});
+      }
+    }
+  }
+}
+
+}  // namespace rung::sema

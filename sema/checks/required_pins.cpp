@@ -1,0 +1,36 @@
+// Forbids a call that leaves a VAR_IN_OUT or a {required} input open, and a call of a function by position with too few
+// arguments. IEC 61131-3 ed. 3, table 40 and 6.6.1.4; syntax manual 5.4.1 (an informal call has the exact number).
+//   passes  mix(level := tank);   LIMIT(0, x, 9)
+//   fails   mix();                LIMIT(0, x)
+// Called for every resolved call of any language.
+#include "sema/checks/required_pins.h"
+
+namespace rung::sema {
+
+bool checkRequiredPins(Context& context, const CallExpr& node, PouId id, const Arguments& arguments) {
+  const Pou& pou = context.project.pou(id);
+  const std::span<const VarId> pins = pinsOf(context, id);
+  const uint32_t named = node.arguments.count - arguments.positional;
+  const bool by_position = pou.kind == PouKind::Function && named == 0;
+  bool good = true;
+  for (size_t i = 0; i < pins.size(); ++i) {
+    const bool given = i < arguments.slots.size() && arguments.slots[i] != 0;
+    const Var& pin = context.project.var(pins[i]);
+    if (given) {
+      const bool open = !context.tree().list(node.arguments)[arguments.slots[i] - 1].value;
+      if (!open || (pin.section != SectionKind::InOut && !pin.required)) continue;
+    }
+    if (pin.section == SectionKind::InOut || pin.required) {
+      context.report(Diag::PinNotConnected, node.h.loc, {text(context, pin.name), text(context, pou.name)})
+          .note(pin.loc, Note::DeclaredHere);
+      good = false;
+    } else if (by_position && pin.section == SectionKind::Input && !pin.init && !(pin.extensible && i > 0)) {
+      context.report(Diag::MissingArgument, node.end ? node.end : node.h.loc,
+                     {text(context, pou.name), text(context, pin.name)});
+      return false;
+    }
+  }
+  return good;
+}
+
+}  // namespace rung::sema

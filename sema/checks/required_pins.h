@@ -1,0 +1,11 @@
+// Forbids calls that leave open what must be connected; see required_pins.cpp.
+#pragma once
+
+#include "sema/bodies/bodies.h"
+
+namespace rung::sema {
+
+// False after an error.
+bool checkRequiredPins(Context& context, const CallExpr& node, PouId pou, const Arguments& arguments);
+
+}  // namespace rung::sema

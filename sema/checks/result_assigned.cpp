@@ -1,0 +1,15 @@
+// Warns of a function with a result that its body never assigns. Syntax manual 5.6.1.3: it gives the type's default.
+//   passes  FUNCTION Twice : INT … Twice := 2 * x;
+//   fails   FUNCTION Twice : INT … y := 2 * x;
+// Called at the end of each body.
+#include "sema/checks/result_assigned.h"
+
+namespace rung::sema {
+
+void checkResultAssigned(Context& context) {
+  const Pou& pou = context.project.pou(context.pou);
+  if (pou.library || !pou.result_var || context.project.var(pou.result_var).written) return;
+  context.report(Diag::ResultNotAssigned, pou.loc, {text(context, pou.name)});
+}
+
+}  // namespace rung::sema

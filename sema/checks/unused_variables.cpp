@@ -1,0 +1,33 @@
+// Warns of a local that nobody reads or writes, of a local of a function or block that is read and never written, and
+// of an output that its block never writes. Located variables and a program's own may be moved from outside.
+//   passes  VAR n : INT; END_VAR   n := n + 1;
+//   fails   VAR n : INT; END_VAR   (nothing)
+// Called once, when all bodies are checked; silent when there are errors, which leave uses unseen.
+#include "sema/checks/unused_variables.h"
+
+namespace rung::sema {
+
+void checkUnusedVariables(Context& context) {
+  if (context.project.diagnostics.hasErrors()) return;
+  for (uint32_t i = 1; i < context.project.pous.size(); ++i) {
+    const Pou& pou = context.project.pous[i];
+    if (pou.library || pou.native || !pou.checked || !pou.decl) continue;
+    const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
+    if (decl.body_kind != BodyKind::St || decl.body.empty()) continue;
+    for (const VarId id : pou.vars) {
+      const Var& var = context.project.var(id);
+      if (!var.name || var.storage == Storage::Image || var.constant) continue;
+      const bool local =
+          var.section == SectionKind::Local || var.section == SectionKind::Temp || var.section == SectionKind::Stat;
+      if (local && !var.read && !var.written) {
+        context.report(Diag::UnusedVariable, var.loc, {text(context, var.name)});
+      } else if (local && !var.written && !var.init && pou.kind != PouKind::Program) {
+        context.report(Diag::NeverWritten, var.loc, {text(context, var.name)});
+      } else if (var.section == SectionKind::Output && !var.written && !var.init) {
+        context.report(Diag::OutputNeverWritten, var.loc, {text(context, var.name), text(context, pou.name)});
+      }
+    }
+  }
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,88 @@
+// Forbids a target that is no variable: a literal, a result, an enumeration item; a constant; a VAR_INPUT inside its
+// own POU (codesys: warning); the control variable of a FOR around it (codesys: warning).
+// IEC 61131-3 ed. 3, 6.5.2.2 and 7.3.3.4.2; design §6, dialect table.
+//   passes  level := 5;  motors[2].speed := 1.0;
+//   fails   5 := level;  limit := 3 (VAR CONSTANT);  FOR i := 1 TO 3 DO i := 2; END_FOR
+// Called for every target of an assignment, output binding and in-out argument.
+#include "sema/checks/writable.h"
+
+namespace rung::sema {
+
+namespace {
+
+bool checkVariable(Context& context, VarId id, Loc loc) {
+  const Var& var = context.project.var(id);
+  const std::string_view name = text(context, var.name);
+  if (var.constant || (var.external && context.project.var(var.external).constant)) {
+    context.report(Diag::AssignToConstant, loc, {name}).note(var.loc, Note::DeclaredHere);
+    return false;
+  }
+  if (var.section == SectionKind::Input && var.pou == context.pou && !context.library) {
+    context.report(context.iec() ? Diag::AssignToInput : Diag::InputWritten, loc, {name});
+    return !context.iec();
+  }
+  if (context.body == nullptr) return true;
+  for (const BodyState::LoopControl& loop : context.body->loop_controls) {
+    if (loop.var != id) continue;
+    context.report(context.iec() ? Diag::AssignToControl : Diag::ControlWritten, loc, {name})
+        .note(loop.loc, Note::LoopIsHere);
+    return !context.iec();
+  }
+  return true;
+}
+
+}  // namespace
+
+bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
+  const Tree& tree = context.tree();
+  const ExprId whole = expr;
+  for (;;) {
+    switch (tree.kind(expr)) {
+      case ExprKind::Name: {
+        const NameExpr& node = tree.as<NameExpr>(expr);
+        if (node.entity.what() == EntityKind::Var) return checkVariable(context, VarId{node.entity.index}, node.h.loc);
+        context.report(Diag::NotAPlace, node.h.loc, {purpose.spell(context)});
+        return false;
+      }
+      case ExprKind::Member: {
+        const MemberExpr& node = tree.as<MemberExpr>(expr);
+        if (node.entity.what() != EntityKind::Var) {
+          context.report(Diag::NotAPlace, node.h.loc, {purpose.spell(context)});
+          return false;
+        }
+        const VarId var{node.entity.index};
+        if (isWhole(context, node)) return checkVariable(context, var, node.h.loc);
+        if (context.project.var(var).constant) {
+          context.report(Diag::AssignToConstant, node.h.loc, {text(context, node.member)})
+              .note(context.project.var(var).loc, Note::DeclaredHere);
+          return false;
+        }
+        const types::TypeInfo& info = context.types().info(context.types().resolve(tree.expr(node.base).type));
+        if (info.record_kind == types::RecordKind::FunctionBlock || info.record_kind == types::RecordKind::Program) {
+          return true;  // outside_access has looked at it
+        }
+        expr = node.base;
+        break;
+      }
+      case ExprKind::Index: expr = tree.as<IndexExpr>(expr).base; break;
+      case ExprKind::BitAccess: expr = tree.as<BitAccessExpr>(expr).base; break;
+      case ExprKind::Deref:
+      case ExprKind::Address:
+      case ExprKind::Error: return true;
+      case ExprKind::Literal:
+      case ExprKind::TypedName:
+      case ExprKind::Unary:
+      case ExprKind::Binary:
+      case ExprKind::Call:
+      case ExprKind::Range:
+      case ExprKind::ArrayInit:
+      case ExprKind::Repeat:
+      case ExprKind::StructInit:
+      case ExprKind::Convert:
+        context.report(Diag::NotAPlace, tree.begin(whole), {purpose.spell(context)});
+        return false;
+    }
+  }
+}
+
+}  // namespace rung::sema

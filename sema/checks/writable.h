@@ -1,0 +1,11 @@
+// Forbids writing to what is no variable, or may not be written here; see writable.cpp.
+#pragma once
+
+#include "sema/bodies/bodies.h"
+
+namespace rung::sema {
+
+// False after an error. `expr` was checked with Access::Write or ReadWrite.
+bool checkWritable(Context& context, ExprId expr, const Purpose& purpose);
+
+}  // namespace rung::sema
