@@ -1,0 +1,50 @@
+/* The smallest product that runs a compiled project: it owns all memory, runs the cyclic tasks in virtual time and
+ * prints one symbol. Built by tests/programs/embedding from `rung build --static --name plant`. See docs/embedding.md. */
+#include <stdio.h>
+#include <string.h>
+
+#include "rung/module.h"
+
+const rung_module *plant_module(void); /* from the compiled project: <--name>_module */
+
+#define MAX_BLOCKS 16
+static _Alignas(8) unsigned char memory[64 * 1024]; /* a product places blocks where it likes: RAM, battery-backed RAM */
+static _Alignas(8) unsigned char images[3][1024];
+static void *blocks[MAX_BLOCKS];
+
+/* Puts each block at its alignment; 0 when the memory is too small. */
+static int place_blocks(const rung_module *module) {
+  size_t next = 0;
+  for (uint32_t i = 0; i < module->block_count; ++i) {
+    const rung_block *block = &module->blocks[i];
+    next = (next + block->align - 1) / block->align * block->align;
+    if (i >= MAX_BLOCKS || next + block->size > sizeof memory) return 0;
+    blocks[i] = memory + next;
+    next += block->size;
+  }
+  return module->image_bytes[0] <= sizeof images[0] && module->image_bytes[1] <= sizeof images[1] &&
+         module->image_bytes[2] <= sizeof images[2];
+}
+
+int main(void) {
+  const rung_module *module = plant_module();
+  if (module->abi != RUNG_MODULE_ABI || !place_blocks(module)) return 2;
+
+  rung_context context = {.blocks = blocks, .image = {images[0], images[1], images[2]}, .module = module};
+  module->init(&context);
+
+  for (int cycle = 0; cycle < 5; ++cycle) {
+    images[0][0] = cycle > 0; /* the product reads its inputs: %IX0.0 */
+    for (uint32_t t = 0; t < module->task_count; ++t) {
+      context.now_ns = cycle * module->tasks[t].interval_ns;
+      if (rung_guarded(&context, module->tasks[t].run) != RUNG_FAULT_NONE) {
+        const rung_site *site = &module->sites[context.fault.site];
+        printf("fault in %s, line %u\n", module->text + site->pou, (unsigned)site->line);
+        memset(images[1], 0, sizeof images[1]); /* safe outputs */
+        return 3;
+      }
+    }
+    printf("cycle %d: outputs %02x\n", cycle, images[1][0]); /* ... and writes its outputs: %QB0 */
+  }
+  return 0;
+}
