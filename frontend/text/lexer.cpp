@@ -1,1 +1,510 @@
-// x
+#include "frontend/text/lexer.h"
+
+#include <array>
+#include <cstring>
+#include <string>
+
+#include "frontend/source/invariant.h"
+
+namespace rung::text {
+namespace {
+
+enum CharClass : uint8_t { kStray, kSpace, kNewline, kLetter, kDigit, kPunct, kQuote, kNul };
+
+constexpr std::array<uint8_t, 256> makeClasses() {
+  std::array<uint8_t, 256> c{};
+  c[0] = kNul;
+  c[' '] = c['\t'] = c['\f'] = c['\v'] = kSpace;
+  c['\n'] = c['\r'] = kNewline;
+  for (int i = 'a'; i <= 'z'; ++i) c[static_cast<size_t>(i)] = c[static_cast<size_t>(i - 32)] = kLetter;
+  c['_'] = kLetter;
+  for (int i = '0'; i <= '9'; ++i) c[static_cast<size_t>(i)] = kDigit;
+  for (char p : {';', ':', ',', '.', '(', ')', '[', ']', '^', '#', '=', '+', '-', '*', '/', '<', '>', '&', '!', '|', '%', '{'})
+    c[static_cast<unsigned char>(p)] = kPunct;
+  c['\''] = c['"'] = kQuote;
+  return c;
+}
+constexpr std::array<uint8_t, 256> kClasses = makeClasses();
+
+constexpr std::array<bool, 256> makeWordChars() {
+  std::array<bool, 256> w{};
+  for (size_t i = 0; i < 256; ++i) w[i] = kClasses[i] == kLetter || kClasses[i] == kDigit;
+  return w;
+}
+constexpr std::array<bool, 256> kWordChar = makeWordChars();
+
+constexpr unsigned char fold(unsigned char c) { return c >= 'A' && c <= 'Z' ? static_cast<unsigned char>(c | 0x20) : c; }
+
+struct Spelling {
+  const char* text;
+  uint8_t length;
+};
+constexpr uint8_t lengthOf(const char* s) {
+  uint8_t n = 0;
+  while (s[n] != 0) ++n;
+  return n;
+}
+constexpr Spelling kSpellings[] = {
+#define RUNG_TOKEN(name, what) {what, lengthOf(what)},
+#define RUNG_PUNCT(name, spelling) {spelling, lengthOf(spelling)},
+#define RUNG_WORD(name, spelling) {spelling, lengthOf(spelling)},
+#define RUNG_TYPE_WORD(name, spelling) {spelling, lengthOf(spelling)},
+#define RUNG_SOFT_WORD(name, spelling) {spelling, lengthOf(spelling)},
+#include "frontend/text/tokens.def"
+};
+
+// The keyword table: open addressing on length and three letters, so that nearly every name meets an empty slot.
+constexpr size_t kWordSlots = 1024;
+constexpr uint32_t wordHash(const char* s, uint32_t n) {
+  const auto a = static_cast<unsigned char>(s[0] | 0x20);
+  const auto b = static_cast<unsigned char>(s[n / 2] | 0x20);
+  const auto c = static_cast<unsigned char>(s[n - 1] | 0x20);
+  return (n * 131u + a * 7u + b * 61u + c * 313u + (static_cast<unsigned char>(s[n > 5 ? 5 : 0] | 0x20) * 29u)) & (kWordSlots - 1);
+}
+struct WordTable {
+  uint8_t slot[kWordSlots] = {};
+  constexpr WordTable() {
+    for (uint32_t k = static_cast<uint32_t>(Tok::And); k < kTokCount; ++k) {
+      uint32_t h = wordHash(kSpellings[k].text, kSpellings[k].length);
+      while (slot[h] != 0) h = (h + 1) & (kWordSlots - 1);
+      slot[h] = static_cast<uint8_t>(k);
+    }
+  }
+};
+constexpr WordTable kWords;
+constexpr uint32_t kLongestWord = 18;  // END_FUNCTION_BLOCK
+
+Tok findWord(const char* s, uint32_t n) {
+  if (n > kLongestWord) return Tok::Ident;
+  for (uint32_t h = wordHash(s, n);; h = (h + 1) & (kWordSlots - 1)) {
+    const uint8_t k = kWords.slot[h];
+    if (k == 0) return Tok::Ident;
+    if (kSpellings[k].length != n) continue;
+    uint32_t i = 0;
+    while (i < n && fold(static_cast<unsigned char>(s[i])) == fold(static_cast<unsigned char>(kSpellings[k].text[i]))) ++i;
+    if (i == n) return static_cast<Tok>(k);
+  }
+}
+
+// Words that open, divide or close blocks; recover.cpp checks that they balance.
+constexpr std::array<bool, kTokCount> makeBlockWords() {
+  std::array<bool, kTokCount> b{};
+  for (Tok t : {Tok::If, Tok::EndIf, Tok::Case, Tok::EndCase, Tok::For, Tok::EndFor, Tok::While, Tok::EndWhile, Tok::Repeat,
+                Tok::EndRepeat, Tok::Type, Tok::EndType, Tok::Struct, Tok::EndStruct, Tok::Union, Tok::EndUnion, Tok::Var,
+                Tok::VarInput, Tok::VarOutput, Tok::VarInOut, Tok::VarTemp, Tok::VarExternal, Tok::VarGlobal, Tok::VarStat,
+                Tok::VarAccess, Tok::VarConfig, Tok::EndVar, Tok::Function, Tok::EndFunction, Tok::FunctionBlock,
+                Tok::EndFunctionBlock, Tok::Program, Tok::EndProgram, Tok::Configuration, Tok::EndConfiguration, Tok::Resource,
+                Tok::EndResource})
+    b[static_cast<size_t>(t)] = true;
+  return b;
+}
+constexpr std::array<bool, kTokCount> kBlockWord = makeBlockWords();
+
+enum class Prefix : uint8_t { None, Duration, Date, TimeOfDay, DateTime };
+Prefix prefixOf(std::string_view word) {
+  struct Row {
+    const char* word;
+    Prefix prefix;
+  };
+  static constexpr Row kRows[] = {
+      {"T", Prefix::Duration},        {"TIME", Prefix::Duration},          {"LT", Prefix::Duration},
+      {"LTIME", Prefix::Duration},    {"D", Prefix::Date},                 {"DATE", Prefix::Date},
+      {"LD", Prefix::Date},           {"LDATE", Prefix::Date},             {"TOD", Prefix::TimeOfDay},
+      {"LTOD", Prefix::TimeOfDay},    {"TIME_OF_DAY", Prefix::TimeOfDay},  {"LTIME_OF_DAY", Prefix::TimeOfDay},
+      {"DT", Prefix::DateTime},       {"LDT", Prefix::DateTime},           {"DATE_AND_TIME", Prefix::DateTime},
+      {"LDATE_AND_TIME", Prefix::DateTime}};
+  for (const Row& row : kRows)
+    if (sameIdentifier(word, row.word)) return row.prefix;
+  return Prefix::None;
+}
+
+class Lexer {
+ public:
+  Lexer(TokenStream& out, Names& names, const Sources& sources, FileId file, Standard standard, Diagnostics& diagnostics)
+      : out_(out), names_(names), standard_(standard), diagnostics_(diagnostics), base_(sources.begin(file).offset),
+        text_(sources.text(file)), path_(sources.path(file)), names_seen_(names.count()) {}
+
+  void run(uint32_t begin, uint32_t end);
+
+ private:
+  using Byte = unsigned char;
+
+  uint32_t at(const char* p) const { return static_cast<uint32_t>(p - text_.data()); }
+  Loc loc(const char* p) const { return {base_ + at(p)}; }
+  void push(Tok kind, const char* begin, uint32_t value) {
+    out_.tokens.push_back({at(begin), value, kind, flags_, 0});
+    flags_ = 0;
+  }
+  const char* word(const char* p);
+  const char* number(const char* p);
+  const char* quoted(const char* p);
+  const char* address(const char* p);
+  const char* punct(const char* p);
+  const char* blockComment(const char* p, bool slash);
+  const char* lineComment(const char* p);
+  const char* pragma(const char* p);
+  const char* stray(const char* p);
+  const char* prefixed(const char* begin, const char* p, Prefix prefix);
+  void message(const char* begin, const char* end);
+  void checkUnderscores(const char* begin, const char* end);
+  Tok last() const { return out_.tokens.empty() ? Tok::End : out_.tokens.back().kind; }
+
+  TokenStream& out_;
+  Names& names_;
+  Standard standard_;
+  Diagnostics& diagnostics_;
+  uint32_t base_;
+  std::string_view text_;
+  std::string_view path_;
+  const char* end_ = nullptr;
+  uint32_t names_seen_;
+  uint8_t flags_ = kLineStart;
+  uint32_t pending_pragmas_ = 0;  // pragmas at the end of out_.pragmas that wait for their token
+  uint32_t doc_ = 0;              // first `///` line above the next token; 0: none, else offset + 1
+};
+
+void Lexer::run(uint32_t begin, uint32_t end) {
+  const char* p = text_.data() + begin;
+  end_ = text_.data() + end;
+  out_.tokens.reserve((end - begin) / 4 + 16);
+  if (const void* nul = std::memchr(p, 0, end - begin); nul != nullptr) {
+    diagnostics_.report(Diag::BinaryFile, loc(static_cast<const char*>(nul)), {path_});
+    end_ = p;
+  }
+  const auto settle = [&] {
+    // Pragmas and docs wait for the token that follows them.
+    const uint32_t offset = at(p);
+    if (pending_pragmas_ > 0) {
+      for (size_t i = out_.pragmas.size() - pending_pragmas_; i < out_.pragmas.size(); ++i) out_.pragmas[i].token_offset = offset;
+      pending_pragmas_ = 0;
+      flags_ |= kPragma;
+    }
+    if (doc_ != 0) {
+      out_.docs.push_back({offset, doc_ - 1});
+      doc_ = 0;
+      flags_ |= kDoc;
+    }
+  };
+  while (p < end_) {
+    const auto cls = static_cast<CharClass>(kClasses[static_cast<Byte>(*p)]);
+    if (cls == kSpace) {
+      ++p;
+      continue;
+    }
+    if (cls == kNewline) {
+      ++p;
+      flags_ |= kLineStart;
+      continue;
+    }
+    if (cls == kPunct) {
+      if (*p == '/' && p[1] == '/') {
+        p = lineComment(p);
+        continue;
+      }
+      if ((*p == '(' || *p == '/') && p[1] == '*') {
+        p = blockComment(p, *p == '/');
+        continue;
+      }
+      if (*p == '{') {
+        p = pragma(p);
+        continue;
+      }
+    }
+    if ((pending_pragmas_ | doc_) != 0) settle();
+    switch (cls) {
+      case kLetter: p = word(p); break;
+      case kDigit: p = number(p); break;
+      case kPunct: p = punct(p); break;
+      case kQuote: p = quoted(p); break;
+      case kStray:
+      case kNul: p = stray(p); break;
+      case kSpace:
+      case kNewline: break;
+    }
+  }
+  p = end_;
+  settle();
+  flags_ |= kLineStart;
+  for (uint32_t i = 0; i < kLookahead; ++i) out_.tokens.push_back({at(end_), 0, Tok::End, flags_, 0});
+}
+
+const char* Lexer::word(const char* begin) {
+  const char* p = begin + 1;
+  while (kWordChar[static_cast<Byte>(*p)]) ++p;
+  if (static_cast<Byte>(*p) >= 0x80) return stray(begin);
+  const auto length = static_cast<uint32_t>(p - begin);
+  if (*p == '#' && p < end_)
+    if (const Prefix prefix = prefixOf({begin, length}); prefix != Prefix::None) return prefixed(begin, p + 1, prefix);
+  const Tok kind = findWord(begin, length);
+  if (kBlockWord[static_cast<size_t>(kind)]) out_.blocks.push_back(static_cast<uint32_t>(out_.tokens.size()));
+  if (isReserved(kind)) {
+    push(kind, begin, length);
+    return p;
+  }
+  const NameId name = names_.intern({begin, length});
+  if (names_.count() != names_seen_) {  // a spelling not seen before: looked at once
+    names_seen_ = names_.count();
+    checkUnderscores(begin, p);
+  }
+  push(kind, begin, name.index);
+  return p;
+}
+
+void Lexer::checkUnderscores(const char* begin, const char* end) {
+  const std::string_view name(begin, static_cast<size_t>(end - begin));
+  if (name.size() < 2 || (name.back() != '_' && name.find("__") == std::string_view::npos)) return;
+  if (standard_ == Standard::Codesys) {
+    if (name.substr(0, 2) != "__") diagnostics_.report(Diag::UnderscoresInNameWarning, loc(begin), {name});
+  } else {
+    diagnostics_.report(Diag::UnderscoresInName, loc(begin), {name});
+  }
+}
+
+// T#1d2h  D#2026-12-31  TOD#12:30:00.5  DT#2026-12-31-12:30:00: p stands behind the #.
+const char* Lexer::prefixed(const char* begin, const char* p, Prefix prefix) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  Tok kind = Tok::Duration;
+  if (prefix == Prefix::Duration) {
+    if (*p == '-' || *p == '+') ++p;
+    while (kWordChar[static_cast<Byte>(*p)] || (*p == '.' && digit(p[1]))) ++p;
+  } else {
+    kind = prefix == Prefix::Date ? Tok::Date : prefix == Prefix::TimeOfDay ? Tok::TimeOfDay : Tok::DateTime;
+    int dashes = prefix == Prefix::Date ? 2 : prefix == Prefix::DateTime ? 3 : 0;
+    while (kWordChar[static_cast<Byte>(*p)] || ((*p == ':' || *p == '.') && digit(p[1])) || (*p == '-' && dashes > 0 && digit(p[1]))) {
+      if (*p == '-') --dashes;
+      ++p;
+    }
+  }
+  push(kind, begin, static_cast<uint32_t>(p - begin));
+  return p;
+}
+
+// 12  1_000  16#FF  1.5  1.5e-3; `1..5` is 1, .., 5. Letters that follow belong to it, so that 12ab is one wrong number.
+const char* Lexer::number(const char* begin) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  const char* p = begin;
+  while (digit(*p) || *p == '_') ++p;
+  if (*p == '#') {
+    ++p;
+    while (kWordChar[static_cast<Byte>(*p)]) ++p;
+  } else {
+    if (*p == '.' && digit(p[1]) && last() != Tok::Dot) {
+      ++p;
+      while (digit(*p) || *p == '_') ++p;
+    }
+    if ((*p == 'e' || *p == 'E') && (digit(p[1]) || ((p[1] == '+' || p[1] == '-') && digit(p[2])))) {
+      p += 2;
+      while (digit(*p)) ++p;
+    }
+    while (kWordChar[static_cast<Byte>(*p)]) ++p;
+  }
+  push(Tok::Number, begin, static_cast<uint32_t>(p - begin));
+  return p;
+}
+
+const char* Lexer::quoted(const char* begin) {
+  const char quote = *begin;
+  const char* p = begin + 1;
+  while (*p != quote) {
+    if (*p == '\n' || *p == '\r' || p >= end_) {
+      diagnostics_.report(Diag::UnterminatedString, loc(begin), {std::string_view(&quote, 1)}).length(static_cast<uint32_t>(p - begin));
+      flags_ |= kReported;
+      push(quote == '\'' ? Tok::Text : Tok::WideText, begin, static_cast<uint32_t>(p - begin));
+      return p;
+    }
+    if (*p == '$' && p[1] != '\n' && p[1] != '\r' && p + 1 < end_) ++p;
+    ++p;
+  }
+  ++p;
+  push(quote == '\'' ? Tok::Text : Tok::WideText, begin, static_cast<uint32_t>(p - begin));
+  return p;
+}
+
+const char* Lexer::address(const char* begin) {
+  const char* p = begin + 1;
+  while (kWordChar[static_cast<Byte>(*p)] || *p == '*' || (*p == '.' && p[1] >= '0' && p[1] <= '9')) {
+    if (*p == '*') {
+      ++p;
+      break;
+    }
+    ++p;
+  }
+  push(Tok::Address, begin, static_cast<uint32_t>(p - begin));
+  return p;
+}
+
+const char* Lexer::punct(const char* p) {
+  const auto one = [&](Tok kind) {
+    push(kind, p, 1);
+    return p + 1;
+  };
+  const auto two = [&](Tok kind) {
+    push(kind, p, 2);
+    return p + 2;
+  };
+  switch (*p) {
+    case ';': return one(Tok::Semicolon);
+    case ':': return p[1] == '=' ? two(Tok::Assign) : one(Tok::Colon);
+    case ',': return one(Tok::Comma);
+    case '.': return p[1] == '.' ? two(Tok::DotDot) : one(Tok::Dot);
+    case '(': return one(Tok::LeftParen);
+    case ')': return one(Tok::RightParen);
+    case '[': return one(Tok::LeftBracket);
+    case ']': return one(Tok::RightBracket);
+    case '^': return one(Tok::Caret);
+    case '#': return one(Tok::Hash);
+    case '=':
+      return p[1] == '>' ? two(Tok::Arrow) : p[1] == '=' ? two(Tok::EqualEqual) : p[1] == '<' ? two(Tok::EqualLess) : one(Tok::Equal);
+    case '+': return p[1] == '=' ? two(Tok::PlusAssign) : one(Tok::Plus);
+    case '-': return p[1] == '=' ? two(Tok::MinusAssign) : one(Tok::Minus);
+    case '*': return p[1] == '*' ? two(Tok::Power) : p[1] == '=' ? two(Tok::StarAssign) : one(Tok::Star);
+    case '/': return p[1] == '=' ? two(Tok::SlashAssign) : one(Tok::Slash);
+    case '<': return p[1] == '>' ? two(Tok::NotEqual) : p[1] == '=' ? two(Tok::LessEqual) : one(Tok::Less);
+    case '>': return p[1] == '=' ? two(Tok::GreaterEqual) : one(Tok::Greater);
+    case '&': return p[1] == '&' ? two(Tok::AmpersandTwice) : one(Tok::Ampersand);
+    case '!': return p[1] == '=' ? two(Tok::BangEqual) : one(Tok::Bang);
+    case '|': return p[1] == '|' ? two(Tok::BarTwice) : one(Tok::Bar);
+    case '%': {
+      const auto next = static_cast<Byte>(p[1]);
+      return kClasses[next] == kLetter && p[1] != '_' ? address(p) : one(Tok::Percent);
+    }
+    default: return stray(p);
+  }
+}
+
+const char* Lexer::lineComment(const char* p) {
+  if (p[2] == '/' && p[3] != '/') {
+    const bool behind = (flags_ & kLineStart) == 0 && !out_.tokens.empty();
+    if (behind) {
+      out_.tokens.back().flags |= kDocAfter;
+      out_.docs_after.push_back({out_.tokens.back().offset, at(p)});
+    } else if (doc_ == 0) {
+      doc_ = at(p) + 1;
+    }
+  }
+  const auto* newline = static_cast<const char*>(std::memchr(p, '\n', static_cast<size_t>(end_ - p)));
+  return newline != nullptr ? newline : end_;
+}
+
+const char* Lexer::blockComment(const char* begin, bool slash) {
+  const char open = slash ? '/' : '(', close = slash ? '/' : ')';
+  const char* p = begin + 2;
+  const bool nests = standard_ != Standard::Iec2 && !slash;
+  uint32_t depth = 1;
+  for (; p < end_; ++p) {
+    if (*p == '*' && p[1] == close) {
+      p += 2;
+      if (--depth == 0) return p;
+      --p;
+    } else if (*p == open && p[1] == '*' && !slash) {
+      // `(*)` closes in edition 2, where it cannot open another one.
+      if (nests) {
+        ++depth;
+        ++p;
+      } else if (p[2] != ')') {
+        diagnostics_.report(Diag::NestedComment, loc(p)).length(2);
+        ++depth;  // most likely it is closed as well
+        ++p;
+      }
+    } else if (*p == '\n' || *p == '\r') {
+      flags_ |= kLineStart;
+    }
+  }
+  diagnostics_.report(Diag::UnterminatedComment, loc(begin), {slash ? "*/" : "*)"}).length(2);
+  return end_;
+}
+
+// { … }: strings inside may hold braces. {C++} runs to {END_C++}.
+const char* Lexer::pragma(const char* begin) {
+  const char* p = begin + 1;
+  if (end_ - begin > 5 && sameIdentifier({begin + 1, 3}, "C++") && begin[4] == '}') {
+    for (; p < end_; ++p)
+      if (*p == '{' && end_ - p >= 9 && sameIdentifier({p, 9}, "{END_C++}")) break;
+    if (p >= end_) {
+      diagnostics_.report(Diag::UnterminatedPragma, loc(begin), {"{END_C++}"}).length(5);
+      return end_;
+    }
+    p += 8;
+  } else {
+    while (p < end_ && *p != '}') {
+      if (*p == '\'' || *p == '"') {
+        const char* q = p + 1;
+        while (q < end_ && *q != *p && *q != '\n') ++q;
+        if (q < end_ && *q == *p) p = q;
+      }
+      ++p;
+    }
+    if (p >= end_) {
+      diagnostics_.report(Diag::UnterminatedPragma, loc(begin), {"}"}).length(1);
+      p = begin;
+      while (p < end_ && *p != '\n') ++p;
+      return p;
+    }
+    message(begin + 1, p);
+  }
+  out_.pragmas.push_back({0, at(begin), at(p) + 1});
+  ++pending_pragmas_;
+  return p + 1;
+}
+
+// {info 'text'}, {WARNING: "text"}, {error 'text'}
+void Lexer::message(const char* begin, const char* end) {
+  const auto skip = [&] {
+    while (begin < end && (*begin == ' ' || *begin == '\t')) ++begin;
+  };
+  skip();
+  const char* word_begin = begin;
+  while (begin < end && kWordChar[static_cast<Byte>(*begin)]) ++begin;
+  const std::string_view word(word_begin, static_cast<size_t>(begin - word_begin));
+  const bool info = sameIdentifier(word, "info"), warning = sameIdentifier(word, "warning"), error = sameIdentifier(word, "error");
+  if (!info && !warning && !error) return;
+  skip();
+  if (begin < end && *begin == ':') ++begin;
+  skip();
+  if (begin == end || (*begin != '\'' && *begin != '"')) return;  // {warning disable C0195}
+  const char quote = *begin++;
+  const char* text_end = end;
+  while (text_end > begin && text_end[-1] != quote) --text_end;
+  if (text_end > begin) --text_end;
+  const std::string_view text(begin, static_cast<size_t>(text_end - begin));
+  const Diag diag = info ? Diag::PragmaInfo : warning ? Diag::PragmaWarning : Diag::PragmaError;
+  diagnostics_.report(diag, loc(word_begin), {text});
+}
+
+// A run of characters that no token begins with: one error for all of it.
+const char* Lexer::stray(const char* begin) {
+  const char* p = begin;
+  const auto c = static_cast<Byte>(*p);
+  if (c >= 0x80 || kClasses[c] == kLetter) {
+    while (p < end_ && (static_cast<Byte>(*p) >= 0x80 || kWordChar[static_cast<Byte>(*p)])) ++p;
+  } else {
+    ++p;
+    while (p < end_ && (kClasses[static_cast<Byte>(*p)] == kStray && static_cast<Byte>(*p) < 0x20)) ++p;
+  }
+  std::string shown;
+  if (c < 0x20 || c == 0x7f) {
+    static const char* kHex = "0123456789ABCDEF";
+    shown = std::string("16#") + kHex[c >> 4] + kHex[c & 15];
+  } else {
+    shown.assign(begin, static_cast<size_t>(p - begin < 40 ? p - begin : 40));
+    if (findInvalidUtf8(shown) != std::string::npos) shown = "a byte that is not UTF-8";
+  }
+  if (c >= 0x80 || kClasses[c] == kLetter)
+    diagnostics_.report(Diag::NotAscii, loc(begin), {shown}).length(static_cast<uint32_t>(p - begin));
+  else
+    diagnostics_.report(c == '}' ? Diag::StrayBrace : Diag::StrayCharacter, loc(begin), {shown}).length(static_cast<uint32_t>(p - begin));
+  flags_ |= kReported;
+  push(Tok::Error, begin, static_cast<uint32_t>(p - begin));
+  return p;
+}
+
+}  // namespace
+
+const char* spelling(Tok kind) { return kSpellings[static_cast<size_t>(kind)].text; }
+
+void lex(TokenStream& out, Names& names, const Sources& sources, FileId file, uint32_t begin, uint32_t end, Standard standard,
+         Diagnostics& diagnostics) {
+  Lexer(out, names, sources, file, standard, diagnostics).run(begin, end);
+}
+
+}  // namespace rung::text

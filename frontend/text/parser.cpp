@@ -1,1 +1,448 @@
-// x
+// Files, POUs and configurations; tokens and error reports of the parser.
+#include "frontend/text/parser.h"
+
+#include "frontend/text/recover.h"
+
+namespace rung::text {
+
+Parser::Parser(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard, Diagnostics& diagnostics)
+    : tree_(tree), names_(names), sources_(sources), file_(file), standard_(standard), diagnostics_(diagnostics),
+      base_(sources.begin(file).offset), text_(sources.text(file)) {}
+
+void Parser::read(uint32_t begin, uint32_t end) {
+  lex(stream_, names_, sources_, file_, begin, end, standard_, diagnostics_);
+  balanceBlocks(stream_, names_, sources_, file_, standard_, diagnostics_);
+  tokens_ = std::move(stream_.tokens);
+  t_ = tokens_.data();
+}
+
+// ---- tokens
+
+uint32_t Parser::lengthOf(const Token* t) const {
+  if (isName(t->kind) || isTypeWord(t->kind)) return (t->flags & kSynthetic) != 0 ? 0 : static_cast<uint32_t>(names_.text({t->value}).size());
+  return t->value;
+}
+
+std::string Parser::describe(const Token* t) const {
+  while ((t->flags & kSynthetic) != 0 && t > tokens_.data()) --t;
+  if (t->kind == Tok::End) return spelling(Tok::End);
+  std::string_view text = textOf(t);
+  std::string shown = "`";
+  // A byte that is not text, or a long literal, is cut.
+  if (text.size() > 40) {
+    size_t n = 37;
+    while (n > 0 && (static_cast<unsigned char>(text[n]) & 0xC0) == 0x80) --n;
+    shown.append(text.substr(0, n));
+    shown += "...";
+  } else {
+    shown.append(text);
+  }
+  shown += '`';
+  return shown;
+}
+
+// ---- errors
+
+// One syntax error a line: what follows on the line of an error most likely follows from it.
+bool Parser::mayReport(const Token* t) {
+  if (panic_) return false;
+  const auto sameLine = [](const Token* a, const Token* b) {
+    if (a > b) std::swap(a, b);
+    while (a < b)
+      if (((++a)->flags & kLineStart) != 0) return false;
+    return true;
+  };
+  if (last_error_ != nullptr && sameLine(last_error_, t)) {
+    if (t > last_error_) last_error_ = t;
+    return false;
+  }
+  // Said by the lexer or the block repair.
+  for (const Token* p = t; t - p < 200; --p) {
+    if ((p->flags & kReported) != 0) {
+      last_error_ = t;
+      return false;
+    }
+    if ((p->flags & kLineStart) != 0 || p == tokens_.data()) break;
+  }
+  for (const Token* p = t + 1; p - t < 200 && (p->flags & kLineStart) == 0 && p->kind != Tok::End; ++p) {
+    if ((p->flags & kReported) != 0) {
+      last_error_ = t;
+      return false;
+    }
+  }
+  return true;
+}
+
+Report Parser::fail(Diag diag, const Token* t, std::initializer_list<std::string_view> args) {
+  const bool report = mayReport(t);
+  panic_ = true;
+  if (!report) return Report(nullptr);
+  last_error_ = t;
+  return diagnostics_.report(diag, loc(t), args).length(t->kind == Tok::End ? 1 : lengthOf(t));
+}
+
+Report Parser::slip(Diag diag, const Token* t, std::initializer_list<std::string_view> args) {
+  if (!mayReport(t)) return Report(nullptr);
+  last_error_ = t;
+  return diagnostics_.report(diag, loc(t), args).length(t->kind == Tok::End ? 1 : lengthOf(t));
+}
+
+Report Parser::missing(Diag diag, std::initializer_list<std::string_view> args) {
+  const Token* before = t_;
+  if (before > tokens_.data()) --before;
+  while ((before->flags & kSynthetic) != 0 && before > tokens_.data()) --before;
+  if (!mayReport(before)) return Report(nullptr);
+  last_error_ = before;
+  return diagnostics_.report(diag, endOf(before), args).length(1);
+}
+
+bool Parser::expect(Tok wanted) {
+  if (accept(wanted)) return true;
+  if (panic_) return false;
+  const Tok candidates[] = {wanted};
+  if (at(Tok::Ident) && isReserved(wanted) && nearKeyword(t_, candidates) == wanted) {
+    respell(wanted);
+    advance();
+    return false;
+  }
+  if (atLineStart() || at(Tok::End))
+    missing(Diag::MissingToken, {spelling(wanted), describe(t_)});
+  else if (isOperand(kind()) || at(Tok::Minus) || at(Tok::Array) || at(Tok::Struct) || at(Tok::Colon) || at(Tok::Semicolon))
+    slip(Diag::MissingToken, t_, {spelling(wanted), describe(t_)});
+  else
+    fail(Diag::WrongWord, t_, {textOf(t_), spelling(wanted)});
+  return false;
+}
+
+Tok Parser::nearKeyword(const Token* t, std::span<const Tok> candidates) const { return nearestKeyword(textOf(t), candidates); }
+
+bool Parser::respell(Tok wanted) {
+  slip(Diag::MisspelledKeyword, t_, {textOf(t_), spelling(wanted)});
+  const uint32_t length = lengthOf(t_);
+  t_->kind = wanted;
+  if (!isName(wanted) && !isTypeWord(wanted)) t_->value = length;
+  t_->flags |= kReported;
+  return true;
+}
+
+void Parser::tooDeep(const char* what, uint32_t limit) {
+  const std::string number = std::to_string(limit);
+  fail(Diag::TooDeep, t_, {what, number});
+}
+
+// ---- files
+
+Slice<DeclId> Parser::parseDecls() {
+  std::vector<DeclId> decls;
+  while (!at(Tok::End)) parseTopLevel(decls);
+  return tree_.addList<DeclId>(decls);
+}
+
+ExprId Parser::parseLoneExpression() {
+  if (at(Tok::End)) return {};
+  const ExprId e = parseExpr();
+  if (!panic_ && !at(Tok::End)) fail(isOperand(kind()) ? Diag::MissingOperator : Diag::StrayToken, t_, {describe(t_)});
+  return panic_ ? ExprId{} : e;
+}
+
+bool Parser::atTopLevelWord() const {
+  const Tok k = kind();
+  return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program || k == Tok::Type || k == Tok::Configuration || k == Tok::VarGlobal;
+}
+
+// file = {TYPE … | POU | CONFIGURATION … | VAR_GLOBAL …}
+void Parser::parseTopLevel(std::vector<DeclId>& out) {
+  panic_ = false;
+  stmt_depth_ = expr_depth_ = 0;
+  switch (static_cast<int>(kind())) {
+    case static_cast<int>(Tok::Semicolon): advance(); return;
+    case static_cast<int>(Tok::Type): parseTypes(out); return;
+    case static_cast<int>(Tok::Function):
+    case static_cast<int>(Tok::FunctionBlock):
+    case static_cast<int>(Tok::Program): out.push_back(parsePou()); return;
+    case static_cast<int>(Tok::Configuration): out.push_back(parseConfiguration()); return;
+    case static_cast<int>(Tok::VarGlobal):
+    case static_cast<int>(Tok::VarConfig):
+    case static_cast<int>(Tok::VarAccess):
+    case static_cast<int>(Tok::VarExternal): out.push_back(parseSection()); return;
+    case static_cast<int>(Tok::Interface): unsupported("INTERFACE", "END_INTERFACE"); return;
+    case static_cast<int>(Tok::Namespace): unsupported("NAMESPACE", "END_NAMESPACE"); return;
+    case static_cast<int>(Tok::Class): unsupported("CLASS", "END_CLASS"); return;
+    case static_cast<int>(Tok::Method): unsupported("METHOD", "END_METHOD"); return;
+    case static_cast<int>(Tok::Property): unsupported("PROPERTY", "END_PROPERTY"); return;
+    case static_cast<int>(Tok::Action): unsupported("ACTION", "END_ACTION"); return;
+    default: break;
+  }
+  if (at(Tok::Ident)) {
+    static constexpr Tok kWords[] = {Tok::Function, Tok::FunctionBlock, Tok::Program, Tok::Type, Tok::Configuration, Tok::VarGlobal};
+    if (const Tok meant = nearKeyword(t_, kWords); meant != Tok::End && (isName(peek()) || (t_[1].flags & kLineStart) != 0)) {
+      respell(meant);
+      return;
+    }
+  }
+  if (at(Tok::Error)) {
+    last_error_ = t_;
+  } else {
+    slip(Diag::NotAtFileLevel, t_, {describe(t_)});
+  }
+  advance();
+  skipToTopLevel();
+}
+
+void Parser::skipToTopLevel() {
+  while (!at(Tok::End) && !atTopLevelWord()) advance();
+}
+
+void Parser::unsupported(const char* what, const char* end_word) {
+  const std::string shown = std::string("`") + what + "`";
+  slip(Diag::NotSupportedYet, t_, {shown});
+  while (!at(Tok::End) && !(at(Tok::Ident) && is(t_, end_word))) advance();
+  advance();
+}
+
+// pou = FUNCTION name [":" type] | FUNCTION_BLOCK name | PROGRAM name, sections, statements, [END_…]
+DeclId Parser::parsePou() {
+  const Token* open = t_;
+  PouDecl d{};
+  d.h = {DeclKind::Pou, 0, 0, here(), takeDoc(), takePragmas()};
+  const Tok word = kind();
+  d.pou_kind = word == Tok::Function ? PouKind::Function : word == Tok::FunctionBlock ? PouKind::FunctionBlock : PouKind::Program;
+  const Tok end = word == Tok::Function ? Tok::EndFunction : word == Tok::FunctionBlock ? Tok::EndFunctionBlock : Tok::EndProgram;
+  d.begin = here();
+  for (const Pragma& p : tree_.list(d.h.pragmas)) {
+    d.begin = p.loc;
+    break;
+  }
+  advance();
+  Ident name{{}, here()};
+  if (atLineStart()) {
+    missing(Diag::MissingName, {describe(t_)});
+  } else if (isReserved(kind()) && peek() == Tok::Colon && kind() >= Tok::And && kind() <= Tok::Mod) {
+    name = {names_.intern(textOf(t_)), here()};  // the functional form of an operator: FUNCTION AND : ANY_BIT
+    advance();
+  } else if (!parseName(name)) {
+    while (!atLineStart() && !at(Tok::Colon) && !at(Tok::Semicolon)) advance();
+    panic_ = false;
+  }
+  d.name = name.name;
+  d.h.loc = name.loc;
+  if (at(Tok::Extends) || at(Tok::Implements)) {
+    const std::string shown = describe(t_);
+    slip(Diag::NotSupportedYet, t_, {shown});
+    while (!at(Tok::End) && !atLineStart() && !atSection()) advance();
+  }
+  if (at(Tok::Colon)) {
+    advance();
+    d.result = parseType();
+  } else if ((isTypeWord(kind()) || (isName(kind()) && word == Tok::Function)) && !atLineStart()) {
+    slip(Diag::MissingToken, t_, {":", describe(t_)});
+    d.result = parseType();
+  }
+  if (panic_) {
+    while (!atLineStart() && !at(Tok::End) && !atSection() && !at(Tok::Semicolon)) advance();
+    panic_ = false;
+  }
+  accept(Tok::Semicolon);
+  if (!atLineStart() && !at(Tok::End) && at(Tok::RightParen)) {
+    slip(Diag::StrayParen, t_, {textOf(t_)});
+    advance();
+  }
+  const size_t first = decls_.size();
+  while (atSection() && (!at(Tok::VarGlobal) || standard_ != Standard::Codesys)) {
+    const DeclId section = parseSection();
+    decls_.push_back(section);
+  }
+  d.sections = listFrom(decls_, first);
+  if (at(Tok::Method) && isName(peek())) unsupported("METHOD", "END_METHOD");
+  d.body = parseStatements(0);
+  d.body_kind = pragmaNamed(d.h.pragmas, "native") ? BodyKind::Native : BodyKind::St;
+  if (accept(end)) {
+    d.closed = true;
+    d.end = {loc(t_ - 1).offset + lengthOf(t_ - 1)};
+    accept(Tok::Semicolon);
+  } else {
+    d.end = index() > 0 ? endOf(t_ - 1) : here();
+    if (!atTopLevelWord() && !at(Tok::End)) {
+      // An END_… of something else, which block repair would have removed.
+      slip(Diag::StrayEnd, t_, {textOf(t_)});
+      advance();
+    } else if (standard_ != Standard::Codesys) {
+      const std::string line = std::to_string(sources_.place(loc(open)).line);
+      missing(Diag::MissingEnd, {spelling(end), spelling(word), line});
+    }
+  }
+  return tree_.add<DeclId>(d);
+}
+
+// ---- configurations
+
+// CONFIGURATION name {section | resource | task | program} END_CONFIGURATION
+DeclId Parser::parseConfiguration() {
+  const Token* open = t_;
+  ConfigurationDecl d{{DeclKind::Configuration, 0, 0, here(), takeDoc(), takePragmas()}, {}, {}};
+  advance();
+  Ident name;
+  if (parseName(name)) {
+    d.name = name.name;
+    d.h.loc = name.loc;
+  }
+  panic_ = false;
+  accept(Tok::Semicolon);
+  const size_t first = decls_.size();
+  parseMembers(Tok::EndConfiguration, decls_);
+  if (accept(Tok::EndConfiguration)) {
+    accept(Tok::Semicolon);
+  } else {
+    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    missing(Diag::MissingEnd, {"END_CONFIGURATION", "CONFIGURATION", line});
+  }
+  d.members = listFrom(decls_, first);
+  return tree_.add<DeclId>(d);
+}
+
+void Parser::parseMembers(Tok end, std::vector<DeclId>& out) {
+  for (;;) {
+    if (accept(Tok::Semicolon)) continue;
+    if (at(end) || at(Tok::End) || at(Tok::EndConfiguration) || at(Tok::EndResource) || at(Tok::Configuration) || at(Tok::Function) ||
+        at(Tok::FunctionBlock) || at(Tok::Type))
+      return;
+    DeclId member;
+    if (atSection()) {
+      member = parseSection();
+    } else if (at(Tok::Resource)) {
+      member = parseResource();
+    } else if (at(Tok::Task)) {
+      member = parseTask();
+    } else if (at(Tok::Program)) {
+      member = parseProgramInstance();
+    } else {
+      static constexpr Tok kWords[] = {Tok::Resource, Tok::Task, Tok::Program, Tok::VarGlobal};
+      if (at(Tok::Ident) && isName(peek())) {
+        if (const Tok meant = nearKeyword(t_, kWords); meant != Tok::End) {
+          respell(meant);
+          continue;
+        }
+      }
+      slip(Diag::NotInConfiguration, t_, {describe(t_)});
+      do advance();
+      while (!at(Tok::End) && !atLineStart() && !at(Tok::Semicolon));
+      continue;
+    }
+    out.push_back(member);
+    if (panic_) {
+      panic_ = false;
+      while (!at(Tok::End) && !atLineStart() && !at(Tok::Semicolon)) advance();
+    }
+  }
+}
+
+// RESOURCE name ON type {member} END_RESOURCE
+DeclId Parser::parseResource() {
+  const Token* open = t_;
+  ResourceDecl d{{DeclKind::Resource, 0, 0, here(), takeDoc(), takePragmas()}, {}, {}, {}};
+  advance();
+  Ident name, target;
+  if (parseName(name)) {
+    d.name = name.name;
+    d.h.loc = name.loc;
+  }
+  if (!panic_ && !accept(Tok::On)) {
+    if (isName(kind()) && !atLineStart())
+      slip(Diag::MissingToken, t_, {"ON", describe(t_)});
+    else
+      missing(Diag::MissingToken, {"ON", describe(t_)}), panic_ = true;
+  }
+  if (!panic_) {
+    if (atLineStart())
+      missing(Diag::MissingName, {describe(t_)});
+    else if (parseName(target))
+      d.target = target.name;
+  }
+  if (panic_) {
+    while (!at(Tok::End) && !atLineStart() && !at(Tok::Semicolon)) advance();
+    panic_ = false;
+  }
+  const size_t first = decls_.size();
+  parseMembers(Tok::EndResource, decls_);
+  if (accept(Tok::EndResource)) {
+    accept(Tok::Semicolon);
+  } else {
+    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    missing(Diag::MissingEnd, {"END_RESOURCE", "RESOURCE", line});
+  }
+  d.members = listFrom(decls_, first);
+  return tree_.add<DeclId>(d);
+}
+
+// TASK name "(" settings ")" ";"
+DeclId Parser::parseTask() {
+  TaskDecl d{{DeclKind::Task, 0, 0, here(), takeDoc(), takePragmas()}, {}, {}};
+  advance();
+  Ident name;
+  if (parseName(name)) {
+    d.name = name.name;
+    d.h.loc = name.loc;
+    Loc end;
+    if (at(Tok::LeftParen))
+      d.settings = parseArguments(end);
+    else if (!at(Tok::Semicolon))
+      fail(Diag::MissingToken, t_, {"(", describe(t_)});
+  }
+  endStatement(nullptr);
+  return tree_.add<DeclId>(d);
+}
+
+// PROGRAM [RETAIN | NON_RETAIN] name [WITH task] ":" type ["(" arguments ")"] ";"
+DeclId Parser::parseProgramInstance() {
+  ProgramInstanceDecl d{};
+  d.h = {DeclKind::ProgramInstance, 0, 0, here(), takeDoc(), takePragmas()};
+  advance();
+  if ((at(Tok::Retain) || at(Tok::NonRetain)) && isName(peek())) {
+    d.section_bits = at(Tok::Retain) ? kRetain : kNonRetain;
+    advance();
+  }
+  Ident name;
+  if (parseName(name)) {
+    d.name = name.name;
+    d.h.loc = name.loc;
+    if (accept(Tok::With)) {
+      parseName(d.task);
+    } else if (isName(kind()) && peek() == Tok::Colon && !atLineStart()) {
+      if (isName(peek(2))) slip(Diag::MissingToken, t_, {"WITH", describe(t_)});
+      parseName(d.task);
+    }
+    if (!panic_) expect(Tok::Colon);
+    if (!panic_) parseNamePath(d.type);
+    Loc end;
+    if (!panic_ && at(Tok::LeftParen)) d.arguments = parseArguments(end);
+  }
+  endStatement(nullptr);
+  return tree_.add<DeclId>(d);
+}
+
+// ---- the interface
+
+FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard, Diagnostics& diagnostics) {
+  Parser parser(tree, names, sources, file, standard, diagnostics);
+  parser.read(0, static_cast<uint32_t>(sources.text(file).size()));
+  const FileUnit unit{file, parser.parseDecls()};
+  tree.files.push_back(unit);
+  return unit;
+}
+
+Slice<DeclId> parseDeclarations(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Standard standard,
+                                Diagnostics& diagnostics) {
+  const FileId file = sources.fileOf(begin);
+  const uint32_t base = sources.begin(file).offset;
+  Parser parser(tree, names, sources, file, standard, diagnostics);
+  parser.read(begin.offset - base, end.offset - base);
+  return parser.parseDecls();
+}
+
+ExprId parseExpression(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard, Diagnostics& diagnostics) {
+  Parser parser(tree, names, sources, file, standard, diagnostics);
+  parser.read(0, static_cast<uint32_t>(sources.text(file).size()));
+  return parser.parseLoneExpression();
+}
+
+}  // namespace rung::text

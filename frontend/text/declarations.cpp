@@ -1,0 +1,704 @@
+// Types, sections and variables, initial values, pragmas and doc comments.
+#include <algorithm>
+
+#include "frontend/text/parser.h"
+#include "frontend/text/recover.h"
+
+namespace rung::text {
+namespace {
+
+bool endsDeclarations(Tok k) {
+  switch (static_cast<int>(k)) {
+    case static_cast<int>(Tok::End):
+    case static_cast<int>(Tok::EndVar):
+    case static_cast<int>(Tok::EndStruct):
+    case static_cast<int>(Tok::EndUnion):
+    case static_cast<int>(Tok::EndType):
+    case static_cast<int>(Tok::EndFunction):
+    case static_cast<int>(Tok::EndFunctionBlock):
+    case static_cast<int>(Tok::EndProgram):
+    case static_cast<int>(Tok::EndConfiguration):
+    case static_cast<int>(Tok::EndResource):
+    case static_cast<int>(Tok::Function):
+    case static_cast<int>(Tok::FunctionBlock):
+    case static_cast<int>(Tok::Program):
+    case static_cast<int>(Tok::Configuration):
+    case static_cast<int>(Tok::Type): return true;
+    default: return k >= Tok::Var && k <= Tok::VarConfig;
+  }
+}
+bool beginsDeclaration(const Token* t) {
+  if (!isName(t->kind)) return false;
+  const Tok next = t[1].kind;
+  return next == Tok::Colon || next == Tok::Comma || next == Tok::At;
+}
+
+SectionKind sectionOf(Tok k) {
+  switch (static_cast<int>(k)) {
+    case static_cast<int>(Tok::VarInput): return SectionKind::Input;
+    case static_cast<int>(Tok::VarOutput): return SectionKind::Output;
+    case static_cast<int>(Tok::VarInOut): return SectionKind::InOut;
+    case static_cast<int>(Tok::VarTemp): return SectionKind::Temp;
+    case static_cast<int>(Tok::VarExternal): return SectionKind::External;
+    case static_cast<int>(Tok::VarGlobal): return SectionKind::Global;
+    case static_cast<int>(Tok::VarStat): return SectionKind::Stat;
+    case static_cast<int>(Tok::VarAccess): return SectionKind::Access;
+    case static_cast<int>(Tok::VarConfig): return SectionKind::Config;
+    default: return SectionKind::Local;
+  }
+}
+
+}  // namespace
+
+// ---- pragmas and doc comments
+
+Slice<Pragma> Parser::takePragmas() {
+  if ((t_->flags & kPragma) == 0) return {};
+  const auto& all = stream_.pragmas;
+  auto it = std::lower_bound(all.begin(), all.end(), t_->offset, [](const PragmaText& p, uint32_t offset) { return p.token_offset < offset; });
+  std::vector<Pragma> list;
+  for (; it != all.end() && it->token_offset == t_->offset; ++it) list.push_back(readPragma(*it));
+  return tree_.addList<Pragma>(list);
+}
+
+// {name}  {name 'value'}  {name := 'value'}  {name: "value"}  {attribute 'name' := 'value'}; anything else is a name and
+// the rest as it stands.
+Pragma Parser::readPragma(const PragmaText& pragma) {
+  std::string_view rest = text_.substr(pragma.begin + 1, pragma.end - pragma.begin - 2);
+  const auto skip = [&] {
+    while (!rest.empty() && (static_cast<unsigned char>(rest.front()) <= ' ')) rest.remove_prefix(1);
+    while (!rest.empty() && (static_cast<unsigned char>(rest.back()) <= ' ')) rest.remove_suffix(1);
+  };
+  const auto word = [&] {
+    size_t n = 0;
+    while (n < rest.size() && (rest[n] == '_' || rest[n] == '+' || (rest[n] | 0x20) >= 'a' || (rest[n] >= '0' && rest[n] <= '9')) &&
+           static_cast<unsigned char>(rest[n]) < 0x80 && rest[n] != '{' && rest[n] != '|' && rest[n] != '[' && rest[n] != '^')
+      ++n;
+    const std::string_view w = rest.substr(0, n);
+    rest.remove_prefix(n);
+    skip();
+    return w;
+  };
+  const auto quoted = [&](std::string_view& out) {
+    if (rest.empty() || (rest.front() != '\'' && rest.front() != '"')) return false;
+    const size_t close = rest.find(rest.front(), 1);
+    if (close == std::string_view::npos) return false;
+    out = rest.substr(1, close - 1);
+    rest.remove_prefix(close + 1);
+    skip();
+    return true;
+  };
+  skip();
+  std::string_view name = word(), value;
+  if (sameIdentifier(name, "attribute")) {
+    if (!quoted(name)) name = word();
+  }
+  if (rest.substr(0, 2) == ":=") {
+    rest.remove_prefix(2);
+    skip();
+  } else if (rest.substr(0, 1) == ":") {
+    rest.remove_prefix(1);
+    skip();
+  }
+  if (!quoted(value)) value = rest;
+  return {names_.intern(name), tree_.addText(value), Loc{base_ + pragma.begin}};
+}
+
+bool Parser::pragmaNamed(Slice<Pragma> pragmas, std::string_view name) const {
+  for (const Pragma& p : const_cast<const Tree&>(tree_).list(pragmas))
+    if (sameIdentifier(names_.text(p.name), name)) return true;
+  return false;
+}
+
+Loc Parser::takeDoc() {
+  if ((t_->flags & kDoc) == 0) return {};
+  const auto& all = stream_.docs;
+  const auto it = std::lower_bound(all.begin(), all.end(), t_->offset, [](const DocText& d, uint32_t offset) { return d.token_offset < offset; });
+  return it != all.end() && it->token_offset == t_->offset ? Loc{base_ + it->begin} : Loc{};
+}
+
+Loc Parser::docBehind(const Token* t) const {
+  if ((t->flags & kDocAfter) == 0) return {};
+  const auto& all = stream_.docs_after;
+  const auto it = std::lower_bound(all.begin(), all.end(), t->offset, [](const DocText& d, uint32_t offset) { return d.token_offset < offset; });
+  return it != all.end() && it->token_offset == t->offset ? Loc{base_ + it->begin} : Loc{};
+}
+
+// ---- names
+
+bool Parser::parseName(Ident& out) {
+  if (isName(kind())) {
+    out = ident(t_);
+    advance();
+    return true;
+  }
+  if (nameReserved(t_)) {
+    const Tok next = peek();
+    if ((next == Tok::Colon || next == Tok::Comma || next == Tok::At || next == Tok::Assign || next == Tok::RightParen || next == Tok::Semicolon) ||
+        (t_[1].flags & kLineStart) != 0) {
+      slip(Diag::ReservedName, t_, {textOf(t_)});
+      out = {names_.intern(textOf(t_)), here()};
+      advance();
+      return true;
+    }
+  }
+  fail(Diag::MissingName, t_, {describe(t_)});
+  return false;
+}
+
+void Parser::parseNamePath(Slice<Ident>& out) {
+  const size_t first = idents_.size();
+  do {
+    if (isName(kind()) || isTypeWord(kind())) {
+      idents_.push_back(ident(t_));
+      advance();
+    } else {
+      fail(Diag::MissingName, t_, {describe(t_)});
+      break;
+    }
+  } while (accept(Tok::Dot));
+  out = listFrom(idents_, first);
+}
+
+// ---- TYPE
+
+// TYPE {name [EXTENDS type] ":" type [":=" init] [";"]} END_TYPE
+void Parser::parseTypes(std::vector<DeclId>& out) {
+  const Token* open = t_;
+  Slice<Pragma> pragmas = takePragmas();
+  Loc doc = takeDoc();
+  advance();
+  for (;;) {
+    if (accept(Tok::Semicolon)) continue;
+    if (accept(Tok::EndType)) {
+      accept(Tok::Semicolon);
+      return;
+    }
+    if (endsDeclarations(kind())) {
+      const std::string line = std::to_string(sources_.place(loc(open)).line);
+      missing(Diag::MissingEnd, {"END_TYPE", "TYPE", line});
+      return;
+    }
+    if (t_[0].flags & kPragma) pragmas = takePragmas();
+    if (t_[0].flags & kDoc) doc = takeDoc();
+    const DeclId entry = parseTypeEntry(pragmas, doc);
+    if (entry) out.push_back(entry);
+    pragmas = {};
+    doc = {};
+  }
+}
+
+DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc) {
+  TypeDecl d{{DeclKind::Type, 0, 0, here(), doc, pragmas}, {}, {}, {}};
+  Ident name;
+  if (!parseName(name)) {
+    if (!endsDeclarations(kind())) advance();
+    syncDeclaration(Tok::EndType);
+    return {};
+  }
+  d.name = name.name;
+  TypeExprId base;
+  if (at(Tok::Extends)) {
+    advance();
+    base = parseNamedType();
+  }
+  if (!panic_) expect(Tok::Colon);
+  if (!panic_) d.type = parseType();
+  if (!d.type) d.type = tree_.add<TypeExprId>(ErrorTypeExpr{{TypeExprKind::Error, 0, 0, d.h.loc, {}}});
+  const bool is_struct = tree_.kind(d.type) == TypeExprKind::Struct;
+  if (base && is_struct) tree_.as<StructTypeExpr>(d.type).base = base;
+  if (!panic_) {
+    if (at(Tok::Equal)) {
+      slip(Diag::AssignWithEqual, t_, {"="});
+      advance();
+      d.init = parseInit();
+    } else if (accept(Tok::Assign)) {
+      d.init = parseInit();
+    }
+  }
+  if (!panic_ && !accept(Tok::Semicolon) && !(is_struct && (at(Tok::EndType) || atLineStart()))) {
+    if (atLineStart() || endsDeclarations(kind()))
+      missing(Diag::MissingSemicolon, {describe(t_ - 1)});
+    else if (at(Tok::RightParen) || at(Tok::RightBracket))
+      fail(Diag::StrayParen, t_, {textOf(t_)});
+    else
+      fail(Diag::StrayToken, t_, {describe(t_)});
+  }
+  if (panic_) syncDeclaration(Tok::EndType);
+  return tree_.add<DeclId>(d);
+}
+
+// ---- sections
+
+// VAR_xxx {CONSTANT | RETAIN | NON_RETAIN | PERSISTENT} {variable} END_VAR
+DeclId Parser::parseSection() {
+  const Token* open = t_;
+  SectionDecl d{{DeclKind::Section, 0, 0, here(), takeDoc(), takePragmas()}, sectionOf(kind()), {}};
+  advance();
+  while (peek() != Tok::Colon && peek() != Tok::Comma && peek() != Tok::At) {
+    const int bit = at(Tok::Constant)     ? kConstant
+                    : at(Tok::Retain)     ? kRetain
+                    : at(Tok::Persistent) ? kPersistent
+                    : at(Tok::NonRetain)  ? int{kNonRetain}
+                                          : 0;
+    if (bit == 0) break;
+    d.h.bits = static_cast<uint8_t>(d.h.bits | bit);
+    advance();
+  }
+  // CONSTNAT on the line of the section
+  if (at(Tok::Ident) && !atLineStart() && (t_[1].flags & kLineStart) != 0) {
+    static constexpr Tok kWords[] = {Tok::Constant, Tok::Retain, Tok::NonRetain, Tok::Persistent};
+    if (const Tok meant = nearKeyword(t_, kWords); meant != Tok::End) {
+      respell(meant);
+      d.h.bits |= meant == Tok::Constant ? kConstant : meant == Tok::Retain ? kRetain : meant == Tok::Persistent ? kPersistent : kNonRetain;
+      advance();
+    }
+  }
+  const size_t first = decls_.size();
+  parseVars(d.section, Tok::EndVar, decls_);
+  if (accept(Tok::EndVar)) {
+    accept(Tok::Semicolon);
+  } else {
+    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    missing(Diag::MissingEnd, {"END_VAR", spelling(open->kind), line});
+  }
+  d.vars = listFrom(decls_, first);
+  return tree_.add<DeclId>(d);
+}
+
+void Parser::parseVars(SectionKind section, Tok end, std::vector<DeclId>& out) {
+  for (;;) {
+    if (accept(Tok::Semicolon)) continue;
+    if (at(end) || endsDeclarations(kind())) return;
+    const Token* before = t_;
+    const DeclId var = parseVar(section);
+    if (var) out.push_back(var);
+    if (t_ == before) advance();
+  }
+}
+
+// variable = names [AT address] ":" type [R_EDGE | F_EDGE] [":=" init] ";"
+DeclId Parser::parseVar(SectionKind section) {
+  VarDecl d{{DeclKind::Var, 0, 0, here(), takeDoc(), takePragmas()}, {}, {}, {}, EdgeKind::None, false, {}};
+  const size_t first = idents_.size();
+  const bool dotted = section == SectionKind::Config;
+  if (!(at(Tok::At) && peek() == Tok::Address)) {
+    for (;;) {
+      Ident name;
+      if (!isName(kind()) && !nameReserved(t_)) {
+        if (at(Tok::Error)) {
+          last_error_ = t_;
+          panic_ = true;
+        } else if (atLineStart() && idents_.size() > first) {
+          fail(Diag::MissingName, t_ - 1, {describe(t_ - 1)});
+        } else {
+          fail(idents_.size() > first || at(Tok::Colon) || at(Tok::Comma) ? Diag::MissingName : Diag::NotADeclaration, t_, {describe(t_)});
+        }
+        break;
+      }
+      if (!parseName(name)) break;
+      idents_.push_back(name);
+      if (accept(Tok::Comma)) continue;
+      if (dotted && accept(Tok::Dot)) continue;
+      if (dotted && at(Tok::LeftBracket)) {
+        // an array element in the path: the index is part of the instance, which VAR_CONFIG names as a whole
+        while (!at(Tok::RightBracket) && !at(Tok::End) && !at(Tok::Semicolon)) advance();
+        accept(Tok::RightBracket);
+        if (accept(Tok::Dot)) continue;
+      }
+      // `a b : INT`
+      if (isName(kind()) && !(at(Tok::At) && peek() == Tok::Address) && !atLineStart() && beginsDeclaration(t_)) {
+        slip(Diag::MissingToken, t_, {",", describe(t_)});
+        continue;
+      }
+      break;
+    }
+  }
+  if (!panic_ && at(Tok::At)) {
+    const Token* word = t_;
+    advance();
+    if (at(Tok::Address)) {
+      d.located = true;
+      if (readAddress(textOf(t_), here(), diagnostics_, d.address, numbers_))
+        d.address.path = tree_.addList<uint32_t>(numbers_);
+      else
+        last_error_ = t_;
+      advance();
+    } else {
+      fail(Diag::MissingValueBehind, word, {"`AT`"});
+    }
+  }
+  if (!panic_ && !accept(Tok::Colon)) {
+    if (at(Tok::Assign) || at(Tok::LeftParen) || at(Tok::Dot) || at(Tok::LeftBracket) || at(Tok::PlusAssign))
+      fail(Diag::NotADeclaration, t_, {describe(t_)});
+    else if (atLineStart())
+      missing(Diag::MissingToken, {":", describe(t_)}), panic_ = true;
+    else if (isTypeWord(kind()) || at(Tok::Array) || at(Tok::Struct) || (isName(kind()) && (peek() == Tok::Semicolon || peek() == Tok::Assign)))
+      slip(Diag::MissingToken, t_, {":", describe(t_)});
+    else if (at(Tok::Semicolon) || at(Tok::Equal))
+      fail(Diag::MissingToken, t_, {":", describe(t_)});
+    else
+      fail(Diag::NotADeclaration, t_, {describe(t_)});
+  }
+  if (!panic_ && section == SectionKind::Access) {
+    // access name : path : type direction, or : %address : type direction
+    if (at(Tok::Address)) {
+      d.located = true;
+      if (readAddress(textOf(t_), here(), diagnostics_, d.address, numbers_)) d.address.path = tree_.addList<uint32_t>(numbers_);
+      advance();
+    } else {
+      while (isName(kind())) {
+        idents_.push_back(ident(t_));
+        advance();
+        if (at(Tok::LeftBracket)) {
+          while (!at(Tok::RightBracket) && !at(Tok::End) && !at(Tok::Semicolon)) advance();
+          accept(Tok::RightBracket);
+        }
+        if (!accept(Tok::Dot)) break;
+      }
+    }
+    expect(Tok::Colon);
+  }
+  if (idents_.size() > first) d.h.loc = idents_[first].loc;
+  d.names = listFrom(idents_, first);
+  if (!panic_) {
+    // The edge stands behind the type, and by some before it.
+    d.type = parseType();
+    if (!panic_ && (at(Tok::REdge) || at(Tok::FEdge))) {
+      d.edge = at(Tok::REdge) ? EdgeKind::Rising : EdgeKind::Falling;
+      advance();
+    }
+    if (!panic_ && section == SectionKind::Access && (at(Tok::ReadOnly) || at(Tok::ReadWrite))) {
+      d.h.bits = at(Tok::ReadOnly) ? 1 : 0;
+      advance();
+    }
+  }
+  if (!d.type) d.type = tree_.add<TypeExprId>(ErrorTypeExpr{{TypeExprKind::Error, 0, 0, d.h.loc, {}}});
+  if (!panic_) {
+    if (at(Tok::Equal) || (at(Tok::Colon) && peek() == Tok::Equal)) {
+      slip(Diag::AssignWithEqual, t_, {at(Tok::Equal) ? "=" : ": ="});
+      if (at(Tok::Colon)) advance();
+      advance();
+      d.init = parseInit();
+    } else if (accept(Tok::Assign)) {
+      d.init = parseInit();
+    } else if ((at(Tok::Number) || at(Tok::True) || at(Tok::False) || at(Tok::Text) || at(Tok::Duration)) && !atLineStart()) {
+      slip(Diag::MissingToken, t_, {":=", describe(t_)});
+      d.init = parseInit();
+    }
+  }
+  if (!panic_ && at(Tok::Semicolon)) {
+    if (!d.h.doc) d.h.doc = docBehind(t_);
+    advance();
+  } else {
+    if (!panic_) {
+      if (at(Tok::RightParen) || at(Tok::RightBracket))
+        fail(Diag::StrayParen, t_, {textOf(t_)});
+      else if (atLineStart() || endsDeclarations(kind()))
+        missing(Diag::MissingSemicolon, {describe(t_ - 1)});
+      else if (isName(kind()) && (peek() == Tok::Colon || peek() == Tok::Comma))
+        missing(Diag::MissingSemicolon, {describe(t_ - 1)});
+      else if (at(Tok::Error))
+        last_error_ = t_, panic_ = true;
+      else
+        fail(Diag::StrayToken, t_, {describe(t_)});
+    }
+    if (panic_) syncDeclaration(Tok::EndVar);
+  }
+  return tree_.add<DeclId>(d);
+}
+
+void Parser::syncDeclaration(Tok end) {
+  panic_ = false;
+  for (;; advance()) {
+    if (accept(Tok::Semicolon)) return;
+    if (at(end) || endsDeclarations(kind())) return;
+    if (atLineStart() && beginsDeclaration(t_)) return;
+  }
+}
+
+// ---- types
+
+TypeExprId Parser::parseType() {
+  if (++type_depth_ > kMaxTypeDepth) {
+    tooDeep("types", kMaxTypeDepth);
+    --type_depth_;
+    return {};
+  }
+  TypeExprId type;
+  const Loc start = here();
+  switch (static_cast<int>(kind())) {
+    case static_cast<int>(Tok::Array): type = parseArray(); break;
+    case static_cast<int>(Tok::Struct):
+    case static_cast<int>(Tok::Union): type = parseStruct(); break;
+    case static_cast<int>(Tok::LeftParen): type = parseEnum({}); break;
+    case static_cast<int>(Tok::RefTo): {
+      advance();
+      const TypeExprId target = parseType();
+      type = tree_.add<TypeExprId>(PointerTypeExpr{{TypeExprKind::Pointer, 0, 0, start, {}}, target, PointerForm::RefTo});
+      break;
+    }
+    default:
+      if ((at(Tok::Pointer) || at(Tok::Reference)) && peek() == Tok::To) {
+        const PointerForm form = at(Tok::Pointer) ? PointerForm::Pointer : PointerForm::Reference;
+        advance();
+        advance();
+        const TypeExprId target = parseType();
+        type = tree_.add<TypeExprId>(PointerTypeExpr{{TypeExprKind::Pointer, 0, 0, start, {}}, target, form});
+      } else if (isName(kind()) || isTypeWord(kind())) {
+        type = parseNamedType();
+      } else if (at(Tok::Error)) {
+        last_error_ = t_;
+        panic_ = true;
+      } else if (atLineStart()) {
+        fail(Diag::MissingType, t_ - 1, {describe(t_ - 1)});
+      } else {
+        fail(Diag::MissingType, t_, {describe(t_)});
+      }
+      break;
+  }
+  --type_depth_;
+  return type;
+}
+
+// name {"." name} | STRING ["[" expr "]" | "(" expr ")"] | INT "(" low ".." high ")" | INT "(" items ")"
+TypeExprId Parser::parseNamedType() {
+  const Loc start = here();
+  if (at(Tok::String) || at(Tok::Wstring)) {
+    TextTypeExpr d{{TypeExprKind::Text, 0, 0, start, {}}, {}, at(Tok::Wstring)};
+    advance();
+    if (at(Tok::LeftBracket) || at(Tok::LeftParen)) {
+      const Tok close = at(Tok::LeftBracket) ? Tok::RightBracket : Tok::RightParen;
+      advance();
+      d.length = parseExpr();
+      closeParen(close, false);
+    }
+    return tree_.add<TypeExprId>(d);
+  }
+  NamedTypeExpr named{{TypeExprKind::Named, 0, 0, start, {}}, {}};
+  const Token* first = t_;
+  parseNamePath(named.path);
+  const TypeExprId base = tree_.add<TypeExprId>(named);
+  if (panic_) return base;
+  if (at(Tok::LeftBracket) && first->kind == Tok::Ident) {
+    static constexpr Tok kArray[] = {Tok::Array};
+    if (nearKeyword(first, kArray) == Tok::Array) {
+      t_ = const_cast<Token*>(first);
+      respell(Tok::Array);
+      return parseArray();
+    }
+  }
+  if (at(Tok::To) && first->kind == Tok::Ident && t_ == first + 1) {
+    static constexpr Tok kPointers[] = {Tok::Pointer, Tok::Reference};
+    if (const Tok meant = nearKeyword(first, kPointers); meant != Tok::End) {
+      t_ = const_cast<Token*>(first);
+      respell(meant);
+      return parseType();
+    }
+  }
+  if (!at(Tok::LeftParen)) return base;
+  // `INT (a, b := 2)` names values, `INT (0..9)` a range.
+  const Tok next = peek(2);
+  if (isName(peek()) && (next == Tok::Comma || next == Tok::RightParen || next == Tok::Assign)) return parseEnum(base);
+  advance();
+  SubrangeTypeExpr d{{TypeExprKind::Subrange, 0, 0, start, {}}, base, {}, {}};
+  d.low = parseExpr();
+  if (!panic_) expect(Tok::DotDot);
+  d.high = panic_ ? errorExpr(here()) : parseExpr();
+  closeParen(Tok::RightParen, false);
+  return tree_.add<TypeExprId>(d);
+}
+
+// STRUCT [EXTENDS type] {variable} END_STRUCT, UNION {variable} END_UNION
+TypeExprId Parser::parseStruct() {
+  const Token* open = t_;
+  StructTypeExpr d{{TypeExprKind::Struct, 0, 0, here(), {}}, {}, {}, at(Tok::Union)};
+  const Tok end = d.is_union ? Tok::EndUnion : Tok::EndStruct;
+  advance();
+  if (at(Tok::Extends) && isName(peek())) {
+    advance();
+    d.base = parseNamedType();
+  }
+  const size_t first = decls_.size();
+  parseVars(SectionKind::Local, end, decls_);
+  if (!accept(end)) {
+    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    missing(Diag::MissingEnd, {spelling(end), spelling(open->kind), line});
+  }
+  d.fields = listFrom(decls_, first);
+  return tree_.add<TypeExprId>(d);
+}
+
+// "(" name [":=" expr] {"," name [":=" expr]} ")" [type]
+TypeExprId Parser::parseEnum(TypeExprId base) {
+  EnumTypeExpr d{{TypeExprKind::Enum, 0, 0, here(), {}}, {}, base};
+  advance();
+  std::vector<EnumItem> items;
+  while (!panic_ && !at(Tok::RightParen)) {
+    EnumItem item{};
+    if (!parseName(item.item)) break;
+    if (at(Tok::Equal)) {
+      slip(Diag::AssignWithEqual, t_, {"="});
+      advance();
+      item.value = parseExpr();
+    } else if (accept(Tok::Assign)) {
+      item.value = parseExpr();
+    }
+    items.push_back(item);
+    if (accept(Tok::Comma)) {
+      if (at(Tok::RightParen)) {
+        if (standard_ == Standard::Codesys)
+          diagnostics_.report(Diag::TrailingCommaWarning, loc(t_ - 1));
+        else
+          slip(Diag::TrailingComma, t_ - 1);
+      }
+      continue;
+    }
+    if (!panic_ && isName(kind()) && (peek() == Tok::Comma || peek() == Tok::RightParen || peek() == Tok::Assign)) {
+      if (atLineStart())
+        missing(Diag::MissingToken, {",", describe(t_)});
+      else
+        slip(Diag::MissingToken, t_, {",", describe(t_)});
+      continue;
+    }
+    break;
+  }
+  closeParen(Tok::RightParen, true);
+  d.items = tree_.addList<EnumItem>(items);
+  if (!panic_ && !d.base && (isName(kind()) || isTypeWord(kind())) && !atLineStart()) d.base = parseNamedType();
+  return tree_.add<TypeExprId>(d);
+}
+
+// ARRAY "[" (low ".." high | "*") {"," …} "]" OF type
+TypeExprId Parser::parseArray() {
+  ArrayTypeExpr d{{TypeExprKind::Array, 0, 0, here(), {}}, {}, {}};
+  advance();
+  if (!accept(Tok::LeftBracket)) {
+    if (at(Tok::LeftParen)) {
+      slip(Diag::WrongWord, t_, {"(", "["});
+      advance();
+    } else {
+      slip(Diag::MissingToken, t_, {"[", describe(t_)});
+    }
+  }
+  std::vector<ArrayBound> bounds;
+  do {
+    if (at(Tok::Star)) {
+      advance();
+      bounds.push_back({});
+      continue;
+    }
+    ArrayBound bound{parseExpr(), {}};
+    if (!panic_ && !accept(Tok::DotDot)) {
+      if (at(Tok::RightBracket) && tree_.kind(bound.low) == ExprKind::Literal && tree_.as<LiteralExpr>(bound.low).literal() == LiteralKind::Integer) {
+        const uint64_t size = tree_.as<LiteralExpr>(bound.low).value();
+        const std::string written = std::to_string(size), last = std::to_string(size == 0 ? 0 : size - 1);
+        slip(Diag::ArraySize, t_ - 1, {written, last});
+        bound.high = bound.low;
+      } else if (isOperand(kind())) {
+        slip(Diag::MissingToken, t_, {"..", describe(t_)});
+      } else {
+        fail(Diag::MissingToken, t_, {"..", describe(t_)});
+      }
+    }
+    if (!bound.high) bound.high = panic_ ? errorExpr(here()) : parseExpr();
+    bounds.push_back(bound);
+  } while (!panic_ && accept(Tok::Comma));
+  if (!panic_ && at(Tok::RightParen)) {
+    slip(Diag::WrongWord, t_, {")", "]"});
+    advance();
+  } else if (!panic_ && at(Tok::Of)) {
+    slip(Diag::MissingToken, t_, {"]", describe(t_)});
+  } else {
+    closeParen(Tok::RightBracket, false);
+  }
+  d.bounds = tree_.addList<ArrayBound>(bounds);
+  if (!panic_) expect(Tok::Of);
+  if (!panic_) d.element = parseType();
+  return tree_.add<TypeExprId>(d);
+}
+
+// ---- initial values
+
+// init = expr | "[" elements "]" | "(" field ":=" init {"," …} ")"
+ExprId Parser::parseInit() {
+  if (at(Tok::LeftBracket)) return parseArrayInit();
+  if (at(Tok::LeftParen) && isName(peek()) && peek(2) == Tok::Assign) return parseStructInit();
+  return parseExpr();
+}
+
+// elements = element {"," element}; element = init | count "(" [elements] ")"
+ExprId Parser::parseArrayInit() {
+  const Loc start = here();
+  if (++expr_depth_ > kMaxExprDepth) {
+    tooDeep("initial values", kMaxExprDepth);
+    --expr_depth_;
+    return errorExpr(start);
+  }
+  advance();
+  const size_t first = exprs_.size();
+  while (!panic_ && !at(Tok::RightBracket)) {
+    if (at(Tok::Number) && peek() == Tok::LeftParen) {
+      const Loc count_loc = here();
+      const ExprId count = parseNumber({}, false, count_loc);
+      advance();
+      const size_t inner = exprs_.size();
+      while (!panic_ && !at(Tok::RightParen)) {
+        exprs_.push_back(parseInit());
+        if (!accept(Tok::Comma)) break;
+      }
+      closeParen(Tok::RightParen, true);
+      const Slice<ExprId> elements = listFrom(exprs_, inner);
+      exprs_.push_back(tree_.add<ExprId>(RepeatExpr{exprHeader(ExprKind::Repeat, count_loc), count, elements}));
+    } else {
+      exprs_.push_back(parseInit());
+    }
+    if (accept(Tok::Comma)) continue;
+    if (!panic_ && isOperand(kind()) && !atLineStart()) {
+      slip(Diag::MissingToken, t_, {",", describe(t_)});
+      continue;
+    }
+    break;
+  }
+  closeParen(Tok::RightBracket, true);
+  --expr_depth_;
+  return tree_.add<ExprId>(ArrayInitExpr{exprHeader(ExprKind::ArrayInit, start), listFrom(exprs_, first)});
+}
+
+ExprId Parser::parseStructInit() {
+  const Loc start = here();
+  if (++expr_depth_ > kMaxExprDepth) {
+    tooDeep("initial values", kMaxExprDepth);
+    --expr_depth_;
+    return errorExpr(start);
+  }
+  advance();
+  std::vector<FieldInit> fields;
+  while (!panic_ && !at(Tok::RightParen)) {
+    FieldInit field{};
+    if (!parseName(field.field)) break;
+    if (at(Tok::Equal)) {
+      slip(Diag::AssignWithEqual, t_, {"="});
+      advance();
+    } else if (!accept(Tok::Assign)) {
+      fail(Diag::MissingToken, t_, {":=", describe(t_)});
+      break;
+    }
+    field.value = parseInit();
+    fields.push_back(field);
+    if (accept(Tok::Comma)) continue;
+    if (!panic_ && isName(kind()) && peek() == Tok::Assign) {
+      if (atLineStart())
+        missing(Diag::MissingToken, {",", describe(t_)});
+      else
+        slip(Diag::MissingToken, t_, {",", describe(t_)});
+      continue;
+    }
+    break;
+  }
+  closeParen(Tok::RightParen, true);
+  --expr_depth_;
+  return tree_.add<ExprId>(StructInitExpr{exprHeader(ExprKind::StructInit, start), tree_.addList<FieldInit>(fields)});
+}
+
+}  // namespace rung::text

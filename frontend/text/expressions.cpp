@@ -1,0 +1,529 @@
+// Expressions: precedence climbing over kOperators, postfix chains, literals and arguments.
+#include <array>
+#include <cstring>
+
+#include "frontend/text/parser.h"
+
+namespace rung::text {
+namespace {
+
+struct Operator {
+  uint8_t precedence = 0;  // 0: no operator
+  BinaryOp op = BinaryOp::Or;
+};
+constexpr uint32_t kPowerPrecedence = 8;
+
+// expr = or {...}; weakest first: OR, XOR, AND, = <>, < > <= >=, + -, * / MOD, **. All associate to the left.
+constexpr std::array<Operator, kTokCount> makeOperators() {
+  std::array<Operator, kTokCount> t{};
+  const auto set = [&](Tok tok, uint8_t precedence, BinaryOp op) { t[static_cast<size_t>(tok)] = {precedence, op}; };
+  set(Tok::Or, 1, BinaryOp::Or);
+  set(Tok::OrElse, 1, BinaryOp::OrElse);
+  set(Tok::BarTwice, 1, BinaryOp::Or);
+  set(Tok::Bar, 1, BinaryOp::Or);
+  set(Tok::Xor, 2, BinaryOp::Xor);
+  set(Tok::And, 3, BinaryOp::And);
+  set(Tok::AndThen, 3, BinaryOp::AndThen);
+  set(Tok::Ampersand, 3, BinaryOp::And);
+  set(Tok::AmpersandTwice, 3, BinaryOp::And);
+  set(Tok::Equal, 4, BinaryOp::Equal);
+  set(Tok::EqualEqual, 4, BinaryOp::Equal);
+  set(Tok::NotEqual, 4, BinaryOp::NotEqual);
+  set(Tok::BangEqual, 4, BinaryOp::NotEqual);
+  set(Tok::Less, 5, BinaryOp::Less);
+  set(Tok::LessEqual, 5, BinaryOp::LessEqual);
+  set(Tok::EqualLess, 5, BinaryOp::LessEqual);
+  set(Tok::Greater, 5, BinaryOp::Greater);
+  set(Tok::GreaterEqual, 5, BinaryOp::GreaterEqual);
+  set(Tok::Plus, 6, BinaryOp::Add);
+  set(Tok::Minus, 6, BinaryOp::Subtract);
+  set(Tok::Star, 7, BinaryOp::Multiply);
+  set(Tok::Slash, 7, BinaryOp::Divide);
+  set(Tok::Mod, 7, BinaryOp::Modulo);
+  set(Tok::Percent, 7, BinaryOp::Modulo);
+  set(Tok::Power, kPowerPrecedence, BinaryOp::Power);
+  return t;
+}
+constexpr std::array<Operator, kTokCount> kOperators = makeOperators();
+
+// What stands in ST for an operator of another language.
+const char* nativeOperator(Tok kind) {
+  switch (static_cast<int>(kind)) {
+    case static_cast<int>(Tok::EqualEqual): return "=";
+    case static_cast<int>(Tok::BangEqual): return "<>";
+    case static_cast<int>(Tok::Bang): return "NOT";
+    case static_cast<int>(Tok::AmpersandTwice): return "AND";
+    case static_cast<int>(Tok::BarTwice):
+    case static_cast<int>(Tok::Bar): return "OR";
+    case static_cast<int>(Tok::Percent): return "MOD";
+    case static_cast<int>(Tok::EqualLess): return "<=";
+    default: return nullptr;
+  }
+}
+
+}  // namespace
+
+bool Parser::isOperand(Tok kind) const {
+  return (kind >= Tok::Number && kind <= Tok::Ident) || isName(kind) || isTypeWord(kind) || kind == Tok::True || kind == Tok::False ||
+         kind == Tok::Null || kind == Tok::LeftParen || kind == Tok::Not;
+}
+
+ExprId Parser::parseExpr(uint32_t least) {
+  ExprId left = parseUnary();
+  for (uint32_t count = 0;; ++count) {
+    const Operator row = kOperators[static_cast<size_t>(t_->kind)];
+    if (row.precedence < least || row.precedence == 0) return left;
+    const Token* op = t_;
+    if (count == kMaxChain) {
+      tooDeep("operators", kMaxChain);
+      return left;
+    }
+    if (op->kind >= Tok::EqualEqual && op->kind <= Tok::EqualLess)
+      slip(Diag::ForeignOperator, op, {spelling(op->kind), nativeOperator(op->kind)});
+    advance();
+    // No value: the next line begins with a statement of its own.
+    if (atLineStart() && !panic_ && isName(kind()) && peek() == Tok::Assign) {
+      fail(Diag::MissingValueBehind, op, {describe(op)});
+      return left;
+    }
+    const ExprId right = parseExpr(row.precedence + 1u);
+    if (row.op == BinaryOp::Power && standard_ != Standard::Codesys && tree_.kind(left) == ExprKind::Unary &&
+        tree_.expr(left).in_parens == 0 && tree_.as<UnaryExpr>(left).op() == UnaryOp::Negate)
+      diagnostics_.report(Diag::NegatedPower, tree_.loc(left), {"tighter"});
+    left = tree_.add<ExprId>(BinaryExpr{exprHeader(ExprKind::Binary, loc(op), static_cast<uint8_t>(row.op)), left, right});
+  }
+}
+
+// unary = ["-" | "+" | NOT] operand. In codesys `**` binds tighter than the sign, in the standard weaker.
+ExprId Parser::parseUnary() {
+  UnaryOp op;
+  switch (static_cast<int>(kind())) {
+    case static_cast<int>(Tok::Minus): op = UnaryOp::Negate; break;
+    case static_cast<int>(Tok::Plus): op = UnaryOp::Plus; break;
+    case static_cast<int>(Tok::Bang): slip(Diag::ForeignOperator, t_, {"!", "NOT"}); [[fallthrough]];
+    case static_cast<int>(Tok::Not): op = UnaryOp::Not; break;
+    default: return parsePrimary();
+  }
+  const Loc start = here();
+  if (++expr_depth_ > kMaxExprDepth) {
+    tooDeep("expressions", kMaxExprDepth);
+    --expr_depth_;
+    return errorExpr(start);
+  }
+  advance();
+  const ExprId operand = standard_ == Standard::Codesys ? parseExpr(kPowerPrecedence) : parseUnary();
+  --expr_depth_;
+  if (op == UnaryOp::Negate && tree_.kind(operand) == ExprKind::Binary && tree_.expr(operand).in_parens == 0)
+    diagnostics_.report(Diag::NegatedPower, start, {"weaker"});
+  return tree_.add<ExprId>(UnaryExpr{exprHeader(ExprKind::Unary, start, static_cast<uint8_t>(op)), operand});
+}
+
+ExprId Parser::parsePrimary() {
+  const Loc start = here();
+  switch (static_cast<int>(kind())) {
+    case static_cast<int>(Tok::Number): {
+      const ExprId number = parseNumber({}, false, start);
+      return number;
+    }
+    case static_cast<int>(Tok::Text):
+    case static_cast<int>(Tok::WideText): return parseText({}, start);
+    case static_cast<int>(Tok::Duration):
+    case static_cast<int>(Tok::Date):
+    case static_cast<int>(Tok::TimeOfDay):
+    case static_cast<int>(Tok::DateTime): return parseTime();
+    case static_cast<int>(Tok::True):
+    case static_cast<int>(Tok::False): {
+      const bool value = at(Tok::True);
+      advance();
+      return boolLiteral(value, {}, start);
+    }
+    case static_cast<int>(Tok::Null): {
+      advance();
+      return tree_.add<ExprId>(LiteralExpr{exprHeader(ExprKind::Literal, start, static_cast<uint8_t>(LiteralKind::Null)), {}, 0, 0});
+    }
+    case static_cast<int>(Tok::Address): return parsePostfix(parseAddress());
+    case static_cast<int>(Tok::LeftParen): {
+      if (++expr_depth_ > kMaxExprDepth) {
+        tooDeep("parentheses", kMaxExprDepth);
+        --expr_depth_;
+        return errorExpr(start);
+      }
+      advance();
+      const ExprId inner = parseExpr();
+      closeParen(Tok::RightParen, false);
+      --expr_depth_;
+      tree_.expr(inner).in_parens = 1;
+      return parsePostfix(inner);
+    }
+    default: break;
+  }
+  if (isName(kind()) || isTypeWord(kind())) {
+    if (peek() == Tok::Hash) return parseTyped();
+    const ExprId name = tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, start), nameOf(t_), {}});
+    advance();
+    const Tok next = kind();
+    if (next == Tok::Dot || next == Tok::LeftParen || next == Tok::LeftBracket || next == Tok::Caret) return parsePostfix(name);
+    return name;
+  }
+  // The functional form of operator words: AND(a, b)
+  if ((at(Tok::And) || at(Tok::Or) || at(Tok::Xor) || at(Tok::Mod)) && peek() == Tok::LeftParen) {
+    const ExprId name = tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, start), names_.intern(textOf(t_)), {}});
+    advance();
+    return parsePostfix(name);
+  }
+  if (at(Tok::Error)) {
+    last_error_ = t_;
+    advance();
+    panic_ = true;
+    return errorExpr(start);
+  }
+  // At a line's start the mistake is at the end of the line above.
+  const Token* before = t_ - 1;
+  if ((atLineStart() || at(Tok::End)) && index() > 0 && before->kind != Tok::Semicolon)
+    fail(Diag::MissingValueBehind, before, {describe(before)});
+  else
+    fail(Diag::MissingValue, t_, {describe(t_)});
+  return errorExpr(start);
+}
+
+// postfix = {"." (name | bit | "%X" bit) | "[" expr {"," expr} "]" | "^" | "(" arguments ")"}
+ExprId Parser::parsePostfix(ExprId base) {
+  for (uint32_t count = 0;; ++count) {
+    const Tok next = kind();
+    if (next != Tok::Dot && next != Tok::LeftParen && next != Tok::LeftBracket && next != Tok::Caret) return base;
+    if (count == kMaxChain) {
+      tooDeep("accesses", kMaxChain);
+      return base;
+    }
+    switch (static_cast<int>(next)) {
+      case static_cast<int>(Tok::Dot): {
+        const Token* dot = t_;
+        advance();
+        const Loc at_member = here();
+        const bool same_line = !atLineStart();
+        if (isName(kind()) || (isTypeWord(kind()) && same_line)) {
+          base = tree_.add<ExprId>(MemberExpr{exprHeader(ExprKind::Member, at_member), base, nameOf(t_), {}});
+          advance();
+        } else if (at(Tok::Number)) {
+          NumberValue value;
+          const std::string_view digits = textOf(t_);
+          if (readNumber(digits, at_member, diagnostics_, value) && (value.is_real || value.is_based || value.integer > 63))
+            fail(Diag::MissingName, t_, {describe(t_)});
+          base = tree_.add<ExprId>(BitAccessExpr{exprHeader(ExprKind::BitAccess, at_member), base, static_cast<uint32_t>(value.integer & 63), 1});
+          advance();
+        } else if (at(Tok::Address)) {
+          // %X3 %B1 %W0 %D0
+          const std::string_view part = textOf(t_);
+          const char size = part.size() > 2 ? static_cast<char>(part[1] & ~0x20) : '\0';
+          const uint32_t width = size == 'X' ? 1 : size == 'B' ? 8 : size == 'W' ? 16 : size == 'D' ? 32 : 0;
+          uint32_t position = 0;
+          bool good = width != 0 && part.size() <= 4;
+          for (char c : part.substr(good ? 2 : part.size())) {
+            good = good && c >= '0' && c <= '9';
+            position = position * 10 + static_cast<uint32_t>(c - '0');
+          }
+          if (!good) fail(Diag::AddressForm, t_, {part});
+          base = tree_.add<ExprId>(BitAccessExpr{exprHeader(ExprKind::BitAccess, at_member), base, good ? position : 0, static_cast<uint8_t>(good ? width : 1)});
+          advance();
+        } else {
+          if (same_line)
+            fail(Diag::MissingName, t_, {describe(t_)});
+          else
+            fail(Diag::MissingName, dot, {describe(dot)});
+          return base;
+        }
+        break;
+      }
+      case static_cast<int>(Tok::LeftBracket): {
+        const Loc start = tree_.loc(base);
+        if (++expr_depth_ > kMaxExprDepth) {
+          tooDeep("indices", kMaxExprDepth);
+          --expr_depth_;
+          return base;
+        }
+        advance();
+        const size_t first = exprs_.size();
+        do exprs_.push_back(parseExpr());
+        while (!panic_ && accept(Tok::Comma));
+        closeParen(Tok::RightBracket, false);
+        --expr_depth_;
+        base = tree_.add<ExprId>(IndexExpr{exprHeader(ExprKind::Index, start), base, listFrom(exprs_, first)});
+        break;
+      }
+      case static_cast<int>(Tok::Caret):
+        base = tree_.add<ExprId>(DerefExpr{exprHeader(ExprKind::Deref, here()), base});
+        advance();
+        break;
+      default: {
+        const Loc start = tree_.loc(base);
+        if (++expr_depth_ > kMaxExprDepth) {
+          tooDeep("calls", kMaxExprDepth);
+          --expr_depth_;
+          return base;
+        }
+        Loc end;
+        const Slice<Argument> arguments = parseArguments(end);
+        --expr_depth_;
+        base = tree_.add<ExprId>(CallExpr{exprHeader(ExprKind::Call, start), base, arguments, end, {}});
+        break;
+      }
+    }
+  }
+}
+
+// arguments = "(" [argument {"," argument} [","]] ")"
+// argument  = expr | name ":=" [expr] | [NOT] name "=>" [target]
+Slice<Argument> Parser::parseArguments(Loc& end) {
+  const size_t first = arguments_.size();
+  advance();
+  bool open = !at(Tok::RightParen);
+  while (open) {
+    Argument a{};
+    a.loc = here();
+    const bool negated = at(Tok::Not) && (isName(peek()) || isTypeWord(peek())) && peek(2) == Tok::Arrow;
+    const Token* pin = negated ? t_ + 1 : t_;
+    const Tok binder = pin[1].kind;
+    if ((isName(pin->kind) || isTypeWord(pin->kind)) && (binder == Tok::Assign || binder == Tok::Arrow)) {
+      a.pin = ident(pin);
+      a.negated = negated;
+      a.is_output = binder == Tok::Arrow;
+      t_ = const_cast<Token*>(pin) + 2;
+      if (at(Tok::Comma) || at(Tok::RightParen)) {
+        if (standard_ != Standard::Codesys) slip(Diag::EmptyBinding, pin, {textOf(pin)});
+      } else {
+        a.value = parseExpr();
+      }
+    } else {
+      a.value = parseExpr();
+    }
+    arguments_.push_back(a);
+    if (!panic_) {
+      if (at(Tok::RightParen)) break;
+      if (at(Tok::Comma)) {
+        if (peek() == Tok::RightParen) {
+          if (standard_ == Standard::Codesys)
+            diagnostics_.report(Diag::TrailingCommaWarning, here());
+          else
+            slip(Diag::TrailingComma, t_);
+          advance();
+          break;
+        }
+        advance();
+        continue;
+      }
+      // `f(a b)` and, over lines, `f(a := 1 <line end> b := 2)`: a comma is missing where the list does get closed.
+      bool closes = false;
+      if (isOperand(kind())) {
+        uint32_t depth = 0;
+        for (const Token* t = t_; t->kind != Tok::Semicolon && t->kind != Tok::End && !isReserved(t->kind); ++t) {
+          if (t->kind == Tok::LeftParen) ++depth;
+          if (t->kind == Tok::RightParen && depth-- == 0) {
+            closes = true;
+            break;
+          }
+          if (t - t_ > 2000) break;
+        }
+      }
+      if (closes) {
+        if (atLineStart())
+          missing(Diag::MissingToken, {",", describe(t_)});
+        else
+          slip(Diag::MissingToken, t_, {",", describe(t_)});
+        continue;
+      }
+      if (at(Tok::Assign) || at(Tok::Arrow)) fail(Diag::NotInArguments, t_, {describe(t_)});
+    }
+    break;
+  }
+  end = here();
+  closeParen(Tok::RightParen, true);
+  return listFrom(arguments_, first);
+}
+
+// Consumes the closing bracket; without it says so and finds the place to go on.
+void Parser::closeParen(Tok close, bool is_arguments) {
+  if (!panic_) {
+    if (accept(close)) return;
+    if (!is_arguments && at(Tok::Assign)) {
+      slip(Diag::CompareWithAssign, t_);
+      advance();
+      parseExpr();
+      if (!panic_ && accept(close)) return;
+    }
+  }
+  if (!panic_) {
+    const Tok k = kind();
+    const bool ends = k == Tok::Semicolon || k == Tok::End || (isReserved(k) && !isOperand(k)) || startsStatement(t_);
+    if (ends) {
+      if (atLineStart() || k == Tok::End)
+        missing(Diag::MissingToken, {spelling(close), describe(t_)});
+      else
+        slip(Diag::MissingToken, t_, {spelling(close), describe(t_)});
+      return;
+    }
+    if (k == Tok::RightParen || k == Tok::RightBracket) {
+      slip(Diag::MissingToken, t_, {spelling(close), describe(t_)});
+      if (k != Tok::RightParen || close != Tok::RightBracket) advance();
+      return;
+    }
+    if (is_arguments)
+      fail(Diag::NotInArguments, t_, {describe(t_)});
+    else if (isOperand(k))
+      fail(Diag::MissingOperator, t_, {describe(t_)});
+    else
+      fail(Diag::MissingToken, t_, {spelling(close), describe(t_)});
+  }
+  // The partner, even on a later line, as long as the statement lasts.
+  uint32_t depth = 0;
+  for (Token* t = t_; t - t_ < 5000; ++t) {
+    const Tok k = t->kind;
+    if (k == Tok::LeftParen || k == Tok::LeftBracket) ++depth;
+    if (k == Tok::RightParen || k == Tok::RightBracket) {
+      if (depth == 0 && k == close) {
+        t_ = t + 1;
+        panic_ = false;
+        return;
+      }
+      if (depth == 0) break;
+      --depth;
+    }
+    if (k == Tok::Semicolon || k == Tok::End || (isReserved(k) && !isOperand(k) && kOperators[static_cast<size_t>(k)].precedence == 0)) break;
+  }
+  depth = 0;
+  for (;; advance()) {
+    const Tok k = kind();
+    if (k == Tok::LeftParen || k == Tok::LeftBracket) ++depth;
+    if (k == Tok::RightParen || k == Tok::RightBracket) {
+      if (depth == 0) {
+        if (k == close) {
+          advance();
+          panic_ = false;
+        }
+        return;
+      }
+      --depth;
+    }
+    if (k == Tok::Semicolon || k == Tok::End || (isReserved(k) && !isOperand(k) && kOperators[static_cast<size_t>(k)].precedence == 0)) return;
+    if (atLineStart() && startsStatement(t_)) return;
+  }
+}
+
+ExprId Parser::boolLiteral(bool value, NameId prefix, Loc loc) {
+  return tree_.add<ExprId>(
+      LiteralExpr{exprHeader(ExprKind::Literal, loc, static_cast<uint8_t>(LiteralKind::Bool)), prefix, value ? 1u : 0u, 0});
+}
+
+// INT#-5  INT#16#FF  BOOL#TRUE  STRING#'x'  Color#Red
+ExprId Parser::parseTyped() {
+  const Token* type = t_;
+  const Loc start = here();
+  const NameId prefix = nameOf(t_);
+  advance();
+  advance();
+  bool negative = false;
+  if ((at(Tok::Minus) || at(Tok::Plus)) && peek() == Tok::Number) {
+    negative = at(Tok::Minus);
+    advance();
+  }
+  if (at(Tok::Number)) return parseNumber(prefix, negative, start);
+  if (at(Tok::Text) || at(Tok::WideText)) return parseText(prefix, start);
+  if (at(Tok::True) || at(Tok::False)) {
+    const bool value = at(Tok::True);
+    if (isTypeWord(type->kind) && type->kind != Tok::Bool) slip(Diag::LiteralPrefix, t_, {textOf(t_), textOf(type)});
+    advance();
+    return boolLiteral(value, prefix, start);
+  }
+  if (isName(kind())) {
+    const ExprId e = tree_.add<ExprId>(TypedNameExpr{exprHeader(ExprKind::TypedName, start), ident(type), ident(t_), {}});
+    advance();
+    return e;
+  }
+  fail(Diag::MissingValue, t_, {describe(t_)});
+  return errorExpr(start);
+}
+
+ExprId Parser::parseNumber(NameId prefix, bool negative, Loc start) {
+  const Token* token = t_;
+  advance();
+  NumberValue value;
+  if (!readNumber(textOf(token), loc(token), diagnostics_, value)) {
+    last_error_ = token;
+    return errorExpr(start);
+  }
+  uint8_t bits = static_cast<uint8_t>((negative ? kLiteralNegative : 0) | (value.is_based ? kLiteralBased : 0));
+  if (prefix) {
+    const Token* type = token - (negative || token[-1].kind == Tok::Plus ? 3 : 2);
+    const bool is_real_type = type->kind == Tok::Real || type->kind == Tok::Lreal;
+    if (type->kind == Tok::Bool && !value.is_real && value.integer <= 1 && !negative) return boolLiteral(value.integer != 0, prefix, start);
+    if (is_real_type && !value.is_real && !value.is_based) {
+      value.is_real = true;
+      value.real = static_cast<double>(value.integer);
+    }
+    if (isTypeWord(type->kind) && ((value.is_real && !is_real_type) || (is_real_type && value.is_based) || type->kind == Tok::Bool ||
+                                   type->kind == Tok::String || type->kind == Tok::Wstring))
+      slip(Diag::LiteralPrefix, token, {textOf(token), textOf(type)});
+    if (value.is_real && negative) value.real = -value.real;
+  }
+  LiteralExpr e{exprHeader(ExprKind::Literal, start, static_cast<uint8_t>(value.is_real ? LiteralKind::Real : LiteralKind::Integer), bits), prefix, 0, 0};
+  if (value.is_real) {
+    uint64_t raw = 0;
+    std::memcpy(&raw, &value.real, sizeof raw);
+    e.setValue(raw);
+  } else {
+    e.setValue(value.integer);
+  }
+  const ExprId id = tree_.add<ExprId>(e);
+  // A repetition `3(0)` of an initial value is read by parseArrayInit.
+  return id;
+}
+
+ExprId Parser::parseText(NameId prefix, Loc start) {
+  const Token* token = t_;
+  advance();
+  const bool wide = token->kind == Tok::WideText;
+  if ((token->flags & kReported) != 0) last_error_ = token;
+  if (prefix) {
+    const Tok type = token[-2].kind;
+    const bool good = type == Tok::String || type == Tok::Char ? !wide : type == Tok::Wstring || type == Tok::Wchar ? wide : !isTypeWord(type);
+    if (!good) slip(Diag::LiteralPrefix, token, {textOf(token), textOf(token - 2)});
+  }
+  readString(textOf(token), loc(token), diagnostics_, buffer_);
+  const TextId text = tree_.addText(buffer_);
+  return tree_.add<ExprId>(LiteralExpr{exprHeader(ExprKind::Literal, start, static_cast<uint8_t>(wide ? LiteralKind::WString : LiteralKind::String)),
+                                       prefix, text.first, text.length});
+}
+
+ExprId Parser::parseTime() {
+  const Token* token = t_;
+  advance();
+  TimeValue value;
+  bool good = false;
+  switch (static_cast<int>(token->kind)) {
+    case static_cast<int>(Tok::Duration): good = readDuration(textOf(token), loc(token), diagnostics_, value); break;
+    case static_cast<int>(Tok::Date): good = readDate(textOf(token), loc(token), diagnostics_, value); break;
+    case static_cast<int>(Tok::TimeOfDay): good = readTimeOfDay(textOf(token), loc(token), diagnostics_, value); break;
+    default: good = readDateTime(textOf(token), loc(token), diagnostics_, value); break;
+  }
+  if (!good) {
+    last_error_ = token;
+    return errorExpr(loc(token));
+  }
+  const auto bits = static_cast<uint8_t>((value.is_long ? kLiteralLong : 0) | (value.is_negative ? kLiteralNegative : 0));
+  LiteralExpr e{exprHeader(ExprKind::Literal, loc(token), static_cast<uint8_t>(value.kind), bits), {}, 0, 0};
+  e.setValue(value.value);
+  return tree_.add<ExprId>(e);
+}
+
+ExprId Parser::parseAddress() {
+  const Token* token = t_;
+  advance();
+  AddressExpr e{exprHeader(ExprKind::Address, loc(token)), {}};
+  if (!readAddress(textOf(token), loc(token), diagnostics_, e.address, numbers_)) {
+    last_error_ = token;
+    return errorExpr(loc(token));
+  }
+  e.address.path = tree_.addList<uint32_t>(numbers_);
+  return tree_.add<ExprId>(e);
+}
+
+}  // namespace rung::text

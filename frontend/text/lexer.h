@@ -1,0 +1,74 @@
+// The lexer of the text languages. In: the text of a file, which ends in a NUL. Out: one array of tokens, closed by
+// kLookahead End tokens, and the pragmas and doc comments beside it. Names are interned straight from the text; the
+// values of literals are read by literals.h when the parser takes them, so a token that recovery skips says nothing.
+// Called by parser.cpp.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "frontend/source/diagnostics.h"
+#include "frontend/source/names.h"
+#include "frontend/text/parse.h"
+
+namespace rung::text {
+
+enum class Tok : uint8_t {
+#define RUNG_TOKEN(name, what) name,
+#define RUNG_PUNCT(name, spelling) name,
+#define RUNG_WORD(name, spelling) name,
+#define RUNG_TYPE_WORD(name, spelling) name,
+#define RUNG_SOFT_WORD(name, spelling) name,
+#include "frontend/text/tokens.def"
+};
+constexpr uint32_t kTokCount = static_cast<uint32_t>(Tok::EndSlip) + 1;
+
+// Usable as a name: an identifier, or a word that is no keyword here.
+inline bool isName(Tok kind) { return kind == Tok::Ident || kind >= Tok::At; }
+inline bool isTypeWord(Tok kind) { return kind >= Tok::Bool && kind <= Tok::Wstring; }
+inline bool isReserved(Tok kind) { return kind >= Tok::And && kind <= Tok::EndResource; }
+// The fixed spelling of an operator or word; what a message calls the others ("a number").
+const char* spelling(Tok kind);
+
+enum TokenFlag : uint8_t {
+  kLineStart = 1,  // the first token of its line
+  kPragma = 2,     // pragmas stand before it
+  kDoc = 4,        // `///` lines stand above it
+  kDocAfter = 8,   // `///` follows on its line
+  kReported = 16,  // the lexer has reported this token
+  kSynthetic = 32, // inserted by recovery; stands at the offset of the next real token
+};
+struct Token {
+  uint32_t offset;  // in the file
+  uint32_t value;   // NameId of names and type words, length of all others
+  Tok kind;
+  uint8_t flags;
+  uint16_t spare;
+};
+
+// Pragmas and doc comments are found by the token they belong to.
+struct PragmaText {
+  uint32_t token_offset;  // of the token that follows
+  uint32_t begin, end;    // with its braces
+};
+struct DocText {
+  uint32_t token_offset;  // of the token that follows, or, when it stands behind, that precedes
+  uint32_t begin;
+};
+
+constexpr uint32_t kLookahead = 4;
+
+struct TokenStream {
+  std::vector<Token> tokens;
+  std::vector<PragmaText> pragmas;
+  std::vector<DocText> docs;
+  std::vector<DocText> docs_after;
+  std::vector<uint32_t> blocks;  // indices of the words that open or close blocks, for recover.h
+};
+
+// Reads [begin, end) of the file's text.
+void lex(TokenStream& out, Names& names, const Sources& sources, FileId file, uint32_t begin, uint32_t end,
+         Standard standard, Diagnostics& diagnostics);
+
+}  // namespace rung::text

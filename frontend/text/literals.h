@@ -1,0 +1,40 @@
+// The values of literals. In: the text of one token of the lexer. Out: a value, and diagnostics for what is wrong with
+// its form (digits, units, calendar, escapes). Called by expressions.cpp; sema checks that values fit their types.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "frontend/source/diagnostics.h"
+#include "frontend/syntax/tree.h"
+
+namespace rung::text {
+
+struct NumberValue {
+  bool is_real = false;
+  bool is_based = false;
+  uint64_t integer = 0;  // magnitude
+  double real = 0;
+};
+// 12  1_000  16#FF  1.5e3. False: reported.
+bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, NumberValue& value);
+
+struct TimeValue {
+  LiteralKind kind = LiteralKind::Duration;
+  bool is_long = false;      // LT#, LD#, LTOD#, LDT#
+  bool is_negative = false;  // T#-5s
+  uint64_t value = 0;        // nanoseconds, two's complement
+};
+// T#… D#… TOD#… DT#… and their long forms, with the prefix.
+bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value);
+bool readDate(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value);
+bool readTimeOfDay(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value);
+bool readDateTime(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value);
+
+// The text between the quotes with its escapes decoded: bytes for '…', UTF-8 for "…".
+bool readString(std::string_view text, Loc loc, Diagnostics& diagnostics, std::string& value);
+
+// %IX0.0  %QW4  %M*; path gets its numbers.
+bool readAddress(std::string_view text, Loc loc, Diagnostics& diagnostics, DirectAddress& address, std::vector<uint32_t>& path);
+
+}  // namespace rung::text

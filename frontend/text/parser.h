@@ -1,0 +1,188 @@
+// The parser of Structured Text: recursive descent for declarations and statements, precedence climbing for
+// expressions, over the token array of lexer.h whose blocks recover.h has balanced. Private to frontend/text:
+// parser.cpp (files, POUs, configurations), declarations.cpp, statements.cpp, expressions.cpp.
+//
+// Errors. fail() reports and sets panic_: nothing more is reported until the construct at hand has found its
+// synchronization point (`;`, a keyword, a line that begins a statement). slip() reports a mistake whose meaning is
+// plain and goes on as if it had been written right. One line gets at most one syntax error.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frontend/text/lexer.h"
+#include "frontend/text/literals.h"
+#include "frontend/text/parse.h"
+
+namespace rung::text {
+
+class Parser {
+ public:
+  Parser(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard, Diagnostics& diagnostics);
+
+  // Lexes [begin, end) of the file and balances its blocks.
+  void read(uint32_t begin, uint32_t end);
+  Slice<DeclId> parseDecls();
+  ExprId parseLoneExpression();
+
+ private:
+  // ---- tokens
+  Tok kind() const { return t_->kind; }
+  bool at(Tok kind) const { return t_->kind == kind; }
+  Tok peek(uint32_t n = 1) const { return t_[n].kind; }
+  bool atLineStart() const { return (t_->flags & kLineStart) != 0; }
+  void advance() {
+    if (t_->kind != Tok::End) ++t_;
+  }
+  bool accept(Tok kind) {
+    if (t_->kind != kind) return false;
+    ++t_;
+    return true;
+  }
+  uint32_t index() const { return static_cast<uint32_t>(t_ - tokens_.data()); }
+  Loc loc(const Token* t) const { return {base_ + t->offset}; }
+  Loc here() const { return loc(t_); }
+  NameId nameOf(const Token* t) const { return {t->value}; }
+  Ident ident(const Token* t) const { return {nameOf(t), loc(t)}; }
+  uint32_t lengthOf(const Token* t) const;
+  std::string_view textOf(const Token* t) const { return text_.substr(t->offset, lengthOf(t)); }
+  Loc endOf(const Token* t) const { return {base_ + t->offset + lengthOf(t)}; }
+  bool is(const Token* t, std::string_view word) const { return sameIdentifier(textOf(t), word); }
+  std::string describe(const Token* t) const;  // "`x`", "the end of the file"
+
+  // ---- errors
+  Report fail(Diag diag, const Token* t, std::initializer_list<std::string_view> args = {});
+  Report slip(Diag diag, const Token* t, std::initializer_list<std::string_view> args = {});
+  Report missing(Diag diag, std::initializer_list<std::string_view> args);  // at the end of the token before
+  bool mayReport(const Token* t);
+  bool nameReserved(const Token* t) const { return isReserved(t->kind) || isTypeWord(t->kind); }
+  // Wanted here: the token; else a slip (or a failure when nothing else makes sense). True when it was there.
+  bool expect(Tok wanted);
+  // The keyword of `candidates` that the name at t was meant to be, or End.
+  Tok nearKeyword(const Token* t, std::span<const Tok> candidates) const;
+  bool respell(Tok wanted);  // t_ is a misspelled `wanted`: reports it and makes it so
+  void tooDeep(const char* what, uint32_t limit);
+
+  // ---- files, POUs, configurations (parser.cpp)
+  void parseTopLevel(std::vector<DeclId>& out);
+  void skipToTopLevel();
+  bool atTopLevelWord() const;
+  DeclId parsePou();
+  DeclId parseConfiguration();
+  DeclId parseResource();
+  DeclId parseTask();
+  DeclId parseProgramInstance();
+  void parseMembers(Tok end, std::vector<DeclId>& out);
+  bool parseTaskName(Ident& out);
+  void unsupported(const char* what, const char* end_word);
+
+  // ---- declarations (declarations.cpp)
+  void parseTypes(std::vector<DeclId>& out);
+  DeclId parseTypeEntry(Slice<Pragma> pragmas, Loc doc);
+  DeclId parseSection();
+  bool atSection() const { return kind() >= Tok::Var && kind() <= Tok::VarConfig; }
+  DeclId parseVar(SectionKind section);
+  void parseVars(SectionKind section, Tok end, std::vector<DeclId>& out);
+  void syncDeclaration(Tok end);
+  bool parseName(Ident& out);
+  bool parsePath(std::vector<Ident>& out);
+  TypeExprId parseType();
+  TypeExprId parseStruct();
+  TypeExprId parseEnum(TypeExprId base);
+  TypeExprId parseArray();
+  TypeExprId parseNamedType();
+  void parseNamePath(Slice<Ident>& out);
+  ExprId parseInit();
+  ExprId parseArrayInit();
+  ExprId parseStructInit();
+  Slice<Pragma> takePragmas();
+  Pragma readPragma(const PragmaText& pragma);
+  Loc takeDoc();
+  Loc docBehind(const Token* t) const;
+  bool pragmaNamed(Slice<Pragma> pragmas, std::string_view name) const;
+
+  // ---- statements (statements.cpp)
+  enum Stops : uint8_t { kStopElse = 1, kStopElsif = 2, kStopUntil = 4, kStopLabel = 8 };  // words that end a list, beside END_…
+  Slice<StmtId> parseStatements(uint8_t stops);
+  bool atBlockEnd() const;
+  void parseStatement();
+  void parseIf();
+  void parseCase();
+  void parseFor();
+  void parseWhile();
+  void parseRepeat();
+  void parseExprStatement();
+  void parseChain(ExprId target, ExprId value, Token* value_start, const Token* op);
+  bool atCaseLabel() const;
+  ExprId parseHeader(Tok connective);
+  void finishHeader(Tok connective);
+  bool enterBlock();
+  void parseCaseLabels(std::vector<ExprId>& out);
+  void closeBlock(const Token* open, Tok end);
+  void endStatement(const Token* first);
+  void syncStatement();
+  bool startsStatement(const Token* t) const;
+  bool misspelledStart(const Token* first);
+  StmtHeader header(StmtKind kind, Loc loc, uint8_t op = 0) const { return {kind, op, 0, loc}; }
+
+  // ---- expressions (expressions.cpp)
+  ExprId parseExpr(uint32_t least = 1);
+  ExprId parseUnary();
+  ExprId parsePostfix(ExprId base);
+  ExprId parsePrimary();
+  ExprId parseTyped();
+  ExprId parseNumber(NameId prefix, bool negative, Loc loc);
+  ExprId parseText(NameId prefix, Loc loc);
+  ExprId parseTime();
+  ExprId parseAddress();
+  Slice<Argument> parseArguments(Loc& end);
+  ExprId errorExpr(Loc loc) { return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)}); }
+  ExprHeader exprHeader(ExprKind kind, Loc loc, uint8_t op = 0, uint8_t bits = 0) const {
+    return {kind, 0, 0, 0, op, bits, loc, {}};
+  }
+  ExprId boolLiteral(bool value, NameId prefix, Loc loc);
+  bool isOperand(Tok kind) const;
+  void closeParen(Tok close, bool continues_lines);
+
+  template <class T>
+  Slice<T> listFrom(std::vector<T>& scratch, size_t first) {
+    const Slice<T> slice = tree_.addList<T>(std::span<const T>(scratch).subspan(first));
+    scratch.resize(first);
+    return slice;
+  }
+
+  Tree& tree_;
+  Names& names_;
+  const Sources& sources_;
+  FileId file_;
+  Standard standard_;
+  Diagnostics& diagnostics_;
+  uint32_t base_;
+  std::string_view text_;
+  TokenStream stream_;
+  std::vector<Token> tokens_;
+  Token* t_ = nullptr;
+  bool panic_ = false;
+  const Token* last_error_ = nullptr;
+  const Token* statement_start_ = nullptr;
+  uint32_t expr_depth_ = 0, stmt_depth_ = 0;
+  std::string buffer_;
+  // Scratch stacks of lists that are being built.
+  std::vector<StmtId> stmts_;
+  std::vector<ExprId> exprs_;
+  std::vector<Argument> arguments_;
+  std::vector<DeclId> decls_;
+  std::vector<IfBranch> if_branches_;
+  std::vector<CaseBranch> case_branches_;
+  std::vector<Ident> idents_;
+  std::vector<uint32_t> numbers_;
+  uint32_t type_depth_ = 0;
+};
+
+constexpr uint32_t kMaxExprDepth = 1000;
+constexpr uint32_t kMaxChain = 2000;       // operators in a row: a left-deep tree
+constexpr uint32_t kMaxStmtDepth = 2000;
+constexpr uint32_t kMaxTypeDepth = 200;
+
+}  // namespace rung::text
