@@ -90,6 +90,7 @@ bool Compilation::read() {
   for (const WarningSwitch& warning : options.warnings)
     if (!diagnostics.setWarning(warning.name, warning.on) && usage_error_.empty())
       usage_error_ = "unknown warning `" + warning.name + "` in `-W`; `rung explain` knows the codes";
+  if (usage_error_.empty()) usage_error_ = libraries.load(options);
   for (const InputFile& file : inputs.files) {
     std::string_view text = sources.text(file.file);
     times_.lines += static_cast<uint64_t>(std::count(text.begin(), text.end(), '\n'));
@@ -125,6 +126,8 @@ bool Compilation::check() {
   if (!diagnostics.full()) {
     sema::Options sema_options;
     sema_options.standard = options.standard;
+    sema_options.libraries = libraries.files();
+    sema_options.default_interval_ns = options.default_interval_ns;
     project = std::make_unique<sema::Project>(sources, names, diagnostics, tree, sema_options);
     sema::check(*project);
   }

@@ -13,6 +13,7 @@
 #include "ir/ir.h"
 #include "sema/project.h"
 #include "tools/rung/inputs.h"
+#include "tools/rung/libraries.h"
 #include "tools/rung/options.h"
 
 namespace rung::tool {
@@ -59,11 +60,11 @@ class Compilation {
   Diagnostics diagnostics;
   Tree tree;
   Inputs inputs;
+  LibrarySet libraries;
   std::unique_ptr<sema::Project> project;
   std::unique_ptr<ir::Module> module;
 
  private:
-  bool readLibrariesAndOptions();
   void dump(const std::string& text) const;
   bool verified(const char* after);
 

@@ -59,6 +59,7 @@ std::string writeDepfile(const Compilation& compilation) {
   std::string target = options.depfile_target;
   if (target.empty()) target = options.output + "/rung.manifest";
   std::vector<std::string> read = compilation.inputs.read;
+  read.insert(read.end(), compilation.libraries.read().begin(), compilation.libraries.read().end());
   std::sort(read.begin(), read.end());
   return writeFile(options.depfile, codegen::depfile(target, read));
 }

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "sema/declarations/libraries.h"
 #include "tools/rung/commands.h"
 #include "tools/rung/compile.h"
+#include "tools/rung/libraries.h"
 
 namespace rung::tool {
 namespace {
@@ -46,11 +48,100 @@ int listPous(const Options& options) {
   return exit == kGood ? printResult(out) : exit;
 }
 
+// Every name that the libraries declare, with the range of its text.
+template <class Visit>
+void eachBlock(const LibrarySet& libraries, Visit visit) {
+  for (const sema::LibraryFile& file : libraries.files())
+    for (const sema::IndexedBlock& block : sema::indexLibrary(file.text)) visit(file, block);
+}
+
+int listLibraries(const Options& options) {
+  LibrarySet libraries;
+  std::string error = libraries.load(options);
+  if (!error.empty()) return usageError(error);
+  std::string out, library;
+  std::vector<std::string> names;
+  auto flush = [&] {
+    if (library.empty()) return;
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    out += library + ":\n";
+    std::string line = " ";
+    for (const std::string& name : names) {
+      if (line.size() + name.size() > 100) {
+        out += line + "\n";
+        line = " ";
+      }
+      line += " " + name;
+    }
+    out += line + "\n";
+    names.clear();
+  };
+  eachBlock(libraries, [&](const sema::LibraryFile& file, const sema::IndexedBlock& block) {
+    if (library != file.library) flush();
+    library = file.library;
+    if ((block.standards >> static_cast<unsigned>(options.standard) & 1u) == 0) return;
+    for (std::string_view name : block.names) names.emplace_back(name);
+  });
+  flush();
+  return printResult(out);
+}
+
+// The header of a declaration: all up to the body, with the doc comment above it.
+std::string header(std::string_view text, const sema::IndexedBlock& block) {
+  size_t begin = block.begin;
+  for (;;) {  // `///` lines above
+    size_t line_end = text.rfind('\n', begin == 0 ? 0 : begin - 1);
+    if (line_end == std::string_view::npos || line_end == 0) break;
+    size_t line_begin = text.rfind('\n', line_end - 1);
+    line_begin = line_begin == std::string_view::npos ? 0 : line_begin + 1;
+    if (!text.substr(line_begin).starts_with("///")) break;
+    begin = line_begin;
+  }
+  std::string_view declaration = text.substr(block.begin, block.end - block.begin);
+  size_t end = declaration.rfind("END_VAR");
+  end = end == std::string_view::npos || declaration.starts_with("TYPE") ? declaration.size() : end + 7;
+  return std::string(text.substr(begin, block.begin - begin)) + std::string(declaration.substr(0, end)) + "\n";
+}
+
+int listSignature(const Options& options) {
+  LibrarySet libraries;
+  std::string error = libraries.load(options);
+  if (!error.empty()) return usageError(error);
+  std::string out;
+  std::vector<std::string_view> known;
+  auto add = [&](std::string_view where, std::string_view text, const sema::IndexedBlock& block) {
+    for (std::string_view name : block.names) {
+      known.push_back(name);
+      if (sameIdentifier(name, options.signature)) out += "// " + std::string(where) + "\n" + header(text, block);
+    }
+  };
+  PhaseTimes times;
+  Compilation compilation(options, times);
+  if (!options.inputs.empty()) {
+    if (!compilation.read()) return compilation.finish();
+    for (const InputFile& file : compilation.inputs.files) {
+      std::string_view text = compilation.sources.text(file.file);
+      for (const sema::IndexedBlock& block : sema::indexLibrary(text)) add(file.shown, text, block);
+    }
+  }
+  eachBlock(libraries, [&](const sema::LibraryFile& file, const sema::IndexedBlock& block) {
+    if ((block.standards >> static_cast<unsigned>(options.standard) & 1u) != 0) add(file.path, file.text, block);
+  });
+  if (!out.empty()) return printResult(out);
+  std::string_view near = nearest(options.signature, known);
+  return usageError("nothing is called `" + options.signature + "`" +
+                    (near.empty() ? "" : "; did you mean `" + std::string(near) + "`?"));
+}
+
 }  // namespace
 
 int runList(const Options& options) {
-  if (!options.inputs.empty() && options.inputs[0] == "pous") return listPous(options);
-  return usageError("`rung list` knows no `" + (options.inputs.empty() ? options.signature : options.inputs[0]) + "`");
+  if (!options.signature.empty()) return listSignature(options);
+  if (options.inputs[0] == "pous") return listPous(options);
+  if (options.inputs[0] == "libraries" && options.inputs.size() == 1) return listLibraries(options);
+  return usageError("`rung list` knows no `" + options.inputs[0] +
+                    "`; it takes `libraries`, `pous FILE|DIR ...` or `--signature NAME`");
 }
 
 }  // namespace rung::tool

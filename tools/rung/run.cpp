@@ -20,7 +20,9 @@ int runRun(const Options& options) {
   run_options.color = useColor(options);
 
   PhaseTimes times;
-  Compilation compilation(options, times);
+  Options compiling = options;
+  compiling.default_interval_ns = run_options.interval_ns;
+  Compilation compilation(compiling, times);
   NativeRequest request;
   request.parts.resize(1);
   const bool good = compilation.emit(false, request.parts[0].files);

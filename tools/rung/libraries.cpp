@@ -1,0 +1,81 @@
+// The libraries that a program may use; see libraries.h.
+#include "tools/rung/libraries.h"
+
+#include <dirent.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "frontend/source/files.h"
+#include "library_texts.h"
+
+namespace rung::tool {
+namespace {
+
+// Namespaces that are not the folder's name with a capital letter.
+struct Namespace {
+  std::string_view folder;
+  const char* name;
+};
+constexpr Namespace kNamespaces[] = {{"standard", "Standard"}, {"util", "Util"}};
+
+std::string namespaceOf(std::string_view folder) {
+  for (const Namespace& row : kNamespaces)
+    if (folder == row.folder) return row.name;
+  std::string name(folder);
+  if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 32);
+  return name;
+}
+
+}  // namespace
+
+std::string LibrarySet::load(const Options& options) {
+  for (size_t i = 0; i < embedded::library_texts_count; i++) {
+    const embedded::File& file = embedded::library_texts[i];
+    texts_.push_back(namespaceOf(file.name.substr(0, file.name.find('/'))));
+    const char* library = texts_.back().c_str();
+    texts_.emplace_back(file.name);
+    files_.push_back({library, texts_.back().c_str(), file.text});
+  }
+  for (const std::string& folder : options.library_paths)
+    if (std::string error = addFolder(folder, true); !error.empty()) return error;
+  return {};
+}
+
+// Files of the folder are one library of its name; each folder in it is one, too.
+std::string LibrarySet::addFolder(const std::string& folder, bool with_folders) {
+  DIR* dir = opendir(folder.c_str());
+  if (dir == nullptr) return "cannot read the library folder `" + folder + "`: " + strerror(errno);
+  std::vector<std::string> names;
+  while (const dirent* entry = readdir(dir))
+    if (entry->d_name[0] != '.') names.emplace_back(entry->d_name);
+  closedir(dir);
+  std::sort(names.begin(), names.end());
+  read_.push_back(folder);
+
+  std::string_view name = folder;
+  while (name.size() > 1 && name.back() == '/') name.remove_suffix(1);
+  texts_.emplace_back(name.substr(name.rfind('/') + 1));
+  const char* library = texts_.back().c_str();
+  for (const std::string& entry : names) {
+    const std::string path = folder + "/" + entry;
+    struct stat info;
+    if (stat(path.c_str(), &info) != 0) continue;
+    if (S_ISDIR(info.st_mode) && with_folders) {
+      if (std::string error = addFolder(path, false); !error.empty()) return error;
+    } else if (S_ISREG(info.st_mode) && (entry.ends_with(".st") || entry.ends_with(".iecst"))) {
+      ReadResult read = readFile(path);
+      if (!read.error.empty()) return "cannot read the library `" + path + "`: " + read.error;
+      read_.push_back(path);
+      texts_.push_back(path);
+      const char* shown = texts_.back().c_str();
+      texts_.push_back(std::move(read.text));
+      files_.push_back({library, shown, texts_.back()});
+    }
+  }
+  return {};
+}
+
+}  // namespace rung::tool
