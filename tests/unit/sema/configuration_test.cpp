@@ -1,0 +1,66 @@
+// Tasks and program instances, with and without a CONFIGURATION.
+#include <gtest/gtest.h>
+
+#include "tests/unit/sema/checked.h"
+
+namespace rung::sema {
+namespace {
+
+TEST(Configuration, without_one_every_program_runs_each_10_ms) {
+  const Checked checked("PROGRAM a END_PROGRAM PROGRAM b END_PROGRAM {test} PROGRAM t END_PROGRAM");
+  EXPECT_EQ(checked.codes(), "");
+  ASSERT_EQ(checked.project.tasks.size(), 1u);
+  EXPECT_EQ(checked.project.tasks[0].interval_ns, 10'000'000);
+  EXPECT_EQ(checked.names.text(checked.project.tasks[0].name), "MainTask");
+  ASSERT_EQ(checked.project.instances.size(), 2u);
+  EXPECT_EQ(checked.names.text(checked.project.instances[1].name), "b");
+}
+
+TEST(Configuration, plc_prg_runs_alone) {
+  const Checked checked("PROGRAM a END_PROGRAM PROGRAM Plc_Prg END_PROGRAM");
+  ASSERT_EQ(checked.project.instances.size(), 1u);
+  EXPECT_EQ(checked.names.text(checked.project.instances[0].name), "Plc_Prg");
+}
+
+TEST(Configuration, tasks_and_their_settings) {
+  const Checked checked(
+      "PROGRAM Main END_PROGRAM\n"
+      "CONFIGURATION c VAR_GLOBAL go : BOOL; END_VAR\n"
+      "RESOURCE r ON cpu\n"
+      "TASK fast(INTERVAL := T#500us, PRIORITY := 0, WATCHDOG := T#20ms, SENSITIVITY := 2);\n"
+      "TASK ev(SINGLE := go, PRIORITY := 3);\n"
+      "TASK st(KIND := STATUS, TRIGGER := go);\n"
+      "TASK free(KIND := FREEWHEELING);\n"
+      "TASK ext(KIND := EXTERNAL, TRIGGER := ax_interrupt);\n"
+      "PROGRAM p WITH fast : Main; PROGRAM q WITH ev : Main;\n"
+      "END_RESOURCE END_CONFIGURATION");
+  EXPECT_EQ(checked.codes(), "");
+  ASSERT_EQ(checked.project.tasks.size(), 5u);
+  EXPECT_EQ(checked.project.tasks[0].interval_ns, 500'000);
+  EXPECT_EQ(checked.project.tasks[0].watchdog_ns, 20'000'000);
+  EXPECT_EQ(checked.project.tasks[1].kind, TaskKind::Event);
+  EXPECT_TRUE(checked.project.tasks[1].trigger);
+  EXPECT_EQ(checked.project.tasks[2].kind, TaskKind::Status);
+  EXPECT_EQ(checked.project.tasks[3].kind, TaskKind::Freewheeling);
+  EXPECT_EQ(checked.project.tasks[4].external_event, "ax_interrupt");
+  ASSERT_EQ(checked.project.instances.size(), 2u);
+  EXPECT_EQ(checked.project.instances[1].task, 2u);
+  EXPECT_EQ(checked.names.text(checked.project.instances[0].resource), "r");
+}
+
+TEST(Configuration, mistakes) {
+  const Checked checked(
+      "PROGRAM Main END_PROGRAM FUNCTION_BLOCK b END_FUNCTION_BLOCK PROGRAM idle END_PROGRAM\n"
+      "CONFIGURATION c RESOURCE r ON cpu\n"
+      "TASK t(INTERVALL := T#10ms, INTERVAL := T#10ms);\n"
+      "TASK u(INTERVAL := T#0s);\n"
+      "TASK v(INTERVAL := T#1s, PRIORITY := 99);\n"
+      "PROGRAM p WITH tt : Main;\n"
+      "PROGRAM q WITH t : b;\n"
+      "PROGRAM r : Main;\n"
+      "END_RESOURCE END_CONFIGURATION");
+  EXPECT_EQ(checked.codes(), "W0824@1 E0811@3 E0818@4 E0816@5 E0815@6 E0814@7 W0823@8");
+}
+
+}  // namespace
+}  // namespace rung::sema
