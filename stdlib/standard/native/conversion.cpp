@@ -1,0 +1,252 @@
+// Native bodies of conversion.st: values to and from text, BCD, byte order.
+#include <cstring>
+
+#include "rung/code.h"
+
+namespace {
+
+template <class T>
+uint64_t bitsOf(T value) {
+  return static_cast<uint64_t>(static_cast<int64_t>(value));  // sign-extended when T is signed
+}
+uint64_t bitsOf(uint64_t value) { return value; }
+uint64_t bitsOf(float value) { return rung_bits_of_f64(static_cast<double>(value)); }
+uint64_t bitsOf(double value) { return rung_bits_of_f64(value); }
+
+template <class T>
+struct Read {
+  static T from(uint64_t bits) { return static_cast<T>(bits); }
+};
+template <>
+struct Read<float> {
+  static float from(uint64_t bits) { return static_cast<float>(rung_f64_of(bits)); }
+};
+template <>
+struct Read<double> {
+  static double from(uint64_t bits) { return rung_f64_of(bits); }
+};
+
+// TIME is signed where the module says so; the C type is unsigned in any dialect.
+uint64_t timeBits(const rung_context* ctx, uint32_t value) {
+  if (ctx->module == nullptr) return value;
+  for (uint32_t i = 0; i < ctx->module->type_count; ++i)
+    if (ctx->module->types[i].kind == RUNG_TIME)
+      return ctx->module->types[i].is_signed != 0 ? bitsOf(static_cast<int32_t>(value)) : value;
+  return value;
+}
+
+uint64_t fromBcd(uint64_t bcd) {
+  uint64_t value = 0;
+  for (int shift = 60; shift >= 0; shift -= 4) value = value * 10 + (bcd >> shift & 15);
+  return value;
+}
+// The digits that fit `digits` places, the low ones.
+uint64_t toBcd(uint64_t value, int digits) {
+  uint64_t bcd = 0;
+  for (int i = 0; i < digits; ++i, value /= 10) bcd |= value % 10 << (4 * i);
+  return bcd;
+}
+uint8_t isBcd(uint64_t bcd) {
+  for (; bcd != 0; bcd >>= 4)
+    if ((bcd & 15) > 9) return 0;
+  return 1;
+}
+
+}  // namespace
+
+extern "C" {
+
+// ---- text. TYPE: the name that the language gives the type; KIND: that of rung_type_kind.
+#define RUNG_TEXT_OF(TYPE, KIND, T, bits)                                                               \
+  void rung_standard_TO_STRING__##TYPE(rung_context* ctx, T in, char* out, uint32_t capacity) {         \
+    (void)ctx;                                                                                          \
+    rung_text_of_scalar(out, capacity, RUNG_##KIND, bits);                                              \
+  }                                                                                                     \
+  void rung_standard_TO_WSTRING__##TYPE(rung_context* ctx, T in, char16_t* out, uint32_t capacity) {    \
+    (void)ctx;                                                                                          \
+    rung_wtext_of_scalar(out, capacity, RUNG_##KIND, bits);                                             \
+  }
+#define RUNG_OF_TEXT(TYPE, KIND, T)                                                    \
+  T rung_standard_STRING_TO_##TYPE(rung_context*, const char* in) {                    \
+    return Read<T>::from(rung_scalar_of_text(RUNG_##KIND, in));                        \
+  }                                                                                    \
+  T rung_standard_WSTRING_TO_##TYPE(rung_context*, const char16_t* in) {               \
+    return Read<T>::from(rung_scalar_of_wtext(RUNG_##KIND, in));                       \
+  }
+#define RUNG_TEXT_BOTH(TYPE, KIND, T)       \
+  RUNG_TEXT_OF(TYPE, KIND, T, bitsOf(in))   \
+  RUNG_OF_TEXT(TYPE, KIND, T)
+RUNG_TEXT_BOTH(BOOL, BOOL, uint8_t)
+RUNG_TEXT_BOTH(BYTE, BYTE, uint8_t)
+RUNG_TEXT_BOTH(WORD, WORD, uint16_t)
+RUNG_TEXT_BOTH(DWORD, DWORD, uint32_t)
+RUNG_TEXT_BOTH(LWORD, LWORD, uint64_t)
+RUNG_TEXT_BOTH(SINT, SINT, int8_t)
+RUNG_TEXT_BOTH(INT, INT, int16_t)
+RUNG_TEXT_BOTH(DINT, DINT, int32_t)
+RUNG_TEXT_BOTH(LINT, LINT, int64_t)
+RUNG_TEXT_BOTH(USINT, USINT, uint8_t)
+RUNG_TEXT_BOTH(UINT, UINT, uint16_t)
+RUNG_TEXT_BOTH(UDINT, UDINT, uint32_t)
+RUNG_TEXT_BOTH(ULINT, ULINT, uint64_t)
+RUNG_TEXT_BOTH(REAL, REAL, float)
+RUNG_TEXT_BOTH(LREAL, LREAL, double)
+RUNG_TEXT_OF(TIME, TIME, uint32_t, timeBits(ctx, in))
+RUNG_OF_TEXT(TIME, TIME, uint32_t)
+RUNG_TEXT_BOTH(LTIME, LTIME, int64_t)
+RUNG_TEXT_BOTH(DATE, DATE, uint32_t)
+RUNG_TEXT_BOTH(LDATE, LDATE, uint64_t)
+RUNG_TEXT_BOTH(TIME_OF_DAY, TOD, uint32_t)
+RUNG_TEXT_BOTH(LTIME_OF_DAY, LTOD, uint64_t)
+RUNG_TEXT_BOTH(DATE_AND_TIME, DT, uint32_t)
+RUNG_TEXT_BOTH(LDATE_AND_TIME, LDT, uint64_t)
+RUNG_TEXT_OF(CHAR, CHAR, uint8_t, bitsOf(in))
+RUNG_TEXT_OF(WCHAR, WCHAR, uint16_t, bitsOf(in))
+#undef RUNG_TEXT_BOTH
+#undef RUNG_TEXT_OF
+#undef RUNG_OF_TEXT
+
+void rung_standard_TO_STRING__STRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {
+  rung_text_assign(out, capacity, in);
+}
+void rung_standard_TO_STRING__WSTRING_255(rung_context*, const char16_t* in, char* out, uint32_t capacity) {
+  rung_text_of_wtext(out, capacity, in);
+}
+void rung_standard_TO_WSTRING__STRING_255(rung_context*, const char* in, char16_t* out, uint32_t capacity) {
+  rung_wtext_of_text(out, capacity, in);
+}
+void rung_standard_TO_WSTRING__WSTRING_255(rung_context*, const char16_t* in, char16_t* out, uint32_t capacity) {
+  rung_wtext_assign(out, capacity, in);
+}
+
+// ---- single characters
+#define RUNG_CHAR_OF(TYPE, T)                                                                          \
+  uint8_t rung_standard_TO_CHAR__##TYPE(rung_context*, T in) { return static_cast<uint8_t>(in); }      \
+  uint16_t rung_standard_TO_WCHAR__##TYPE(rung_context*, T in) { return static_cast<uint16_t>(in); }
+#define RUNG_CODE_OF(TYPE, T)                                                                          \
+  T rung_standard_CHAR_TO_##TYPE(rung_context*, uint8_t in) { return static_cast<T>(in); }             \
+  T rung_standard_WCHAR_TO_##TYPE(rung_context*, uint16_t in) { return static_cast<T>(in); }
+#define RUNG_CHAR_BOTH(TYPE, T) \
+  RUNG_CHAR_OF(TYPE, T)         \
+  RUNG_CODE_OF(TYPE, T)
+RUNG_CHAR_BOTH(BYTE, uint8_t)
+RUNG_CHAR_BOTH(WORD, uint16_t)
+RUNG_CHAR_BOTH(DWORD, uint32_t)
+RUNG_CHAR_BOTH(LWORD, uint64_t)
+RUNG_CHAR_BOTH(SINT, int8_t)
+RUNG_CHAR_BOTH(INT, int16_t)
+RUNG_CHAR_BOTH(DINT, int32_t)
+RUNG_CHAR_BOTH(LINT, int64_t)
+RUNG_CHAR_BOTH(USINT, uint8_t)
+RUNG_CHAR_BOTH(UINT, uint16_t)
+RUNG_CHAR_BOTH(UDINT, uint32_t)
+RUNG_CHAR_BOTH(ULINT, uint64_t)
+RUNG_CHAR_OF(BOOL, uint8_t)
+RUNG_CHAR_OF(TIME, uint32_t)
+RUNG_CHAR_OF(LTIME, int64_t)
+RUNG_CHAR_OF(DATE, uint32_t)
+RUNG_CHAR_OF(LDATE, uint64_t)
+RUNG_CHAR_OF(TIME_OF_DAY, uint32_t)
+RUNG_CHAR_OF(LTIME_OF_DAY, uint64_t)
+RUNG_CHAR_OF(DATE_AND_TIME, uint32_t)
+RUNG_CHAR_OF(LDATE_AND_TIME, uint64_t)
+RUNG_CHAR_OF(CHAR, uint8_t)
+RUNG_CHAR_OF(WCHAR, uint16_t)
+#undef RUNG_CHAR_BOTH
+#undef RUNG_CHAR_OF
+#undef RUNG_CODE_OF
+uint8_t rung_standard_TO_CHAR__REAL(rung_context*, float in) { return static_cast<uint8_t>(rung_round_i32(in)); }
+uint8_t rung_standard_TO_CHAR__LREAL(rung_context*, double in) { return static_cast<uint8_t>(rung_round_i32(in)); }
+uint16_t rung_standard_TO_WCHAR__REAL(rung_context*, float in) { return static_cast<uint16_t>(rung_round_i32(in)); }
+uint16_t rung_standard_TO_WCHAR__LREAL(rung_context*, double in) { return static_cast<uint16_t>(rung_round_i32(in)); }
+uint8_t rung_standard_TO_CHAR__STRING_255(rung_context*, const char* in) { return static_cast<uint8_t>(*in); }
+uint8_t rung_standard_TO_CHAR__WSTRING_255(rung_context*, const char16_t* in) { return static_cast<uint8_t>(*in); }
+uint16_t rung_standard_TO_WCHAR__STRING_255(rung_context*, const char* in) {
+  char16_t one[2];
+  rung_wtext_of_text(one, 1, in);
+  return one[0];
+}
+uint16_t rung_standard_TO_WCHAR__WSTRING_255(rung_context*, const char16_t* in) { return *in; }
+
+// ---- BCD
+#define RUNG_BCD(BITS, B, digits, UNSIGNED, U)                                                                  \
+  B rung_standard_##UNSIGNED##_TO_BCD_##BITS(rung_context*, U in) { return static_cast<B>(toBcd(in, digits)); } \
+  U rung_standard_##BITS##_BCD_TO_##UNSIGNED(rung_context*, B in) { return static_cast<U>(fromBcd(in)); }
+#define RUNG_BCD_OF(UNSIGNED, U)                                                                                   \
+  RUNG_BCD(BYTE, uint8_t, 2, UNSIGNED, U)                                                                          \
+  RUNG_BCD(WORD, uint16_t, 4, UNSIGNED, U)                                                                         \
+  RUNG_BCD(DWORD, uint32_t, 8, UNSIGNED, U)                                                                        \
+  RUNG_BCD(LWORD, uint64_t, 16, UNSIGNED, U)                                                                       \
+  U rung_standard_BCD_TO_##UNSIGNED(rung_context*, uint64_t in) { return static_cast<U>(fromBcd(in)); }
+RUNG_BCD_OF(USINT, uint8_t)
+RUNG_BCD_OF(UINT, uint16_t)
+RUNG_BCD_OF(UDINT, uint32_t)
+RUNG_BCD_OF(ULINT, uint64_t)
+#undef RUNG_BCD_OF
+#undef RUNG_BCD
+uint8_t rung_standard_TO_BCD_BYTE(rung_context*, uint64_t in) { return static_cast<uint8_t>(toBcd(in, 2)); }
+uint16_t rung_standard_TO_BCD_WORD(rung_context*, uint64_t in) { return static_cast<uint16_t>(toBcd(in, 4)); }
+uint32_t rung_standard_TO_BCD_DWORD(rung_context*, uint64_t in) { return static_cast<uint32_t>(toBcd(in, 8)); }
+uint64_t rung_standard_TO_BCD_LWORD(rung_context*, uint64_t in) { return toBcd(in, 16); }
+
+uint8_t rung_standard_IS_VALID_BCD(rung_context*, uint64_t in) { return isBcd(in); }
+int16_t rung_standard_BCD_TO_INT(rung_context*, uint8_t in) {
+  return isBcd(in) != 0 ? static_cast<int16_t>(fromBcd(in)) : int16_t{-1};
+}
+uint8_t rung_standard_INT_TO_BCD(rung_context*, int16_t in) {
+  return in >= 0 && in <= 99 ? static_cast<uint8_t>(toBcd(static_cast<uint64_t>(in), 2)) : uint8_t{255};
+}
+
+// ---- byte order: memory of the running program is little-endian, so only the big forms swap.
+#define RUNG_BYTE_ORDER(TYPE, T, swapped)                                                                    \
+  T rung_standard_TO_BIG_ENDIAN__##TYPE(rung_context*, T in) { return static_cast<T>(swapped); }             \
+  T rung_standard_FROM_BIG_ENDIAN__##TYPE(rung_context*, T in) { return static_cast<T>(swapped); }           \
+  T rung_standard_TO_LITTLE_ENDIAN__##TYPE(rung_context*, T in) { return in; }                               \
+  T rung_standard_FROM_LITTLE_ENDIAN__##TYPE(rung_context*, T in) { return in; }
+#define RUNG_SWAP16 __builtin_bswap16(static_cast<uint16_t>(in))
+#define RUNG_SWAP32 __builtin_bswap32(static_cast<uint32_t>(in))
+#define RUNG_SWAP64 __builtin_bswap64(static_cast<uint64_t>(in))
+RUNG_BYTE_ORDER(BOOL, uint8_t, in)
+RUNG_BYTE_ORDER(BYTE, uint8_t, in)
+RUNG_BYTE_ORDER(WORD, uint16_t, RUNG_SWAP16)
+RUNG_BYTE_ORDER(DWORD, uint32_t, RUNG_SWAP32)
+RUNG_BYTE_ORDER(LWORD, uint64_t, RUNG_SWAP64)
+RUNG_BYTE_ORDER(SINT, int8_t, in)
+RUNG_BYTE_ORDER(INT, int16_t, RUNG_SWAP16)
+RUNG_BYTE_ORDER(DINT, int32_t, RUNG_SWAP32)
+RUNG_BYTE_ORDER(LINT, int64_t, RUNG_SWAP64)
+RUNG_BYTE_ORDER(USINT, uint8_t, in)
+RUNG_BYTE_ORDER(UINT, uint16_t, RUNG_SWAP16)
+RUNG_BYTE_ORDER(UDINT, uint32_t, RUNG_SWAP32)
+RUNG_BYTE_ORDER(ULINT, uint64_t, RUNG_SWAP64)
+RUNG_BYTE_ORDER(TIME, uint32_t, RUNG_SWAP32)
+RUNG_BYTE_ORDER(LTIME, int64_t, RUNG_SWAP64)
+RUNG_BYTE_ORDER(DATE, uint32_t, RUNG_SWAP32)
+RUNG_BYTE_ORDER(LDATE, uint64_t, RUNG_SWAP64)
+RUNG_BYTE_ORDER(TIME_OF_DAY, uint32_t, RUNG_SWAP32)
+RUNG_BYTE_ORDER(LTIME_OF_DAY, uint64_t, RUNG_SWAP64)
+RUNG_BYTE_ORDER(DATE_AND_TIME, uint32_t, RUNG_SWAP32)
+RUNG_BYTE_ORDER(LDATE_AND_TIME, uint64_t, RUNG_SWAP64)
+RUNG_BYTE_ORDER(CHAR, uint8_t, in)
+RUNG_BYTE_ORDER(WCHAR, uint16_t, RUNG_SWAP16)
+RUNG_BYTE_ORDER(REAL, float, rung_f32_of(__builtin_bswap32(rung_bits_of_f32(in))))
+RUNG_BYTE_ORDER(LREAL, double, rung_f64_of(__builtin_bswap64(rung_bits_of_f64(in))))
+#undef RUNG_SWAP16
+#undef RUNG_SWAP32
+#undef RUNG_SWAP64
+#undef RUNG_BYTE_ORDER
+
+#define RUNG_TEXT_ORDER(NAME)                                                                               \
+  void rung_standard_##NAME##__STRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {    \
+    rung_text_assign(out, capacity, in);                                                                    \
+  }                                                                                                         \
+  void rung_standard_##NAME##__WSTRING_255(rung_context*, const char16_t* in, char16_t* out, uint32_t capacity) { \
+    rung_wtext_assign(out, capacity, in);                                                                   \
+  }
+RUNG_TEXT_ORDER(TO_BIG_ENDIAN)
+RUNG_TEXT_ORDER(TO_LITTLE_ENDIAN)
+RUNG_TEXT_ORDER(FROM_BIG_ENDIAN)
+RUNG_TEXT_ORDER(FROM_LITTLE_ENDIAN)
+#undef RUNG_TEXT_ORDER
+
+}  // extern "C"

@@ -1,0 +1,61 @@
+// Native bodies of numeric.st: one C function per function and type. Domain errors give NaN or an infinity, no fault.
+#include <cmath>
+#include <limits>
+
+#include "rung/code.h"
+
+namespace {
+
+// Towards zero; saturates outside the type's range, NaN gives 0.
+template <class Integer>
+Integer truncated(double value) {
+  if (std::isnan(value)) return 0;
+  if (value <= static_cast<double>(std::numeric_limits<Integer>::min())) return std::numeric_limits<Integer>::min();
+  // Of 64-bit types max is not exact in a double: rounded up, which the comparison wants.
+  if (value >= static_cast<double>(std::numeric_limits<Integer>::max())) return std::numeric_limits<Integer>::max();
+  return static_cast<Integer>(value);
+}
+
+}  // namespace
+
+extern "C" {
+
+#define RUNG_ONE_VARIABLE(NAME, function)                                                    \
+  float rung_standard_##NAME##__REAL(rung_context*, float in) { return std::function(in); } \
+  double rung_standard_##NAME##__LREAL(rung_context*, double in) { return std::function(in); }
+RUNG_ONE_VARIABLE(SQRT, sqrt)
+RUNG_ONE_VARIABLE(LN, log)
+RUNG_ONE_VARIABLE(LOG, log10)
+RUNG_ONE_VARIABLE(EXP, exp)
+RUNG_ONE_VARIABLE(SIN, sin)
+RUNG_ONE_VARIABLE(COS, cos)
+RUNG_ONE_VARIABLE(TAN, tan)
+RUNG_ONE_VARIABLE(ASIN, asin)
+RUNG_ONE_VARIABLE(ACOS, acos)
+RUNG_ONE_VARIABLE(ATAN, atan)
+#undef RUNG_ONE_VARIABLE
+
+float rung_standard_ATAN2__REAL(rung_context*, float y, float x) { return std::atan2(y, x); }
+double rung_standard_ATAN2__LREAL(rung_context*, double y, double x) { return std::atan2(y, x); }
+
+#define RUNG_TRUNCATION(TYPE, Integer)                                                                     \
+  Integer rung_standard_TRUNC__REAL_##TYPE(rung_context*, float in) { return truncated<Integer>(in); } \
+  Integer rung_standard_TRUNC__LREAL_##TYPE(rung_context*, double in) { return truncated<Integer>(in); }
+RUNG_TRUNCATION(BYTE, uint8_t)
+RUNG_TRUNCATION(WORD, uint16_t)
+RUNG_TRUNCATION(DWORD, uint32_t)
+RUNG_TRUNCATION(LWORD, uint64_t)
+RUNG_TRUNCATION(SINT, int8_t)
+RUNG_TRUNCATION(INT, int16_t)
+RUNG_TRUNCATION(DINT, int32_t)
+RUNG_TRUNCATION(LINT, int64_t)
+RUNG_TRUNCATION(USINT, uint8_t)
+RUNG_TRUNCATION(UINT, uint16_t)
+RUNG_TRUNCATION(UDINT, uint32_t)
+RUNG_TRUNCATION(ULINT, uint64_t)
+#undef RUNG_TRUNCATION
+
+uint8_t rung_standard_IS_VALID__REAL(rung_context*, float in) { return std::isfinite(in) ? 1 : 0; }
+uint8_t rung_standard_IS_VALID__LREAL(rung_context*, double in) { return std::isfinite(in) ? 1 : 0; }
+
+}  // extern "C"
