@@ -19,7 +19,7 @@ const char kHelp[] =
     "options\n"
     "  --cycles N            run N cycles of the fastest task (default 100, or as far as --inputs goes)\n"
     "  --for TIME            run this long: --for T#2s\n"
-    "  --interval TIME       period of programs without tasks (default T#10ms)\n"
+    "  --interval TIME       period of programs that were built without any (default T#10ms)\n"
     "  --inputs FILE         CSV with header cycle,PATH,...: variables set before each cycle\n"
     "  --set PATH=VALUE      set a variable once, before cycle 0\n"
     "  --watch PATH,...      the variables to trace (default: all of all programs)\n"

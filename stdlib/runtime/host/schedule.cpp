@@ -16,7 +16,7 @@ Schedule::Schedule(const Symbols& symbols, int64_t interval_ns) : symbols_(symbo
     const rung_task& task = module.tasks[i];
     Item item{&task, task.interval_ns, 0, false, {}};
     if (task.kind == RUNG_CYCLIC) {
-      if (task.interval_ns <= 0 || module.text[task.name] == 0) item.interval_ns = interval_ns;
+      if (task.interval_ns <= 0) item.interval_ns = interval_ns;
       row_ns_ = row_ns_ == 0 ? item.interval_ns : std::min(row_ns_, item.interval_ns);
     }
     items_.push_back(std::move(item));

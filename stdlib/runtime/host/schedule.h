@@ -11,8 +11,7 @@ namespace rung::host {
 
 class Schedule {
  public:
-  // `interval_ns` is the period of tasks without one: a cyclic task of the module with interval 0 or without a name,
-  // and the row where there is no cyclic task at all.
+  // `interval_ns` is the period of cyclic tasks without one, and the row where there is no cyclic task at all.
   Schedule(const Symbols& symbols, int64_t interval_ns);
   // False: a trigger that is no BOOL, in `error`.
   bool prepare(std::string& error);

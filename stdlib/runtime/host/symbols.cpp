@@ -109,10 +109,10 @@ Variable Symbols::root(uint32_t index) const {
   variable.type = &module_.types[symbol.type];
   variable.base = symbol.place == RUNG_IN_BLOCK ? memory_.block(symbol.block)
                                                 : memory_.image(static_cast<uint32_t>(symbol.place - RUNG_IN_INPUTS));
-  variable.offsets[0] = symbol.offset;
+  variable.offset = symbol.offset;
   variable.bit = symbol.bit;
   variable.flags = symbol.flags;
-  if ((symbol.flags & RUNG_FIELD_BY_REFERENCE) != 0) variable.offsets.push_back(0);
+  if ((symbol.flags & RUNG_FIELD_BY_REFERENCE) != 0) variable.hops.push_back(0);
   return variable;
 }
 
@@ -162,7 +162,7 @@ bool Symbols::findAddress(std::string_view path, Variable& variable, std::string
   variable.path = std::string(path);
   variable.type = type;
   variable.base = memory_.image(index);
-  variable.offsets[0] = static_cast<uint32_t>(byte);
+  variable.offset = static_cast<uint32_t>(byte);
   if (type == &kBoolType) variable.bit = static_cast<uint8_t>(bit);
   return true;
 }
@@ -174,7 +174,7 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
     if (type.kind != RUNG_POINTER) return error = quoted(variable.path) + " is no pointer", false;
     rest.remove_prefix(1);
     variable.type = &module_.types[type.element];
-    variable.offsets.push_back(0);
+    variable.hops.push_back(0);
     variable.path += '^';
     return true;
   }
@@ -202,7 +202,7 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
     }
     variable.path += ']';
     variable.type = &module_.types[type.element];
-    variable.offsets.back() += static_cast<uint32_t>(element * variable.type->size);
+    variable.lastOffset() += static_cast<uint32_t>(element * variable.type->size);
     rest.remove_prefix(close + 1);
     return true;
   }
@@ -218,7 +218,7 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
     const std::from_chars_result read = std::from_chars(digits.data(), digits.data() + digits.size(), bit);
     if (read.ec == std::errc{} && read.ptr == digits.data() + digits.size() && bit < type.size * 8) {
       variable.type = &kBoolType;
-      variable.offsets.back() += bit / 8;  // little-endian
+      variable.lastOffset() += bit / 8;  // little-endian
       variable.bit = static_cast<uint8_t>(bit % 8);
       variable.path += '.' + std::string(name);
       rest.remove_prefix(length);
@@ -235,9 +235,9 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
     variable.path += '.';
     variable.path += text(field.name);
     variable.type = &module_.types[field.type];
-    variable.offsets.back() += field.offset;
+    variable.lastOffset() += field.offset;
     variable.flags = field.flags;
-    if ((field.flags & RUNG_FIELD_BY_REFERENCE) != 0) variable.offsets.push_back(0);
+    if ((field.flags & RUNG_FIELD_BY_REFERENCE) != 0) variable.hops.push_back(0);
     rest.remove_prefix(length);
     return true;
   }
@@ -284,7 +284,7 @@ void Symbols::expand(const Variable& variable, std::vector<Variable>& to) const 
       part.path += '.';
       part.path += name;
       part.type = &module_.types[field.type];
-      part.offsets.back() += field.offset;
+      part.lastOffset() += field.offset;
       part.flags = field.flags;
       expand(part, to);
     }
@@ -302,7 +302,7 @@ void Symbols::expand(const Variable& variable, std::vector<Variable>& to) const 
       for (size_t d = 0; d < index.size(); ++d) part.path += (d > 0 ? "," : "") + std::to_string(index[d]);
       part.path += ']';
       part.type = &element;
-      part.offsets.back() += n * element.size;
+      part.lastOffset() += n * element.size;
       expand(part, to);
       size_t d = index.size();
       while (d > 0 && ++index[d - 1] > module_.dimensions[type.first + d - 1].high) {

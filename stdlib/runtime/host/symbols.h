@@ -15,17 +15,20 @@ struct Variable {
   std::string path;
   const rung_type* type = nullptr;
   uint8_t* base = nullptr;
-  uint8_t bit = 255;                   // BOOL inside an image or integer: 0..63, else 255
-  std::vector<uint32_t> offsets = {0};  // from the second on: after following the pointer that stands there
-  uint32_t flags = 0;                  // rung_field_flags of the last field
+  uint32_t offset = 0;
+  uint32_t flags = 0;          // rung_field_flags of the last field
+  uint8_t bit = 255;           // BOOL inside an image or integer: 0..7, else 255
+  std::vector<uint32_t> hops;  // each: follow the pointer that stands there, then this far
 
+  // The offset that a further field or element moves.
+  uint32_t& lastOffset() { return hops.empty() ? offset : hops.back(); }
   // nullptr when a pointer on the way is null.
   uint8_t* address() const {
-    uint8_t* at = base + offsets[0];
-    for (size_t i = 1; i < offsets.size(); ++i) {
+    uint8_t* at = base + offset;
+    for (const uint32_t hop : hops) {
       at = *reinterpret_cast<uint8_t**>(at);
       if (at == nullptr) return nullptr;
-      at += offsets[i];
+      at += hop;
     }
     return at;
   }

@@ -9,6 +9,21 @@
 
 #include "rung/module.h"
 
+/* What the user wrote may compare a USINT with 0 or never read a variable: rung has said so where it matters. */
+#ifdef RUNG_GENERATED
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#pragma GCC diagnostic ignored "-Wunused-variable"
+#pragma GCC diagnostic ignored "-Wunused-but-set-variable"
+#pragma GCC diagnostic ignored "-Wunused-label"
+#pragma GCC diagnostic ignored "-Wtype-limits"
+#pragma GCC diagnostic ignored "-Wtautological-compare"
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wself-assign"
+#else
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+#endif
+
 #define RUNG_UNLIKELY(condition) __builtin_expect((condition), 0)
 #define RUNG_MAY_ALIAS __attribute__((may_alias))
 #define RUNG_COLD __attribute__((cold, noinline))
