@@ -1,1 +1,103 @@
-// x
+// Puts the parts of codegen together: facts, groups, bodies, headers, description. See emit.h.
+#include "codegen/emit.h"
+
+#include <algorithm>
+
+#include "codegen/body.h"
+#include "codegen/facts.h"
+#include "codegen/group.h"
+#include "codegen/module.h"
+#include "codegen/names.h"
+#include "codegen/types.h"
+#include "frontend/source/invariant.h"
+
+namespace rung::codegen {
+
+namespace {
+
+// Prototypes sorted by their text, one a line.
+std::string prototypes(const ir::Module& module, const std::vector<ir::BodyId>& bodies, bool native,
+                       std::string_view before) {
+  std::vector<std::string> lines;
+  for (ir::BodyId id : bodies) {
+    const ir::Body& body = module.body(id);
+    if (body.native != native) continue;
+    std::string line(before);
+    BodyWriter::appendSignature(line, module, body);
+    lines.push_back(std::move(line));
+  }
+  std::sort(lines.begin(), lines.end());
+  std::string out;
+  for (const std::string& line : lines) {
+    out += line;
+    out += ";\n";
+  }
+  return out;
+}
+
+std::string sourceOf(const ir::Module& module, const Group& group, std::string_view name_space) {
+  std::string out = "// Bodies from ";
+  out += module.names.text(module.body(group.bodies.front()).name);
+  out += " to ";
+  out += module.names.text(module.body(group.bodies.back()).name);
+  out += ".\n#define RUNG_GENERATED\n#include \"rung/code.h\"\n";
+  std::vector<std::string> files;
+  for (TypeId record : group.records) files.push_back(recordFile(module.types, record));
+  std::sort(files.begin(), files.end());
+  for (const std::string& file : files) out += "#include \"" + file + "\"\n";
+  out += '\n';
+  out += prototypes(module, group.callees, true, "extern \"C\" ");
+  out += "\nnamespace ";
+  out += name_space;
+  out += " {\n\n";
+  if (!group.sites.empty()) out += "extern const uint32_t sites_" + group.stem + ";\n";
+  out += prototypes(module, group.callees, false, "");
+  out += prototypes(module, group.inlined, false, "static inline ");
+  out += group.data;
+  out += group.inline_code;
+  out += group.code;
+  out += "\n}  // namespace ";
+  out += name_space;
+  out += '\n';
+  return out;
+}
+
+}  // namespace
+
+std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& options) {
+  setPhase("codegen");
+  const std::string name_space = mangle(options.module_name);
+  const Facts facts(module);
+  std::vector<OutputFile> files;
+
+  std::vector<Group> groups = makeGroups(module, facts);
+  Marks marks;
+  marks.body.resize(module.bodies.size());
+  marks.record.resize(module.types.count());
+  marks.data.resize(module.data.size());
+  marks.data_number.resize(module.data.size());
+  for (uint32_t i = 0; i < groups.size(); ++i) {
+    Group& group = groups[i];
+    BodyWriter writer(module, options, facts, group, marks, i + 1);
+    for (ir::BodyId id : group.bodies) {
+      const std::string_view name = module.names.text(module.body(id).name);
+      setPhaseSubject(name.data(), name.size());
+      writer.write(id);
+    }
+    for (size_t k = 0; k < group.inlined.size(); ++k) writer.write(group.inlined[k]);  // grows
+    files.push_back({group.stem + ".cpp", sourceOf(module, group, name_space)});
+  }
+  setPhaseSubject("", 0);
+  for (const ir::Record& record : module.records) {
+    const TypeId type = module.types.resolve(record.type);
+    files.push_back({recordFile(module.types, type),
+                     recordHeader(module, record, name_space, facts.is_pointed[type.index] != 0)});
+  }
+  Description description = describe(module, options, facts, groups, name_space);
+  files.push_back({"module.cpp", std::move(description.module)});
+  files.push_back({"sites.cpp", std::move(description.sites)});
+  std::sort(files.begin(), files.end(), [](const OutputFile& a, const OutputFile& b) { return a.path < b.path; });
+  return files;
+}
+
+}  // namespace rung::codegen

@@ -1,0 +1,271 @@
+// The function around the statements of a body: signature, variables, exits. See body.h.
+#include "codegen/body.h"
+
+#include "frontend/source/invariant.h"
+#include "ir/builder.h"
+#include "ir/walk.h"
+
+namespace rung::codegen {
+
+using ir::BodyKind;
+using ir::LocalKind;
+using types::TypeInfo;
+using types::TypeTable;
+
+namespace {
+
+bool isParameter(LocalKind kind) {
+  return kind == LocalKind::Input || kind == LocalKind::Output || kind == LocalKind::InOut;
+}
+
+// Arrays and records have no C type that a library could know.
+void appendParameter(std::string& out, const TypeTable& types, const ir::Local& local, std::string_view name,
+                     bool native) {
+  const bool read_only = local.kind == LocalKind::Input;
+  const types::TypeKind kind = types.kind(local.type);
+  if (!local.by_reference) {
+    appendDeclaration(out, types, local.type, name);
+  } else if (native && (kind == types::TypeKind::Array || kind == types::TypeKind::Record)) {
+    out += read_only ? "const void* " : "void* ";
+    out += name;
+  } else {
+    appendPointer(out, types, local.type, name, read_only);
+  }
+}
+
+}  // namespace
+
+void BodyWriter::appendNativeName(std::string& out, const ir::Module& module, const ir::Body& body) {
+  out += "rung_";
+  for (char c : module.names.text(body.library_name)) out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  out += '_';
+  out += module.names.text(body.name);
+}
+
+void BodyWriter::appendSignature(std::string& out, const ir::Module& module, const ir::Body& body) {
+  const TypeTable& types = module.types;
+  const ir::Local* result = nullptr;
+  for (const ir::Local& local : body.locals) {
+    if (local.kind == LocalKind::Result) result = &local;
+  }
+  const bool by_value = body.result && !ir::isAggregate(types, body.result);
+  if (by_value) {
+    const char* type = scalarType(types, body.result);
+    out += type;
+  } else {
+    out += "void";
+  }
+  out += ' ';
+  if (body.native) {
+    appendNativeName(out, module, body);
+  } else {
+    appendFunctionName(out, module, body);
+  }
+  out += '(';
+  if (body.native) {
+    out += "rung_context* ctx";
+    if (body.self) out += ", void* self";
+  } else if (body.self) {
+    appendRecordType(out, types, body.self);
+    out += "& self, rung_context* ctx";
+  } else {
+    out += "rung_context* ctx";
+  }
+  std::string name;
+  for (const ir::Local& local : body.locals) {
+    if (!isParameter(local.kind)) continue;
+    out += ", ";
+    name.clear();
+    appendMangled(name, module.names.text(local.name));
+    appendParameter(out, types, local, name, body.native);
+  }
+  if (body.result && !by_value) {
+    name.clear();
+    if (result != nullptr && !body.native) {
+      appendMangled(name, module.names.text(result->name));
+    } else {
+      name = "out";
+    }
+    out += ", ";
+    if (body.native && !TypeTable::isText(types.kind(body.result))) {
+      out += "void* out";
+    } else {
+      appendPointer(out, types, body.result, name);
+    }
+    if (body.native && TypeTable::isText(types.kind(body.result))) out += ", uint32_t capacity";
+  }
+  out += ')';
+}
+
+void BodyWriter::includeRecord(TypeId type) {
+  type = elementOf(types_, type);
+  if (types_.kind(type) != TypeKind::Record || marks_.record[type.index] == group_number_) return;
+  marks_.record[type.index] = group_number_;
+  group_.records.push_back(type);
+}
+
+void BodyWriter::call(ir::BodyId id) {
+  if (marks_.body[id.index] == group_number_) return;
+  marks_.body[id.index] = group_number_;
+  (facts_.is_inlined[id.index] != 0 ? group_.inlined : group_.callees).push_back(id);
+}
+
+std::string BodyWriter::newName(const char* prefix) {
+  std::string name = prefix;
+  appendUnsigned(name, ++names_made_);
+  return name;
+}
+
+std::string BodyWriter::newVariable(TypeId type, const char* prefix) {
+  std::string name = newName(prefix);
+  includeRecord(type);
+  declarations_ += ' ';
+  appendDeclaration(declarations_, types_, type, name);
+  declarations_ += ';';
+  return name;
+}
+
+void BodyWriter::variable(std::string& out, const ir::Local& local) const {
+  if (local.kind == LocalKind::Temp) {
+    out += text(local.name);
+  } else {
+    appendMangled(out, text(local.name));
+  }
+}
+
+void BodyWriter::declareVariables() {
+  for (uint32_t i = 0; i < body_->locals.size(); ++i) {
+    const ir::Local& local = body_->locals[i];
+    includeRecord(local.type);
+    const bool is_result = local.kind == LocalKind::Result && !local.by_reference;
+    const Variable& use = locals_[i];
+    if (isParameter(local.kind)) {
+      if (use.wide != 0) RUNG_INVARIANT(!local.by_reference, "a wide control is a local");
+      continue;
+    }
+    if ((local.kind == LocalKind::Result && local.by_reference) || (use.weight == 0 && !use.written && !is_result)) {
+      continue;
+    }
+    std::string name;
+    variable(name, local);
+    declarations_ += ' ';
+    if (use.wide != 0) {
+      declarations_ += use.wide == 32 ? "int32_t " : "int64_t ";
+      declarations_ += name;
+      declarations_ += " = 0;";
+      continue;
+    }
+    appendDeclaration(declarations_, types_, local.type, name);
+    if (!isAggregate(local.type) && !isText(local.type)) {
+      const TypeKind kind = types_.plainKind(local.type);
+      declarations_ += kind == TypeKind::Pointer || kind == TypeKind::Reference ? " = nullptr" : " = 0";
+    }
+    declarations_ += ';';
+  }
+  if (!body_->self) return;
+  const TypeInfo& record = types_.info(types_.resolve(body_->self));
+  for (uint32_t i = 0; i < fields_.size(); ++i) {
+    if (!fields_[i].cached) continue;
+    std::string name;
+    appendMangled(name, text(record.fields[i].name));
+    declarations_ += ' ';
+    if (fields_[i].wide != 0) {
+      declarations_ += fields_[i].wide == 32 ? "int32_t" : "int64_t";
+    } else {
+      declarations_ += scalarType(types_, record.fields[i].type);
+    }
+    declarations_ += ' ';
+    declarations_ += name;
+    declarations_ += " = self.";
+    declarations_ += name;
+    if (types_.plainKind(record.fields[i].type) == TypeKind::Bool) declarations_ += " != 0";
+    declarations_ += ';';
+  }
+}
+
+void BodyWriter::writeBack(std::string& out) {
+  if (fields_.empty()) return;
+  const TypeInfo& record = types_.info(types_.resolve(body_->self));
+  for (uint32_t i = 0; i < fields_.size(); ++i) {
+    if (!fields_[i].cached || !fields_[i].written) continue;
+    out += " self.";
+    appendMangled(out, text(record.fields[i].name));
+    out += " = ";
+    if (fields_[i].wide != 0) {
+      out += '(';
+      out += scalarType(types_, record.fields[i].type);
+      out += ')';
+    }
+    appendMangled(out, text(record.fields[i].name));
+    out += ';';
+  }
+}
+
+void BodyWriter::writeExits() {
+  std::string result;
+  for (const ir::Local& local : body_->locals) {
+    if (local.kind == LocalKind::Result && !local.by_reference) variable(result, local);
+  }
+  if (uses_leave_) out_ += "\nleave:";
+  writeBack(out_);
+  if (!result.empty()) {
+    out_ += "\n  return ";
+    out_ += result;
+    out_ += ';';
+  } else if (uses_fault_ || uses_leave_) {
+    out_ += "\n  return;";
+  }
+  if (uses_fault_) {
+    out_ += "\nfault:";
+    writeBack(out_);
+    out_ += " rung_raise(ctx, at & 7, sites_";
+    out_ += group_.stem;
+    out_ += " + (at >> 3), value);";
+  }
+}
+
+void BodyWriter::write(ir::BodyId id) {
+  const Body& body = module_.body(id);
+  body_ = &body;
+  out_.clear();
+  declarations_.clear();
+  made_.clear();
+  loops_.clear();
+  frames_.clear();
+  blocks_declared_.clear();
+  has_try_ = self_escapes_ = has_foreign_calls_ = uses_fault_ = uses_leave_ = false;
+  names_made_ = 0;
+  depth_ = 1;
+  closes_ = 0;
+  line_ = 0;
+  line_file_ = {};
+
+  analyze();
+  if (body.self) includeRecord(body.self);
+  declareVariables();
+  block(body.first);
+  flushCloses(0);
+  writeExits();
+
+  const bool is_inlined = facts_.is_inlined[id.index] != 0;
+  std::string& to = is_inlined ? group_.inline_code : group_.code;
+  if (uses_fault_ || has_try_) declarations_ += " uint32_t at; int64_t value;";
+  if (is_inlined) {
+    to += "static inline ";
+  } else {
+    to += "\n// ";
+    if (body.kind == BodyKind::Init) to += "initial values of ";
+    to += text(body.spelling ? body.spelling : body.name);
+    to += '\n';
+  }
+  appendSignature(to, module_, body);
+  to += " {";
+  if (!declarations_.empty()) {
+    to += "\n ";
+    to += declarations_;
+  }
+  to += out_;
+  to += "\n}\n";
+}
+
+}  // namespace rung::codegen

@@ -1,0 +1,248 @@
+// Writes one IR body as a C++ function. In: a verified body and the facts of the module. Out: text in the group, and
+// what the group must include and declare for it. Called by emit.cpp for each body of a group.
+//
+// Shape: all variables are declared at the top (a `goto` never crosses an initialisation), then the statements, each
+// behind its checks, then the exits:
+//   void Ramp_body(Ramp_type& self, rung_context* ctx) {
+//     float y_ = self.y_;  uint32_t at;  int64_t value;      scalars of the instance that live in locals (locals.cpp)
+//     RUNG_CHECK(bad, site << 3 | kind, value)               jumps to fault:
+//   leave: self.y_ = y_; return;
+//   fault: self.y_ = y_; rung_raise(ctx, …);
+//   }
+// The methods stand in the files named at their groups.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "codegen/group.h"
+#include "codegen/names.h"
+#include "codegen/types.h"
+
+namespace rung::codegen {
+
+// Precedence of C++ expressions, low to high: what is written into a context of a higher one gets parentheses.
+enum class Prec : uint8_t { Comma, Ternary, Or, And, Bit, Equality, Relation, Shift, Sum, Product, Unary, Postfix };
+
+class BodyWriter {
+ public:
+  BodyWriter(const ir::Module& module, const EmitOptions& options, const Facts& facts, Group& group, Marks& marks,
+             uint32_t group_number)
+      : module_(module),
+        types_(module.types),
+        options_(options),
+        facts_(facts),
+        group_(group),
+        marks_(marks),
+        group_number_(group_number) {}
+
+  // Into group.code; an inlined library function into group.inline_code.
+  void write(ir::BodyId id);
+
+  // `float Scale_fn(rung_context* ctx, int16_t raw_)`, without `;`. Native: as the library defines it.
+  static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body);
+  static void appendNativeName(std::string& out, const ir::Module& module, const ir::Body& body);
+
+ private:
+  using Body = ir::Body;
+  using Expr = ir::Expr;
+  using ExprId = ir::ExprId;
+  using ExprKind = ir::ExprKind;
+  using Stmt = ir::Stmt;
+  using StmtId = ir::StmtId;
+  using StmtKind = ir::StmtKind;
+  using Op = types::Op;
+  using TypeKind = types::TypeKind;
+
+  // ---- body.cpp: the function around the statements
+  void declareVariables();
+  void writeBack(std::string& out);
+  void writeExits();
+  void includeRecord(TypeId type);
+  void call(ir::BodyId id);  // notes that the group declares it
+  std::string newName(const char* prefix);
+  std::string newVariable(TypeId type, const char* prefix);
+
+  // ---- locals.cpp: what lives in C++ locals
+  struct Slot {  // a scalar variable that may be one: of the body or of the instance
+    enum Kind : uint8_t { None, Local, Field } kind = None;
+    uint32_t index = 0;
+    friend bool operator==(const Slot&, const Slot&) = default;
+  };
+  struct Variable {
+    uint32_t weight = 0;  // uses, those in loops counted more
+    bool written = false, exposed = false, cached = false;
+    uint8_t wide = 0;  // 32 or 64: the C++ local is wider than the type, as the control of a For
+  };
+  struct Control {
+    Slot slot;
+    StmtId loop;
+    bool disturbed = false;  // written in the loop, or reachable from outside
+  };
+  void analyze();
+  void scanBlock(StmtId first, uint32_t weight);
+  void scanExpr(ExprId id, uint32_t weight);
+  void noteWrite(ExprId place, bool by_reference);
+  Slot slotOf(ExprId place) const;
+  Variable* variableOf(Slot slot);
+  bool isPrivateLoop(StmtId loop) const { return !private_loop_.empty() && private_loop_[loop.index] != 0; }
+  bool boundsFit(const Stmt& loop) const;
+
+  // ---- statements.cpp
+  void block(StmtId first);
+  void statement(StmtId id, const Stmt& stmt);
+  void begin(Loc loc);  // a statement that comes from there: line breaks and #line
+  void open();          // ` {` and one level in
+  void close();         // `}`, written where the next statement begins
+  void flushCloses(uint32_t lines);
+  void ifStatement(const Stmt& stmt);
+  void switchStatement(const Stmt& stmt);
+  void callStatement(const Stmt& stmt);
+  void tryStatement(const Stmt& stmt);
+  void assertStatement(const Stmt& stmt);
+  void guarded(const std::string& frame, const std::string& fault, StmtId first);
+  void faultStatement(const Stmt& stmt);
+  void leave();
+  bool endsInJump(StmtId first) const;
+
+  // ---- loops.cpp
+  void loopStatement(StmtId id, const Stmt& stmt);
+  void forStatement(StmtId id, const Stmt& stmt);
+  void privateFor(StmtId id, const Stmt& stmt);
+  void breakLoop();
+  void continueLoop();
+  bool isExitTest(StmtId id) const;
+
+  // ---- expressions.cpp
+  void value(ExprId id, Prec context);
+  void condition(ExprId id, Prec context);
+  void constant(const Expr& expr, Prec context);
+  void unary(const Expr& expr, Prec context);
+  void binary(const Expr& expr, Prec context);
+  void logical(const char* op, Prec prec, const Expr& expr, Prec context);
+  void comparison(const Expr& expr, Prec context);
+  void arithmetic(ExprId id, Prec context);  // + - * and negation of integers
+  void modular(ExprId id, bool wide, Prec context);
+  void plain(ExprId id, Prec context);  // in int, which holds every intermediate value
+  uint32_t plainBits(ExprId id) const;
+  bool isChain(const Expr& expr) const;  // an operand of such an operator that may join its expression
+  void divide(const Expr& expr, Prec context);
+  void shift(const Expr& expr, Prec context);
+  void power(const Expr& expr);
+  void convert(const Expr& expr, Prec context);
+  void convertTime(ExprId from, TypeKind source, TypeKind target);
+  void callExpr(const Expr& expr);
+  void operands(const Body& callee, uint32_t first, uint32_t count, bool comma);
+  void scalarBits(ExprId id);  // as uint64_t, for the runtime's generic functions
+  void makeText(ExprId id);    // into a variable of its own
+
+  // ---- checks.cpp
+  // The checks of an expression and the texts that it must make first, in order of evaluation.
+  void prepare(ExprId id);
+  void prepareChildren(const Expr& expr);
+  bool needsPreparation(ExprId id) const;
+  void checks(ExprId id, const Expr& expr);
+  void indexChecks(const Expr& expr);
+  void overflowCheck(const Expr& expr);
+  uint32_t site(Loc loc, types::Fault fault, int64_t low = 0, int64_t high = 0);
+  // `RUNG_CHECK(`, the condition, then `, site, `, the value and `); `.
+  void beginCheck() { out_ += "RUNG_CHECK("; }
+  void endCheck(Loc loc, types::Fault fault, std::string_view value, int64_t low = 0, int64_t high = 0);
+
+  // ---- places.cpp
+  void place(ExprId id);             // an lvalue; a text: a pointer to its units
+  void member(ExprId base);          // `self.`, `x_->`
+  void indexValue(ExprId id, const types::Dimension& dimension);
+  ExprId peelIndex(ExprId id, const types::Dimension& dimension, int64_t& addend) const;
+  bool isImagePlace(ExprId id) const;
+  void imageAddress(ExprId id);      // a const-less uint8_t*
+  void imageLoad(ExprId id, const Expr& expr);
+  bool isLvalue(ExprId id) const;
+  // `place = value` as an expression without `;` for a scalar; `value` is C++ text of the right type.
+  void store(ExprId place, std::string_view value);
+  void reference(const ir::Local& parameter, bool native, ExprId operand);
+  void variable(std::string& out, const ir::Local& local) const;
+  bool isVariableTruth(ExprId id) const;  // a BOOL that is 0 or 1 in its memory
+
+  // ---- text.cpp
+  void assign(const Stmt& stmt);
+  void prepareText(ExprId from);  // what copyText takes apart itself is not made first
+  void copyText(std::string_view to, uint32_t capacity, bool wide, ExprId from);
+  void textValue(ExprId id);  // a const char* or const char16_t*
+  void compareTexts(const Expr& expr, Prec context);
+  bool isBuffer(ExprId id, uint32_t& capacity) const;  // a text in memory that is as long as its type says
+  uint32_t literalLength(const Expr& text) const;
+  void dataReference(uint32_t index);
+
+  // ---- small helpers
+  const Expr& expr(ExprId id) const { return body_->expr(id); }
+  TypeKind kindOf(ExprId id) const { return types_.plainKind(expr(id).type); }
+  uint32_t widthOf(TypeKind kind) const { return types::TypeTable::bitWidth(kind); }
+  bool isText(TypeId type) const { return types::TypeTable::isText(types_.kind(type)); }
+  bool isWide(TypeId type) const { return types_.kind(type) == TypeKind::WString; }
+  bool isAggregate(TypeId type) const {
+    const TypeKind kind = types_.kind(type);
+    return kind == TypeKind::Array || kind == TypeKind::Record;
+  }
+  uint32_t capacityOf(TypeId type) const { return types_.info(types_.resolve(type)).length; }
+  std::string_view text(NameId name) const { return module_.names.text(name); }
+  void parenthesis(Prec own, Prec context) {
+    if (own < context) out_ += '(';
+  }
+  void closeParenthesis(Prec own, Prec context) {
+    if (own < context) out_ += ')';
+  }
+  // What f writes, as a string.
+  template <class F>
+  std::string captured(F&& f) {
+    std::string outer;
+    outer.swap(out_);
+    f();
+    outer.swap(out_);
+    return outer;
+  }
+
+  const ir::Module& module_;
+  const types::TypeTable& types_;
+  const EmitOptions& options_;
+  const Facts& facts_;
+  Group& group_;
+  Marks& marks_;
+  uint32_t group_number_;
+
+  const Body* body_ = nullptr;
+  std::string out_;           // the statements
+  std::string declarations_;  // the variables at the top
+  std::vector<Variable> locals_, fields_;
+  std::vector<Control> controls_;  // of the loops at hand
+  std::vector<uint8_t> private_loop_;
+  std::vector<uint32_t> blocks_declared_;
+  std::vector<std::pair<uint32_t, std::string>> made_;  // expression, variable that holds its text
+  bool has_try_ = false, self_escapes_ = false, has_foreign_calls_ = false;
+  bool uses_fault_ = false, uses_leave_ = false;
+  uint32_t names_made_ = 0;
+
+  // Where break and continue go.
+  struct Loop {
+    bool in_switch = false;      // at hand is a switch inside of it
+    bool breaks_by_goto = false, continues_by_goto = false;
+    bool has_next = false;
+    uint32_t try_depth = 0;
+    uint32_t number = 0;
+  };
+  std::vector<Loop> loops_;
+  struct TryFrame {
+    std::string exit;  // the variable that tells how the frame was left: 1 return, 2 break, 3 continue
+    bool returns = false, breaks = false, continues = false;
+  };
+  std::vector<TryFrame> frames_;
+
+  // Where the text stands.
+  uint32_t depth_ = 1;
+  uint32_t closes_ = 0;  // braces to be closed
+  FileId line_file_;
+  uint32_t line_ = 0;  // 0: unknown to the reader
+};
+
+}  // namespace rung::codegen

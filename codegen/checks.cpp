@@ -1,0 +1,262 @@
+// Checks in front of a statement, in the order in which its expressions are evaluated (ir.h): each a compare and a
+// branch to the body's fault block. The number of a check is its row among the group's sites, so that a change of one
+// POU moves no number in other groups.
+#include "codegen/body.h"
+#include "ir/walk.h"
+
+namespace rung::codegen {
+
+using types::Fault;
+using types::TypeInfo;
+using types::TypeTable;
+
+uint32_t BodyWriter::site(Loc loc, Fault fault, int64_t low, int64_t high) {
+  uses_fault_ = true;
+  Site made;
+  made.pou = body_->spelling ? body_->spelling : body_->name;
+  made.low = low;
+  made.high = high;
+  if (body_->origin.path) {
+    made.origin_path = body_->origin.path;
+    made.line = body_->origin.line;
+  } else {
+    const Place place = module_.sources.place(loc ? loc : body_->loc);
+    made.file = place.file;
+    made.line = place.line;
+    made.column = place.column;
+  }
+  group_.sites.push_back(made);
+  return static_cast<uint32_t>(group_.sites.size() - 1) << 3 | static_cast<uint32_t>(fault);
+}
+
+void BodyWriter::endCheck(Loc loc, Fault fault, std::string_view value, int64_t low, int64_t high) {
+  out_ += ", ";
+  appendUnsigned(out_, site(loc, fault, low, high));
+  out_ += "u, ";
+  out_ += value;
+  out_ += ") ";
+}
+
+bool BodyWriter::needsPreparation(ExprId id) const {
+  const Expr& e = expr(id);
+  if (e.checks != 0) return true;
+  if (isText(e.type) && (e.kind == ExprKind::Convert || e.kind == ExprKind::Call)) return true;
+  bool needs = e.kind == ExprKind::Zero && isAggregate(e.type);
+  ir::forEachSlot(*body_, e, [&](const uint32_t& slot) { needs = needs || needsPreparation(ExprId{slot}); });
+  return needs;
+}
+
+void BodyWriter::prepareChildren(const Expr& e) {
+  ir::forEachSlot(*body_, e, [&](const uint32_t& slot) { prepare(ExprId{slot}); });
+}
+
+void BodyWriter::prepare(ExprId id) {
+  const Expr& e = expr(id);
+  prepareChildren(e);
+  if (e.checks != 0) checks(id, e);
+  if (isText(e.type) && (e.kind == ExprKind::Convert || e.kind == ExprKind::Call)) {
+    makeText(id);
+  } else if (e.kind == ExprKind::Zero && isAggregate(e.type)) {
+    const std::string name = newVariable(e.type, "z");
+    out_ += "memset(&" + name + ", 0, sizeof " + name + "); ";
+    made_.push_back({id.index, name});
+  }
+}
+
+void BodyWriter::checks(ExprId id, const Expr& e) {
+  switch (e.kind) {
+    case ExprKind::Index:
+      if ((e.checks & ir::kCheckIndex) != 0) indexChecks(e);
+      return;
+    case ExprKind::Field:
+    case ExprKind::Deref: {
+      if ((e.checks & (ir::kCheckNull | ir::kCheckCast)) == 0) return;
+      beginCheck();
+      if (e.kind == ExprKind::Deref) {
+        value(ExprId{e.a}, Prec::Sum);
+      } else {
+        member(ExprId{e.a});
+        appendMangled(out_, text(types_.info(types_.resolve(expr(ExprId{e.a}).type)).fields[e.b].name));
+      }
+      out_ += " == nullptr";
+      endCheck(e.loc, (e.checks & ir::kCheckNull) != 0 ? Fault::Null : Fault::Cast, "0");
+      return;
+    }
+    case ExprKind::Binary: {
+      if ((e.checks & ir::kCheckDiv) != 0) {
+        const bool is_power = e.op == Op::Power;
+        const bool never = is_power && !types_.isSigned(kindOf(ExprId{e.b}));
+        if (!never) {
+          beginCheck();
+          value(is_power ? ExprId{e.a} : ExprId{e.b}, Prec::Sum);
+          out_ += " == 0";
+          if (is_power) {
+            out_ += " && ";
+            value(ExprId{e.b}, Prec::Sum);
+            out_ += " < 0";
+          }
+          endCheck(e.loc, Fault::Div, "0");
+        }
+      }
+      if ((e.checks & ir::kCheckOverflow) != 0) overflowCheck(e);
+      return;
+    }
+    case ExprKind::Unary:
+      if ((e.checks & ir::kCheckOverflow) != 0) overflowCheck(e);
+      return;
+    case ExprKind::Convert: {
+      const ExprId a{e.a};
+      const TypeKind source = kindOf(a), target = types_.plainKind(e.type);
+      const uint32_t width = widthOf(target);
+      const TypeInfo& info = types_.info(types_.resolve(e.type));
+      if (TypeTable::isText(source) || TypeTable::isText(target)) return;
+      const bool is_integer = !TypeTable::isReal(target) && width > 0;
+      if ((e.checks & ir::kCheckConvert) != 0 && is_integer && target != TypeKind::Bool) {
+        const bool is_signed = types_.isSigned(target);
+        beginCheck();
+        if (TypeTable::isReal(source)) {
+          out_ += "rung_round_saturates(";
+          value(a, Prec::Ternary);
+          std::string low = is_signed ? "-" : "0", high;
+          if (is_signed) appendUnsigned(low, uint64_t{1} << (width - 1));
+          appendUnsigned(high, (is_signed ? uint64_t{1} << (width - 1) : width == 64 ? 0 : uint64_t{1} << width) - 1);
+          out_ += ", " + low + ".0, " + high + ".0)";
+        } else {
+          // Cut and extended again it must be the same number, of the same sign.
+          const std::string number = captured([&] { value(a, Prec::Unary); });
+          const char* type = scalarType(types_, e.type);
+          const bool from_signed = types_.isSigned(source);
+          out_ += from_signed ? "(int64_t)" : "(uint64_t)";
+          out_ += number + " != " + (from_signed ? "(int64_t)(" : "(uint64_t)(") + type + ')' + number;
+          if (from_signed && !is_signed) {
+            out_ += " || (int64_t)" + number + " < 0";
+          } else if (!from_signed && is_signed) {
+            out_ += " || (int64_t)(";
+            out_ += type;
+            out_ += ')' + number + " < 0";
+          }
+        }
+        endCheck(e.loc, Fault::Convert, "(" + captured([&] { value(a, Prec::Comma); }) + ")");
+      }
+      if ((e.checks & ir::kCheckSubrange) != 0 && info.kind == TypeKind::Subrange) {
+        beginCheck();
+        const bool from_real = TypeTable::isReal(source);
+        const std::string number = captured([&] {
+          if (from_real) {
+            out_ += "rung_round_i64(";
+            value(a, Prec::Ternary);
+            out_ += ')';
+          } else {
+            value(a, Prec::Relation);
+          }
+        });
+        const TypeId limits = from_real ? types::kLInt : expr(a).type;
+        const bool from_signed = from_real || types_.isSigned(source);
+        // A limit outside the source's type needs no test.
+        const auto low = static_cast<uint64_t>(info.low), high = static_cast<uint64_t>(info.high);
+        const bool tests_low = from_signed || info.low > 0;
+        if (tests_low) {
+          out_ += number + " < ";
+          appendConstant(out_, types_, from_signed ? types::kLInt : limits, low);
+          out_ += " || ";
+        }
+        out_ += number + " > ";
+        appendConstant(out_, types_, from_signed ? types::kLInt : types::kULInt, high);
+        endCheck(e.loc, Fault::Subrange, "(" + number + ")", info.low, info.high);
+      }
+      return;
+    }
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::Text:
+    case ExprKind::Data:
+    case ExprKind::Zero:
+    case ExprKind::Local:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program:
+    case ExprKind::Image:
+    case ExprKind::Bits:
+    case ExprKind::Select:
+    case ExprKind::Call:
+    case ExprKind::Address: break;
+  }
+  static_cast<void>(id);
+}
+
+void BodyWriter::indexChecks(const Expr& e) {
+  const TypeInfo& array = types_.info(types_.resolve(expr(ExprId{e.a}).type));
+  for (uint32_t i = 0; i < e.c && i < array.dimensions.size(); ++i) {
+    const ExprId id = body_->operands[e.b + i];
+    const types::Dimension& dimension = array.dimensions[i];
+    if (expr(id).kind == ExprKind::Const) {
+      const auto index = static_cast<int64_t>(expr(id).bits());
+      if (index >= dimension.low && index <= dimension.high) continue;
+    }
+    const bool narrow = widthOf(kindOf(id)) <= 16 && dimension.count() <= UINT32_MAX;
+    beginCheck();
+    out_ += narrow ? "(uint32_t)(" : "(uint64_t)(";
+    indexValue(id, dimension);
+    out_ += ") >= ";
+    appendUnsigned(out_, dimension.count());
+    out_ += narrow ? "u" : "ULL";
+    endCheck(e.loc, Fault::Index, "(" + captured([&] { value(id, Prec::Comma); }) + ")", dimension.low, dimension.high);
+  }
+}
+
+void BodyWriter::overflowCheck(const Expr& e) {
+  const ExprId a{e.a};
+  const TypeKind kind = kindOf(a);
+  const uint32_t width = widthOf(kind);
+  const bool is_signed = types_.isSigned(kind);
+  const ExprId self{static_cast<uint32_t>(&e - body_->exprs.data())};
+  if (TypeTable::isReal(kind)) {
+    if (types::isComparison(e.op)) return;
+    beginCheck();
+    out_ += "__builtin_isinf(";
+    value(self, Prec::Ternary);
+    out_ += ") && __builtin_isfinite(";
+    value(a, Prec::Ternary);
+    out_ += ')';
+    if (e.kind == ExprKind::Binary && TypeTable::isReal(kindOf(ExprId{e.b}))) {
+      out_ += " && __builtin_isfinite(";
+      value(ExprId{e.b}, Prec::Ternary);
+      out_ += ')';
+    }
+    endCheck(e.loc, Fault::Overflow, "0");
+    return;
+  }
+  if (width <= 1) return;
+  const std::string type = scalarType(types_, e.type);
+  if (e.op == Op::Add || e.op == Op::Sub || e.op == Op::Mul || e.op == Op::Neg) {
+    const std::string result = newName("o");
+    declarations_ += " " + type + " " + result + ";";
+    beginCheck();
+    out_ += e.op == Op::Add   ? "__builtin_add_overflow("
+            : e.op == Op::Mul ? "__builtin_mul_overflow("
+                              : "__builtin_sub_overflow(";
+    out_ += '(' + type + ')';
+    if (e.op == Op::Neg) {
+      out_ += '0';
+    } else {
+      value(a, Prec::Unary);
+    }
+    out_ += ", (" + type + ')';
+    value(e.op == Op::Neg ? a : ExprId{e.b}, Prec::Unary);
+    out_ += ", &" + result + ')';
+    endCheck(e.loc, Fault::Overflow, result);
+  } else if ((e.op == Op::Div || e.op == Op::Abs) && is_signed) {
+    beginCheck();
+    value(a, Prec::Sum);
+    out_ += " == ";
+    appendConstant(out_, types_, e.type, ~uint64_t{0} << (width - 1));
+    if (e.op == Op::Div) {
+      out_ += " && ";
+      value(ExprId{e.b}, Prec::Sum);
+      out_ += " == -1";
+    }
+    endCheck(e.loc, Fault::Overflow, "(" + captured([&] { value(a, Prec::Comma); }) + ")");
+  }
+}
+
+}  // namespace rung::codegen

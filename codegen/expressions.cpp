@@ -1,0 +1,800 @@
+// Expressions in C++: see body.h. Integers are computed in unsigned types of their width, or in int where no
+// intermediate value can leave it, and cut back; everything agrees with the arithmetic kernel.
+#include <algorithm>
+
+#include "codegen/body.h"
+#include "ir/builder.h"
+#include "ir/walk.h"
+
+namespace rung::codegen {
+
+using types::Fault;
+using types::TypeInfo;
+using types::TypeTable;
+
+namespace {
+
+bool isBitwise(types::Op op) { return op == types::Op::And || op == types::Op::Or || op == types::Op::Xor; }
+bool isSumOrProduct(types::Op op) { return op == types::Op::Add || op == types::Op::Sub || op == types::Op::Mul; }
+
+// The bounds of a pointer's arithmetic are those of ULINT.
+bool isPointer(types::TypeKind kind) {
+  return kind == types::TypeKind::Pointer || kind == types::TypeKind::Reference;
+}
+
+int64_t nanoseconds(types::TypeKind kind) {
+  using types::TypeKind;
+  if (kind == TypeKind::Time || kind == TypeKind::TimeOfDay) return 1'000'000;
+  if (kind == TypeKind::Date || kind == TypeKind::DateTime) return 1'000'000'000;
+  return 1;
+}
+bool isTimeOfDay(types::TypeKind kind) {
+  return kind == types::TypeKind::TimeOfDay || kind == types::TypeKind::LTimeOfDay;
+}
+bool isDateTime(types::TypeKind kind) {
+  return kind == types::TypeKind::DateTime || kind == types::TypeKind::LDateTime;
+}
+bool isDay(types::TypeKind kind) { return kind == types::TypeKind::Date || kind == types::TypeKind::LDate; }
+// As in the kernel: which conversions change the unit.
+bool changesUnit(types::TypeKind from, types::TypeKind to) {
+  const bool from_span = TypeTable::isDuration(from) || isTimeOfDay(from);
+  const bool to_span = TypeTable::isDuration(to) || isTimeOfDay(to);
+  const bool from_date = isDay(from) || isDateTime(from);
+  const bool to_date = isDay(to) || isDateTime(to);
+  return from != to && ((from_span && to_span) || (from_date && to_date) || (isDateTime(from) && isTimeOfDay(to)));
+}
+
+}  // namespace
+
+// ---- values
+
+void BodyWriter::value(ExprId id, Prec context) {
+  const Expr& e = expr(id);
+  switch (e.kind) {
+    case ExprKind::None: out_ += '0'; return;
+    case ExprKind::Const: constant(e, context); return;
+    case ExprKind::Zero:
+      if (isText(e.type)) {
+        textValue(id);
+      } else {
+        appendConstant(out_, types_, e.type, 0);
+      }
+      return;
+    case ExprKind::Text: textValue(id); return;
+    case ExprKind::Data: place(id); return;
+    case ExprKind::Local:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program:
+    case ExprKind::Image:
+    case ExprKind::Field:
+    case ExprKind::Index:
+    case ExprKind::Deref:
+    case ExprKind::Bits: {
+      if (isText(e.type)) {
+        textValue(id);
+        return;
+      }
+      if (!isLvalue(id)) {
+        imageLoad(id, e);
+        return;
+      }
+      const TypeKind kind = types_.plainKind(e.type);
+      if (kind == TypeKind::Bool && !isVariableTruth(id)) {
+        parenthesis(Prec::Equality, context);
+        place(id);
+        out_ += " != 0";
+        closeParenthesis(Prec::Equality, context);
+        return;
+      }
+      Slot slot = slotOf(id);
+      if (Variable* of = variableOf(slot); of != nullptr && of->wide == 64) {
+        out_ += types_.isSigned(kind) ? "(int32_t)" : "(uint32_t)";
+      }
+      place(id);
+      return;
+    }
+    case ExprKind::Unary: unary(e, context); return;
+    case ExprKind::Binary: binary(e, context); return;
+    case ExprKind::Convert: convert(e, context); return;
+    case ExprKind::Select:
+      if (isText(e.type)) {
+        textValue(id);
+        return;
+      }
+      parenthesis(Prec::Ternary, context);
+      condition(ExprId{e.a}, Prec::Or);
+      out_ += " ? ";
+      value(ExprId{e.b}, Prec::Or);
+      out_ += " : ";
+      value(ExprId{e.c}, Prec::Or);
+      closeParenthesis(Prec::Ternary, context);
+      return;
+    case ExprKind::Call: callExpr(e); return;
+    case ExprKind::Address:
+      out_ += isText(expr(ExprId{e.a}).type) ? "(void*)" : "(void*)&";
+      place(ExprId{e.a});
+      return;
+  }
+}
+
+// A BOOL where C++ wants a truth value: memory is read as != 0 anyway.
+void BodyWriter::condition(ExprId id, Prec context) {
+  const Expr& e = expr(id);
+  if (ir::isPlace(e.kind) && isLvalue(id)) {
+    place(id);
+    return;
+  }
+  value(id, context);
+}
+
+void BodyWriter::constant(const Expr& e, Prec context) {
+  const TypeKind kind = types_.plainKind(e.type);
+  const bool negative = TypeTable::isReal(kind)   ? (e.bits() >> 63) != 0
+                        : types_.isSigned(kind) ? static_cast<int64_t>(e.bits()) < 0
+                                                : false;
+  if (negative) parenthesis(Prec::Unary, context);
+  appendConstant(out_, types_, e.type, e.bits());
+  if (negative) closeParenthesis(Prec::Unary, context);
+}
+
+void BodyWriter::callExpr(const Expr& e) {
+  const ir::BodyId id{e.a};
+  const Body& callee = module_.body(id);
+  call(id);
+  if (callee.native) {
+    appendNativeName(out_, module_, callee);
+  } else {
+    appendFunctionName(out_, module_, callee);
+  }
+  out_ += "(ctx";
+  uint32_t i = 0;
+  for (const ir::Local& parameter : callee.locals) {
+    if (parameter.kind != ir::LocalKind::Input && parameter.kind != ir::LocalKind::Output &&
+        parameter.kind != ir::LocalKind::InOut) {
+      continue;
+    }
+    if (i >= e.c) break;
+    const ExprId operand = body_->operands[e.b + i++];
+    out_ += ", ";
+    if (parameter.by_reference) {
+      reference(parameter, callee.native, operand);
+    } else {
+      value(operand, Prec::Ternary);
+    }
+  }
+  out_ += ')';
+}
+
+void BodyWriter::scalarBits(ExprId id) {
+  const TypeKind kind = kindOf(id);
+  if (TypeTable::isReal(kind)) {
+    out_ += "rung_bits_of_f64(";
+    value(id, Prec::Ternary);
+    out_ += ')';
+    return;
+  }
+  out_ += isPointer(kind) ? "(uint64_t)(uintptr_t)" : types_.isSigned(kind) ? "(uint64_t)(int64_t)" : "(uint64_t)";
+  value(id, Prec::Unary);
+}
+
+// ---- operators
+
+void BodyWriter::unary(const Expr& e, Prec context) {
+  const ExprId a{e.a};
+  const TypeKind kind = kindOf(a);
+  const uint32_t width = widthOf(kind);
+  const bool is_signed = types_.isSigned(kind);
+  if (e.op == Op::Not) {
+    parenthesis(Prec::Unary, context);
+    if (kind == TypeKind::Bool) {
+      out_ += '!';
+      condition(a, Prec::Unary);
+    } else {
+      if (!is_signed && width < 32) out_ += width == 8 ? "(uint8_t)" : "(uint16_t)";
+      out_ += '~';
+      value(a, Prec::Unary);
+    }
+    closeParenthesis(Prec::Unary, context);
+    return;
+  }
+  if (TypeTable::isReal(kind)) {
+    if (e.op == Op::Abs) {
+      out_ += kind == TypeKind::Real ? "__builtin_fabsf(" : "__builtin_fabs(";
+      value(a, Prec::Ternary);
+      out_ += ')';
+    } else {
+      parenthesis(Prec::Unary, context);
+      out_ += '-';
+      value(a, Prec::Postfix);
+      closeParenthesis(Prec::Unary, context);
+    }
+    return;
+  }
+  if (e.op == Op::Abs) {
+    if (!is_signed) {
+      value(a, context);
+      return;
+    }
+    if (width < 32) {
+      parenthesis(Prec::Unary, context);
+      out_ += width == 8 ? "(int8_t)" : "(int16_t)";
+    }
+    out_ += width == 64 ? "rung_abs_i64(" : "rung_abs_i32(";
+    value(a, Prec::Ternary);
+    out_ += ')';
+    if (width < 32) closeParenthesis(Prec::Unary, context);
+    return;
+  }
+  arithmetic(ExprId{static_cast<uint32_t>(&e - body_->exprs.data())}, context);  // Neg
+}
+
+void BodyWriter::binary(const Expr& e, Prec context) {
+  const ExprId a{e.a}, b{e.b};
+  const TypeKind kind = kindOf(a);
+  if (types::isComparison(e.op)) {
+    if (TypeTable::isText(kind)) {
+      compareTexts(e, context);
+    } else {
+      comparison(e, context);
+    }
+    return;
+  }
+  if (kind == TypeKind::Bool && isBitwise(e.op)) {
+    if (e.op == Op::Xor) {
+      parenthesis(Prec::Equality, context);
+      value(a, Prec::Relation);
+      out_ += " != ";
+      value(b, Prec::Relation);
+      closeParenthesis(Prec::Equality, context);
+    } else {
+      logical(e.op == Op::And ? " && " : " || ", e.op == Op::And ? Prec::And : Prec::Or, e, context);
+    }
+    return;
+  }
+  const bool is_real = TypeTable::isReal(kind), is_single = kind == TypeKind::Real;
+  switch (e.op) {
+    case Op::Add:
+    case Op::Sub:
+    case Op::Mul:
+      if (!is_real) {
+        arithmetic(ExprId{static_cast<uint32_t>(&e - body_->exprs.data())}, context);
+        return;
+      }
+      [[fallthrough]];
+    case Op::Div:
+      if (!is_real) {
+        divide(e, context);
+      } else {
+        const bool is_sum = e.op == Op::Add || e.op == Op::Sub;
+        const Prec own = is_sum ? Prec::Sum : Prec::Product;
+        parenthesis(own, context);
+        value(a, own);
+        out_ += e.op == Op::Add ? " + " : e.op == Op::Sub ? " - " : e.op == Op::Mul ? " * " : " / ";
+        value(b, is_sum ? Prec::Product : Prec::Unary);
+        closeParenthesis(own, context);
+      }
+      return;
+    case Op::Mod:
+      if (!is_real) {
+        divide(e, context);
+        return;
+      }
+      out_ += is_single ? "__builtin_fmodf(" : "__builtin_fmod(";
+      value(a, Prec::Ternary);
+      out_ += ", ";
+      value(b, Prec::Ternary);
+      out_ += ')';
+      return;
+    case Op::Power: power(e); return;
+    case Op::And:
+    case Op::Or:
+    case Op::Xor: {
+      const char* op = e.op == Op::And ? " & " : e.op == Op::Or ? " | " : " ^ ";
+      parenthesis(Prec::Bit, context);
+      auto operand = [&](ExprId id) {
+        const Expr& child = expr(id);
+        const bool same = child.kind == ExprKind::Binary && child.op == e.op;
+        value(id, same ? Prec::Bit : Prec::Unary);
+      };
+      operand(a);
+      out_ += op;
+      operand(b);
+      closeParenthesis(Prec::Bit, context);
+      // Nested operators of another kind stand in parentheses: they are of a precedence that g++ warns about.
+      return;
+    }
+    case Op::Shl:
+    case Op::Shr:
+    case Op::Rol:
+    case Op::Ror: shift(e, context); return;
+    case Op::Min:
+    case Op::Max: {
+      if (TypeTable::isText(kind)) {
+        textValue(ExprId{static_cast<uint32_t>(&e - body_->exprs.data())});
+        return;
+      }
+      const uint32_t width = widthOf(kind);
+      out_ += e.op == Op::Min ? "rung_min_" : "rung_max_";
+      if (is_real) {
+        out_ += is_single ? "f32(" : "f64(";
+      } else if (width == 64) {
+        out_ += types_.isSigned(kind) ? "i64(" : "u64(";
+      } else {
+        out_ += width == 32 && !types_.isSigned(kind) ? "u32(" : "i32(";
+      }
+      value(a, Prec::Ternary);
+      out_ += ", ";
+      value(b, Prec::Ternary);
+      out_ += ')';
+      return;
+    }
+    case Op::Neg:
+    case Op::Not:
+    case Op::Abs:
+    case Op::Eq:
+    case Op::Ne:
+    case Op::Lt:
+    case Op::Le:
+    case Op::Gt:
+    case Op::Ge: return;
+  }
+}
+
+void BodyWriter::logical(const char* op, Prec own, const Expr& e, Prec context) {
+  parenthesis(own, context);
+  auto operand = [&](ExprId id) {
+    const Expr& child = expr(id);
+    const bool same = child.kind == ExprKind::Binary && child.op == e.op;
+    condition(id, same ? own : Prec::Equality);
+  };
+  operand(ExprId{e.a});
+  out_ += op;
+  operand(ExprId{e.b});
+  closeParenthesis(own, context);
+}
+
+void BodyWriter::comparison(const Expr& e, Prec context) {
+  const bool is_equality = e.op == Op::Eq || e.op == Op::Ne;
+  const Prec own = is_equality ? Prec::Equality : Prec::Relation;
+  parenthesis(own, context);
+  value(ExprId{e.a}, Prec::Sum);
+  out_ += e.op == Op::Eq   ? " == "
+          : e.op == Op::Ne ? " != "
+          : e.op == Op::Lt ? " < "
+          : e.op == Op::Le ? " <= "
+          : e.op == Op::Gt ? " > "
+                           : " >= ";
+  value(ExprId{e.b}, Prec::Sum);
+  closeParenthesis(own, context);
+}
+
+// ---- integer + - * and negation
+
+bool BodyWriter::isChain(const Expr& e) const {
+  const bool is_arithmetic = (e.kind == ExprKind::Binary && isSumOrProduct(e.op)) ||
+                             (e.kind == ExprKind::Unary && e.op == Op::Neg);
+  const TypeKind kind = types_.plainKind(e.type);
+  return is_arithmetic && widthOf(kind) > 1 && !TypeTable::isReal(kind);
+}
+
+// Bits of a signed number that holds every value of the expression computed in int.
+uint32_t BodyWriter::plainBits(ExprId id) const {
+  const Expr& e = expr(id);
+  if (isChain(e)) {
+    const uint32_t a = plainBits(ExprId{e.a});
+    if (e.kind == ExprKind::Unary) return a + 1;
+    const uint32_t b = plainBits(ExprId{e.b});
+    return e.op == Op::Mul ? a + b : std::max(a, b) + 1;
+  }
+  const TypeKind kind = types_.plainKind(e.type);
+  if (e.kind == ExprKind::Const) {
+    const auto number = static_cast<int64_t>(e.bits());
+    uint32_t bits = 1;
+    while (bits < 32 && (number < -(int64_t{1} << (bits - 1)) || number >= int64_t{1} << (bits - 1))) ++bits;
+    return bits;
+  }
+  return widthOf(kind) + (types_.isSigned(kind) ? 0 : 1);
+}
+
+void BodyWriter::plain(ExprId id, Prec context) {
+  const Expr& e = expr(id);
+  if (!isChain(e)) {
+    value(id, context);
+    return;
+  }
+  if (e.kind == ExprKind::Unary) {
+    parenthesis(Prec::Unary, context);
+    out_ += '-';
+    plain(ExprId{e.a}, Prec::Postfix);
+    closeParenthesis(Prec::Unary, context);
+    return;
+  }
+  const Prec own = e.op == Op::Mul ? Prec::Product : Prec::Sum;
+  parenthesis(own, context);
+  plain(ExprId{e.a}, own);
+  out_ += e.op == Op::Add ? " + " : e.op == Op::Sub ? " - " : " * ";
+  plain(ExprId{e.b}, own == Prec::Sum ? Prec::Product : Prec::Unary);
+  closeParenthesis(own, context);
+}
+
+// An unsigned expression of 32 or 64 bits that is equal to the value modulo 2^32 or 2^64.
+void BodyWriter::modular(ExprId id, bool wide, Prec context) {
+  const Expr& e = expr(id);
+  const TypeKind kind = types_.plainKind(e.type);
+  if (isChain(e)) {
+    if (e.kind == ExprKind::Unary) {
+      parenthesis(Prec::Sum, context);
+      out_ += wide ? "0ULL - " : "0u - ";
+      modular(ExprId{e.a}, wide, Prec::Product);
+      closeParenthesis(Prec::Sum, context);
+      return;
+    }
+    const Prec own = e.op == Op::Mul ? Prec::Product : Prec::Sum;
+    parenthesis(own, context);
+    modular(ExprId{e.a}, wide, own);
+    const Expr& right = expr(ExprId{e.b});
+    const bool flips = own == Prec::Sum && right.kind == ExprKind::Const && types_.isSigned(kind) &&
+                       static_cast<int64_t>(right.bits()) < 0;
+    out_ += e.op == Op::Mul ? " * " : (e.op == Op::Add) != flips ? " + " : " - ";
+    if (flips) {
+      appendUnsigned(out_, 0 - right.bits());
+      out_ += wide ? "ULL" : "u";
+    } else {
+      modular(ExprId{e.b}, wide, own == Prec::Sum ? Prec::Product : Prec::Unary);
+    }
+    closeParenthesis(own, context);
+    return;
+  }
+  if (e.kind == ExprKind::Const) {
+    appendUnsigned(out_, wide ? e.bits() : static_cast<uint32_t>(e.bits()));
+    out_ += wide ? "ULL" : "u";
+    return;
+  }
+  if (!types_.isSigned(kind) && widthOf(kind) == (wide ? 64u : 32u)) {
+    value(id, context);
+    return;
+  }
+  parenthesis(Prec::Unary, context);
+  out_ += wide ? "(uint64_t)" : "(uint32_t)";
+  value(id, Prec::Unary);
+  closeParenthesis(Prec::Unary, context);
+}
+
+void BodyWriter::arithmetic(ExprId id, Prec context) {
+  const Expr& e = expr(id);
+  const TypeKind kind = kindOf(ExprId{e.a});
+  const uint32_t width = widthOf(kind);
+  if (isPointer(kind) || width == 0) {
+    parenthesis(Prec::Unary, context);
+    out_ += "(void*)((uintptr_t)";
+    value(ExprId{e.a}, Prec::Unary);
+    out_ += e.op == Op::Sub ? " - " : " + ";
+    out_ += "(uintptr_t)";
+    value(ExprId{e.b}, Prec::Unary);
+    out_ += ')';
+    closeParenthesis(Prec::Unary, context);
+    return;
+  }
+  if (!types_.isSigned(kind) && width >= 32) {
+    modular(id, width == 64, context);
+    return;
+  }
+  parenthesis(Prec::Unary, context);
+  out_ += '(';
+  out_ += scalarType(types_, e.type);
+  out_ += ")(";
+  if (width <= 16 && plainBits(id) <= 32) {
+    plain(id, Prec::Comma);
+  } else {
+    modular(id, width == 64, Prec::Comma);
+  }
+  out_ += ')';
+  closeParenthesis(Prec::Unary, context);
+}
+
+void BodyWriter::divide(const Expr& e, Prec context) {
+  const ExprId a{e.a}, b{e.b};
+  const TypeKind kind = kindOf(a);
+  const uint32_t width = widthOf(kind);
+  const bool is_signed = types_.isSigned(kind);
+  const Expr& divisor = expr(b);
+  if (divisor.kind == ExprKind::Const && divisor.bits() != 0 &&
+      !(is_signed && static_cast<int64_t>(divisor.bits()) == -1)) {
+    parenthesis(Prec::Product, context);
+    value(a, Prec::Product);
+    out_ += e.op == Op::Div ? " / " : " % ";
+    value(b, Prec::Unary);
+    closeParenthesis(Prec::Product, context);
+    return;
+  }
+  const bool cuts = is_signed && width < 32 && e.op == Op::Div;
+  if (cuts) {
+    parenthesis(Prec::Unary, context);
+    out_ += width == 8 ? "(int8_t)" : "(int16_t)";
+  }
+  out_ += e.op == Op::Div ? "rung_div_" : "rung_mod_";
+  out_ += width == 64 ? (is_signed ? "i64(" : "u64(") : (is_signed || width < 32 ? "i32(" : "u32(");
+  value(a, Prec::Ternary);
+  out_ += ", ";
+  value(b, Prec::Ternary);
+  out_ += ')';
+  if (cuts) closeParenthesis(Prec::Unary, context);
+}
+
+// A count from the width on gives 0; a rotation is modulo the width.
+void BodyWriter::shift(const Expr& e, Prec context) {
+  const ExprId a{e.a}, b{e.b};
+  const TypeKind kind = kindOf(a);
+  const uint32_t width = widthOf(kind);
+  const bool is_signed = types_.isSigned(kind);
+  auto writeBits = [&](Prec at) {  // zero-extended
+    if (!is_signed) {
+      value(a, at);
+      return;
+    }
+    parenthesis(Prec::Unary, at);
+    out_ += width == 8 ? "(uint8_t)" : width == 16 ? "(uint16_t)" : width == 32 ? "(uint32_t)" : "(uint64_t)";
+    value(a, Prec::Unary);
+    closeParenthesis(Prec::Unary, at);
+  };
+  const bool rotates = e.op == Op::Rol || e.op == Op::Ror;
+  const bool cuts = is_signed || (width < 32 && e.op == Op::Shl);
+  if (!rotates && expr(b).kind == ExprKind::Const) {
+    const uint64_t count = expr(b).bits();
+    if (count >= width) {
+      appendConstant(out_, types_, e.type, 0);
+      return;
+    }
+    parenthesis(cuts ? Prec::Unary : Prec::Shift, context);
+    if (cuts) {
+      out_ += '(';
+      out_ += scalarType(types_, e.type);
+      out_ += ")(";
+    }
+    writeBits(Prec::Unary);
+    out_ += e.op == Op::Shl ? " << " : " >> ";
+    appendUnsigned(out_, count);
+    if (cuts) out_ += ')';
+    closeParenthesis(cuts ? Prec::Unary : Prec::Shift, context);
+    return;
+  }
+  if (cuts) {
+    parenthesis(Prec::Unary, context);
+    out_ += '(';
+    out_ += scalarType(types_, e.type);
+    out_ += ')';
+  }
+  if (rotates) {
+    out_ += "rung_rol";
+    appendUnsigned(out_, width);
+  } else {
+    out_ += e.op == Op::Shl ? "rung_shl" : "rung_shr";
+    if (width == 64) out_ += "64";
+  }
+  out_ += '(';
+  writeBits(Prec::Ternary);
+  out_ += e.op == Op::Ror ? ", 0 - (uint64_t)" : ", (uint64_t)";
+  value(b, Prec::Unary);
+  out_ += ')';
+  if (cuts) closeParenthesis(Prec::Unary, context);
+}
+
+void BodyWriter::power(const Expr& e) {
+  const ExprId a{e.a}, b{e.b};
+  const TypeKind kind = kindOf(a);
+  if (TypeTable::isReal(kind)) {
+    if (kind == TypeKind::Real) out_ += "(float)";
+    out_ += "rung_power(";
+    value(a, Prec::Ternary);
+    out_ += ", ";
+    if (!TypeTable::isReal(kindOf(b))) out_ += "(double)";
+    value(b, TypeTable::isReal(kindOf(b)) ? Prec::Ternary : Prec::Unary);
+    out_ += ')';
+    return;
+  }
+  out_ += '(';
+  out_ += scalarType(types_, e.type);
+  out_ += ")rung_integer_power(";
+  out_ += types_.isSigned(kind) ? "(uint64_t)(int64_t)" : "(uint64_t)";
+  value(a, Prec::Unary);
+  out_ += ", (uint64_t)";
+  value(b, Prec::Unary);
+  out_ += ", ";
+  if (types_.isSigned(kindOf(b))) {
+    value(b, Prec::Sum);
+    out_ += " < 0)";
+  } else {
+    out_ += "false)";
+  }
+}
+
+// ---- conversions
+
+void BodyWriter::convertTime(ExprId from, TypeKind source, TypeKind target) {
+  const bool is_signed = types_.isSigned(source);
+  const char* integer = is_signed ? "(int64_t)" : "(uint64_t)";
+  const char* suffix = is_signed ? "LL" : "ULL";
+  const int64_t unit = nanoseconds(source), to = nanoseconds(target);
+  constexpr int64_t kDay = 86'400'000'000'000;
+  // Everything in the larger of both units' count: 32-bit values scaled up fit 64 bits.
+  auto number = [&] {
+    out_ += integer;
+    value(from, Prec::Unary);
+  };
+  const int64_t day = kDay / unit;
+  out_ += '(';
+  if (isDateTime(source) && isTimeOfDay(target)) {
+    number();
+    out_ += " % ";
+    appendSigned(out_, day);
+    out_ += suffix;
+  } else if (isDateTime(source) && isDay(target)) {
+    number();
+    out_ += " / ";
+    appendSigned(out_, day);
+    out_ += suffix;
+    out_ += " * ";
+    appendSigned(out_, day);
+    out_ += suffix;
+  } else {
+    number();
+  }
+  out_ += ')';
+  if (unit > to) {
+    out_ += " * ";
+    appendSigned(out_, unit / to);
+    out_ += suffix;
+  } else if (to > unit) {
+    out_ += " / ";
+    appendSigned(out_, to / unit);
+    out_ += suffix;
+  }
+}
+
+void BodyWriter::convert(const Expr& e, Prec context) {
+  const ExprId a{e.a};
+  const TypeKind source = kindOf(a), target = types_.plainKind(e.type);
+  if (TypeTable::isText(target)) {
+    textValue(ExprId{static_cast<uint32_t>(&e - body_->exprs.data())});
+    return;
+  }
+  const TypeInfo& info = types_.info(types_.resolve(e.type));
+  const bool is_signed = types_.isSigned(target);
+  const uint32_t width = widthOf(target);
+  const bool clamps = info.kind == TypeKind::Subrange && types_.resolve(expr(a).type) != types_.resolve(e.type);
+  const Prec clamp_context = context;
+  if (clamps) {
+    parenthesis(Prec::Unary, context);
+    out_ += '(';
+    out_ += scalarType(types_, e.type);
+    out_ += is_signed || width < 64 ? ")rung_clamp(" : ")rung_clamp_u(";
+    context = Prec::Ternary;
+  }
+  const Prec outer = context;
+  auto cast = [&](std::string_view type) {
+    parenthesis(Prec::Unary, outer);
+    out_ += '(';
+    out_ += type;
+    out_ += ')';
+  };
+  auto endCast = [&] { closeParenthesis(Prec::Unary, outer); };
+  const std::string type = scalarType(types_, e.type);
+  const bool from_real = TypeTable::isReal(source);
+
+  if (TypeTable::isText(source)) {
+    if (TypeTable::isReal(target)) {
+      if (target == TypeKind::Real) out_ += "(float)";
+      out_ += "rung_f64_of(";
+    } else {
+      cast(type);
+    }
+    out_ += source == TypeKind::WString ? "rung_scalar_of_wtext(" : "rung_scalar_of_text(";
+    out_ += typeKindName(types_, e.type);
+    out_ += ", ";
+    textValue(a);
+    out_ += ')';
+    if (TypeTable::isReal(target)) {
+      out_ += ')';
+    } else {
+      endCast();
+    }
+  } else if (isPointer(target) || isPointer(source)) {
+    if (isPointer(target) == isPointer(source)) {
+      value(a, context);
+    } else {
+      cast(isPointer(target) ? "void*" : type);
+      out_ += isPointer(target) ? "(uintptr_t)" : "(uintptr_t)";
+      value(a, Prec::Unary);
+      endCast();
+    }
+  } else if (TypeTable::isReal(target)) {
+    if (source == target) {
+      value(a, context);
+    } else {
+      cast(type);
+      value(a, Prec::Unary);
+      endCast();
+    }
+  } else if (target == TypeKind::Bool) {
+    if (source == TypeKind::Bool) {
+      value(a, context);
+    } else if (from_real) {  // FALSE for NaN
+      out_ += '(';
+      value(a, Prec::Sum);
+      out_ += " < 0 || ";
+      value(a, Prec::Sum);
+      out_ += " > 0)";
+    } else {
+      parenthesis(Prec::Equality, context);
+      value(a, Prec::Relation);
+      out_ += " != 0";
+      closeParenthesis(Prec::Equality, context);
+    }
+  } else if (from_real) {
+    if (width == 64) {
+      out_ += is_signed ? "rung_round_i64(" : "rung_round_u64(";
+      value(a, Prec::Ternary);
+      out_ += ')';
+    } else if (width == 32 && is_signed) {
+      out_ += "rung_round_i32(";
+      value(a, Prec::Ternary);
+      out_ += ')';
+    } else {
+      cast(type);
+      out_ += "rung_round(";
+      value(a, Prec::Ternary);
+      out_ += ", ";
+      appendSigned(out_, is_signed ? -(int64_t{1} << (width - 1)) : 0);
+      out_ += ", ";
+      appendSigned(out_, (int64_t{1} << (is_signed ? width - 1 : width)) - 1);
+      out_ += ')';
+      endCast();
+    }
+  } else if (changesUnit(source, target)) {
+    cast(type);
+    out_ += '(';
+    convertTime(a, source, target);
+    out_ += ')';
+    endCast();
+  } else {
+    const bool from_signed = types_.isSigned(source);
+    const uint32_t from_width = widthOf(source);
+    // The value promotes to int, which is the target's type or holds it.
+    const bool keeps = (from_width == width && from_signed == is_signed && from_width > 1) ||
+                       (from_width < 32 && width <= 32 && from_width < width && (is_signed || (!from_signed && width < 32)));
+    if (keeps) {
+      value(a, context);
+    } else {
+      cast(type);
+      if (isChain(expr(a)) && from_width >= width && width < 64) {  // the operand need not be cut first
+        out_ += '(';
+        if (from_width <= 16 && plainBits(a) <= 32) {
+          plain(a, Prec::Comma);
+        } else {
+          modular(a, from_width == 64, Prec::Comma);
+        }
+        out_ += ')';
+      } else {
+        value(a, Prec::Unary);
+      }
+      endCast();
+    }
+  }
+  if (clamps) {
+    out_ += ", ";
+    if (is_signed || width < 64) {
+      appendConstant(out_, types_, types::kLInt, static_cast<uint64_t>(info.low));
+      out_ += ", ";
+      appendConstant(out_, types_, types::kLInt, static_cast<uint64_t>(info.high));
+    } else {
+      appendConstant(out_, types_, types::kULInt, static_cast<uint64_t>(info.low));
+      out_ += ", ";
+      appendConstant(out_, types_, types::kULInt, static_cast<uint64_t>(info.high));
+    }
+    out_ += ')';
+    closeParenthesis(Prec::Unary, clamp_context);
+  }
+}
+
+}  // namespace rung::codegen

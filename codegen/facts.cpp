@@ -1,0 +1,168 @@
+// Facts about the module: see facts.h. One pass over all expressions and statements.
+#include "codegen/facts.h"
+
+#include <algorithm>
+#include <string>
+
+#include "ir/walk.h"
+
+namespace rung::codegen {
+
+using ir::Body;
+using ir::Expr;
+using ir::ExprId;
+using ir::ExprKind;
+using ir::Stmt;
+using ir::StmtKind;
+using types::TypeKind;
+
+namespace {
+
+constexpr size_t kInlineStmts = 16, kInlineExprs = 80;
+
+std::string folded(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
+}
+
+bool isSmall(const Body& body) {
+  if (body.stmts.size() > kInlineStmts || body.exprs.size() > kInlineExprs || body.has_labels) return false;
+  for (const Expr& expr : body.exprs) {
+    if (expr.checks != 0 || expr.kind == ExprKind::Data) return false;
+  }
+  for (const Stmt& stmt : body.stmts) {
+    if (stmt.kind == StmtKind::Call || stmt.kind == StmtKind::Try || stmt.kind == StmtKind::Fault) return false;
+  }
+  return true;
+}
+
+// True when a place is reached by something else than the own instance or a plain local.
+bool isForeign(const Body& body, ExprId place) {
+  const Expr& root = body.expr(ir::rootOf(body, place));
+  switch (root.kind) {
+    case ExprKind::Self: return false;
+    case ExprKind::Local: return body.locals[root.a].by_reference;
+    case ExprKind::Global:
+    case ExprKind::Program:
+    case ExprKind::Deref: return true;
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::Text:
+    case ExprKind::Data:
+    case ExprKind::Zero:
+    case ExprKind::Image:
+    case ExprKind::Field:
+    case ExprKind::Index:
+    case ExprKind::Bits:
+    case ExprKind::Unary:
+    case ExprKind::Binary:
+    case ExprKind::Convert:
+    case ExprKind::Select:
+    case ExprKind::Call:
+    case ExprKind::Address: return false;
+  }
+  return false;
+}
+
+}  // namespace
+
+Facts::Facts(const ir::Module& module) {
+  // ---- blocks
+  struct Row {
+    std::string key;
+    bool is_program;
+    uint32_t index;
+  };
+  std::vector<Row> rows;
+  for (uint32_t i = 0; i < module.lists.size(); ++i)
+    rows.push_back({folded(module.names.text(module.lists[i].name)), false, i});
+  for (uint32_t i = 0; i < module.programs.size(); ++i)
+    rows.push_back({folded(module.names.text(module.programs[i].name)), true, i});
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+    return a.key != b.key ? a.key < b.key : a.is_program < b.is_program;
+  });
+  list_block.resize(module.lists.size());
+  program_block.resize(module.programs.size());
+  for (const Row& row : rows) {
+    (row.is_program ? program_block : list_block)[row.index] = block_count++;
+    if (row.is_program) {
+      blocks.push_back({module.programs[row.index].name, module.programs[row.index].record});
+    } else {
+      blocks.push_back({module.lists[row.index].name, module.lists[row.index].record});
+    }
+  }
+
+  // ---- bodies
+  is_inlined.resize(module.bodies.size());
+  is_seen.resize(module.types.count());
+  is_pointed.resize(module.types.count());
+  for (uint32_t i = 0; i < module.types.count(); ++i) {
+    const types::TypeInfo& info = module.types.info(TypeId{i});
+    if (info.kind == TypeKind::Pointer || info.kind == TypeKind::Reference)
+      is_pointed[module.types.resolve(info.base).index] = 1;
+  }
+  for (uint32_t i = 1; i < module.bodies.size(); ++i) {
+    const Body& body = module.bodies[i];
+    is_inlined[i] = body.kind == ir::BodyKind::Function && body.library && body.pure && !body.native && isSmall(body);
+    for (uint32_t e = 1; e < body.exprs.size(); ++e) {
+      const Expr& expr = body.exprs[e];
+      if (expr.kind == ExprKind::Address) {
+        expose(module, body, ExprId{expr.a});
+      } else if (expr.kind == ExprKind::Field) {
+        const TypeId record = module.types.resolve(body.expr(ExprId{expr.a}).type);
+        if (module.types.info(record).record_kind >= types::RecordKind::FunctionBlock && is_seen[record.index] == 0 &&
+            isForeign(body, ExprId{expr.a})) {
+          is_seen[record.index] = 1;
+        }
+      }
+    }
+    for (const Stmt& stmt : body.stmts) {
+      if (stmt.kind == StmtKind::Bind) {
+        expose(module, body, ExprId{stmt.b});
+      } else if (stmt.kind == StmtKind::Call) {
+        ir::forEachRoot(module, body, stmt, [&](const uint32_t& slot, ir::Use use) {
+          if (use == ir::Use::Reference && slot != stmt.b) expose(module, body, ExprId{slot});
+        });
+      } else if (stmt.kind == StmtKind::Assign) {
+        const Expr& value = body.expr(ExprId{stmt.b});
+        const TypeKind kind = module.types.kind(value.type);
+        if (kind == TypeKind::Record || kind == TypeKind::Array) {
+          if (isForeign(body, ExprId{stmt.b}) || isForeign(body, ExprId{stmt.a})) seeAll(module, value.type);
+        }
+      }
+    }
+  }
+}
+
+void Facts::expose(const ir::Module& module, const Body& body, ExprId place) {
+  const TypeKind kind = module.types.kind(body.expr(place).type);
+  if (kind == TypeKind::Record || kind == TypeKind::Array) seeAll(module, body.expr(place).type);
+  for (;;) {
+    const Expr& expr = body.expr(place);
+    if (expr.kind == ExprKind::Field) {
+      const TypeId record = module.types.resolve(body.expr(ExprId{expr.a}).type);
+      exposed_fields_.insert(uint64_t{record.index} << 32 | expr.b);
+      return;
+    }
+    if (expr.kind != ExprKind::Index && expr.kind != ExprKind::Bits) return;
+    place = ExprId{expr.a};
+  }
+}
+
+// A pointer to the whole reaches every part.
+void Facts::seeAll(const ir::Module& module, TypeId type) {
+  type = module.types.resolve(type);
+  const types::TypeInfo& info = module.types.info(type);
+  if (info.kind == TypeKind::Array) return seeAll(module, info.base);
+  if (info.kind != TypeKind::Record || is_seen[type.index] == 2) return;
+  is_seen[type.index] = 2;
+  for (uint32_t i = 0; i < info.fields.size(); ++i) {
+    exposed_fields_.insert(uint64_t{type.index} << 32 | i);
+    if (!info.fields[i].by_reference) seeAll(module, info.fields[i].type);
+  }
+}
+
+}  // namespace rung::codegen

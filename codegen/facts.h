@@ -1,0 +1,42 @@
+// What codegen must know about the whole module before it writes a body: block numbers, which bodies are written
+// where they are used, and which fields something else than their own block may reach while that block runs.
+// In: the module. Out: tables by index. Called once by emit.cpp, read by all others.
+#pragma once
+
+#include <unordered_set>
+#include <vector>
+
+#include "ir/ir.h"
+
+namespace rung::codegen {
+
+struct Facts {
+  explicit Facts(const ir::Module& module);
+
+  // Memory blocks, sorted by name: of list i and of program i.
+  std::vector<uint32_t> list_block, program_block;
+  uint32_t block_count = 0;
+  struct Block {
+    NameId name;
+    TypeId record;
+  };
+  std::vector<Block> blocks;
+
+  std::vector<uint8_t> is_inlined;  // by body: a small pure library function, written into each group that calls it
+
+  std::vector<uint8_t> is_pointed;  // by record: some POINTER or REFERENCE points to it
+
+  // The variable of a block (record, field) whose address is taken somewhere.
+  bool isExposed(TypeId record, uint32_t field) const {
+    return exposed_fields_.count(uint64_t{record.index} << 32 | field) != 0;
+  }
+  // By record: its instances may be reached through globals or pointers while their body runs a call.
+  std::vector<uint8_t> is_seen;
+
+ private:
+  void expose(const ir::Module& module, const ir::Body& body, ir::ExprId place);
+  void seeAll(const ir::Module& module, TypeId type);
+  std::unordered_set<uint64_t> exposed_fields_;
+};
+
+}  // namespace rung::codegen

@@ -1,0 +1,57 @@
+// Cutting the bodies into groups: see group.h. A POU and the initialiser of its record stay together. A group ends
+// before a name whose hash says so, once it holds kLeast POUs, so that a new POU changes one group.
+#include <algorithm>
+
+#include "codegen/group.h"
+#include "codegen/names.h"
+
+namespace rung::codegen {
+
+namespace {
+
+constexpr uint32_t kLeast = 32, kUsual = 32, kMost = 128;
+
+struct Row {
+  std::string key;  // folded
+  uint32_t kind;
+  ir::BodyId body;
+};
+
+}  // namespace
+
+std::vector<Group> makeGroups(const ir::Module& module, const Facts& facts) {
+  std::vector<Row> rows;
+  rows.reserve(module.bodies.size());
+  for (uint32_t i = 1; i < module.bodies.size(); ++i) {
+    const ir::Body& body = module.bodies[i];
+    if (body.native || facts.is_inlined[i] != 0) continue;
+    Row row{std::string(module.names.text(body.name)), static_cast<uint32_t>(body.kind), ir::BodyId{i}};
+    for (char& c : row.key) {
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    rows.push_back(std::move(row));
+  }
+  std::sort(rows.begin(), rows.end(), [&](const Row& a, const Row& b) {
+    if (a.key != b.key) return a.key < b.key;
+    if (a.kind != b.kind) return a.kind < b.kind;
+    return module.types.info(module.body(a.body).self).record_kind <
+           module.types.info(module.body(b.body).self).record_kind;
+  });
+
+  std::vector<Group> groups;
+  uint32_t pous = 0;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const bool is_new = i == 0 || rows[i].key != rows[i - 1].key;
+    const bool cut = is_new && (pous >= kMost || (pous >= kLeast && nameHash(rows[i].key) % kUsual == 0));
+    if (groups.empty() || cut) {
+      groups.emplace_back();
+      groups.back().stem = groups.size() == 1 ? "code" : "code_" + fileStem(module.names.text(module.body(rows[i].body).name));
+      pous = 0;
+    }
+    pous += is_new;
+    groups.back().bodies.push_back(rows[i].body);
+  }
+  return groups;
+}
+
+}  // namespace rung::codegen

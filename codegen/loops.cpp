@@ -1,0 +1,272 @@
+// Loops of a body. A For counts in the control itself when the loop alone writes it: in a local that is wide enough
+// for one step beyond the limit, so that it is a plain C++ loop which g++ can vectorize; else a flag guards the step.
+#include "codegen/body.h"
+#include "ir/walk.h"
+
+namespace rung::codegen {
+
+// `if condition { break }`, with nothing to be done before.
+bool BodyWriter::isExitTest(StmtId id) const {
+  if (!id) return false;
+  const Stmt& stmt = body_->stmt(id);
+  if (stmt.kind != StmtKind::If || stmt.c != 0 || stmt.b == 0) return false;
+  const Stmt& inner = body_->stmt(StmtId{stmt.b});
+  return inner.kind == StmtKind::Break && !inner.next && !needsPreparation(ExprId{stmt.a});
+}
+
+void BodyWriter::loopStatement(StmtId, const Stmt& stmt) {
+  const StmtId first{stmt.a}, next{stmt.b};
+  Loop loop;
+  loop.number = ++names_made_;
+  loop.has_next = stmt.b != 0;
+  auto writeNegated = [&](StmtId test) {
+    const ExprId id{body_->stmt(test).a};
+    if (expr(id).kind == ExprKind::Unary && expr(id).op == Op::Not) {
+      condition(ExprId{expr(id).a}, Prec::Comma);
+    } else {
+      out_ += '!';
+      condition(id, Prec::Unary);
+    }
+  };
+  if (!next && isExitTest(first)) {  // WHILE
+    out_ += "while (";
+    writeNegated(first);
+    out_ += ')';
+    open();
+    loops_.push_back(loop);
+    block(body_->stmt(first).next);
+    close();
+  } else if (next && isExitTest(next) && !body_->stmt(next).next) {  // REPEAT
+    loop.has_next = false;  // `continue` goes to the test
+    out_ += "do";
+    open();
+    loops_.push_back(loop);
+    block(first);
+    close();
+    flushCloses(0);
+    out_ += " while (";
+    writeNegated(next);
+    out_ += ");";
+  } else {
+    out_ += "for (;;)";
+    open();
+    loops_.push_back(loop);
+    if (next) {
+      out_ += " {";
+      ++depth_;
+      block(first);
+      close();
+      flushCloses(0);
+      if (loops_.back().continues_by_goto) {
+        out_ += " continue";
+        appendUnsigned(out_, loop.number);
+        out_ += ":;";
+      }
+      loops_.back().has_next = false;
+      block(next);
+    } else {
+      block(first);
+    }
+    close();
+  }
+  const Loop done = loops_.back();
+  loops_.pop_back();
+  if (done.breaks_by_goto) {
+    flushCloses(0);
+    out_ += " break";
+    appendUnsigned(out_, done.number);
+    out_ += ":;";
+  }
+}
+
+void BodyWriter::breakLoop() {
+  if (loops_.empty()) {
+    out_ += ';';
+    return;
+  }
+  Loop& loop = loops_.back();
+  if (loop.try_depth > 0 && !frames_.empty()) {
+    frames_.back().breaks = true;
+    out_ += frames_.back().exit + " = 2; return;";
+    return;
+  }
+  if (!loop.in_switch) {
+    out_ += "break;";
+    return;
+  }
+  loop.breaks_by_goto = true;
+  out_ += "goto break";
+  appendUnsigned(out_, loop.number);
+  out_ += ';';
+}
+
+void BodyWriter::continueLoop() {
+  if (loops_.empty()) {
+    out_ += ';';
+    return;
+  }
+  Loop& loop = loops_.back();
+  if (loop.try_depth > 0 && !frames_.empty()) {
+    frames_.back().continues = true;
+    out_ += frames_.back().exit + " = 3; return;";
+    return;
+  }
+  if (!loop.has_next) {
+    out_ += "continue;";
+    return;
+  }
+  loop.continues_by_goto = true;
+  out_ += "goto continue";
+  appendUnsigned(out_, loop.number);
+  out_ += ';';
+}
+
+namespace {
+
+void appendStep(std::string& out, std::string_view name, int64_t step) {
+  if (step == 1 || step == -1) {
+    out += step == 1 ? "++" : "--";
+    out += name;
+    return;
+  }
+  out += name;
+  out += step < 0 ? " -= " : " += ";
+  if (step < 0) {
+    appendUnsigned(out, 0 - static_cast<uint64_t>(step));
+  } else {
+    appendSigned(out, step);
+  }
+}
+
+}  // namespace
+
+void BodyWriter::privateFor(StmtId, const Stmt& stmt) {
+  const ExprId control{stmt.a}, from{stmt.b}, to{stmt.c};
+  const TypeKind kind = kindOf(control);
+  const auto step = static_cast<int64_t>(expr(ExprId{stmt.d}).bits());
+  const Variable& of = *variableOf(slotOf(control));
+  std::string name;
+  const Expr& place = expr(control);
+  if (place.kind == ExprKind::Local) {
+    variable(name, body_->locals[place.a]);
+  } else {
+    appendMangled(name, text(types_.info(types_.resolve(body_->self)).fields[place.b].name));
+  }
+  // The limit is read once, before the control changes.
+  std::string limit;
+  if (expr(to).kind == ExprKind::Const) {
+    limit = captured([&] { value(to, Prec::Shift); });
+  } else {
+    limit = newName("e");
+    declarations_ += of.wide == 64 ? " int64_t " : of.wide == 32 ? " int32_t " : " ";
+    if (of.wide == 0) {
+      declarations_ += scalarType(types_, place.type);
+      declarations_ += ' ';
+    }
+    declarations_ += limit + ";";
+    out_ += limit + " = ";
+    value(to, Prec::Comma);
+    out_ += "; ";
+  }
+  out_ += "for (" + name + " = ";
+  value(from, Prec::Comma);
+  out_ += "; " + name + (step > 0 ? " <= " : " >= ") + limit + "; ";
+  appendStep(out_, name, step);
+  out_ += ')';
+  open();
+  Loop loop;
+  loop.number = ++names_made_;
+  loops_.push_back(loop);
+  block(StmtId{stmt.e});
+  close();
+  const Loop done = loops_.back();
+  loops_.pop_back();
+  std::string tail;
+  if (of.wide != 0 && !boundsFit(stmt)) {  // where the next value does not fit the control stays at the type's limit
+    const uint32_t width = widthOf(kind);
+    const bool is_signed = types_.isSigned(kind);
+    std::string bound;
+    if (step > 0) {
+      appendUnsigned(bound, (uint64_t{1} << (is_signed ? width - 1 : width)) - 1);
+      tail = " if (" + name + " > " + bound + ") " + name + " = " + bound + ";";
+    } else {
+      if (is_signed) {
+        appendSigned(bound, -(int64_t{1} << (width - 1)));
+      } else {
+        bound = "0";
+      }
+      tail = " if (" + name + " < " + bound + ") " + name + " = " + bound + ";";
+    }
+  }
+  if (!tail.empty() || done.breaks_by_goto) {
+    flushCloses(0);
+    out_ += tail;
+  }
+  if (done.breaks_by_goto) {
+    out_ += " break";
+    appendUnsigned(out_, done.number);
+    out_ += ":;";
+  }
+}
+
+void BodyWriter::forStatement(StmtId id, const Stmt& stmt) {
+  const ExprId control{stmt.a}, from{stmt.b}, to{stmt.c};
+  prepare(control);
+  prepare(from);
+  prepare(to);
+  if (isPrivateLoop(id)) {
+    privateFor(id, stmt);
+    return;
+  }
+  const TypeKind kind = kindOf(control);
+  const uint32_t width = widthOf(kind);
+  const bool is_signed = types_.isSigned(kind);
+  const auto step = static_cast<int64_t>(expr(ExprId{stmt.d}).bits());
+  const std::string type = scalarType(types_, expr(control).type);
+  const std::string next = newName("n"), limit = newName("e"), more = newName("m");
+  declarations_ += " " + type + " " + next + " = 0, " + limit + " = 0; bool " + more + " = false;";
+  out_ += next + " = ";
+  value(from, Prec::Comma);
+  out_ += "; " + limit + " = ";
+  value(to, Prec::Comma);
+  out_ += "; ";
+  store(control, next);
+  const std::string test = next + (step > 0 ? " <= " : " >= ") + limit;
+  out_ += "; for (" + more + " = " + test + "; " + more + "; " + more + " = __builtin_add_overflow(";
+  value(control, Prec::Ternary);
+  out_ += ", ";
+  appendSigned(out_, step);
+  out_ += "LL, &" + next + ") ? (";
+  std::string last = "(" + type + ")";
+  if (step > 0) {
+    const uint64_t high = is_signed ? (uint64_t{1} << (width - 1)) - 1 : width >= 64 ? ~uint64_t{0} : (uint64_t{1} << width) - 1;
+    appendUnsigned(last, high);
+    last += high > INT64_MAX ? "ULL" : "LL";
+  } else if (is_signed) {
+    last += "(-";
+    appendUnsigned(last, (uint64_t{1} << (width - 1)) - 1);
+    last += "LL - 1)";
+  } else {
+    last += "0";
+  }
+  store(control, last);
+  out_ += ", false) : (";
+  store(control, next);
+  out_ += ", " + test + "))";
+  open();
+  Loop loop;
+  loop.number = ++names_made_;
+  loops_.push_back(loop);
+  block(StmtId{stmt.e});
+  close();
+  const Loop done = loops_.back();
+  loops_.pop_back();
+  if (done.breaks_by_goto) {
+    flushCloses(0);
+    out_ += " break";
+    appendUnsigned(out_, done.number);
+    out_ += ":;";
+  }
+}
+
+}  // namespace rung::codegen

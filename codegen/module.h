@@ -1,0 +1,21 @@
+// The description of the module (rung/module.h): tables of types, symbols, blocks, tasks, tests and check sites.
+// In: the IR module, its facts, the groups after all bodies were written. Out: the texts of `module.cpp` and
+// `sites.cpp`. A change inside a POU's body changes the second at most.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "codegen/emit.h"
+#include "codegen/facts.h"
+#include "codegen/group.h"
+
+namespace rung::codegen {
+
+struct Description {
+  std::string module, sites;
+};
+Description describe(const ir::Module& module, const EmitOptions& options, const Facts& facts,
+                     const std::vector<Group>& groups, std::string_view name_space);
+
+}  // namespace rung::codegen

@@ -1,0 +1,159 @@
+// Mangling and literals: see names.h.
+#include "codegen/names.h"
+
+#include <charconv>
+
+#include "codegen/emit.h"
+
+namespace rung::codegen {
+
+namespace {
+
+constexpr char kHex[] = "0123456789abcdef";
+
+bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
+bool isPlain(std::string_view name) {
+  if (name.empty() || !isLetter(name[0])) return false;
+  for (char c : name) {
+    if (!isLetter(c) && !isDigit(c) && c != '_') return false;
+  }
+  return true;
+}
+
+// f(unit): the UTF-16 units of a UTF-8 text.
+template <class F>
+void forEachUnit(std::string_view text, F&& f) {
+  for (size_t i = 0; i < text.size();) {
+    auto byte = [&](size_t at) { return at < text.size() ? static_cast<unsigned char>(text[at]) : 0u; };
+    const uint32_t lead = byte(i);
+    if (lead == 0) return;
+    uint32_t point = lead;
+    size_t length = 1;
+    if (lead >= 0xf0) {
+      point = (lead & 7) << 18 | (byte(i + 1) & 63) << 12 | (byte(i + 2) & 63) << 6 | (byte(i + 3) & 63);
+      length = 4;
+    } else if (lead >= 0xe0) {
+      point = (lead & 15) << 12 | (byte(i + 1) & 63) << 6 | (byte(i + 2) & 63);
+      length = 3;
+    } else if (lead >= 0xc0) {
+      point = (lead & 31) << 6 | (byte(i + 1) & 63);
+      length = 2;
+    }
+    i += length;
+    if (point >= 0x10000) {
+      f(0xd800 + ((point - 0x10000) >> 10));
+      f(0xdc00 + ((point - 0x10000) & 0x3ff));
+    } else {
+      f(point);
+    }
+  }
+}
+
+}  // namespace
+
+void appendMangled(std::string& out, std::string_view name) {
+  if (isPlain(name)) {
+    out += name;
+    out += '_';
+    return;
+  }
+  out += 'u';
+  for (char c : name) {
+    if (isLetter(c) || isDigit(c)) {
+      out += c;
+    } else if (c == '_') {
+      out += "__";
+    } else {
+      const auto byte = static_cast<unsigned char>(c);
+      out += "_x";
+      out += kHex[byte >> 4];
+      out += kHex[byte & 15];
+    }
+  }
+  out += "0u";
+}
+
+std::string mangle(std::string_view name) {
+  std::string out;
+  appendMangled(out, name);
+  return out;
+}
+
+std::string fileStem(std::string_view name) {
+  constexpr size_t kLongest = 100;
+  std::string stem = mangle(name);
+  if (stem.size() <= kLongest) return stem;
+  const uint64_t hash = nameHash(name);
+  stem.resize(kLongest - 17);
+  stem += '_';
+  for (int shift = 60; shift >= 0; shift -= 4) stem += kHex[hash >> shift & 15];
+  return stem;
+}
+
+void appendUnsigned(std::string& out, uint64_t value) {
+  char buffer[24];
+  out.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+}
+
+void appendSigned(std::string& out, int64_t value) {
+  char buffer[24];
+  out.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+}
+
+void appendQuoted(std::string& out, std::string_view text) {
+  out += '"';
+  for (char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\' || c == '?') {
+      out += '\\';
+      out += c;
+    } else if (byte >= 0x20 && byte < 0x7f) {
+      out += c;
+    } else {  // three octal digits end where they end
+      out += '\\';
+      out += static_cast<char>('0' + (byte >> 6));
+      out += static_cast<char>('0' + (byte >> 3 & 7));
+      out += static_cast<char>('0' + (byte & 7));
+    }
+  }
+  out += '"';
+}
+
+void appendQuotedWide(std::string& out, std::string_view text) {
+  out += "u\"";
+  forEachUnit(text, [&](uint32_t unit) {
+    if (unit >= 0x20 && unit < 0x7f && unit != '"' && unit != '\\' && unit != '?') {
+      out += static_cast<char>(unit);
+      return;
+    }
+    out += "\\x";
+    for (int shift = 12; shift >= 0; shift -= 4) out += kHex[unit >> shift & 15];
+    out += "\" u\"";  // a hex escape would go on with the digits that follow
+  });
+  out += '"';
+}
+
+uint32_t wideLength(std::string_view text) {
+  uint32_t length = 0;
+  forEachUnit(text, [&](uint32_t) { ++length; });
+  return length;
+}
+
+uint64_t nameHash(std::string_view name) {
+  uint64_t hash = kHashStart;
+  for (char c : name) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    hash = hashBytes(hash, &c, 1);
+  }
+  return hash;
+}
+
+uint64_t hashBytes(uint64_t hash, const void* bytes, size_t size) {
+  const auto* p = static_cast<const unsigned char*>(bytes);
+  for (size_t i = 0; i < size; ++i) hash = (hash ^ p[i]) * 0x100000001b3u;
+  return hash;
+}
+
+}  // namespace rung::codegen

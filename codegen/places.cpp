@@ -1,0 +1,420 @@
+// Places in C++: variables, fields, elements, what pointers point to, and views of the process image, which are
+// little-endian bytes at any address and therefore read and written by the helpers of rung/code.h.
+#include "codegen/body.h"
+#include "ir/walk.h"
+
+namespace rung::codegen {
+
+using types::Field;
+using types::TypeInfo;
+using types::TypeTable;
+
+bool BodyWriter::isImagePlace(ExprId id) const { return expr(ir::rootOf(*body_, id)).kind == ExprKind::Image; }
+bool BodyWriter::isLvalue(ExprId id) const { return expr(id).kind != ExprKind::Bits && !isImagePlace(id); }
+
+// Locals are only written by us, and we write 0 or 1.
+bool BodyWriter::isVariableTruth(ExprId id) const {
+  const Expr& e = expr(id);
+  if (e.kind == ExprKind::Local) return !body_->locals[e.a].by_reference && !locals_[e.a].exposed;
+  const Slot slot = slotOf(id);
+  return slot.kind == Slot::Field && fields_[slot.index].cached;
+}
+
+void BodyWriter::place(ExprId id) {
+  const Expr& e = expr(id);
+  switch (e.kind) {
+    case ExprKind::Local: {
+      const ir::Local& local = body_->locals[e.a];
+      const bool behind = local.by_reference && !isText(local.type);
+      if (behind) out_ += "(*";
+      variable(out_, local);
+      if (behind) out_ += ')';
+      return;
+    }
+    case ExprKind::Self: out_ += "self"; return;
+    case ExprKind::Global:
+    case ExprKind::Program: {
+      const bool is_list = e.kind == ExprKind::Global;
+      const uint32_t number = is_list ? facts_.list_block[e.a] : facts_.program_block[e.a];
+      const std::string type = recordName(types_, e.type);
+      includeRecord(e.type);
+      bool declared = false;
+      for (uint32_t known : blocks_declared_) declared |= known == number;
+      std::string name;
+      appendMangled(name, text(facts_.blocks[number].name));
+      name += is_list ? "list_block" : "block";
+      if (!declared) {
+        blocks_declared_.push_back(number);
+        declarations_ += " " + type + "& " + name + " = *static_cast<" + type + "*>(ctx->blocks[";
+        appendUnsigned(declarations_, number);
+        declarations_ += "]);";
+      }
+      out_ += name;
+      return;
+    }
+    case ExprKind::Field: {
+      const ExprId base{e.a};
+      const Field& field = types_.info(types_.resolve(expr(base).type)).fields[e.b];
+      if (expr(base).kind == ExprKind::Self && e.b < fields_.size() && fields_[e.b].cached) {
+        appendMangled(out_, text(field.name));
+        return;
+      }
+      const bool behind = field.by_reference && !isText(field.type);
+      if (behind) includeRecord(field.type);
+      if (behind) out_ += "(*";
+      member(base);
+      appendMangled(out_, text(field.name));
+      if (behind) out_ += ')';
+      return;
+    }
+    case ExprKind::Index: {
+      const TypeInfo& array = types_.info(types_.resolve(expr(ExprId{e.a}).type));
+      place(ExprId{e.a});
+      for (uint32_t i = 0; i < e.c; ++i) {
+        out_ += '[';
+        indexValue(body_->operands[e.b + i], i < array.dimensions.size() ? array.dimensions[i] : types::Dimension{});
+        out_ += ']';
+      }
+      return;
+    }
+    case ExprKind::Deref: {
+      const TypeKind kind = types_.kind(e.type);
+      if (isText(e.type)) {
+        out_ += isWide(e.type) ? "((char16_t*)" : "((char*)";
+        value(ExprId{e.a}, Prec::Unary);
+        out_ += ')';
+        return;
+      }
+      out_ += "(*(";
+      if (kind == TypeKind::Record || kind == TypeKind::Array) {
+        includeRecord(e.type);
+        const TypeId element = elementOf(types_, e.type);
+        std::string type;
+        appendPointer(type, types_, e.type, "");
+        // Elements may be read as of another type than they were written.
+        if (types_.kind(element) != TypeKind::Record && !isText(element)) {
+          const std::string scalar = scalarType(types_, element);
+          type.replace(0, scalar.size(), scalarAliasType(types_, element));
+        }
+        out_ += type;
+      } else {
+        out_ += scalarAliasType(types_, e.type);
+        out_ += '*';
+      }
+      out_ += ')';
+      value(ExprId{e.a}, Prec::Unary);
+      out_ += ')';
+      return;
+    }
+    case ExprKind::Data:
+      out_ += "(*(";
+      appendPointer(out_, types_, e.type, "", true);
+      out_ += ')';
+      dataReference(e.a);
+      out_ += ')';
+      return;
+    case ExprKind::Zero:
+    case ExprKind::Call:
+    case ExprKind::Convert:
+      for (const auto& [made, name] : made_) {
+        if (made == id.index) out_ += name;
+      }
+      return;
+    case ExprKind::Select:
+      out_ += "(*(";
+      condition(ExprId{e.a}, Prec::Or);
+      out_ += " ? &";
+      place(ExprId{e.b});
+      out_ += " : &";
+      place(ExprId{e.c});
+      out_ += "))";
+      return;
+    case ExprKind::Image:  // as an aggregate: in place
+      out_ += "(*(";
+      appendPointer(out_, types_, e.type, "");
+      out_ += ")(";
+      imageAddress(id);
+      out_ += "))";
+      return;
+    case ExprKind::Bits:
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::Text:
+    case ExprKind::Unary:
+    case ExprKind::Binary:
+    case ExprKind::Address: value(id, Prec::Postfix); return;
+  }
+}
+
+// What stands in front of a field's name.
+void BodyWriter::member(ExprId base) {
+  const Expr& e = expr(base);
+  if (e.kind == ExprKind::Local && body_->locals[e.a].by_reference) {
+    variable(out_, body_->locals[e.a]);
+    out_ += "->";
+    return;
+  }
+  if (e.kind == ExprKind::Field) {
+    const Field& field = types_.info(types_.resolve(expr(ExprId{e.a}).type)).fields[e.b];
+    if (field.by_reference) {
+      includeRecord(field.type);
+      member(ExprId{e.a});
+      appendMangled(out_, text(field.name));
+      out_ += "->";
+      return;
+    }
+  }
+  place(base);
+  out_ += '.';
+}
+
+// ---- indices
+
+// `i + 1` may be computed without being cut to its type where the values that differ are no indices either way.
+ir::ExprId BodyWriter::peelIndex(ExprId id, const types::Dimension& dimension, int64_t& addend) const {
+  addend = 0;
+  const Expr& e = expr(id);
+  if (e.kind != ExprKind::Binary || (e.op != Op::Add && e.op != Op::Sub) || e.checks != 0) return id;
+  const TypeKind kind = types_.plainKind(e.type);
+  const uint32_t width = widthOf(kind);
+  if (width < 8 || width > 32 || TypeTable::isReal(kind)) return id;
+  ExprId variable{e.a}, constant{e.b};
+  if (e.op == Op::Add && expr(variable).kind == ExprKind::Const) std::swap(variable, constant);
+  if (expr(constant).kind != ExprKind::Const) return id;
+  int64_t c = static_cast<int64_t>(expr(constant).bits());
+  if (e.op == Op::Sub) c = -c;
+  constexpr int64_t kMost = int64_t{1} << 31;
+  if (c <= -kMost || c >= kMost) return id;
+  const bool is_signed = types_.isSigned(kind);
+  const int64_t low = is_signed ? -(int64_t{1} << (width - 1)) : 0;
+  const int64_t high = (int64_t{1} << (is_signed ? width - 1 : width)) - 1;
+  auto meets = [&](int64_t from, int64_t to) { return from <= dimension.high && to >= dimension.low; };
+  if (c > 0 && (meets(high + 1, high + c) || meets(low, low + c - 1))) return id;
+  if (c < 0 && (meets(low + c, low - 1) || meets(high + c + 1, high))) return id;
+  addend = c;
+  return variable;
+}
+
+// The index from 0.
+void BodyWriter::indexValue(ExprId id, const types::Dimension& dimension) {
+  const Expr& whole = expr(id);
+  if (whole.kind == ExprKind::Const) {
+    appendSigned(out_, static_cast<int64_t>(whole.bits()) - dimension.low);
+    return;
+  }
+  int64_t addend;
+  const ExprId inner = peelIndex(id, dimension, addend);
+  const TypeKind kind = kindOf(inner);
+  const uint32_t width = widthOf(kind);
+  const int64_t offset = addend - dimension.low;
+  const Slot slot = slotOf(inner);
+  const Variable* of = expr(inner).kind == ExprKind::Bits ? nullptr : variableOf(slot);
+  const bool is_wide = of != nullptr && of->wide == 64;
+  auto writeInner = [&](Prec context) {
+    if (is_wide) {
+      place(inner);
+    } else {
+      value(inner, context);
+    }
+  };
+  if (offset == 0) {
+    writeInner(Prec::Comma);
+    return;
+  }
+  if (width == 64) {
+    out_ += "(int64_t)((uint64_t)";
+    value(inner, Prec::Unary);
+    out_ += offset < 0 ? " - " : " + ";
+    appendUnsigned(out_, offset < 0 ? 0 - static_cast<uint64_t>(offset) : static_cast<uint64_t>(offset));
+    out_ += "ULL)";
+    return;
+  }
+  const bool fits_int = width <= 16 && offset > -(1 << 30) && offset < (1 << 30);
+  if (!fits_int && !is_wide) out_ += "(int64_t)";
+  writeInner(fits_int ? Prec::Sum : Prec::Unary);
+  out_ += offset < 0 ? " - " : " + ";
+  appendUnsigned(out_, offset < 0 ? 0 - static_cast<uint64_t>(offset) : static_cast<uint64_t>(offset));
+}
+
+// ---- the process image
+
+void BodyWriter::imageAddress(ExprId id) {
+  const Expr& e = expr(id);
+  if (e.kind == ExprKind::Image) {
+    out_ += "ctx->image[";
+    appendUnsigned(out_, e.a);
+    out_ += ']';
+    if (e.b != 0) {
+      out_ += " + ";
+      appendUnsigned(out_, e.b);
+    }
+    return;
+  }
+  const ExprId base{e.a};
+  imageAddress(base);
+  const TypeInfo& info = types_.info(types_.resolve(expr(base).type));
+  if (e.kind == ExprKind::Field) {
+    out_ += " + ";
+    appendUnsigned(out_, info.fields[e.b].offset);
+    return;
+  }
+  uint64_t size = types_.info(types_.resolve(e.type)).size;
+  for (uint32_t i = e.c; i-- > 0;) {  // row-major: the last index is the fastest
+    out_ += " + (";
+    indexValue(body_->operands[e.b + i], info.dimensions[i]);
+    out_ += ") * ";
+    appendUnsigned(out_, size);
+    size *= info.dimensions[i].count();
+  }
+}
+
+void BodyWriter::imageLoad(ExprId id, const Expr& e) {
+  const TypeKind kind = types_.plainKind(e.type);
+  if (e.kind == ExprKind::Bits) {
+    const TypeKind whole = kindOf(ExprId{e.a});
+    const uint32_t width = widthOf(kind), shift = e.b * width;
+    const bool is_signed = types_.isSigned(whole);
+    out_ += kind == TypeKind::Bool ? "(" : width == 8 ? "(uint8_t)(" : width == 16 ? "(uint16_t)(" : "(uint32_t)(";
+    if (is_signed) {
+      const uint32_t from = widthOf(whole);
+      out_ += from == 8 ? "(uint8_t)" : from == 16 ? "(uint16_t)" : from == 32 ? "(uint32_t)" : "(uint64_t)";
+    }
+    value(ExprId{e.a}, Prec::Unary);
+    if (shift != 0) {
+      out_ += " >> ";
+      appendUnsigned(out_, shift);
+    }
+    out_ += kind == TypeKind::Bool ? " & 1)" : ")";
+    return;
+  }
+  if (isAggregate(e.type)) {
+    place(id);
+    return;
+  }
+  if (e.kind == ExprKind::Image && e.c != ir::kNoBit) {
+    out_ += "(ctx->image[";
+    appendUnsigned(out_, e.a);
+    out_ += "][";
+    appendUnsigned(out_, e.b);
+    out_ += "] >> ";
+    appendUnsigned(out_, e.c);
+    out_ += " & 1)";
+    return;
+  }
+  const uint32_t width = kind == TypeKind::Bool ? 8 : widthOf(kind);
+  if (kind == TypeKind::Real || kind == TypeKind::LReal) {
+    out_ += kind == TypeKind::Real ? "rung_f32_of(rung_get32(" : "rung_f64_of(rung_get64(";
+    imageAddress(id);
+    out_ += "))";
+    return;
+  }
+  if (types_.isSigned(kind)) {
+    out_ += '(';
+    out_ += scalarType(types_, e.type);
+    out_ += ')';
+  }
+  if (width == 8) {
+    out_ += kind == TypeKind::Bool ? "(*(" : "*(";
+    imageAddress(id);
+    out_ += kind == TypeKind::Bool ? ") != 0)" : ")";
+    return;
+  }
+  out_ += "rung_get";
+  appendUnsigned(out_, width);
+  out_ += '(';
+  imageAddress(id);
+  out_ += ')';
+}
+
+void BodyWriter::store(ExprId to, std::string_view value_text) {
+  const Expr& e = expr(to);
+  if (isLvalue(to)) {
+    place(to);
+    out_ += " = ";
+    out_ += value_text;
+    return;
+  }
+  const TypeKind kind = types_.plainKind(e.type);
+  if (e.kind == ExprKind::Bits) {
+    const ExprId base{e.a};
+    const TypeKind whole = kindOf(base);
+    const uint32_t from = widthOf(whole), width = widthOf(kind), shift = e.b * width;
+    const std::string type = from == 64 ? "uint64_t" : "uint32_t";
+    const uint64_t mask = (width >= 64 ? ~uint64_t{0} : (uint64_t{1} << width) - 1) << shift;
+    const uint64_t keep = ~mask & (from >= 64 ? ~uint64_t{0} : (uint64_t{1} << from) - 1);
+    std::string changed = "(";
+    changed += scalarType(types_, expr(base).type);
+    changed += ")(((" + type + ")" + captured([&] { value(base, Prec::Unary); }) + " & ";
+    appendUnsigned(changed, keep);
+    changed += from == 64 ? "ULL) | (" : "u) | (";
+    changed += type + ")(";
+    changed += value_text;
+    changed += ")";
+    if (shift != 0) {
+      changed += " << ";
+      appendUnsigned(changed, shift);
+    }
+    changed += ")";
+    store(base, changed);
+    return;
+  }
+  if (e.kind == ExprKind::Image && e.c != ir::kNoBit) {
+    out_ += "rung_put_bit(";
+    imageAddress(to);
+    out_ += ", ";
+    appendUnsigned(out_, e.c);
+    out_ += ", ";
+    out_ += value_text;
+    out_ += ')';
+    return;
+  }
+  const uint32_t width = kind == TypeKind::Bool ? 8 : widthOf(kind);
+  if (width == 8) {
+    out_ += "*(";
+    imageAddress(to);
+    out_ += ") = (uint8_t)(";
+    out_ += value_text;
+    out_ += ')';
+    return;
+  }
+  out_ += "rung_put";
+  appendUnsigned(out_, width);
+  out_ += '(';
+  imageAddress(to);
+  out_ += kind == TypeKind::Real    ? ", rung_bits_of_f32("
+          : kind == TypeKind::LReal ? ", rung_bits_of_f64("
+          : width == 16             ? ", (uint16_t)("
+          : width == 32             ? ", (uint32_t)("
+                                    : ", (uint64_t)(";
+  out_ += value_text;
+  out_ += "))";
+}
+
+// ---- by-reference parameters
+
+void BodyWriter::reference(const ir::Local& parameter, bool native, ExprId operand) {
+  static_cast<void>(native);
+  if (!operand) {  // a discarded output
+    const std::string name = newVariable(parameter.type, "d");
+    if (!isText(parameter.type)) out_ += '&';
+    out_ += name;
+    return;
+  }
+  const Expr& e = expr(operand);
+  if (isText(parameter.type)) {
+    if (parameter.kind == ir::LocalKind::Input) {
+      textValue(operand);
+    } else {
+      place(operand);
+    }
+    return;
+  }
+  if (e.kind == ExprKind::Local && body_->locals[e.a].by_reference) {
+    variable(out_, body_->locals[e.a]);
+    return;
+  }
+  out_ += '&';
+  place(operand);
+}
+
+}  // namespace rung::codegen

@@ -1,0 +1,373 @@
+// Assignments, and texts: in place, NUL-terminated, cut to the capacity of what they are assigned to; read without a
+// copy, compared with short literals without a call.
+#include <algorithm>
+
+#include "codegen/body.h"
+#include "ir/walk.h"
+
+namespace rung::codegen {
+
+using types::TypeInfo;
+using types::TypeTable;
+
+namespace {
+
+constexpr uint32_t kCopiedWhole = 128;   // bytes of a text that are copied without looking for its end
+constexpr uint32_t kComparedWhole = 32;  // bytes of a literal that memcmp compares inline
+constexpr uint32_t kComparedByUnit = 3;  // units of a literal that are compared one by one where memory may end
+
+std::string_view upToNul(std::string_view text) { return text.substr(0, text.find('\0')); }
+
+// The first `units` UTF-16 units of a UTF-8 text.
+std::string_view firstUnits(std::string_view text, uint32_t units) {
+  size_t at = 0;
+  while (at < text.size()) {
+    const auto lead = static_cast<unsigned char>(text[at]);
+    const uint32_t width = lead >= 0xf0 ? 2 : 1;
+    if (width > units) break;
+    units -= width;
+    at += lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc0 ? 2 : 1;
+  }
+  return text.substr(0, at);
+}
+
+}  // namespace
+
+void BodyWriter::assign(const Stmt& stmt) {
+  const ExprId to{stmt.a}, from{stmt.b};
+  const TypeId type = expr(to).type;
+  const Expr& source = expr(from);
+  if (isText(type)) {
+    prepare(to);
+    prepareText(from);
+    const std::string name = captured([&] { place(to); });
+    copyText(name, capacityOf(type), isWide(type), from);
+    return;
+  }
+  if (!isAggregate(type)) {
+    prepare(to);
+    prepare(from);
+    if (isLvalue(to)) {
+      place(to);
+      out_ += " = ";
+      value(from, Prec::Ternary);
+    } else {
+      store(to, captured([&] { value(from, Prec::Ternary); }));
+    }
+    out_ += ';';
+    return;
+  }
+  prepare(to);
+  const std::string name = captured([&] { place(to); });
+  if (source.kind == ExprKind::Zero) {
+    out_ += "memset(&" + name + ", 0, sizeof " + name + ");";
+    return;
+  }
+  if (source.kind == ExprKind::Data) {
+    out_ += "memcpy(&" + name + ", ";
+    dataReference(source.a);
+    out_ += ", sizeof " + name + ");";
+    return;
+  }
+  prepare(from);
+  const std::string value_text = captured([&] { place(from); });
+  if (value_text == name) return;
+  if (types_.kind(type) == TypeKind::Record && !isImagePlace(to) && !isImagePlace(from)) {
+    out_ += name + " = " + value_text + ";";
+  } else {
+    out_ += "memmove(&" + name + ", &" + value_text + ", sizeof " + name + ");";
+  }
+}
+
+// ---- texts
+
+uint32_t BodyWriter::literalLength(const Expr& e) const {
+  const std::string_view literal = text(NameId{e.a});
+  return isWide(e.type) ? wideLength(literal) : static_cast<uint32_t>(upToNul(literal).size());
+}
+
+bool BodyWriter::isBuffer(ExprId id, uint32_t& capacity) const {
+  const Expr& e = expr(id);
+  capacity = capacityOf(e.type);
+  switch (e.kind) {
+    case ExprKind::Local: return !body_->locals[e.a].by_reference;
+    case ExprKind::Field: return !types_.info(types_.resolve(expr(ExprId{e.a}).type)).fields[e.b].by_reference;
+    case ExprKind::Index: return true;
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::Text:
+    case ExprKind::Data:
+    case ExprKind::Zero:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program:
+    case ExprKind::Image:
+    case ExprKind::Deref:
+    case ExprKind::Bits:
+    case ExprKind::Unary:
+    case ExprKind::Binary:
+    case ExprKind::Convert:
+    case ExprKind::Select:
+    case ExprKind::Call:
+    case ExprKind::Address: return false;
+  }
+  return false;
+}
+
+void BodyWriter::prepareText(ExprId from) {
+  const Expr& e = expr(from);
+  if (e.kind == ExprKind::Convert && isText(e.type)) {
+    prepareText(ExprId{e.a});
+    return;
+  }
+  prepare(from);
+}
+
+void BodyWriter::makeText(ExprId id) {
+  const Expr& e = expr(id);
+  const std::string name = newVariable(e.type, "s");
+  if (e.kind == ExprKind::Convert) {
+    copyText(name, capacityOf(e.type), isWide(e.type), id);
+  } else {  // a pure function: its text result is the last parameter
+    std::string function = captured([&] { callExpr(e); });
+    function.pop_back();
+    out_ += function + ", " + name;
+    if (module_.body(ir::BodyId{e.a}).native) {
+      out_ += ", ";
+      appendUnsigned(out_, capacityOf(e.type));
+    }
+    out_ += ");";
+  }
+  out_ += ' ';
+  made_.push_back({id.index, name});
+}
+
+void BodyWriter::copyText(std::string_view to, uint32_t capacity, bool wide, ExprId from) {
+  const Expr& e = expr(from);
+  auto begin = [&](std::string_view function, uint32_t limit) {
+    out_ += function;
+    out_ += '(';
+    out_ += to;
+    out_ += ", ";
+    appendUnsigned(out_, limit);
+    out_ += ", ";
+  };
+  switch (e.kind) {
+    case ExprKind::Zero:
+      out_ += to;
+      out_ += "[0] = 0;";
+      return;
+    case ExprKind::Text: {
+      if (isWide(e.type) != wide) break;
+      std::string_view literal = upToNul(text(NameId{e.a}));
+      literal = wide ? firstUnits(literal, capacity) : literal.substr(0, capacity);
+      if (literal.empty()) {
+        out_ += to;
+        out_ += "[0] = 0;";
+        return;
+      }
+      out_ += "memcpy(";
+      out_ += to;
+      out_ += ", ";
+      wide ? appendQuotedWide(out_, literal) : appendQuoted(out_, literal);
+      out_ += ", ";
+      appendUnsigned(out_, wide ? (uint64_t{wideLength(literal)} + 1) * 2 : literal.size() + 1);
+      out_ += ");";
+      return;
+    }
+    case ExprKind::Convert: {
+      const ExprId inner{e.a};
+      const uint32_t limit = std::min(capacity, capacityOf(e.type));
+      if (isWide(e.type) != wide) break;
+      if (isText(expr(inner).type)) {
+        copyText(to, limit, wide, inner);
+        return;
+      }
+      begin(wide ? "rung_wtext_of_scalar" : "rung_text_of_scalar", limit);
+      out_ += typeKindName(types_, expr(inner).type);
+      out_ += ", ";
+      scalarBits(inner);
+      out_ += ");";
+      return;
+    }
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::Data:
+    case ExprKind::Local:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program:
+    case ExprKind::Image:
+    case ExprKind::Field:
+    case ExprKind::Index:
+    case ExprKind::Deref:
+    case ExprKind::Bits:
+    case ExprKind::Unary:
+    case ExprKind::Binary:
+    case ExprKind::Select:
+    case ExprKind::Call:
+    case ExprKind::Address: break;
+  }
+  const std::string source = captured([&] { textValue(from); });
+  if (source == to) return;
+  uint32_t length;
+  if (isWide(e.type) != wide) {
+    begin(wide ? "rung_wtext_of_text" : "rung_text_of_wtext", capacity);
+  } else if (isBuffer(from, length) && length <= capacity && (length + 1) * (wide ? 2 : 1) <= kCopiedWhole) {
+    out_ += "memcpy(";
+    out_ += to;
+    out_ += ", " + source + ", ";
+    appendUnsigned(out_, (uint64_t{length} + 1) * (wide ? 2 : 1));
+    out_ += ");";
+    return;
+  } else {
+    begin(wide ? "rung_wtext_assign" : "rung_text_assign", capacity);
+  }
+  out_ += source + ");";
+}
+
+void BodyWriter::textValue(ExprId id) {
+  const Expr& e = expr(id);
+  const bool wide = isWide(e.type);
+  switch (e.kind) {
+    case ExprKind::Text:
+      if (wide) {
+        appendQuotedWide(out_, text(NameId{e.a}));
+      } else {
+        appendQuoted(out_, upToNul(text(NameId{e.a})));
+      }
+      return;
+    case ExprKind::Zero: out_ += wide ? "u\"\"" : "\"\""; return;
+    case ExprKind::Data:
+      out_ += wide ? "((const char16_t*)" : "((const char*)";
+      dataReference(e.a);
+      out_ += ')';
+      return;
+    case ExprKind::Convert:
+    case ExprKind::Call:
+      for (const auto& [made, name] : made_) {
+        if (made == id.index) {
+          out_ += name;
+          return;
+        }
+      }
+      if (e.kind == ExprKind::Convert) textValue(ExprId{e.a});
+      return;
+    case ExprKind::Select:
+      out_ += '(';
+      condition(ExprId{e.a}, Prec::Or);
+      out_ += wide ? " ? (const char16_t*)" : " ? (const char*)";
+      textValue(ExprId{e.b});
+      out_ += " : ";
+      textValue(ExprId{e.c});
+      out_ += ')';
+      return;
+    case ExprKind::Binary: {  // MIN, MAX
+      const std::string a = captured([&] { textValue(ExprId{e.a}); }), b = captured([&] { textValue(ExprId{e.b}); });
+      out_ += wide ? "(rung_wtext_compare(" : "(strcmp(";
+      out_ += a + ", " + b + (e.op == Op::Min ? ") < 0 ? " : ") >= 0 ? ");
+      out_ += wide ? "(const char16_t*)" : "(const char*)";
+      out_ += a + " : " + b + ")";
+      return;
+    }
+    case ExprKind::Local:
+    case ExprKind::Field:
+    case ExprKind::Index:
+    case ExprKind::Deref: place(id); return;
+    case ExprKind::Image:
+      out_ += wide ? "(char16_t*)(" : "(char*)(";
+      imageAddress(id);
+      out_ += ')';
+      return;
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program:
+    case ExprKind::Bits:
+    case ExprKind::Unary:
+    case ExprKind::Address: out_ += wide ? "u\"\"" : "\"\""; return;
+  }
+}
+
+void BodyWriter::compareTexts(const Expr& e, Prec context) {
+  const bool is_equality = e.op == Op::Eq || e.op == Op::Ne;
+  const char* op = e.op == Op::Eq   ? " == 0"
+                   : e.op == Op::Ne ? " != 0"
+                   : e.op == Op::Lt ? " < 0"
+                   : e.op == Op::Le ? " <= 0"
+                   : e.op == Op::Gt ? " > 0"
+                                    : " >= 0";
+  ExprId a{e.a}, b{e.b};
+  const bool wide = isWide(expr(a).type);
+  if (is_equality && expr(a).kind == ExprKind::Text) std::swap(a, b);
+  if (is_equality && expr(b).kind == ExprKind::Text) {
+    const uint32_t length = literalLength(expr(b));
+    const std::string literal_name = captured([&] { textValue(b); });
+    const std::string name = captured([&] { textValue(a); });
+    uint32_t capacity = 0;
+    const bool is_buffer = isBuffer(a, capacity);
+    const uint32_t bytes = (length + 1) * (wide ? 2 : 1);
+    if (length == 0) {
+      parenthesis(Prec::Equality, context);
+      out_ += name + "[0]" + op;
+      closeParenthesis(Prec::Equality, context);
+      return;
+    }
+    if (is_buffer && capacity >= length && bytes <= kComparedWhole) {
+      parenthesis(Prec::Equality, context);
+      out_ += "memcmp(" + name + ", " + literal_name + ", ";
+      appendUnsigned(out_, bytes);
+      out_ += ')';
+      out_ += op;
+      closeParenthesis(Prec::Equality, context);
+      return;
+    }
+    if (!wide && length <= kComparedByUnit) {
+      const std::string_view literal = text(NameId{expr(b).a});
+      out_ += e.op == Op::Eq ? "(" : "!(";
+      for (uint32_t i = 0; i <= length; ++i) {
+        if (i > 0) out_ += " && ";
+        out_ += name + "[";
+        appendUnsigned(out_, i);
+        out_ += "] == (char)";
+        appendUnsigned(out_, i < length ? static_cast<unsigned char>(literal[i]) : 0);
+      }
+      out_ += ')';
+      return;
+    }
+  }
+  const Prec own = is_equality ? Prec::Equality : Prec::Relation;
+  parenthesis(own, context);
+  out_ += wide ? "rung_wtext_compare(" : "strcmp(";
+  textValue(a);
+  out_ += ", ";
+  textValue(b);
+  out_ += ')';
+  out_ += op;
+  closeParenthesis(own, context);
+}
+
+// ---- constant bytes
+
+void BodyWriter::dataReference(uint32_t index) {
+  if (marks_.data[index] != group_number_) {
+    marks_.data[index] = group_number_;
+    marks_.data_number[index] = ++group_.data_count;
+    const ir::Data& data = module_.data[index];
+    std::string_view bytes(reinterpret_cast<const char*>(data.bytes.data()), data.bytes.size());
+    size_t used = bytes.size();
+    while (used > 0 && bytes[used - 1] == '\0') --used;
+    group_.data += "alignas(8) static const unsigned char data";
+    appendUnsigned(group_.data, group_.data_count);
+    group_.data += '[';
+    appendUnsigned(group_.data, bytes.size() + 1);
+    group_.data += "] = ";
+    appendQuoted(group_.data, bytes.substr(0, used));
+    group_.data += ";\n";
+  }
+  out_ += "data";
+  appendUnsigned(out_, marks_.data_number[index]);
+}
+
+}  // namespace rung::codegen

@@ -1,0 +1,378 @@
+// C++ spelling of types, constants and record headers: see types.h.
+#include "codegen/types.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+#include "codegen/names.h"
+
+namespace rung::codegen {
+
+using types::Field;
+using types::RecordKind;
+using types::TypeInfo;
+using types::TypeKind;
+using types::TypeTable;
+
+namespace {
+
+enum Shape { kI8, kI16, kI32, kI64, kU8, kU16, kU32, kU64, kF32, kF64, kPointer, kText, kWideText, kOther };
+constexpr const char* kPlainNames[] = {"int8_t",   "int16_t", "int32_t", "int64_t", "uint8_t", "uint16_t", "uint32_t",
+                                       "uint64_t", "float",   "double",  "void*",   "char",    "char16_t", "void"};
+constexpr const char* kAliasNames[] = {"rung_i8_at",  "rung_i16_at", "rung_i32_at", "rung_i64_at",     "rung_u8_at",
+                                       "rung_u16_at", "rung_u32_at", "rung_u64_at", "rung_f32_at",     "rung_f64_at",
+                                       "rung_pointer_at", "char",    "char16_t",    "void"};
+
+Shape shapeOf(const TypeTable& types, TypeId type) {
+  const TypeKind kind = types.plainKind(type);
+  if (kind == TypeKind::Real) return kF32;
+  if (kind == TypeKind::LReal) return kF64;
+  if (kind == TypeKind::Pointer || kind == TypeKind::Reference) return kPointer;
+  if (kind == TypeKind::String) return kText;
+  if (kind == TypeKind::WString) return kWideText;
+  const bool is_signed = types.isSigned(kind);
+  switch (TypeTable::bitWidth(kind)) {
+    case 1:
+    case 8: return is_signed ? kI8 : kU8;
+    case 16: return is_signed ? kI16 : kU16;
+    case 32: return is_signed ? kI32 : kU32;
+    case 64: return is_signed ? kI64 : kU64;
+    default: return kOther;
+  }
+}
+
+void appendDimensions(std::string& out, const TypeTable& types, TypeId type) {
+  for (;;) {
+    const TypeInfo& info = types.info(types.resolve(type));
+    if (info.kind == TypeKind::Array) {
+      for (const types::Dimension& dimension : info.dimensions) {
+        out += '[';
+        appendUnsigned(out, dimension.count());
+        out += ']';
+      }
+      if (info.dimensions.empty()) out += "[1]";  // ARRAY[*]: the caller knows its bounds
+      type = info.base;
+      continue;
+    }
+    if (TypeTable::isText(info.kind)) {
+      out += '[';
+      appendUnsigned(out, uint64_t{info.length} + 1);
+      out += ']';
+    }
+    return;
+  }
+}
+
+void appendBase(std::string& out, const TypeTable& types, TypeId type) {
+  const TypeId element = elementOf(types, type);
+  if (types.kind(element) == TypeKind::Record) {
+    appendRecordType(out, types, element);
+  } else {
+    out += scalarType(types, element);
+  }
+}
+
+bool isEightBytes(const TypeTable& types, TypeId type) {
+  const TypeKind kind = types.plainKind(elementOf(types, type));
+  return TypeTable::isScalar(kind) && TypeTable::bitWidth(kind) == 64;
+}
+
+template <class Float>
+void appendReal(std::string& out, Float value, const char* suffix) {
+  if (std::isnan(value)) {
+    out += sizeof value == 4 ? "__builtin_nanf(\"\")" : "__builtin_nan(\"\")";
+    return;
+  }
+  if (std::isinf(value)) {
+    if (value < 0) out += '-';
+    out += sizeof value == 4 ? "__builtin_inff()" : "__builtin_inf()";
+    return;
+  }
+  char buffer[64];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  out.append(buffer, end);
+  if (std::memchr(buffer, '.', static_cast<size_t>(end - buffer)) == nullptr &&
+      std::memchr(buffer, 'e', static_cast<size_t>(end - buffer)) == nullptr) {
+    out += ".0";
+  }
+  out += suffix;
+}
+
+const char* keyword(RecordKind kind) {
+  switch (kind) {
+    case RecordKind::Struct: return "STRUCT";
+    case RecordKind::Union: return "UNION";
+    case RecordKind::FunctionBlock: return "FUNCTION_BLOCK";
+    case RecordKind::Program: return "PROGRAM";
+    case RecordKind::GlobalList: return "VAR_GLOBAL";
+  }
+  return "";
+}
+
+// One assertion for the whole layout: size, alignment, and where fields begin; of a large record every eighth.
+void appendLayoutAssert(std::string& out, const TypeInfo& info, const std::string& name, const Names& names) {
+  out += "static_assert(sizeof(";
+  out += name;
+  out += ") == ";
+  appendUnsigned(out, info.size);
+  const size_t step = info.fields.size() > 16 ? 8 : 1;
+  for (size_t i = 0; i < info.fields.size(); ++i) {
+    if (info.fields[i].offset == 0 || (i % step != 0 && i + 1 != info.fields.size())) continue;
+    out += " && offsetof(";
+    out += name;
+    out += ", ";
+    appendMangled(out, names.text(info.fields[i].name));
+    out += ") == ";
+    appendUnsigned(out, info.fields[i].offset);
+  }
+  out += ", \"layout\");\n";
+}
+
+}  // namespace
+
+const char* scalarType(const TypeTable& types, TypeId type) { return kPlainNames[shapeOf(types, type)]; }
+const char* scalarAliasType(const TypeTable& types, TypeId type) { return kAliasNames[shapeOf(types, type)]; }
+
+const char* typeKindName(const TypeTable& types, TypeId type) {
+  switch (types.plainKind(type)) {
+    case TypeKind::Bool: return "RUNG_BOOL";
+    case TypeKind::Byte: return "RUNG_BYTE";
+    case TypeKind::Word: return "RUNG_WORD";
+    case TypeKind::DWord: return "RUNG_DWORD";
+    case TypeKind::LWord: return "RUNG_LWORD";
+    case TypeKind::SInt: return "RUNG_SINT";
+    case TypeKind::Int: return "RUNG_INT";
+    case TypeKind::DInt: return "RUNG_DINT";
+    case TypeKind::LInt: return "RUNG_LINT";
+    case TypeKind::USInt: return "RUNG_USINT";
+    case TypeKind::UInt: return "RUNG_UINT";
+    case TypeKind::UDInt: return "RUNG_UDINT";
+    case TypeKind::ULInt: return "RUNG_ULINT";
+    case TypeKind::Real: return "RUNG_REAL";
+    case TypeKind::LReal: return "RUNG_LREAL";
+    case TypeKind::Time: return "RUNG_TIME";
+    case TypeKind::LTime: return "RUNG_LTIME";
+    case TypeKind::Date: return "RUNG_DATE";
+    case TypeKind::LDate: return "RUNG_LDATE";
+    case TypeKind::TimeOfDay: return "RUNG_TOD";
+    case TypeKind::LTimeOfDay: return "RUNG_LTOD";
+    case TypeKind::DateTime: return "RUNG_DT";
+    case TypeKind::LDateTime: return "RUNG_LDT";
+    case TypeKind::Char: return "RUNG_CHAR";
+    case TypeKind::WChar: return "RUNG_WCHAR";
+    case TypeKind::String: return "RUNG_STRING";
+    case TypeKind::WString: return "RUNG_WSTRING";
+    case TypeKind::Array: return "RUNG_ARRAY";
+    case TypeKind::Record: return "RUNG_RECORD";
+    case TypeKind::None:
+    case TypeKind::Error:
+    case TypeKind::IntegerLiteral:
+    case TypeKind::RealLiteral:
+    case TypeKind::NullLiteral:
+    case TypeKind::Any:
+    case TypeKind::AnyElementary:
+    case TypeKind::AnyMagnitude:
+    case TypeKind::AnyNum:
+    case TypeKind::AnyReal:
+    case TypeKind::AnyInt:
+    case TypeKind::AnyUnsigned:
+    case TypeKind::AnySigned:
+    case TypeKind::AnyDuration:
+    case TypeKind::AnyBit:
+    case TypeKind::AnyChars:
+    case TypeKind::AnyString:
+    case TypeKind::AnyChar:
+    case TypeKind::AnyDate:
+    case TypeKind::AnyDerived:
+    case TypeKind::Enum:
+    case TypeKind::Subrange:
+    case TypeKind::Alias:
+    case TypeKind::Count_:
+    case TypeKind::Pointer:
+    case TypeKind::Reference: return "RUNG_POINTER";
+  }
+  return "RUNG_POINTER";
+}
+
+TypeId elementOf(const TypeTable& types, TypeId type) {
+  for (;;) {
+    type = types.resolve(type);
+    if (types.info(type).kind != TypeKind::Array) return type;
+    type = types.info(type).base;
+  }
+}
+
+std::string recordName(const TypeTable& types, TypeId type) {
+  const TypeInfo& info = types.info(types.resolve(type));
+  std::string name;
+  appendMangled(name, types.names().text(info.name));
+  return name += info.record_kind == RecordKind::GlobalList ? "list" : "type";
+}
+
+std::string recordFile(const TypeTable& types, TypeId type) {
+  const TypeInfo& info = types.info(types.resolve(type));
+  std::string name = fileStem(types.names().text(info.name));
+  return name += info.record_kind == RecordKind::GlobalList ? "list.h" : ".h";
+}
+
+void appendRecordType(std::string& out, const TypeTable& types, TypeId type) {
+  const TypeInfo& info = types.info(types.resolve(type));
+  out += info.record_kind == RecordKind::Union ? "union " : "struct ";
+  out += recordName(types, type);
+}
+
+void appendFunctionName(std::string& out, const ir::Module& module, const ir::Body& body) {
+  const TypeTable& types = module.types;
+  switch (body.kind) {
+    case ir::BodyKind::Function:
+      appendMangled(out, module.names.text(body.name));
+      out += "fn";
+      return;
+    case ir::BodyKind::Block:
+      appendMangled(out, module.names.text(body.name));
+      out += "body";
+      return;
+    case ir::BodyKind::Init:
+      appendMangled(out, module.names.text(body.name));
+      // A list may have the name of a POU.
+      if (types.info(types.resolve(body.self)).record_kind == RecordKind::GlobalList) out += "list_";
+      out += "init";
+      return;
+  }
+}
+
+void appendDeclaration(std::string& out, const TypeTable& types, TypeId type, std::string_view name) {
+  appendBase(out, types, type);
+  out += ' ';
+  out += name;
+  appendDimensions(out, types, type);
+}
+
+void appendPointer(std::string& out, const TypeTable& types, TypeId type, std::string_view name, bool constant) {
+  if (constant) out += "const ";
+  appendBase(out, types, type);
+  if (types.kind(type) != TypeKind::Array) {
+    out += "* ";
+    out += name;
+    return;
+  }
+  out += " (*";
+  out += name;
+  out += ')';
+  appendDimensions(out, types, type);
+}
+
+void appendConstant(std::string& out, const TypeTable& types, TypeId type, uint64_t bits) {
+  const Shape shape = shapeOf(types, type);
+  if (types.plainKind(type) == TypeKind::Bool) {
+    out += bits != 0 ? "true" : "false";
+    return;
+  }
+  double real;
+  std::memcpy(&real, &bits, sizeof real);
+  switch (shape) {
+    case kF32: appendReal(out, static_cast<float>(real), "f"); return;
+    case kF64: appendReal(out, real, ""); return;
+    case kPointer:
+      if (bits == 0) {
+        out += "nullptr";
+      } else {
+        out += "(void*)";
+        appendUnsigned(out, bits);
+        out += "u";
+      }
+      return;
+    case kI8:
+    case kI16:
+    case kU8:
+    case kU16: appendSigned(out, static_cast<int64_t>(bits)); return;
+    case kI32:
+      if (static_cast<int64_t>(bits) == INT32_MIN) {
+        out += "INT32_MIN";
+      } else {
+        appendSigned(out, static_cast<int64_t>(bits));
+      }
+      return;
+    case kI64:
+      if (static_cast<int64_t>(bits) == INT64_MIN) {
+        out += "INT64_MIN";
+      } else {
+        appendSigned(out, static_cast<int64_t>(bits));
+        out += "LL";
+      }
+      return;
+    case kU32:
+      appendUnsigned(out, bits);
+      out += 'u';
+      return;
+    case kU64:
+      appendUnsigned(out, bits);
+      out += "ULL";
+      return;
+    case kText:
+    case kWideText:
+    case kOther: out += '0'; return;
+  }
+}
+
+std::string recordHeader(const ir::Module& module, const ir::Record& record, std::string_view name_space,
+                         bool pointed) {
+  const TypeTable& types = module.types;
+  const Names& names = module.names;
+  const TypeInfo& info = types.info(types.resolve(record.type));
+  const std::string name = recordName(types, record.type);
+  std::string out = "// ";
+  out += keyword(info.record_kind);
+  out += ' ';
+  out += names.text(record.name);
+  out += "\n#pragma once\n\n#include \"rung/code.h\"\n";
+  std::vector<TypeId> held;
+  for (const Field& field : info.fields) {
+    const TypeId element = elementOf(types, field.type);
+    if (field.by_reference || types.kind(element) != TypeKind::Record) continue;
+    bool known = false;
+    for (TypeId other : held) known |= other == element;
+    if (known) continue;
+    held.push_back(element);
+    out += "#include \"";
+    out += recordFile(types, element);
+    out += "\"\n";
+  }
+  out += "\nnamespace ";
+  out += name_space;
+  out += " {\n\n";
+  out += info.record_kind == RecordKind::Union ? "union " : "struct ";
+  if (pointed) out += "RUNG_MAY_ALIAS ";
+  out += name;
+  out += " {\n";
+  std::string field_name;
+  for (const Field& field : info.fields) {
+    field_name.clear();
+    appendMangled(field_name, names.text(field.name));
+    out += "  ";
+    if (field.by_reference) {
+      appendPointer(out, types, field.type, field_name);
+    } else {
+      if (isEightBytes(types, field.type)) out += "alignas(8) ";
+      appendDeclaration(out, types, field.type, field_name);
+    }
+    out += ";\n";
+  }
+  out += "};\n";
+  appendLayoutAssert(out, info, name, names);
+  for (ir::BodyId body : {record.init, record.body}) {
+    if (!body || module.body(body).native) continue;
+    out += "void ";
+    appendFunctionName(out, module, module.body(body));
+    out += '(';
+    out += name;
+    out += "& self, rung_context* ctx);\n";
+  }
+  out += "\n}  // namespace ";
+  out += name_space;
+  out += '\n';
+  return out;
+}
+
+}  // namespace rung::codegen

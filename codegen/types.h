@@ -1,0 +1,42 @@
+// Types in C++: spelling, declarations, constants and the header of each record.
+// In: types of the type table, laid out. Out: text appended to `out`. Called by every file of codegen.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "ir/ir.h"
+
+namespace rung::codegen {
+
+// `int16_t`, `float`; pointers and references `void*`; texts `char`, `char16_t`. Not for arrays and records.
+const char* scalarType(const types::TypeTable& types, TypeId type);
+// The same for memory of any type: `rung_i16_at`.
+const char* scalarAliasType(const types::TypeTable& types, TypeId type);
+// The constant of module.h for a type: `RUNG_INT`.
+const char* typeKindName(const types::TypeTable& types, TypeId type);
+
+// `int16_t x_`, `float x_[3][4]`, `char x_[81]`, `struct Ramp_type x_`.
+void appendDeclaration(std::string& out, const types::TypeTable& types, TypeId type, std::string_view name);
+// A pointer to such a variable: `int16_t* x_`, `float (*x_)[3][4]`, `char* x_`, `struct Ramp_type* x_`.
+void appendPointer(std::string& out, const types::TypeTable& types, TypeId type, std::string_view name,
+                   bool constant = false);
+// `struct Ramp_type` or `union Ramp_type`.
+void appendRecordType(std::string& out, const types::TypeTable& types, TypeId type);
+std::string recordName(const types::TypeTable& types, TypeId type);  // `Ramp_type`, of a global list `Valves_list`
+std::string recordFile(const types::TypeTable& types, TypeId type);  // `Ramp_.h`, `Valves_list.h`
+// `Ramp_body`, `Scale_fn`, `Ramp_init`.
+void appendFunctionName(std::string& out, const ir::Module& module, const ir::Body& body);
+
+// A scalar's value, of the C++ type that scalarType names or one that it promotes from. `negative`: begins with `-`.
+void appendConstant(std::string& out, const types::TypeTable& types, TypeId type, uint64_t bits);
+
+// The record type that an array is made of, or the type itself.
+TypeId elementOf(const types::TypeTable& types, TypeId type);
+
+// The header of a record: the struct, its layout as an assertion, and what works on it.
+// `pointed`: pointers may read it as memory of another type.
+std::string recordHeader(const ir::Module& module, const ir::Record& record, std::string_view name_space,
+                         bool pointed);
+
+}  // namespace rung::codegen
