@@ -2,6 +2,8 @@
 #include "ir/passes/passes.h"
 
 #include "ir/passes/fold_constants.h"
+#include "ir/passes/propagate.h"
+#include "ir/passes/remove_checks.h"
 #include "ir/passes/remove_dead_code.h"
 #include "ir/passes/simplify_branches.h"
 
@@ -9,8 +11,10 @@ namespace rung::ir {
 
 namespace {
 constexpr Pass kBodyPasses[] = {
+    {"propagation", propagate},
     {"constants", foldConstants},
     {"branches", simplifyBranches},
+    {"checks", removeChecks},
     {"dead-code", removeDeadCode},
 };
 }  // namespace

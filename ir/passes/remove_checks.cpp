@@ -1,0 +1,501 @@
+// Range analysis: see remove_checks.h. A fact is the interval of one variable; changes of facts go to a trail, so that
+// the end of a branch takes them back, and branches that meet join what each left.
+#include "ir/passes/remove_checks.h"
+
+#include "ir/passes/interval.h"
+#include "ir/passes/support.h"
+
+namespace rung::ir {
+
+using types::Field;
+using types::RecordKind;
+using types::TypeInfo;
+using types::TypeKind;
+using types::TypeTable;
+
+namespace {
+
+constexpr uint32_t kNone = ~0u;
+
+struct Fact {
+  bool known = false;
+  uint32_t epoch = 0;  // of a field of self: valid while nothing unknown has written self since
+  Interval interval;
+};
+
+class Analysis {
+ public:
+  Analysis(Module& module, Body& body) : module_(module), types_(module.types), body_(body) {}
+
+  bool run() {
+    if (body_.has_labels || !body_.first || !hasChecks()) return false;
+    private_ = privateLocals(module_, body_);
+    self_first_ = static_cast<uint32_t>(body_.locals.size());
+    const size_t fields = body_.self ? types_.info(types_.resolve(body_.self)).fields.size() : 0;
+    facts_.assign(self_first_ + fields, {});
+    stamp_.assign(facts_.size(), 0);
+    stamp_entry_.assign(facts_.size(), 0);
+    block(body_.first);
+    return changed_;
+  }
+
+ private:
+  bool hasChecks() const {
+    for (const Expr& e : body_.exprs)
+      if ((e.checks & ~(kCheckNull | kCheckCast)) != 0) return true;
+    return false;
+  }
+
+  // ---- facts
+
+  // The number of a variable whose interval is tracked, or kNone.
+  uint32_t variable(ExprId id) const {
+    const Expr& e = body_.expr(id);
+    if (!hasInterval(types_, e.type)) return kNone;
+    if (e.kind == ExprKind::Local) return private_[e.a] ? e.a : kNone;
+    if (e.kind != ExprKind::Field || body_.expr(ExprId{e.a}).kind != ExprKind::Self) return kNone;
+    const TypeInfo& self = types_.info(types_.resolve(body_.self));
+    if (self.record_kind == RecordKind::Union || self.fields[e.b].by_reference) return kNone;
+    return self_first_ + e.b;
+  }
+  bool holds(uint32_t variable, const Fact& fact) const {
+    return fact.known && (variable < self_first_ || fact.epoch == epoch_);
+  }
+  void set(uint32_t variable, const Fact& fact) {
+    trail_.push_back({variable, facts_[variable]});
+    facts_[variable] = fact;
+    facts_[variable].epoch = epoch_;
+  }
+  void setInterval(uint32_t variable, const Interval& interval) {
+    Fact fact;
+    fact.known = true;
+    fact.interval = interval;
+    set(variable, fact);
+  }
+
+  // A place was written, or may have been.
+  void written(ExprId place) {
+    const Expr* e = &body_.expr(place);
+    uint32_t below_self = kNone;  // the field of self that the place lies in
+    bool leads_out = false;
+    while (e->kind == ExprKind::Field || e->kind == ExprKind::Index || e->kind == ExprKind::Bits) {
+      const Expr& base = body_.expr(ExprId{e->a});
+      if (e->kind == ExprKind::Field) {
+        leads_out = leads_out || types_.info(types_.resolve(base.type)).fields[e->b].by_reference;
+        below_self = e->b;
+      }
+      e = &base;
+    }
+    if (leads_out) {
+      ++epoch_;
+    } else if (e->kind == ExprKind::Local) {
+      if (private_[e->a]) set(e->a, {});
+      else if (body_.locals[e->a].by_reference) ++epoch_;
+    } else if (e->kind == ExprKind::Self && below_self != kNone &&
+               types_.info(types_.resolve(body_.self)).record_kind != RecordKind::Union) {
+      set(self_first_ + below_self, {});
+    } else if (e->kind != ExprKind::Image) {
+      ++epoch_;
+    }
+  }
+  void effectsOf(const Stmt& s) {
+    forEachWritten(module_, body_, s, [&](ExprId place) { written(place); });
+    if (s.kind == StmtKind::Call && !module_.body(BodyId{s.a}).pure) ++epoch_;
+  }
+  void effectsIn(StmtId first) {
+    forEachStmt(body_, first, [&](StmtId id) { effectsOf(body_.stmt(id)); });
+  }
+
+  // ---- branches
+
+  struct Change {
+    uint32_t variable;
+    Fact before;
+  };
+  struct Touched {  // the fact that a branch left of a variable that it touched
+    uint32_t variable;
+    uint32_t branches;
+    Fact fact;
+  };
+
+  // Walks a block whose changes are taken back; what it left is appended to touched_. Whether control leaves its end.
+  template <class Before>
+  bool branch(StmtId first, Before&& before) {
+    const size_t mark = trail_.size();
+    before();
+    const bool falls = block(first);
+    const uint32_t now = ++stamps_;
+    for (size_t i = trail_.size(); i-- > mark;) {
+      const uint32_t v = trail_[i].variable;
+      if (stamp_[v] != now) {
+        stamp_[v] = now;
+        Fact left = facts_[v];
+        left.known = holds(v, left);
+        if (falls) touched_.push_back({v, 1, left});
+      }
+    }
+    while (trail_.size() > mark) {
+      facts_[trail_.back().variable] = trail_.back().before;
+      trail_.pop_back();
+    }
+    return falls;
+  }
+  bool branch(StmtId first) {
+    return branch(first, [] {});
+  }
+
+  // Joins what `falling` branches left in touched_[mark..]; a branch that did not touch a variable left the old fact.
+  void joinBranches(size_t mark, uint32_t falling) {
+    const uint32_t now = ++stamps_;
+    size_t count = mark;
+    for (size_t i = mark; i < touched_.size(); ++i) {
+      const Touched one = touched_[i];
+      if (stamp_[one.variable] != now) {
+        stamp_[one.variable] = now;
+        stamp_entry_[one.variable] = static_cast<uint32_t>(count);
+        touched_[count++] = one;
+        continue;
+      }
+      Touched& entry = touched_[stamp_entry_[one.variable]];
+      ++entry.branches;
+      entry.fact.known = entry.fact.known && one.fact.known;
+      entry.fact.interval = join(entry.fact.interval, one.fact.interval);
+    }
+    for (size_t i = mark; i < count; ++i) {
+      Touched entry = touched_[i];
+      if (entry.branches < falling) {
+        const Fact& before = facts_[entry.variable];
+        entry.fact.known = entry.fact.known && holds(entry.variable, before);
+        entry.fact.interval = join(entry.fact.interval, before.interval);
+      }
+      set(entry.variable, entry.fact);
+    }
+    touched_.resize(mark);
+  }
+
+  // ---- statements
+
+  // Whether control leaves the end of the list. What stands behind a statement that control does not leave is dead.
+  bool block(StmtId first) {
+    for (StmtId id = first; id; id = body_.stmt(id).next)
+      if (!stmt(body_.stmt(id))) return false;
+    return true;
+  }
+
+  bool stmt(Stmt& s) {
+    switch (s.kind) {
+      case StmtKind::None:
+      case StmtKind::Label: return true;
+      case StmtKind::Break:
+      case StmtKind::Continue:
+      case StmtKind::Return:
+      case StmtKind::Jump: return false;
+      case StmtKind::Fault:
+        if (s.a != 0) value(ExprId{s.a});
+        return false;
+      case StmtKind::Assign: {
+        place(ExprId{s.a});
+        const Interval given = value(ExprId{s.b});
+        const uint32_t v = variable(ExprId{s.a});
+        if (v == kNone) {
+          written(ExprId{s.a});
+        } else {
+          const Interval both = meet(given, intervalOf(types_, body_.exprs[s.a].type, true));
+          setInterval(v, both.isEmpty() ? given : both);
+        }
+        return true;
+      }
+      case StmtKind::Bind:
+      case StmtKind::Call:
+      case StmtKind::Assert:
+      case StmtKind::Evaluate:
+        forEachRoot(module_, body_, s, [&](uint32_t& slot, Use) { value(ExprId{slot}); });
+        effectsOf(s);
+        return true;
+      case StmtKind::If: {
+        value(ExprId{s.a});
+        const size_t mark = touched_.size();
+        const bool yes = branch(StmtId{s.b}, [&] { refine(ExprId{s.a}, true); });
+        const bool no = branch(StmtId{s.c}, [&] { refine(ExprId{s.a}, false); });
+        joinBranches(mark, static_cast<uint32_t>(yes) + static_cast<uint32_t>(no));
+        return yes || no;
+      }
+      case StmtKind::Switch: return switchStmt(s);
+      case StmtKind::Loop: {
+        effectsIn(StmtId{s.a});
+        effectsIn(StmtId{s.b});
+        const size_t mark = touched_.size();
+        branch(StmtId{s.a});
+        branch(StmtId{s.b});
+        forgetTouched(mark);
+        return true;
+      }
+      case StmtKind::For: return forLoop(s);
+      case StmtKind::Try: {
+        for (uint32_t part : {s.a, s.b, s.c}) {  // each may begin anywhere in the one before
+          const size_t mark = touched_.size();
+          branch(StmtId{part});
+          touched_.resize(mark);
+          effectsIn(StmtId{part});
+          if (part == s.a && s.d != 0) {
+            place(ExprId{s.d});
+            written(ExprId{s.d});
+          }
+        }
+        return true;
+      }
+    }
+    return true;
+  }
+
+  // Behind a loop the facts are those of its head.
+  void forgetTouched(size_t mark) { touched_.resize(mark); }
+
+  bool switchStmt(Stmt& s) {
+    value(ExprId{s.a});
+    const bool is_signed = types_.isSigned(types_.plainKind(body_.exprs[s.a].type));
+    const auto bound = [&](int64_t bits) {
+      return is_signed ? Int128{bits} : Int128{static_cast<uint64_t>(bits)};
+    };
+    const size_t mark = touched_.size();
+    uint32_t falling = 0;
+    for (uint32_t i = 0; i < s.c; ++i) {
+      const Case& one = body_.cases[s.b + i];
+      falling += branch(one.block, [&] {
+        const uint32_t v = variableBehind(ExprId{s.a});
+        if (v == kNone) return;
+        Interval hull{bound(body_.ranges[one.first_range].low), bound(body_.ranges[one.first_range].high)};
+        for (uint32_t k = 1; k < one.range_count; ++k) {
+          const CaseRange& range = body_.ranges[one.first_range + k];
+          hull = join(hull, {bound(range.low), bound(range.high)});
+        }
+        narrow(v, hull);
+      });
+    }
+    falling += branch(StmtId{s.d});
+    joinBranches(mark, falling);
+    return falling > 0;
+  }
+
+  bool forLoop(Stmt& s) {
+    place(ExprId{s.a});
+    const Interval from = value(ExprId{s.b});
+    const Interval to = value(ExprId{s.c});
+    const uint32_t control = variable(ExprId{s.a});
+    const uint32_t epoch_before = epoch_;
+    // Whether the body itself writes the control variable: its fact is marked before the scan.
+    if (control != kNone) setInterval(control, from);
+    effectsIn(StmtId{s.e});
+    const bool is_kept = control != kNone && facts_[control].known &&
+                         (control < self_first_ || epoch_ == epoch_before);
+    written(ExprId{s.a});
+    const bool up = static_cast<int64_t>(body_.exprs[s.d].bits()) > 0 ||
+                    !types_.isSigned(types_.plainKind(body_.exprs[s.d].type));
+    const Interval bounds = up ? Interval{from.low, to.high} : Interval{to.low, from.high};
+    const size_t mark = touched_.size();
+    branch(StmtId{s.e}, [&] {
+      if (is_kept && !bounds.isEmpty()) narrow(control, bounds);
+    });
+    forgetTouched(mark);
+    return true;
+  }
+
+  // ---- comparisons
+
+  // The variable that an expression shows, also through conversions that keep every value.
+  uint32_t variableBehind(ExprId id) const {
+    while (body_.expr(id).kind == ExprKind::Convert) {
+      const Expr& e = body_.expr(id);
+      const ExprId inner{e.a};
+      if (!hasInterval(types_, e.type) || !hasInterval(types_, body_.expr(inner).type) ||
+          !types::isLossless(types_, body_.expr(inner).type, e.type))
+        return kNone;
+      id = inner;
+    }
+    return variable(id);
+  }
+
+  void narrow(uint32_t v, const Interval& bounds) {
+    const Interval now = current(v);
+    const Interval both = meet(now, bounds);
+    if (both.isEmpty() || both == now) return;  // empty: never reached
+    setInterval(v, both);
+  }
+  Interval current(uint32_t v) const {
+    if (holds(v, facts_[v])) return facts_[v].interval;
+    const TypeId type =
+        v < self_first_ ? body_.locals[v].type : types_.info(types_.resolve(body_.self)).fields[v - self_first_].type;
+    return intervalOf(types_, type, true);
+  }
+
+  // What the outcome of a condition says of variables.
+  void refine(ExprId condition, bool outcome) {
+    const Expr& e = body_.expr(condition);
+    if (e.kind == ExprKind::Unary && e.op == Op::Not) return refine(ExprId{e.a}, !outcome);
+    if (e.kind != ExprKind::Binary) return;
+    if ((e.op == Op::And && outcome) || (e.op == Op::Or && !outcome)) {
+      if (types_.kind(e.type) != TypeKind::Bool) return;
+      refine(ExprId{e.a}, outcome);
+      refine(ExprId{e.b}, outcome);
+      return;
+    }
+    if (!types::isComparison(e.op) || !hasInterval(types_, body_.exprs[e.a].type)) return;
+    compare(e.op, outcome, ExprId{e.a}, ExprId{e.b}, false);
+    compare(e.op, outcome, ExprId{e.b}, ExprId{e.a}, true);
+  }
+
+  // `one op other` (or `other op one` when swapped) came out as `outcome`: narrows `one`.
+  void compare(Op op, bool outcome, ExprId one, ExprId other, bool swapped) {
+    const uint32_t v = variableBehind(one);
+    if (v == kNone) return;
+    // Only asked: its checks were done before the condition had an outcome.
+    asking_ = true;
+    const Interval o = value(other);
+    asking_ = false;
+    if (!outcome) {
+      op = op == Op::Eq ? Op::Ne
+           : op == Op::Ne ? Op::Eq
+           : op == Op::Lt ? Op::Ge
+           : op == Op::Ge ? Op::Lt
+           : op == Op::Gt ? Op::Le
+                          : Op::Gt;
+    }
+    if (swapped) {
+      op = op == Op::Lt ? Op::Gt : op == Op::Gt ? Op::Lt : op == Op::Le ? Op::Ge : op == Op::Ge ? Op::Le : op;
+    }
+    const Interval now = current(v);
+    if (op == Op::Lt) narrow(v, {now.low, o.high - 1});
+    if (op == Op::Le) narrow(v, {now.low, o.high});
+    if (op == Op::Gt) narrow(v, {o.low + 1, now.high});
+    if (op == Op::Ge) narrow(v, {o.low, now.high});
+    if (op == Op::Eq) narrow(v, o);
+    if (op == Op::Ne && o.low == o.high) {
+      if (o.low == now.low) narrow(v, {now.low + 1, now.high});
+      if (o.low == now.high) narrow(v, {now.low, now.high - 1});
+    }
+  }
+
+  // ---- expressions
+
+  void clear(Expr& e, unsigned check) {
+    if (asking_ || (e.checks & check) == 0) return;
+    e.checks = static_cast<uint8_t>(e.checks & ~check);
+    changed_ = true;
+  }
+
+  // Memory that only this language writes holds a subrange's bounds; an image, a union or what a pointer names may not.
+  bool keepsBounds(ExprId id) const {
+    const Expr* e = &body_.expr(id);
+    while (e->kind == ExprKind::Field || e->kind == ExprKind::Index) {
+      const Expr& base = body_.expr(ExprId{e->a});
+      if (e->kind == ExprKind::Field && types_.info(types_.resolve(base.type)).record_kind == RecordKind::Union)
+        return false;
+      e = &base;
+    }
+    return e->kind == ExprKind::Local || e->kind == ExprKind::Self || e->kind == ExprKind::Global ||
+           e->kind == ExprKind::Program;
+  }
+
+  void place(ExprId id) { value(id); }
+
+  // The values that an expression can have; clears the checks below that it proves.
+  Interval value(ExprId id) {
+    Expr& e = body_.exprs[id.index];
+    switch (e.kind) {
+      case ExprKind::Const: {
+        if (!hasInterval(types_, e.type)) break;
+        const Int128 bits = types_.isSigned(types_.plainKind(e.type)) ? Int128{static_cast<int64_t>(e.bits())}
+                                                                      : Int128{e.bits()};
+        return {bits, bits};
+      }
+      case ExprKind::Local:
+      case ExprKind::Field: {
+        if (e.kind == ExprKind::Field) value(ExprId{e.a});
+        const uint32_t v = variable(id);
+        if (v != kNone) return current(v);
+        return intervalOf(types_, e.type, keepsBounds(id));
+      }
+      case ExprKind::Index: {
+        value(ExprId{e.a});
+        const TypeInfo& array = types_.info(types_.resolve(body_.exprs[e.a].type));
+        bool inside = array.dimensions.size() == e.c;
+        for (uint32_t i = 0; i < e.c; ++i) {
+          const Interval one = value(body_.operands[e.b + i]);
+          inside = inside && one.within({array.dimensions[i].low, array.dimensions[i].high});
+        }
+        if (inside) clear(e, kCheckIndex);
+        return intervalOf(types_, e.type, keepsBounds(id));
+      }
+      case ExprKind::Unary: {
+        const Interval a = value(ExprId{e.a});
+        if (!hasInterval(types_, e.type)) break;
+        const IntervalResult result = apply(e.op, a, {0, 0}, intervalOf(types_, e.type, false));
+        if (result.fits) clear(e, kCheckOverflow);
+        return result.interval;
+      }
+      case ExprKind::Binary: {
+        const Interval a = value(ExprId{e.a});
+        const Interval b = value(ExprId{e.b});
+        const bool integers = hasInterval(types_, body_.exprs[e.a].type) && hasInterval(types_, body_.exprs[e.b].type);
+        if (types::isComparison(e.op)) return {0, 1};
+        if (!integers || !hasInterval(types_, e.type)) break;
+        if ((e.op == Op::Div || e.op == Op::Mod) && !b.contains(0)) clear(e, kCheckDiv);
+        const IntervalResult result = apply(e.op, a, b, intervalOf(types_, e.type, false));
+        if (result.fits) clear(e, kCheckOverflow);
+        return result.interval;
+      }
+      case ExprKind::Convert: {
+        const Interval a = value(ExprId{e.a});
+        if (!hasInterval(types_, e.type)) break;
+        const Interval target = intervalOf(types_, e.type, true);
+        if (!hasInterval(types_, body_.exprs[e.a].type)) return target;
+        if (types_.plainKind(e.type) == TypeKind::Bool) break;  // <> 0
+        if (a.within(target)) {
+          clear(e, kCheckSubrange | kCheckConvert | kCheckOverflow);
+          return a;
+        }
+        return target;
+      }
+      case ExprKind::Select: {
+        value(ExprId{e.a});
+        const Interval yes = value(ExprId{e.b});
+        const Interval no = value(ExprId{e.c});
+        return join(yes, no);
+      }
+      case ExprKind::None:
+      case ExprKind::Text:
+      case ExprKind::Data:
+      case ExprKind::Zero:
+      case ExprKind::Self:
+      case ExprKind::Global:
+      case ExprKind::Program:
+      case ExprKind::Image:
+      case ExprKind::Deref:
+      case ExprKind::Bits:
+      case ExprKind::Call:
+      case ExprKind::Address:
+        forEachSlot(body_, e, [&](const uint32_t& slot) { value(ExprId{slot}); });
+        break;
+    }
+    return intervalOf(types_, e.type, false);
+  }
+
+  Module& module_;
+  const TypeTable& types_;
+  Body& body_;
+  std::vector<bool> private_;
+  std::vector<Fact> facts_;  // by variable: the locals, then the fields of self
+  std::vector<uint32_t> stamp_, stamp_entry_;
+  std::vector<Change> trail_;
+  std::vector<Touched> touched_;
+  uint32_t self_first_ = 0;
+  uint32_t epoch_ = 0, stamps_ = 0;
+  bool asking_ = false;
+  bool changed_ = false;
+};
+
+}  // namespace
+
+bool removeChecks(Module& module, Body& body) { return Analysis(module, body).run(); }
+
+}  // namespace rung::ir
