@@ -34,6 +34,8 @@ bool sameQuantity(TypeKind a, TypeKind b) {
 // The name of the function that converts, when there is one.
 std::string conversionName(const Context& context, TypeId from, TypeId to) {
   const auto word = [&](TypeId type) -> std::string {
+    const types::TypeInfo& own = context.types().info(context.types().resolve(type));
+    if (own.kind == TypeKind::Enum) return own.name ? std::string(text(context, own.name)) : std::string("ANY");
     const TypeId plain = context.types().plain(type);
     const TypeKind kind = context.types().info(plain).kind;
     if (!TypeTable::isElementary(kind)) return {};

@@ -109,7 +109,7 @@ TypeId GenericOperands::typeFor(const Context& context, TypeId declared) const {
 }
 
 GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, const Arguments& arguments,
-                              TypeId expected, TypeId forced) {
+                              TypeId expected, TypeId forced, bool checked) {
   GenericOperands out;
   const std::span<const VarId> pins = pinsOf(context, id);
   const Pou& pou = context.project.pou(id);
@@ -134,10 +134,10 @@ GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, 
     if (section == SectionKind::Output) {
       out.good &= check(context, value, {}, Access::Write) != types::kError && checkWritable(context, value, purpose);
     } else if (!TypeTable::isGeneric(context.types().info(declared).kind)) {
-      out.good &= checkAs(context, value, declared, purpose);
+      out.good &= checked ? convert(context, value, declared, purpose) : checkAs(context, value, declared, purpose);
     } else if (forced && (!result_is_generic || declared == pou.result)) {
-      out.good &= checkAs(context, value, forced, purpose);
-    } else {
+      out.good &= checked ? convert(context, value, forced, purpose) : checkAs(context, value, forced, purpose);
+    } else if (!checked) {
       const TypeId hint = declared == pou.result ? expected : TypeId{};
       out.good &= check(context, value, hint, Access::Read) != types::kError;
     }
@@ -191,7 +191,7 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   call.kind = CallKind::Function;
   bindControlPins(context, node, arguments, call);
   if (!checkRequiredPins(context, node, pou, arguments)) return node.h.type = types::kError;
-  GenericOperands operands = groupOperands(context, node, pou, arguments, expected, forced);
+  GenericOperands operands = groupOperands(context, node, pou, arguments, expected, forced, false);
   if (!operands.good) return node.h.type = types::kError;
   // A text has its largest capacity inside: one instance serves every length.
   const auto normal = [&](TypeId type) {

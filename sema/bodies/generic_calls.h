@@ -24,9 +24,9 @@ struct GenericOperands {
   TypeId typeFor(const Context& context, TypeId declared) const;
 };
 
-// `forced` (or none): the type that a typed name such as MUX_INT asks for.
+// `forced` (or none): the type that a typed name such as MUX_INT asks for. `checked`: the operands have their types.
 GenericOperands groupOperands(Context& context, const CallExpr& node, PouId pou, const Arguments& arguments,
-                              TypeId expected, TypeId forced);
+                              TypeId expected, TypeId forced, bool checked);
 
 TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expected, TypeId forced);
 

@@ -48,16 +48,20 @@ bool isTime(const Context& context, TypeId type) {
   return TypeTable::isDuration(kind) || TypeTable::isDate(kind);
 }
 
-// ADD(tod, t), MUL(t, 2): the same as the infix form. None when no time or date is among the operands.
+// ADD(tod, t), MUL(t, 2): the same as the infix form. None when no time or date is among the operands, which are then
+// all checked, or when one is left open.
 TypeId infixTimes(Context& context, ExprId& expr, const Arguments& arguments, BinaryOp op, TypeId expected,
                   TypeId forced) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
-  bool times = false;
+  bool times = false, open = false;
   std::vector<ExprId> operands;
   for (const uint32_t index : arguments.slots) {
-    if (index == 0) return {};
-    ExprId value = context.tree().list(node.arguments)[index - 1].value;
-    if (!value) return {};
+    ExprId value;
+    if (index != 0) value = context.tree().list(node.arguments)[index - 1].value;
+    if (!value) {
+      open = true;
+      continue;
+    }
     const TypeId type = check(context, value, {}, Access::Read);
     if (type == types::kError) return type;
     const bool first_only = op == BinaryOp::Multiply || op == BinaryOp::Divide;
@@ -67,12 +71,10 @@ TypeId infixTimes(Context& context, ExprId& expr, const Arguments& arguments, Bi
       }
     }
     if (!isUntyped(context, type)) times |= isTime(context, type);
-    // What is checked is not checked again: a conversion to the own type stops at it.
-    if (!isUntyped(context, type)) wrapConvert(context, value, context.tree().expr(value).type);
     context.tree().list(node.arguments)[index - 1].value = value;
     operands.push_back(value);
   }
-  if (!times || operands.size() < 2) return {};
+  if (!times || open || operands.size() < 2) return {};
   ExprId value = operands[0];
   for (size_t i = 1; i < operands.size(); ++i) {
     BinaryExpr link{};
@@ -105,13 +107,15 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
   }
   if (!checkRequiredPins(context, node, id, arguments)) return node.h.type = types::kError;
   BinaryOp infix;
+  bool checked = false;
   if (pou.operator_kind == Pou::Operator::Op && binaryOf(pou.op, infix) && infix != BinaryOp::Power &&
       arguments.en == 0 && arguments.eno == 0) {
     if (const TypeId type = infixTimes(context, expr, arguments, infix, expected, forced)) {
       return context.tree().expr(expr).type = type;
     }
+    checked = true;
   }
-  GenericOperands operands = groupOperands(context, node, id, arguments, expected, forced);
+  GenericOperands operands = groupOperands(context, node, id, arguments, expected, forced, checked);
   if (!operands.good) return node.h.type = types::kError;
   TypeId result = pou.result ? operands.typeFor(context, pou.result) : types::kError;
   if (!result) result = expected ? expected : types::kDInt;

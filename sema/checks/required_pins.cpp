@@ -24,7 +24,7 @@ bool checkRequiredPins(Context& context, const CallExpr& node, PouId id, const A
       context.report(Diag::PinNotConnected, node.h.loc, {text(context, pin.name), text(context, pou.name)})
           .note(pin.loc, Note::DeclaredHere);
       good = false;
-    } else if (by_position && pin.section == SectionKind::Input && !pin.init && !(pin.extensible && i > 0)) {
+    } else if (by_position && pin.section == SectionKind::Input && !pin.init) {
       context.report(Diag::MissingArgument, node.end ? node.end : node.h.loc,
                      {text(context, pou.name), text(context, pin.name)});
       return false;

@@ -1,0 +1,34 @@
+// A program checked for a test: source text in, diagnostics as `line:column code` out, and the checked tree as text in
+// which implicit conversions, types of literals and resolved calls can be seen. A small library stands behind it.
+#pragma once
+
+#include <string>
+
+#include "sema/project.h"
+
+namespace rung::sema_test {
+
+struct Checked {
+  explicit Checked(const std::string& source, text::Standard standard = text::Standard::Codesys);
+  // All diagnostics, one a line: `4:7 E0501`. Empty: none.
+  std::string codes() const;
+  // The same with their messages.
+  std::string messages() const;
+  // The statements of a POU: `x := REAL(i) + REAL#1;` — conversions as TYPE(…), literals as TYPE#value.
+  std::string body(const std::string& pou) const;
+
+  Sources sources;
+  Names names;
+  Tree tree;
+  Diagnostics diagnostics{sources};
+  sema::Project project;
+};
+
+// The diagnostics of statements in a program with these variables; lines count from the first statement, 1.
+std::string codesOf(const std::string& vars, const std::string& statements,
+                    text::Standard standard = text::Standard::Codesys);
+// The statements as the tree has them after the check; diagnostics instead when there are errors.
+std::string treeOf(const std::string& vars, const std::string& statements,
+                   text::Standard standard = text::Standard::Codesys);
+
+}  // namespace rung::sema_test
