@@ -1,14 +1,556 @@
 #include "frontend/text/recover.h"
 
+#include <algorithm>
+#include <array>
+#include <string>
+
 namespace rung::text {
-// thin version
-void balanceBlocks(TokenStream&, const Names&, const Sources&, FileId, Standard, Diagnostics&) {}
+namespace {
+
+// The word that closes what `open` opens, or End when it opens nothing.
+Tok closerOf(Tok open) {
+  switch (static_cast<int>(open)) {
+    case static_cast<int>(Tok::If): return Tok::EndIf;
+    case static_cast<int>(Tok::Case): return Tok::EndCase;
+    case static_cast<int>(Tok::For): return Tok::EndFor;
+    case static_cast<int>(Tok::While): return Tok::EndWhile;
+    case static_cast<int>(Tok::Repeat): return Tok::EndRepeat;
+    case static_cast<int>(Tok::Type): return Tok::EndType;
+    case static_cast<int>(Tok::Struct): return Tok::EndStruct;
+    case static_cast<int>(Tok::Union): return Tok::EndUnion;
+    case static_cast<int>(Tok::Function): return Tok::EndFunction;
+    case static_cast<int>(Tok::FunctionBlock): return Tok::EndFunctionBlock;
+    case static_cast<int>(Tok::Program): return Tok::EndProgram;
+    case static_cast<int>(Tok::Configuration): return Tok::EndConfiguration;
+    case static_cast<int>(Tok::Resource): return Tok::EndResource;
+    default: return open >= Tok::Var && open <= Tok::VarConfig ? Tok::EndVar : Tok::End;
+  }
+}
+constexpr Tok kClosers[] = {Tok::EndIf,   Tok::EndCase,   Tok::EndFor,   Tok::EndWhile,    Tok::EndRepeat,        Tok::EndType,    Tok::EndStruct,
+                            Tok::EndUnion, Tok::EndVar,    Tok::EndFunction, Tok::EndFunctionBlock, Tok::EndProgram, Tok::EndConfiguration, Tok::EndResource};
+bool isCloser(Tok k) { return std::find(std::begin(kClosers), std::end(kClosers), k) != std::end(kClosers); }
+bool isVarWord(Tok k) { return k >= Tok::Var && k <= Tok::VarConfig; }
+bool isPouOpener(Tok k) { return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program; }
+bool isPouCloser(Tok k) { return k == Tok::EndFunction || k == Tok::EndFunctionBlock || k == Tok::EndProgram; }
+bool isStatementOpener(Tok k) { return k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat; }
+
+// The words that a closer may have been opened by.
+std::span<const Tok> openersFor(Tok closer) {
+  static constexpr Tok kVars[] = {Tok::Var, Tok::VarInput, Tok::VarOutput, Tok::VarInOut, Tok::VarTemp, Tok::VarExternal, Tok::VarGlobal, Tok::VarStat, Tok::VarAccess, Tok::VarConfig};
+  static constexpr Tok kOthers[] = {Tok::If, Tok::Case, Tok::For, Tok::While, Tok::Repeat, Tok::Type, Tok::Struct, Tok::Union, Tok::Function, Tok::FunctionBlock, Tok::Program, Tok::Configuration, Tok::Resource};
+  if (closer == Tok::EndVar) return kVars;
+  for (const Tok& t : kOthers)
+    if (closerOf(t) == closer) return {&t, 1};
+  return {};
+}
+
+class Balancer {
+ public:
+  Balancer(TokenStream& stream, const Names& names, const Sources& sources, FileId file, Standard standard, Diagnostics& diagnostics)
+      : stream_(stream), tokens_(stream.tokens), names_(names), sources_(sources), standard_(standard), diagnostics_(diagnostics),
+        base_(sources.begin(file).offset), text_(sources.text(file)), count_(static_cast<uint32_t>(tokens_.size()) - kLookahead) {}
+
+  void run();
+
+ private:
+  struct Open {
+    Tok kind;
+    uint32_t index;
+    uint32_t column;
+    bool line_start;         // the first word of its line
+    bool is_chain;           // the IF of an ELSE IF
+    uint32_t suspect;        // where its END_… seems to be missing; 0: not known
+    uint32_t chain_child;    // index of the IF of an ELSE IF inside it that took its END_IF; 0: none
+    Tok connective;          // THEN, DO or OF of its header
+    uint32_t line;           // of the word; filled when needed
+  };
+  struct Orphan {  // THEN, DO or OF without the word it belongs to
+    uint32_t index, line_first, column;
+  };
+  enum class EditKind : uint8_t { Insert, Remove, Respell };
+  struct Edit {
+    uint32_t index;
+    EditKind kind;
+    Tok word;
+  };
+
+  // ---- reading tokens
+  bool atLineStart(uint32_t i) const { return (tokens_[i].flags & kLineStart) != 0; }
+  bool isProgramInstance(uint32_t i) const {
+    uint32_t n = i + 1;
+    if ((tokens_[n].kind == Tok::Retain || tokens_[n].kind == Tok::NonRetain) && isName(tokens_[n + 1].kind)) return true;
+    return isName(tokens_[n].kind) && (tokens_[n + 1].kind == Tok::With || (tokens_[n + 1].kind == Tok::Colon && in_configuration_));
+  }
+  bool isResource(uint32_t i) const { return isName(tokens_[i + 1].kind) && tokens_[i + 2].kind == Tok::On; }
+  bool opens(uint32_t i) const {
+    const Tok k = tokens_[i].kind;
+    if (k == Tok::Program) return !isProgramInstance(i);
+    if (k == Tok::Resource) return isResource(i);
+    return closerOf(k) != Tok::End;
+  }
+  // Words that begin a new region whatever stands open.
+  bool beginsRegion(uint32_t i) const {
+    const Tok k = tokens_[i].kind;
+    return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Type || k == Tok::Configuration || (k == Tok::Program && !isProgramInstance(i));
+  }
+  std::string_view textOf(uint32_t i) const {
+    const Token& t = tokens_[i];
+    const size_t length = isName(t.kind) || isTypeWord(t.kind) ? names_.text({t.value}).size() : t.value;
+    return text_.substr(t.offset, length);
+  }
+  Loc loc(uint32_t i) const { return {base_ + tokens_[i].offset}; }
+  uint32_t columnOf(uint32_t i) const {
+    uint32_t offset = tokens_[i].offset;
+    const uint32_t end = offset;
+    while (offset > 0 && text_[offset - 1] != '\n') --offset;
+    return end - offset;
+  }
+  std::string describe(uint32_t i) const {
+    if (tokens_[i].kind == Tok::End) return spelling(Tok::End);
+    return "`" + std::string(textOf(i).substr(0, 40)) + "`";
+  }
+  std::string lineOf(const Open& open) const { return std::to_string(sources_.place(loc(open.index)).line); }
+
+  // ---- the two passes over a region
+  bool balanced(size_t first_block, size_t end_block);
+  void repair(uint32_t first, uint32_t end);
+  void visit(uint32_t i);
+  void open(uint32_t i, Tok kind);
+  void close(uint32_t i, Tok closer);
+  void stray(uint32_t i, Tok closer);
+  void leaveOpen(const Open& open, uint32_t forced);
+  uint32_t findOpener(uint32_t i, Tok closer, Tok& meant);
+  bool belongs(Tok connective, Tok opener) const;
+  Loc gapBefore(uint32_t i, uint32_t& length) const;
+  void edit(uint32_t index, EditKind kind, Tok word) { edits_.push_back({index, kind, word}); }
+  void markReported(uint32_t i) { tokens_[i].flags |= kReported; }
+  void apply();
+
+  TokenStream& stream_;
+  std::vector<Token>& tokens_;
+  const Names& names_;
+  const Sources& sources_;
+  Standard standard_;
+  Diagnostics& diagnostics_;
+  uint32_t base_;
+  std::string_view text_;
+  uint32_t count_;
+  bool in_configuration_ = false;
+
+  std::vector<Open> stack_;
+  std::vector<Orphan> orphans_;
+  std::vector<Edit> edits_;
+  uint32_t region_first_ = 0, region_end_ = 0;
+  uint32_t line_first_ = 0, line_column_ = 0;
+  uint32_t pending_header_ = 0;   // index + 1 of the IF, ELSIF, FOR, WHILE, CASE or ARRAY that waits for its THEN, DO or OF
+  uint32_t decl_start_ = 0;       // first token of a line where declarations without a VAR may begin
+  uint32_t outside_start_ = 0;    // first token behind the last closed POU
+  uint32_t searches_ = 0;
+};
+
+void Balancer::run() {
+  // Regions are cut at the words that can only stand at file level, so that one POU's mistake stays in it.
+  const std::vector<uint32_t>& blocks = stream_.blocks;
+  size_t start = 0;
+  bool any = false;
+  std::vector<std::pair<uint32_t, uint32_t>> broken;
+  for (size_t b = 0; b < blocks.size();) {
+    start = b;
+    in_configuration_ = tokens_[blocks[b]].kind == Tok::Configuration;
+    ++b;
+    while (b < blocks.size() && !beginsRegion(blocks[b])) ++b;
+    if (!balanced(start, b)) {
+      const uint32_t first = start == 0 ? 0 : blocks[start];
+      const uint32_t end = b < blocks.size() ? blocks[b] : count_;
+      broken.push_back({first, end});
+      any = true;
+    }
+  }
+  if (!any) return;
+  for (const auto& [first, end] : broken) repair(first, end);
+  apply();
+}
+
+bool Balancer::balanced(size_t first_block, size_t end_block) {
+  static thread_local std::vector<Tok> stack;
+  stack.clear();
+  for (size_t b = first_block; b < end_block; ++b) {
+    const uint32_t i = stream_.blocks[b];
+    const Tok k = tokens_[i].kind;
+    if (opens(i)) {
+      // Sections hold no blocks but structures; structures hold no statements.
+      if (!stack.empty() && isVarWord(stack.back()) && k != Tok::Struct && k != Tok::Union) return false;
+      stack.push_back(k);
+    } else if (isCloser(k)) {
+      if (stack.empty() || closerOf(stack.back()) != k) return false;
+      stack.pop_back();
+    }
+  }
+  if (standard_ == Standard::Codesys && stack.size() == 1 && isPouOpener(stack.back())) return true;
+  return stack.empty();
+}
+
+void Balancer::repair(uint32_t first, uint32_t end) {
+  stack_.clear();
+  orphans_.clear();
+  region_first_ = first;
+  region_end_ = end;
+  pending_header_ = 0;
+  decl_start_ = outside_start_ = first;
+  in_configuration_ = tokens_[first].kind == Tok::Configuration;
+  line_first_ = first;
+  line_column_ = columnOf(first);
+  for (uint32_t i = first; i < end; ++i) {
+    if (atLineStart(i)) {
+      line_first_ = i;
+      line_column_ = columnOf(i);
+    }
+    visit(i);
+  }
+  while (!stack_.empty()) {
+    const Open open = stack_.back();
+    stack_.pop_back();
+    if (isPouOpener(open.kind) && standard_ == Standard::Codesys) continue;
+    leaveOpen(open, end);
+  }
+}
+
+// Where the line above token i is blank, the word that is missing stood there, or should: the gap. Else the token.
+Loc Balancer::gapBefore(uint32_t i, uint32_t& length) const {
+  length = 1;
+  if (i > 0) {
+    const Token& before = tokens_[i - 1];
+    uint32_t p = before.offset + static_cast<uint32_t>(textOf(i - 1).size());
+    while (p < tokens_[i].offset && text_[p] != '\n') ++p;
+    if (p < tokens_[i].offset) {
+      ++p;
+      const uint32_t line = p;
+      while (p < tokens_[i].offset && (text_[p] == ' ' || text_[p] == '\t')) ++p;
+      if (p < text_.size() && (text_[p] == '\n' || text_[p] == '\r')) return {base_ + (p > line ? p - 1 : p)};
+    }
+  }
+  if (tokens_[i].kind != Tok::End) {
+    length = static_cast<uint32_t>(textOf(i).size());
+    return loc(i);
+  }
+  if (i == 0) return loc(i);
+  return {base_ + tokens_[i - 1].offset + static_cast<uint32_t>(textOf(i - 1).size())};
+}
+
+void Balancer::visit(uint32_t i) {
+  const Tok k = tokens_[i].kind;
+  // A line that stands no deeper than the block it should be in: the block's end is likely to be missing before it.
+  if (i == line_first_ && !stack_.empty()) {
+    Open& top = stack_.back();
+    if (top.suspect == 0 && top.index < i && !isCloser(k) && !isPouOpener(top.kind) && top.kind != Tok::Configuration && top.kind != Tok::Resource) {
+      const bool names_something = isName(k) && (tokens_[i + 1].kind == Tok::Colon || tokens_[i + 1].kind == Tok::Comma || tokens_[i + 1].kind == Tok::At);
+      bool suspicious = false;
+      if (isVarWord(top.kind) || top.kind == Tok::Type) {
+        suspicious = (isVarWord(top.kind) && !names_something && (isName(k) || isStatementOpener(k)) &&
+                      (tokens_[i + 1].kind == Tok::Assign || tokens_[i + 1].kind == Tok::LeftParen || isStatementOpener(k) || tokens_[i + 1].kind == Tok::Dot ||
+                       tokens_[i + 1].kind == Tok::LeftBracket));
+      } else if (line_column_ <= top.column) {
+        const bool middle = ((k == Tok::Else || k == Tok::Elsif || k == Tok::Elseif) && (top.kind == Tok::If || (k == Tok::Else && top.kind == Tok::Case))) ||
+                            (k == Tok::Until && top.kind == Tok::Repeat) || k == Tok::Then || k == Tok::Do || k == Tok::Of;
+        const bool label = top.kind == Tok::Case && (k == Tok::Number || names_something || tokens_[i + 1].kind == Tok::Hash || tokens_[i + 1].kind == Tok::DotDot);
+        suspicious = top.line_start && !label && (!middle || line_column_ < top.column) &&
+                     !(k == Tok::Ident && (textOf(i)[0] | 0x20) == 'e' && nearestKeyword(textOf(i), kClosers) != Tok::End);
+      }
+      if (suspicious) top.suspect = i;
+    }
+  }
+  switch (static_cast<int>(k)) {
+    case static_cast<int>(Tok::Elsif):
+    case static_cast<int>(Tok::Elseif):
+    case static_cast<int>(Tok::Array): pending_header_ = i + 1; return;
+    case static_cast<int>(Tok::Then):
+    case static_cast<int>(Tok::Do):
+    case static_cast<int>(Tok::Of):
+      if (pending_header_ == 0) {
+        orphans_.push_back({i, line_first_, line_column_});
+      } else {
+        const uint32_t header = pending_header_ - 1;
+        if (!stack_.empty() && stack_.back().index == header) stack_.back().connective = k;
+        pending_header_ = 0;
+      }
+      return;
+    case static_cast<int>(Tok::Semicolon): pending_header_ = 0; return;
+    default: break;
+  }
+  if (isCloser(k)) return close(i, k);
+  if (opens(i)) {
+    // END IF
+    if (i > region_first_ && tokens_[i - 1].kind == Tok::EndSlip && !atLineStart(i)) {
+      const std::string written = std::string(textOf(i - 1)) + " " + std::string(textOf(i));
+      const Tok closer = closerOf(k);
+      diagnostics_.report(Diag::MisspelledKeyword, loc(i - 1), {written, spelling(closer)}).length(static_cast<uint32_t>(written.size()));
+      markReported(i);
+      edit(i - 1, EditKind::Remove, Tok::End);
+      edit(i, EditKind::Respell, closer);
+      return close(i, closer);
+    }
+    if (i > region_first_ && tokens_[i - 1].kind == k && !atLineStart(i)) {
+      diagnostics_.report(Diag::WordTwice, loc(i), {textOf(i)});
+      markReported(i);
+      edit(i, EditKind::Remove, Tok::End);
+      return;
+    }
+    return open(i, k);
+  }
+  // END_FI, ENDIF, END_FUCTION
+  if (k == Tok::Ident && (atLineStart(i) || tokens_[i - 1].kind == Tok::Semicolon)) {
+    const std::string_view word = textOf(i);
+    const Tok next = tokens_[i + 1].kind;
+    if (word.size() >= 4 && (word[0] | 0x20) == 'e' && next != Tok::Assign && next != Tok::Dot && next != Tok::Colon && next != Tok::LeftParen &&
+        next != Tok::LeftBracket && next != Tok::Comma) {
+      Tok meant = nearestKeyword(word, kClosers);
+      if (meant != Tok::End) {
+        // Of two near ones, the one that closes what is open.
+        if (!stack_.empty() && closerOf(stack_.back().kind) != meant) {
+          const Tok wanted[] = {closerOf(stack_.back().kind)};
+          if (nearestKeyword(word, wanted) != Tok::End) meant = wanted[0];
+        }
+        diagnostics_.report(Diag::MisspelledKeyword, loc(i), {word, spelling(meant)}).length(static_cast<uint32_t>(word.size()));
+        markReported(i);
+        edit(i, EditKind::Respell, meant);
+        return close(i, meant);
+      }
+    }
+  }
+}
+
+void Balancer::open(uint32_t i, Tok kind) {
+  // A section that is still open where the next one, a statement or a POU begins.
+  if (!stack_.empty() && isVarWord(stack_.back().kind) && kind != Tok::Struct && kind != Tok::Union) {
+    const Open section = stack_.back();
+    stack_.pop_back();
+    leaveOpen(section, i);
+  }
+  const bool chain = kind == Tok::If && i > region_first_ && tokens_[i - 1].kind == Tok::Else && !atLineStart(i);
+  stack_.push_back({kind, i, line_column_, i == line_first_ || chain, chain, 0, 0, Tok::End, 0});
+  if (isStatementOpener(kind) && kind != Tok::Repeat) pending_header_ = i + 1;
+  if (isPouOpener(kind)) {
+    decl_start_ = i + 1;
+    while (decl_start_ < region_end_ && !atLineStart(decl_start_)) ++decl_start_;
+  }
+}
+
+bool Balancer::belongs(Tok connective, Tok opener) const {
+  switch (static_cast<int>(opener)) {
+    case static_cast<int>(Tok::If): return connective == Tok::Then;
+    case static_cast<int>(Tok::For):
+    case static_cast<int>(Tok::While): return connective == Tok::Do;
+    case static_cast<int>(Tok::Case): return connective == Tok::Of;
+    default: return false;
+  }
+}
+
+void Balancer::close(uint32_t i, Tok closer) {
+  const bool line_start = i == line_first_;
+  // END_IF END_IF
+  if (i > region_first_ && tokens_[i - 1].kind == closer && !line_start && (stack_.empty() || stack_.back().column < line_column_ || isPouOpener(stack_.back().kind))) {
+    diagnostics_.report(Diag::WordTwice, loc(i), {textOf(i)});
+    markReported(i);
+    edit(i, EditKind::Remove, Tok::End);
+    return;
+  }
+  // The nearest block that this word closes, within the POU.
+  size_t found = stack_.size();
+  while (found > 0) {
+    const Tok k = stack_[found - 1].kind;
+    if (closerOf(k) == closer) break;
+    if (isPouOpener(k) && !isPouCloser(closer)) {
+      found = 0;
+      break;
+    }
+    --found;
+  }
+  // Where the indentation speaks for a block further out, the inner ones are open.
+  if (found > 0 && line_start && stack_[found - 1].column != line_column_ && !isPouCloser(closer)) {
+    for (size_t outer = found; outer-- > 1;) {
+      const Open& o = stack_[outer - 1];
+      if (isPouOpener(o.kind)) break;
+      if (closerOf(o.kind) == closer && o.line_start && o.column == line_column_) {
+        found = outer;
+        break;
+      }
+    }
+  }
+  const bool top_matches = !stack_.empty() && found == stack_.size();
+  if (!top_matches && !stack_.empty() && !(isPouOpener(stack_.back().kind) && !isPouCloser(closer))) {
+    Open& top = stack_.back();
+    const bool found_by_column = found > 0 && stack_[found - 1].column == line_column_;
+    const bool wrong_word = isPouOpener(top.kind) || (line_start && top.line_start && top.column == line_column_ && !found_by_column);
+    if (wrong_word && (found == 0 || !isPouOpener(top.kind))) {
+      const std::span<const Tok> openers = openersFor(closer);
+      const bool function_without_result = top.kind == Tok::Function && tokens_[top.index + 2].kind != Tok::Colon;
+      if ((isStatementOpener(top.kind) && !belongs(top.connective, top.kind) && belongs(top.connective, openers[0])) ||
+          (function_without_result && isPouCloser(closer))) {
+        diagnostics_.report(Diag::WrongWord, loc(top.index), {textOf(top.index), spelling(openers[0])});
+        markReported(top.index);
+        edit(top.index, EditKind::Respell, openers[0]);
+      } else {
+        const Tok right = closerOf(top.kind);
+        diagnostics_.report(Diag::WrongEnd, loc(i), {textOf(i), spelling(top.kind), lineOf(top), spelling(right)});
+        markReported(i);
+        edit(i, EditKind::Respell, right);
+      }
+      stack_.pop_back();
+      if (stack_.empty()) outside_start_ = i + 1;
+      return;
+    }
+  }
+  if (found == 0) return stray(i, closer);
+  while (stack_.size() > found) {
+    const Open open = stack_.back();
+    stack_.pop_back();
+    leaveOpen(open, i);
+  }
+  const Open done = stack_.back();
+  stack_.pop_back();
+  if (done.is_chain && !stack_.empty()) stack_.back().chain_child = done.index;
+  if (isVarWord(done.kind)) {
+    decl_start_ = i + 1;
+    while (decl_start_ < region_end_ && !atLineStart(decl_start_)) ++decl_start_;
+  }
+  if (stack_.empty()) outside_start_ = i + 1;
+}
+
+// A block whose end is missing. forced: the token that shows it at the latest.
+void Balancer::leaveOpen(const Open& open, uint32_t forced) {
+  const Tok closer = closerOf(open.kind);
+  if (open.chain_child != 0) {
+    const uint32_t child = open.chain_child;
+    const std::string written = std::string(textOf(child - 1)) + " " + std::string(textOf(child));
+    diagnostics_.report(Diag::ElseIf, loc(child - 1), {written}).length(tokens_[child].offset + 2 - tokens_[child - 1].offset);
+    markReported(child);
+    edit(child - 1, EditKind::Remove, Tok::End);
+    edit(child, EditKind::Respell, Tok::Elsif);
+    if (open.is_chain && !stack_.empty()) stack_.back().chain_child = open.index;
+    return;
+  }
+  const uint32_t at = open.suspect != 0 && open.suspect < forced ? open.suspect : forced;
+  uint32_t length = 1;
+  const Loc place = gapBefore(at, length);
+  diagnostics_.report(Diag::MissingEnd, place, {spelling(closer), textOf(open.index), lineOf(open)}).length(length);
+  if (at < count_) markReported(at);
+  edit(at, EditKind::Insert, closer);
+  if (isVarWord(open.kind)) decl_start_ = at;
+}
+
+// The word of an earlier line that was meant to open what `closer` closes.
+uint32_t Balancer::findOpener(uint32_t i, Tok closer, Tok& meant) {
+  if (++searches_ > 50) return 0;
+  const std::span<const Tok> openers = openersFor(closer);
+  const uint32_t low = stack_.empty() ? outside_start_ : stack_.back().index + 1;
+  for (uint32_t k = i; k-- > low;) {
+    if (tokens_[k].kind != Tok::Ident || !atLineStart(k)) continue;
+    const Tok next = tokens_[k + 1].kind;
+    if (next == Tok::Assign || next == Tok::Colon || next == Tok::Comma || next == Tok::Dot) continue;
+    meant = nearestKeyword(textOf(k), openers);
+    if (meant != Tok::End) return k + 1;
+  }
+  return 0;
+}
+
+void Balancer::stray(uint32_t i, Tok closer) {
+  Tok meant = Tok::End;
+  if (const uint32_t found = findOpener(i, closer, meant); found != 0) {
+    const uint32_t k = found - 1;
+    diagnostics_.report(Diag::MisspelledKeyword, loc(k), {textOf(k), spelling(meant)}).length(static_cast<uint32_t>(textOf(k).size()));
+    markReported(k);
+    edit(k, EditKind::Respell, meant);
+    if (stack_.empty()) outside_start_ = i + 1;
+    return;
+  }
+  const uint32_t low = stack_.empty() ? outside_start_ : stack_.back().index + 1;
+  const std::span<const Tok> openers = openersFor(closer);
+  // The header is there, its first word is not.
+  if (closer == Tok::EndIf || closer == Tok::EndFor || closer == Tok::EndWhile || closer == Tok::EndCase) {
+    const Orphan* best = nullptr;
+    for (const Orphan& o : orphans_)
+      if (o.index >= low && belongs(tokens_[o.index].kind, openers[0]) && (o.column == line_column_ || best == nullptr)) best = &o;
+    if (best != nullptr) {
+      const uint32_t at = best->line_first;
+      diagnostics_.report(Diag::MissingOpener, loc(at), {spelling(openers[0]), describe(at)}).length(static_cast<uint32_t>(textOf(at).size()));
+      markReported(at);
+      edit(at, EditKind::Insert, openers[0]);
+      orphans_.erase(orphans_.begin() + (best - orphans_.data()));
+      return;
+    }
+  }
+  uint32_t insert = 0;
+  if (closer == Tok::EndVar && decl_start_ < i && isName(tokens_[decl_start_].kind)) insert = decl_start_ + 1;
+  if (isPouCloser(closer) && stack_.empty() && outside_start_ < i) insert = outside_start_ + 1;
+  if (insert != 0) {
+    const uint32_t at = insert - 1;
+    uint32_t length = 1;
+    const Loc place = gapBefore(at, length);
+    diagnostics_.report(Diag::MissingOpener, place, {spelling(openers[0]), describe(at)}).length(length);
+    markReported(at);
+    edit(at, EditKind::Insert, openers[0]);
+    if (stack_.empty()) outside_start_ = i + 1;
+    decl_start_ = i + 1;
+    return;
+  }
+  diagnostics_.report(Diag::StrayEnd, loc(i), {textOf(i)});
+  markReported(i);
+  edit(i, EditKind::Remove, Tok::End);
+}
+
+void Balancer::apply() {
+  std::stable_sort(edits_.begin(), edits_.end(), [](const Edit& a, const Edit& b) { return a.index < b.index; });
+  std::vector<Token> out;
+  out.reserve(tokens_.size() + edits_.size());
+  size_t e = 0;
+  for (uint32_t i = 0; i < tokens_.size(); ++i) {
+    bool removed = false;
+    Tok respelled = Tok::End;
+    for (; e < edits_.size() && edits_[e].index == i; ++e) {
+      switch (edits_[e].kind) {
+        case EditKind::Insert:
+          out.push_back({tokens_[i].offset, 0, edits_[e].word, static_cast<uint8_t>(kSynthetic | (tokens_[i].flags & kLineStart)), 0});
+          break;
+        case EditKind::Remove: removed = true; break;
+        case EditKind::Respell: respelled = edits_[e].word; break;
+      }
+    }
+    if (removed) {
+      // What follows takes its place on the line.
+      if (i + 1 < tokens_.size()) tokens_[i + 1].flags |= tokens_[i].flags & (kLineStart | kPragma | kDoc | kReported);
+      continue;
+    }
+    Token token = tokens_[i];
+    if (respelled != Tok::End) {
+      token.value = static_cast<uint32_t>(textOf(i).size());
+      token.kind = respelled;
+    }
+    out.push_back(token);
+  }
+  tokens_ = std::move(out);
+}
+
+}  // namespace
+
+void balanceBlocks(TokenStream& stream, const Names& names, const Sources& sources, FileId file, Standard standard, Diagnostics& diagnostics) {
+  Balancer(stream, names, sources, file, standard, diagnostics).run();
+}
+
 Tok nearestKeyword(std::string_view written, std::span<const Tok> candidates) {
   std::vector<std::string_view> words;
+  words.reserve(candidates.size());
   for (Tok t : candidates) words.push_back(spelling(t));
-  const std::string_view found = nearest(written, words);
+  const std::string upper = [&] {
+    std::string s(written);
+    for (char& c : s)
+      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
+    return s;
+  }();
+  const std::string_view found = nearest(upper, words);
+  if (found.empty()) return Tok::End;
   for (Tok t : candidates)
     if (found == spelling(t)) return t;
   return Tok::End;
 }
+
 }  // namespace rung::text

@@ -77,7 +77,9 @@ Slice<StmtId> Parser::parseStatements(uint8_t stops) {
         if ((stops & kStopLabel) != 0 && atCaseLabel()) return listFrom(stmts_, first);
         break;
     }
+    const Token* before = t_;
     parseStatement();
+    if (t_ == before && t_->kind == before->kind && (t_->flags & kReported) == 0) advance();  // no statement stands still
   }
 }
 
@@ -168,6 +170,7 @@ void Parser::parseExprStatement() {
                (isName(third) && peek(3) == Tok::Semicolon && (t_[2].flags & kLineStart) == 0)) {
       fail(Diag::DeclarationInBody, t_);
       stmts_.push_back(tree_.add<StmtId>(ErrorStmt{header(StmtKind::Error, here())}));
+      advance();
       syncStatement();
       return;
     } else {
