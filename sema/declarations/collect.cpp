@@ -73,17 +73,8 @@ Loc locOf(Context& context, Entity found) {
   return {};
 }
 
-// Forbids an elementary type's name for anything else. Design §5.
-//   fails   FUNCTION int : INT …                       E0302
-bool isElementaryName(Context& context, NameId name, Loc loc) {
-  const TypeId type = context.types().elementary(name);
-  if (!type || types::TypeTable::isGeneric(context.types().info(type).kind)) return false;
-  context.report(Diag::ElementaryTypeName, loc, {context.names().text(name)});
-  return true;
-}
-
 void declare(Context& context, NameMap& names, NameId name, Loc loc, Entity declared) {
-  if (!name || isElementaryName(context, name, loc)) return;
+  if (!name) return;
   const NameId key = keyOf(context, name);
   if (!names.insert(key, declared)) reportTwice(context, name, loc, locOf(context, names.find(key)));
 }

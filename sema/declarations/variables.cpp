@@ -86,11 +86,6 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
     project.vars.push_back(var);
     into.push_back(id);
     if (!var.name) continue;
-    const TypeId elementary = context.types().elementary(var.name);
-    if (elementary && !types::TypeTable::isGeneric(context.types().info(elementary).kind)) {
-      context.report(Diag::ElementaryTypeName, var.loc, {context.names().text(var.name)});
-      continue;
-    }
     const NameId key = keyOf(context, var.name);
     if (!names->insert(key, entity(id))) {
       const Entity first = names->find(key);
