@@ -410,7 +410,13 @@ DeclId Parser::parseVar(SectionKind section) {
 
 void Parser::syncDeclaration(Tok end) {
   panic_ = false;
+  uint32_t structures = 0;  // their fields are no declarations of this list
   for (;; advance()) {
+    if (at(Tok::Struct) || at(Tok::Union)) ++structures;
+    if (structures > 0 && !at(Tok::End) && !at(Tok::EndType) && !at(Tok::EndVar)) {
+      if (at(Tok::EndStruct) || at(Tok::EndUnion)) --structures;
+      continue;
+    }
     if (accept(Tok::Semicolon)) return;
     if (at(end) || endsDeclarations(kind())) return;
     if (atLineStart() && beginsDeclaration(t_)) return;

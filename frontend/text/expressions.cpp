@@ -179,7 +179,8 @@ ExprId Parser::parsePrimary() {
   }
   // At a line's start the mistake is at the end of the line above.
   const Token* before = t_ - 1;
-  if ((atLineStart() || at(Tok::End)) && index() > 0 && before->kind != Tok::Semicolon)
+  const bool is_punctuation = kind() > Tok::Semicolon && kind() <= Tok::EqualLess;
+  if (((atLineStart() && !is_punctuation) || at(Tok::End)) && index() > 0 && before->kind != Tok::Semicolon)
     fail(Diag::MissingValueBehind, before, {describe(before)});
   else
     fail(Diag::MissingValue, t_, {describe(t_)});

@@ -243,10 +243,12 @@ DeclId Parser::parsePou() {
     panic_ = false;
   }
   accept(Tok::Semicolon);
-  if (!atLineStart() && !at(Tok::End) && at(Tok::RightParen)) {
-    slip(Diag::StrayParen, t_, {textOf(t_)});
+  // One token too many on the line of the header.
+  if (!atLineStart() && !at(Tok::End) && (t_[1].flags & kLineStart) != 0 && !atBlockEnd() && !atSection()) {
+    slip(Diag::StrayToken, t_, {describe(t_)});
     advance();
   }
+  declared_in_body_ = false;
   const size_t first = decls_.size();
   while (atSection() && (!at(Tok::VarGlobal) || standard_ != Standard::Codesys)) {
     const DeclId section = parseSection();

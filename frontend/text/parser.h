@@ -164,6 +164,7 @@ class Parser {
   std::vector<Token> tokens_;
   Token* t_ = nullptr;
   bool panic_ = false;
+  bool declared_in_body_ = false;  // said once for a POU
   const Token* last_error_ = nullptr;
   const Token* statement_start_ = nullptr;
   uint32_t expr_depth_ = 0, stmt_depth_ = 0;

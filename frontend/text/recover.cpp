@@ -26,6 +26,7 @@ Tok closerOf(Tok open) {
     default: return open >= Tok::Var && open <= Tok::VarConfig ? Tok::EndVar : Tok::End;
   }
 }
+
 constexpr Tok kClosers[] = {Tok::EndIf,   Tok::EndCase,   Tok::EndFor,   Tok::EndWhile,    Tok::EndRepeat,        Tok::EndType,    Tok::EndStruct,
                             Tok::EndUnion, Tok::EndVar,    Tok::EndFunction, Tok::EndFunctionBlock, Tok::EndProgram, Tok::EndConfiguration, Tok::EndResource};
 bool isCloser(Tok k) { return std::find(std::begin(kClosers), std::end(kClosers), k) != std::end(kClosers); }
@@ -79,9 +80,16 @@ class Balancer {
   bool isProgramInstance(uint32_t i) const {
     uint32_t n = i + 1;
     if ((tokens_[n].kind == Tok::Retain || tokens_[n].kind == Tok::NonRetain) && isName(tokens_[n + 1].kind)) return true;
-    return isName(tokens_[n].kind) && (tokens_[n + 1].kind == Tok::With || (tokens_[n + 1].kind == Tok::Colon && in_configuration_));
+    if (isName(tokens_[n].kind) && tokens_[n + 1].kind == Tok::With) return true;
+    if (!in_configuration_) return false;
+    // An instance ends with `;` on its line, a POU's header does not.
+    for (uint32_t k = n; k < count_ && k < n + 40 && !atLineStart(k) && !isVarWord(tokens_[k].kind); ++k)
+      if (tokens_[k].kind == Tok::Semicolon) return true;
+    return false;
   }
-  bool isResource(uint32_t i) const { return isName(tokens_[i + 1].kind) && tokens_[i + 2].kind == Tok::On; }
+  bool isResource(uint32_t i) const {
+    return isName(tokens_[i + 1].kind) && (tokens_[i + 2].kind == Tok::On || (atLineStart(i) && isName(tokens_[i + 2].kind) && !atLineStart(i + 2)));
+  }
   bool opens(uint32_t i) const {
     const Tok k = tokens_[i].kind;
     if (k == Tok::Program) return !isProgramInstance(i);
@@ -91,6 +99,7 @@ class Balancer {
   // Words that begin a new region whatever stands open.
   bool beginsRegion(uint32_t i) const {
     const Tok k = tokens_[i].kind;
+    if (!atLineStart(i) && i > 0 && !isCloser(tokens_[i - 1].kind) && tokens_[i - 1].kind != Tok::Semicolon) return false;
     return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Type || k == Tok::Configuration || (k == Tok::Program && !isProgramInstance(i));
   }
   std::string_view textOf(uint32_t i) const {
@@ -118,6 +127,10 @@ class Balancer {
   void open(uint32_t i, Tok kind);
   void close(uint32_t i, Tok closer);
   void stray(uint32_t i, Tok closer);
+  void leftOutermost(uint32_t i, Tok closer);
+  bool insideExpression(uint32_t i) const;
+  void spoil(uint32_t i);
+  void missingOpener(uint32_t at, Tok word);
   void leaveOpen(const Open& open, uint32_t forced);
   uint32_t findOpener(uint32_t i, Tok closer, Tok& meant);
   bool belongs(Tok connective, Tok opener) const;
@@ -146,6 +159,7 @@ class Balancer {
   uint32_t decl_start_ = 0;       // first token of a line where declarations without a VAR may begin
   uint32_t outside_start_ = 0;    // first token behind the last closed POU
   uint32_t searches_ = 0;
+  bool global_section_ = false;   // the last section was one of file level
 };
 
 void Balancer::run() {
@@ -179,7 +193,7 @@ bool Balancer::balanced(size_t first_block, size_t end_block) {
     const Tok k = tokens_[i].kind;
     if (opens(i)) {
       // Sections hold no blocks but structures; structures hold no statements.
-      if (!stack.empty() && isVarWord(stack.back()) && k != Tok::Struct && k != Tok::Union) return false;
+      if (!stack.empty() && (isVarWord(stack.back()) || stack.back() == Tok::Type) && k != Tok::Struct && k != Tok::Union) return false;
       stack.push_back(k);
     } else if (isCloser(k)) {
       if (stack.empty() || closerOf(stack.back()) != k) return false;
@@ -277,6 +291,7 @@ void Balancer::visit(uint32_t i) {
     case static_cast<int>(Tok::Semicolon): pending_header_ = 0; return;
     default: break;
   }
+  if ((isCloser(k) || opens(i)) && insideExpression(i)) return spoil(i);
   if (isCloser(k)) return close(i, k);
   if (opens(i)) {
     // END IF
@@ -298,8 +313,9 @@ void Balancer::visit(uint32_t i) {
     return open(i, k);
   }
   // END_FI, ENDIF, END_FUCTION
-  if (k == Tok::Ident && (atLineStart(i) || tokens_[i - 1].kind == Tok::Semicolon)) {
+  if (k == Tok::Ident && i > region_first_) {
     const std::string_view word = textOf(i);
+    if (!atLineStart(i) && tokens_[i - 1].kind != Tok::Semicolon && !(word.size() > 4 && sameIdentifier(word.substr(0, 4), "END_"))) return;
     const Tok next = tokens_[i + 1].kind;
     if (word.size() >= 4 && (word[0] | 0x20) == 'e' && next != Tok::Assign && next != Tok::Dot && next != Tok::Colon && next != Tok::LeftParen &&
         next != Tok::LeftBracket && next != Tok::Comma) {
@@ -321,14 +337,15 @@ void Balancer::visit(uint32_t i) {
 
 void Balancer::open(uint32_t i, Tok kind) {
   // A section that is still open where the next one, a statement or a POU begins.
-  if (!stack_.empty() && isVarWord(stack_.back().kind) && kind != Tok::Struct && kind != Tok::Union) {
+  if (!stack_.empty() && (isVarWord(stack_.back().kind) || stack_.back().kind == Tok::Type) && kind != Tok::Struct && kind != Tok::Union) {
     const Open section = stack_.back();
     stack_.pop_back();
     leaveOpen(section, i);
   }
   const bool chain = kind == Tok::If && i > region_first_ && tokens_[i - 1].kind == Tok::Else && !atLineStart(i);
-  stack_.push_back({kind, i, line_column_, i == line_first_ || chain, chain, 0, 0, Tok::End, 0});
+  stack_.push_back({kind, i, line_column_, i == line_first_ || chain || kind == Tok::Struct || kind == Tok::Union, chain, 0, 0, Tok::End, 0});
   if (isStatementOpener(kind) && kind != Tok::Repeat) pending_header_ = i + 1;
+  if (isVarWord(kind)) global_section_ = kind == Tok::VarGlobal || kind == Tok::VarConfig || kind == Tok::VarAccess;
   if (isPouOpener(kind)) {
     decl_start_ = i + 1;
     while (decl_start_ < region_end_ && !atLineStart(decl_start_)) ++decl_start_;
@@ -396,11 +413,19 @@ void Balancer::close(uint32_t i, Tok closer) {
         edit(i, EditKind::Respell, right);
       }
       stack_.pop_back();
-      if (stack_.empty()) outside_start_ = i + 1;
+      leftOutermost(i, closer);
       return;
     }
   }
   if (found == 0) return stray(i, closer);
+  // `END_IF` of a line whose IF is missing or misspelled must not close the blocks around it.
+  if (!top_matches && line_start && stack_[found - 1].column != line_column_ && isStatementOpener(stack_[found - 1].kind)) {
+    bool orphan = false;
+    for (const Orphan& o : orphans_)
+      orphan = orphan || (o.index > stack_.back().index && o.column == line_column_ && belongs(tokens_[o.index].kind, stack_[found - 1].kind));
+    Tok meant = Tok::End;
+    if (orphan || (stack_.back().column < line_column_ && findOpener(i, closer, meant) != 0)) return stray(i, closer);
+  }
   while (stack_.size() > found) {
     const Open open = stack_.back();
     stack_.pop_back();
@@ -413,7 +438,12 @@ void Balancer::close(uint32_t i, Tok closer) {
     decl_start_ = i + 1;
     while (decl_start_ < region_end_ && !atLineStart(decl_start_)) ++decl_start_;
   }
-  if (stack_.empty()) outside_start_ = i + 1;
+  leftOutermost(i, closer);
+}
+
+void Balancer::leftOutermost(uint32_t i, Tok closer) {
+  if (closer == Tok::EndVar && stack_.empty() && global_section_) outside_start_ = i + 1;
+  if (stack_.empty() && (isPouCloser(closer) || closer == Tok::EndType || closer == Tok::EndConfiguration)) outside_start_ = i + 1;
 }
 
 // A block whose end is missing. forced: the token that shows it at the latest.
@@ -433,7 +463,8 @@ void Balancer::leaveOpen(const Open& open, uint32_t forced) {
   uint32_t length = 1;
   const Loc place = gapBefore(at, length);
   diagnostics_.report(Diag::MissingEnd, place, {spelling(closer), textOf(open.index), lineOf(open)}).length(length);
-  if (at < count_) markReported(at);
+  markReported(at);
+  if (at == count_ && at > 0) markReported(at - 1);
   edit(at, EditKind::Insert, closer);
   if (isVarWord(open.kind)) decl_start_ = at;
 }
@@ -444,7 +475,8 @@ uint32_t Balancer::findOpener(uint32_t i, Tok closer, Tok& meant) {
   const std::span<const Tok> openers = openersFor(closer);
   const uint32_t low = stack_.empty() ? outside_start_ : stack_.back().index + 1;
   for (uint32_t k = i; k-- > low;) {
-    if (tokens_[k].kind != Tok::Ident || !atLineStart(k)) continue;
+    const bool behind_colon = (closer == Tok::EndStruct || closer == Tok::EndUnion) && k > 0 && tokens_[k - 1].kind == Tok::Colon;
+    if (tokens_[k].kind != Tok::Ident || (!atLineStart(k) && !behind_colon)) continue;
     const Tok next = tokens_[k + 1].kind;
     if (next == Tok::Assign || next == Tok::Colon || next == Tok::Comma || next == Tok::Dot) continue;
     meant = nearestKeyword(textOf(k), openers);
@@ -460,7 +492,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
     diagnostics_.report(Diag::MisspelledKeyword, loc(k), {textOf(k), spelling(meant)}).length(static_cast<uint32_t>(textOf(k).size()));
     markReported(k);
     edit(k, EditKind::Respell, meant);
-    if (stack_.empty()) outside_start_ = i + 1;
+    leftOutermost(i, closer);
     return;
   }
   const uint32_t low = stack_.empty() ? outside_start_ : stack_.back().index + 1;
@@ -472,30 +504,107 @@ void Balancer::stray(uint32_t i, Tok closer) {
       if (o.index >= low && belongs(tokens_[o.index].kind, openers[0]) && (o.column == line_column_ || best == nullptr)) best = &o;
     if (best != nullptr) {
       const uint32_t at = best->line_first;
+      orphans_.erase(orphans_.begin() + (best - orphans_.data()));
+      const Tok next = tokens_[at + 1].kind;
+      if (!atLineStart(at + 1) && (isName(next) || next == Tok::Not || next == Tok::Number || (!isName(tokens_[at].kind) && tokens_[at].kind != Tok::LeftParen && next == Tok::LeftParen))) {
+        diagnostics_.report(Diag::WrongWord, loc(at), {textOf(at), spelling(openers[0])}).length(static_cast<uint32_t>(textOf(at).size()));
+        markReported(at);
+        edit(at, EditKind::Respell, openers[0]);
+        return;
+      }
       diagnostics_.report(Diag::MissingOpener, loc(at), {spelling(openers[0]), describe(at)}).length(static_cast<uint32_t>(textOf(at).size()));
       markReported(at);
       edit(at, EditKind::Insert, openers[0]);
-      orphans_.erase(orphans_.begin() + (best - orphans_.data()));
       return;
     }
   }
+  // `name : <line end>` without STRUCT; `name ON type` without RESOURCE; the indented lines above UNTIL without REPEAT.
+  if (closer == Tok::EndStruct || closer == Tok::EndUnion || closer == Tok::EndResource || closer == Tok::EndRepeat) {
+    uint32_t at = 0;
+    uint32_t until = 0;
+    for (uint32_t k = i, steps = 0; k-- > low && at == 0 && steps < 20000; ++steps) {
+      if (closer == Tok::EndResource) {
+        if (atLineStart(k) && isName(tokens_[k].kind) && tokens_[k + 1].kind == Tok::On) at = k;
+      } else if (closer == Tok::EndRepeat) {
+        if (tokens_[k].kind == Tok::Until && until == 0) until = k;
+        if (until != 0 && k < until && atLineStart(k) && columnOf(k) <= line_column_) {
+          at = k + 1;
+          while (at < until && !atLineStart(at)) ++at;
+        }
+      } else if (tokens_[k].kind == Tok::Colon && atLineStart(k + 1)) {
+        at = k + 1;
+      }
+    }
+    if (at != 0) {
+      if (closer == Tok::EndStruct || closer == Tok::EndUnion) {
+        diagnostics_.report(Diag::MissingOpener, {loc(at - 1).offset + 1}, {spelling(openers[0]), describe(at)}).length(1);
+        markReported(at - 1);
+        edit(at, EditKind::Insert, openers[0]);
+      } else {
+        missingOpener(at, openers[0]);
+      }
+      return;
+    }
+  }
+  // Another word stands where VAR should.
+  if (closer == Tok::EndVar && decl_start_ < i && !isName(tokens_[decl_start_].kind) && atLineStart(decl_start_ + 1)) {
+    diagnostics_.report(Diag::WrongWord, loc(decl_start_), {textOf(decl_start_), "VAR"}).length(static_cast<uint32_t>(textOf(decl_start_).size()));
+    markReported(decl_start_);
+    edit(decl_start_, EditKind::Respell, Tok::Var);
+    decl_start_ = i + 1;
+    return;
+  }
   uint32_t insert = 0;
   if (closer == Tok::EndVar && decl_start_ < i && isName(tokens_[decl_start_].kind)) insert = decl_start_ + 1;
-  if (isPouCloser(closer) && stack_.empty() && outside_start_ < i) insert = outside_start_ + 1;
+  if ((isPouCloser(closer) || closer == Tok::EndConfiguration || closer == Tok::EndType) && stack_.empty() && outside_start_ < i) {
+    const uint32_t at = outside_start_;
+    if (!isName(tokens_[at].kind) && !opens(at) && (isName(tokens_[at + 1].kind) || atLineStart(at + 1))) {
+      diagnostics_.report(Diag::WrongWord, loc(at), {textOf(at), spelling(openers[0])}).length(static_cast<uint32_t>(textOf(at).size()));
+      markReported(at);
+      edit(at, EditKind::Respell, openers[0]);
+      leftOutermost(i, closer);
+      return;
+    }
+    insert = at + 1;
+  }
   if (insert != 0) {
-    const uint32_t at = insert - 1;
-    uint32_t length = 1;
-    const Loc place = gapBefore(at, length);
-    diagnostics_.report(Diag::MissingOpener, place, {spelling(openers[0]), describe(at)}).length(length);
-    markReported(at);
-    edit(at, EditKind::Insert, openers[0]);
-    if (stack_.empty()) outside_start_ = i + 1;
+    missingOpener(insert - 1, openers[0]);
+    leftOutermost(i, closer);
     decl_start_ = i + 1;
     return;
   }
   diagnostics_.report(Diag::StrayEnd, loc(i), {textOf(i)});
   markReported(i);
   edit(i, EditKind::Remove, Tok::End);
+}
+
+void Balancer::missingOpener(uint32_t at, Tok word) {
+  uint32_t length = static_cast<uint32_t>(textOf(at).size());
+  // What has its name beside it is missing on this line, the others on the blank line above.
+  const Loc place = isPouOpener(word) || word == Tok::Configuration || word == Tok::Resource ? loc(at) : gapBefore(at, length);
+  diagnostics_.report(Diag::MissingOpener, place, {spelling(word), describe(at)}).length(length);
+  markReported(at);
+  edit(at, EditKind::Insert, word);
+}
+
+// A word of blocks where only a value can stand: `x := a + IF;`, `state END_VAR INT := 0;`
+bool Balancer::insideExpression(uint32_t i) const {
+  if (atLineStart(i) || i == region_first_) return false;
+  const Tok k = tokens_[i].kind, before = tokens_[i - 1].kind, next = tokens_[i + 1].kind;
+  if (before == Tok::Dot || before == Tok::Assign || before == Tok::LeftParen || before == Tok::Comma || before == Tok::LeftBracket ||
+      (before >= Tok::Plus && before <= Tok::EqualLess) || (before >= Tok::And && before <= Tok::Mod))
+    return true;
+  if (pending_header_ != 0 && isStatementOpener(k) && before != Tok::EndSlip && before != k) return true;
+  if (isPouOpener(k) && before != Tok::Semicolon && !isCloser(before)) return true;
+  return (k == Tok::EndVar || k == Tok::EndStruct) && before != Tok::Semicolon && !isVarWord(before) && before != Tok::Struct && !atLineStart(i + 1) &&
+         next != Tok::Semicolon && !isVarWord(next);
+}
+
+// Makes the token an error that has been said.
+void Balancer::spoil(uint32_t i) {
+  diagnostics_.report(Diag::MissingValue, loc(i), {describe(i)}).length(static_cast<uint32_t>(textOf(i).size()));
+  markReported(i);
+  edit(i, EditKind::Respell, Tok::Error);
 }
 
 void Balancer::apply() {
@@ -510,6 +619,7 @@ void Balancer::apply() {
       switch (edits_[e].kind) {
         case EditKind::Insert:
           out.push_back({tokens_[i].offset, 0, edits_[e].word, static_cast<uint8_t>(kSynthetic | (tokens_[i].flags & kLineStart)), 0});
+          if (!isCloser(edits_[e].word)) tokens_[i].flags &= static_cast<uint8_t>(~kLineStart);
           break;
         case EditKind::Remove: removed = true; break;
         case EditKind::Respell: respelled = edits_[e].word; break;

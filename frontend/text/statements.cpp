@@ -134,7 +134,8 @@ void Parser::parseStatement() {
   }
   if (isName(kind()) || (isTypeWord(kind()) && peek() == Tok::LeftParen)) return parseExprStatement();
   if (atSection()) {
-    slip(Diag::DeclarationInBody, t_);
+    if (!declared_in_body_) slip(Diag::DeclarationInBody, t_);
+    declared_in_body_ = true;
     parseSection();
     return;
   }
@@ -168,7 +169,8 @@ void Parser::parseExprStatement() {
       // `a : = 5`
     } else if (isTypeWord(third) || third == Tok::Array || third == Tok::Struct ||
                (isName(third) && peek(3) == Tok::Semicolon && (t_[2].flags & kLineStart) == 0)) {
-      fail(Diag::DeclarationInBody, t_);
+      if (!declared_in_body_) fail(Diag::DeclarationInBody, t_);
+      declared_in_body_ = true;
       stmts_.push_back(tree_.add<StmtId>(ErrorStmt{header(StmtKind::Error, here())}));
       advance();
       syncStatement();
@@ -335,6 +337,15 @@ void Parser::endStatement(const Token*) {
 
 void Parser::syncStatement() {
   panic_ = false;
+  // A list without its `(`, perhaps over several lines: up to its `;`.
+  if (at(Tok::Comma)) {
+    const Token* t = t_;
+    while (t->kind != Tok::Semicolon && t->kind != Tok::End && !isReserved(t->kind) && t - t_ < 500) ++t;
+    if (t->kind == Tok::Semicolon) {
+      t_ = const_cast<Token*>(t) + 1;
+      return;
+    }
+  }
   uint32_t depth = 0;
   for (;; advance()) {
     const Tok k = kind();
