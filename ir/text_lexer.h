@@ -22,7 +22,7 @@ enum class TokenKind : uint8_t {
 
 struct Token {
   TokenKind kind = TokenKind::End;
-  bool quoted = false;      // Name: in backticks, so never a keyword
+  bool quoted = false;  // Name: in backticks, so never a keyword
   bool first_in_line = false;
   Loc loc;
   std::string_view text;  // Name, Text, String: without quotes, escapes as written

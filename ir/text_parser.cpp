@@ -56,10 +56,10 @@ class Reader {
   }
   void expected(std::string_view what);
   void fail(Diag diag, Loc loc, std::initializer_list<std::string_view> args);
-  NameId name();                    // of anything; a keyword without backticks is none
-  std::string sigilName();          // after `@`: `Color`, `Color.2`
+  NameId name();            // of anything; a keyword without backticks is none
+  std::string sigilName();  // after `@`: `Color`, `Color.2`
   std::string quotedText(TokenKind kind);
-  int64_t integer();                // with sign; up to 2^64-1 as bits
+  int64_t integer();  // with sign; up to 2^64-1 as bits
 
   // ---- items
   void findItems();
@@ -213,11 +213,16 @@ void Reader::findItems() {
 void Reader::declareType() {
   const std::string_view word = token().text;
   RecordKind kind = RecordKind::Struct;
-  if (word == "union") kind = RecordKind::Union;
-  else if (word == "block") kind = RecordKind::FunctionBlock;
-  else if (word == "program") kind = RecordKind::Program;
-  else if (word == "globals") kind = RecordKind::GlobalList;
-  else if (word != "struct" && word != "enum" && word != "subrange") return;
+  if (word == "union")
+    kind = RecordKind::Union;
+  else if (word == "block")
+    kind = RecordKind::FunctionBlock;
+  else if (word == "program")
+    kind = RecordKind::Program;
+  else if (word == "globals")
+    kind = RecordKind::GlobalList;
+  else if (word != "struct" && word != "enum" && word != "subrange")
+    return;
   ++at_;
   const Loc loc = token().loc;
   const std::string text = sigilName();
@@ -259,13 +264,19 @@ void Reader::recordFields(TypeId type_id) {
   expect("{");
   while (!failed_ && !accept("}")) {
     Field field;
-    if (accept("in")) field.role = FieldRole::Input;
-    else if (accept("out")) field.role = FieldRole::Output;
-    else if (accept("inout")) field.role = FieldRole::InOut;
-    else if (accept("var")) field.role = FieldRole::Local;
+    if (accept("in"))
+      field.role = FieldRole::Input;
+    else if (accept("out"))
+      field.role = FieldRole::Output;
+    else if (accept("inout"))
+      field.role = FieldRole::InOut;
+    else if (accept("var"))
+      field.role = FieldRole::Local;
     field.by_reference = field.role == FieldRole::InOut;
-    if (accept("ref")) field.by_reference = true;
-    else if (accept("value")) field.by_reference = false;
+    if (accept("ref"))
+      field.by_reference = true;
+    else if (accept("value"))
+      field.by_reference = false;
     field.retain = accept("retain");
     field.persistent = accept("persistent");
     field.constant = accept("constant");
@@ -313,7 +324,8 @@ void Reader::dataItem() {
   for (size_t i = 0; i + 1 < digits.size() && !failed_; i += 2) {
     uint8_t byte = 0;
     auto [end, error] = std::from_chars(digits.data() + i, digits.data() + i + 2, byte, 16);
-    if (error != std::errc() || end != digits.data() + i + 2) fail(Diag::IrExpected, loc, {"hexadecimal bytes", "this"});
+    if (error != std::errc() || end != digits.data() + i + 2)
+      fail(Diag::IrExpected, loc, {"hexadecimal bytes", "this"});
     data.bytes.push_back(byte);
   }
   if (!failed_) module_.data.push_back(std::move(data));
@@ -323,12 +335,18 @@ void Reader::task() {
   ++at_;
   Task made;
   made.name = name();
-  if (accept("cyclic")) made.kind = TaskKind::Cyclic;
-  else if (accept("freewheeling")) made.kind = TaskKind::Freewheeling;
-  else if (accept("event")) made.kind = TaskKind::Event;
-  else if (accept("status")) made.kind = TaskKind::Status;
-  else if (accept("external")) made.kind = TaskKind::External;
-  else expected("the task's kind");
+  if (accept("cyclic"))
+    made.kind = TaskKind::Cyclic;
+  else if (accept("freewheeling"))
+    made.kind = TaskKind::Freewheeling;
+  else if (accept("event"))
+    made.kind = TaskKind::Event;
+  else if (accept("status"))
+    made.kind = TaskKind::Status;
+  else if (accept("external"))
+    made.kind = TaskKind::External;
+  else
+    expected("the task's kind");
   if (accept("interval")) made.interval_ns = integer();
   if (accept("priority")) made.priority = static_cast<uint32_t>(integer());
   if (accept("trigger")) made.trigger = quotedText(TokenKind::String);
@@ -351,8 +369,10 @@ void Reader::instance() {
     const Loc loc = token().loc;
     const NameId wanted = name();
     auto found = task_by_name_.find(wanted.index);
-    if (found == task_by_name_.end()) fail(Diag::IrUnknownName, loc, {module_.names.text(wanted), "task"});
-    else made.task = found->second + 1;
+    if (found == task_by_name_.end())
+      fail(Diag::IrUnknownName, loc, {module_.names.text(wanted), "task"});
+    else
+      made.task = found->second + 1;
   }
   if (accept("resource")) made.resource = name();
   if (accept("configuration")) made.configuration = name();
@@ -384,8 +404,10 @@ void Reader::located() {
     const Loc loc = token().loc;
     const NameId wanted = name();
     auto found = program_by_name_.find(wanted.index);
-    if (found == program_by_name_.end()) fail(Diag::IrUnknownName, loc, {module_.names.text(wanted), "program"});
-    else made.owner_program = found->second + 1;
+    if (found == program_by_name_.end())
+      fail(Diag::IrUnknownName, loc, {module_.names.text(wanted), "program"});
+    else
+      made.owner_program = found->second + 1;
   }
   if (!failed_) module_.located.push_back(made);
 }
@@ -423,9 +445,12 @@ void Reader::function() {
       continue;
     }
     LocalKind kind = LocalKind::Input;
-    if (accept("out")) kind = LocalKind::Output;
-    else if (accept("inout")) kind = LocalKind::InOut;
-    else expect("in");
+    if (accept("out"))
+      kind = LocalKind::Output;
+    else if (accept("inout"))
+      kind = LocalKind::InOut;
+    else
+      expect("in");
     const NameId local = name();
     expect(":");
     const TypeId local_type = type();
@@ -658,7 +683,8 @@ void Reader::code() {
   label_by_name_.clear();
   result_ = ~0u;
   for (uint32_t i = 0; i < body.locals.size(); ++i) {
-    if (body.locals[i].kind == LocalKind::Result) result_ = i;
+    if (body.locals[i].kind == LocalKind::Result)
+      result_ = i;
     else if (!local_by_name_.emplace(body.locals[i].name.index, i).second)
       fail(Diag::IrRepeatedName, body.locals[i].loc, {module_.names.text(body.locals[i].name)});
   }
@@ -755,8 +781,8 @@ void Reader::stmt() {
     b.loc = loc;
     if (!failed_) b.tryCatch(body_block, catch_block, finally_block, number);
   } else if (accept("fault")) {
-    constexpr types::Fault kFaults[] = {types::Fault::Div,      types::Fault::Index,   types::Fault::Null,
-                                        types::Fault::Cast,     types::Fault::Subrange, types::Fault::Convert,
+    constexpr types::Fault kFaults[] = {types::Fault::Div,     types::Fault::Index,    types::Fault::Null,
+                                        types::Fault::Cast,    types::Fault::Subrange, types::Fault::Convert,
                                         types::Fault::Overflow};
     auto kind = types::Fault::None;
     for (types::Fault one : kFaults)
@@ -770,7 +796,7 @@ void Reader::stmt() {
     }
     if (!failed_) b.fault(kind, value);
   } else if (isWord("assert") || isWord("assert_eq") || isWord("assert_near")) {
-    const auto what = isWord("assert") ? Assertion::Assert
+    const auto what = isWord("assert")      ? Assertion::Assert
                       : isWord("assert_eq") ? Assertion::AssertEq
                                             : Assertion::AssertNear;
     ++at_;
@@ -959,8 +985,7 @@ ExprId Reader::primary(TypeId wanted) {
     const Loc loc = token().loc;
     const NameId id = name();
     auto found = temp_by_name_.find(id.index);
-    if (!failed_ && found == temp_by_name_.end())
-      fail(Diag::IrUnknownName, loc, {module_.names.text(id), "temp"});
+    if (!failed_ && found == temp_by_name_.end()) fail(Diag::IrUnknownName, loc, {module_.names.text(id), "temp"});
     return failed_ ? ExprId{} : postfix(b.localPlace(found->second));
   }
   if (token().kind == TokenKind::Number || token().kind == TokenKind::Text || isPunct("-")) return literal(wanted);

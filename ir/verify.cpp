@@ -39,7 +39,7 @@
 //   24  Switch: an integer, bit string or enumeration as selector; ranges in the selector's order, low <= high, no
 //       value twice.
 //   25  For: an integer control place without checks; from, to and step of its plain type; step a Const other than 0.
-//   26  Break and continue stand in a loop and not in its `next` block.
+//   26  Break and continue stand in a loop, continue not in its `next` block.
 //   27  A label is placed exactly once, in the block of each jump to it or in one around that; labels have distinct
 //       names; a body with labels says so (`has_labels`).
 //   28  Fault: one of the faults. Try: its number goes to an integer place.
@@ -49,7 +49,7 @@
 #include "ir/verify.h"
 
 #include <algorithm>
-#include <unordered_map>
+#include <type_traits>
 #include <unordered_set>
 
 #include "ir/builder.h"
@@ -79,7 +79,17 @@ class Verifier {
   void checkBody(const Body& body);
 
  private:
-  bool require(bool holds, int rule, std::string_view what);
+  // `what` is a text, or gives one: texts are put together only when a rule is broken.
+  template <class Text>
+  bool require(bool holds, int rule, const Text& what) {
+    if (holds) return true;
+    if constexpr (std::is_invocable_v<Text>)
+      report(rule, what());
+    else
+      report(rule, what);
+    return false;
+  }
+  void report(int rule, std::string_view what);
   std::string spell(TypeId type) const { return types_.spell(type); }
 
   void checkRecordOrder();
@@ -100,7 +110,7 @@ class Verifier {
   TypeKind plainOf(uint32_t id) const { return types_.plainKind(typeOf(id)); }
   void wantType(const Expr& e, TypeId type, int rule) {
     require(e.type == types_.resolve(type), rule,
-            "the node is " + spell(e.type) + ", what it names is " + spell(types_.resolve(type)));
+            [&] { return "the node is " + spell(e.type) + ", what it names is " + spell(types_.resolve(type)); });
   }
   void allowChecks(const Expr& e, unsigned allowed, int rule) {
     require((e.checks & ~allowed) == 0, rule, "a check that this node cannot have");
@@ -119,12 +129,10 @@ class Verifier {
   bool found_fault_ = false, found_effect_ = false;
 };
 
-bool Verifier::require(bool holds, int rule, std::string_view what) {
-  if (holds) return true;
+void Verifier::report(int rule, std::string_view what) {
   std::string line = "[" + std::to_string(rule) + "] ";
   if (body_ != nullptr) line += "body `" + std::string(module_.names.text(body_->name)) + "`: ";
   problems.push_back(line + std::string(what));
-  return false;
 }
 
 // ---- module
@@ -133,11 +141,9 @@ void Verifier::checkModule() {
   std::unordered_set<uint32_t> seen;
   auto unique = [&](NameId name, std::string_view what) {
     require(seen.insert(name.index).second, 1,
-            std::string(what) + " `" + std::string(module_.names.text(name)) + "` stands twice");
+            [&] { return std::string(what) + " `" + std::string(module_.names.text(name)) + "` stands twice"; });
   };
-  auto isRecord = [&](TypeId type) {
-    return type.index < types_.count() && types_.kind(type) == TypeKind::Record;
-  };
+  auto isRecord = [&](TypeId type) { return type.index < types_.count() && types_.kind(type) == TypeKind::Record; };
   auto isBodyOf = [&](BodyId id, BodyKind kind, TypeId record) {
     if (!id) return true;
     if (id.index >= module_.bodies.size()) return false;
@@ -180,7 +186,7 @@ void Verifier::checkModule() {
   checkRecordOrder();
   for (const Data& data : module_.data)
     require(known(data.type) && types_.info(types_.resolve(data.type)).size == data.bytes.size(), 4,
-            "data of another size than its type " + spell(data.type));
+            [&] { return "data of another size than its type " + spell(data.type); });
 }
 
 void Verifier::checkRecordOrder() {
@@ -193,7 +199,8 @@ void Verifier::checkRecordOrder() {
       if (field.by_reference) continue;
       TypeId held = types_.resolve(field.type);
       while (types_.info(held).kind == TypeKind::Array) held = types_.resolve(types_.info(held).base);
-      require(!later[held.index], 3, spell(record.type) + " holds " + spell(held) + ", which does not stand before it");
+      require(!later[held.index], 3,
+              [&] { return spell(record.type) + " holds " + spell(held) + ", which does not stand before it"; });
     }
     later[types_.resolve(record.type).index] = false;
   }
@@ -202,9 +209,9 @@ void Verifier::checkRecordOrder() {
 bool Verifier::known(TypeId type) {
   if (!require(type && type.index < types_.count(), 6, "a type that does not exist")) return false;
   const TypeKind kind = types_.info(type).kind;
-  return require(TypeTable::isElementary(kind) || (kind >= TypeKind::Enum && kind != TypeKind::Alias &&
-                                                   kind != TypeKind::Count_),
-                 6, spell(type) + " is no type of the IR");
+  return require(
+      TypeTable::isElementary(kind) || (kind >= TypeKind::Enum && kind != TypeKind::Alias && kind != TypeKind::Count_),
+      6, [&] { return spell(type) + " is no type of the IR"; });
 }
 
 // ---- body
@@ -249,10 +256,11 @@ void Verifier::locals() {
               "by_reference of a local does not follow from its kind and type");
     if (local.kind == LocalKind::Result) {
       ++results;
-      require(body_->result && types_.resolve(body_->result) == local.type, 7, "the result local is not of the result type");
+      require(body_->result && types_.resolve(body_->result) == local.type, 7,
+              "the result local is not of the result type");
     } else {
       require((local.kind == LocalKind::Temp ? temps : names).insert(local.name.index).second, 7,
-              "two locals are named `" + std::string(module_.names.text(local.name)) + "`");
+              [&] { return "two locals are named `" + std::string(module_.names.text(local.name)) + "`"; });
     }
     if (body_->kind != BodyKind::Function)
       require(local.kind == LocalKind::Temp || local.kind == LocalKind::Variable, 7, "parameters in a body without");
@@ -288,7 +296,8 @@ void Verifier::stmt(StmtId id) {
     case StmtKind::Assign: {
       if (!place(s.a, 20) | !value(s.b)) return;
       const Expr& root = body_->expr(rootOf(*body_, ExprId{s.a}));
-      require(fits(typeOf(s.a), typeOf(s.b)), 20, spell(typeOf(s.b)) + " is assigned to " + spell(typeOf(s.a)));
+      require(fits(typeOf(s.a), typeOf(s.b)), 20,
+              [&] { return spell(typeOf(s.b)) + " is assigned to " + spell(typeOf(s.a)); });
       if (root.kind == ExprKind::Local && root.a < body_->locals.size()) {
         const Local& local = body_->locals[root.a];
         require(!(local.by_reference && local.kind == LocalKind::Input), 20, "a by-reference input is assigned");
@@ -328,10 +337,9 @@ void Verifier::stmt(StmtId id) {
     case StmtKind::For: {
       if (place(s.a, 25)) {
         const TypeKind control = plainOf(s.a);
-        require(isIntegral(control), 25, "a FOR over " + spell(typeOf(s.a)));
-        forEachExpr(*body_, ExprId{s.a}, [&](ExprId part) {
-          require(body_->expr(part).checks == 0, 25, "a check in a FOR control place");
-        });
+        require(isIntegral(control), 25, [&] { return "a FOR over " + spell(typeOf(s.a)); });
+        forEachExpr(*body_, ExprId{s.a},
+                    [&](ExprId part) { require(body_->expr(part).checks == 0, 25, "a check in a FOR control place"); });
         for (uint32_t bound : {s.b, s.c, s.d})
           if (value(bound)) require(plainOf(bound) == control, 25, "a FOR bound of another type than its control");
         if (s.d < body_->exprs.size())
@@ -347,8 +355,8 @@ void Verifier::stmt(StmtId id) {
       --loops_;
       return;
     }
-    case StmtKind::Break:
-    case StmtKind::Continue: require(loops_ > 0 && !in_next_, 26, "break or continue outside of a loop"); return;
+    case StmtKind::Break: require(loops_ > 0, 26, "break outside of a loop"); return;
+    case StmtKind::Continue: require(loops_ > 0 && !in_next_, 26, "continue outside of a loop"); return;
     case StmtKind::Return: return;
     case StmtKind::Jump:
       if (require(s.a < body_->labels.size(), 27, "a jump to no label")) jumps_.push_back({s.a, open_blocks_});
@@ -387,9 +395,10 @@ void Verifier::stmt(StmtId id) {
 void Verifier::callOperands(const Body& callee, uint32_t first, uint32_t count, int rule, bool pure) {
   uint32_t parameters = 0;
   for (const Local& local : callee.locals) parameters += isParameter(local);
-  if (!require(parameters == count && first + count <= body_->operands.size(), rule,
-               "a call of `" + std::string(module_.names.text(callee.name)) + "` with " + std::to_string(count) +
-                   " operands for " + std::to_string(parameters) + " parameters"))
+  if (!require(parameters == count && first + count <= body_->operands.size(), rule, [&] {
+        return "a call of `" + std::string(module_.names.text(callee.name)) + "` with " + std::to_string(count) +
+               " operands for " + std::to_string(parameters) + " parameters";
+      }))
     return;
   uint32_t i = first;
   for (const Local& local : callee.locals) {
@@ -412,7 +421,7 @@ void Verifier::callOperands(const Body& callee, uint32_t first, uint32_t count, 
     const bool open_array = types_.kind(wanted) == TypeKind::Array && types_.info(wanted).dimensions.empty() &&
                             types_.kind(given) == TypeKind::Array;
     require((is_value ? fits(wanted, given) : wanted == given) || same_text || open_array, rule,
-            spell(given) + " is given to a parameter of " + spell(wanted));
+            [&] { return spell(given) + " is given to a parameter of " + spell(wanted); });
   }
 }
 
@@ -421,9 +430,10 @@ void Verifier::callStmt(const Stmt& s) {
   const Body& callee = module_.bodies[s.a];
   if (callee.may_fault) found_fault_ = true;
   if (!callee.pure) found_effect_ = true;
-  if (require((s.b != 0) == static_cast<bool>(callee.self), 22, "a call with a self that its callee has not, or without") &&
+  if (require((s.b != 0) == static_cast<bool>(callee.self), 22,
+              "a call with a self that its callee has not, or without") &&
       s.b != 0 && place(s.b, 22))
-    require(typeOf(s.b) == types_.resolve(callee.self), 22, "a call on " + spell(typeOf(s.b)));
+    require(typeOf(s.b) == types_.resolve(callee.self), 22, [&] { return "a call on " + spell(typeOf(s.b)); });
   callOperands(callee, s.c, s.d, 22, false);
   if (s.e != 0 && place(s.e, 22))
     require(callee.result && fits(typeOf(s.e), types_.resolve(callee.result)), 22,
@@ -433,7 +443,7 @@ void Verifier::callStmt(const Stmt& s) {
 void Verifier::switchStmt(const Stmt& s) {
   if (!value(s.a)) return;
   const TypeKind kind = plainOf(s.a);
-  require(isIntegral(kind), 24, "a switch over " + spell(typeOf(s.a)));
+  require(isIntegral(kind), 24, [&] { return "a switch over " + spell(typeOf(s.a)); });
   const bool is_signed = types_.isSigned(kind);
   auto less = [&](int64_t a, int64_t b) {
     return is_signed ? a < b : static_cast<uint64_t>(a) < static_cast<uint64_t>(b);
@@ -451,8 +461,7 @@ void Verifier::switchStmt(const Stmt& s) {
     }
   }
   std::sort(all.begin(), all.end(), [&](const CaseRange& a, const CaseRange& b) { return less(a.low, b.low); });
-  for (size_t i = 1; i < all.size(); ++i)
-    require(less(all[i - 1].high, all[i].low), 24, "a value in two cases");
+  for (size_t i = 1; i < all.size(); ++i) require(less(all[i - 1].high, all[i].low), 24, "a value in two cases");
   for (uint32_t i = 0; i < s.c; ++i) block(body_->cases[s.b + i].block);
   block(StmtId{s.d});
 }
@@ -481,7 +490,8 @@ bool Verifier::value(uint32_t id) {
 
 void Verifier::constant(const Expr& e) {
   const TypeKind kind = types_.plainKind(e.type);
-  if (!require(TypeTable::isScalar(kind) || isPointer(kind), 9, "a constant of " + spell(e.type))) return;
+  if (!require(TypeTable::isScalar(kind) || isPointer(kind), 9, [&] { return "a constant of " + spell(e.type); }))
+    return;
   if (TypeTable::isReal(kind)) {
     const double real = types::Value{e.type, e.bits()}.asReal();
     require(kind != TypeKind::Real || real != real || static_cast<double>(static_cast<float>(real)) == real, 9,
@@ -494,7 +504,7 @@ void Verifier::constant(const Expr& e) {
   const uint64_t extended = types_.isSigned(kind)
                                 ? static_cast<uint64_t>(static_cast<int64_t>(e.bits() << shift) >> shift)
                                 : e.bits() << shift >> shift;
-  require(extended == e.bits(), 9, "a constant whose bits do not fit " + spell(e.type));
+  require(extended == e.bits(), 9, [&] { return "a constant whose bits do not fit " + spell(e.type); });
 }
 
 void Verifier::node(const Expr& e) {
@@ -502,11 +512,13 @@ void Verifier::node(const Expr& e) {
   switch (e.kind) {
     case ExprKind::None: require(false, 5, "an expression without kind"); return;
     case ExprKind::Const: constant(e); break;
-    case ExprKind::Text: require(TypeTable::isText(types_.kind(e.type)), 9, "a text of " + spell(e.type)); break;
+    case ExprKind::Text:
+      require(TypeTable::isText(types_.kind(e.type)), 9, [&] { return "a text of " + spell(e.type); });
+      break;
     case ExprKind::Data:
       if (require(e.a < module_.data.size(), 9, "data that does not exist")) wantType(e, module_.data[e.a].type, 9);
       break;
-    case ExprKind::Zero: require(isAggregate(types_, e.type), 9, "zero of " + spell(e.type)); break;
+    case ExprKind::Zero: require(isAggregate(types_, e.type), 9, [&] { return "zero of " + spell(e.type); }); break;
     case ExprKind::Local:
       if (require(e.a < body_->locals.size(), 10, "a local that does not exist"))
         wantType(e, body_->locals[e.a].type, 10);
@@ -526,7 +538,8 @@ void Verifier::node(const Expr& e) {
       if (!require(e.a < 3, 10, "an image area that does not exist")) return;
       const uint64_t size = e.c == kNoBit ? types_.info(e.type).size : 1;
       require(e.b + size <= module_.image_bytes[e.a], 10, "an image view outside of its area");
-      if (e.c != kNoBit) require(e.c < 8 && types_.plainKind(e.type) == TypeKind::Bool, 10, "an image bit that is none");
+      if (e.c != kNoBit)
+        require(e.c < 8 && types_.plainKind(e.type) == TypeKind::Bool, 10, "an image bit that is none");
       break;
     }
     case ExprKind::Field: {
@@ -540,7 +553,8 @@ void Verifier::node(const Expr& e) {
     case ExprKind::Index: {
       const TypeInfo& info = types_.info(typeOf(e.a));
       if (!base(12) || !require(info.kind == TypeKind::Array, 12, "an index into no array")) return;
-      require(info.dimensions.empty() || info.dimensions.size() == e.c, 12, "another number of indices than dimensions");
+      require(info.dimensions.empty() || info.dimensions.size() == e.c, 12,
+              "another number of indices than dimensions");
       for (uint32_t i = 0; i < e.c; ++i)
         require(isIntegral(plainOf(body_->operands[e.b + i].index)), 12, "an index that is no integer");
       wantType(e, info.base, 12);
@@ -556,11 +570,11 @@ void Verifier::node(const Expr& e) {
     }
     case ExprKind::Bits: {
       const TypeKind kind = plainOf(e.a), part = types_.kind(e.type);
-      if (!base(14) || !require(isIntegral(kind), 14, "a part of " + spell(typeOf(e.a)))) return;
-      const bool is_part = part == TypeKind::Bool || part == TypeKind::Byte || part == TypeKind::Word ||
-                           part == TypeKind::DWord;
+      if (!base(14) || !require(isIntegral(kind), 14, [&] { return "a part of " + spell(typeOf(e.a)); })) return;
+      const bool is_part =
+          part == TypeKind::Bool || part == TypeKind::Byte || part == TypeKind::Word || part == TypeKind::DWord;
       require(is_part && (uint64_t{e.b} + 1) * TypeTable::bitWidth(part) <= TypeTable::bitWidth(kind), 14,
-              "a part outside of " + spell(typeOf(e.a)));
+              [&] { return "a part outside of " + spell(typeOf(e.a)); });
       break;
     }
     case ExprKind::Unary:
@@ -570,7 +584,7 @@ void Verifier::node(const Expr& e) {
       require((TypeTable::isScalar(from) && TypeTable::isScalar(to)) ||
                   (TypeTable::isText(from) && TypeTable::isText(to)) ||
                   ((isPointer(from) || isIntegral(from)) && isPointer(to)) || (isPointer(from) && isIntegral(to)),
-              16, "a conversion of " + spell(typeOf(e.a)) + " to " + spell(e.type));
+              16, [&] { return "a conversion of " + spell(typeOf(e.a)) + " to " + spell(e.type); });
       allowChecks(e, kCheckSubrange | kCheckConvert | kCheckOverflow, 16);
       return;
     }
@@ -581,8 +595,9 @@ void Verifier::node(const Expr& e) {
     case ExprKind::Call: {
       if (!require(e.a != 0 && e.a < module_.bodies.size(), 18, "a call of no body")) return;
       const Body& callee = module_.bodies[e.a];
-      require(callee.pure && !callee.may_fault && callee.kind == BodyKind::Function && callee.result, 18,
-              "`" + std::string(module_.names.text(callee.name)) + "` is called in an expression and is not pure");
+      require(callee.pure && !callee.may_fault && callee.kind == BodyKind::Function && callee.result, 18, [&] {
+        return "`" + std::string(module_.names.text(callee.name)) + "` is called in an expression and is not pure";
+      });
       if (callee.result) wantType(e, callee.result, 18);
       for (const Local& local : callee.locals)
         if (isParameter(local)) require(local.kind == LocalKind::Input, 18, "a call in an expression with an output");
@@ -591,7 +606,7 @@ void Verifier::node(const Expr& e) {
     }
     case ExprKind::Address: {
       const Expr& place_expr = body_->exprs[e.a];
-      require(isPointer(types_.kind(e.type)), 19, "an address of type " + spell(e.type));
+      require(isPointer(types_.kind(e.type)), 19, [&] { return "an address of type " + spell(e.type); });
       require(isPlace(place_expr.kind) && place_expr.kind != ExprKind::Bits &&
                   !(place_expr.kind == ExprKind::Image && place_expr.c != kNoBit),
               19, "the address of what has none");
@@ -603,27 +618,30 @@ void Verifier::node(const Expr& e) {
 
 void Verifier::operatorNode(const Expr& e) {
   const bool is_unary = e.kind == ExprKind::Unary;
-  const std::string word = types::word(e.op);
-  if (!require(types::operandCount(e.op) == (is_unary ? 1 : 2), 15, word + " has another number of operands")) return;
+  const std::string_view word = types::word(e.op);
+  if (!require(types::operandCount(e.op) == (is_unary ? 1 : 2), 15,
+               [&] { return std::string(word) + " has another number of operands"; }))
+    return;
   const TypeId left = types_.plain(typeOf(e.a));
   const TypeKind kind = types_.kind(left);
   if (types::isComparison(e.op))
-    require(types_.kind(e.type) == TypeKind::Bool, 15, word + " that is no BOOL");
+    require(types_.kind(e.type) == TypeKind::Bool, 15, [&] { return std::string(word) + " that is no BOOL"; });
   else
     require(types_.plain(e.type) == left || (TypeTable::isText(kind) && types_.kind(e.type) == kind), 15,
-            word + " of " + spell(typeOf(e.a)) + " gives " + spell(e.type));
+            [&] { return std::string(word) + " of " + spell(typeOf(e.a)) + " gives " + spell(e.type); });
   if (!is_unary) {
     const TypeId right = types_.plain(typeOf(e.b));
     const TypeKind right_kind = types_.kind(right);
     const bool is_shift = e.op == Op::Shl || e.op == Op::Shr || e.op == Op::Rol || e.op == Op::Ror;
-    const bool same = left == right || (TypeTable::isText(kind) && kind == right_kind) ||
-                      (isPointer(kind) && isPointer(right_kind));
+    const bool same =
+        left == right || (TypeTable::isText(kind) && kind == right_kind) || (isPointer(kind) && isPointer(right_kind));
     if (is_shift)
-      require(isIntegral(right_kind), 15, word + " by " + spell(typeOf(e.b)));
+      require(isIntegral(right_kind), 15, [&] { return std::string(word) + " by " + spell(typeOf(e.b)); });
     else if (e.op == Op::Power)
-      require(isIntegral(right_kind) || TypeTable::isReal(right_kind), 15, word + " to " + spell(typeOf(e.b)));
+      require(isIntegral(right_kind) || TypeTable::isReal(right_kind), 15,
+              [&] { return std::string(word) + " to " + spell(typeOf(e.b)); });
     else
-      require(same, 15, word + " of " + spell(typeOf(e.a)) + " and " + spell(typeOf(e.b)));
+      require(same, 15, [&] { return std::string(word) + " of " + spell(typeOf(e.a)) + " and " + spell(typeOf(e.b)); });
   }
   unsigned allowed = 0;
   const bool number = TypeTable::isScalar(kind) && kind != TypeKind::Bool;

@@ -107,9 +107,12 @@ class Folder {
   void realIdentity(Expr& e, const Expr& a, const Expr& b) {
     const bool right = isConst(b), left = isConst(a);
     const double value = right ? valueOf(b).asReal() : left ? valueOf(a).asReal() : 0.0;
-    if (value == 1.0 && right && (e.op == Op::Mul || e.op == Op::Div)) becomeOperand(e, e.a);
-    else if (value == 1.0 && left && e.op == Op::Mul) becomeOperand(e, e.b);
-    else if (right && e.op == Op::Sub && b.bits() == 0) becomeOperand(e, e.a);  // x - (+0.0)
+    if (value == 1.0 && right && (e.op == Op::Mul || e.op == Op::Div))
+      becomeOperand(e, e.a);
+    else if (value == 1.0 && left && e.op == Op::Mul)
+      becomeOperand(e, e.b);
+    else if (right && e.op == Op::Sub && b.bits() == 0)
+      becomeOperand(e, e.a);  // x - (+0.0)
   }
 
   uint64_t ones(TypeKind kind) const {  // all bits set, as a Const has them
@@ -130,16 +133,22 @@ class Folder {
         if (b == 0) becomeOperand(e, e.a);
         break;
       case Op::Or:
-        if (b == 0) becomeOperand(e, e.a);
-        else if (b == ones(kind)) absorb(e, e.a, b);
+        if (b == 0)
+          becomeOperand(e, e.a);
+        else if (b == ones(kind))
+          absorb(e, e.a, b);
         break;
       case Op::And:
-        if (b == 0) absorb(e, e.a, 0);
-        else if (b == ones(kind)) becomeOperand(e, e.a);
+        if (b == 0)
+          absorb(e, e.a, 0);
+        else if (b == ones(kind))
+          becomeOperand(e, e.a);
         break;
       case Op::Mul:
-        if (b == 1) becomeOperand(e, e.a);
-        else if (b == 0) absorb(e, e.a, 0);
+        if (b == 1)
+          becomeOperand(e, e.a);
+        else if (b == 0)
+          absorb(e, e.a, 0);
         break;
       case Op::Div:
         if (b == 1) becomeOperand(e, e.a);
@@ -149,8 +158,10 @@ class Folder {
         break;
       case Op::Shl:
       case Op::Shr:
-        if (b == 0) becomeOperand(e, e.a);
-        else if (b >= TypeTable::bitWidth(kind)) absorb(e, e.a, 0);
+        if (b == 0)
+          becomeOperand(e, e.a);
+        else if (b >= TypeTable::bitWidth(kind))
+          absorb(e, e.a, 0);
         break;
       case Op::Rol:
       case Op::Ror:
@@ -180,16 +191,22 @@ class Folder {
         if (a == 0) becomeOperand(e, e.b);
         break;
       case Op::Or:
-        if (a == 0) becomeOperand(e, e.b);
-        else if (a == ones(kind)) absorb(e, e.b, a);
+        if (a == 0)
+          becomeOperand(e, e.b);
+        else if (a == ones(kind))
+          absorb(e, e.b, a);
         break;
       case Op::And:
-        if (a == 0) absorb(e, e.b, 0);
-        else if (a == ones(kind)) becomeOperand(e, e.b);
+        if (a == 0)
+          absorb(e, e.b, 0);
+        else if (a == ones(kind))
+          becomeOperand(e, e.b);
         break;
       case Op::Mul:
-        if (a == 1) becomeOperand(e, e.b);
-        else if (a == 0) absorb(e, e.b, 0);
+        if (a == 1)
+          becomeOperand(e, e.b);
+        else if (a == 0)
+          absorb(e, e.b, 0);
         break;
       case Op::Shl:
       case Op::Shr:

@@ -11,11 +11,8 @@ namespace rung::ir {
 
 namespace {
 constexpr Pass kBodyPasses[] = {
-    {"propagation", propagate},
-    {"constants", foldConstants},
-    {"branches", simplifyBranches},
-    {"checks", removeChecks},
-    {"dead-code", removeDeadCode},
+    {"propagation", propagate}, {"constants", foldConstants},  {"branches", simplifyBranches},
+    {"checks", removeChecks},   {"dead-code", removeDeadCode},
 };
 }  // namespace
 

@@ -12,9 +12,9 @@ namespace {
 
 struct Known {
   enum class What : uint8_t { Nothing, Constant, Copy } what = What::Nothing;
-  uint32_t of = 0;       // Copy: the local, and its version then
+  uint32_t of = 0;  // Copy: the local, and its version then
   uint32_t version = 0;
-  uint64_t bits = 0;     // Constant
+  uint64_t bits = 0;  // Constant
 };
 
 class Propagator {
@@ -127,9 +127,8 @@ class Propagator {
       case StmtKind::Fault:
       case StmtKind::Assert:
       case StmtKind::Evaluate:
-        forEachRoot(module_, body_, s, [&](uint32_t& slot, Use use) {
-          use == Use::Read ? read(slot) : readInPlace(slot);
-        });
+        forEachRoot(module_, body_, s,
+                    [&](uint32_t& slot, Use use) { use == Use::Read ? read(slot) : readInPlace(slot); });
         forEachWritten(module_, body_, s, [&](ExprId place) { forget(place); });
         return;
       case StmtKind::If: {
@@ -207,9 +206,9 @@ class Propagator {
   const TypeTable& types_;
   Body& body_;
   std::vector<bool> private_;
-  std::vector<Known> known_;         // by local
-  std::vector<uint32_t> version_;    // by local: grows with each assignment
-  std::vector<uint32_t> stamp_;      // by local
+  std::vector<Known> known_;       // by local
+  std::vector<uint32_t> version_;  // by local: grows with each assignment
+  std::vector<uint32_t> stamp_;    // by local
   std::vector<Change> trail_;
   std::vector<uint32_t> touched_;
   uint32_t versions_ = 0, stamps_ = 0;

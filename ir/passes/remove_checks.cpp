@@ -89,8 +89,10 @@ class Analysis {
     if (leads_out) {
       ++epoch_;
     } else if (e->kind == ExprKind::Local) {
-      if (private_[e->a]) set(e->a, {});
-      else if (body_.locals[e->a].by_reference) ++epoch_;
+      if (private_[e->a])
+        set(e->a, {});
+      else if (body_.locals[e->a].by_reference)
+        ++epoch_;
     } else if (e->kind == ExprKind::Self && below_self != kNone &&
                types_.info(types_.resolve(body_.self)).record_kind != RecordKind::Union) {
       set(self_first_ + below_self, {});
@@ -254,9 +256,7 @@ class Analysis {
   bool switchStmt(Stmt& s) {
     value(ExprId{s.a});
     const bool is_signed = types_.isSigned(types_.plainKind(body_.exprs[s.a].type));
-    const auto bound = [&](int64_t bits) {
-      return is_signed ? Int128{bits} : Int128{static_cast<uint64_t>(bits)};
-    };
+    const auto bound = [&](int64_t bits) { return is_signed ? Int128{bits} : Int128{static_cast<uint64_t>(bits)}; };
     const size_t mark = touched_.size();
     uint32_t falling = 0;
     for (uint32_t i = 0; i < s.c; ++i) {
@@ -286,11 +286,10 @@ class Analysis {
     // Whether the body itself writes the control variable: its fact is marked before the scan.
     if (control != kNone) setInterval(control, from);
     effectsIn(StmtId{s.e});
-    const bool is_kept = control != kNone && facts_[control].known &&
-                         (control < self_first_ || epoch_ == epoch_before);
+    const bool is_kept = control != kNone && facts_[control].known && (control < self_first_ || epoch_ == epoch_before);
     written(ExprId{s.a});
-    const bool up = static_cast<int64_t>(body_.exprs[s.d].bits()) > 0 ||
-                    !types_.isSigned(types_.plainKind(body_.exprs[s.d].type));
+    const bool up =
+        static_cast<int64_t>(body_.exprs[s.d].bits()) > 0 || !types_.isSigned(types_.plainKind(body_.exprs[s.d].type));
     const Interval bounds = up ? Interval{from.low, to.high} : Interval{to.low, from.high};
     const size_t mark = touched_.size();
     branch(StmtId{s.e}, [&] {
@@ -353,7 +352,7 @@ class Analysis {
     const Interval o = value(other);
     asking_ = false;
     if (!outcome) {
-      op = op == Op::Eq ? Op::Ne
+      op = op == Op::Eq   ? Op::Ne
            : op == Op::Ne ? Op::Eq
            : op == Op::Lt ? Op::Ge
            : op == Op::Ge ? Op::Lt
@@ -404,8 +403,8 @@ class Analysis {
     switch (e.kind) {
       case ExprKind::Const: {
         if (!hasInterval(types_, e.type)) break;
-        const Int128 bits = types_.isSigned(types_.plainKind(e.type)) ? Int128{static_cast<int64_t>(e.bits())}
-                                                                      : Int128{e.bits()};
+        const Int128 bits =
+            types_.isSigned(types_.plainKind(e.type)) ? Int128{static_cast<int64_t>(e.bits())} : Int128{e.bits()};
         return {bits, bits};
       }
       case ExprKind::Local:
@@ -473,9 +472,7 @@ class Analysis {
       case ExprKind::Deref:
       case ExprKind::Bits:
       case ExprKind::Call:
-      case ExprKind::Address:
-        forEachSlot(body_, e, [&](const uint32_t& slot) { value(ExprId{slot}); });
-        break;
+      case ExprKind::Address: forEachSlot(body_, e, [&](const uint32_t& slot) { value(ExprId{slot}); }); break;
     }
     return intervalOf(types_, e.type, false);
   }

@@ -1,7 +1,7 @@
 // Range analysis: clears the checks (div, index, subrange, convert, overflow) that intervals prove. Intervals come from
-// types and subranges, constants, arithmetic (MOD, AND masks), FOR bounds, and comparisons and CASE values that dominate
-// the use. They are kept for private locals and for the scalar fields of self, until something may have written them: a
-// call that is not pure, a write through a pointer, reference or global.
+// types and subranges, constants, arithmetic (MOD, AND masks), FOR bounds, and comparisons and CASE values that
+// dominate the use. They are kept for private locals and for the scalar fields of self, until something may have
+// written them: a call that is not pure, a write through a pointer, reference or global.
 //   needs  verified IR; proves more after folding and propagation
 //   keeps  everything but check flags; bodies with labels as they are
 //   gives  `h[idx - 1]` without check in `FOR idx := 15 TO 1 BY -1` on [0..15]; `a[i MOD 8]` on unsigned i

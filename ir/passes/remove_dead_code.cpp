@@ -60,7 +60,8 @@ class Remover {
     if (root.kind != ExprKind::Local) return false;
     const Local& local = body_.locals[root.a];
     // A by-reference field on the way leads out of the local; a Temp never holds one.
-    const bool own = local.kind == LocalKind::Temp || local.kind == LocalKind::Variable || local.kind == LocalKind::Input;
+    const bool own =
+        local.kind == LocalKind::Temp || local.kind == LocalKind::Variable || local.kind == LocalKind::Input;
     return own && !local.by_reference && reads_[root.a] == 0 && !leadsOut(place);
   }
   bool leadsOut(uint32_t place) const {

@@ -171,8 +171,8 @@ class Simplifier {
       bool hit = false;
       for (uint32_t k = 0; k < one.range_count && !in_case; ++k) {
         const CaseRange& range = body_.ranges[one.first_range + k];
-        hit = hit || (notAbove(static_cast<uint64_t>(range.low), value) &&
-                      notAbove(value, static_cast<uint64_t>(range.high)));
+        hit = hit ||
+              (notAbove(static_cast<uint64_t>(range.low), value) && notAbove(value, static_cast<uint64_t>(range.high)));
       }
       if (hit) {
         found = one.block.index;

@@ -38,8 +38,8 @@ TEST_F(BuilderTest, BuildsWhatTheTextShows) {
 }
 
 TEST_F(BuilderTest, CopyIsATreeOfItsOwn) {
-  const uint32_t a = b.local(names.intern("a"), types.array(types::kInt, std::vector<types::Dimension>{{0, 9}}),
-                             LocalKind::Variable);
+  const uint32_t a =
+      b.local(names.intern("a"), types.array(types::kInt, std::vector<types::Dimension>{{0, 9}}), LocalKind::Variable);
   const uint32_t i = b.local(names.intern("i"), types::kInt, LocalKind::Variable);
   ExprId place = b.index(b.localPlace(a), b.binary(Op::Sub, b.localPlace(i), b.integer(types::kInt, 1)), kCheckIndex);
   b.open();

@@ -12,6 +12,8 @@ using types::Value;
 
 namespace {
 
+constexpr int kMaxSteps = 3000;
+
 enum class Flow { Next, Break, Continue, Return, Jump, Stop };
 
 class Machine {
@@ -70,8 +72,10 @@ class Machine {
         const int64_t index = value(b_.operands[e.b + i]).asSigned();
         const auto& d = array.dimensions[i];
         if (index < d.low || index > d.high) {
-          if ((e.checks & kCheckIndex) != 0) raise(Fault::Index);
-          else stop("an index outside of its array is not checked");
+          if ((e.checks & kCheckIndex) != 0)
+            raise(Fault::Index);
+          else
+            stop("an index outside of its array is not checked");
           return nullptr;
         }
         at = at * d.count() + static_cast<size_t>(index - d.low);
@@ -181,7 +185,7 @@ class Machine {
   }
 
   Flow stmt(const Stmt& s) {
-    if (++steps_ > 100000) return stop("the run does not end");
+    if (++steps_ > kMaxSteps) return stop("the run does not end");
     const Flow flow = step(s);
     return stopped() ? Flow::Stop : flow;
   }
@@ -235,7 +239,7 @@ class Machine {
       }
       case StmtKind::Loop:
         for (bool leave = false;;) {
-          if (++steps_ > 100000) return stop("the run does not end");
+          if (++steps_ > kMaxSteps) return stop("the run does not end");
           Flow flow = turn(StmtId{s.a}, leave);
           if (flow != Flow::Next || leave) return flow;
           flow = block(StmtId{s.b});
@@ -259,7 +263,7 @@ class Machine {
             break;
           }
           control->bits = next.value.bits;
-          if (++steps_ > 100000) return stop("the run does not end");
+          if (++steps_ > kMaxSteps) return stop("the run does not end");
         }
         return Flow::Next;
       }

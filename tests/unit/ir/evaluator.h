@@ -12,8 +12,8 @@ namespace rung::ir {
 
 struct RunResult {
   types::Fault fault = types::Fault::None;
-  types::Value value;      // of the result, when there is one
-  std::string trouble;     // what the evaluator does not know, or that the run does not end
+  types::Value value;   // of the result, when there is one
+  std::string trouble;  // what the evaluator does not know, or that the run does not end
 };
 RunResult run(const Module& module, const Body& body, const std::vector<types::Value>& arguments);
 

@@ -89,8 +89,10 @@ class Golden {
     for (const std::string& line : lines) {
       Run run;
       if (line.rfind("; run: ", 0) != 0) continue;
-      if (!parseRun(line.substr(7), run)) fail("`" + line + "` is no run line");
-      else runs.push_back(run);
+      if (!parseRun(line.substr(7), run))
+        fail("`" + line + "` is no run line");
+      else
+        runs.push_back(run);
     }
     checkRuns("", runs);
     for (size_t i = 0; i < lines.size(); ++i) {
@@ -201,12 +203,13 @@ class Golden {
           arguments.push_back(literal(one.arguments[next++], local.type, m.types));
       const RunResult result = run(m.module, *body, arguments);
       std::string given;
-      if (!result.trouble.empty()) given = result.trouble;
-      else if (result.fault != types::Fault::None) given = std::string("fault ") + types::word(result.fault);
+      if (!result.trouble.empty())
+        given = result.trouble;
+      else if (result.fault != types::Fault::None)
+        given = std::string("fault ") + types::word(result.fault);
       else {
-        types::Value expected = one.expected.rfind("fault", 0) == 0
-                                    ? types::Value{}
-                                    : literal(one.expected, result.value.type, m.types);
+        types::Value expected =
+            one.expected.rfind("fault", 0) == 0 ? types::Value{} : literal(one.expected, result.value.type, m.types);
         if (expected.bits == result.value.bits && one.expected.rfind("fault", 0) != 0) continue;
         given = types::spell(m.types, m.names, result.value);
       }

@@ -17,8 +17,8 @@ struct TestModule {
   Module module;
   bool good;
 
-  std::string errors() const;          // one line each: line:column code message
-  Body* find(std::string_view name);   // function or block
+  std::string errors() const;         // one line each: line:column code message
+  Body* find(std::string_view name);  // function or block
 };
 
 // Blanks and line ends folded to one blank: for comparison of printed bodies.

@@ -339,7 +339,8 @@ TEST(IrText, MistakesAreNamedOnceEach) {
             "2:8 E0904 `A` is declared twice; rename one of them\n");
   EXPECT_EQ(errorsOf("function @f { in s: int }\nbody @f { s.x = 1 }\n"),
             "2:12 E0906 `.` needs a record before it, not INT\n");
-  EXPECT_EQ(errorsOf("hello\n"), "1:1 E0901 an item (`function`, `body`, `struct`, ...) is expected here, not `hello`\n");
+  EXPECT_EQ(errorsOf("hello\n"),
+            "1:1 E0901 an item (`function`, `body`, `struct`, ...) is expected here, not `hello`\n");
 }
 
 TEST(IrText, EachItemIsReadAfterAMistake) {

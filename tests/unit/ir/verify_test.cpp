@@ -16,7 +16,8 @@ std::string withStatements(const std::string& statements, const std::string& att
          "body @Ramp { }\n"
          "function @swap { inout a: int; out b: int; result int }\n"
          "body @swap { }\n"
-         "function @f " + attributes +
+         "function @f " +
+         attributes +
          " { in i: int; in b: bool; in r: real; in big: array[0..1] of int; result int }\n"
          "body @f {\n"
          "  var w: word\n"
@@ -72,9 +73,8 @@ TEST(Verify, Rule2Instances) { expectBroken(2, "instance $m: int\n"); }
 TEST(Verify, Rule3RecordOrder) { expectBroken(3, "struct @A { b: array[0..1] of @B }\nstruct @B { x: int }\n"); }
 TEST(Verify, Rule4Data) { expectBroken(4, "data 0: array[0..1] of int \"010203\"\n"); }
 TEST(Verify, Rule5Trees) {
-  expectBrokenBy(5, "  i = 1\n  i = 2", [](TestModule&, Body& body) {
-    body.stmt(body.stmt(body.first).next).b = body.stmt(body.first).b;
-  });
+  expectBrokenBy(5, "  i = 1\n  i = 2",
+                 [](TestModule&, Body& body) { body.stmt(body.stmt(body.first).next).b = body.stmt(body.first).b; });
   expectBrokenBy(5, "  i = 1", [](TestModule&, Body& body) { body.stmt(body.first).b = 1000; });
   expectBrokenBy(5, "  i = 1\n  i = 2",
                  [](TestModule&, Body& body) { body.stmt(body.stmt(body.first).next).next = body.first; });
@@ -87,7 +87,10 @@ TEST(Verify, Rule7Locals) {
   expectBrokenBy(7, "  i = 1", [](TestModule&, Body& body) { body.locals[0].name = body.locals[1].name; });
 }
 TEST(Verify, Rule8Self) {
-  expectBrokenBy(8, "  i = 1", [](TestModule& m, Body&) { m.find("Ramp")->self = {}; m.module.records[1].body = {}; });
+  expectBrokenBy(8, "  i = 1", [](TestModule& m, Body&) {
+    m.find("Ramp")->self = {};
+    m.module.records[1].body = {};
+  });
 }
 TEST(Verify, Rule9Constants) {
   expectBrokenBy(9, "  i = 1", [](TestModule&, Body& body) { firstOf(body, ExprKind::Const).a = 70000; });
@@ -170,9 +173,7 @@ TEST(Verify, Rule29Purity) {
   expectBroken(29, withStatements("  fault div", ""));
   expectBroken(29, "globals @G { x: int }\nlist @G: @G\nfunction @f pure { in i: int }\nbody @f { @G.x = i }\n");
 }
-TEST(Verify, Rule30Native) {
-  expectBroken(30, "function @f native Standard { in i: int }\nbody @f { i = 1 }\n");
-}
+TEST(Verify, Rule30Native) { expectBroken(30, "function @f native Standard { in i: int }\nbody @f { i = 1 }\n"); }
 
 }  // namespace
 }  // namespace rung::ir
