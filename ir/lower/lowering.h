@@ -43,6 +43,7 @@ struct ModuleLowering {
   void addRecord(TypeId record);
   void addPrograms();
   void addLists();
+  void markFaulting();
   void addTasks();
   void addLocated();
   std::string pathOf(sema::VarId var);

@@ -46,6 +46,7 @@ void ModuleLowering::run() {
   for (List& list : module.lists) list.init = initOf(list.record);
   for (ProgramInstance& instance : module.programs) instance.init = initOf(instance.record);
   for (Record& record : module.records) record.init = initOf(record.type);
+  markFaulting();
   addTasks();
   addLocated();
   for (int area = 0; area < 3; ++area) module.image_bytes[area] = project.image_bytes[area];
@@ -102,6 +103,28 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
     module.tests.push_back(known);
   }
   return known;
+}
+
+// A body may fault when it has a check or calls a body that may.
+void ModuleLowering::markFaulting() {
+  std::vector<std::vector<uint32_t>> callers(module.bodies.size());
+  std::vector<uint32_t> faulting;
+  for (uint32_t i = 1; i < module.bodies.size(); ++i) {
+    Body& body = module.bodies[i];
+    for (const Expr& expr : body.exprs) body.may_fault = body.may_fault || expr.checks != 0;
+    for (const Stmt& stmt : body.stmts)
+      if (stmt.kind == StmtKind::Call) callers[stmt.a].push_back(i);
+    if (body.may_fault) faulting.push_back(i);
+  }
+  while (!faulting.empty()) {
+    uint32_t callee = faulting.back();
+    faulting.pop_back();
+    for (uint32_t caller : callers[callee]) {
+      if (module.bodies[caller].may_fault) continue;
+      module.bodies[caller].may_fault = true;
+      faulting.push_back(caller);
+    }
+  }
 }
 
 // ---- records and their initial values --------------------------------------------------------------------------
