@@ -248,7 +248,7 @@ void BodyWriter::write(ir::BodyId id) {
   writeExits();
 
   const bool is_inlined = facts_.is_inlined[id.index] != 0;
-  std::string& to = is_inlined ? group_.inline_code : group_.code;
+  std::string& to = group_.code;
   if (uses_fault_ || has_try_) declarations_ += " uint32_t at; int64_t value;";
   if (is_inlined) {
     to += "static inline ";

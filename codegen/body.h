@@ -37,7 +37,7 @@ class BodyWriter {
         marks_(marks),
         group_number_(group_number) {}
 
-  // Into group.code; an inlined library function into group.inline_code.
+  // Into group.code.
   void write(ir::BodyId id);
 
   // `float Scale_fn(rung_context* ctx, int16_t raw_)`, without `;`. Native: as the library defines it.

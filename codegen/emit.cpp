@@ -35,14 +35,15 @@ std::string prototypes(const ir::Module& module, const std::vector<ir::BodyId>& 
   return out;
 }
 
-std::string sourceOf(const ir::Module& module, const Group& group, std::string_view name_space) {
-  std::string out = "// Bodies from ";
-  out += module.names.text(module.body(group.bodies.front()).name);
-  out += " to ";
-  out += module.names.text(module.body(group.bodies.back()).name);
-  out += ".\n#define RUNG_GENERATED\n#include \"rung/code.h\"\n";
+std::string inlineFile(const ir::Module& module, ir::BodyId id) {
+  return fileStem(module.names.text(module.body(id).name)) + "fn.h";
+}
+
+// What a group's text needs in front of it, the text, and the end of the namespace.
+std::string around(const ir::Module& module, const Group& group, std::string_view name_space, std::string out) {
   std::vector<std::string> files;
   for (TypeId record : group.records) files.push_back(recordFile(module.types, record));
+  for (ir::BodyId id : group.inlined) files.push_back(inlineFile(module, id));
   std::sort(files.begin(), files.end());
   for (const std::string& file : files) out += "#include \"" + file + "\"\n";
   out += '\n';
@@ -52,14 +53,21 @@ std::string sourceOf(const ir::Module& module, const Group& group, std::string_v
   out += " {\n\n";
   if (!group.sites.empty()) out += "extern const uint32_t sites_" + group.stem + ";\n";
   out += prototypes(module, group.callees, false, "");
-  out += prototypes(module, group.inlined, false, "static inline ");
   out += group.data;
-  out += group.inline_code;
   out += group.code;
   out += "\n}  // namespace ";
   out += name_space;
   out += '\n';
   return out;
+}
+
+std::string sourceOf(const ir::Module& module, const Group& group, std::string_view name_space) {
+  std::string out = "// Bodies from ";
+  out += module.names.text(module.body(group.bodies.front()).name);
+  out += " to ";
+  out += module.names.text(module.body(group.bodies.back()).name);
+  out += ".\n#define RUNG_GENERATED\n#include \"rung/code.h\"\n";
+  return around(module, group, name_space, std::move(out));
 }
 
 }  // namespace
@@ -76,6 +84,8 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   marks.record.resize(module.types.count());
   marks.data.resize(module.data.size());
   marks.data_number.resize(module.data.size());
+  std::vector<ir::BodyId> inlined;
+  std::vector<uint8_t> is_listed(module.bodies.size());
   for (uint32_t i = 0; i < groups.size(); ++i) {
     Group& group = groups[i];
     BodyWriter writer(module, options, facts, group, marks, i + 1);
@@ -84,8 +94,23 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
       setPhaseSubject(name.data(), name.size());
       writer.write(id);
     }
-    for (size_t k = 0; k < group.inlined.size(); ++k) writer.write(group.inlined[k]);  // grows
+    for (ir::BodyId id : group.inlined) {
+      if (is_listed[id.index] != 0) continue;
+      is_listed[id.index] = 1;
+      inlined.push_back(id);
+    }
     files.push_back({group.stem + ".cpp", sourceOf(module, group, name_space)});
+  }
+  for (size_t i = 0; i < inlined.size(); ++i) {
+    Group header;
+    BodyWriter(module, options, facts, header, marks, static_cast<uint32_t>(groups.size() + i) + 1).write(inlined[i]);
+    files.push_back({inlineFile(module, inlined[i]),
+                     around(module, header, name_space, "#pragma once\n\n#include \"rung/code.h\"\n")});
+    for (ir::BodyId id : header.inlined) {
+      if (is_listed[id.index] != 0) continue;
+      is_listed[id.index] = 1;
+      inlined.push_back(id);
+    }
   }
   setPhaseSubject("", 0);
   for (const ir::Record& record : module.records) {

@@ -22,7 +22,7 @@ struct Facts {
   };
   std::vector<Block> blocks;
 
-  std::vector<uint8_t> is_inlined;  // by body: a small pure library function, written into each group that calls it
+  std::vector<uint8_t> is_inlined;  // by body: a small pure library function, in a header of its own
 
   std::vector<uint8_t> is_pointed;  // by record: some POINTER or REFERENCE points to it
 

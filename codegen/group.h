@@ -20,15 +20,14 @@ struct Site {
 };
 
 struct Group {
-  std::string stem;                 // of its file, and of the name of its first site's number
+  std::string stem;                 // of its file, and part of the names that it defines besides functions
   std::vector<ir::BodyId> bodies;   // those it defines
   std::string code;                 // their text
-  std::string inline_code;          // small pure library functions that they call
   std::string data;                 // constant bytes
   std::vector<Site> sites;
   std::vector<TypeId> records;      // whose headers it includes
   std::vector<ir::BodyId> callees;  // functions and natives to be declared
-  std::vector<ir::BodyId> inlined;
+  std::vector<ir::BodyId> inlined;  // small pure library functions that they call, each in a header of its own
   uint32_t data_count = 0;
 };
 

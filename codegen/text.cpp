@@ -358,7 +358,7 @@ void BodyWriter::dataReference(uint32_t index) {
     std::string_view bytes(reinterpret_cast<const char*>(data.bytes.data()), data.bytes.size());
     size_t used = bytes.size();
     while (used > 0 && bytes[used - 1] == '\0') --used;
-    group_.data += "alignas(8) static const unsigned char data";
+    group_.data += "alignas(8) static const unsigned char data_" + group_.stem + '_';
     appendUnsigned(group_.data, group_.data_count);
     group_.data += '[';
     appendUnsigned(group_.data, bytes.size() + 1);
@@ -366,7 +366,7 @@ void BodyWriter::dataReference(uint32_t index) {
     appendQuoted(group_.data, bytes.substr(0, used));
     group_.data += ";\n";
   }
-  out_ += "data";
+  out_ += "data_" + group_.stem + '_';
   appendUnsigned(out_, marks_.data_number[index]);
 }
 
