@@ -61,7 +61,7 @@ function(rung_add_program target)
     VERBATIM)
   target_sources(${target} PRIVATE ${stamp} ${bundles})
   set_source_files_properties(${stamp} PROPERTIES HEADER_FILE_ONLY TRUE)
-  set_source_files_properties(${bundles} PROPERTIES GENERATED TRUE OBJECT_DEPENDS ${stamp} SKIP_AUTOGEN TRUE
+  set_source_files_properties(${bundles} PROPERTIES GENERATED TRUE SKIP_AUTOGEN TRUE
                                                     COMPILE_OPTIONS "-ffp-contract=off")
   target_compile_features(${target} PRIVATE cxx_std_17)
   target_link_libraries(${target} PRIVATE Rung::runtime)
