@@ -84,7 +84,7 @@ struct LibraryBlock {
   bool loaded = false;
 };
 struct LibraryName {
-  NameId key;
+  NameId name;  // as the library spells it
   uint32_t block = 0;
   uint32_t next = 0;  // another declaration of the name, 0: none
 };

@@ -50,7 +50,8 @@ std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& a
   const auto path = context.tree().list(address.path);
   const uint32_t unit = address.size_given ? unitBytes(address.size) : 0;
   const bool is_bit = unit == 0;
-  if (path.empty() || path.size() > (is_bit ? 2 : 1)) {
+  if (path.empty()) return std::nullopt;  // reported by the lexer
+  if (path.size() > (is_bit ? 2 : 1)) {
     context.report(Diag::AddressParts, loc, {text, is_bit ? "`byte.bit`" : "one number"});
     return std::nullopt;
   }

@@ -220,7 +220,7 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
     scope.decls.push_back(decl);
     declareVars(context, decl, section, {}, list_id, &scope.names, list.vars);
   }
-  if (list.qualified_only) return;
+  if (qualified_only) return;
   for (size_t i = first; i < list.vars.size(); ++i) {
     const Var& var = project.var(list.vars[i]);
     if (!var.name) continue;

@@ -15,6 +15,7 @@ namespace {
 struct Initializer {
   Context& context;
   std::string_view what;  // "the initial value of `x`"
+  bool broken = false;    // an element could not be parsed: how many were meant is not known
 
   Tree& tree() const { return context.tree(); }
 
@@ -123,6 +124,7 @@ struct Initializer {
     uint32_t kept = slice.count;
     for (uint32_t i = 0; i < slice.count; ++i) {
       ExprId id = tree().list(slice)[i];
+      if (tree().kind(id) == ExprKind::Error) broken = true;
       if (count >= room && kept == slice.count) {
         kept = i;
         if (!surplus) surplus = tree().begin(id);
@@ -177,7 +179,7 @@ struct Initializer {
     node.h.type = type;
     Loc surplus;
     const uint64_t count = elements(node.elements, info.base, room, surplus);
-    if (surplus) context.report(Diag::SurplusElements, surplus, {std::to_string(count), std::to_string(room)});
+    if (surplus && !broken) context.report(Diag::SurplusElements, surplus, {std::to_string(count), std::to_string(room)});
   }
 
   // Forbids members that do not exist, that are set twice, or that an initial value cannot set. Design §6: inputs, and
@@ -251,7 +253,7 @@ struct Initializer {
 }  // namespace
 
 void checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string_view what) {
-  Initializer{context, what}.value(init, type);
+  Initializer{.context = context, .what = what}.value(init, type);
 }
 
 void checkInitializer(Context& context, ExprId& init, TypeId type) {

@@ -219,9 +219,10 @@ void indexLibraries(Context& context) {
       const auto number = static_cast<uint32_t>(libraries.blocks.size());
       libraries.blocks.push_back({f, block.begin, block.end, false});
       for (const std::string_view text : block.names) {
-        const NameId declared = keyOf(context, context.names().intern(text));
+        const NameId spelling = context.names().intern(text);
+        const NameId declared = keyOf(context, spelling);
         const auto entry = static_cast<uint32_t>(libraries.names.size());
-        libraries.names.push_back({declared, number, 0});
+        libraries.names.push_back({spelling, number, 0});
         if (libraries.index.insert(declared, Entity::of(EntityKind::Namespace, entry))) continue;
         uint32_t last = libraries.index.find(declared).index;
         while (libraries.names[last].next != 0) last = libraries.names[last].next;

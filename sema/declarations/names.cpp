@@ -137,7 +137,9 @@ std::string_view nearestName(Context& context, NameId written) {
   context.scopes.globals.forEach(addDeclared);
   context.scopes.items.forEach(addDeclared);
   context.scopes.qualifiers.forEach(add);
-  context.scopes.libraries.index.forEach(add);
+  const Libraries& libraries = context.scopes.libraries;
+  libraries.index.forEach(
+      [&](NameId, Entity entry) { candidates.push_back(names.text(libraries.names[entry.index].name)); });
   return nearest(names.text(written), candidates);
 }
 

@@ -44,7 +44,9 @@ void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
     }
   };
   context.scopes.pous_and_types.forEach(add);
-  context.scopes.libraries.index.forEach([&](NameId key, Entity) { candidates.push_back(context.names().text(key)); });
+  const Libraries& libraries = context.scopes.libraries;
+  libraries.index.forEach(
+      [&](NameId, Entity entry) { candidates.push_back(context.names().text(libraries.names[entry.index].name)); });
   for (uint32_t kind = 0; kind < static_cast<uint32_t>(TypeKind::Any); ++kind) {
     const NameId elementary = context.types().info(TypeId{kind}).name;
     if (elementary) candidates.push_back(context.names().text(elementary));
@@ -341,9 +343,12 @@ TypeId lookUpType(Context& context, NameId name) {
 TypeId resolveType(Context& context, TypeExprId id) {
   TypeExprHeader& header = context.tree().typeExpr(id);
   if (header.type) return header.type;
-  if ((header.bits & kBusy) != 0 || context.scopes.depth > kMaxDeclarationDepth) {
-    // An array bound or length that needs the type itself.
+  if ((header.bits & kBusy) != 0) {  // an array bound or length that needs the type itself
     context.report(Diag::TypeOfItself, header.loc);
+    return header.type = types::kError;
+  }
+  if (context.scopes.depth > kMaxDeclarationDepth) {
+    context.report(Diag::DeclarationsTooDeep, header.loc, {context.project.sources.tokenAt(header.loc)});
     return header.type = types::kError;
   }
   header.bits |= kBusy;
