@@ -164,7 +164,7 @@ inline std::string_view text(const Context& context, NameId name) { return conte
 // A constant integer that costs nothing to know, or evaluates. None when the expression is no constant.
 std::optional<int64_t> constantInteger(Context& context, ExprId expr);
 
-constexpr uint32_t kMaxExprDepth = 1000;
+constexpr uint32_t kMaxExprDepth = 2100;  // the parser stops at 2000 operators in a row
 constexpr uint32_t kMaxStmtDepth = 2000;
 
 }  // namespace rung::sema

@@ -23,13 +23,6 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   }
   const bool array = info->kind == TypeKind::Array;
   if (!array && base != types::kError) {
-    if (TypeTable::isText(info->kind) && count == 1) {
-      ExprId index = context.tree().list(node.indices)[0];
-      checkAs(context, index, types::kDInt, {"used as an index", {}, {}});
-      context.tree().list(node.indices)[0] = index;
-      node.h.writable = 1;
-      return node.h.type = info->kind == TypeKind::String ? types::kByte : types::kWord;
-    }
     context.report(Diag::NotAnArray, node.h.loc, {context.types().spell(base)});
   } else if (array && !info->dimensions.empty() && info->dimensions.size() != count) {
     context.report(Diag::WrongIndexCount, node.h.loc,
@@ -41,14 +34,10 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
     TypeId type = check(context, index, {}, Access::Read);
     if (isUntyped(context, type)) type = settle(context, index);
     const TypeKind kind = context.types().plainKind(type);
+    const bool enumeration = context.types().kind(type) == TypeKind::Enum;
     if (type == types::kError) {
       good = false;
-    } else if (!TypeTable::isInteger(kind) && !(TypeTable::isBits(kind) && !context.iec())) {
-      if (context.types().kind(type) == TypeKind::Enum || !TypeTable::isBits(kind)) {
-        context.report(Diag::IndexNotInteger, context.tree().loc(index), {context.types().spell(type)});
-        good = false;
-      }
-    } else if (context.types().kind(type) == TypeKind::Enum && context.iec()) {
+    } else if ((!TypeTable::isInteger(kind) && !TypeTable::isBits(kind)) || (enumeration && context.iec())) {
       context.report(Diag::IndexNotInteger, context.tree().loc(index), {context.types().spell(type)});
       good = false;
     } else if (good) {

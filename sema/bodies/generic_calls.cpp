@@ -57,7 +57,9 @@ TypeId groupType(Context& context, std::span<ExprId> operands, TypeKind generic,
     }
     return real;
   }
-  const TypeId common = unify(context, operands, classOf(generic), expected, text(context, pou.name), loc);
+  const bool equality = pou.operator_kind == Pou::Operator::Op && (pou.op == types::Op::Eq || pou.op == types::Op::Ne);
+  const TypeId common = unify(context, operands, equality ? Operands::Equatable : classOf(generic), expected,
+                              text(context, pou.name), loc);
   if (common == types::kError) return common;
   if (!belongs(context, common, generic)) {
     context.report(
