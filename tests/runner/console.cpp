@@ -92,7 +92,7 @@ void runSession(const Setting& setting, const std::string& name, const std::vect
 }
 
 std::string folderLikeRoot(const Setting& setting) {
-  const std::string folder = freshFolder(setting);
+  std::string folder = freshFolder(setting);
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(setting.root, error)) {
     const std::string name = entry.path().filename().string();

@@ -55,7 +55,7 @@ std::string nameOf(const std::string& path) { return fs::path(path).filename().s
 
 std::string freshFolder(const Setting& setting) {
   static std::atomic<unsigned> count{0};
-  const std::string folder = setting.scratch + "/" + std::to_string(count++);
+  std::string folder = setting.scratch + "/" + std::to_string(count++);
   std::error_code error;
   fs::create_directories(folder, error);
   return folder;
