@@ -442,7 +442,7 @@ void Balancer::close(uint32_t i, Tok closer) {
 }
 
 void Balancer::leftOutermost(uint32_t i, Tok closer) {
-  if (closer == Tok::EndVar && stack_.empty() && global_section_) outside_start_ = i + 1;
+  if (closer == Tok::EndVar && stack_.empty() && global_section_ && line_column_ == 0) outside_start_ = i + 1;
   if (stack_.empty() && (isPouCloser(closer) || closer == Tok::EndType || closer == Tok::EndConfiguration)) outside_start_ = i + 1;
 }
 

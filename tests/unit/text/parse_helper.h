@@ -1,0 +1,47 @@
+// Parses a text and keeps what came out: the tree's text and the diagnostics as "line:column code" words.
+#pragma once
+
+#include <string>
+
+#include "frontend/text/parse.h"
+
+namespace rung::text {
+
+struct Parsed {
+  explicit Parsed(const std::string& source, Standard standard = Standard::Codesys) : diagnostics(sources) {
+    diagnostics.max_errors = 1000000;
+    const FileId file = sources.add("test.st", source);
+    const FileUnit unit = parseFile(tree, names, sources, file, standard, diagnostics);
+    printed = printTree(tree, names, unit);
+    diagnostics.sort();
+  }
+  // "3:7 E0201 5:1 W0201"
+  std::string codes() const {
+    std::string all;
+    for (const Diagnostic& d : diagnostics.all()) {
+      const Place place = sources.place(d.loc);
+      if (!all.empty()) all += ' ';
+      all += std::to_string(place.line) + ":" + std::to_string(place.column) + " " + diagInfo(d.diag).code;
+    }
+    return all;
+  }
+
+  Sources sources;
+  Diagnostics diagnostics;
+  Names names;
+  Tree tree;
+  std::string printed;
+};
+
+// The statements, two blanks deep less, of a program around them.
+inline std::string body(const std::string& statements, Standard standard = Standard::Codesys) {
+  const Parsed parsed("PROGRAM p\n" + statements + "\nEND_PROGRAM\n", standard);
+  if (!parsed.codes().empty()) return parsed.codes();
+  const size_t at = parsed.printed.find("  body\n");
+  return at == std::string::npos ? parsed.printed : parsed.printed.substr(at + 7);
+}
+inline std::string statementErrors(const std::string& statements, Standard standard = Standard::Codesys) {
+  return Parsed("PROGRAM p\n" + statements + "\nEND_PROGRAM\n", standard).codes();
+}
+
+}  // namespace rung::text
