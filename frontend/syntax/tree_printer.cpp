@@ -490,7 +490,7 @@ void Printer::decl(DeclId id, int depth) {
     }
     case DeclKind::Var: {
       const auto& d = tree_.as<VarDecl>(id);
-      text += ' ';
+      if (!d.names.empty()) text += ' ';
       path(d.names, ", ");
       if (d.located) {
         text += " at ";
