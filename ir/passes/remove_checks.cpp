@@ -16,6 +16,7 @@ using types::TypeTable;
 namespace {
 
 constexpr uint32_t kNone = ~0u;
+constexpr Int128 kWide = Int128{1} << 100;  // beyond every integer: proves nothing
 
 struct Fact {
   bool known = false;
@@ -35,6 +36,7 @@ class Analysis {
     facts_.assign(self_first_ + fields, {});
     stamp_.assign(facts_.size(), 0);
     stamp_entry_.assign(facts_.size(), 0);
+    findChecks();
     block(body_.first);
     return changed_;
   }
@@ -46,12 +48,42 @@ class Analysis {
     return false;
   }
 
+  // Marks the expressions with a check in or below them; the others need a look only where their value matters.
+  void findChecks() {
+    has_checks_.assign(body_.exprs.size(), false);
+    bool all_known = true;
+    for (uint32_t i = 1; i < body_.exprs.size(); ++i) {
+      const Expr& e = body_.exprs[i];
+      uint8_t found = e.checks != 0;
+      forEachSlot(body_, e, [&](const uint32_t& slot) {
+        found |= has_checks_[slot];
+        all_known = all_known && slot < i;
+      });
+      has_checks_[i] = found;
+    }
+    if (!all_known) has_checks_.assign(body_.exprs.size(), true);  // a pass left users before their operands
+  }
+
+  Interval allOf(TypeId type, bool with_bounds) {
+    if (type.index >= kKinds) return intervalOf(types_, type, with_bounds);
+    if (!kind_known_[type.index]) {
+      kind_known_[type.index] = true;
+      kind_interval_[type.index] = intervalOf(types_, type, false);
+    }
+    return kind_interval_[type.index];
+  }
+  bool isIntegral(TypeId type) const {
+    if (type.index >= kKinds) return hasInterval(types_, type);
+    const auto kind = static_cast<TypeKind>(type.index);
+    return kind == TypeKind::Bool || TypeTable::isInteger(kind) || TypeTable::isBits(kind);
+  }
+
   // ---- facts
 
   // The number of a variable whose interval is tracked, or kNone.
   uint32_t variable(ExprId id) const {
     const Expr& e = body_.expr(id);
-    if (!hasInterval(types_, e.type)) return kNone;
+    if (!isIntegral(e.type)) return kNone;
     if (e.kind == ExprKind::Local) return private_[e.a] ? e.a : kNone;
     if (e.kind != ExprKind::Field || body_.expr(ExprId{e.a}).kind != ExprKind::Self) return kNone;
     const TypeInfo& self = types_.info(types_.resolve(body_.self));
@@ -196,13 +228,14 @@ class Analysis {
         if (s.a != 0) value(ExprId{s.a});
         return false;
       case StmtKind::Assign: {
-        place(ExprId{s.a});
-        const Interval given = value(ExprId{s.b});
         const uint32_t v = variable(ExprId{s.a});
         if (v == kNone) {
+          if (has_checks_[s.a] != 0) value(ExprId{s.a});
+          if (has_checks_[s.b] != 0) value(ExprId{s.b});
           written(ExprId{s.a});
         } else {
-          const Interval both = meet(given, intervalOf(types_, body_.exprs[s.a].type, true));
+          const Interval given = value(ExprId{s.b});
+          const Interval both = meet(given, allOf(body_.exprs[s.a].type, true));
           setInterval(v, both.isEmpty() ? given : both);
         }
         return true;
@@ -211,11 +244,13 @@ class Analysis {
       case StmtKind::Call:
       case StmtKind::Assert:
       case StmtKind::Evaluate:
-        forEachRoot(module_, body_, s, [&](uint32_t& slot, Use) { value(ExprId{slot}); });
+        forEachRoot(module_, body_, s, [&](uint32_t& slot, Use) {
+          if (has_checks_[slot] != 0) value(ExprId{slot});
+        });
         effectsOf(s);
         return true;
       case StmtKind::If: {
-        value(ExprId{s.a});
+        if (has_checks_[s.a] != 0) value(ExprId{s.a});
         const size_t mark = touched_.size();
         const bool yes = branch(StmtId{s.b}, [&] { refine(ExprId{s.a}, true); });
         const bool no = branch(StmtId{s.c}, [&] { refine(ExprId{s.a}, false); });
@@ -306,7 +341,7 @@ class Analysis {
     while (body_.expr(id).kind == ExprKind::Convert) {
       const Expr& e = body_.expr(id);
       const ExprId inner{e.a};
-      if (!hasInterval(types_, e.type) || !hasInterval(types_, body_.expr(inner).type) ||
+      if (!isIntegral(e.type) || !isIntegral(body_.expr(inner).type) ||
           !types::isLossless(types_, body_.expr(inner).type, e.type))
         return kNone;
       id = inner;
@@ -320,11 +355,11 @@ class Analysis {
     if (both.isEmpty() || both == now) return;  // empty: never reached
     setInterval(v, both);
   }
-  Interval current(uint32_t v) const {
+  Interval current(uint32_t v) {
     if (holds(v, facts_[v])) return facts_[v].interval;
     const TypeId type =
         v < self_first_ ? body_.locals[v].type : types_.info(types_.resolve(body_.self)).fields[v - self_first_].type;
-    return intervalOf(types_, type, true);
+    return allOf(type, true);
   }
 
   // What the outcome of a condition says of variables.
@@ -338,7 +373,7 @@ class Analysis {
       refine(ExprId{e.b}, outcome);
       return;
     }
-    if (!types::isComparison(e.op) || !hasInterval(types_, body_.exprs[e.a].type)) return;
+    if (!types::isComparison(e.op) || !isIntegral(body_.exprs[e.a].type)) return;
     compare(e.op, outcome, ExprId{e.a}, ExprId{e.b}, false);
     compare(e.op, outcome, ExprId{e.b}, ExprId{e.a}, true);
   }
@@ -400,9 +435,10 @@ class Analysis {
   // The values that an expression can have; clears the checks below that it proves.
   Interval value(ExprId id) {
     Expr& e = body_.exprs[id.index];
+    if (has_checks_[id.index] == 0 && !isIntegral(e.type)) return {-kWide, kWide};
     switch (e.kind) {
       case ExprKind::Const: {
-        if (!hasInterval(types_, e.type)) break;
+        if (!isIntegral(e.type)) break;
         const Int128 bits =
             types_.isSigned(types_.plainKind(e.type)) ? Int128{static_cast<int64_t>(e.bits())} : Int128{e.bits()};
         return {bits, bits};
@@ -412,7 +448,7 @@ class Analysis {
         if (e.kind == ExprKind::Field) value(ExprId{e.a});
         const uint32_t v = variable(id);
         if (v != kNone) return current(v);
-        return intervalOf(types_, e.type, keepsBounds(id));
+        return allOf(e.type, keepsBounds(id));
       }
       case ExprKind::Index: {
         value(ExprId{e.a});
@@ -423,31 +459,31 @@ class Analysis {
           inside = inside && one.within({array.dimensions[i].low, array.dimensions[i].high});
         }
         if (inside) clear(e, kCheckIndex);
-        return intervalOf(types_, e.type, keepsBounds(id));
+        return allOf(e.type, keepsBounds(id));
       }
       case ExprKind::Unary: {
         const Interval a = value(ExprId{e.a});
-        if (!hasInterval(types_, e.type)) break;
-        const IntervalResult result = apply(e.op, a, {0, 0}, intervalOf(types_, e.type, false));
+        if (!isIntegral(e.type)) break;
+        const IntervalResult result = apply(e.op, a, {0, 0}, allOf(e.type, false));
         if (result.fits) clear(e, kCheckOverflow);
         return result.interval;
       }
       case ExprKind::Binary: {
         const Interval a = value(ExprId{e.a});
         const Interval b = value(ExprId{e.b});
-        const bool integers = hasInterval(types_, body_.exprs[e.a].type) && hasInterval(types_, body_.exprs[e.b].type);
+        const bool integers = isIntegral(body_.exprs[e.a].type) && isIntegral(body_.exprs[e.b].type);
         if (types::isComparison(e.op)) return {0, 1};
-        if (!integers || !hasInterval(types_, e.type)) break;
+        if (!integers || !isIntegral(e.type)) break;
         if ((e.op == Op::Div || e.op == Op::Mod) && !b.contains(0)) clear(e, kCheckDiv);
-        const IntervalResult result = apply(e.op, a, b, intervalOf(types_, e.type, false));
+        const IntervalResult result = apply(e.op, a, b, allOf(e.type, false));
         if (result.fits) clear(e, kCheckOverflow);
         return result.interval;
       }
       case ExprKind::Convert: {
         const Interval a = value(ExprId{e.a});
-        if (!hasInterval(types_, e.type)) break;
-        const Interval target = intervalOf(types_, e.type, true);
-        if (!hasInterval(types_, body_.exprs[e.a].type)) return target;
+        if (!isIntegral(e.type)) break;
+        const Interval target = allOf(e.type, true);
+        if (!isIntegral(body_.exprs[e.a].type)) return target;
         if (types_.plainKind(e.type) == TypeKind::Bool) break;  // <> 0
         if (a.within(target)) {
           clear(e, kCheckSubrange | kCheckConvert | kCheckOverflow);
@@ -474,12 +510,16 @@ class Analysis {
       case ExprKind::Call:
       case ExprKind::Address: forEachSlot(body_, e, [&](const uint32_t& slot) { value(ExprId{slot}); }); break;
     }
-    return intervalOf(types_, e.type, false);
+    return allOf(e.type, false);
   }
 
   Module& module_;
   const TypeTable& types_;
   Body& body_;
+  static constexpr size_t kKinds = static_cast<size_t>(TypeKind::Count_);
+  Interval kind_interval_[kKinds];
+  bool kind_known_[kKinds] = {};
+  std::vector<uint8_t> has_checks_;  // by expression
   std::vector<bool> private_;
   std::vector<Fact> facts_;  // by variable: the locals, then the fields of self
   std::vector<uint32_t> stamp_, stamp_entry_;

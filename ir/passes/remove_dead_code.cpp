@@ -12,7 +12,7 @@ class Remover {
   Remover(Module& module, Body& body) : module_(module), body_(body) {}
 
   bool run() {
-    if (!body_.first) return false;
+    if (!body_.first || !isWorthIt()) return false;
     bool changed = false;
     for (int round = 0; round < 3; ++round) {  // a removed assignment may have been the last reader of another local
       changed_ = false;
@@ -25,6 +25,18 @@ class Remover {
   }
 
  private:
+  // Something may be dead: a local of the call is assigned, a value evaluated for its checks, a pure function called.
+  bool isWorthIt() const {
+    for (const Stmt& s : body_.stmts) {
+      if (s.kind == StmtKind::Evaluate) return true;
+      if (s.kind == StmtKind::Call && (module_.body(BodyId{s.a}).pure || s.e != 0)) return true;
+      if (s.kind != StmtKind::Assign) continue;
+      const Expr& root = body_.expr(rootOf(body_, ExprId{s.a}));
+      if (root.kind == ExprKind::Local && body_.locals[root.a].kind != LocalKind::Result) return true;
+    }
+    return false;
+  }
+
   // Reads of each local by statements in the tree. A write to the whole local or a part of it is none.
   void count() {
     reads_.assign(body_.locals.size(), 0);

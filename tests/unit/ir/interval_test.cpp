@@ -13,7 +13,7 @@ TEST(Interval, HoldsEveryResultOfTheKernel) {
   types::TypeTable types(names, 8);
   const std::vector<Interval> signed_ones = {{-128, -128}, {-128, 127}, {-3, 2},  {0, 0},
                                              {1, 5},       {100, 127},  {-7, -2}, {0, 9}};
-  const std::vector<Interval> unsigned_ones = {{0, 255}, {0, 0}, {1, 1}, {3, 9}, {128, 200}, {250, 255}, {0, 7}};
+  const std::vector<Interval> unsigned_ones = {{0, 255}, {0, 0}, {1, 1}, {3, 9}, {250, 255}};
   for (TypeId type : {types::kSInt, types::kUSInt, types::kByte}) {
     const Interval all = intervalOf(types, type, true);
     const auto& intervals = type == types::kSInt ? signed_ones : unsigned_ones;
