@@ -214,6 +214,7 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
   instance.resource = part.resource;
   instance.configuration = part.configuration;
   instance.loc = decl.h.loc;
+  if (decl.type.empty()) return;  // reported by the parser
   const Ident type = context.tree().list(decl.type)[decl.type.count - 1];
   Entity found = context.scopes.pous_and_types.find(keyOf(context, type.name));
   if (!found) found = lookUpLibrary(context, keyOf(context, type.name));

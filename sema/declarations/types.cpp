@@ -76,6 +76,7 @@ TypeId typeOf(Context& context, Entity found) {
 
 TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
   const uint32_t length = expr.path.count;
+  if (length == 0) return types::kError;  // reported by the parser
   const Ident first = context.tree().list(expr.path)[0];
   const Ident last = context.tree().list(expr.path)[length - 1];
   Entity found;

@@ -62,5 +62,10 @@ TEST(Configuration, mistakes) {
   EXPECT_EQ(checked.codes(), "W0824@1 E0811@3 E0818@4 E0816@5 E0815@6 E0814@7 W0823@8");
 }
 
+TEST(Configuration, an_instance_without_a_type_is_reported_once) {
+  const Checked checked("PROGRAM Main END_PROGRAM\nCONFIGURATION c\nPROGRAM p : ;\nEND_CONFIGURATION");
+  EXPECT_EQ(checked.diagnostics.errorCount(), 1u) << checked.messages();
+}
+
 }  // namespace
 }  // namespace rung::sema
