@@ -55,14 +55,15 @@ SectionKind sectionOf(Tok k) {
 Slice<Pragma> Parser::takePragmas() {
   if ((t_->flags & kPragma) == 0) return {};
   const auto& all = stream_.pragmas;
-  auto it = std::lower_bound(all.begin(), all.end(), t_->offset, [](const PragmaText& p, uint32_t offset) { return p.token_offset < offset; });
+  auto it = std::lower_bound(all.begin(), all.end(), t_->offset,
+                             [](const PragmaText& p, uint32_t offset) { return p.token_offset < offset; });
   std::vector<Pragma> list;
   for (; it != all.end() && it->token_offset == t_->offset; ++it) list.push_back(readPragma(*it));
   return tree_.addList<Pragma>(list);
 }
 
-// {name}  {name 'value'}  {name := 'value'}  {name: "value"}  {attribute 'name' := 'value'}; anything else is a name and
-// the rest as it stands.
+// {name}  {name 'value'}  {name := 'value'}  {name: "value"}  {attribute 'name' := 'value'}; anything else is a name
+// and the rest as it stands.
 Pragma Parser::readPragma(const PragmaText& pragma) {
   std::string_view rest = text_.substr(pragma.begin + 1, pragma.end - pragma.begin - 2);
   const auto skip = [&] {
@@ -71,8 +72,10 @@ Pragma Parser::readPragma(const PragmaText& pragma) {
   };
   const auto word = [&] {
     size_t n = 0;
-    while (n < rest.size() && (rest[n] == '_' || rest[n] == '+' || (rest[n] | 0x20) >= 'a' || (rest[n] >= '0' && rest[n] <= '9')) &&
-           static_cast<unsigned char>(rest[n]) < 0x80 && rest[n] != '{' && rest[n] != '|' && rest[n] != '[' && rest[n] != '^')
+    while (n < rest.size() &&
+           (rest[n] == '_' || rest[n] == '+' || (rest[n] | 0x20) >= 'a' || (rest[n] >= '0' && rest[n] <= '9')) &&
+           static_cast<unsigned char>(rest[n]) < 0x80 && rest[n] != '{' && rest[n] != '|' && rest[n] != '[' &&
+           rest[n] != '^')
       ++n;
     const std::string_view w = rest.substr(0, n);
     rest.remove_prefix(n);
@@ -113,14 +116,16 @@ bool Parser::pragmaNamed(Slice<Pragma> pragmas, std::string_view name) const {
 Loc Parser::takeDoc() {
   if ((t_->flags & kDoc) == 0) return {};
   const auto& all = stream_.docs;
-  const auto it = std::lower_bound(all.begin(), all.end(), t_->offset, [](const DocText& d, uint32_t offset) { return d.token_offset < offset; });
+  const auto it = std::lower_bound(all.begin(), all.end(), t_->offset,
+                                   [](const DocText& d, uint32_t offset) { return d.token_offset < offset; });
   return it != all.end() && it->token_offset == t_->offset ? Loc{base_ + it->begin} : Loc{};
 }
 
 Loc Parser::docBehind(const Token* t) const {
   if ((t->flags & kDocAfter) == 0) return {};
   const auto& all = stream_.docs_after;
-  const auto it = std::lower_bound(all.begin(), all.end(), t->offset, [](const DocText& d, uint32_t offset) { return d.token_offset < offset; });
+  const auto it = std::lower_bound(all.begin(), all.end(), t->offset,
+                                   [](const DocText& d, uint32_t offset) { return d.token_offset < offset; });
   return it != all.end() && it->token_offset == t->offset ? Loc{base_ + it->begin} : Loc{};
 }
 
@@ -134,7 +139,8 @@ bool Parser::parseName(Ident& out) {
   }
   if (nameReserved(t_)) {
     const Tok next = peek();
-    if ((next == Tok::Colon || next == Tok::Comma || next == Tok::At || next == Tok::Assign || next == Tok::RightParen || next == Tok::Semicolon) ||
+    if ((next == Tok::Colon || next == Tok::Comma || next == Tok::At || next == Tok::Assign ||
+         next == Tok::RightParen || next == Tok::Semicolon) ||
         (t_[1].flags & kLineStart) != 0) {
       slip(Diag::ReservedName, t_, {textOf(t_)});
       out = {names_.intern(textOf(t_)), here()};
@@ -250,7 +256,10 @@ DeclId Parser::parseSection() {
     static constexpr Tok kWords[] = {Tok::Constant, Tok::Retain, Tok::NonRetain, Tok::Persistent};
     if (const Tok meant = nearKeyword(t_, kWords); meant != Tok::End) {
       respell(meant);
-      d.h.bits |= meant == Tok::Constant ? kConstant : meant == Tok::Retain ? kRetain : meant == Tok::Persistent ? kPersistent : kNonRetain;
+      d.h.bits |= meant == Tok::Constant     ? kConstant
+                  : meant == Tok::Retain     ? kRetain
+                  : meant == Tok::Persistent ? kPersistent
+                                             : kNonRetain;
       advance();
     }
   }
@@ -292,7 +301,8 @@ DeclId Parser::parseVar(SectionKind section) {
         } else if (atLineStart() && idents_.size() > first) {
           fail(Diag::MissingName, t_ - 1, {describe(t_ - 1)});
         } else {
-          fail(idents_.size() > first || at(Tok::Colon) || at(Tok::Comma) ? Diag::MissingName : Diag::NotADeclaration, t_, {describe(t_)});
+          fail(idents_.size() > first || at(Tok::Colon) || at(Tok::Comma) ? Diag::MissingName : Diag::NotADeclaration,
+               t_, {describe(t_)});
         }
         break;
       }
@@ -333,7 +343,8 @@ DeclId Parser::parseVar(SectionKind section) {
       fail(Diag::NotADeclaration, t_, {describe(t_)});
     else if (atLineStart())
       missing(Diag::MissingToken, {":", describe(t_)}), panic_ = true;
-    else if (isTypeWord(kind()) || at(Tok::Array) || at(Tok::Struct) || (isName(kind()) && (peek() == Tok::Semicolon || peek() == Tok::Assign)))
+    else if (isTypeWord(kind()) || at(Tok::Array) || at(Tok::Struct) ||
+             (isName(kind()) && (peek() == Tok::Semicolon || peek() == Tok::Assign)))
       slip(Diag::MissingToken, t_, {":", describe(t_)});
     else if (at(Tok::Semicolon) || at(Tok::Equal))
       fail(Diag::MissingToken, t_, {":", describe(t_)});
@@ -344,7 +355,8 @@ DeclId Parser::parseVar(SectionKind section) {
     // access name : path : type direction, or : %address : type direction
     if (at(Tok::Address)) {
       d.located = true;
-      if (readAddress(textOf(t_), here(), diagnostics_, d.address, numbers_)) d.address.path = tree_.addList<uint32_t>(numbers_);
+      if (readAddress(textOf(t_), here(), diagnostics_, d.address, numbers_))
+        d.address.path = tree_.addList<uint32_t>(numbers_);
       advance();
     } else {
       while (isName(kind())) {
@@ -382,7 +394,8 @@ DeclId Parser::parseVar(SectionKind section) {
       d.init = parseInit();
     } else if (accept(Tok::Assign)) {
       d.init = parseInit();
-    } else if ((at(Tok::Number) || at(Tok::True) || at(Tok::False) || at(Tok::Text) || at(Tok::Duration)) && !atLineStart()) {
+    } else if ((at(Tok::Number) || at(Tok::True) || at(Tok::False) || at(Tok::Text) || at(Tok::Duration)) &&
+               !atLineStart()) {
       slip(Diag::MissingToken, t_, {":=", describe(t_)});
       d.init = parseInit();
     }
@@ -441,7 +454,8 @@ TypeExprId Parser::parseType() {
     case static_cast<int>(Tok::RefTo): {
       advance();
       const TypeExprId target = parseType();
-      type = tree_.add<TypeExprId>(PointerTypeExpr{{TypeExprKind::Pointer, 0, 0, start, {}}, target, PointerForm::RefTo});
+      type =
+          tree_.add<TypeExprId>(PointerTypeExpr{{TypeExprKind::Pointer, 0, 0, start, {}}, target, PointerForm::RefTo});
       break;
     }
     default:
@@ -596,7 +610,8 @@ TypeExprId Parser::parseArray() {
     }
     ArrayBound bound{parseExpr(), {}};
     if (!panic_ && !accept(Tok::DotDot)) {
-      if (at(Tok::RightBracket) && tree_.kind(bound.low) == ExprKind::Literal && tree_.as<LiteralExpr>(bound.low).literal() == LiteralKind::Integer) {
+      if (at(Tok::RightBracket) && tree_.kind(bound.low) == ExprKind::Literal &&
+          tree_.as<LiteralExpr>(bound.low).literal() == LiteralKind::Integer) {
         const uint64_t size = tree_.as<LiteralExpr>(bound.low).value();
         const std::string written = std::to_string(size), last = std::to_string(size == 0 ? 0 : size - 1);
         slip(Diag::ArraySize, t_ - 1, {written, last});

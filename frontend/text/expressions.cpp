@@ -64,8 +64,8 @@ const char* nativeOperator(Tok kind) {
 }  // namespace
 
 bool Parser::isOperand(Tok kind) const {
-  return (kind >= Tok::Number && kind <= Tok::Ident) || isName(kind) || isTypeWord(kind) || kind == Tok::True || kind == Tok::False ||
-         kind == Tok::Null || kind == Tok::LeftParen || kind == Tok::Not;
+  return (kind >= Tok::Number && kind <= Tok::Ident) || isName(kind) || isTypeWord(kind) || kind == Tok::True ||
+         kind == Tok::False || kind == Tok::Null || kind == Tok::LeftParen || kind == Tok::Not;
 }
 
 ExprId Parser::parseExpr(uint32_t least) {
@@ -90,7 +90,8 @@ ExprId Parser::parseExpr(uint32_t least) {
     if (row.op == BinaryOp::Power && standard_ != Standard::Codesys && tree_.kind(left) == ExprKind::Unary &&
         tree_.expr(left).in_parens == 0 && tree_.as<UnaryExpr>(left).op() == UnaryOp::Negate)
       diagnostics_.report(Diag::NegatedPower, tree_.loc(left), {"tighter"});
-    left = tree_.add<ExprId>(BinaryExpr{exprHeader(ExprKind::Binary, loc(op), static_cast<uint8_t>(row.op)), left, right});
+    left =
+        tree_.add<ExprId>(BinaryExpr{exprHeader(ExprKind::Binary, loc(op), static_cast<uint8_t>(row.op)), left, right});
   }
 }
 
@@ -139,7 +140,8 @@ ExprId Parser::parsePrimary() {
     }
     case static_cast<int>(Tok::Null): {
       advance();
-      return tree_.add<ExprId>(LiteralExpr{exprHeader(ExprKind::Literal, start, static_cast<uint8_t>(LiteralKind::Null)), {}, 0, 0});
+      return tree_.add<ExprId>(
+          LiteralExpr{exprHeader(ExprKind::Literal, start, static_cast<uint8_t>(LiteralKind::Null)), {}, 0, 0});
     }
     case static_cast<int>(Tok::Address): return parsePostfix(parseAddress());
     case static_cast<int>(Tok::LeftParen): {
@@ -162,7 +164,8 @@ ExprId Parser::parsePrimary() {
     const ExprId name = tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, start), nameOf(t_), {}});
     advance();
     const Tok next = kind();
-    if (next == Tok::Dot || next == Tok::LeftParen || next == Tok::LeftBracket || next == Tok::Caret) return parsePostfix(name);
+    if (next == Tok::Dot || next == Tok::LeftParen || next == Tok::LeftBracket || next == Tok::Caret)
+      return parsePostfix(name);
     return name;
   }
   // The functional form of operator words: AND(a, b)
@@ -208,9 +211,11 @@ ExprId Parser::parsePostfix(ExprId base) {
         } else if (at(Tok::Number)) {
           NumberValue value;
           const std::string_view digits = textOf(t_);
-          if (readNumber(digits, at_member, diagnostics_, value) && (value.is_real || value.is_based || value.integer > 63))
+          if (readNumber(digits, at_member, diagnostics_, value) &&
+              (value.is_real || value.is_based || value.integer > 63))
             fail(Diag::MissingName, t_, {describe(t_)});
-          base = tree_.add<ExprId>(BitAccessExpr{exprHeader(ExprKind::BitAccess, at_member), base, static_cast<uint32_t>(value.integer & 63), 1});
+          base = tree_.add<ExprId>(BitAccessExpr{exprHeader(ExprKind::BitAccess, at_member), base,
+                                                 static_cast<uint32_t>(value.integer & 63), 1});
           advance();
         } else if (at(Tok::Address)) {
           // %X3 %B1 %W0 %D0
@@ -224,7 +229,8 @@ ExprId Parser::parsePostfix(ExprId base) {
             position = position * 10 + static_cast<uint32_t>(c - '0');
           }
           if (!good) fail(Diag::AddressForm, t_, {part});
-          base = tree_.add<ExprId>(BitAccessExpr{exprHeader(ExprKind::BitAccess, at_member), base, good ? position : 0, static_cast<uint8_t>(good ? width : 1)});
+          base = tree_.add<ExprId>(BitAccessExpr{exprHeader(ExprKind::BitAccess, at_member), base, good ? position : 0,
+                                                 static_cast<uint8_t>(good ? width : 1)});
           advance();
         } else {
           if (same_line)
@@ -388,7 +394,9 @@ void Parser::closeParen(Tok close, bool is_arguments) {
       if (depth == 0) break;
       --depth;
     }
-    if (k == Tok::Semicolon || k == Tok::End || (isReserved(k) && !isOperand(k) && kOperators[static_cast<size_t>(k)].precedence == 0)) break;
+    if (k == Tok::Semicolon || k == Tok::End ||
+        (isReserved(k) && !isOperand(k) && kOperators[static_cast<size_t>(k)].precedence == 0))
+      break;
   }
   depth = 0;
   for (;; advance()) {
@@ -404,14 +412,16 @@ void Parser::closeParen(Tok close, bool is_arguments) {
       }
       --depth;
     }
-    if (k == Tok::Semicolon || k == Tok::End || (isReserved(k) && !isOperand(k) && kOperators[static_cast<size_t>(k)].precedence == 0)) return;
+    if (k == Tok::Semicolon || k == Tok::End ||
+        (isReserved(k) && !isOperand(k) && kOperators[static_cast<size_t>(k)].precedence == 0))
+      return;
     if (atLineStart() && startsStatement(t_)) return;
   }
 }
 
 ExprId Parser::boolLiteral(bool value, NameId prefix, Loc loc) {
-  return tree_.add<ExprId>(
-      LiteralExpr{exprHeader(ExprKind::Literal, loc, static_cast<uint8_t>(LiteralKind::Bool)), prefix, value ? 1u : 0u, 0});
+  return tree_.add<ExprId>(LiteralExpr{exprHeader(ExprKind::Literal, loc, static_cast<uint8_t>(LiteralKind::Bool)),
+                                       prefix, value ? 1u : 0u, 0});
 }
 
 // INT#-5  INT#16#FF  BOOL#TRUE  STRING#'x'  Color#Red
@@ -435,7 +445,8 @@ ExprId Parser::parseTyped() {
     return boolLiteral(value, prefix, start);
   }
   if (isName(kind())) {
-    const ExprId e = tree_.add<ExprId>(TypedNameExpr{exprHeader(ExprKind::TypedName, start), ident(type), ident(t_), {}});
+    const ExprId e =
+        tree_.add<ExprId>(TypedNameExpr{exprHeader(ExprKind::TypedName, start), ident(type), ident(t_), {}});
     advance();
     return e;
   }
@@ -455,17 +466,20 @@ ExprId Parser::parseNumber(NameId prefix, bool negative, Loc start) {
   if (prefix) {
     const Token* type = token - (negative || token[-1].kind == Tok::Plus ? 3 : 2);
     const bool is_real_type = type->kind == Tok::Real || type->kind == Tok::Lreal;
-    if (type->kind == Tok::Bool && !value.is_real && value.integer <= 1 && !negative) return boolLiteral(value.integer != 0, prefix, start);
+    if (type->kind == Tok::Bool && !value.is_real && value.integer <= 1 && !negative)
+      return boolLiteral(value.integer != 0, prefix, start);
     if (is_real_type && !value.is_real && !value.is_based) {
       value.is_real = true;
       value.real = static_cast<double>(value.integer);
     }
-    if (isTypeWord(type->kind) && ((value.is_real && !is_real_type) || (is_real_type && value.is_based) || type->kind == Tok::Bool ||
-                                   type->kind == Tok::String || type->kind == Tok::Wstring))
+    if (isTypeWord(type->kind) && ((value.is_real && !is_real_type) || (is_real_type && value.is_based) ||
+                                   type->kind == Tok::Bool || type->kind == Tok::String || type->kind == Tok::Wstring))
       slip(Diag::LiteralPrefix, token, {textOf(token), textOf(type)});
     if (value.is_real && negative) value.real = -value.real;
   }
-  LiteralExpr e{exprHeader(ExprKind::Literal, start, static_cast<uint8_t>(value.is_real ? LiteralKind::Real : LiteralKind::Integer), bits), prefix, 0, 0};
+  LiteralExpr e{exprHeader(ExprKind::Literal, start,
+                           static_cast<uint8_t>(value.is_real ? LiteralKind::Real : LiteralKind::Integer), bits),
+                prefix, 0, 0};
   if (value.is_real) {
     uint64_t raw = 0;
     std::memcpy(&raw, &value.real, sizeof raw);
@@ -485,13 +499,16 @@ ExprId Parser::parseText(NameId prefix, Loc start) {
   if ((token->flags & kReported) != 0) last_error_ = token;
   if (prefix) {
     const Tok type = token[-2].kind;
-    const bool good = type == Tok::String || type == Tok::Char ? !wide : type == Tok::Wstring || type == Tok::Wchar ? wide : !isTypeWord(type);
+    const bool good = type == Tok::String || type == Tok::Char     ? !wide
+                      : type == Tok::Wstring || type == Tok::Wchar ? wide
+                                                                   : !isTypeWord(type);
     if (!good) slip(Diag::LiteralPrefix, token, {textOf(token), textOf(token - 2)});
   }
   readString(textOf(token), loc(token), diagnostics_, buffer_);
   const TextId text = tree_.addText(buffer_);
-  return tree_.add<ExprId>(LiteralExpr{exprHeader(ExprKind::Literal, start, static_cast<uint8_t>(wide ? LiteralKind::WString : LiteralKind::String)),
-                                       prefix, text.first, text.length});
+  return tree_.add<ExprId>(LiteralExpr{
+      exprHeader(ExprKind::Literal, start, static_cast<uint8_t>(wide ? LiteralKind::WString : LiteralKind::String)),
+      prefix, text.first, text.length});
 }
 
 ExprId Parser::parseTime() {
@@ -509,7 +526,8 @@ ExprId Parser::parseTime() {
     last_error_ = token;
     return errorExpr(loc(token));
   }
-  const auto bits = static_cast<uint8_t>((value.is_long ? kLiteralLong : 0) | (value.is_negative ? kLiteralNegative : 0));
+  const auto bits =
+      static_cast<uint8_t>((value.is_long ? kLiteralLong : 0) | (value.is_negative ? kLiteralNegative : 0));
   LiteralExpr e{exprHeader(ExprKind::Literal, loc(token), static_cast<uint8_t>(value.kind), bits), {}, 0, 0};
   e.setValue(value.value);
   return tree_.add<ExprId>(e);

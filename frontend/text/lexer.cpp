@@ -19,7 +19,8 @@ constexpr std::array<uint8_t, 256> makeClasses() {
   for (int i = 'a'; i <= 'z'; ++i) c[static_cast<size_t>(i)] = c[static_cast<size_t>(i - 32)] = kLetter;
   c['_'] = kLetter;
   for (int i = '0'; i <= '9'; ++i) c[static_cast<size_t>(i)] = kDigit;
-  for (char p : {';', ':', ',', '.', '(', ')', '[', ']', '^', '#', '=', '+', '-', '*', '/', '<', '>', '&', '!', '|', '%', '{'})
+  for (char p :
+       {';', ':', ',', '.', '(', ')', '[', ']', '^', '#', '=', '+', '-', '*', '/', '<', '>', '&', '!', '|', '%', '{'})
     c[static_cast<unsigned char>(p)] = kPunct;
   c['\''] = c['"'] = kQuote;
   return c;
@@ -33,7 +34,9 @@ constexpr std::array<bool, 256> makeWordChars() {
 }
 constexpr std::array<bool, 256> kWordChar = makeWordChars();
 
-constexpr unsigned char fold(unsigned char c) { return c >= 'A' && c <= 'Z' ? static_cast<unsigned char>(c | 0x20) : c; }
+constexpr unsigned char fold(unsigned char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<unsigned char>(c | 0x20) : c;
+}
 
 struct Spelling {
   const char* text;
@@ -59,7 +62,8 @@ constexpr uint32_t wordHash(const char* s, uint32_t n) {
   const auto a = static_cast<unsigned char>(s[0] | 0x20);
   const auto b = static_cast<unsigned char>(s[n / 2] | 0x20);
   const auto c = static_cast<unsigned char>(s[n - 1] | 0x20);
-  return (n * 131u + a * 7u + b * 61u + c * 313u + (static_cast<unsigned char>(s[n > 5 ? 5 : 0] | 0x20) * 29u)) & (kWordSlots - 1);
+  return (n * 131u + a * 7u + b * 61u + c * 313u + (static_cast<unsigned char>(s[n > 5 ? 5 : 0] | 0x20) * 29u)) &
+         (kWordSlots - 1);
 }
 struct WordTable {
   uint8_t slot[kWordSlots] = {};
@@ -81,7 +85,8 @@ Tok findWord(const char* s, uint32_t n) {
     if (k == 0) return Tok::Ident;
     if (kSpellings[k].length != n) continue;
     uint32_t i = 0;
-    while (i < n && fold(static_cast<unsigned char>(s[i])) == fold(static_cast<unsigned char>(kSpellings[k].text[i]))) ++i;
+    while (i < n && fold(static_cast<unsigned char>(s[i])) == fold(static_cast<unsigned char>(kSpellings[k].text[i])))
+      ++i;
     if (i == n) return static_cast<Tok>(k);
   }
 }
@@ -89,11 +94,42 @@ Tok findWord(const char* s, uint32_t n) {
 // Words that open, divide or close blocks; recover.cpp checks that they balance.
 constexpr std::array<bool, kTokCount> makeBlockWords() {
   std::array<bool, kTokCount> b{};
-  for (Tok t : {Tok::If, Tok::EndIf, Tok::Case, Tok::EndCase, Tok::For, Tok::EndFor, Tok::While, Tok::EndWhile, Tok::Repeat,
-                Tok::EndRepeat, Tok::Type, Tok::EndType, Tok::Struct, Tok::EndStruct, Tok::Union, Tok::EndUnion, Tok::Var,
-                Tok::VarInput, Tok::VarOutput, Tok::VarInOut, Tok::VarTemp, Tok::VarExternal, Tok::VarGlobal, Tok::VarStat,
-                Tok::VarAccess, Tok::VarConfig, Tok::EndVar, Tok::Function, Tok::EndFunction, Tok::FunctionBlock,
-                Tok::EndFunctionBlock, Tok::Program, Tok::EndProgram, Tok::Configuration, Tok::EndConfiguration, Tok::Resource,
+  for (Tok t : {Tok::If,
+                Tok::EndIf,
+                Tok::Case,
+                Tok::EndCase,
+                Tok::For,
+                Tok::EndFor,
+                Tok::While,
+                Tok::EndWhile,
+                Tok::Repeat,
+                Tok::EndRepeat,
+                Tok::Type,
+                Tok::EndType,
+                Tok::Struct,
+                Tok::EndStruct,
+                Tok::Union,
+                Tok::EndUnion,
+                Tok::Var,
+                Tok::VarInput,
+                Tok::VarOutput,
+                Tok::VarInOut,
+                Tok::VarTemp,
+                Tok::VarExternal,
+                Tok::VarGlobal,
+                Tok::VarStat,
+                Tok::VarAccess,
+                Tok::VarConfig,
+                Tok::EndVar,
+                Tok::Function,
+                Tok::EndFunction,
+                Tok::FunctionBlock,
+                Tok::EndFunctionBlock,
+                Tok::Program,
+                Tok::EndProgram,
+                Tok::Configuration,
+                Tok::EndConfiguration,
+                Tok::Resource,
                 Tok::EndResource})
     b[static_cast<size_t>(t)] = true;
   return b;
@@ -106,13 +142,22 @@ Prefix prefixOf(std::string_view word) {
     const char* word;
     Prefix prefix;
   };
-  static constexpr Row kRows[] = {
-      {"T", Prefix::Duration},        {"TIME", Prefix::Duration},          {"LT", Prefix::Duration},
-      {"LTIME", Prefix::Duration},    {"D", Prefix::Date},                 {"DATE", Prefix::Date},
-      {"LD", Prefix::Date},           {"LDATE", Prefix::Date},             {"TOD", Prefix::TimeOfDay},
-      {"LTOD", Prefix::TimeOfDay},    {"TIME_OF_DAY", Prefix::TimeOfDay},  {"LTIME_OF_DAY", Prefix::TimeOfDay},
-      {"DT", Prefix::DateTime},       {"LDT", Prefix::DateTime},           {"DATE_AND_TIME", Prefix::DateTime},
-      {"LDATE_AND_TIME", Prefix::DateTime}};
+  static constexpr Row kRows[] = {{"T", Prefix::Duration},
+                                  {"TIME", Prefix::Duration},
+                                  {"LT", Prefix::Duration},
+                                  {"LTIME", Prefix::Duration},
+                                  {"D", Prefix::Date},
+                                  {"DATE", Prefix::Date},
+                                  {"LD", Prefix::Date},
+                                  {"LDATE", Prefix::Date},
+                                  {"TOD", Prefix::TimeOfDay},
+                                  {"LTOD", Prefix::TimeOfDay},
+                                  {"TIME_OF_DAY", Prefix::TimeOfDay},
+                                  {"LTIME_OF_DAY", Prefix::TimeOfDay},
+                                  {"DT", Prefix::DateTime},
+                                  {"LDT", Prefix::DateTime},
+                                  {"DATE_AND_TIME", Prefix::DateTime},
+                                  {"LDATE_AND_TIME", Prefix::DateTime}};
   for (const Row& row : kRows)
     if (sameIdentifier(word, row.word)) return row.prefix;
   return Prefix::None;
@@ -120,9 +165,16 @@ Prefix prefixOf(std::string_view word) {
 
 class Lexer {
  public:
-  Lexer(TokenStream& out, Names& names, const Sources& sources, FileId file, Standard standard, Diagnostics& diagnostics)
-      : out_(out), names_(names), standard_(standard), diagnostics_(diagnostics), base_(sources.begin(file).offset),
-        text_(sources.text(file)), path_(sources.path(file)), names_seen_(names.count()) {}
+  Lexer(TokenStream& out, Names& names, const Sources& sources, FileId file, Standard standard,
+        Diagnostics& diagnostics)
+      : out_(out),
+        names_(names),
+        standard_(standard),
+        diagnostics_(diagnostics),
+        base_(sources.begin(file).offset),
+        text_(sources.text(file)),
+        path_(sources.path(file)),
+        names_seen_(names.count()) {}
 
   void run(uint32_t begin, uint32_t end);
 
@@ -175,7 +227,8 @@ void Lexer::run(uint32_t begin, uint32_t end) {
     // Pragmas and docs wait for the token that follows them.
     const uint32_t offset = at(p);
     if (pending_pragmas_ > 0) {
-      for (size_t i = out_.pragmas.size() - pending_pragmas_; i < out_.pragmas.size(); ++i) out_.pragmas[i].token_offset = offset;
+      for (size_t i = out_.pragmas.size() - pending_pragmas_; i < out_.pragmas.size(); ++i)
+        out_.pragmas[i].token_offset = offset;
       pending_pragmas_ = 0;
       flags_ |= kPragma;
     }
@@ -270,7 +323,8 @@ const char* Lexer::prefixed(const char* begin, const char* p, Prefix prefix) {
   } else {
     kind = prefix == Prefix::Date ? Tok::Date : prefix == Prefix::TimeOfDay ? Tok::TimeOfDay : Tok::DateTime;
     int dashes = prefix == Prefix::Date ? 2 : prefix == Prefix::DateTime ? 3 : 0;
-    while (kWordChar[static_cast<Byte>(*p)] || ((*p == ':' || *p == '.') && digit(p[1])) || (*p == '-' && dashes > 0 && digit(p[1]))) {
+    while (kWordChar[static_cast<Byte>(*p)] || ((*p == ':' || *p == '.') && digit(p[1])) ||
+           (*p == '-' && dashes > 0 && digit(p[1]))) {
       if (*p == '-') --dashes;
       ++p;
     }
@@ -279,7 +333,8 @@ const char* Lexer::prefixed(const char* begin, const char* p, Prefix prefix) {
   return p;
 }
 
-// 12  1_000  16#FF  1.5  1.5e-3; `1..5` is 1, .., 5. Letters that follow belong to it, so that 12ab is one wrong number.
+// 12  1_000  16#FF  1.5  1.5e-3; `1..5` is 1, .., 5. Letters that follow belong to it, so that 12ab is one wrong
+// number.
 const char* Lexer::number(const char* begin) {
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
   const char* p = begin;
@@ -307,7 +362,8 @@ const char* Lexer::quoted(const char* begin) {
   const char* p = begin + 1;
   while (*p != quote) {
     if (*p == '\n' || *p == '\r' || p >= end_) {
-      diagnostics_.report(Diag::UnterminatedString, loc(begin), {std::string_view(&quote, 1)}).length(static_cast<uint32_t>(p - begin));
+      diagnostics_.report(Diag::UnterminatedString, loc(begin), {std::string_view(&quote, 1)})
+          .length(static_cast<uint32_t>(p - begin));
       flags_ |= kReported;
       push(quote == '\'' ? Tok::Text : Tok::WideText, begin, static_cast<uint32_t>(p - begin));
       return p;
@@ -354,7 +410,10 @@ const char* Lexer::punct(const char* p) {
     case '^': return one(Tok::Caret);
     case '#': return one(Tok::Hash);
     case '=':
-      return p[1] == '>' ? two(Tok::Arrow) : p[1] == '=' ? two(Tok::EqualEqual) : p[1] == '<' ? two(Tok::EqualLess) : one(Tok::Equal);
+      return p[1] == '>'   ? two(Tok::Arrow)
+             : p[1] == '=' ? two(Tok::EqualEqual)
+             : p[1] == '<' ? two(Tok::EqualLess)
+                           : one(Tok::Equal);
     case '+': return p[1] == '=' ? two(Tok::PlusAssign) : one(Tok::Plus);
     case '-': return p[1] == '=' ? two(Tok::MinusAssign) : one(Tok::Minus);
     case '*': return p[1] == '*' ? two(Tok::Power) : p[1] == '=' ? two(Tok::StarAssign) : one(Tok::Star);
@@ -456,7 +515,8 @@ void Lexer::message(const char* begin, const char* end) {
   const char* word_begin = begin;
   while (begin < end && kWordChar[static_cast<Byte>(*begin)]) ++begin;
   const std::string_view word(word_begin, static_cast<size_t>(begin - word_begin));
-  const bool info = sameIdentifier(word, "info"), warning = sameIdentifier(word, "warning"), error = sameIdentifier(word, "error");
+  const bool info = sameIdentifier(word, "info"), warning = sameIdentifier(word, "warning"),
+             error = sameIdentifier(word, "error");
   if (!info && !warning && !error) return;
   skip();
   if (begin < end && *begin == ':') ++begin;
@@ -492,7 +552,8 @@ const char* Lexer::stray(const char* begin) {
   if (c >= 0x80 || kClasses[c] == kLetter)
     diagnostics_.report(Diag::NotAscii, loc(begin), {shown}).length(static_cast<uint32_t>(p - begin));
   else
-    diagnostics_.report(c == '}' ? Diag::StrayBrace : Diag::StrayCharacter, loc(begin), {shown}).length(static_cast<uint32_t>(p - begin));
+    diagnostics_.report(c == '}' ? Diag::StrayBrace : Diag::StrayCharacter, loc(begin), {shown})
+        .length(static_cast<uint32_t>(p - begin));
   flags_ |= kReported;
   push(Tok::Error, begin, static_cast<uint32_t>(p - begin));
   return p;
@@ -502,8 +563,8 @@ const char* Lexer::stray(const char* begin) {
 
 const char* spelling(Tok kind) { return kSpellings[static_cast<size_t>(kind)].text; }
 
-void lex(TokenStream& out, Names& names, const Sources& sources, FileId file, uint32_t begin, uint32_t end, Standard standard,
-         Diagnostics& diagnostics) {
+void lex(TokenStream& out, Names& names, const Sources& sources, FileId file, uint32_t begin, uint32_t end,
+         Standard standard, Diagnostics& diagnostics) {
   Lexer(out, names, sources, file, standard, diagnostics).run(begin, end);
 }
 

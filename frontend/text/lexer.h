@@ -32,12 +32,12 @@ inline bool isReserved(Tok kind) { return kind >= Tok::And && kind <= Tok::EndRe
 const char* spelling(Tok kind);
 
 enum TokenFlag : uint8_t {
-  kLineStart = 1,  // the first token of its line
-  kPragma = 2,     // pragmas stand before it
-  kDoc = 4,        // `///` lines stand above it
-  kDocAfter = 8,   // `///` follows on its line
-  kReported = 16,  // the lexer has reported this token
-  kSynthetic = 32, // inserted by recovery; stands at the offset of the next real token
+  kLineStart = 1,   // the first token of its line
+  kPragma = 2,      // pragmas stand before it
+  kDoc = 4,         // `///` lines stand above it
+  kDocAfter = 8,    // `///` follows on its line
+  kReported = 16,   // the lexer has reported this token
+  kSynthetic = 32,  // inserted by recovery; stands at the offset of the next real token
 };
 struct Token {
   uint32_t offset;  // in the file

@@ -18,7 +18,9 @@ int hexDigit(char c) {
 bool checkUnderscores(std::string_view digits, std::string_view text, Loc loc, Diagnostics& diagnostics) {
   for (size_t i = 0; i < digits.size(); ++i) {
     if (digits[i] != '_') continue;
-    if (i > 0 && i + 1 < digits.size() && digits[i - 1] != '_' && hexDigit(digits[i - 1]) >= 0 && hexDigit(digits[i + 1]) >= 0) continue;
+    if (i > 0 && i + 1 < digits.size() && digits[i - 1] != '_' && hexDigit(digits[i - 1]) >= 0 &&
+        hexDigit(digits[i + 1]) >= 0)
+      continue;
     diagnostics.report(Diag::NumberUnderscore, loc, {text});
     return false;
   }
@@ -31,7 +33,9 @@ bool takeNumber(std::string_view& text, uint64_t& value) {
   size_t i = 0;
   for (; i < text.size() && (isDigit(text[i]) || (text[i] == '_' && i > 0)); ++i) {
     if (text[i] == '_') continue;
-    if (__builtin_mul_overflow(value, 10u, &value) || __builtin_add_overflow(value, static_cast<uint64_t>(text[i] - '0'), &value)) return false;
+    if (__builtin_mul_overflow(value, 10u, &value) ||
+        __builtin_add_overflow(value, static_cast<uint64_t>(text[i] - '0'), &value))
+      return false;
   }
   if (i == 0 || text[i - 1] == '_') return false;
   text.remove_prefix(i);
@@ -73,7 +77,8 @@ int64_t daysFromCivil(int64_t y, unsigned m, unsigned d) {
 }
 
 // y-m-d at the front of text.
-bool takeDate(std::string_view& text, std::string_view whole, const char* sample, Loc loc, Diagnostics& diagnostics, int64_t& days) {
+bool takeDate(std::string_view& text, std::string_view whole, const char* sample, Loc loc, Diagnostics& diagnostics,
+              int64_t& days) {
   uint64_t y = 0, m = 0, d = 0;
   if (!takeNumber(text, y) || !take(text, '-') || !takeNumber(text, m) || !take(text, '-') || !takeNumber(text, d)) {
     diagnostics.report(Diag::DateForm, loc, {whole, sample});
@@ -82,7 +87,8 @@ bool takeDate(std::string_view& text, std::string_view whole, const char* sample
   static constexpr unsigned kLengths[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
   const bool leap = (y % 4 == 0 && y % 100 != 0) || y % 400 == 0;
   // The range of 64 bits of nanoseconds, by whole years.
-  const bool good = y >= 1678 && y <= 2261 && m >= 1 && m <= 12 && d >= 1 && d <= kLengths[m - 1] + (m == 2 && leap ? 1u : 0u);
+  const bool good =
+      y >= 1678 && y <= 2261 && m >= 1 && m <= 12 && d >= 1 && d <= kLengths[m - 1] + (m == 2 && leap ? 1u : 0u);
   if (!good) {
     diagnostics.report(Diag::NoSuchDay, loc, {behindHash(whole).substr(0, behindHash(whole).size() - text.size())});
     return false;
@@ -92,8 +98,8 @@ bool takeDate(std::string_view& text, std::string_view whole, const char* sample
 }
 
 // h:m[:s[.fraction]] up to the end of text.
-bool takeTime(std::string_view text, std::string_view whole, const char* sample, bool hours_free, Loc loc, Diagnostics& diagnostics,
-              uint64_t& nanoseconds) {
+bool takeTime(std::string_view text, std::string_view whole, const char* sample, bool hours_free, Loc loc,
+              Diagnostics& diagnostics, uint64_t& nanoseconds) {
   uint64_t h = 0, m = 0, s = 0, fraction = 0;
   bool good = takeNumber(text, h) && take(text, ':') && takeNumber(text, m);
   if (good && take(text, ':')) {
@@ -148,7 +154,11 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
   }
   if (const size_t hash = text.find('#'); hash != std::string_view::npos) {
     const std::string_view base_text = text.substr(0, hash), digits = text.substr(hash + 1);
-    const uint32_t base = base_text == "2" ? 2 : base_text == "8" ? 8 : base_text == "16" ? 16 : base_text == "10" ? 10 : 0;
+    const uint32_t base = base_text == "2"    ? 2
+                          : base_text == "8"  ? 8
+                          : base_text == "16" ? 16
+                          : base_text == "10" ? 10
+                                              : 0;
     if (base == 0) {
       diagnostics.report(Diag::NumberBase, loc, {text});
       return false;
@@ -224,7 +234,8 @@ bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
     const char* name;
     uint64_t nanoseconds;
   };
-  static constexpr Unit kUnits[] = {{"d", kDay}, {"h", kHour}, {"m", kMinute}, {"s", kSecond}, {"ms", 1000000}, {"us", 1000}, {"ns", 1}};
+  static constexpr Unit kUnits[] = {{"d", kDay},     {"h", kHour}, {"m", kMinute}, {"s", kSecond},
+                                    {"ms", 1000000}, {"us", 1000}, {"ns", 1}};
   size_t next_unit = 0;
   bool had_fraction = false;
   uint64_t sum = 0;
@@ -260,7 +271,8 @@ bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
     while (u < 7 && !sameIdentifier(unit, kUnits[u].name)) ++u;
     if (u == 7 || digits.empty()) {
       const std::string_view shown = unit.empty() || digits.empty() ? part_text : unit;
-      diagnostics.report(Diag::TimeUnit, unit.empty() || digits.empty() ? part : at(), {shown}).length(static_cast<uint32_t>(shown.size()));
+      diagnostics.report(Diag::TimeUnit, unit.empty() || digits.empty() ? part : at(), {shown})
+          .length(static_cast<uint32_t>(shown.size()));
       return false;
     }
     if (u < next_unit) {
@@ -272,7 +284,8 @@ bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
     uint64_t amount = 0, product = 0;
     if (!checkUnderscores(digits, text, loc, diagnostics)) return false;
     fits = fits && takeNumber(digits, amount) && !__builtin_mul_overflow(amount, kUnits[u].nanoseconds, &product) &&
-           !__builtin_add_overflow(sum, product, &sum) && !__builtin_add_overflow(sum, fractionOf(fraction, kUnits[u].nanoseconds), &sum);
+           !__builtin_add_overflow(sum, product, &sum) &&
+           !__builtin_add_overflow(sum, fractionOf(fraction, kUnits[u].nanoseconds), &sum);
   }
   if (!fits || (value.is_negative && sum > (1ull << 63))) {
     diagnostics.report(Diag::TimeTooLong, loc, {text});
@@ -356,7 +369,9 @@ bool readString(std::string_view text, Loc loc, Diagnostics& diagnostics, std::s
     }
     if (!is_code) {
       const std::string_view shown = inner.substr(start, next == '\0' ? 1 : 2);
-      diagnostics.report(Diag::StringEscape, Loc{loc.offset + 1 + static_cast<uint32_t>(start)}, {shown, wide ? "four" : "two"})
+      diagnostics
+          .report(Diag::StringEscape, Loc{loc.offset + 1 + static_cast<uint32_t>(start)},
+                  {shown, wide ? "four" : "two"})
           .length(static_cast<uint32_t>(shown.size()));
       good = false;
       continue;
@@ -377,7 +392,8 @@ bool readString(std::string_view text, Loc loc, Diagnostics& diagnostics, std::s
 }
 
 // %area [size] (number {. number} | *)
-bool readAddress(std::string_view text, Loc loc, Diagnostics& diagnostics, DirectAddress& address, std::vector<uint32_t>& path) {
+bool readAddress(std::string_view text, Loc loc, Diagnostics& diagnostics, DirectAddress& address,
+                 std::vector<uint32_t>& path) {
   address = {};
   path.clear();
   std::string_view rest = text.substr(1);

@@ -35,6 +35,7 @@ bool readDateTime(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
 bool readString(std::string_view text, Loc loc, Diagnostics& diagnostics, std::string& value);
 
 // %IX0.0  %QW4  %M*; path gets its numbers.
-bool readAddress(std::string_view text, Loc loc, Diagnostics& diagnostics, DirectAddress& address, std::vector<uint32_t>& path);
+bool readAddress(std::string_view text, Loc loc, Diagnostics& diagnostics, DirectAddress& address,
+                 std::vector<uint32_t>& path);
 
 }  // namespace rung::text

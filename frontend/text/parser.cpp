@@ -5,9 +5,16 @@
 
 namespace rung::text {
 
-Parser::Parser(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard, Diagnostics& diagnostics)
-    : tree_(tree), names_(names), sources_(sources), file_(file), standard_(standard), diagnostics_(diagnostics),
-      base_(sources.begin(file).offset), text_(sources.text(file)) {}
+Parser::Parser(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+               Diagnostics& diagnostics)
+    : tree_(tree),
+      names_(names),
+      sources_(sources),
+      file_(file),
+      standard_(standard),
+      diagnostics_(diagnostics),
+      base_(sources.begin(file).offset),
+      text_(sources.text(file)) {}
 
 void Parser::read(uint32_t begin, uint32_t end) {
   lex(stream_, names_, sources_, file_, begin, end, standard_, diagnostics_);
@@ -19,7 +26,8 @@ void Parser::read(uint32_t begin, uint32_t end) {
 // ---- tokens
 
 uint32_t Parser::lengthOf(const Token* t) const {
-  if (isName(t->kind) || isTypeWord(t->kind)) return (t->flags & kSynthetic) != 0 ? 0 : static_cast<uint32_t>(names_.text({t->value}).size());
+  if (isName(t->kind) || isTypeWord(t->kind))
+    return (t->flags & kSynthetic) != 0 ? 0 : static_cast<uint32_t>(names_.text({t->value}).size());
   return t->value;
 }
 
@@ -107,14 +115,17 @@ bool Parser::expect(Tok wanted) {
   }
   if (atLineStart() || at(Tok::End))
     missing(Diag::MissingToken, {spelling(wanted), describe(t_)});
-  else if (isOperand(kind()) || at(Tok::Minus) || at(Tok::Array) || at(Tok::Struct) || at(Tok::Colon) || at(Tok::Semicolon))
+  else if (isOperand(kind()) || at(Tok::Minus) || at(Tok::Array) || at(Tok::Struct) || at(Tok::Colon) ||
+           at(Tok::Semicolon))
     slip(Diag::MissingToken, t_, {spelling(wanted), describe(t_)});
   else
     fail(Diag::WrongWord, t_, {textOf(t_), spelling(wanted)});
   return false;
 }
 
-Tok Parser::nearKeyword(const Token* t, std::span<const Tok> candidates) const { return nearestKeyword(textOf(t), candidates); }
+Tok Parser::nearKeyword(const Token* t, std::span<const Tok> candidates) const {
+  return nearestKeyword(textOf(t), candidates);
+}
 
 bool Parser::respell(Tok wanted) {
   slip(Diag::MisspelledKeyword, t_, {textOf(t_), spelling(wanted)});
@@ -147,7 +158,8 @@ ExprId Parser::parseLoneExpression() {
 
 bool Parser::atTopLevelWord() const {
   const Tok k = kind();
-  return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program || k == Tok::Type || k == Tok::Configuration || k == Tok::VarGlobal;
+  return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program || k == Tok::Type ||
+         k == Tok::Configuration || k == Tok::VarGlobal;
 }
 
 // file = {TYPE … | POU | CONFIGURATION … | VAR_GLOBAL …}
@@ -174,8 +186,10 @@ void Parser::parseTopLevel(std::vector<DeclId>& out) {
     default: break;
   }
   if (at(Tok::Ident)) {
-    static constexpr Tok kWords[] = {Tok::Function, Tok::FunctionBlock, Tok::Program, Tok::Type, Tok::Configuration, Tok::VarGlobal};
-    if (const Tok meant = nearKeyword(t_, kWords); meant != Tok::End && (isName(peek()) || (t_[1].flags & kLineStart) != 0)) {
+    static constexpr Tok kWords[] = {Tok::Function, Tok::FunctionBlock, Tok::Program,
+                                     Tok::Type,     Tok::Configuration, Tok::VarGlobal};
+    if (const Tok meant = nearKeyword(t_, kWords);
+        meant != Tok::End && (isName(peek()) || (t_[1].flags & kLineStart) != 0)) {
       respell(meant);
       return;
     }
@@ -206,8 +220,12 @@ DeclId Parser::parsePou() {
   PouDecl d{};
   d.h = {DeclKind::Pou, 0, 0, here(), takeDoc(), takePragmas()};
   const Tok word = kind();
-  d.pou_kind = word == Tok::Function ? PouKind::Function : word == Tok::FunctionBlock ? PouKind::FunctionBlock : PouKind::Program;
-  const Tok end = word == Tok::Function ? Tok::EndFunction : word == Tok::FunctionBlock ? Tok::EndFunctionBlock : Tok::EndProgram;
+  d.pou_kind = word == Tok::Function        ? PouKind::Function
+               : word == Tok::FunctionBlock ? PouKind::FunctionBlock
+                                            : PouKind::Program;
+  const Tok end = word == Tok::Function        ? Tok::EndFunction
+                  : word == Tok::FunctionBlock ? Tok::EndFunctionBlock
+                                               : Tok::EndProgram;
   d.begin = here();
   for (const Pragma& p : tree_.list(d.h.pragmas)) {
     d.begin = p.loc;
@@ -305,8 +323,8 @@ DeclId Parser::parseConfiguration() {
 void Parser::parseMembers(Tok end, std::vector<DeclId>& out) {
   for (;;) {
     if (accept(Tok::Semicolon)) continue;
-    if (at(end) || at(Tok::End) || at(Tok::EndConfiguration) || at(Tok::EndResource) || at(Tok::Configuration) || at(Tok::Function) ||
-        at(Tok::FunctionBlock) || at(Tok::Type))
+    if (at(end) || at(Tok::End) || at(Tok::EndConfiguration) || at(Tok::EndResource) || at(Tok::Configuration) ||
+        at(Tok::Function) || at(Tok::FunctionBlock) || at(Tok::Type))
       return;
     DeclId member;
     if (atSection()) {
@@ -424,7 +442,8 @@ DeclId Parser::parseProgramInstance() {
 
 // ---- the interface
 
-FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard, Diagnostics& diagnostics) {
+FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+                   Diagnostics& diagnostics) {
   Parser parser(tree, names, sources, file, standard, diagnostics);
   parser.read(0, static_cast<uint32_t>(sources.text(file).size()));
   const FileUnit unit{file, parser.parseDecls()};
@@ -441,7 +460,8 @@ Slice<DeclId> parseDeclarations(Tree& tree, Names& names, const Sources& sources
   return parser.parseDecls();
 }
 
-ExprId parseExpression(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard, Diagnostics& diagnostics) {
+ExprId parseExpression(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+                       Diagnostics& diagnostics) {
   Parser parser(tree, names, sources, file, standard, diagnostics);
   parser.read(0, static_cast<uint32_t>(sources.text(file).size()));
   return parser.parseLoneExpression();

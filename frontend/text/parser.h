@@ -103,7 +103,12 @@ class Parser {
   bool pragmaNamed(Slice<Pragma> pragmas, std::string_view name) const;
 
   // ---- statements (statements.cpp)
-  enum Stops : uint8_t { kStopElse = 1, kStopElsif = 2, kStopUntil = 4, kStopLabel = 8 };  // words that end a list, beside END_…
+  enum Stops : uint8_t {
+    kStopElse = 1,
+    kStopElsif = 2,
+    kStopUntil = 4,
+    kStopLabel = 8
+  };  // words that end a list, beside END_…
   Slice<StmtId> parseStatements(uint8_t stops);
   bool atBlockEnd() const;
   void parseStatement();
@@ -182,7 +187,7 @@ class Parser {
 };
 
 constexpr uint32_t kMaxExprDepth = 1000;
-constexpr uint32_t kMaxChain = 2000;       // operators in a row: a left-deep tree
+constexpr uint32_t kMaxChain = 2000;  // operators in a row: a left-deep tree
 constexpr uint32_t kMaxStmtDepth = 2000;
 constexpr uint32_t kMaxTypeDepth = 200;
 

@@ -27,18 +27,35 @@ Tok closerOf(Tok open) {
   }
 }
 
-constexpr Tok kClosers[] = {Tok::EndIf,   Tok::EndCase,   Tok::EndFor,   Tok::EndWhile,    Tok::EndRepeat,        Tok::EndType,    Tok::EndStruct,
-                            Tok::EndUnion, Tok::EndVar,    Tok::EndFunction, Tok::EndFunctionBlock, Tok::EndProgram, Tok::EndConfiguration, Tok::EndResource};
+constexpr Tok kClosers[] = {Tok::EndIf,
+                            Tok::EndCase,
+                            Tok::EndFor,
+                            Tok::EndWhile,
+                            Tok::EndRepeat,
+                            Tok::EndType,
+                            Tok::EndStruct,
+                            Tok::EndUnion,
+                            Tok::EndVar,
+                            Tok::EndFunction,
+                            Tok::EndFunctionBlock,
+                            Tok::EndProgram,
+                            Tok::EndConfiguration,
+                            Tok::EndResource};
 bool isCloser(Tok k) { return std::find(std::begin(kClosers), std::end(kClosers), k) != std::end(kClosers); }
 bool isVarWord(Tok k) { return k >= Tok::Var && k <= Tok::VarConfig; }
 bool isPouOpener(Tok k) { return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program; }
 bool isPouCloser(Tok k) { return k == Tok::EndFunction || k == Tok::EndFunctionBlock || k == Tok::EndProgram; }
-bool isStatementOpener(Tok k) { return k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat; }
+bool isStatementOpener(Tok k) {
+  return k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat;
+}
 
 // The words that a closer may have been opened by.
 std::span<const Tok> openersFor(Tok closer) {
-  static constexpr Tok kVars[] = {Tok::Var, Tok::VarInput, Tok::VarOutput, Tok::VarInOut, Tok::VarTemp, Tok::VarExternal, Tok::VarGlobal, Tok::VarStat, Tok::VarAccess, Tok::VarConfig};
-  static constexpr Tok kOthers[] = {Tok::If, Tok::Case, Tok::For, Tok::While, Tok::Repeat, Tok::Type, Tok::Struct, Tok::Union, Tok::Function, Tok::FunctionBlock, Tok::Program, Tok::Configuration, Tok::Resource};
+  static constexpr Tok kVars[] = {Tok::Var,         Tok::VarInput,  Tok::VarOutput, Tok::VarInOut,  Tok::VarTemp,
+                                  Tok::VarExternal, Tok::VarGlobal, Tok::VarStat,   Tok::VarAccess, Tok::VarConfig};
+  static constexpr Tok kOthers[] = {Tok::If,      Tok::Case,          Tok::For,     Tok::While,    Tok::Repeat,
+                                    Tok::Type,    Tok::Struct,        Tok::Union,   Tok::Function, Tok::FunctionBlock,
+                                    Tok::Program, Tok::Configuration, Tok::Resource};
   if (closer == Tok::EndVar) return kVars;
   for (const Tok& t : kOthers)
     if (closerOf(t) == closer) return {&t, 1};
@@ -47,9 +64,17 @@ std::span<const Tok> openersFor(Tok closer) {
 
 class Balancer {
  public:
-  Balancer(TokenStream& stream, const Names& names, const Sources& sources, FileId file, Standard standard, Diagnostics& diagnostics)
-      : stream_(stream), tokens_(stream.tokens), names_(names), sources_(sources), standard_(standard), diagnostics_(diagnostics),
-        base_(sources.begin(file).offset), text_(sources.text(file)), count_(static_cast<uint32_t>(tokens_.size()) - kLookahead) {}
+  Balancer(TokenStream& stream, const Names& names, const Sources& sources, FileId file, Standard standard,
+           Diagnostics& diagnostics)
+      : stream_(stream),
+        tokens_(stream.tokens),
+        names_(names),
+        sources_(sources),
+        standard_(standard),
+        diagnostics_(diagnostics),
+        base_(sources.begin(file).offset),
+        text_(sources.text(file)),
+        count_(static_cast<uint32_t>(tokens_.size()) - kLookahead) {}
 
   void run();
 
@@ -58,12 +83,12 @@ class Balancer {
     Tok kind;
     uint32_t index;
     uint32_t column;
-    bool line_start;         // the first word of its line
-    bool is_chain;           // the IF of an ELSE IF
-    uint32_t suspect;        // where its END_… seems to be missing; 0: not known
-    uint32_t chain_child;    // index of the IF of an ELSE IF inside it that took its END_IF; 0: none
-    Tok connective;          // THEN, DO or OF of its header
-    uint32_t line;           // of the word; filled when needed
+    bool line_start;       // the first word of its line
+    bool is_chain;         // the IF of an ELSE IF
+    uint32_t suspect;      // where its END_… seems to be missing; 0: not known
+    uint32_t chain_child;  // index of the IF of an ELSE IF inside it that took its END_IF; 0: none
+    Tok connective;        // THEN, DO or OF of its header
+    uint32_t line;         // of the word; filled when needed
   };
   struct Orphan {  // THEN, DO or OF without the word it belongs to
     uint32_t index, line_first, column;
@@ -79,7 +104,8 @@ class Balancer {
   bool atLineStart(uint32_t i) const { return (tokens_[i].flags & kLineStart) != 0; }
   bool isProgramInstance(uint32_t i) const {
     uint32_t n = i + 1;
-    if ((tokens_[n].kind == Tok::Retain || tokens_[n].kind == Tok::NonRetain) && isName(tokens_[n + 1].kind)) return true;
+    if ((tokens_[n].kind == Tok::Retain || tokens_[n].kind == Tok::NonRetain) && isName(tokens_[n + 1].kind))
+      return true;
     if (isName(tokens_[n].kind) && tokens_[n + 1].kind == Tok::With) return true;
     if (!in_configuration_) return false;
     // An instance ends with `;` on its line, a POU's header does not.
@@ -88,7 +114,8 @@ class Balancer {
     return false;
   }
   bool isResource(uint32_t i) const {
-    return isName(tokens_[i + 1].kind) && (tokens_[i + 2].kind == Tok::On || (atLineStart(i) && isName(tokens_[i + 2].kind) && !atLineStart(i + 2)));
+    return isName(tokens_[i + 1].kind) &&
+           (tokens_[i + 2].kind == Tok::On || (atLineStart(i) && isName(tokens_[i + 2].kind) && !atLineStart(i + 2)));
   }
   bool opens(uint32_t i) const {
     const Tok k = tokens_[i].kind;
@@ -99,8 +126,10 @@ class Balancer {
   // Words that begin a new region whatever stands open.
   bool beginsRegion(uint32_t i) const {
     const Tok k = tokens_[i].kind;
-    if (!atLineStart(i) && i > 0 && !isCloser(tokens_[i - 1].kind) && tokens_[i - 1].kind != Tok::Semicolon) return false;
-    return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Type || k == Tok::Configuration || (k == Tok::Program && !isProgramInstance(i));
+    if (!atLineStart(i) && i > 0 && !isCloser(tokens_[i - 1].kind) && tokens_[i - 1].kind != Tok::Semicolon)
+      return false;
+    return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Type || k == Tok::Configuration ||
+           (k == Tok::Program && !isProgramInstance(i));
   }
   std::string_view textOf(uint32_t i) const {
     const Token& t = tokens_[i];
@@ -116,7 +145,10 @@ class Balancer {
   }
   std::string describe(uint32_t i) const {
     if (tokens_[i].kind == Tok::End) return spelling(Tok::End);
-    return "`" + std::string(textOf(i).substr(0, 40)) + "`";
+    std::string shown(1, '`');
+    shown.append(textOf(i).substr(0, 40));
+    shown += '`';
+    return shown;
   }
   std::string lineOf(const Open& open) const { return std::to_string(sources_.place(loc(open.index)).line); }
 
@@ -155,11 +187,12 @@ class Balancer {
   std::vector<Edit> edits_;
   uint32_t region_first_ = 0, region_end_ = 0;
   uint32_t line_first_ = 0, line_column_ = 0;
-  uint32_t pending_header_ = 0;   // index + 1 of the IF, ELSIF, FOR, WHILE, CASE or ARRAY that waits for its THEN, DO or OF
-  uint32_t decl_start_ = 0;       // first token of a line where declarations without a VAR may begin
-  uint32_t outside_start_ = 0;    // first token behind the last closed POU
+  uint32_t pending_header_ =
+      0;                     // index + 1 of the IF, ELSIF, FOR, WHILE, CASE or ARRAY that waits for its THEN, DO or OF
+  uint32_t decl_start_ = 0;  // first token of a line where declarations without a VAR may begin
+  uint32_t outside_start_ = 0;  // first token behind the last closed POU
   uint32_t searches_ = 0;
-  bool global_section_ = false;   // the last section was one of file level
+  bool global_section_ = false;  // the last section was one of file level
 };
 
 void Balancer::run() {
@@ -193,7 +226,9 @@ bool Balancer::balanced(size_t first_block, size_t end_block) {
     const Tok k = tokens_[i].kind;
     if (opens(i)) {
       // Sections hold no blocks but structures; structures hold no statements.
-      if (!stack.empty() && (isVarWord(stack.back()) || stack.back() == Tok::Type) && k != Tok::Struct && k != Tok::Union) return false;
+      if (!stack.empty() && (isVarWord(stack.back()) || stack.back() == Tok::Type) && k != Tok::Struct &&
+          k != Tok::Union)
+        return false;
       stack.push_back(k);
     } else if (isCloser(k)) {
       if (stack.empty() || closerOf(stack.back()) != k) return false;
@@ -256,19 +291,27 @@ void Balancer::visit(uint32_t i) {
   // A line that stands no deeper than the block it should be in: the block's end is likely to be missing before it.
   if (i == line_first_ && !stack_.empty()) {
     Open& top = stack_.back();
-    if (top.suspect == 0 && top.index < i && !isCloser(k) && !isPouOpener(top.kind) && top.kind != Tok::Configuration && top.kind != Tok::Resource) {
-      const bool names_something = isName(k) && (tokens_[i + 1].kind == Tok::Colon || tokens_[i + 1].kind == Tok::Comma || tokens_[i + 1].kind == Tok::At);
+    if (top.suspect == 0 && top.index < i && !isCloser(k) && !isPouOpener(top.kind) && top.kind != Tok::Configuration &&
+        top.kind != Tok::Resource) {
+      const bool names_something = isName(k) && (tokens_[i + 1].kind == Tok::Colon ||
+                                                 tokens_[i + 1].kind == Tok::Comma || tokens_[i + 1].kind == Tok::At);
       bool suspicious = false;
       if (isVarWord(top.kind) || top.kind == Tok::Type) {
-        suspicious = (isVarWord(top.kind) && !names_something && (isName(k) || isStatementOpener(k)) &&
-                      (tokens_[i + 1].kind == Tok::Assign || tokens_[i + 1].kind == Tok::LeftParen || isStatementOpener(k) || tokens_[i + 1].kind == Tok::Dot ||
-                       tokens_[i + 1].kind == Tok::LeftBracket));
+        suspicious =
+            (isVarWord(top.kind) && !names_something && (isName(k) || isStatementOpener(k)) &&
+             (tokens_[i + 1].kind == Tok::Assign || tokens_[i + 1].kind == Tok::LeftParen || isStatementOpener(k) ||
+              tokens_[i + 1].kind == Tok::Dot || tokens_[i + 1].kind == Tok::LeftBracket));
       } else if (line_column_ <= top.column) {
-        const bool middle = ((k == Tok::Else || k == Tok::Elsif || k == Tok::Elseif) && (top.kind == Tok::If || (k == Tok::Else && top.kind == Tok::Case))) ||
-                            (k == Tok::Until && top.kind == Tok::Repeat) || k == Tok::Then || k == Tok::Do || k == Tok::Of;
-        const bool label = top.kind == Tok::Case && (k == Tok::Number || names_something || tokens_[i + 1].kind == Tok::Hash || tokens_[i + 1].kind == Tok::DotDot);
-        suspicious = top.line_start && !label && (!middle || line_column_ < top.column) &&
-                     !(k == Tok::Ident && (textOf(i)[0] | 0x20) == 'e' && nearestKeyword(textOf(i), kClosers) != Tok::End);
+        const bool middle = ((k == Tok::Else || k == Tok::Elsif || k == Tok::Elseif) &&
+                             (top.kind == Tok::If || (k == Tok::Else && top.kind == Tok::Case))) ||
+                            (k == Tok::Until && top.kind == Tok::Repeat) || k == Tok::Then || k == Tok::Do ||
+                            k == Tok::Of;
+        const bool label =
+            top.kind == Tok::Case && (k == Tok::Number || names_something || tokens_[i + 1].kind == Tok::Hash ||
+                                      tokens_[i + 1].kind == Tok::DotDot);
+        suspicious =
+            top.line_start && !label && (!middle || line_column_ < top.column) &&
+            !(k == Tok::Ident && (textOf(i)[0] | 0x20) == 'e' && nearestKeyword(textOf(i), kClosers) != Tok::End);
       }
       if (suspicious) top.suspect = i;
     }
@@ -298,7 +341,8 @@ void Balancer::visit(uint32_t i) {
     if (i > region_first_ && tokens_[i - 1].kind == Tok::EndSlip && !atLineStart(i)) {
       const std::string written = std::string(textOf(i - 1)) + " " + std::string(textOf(i));
       const Tok closer = closerOf(k);
-      diagnostics_.report(Diag::MisspelledKeyword, loc(i - 1), {written, spelling(closer)}).length(static_cast<uint32_t>(written.size()));
+      diagnostics_.report(Diag::MisspelledKeyword, loc(i - 1), {written, spelling(closer)})
+          .length(static_cast<uint32_t>(written.size()));
       markReported(i);
       edit(i - 1, EditKind::Remove, Tok::End);
       edit(i, EditKind::Respell, closer);
@@ -315,10 +359,12 @@ void Balancer::visit(uint32_t i) {
   // END_FI, ENDIF, END_FUCTION
   if (k == Tok::Ident && i > region_first_) {
     const std::string_view word = textOf(i);
-    if (!atLineStart(i) && tokens_[i - 1].kind != Tok::Semicolon && !(word.size() > 4 && sameIdentifier(word.substr(0, 4), "END_"))) return;
+    if (!atLineStart(i) && tokens_[i - 1].kind != Tok::Semicolon &&
+        !(word.size() > 4 && sameIdentifier(word.substr(0, 4), "END_")))
+      return;
     const Tok next = tokens_[i + 1].kind;
-    if (word.size() >= 4 && (word[0] | 0x20) == 'e' && next != Tok::Assign && next != Tok::Dot && next != Tok::Colon && next != Tok::LeftParen &&
-        next != Tok::LeftBracket && next != Tok::Comma) {
+    if (word.size() >= 4 && (word[0] | 0x20) == 'e' && next != Tok::Assign && next != Tok::Dot && next != Tok::Colon &&
+        next != Tok::LeftParen && next != Tok::LeftBracket && next != Tok::Comma) {
       Tok meant = nearestKeyword(word, kClosers);
       if (meant != Tok::End) {
         // Of two near ones, the one that closes what is open.
@@ -326,7 +372,8 @@ void Balancer::visit(uint32_t i) {
           const Tok wanted[] = {closerOf(stack_.back().kind)};
           if (nearestKeyword(word, wanted) != Tok::End) meant = wanted[0];
         }
-        diagnostics_.report(Diag::MisspelledKeyword, loc(i), {word, spelling(meant)}).length(static_cast<uint32_t>(word.size()));
+        diagnostics_.report(Diag::MisspelledKeyword, loc(i), {word, spelling(meant)})
+            .length(static_cast<uint32_t>(word.size()));
         markReported(i);
         edit(i, EditKind::Respell, meant);
         return close(i, meant);
@@ -337,13 +384,15 @@ void Balancer::visit(uint32_t i) {
 
 void Balancer::open(uint32_t i, Tok kind) {
   // A section that is still open where the next one, a statement or a POU begins.
-  if (!stack_.empty() && (isVarWord(stack_.back().kind) || stack_.back().kind == Tok::Type) && kind != Tok::Struct && kind != Tok::Union) {
+  if (!stack_.empty() && (isVarWord(stack_.back().kind) || stack_.back().kind == Tok::Type) && kind != Tok::Struct &&
+      kind != Tok::Union) {
     const Open section = stack_.back();
     stack_.pop_back();
     leaveOpen(section, i);
   }
   const bool chain = kind == Tok::If && i > region_first_ && tokens_[i - 1].kind == Tok::Else && !atLineStart(i);
-  stack_.push_back({kind, i, line_column_, i == line_first_ || chain || kind == Tok::Struct || kind == Tok::Union, chain, 0, 0, Tok::End, 0});
+  stack_.push_back({kind, i, line_column_, i == line_first_ || chain || kind == Tok::Struct || kind == Tok::Union,
+                    chain, 0, 0, Tok::End, 0});
   if (isStatementOpener(kind) && kind != Tok::Repeat) pending_header_ = i + 1;
   if (isVarWord(kind)) global_section_ = kind == Tok::VarGlobal || kind == Tok::VarConfig || kind == Tok::VarAccess;
   if (isPouOpener(kind)) {
@@ -365,7 +414,8 @@ bool Balancer::belongs(Tok connective, Tok opener) const {
 void Balancer::close(uint32_t i, Tok closer) {
   const bool line_start = i == line_first_;
   // END_IF END_IF
-  if (i > region_first_ && tokens_[i - 1].kind == closer && !line_start && (stack_.empty() || stack_.back().column < line_column_ || isPouOpener(stack_.back().kind))) {
+  if (i > region_first_ && tokens_[i - 1].kind == closer && !line_start &&
+      (stack_.empty() || stack_.back().column < line_column_ || isPouOpener(stack_.back().kind))) {
     diagnostics_.report(Diag::WordTwice, loc(i), {textOf(i)});
     markReported(i);
     edit(i, EditKind::Remove, Tok::End);
@@ -397,7 +447,8 @@ void Balancer::close(uint32_t i, Tok closer) {
   if (!top_matches && !stack_.empty() && !(isPouOpener(stack_.back().kind) && !isPouCloser(closer))) {
     Open& top = stack_.back();
     const bool found_by_column = found > 0 && stack_[found - 1].column == line_column_;
-    const bool wrong_word = isPouOpener(top.kind) || (line_start && top.line_start && top.column == line_column_ && !found_by_column);
+    const bool wrong_word =
+        isPouOpener(top.kind) || (line_start && top.line_start && top.column == line_column_ && !found_by_column);
     if (wrong_word && (found == 0 || !isPouOpener(top.kind))) {
       const std::span<const Tok> openers = openersFor(closer);
       const bool function_without_result = top.kind == Tok::Function && tokens_[top.index + 2].kind != Tok::Colon;
@@ -419,10 +470,12 @@ void Balancer::close(uint32_t i, Tok closer) {
   }
   if (found == 0) return stray(i, closer);
   // `END_IF` of a line whose IF is missing or misspelled must not close the blocks around it.
-  if (!top_matches && line_start && stack_[found - 1].column != line_column_ && isStatementOpener(stack_[found - 1].kind)) {
+  if (!top_matches && line_start && stack_[found - 1].column != line_column_ &&
+      isStatementOpener(stack_[found - 1].kind)) {
     bool orphan = false;
     for (const Orphan& o : orphans_)
-      orphan = orphan || (o.index > stack_.back().index && o.column == line_column_ && belongs(tokens_[o.index].kind, stack_[found - 1].kind));
+      orphan = orphan || (o.index > stack_.back().index && o.column == line_column_ &&
+                          belongs(tokens_[o.index].kind, stack_[found - 1].kind));
     Tok meant = Tok::End;
     if (orphan || (stack_.back().column < line_column_ && findOpener(i, closer, meant) != 0)) return stray(i, closer);
   }
@@ -443,7 +496,8 @@ void Balancer::close(uint32_t i, Tok closer) {
 
 void Balancer::leftOutermost(uint32_t i, Tok closer) {
   if (closer == Tok::EndVar && stack_.empty() && global_section_ && line_column_ == 0) outside_start_ = i + 1;
-  if (stack_.empty() && (isPouCloser(closer) || closer == Tok::EndType || closer == Tok::EndConfiguration)) outside_start_ = i + 1;
+  if (stack_.empty() && (isPouCloser(closer) || closer == Tok::EndType || closer == Tok::EndConfiguration))
+    outside_start_ = i + 1;
 }
 
 // A block whose end is missing. forced: the token that shows it at the latest.
@@ -452,7 +506,8 @@ void Balancer::leaveOpen(const Open& open, uint32_t forced) {
   if (open.chain_child != 0) {
     const uint32_t child = open.chain_child;
     const std::string written = std::string(textOf(child - 1)) + " " + std::string(textOf(child));
-    diagnostics_.report(Diag::ElseIf, loc(child - 1), {written}).length(tokens_[child].offset + 2 - tokens_[child - 1].offset);
+    diagnostics_.report(Diag::ElseIf, loc(child - 1), {written})
+        .length(tokens_[child].offset + 2 - tokens_[child - 1].offset);
     markReported(child);
     edit(child - 1, EditKind::Remove, Tok::End);
     edit(child, EditKind::Respell, Tok::Elsif);
@@ -475,7 +530,8 @@ uint32_t Balancer::findOpener(uint32_t i, Tok closer, Tok& meant) {
   const std::span<const Tok> openers = openersFor(closer);
   const uint32_t low = stack_.empty() ? outside_start_ : stack_.back().index + 1;
   for (uint32_t k = i; k-- > low;) {
-    const bool behind_colon = (closer == Tok::EndStruct || closer == Tok::EndUnion) && k > 0 && tokens_[k - 1].kind == Tok::Colon;
+    const bool behind_colon =
+        (closer == Tok::EndStruct || closer == Tok::EndUnion) && k > 0 && tokens_[k - 1].kind == Tok::Colon;
     if (tokens_[k].kind != Tok::Ident || (!atLineStart(k) && !behind_colon)) continue;
     const Tok next = tokens_[k + 1].kind;
     if (next == Tok::Assign || next == Tok::Colon || next == Tok::Comma || next == Tok::Dot) continue;
@@ -489,7 +545,8 @@ void Balancer::stray(uint32_t i, Tok closer) {
   Tok meant = Tok::End;
   if (const uint32_t found = findOpener(i, closer, meant); found != 0) {
     const uint32_t k = found - 1;
-    diagnostics_.report(Diag::MisspelledKeyword, loc(k), {textOf(k), spelling(meant)}).length(static_cast<uint32_t>(textOf(k).size()));
+    diagnostics_.report(Diag::MisspelledKeyword, loc(k), {textOf(k), spelling(meant)})
+        .length(static_cast<uint32_t>(textOf(k).size()));
     markReported(k);
     edit(k, EditKind::Respell, meant);
     leftOutermost(i, closer);
@@ -501,18 +558,23 @@ void Balancer::stray(uint32_t i, Tok closer) {
   if (closer == Tok::EndIf || closer == Tok::EndFor || closer == Tok::EndWhile || closer == Tok::EndCase) {
     const Orphan* best = nullptr;
     for (const Orphan& o : orphans_)
-      if (o.index >= low && belongs(tokens_[o.index].kind, openers[0]) && (o.column == line_column_ || best == nullptr)) best = &o;
+      if (o.index >= low && belongs(tokens_[o.index].kind, openers[0]) && (o.column == line_column_ || best == nullptr))
+        best = &o;
     if (best != nullptr) {
       const uint32_t at = best->line_first;
       orphans_.erase(orphans_.begin() + (best - orphans_.data()));
       const Tok next = tokens_[at + 1].kind;
-      if (!atLineStart(at + 1) && (isName(next) || next == Tok::Not || next == Tok::Number || (!isName(tokens_[at].kind) && tokens_[at].kind != Tok::LeftParen && next == Tok::LeftParen))) {
-        diagnostics_.report(Diag::WrongWord, loc(at), {textOf(at), spelling(openers[0])}).length(static_cast<uint32_t>(textOf(at).size()));
+      if (!atLineStart(at + 1) &&
+          (isName(next) || next == Tok::Not || next == Tok::Number ||
+           (!isName(tokens_[at].kind) && tokens_[at].kind != Tok::LeftParen && next == Tok::LeftParen))) {
+        diagnostics_.report(Diag::WrongWord, loc(at), {textOf(at), spelling(openers[0])})
+            .length(static_cast<uint32_t>(textOf(at).size()));
         markReported(at);
         edit(at, EditKind::Respell, openers[0]);
         return;
       }
-      diagnostics_.report(Diag::MissingOpener, loc(at), {spelling(openers[0]), describe(at)}).length(static_cast<uint32_t>(textOf(at).size()));
+      diagnostics_.report(Diag::MissingOpener, loc(at), {spelling(openers[0]), describe(at)})
+          .length(static_cast<uint32_t>(textOf(at).size()));
       markReported(at);
       edit(at, EditKind::Insert, openers[0]);
       return;
@@ -537,7 +599,8 @@ void Balancer::stray(uint32_t i, Tok closer) {
     }
     if (at != 0) {
       if (closer == Tok::EndStruct || closer == Tok::EndUnion) {
-        diagnostics_.report(Diag::MissingOpener, {loc(at - 1).offset + 1}, {spelling(openers[0]), describe(at)}).length(1);
+        diagnostics_.report(Diag::MissingOpener, {loc(at - 1).offset + 1}, {spelling(openers[0]), describe(at)})
+            .length(1);
         markReported(at - 1);
         edit(at, EditKind::Insert, openers[0]);
       } else {
@@ -548,7 +611,8 @@ void Balancer::stray(uint32_t i, Tok closer) {
   }
   // Another word stands where VAR should.
   if (closer == Tok::EndVar && decl_start_ < i && !isName(tokens_[decl_start_].kind) && atLineStart(decl_start_ + 1)) {
-    diagnostics_.report(Diag::WrongWord, loc(decl_start_), {textOf(decl_start_), "VAR"}).length(static_cast<uint32_t>(textOf(decl_start_).size()));
+    diagnostics_.report(Diag::WrongWord, loc(decl_start_), {textOf(decl_start_), "VAR"})
+        .length(static_cast<uint32_t>(textOf(decl_start_).size()));
     markReported(decl_start_);
     edit(decl_start_, EditKind::Respell, Tok::Var);
     decl_start_ = i + 1;
@@ -556,10 +620,12 @@ void Balancer::stray(uint32_t i, Tok closer) {
   }
   uint32_t insert = 0;
   if (closer == Tok::EndVar && decl_start_ < i && isName(tokens_[decl_start_].kind)) insert = decl_start_ + 1;
-  if ((isPouCloser(closer) || closer == Tok::EndConfiguration || closer == Tok::EndType) && stack_.empty() && outside_start_ < i) {
+  if ((isPouCloser(closer) || closer == Tok::EndConfiguration || closer == Tok::EndType) && stack_.empty() &&
+      outside_start_ < i) {
     const uint32_t at = outside_start_;
     if (!isName(tokens_[at].kind) && !opens(at) && (isName(tokens_[at + 1].kind) || atLineStart(at + 1))) {
-      diagnostics_.report(Diag::WrongWord, loc(at), {textOf(at), spelling(openers[0])}).length(static_cast<uint32_t>(textOf(at).size()));
+      diagnostics_.report(Diag::WrongWord, loc(at), {textOf(at), spelling(openers[0])})
+          .length(static_cast<uint32_t>(textOf(at).size()));
       markReported(at);
       edit(at, EditKind::Respell, openers[0]);
       leftOutermost(i, closer);
@@ -581,7 +647,8 @@ void Balancer::stray(uint32_t i, Tok closer) {
 void Balancer::missingOpener(uint32_t at, Tok word) {
   uint32_t length = static_cast<uint32_t>(textOf(at).size());
   // What has its name beside it is missing on this line, the others on the blank line above.
-  const Loc place = isPouOpener(word) || word == Tok::Configuration || word == Tok::Resource ? loc(at) : gapBefore(at, length);
+  const Loc place =
+      isPouOpener(word) || word == Tok::Configuration || word == Tok::Resource ? loc(at) : gapBefore(at, length);
   diagnostics_.report(Diag::MissingOpener, place, {spelling(word), describe(at)}).length(length);
   markReported(at);
   edit(at, EditKind::Insert, word);
@@ -591,13 +658,14 @@ void Balancer::missingOpener(uint32_t at, Tok word) {
 bool Balancer::insideExpression(uint32_t i) const {
   if (atLineStart(i) || i == region_first_) return false;
   const Tok k = tokens_[i].kind, before = tokens_[i - 1].kind, next = tokens_[i + 1].kind;
-  if (before == Tok::Dot || before == Tok::Assign || before == Tok::LeftParen || before == Tok::Comma || before == Tok::LeftBracket ||
-      (before >= Tok::Plus && before <= Tok::EqualLess) || (before >= Tok::And && before <= Tok::Mod))
+  if (before == Tok::Dot || before == Tok::Assign || before == Tok::LeftParen || before == Tok::Comma ||
+      before == Tok::LeftBracket || (before >= Tok::Plus && before <= Tok::EqualLess) ||
+      (before >= Tok::And && before <= Tok::Mod))
     return true;
   if (pending_header_ != 0 && isStatementOpener(k) && before != Tok::EndSlip && before != k) return true;
   if (isPouOpener(k) && before != Tok::Semicolon && !isCloser(before)) return true;
-  return (k == Tok::EndVar || k == Tok::EndStruct) && before != Tok::Semicolon && !isVarWord(before) && before != Tok::Struct && !atLineStart(i + 1) &&
-         next != Tok::Semicolon && !isVarWord(next);
+  return (k == Tok::EndVar || k == Tok::EndStruct) && before != Tok::Semicolon && !isVarWord(before) &&
+         before != Tok::Struct && !atLineStart(i + 1) && next != Tok::Semicolon && !isVarWord(next);
 }
 
 // Makes the token an error that has been said.
@@ -618,7 +686,8 @@ void Balancer::apply() {
     for (; e < edits_.size() && edits_[e].index == i; ++e) {
       switch (edits_[e].kind) {
         case EditKind::Insert:
-          out.push_back({tokens_[i].offset, 0, edits_[e].word, static_cast<uint8_t>(kSynthetic | (tokens_[i].flags & kLineStart)), 0});
+          out.push_back({tokens_[i].offset, 0, edits_[e].word,
+                         static_cast<uint8_t>(kSynthetic | (tokens_[i].flags & kLineStart)), 0});
           if (!isCloser(edits_[e].word)) tokens_[i].flags &= static_cast<uint8_t>(~kLineStart);
           break;
         case EditKind::Remove: removed = true; break;
@@ -642,7 +711,8 @@ void Balancer::apply() {
 
 }  // namespace
 
-void balanceBlocks(TokenStream& stream, const Names& names, const Sources& sources, FileId file, Standard standard, Diagnostics& diagnostics) {
+void balanceBlocks(TokenStream& stream, const Names& names, const Sources& sources, FileId file, Standard standard,
+                   Diagnostics& diagnostics) {
   Balancer(stream, names, sources, file, standard, diagnostics).run();
 }
 

@@ -26,11 +26,12 @@ bool isEndWord(Tok k) {
   }
 }
 bool isPouWord(Tok k) {
-  return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program || k == Tok::Type || k == Tok::Configuration;
+  return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program || k == Tok::Type ||
+         k == Tok::Configuration;
 }
 bool isStatementWord(Tok k) {
-  return k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat || k == Tok::Exit || k == Tok::Continue ||
-         k == Tok::Return || k == Tok::Jmp;
+  return k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat || k == Tok::Exit ||
+         k == Tok::Continue || k == Tok::Return || k == Tok::Jmp;
 }
 bool isAssign(Tok k) { return k == Tok::Assign || (k >= Tok::PlusAssign && k <= Tok::SlashAssign); }
 
@@ -47,13 +48,13 @@ bool Parser::startsStatement(const Token* t) const {
   const Tok next = t[1].kind;
   if (isAssign(next)) return true;
   if ((t->flags & kLineStart) == 0) return false;
-  if (next != Tok::LeftParen && next != Tok::Dot && next != Tok::LeftBracket && next != Tok::Caret && next != Tok::Semicolon && next != Tok::Colon &&
-      next != Tok::Equal)
+  if (next != Tok::LeftParen && next != Tok::Dot && next != Tok::LeftBracket && next != Tok::Caret &&
+      next != Tok::Semicolon && next != Tok::Colon && next != Tok::Equal)
     return false;
   // The line may go on with an expression of the line above.
   const Tok before = t == tokens_.data() ? Tok::Semicolon : t[-1].kind;
-  return !(before >= Tok::Plus && before <= Tok::EqualLess) && !(before >= Tok::And && before <= Tok::Mod) && before != Tok::Comma &&
-         before != Tok::LeftParen && before != Tok::Assign && before != Tok::LeftBracket;
+  return !(before >= Tok::Plus && before <= Tok::EqualLess) && !(before >= Tok::And && before <= Tok::Mod) &&
+         before != Tok::Comma && before != Tok::LeftParen && before != Tok::Assign && before != Tok::LeftBracket;
 }
 
 // statements = {statement}
@@ -79,7 +80,8 @@ Slice<StmtId> Parser::parseStatements(uint8_t stops) {
     }
     const Token* before = t_;
     parseStatement();
-    if (t_ == before && t_->kind == before->kind && (t_->flags & kReported) == 0) advance();  // no statement stands still
+    if (t_ == before && t_->kind == before->kind && (t_->flags & kReported) == 0)
+      advance();  // no statement stands still
   }
 }
 
@@ -190,10 +192,22 @@ void Parser::parseExprStatement() {
   if (!panic_) {
     switch (static_cast<int>(kind())) {
       case static_cast<int>(Tok::Assign): advance(); break;
-      case static_cast<int>(Tok::PlusAssign): assign = AssignOp::Add; advance(); break;
-      case static_cast<int>(Tok::MinusAssign): assign = AssignOp::Subtract; advance(); break;
-      case static_cast<int>(Tok::StarAssign): assign = AssignOp::Multiply; advance(); break;
-      case static_cast<int>(Tok::SlashAssign): assign = AssignOp::Divide; advance(); break;
+      case static_cast<int>(Tok::PlusAssign):
+        assign = AssignOp::Add;
+        advance();
+        break;
+      case static_cast<int>(Tok::MinusAssign):
+        assign = AssignOp::Subtract;
+        advance();
+        break;
+      case static_cast<int>(Tok::StarAssign):
+        assign = AssignOp::Multiply;
+        advance();
+        break;
+      case static_cast<int>(Tok::SlashAssign):
+        assign = AssignOp::Divide;
+        advance();
+        break;
       case static_cast<int>(Tok::Equal):
       case static_cast<int>(Tok::EqualEqual):
         slip(Diag::AssignWithEqual, t_, {spelling(kind())});
@@ -232,7 +246,8 @@ void Parser::parseExprStatement() {
       parseChain(target, value, value_start, op);
     } else {
       if (!panic_ && !at(Tok::Semicolon) && misspelledStart(first)) return;
-      stmts_.push_back(tree_.add<StmtId>(AssignStmt{header(StmtKind::Assign, loc(op), static_cast<uint8_t>(assign)), target, value}));
+      stmts_.push_back(tree_.add<StmtId>(
+          AssignStmt{header(StmtKind::Assign, loc(op), static_cast<uint8_t>(assign)), target, value}));
     }
     return endStatement(first);
   }
@@ -263,7 +278,8 @@ void Parser::parseExprStatement() {
   syncStatement();
 }
 
-// a := b := c is c to b, then b to a. Targets are read once more from their tokens, since each use is a node of its own.
+// a := b := c is c to b, then b to a. Targets are read once more from their tokens, since each use is a node of its
+// own.
 void Parser::parseChain(ExprId target, ExprId value, Token* value_start, const Token* op) {
   if (standard_ != Standard::Codesys) slip(Diag::ChainedAssign, t_);
   struct Link {
@@ -298,13 +314,16 @@ void Parser::parseChain(ExprId target, ExprId value, Token* value_start, const T
 // The name that begins this statement is a misspelled keyword: respells it and goes back to it.
 bool Parser::misspelledStart(const Token* first) {
   if (first->kind != Tok::Ident || (first->flags & kReported) != 0) return false;
-  static constexpr Tok kCandidates[] = {Tok::Elsif, Tok::Else, Tok::Until, Tok::Exit, Tok::Continue, Tok::Return, Tok::Jmp};
+  static constexpr Tok kCandidates[] = {Tok::Elsif,    Tok::Else,   Tok::Until, Tok::Exit,
+                                        Tok::Continue, Tok::Return, Tok::Jmp};
   static constexpr Tok kPous[] = {Tok::Function, Tok::FunctionBlock, Tok::Program, Tok::Configuration};
   Tok meant = nearKeyword(first, kCandidates);
   const Tok next = first[1].kind;
   if (meant == Tok::End && isName(next) && (first[1].flags & kLineStart) == 0) meant = nearKeyword(first, kPous);
   if (meant == Tok::End) return false;
-  if ((meant == Tok::Exit || meant == Tok::Continue || meant == Tok::Return) && next != Tok::Semicolon && (first[1].flags & kLineStart) == 0) return false;
+  if ((meant == Tok::Exit || meant == Tok::Continue || meant == Tok::Return) && next != Tok::Semicolon &&
+      (first[1].flags & kLineStart) == 0)
+    return false;
   t_ = const_cast<Token*>(first);
   return respell(meant);
 }
@@ -322,7 +341,8 @@ void Parser::endStatement(const Token*) {
       panic_ = false;
       return;
     }
-  } else if (atLineStart() || atBlockEnd() || startsStatement(t_) || at(Tok::Else) || at(Tok::Elsif) || at(Tok::Until) || atSection()) {
+  } else if (atLineStart() || atBlockEnd() || startsStatement(t_) || at(Tok::Else) || at(Tok::Elsif) ||
+             at(Tok::Until) || atSection()) {
     missing(Diag::MissingSemicolon, {describe(t_ - 1)});
     return;
   } else if (isOperand(kind())) {
@@ -353,7 +373,9 @@ void Parser::syncStatement() {
       // A `;` that stands for `,` inside parentheses which do get closed on the line is passed over.
       if (depth > 0) {
         const Token* t = t_ + 1;
-        while ((t->flags & kLineStart) == 0 && t->kind != Tok::End && t->kind != Tok::Semicolon && t->kind != Tok::RightParen) ++t;
+        while ((t->flags & kLineStart) == 0 && t->kind != Tok::End && t->kind != Tok::Semicolon &&
+               t->kind != Tok::RightParen)
+          ++t;
         if (t->kind == Tok::RightParen && (t->flags & kLineStart) == 0) continue;
       }
       advance();
@@ -361,7 +383,8 @@ void Parser::syncStatement() {
     }
     if (k == Tok::LeftParen) ++depth;
     if (k == Tok::RightParen && depth > 0) --depth;
-    if (atBlockEnd() || isStatementWord(k) || k == Tok::Else || k == Tok::Elsif || k == Tok::Until || atSection()) return;
+    if (atBlockEnd() || isStatementWord(k) || k == Tok::Else || k == Tok::Elsif || k == Tok::Until || atSection())
+      return;
     if (atLineStart() && (startsStatement(t_) || atCaseLabel())) return;
   }
 }
@@ -387,7 +410,8 @@ void Parser::finishHeader(Tok connective) {
       advance();
       return;
     }
-    if (at(Tok::Ident) && (!atLineStart() || (t_[1].flags & kLineStart) != 0) && nearKeyword(t_, candidates) == connective) {
+    if (at(Tok::Ident) && (!atLineStart() || (t_[1].flags & kLineStart) != 0) &&
+        nearKeyword(t_, candidates) == connective) {
       respell(connective);
       advance();
       return;
@@ -404,7 +428,8 @@ void Parser::finishHeader(Tok connective) {
   }
   // Is the word still to come? Then what stands before it is wrong; else the word is missing here.
   const Token* t = t_;
-  while (t->kind != connective && t->kind != Tok::Semicolon && !isEndWord(t->kind) && !isStatementWord(t->kind) && !isAssign(t->kind) && t - t_ < 500)
+  while (t->kind != connective && t->kind != Tok::Semicolon && !isEndWord(t->kind) && !isStatementWord(t->kind) &&
+         !isAssign(t->kind) && t - t_ < 500)
     ++t;
   if (t->kind == connective) {
     if (at(Tok::RightParen) || at(Tok::RightBracket))
@@ -423,7 +448,9 @@ void Parser::finishHeader(Tok connective) {
     else
       slip(Diag::MissingToken, t_, {spelling(connective), describe(t_)});
   }
-  while (!atBlockEnd() && !at(Tok::Semicolon) && !atLineStart() && !isStatementWord(kind()) && !startsStatement(t_) && !at(Tok::Else)) advance();
+  while (!atBlockEnd() && !at(Tok::Semicolon) && !atLineStart() && !isStatementWord(kind()) && !startsStatement(t_) &&
+         !at(Tok::Else))
+    advance();
   if (at(Tok::Semicolon) && (t_[1].flags & kLineStart) != 0) advance();
   panic_ = false;
 }
@@ -475,7 +502,8 @@ void Parser::parseIf() {
   Slice<StmtId> otherwise;
   if (accept(Tok::Else)) otherwise = parseStatements(0);
   closeBlock(open, Tok::EndIf);
-  stmts_.push_back(tree_.add<StmtId>(IfStmt{header(StmtKind::If, loc(open)), listFrom(if_branches_, first), otherwise}));
+  stmts_.push_back(
+      tree_.add<StmtId>(IfStmt{header(StmtKind::If, loc(open)), listFrom(if_branches_, first), otherwise}));
 }
 
 // A case label ends in `:`, `,` or `..`; what begins a statement never does.
@@ -546,7 +574,9 @@ void Parser::parseCaseLabels(std::vector<ExprId>& out) {
   }
   // Behind the mistake: the colon of this line, if there is one.
   const Token* t = t_;
-  while (t->kind != Tok::Colon && t->kind != Tok::Semicolon && t->kind != Tok::Assign && !isEndWord(t->kind) && ((t->flags & kLineStart) == 0 || t == first)) ++t;
+  while (t->kind != Tok::Colon && t->kind != Tok::Semicolon && t->kind != Tok::Assign && !isEndWord(t->kind) &&
+         ((t->flags & kLineStart) == 0 || t == first))
+    ++t;
   panic_ = false;
   if (t->kind == Tok::Colon)
     t_ = const_cast<Token*>(t) + 1;
@@ -653,7 +683,9 @@ void Parser::parseRepeat() {
     }
     accept(Tok::Semicolon);
     if (!at(Tok::EndRepeat)) {
-      if (!panic_ && !atLineStart() && !atBlockEnd()) fail(at(Tok::RightParen) ? Diag::StrayParen : Diag::StrayToken, t_, {at(Tok::RightParen) ? std::string(")") : describe(t_)});
+      if (!panic_ && !atLineStart() && !atBlockEnd())
+        fail(at(Tok::RightParen) ? Diag::StrayParen : Diag::StrayToken, t_,
+             {at(Tok::RightParen) ? std::string(")") : describe(t_)});
       while (!at(Tok::EndRepeat) && !atBlockEnd() && !atLineStart()) advance();
     }
     panic_ = false;

@@ -8,7 +8,9 @@
 namespace rung {
 namespace {
 
-ExprId name(Tree& tree, uint32_t offset) { return tree.add<ExprId>(NameExpr{{ExprKind::Name, 0, 0, 0, 0, 0, {offset}, {}}, {offset}, {}}); }
+ExprId name(Tree& tree, uint32_t offset) {
+  return tree.add<ExprId>(NameExpr{{ExprKind::Name, 0, 0, 0, 0, 0, {offset}, {}}, {offset}, {}});
+}
 
 TEST(Tree, NodesStayAcrossChunks) {
   Tree tree;
@@ -36,10 +38,12 @@ TEST(Tree, ListsAndTexts) {
 TEST(Tree, BeginIsTheLeftmostToken) {
   Tree tree;
   const ExprId a = name(tree, 10), b = name(tree, 20);
-  const ExprId sum = tree.add<ExprId>(BinaryExpr{{ExprKind::Binary, 0, 0, 0, static_cast<uint8_t>(BinaryOp::Add), 0, {15}, {}}, a, b});
+  const ExprId sum =
+      tree.add<ExprId>(BinaryExpr{{ExprKind::Binary, 0, 0, 0, static_cast<uint8_t>(BinaryOp::Add), 0, {15}, {}}, a, b});
   EXPECT_EQ(tree.loc(sum).offset, 15u);
   EXPECT_EQ(tree.begin(sum).offset, 10u);
-  const ExprId negated = tree.add<ExprId>(UnaryExpr{{ExprKind::Unary, 0, 0, 0, static_cast<uint8_t>(UnaryOp::Negate), 0, {9}, {}}, sum});
+  const ExprId negated =
+      tree.add<ExprId>(UnaryExpr{{ExprKind::Unary, 0, 0, 0, static_cast<uint8_t>(UnaryOp::Negate), 0, {9}, {}}, sum});
   EXPECT_EQ(tree.begin(negated).offset, 9u);
 }
 

@@ -17,7 +17,8 @@ struct Lexed {
       if (!words.empty()) words += ' ';
       words += spelling(t.kind);
     }
-    for (const Diagnostic& d : diagnostics.all()) codes += std::string(codes.empty() ? "" : " ") + diagInfo(d.diag).code;
+    for (const Diagnostic& d : diagnostics.all())
+      codes += std::string(codes.empty() ? "" : " ") + diagInfo(d.diag).code;
   }
   Sources sources;
   Diagnostics diagnostics;
@@ -38,7 +39,8 @@ TEST(Lexer, EveryWordIsFoundInAnyCase) {
 
 TEST(Lexer, EveryOperator) {
   for (auto k = static_cast<uint32_t>(Tok::Semicolon); k < static_cast<uint32_t>(Tok::And); ++k)
-    EXPECT_EQ(Lexed(std::string("a ") + spelling(static_cast<Tok>(k)) + " b").stream.tokens[1].kind, static_cast<Tok>(k));
+    EXPECT_EQ(Lexed(std::string("a ") + spelling(static_cast<Tok>(k)) + " b").stream.tokens[1].kind,
+              static_cast<Tok>(k));
 }
 
 TEST(Lexer, NumbersAndRanges) {
@@ -47,7 +49,8 @@ TEST(Lexer, NumbersAndRanges) {
   EXPECT_EQ(Lexed("x.3.y").words, "a name . a number . a name");
   EXPECT_EQ(Lexed("INT#-5").words, "INT # - a number");
   EXPECT_EQ(Lexed("T#1d2h_30m1.5s TIME#-5ms LTIME#1us").words, "a duration a duration a duration");
-  EXPECT_EQ(Lexed("D#2026-12-31-1 TOD#12:30:00.5 DT#2026-12-31-12:00").words, "a date - a number a time of day a date and time");
+  EXPECT_EQ(Lexed("D#2026-12-31-1 TOD#12:30:00.5 DT#2026-12-31-12:00").words,
+            "a date - a number a time of day a date and time");
   EXPECT_EQ(Lexed("%IX0.0 %QW* x.%X3 %MD12;").words, "an address an address a name . an address an address ;");
 }
 
@@ -78,7 +81,10 @@ TEST(Lexer, PragmasSpeak) {
 
 TEST(Lexer, StrayBytesGiveOneErrorEach) {
   EXPECT_EQ(Lexed("a ? b").codes, "E0112");
-  EXPECT_EQ(Lexed("gr\xC3\xB6\xC3\x9F" "e := 1").codes, "E0113");
+  EXPECT_EQ(Lexed("gr\xC3\xB6\xC3\x9F"
+                  "e := 1")
+                .codes,
+            "E0113");
   EXPECT_EQ(Lexed("}").codes, "E0117");
   EXPECT_EQ(Lexed(std::string("a\0b", 3)).codes, "E0104");
 }

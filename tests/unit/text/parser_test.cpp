@@ -19,7 +19,8 @@ std::string expression(const std::string& text, Standard standard = Standard::Co
 TEST(Expressions, Precedence) {
   EXPECT_EQ(expression("a + b * c"), "(binary + (name a) (binary * (name b) (name c)))");
   EXPECT_EQ(expression("a - b - c"), "(binary - (binary - (name a) (name b)) (name c))");
-  EXPECT_EQ(expression("a OR b XOR c AND d"), "(binary OR (name a) (binary XOR (name b) (binary AND (name c) (name d))))");
+  EXPECT_EQ(expression("a OR b XOR c AND d"),
+            "(binary OR (name a) (binary XOR (name b) (binary AND (name c) (name d))))");
   EXPECT_EQ(expression("a < b = c > d"), "(binary = (binary < (name a) (name b)) (binary > (name c) (name d)))");
   EXPECT_EQ(expression("NOT a & b"), "(binary AND (unary NOT (name a)) (name b))");
   EXPECT_EQ(expression("a MOD b / c"), "(binary / (binary MOD (name a) (name b)) (name c))");
@@ -47,7 +48,8 @@ TEST(Expressions, Places) {
 
 TEST(Expressions, Calls) {
   EXPECT_EQ(expression("f()"), "(call (name f))");
-  EXPECT_EQ(expression("f(a, p := b, q => c, NOT r => d)"), "(call (name f) (name a) p := (name b) q => (name c) NOT r => (name d))");
+  EXPECT_EQ(expression("f(a, p := b, q => c, NOT r => d)"),
+            "(call (name f) (name a) p := (name b) q => (name c) NOT r => (name d))");
   EXPECT_EQ(expression("f(p := , q => )"), "(call (name f) p := open q => open)");
   EXPECT_EQ(statementErrors("f(p := , q => 1);", Standard::Iec3), "2:3 E0225");
   EXPECT_EQ(statementErrors("f(a, );"), "2:4 W0222");
@@ -119,7 +121,8 @@ TEST(Declarations, OneDeclarationOutOfAFile) {
   Diagnostics diagnostics(sources);
   Names names;
   Tree tree;
-  const std::string text = "PROGRAM a END_PROGRAM {native} FUNCTION f : INT VAR_INPUT x : INT; END_VAR END_FUNCTION PROGRAM b END_PROGRAM";
+  const std::string text =
+      "PROGRAM a END_PROGRAM {native} FUNCTION f : INT VAR_INPUT x : INT; END_VAR END_FUNCTION PROGRAM b END_PROGRAM";
   const FileId file = sources.add("lib.st", text);
   const FileUnit unit = parseFile(tree, names, sources, file, Standard::Codesys, diagnostics);
   ASSERT_EQ(unit.decls.count, 3u);
@@ -153,10 +156,12 @@ std::string repeated(const std::string& text, int count) {
 TEST(Limits, DeepInputGivesOneError) {
   EXPECT_EQ(statementErrors(repeated("IF a THEN\n", 1000) + "x := 1;\n" + repeated("END_IF\n", 1000)), "");
   EXPECT_EQ(statementErrors(repeated("IF a THEN\n", 5000) + "x := 1;\n" + repeated("END_IF\n", 5000)), "2002:1 E0220");
-  EXPECT_EQ(statementErrors("x := " + repeated("(", 10000) + "1" + repeated(")", 10000) + ";\ny := 1;"), "2:1006 E0220");
+  EXPECT_EQ(statementErrors("x := " + repeated("(", 10000) + "1" + repeated(")", 10000) + ";\ny := 1;"),
+            "2:1006 E0220");
   EXPECT_EQ(statementErrors("x := " + repeated("NOT ", 10000) + "1;\ny := 1;"), "2:4006 E0220");
   EXPECT_EQ(statementErrors("x := " + repeated("1+", 10000) + "1;\ny := 1;"), "2:4007 E0220");
-  EXPECT_EQ(statementErrors("x := " + repeated("f[", 10000) + "1" + repeated("]", 10000) + ";\ny := 1;"), "2:2007 E0220");
+  EXPECT_EQ(statementErrors("x := " + repeated("f[", 10000) + "1" + repeated("]", 10000) + ";\ny := 1;"),
+            "2:2007 E0220");
 }
 
 TEST(Limits, ManyErrorsAreAllCounted) {

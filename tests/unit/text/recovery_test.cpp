@@ -72,7 +72,9 @@ TEST(Recovery, BlockWords) {
 }
 
 TEST(Recovery, Pous) {
-  EXPECT_EQ(Parsed("FUNCTON_BLOCK a\nVAR x : INT; END_VAR\nx := 1;\nEND_FUNCTION_BLOCK\nPROGRAM b\nEND_PROGRAM\n").codes(), "1:1 E0209");
+  EXPECT_EQ(
+      Parsed("FUNCTON_BLOCK a\nVAR x : INT; END_VAR\nx := 1;\nEND_FUNCTION_BLOCK\nPROGRAM b\nEND_PROGRAM\n").codes(),
+      "1:1 E0209");
   EXPECT_EQ(Parsed("PROGRAM a\nVAR_INPTU\n  x : INT;\nEND_VAR\nx := 1;\nEND_PROGRAM\n").codes(), "2:1 E0209");
   EXPECT_EQ(Parsed("PROGRAM a\nVAR\n  x : INT;\n\nx := 1;\nEND_PROGRAM\n").codes(), "4:1 E0210");
   EXPECT_EQ(Parsed("PROGRAM a\nVAR\n  x INT;\n  y : INT\n  z : ;\n  w : INT = 5;\nEND_VAR\nEND_PROGRAM\n").codes(),
