@@ -1,0 +1,115 @@
+// The reader of IR text, a class in two files: items and types in text_parser.cpp, the code of bodies in
+// text_code_parser.cpp. Internal to them.
+#pragma once
+
+#include <unordered_map>
+
+#include "ir/builder.h"
+#include "ir/text.h"
+#include "ir/text_lexer.h"
+#include "ir/text_words.h"
+
+namespace rung::ir::text_form {
+
+using types::TypeTable;
+
+constexpr uint32_t kMaxDepth = 1000;
+
+class Reader {
+ public:
+  Reader(const Sources& sources, FileId file, Module& module, Diagnostics& diagnostics)
+      : module_(module), types_(module.types), diagnostics_(diagnostics), file_(file) {
+    tokens_ = tokenize(sources.text(file), sources.begin(file));
+  }
+  bool read();
+
+ private:
+  using Map = std::unordered_map<uint32_t, uint32_t>;
+
+  // ---- tokens
+  const Token& token(size_t ahead = 0) const { return tokens_[std::min(at_ + ahead, tokens_.size() - 1)]; }
+  bool isPunct(std::string_view text, size_t ahead = 0) const {
+    return token(ahead).kind == TokenKind::Punct && token(ahead).text == text;
+  }
+  bool isWord(std::string_view word, size_t ahead = 0) const {
+    return token(ahead).kind == TokenKind::Name && !token(ahead).quoted && token(ahead).text == word;
+  }
+  bool accept(std::string_view text) {
+    if (failed_ || !(isPunct(text) || isWord(text))) return false;
+    ++at_;
+    return true;
+  }
+  void expect(std::string_view text) {
+    if (!accept(text)) expected(text);
+  }
+  void expected(std::string_view what);
+  void fail(Diag diag, Loc loc, std::initializer_list<std::string_view> args);
+  NameId name();            // of anything; a keyword without backticks is none
+  std::string sigilName();  // after `@`: `Color`, `Color.2`
+  std::string quotedText(TokenKind kind);
+  int64_t integer();  // with sign; up to 2^64-1 as bits
+
+  // ---- items
+  void findItems();
+  void declareType();
+  void declareItem();
+  void recordFields(TypeId type);
+  void record();
+  void dataItem();
+  void task();
+  void instance();
+  void located();
+  void function();
+  void blockBody(BodyKind kind);
+  void attributes(Body& body);
+  Origin origin();
+  void code();
+
+  // ---- types
+  TypeId type();
+  bool atType() const;
+  TypeId typeNamed(const std::string& name, Loc loc);
+
+  // ---- code
+  StmtId block();
+  void stmt();
+  void callStmt(ExprId result);
+  void switchStmt();
+  ExprId expr(TypeId wanted);
+  ExprId primary(TypeId wanted);
+  ExprId postfix(ExprId base);
+  ExprId literal(TypeId type);
+  ExprId variable();
+  ExprId afterType(TypeId type);
+  std::vector<ExprId> operands(const Body& callee);
+  uint8_t checks(ExprId id);
+  TypeId typeOf(ExprId id) const { return builder_->body.expr(id).type; }
+  uint32_t fieldOf(TypeId record, NameId field);
+
+  Module& module_;
+  TypeTable& types_;
+  Diagnostics& diagnostics_;
+  FileId file_;
+  std::vector<Token> tokens_;
+  size_t at_ = 0;
+  bool failed_ = false;
+  uint32_t depth_ = 0;
+
+  std::vector<size_t> items_;
+  std::unordered_map<std::string, TypeId> type_by_name_;
+  Map list_by_name_, program_by_name_, task_by_name_, body_by_name_, init_by_name_, record_by_type_;
+  std::unordered_map<uint64_t, uint32_t> field_by_name_;  // record type and name
+  std::vector<bool> fields_known_;                        // by TypeId
+  struct Code {
+    size_t at;  // of the `{`
+    BodyId body;
+  };
+  std::vector<Code> codes_;
+
+  // of the body at hand
+  Builder* builder_ = nullptr;
+  Map local_by_name_, temp_by_name_, label_by_name_;
+  uint32_t result_ = ~0u;
+};
+
+}  // namespace rung::ir::text_form

@@ -1,0 +1,78 @@
+// The printer of IR text, a class in two files: types and items in text_printer.cpp, the code of bodies in
+// text_code_printer.cpp. Internal to them.
+#pragma once
+
+#include <charconv>
+#include <unordered_set>
+
+#include "ir/builder.h"
+#include "ir/text.h"
+#include "ir/text_words.h"
+
+namespace rung::ir::text_form {
+
+using types::TypeTable;
+
+class Printer {
+ public:
+  explicit Printer(const Module& module) : module_(module), types_(module.types) {}
+  std::string out;
+
+  void printModule();
+  void printBody(const Body& body);
+  void nameTypesOf(const Body& body);
+  void nameRecords();
+
+ private:
+  // ---- text
+  void put(std::string_view text) { out += text; }
+  void number(uint64_t value) {
+    char digits[24];
+    out.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+  }
+  void signedNumber(int64_t value) {
+    char digits[24];
+    out.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+  }
+  void name(std::string_view text);
+  void name(NameId id) { name(module_.names.text(id)); }
+  void quoted(std::string_view text, char quote);
+  void newLine() {
+    out += '\n';
+    out.append(indent_ * 2, ' ');
+  }
+
+  // ---- types
+  void collect(TypeId type);
+  void giveName(TypeId type, NameId wanted);
+  void type(TypeId type);
+  void typeDeclarations();
+  void record(TypeId type, const Record* listed);
+
+  // ---- module items
+  void origin(const Origin& origin, Loc loc);
+  void items();
+  void header(const Body& body);
+
+  // ---- code
+  void block(StmtId first);
+  void stmt(const Stmt& stmt);
+  void expr(ExprId id, TypeId expected);
+  void operand(ExprId id, TypeId expected);
+  void constant(const Expr& expr, TypeId expected);
+  void checks(const Expr& expr);
+  void calleeOperands(const Body& callee, uint32_t first, uint32_t count);
+  TypeId typeOf(ExprId id) const { return body_->expr(id).type; }
+
+  const Module& module_;
+  const TypeTable& types_;
+  const Body* body_ = nullptr;
+  size_t indent_ = 0;
+  std::vector<std::string> type_names_;  // by TypeId: `@Color`
+  std::vector<bool> collected_;
+  std::vector<TypeId> declared_;  // enumerations, subranges and records outside Module::records, in order of use
+  std::unordered_set<std::string> used_names_;
+  std::unordered_set<uint32_t> local_names_;
+};
+
+}  // namespace rung::ir::text_form
