@@ -55,31 +55,73 @@ double realValue(const LiteralExpr& node) {
   return std::bit_cast<double>(node.value());
 }
 
-// A whole quotient is wanted where a fraction would do: `1 / 2`.
-bool dividesIntegers(const Context& context, ExprId expr) {
+// True when an untyped integer expression means something else on REAL: `1 / 2`, `NOT 5`.
+bool needsIntegers(const Context& context, ExprId expr, bool& divides) {
   const Tree& tree = context.tree();
-  if (tree.kind(expr) == ExprKind::Unary) return dividesIntegers(context, tree.as<UnaryExpr>(expr).operand);
-  if (tree.kind(expr) != ExprKind::Binary) return false;
-  const BinaryExpr& node = tree.as<BinaryExpr>(expr);
-  if (node.op() == BinaryOp::Divide || node.op() == BinaryOp::Modulo) return true;
-  return dividesIntegers(context, node.left) || dividesIntegers(context, node.right);
-}
-
-// True when a part of the expression needs more room than its result.
-bool partsExceed(const Context& context, ExprId expr, Bounds bounds) {
-  const Tree& tree = context.tree();
-  Int128 value;
-  if (!untypedValue(context, expr, value) || value < bounds.low || value > bounds.high) return true;
   if (tree.kind(expr) == ExprKind::Unary) {
     const UnaryExpr& node = tree.as<UnaryExpr>(expr);
-    if (node.op() == UnaryOp::Negate && tree.kind(node.operand) == ExprKind::Literal) return false;
-    return partsExceed(context, node.operand, bounds);
+    return node.op() == UnaryOp::Not || needsIntegers(context, node.operand, divides);
   }
-  if (tree.kind(expr) == ExprKind::Binary) {
-    const BinaryExpr& node = tree.as<BinaryExpr>(expr);
-    return partsExceed(context, node.left, bounds) || partsExceed(context, node.right, bounds);
+  if (tree.kind(expr) != ExprKind::Binary) return false;
+  const BinaryExpr& node = tree.as<BinaryExpr>(expr);
+  divides |= node.op() == BinaryOp::Divide;
+  if (node.op() != BinaryOp::Add && node.op() != BinaryOp::Subtract && node.op() != BinaryOp::Multiply) return true;
+  return needsIntegers(context, node.left, divides) || needsIntegers(context, node.right, divides);
+}
+
+// Folds `left op right`; false when the value is not known or too large for any type.
+bool fold(BinaryOp op, Int128 left, Int128 right, Int128& value) {
+  constexpr Int128 kLimit = Int128{1} << 100;
+  const auto inLimit = [&] { return value < kLimit && value > -kLimit; };
+  switch (op) {
+    case BinaryOp::Add: value = left + right; return inLimit();
+    case BinaryOp::Subtract: value = left - right; return inLimit();
+    case BinaryOp::Multiply: return !__builtin_mul_overflow(left, right, &value) && inLimit();
+    case BinaryOp::Divide:
+      if (right == 0) return false;
+      value = left / right;
+      return true;
+    case BinaryOp::Modulo:
+      if (right == 0) return false;
+      value = left % right;
+      return true;
+    case BinaryOp::And: value = left & right; return true;
+    case BinaryOp::Or: value = left | right; return true;
+    case BinaryOp::Xor: value = left ^ right; return true;
+    case BinaryOp::OrElse:
+    case BinaryOp::AndThen:
+    case BinaryOp::Equal:
+    case BinaryOp::NotEqual:
+    case BinaryOp::Less:
+    case BinaryOp::LessEqual:
+    case BinaryOp::Greater:
+    case BinaryOp::GreaterEqual:
+    case BinaryOp::Power: return false;
   }
   return false;
+}
+
+// True when every part of an untyped expression of known value is inside the bounds.
+bool partsFit(const Context& context, ExprId expr, Bounds bounds, Int128& value) {
+  const Tree& tree = context.tree();
+  if (tree.kind(expr) == ExprKind::Unary) {
+    const UnaryExpr& node = tree.as<UnaryExpr>(expr);
+    if (node.op() == UnaryOp::Negate && tree.kind(node.operand) == ExprKind::Literal) {
+      value = -literalValue(tree.as<LiteralExpr>(node.operand));
+    } else if (!partsFit(context, node.operand, bounds, value)) {
+      return false;
+    } else if (node.op() == UnaryOp::Negate) {
+      value = -value;
+    }
+  } else if (tree.kind(expr) == ExprKind::Binary) {
+    const BinaryExpr& node = tree.as<BinaryExpr>(expr);
+    Int128 left, right;
+    if (!partsFit(context, node.left, bounds, left) || !partsFit(context, node.right, bounds, right)) return false;
+    if (!fold(node.op(), left, right, value)) return false;
+  } else {
+    value = literalValue(tree.as<LiteralExpr>(expr));
+  }
+  return value >= bounds.low && value <= bounds.high;
 }
 
 void setIntegerType(Context& context, ExprId& expr, TypeId to) {
@@ -117,7 +159,8 @@ bool adaptInteger(Context& context, ExprId& expr, TypeId to, Bounds bounds) {
     return true;
   }
   if (value < bounds.low || value > bounds.high) return reportRange(context, expr, value, to, bounds);
-  if (!partsExceed(context, expr, bounds)) {
+  Int128 whole;
+  if (partsFit(context, expr, bounds, whole)) {
     setIntegerType(context, expr, to);
     return true;
   }
@@ -133,54 +176,43 @@ bool adaptInteger(Context& context, ExprId& expr, TypeId to, Bounds bounds) {
   return true;
 }
 
-bool adaptReal(Context& context, ExprId& expr, TypeId to) {
+bool adaptReal(Context& context, ExprId& expr, TypeId to);
+
+// `whole`: an integer expression without a quotient in it, or a part of one.
+bool setRealType(Context& context, ExprId& expr, TypeId to, bool whole) {
   Tree& tree = context.tree();
   ExprHeader& header = tree.expr(expr);
-  const Purpose none{};
-  if (header.type == types::idOf(TypeKind::IntegerLiteral) && dividesIntegers(context, expr)) {
-    context.report(Diag::IntegerDivision, header.loc);
-    settle(context, expr);
+  if (!whole && header.type == types::idOf(TypeKind::IntegerLiteral)) return adaptReal(context, expr, to);
+  header.type = to;
+  if (header.kind == ExprKind::Unary) return setRealType(context, tree.as<UnaryExpr>(expr).operand, to, whole);
+  if (header.kind == ExprKind::Binary) {
+    BinaryExpr& node = tree.as<BinaryExpr>(expr);
+    if (!setRealType(context, node.left, to, whole)) return false;
+    if (node.op() == BinaryOp::Power && tree.expr(node.right).type == types::idOf(TypeKind::IntegerLiteral)) {
+      return settle(context, node.right) != types::kError;
+    }
+    return setRealType(context, node.right, to, whole);
+  }
+  header.is_constant = 1;
+  constexpr double kRoundsToInfinity = 3.4028235677973366e38;  // halfway between the largest REAL and the next
+  const double value = std::fabs(realValue(tree.as<LiteralExpr>(expr)));
+  if (context.types().plainKind(to) != TypeKind::Real || value < kRoundsToInfinity) return true;
+  context.report(Diag::RealOutOfRange, header.loc, {"REAL"});
+  header.type = types::kError;
+  return false;
+}
+
+bool adaptReal(Context& context, ExprId& expr, TypeId to) {
+  ExprHeader& header = context.tree().expr(expr);
+  const bool integer = header.type == types::idOf(TypeKind::IntegerLiteral);
+  bool divides = false;
+  if (integer && needsIntegers(context, expr, divides)) {
+    if (divides) context.report(Diag::IntegerDivision, header.loc);
+    if (settle(context, expr) == types::kError) return false;
     wrapConvert(context, expr, to);
     return true;
   }
-  switch (header.kind) {
-    case ExprKind::Literal: {
-      header.type = to;
-      header.is_constant = 1;
-      const double value = std::fabs(realValue(tree.as<LiteralExpr>(expr)));
-      if (context.types().plainKind(to) == TypeKind::Real && value > 3.4028235677973366e38) {
-        context.report(Diag::RealOutOfRange, header.loc, {"REAL"});
-        header.type = types::kError;
-        return false;
-      }
-      return true;
-    }
-    case ExprKind::Unary: header.type = to; return adaptReal(context, tree.as<UnaryExpr>(expr).operand, to);
-    case ExprKind::Binary: {
-      BinaryExpr& node = tree.as<BinaryExpr>(expr);
-      header.type = to;
-      if (!adaptReal(context, node.left, to)) return false;
-      if (node.op() == BinaryOp::Power && tree.expr(node.right).type == types::idOf(TypeKind::IntegerLiteral)) {
-        return settle(context, node.right) != types::kError;
-      }
-      return adaptReal(context, node.right, to);
-    }
-    case ExprKind::Error:
-    case ExprKind::Name:
-    case ExprKind::TypedName:
-    case ExprKind::Member:
-    case ExprKind::Index:
-    case ExprKind::Deref:
-    case ExprKind::BitAccess:
-    case ExprKind::Address:
-    case ExprKind::Call:
-    case ExprKind::Range:
-    case ExprKind::ArrayInit:
-    case ExprKind::Repeat:
-    case ExprKind::StructInit:
-    case ExprKind::Convert: break;
-  }
-  return convert(context, expr, to, none);
+  return setRealType(context, expr, to, integer);
 }
 
 // The number of characters that a text has in memory: bytes, or UTF-16 units.
@@ -308,34 +340,7 @@ bool untypedValue(const Context& context, ExprId expr, Int128& value) {
   const BinaryExpr& node = tree.as<BinaryExpr>(expr);
   Int128 left, right;
   if (!untypedValue(context, node.left, left) || !untypedValue(context, node.right, right)) return false;
-  constexpr Int128 kLimit = Int128{1} << 100;
-  const auto inLimit = [&] { return value < kLimit && value > -kLimit; };
-  switch (node.op()) {
-    case BinaryOp::Add: value = left + right; return inLimit();
-    case BinaryOp::Subtract: value = left - right; return inLimit();
-    case BinaryOp::Multiply: return !__builtin_mul_overflow(left, right, &value) && inLimit();
-    case BinaryOp::Divide:
-      if (right == 0) return false;
-      value = left / right;
-      return true;
-    case BinaryOp::Modulo:
-      if (right == 0) return false;
-      value = left % right;
-      return true;
-    case BinaryOp::And: value = left & right; return true;
-    case BinaryOp::Or: value = left | right; return true;
-    case BinaryOp::Xor: value = left ^ right; return true;
-    case BinaryOp::OrElse:
-    case BinaryOp::AndThen:
-    case BinaryOp::Equal:
-    case BinaryOp::NotEqual:
-    case BinaryOp::Less:
-    case BinaryOp::LessEqual:
-    case BinaryOp::Greater:
-    case BinaryOp::GreaterEqual:
-    case BinaryOp::Power: return false;
-  }
-  return false;
+  return fold(node.op(), left, right, value);
 }
 
 TypeId defaultType(Context& context, ExprId expr) {
