@@ -36,10 +36,17 @@ void appendParameter(std::string& out, const TypeTable& types, const ir::Local& 
 }  // namespace
 
 void BodyWriter::appendNativeName(std::string& out, const ir::Module& module, const ir::Body& body) {
+  const std::string_view library = module.names.text(body.library_name);
+  std::string_view name = module.names.text(body.name);
   out += "rung_";
-  for (char c : module.names.text(body.library_name)) out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  for (char c : library) out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   out += '_';
-  out += module.names.text(body.name);
+  // A function that a user's one hides is `Standard__MID`: the C function has its plain name.
+  if (name.size() > library.size() + 2 && name.substr(0, library.size()) == library &&
+      name.substr(library.size(), 2) == "__") {
+    name.remove_prefix(library.size() + 2);
+  }
+  out += name;
 }
 
 void BodyWriter::appendSignature(std::string& out, const ir::Module& module, const ir::Body& body) {
@@ -171,6 +178,8 @@ void BodyWriter::declareVariables() {
     declarations_ += ' ';
     if (fields_[i].wide != 0) {
       declarations_ += fields_[i].wide == 32 ? "int32_t" : "int64_t";
+    } else if (types_.plainKind(record.fields[i].type) == TypeKind::Bool) {
+      declarations_ += "bool";
     } else {
       declarations_ += scalarType(types_, record.fields[i].type);
     }
