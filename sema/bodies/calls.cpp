@@ -77,6 +77,18 @@ struct Slots {
   }
 };
 
+// `f(PT = T#1s)`: a comparison with a pin's name where no such variable is in sight.
+bool isMistypedBinding(Context& context, PouId pou, ExprId value) {
+  if (!value || context.tree().kind(value) != ExprKind::Binary) return false;
+  const BinaryExpr& node = context.tree().as<BinaryExpr>(value);
+  if (node.op() != BinaryOp::Equal || node.h.in_parens || context.tree().kind(node.left) != ExprKind::Name)
+    return false;
+  const NameId name = context.tree().as<NameExpr>(node.left).name;
+  if (!findPin(context, pou, name) || lookUp(context, name)) return false;
+  context.report(Diag::BindingWithEqual, node.h.loc, {text(context, name)});
+  return true;
+}
+
 void checkLoose(Context& context, const CallExpr& node, uint32_t index) {
   const Argument argument = context.tree().list(node.arguments)[index];
   if (!argument.value) return;
@@ -331,6 +343,10 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
   for (uint32_t i = 0; i < node.arguments.count; ++i) {
     const Argument argument = context.tree().list(node.arguments)[i];
     if (!argument.pin.name) {
+      if (isMistypedBinding(context, pou, argument.value)) {
+        out.good = false;
+        continue;
+      }
       ++out.positional;
       while (input < pins.size() && isOutput(input)) ++input;
       if (input < pins.size()) {

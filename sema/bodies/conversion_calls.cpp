@@ -106,7 +106,7 @@ TypeId callLibrary(Context& context, ExprId& expr, std::string_view function, Ty
 
 // The operand as a value of `type`; what is typed is not typed again.
 bool operandAs(Context& context, ExprId& value, TypeId type, NameId function) {
-  if (!checkAs(context, value, type, Purpose{"passed to", function, {}})) return false;
+  if (!checkAs(context, value, type, Purpose{"passed to the input of", function, {}})) return false;
   if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.tree().expr(value).type);
   return true;
 }
@@ -128,7 +128,8 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
   ExprId value = input.value;
   TypeId from;
   if (rule.from) {
-    if (!checkAs(context, value, rule.from, Purpose{"passed to", name, {}})) return node.h.type = types::kError;
+    if (!checkAs(context, value, rule.from, Purpose{"passed to the input of", name, {}}))
+      return node.h.type = types::kError;
     from = rule.from;
   } else {
     from = check(context, value, {}, Access::Read);

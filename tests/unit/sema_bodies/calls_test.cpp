@@ -20,12 +20,12 @@ TEST_P(CallTest, GivesItsCode) { EXPECT_EQ(codesOf(kVars, GetParam().source), Ge
 INSTANTIATE_TEST_SUITE_P(
     Calls, CallTest,
     testing::Values(
-        Row{"t(IN := f, PTX := T#1s);", "1:12 E0601"}, Row{"undefinedFn(1);", "1:1 E0401"},
-        Row{"counter := undefinedFn(1);", "1:12 E0401"}, Row{"counter(1);", "1:1 E0610"},
-        Row{"TON(IN := f);", "1:1 E0611"}, Row{"t(IN := f, IN := f);", "1:12 E0603"}, Row{"t(Q := f);", "1:3 E0607"},
-        Row{"t(IN => f);", "1:3 E0606"}, Row{"f := t(IN := f);", "1:6 E0614"}, Row{"t(IN := counter);", "1:9 E0501"},
-        Row{"t(Q => counter);", "1:8 E0501"}, Row{"t(Q => TRUE);", "1:8 E0701"}, Row{"t(f, T#1s);", ""},
-        Row{"timers[2](IN := f, PT := T#1s);", ""}, Row{"timers[4](IN := f);", "1:8 E0506"},
+        Row{"t(IN := f, PTX := T#1s);", "1:12 E0601"}, Row{"t(IN := f, PT = T#1s);", "1:15 E0619"},
+        Row{"undefinedFn(1);", "1:1 E0401"}, Row{"counter := undefinedFn(1);", "1:12 E0401"},
+        Row{"counter(1);", "1:1 E0610"}, Row{"TON(IN := f);", "1:1 E0611"}, Row{"t(IN := f, IN := f);", "1:12 E0603"},
+        Row{"t(Q := f);", "1:3 E0607"}, Row{"t(IN => f);", "1:3 E0606"}, Row{"f := t(IN := f);", "1:6 E0614"},
+        Row{"t(IN := counter);", "1:9 E0501"}, Row{"t(Q => counter);", "1:8 E0501"}, Row{"t(Q => TRUE);", "1:8 E0701"},
+        Row{"t(f, T#1s);", ""}, Row{"timers[2](IN := f, PT := T#1s);", ""}, Row{"timers[4](IN := f);", "1:8 E0506"},
         Row{"counter := MAX(1);", "1:17 E0605"}, Row{"counter := LIMIT(1, 2);", "1:22 E0605"},
         Row{"counter := ABS(1, 2);", "1:19 E0604"}, Row{"counter := LEN(counter);", "1:16 E0616"},
         Row{"counter := MAX(counter, s);", "1:12 E0508"}, Row{"counter := INT_TO_DINT(counter);", "1:12 W0503"},
