@@ -24,7 +24,7 @@ int runBuild(const Options& options) {
   if (good && exit == kGood) {
     times.begin("c++");
     Cache cache;
-    request.level = "-O2";
+    request.level = 2;
     request.jobs = options.jobs;
     request.keep = options.keep;
     NativeResult result =

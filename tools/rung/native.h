@@ -21,7 +21,7 @@ struct NativePart {
 struct NativeRequest {
   std::vector<NativePart> parts;
   uint32_t batches = 0;        // > 0: so many translation units that include the parts' .cpp files
-  const char* level = "-O1";   // unless $CXXFLAGS says another
+  int level = 1;               // -O of the C++ compiler, unless $CXXFLAGS says another
   uint32_t jobs = 0;
   bool keep = false;           // keep the generated files and say where
 };

@@ -34,6 +34,7 @@ int runRun(const Options& options) {
 
   times.begin("c++");
   Cache cache;
+  request.level = compilation.options.level;
   request.jobs = options.jobs;
   request.keep = options.keep;
   NativeResult result = makeShared(cache, request);

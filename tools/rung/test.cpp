@@ -85,6 +85,7 @@ class Tester {
     ModuleLibrary library;
     if (!request_.parts.empty()) {
       times_.begin("c++");
+      request_.level = options_.level;
       request_.jobs = options_.jobs;
       request_.keep = options_.keep;
       NativeResult result = makeShared(cache, request_);
