@@ -3,6 +3,7 @@
 //   ```st mended [options]    on such a page: no error, and not that code
 //   ```st run [options]       `rung run` ends well; an ```output block after it is what it prints
 //   ```st check [options]     no error
+//   ```ir wrong, mended       the same for IR text, which ir_golden reads; its comments begin with `; `
 //   ```st name.st             a file for the console blocks of the same page (any language, any ending)
 //   ```console                a session (console.h), in a folder that looks like the project's root;
 //   ```console wrong          a session that must mention the page's code
@@ -71,6 +72,8 @@ class Page {
         runConsole(block);
       } else if (block.language == "st" && (block.kind == "wrong" || block.kind == "mended" || block.kind == "check")) {
         runCheck(block);
+      } else if (block.language == "ir" && (block.kind == "wrong" || block.kind == "mended")) {
+        runIr(block);
       } else if (block.language == "st" && block.kind == "run") {
         runProgram(block, after);
       } else if (block.kind.find('.') != std::string::npos) {
@@ -116,6 +119,30 @@ class Page {
     if (output.exit_code != 0 && output.exit_code != 1)
       problem += "  exit code " + std::to_string(output.exit_code) + "\n";
     finish(block, problem, spelled(check));
+  }
+
+  // ir_golden prints `line:column E0901 message`, once for each time it reads the text.
+  void runIr(const Block& block) {
+    Command read;
+    read.folder = freshFolder(setting_);
+    writeText(read.folder + "/example.ir", textOf(block));
+    read.arguments = {setting_.bin + "/ir_golden", "example.ir"};
+    read.merged = true;
+    if (!std::filesystem::exists(read.arguments[0])) return finish(block, "  ir_golden is not built\n", "");
+    const Output output = rung::tests::run(read);
+    std::string problem;
+    bool reported = false;
+    for (const std::string& line : splitLines(output.out)) {
+      const std::vector<std::string> words = splitWords(line);
+      if (words.size() < 2 || words[0].find(':') == std::string::npos || !startsWith(words[1], "E09")) continue;
+      const bool own = words[1] == code_;
+      reported = reported || own;
+      if (!own || block.kind == "mended") problem += "  " + line + "\n";
+    }
+    if (block.kind == "wrong" && !reported) problem += "  " + code_ + " is not reported\n";
+    if (block.kind == "mended" && output.exit_code != 0)
+      problem += "  exit code " + std::to_string(output.exit_code) + "\n";
+    finish(block, problem, spelled(read));
   }
 
   void runProgram(const Block& block, const Block* expected) {
