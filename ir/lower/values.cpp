@@ -71,6 +71,29 @@ Value literalValue(const sema::Project& project, const LiteralExpr& node) {
   return {type, 0};
 }
 
+Op operatorOf(BinaryOp op) {
+  switch (op) {
+    case BinaryOp::Or:
+    case BinaryOp::OrElse: return Op::Or;
+    case BinaryOp::Xor: return Op::Xor;
+    case BinaryOp::And:
+    case BinaryOp::AndThen: return Op::And;
+    case BinaryOp::Equal: return Op::Eq;
+    case BinaryOp::NotEqual: return Op::Ne;
+    case BinaryOp::Less: return Op::Lt;
+    case BinaryOp::LessEqual: return Op::Le;
+    case BinaryOp::Greater: return Op::Gt;
+    case BinaryOp::GreaterEqual: return Op::Ge;
+    case BinaryOp::Add: return Op::Add;
+    case BinaryOp::Subtract: return Op::Sub;
+    case BinaryOp::Multiply: return Op::Mul;
+    case BinaryOp::Divide: return Op::Div;
+    case BinaryOp::Modulo: return Op::Mod;
+    case BinaryOp::Power: return Op::Power;
+  }
+  return Op::Add;
+}
+
 }  // namespace
 
 std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
@@ -119,12 +142,21 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
       }
       return std::nullopt;
     }
+    case rung::ExprKind::Binary: {
+      const BinaryExpr& node = tree.as<BinaryExpr>(id);
+      auto left = constantOf(project, node.left);
+      if (!left || !TypeTable::isScalar(types.plainKind(left->type))) return std::nullopt;
+      auto right = constantOf(project, node.right);
+      if (!right || !TypeTable::isScalar(types.plainKind(right->type))) return std::nullopt;
+      types::Outcome outcome = types::apply(types, project.names, operatorOf(node.op()), *left, *right);
+      if (outcome.fault != types::Fault::None) return std::nullopt;
+      return outcome.value;
+    }
     case rung::ExprKind::Error:
     case rung::ExprKind::Index:
     case rung::ExprKind::Deref:
     case rung::ExprKind::BitAccess:
     case rung::ExprKind::Address:
-    case rung::ExprKind::Binary:
     case rung::ExprKind::Call:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:
@@ -208,33 +240,6 @@ ExprId BodyLowering::lowerUnary(rung::ExprId id) {
   }
   return {};
 }
-
-namespace {
-
-Op operatorOf(BinaryOp op) {
-  switch (op) {
-    case BinaryOp::Or:
-    case BinaryOp::OrElse: return Op::Or;
-    case BinaryOp::Xor: return Op::Xor;
-    case BinaryOp::And:
-    case BinaryOp::AndThen: return Op::And;
-    case BinaryOp::Equal: return Op::Eq;
-    case BinaryOp::NotEqual: return Op::Ne;
-    case BinaryOp::Less: return Op::Lt;
-    case BinaryOp::LessEqual: return Op::Le;
-    case BinaryOp::Greater: return Op::Gt;
-    case BinaryOp::GreaterEqual: return Op::Ge;
-    case BinaryOp::Add: return Op::Add;
-    case BinaryOp::Subtract: return Op::Sub;
-    case BinaryOp::Multiply: return Op::Mul;
-    case BinaryOp::Divide: return Op::Div;
-    case BinaryOp::Modulo: return Op::Mod;
-    case BinaryOp::Power: return Op::Power;
-  }
-  return Op::Add;
-}
-
-}  // namespace
 
 ExprId BodyLowering::lowerBinary(rung::ExprId id) {
   const BinaryExpr& node = tree_.as<BinaryExpr>(id);
