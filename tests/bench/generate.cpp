@@ -33,14 +33,17 @@ std::string scaling(long n) {
     part : REAL;
   END_VAR
   IF high <= low THEN
-    Scale)" + id + R"( := low;
+    Scale)" +
+         id + R"( := low;
     RETURN;
   END_IF;
-  part := DINT_TO_REAL(raw MOD )" + gain + R"(00) / )" + gain + R"(00.0;
+  part := DINT_TO_REAL(raw MOD )" +
+         gain + R"(00) / )" + gain + R"(00.0;
   IF part < 0.0 THEN
     part := -part;
   END_IF;
-  Scale)" + id + R"( := LIMIT(low, low + part * (high - low), high);
+  Scale)" +
+         id + R"( := LIMIT(low, low + part * (high - low), high);
 END_FUNCTION
 
 )";
@@ -49,11 +52,13 @@ END_FUNCTION
 std::string station(long n) {
   const std::string id = text(n), a = text(n % 4 + 1), b = text(n % 6 + 3);
   return "(* Station " + id + R"(: averages its level, steps through a batch, counts and reports. *)
-FUNCTION_BLOCK Station)" + id + R"(
+FUNCTION_BLOCK Station)" +
+         id + R"(
   VAR_INPUT
     start, stop : BOOL;
     level : DINT;
-    target : REAL := )" + b + R"(0.0;
+    target : REAL := )" +
+         b + R"(0.0;
   END_VAR
   VAR_OUTPUT
     valve : REAL;
@@ -70,25 +75,31 @@ FUNCTION_BLOCK Station)" + id + R"(
     batches : CTU;
     position, i : INT;
     mean, error, sum : REAL;
-    mask : WORD := 16#00F)" + a + R"(;
+    mask : WORD := 16#00F)" +
+         a + R"(;
   END_VAR
 
   // the window of the last values and its mean
   position := position MOD 12 + 1;
-  window[position] := Scale)" + id + R"((raw := level, low := 0.0, high := )" + b + R"(00.0);
+  window[position] := Scale)" +
+         id + R"((raw := level, low := 0.0, high := )" + b + R"(00.0);
   mean := 0.0;
   FOR i := 1 TO 12 DO
     mean := mean + window[i];
   END_FOR;
   reading.raw := level;
   reading.value := mean / 12.0;
-  reading.valid := reading.value > 0.5 AND reading.value < )" + b + R"(00.0;
+  reading.valid := reading.value > 0.5 AND reading.value < )" +
+         b + R"(00.0;
   reading.kind := step;
 
   started(CLK := start AND NOT stop);
-  dwell(IN := step = Mixing, PT := T#)" + a + R"(s);
-  pause(IN := busy, PT := T#)" + b + R"(00ms);
-  batches(CU := dwell.Q, RESET := stop, PV := )" + b + R"(0);
+  dwell(IN := step = Mixing, PT := T#)" +
+         a + R"(s);
+  pause(IN := busy, PT := T#)" +
+         b + R"(00ms);
+  batches(CU := dwell.Q, RESET := stop, PV := )" +
+         b + R"(0);
 
   CASE step OF
     Waiting:
@@ -99,8 +110,10 @@ FUNCTION_BLOCK Station)" + id + R"(
       END_IF;
     Filling:
       error := target - reading.value;
-      sum := LIMIT(-50.0, sum + error * 0.0)" + a + R"(, 50.0);
-      valve := LIMIT(0.0, error * )" + a + R"(.25 + sum, 100.0);
+      sum := LIMIT(-50.0, sum + error * 0.0)" +
+         a + R"(, 50.0);
+      valve := LIMIT(0.0, error * )" +
+         a + R"(.25 + sum, 100.0);
       IF ABS(error) < 1.0 THEN
         step := Mixing;
       ELSIF stop THEN
@@ -122,10 +135,13 @@ FUNCTION_BLOCK Station)" + id + R"(
   i := 0;
   REPEAT
     i := i + 1;
-    mask := ROL(mask, 1) XOR 16#000)" + a + R"(;
-  UNTIL i >= )" + b + R"( OR (mask AND 16#8000) <> 0
+    mask := ROL(mask, 1) XOR 16#000)" +
+         a + R"(;
+  UNTIL i >= )" +
+         b + R"( OR (mask AND 16#8000) <> 0
   END_REPEAT;
-  WHILE i > 0 AND sum > )" + b + R"(.5 DO
+  WHILE i > 0 AND sum > )" +
+         b + R"(.5 DO
     i := i - 1;
     sum := sum / 2.0;
   END_WHILE;
@@ -133,9 +149,11 @@ FUNCTION_BLOCK Station)" + id + R"(
   busy := step <> Waiting;
   alarm := batches.Q OR (busy AND NOT reading.valid);
   IF alarm THEN
-    message := CONCAT('station )" + id + R"( batch ', INT_TO_STRING(position));
+    message := CONCAT('station )" +
+         id + R"( batch ', INT_TO_STRING(position));
   ELSE
-    message := 'station )" + id + R"( good';
+    message := 'station )" +
+         id + R"( good';
   END_IF;
 END_FUNCTION_BLOCK
 
@@ -163,7 +181,8 @@ std::string project(long stations) {
   for (long n = 0; n < stations; n += 20) out += area(areas++, n, stations - n < 20 ? stations - n : 20);
   out += "CONFIGURATION Plant\n  RESOURCE Controller ON PLC\n";
   for (long n = 0; n < areas; ++n)
-    out += "    TASK Cycle" + text(n) + "(INTERVAL := T#" + text(n % 8 + 5) + "ms, PRIORITY := " + text(n % 16) + ");\n";
+    out +=
+        "    TASK Cycle" + text(n) + "(INTERVAL := T#" + text(n % 8 + 5) + "ms, PRIORITY := " + text(n % 16) + ");\n";
   for (long n = 0; n < areas; ++n)
     out += "    PROGRAM Run" + text(n) + " WITH Cycle" + text(n) + " : Area" + text(n) + ";\n";
   return out + "  END_RESOURCE\nEND_CONFIGURATION\n";

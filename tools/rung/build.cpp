@@ -27,8 +27,7 @@ int runBuild(const Options& options) {
     request.level = 2;
     request.jobs = options.jobs;
     request.keep = options.keep;
-    NativeResult result =
-        makeOutput(cache, request, options.build, compilation.options.moduleName(), options.output);
+    NativeResult result = makeOutput(cache, request, options.build, compilation.options.moduleName(), options.output);
     times.end();
     exit = result.exit;
     if (exit == kInternal)

@@ -1,12 +1,12 @@
 // What happens when rung itself breaks; see crash.h.
 #include "tools/rung/crash.h"
 
+#include <unistd.h>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
-#include <unistd.h>
 
 #include "frontend/source/invariant.h"
 #include "tools/rung/installation.h"
@@ -87,10 +87,11 @@ void setProgramRuns(bool runs, bool checked) {
 }
 
 void printInternalError(const char* what) {
-  fprintf(stderr,
-          "rung: internal error: %s\nthis is a mistake in rung %s, not in your program; please report it with the input "
-          "and this command:\n  rung",
-          what, version());
+  fprintf(
+      stderr,
+      "rung: internal error: %s\nthis is a mistake in rung %s, not in your program; please report it with the input "
+      "and this command:\n  rung",
+      what, version());
   for (int i = 0; i < word_count; i++) fprintf(stderr, " %s", words[i]);
   fputc('\n', stderr);
 }

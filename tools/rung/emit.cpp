@@ -96,8 +96,7 @@ int emitText(Compilation& compilation) {
   std::string out;
   if (compilation.options.emit == EmitKind::Tree) {
     if (compilation.parse() && !compilation.diagnostics.hasErrors())
-      for (const FileUnit& unit : compilation.tree.files)
-        out += printTree(compilation.tree, compilation.names, unit);
+      for (const FileUnit& unit : compilation.tree.files) out += printTree(compilation.tree, compilation.names, unit);
   } else if (compilation.lower()) {
     out = ir::print(*compilation.module);
   }

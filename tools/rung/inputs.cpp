@@ -290,6 +290,10 @@ class Collector {
   }
 
   void addFile(const Candidate& candidate) {
+    // Before it is read: such a file would not fit the memory either.
+    struct stat info;
+    if (stat(candidate.path.c_str(), &info) == 0 && static_cast<uint64_t>(info.st_size) >= UINT32_MAX)
+      return fail(Diag::TooMuchInput, candidate.path, {candidate.path});
     ReadResult read = readFile(candidate.path);
     if (!read.error.empty()) return fail(Diag::CannotRead, candidate.path, {candidate.path, read.error});
     inputs_.read.push_back(candidate.path);

@@ -27,8 +27,8 @@ struct InputFile {
 };
 
 struct Inputs {
-  std::string root;              // absolute
-  std::vector<InputFile> files;  // the ones to compile, sorted by `below`
+  std::string root;               // absolute
+  std::vector<InputFile> files;   // the ones to compile, sorted by `below`
   std::vector<std::string> read;  // every file and folder looked at, for depfiles
   ProjectFile project;
   bool io_error = false;  // something could not be read: exit 2

@@ -24,9 +24,9 @@ Installation find() {
   std::string homes[3];
   if (const char* home = std::getenv("RUNG_HOME"); home != nullptr && home[0] != '\0') homes[0] = home;
   homes[1] = executableFolder() + "/..";
-  const std::string include_folders[] = {
-      homes[0].empty() ? "" : homes[0] + "/share/rung/include", homes[0].empty() ? "" : homes[0] + "/include",
-      homes[1] + "/share/rung/include", RUNG_BUILD_INCLUDE};
+  const std::string include_folders[] = {homes[0].empty() ? "" : homes[0] + "/share/rung/include",
+                                         homes[0].empty() ? "" : homes[0] + "/include",
+                                         homes[1] + "/share/rung/include", RUNG_BUILD_INCLUDE};
   for (const std::string& folder : include_folders) {
     if (folder.empty() || !exists(folder + "/rung/module.h")) continue;
     found.include = folder;

@@ -214,7 +214,8 @@ class Builder {
 
  private:
   // The hash of a file with all that it includes of its own part.
-  const std::string& closure(const NativePart& part, const std::unordered_map<std::string_view, const OutputFile*>& files,
+  const std::string& closure(const NativePart& part,
+                             const std::unordered_map<std::string_view, const OutputFile*>& files,
                              const OutputFile& file) {
     std::string id = part.folder + "/" + file.path;
     auto [place, fresh] = closures_.try_emplace(std::move(id));
@@ -388,8 +389,8 @@ class Builder {
                                "cannot execute", "Cannot allocate memory", "Killed signal", "Disk quota"})
       if (log.text.find(phrase) != std::string::npos || failed->exit_code > 128)
         return fail(kUsage, "`" + failed->arguments[0] + "` failed while " + label + ":\n" + first);
-    return fail(kInternal, "`" + failed->arguments[0] + "` refused generated code while " + label + "; the files are in " +
-                               work_ + "\n" + first);
+    return fail(kInternal, "`" + failed->arguments[0] + "` refused generated code while " + label +
+                               "; the files are in " + work_ + "\n" + first);
   }
 
   Cache& cache_;

@@ -20,10 +20,10 @@ struct NativePart {
 
 struct NativeRequest {
   std::vector<NativePart> parts;
-  uint32_t batches = 0;        // > 0: so many translation units that include the parts' .cpp files
-  int level = 1;               // -O of the C++ compiler, unless $CXXFLAGS says another
+  uint32_t batches = 0;  // > 0: so many translation units that include the parts' .cpp files
+  int level = 1;         // -O of the C++ compiler, unless $CXXFLAGS says another
   uint32_t jobs = 0;
-  bool keep = false;           // keep the generated files and say where
+  bool keep = false;  // keep the generated files and say where
 };
 
 struct NativeResult {

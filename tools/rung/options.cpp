@@ -98,8 +98,9 @@ constexpr OptionRow kOptions[] = {
     {Key::Separate, "--separate", nullptr, bit(Command::Test), "each file is a project of its own"},
     {Key::Signature, "--signature", "NAME", bit(Command::List), "the declaration of a function, block or type"},
     {Key::Standard, "--std", "codesys|iec3|iec2", kReads, "dialect (codesys)"},
-    {Key::Checks, "--checks", "LIST", kCompile, "run-time checks: div,index,null,cast,subrange,convert,overflow,\n"
-                                                "default, all or none (default: div,index,null,cast)"},
+    {Key::Checks, "--checks", "LIST", kCompile,
+     "run-time checks: div,index,null,cast,subrange,convert,overflow,\n"
+     "default, all or none (default: div,index,null,cast)"},
     {Key::Level, "-O", "0|1|2", kCompile, "optimization (1)"},
     {Key::Warning, "-W", "NAME", kReads, "-Wno-NAME switches a warning off, -WNAME on; NAME or code"},
     {Key::Werror, "--werror", nullptr, kReads, "warnings are errors"},
@@ -110,7 +111,8 @@ constexpr OptionRow kOptions[] = {
     {Key::Root, "--root", "DIR", kReads, "paths in the output are relative to DIR"},
     {Key::Name, "--name", "ID", kCompile, "prefix of the module's symbols (plc)"},
     {Key::Jobs, "-j", "N", bit(Command::Build) | bit(Command::Run) | bit(Command::Test), "C++ compilers at a time"},
-    {Key::DumpAfter, "--dump-after", "NAME", kCompile, "print tree, IR or a pass's result to stderr: parse, lower, PASS"},
+    {Key::DumpAfter, "--dump-after", "NAME", kCompile,
+     "print tree, IR or a pass's result to stderr: parse, lower, PASS"},
     {Key::TimePhases, "--time-phases", nullptr, kCompile, "print time and lines per second of each phase"},
     {Key::Help, "--help", nullptr, kAll, nullptr},
     {Key::Help, "-h", nullptr, kAll, nullptr},
@@ -123,9 +125,15 @@ struct CheckRow {
 constexpr uint8_t kDefaultChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
 constexpr uint8_t kAllChecks = kDefaultChecks | ir::kCheckSubrange | ir::kCheckConvert | ir::kCheckOverflow;
 constexpr CheckRow kChecks[] = {
-    {"div", ir::kCheckDiv},         {"index", ir::kCheckIndex},         {"null", ir::kCheckNull},
-    {"cast", ir::kCheckCast},       {"subrange", ir::kCheckSubrange},   {"convert", ir::kCheckConvert},
-    {"overflow", ir::kCheckOverflow}, {"default", kDefaultChecks},      {"all", kAllChecks},
+    {"div", ir::kCheckDiv},
+    {"index", ir::kCheckIndex},
+    {"null", ir::kCheckNull},
+    {"cast", ir::kCheckCast},
+    {"subrange", ir::kCheckSubrange},
+    {"convert", ir::kCheckConvert},
+    {"overflow", ir::kCheckOverflow},
+    {"default", kDefaultChecks},
+    {"all", kAllChecks},
     {"none", 0},
 };
 
@@ -154,11 +162,12 @@ std::string parseChoice(std::string_view option, std::string_view value, std::st
     rest.remove_prefix(bar + 1);
     position++;
   }
-  return withSuggestion(quoted(value) + " is no value of " + quoted(option) + "; it takes " + std::string(choices), value,
-                        names);
+  return withSuggestion(quoted(value) + " is no value of " + quoted(option) + "; it takes " + std::string(choices),
+                        value, names);
 }
 
-std::string parseNumber(std::string_view option, std::string_view value, uint32_t low, uint32_t high, uint32_t& number) {
+std::string parseNumber(std::string_view option, std::string_view value, uint32_t low, uint32_t high,
+                        uint32_t& number) {
   uint64_t n = 0;
   bool good = !value.empty() && value.size() <= 10;
   for (char c : value) {
@@ -187,12 +196,8 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       if (!isIdentifier(value)) return quoted(value) + " is no C identifier; `--name` takes letters, digits and `_`";
       options.name = value;
       return {};
-    case Key::Standard:
-      options.standard_given = true;
-      return parseStandard(value, options.standard);
-    case Key::Checks:
-      options.checks_given = true;
-      return parseChecks(value, options.checks);
+    case Key::Standard: options.standard_given = true; return parseStandard(value, options.standard);
+    case Key::Checks: options.checks_given = true; return parseChecks(value, options.checks);
     case Key::Level:
       options.level_given = true;
       error = parseChoice("-O", value, "0|1|2", choice);
@@ -268,13 +273,13 @@ std::string unknownOption(std::string_view word, Command command) {
   std::string_view name = word.substr(0, word.find('='));
   for (const OptionRow& row : kOptions)
     if (row.help != nullptr && (row.commands & bit(command))) candidates.push_back(row.name);
-  return withSuggestion("unknown option " + quoted(name) + " of `rung " + commandName(command) + "`", name, candidates) +
+  return withSuggestion("unknown option " + quoted(name) + " of `rung " + commandName(command) + "`", name,
+                        candidates) +
          " (`rung " + commandName(command) + " --help` lists all)";
 }
 
 std::string elsewhere(const OptionRow& row, Command command) {
-  std::string message =
-      quoted(row.name) + " is no option of `rung " + commandName(command) + "`; it belongs to";
+  std::string message = quoted(row.name) + " is no option of `rung " + commandName(command) + "`; it belongs to";
   const char* separator = " ";
   for (const CommandRow& other : kCommands) {
     if (!(row.commands & bit(other.command))) continue;

@@ -14,7 +14,7 @@ constexpr Schema kSchemas[] = {
     {"project", false, "name sources std libraries checks optimize warnings"},
     {"task", true, "kind interval priority trigger watchdog sensitivity programs"},
     {"module", true, "type slot inputs outputs address station parameters"},
-    {"axis", true, nullptr},  // the parameters of the axis: their names are checked by the motion library
+    {"axis", true, nullptr},   // the parameters of the axis: their names are checked by the motion library
     {"safe", false, nullptr},  // PATH = VALUE
     {"nc", false, nullptr},
     {"pool", true, nullptr},
@@ -64,9 +64,7 @@ class Reader {
   }
 
  private:
-  Loc loc(std::string_view part) const {
-    return {base_.offset + static_cast<uint32_t>(part.data() - text_.data())};
-  }
+  Loc loc(std::string_view part) const { return {base_.offset + static_cast<uint32_t>(part.data() - text_.data())}; }
 
   void readLine(std::string_view line) {
     if (line.empty() || line[0] == '#' || line[0] == ';') return;
@@ -227,7 +225,6 @@ void writeTasks(const Sources& sources, Diagnostics& diagnostics, ProjectFile& p
           continue;
         }
         programs += " PROGRAM " + name + " WITH " + section.name + " : " + type + ";";
-
       }
     }
   }

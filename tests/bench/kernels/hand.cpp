@@ -61,7 +61,8 @@ struct Linear {
     double total = 0.0;
     for (int32_t r = 0; r < rounds; ++r) {
       for (int i = 0; i < 20; ++i) {
-        for (int k = 0; k < 20; ++k) m[i][k] = i == k ? 30.0 : static_cast<double>(((i + 1) * 7 + (k + 1) * 3) % 11) * 0.1;
+        for (int k = 0; k < 20; ++k)
+          m[i][k] = i == k ? 30.0 : static_cast<double>(((i + 1) * 7 + (k + 1) * 3) % 11) * 0.1;
         m[i][20] = i + 1;
       }
       for (int k = 0; k < 19; ++k) {
@@ -122,11 +123,14 @@ struct Steps {
         case 0:
           if (up && !down) step = 1;
           break;
-        case 1: case 2: case 3:
+        case 1:
+        case 2:
+        case 3:
           fill += 4;
           if (fill > 80 || down) ++step;
           break;
-        case 4: case 6:
+        case 4:
+        case 6:
           fill -= 7;
           if (fill < 5) step = 7;
           break;
@@ -135,9 +139,7 @@ struct Steps {
           fill = 0;
           step = 0;
           break;
-        default:
-          ++faults;
-          step = 0;
+        default: ++faults; step = 0;
       }
       if (door && up) step = 50;
       sum = (sum + step + fill) % 99991;

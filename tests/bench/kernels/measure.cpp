@@ -32,7 +32,8 @@ int32_t* field(const rung_module& m, rung_context& ctx, const std::string& progr
 int main(int argc, char** argv) {
   const rung_module& m = *plc_module();
   std::vector<void*> blocks;
-  for (uint32_t i = 0; i < m.block_count; ++i) blocks.push_back(aligned_alloc(64, (m.blocks[i].size + 63) / 64 * 64 + 64));
+  for (uint32_t i = 0; i < m.block_count; ++i)
+    blocks.push_back(aligned_alloc(64, (m.blocks[i].size + 63) / 64 * 64 + 64));
   std::vector<uint8_t> images[3];
   rung_context ctx = {};
   ctx.blocks = blocks.data();

@@ -1,4 +1,5 @@
-// rung_add_program() of an installed Rung, moved to another folder: tests/programs/cmake_project/check.sh has the steps.
+// rung_add_program() of an installed Rung, moved to another folder: tests/programs/cmake_project/check.sh has the
+// steps.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -12,9 +13,9 @@ TEST(BuildStep, CMakeProjectWithNinjaAndMake) {
   if (system("command -v ninja >/dev/null && command -v make >/dev/null") != 0) GTEST_SKIP() << "no ninja or make";
   TemporaryFolder folder;
   const std::string prefix = folder.path() + "/moved prefix";
-  const std::string line = "cmake --install '" RUNG_BUILD "' --prefix '" + folder.path() + "/prefix' >/dev/null && mv '" +
-                           folder.path() + "/prefix' '" + prefix + "' && '" RUNG_SOURCE
-                           "/tests/programs/cmake_project/check.sh' '" + prefix + "'";
+  const std::string line = "cmake --install '" RUNG_BUILD "' --prefix '" + folder.path() +
+                           "/prefix' >/dev/null && mv '" + folder.path() + "/prefix' '" + prefix +
+                           "' && '" RUNG_SOURCE "/tests/programs/cmake_project/check.sh' '" + prefix + "'";
   EXPECT_EQ(system(line.c_str()), 0);
 }
 

@@ -14,7 +14,8 @@ namespace rung::tool {
 namespace {
 
 constexpr const char* kCounter =
-    "PROGRAM Main\nVAR n : INT; limit : INT := 3; END_VAR\nn := n + 1;\nIF n > limit THEN n := 0; END_IF;\nEND_PROGRAM\n";
+    "PROGRAM Main\nVAR n : INT; limit : INT := 3; END_VAR\nn := n + 1;\nIF n > limit THEN n := 0; "
+    "END_IF;\nEND_PROGRAM\n";
 
 struct Outcome {
   int exit = -1;
@@ -69,11 +70,12 @@ TEST_F(CommandTest, InputsThatCannotBeRead) {
 }
 
 TEST_F(CommandTest, HostileText) {
-  folder.write("line.st", "PROGRAM p VAR x : INT; END_VAR x := 1" + [] {
-    std::string sum;
-    while (sum.size() < 1'000'000) sum += " + 1";
-    return sum;
-  }() + "; END_PROGRAM");
+  folder.write(
+      "line.st", "PROGRAM p VAR x : INT; END_VAR x := 1" + [] {
+        std::string sum;
+        while (sum.size() < 1'000'000) sum += " + 1";
+        return sum;
+      }() + "; END_PROGRAM");
   folder.write("deep.st", "PROGRAM p VAR x : INT; END_VAR x := " + std::string(10'000, '(') + "1" +
                               std::string(10'000, ')') + "; END_PROGRAM");
   folder.write("comment.st", "PROGRAM p\n(* never closed\nEND_PROGRAM\n");
@@ -176,10 +178,9 @@ TEST_F(CommandTest, CompilerThatDoesNotStart) {
 
 TEST_F(CommandTest, SeparateTests) {
   for (int i = 0; i < 40; i++)
-    folder.write("t/t" + std::to_string(i) + ".st",
-                 "FUNCTION Value : INT\nValue := " + std::to_string(i) +
-                     ";\nEND_FUNCTION\n{test}\nPROGRAM same_name\nASSERT_EQ(" + std::to_string(i) +
-                     ", Value());\nEND_PROGRAM\n");
+    folder.write("t/t" + std::to_string(i) + ".st", "FUNCTION Value : INT\nValue := " + std::to_string(i) +
+                                                        ";\nEND_FUNCTION\n{test}\nPROGRAM same_name\nASSERT_EQ(" +
+                                                        std::to_string(i) + ", Value());\nEND_PROGRAM\n");
   Outcome outcome = shell("rung test --separate t --junit junit.xml");
   EXPECT_EQ(outcome.exit, 0) << outcome.err.substr(0, 2000);
   EXPECT_NE(outcome.out.find("\n40 passed, 0 failed\n"), std::string::npos) << outcome.out;

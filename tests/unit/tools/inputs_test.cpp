@@ -91,6 +91,14 @@ TEST_F(InputsTest, BinaryAndUtf16) {
   EXPECT_EQ(more.all()[0].diag, Diag::Utf16File);
 }
 
+TEST_F(InputsTest, FileThatFitsNoMemory) {
+  std::string path = folder.write("huge.st", kProgram);
+  ASSERT_EQ(truncate(path.c_str(), off_t{5} << 30), 0);  // a hole: no disk space
+  read({path});
+  EXPECT_TRUE(inputs.io_error);
+  EXPECT_STREQ(diagInfo(diagnostics.all()[0].diag).code, "E0107");
+}
+
 TEST_F(InputsTest, DeviceIsNoFile) {
   read({"/dev/null"});
   EXPECT_TRUE(inputs.io_error);

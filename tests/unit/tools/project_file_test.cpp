@@ -27,9 +27,10 @@ class ProjectFileTest : public testing::Test {
 };
 
 TEST_F(ProjectFileTest, AllSections) {
-  read("# a press\n[project]\nname = press\nstd = iec2\nchecks = div, index\noptimize = 2\nwarnings = no-W0101\n"
-       "[axis feed]\nfPositionPeriod = 360\n[safe]\nvalve.open = FALSE\n[nc]\nmax_feed = 3\n[pool R]\nsize = 9\n"
-       "[module slot1]\ntype = DI16\n");
+  read(
+      "# a press\n[project]\nname = press\nstd = iec2\nchecks = div, index\noptimize = 2\nwarnings = no-W0101\n"
+      "[axis feed]\nfPositionPeriod = 360\n[safe]\nvalve.open = FALSE\n[nc]\nmax_feed = 3\n[pool R]\nsize = 9\n"
+      "[module slot1]\ntype = DI16\n");
   EXPECT_EQ(messages(), std::vector<std::string>{});
   EXPECT_EQ(project.name, "press");
   EXPECT_EQ(project.level, 2);
@@ -50,17 +51,18 @@ TEST_F(ProjectFileTest, AllSections) {
 
 TEST_F(ProjectFileTest, MistakesHaveTheirPlace) {
   read("std = iec3\n[projekt]\nx = 1\n[project]\n  nmae = a\nstd=iec9\nwhat\n[task]\n[safe all]\n[project\n");
-  EXPECT_EQ(messages(), (std::vector<std::string>{
-                            "1:1: `std` stands before the first section; write `[project]` above it",
-                            "2:2: unknown section `projekt`",
-                            "5:3: unknown key `nmae` in section `project`",
-                            "6:5: wrong value for `std`: `iec9` is no value of `--std`; it takes iec2|iec3|codesys; did "
-                            "you mean `iec2`?",
-                            "7:1: this is no `[section]`, `key = value` or `# comment`",
-                            "8:2: a section `task` needs a name: `[task NAME]`",
-                            "9:2: the section `safe` takes no name: `[safe]`",
-                            "10:1: this is no `[section]`, `key = value` or `# comment`",
-                        }));
+  EXPECT_EQ(messages(),
+            (std::vector<std::string>{
+                "1:1: `std` stands before the first section; write `[project]` above it",
+                "2:2: unknown section `projekt`",
+                "5:3: unknown key `nmae` in section `project`",
+                "6:5: wrong value for `std`: `iec9` is no value of `--std`; it takes iec2|iec3|codesys; did "
+                "you mean `iec2`?",
+                "7:1: this is no `[section]`, `key = value` or `# comment`",
+                "8:2: a section `task` needs a name: `[task NAME]`",
+                "9:2: the section `safe` takes no name: `[safe]`",
+                "10:1: this is no `[section]`, `key = value` or `# comment`",
+            }));
 }
 
 TEST_F(ProjectFileTest, KeySetTwice) {
@@ -70,12 +72,15 @@ TEST_F(ProjectFileTest, KeySetTwice) {
 }
 
 TEST_F(ProjectFileTest, TasksBecomeAConfiguration) {
-  read("[task fast]\ninterval = 10ms\npriority = 1\nprograms = Main, second : Other\n[task slow]\nkind = freewheeling\n");
+  read(
+      "[task fast]\ninterval = 10ms\npriority = 1\nprograms = Main, second : Other\n[task slow]\nkind = "
+      "freewheeling\n");
   EXPECT_EQ(messages(), std::vector<std::string>{});
-  EXPECT_EQ(project.configuration,
-            "CONFIGURATION rung_project RESOURCE rung_project_resource ON PLC TASK fast(INTERVAL := T#10ms, PRIORITY := "
-            "1);\n\n\n\nTASK slow(KIND := FREEWHEELING); PROGRAM Main WITH fast : Main; PROGRAM second WITH fast : "
-            "Other; END_RESOURCE END_CONFIGURATION\n");
+  EXPECT_EQ(
+      project.configuration,
+      "CONFIGURATION rung_project RESOURCE rung_project_resource ON PLC TASK fast(INTERVAL := T#10ms, PRIORITY := "
+      "1);\n\n\n\nTASK slow(KIND := FREEWHEELING); PROGRAM Main WITH fast : Main; PROGRAM second WITH fast : "
+      "Other; END_RESOURCE END_CONFIGURATION\n");
 }
 
 TEST_F(ProjectFileTest, ValuesCannotBreakOutOfTheirPlace) {
