@@ -17,8 +17,10 @@ void joinBrackets(std::vector<std::string>& header) {
   std::vector<std::string> joined;
   bool open = false;
   for (std::string& cell : header) {
-    if (open) joined.back() += ',' + cell;
-    else joined.push_back(std::move(cell));
+    if (open)
+      joined.back() += ',' + cell;
+    else
+      joined.push_back(std::move(cell));
     open = std::count(joined.back().begin(), joined.back().end(), '[') >
            std::count(joined.back().begin(), joined.back().end(), ']');
   }
@@ -56,7 +58,8 @@ bool Inputs::load(const std::string& path, std::string& error) {
 
   std::vector<std::string> header = rows[0].cells;
   joinBrackets(header);
-  if (lowerCase(header[0]) != "cycle") return fail(rows[0], "the first column must be `cycle`, not `" + header[0] + "`");
+  if (lowerCase(header[0]) != "cycle")
+    return fail(rows[0], "the first column must be `cycle`, not `" + header[0] + "`");
   constexpr uint32_t kIgnored = ~0u;
   std::vector<uint32_t> columns = {kIgnored};
   for (size_t i = 1; i < header.size(); ++i) {
@@ -79,7 +82,8 @@ bool Inputs::load(const std::string& path, std::string& error) {
     if (read.ec != std::errc{} || read.ptr != first.data() + first.size() || cycle < 0)
       return fail(row, "`" + first + "` is no cycle; write 0, 1, 2, ...");
     if (row.cells.size() > columns.size())
-      return fail(row, "the row has " + std::to_string(row.cells.size()) + " cells, the header " + std::to_string(columns.size()));
+      return fail(row, "the row has " + std::to_string(row.cells.size()) + " cells, the header " +
+                           std::to_string(columns.size()));
     last_cycle_ = std::max(last_cycle_, cycle);
     for (size_t i = 1; i < row.cells.size(); ++i) {
       if (columns[i] == kIgnored || row.cells[i].empty()) continue;
@@ -88,7 +92,8 @@ bool Inputs::load(const std::string& path, std::string& error) {
       settings_.push_back({cycle, columns[i], std::move(row.cells[i])});
     }
   }
-  std::stable_sort(settings_.begin(), settings_.end(), [](const Setting& a, const Setting& b) { return a.cycle < b.cycle; });
+  std::stable_sort(settings_.begin(), settings_.end(),
+                   [](const Setting& a, const Setting& b) { return a.cycle < b.cycle; });
   return true;
 }
 

@@ -30,7 +30,8 @@ const char kHelp[] =
 
 }  // namespace
 
-std::string parseRunOptions(const std::vector<std::string>& arguments, RunOptions& options, std::vector<std::string>& rest) {
+std::string parseRunOptions(const std::vector<std::string>& arguments, RunOptions& options,
+                            std::vector<std::string>& rest) {
   for (size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
     std::string name = argument, value;
@@ -40,8 +41,8 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
       name = argument.substr(0, equals);
       value = argument.substr(equals + 1);
     }
-    static const char* const with_value[] = {"--cycles", "--for", "--interval", "--inputs", "--set",
-                                             "--watch", "--trace", "--retain", "--start"};
+    static const char* const with_value[] = {"--cycles", "--for",   "--interval", "--inputs", "--set",
+                                             "--watch",  "--trace", "--retain",   "--start"};
     bool takes_value = false;
     for (const char* const known : with_value) takes_value = takes_value || name == known;
     if (name == "--realtime") {
@@ -64,7 +65,8 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
     } else if (name == "--for") {
       if (!readDuration(value, options.for_ns)) return "--for needs a time such as T#2s, not `" + value + "`";
     } else if (name == "--interval") {
-      if (!readDuration(value, options.interval_ns)) return "--interval needs a time such as T#10ms, not `" + value + "`";
+      if (!readDuration(value, options.interval_ns))
+        return "--interval needs a time such as T#10ms, not `" + value + "`";
     } else if (name == "--inputs") {
       options.inputs_path = value;
     } else if (name == "--set") {
@@ -79,10 +81,14 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
       options.retain_path = value;
     } else {
       const std::string start = lowerCase(value);
-      if (start == "cold") options.start = RUNG_COLD;
-      else if (start == "warm") options.start = RUNG_WARM;
-      else if (start == "origin") options.start = RUNG_ORIGIN;
-      else return "--start needs cold, warm or origin, not `" + value + "`";
+      if (start == "cold")
+        options.start = RUNG_COLD;
+      else if (start == "warm")
+        options.start = RUNG_WARM;
+      else if (start == "origin")
+        options.start = RUNG_ORIGIN;
+      else
+        return "--start needs cold, warm or origin, not `" + value + "`";
     }
   }
   return "";
@@ -91,7 +97,8 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
 int applicationMain(const rung_module& module, int argc, char** argv) {
   RunOptions options;
   std::vector<std::string> rest;
-  const std::string wrong = parseRunOptions(std::vector<std::string>(argv + (argc > 0 ? 1 : 0), argv + argc), options, rest);
+  const std::string wrong =
+      parseRunOptions(std::vector<std::string>(argv + (argc > 0 ? 1 : 0), argv + argc), options, rest);
   if (!wrong.empty()) {
     fprintf(stderr, "error: %s\n", wrong.c_str());
     return 2;

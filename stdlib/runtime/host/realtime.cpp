@@ -1,14 +1,14 @@
 #include "realtime.h"
 
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
 #include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <ctime>
 #include <memory>
 #include <mutex>
-#include <pthread.h>
-#include <sched.h>
-#include <sys/mman.h>
 #include <thread>
 
 namespace rung::host {
@@ -136,7 +136,8 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
   shared.before = &before;
   shared.after = &after;
   signalled = 0;
-  struct sigaction action{}, old_interrupt{}, old_terminate{};
+  struct sigaction action {
+  }, old_interrupt{}, old_terminate{};
   action.sa_handler = onSignal;
   sigaction(SIGINT, &action, &old_interrupt);
   sigaction(SIGTERM, &action, &old_terminate);
@@ -148,7 +149,8 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
     auto worker = std::make_unique<Worker>();
     worker->item = &item;
     worker->context = context;
-    if (item.task->kind == RUNG_CYCLIC && (fastest == nullptr || item.interval_ns < fastest->item->interval_ns)) fastest = worker.get();
+    if (item.task->kind == RUNG_CYCLIC && (fastest == nullptr || item.interval_ns < fastest->item->interval_ns))
+      fastest = worker.get();
     workers.push_back(std::move(worker));
   }
   if (fastest != nullptr) fastest->makes_rows = true;
@@ -157,8 +159,10 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
     if (worker->item->task->kind == RUNG_EXTERNAL) continue;
     worker->thread = std::thread([&shared, &worker = *worker, &schedule] {
       raisePriority(worker.item->task->priority);
-      if (worker.item->task->kind == RUNG_CYCLIC) runCyclic(shared, worker);
-      else runOnCondition(shared, worker, std::min<int64_t>(schedule.rowNs(), 1'000'000));
+      if (worker.item->task->kind == RUNG_CYCLIC)
+        runCyclic(shared, worker);
+      else
+        runOnCondition(shared, worker, std::min<int64_t>(schedule.rowNs(), 1'000'000));
     });
   }
 
@@ -194,8 +198,10 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
   shared.stop.store(true);
   for (const std::unique_ptr<Worker>& worker : workers) {
     if (!worker->thread.joinable()) continue;
-    if (hung && worker->running_since.load() != 0) worker->thread.detach();  // never ends; the process will
-    else worker->thread.join();
+    if (hung && worker->running_since.load() != 0)
+      worker->thread.detach();  // never ends; the process will
+    else
+      worker->thread.join();
   }
   sigaction(SIGINT, &old_interrupt, nullptr);
   sigaction(SIGTERM, &old_terminate, nullptr);
@@ -204,9 +210,10 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
   for (const std::unique_ptr<Worker>& worker : workers) {
     if (worker->item->task->kind != RUNG_CYCLIC) continue;
     const char* const name = context.module->text + worker->item->task->name;
-    shared.result.statistics += std::string("task ") + (*name != 0 ? name : "(default)") + ": " + std::to_string(worker->activations) +
-                                " activations, " + std::to_string(worker->skipped) + " skipped, latest start " +
-                                microseconds(worker->worst_late_ns) + " late, longest run " + microseconds(worker->longest_run_ns) + '\n';
+    shared.result.statistics +=
+        std::string("task ") + (*name != 0 ? name : "(default)") + ": " + std::to_string(worker->activations) +
+        " activations, " + std::to_string(worker->skipped) + " skipped, latest start " +
+        microseconds(worker->worst_late_ns) + " late, longest run " + microseconds(worker->longest_run_ns) + '\n';
   }
   if (hung)
     for (std::unique_ptr<Worker>& worker : workers) (void)worker.release();  // detached threads still use them

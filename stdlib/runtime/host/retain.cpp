@@ -3,12 +3,12 @@
 // Both slots have the same size, a multiple of 4096, so that they share no sector.
 #include "retain.h"
 
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <unordered_map>
 
 namespace rung::host {
@@ -104,7 +104,8 @@ bool Retain::readSlot(int index, Slot& slot) const {
   Header header;
   if (!readAt(file_, offset, &header, sizeof header)) return false;
   if (memcmp(header.magic, kMagic, sizeof kMagic) != 0 || header.slot_bytes != slot_bytes) return false;
-  if (sizeof header + uint64_t{header.length} > slot_bytes || header.value_bytes > header.length || header.retain_bytes > header.value_bytes)
+  if (sizeof header + uint64_t{header.length} > slot_bytes || header.value_bytes > header.length ||
+      header.retain_bytes > header.value_bytes)
     return false;
   slot.payload.resize(header.length);
   if (!readAt(file_, offset + sizeof header, slot.payload.data(), header.length)) return false;
@@ -139,12 +140,14 @@ std::string Retain::directory(const Symbols& symbols) const {
   for (const Variable& root : symbols.roots()) symbols.expand(root, leaves);
   for (const Variable& leaf : leaves) {
     const uint8_t* const at = leaf.address();
-    auto range = std::upper_bound(ranges.begin(), ranges.end(), at, [](const uint8_t* p, const Range& r) { return p < r.begin; });
+    auto range = std::upper_bound(ranges.begin(), ranges.end(), at,
+                                  [](const uint8_t* p, const Range& r) { return p < r.begin; });
     if (range == ranges.begin()) continue;
     --range;
     if (at + leaf.type->size > range->begin + range->size) continue;
     text += lowerCase(leaf.path) + '\t' + std::to_string(leaf.type->kind) + '\t' +
-            std::to_string(range->offset + static_cast<uint32_t>(at - range->begin)) + '\t' + std::to_string(leaf.type->size) + '\n';
+            std::to_string(range->offset + static_cast<uint32_t>(at - range->begin)) + '\t' +
+            std::to_string(leaf.type->size) + '\n';
   }
   return text;
 }
@@ -188,7 +191,8 @@ void Retain::restoreByName(const Slot& slot, rung_start start, const Symbols& sy
     const std::string line = slot.payload.substr(at, end - at);
     const size_t tab = line.find('\t');
     Entry entry{};
-    if (tab != std::string::npos && sscanf(line.c_str() + tab, "\t%u\t%u\t%u", &entry.kind, &entry.offset, &entry.size) == 3)
+    if (tab != std::string::npos &&
+        sscanf(line.c_str() + tab, "\t%u\t%u\t%u", &entry.kind, &entry.offset, &entry.size) == 3)
       entries.emplace(line.substr(0, tab), entry);
     at = end + 1;
   }
@@ -246,7 +250,8 @@ bool Retain::save(const Symbols& symbols, std::string& error) {
     if (file < 0) return error = next + ": " + strerror(errno), false;
     good = ftruncate(file, static_cast<off_t>(2 * header.slot_bytes)) == 0;
     const uint64_t offset = header.sequence % 2 * header.slot_bytes;
-    good = good && writeAt(file, offset, &header, sizeof header) && writeAt(file, offset + sizeof header, payload.data(), payload.size());
+    good = good && writeAt(file, offset, &header, sizeof header) &&
+           writeAt(file, offset + sizeof header, payload.data(), payload.size());
     good = good && fsync(file) == 0 && rename(next.c_str(), path_.c_str()) == 0;
     if (!good) {
       error = path_ + ": " + strerror(errno);
@@ -257,7 +262,8 @@ bool Retain::save(const Symbols& symbols, std::string& error) {
     close(file_);
     file_ = file;
     const size_t slash = path_.find_last_of('/');
-    const int folder = ::open(slash == std::string::npos ? "." : path_.substr(0, slash + 1).c_str(), O_RDONLY | O_CLOEXEC);
+    const int folder =
+        ::open(slash == std::string::npos ? "." : path_.substr(0, slash + 1).c_str(), O_RDONLY | O_CLOEXEC);
     if (folder >= 0) {
       fsync(folder);
       close(folder);
@@ -265,8 +271,8 @@ bool Retain::save(const Symbols& symbols, std::string& error) {
     return true;
   }
   const uint64_t offset = header.sequence % 2 * header.slot_bytes;
-  good = writeAt(file_, offset, &header, sizeof header) && writeAt(file_, offset + sizeof header, payload.data(), payload.size()) &&
-         fdatasync(file_) == 0;
+  good = writeAt(file_, offset, &header, sizeof header) &&
+         writeAt(file_, offset + sizeof header, payload.data(), payload.size()) && fdatasync(file_) == 0;
   if (!good) error = path_ + ": " + strerror(errno);
   return good;
 }

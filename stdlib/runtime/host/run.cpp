@@ -1,10 +1,10 @@
 // `rung run` and executables of `rung build`: a module in virtual or real time (design §11). See rung/host.h.
+#include <unistd.h>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <optional>
-#include <unistd.h>
 
 #include "faults.h"
 #include "inputs.h"
@@ -50,8 +50,13 @@ int64_t processorNs() {
 
 struct Run {
   Run(const rung_module& chosen, const RunOptions& chosen_options)
-      : module(chosen), options(chosen_options), memory(chosen), symbols(chosen, memory),
-        schedule(symbols, chosen_options.interval_ns), inputs(symbols), trace(symbols) {}
+      : module(chosen),
+        options(chosen_options),
+        memory(chosen),
+        symbols(chosen, memory),
+        schedule(symbols, chosen_options.interval_ns),
+        inputs(symbols),
+        trace(symbols) {}
 
   int prepare();
   int runVirtual();
@@ -105,9 +110,12 @@ int Run::prepare() {
   if (!trace.open(options.trace_path, error)) return refuse(error);
 
   const int64_t row_ns = schedule.rowNs();
-  if (options.cycles >= 0) cycles = options.cycles;
-  else if (options.for_ns >= 0) cycles = options.for_ns / row_ns + (options.for_ns % row_ns != 0 ? 1 : 0);
-  else cycles = options.realtime ? -1 : inputs.lastCycle() >= 0 ? inputs.lastCycle() + 1 : kDefaultCycles;
+  if (options.cycles >= 0)
+    cycles = options.cycles;
+  else if (options.for_ns >= 0)
+    cycles = options.for_ns / row_ns + (options.for_ns % row_ns != 0 ? 1 : 0);
+  else
+    cycles = options.realtime ? -1 : inputs.lastCycle() >= 0 ? inputs.lastCycle() + 1 : kDefaultCycles;
   return kGood;
 }
 

@@ -22,8 +22,8 @@ class Schedule {
   struct Item {
     const rung_task* task;
     int64_t interval_ns;
-    int64_t next_ns = 0;   // cyclic
-    bool was_true = false; // event: at the last sample
+    int64_t next_ns = 0;    // cyclic
+    bool was_true = false;  // event: at the last sample
     Variable trigger;
   };
   const std::vector<Item>& items() const { return items_; }

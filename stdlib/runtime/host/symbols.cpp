@@ -7,7 +7,9 @@
 namespace rung::host {
 namespace {
 
-rung_type elementary(rung_type_kind kind, uint32_t size) { return {static_cast<uint8_t>(kind), 0, 0, size, RUNG_NONE, 0, 0, 0}; }
+rung_type elementary(rung_type_kind kind, uint32_t size) {
+  return {static_cast<uint8_t>(kind), 0, 0, size, RUNG_NONE, 0, 0, 0};
+}
 const rung_type kBoolType = elementary(RUNG_BOOL, 1);
 const rung_type kByteType = elementary(RUNG_BYTE, 1);
 const rung_type kWordType = elementary(RUNG_WORD, 2);
@@ -155,7 +157,8 @@ bool Symbols::findAddress(std::string_view path, Variable& variable, std::string
     return false;
   }
   if (byte + type->size > module_.image_bytes[index]) {
-    error = quoted(path) + " lies outside the image: the program uses " + std::to_string(module_.image_bytes[index]) + " bytes of it";
+    error = quoted(path) + " lies outside the image: the program uses " + std::to_string(module_.image_bytes[index]) +
+            " bytes of it";
     return false;
   }
   variable = Variable{};
@@ -184,7 +187,9 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
     if (close == std::string_view::npos) return error = "`]` is missing after " + quoted(variable.path) + "[", false;
     const std::vector<std::string> indices = splitList(rest.substr(1, close - 1));
     if (indices.size() != type.count)
-      return error = quoted(variable.path) + " has " + std::to_string(type.count) + " dimension(s), not " + std::to_string(indices.size()), false;
+      return error = quoted(variable.path) + " has " + std::to_string(type.count) + " dimension(s), not " +
+                     std::to_string(indices.size()),
+             false;
     uint64_t element = 0;
     variable.path += '[';
     for (uint32_t d = 0; d < type.count; ++d) {
@@ -195,9 +200,12 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
       if (read.ec != std::errc{} || read.ptr != written.data() + written.size())
         return error = quoted(written) + " is no index; write a number", false;
       if (index < dimension.low || index > dimension.high)
-        return error = "index " + written + " of " + quoted(std::string_view(variable.path).substr(0, variable.path.find_last_of('['))) + " is outside " +
-                       std::to_string(dimension.low) + ".." + std::to_string(dimension.high), false;
-      element = element * static_cast<uint64_t>(dimension.high - dimension.low + 1) + static_cast<uint64_t>(index - dimension.low);
+        return error = "index " + written + " of " +
+                       quoted(std::string_view(variable.path).substr(0, variable.path.find_last_of('['))) +
+                       " is outside " + std::to_string(dimension.low) + ".." + std::to_string(dimension.high),
+               false;
+      element = element * static_cast<uint64_t>(dimension.high - dimension.low + 1) +
+                static_cast<uint64_t>(index - dimension.low);
       variable.path += (d > 0 ? "," : "") + std::to_string(index);
     }
     variable.path += ']';
@@ -206,7 +214,8 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
     rest.remove_prefix(close + 1);
     return true;
   }
-  if (rest.front() != '.') return error = "after " + quoted(variable.path) + " write `.field`, `[index]` or nothing", false;
+  if (rest.front() != '.')
+    return error = "after " + quoted(variable.path) + " write `.field`, `[index]` or nothing", false;
   rest.remove_prefix(1);
   size_t length = 0;
   while (length < rest.size() && isNameCharacter(rest[length])) ++length;
@@ -279,7 +288,9 @@ void Symbols::expand(const Variable& variable, std::vector<Variable>& to) const 
     for (uint32_t i = 0; i < type.count; ++i) {
       const rung_field& field = module_.fields[type.first + i];
       const char* const name = text(field.name);
-      if ((field.flags & (RUNG_FIELD_BY_REFERENCE | RUNG_FIELD_CONSTANT)) != 0 || *name == 0 || strncmp(name, "__", 2) == 0) continue;
+      if ((field.flags & (RUNG_FIELD_BY_REFERENCE | RUNG_FIELD_CONSTANT)) != 0 || *name == 0 ||
+          strncmp(name, "__", 2) == 0)
+        continue;
       Variable part = variable;
       part.path += '.';
       part.path += name;

@@ -1,7 +1,7 @@
 // `rung test`: runs the tests of a module, each from fresh memory in virtual time, and reports (design §11). A failing
 // assertion or a fault fails its test and no other. See rung/host.h.
-#include <cstdio>
 #include <fnmatch.h>
+#include <cstdio>
 
 #include "faults.h"
 #include "memory.h"
@@ -32,7 +32,8 @@ void onAssertion(void* data, bool passed, const char* file, uint32_t line, const
   Case& test = *static_cast<Case*>(data);
   ++test.assertions;
   if (passed) return;
-  std::string message = std::string(file) + ':' + std::to_string(line) + ": assertion failed: expected " + expected + ", got " + actual;
+  std::string message =
+      std::string(file) + ':' + std::to_string(line) + ": assertion failed: expected " + expected + ", got " + actual;
   if (text != nullptr && *text != 0) message += std::string(" (") + text + ')';
   test.fail(message);
 }
@@ -51,8 +52,8 @@ void runCase(const rung_module& module, const rung_test& test, Memory& memory, C
     if (faulted(rung_guarded(&context, test.run))) return;
     if (!has_done || memory.block(test.done_block)[test.done_offset] != 0) return;
   }
-  result.fail(std::string(module.text + test.file) + ':' + std::to_string(test.line) + ": `done` is still FALSE after " +
-              std::to_string(kMostCycles) + " cycles");
+  result.fail(std::string(module.text + test.file) + ':' + std::to_string(test.line) +
+              ": `done` is still FALSE after " + std::to_string(kMostCycles) + " cycles");
 }
 
 void appendXml(std::string& to, std::string_view text) {
@@ -64,8 +65,10 @@ void appendXml(std::string& to, std::string_view text) {
       case '"': to += "&quot;"; break;
       case '\n': to += "&#10;"; break;
       default:
-        if (static_cast<unsigned char>(c) < 0x20 && c != '\t') to += '?';  // XML 1.0 has no such character
-        else to += c;
+        if (static_cast<unsigned char>(c) < 0x20 && c != '\t')
+          to += '?';  // XML 1.0 has no such character
+        else
+          to += c;
     }
   }
 }

@@ -1,9 +1,9 @@
 #include "trace.h"
 
-#include <cerrno>
-#include <cstring>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <cerrno>
+#include <cstring>
 
 #include "csv.h"
 #include "value_text.h"
@@ -33,8 +33,10 @@ bool Trace::choose(const std::string& watch, std::string& error) {
     Variable variable;
     if (!symbols_.find(path, variable, error)) return false;
     variable.path = path;  // columns are named as the user wrote them
-    if (variable.type->kind == RUNG_POINTER) variables_.push_back(variable);
-    else symbols_.expand(variable, variables_);
+    if (variable.type->kind == RUNG_POINTER)
+      variables_.push_back(variable);
+    else
+      symbols_.expand(variable, variables_);
   }
   return true;
 }
@@ -97,8 +99,10 @@ bool Trace::close(std::string& error) {
   if (file_ != stdout) good = fclose(file_) == 0 && good;
   file_ = nullptr;
   if (good && !temporary_.empty()) good = rename(temporary_.c_str(), path_.c_str()) == 0;
-  if (good) temporary_.clear();
-  else error = path_ + ": " + strerror(errno);
+  if (good)
+    temporary_.clear();
+  else
+    error = path_ + ": " + strerror(errno);
   return good;
 }
 

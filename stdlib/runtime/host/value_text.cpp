@@ -7,10 +7,10 @@
 namespace rung::host {
 namespace {
 
-const char* const kKindNames[] = {"BOOL", "BYTE", "WORD", "DWORD", "LWORD", "SINT", "INT", "DINT", "LINT", "USINT",
-                                  "UINT", "UDINT", "ULINT", "REAL", "LREAL", "TIME", "LTIME", "DATE", "LDATE", "TOD",
-                                  "LTOD", "DT", "LDT", "CHAR", "WCHAR", "STRING", "WSTRING", "enumeration", "array",
-                                  "structure", "pointer"};
+const char* const kKindNames[] = {"BOOL",  "BYTE",   "WORD",    "DWORD",       "LWORD", "SINT",      "INT",    "DINT",
+                                  "LINT",  "USINT",  "UINT",    "UDINT",       "ULINT", "REAL",      "LREAL",  "TIME",
+                                  "LTIME", "DATE",   "LDATE",   "TOD",         "LTOD",  "DT",        "LDT",    "CHAR",
+                                  "WCHAR", "STRING", "WSTRING", "enumeration", "array", "structure", "pointer"};
 
 uint8_t integerKind(const rung_module& module, const rung_type& type) {
   if (type.kind == RUNG_ENUM && type.element != RUNG_NONE) return module.types[type.element].kind;
@@ -67,9 +67,7 @@ void spellValue(const rung_module& module, const Variable& variable, std::string
   const rung_type& type = *variable.type;
   char room[RUNG_SPELLED_SCALAR + 1];
   switch (static_cast<rung_type_kind>(type.kind)) {
-    case RUNG_BOOL:
-      to += (variable.bit == 255 ? *at != 0 : (*at >> variable.bit & 1) != 0) ? "TRUE" : "FALSE";
-      return;
+    case RUNG_BOOL: to += (variable.bit == 255 ? *at != 0 : (*at >> variable.bit & 1) != 0) ? "TRUE" : "FALSE"; return;
     case RUNG_ENUM: {
       const uint8_t kind = integerKind(module, type);
       const int64_t value = loadInteger(kind, type.size, at);
@@ -134,7 +132,8 @@ std::string assignValue(const rung_module& module, const Variable& variable, std
   const rung_type& type = *variable.type;
   if ((variable.flags & RUNG_FIELD_CONSTANT) != 0) return "`" + variable.path + "` is constant";
   if (type.kind == RUNG_ARRAY || type.kind == RUNG_RECORD)
-    return "`" + variable.path + "` is " + (type.kind == RUNG_ARRAY ? "an array" : "a structure") + "; set its elements one by one";
+    return "`" + variable.path + "` is " + (type.kind == RUNG_ARRAY ? "an array" : "a structure") +
+           "; set its elements one by one";
   if (type.kind == RUNG_POINTER) return "`" + variable.path + "` is a pointer and cannot be set from outside";
 
   uint8_t* const at = variable.address();

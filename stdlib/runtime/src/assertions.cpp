@@ -87,8 +87,8 @@ void rung_assert_equal_enum(rung_context* ctx, const char* file, uint32_t line, 
 
 void rung_assert_near(rung_context* ctx, const char* file, uint32_t line, uint8_t kind, double expected, double actual,
                       double tolerance, const char* text) {
-  const bool good = expected == actual || std::fabs(expected - actual) <= tolerance ||
-                    (std::isnan(expected) && std::isnan(actual));
+  const bool good =
+      expected == actual || std::fabs(expected - actual) <= tolerance || (std::isnan(expected) && std::isnan(actual));
   char wanted[RUNG_SPELLED_SCALAR + 1], seen[RUNG_SPELLED_SCALAR + 1];
   spellScalar(kind, rung_bits_of_f64(expected), wanted);
   spellScalar(kind, rung_bits_of_f64(actual), seen);

@@ -33,9 +33,12 @@ uint64_t readLeadingInteger(const char* text) {
   bool negative = false;
   if (*text == '-' || *text == '+') negative = *text++ == '-';
   uint32_t base = 10;
-  if (strncmp(text, "16#", 3) == 0) base = 16, text += 3;
-  else if (strncmp(text, "8#", 2) == 0) base = 8, text += 2;
-  else if (strncmp(text, "2#", 2) == 0) base = 2, text += 2;
+  if (strncmp(text, "16#", 3) == 0)
+    base = 16, text += 3;
+  else if (strncmp(text, "8#", 2) == 0)
+    base = 8, text += 2;
+  else if (strncmp(text, "2#", 2) == 0)
+    base = 2, text += 2;
   uint64_t value = 0;
   for (;; ++text) {
     const char c = *text;
@@ -110,8 +113,10 @@ void rung_text_of_wtext(char* to, uint32_t capacity, const char16_t* from) {
       bytes[count++] = static_cast<char>(code);
     } else {
       if (code >= 0x10000) bytes[count++] = static_cast<char>(0xf0 | code >> 18);
-      if (code >= 0x10000) bytes[count++] = static_cast<char>(0x80 | (code >> 12 & 0x3f));
-      else if (code >= 0x800) bytes[count++] = static_cast<char>(0xe0 | code >> 12);
+      if (code >= 0x10000)
+        bytes[count++] = static_cast<char>(0x80 | (code >> 12 & 0x3f));
+      else if (code >= 0x800)
+        bytes[count++] = static_cast<char>(0xe0 | code >> 12);
       bytes[count++] = static_cast<char>(code >= 0x800 ? 0x80 | (code >> 6 & 0x3f) : 0xc0 | code >> 6);
       bytes[count] = static_cast<char>(0x80 | (code & 0x3f));
       ++count;
@@ -128,14 +133,21 @@ void rung_wtext_of_text(char16_t* to, uint32_t capacity, const char* from) {
   const unsigned char* at = reinterpret_cast<const unsigned char*>(from);
   while (*at != 0) {
     uint32_t code = *at++;
-    const int more = code < 0x80 ? 0 : code >= 0xf0 && code < 0xf5 ? 3 : code >= 0xe0 && code < 0xf0 ? 2 : code >= 0xc2 && code < 0xe0 ? 1 : -1;
+    const int more = code < 0x80                   ? 0
+                     : code >= 0xf0 && code < 0xf5 ? 3
+                     : code >= 0xe0 && code < 0xf0 ? 2
+                     : code >= 0xc2 && code < 0xe0 ? 1
+                                                   : -1;
     if (more < 0) {
       code = '?';
     } else if (more > 0) {
       uint32_t decoded = code & (0x3fu >> more);
       int i = 0;
       for (; i < more && (at[i] & 0xc0) == 0x80; ++i) decoded = decoded << 6 | (at[i] & 0x3fu);
-      const bool good = i == more && decoded >= (more == 1 ? 0x80u : more == 2 ? 0x800u : 0x10000u) &&
+      const bool good = i == more &&
+                        decoded >= (more == 1   ? 0x80u
+                                    : more == 2 ? 0x800u
+                                                : 0x10000u) &&
                         decoded < 0x110000 && !(decoded >= 0xd800 && decoded < 0xe000);
       code = good ? decoded : '?';
       at += i;

@@ -74,8 +74,12 @@ void spellDuration(Writer& to, uint64_t magnitude, bool negative, bool nanosecon
     uint64_t ns;
     const char* name;
   };
-  static const Unit units[] = {{kNsPerDay, "d"},   {3600 * kNsPerSecond, "h"}, {60 * kNsPerSecond, "m"},
-                               {kNsPerSecond, "s"}, {kNsPerMs, "ms"},           {1000, "us"},
+  static const Unit units[] = {{kNsPerDay, "d"},
+                               {3600 * kNsPerSecond, "h"},
+                               {60 * kNsPerSecond, "m"},
+                               {kNsPerSecond, "s"},
+                               {kNsPerMs, "ms"},
+                               {1000, "us"},
                                {1, "ns"}};
   for (const Unit& unit : units) {
     if (magnitude < unit.ns) continue;
@@ -250,9 +254,8 @@ struct Reader {
   }
 };
 
-const char* const kTypeNames[] = {"bool", "byte", "word", "dword", "lword", "sint",  "int",
-                                  "dint", "lint", "usint", "uint", "udint", "ulint", "real",
-                                  "lreal"};
+const char* const kTypeNames[] = {"bool", "byte",  "word", "dword", "lword", "sint", "int",  "dint",
+                                  "lint", "usint", "uint", "udint", "ulint", "real", "lreal"};
 
 // `INT#` before a number: any elementary type's name, the value must fit anyway.
 void skipTypePrefix(Reader& from) {
@@ -277,8 +280,7 @@ bool readInteger(Reader from, Integer& value) {
   if (!from.digits(value.magnitude)) return false;
   if (value.magnitude <= 16 && from.take('#')) {
     const uint64_t base = value.magnitude;
-    if ((base != 2 && base != 8 && base != 16) ||
-        !from.digits(value.magnitude, static_cast<uint32_t>(base)))
+    if ((base != 2 && base != 8 && base != 16) || !from.digits(value.magnitude, static_cast<uint32_t>(base)))
       return false;
   }
   return from.done();
@@ -365,20 +367,28 @@ bool readDuration(Reader from, Integer& value) {
     if (!from.digits(whole)) return false;
     if (from.take('.') && (!from.digits(fraction, 10, &fraction_digits) || fraction_digits > 18)) return false;
     uint64_t unit = 0;
-    if (from.take("ms")) unit = kNsPerMs;
-    else if (from.take("us")) unit = 1000;
-    else if (from.take("ns")) unit = 1;
-    else if (from.take('d')) unit = kNsPerDay;
-    else if (from.take('h')) unit = 3600 * kNsPerSecond;
-    else if (from.take('m')) unit = 60 * kNsPerSecond;
-    else if (from.take('s')) unit = kNsPerSecond;
+    if (from.take("ms"))
+      unit = kNsPerMs;
+    else if (from.take("us"))
+      unit = 1000;
+    else if (from.take("ns"))
+      unit = 1;
+    else if (from.take('d'))
+      unit = kNsPerDay;
+    else if (from.take('h'))
+      unit = 3600 * kNsPerSecond;
+    else if (from.take('m'))
+      unit = 60 * kNsPerSecond;
+    else if (from.take('s'))
+      unit = kNsPerSecond;
     if (unit == 0 || unit >= last_unit) return false;
     last_unit = unit;
     if (whole > (UINT64_MAX - value.magnitude) / unit) return false;
     value.magnitude += whole * unit;
     double scale = 1;
     for (int i = 0; i < fraction_digits; ++i) scale *= 10;
-    value.magnitude += static_cast<uint64_t>(std::floor(static_cast<double>(fraction) * static_cast<double>(unit) / scale + 1e-9));
+    value.magnitude +=
+        static_cast<uint64_t>(std::floor(static_cast<double>(fraction) * static_cast<double>(unit) / scale + 1e-9));
     from.take('_');
   } while (!from.done());
   return true;
@@ -386,7 +396,8 @@ bool readDuration(Reader from, Integer& value) {
 
 bool readCalendar(Reader& from, int64_t& days) {
   uint64_t year, month, day;
-  if (!from.digits(year) || !from.take('-') || !from.digits(month) || !from.take('-') || !from.digits(day)) return false;
+  if (!from.digits(year) || !from.take('-') || !from.digits(month) || !from.take('-') || !from.digits(day))
+    return false;
   static const uint8_t lengths[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
   if (month < 1 || month > 12 || year < 1970 || year > 2554) return false;
   const bool leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
@@ -419,11 +430,13 @@ bool readDate(uint8_t kind, Reader from, uint64_t& ns) {
       break;
     case RUNG_TOD:
     case RUNG_LTOD:
-      if (!(from.take("ltime_of_day#") || from.take("time_of_day#") || from.take("ltod#") || from.take("tod#"))) return false;
+      if (!(from.take("ltime_of_day#") || from.take("time_of_day#") || from.take("ltod#") || from.take("tod#")))
+        return false;
       if (!readClock(from, clock)) return false;
       break;
     default:
-      if (!(from.take("ldate_and_time#") || from.take("date_and_time#") || from.take("ldt#") || from.take("dt#"))) return false;
+      if (!(from.take("ldate_and_time#") || from.take("date_and_time#") || from.take("ldt#") || from.take("dt#")))
+        return false;
       if (!readCalendar(from, days) || !from.take('-') || !readClock(from, clock)) return false;
       break;
   }
@@ -453,8 +466,10 @@ bool readEscaped(Reader& from, char quote, int hex_digits, uint32_t& code, bool&
   code = 0;
   for (int i = 0; i < hex_digits; ++i) {
     const char digit = lower(from.peek());
-    if (digit >= '0' && digit <= '9') code = code * 16 + static_cast<uint32_t>(digit - '0');
-    else if (digit >= 'a' && digit <= 'f') code = code * 16 + static_cast<uint32_t>(digit - 'a' + 10);
+    if (digit >= '0' && digit <= '9')
+      code = code * 16 + static_cast<uint32_t>(digit - '0');
+    else if (digit >= 'a' && digit <= 'f')
+      code = code * 16 + static_cast<uint32_t>(digit - 'a' + 10);
     else {
       bad = true;
       return false;

@@ -57,24 +57,24 @@ uint8_t isBcd(uint64_t bcd) {
 extern "C" {
 
 // ---- text. TYPE: the name that the language gives the type; KIND: that of rung_type_kind.
-#define RUNG_TEXT_OF(TYPE, KIND, T, bits)                                                               \
-  void rung_standard_TO_STRING__##TYPE(rung_context* ctx, T in, char* out, uint32_t capacity) {         \
-    (void)ctx;                                                                                          \
-    rung_text_of_scalar(out, capacity, RUNG_##KIND, bits);                                              \
-  }                                                                                                     \
-  void rung_standard_TO_WSTRING__##TYPE(rung_context* ctx, T in, char16_t* out, uint32_t capacity) {    \
-    (void)ctx;                                                                                          \
-    rung_wtext_of_scalar(out, capacity, RUNG_##KIND, bits);                                             \
+#define RUNG_TEXT_OF(TYPE, KIND, T, bits)                                                            \
+  void rung_standard_TO_STRING__##TYPE(rung_context* ctx, T in, char* out, uint32_t capacity) {      \
+    (void)ctx;                                                                                       \
+    rung_text_of_scalar(out, capacity, RUNG_##KIND, bits);                                           \
+  }                                                                                                  \
+  void rung_standard_TO_WSTRING__##TYPE(rung_context* ctx, T in, char16_t* out, uint32_t capacity) { \
+    (void)ctx;                                                                                       \
+    rung_wtext_of_scalar(out, capacity, RUNG_##KIND, bits);                                          \
   }
-#define RUNG_OF_TEXT(TYPE, KIND, T)                                                    \
-  T rung_standard_STRING_TO_##TYPE(rung_context*, const char* in) {                    \
-    return Read<T>::from(rung_scalar_of_text(RUNG_##KIND, in));                        \
-  }                                                                                    \
-  T rung_standard_WSTRING_TO_##TYPE(rung_context*, const char16_t* in) {               \
-    return Read<T>::from(rung_scalar_of_wtext(RUNG_##KIND, in));                       \
+#define RUNG_OF_TEXT(TYPE, KIND, T)                                      \
+  T rung_standard_STRING_TO_##TYPE(rung_context*, const char* in) {      \
+    return Read<T>::from(rung_scalar_of_text(RUNG_##KIND, in));          \
+  }                                                                      \
+  T rung_standard_WSTRING_TO_##TYPE(rung_context*, const char16_t* in) { \
+    return Read<T>::from(rung_scalar_of_wtext(RUNG_##KIND, in));         \
   }
-#define RUNG_TEXT_BOTH(TYPE, KIND, T)       \
-  RUNG_TEXT_OF(TYPE, KIND, T, bitsOf(in))   \
+#define RUNG_TEXT_BOTH(TYPE, KIND, T)     \
+  RUNG_TEXT_OF(TYPE, KIND, T, bitsOf(in)) \
   RUNG_OF_TEXT(TYPE, KIND, T)
 RUNG_TEXT_BOTH(BOOL, BOOL, uint8_t)
 RUNG_TEXT_BOTH(BYTE, BYTE, uint8_t)
@@ -120,11 +120,11 @@ void rung_standard_TO_WSTRING__WSTRING_255(rung_context*, const char16_t* in, ch
 }
 
 // ---- single characters
-#define RUNG_CHAR_OF(TYPE, T)                                                                          \
-  uint8_t rung_standard_TO_CHAR__##TYPE(rung_context*, T in) { return static_cast<uint8_t>(in); }      \
+#define RUNG_CHAR_OF(TYPE, T)                                                                     \
+  uint8_t rung_standard_TO_CHAR__##TYPE(rung_context*, T in) { return static_cast<uint8_t>(in); } \
   uint16_t rung_standard_TO_WCHAR__##TYPE(rung_context*, T in) { return static_cast<uint16_t>(in); }
-#define RUNG_CODE_OF(TYPE, T)                                                                          \
-  T rung_standard_CHAR_TO_##TYPE(rung_context*, uint8_t in) { return static_cast<T>(in); }             \
+#define RUNG_CODE_OF(TYPE, T)                                                              \
+  T rung_standard_CHAR_TO_##TYPE(rung_context*, uint8_t in) { return static_cast<T>(in); } \
   T rung_standard_WCHAR_TO_##TYPE(rung_context*, uint16_t in) { return static_cast<T>(in); }
 #define RUNG_CHAR_BOTH(TYPE, T) \
   RUNG_CHAR_OF(TYPE, T)         \
@@ -172,11 +172,11 @@ uint16_t rung_standard_TO_WCHAR__WSTRING_255(rung_context*, const char16_t* in) 
 #define RUNG_BCD(BITS, B, digits, UNSIGNED, U)                                                                  \
   B rung_standard_##UNSIGNED##_TO_BCD_##BITS(rung_context*, U in) { return static_cast<B>(toBcd(in, digits)); } \
   U rung_standard_##BITS##_BCD_TO_##UNSIGNED(rung_context*, B in) { return static_cast<U>(fromBcd(in)); }
-#define RUNG_BCD_OF(UNSIGNED, U)                                                                                   \
-  RUNG_BCD(BYTE, uint8_t, 2, UNSIGNED, U)                                                                          \
-  RUNG_BCD(WORD, uint16_t, 4, UNSIGNED, U)                                                                         \
-  RUNG_BCD(DWORD, uint32_t, 8, UNSIGNED, U)                                                                        \
-  RUNG_BCD(LWORD, uint64_t, 16, UNSIGNED, U)                                                                       \
+#define RUNG_BCD_OF(UNSIGNED, U)             \
+  RUNG_BCD(BYTE, uint8_t, 2, UNSIGNED, U)    \
+  RUNG_BCD(WORD, uint16_t, 4, UNSIGNED, U)   \
+  RUNG_BCD(DWORD, uint32_t, 8, UNSIGNED, U)  \
+  RUNG_BCD(LWORD, uint64_t, 16, UNSIGNED, U) \
   U rung_standard_BCD_TO_##UNSIGNED(rung_context*, uint64_t in) { return static_cast<U>(fromBcd(in)); }
 RUNG_BCD_OF(USINT, uint8_t)
 RUNG_BCD_OF(UINT, uint16_t)
@@ -198,10 +198,10 @@ uint8_t rung_standard_INT_TO_BCD(rung_context*, int16_t in) {
 }
 
 // ---- byte order: memory of the running program is little-endian, so only the big forms swap.
-#define RUNG_BYTE_ORDER(TYPE, T, swapped)                                                                    \
-  T rung_standard_TO_BIG_ENDIAN__##TYPE(rung_context*, T in) { return static_cast<T>(swapped); }             \
-  T rung_standard_FROM_BIG_ENDIAN__##TYPE(rung_context*, T in) { return static_cast<T>(swapped); }           \
-  T rung_standard_TO_LITTLE_ENDIAN__##TYPE(rung_context*, T in) { return in; }                               \
+#define RUNG_BYTE_ORDER(TYPE, T, swapped)                                                          \
+  T rung_standard_TO_BIG_ENDIAN__##TYPE(rung_context*, T in) { return static_cast<T>(swapped); }   \
+  T rung_standard_FROM_BIG_ENDIAN__##TYPE(rung_context*, T in) { return static_cast<T>(swapped); } \
+  T rung_standard_TO_LITTLE_ENDIAN__##TYPE(rung_context*, T in) { return in; }                     \
   T rung_standard_FROM_LITTLE_ENDIAN__##TYPE(rung_context*, T in) { return in; }
 #define RUNG_SWAP16 __builtin_bswap16(static_cast<uint16_t>(in))
 #define RUNG_SWAP32 __builtin_bswap32(static_cast<uint32_t>(in))
@@ -236,12 +236,12 @@ RUNG_BYTE_ORDER(LREAL, double, rung_f64_of(__builtin_bswap64(rung_bits_of_f64(in
 #undef RUNG_SWAP64
 #undef RUNG_BYTE_ORDER
 
-#define RUNG_TEXT_ORDER(NAME)                                                                               \
-  void rung_standard_##NAME##__STRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {    \
-    rung_text_assign(out, capacity, in);                                                                    \
-  }                                                                                                         \
+#define RUNG_TEXT_ORDER(NAME)                                                                                     \
+  void rung_standard_##NAME##__STRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {          \
+    rung_text_assign(out, capacity, in);                                                                          \
+  }                                                                                                               \
   void rung_standard_##NAME##__WSTRING_255(rung_context*, const char16_t* in, char16_t* out, uint32_t capacity) { \
-    rung_wtext_assign(out, capacity, in);                                                                   \
+    rung_wtext_assign(out, capacity, in);                                                                         \
   }
 RUNG_TEXT_ORDER(TO_BIG_ENDIAN)
 RUNG_TEXT_ORDER(TO_LITTLE_ENDIAN)

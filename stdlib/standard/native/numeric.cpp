@@ -20,7 +20,7 @@ Integer truncated(double value) {
 
 extern "C" {
 
-#define RUNG_ONE_VARIABLE(NAME, function)                                                    \
+#define RUNG_ONE_VARIABLE(NAME, function)                                                   \
   float rung_standard_##NAME##__REAL(rung_context*, float in) { return std::function(in); } \
   double rung_standard_##NAME##__LREAL(rung_context*, double in) { return std::function(in); }
 RUNG_ONE_VARIABLE(SQRT, sqrt)
@@ -38,7 +38,7 @@ RUNG_ONE_VARIABLE(ATAN, atan)
 float rung_standard_ATAN2__REAL(rung_context*, float y, float x) { return std::atan2(y, x); }
 double rung_standard_ATAN2__LREAL(rung_context*, double y, double x) { return std::atan2(y, x); }
 
-#define RUNG_TRUNCATION(TYPE, Integer)                                                                     \
+#define RUNG_TRUNCATION(TYPE, Integer)                                                                 \
   Integer rung_standard_TRUNC__REAL_##TYPE(rung_context*, float in) { return truncated<Integer>(in); } \
   Integer rung_standard_TRUNC__LREAL_##TYPE(rung_context*, double in) { return truncated<Integer>(in); }
 RUNG_TRUNCATION(BYTE, uint8_t)

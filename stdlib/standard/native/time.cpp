@@ -65,7 +65,8 @@ extern "C" {
 uint32_t rung_standard_TASK_TIME(rung_context* ctx) { return static_cast<uint32_t>(ctx->now_ns / 1'000'000); }
 int64_t rung_standard_TASK_LTIME(rung_context* ctx) { return ctx->now_ns; }
 uint32_t rung_standard_WALL_CLOCK(rung_context* ctx) {
-  const int64_t ns = ctx->host != nullptr && ctx->host->wall_clock != nullptr ? ctx->host->wall_clock(ctx->host_data) : ctx->now_ns;
+  const int64_t ns =
+      ctx->host != nullptr && ctx->host->wall_clock != nullptr ? ctx->host->wall_clock(ctx->host_data) : ctx->now_ns;
   return static_cast<uint32_t>(ns / kNsPerSecond);
 }
 
@@ -85,7 +86,8 @@ uint64_t rung_standard_CONCAT_LTOD(rung_context*, int32_t hour, int32_t minute, 
 }
 uint32_t rung_standard_CONCAT_DT(rung_context*, int32_t year, int32_t month, int32_t day, int32_t hour, int32_t minute,
                                  int32_t second, int32_t millisecond) {
-  return static_cast<uint32_t>(daysOf(year, month, day) * kSecondsPerDay + clockMs(hour, minute, second, millisecond) / 1000);
+  return static_cast<uint32_t>(daysOf(year, month, day) * kSecondsPerDay +
+                               clockMs(hour, minute, second, millisecond) / 1000);
 }
 uint64_t rung_standard_CONCAT_LDT(rung_context*, int32_t year, int32_t month, int32_t day, int32_t hour, int32_t minute,
                                   int32_t second, int32_t millisecond) {
@@ -115,6 +117,8 @@ void rung_standard_SPLIT_LDT(rung_context*, uint64_t in, int16_t* year, int16_t*
   putClock(in % day_ns / 1'000'000, hour, minute, second, millisecond);
 }
 // 1970-01-01 was a Thursday.
-int16_t rung_standard_DAY_OF_WEEK(rung_context*, uint32_t in) { return static_cast<int16_t>((in / kSecondsPerDay + 4) % 7); }
+int16_t rung_standard_DAY_OF_WEEK(rung_context*, uint32_t in) {
+  return static_cast<int16_t>((in / kSecondsPerDay + 4) % 7);
+}
 
 }  // extern "C"

@@ -8,7 +8,10 @@ using namespace rung::host;
 TEST(Csv, ReadsQuotesLineEndsAndEmptyCells) {
   std::vector<CsvRow> rows;
   std::string error;
-  ASSERT_TRUE(readCsv("\xEF\xBB\xBF" "cycle,\"a[1,2]\"\r\n\r\n0,\"say \"\"hi\"\"\nx\"\n3,", rows, error));
+  ASSERT_TRUE(
+      readCsv("\xEF\xBB\xBF"
+              "cycle,\"a[1,2]\"\r\n\r\n0,\"say \"\"hi\"\"\nx\"\n3,",
+              rows, error));
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].cells, (std::vector<std::string>{"cycle", "a[1,2]"}));
   EXPECT_EQ(rows[1].cells, (std::vector<std::string>{"0", "say \"hi\"\nx"}));

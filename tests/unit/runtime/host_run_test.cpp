@@ -60,7 +60,8 @@ TEST(Run, PrintsTheLastRowWithoutTrace) {
   RunOptions options;
   options.cycles = 150;
   options.watch = "Main.count,Main.point";
-  EXPECT_EQ(go(options).out, "Main.count = 1500\nMain.point.x = 0\nMain.point.y = 0\n150 cycles of 10 ms, 1 s 500 ms of program time\n");
+  EXPECT_EQ(go(options).out,
+            "Main.count = 1500\nMain.point.x = 0\nMain.point.y = 0\n150 cycles of 10 ms, 1 s 500 ms of program time\n");
 }
 
 TEST(Run, InputsSetVariablesBeforeTheirCycle) {
@@ -145,8 +146,10 @@ TEST(Run, RealTimeKeepsTheClock) {
 TEST(Options, ParseBothForms) {
   RunOptions options;
   std::vector<std::string> rest;
-  EXPECT_EQ(parseRunOptions({"p.st", "--cycles=7", "--for", "T#1.5s", "--interval", "5ms", "--set", "a.b=x=y", "--watch=a", "--watch", "b",
-                             "--start", "Warm", "--realtime", "-O2"}, options, rest), "");
+  EXPECT_EQ(parseRunOptions({"p.st", "--cycles=7", "--for", "T#1.5s", "--interval", "5ms", "--set", "a.b=x=y",
+                             "--watch=a", "--watch", "b", "--start", "Warm", "--realtime", "-O2"},
+                            options, rest),
+            "");
   EXPECT_EQ(options.cycles, 7);
   EXPECT_EQ(options.for_ns, 1'500'000'000);
   EXPECT_EQ(options.interval_ns, 5'000'000);

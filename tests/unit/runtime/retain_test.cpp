@@ -17,7 +17,8 @@ struct State {
   Memory memory;
   Symbols symbols;
   Retain retain;
-  State(const rung_module& module, const std::string& path) : memory(module), symbols(module, memory), retain(module, memory, path) {
+  State(const rung_module& module, const std::string& path)
+      : memory(module), symbols(module, memory), retain(module, memory, path) {
     memory.reset();
   }
   sample::Main& main() { return *reinterpret_cast<sample::Main*>(memory.block(0)); }
@@ -80,7 +81,8 @@ TEST(RetainFile, ATornWriteLeavesTheOldState) {
   ASSERT_EQ(before.size(), after.size());
   for (size_t cut = 0; cut <= after.size(); cut += 64) {
     for (const bool forward : {true, false}) {
-      const std::string torn = forward ? after.substr(0, cut) + before.substr(cut) : before.substr(0, cut) + after.substr(cut);
+      const std::string torn =
+          forward ? after.substr(0, cut) + before.substr(cut) : before.substr(0, cut) + after.substr(cut);
       std::ofstream(path, std::ios::binary | std::ios::trunc) << torn;
       const int kept = load(path, RUNG_WARM).first;
       EXPECT_TRUE(kept == 2 || kept == 3) << cut;

@@ -71,7 +71,9 @@ void testUntilDone(rung_context* ctx) {
 }
 void testNever(rung_context*) {}
 
-rung_type plain(rung_type_kind kind, uint32_t size) { return {static_cast<uint8_t>(kind), 0, 0, size, RUNG_NONE, 0, 0, 0}; }
+rung_type plain(rung_type_kind kind, uint32_t size) {
+  return {static_cast<uint8_t>(kind), 0, 0, size, RUNG_NONE, 0, 0, 0};
+}
 
 struct Tables {
   std::vector<rung_type> types;
@@ -115,7 +117,8 @@ struct Tables {
     field("start_event", Bool, offsetof(Main, start_event));
     field("kept", DInt, offsetof(Main, kept), RUNG_FIELD_RETAIN);
     field("kept_always", DInt, offsetof(Main, kept_always), RUNG_FIELD_PERSISTENT);
-    types.push_back({RUNG_RECORD, 0, t("Main"), sizeof(Main), RUNG_NONE, 0, first, static_cast<uint32_t>(fields.size()) - first});
+    types.push_back(
+        {RUNG_RECORD, 0, t("Main"), sizeof(Main), RUNG_NONE, 0, first, static_cast<uint32_t>(fields.size()) - first});
 
     symbols.push_back({t("Main"), MainT, RUNG_IN_BLOCK, 255, 1, 0, 0, 0, t("Plant.Cpu.")});
     symbols.push_back({t("Main.valve"), Bool, RUNG_IN_OUTPUTS, 2, 0, 0, 0, 0, t("Plant.Cpu.")});

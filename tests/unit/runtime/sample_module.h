@@ -21,12 +21,12 @@ struct Main {
   int16_t table[2][3];
   char name[11];
   Point point;
-  Point* other;      // in-out
+  Point* other;  // in-out
   uint16_t bits;
   int32_t divisor;
   uint8_t slow_runs, event_runs;
   uint8_t start_event;
-  int32_t kept;      // RETAIN
+  int32_t kept;         // RETAIN
   int32_t kept_always;  // PERSISTENT
 };
 

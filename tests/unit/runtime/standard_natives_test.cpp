@@ -36,7 +36,8 @@ int16_t rung_standard_STRING_TO_INT(rung_context*, const char*);
 float rung_standard_WSTRING_TO_REAL(rung_context*, const char16_t*);
 uint32_t rung_standard_CONCAT_DATE(rung_context*, int32_t, int32_t, int32_t);
 uint32_t rung_standard_CONCAT_DT(rung_context*, int32_t, int32_t, int32_t, int32_t, int32_t, int32_t, int32_t);
-void rung_standard_SPLIT_DT(rung_context*, uint32_t, int16_t*, int16_t*, int16_t*, int16_t*, int16_t*, int16_t*, int16_t*);
+void rung_standard_SPLIT_DT(rung_context*, uint32_t, int16_t*, int16_t*, int16_t*, int16_t*, int16_t*, int16_t*,
+                            int16_t*);
 int16_t rung_standard_DAY_OF_WEEK(rung_context*, uint32_t);
 }
 

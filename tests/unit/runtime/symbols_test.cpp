@@ -78,10 +78,11 @@ TEST_F(Paths, SetValues) {
 TEST_F(Paths, ExpandWholePrograms) {
   std::string all;
   for (const Variable& variable : symbols.ofPrograms()) all += variable.path + ' ';
-  EXPECT_EQ(all,
-            "Main.run Main.count Main.Level Main.elapsed Main.color Main.table[1,0] Main.table[1,1] Main.table[1,2] "
-            "Main.table[2,0] Main.table[2,1] Main.table[2,2] Main.name Main.point.x Main.point.y Main.bits Main.divisor "
-            "Main.start_event Main.kept Main.kept_always Main.valve ");
+  EXPECT_EQ(
+      all,
+      "Main.run Main.count Main.Level Main.elapsed Main.color Main.table[1,0] Main.table[1,1] Main.table[1,2] "
+      "Main.table[2,0] Main.table[2,1] Main.table[2,2] Main.name Main.point.x Main.point.y Main.bits Main.divisor "
+      "Main.start_event Main.kept Main.kept_always Main.valve ");
 }
 
 TEST(Lists, SplitOutsideBrackets) {

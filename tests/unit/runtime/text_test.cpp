@@ -83,7 +83,8 @@ struct Report {
   bool passed;
   std::string expected, actual, text;
 };
-void collect(void* data, bool passed, const char*, uint32_t, const char* expected, const char* actual, const char* text) {
+void collect(void* data, bool passed, const char*, uint32_t, const char* expected, const char* actual,
+             const char* text) {
   *static_cast<Report*>(data) = {passed, expected, actual, text == nullptr ? "" : text};
 }
 

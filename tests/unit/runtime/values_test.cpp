@@ -60,7 +60,8 @@ TEST(Values, Reals) {
   EXPECT_EQ(parse<double>(RUNG_LREAL, "-Inf"), -std::numeric_limits<double>::infinity());
   EXPECT_EQ(parse<float>(RUNG_REAL, "REAL#-1.5e2"), -150.0f);
   EXPECT_EQ(parse<double>(RUNG_LREAL, "7"), 7.0);
-  for (const char* bad : {"", "e5", ".5", "1.5x", "--1", "infinity", "1e999"}) EXPECT_FALSE(parses(RUNG_LREAL, bad)) << bad;
+  for (const char* bad : {"", "e5", ".5", "1.5x", "--1", "infinity", "1e999"})
+    EXPECT_FALSE(parses(RUNG_LREAL, bad)) << bad;
 }
 
 TEST(Values, RealsReadBackExactly) {
@@ -89,7 +90,8 @@ TEST(Values, Durations) {
   EXPECT_EQ(parse<int32_t>(RUNG_TIME, "T#-5s", true), -5000);
   EXPECT_EQ(parse<uint64_t>(RUNG_LTIME, "LTIME#213503D23H34M33S709MS551US615NS"), UINT64_MAX);
   EXPECT_EQ(parse<int64_t>(RUNG_LTIME, "LT#0.3us", true), 300);
-  for (const char* bad : {"T#", "T#5", "5s", "T#5s5s", "T#5ms2s", "T#-5s", "T#60d", "T#1x"}) EXPECT_FALSE(parses(RUNG_TIME, bad)) << bad;
+  for (const char* bad : {"T#", "T#5", "5s", "T#5s5s", "T#5ms2s", "T#-5s", "T#60d", "T#1x"})
+    EXPECT_FALSE(parses(RUNG_TIME, bad)) << bad;
 }
 
 TEST(Values, Dates) {
@@ -116,7 +118,8 @@ TEST(Values, Texts) {
   EXPECT_EQ(string("it's $5\n\r\t\f\x01\x7f"), "'it$'s $$5$L$R$T$P$01$7F'");
   EXPECT_EQ(string("gr\xC3\xBC\xC3\x9F"), "'gr\xC3\xBC\xC3\x9F'");
   EXPECT_EQ(string("\xFC\xC3"), "'$FC$C3'");
-  EXPECT_EQ(std::string(out, rung_spell(RUNG_WSTRING, false, u"a\"\u00fc\U0001F600\xD800", out, 63)), "\"a$\"\xC3\xBC\xF0\x9F\x98\x80$D800\"");
+  EXPECT_EQ(std::string(out, rung_spell(RUNG_WSTRING, false, u"a\"\u00fc\U0001F600\xD800", out, 63)),
+            "\"a$\"\xC3\xBC\xF0\x9F\x98\x80$D800\"");
   EXPECT_EQ(rung_spell(RUNG_STRING, false, "abcdef", out, 3), 3u);
   EXPECT_STREQ(out, "'ab");
 

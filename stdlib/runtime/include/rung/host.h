@@ -1,6 +1,7 @@
 // The bundled host: runs a module in virtual or real time, with CSV inputs, traces, retain files and tests (design §9,
-// §11). In: a module and the options of `rung run` or `rung test`. Out: exit codes 0, 2, 3, 4 and text on stdout/stderr.
-// Linked into the tool (which loads modules as shared objects) and into executables made by `rung build`.
+// §11). In: a module and the options of `rung run` or `rung test`. Out: exit codes 0, 2, 3, 4 and text on
+// stdout/stderr. Linked into the tool (which loads modules as shared objects) and into executables made by `rung
+// build`.
 #pragma once
 
 #include <string>
@@ -12,15 +13,15 @@
 namespace rung::host {
 
 struct RunOptions {
-  int64_t cycles = -1;        // --cycles; -1: not given
-  int64_t for_ns = -1;        // --for
-  int64_t interval_ns = 10'000'000;  // --interval, for programs without tasks
-  std::string inputs_path;    // --inputs
+  int64_t cycles = -1;                                    // --cycles; -1: not given
+  int64_t for_ns = -1;                                    // --for
+  int64_t interval_ns = 10'000'000;                       // --interval, for programs without tasks
+  std::string inputs_path;                                // --inputs
   std::vector<std::pair<std::string, std::string>> sets;  // --set PATH=VALUE
-  std::string watch;          // --watch PATH,...
-  std::string trace_path;     // --trace; "-": stdout
-  std::string retain_path;    // --retain
-  int start = -1;             // --start: rung_start, -1: warm when the retain file exists, else cold
+  std::string watch;                                      // --watch PATH,...
+  std::string trace_path;                                 // --trace; "-": stdout
+  std::string retain_path;                                // --retain
+  int start = -1;  // --start: rung_start, -1: warm when the retain file exists, else cold
   bool realtime = false;
   bool color = false;
 };
@@ -29,8 +30,8 @@ struct RunOptions {
 int run(const rung_module& module, const RunOptions& options);
 
 struct TestOptions {
-  std::string filter;         // --filter GLOB
-  std::string junit_path;     // --junit
+  std::string filter;      // --filter GLOB
+  std::string junit_path;  // --junit
 };
 int test(const rung_module& module, const TestOptions& options);
 

@@ -20,11 +20,31 @@ typedef struct rung_context rung_context;
 
 /* ---- types, for monitoring, forcing and traces. Index 0 of every table is a valid entry. */
 typedef enum rung_type_kind {
-  RUNG_BOOL, RUNG_BYTE, RUNG_WORD, RUNG_DWORD, RUNG_LWORD,
-  RUNG_SINT, RUNG_INT, RUNG_DINT, RUNG_LINT, RUNG_USINT, RUNG_UINT, RUNG_UDINT, RUNG_ULINT,
-  RUNG_REAL, RUNG_LREAL,
-  RUNG_TIME, RUNG_LTIME, RUNG_DATE, RUNG_LDATE, RUNG_TOD, RUNG_LTOD, RUNG_DT, RUNG_LDT,
-  RUNG_CHAR, RUNG_WCHAR,
+  RUNG_BOOL,
+  RUNG_BYTE,
+  RUNG_WORD,
+  RUNG_DWORD,
+  RUNG_LWORD,
+  RUNG_SINT,
+  RUNG_INT,
+  RUNG_DINT,
+  RUNG_LINT,
+  RUNG_USINT,
+  RUNG_UINT,
+  RUNG_UDINT,
+  RUNG_ULINT,
+  RUNG_REAL,
+  RUNG_LREAL,
+  RUNG_TIME,
+  RUNG_LTIME,
+  RUNG_DATE,
+  RUNG_LDATE,
+  RUNG_TOD,
+  RUNG_LTOD,
+  RUNG_DT,
+  RUNG_LDT,
+  RUNG_CHAR,
+  RUNG_WCHAR,
   RUNG_STRING,  /* length: capacity in characters; length+1 bytes, NUL-terminated */
   RUNG_WSTRING, /* the same in 16-bit units */
   RUNG_ENUM,    /* element: the integer type; first, count: slice of enum_items */
@@ -34,11 +54,11 @@ typedef enum rung_type_kind {
 } rung_type_kind;
 
 typedef struct rung_type {
-  uint8_t kind;     /* rung_type_kind */
-  uint8_t is_signed;/* TIME: signed in iec, unsigned in codesys */
-  uint32_t name;    /* offset in `text` */
-  uint32_t size;    /* bytes */
-  uint32_t element; /* type index or RUNG_NONE */
+  uint8_t kind;      /* rung_type_kind */
+  uint8_t is_signed; /* TIME: signed in iec, unsigned in codesys */
+  uint32_t name;     /* offset in `text` */
+  uint32_t size;     /* bytes */
+  uint32_t element;  /* type index or RUNG_NONE */
   uint32_t length;
   uint32_t first, count;
 } rung_type;
@@ -51,17 +71,24 @@ enum rung_field_flags {
   RUNG_FIELD_INPUT = 16,
   RUNG_FIELD_OUTPUT = 32
 };
-typedef struct rung_field { uint32_t name, type, offset, flags; } rung_field;
-typedef struct rung_enum_item { uint32_t name; int64_t value; } rung_enum_item;
-typedef struct rung_dimension { int64_t low, high; } rung_dimension;
+typedef struct rung_field {
+  uint32_t name, type, offset, flags;
+} rung_field;
+typedef struct rung_enum_item {
+  uint32_t name;
+  int64_t value;
+} rung_enum_item;
+typedef struct rung_dimension {
+  int64_t low, high;
+} rung_dimension;
 
 /* A root of the symbol map: a program instance, a global variable or a located variable. */
 enum rung_place { RUNG_IN_BLOCK = 0, RUNG_IN_INPUTS = 1, RUNG_IN_OUTPUTS = 2, RUNG_IN_MEMORY = 3 };
 typedef struct rung_symbol {
-  uint32_t name;   /* `Main`, `level`, `Main.valve` for a located variable of a program */
+  uint32_t name; /* `Main`, `level`, `Main.valve` for a located variable of a program */
   uint32_t type;
-  uint8_t place;   /* rung_place */
-  uint8_t bit;     /* of a BOOL in an image (0..7), else 255 */
+  uint8_t place; /* rung_place */
+  uint8_t bit;   /* of a BOOL in an image (0..7), else 255 */
   uint8_t is_program;
   uint32_t block;  /* RUNG_IN_BLOCK */
   uint32_t offset; /* bytes in the block or image */
@@ -70,7 +97,9 @@ typedef struct rung_symbol {
 } rung_symbol;
 
 /* A range that warm starts keep (retain) or downloads keep too (persistent). */
-typedef struct rung_range { uint32_t block, offset, size; } rung_range;
+typedef struct rung_range {
+  uint32_t block, offset, size;
+} rung_range;
 
 typedef struct rung_block {
   uint32_t name, size, align;
@@ -80,14 +109,14 @@ typedef struct rung_block {
 typedef enum rung_task_kind { RUNG_CYCLIC, RUNG_FREEWHEELING, RUNG_EVENT, RUNG_STATUS, RUNG_EXTERNAL } rung_task_kind;
 typedef struct rung_task {
   uint32_t name;
-  uint8_t kind;            /* rung_task_kind */
-  uint32_t priority;       /* 0 highest .. 31 */
+  uint8_t kind;      /* rung_task_kind */
+  uint32_t priority; /* 0 highest .. 31 */
   int64_t interval_ns;
-  int64_t watchdog_ns;     /* 0: none */
+  int64_t watchdog_ns; /* 0: none */
   uint32_t sensitivity;
   uint32_t trigger;        /* EVENT, STATUS: path of a BOOL, offset in text */
   uint32_t external_event; /* EXTERNAL: name, offset in text */
-  void (*run)(rung_context *);
+  void (*run)(rung_context*);
 } rung_task;
 
 /* One test of `rung test`. A test with a `done` variable runs until that is TRUE. */
@@ -96,75 +125,96 @@ typedef struct rung_test {
   uint32_t file;
   uint32_t line;
   uint32_t done_block, done_offset; /* RUNG_NONE: runs once */
-  void (*init)(rung_context *);
-  void (*run)(rung_context *);
+  void (*init)(rung_context*);
+  void (*run)(rung_context*);
 } rung_test;
 
 /* ---- faults */
 typedef enum rung_fault_kind {
-  RUNG_FAULT_NONE, RUNG_FAULT_DIV, RUNG_FAULT_INDEX, RUNG_FAULT_NULL, RUNG_FAULT_CAST, RUNG_FAULT_SUBRANGE,
-  RUNG_FAULT_CONVERT, RUNG_FAULT_OVERFLOW
+  RUNG_FAULT_NONE,
+  RUNG_FAULT_DIV,
+  RUNG_FAULT_INDEX,
+  RUNG_FAULT_NULL,
+  RUNG_FAULT_CAST,
+  RUNG_FAULT_SUBRANGE,
+  RUNG_FAULT_CONVERT,
+  RUNG_FAULT_OVERFLOW
 } rung_fault_kind;
 /* Where a check stands: a table of the module, indexed by the number that the code passes. */
-typedef struct rung_site { uint32_t pou, file; /* offsets in text */ uint32_t line, column; int64_t low, high; /* bounds */ } rung_site;
+typedef struct rung_site {
+  uint32_t pou, file; /* offsets in text */
+  uint32_t line, column;
+  int64_t low, high; /* bounds */
+} rung_site;
 typedef struct rung_fault {
-  uint8_t kind;   /* rung_fault_kind */
-  uint32_t site;  /* index into module->sites */
-  int64_t value;  /* the index, say */
+  uint8_t kind;  /* rung_fault_kind */
+  uint32_t site; /* index into module->sites */
+  int64_t value; /* the index, say */
 } rung_fault;
 
 /* ---- the host's side */
 typedef struct rung_host {
   /* Wall clock, nanoseconds since 1970-01-01 UTC. Default: 0 at the start, then task time. */
-  int64_t (*wall_clock)(void *data);
+  int64_t (*wall_clock)(void* data);
   /* A failed or passed assertion of a test. Values are spelled as the trace spells them. */
-  void (*assertion)(void *data, bool passed, const char *file, uint32_t line, const char *expected, const char *actual,
-                    const char *text);
+  void (*assertion)(void* data, bool passed, const char* file, uint32_t line, const char* expected, const char* actual,
+                    const char* text);
 } rung_host;
 
 struct rung_context {
-  void **blocks;        /* one per module block */
-  uint8_t *image[3];    /* I, Q, M */
-  int64_t now_ns;       /* time of this activation, from 0 at the start */
-  const struct rung_module *module;
-  const rung_host *host;
-  void *host_data;
-  rung_fault fault;     /* of the last run that faulted */
-  void *fault_target;   /* jmp_buf of the innermost rung_guarded call or __TRY */
+  void** blocks;     /* one per module block */
+  uint8_t* image[3]; /* I, Q, M */
+  int64_t now_ns;    /* time of this activation, from 0 at the start */
+  const struct rung_module* module;
+  const rung_host* host;
+  void* host_data;
+  rung_fault fault;   /* of the last run that faulted */
+  void* fault_target; /* jmp_buf of the innermost rung_guarded call or __TRY */
 };
 
 typedef enum rung_start { RUNG_COLD, RUNG_WARM, RUNG_ORIGIN } rung_start;
 
 typedef struct rung_module {
-  uint32_t abi;            /* RUNG_MODULE_ABI */
+  uint32_t abi; /* RUNG_MODULE_ABI */
   uint32_t pointer_size;
-  const char *name;
-  const char *compiler;    /* version of rung */
-  const char *text;        /* all names, NUL-terminated, by offset */
-  uint64_t layout_hash;    /* of blocks, offsets and types: retained data of another hash does not fit */
-  const rung_block *blocks;        uint32_t block_count;
+  const char* name;
+  const char* compiler; /* version of rung */
+  const char* text;     /* all names, NUL-terminated, by offset */
+  uint64_t layout_hash; /* of blocks, offsets and types: retained data of another hash does not fit */
+  const rung_block* blocks;
+  uint32_t block_count;
   uint32_t image_bytes[3];
-  const rung_task *tasks;          uint32_t task_count;
-  const rung_symbol *symbols;      uint32_t symbol_count;
-  const rung_type *types;          uint32_t type_count;
-  const rung_field *fields;        uint32_t field_count;
-  const rung_enum_item *enum_items;uint32_t enum_item_count;
-  const rung_dimension *dimensions;uint32_t dimension_count;
-  const rung_range *retain;        uint32_t retain_count;
-  const rung_range *persistent;    uint32_t persistent_count;
-  const rung_site *sites;          uint32_t site_count;
-  const rung_test *tests;          uint32_t test_count;
+  const rung_task* tasks;
+  uint32_t task_count;
+  const rung_symbol* symbols;
+  uint32_t symbol_count;
+  const rung_type* types;
+  uint32_t type_count;
+  const rung_field* fields;
+  uint32_t field_count;
+  const rung_enum_item* enum_items;
+  uint32_t enum_item_count;
+  const rung_dimension* dimensions;
+  uint32_t dimension_count;
+  const rung_range* retain;
+  uint32_t retain_count;
+  const rung_range* persistent;
+  uint32_t persistent_count;
+  const rung_site* sites;
+  uint32_t site_count;
+  const rung_test* tests;
+  uint32_t test_count;
   /* Sets every variable to its initial value; located variables without one leave the image as it is. */
-  void (*init)(rung_context *);
+  void (*init)(rung_context*);
 } rung_module;
 
 /* Every module exports one function, <name>_module, that returns its description. */
-typedef const rung_module *(*rung_module_function)(void);
+typedef const rung_module* (*rung_module_function)(void);
 
 /* ---- services of the runtime for hosts and generated code (librung_runtime) */
 
 /* Runs `run` and catches its faults: RUNG_FAULT_NONE, or the kind, details in ctx->fault. */
-uint8_t rung_guarded(rung_context *ctx, void (*run)(rung_context *));
+uint8_t rung_guarded(rung_context* ctx, void (*run)(rung_context*));
 
 /* Leaves generated code. Called by checks. */
 #if defined(__GNUC__)
