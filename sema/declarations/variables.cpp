@@ -358,7 +358,7 @@ void resolvePou(Context& context, PouId id) {
   }
   for (const VarId edge : edges) {
     Var memory;
-    memory.name = context.names().intern(spelled(context, project.var(edge).name) + "__edge");
+    memory.name = context.names().intern("__" + std::string(spelled(context, project.var(edge).name)) + "_edge");
     memory.loc = project.var(edge).loc;
     memory.type = types::kBool;
     memory.storage = Storage::Field;
