@@ -1,5 +1,5 @@
-// Output files on disk: see write.h. Every new content is first written under a temporary name beside its file; only
-// when all are there, they are renamed, one by one, and the manifest last.
+// Output files on disk: see write.h. A new folder is filled under a temporary name and renamed as a whole. In an old one
+// every new content is first written beside its file; only when all are there, they are renamed, the manifest last.
 #include "codegen/write.h"
 
 #include <dirent.h>
@@ -104,9 +104,55 @@ std::vector<std::string> lines(const std::string& text) {
   return result;
 }
 
+std::string manifestOf(const std::vector<OutputFile>& files, std::vector<std::string>& names) {
+  for (const OutputFile& file : files) names.push_back(file.path);
+  std::sort(names.begin(), names.end());
+  std::string manifest;
+  for (const std::string& name : names) {
+    manifest += name;
+    manifest += '\n';
+  }
+  return manifest;
+}
+
+// Fills a folder that is not there yet: no file needs a temporary name or a look at what stands in its place.
+WriteResult writeNewFolder(const std::string& folder, const std::vector<OutputFile>& files) {
+  WriteResult result;
+  const std::string made = folder + ".rung-" + std::to_string(getpid());
+  if (!makeFolder(made)) {
+    result.error = systemError(folder);
+    return result;
+  }
+  auto giveUp = [&](const std::string& path) {
+    result.error = systemError(path);
+    for (const std::string& name : result.written) unlink((made + "/" + name).c_str());
+    rmdir(made.c_str());  // stays when it has folders of its own, which are empty
+    result.written.clear();
+    return result;
+  };
+  std::vector<std::string> names;
+  const std::string manifest = manifestOf(files, names);
+  auto put = [&](const std::string& name, const std::string& content) {
+    const size_t slash = name.find_last_of('/');
+    if (slash != std::string::npos && !makeFolder(made + "/" + name.substr(0, slash))) return false;
+    result.written.push_back(name);
+    return writeWhole(made + "/" + name, content);
+  };
+  for (const OutputFile& file : files) {
+    if (!put(file.path, file.content)) return giveUp(folder + "/" + file.path);
+  }
+  if (!put(kManifest, manifest)) return giveUp(folder + "/" + kManifest);
+  if (rename(made.c_str(), folder.c_str()) != 0) return giveUp(folder);
+  return result;
+}
+
 }  // namespace
 
 WriteResult writeOutputs(const std::string& folder, const std::vector<OutputFile>& files) {
+  struct stat info;
+  if (!folder.empty() && folder.back() != '/' && lstat(folder.c_str(), &info) != 0 && errno == ENOENT) {
+    return writeNewFolder(folder, files);
+  }
   WriteResult result;
   if (!makeFolder(folder)) {
     result.error = systemError(folder);
@@ -116,6 +162,7 @@ WriteResult writeOutputs(const std::string& folder, const std::vector<OutputFile
   const std::string suffix = ".rung-" + std::to_string(getpid());
 
   std::vector<std::string> names;
+  const std::string manifest = manifestOf(files, names);
   std::vector<std::pair<std::string, std::string>> renames;  // from, to
   auto giveUp = [&](const std::string& path) {
     result.error = systemError(path);
@@ -138,15 +185,9 @@ WriteResult writeOutputs(const std::string& folder, const std::vector<OutputFile
     return true;
   };
   for (const OutputFile& file : files) {
-    names.push_back(file.path);
     if (!stage(file.path, file.content)) return giveUp(base + file.path);
   }
-  std::sort(names.begin(), names.end());
-  std::string manifest, old_manifest;
-  for (const std::string& name : names) {
-    manifest += name;
-    manifest += '\n';
-  }
+  std::string old_manifest;
   readWhole(base + kManifest, old_manifest);
   if (!stage(kManifest, manifest)) return giveUp(base + kManifest);
 
