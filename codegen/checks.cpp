@@ -147,7 +147,7 @@ void BodyWriter::checks(ExprId id, const Expr& e) {
             value(a, Prec::Ternary);
             out_ += ')';
           } else {
-            value(a, Prec::Relation);
+            value(a, Prec::Sum);
           }
         });
         const TypeId limits = from_real ? types::kLInt : expr(a).type;

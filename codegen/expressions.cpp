@@ -243,9 +243,9 @@ void BodyWriter::binary(const Expr& e, Prec context) {
   if (kind == TypeKind::Bool && isBitwise(e.op)) {
     if (e.op == Op::Xor) {
       parenthesis(Prec::Equality, context);
-      value(a, Prec::Relation);
+      value(a, Prec::Sum);
       out_ += " != ";
-      value(b, Prec::Relation);
+      value(b, Prec::Sum);
       closeParenthesis(Prec::Equality, context);
     } else {
       logical(e.op == Op::And ? " && " : " || ", e.op == Op::And ? Prec::And : Prec::Or, e, context);
@@ -727,7 +727,7 @@ void BodyWriter::convert(const Expr& e, Prec context) {
       out_ += " > 0)";
     } else {
       parenthesis(Prec::Equality, context);
-      value(a, Prec::Relation);
+      value(a, Prec::Sum);
       out_ += " != 0";
       closeParenthesis(Prec::Equality, context);
     }

@@ -18,6 +18,7 @@ using types::TypeKind;
 
 namespace {
 
+constexpr uint8_t kUnknown = 2;
 constexpr size_t kInlineStmts = 16, kInlineExprs = 80;
 
 std::string folded(std::string_view text) {
@@ -96,6 +97,8 @@ Facts::Facts(const ir::Module& module) {
   }
 
   // ---- bodies
+  is_zeroing.resize(module.bodies.size(), kUnknown);
+  for (uint32_t i = 1; i < module.bodies.size(); ++i) is_zeroing[i] = onlyClears(module, ir::BodyId{i});
   is_inlined.resize(module.bodies.size());
   is_seen.resize(module.types.count());
   is_pointed.resize(module.types.count());
@@ -135,6 +138,25 @@ Facts::Facts(const ir::Module& module) {
       }
     }
   }
+}
+
+bool Facts::onlyClears(const ir::Module& module, ir::BodyId id) {
+  if (is_zeroing[id.index] != kUnknown) return is_zeroing[id.index] != 0;
+  const Body& body = module.body(id);
+  is_zeroing[id.index] = 0;
+  if (body.kind != ir::BodyKind::Init || body.native) return false;
+  bool clears = false;
+  for (ir::StmtId at = body.first; at; at = body.stmt(at).next) {
+    const Stmt& stmt = body.stmt(at);
+    if (stmt.kind == StmtKind::Assign && body.expr(ExprId{stmt.a}).kind == ExprKind::Self &&
+        body.expr(ExprId{stmt.b}).kind == ExprKind::Zero) {
+      clears = true;
+    } else if (!(stmt.kind == StmtKind::Call && onlyClears(module, ir::BodyId{stmt.a}))) {
+      return false;
+    }
+  }
+  is_zeroing[id.index] = clears;
+  return clears;
 }
 
 void Facts::expose(const ir::Module& module, const Body& body, ExprId place) {

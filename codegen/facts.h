@@ -24,6 +24,7 @@ struct Facts {
 
   std::vector<uint8_t> is_inlined;  // by body: a small pure library function, in a header of its own
 
+  std::vector<uint8_t> is_zeroing;  // by body: an initialiser that only clears its record; none is generated
   std::vector<uint8_t> is_pointed;  // by record: some POINTER or REFERENCE points to it
 
   // The variable of a block (record, field) whose address is taken somewhere.
@@ -34,6 +35,7 @@ struct Facts {
   std::vector<uint8_t> is_seen;
 
  private:
+  bool onlyClears(const ir::Module& module, ir::BodyId id);
   void expose(const ir::Module& module, const ir::Body& body, ir::ExprId place);
   void seeAll(const ir::Module& module, TypeId type);
   std::unordered_set<uint64_t> exposed_fields_;

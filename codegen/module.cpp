@@ -271,6 +271,8 @@ class Describer {
     appendFunctionName(out, module_, module_.body(id));
     return out + "(*static_cast<" + type + "*>(ctx->blocks[" + number(block) + "]), ctx);\n";
   }
+  // The memory is cleared anyway.
+  bool hasCode(ir::BodyId init) const { return init && facts_.is_zeroing[init.index] == 0; }
   void declare(ir::BodyId id) {
     if (std::find(declared_.begin(), declared_.end(), id.index) != declared_.end()) return;
     declared_.push_back(id.index);
@@ -317,7 +319,7 @@ class Describer {
           init = name + "_init";
           code_ += "static void " + init + "(rung_context* ctx) {\n  memset(ctx->blocks[" + number(block) + "], 0, " +
                    number(record.size) + ");\n";
-          if (program.init) code_ += callOn(program.init, program.record, block);
+          if (hasCode(program.init)) code_ += callOn(program.init, program.record, block);
           code_ += "}\n";
           for (const Field& field : record.fields) {
             if (!sameIdentifier(module_.names.text(field.name), "done") || types_.plainKind(field.type) != TypeKind::Bool)
@@ -405,7 +407,7 @@ class Describer {
               number(types_.info(types_.resolve(facts_.blocks[i].record)).size) + ");\n";
     }
     for (uint32_t i = 0; i < module_.lists.size(); ++i) {
-      if (module_.lists[i].init) init += callOn(module_.lists[i].init, module_.lists[i].record, facts_.list_block[i]);
+      if (hasCode(module_.lists[i].init)) init += callOn(module_.lists[i].init, module_.lists[i].record, facts_.list_block[i]);
     }
     std::vector<uint32_t> order(module_.programs.size());
     for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -413,7 +415,7 @@ class Describer {
               [&](uint32_t a, uint32_t b) { return facts_.program_block[a] < facts_.program_block[b]; });
     for (uint32_t i : order) {
       const ir::ProgramInstance& program = module_.programs[i];
-      if (program.init) init += callOn(program.init, program.record, facts_.program_block[i]);
+      if (hasCode(program.init)) init += callOn(program.init, program.record, facts_.program_block[i]);
     }
     init += "}\n";
 

@@ -97,6 +97,15 @@ void BodyWriter::block(StmtId first) {
 }
 
 void BodyWriter::statement(StmtId id, const Stmt& stmt) {
+  if (stmt.kind == StmtKind::Call && facts_.is_zeroing[stmt.a] != 0) {
+    // An initialiser begins with clearing the whole.
+    if (body_->kind == ir::BodyKind::Init && expr(ir::rootOf(*body_, ExprId{stmt.b})).kind == ExprKind::Self) return;
+    begin(stmt.loc);
+    prepare(ExprId{stmt.b});
+    const std::string name = captured([&] { place(ExprId{stmt.b}); });
+    out_ += "memset(&" + name + ", 0, sizeof " + name + ");";
+    return;
+  }
   begin(stmt.loc);
   switch (stmt.kind) {
     case StmtKind::None: out_ += ';'; return;

@@ -317,7 +317,7 @@ void appendConstant(std::string& out, const TypeTable& types, TypeId type, uint6
 }
 
 std::string recordHeader(const ir::Module& module, const ir::Record& record, std::string_view name_space,
-                         bool pointed) {
+                         bool pointed, bool has_init) {
   const TypeTable& types = module.types;
   const Names& names = module.names;
   const TypeInfo& info = types.info(types.resolve(record.type));
@@ -361,7 +361,7 @@ std::string recordHeader(const ir::Module& module, const ir::Record& record, std
   }
   out += "};\n";
   appendLayoutAssert(out, info, name, names);
-  for (ir::BodyId body : {record.init, record.body}) {
+  for (ir::BodyId body : {has_init ? record.init : ir::BodyId{}, record.body}) {
     if (!body || module.body(body).native) continue;
     out += "void ";
     appendFunctionName(out, module, module.body(body));
