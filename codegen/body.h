@@ -71,7 +71,7 @@ class BodyWriter {
     friend bool operator==(const Slot&, const Slot&) = default;
   };
   struct Variable {
-    uint32_t weight = 0;  // uses, those in loops counted more
+    uint32_t weight = 0, loop_weight = 0;  // uses, those in loops counted more; the part in loops
     bool written = false, exposed = false, cached = false;
     uint8_t wide = 0;  // 32 or 64: the C++ local is wider than the type, as the control of a For
   };
@@ -219,7 +219,7 @@ class BodyWriter {
   std::vector<uint8_t> private_loop_;
   std::vector<uint32_t> blocks_declared_;
   std::vector<std::pair<uint32_t, std::string>> made_;  // expression, variable that holds its text
-  bool has_try_ = false, self_escapes_ = false, has_foreign_calls_ = false;
+  bool has_try_ = false, self_escapes_ = false, has_foreign_calls_ = false, has_calls_ = false;
   bool uses_fault_ = false, uses_leave_ = false;
   uint32_t names_made_ = 0;
 

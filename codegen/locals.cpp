@@ -40,7 +40,10 @@ void BodyWriter::scanExpr(ExprId id, uint32_t weight) {
     case ExprKind::Self: self_escapes_ = true; return;
     case ExprKind::Field:
       if (expr(ExprId{e.a}).kind == ExprKind::Self) {
-        if (e.b < fields_.size()) fields_[e.b].weight += weight;
+        if (e.b < fields_.size()) {
+          fields_[e.b].weight += weight;
+          if (weight > 1) fields_[e.b].loop_weight += weight;
+        }
         return;
       }
       break;
@@ -98,6 +101,7 @@ void BodyWriter::scanBlock(StmtId first, uint32_t weight) {
     });
     if (stmt.kind == StmtKind::Try) has_try_ = true;
     if (stmt.kind == StmtKind::Call) {
+      has_calls_ = true;
       const Body& callee = module_.body(ir::BodyId{stmt.a});
       if (!callee.pure && !callee.library) has_foreign_calls_ = true;
     }
@@ -106,7 +110,10 @@ void BodyWriter::scanBlock(StmtId first, uint32_t weight) {
     if (stmt.kind == StmtKind::For) {
       if (private_loop_.empty()) private_loop_.resize(body_->stmts.size());
       const Slot slot = slotOf(ExprId{stmt.a});
-      if (Variable* of = variableOf(slot)) of->weight += inner;
+      if (Variable* of = variableOf(slot)) {
+        of->weight += inner;
+        of->loop_weight += inner;
+      }
       controls_.push_back({slot, id});
       scanBlock(StmtId{stmt.e}, inner);
       private_loop_[id.index] = slot.kind != Slot::None && !controls_.back().disturbed &&
@@ -151,7 +158,9 @@ void BodyWriter::analyze() {
     const types::Field& field = types_.info(record).fields[i];
     const TypeKind kind = types_.plainKind(field.type);
     Variable& use = fields_[i];
-    if (field.by_reference || !TypeTable::isScalar(kind) || use.exposed || use.weight <= kWorthIt) continue;
+    if (field.by_reference || !TypeTable::isScalar(kind) || use.exposed) continue;
+    // Across a call a local is spilled where memory was as good: then it must earn its keep in a loop.
+    if ((has_calls_ ? use.loop_weight : use.weight) <= kWorthIt) continue;
     use.cached = !facts_.isExposed(record, i);
   }
   // Controls.

@@ -271,6 +271,15 @@ class Describer {
     appendFunctionName(out, module_, module_.body(id));
     return out + "(*static_cast<" + type + "*>(ctx->blocks[" + number(block) + "]), ctx);\n";
   }
+  std::string callOf(ir::BodyId function) {
+    declare(function);
+    std::string out = "  ";
+    appendFunctionName(out, module_, module_.body(function));
+    return out + "(ctx);\n";
+  }
+  std::string runOf(const ir::ProgramInstance& program, uint32_t block) {
+    return program.run ? callOf(program.run) : callOn(program.body, program.record, block);
+  }
   // The memory is cleared anyway.
   bool hasCode(ir::BodyId init) const { return init && facts_.is_zeroing[init.index] == 0; }
   void declare(ir::BodyId id) {
@@ -289,7 +298,7 @@ class Describer {
       for (uint32_t p = 0; p < module_.programs.size(); ++p) {
         const ir::ProgramInstance& program = module_.programs[p];
         if (program.task == i + 1 && program.body) {
-          code_ += callOn(program.body, program.record, facts_.program_block[p]);
+          code_ += runOf(program, facts_.program_block[p]);
         }
       }
       code_ += "}\n";
@@ -315,11 +324,12 @@ class Describer {
           if (!(program.body == id)) continue;
           const uint32_t block = facts_.program_block[p];
           const TypeInfo& record = types_.info(types_.resolve(program.record));
-          run += callOn(id, program.record, block);
+          run += runOf(program, block);
           init = name + "_init";
           code_ += "static void " + init + "(rung_context* ctx) {\n  memset(ctx->blocks[" + number(block) + "], 0, " +
                    number(record.size) + ");\n";
           if (hasCode(program.init)) code_ += callOn(program.init, program.record, block);
+          if (program.setup) code_ += callOf(program.setup);
           code_ += "}\n";
           for (const Field& field : record.fields) {
             if (!sameIdentifier(module_.names.text(field.name), "done") || types_.plainKind(field.type) != TypeKind::Bool)
@@ -416,6 +426,9 @@ class Describer {
     for (uint32_t i : order) {
       const ir::ProgramInstance& program = module_.programs[i];
       if (hasCode(program.init)) init += callOn(program.init, program.record, facts_.program_block[i]);
+    }
+    for (uint32_t i : order) {
+      if (module_.programs[i].setup) init += callOf(module_.programs[i].setup);
     }
     init += "}\n";
 
