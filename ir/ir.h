@@ -220,6 +220,9 @@ struct ProgramInstance {
   BodyId init, body;
   uint32_t task = 0; /* index + 1; 0: none */
   NameId resource, configuration;
+  // Functions without parameters, or none. `run` is what the task calls instead of `body`: it also copies connected
+  // variables and open addresses. `setup` is called after all `init`: initial values of VAR_CONFIG.
+  BodyId run = {}, setup = {};
 };
 
 enum class TaskKind : uint8_t { Cyclic, Freewheeling, Event, Status, External };

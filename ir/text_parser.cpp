@@ -265,6 +265,15 @@ void Reader::instance() {
   }
   if (accept("resource")) made.resource = name();
   if (accept("configuration")) made.configuration = name();
+  auto function = [&] {
+    const Loc loc = token().loc;
+    const std::string text = sigilName();
+    auto found = body_by_name_.find(module_.names.intern(text).index);
+    if (found == body_by_name_.end()) fail(Diag::IrUnknownName, loc, {text, "function"});
+    return found == body_by_name_.end() ? BodyId{} : BodyId{found->second};
+  };
+  if (accept("run")) made.run = function();
+  if (accept("setup")) made.setup = function();
   if (failed_) return;
   program_by_name_[made.name.index] = static_cast<uint32_t>(module_.programs.size());
   module_.programs.push_back(made);

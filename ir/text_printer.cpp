@@ -294,6 +294,14 @@ void Printer::items() {
       put(" configuration ");
       name(instance.configuration);
     }
+    if (instance.run) {
+      put(" run @");
+      name(module_.body(instance.run).name);
+    }
+    if (instance.setup) {
+      put(" setup @");
+      name(module_.body(instance.setup).name);
+    }
     put("\n");
   }
   for (const Located& located : module_.located) {

@@ -3,7 +3,8 @@
 //    1  Names are unique: of records, lists, program instances and tasks, each by itself; of functions and blocks
 //       together; of initialisers.
 //    2  A record's `init` is an Init body with that self, its `body` a Block body with that self; a list and a program
-//       instance have a record type; task numbers, owners of located variables and tests exist.
+//       instance have a record type; its `run` and `setup` are functions without parameters and result; task numbers,
+//       owners of located variables and tests exist.
 //    3  A record stands after the records that it holds.
 //    4  Data has as many bytes as its type.
 //
@@ -169,6 +170,12 @@ void Verifier::checkModule() {
     require(isBodyOf(program.init, BodyKind::Init, program.record), 2, "a program whose init is none of its record");
     require(isBodyOf(program.body, BodyKind::Block, program.record), 2, "a program whose body is none of its record");
     require(program.task <= module_.tasks.size(), 2, "a program in a task that does not exist");
+    for (BodyId function : {program.run, program.setup}) {
+      require(!function || (function.index < module_.bodies.size() &&
+                            module_.body(function).kind == BodyKind::Function && !module_.body(function).result &&
+                            std::none_of(module_.body(function).locals.begin(), module_.body(function).locals.end(), isParameter)),
+              2, "a run or setup of a program instance that is no function without parameters and result");
+    }
   }
   seen.clear();
   for (const Task& task : module_.tasks) unique(task.name, "task");

@@ -19,6 +19,7 @@ struct Context {
   uint32_t loop_depth = 0;
   uint32_t depth = 0;         // of the expression at hand, against input that nests without end
   BodyState* body = nullptr;  // none outside of a body
+  TypeId items_of = {};       // an enumeration whose declaration is at hand: its items need no qualifier
   bool library = false;       // a library's text is at hand: read as codesys, names of the project do not count
 
   Tree& tree() const { return project.tree; }
@@ -82,6 +83,8 @@ bool checkExprAs(Context& context, ExprId& expr, TypeId to, std::string_view wha
 // A place that may be written: reports constants, inputs, literals.
 TypeId checkPlace(Context& context, ExprId& expr, std::string_view what);
 void checkBody(Context& context, PouId pou);
+// The arguments of PROGRAM p WITH t : Main(...), as of a call of that program.
+void checkConnections(Context& context, ExprId call, PouId program);
 // The rules that need all bodies: recursion, unused variables. check() calls it once, when every body is checked.
 void checkAfterBodies(Context& context);
 

@@ -4,6 +4,7 @@
 #include "frontend/source/invariant.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/instance_places.h"
 
 namespace rung::sema {
 
@@ -67,6 +68,7 @@ void check(Project& project) {
   settleDeclarations(context);
   resolveConfigurations(context);
   checkBodies(context);
+  resolveInstancePlaces(context);
   checkAfterBodies(context);
   checkProgramsRun(context);
 }

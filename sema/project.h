@@ -61,6 +61,7 @@ struct Var {
   bool has_value = false;  // constant scalar or text with a known value: see `value`
   bool required = false, lazy = false,
        extensible = false;             // pins of library declarations: {required} {lazy} {extensible}
+  bool open_address = false;           // AT %I*: the number comes from VAR_CONFIG or from the system
   bool read = false, written = false;  // by any body: for the warnings
   PouId pou;                           // owner, or none
   ListId list;                         // owner when global
@@ -143,6 +144,25 @@ struct ProgramInstance {  // a task may be none: then it never runs (warned)
   PouId program;
   uint32_t task = 0;  // index into Project::tasks + 1; 0: none
   Loc loc;
+  ExprId connections;  // PROGRAM p : Main(in := x, out => y): a checked CallExpr of the program; or none
+};
+
+// A variable of one instance that has an address (AT %I* in a block) or an initial value of its own (VAR_CONFIG).
+struct PathStep {
+  VarId var;             // a field, or a global variable; none: an element
+  int64_t element = -1;  // of an array, counted row by row
+};
+struct InstancePlace {
+  static constexpr uint32_t kNone = ~0u;
+  uint32_t instance = kNone;   // index into Project::instances; none: see `program`
+  PouId program;               // of the instance, or a test; none: the path begins with a global variable
+  std::vector<PathStep> path;  // from there to `var`
+  VarId var;
+  bool located = false;  // `image` is copied from and to the field
+  ImageView image;
+  ExprId init;  // none: the declared one
+  bool configured = false;
+  Loc loc;  // in VAR_CONFIG
 };
 
 // One actual of a call, in the order of the callee's pins, EN and ENO apart.
@@ -195,6 +215,7 @@ struct Project {
   std::vector<Task> tasks;
   std::vector<ProgramInstance> instances;
   std::deque<Call> calls;
+  std::vector<InstancePlace> instance_places;
   std::vector<ExprId> type_inits;                // by TypeId: the declared initial value of a named type, or none
   std::vector<std::vector<ExprId>> field_inits;  // by TypeId of a record: declared initial value per field, or none
   // Who calls whom, in the order of the calls, with the place of the call: for the recursion rule.

@@ -107,6 +107,7 @@ struct Scopes {
   NameMap globals;
   NameMap items;                        // enumeration items by their bare name: the first that was declared
   NameMap qualifiers;                   // global lists, program instances
+  NameMap programs_with_instance, programs_with_several;  // of which configurations have one, several; a set
   std::vector<bool> item_is_ambiguous;  // by index of the first EnumValue
 
   std::vector<uint32_t> named_of_type;  // by TypeId: index into named_types, 0: none

@@ -403,6 +403,7 @@ struct VarDecl {
   EdgeKind edge;
   bool located;
   DirectAddress address;  // when located
+  Loc address_loc;
 };
 
 struct ConfigurationDecl {

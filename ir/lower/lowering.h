@@ -30,6 +30,7 @@ struct ModuleLowering {
   uint32_t listIndex(sema::ListId list) const { return list_index[list.index]; }
   // The instance that a program's name stands for; made when the program has none.
   uint32_t instanceOf(sema::PouId program);
+  uint32_t programOfInstance(uint32_t instance) const { return program_of_instance_[instance] - 1; }
   bool isZero(TypeId type);  // initial value of a type: all bytes zero
 
   const sema::Project& project;
@@ -45,6 +46,9 @@ struct ModuleLowering {
   void addLists();
   void markFaulting();
   void addTasks();
+  void addActivations();
+  void addActivation(uint32_t program, const sema::ProgramInstance* instance,
+                     std::span<const sema::InstancePlace> places);
   void addLocated();
   std::string pathOf(sema::VarId var);
 
@@ -55,6 +59,7 @@ struct ModuleLowering {
   std::vector<sema::PouId> pou_of_record_;              // by TypeId
   std::vector<sema::ListId> list_of_record_;            // by TypeId
   std::vector<uint32_t> list_index;                     // by ListId
+  std::vector<uint32_t> program_of_instance_;           // by sema instance: index in Module::programs + 1
   std::unordered_map<uint32_t, uint32_t> instance_of_;  // by PouId: index in Module::programs
   std::vector<sema::PouId> to_lower_;
 };
@@ -69,6 +74,9 @@ class BodyLowering {
   void lowerPou();
   // For Init bodies: code that gives `place` the initial value of a variable of `type` declared with `init` (or none).
   void storeInitial(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero);
+  // activation.cpp: the code of ProgramInstance::run and setup. `call` is none without connections.
+  void lowerActivation(uint32_t program, BodyId code, rung::ExprId call, std::span<const sema::InstancePlace> places);
+  void lowerSetup(uint32_t program, std::span<const sema::InstancePlace> places);
 
   // ---- building
   ExprId add(Expr expr);
@@ -167,6 +175,11 @@ class BodyLowering {
   void lowerWhile(const WhileStmt& stmt);
   void lowerRepeat(const RepeatStmt& stmt);
   uint32_t labelNumber(NameId label);
+
+  // activation.cpp
+  ExprId programPlace(uint32_t program, Loc loc);
+  ExprId instancePlace(uint32_t program, const sema::InstancePlace& place);
+  ExprId imagePlace(const sema::ImageView& view, TypeId type, Loc loc);
 
   // initial_values.cpp
   void storeInitialArray(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero);

@@ -32,6 +32,7 @@ void ModuleLowering::run() {
     if (pou.library && !pou.used) continue;
     bodyOf({i});
   }
+  addActivations();
   // Lowering a body may ask for further ones.
   for (uint32_t next = 0; next < to_lower_.size(); ++next) {
     const sema::Pou& pou = project.pou(to_lower_[next]);
@@ -342,8 +343,11 @@ void ModuleLowering::addLists() {
 }
 
 void ModuleLowering::addPrograms() {
+  program_of_instance_.resize(project.instances.size());
   for (const sema::ProgramInstance& instance : project.instances) {
     if (!instance.program) continue;
+    program_of_instance_[static_cast<size_t>(&instance - project.instances.data())] =
+        static_cast<uint32_t>(module.programs.size()) + 1;
     const sema::Pou& pou = project.pou(instance.program);
     ProgramInstance made;
     made.name = instance.name;

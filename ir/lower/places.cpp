@@ -45,6 +45,10 @@ ExprId BodyLowering::memberPlace(rung::ExprId id) {
   const sema::Var& var = project_.var(var_id);
   TypeId base_type = strip(tree_.expr(node.base).type);
   bool of_record = base_type && types_.kind(base_type) == TypeKind::Record && var.storage == sema::Storage::Field;
+  if (!of_record && tree_.kind(node.base) == rung::ExprKind::Name) {  // `two.limit` of a program's second instance
+    const NameExpr& name = tree_.as<NameExpr>(node.base);
+    of_record = name.entity.what() == EntityKind::Program && var.storage == sema::Storage::Field;
+  }
   if (!of_record) return varPlace(var_id, node.h.loc);
   ExprId base = lowerPlace(node.base);
   return field(base, var.field, strip(var.type), node.h.loc);
@@ -63,9 +67,8 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
         }
         case EntityKind::Pou:
         case EntityKind::Program: {
-          sema::PouId program{node.entity.index};
-          if (node.entity.what() == EntityKind::Program) program = project_.instances[node.entity.index].program;
-          uint32_t instance = in_.instanceOf(program);
+          uint32_t instance = node.entity.what() == EntityKind::Program ? in_.programOfInstance(node.entity.index)
+                                                                        : in_.instanceOf({node.entity.index});
           TypeId record = in_.module.programs[instance].record;
           return add({.kind = ExprKind::Program, .type = record, .loc = loc, .a = instance});
         }

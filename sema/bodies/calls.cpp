@@ -323,6 +323,10 @@ void noteCall(Context& context, PouId callee, Loc loc) {
   if (!pou.library && context.pou) context.project.call_edges.push_back({context.pou, callee, loc});
 }
 
+void checkConnections(Context& context, ExprId call, PouId program) {
+  callBlock(context, call, program, CallKind::Program, true);
+}
+
 CallId addCall(Context& context, Call&& call) {
   context.project.calls.push_back(std::move(call));
   return CallId{static_cast<uint32_t>(context.project.calls.size() - 1)};

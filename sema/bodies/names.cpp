@@ -68,7 +68,12 @@ TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
   ExprHeader& header = context.tree().expr(expr);
   header.is_constant = 1;
   header.type = item.type;
-  if (bare && (context.iec() || context.types().info(item.type).strict)) {
+  const types::TypeInfo& info = context.types().info(item.type);
+  if (item.type == context.items_of) {  // in its own declaration; a number as long as items are being numbered
+    if (context.scopes.named(item.type)->resolved == State::Busy) header.type = info.base;
+    return header.type;
+  }
+  if (bare && info.name && (context.iec() || info.strict)) {
     context.report(context.iec() ? Diag::BareEnumItem : Diag::StrictEnumItem, header.loc,
                    {text(context, item.name), text(context, context.types().info(item.type).name)});
     return header.type = types::kError;

@@ -6,8 +6,6 @@ namespace rung::sema {
 
 namespace {
 
-constexpr uint64_t kMaxImageBytes = uint64_t{1} << 24;
-
 std::string spelledAddress(const Context& context, const DirectAddress& address) {
   std::string text = "%";
   text += address.area == ImageArea::Input ? 'I' : address.area == ImageArea::Output ? 'Q' : 'M';
@@ -43,10 +41,6 @@ TypeId addressType(const DirectAddress& address) {
 //   fails   v AT %QX5.1 : INT;                          E0341
 std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& address, Loc loc, TypeId type) {
   const std::string text = spelledAddress(context, address);
-  if (address.incomplete) {
-    context.report(Diag::AddressIncomplete, loc, {text});
-    return std::nullopt;
-  }
   const auto path = context.tree().list(address.path);
   const uint32_t unit = address.size_given ? unitBytes(address.size) : 0;
   const bool is_bit = unit == 0;

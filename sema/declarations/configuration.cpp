@@ -245,8 +245,19 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
     context.report(Diag::ProgramWithoutTask, decl.h.loc, {context.names().text(decl.name)});
   }
   if (!decl.arguments.empty()) {
-    const Argument& first = context.tree().list(decl.arguments)[0];
-    context.report(Diag::ProgramConnections, first.loc, {context.names().text(decl.name)});
+    NameExpr callee{};
+    callee.h.kind = ExprKind::Name;
+    callee.h.loc = type.loc;
+    callee.name = type.name;
+    callee.entity = found;
+    CallExpr call{};
+    call.h.kind = ExprKind::Call;
+    call.h.loc = type.loc;
+    call.callee = context.tree().add<ExprId>(callee);
+    call.arguments = decl.arguments;
+    call.end = type.loc;
+    instance.connections = context.tree().add<ExprId>(call);
+    checkConnections(context, instance.connections, instance.program);
   }
   for (const ProgramInstance& other : project.instances) {
     if (!context.names().same(other.name, instance.name) || !(other.resource == instance.resource)) continue;
@@ -297,16 +308,21 @@ void addDefaultTask(Context& context) {
 void collectConfigurations(Context& context) {
   Tree& tree = context.tree();
   forEachMember(context, [&](const Part& part, DeclId member) {
+    if (tree.kind(member) == DeclKind::ProgramInstance) {
+      const ProgramInstanceDecl& decl = tree.as<ProgramInstanceDecl>(member);
+      if (decl.type.empty()) return;
+      const NameId key = keyOf(context, tree.list(decl.type)[decl.type.count - 1].name);
+      const Entity mark = Entity::of(EntityKind::Program, 0);
+      if (!context.scopes.programs_with_instance.insert(key, mark)) context.scopes.programs_with_several.insert(key, mark);
+      return;
+    }
     if (tree.kind(member) != DeclKind::Section) return;
     const SectionDecl& section = tree.as<SectionDecl>(member);
     if (section.section == SectionKind::Access) {
-      context.report(Diag::AccessPathsIgnored, section.h.loc);
+      context.report(Diag::AccessPaths, section.h.loc);
       return;
     }
-    if (section.section == SectionKind::Config) {
-      context.report(Diag::InstanceConfiguration, section.h.loc);
-      return;
-    }
+    if (section.section == SectionKind::Config) return;  // instance_places.cpp
     const NameId name = part.resource ? part.resource : part.configuration;
     const ListId list = listNamed(context, std::string(context.names().text(name)), part.file, section.h.loc,
                                   context.scopes.qualifiers);

@@ -50,6 +50,10 @@ void resolveList(Context& context, ListId list);
 void addField(Context& context, TypeId record, VarId id);
 
 // ---- addresses.cpp: see resolveAddress in context.h
+inline char areaLetter(ImageArea area) {
+  return area == ImageArea::Input ? 'I' : area == ImageArea::Output ? 'Q' : 'M';
+}
+inline constexpr uint64_t kMaxImageBytes = uint64_t{1} << 24;
 
 // ---- types.cpp
 void resolveNamed(Context& context, TypeId type);

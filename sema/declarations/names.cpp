@@ -49,8 +49,22 @@ Entity ready(Context& context, Entity found) {
   return found;
 }
 
+// An item of the enumeration whose declaration is at hand, when its value is known already.
+Entity findOwnItem(Context& context, NameId key) {
+  const NamedType& named = *context.scopes.named(context.items_of);
+  const Entity found = named.members.find(key);
+  if (!found || named.resolved == State::Done) return found;
+  const auto& items = context.types().info(context.items_of).items;
+  if (items.empty()) return {};
+  const Entity first = named.members.find(keyOf(context, items[0].first));
+  return found.index - first.index < items.size() ? found : Entity{};
+}
+
 Entity findName(Context& context, NameId key) {
   Scopes& scopes = context.scopes;
+  if (context.items_of) {
+    if (const Entity found = findOwnItem(context, key)) return found;
+  }
   if (context.pou) {
     if (const Entity found = scopes.pous[context.pou.index].names.find(key)) return found;
   }

@@ -106,6 +106,7 @@ void checkTypeInit(Context& context, TypeId type) {
   TypeDecl& decl = context.tree().as<TypeDecl>(named.decl);
   if (!decl.init) return;
   Context there = at(context, {}, named.file, named.library);
+  if (context.types().kind(type) == TypeKind::Enum) there.items_of = context.types().resolve(type);
   checkInitializerAs(there, decl.init, type, "the initial value of `" + spelled(context, decl.name) + "`");
   auto& inits = context.project.type_inits;
   if (inits.size() <= type.index) inits.resize(type.index + 1);

@@ -207,6 +207,7 @@ void fillEnum(Context& context, TypeId type, TypeExprId id) {
   }
   context.types().edit(type).base = base;
   NamedType& named = *context.scopes.named(type);
+  context.items_of = type;
   int64_t next = 0;
   for (uint32_t i = 0; i < expr.items.count; ++i) {
     EnumItem item = context.tree().list(expr.items)[i];
@@ -228,6 +229,7 @@ void fillEnum(Context& context, TypeId type, TypeExprId id) {
     }
     ++next;
   }
+  context.items_of = {};
 }
 
 // A field for each field of the structure that this one extends, at the same offsets.
@@ -311,10 +313,11 @@ TypeId resolveWritten(Context& context, TypeExprId id) {
     }
     case TypeExprKind::Enum: {
       const TypeId type = table.addEnum({}, types::kInt);
-      addInPlace(context, type, id).resolved = State::Done;
+      addInPlace(context, type, id).resolved = State::Busy;
       NameMap* bare = context.pou ? &context.scopes.pous[context.pou.index].names : &context.scopes.items;
       declareItems(context, type, id, bare, false);
       fillEnum(context, type, id);
+      context.scopes.named(type)->resolved = State::Done;
       return type;
     }
     case TypeExprKind::Struct: {

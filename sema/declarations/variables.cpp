@@ -30,8 +30,16 @@ const char* kindWord(PouKind kind) {
   return kind == PouKind::Function ? "FUNCTION" : kind == PouKind::Program ? "PROGRAM" : "FUNCTION_BLOCK";
 }
 
-Storage storageOf(const Context& context, SectionKind section, PouId pou, bool located) {
-  if (located) return Storage::Image;
+// A variable AT %I* of a block, or of a program with several instances, has a place of its own in each instance.
+bool hasOwnPlaces(const Context& context, PouId pou) {
+  if (!pou || context.project.pou(pou).kind == PouKind::Function) return false;
+  if (context.project.pou(pou).kind == PouKind::FunctionBlock) return true;
+  return static_cast<bool>(context.scopes.programs_with_several.find(keyOf(context, context.project.pou(pou).name)));
+}
+
+Storage storageOf(const Context& context, SectionKind section, PouId pou, const VarDecl& decl) {
+  if (decl.located && decl.address.incomplete && hasOwnPlaces(context, pou)) return Storage::Field;
+  if (decl.located) return Storage::Image;
   if (!pou || section == SectionKind::External) return Storage::Global;
   if (section == SectionKind::Temp || context.project.pou(pou).kind == PouKind::Function) return Storage::Local;
   return Storage::Field;
@@ -57,7 +65,7 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
   Var var;
   var.decl = decl_id;
   var.section = section.section;
-  var.storage = storageOf(context, section.section, pou, decl.located);
+  var.storage = storageOf(context, section.section, pou, decl);
   var.edge = decl.edge;
   var.constant = (section.h.bits & kConstant) != 0;
   var.persistent = (section.h.bits & kPersistent) != 0;
@@ -206,8 +214,21 @@ void ensureVarType(Context& context, VarId id) {
     if (var.type) continue;
     var.type = type;
     checkEdge(there, var);
-    if (decl.located) {
-      if (const auto view = resolveAddress(there, decl.address, decl.h.loc, type)) {
+    if (decl.located && var.record) {
+      there.report(Diag::NotSupportedYet, decl.address_loc, {"AT in a structure"});
+      var.type = types::kError;
+    } else if (decl.located && decl.address.incomplete) {  // completed by resolveInstancePlaces
+      if (decl.address.size_given && addressType(decl.address) == types::kBool && type != types::kError &&
+          context.types().kind(type) != TypeKind::Bool) {
+        const std::string address = {'%', areaLetter(decl.address.area), 'X', '*'};
+        there.report(Diag::AddressType, decl.address_loc, {address, context.types().spell(type)});
+        var.type = types::kError;
+      }
+      var.open_address = true;
+      var.image.area = decl.address.area;
+      var.image.is_bit = type != types::kError && context.types().kind(type) == TypeKind::Bool;
+    } else if (decl.located) {
+      if (const auto view = resolveAddress(there, decl.address, decl.address_loc, type)) {
         var.image = *view;
       } else {
         var.type = types::kError;

@@ -1,0 +1,152 @@
+// Activation of program instances. In: connections (PROGRAM p : Main(in := x)), open addresses in instances (AT %I*)
+// and initial values of VAR_CONFIG. Out: a `run` function for each program that needs more than its body called, and a
+// `setup` function where an instance has initial values of its own. IEC 61131-3 ed. 3, 6.8.1; design §6.
+#include "ir/lower/lowering.h"
+
+namespace rung::ir {
+
+void ModuleLowering::addActivations() {
+  using Place = sema::InstancePlace;
+  if (project.instance_places.empty()) {
+    for (uint32_t i = 0; i < project.instances.size(); ++i)
+      if (program_of_instance_[i] != 0 && project.instances[i].connections)
+        addActivation(program_of_instance_[i] - 1, &project.instances[i], {});
+    return;
+  }
+  auto placesOf = [&](uint32_t instance, sema::PouId program) {
+    std::vector<Place> own;
+    for (const Place& place : project.instance_places) {
+      bool is_global = place.instance == Place::kNone && !place.program;
+      if (is_global || (place.instance == instance && place.program == program)) own.push_back(place);
+    }
+    return own;
+  };
+  for (uint32_t i = 0; i < project.instances.size(); ++i)
+    if (program_of_instance_[i] != 0)
+      addActivation(program_of_instance_[i] - 1, &project.instances[i], placesOf(i, project.instances[i].program));
+  for (uint32_t i = 1; i < project.pous.size(); ++i)
+    if (project.pous[i].test && project.pous[i].record)
+      addActivation(instanceOf({i}), nullptr, placesOf(Place::kNone, {i}));
+}
+
+void ModuleLowering::addActivation(uint32_t program, const sema::ProgramInstance* instance,
+                                   std::span<const sema::InstancePlace> places) {
+  rung::ExprId call = instance != nullptr ? instance->connections : rung::ExprId{};
+  bool copies = false, sets = false;
+  for (const sema::InstancePlace& place : places) {
+    copies = copies || place.located;
+    sets = sets || place.init || (place.located && project.var(place.var).init);
+  }
+  auto make = [&](const char* what) {
+    const BodyId code = module.programs[program].body;
+    module.bodies.emplace_back();
+    const BodyId id{static_cast<uint32_t>(module.bodies.size() - 1)};
+    Body& body = module.bodies.back();
+    const std::string name = std::string(module.names.text(module.programs[program].name));
+    std::string unique = name + what;
+    if (NameId resource = module.programs[program].resource)
+      unique = std::string(module.names.text(resource)) + "__" + unique;
+    body.name = module.names.intern(unique);
+    body.spelling = module.programs[program].name;
+    body.kind = BodyKind::Function;
+    body.loc = instance != nullptr ? instance->loc : module.body(code).loc;
+    body.file = project.sources.fileOf(body.loc);
+    return id;
+  };
+  if (call || copies) {
+    const BodyId id = make("__run");
+    BodyLowering lowering(*this, module.body(id), {});
+    lowering.lowerActivation(program, module.programs[program].body, call, places);
+    module.programs[program].run = id;
+  }
+  if (sets) {
+    const BodyId id = make("__setup");
+    BodyLowering lowering(*this, module.body(id), {});
+    lowering.lowerSetup(program, places);
+    module.programs[program].setup = id;
+  }
+}
+
+ExprId BodyLowering::programPlace(uint32_t program, Loc loc) {
+  return add({.kind = ExprKind::Program, .type = in_.module.programs[program].record, .loc = loc, .a = program});
+}
+
+ExprId BodyLowering::imagePlace(const sema::ImageView& view, TypeId type, Loc loc) {
+  return add({.kind = ExprKind::Image,
+              .type = strip(type),
+              .loc = loc,
+              .a = static_cast<uint32_t>(view.area),
+              .b = view.byte,
+              .c = view.is_bit ? view.bit : kNoBit});
+}
+
+ExprId BodyLowering::instancePlace(uint32_t program, const sema::InstancePlace& place) {
+  const Loc loc = body_.loc;
+  ExprId at = place.program ? programPlace(program, loc) : ExprId{};
+  for (const sema::PathStep& step : place.path) {
+    if (step.var && !at) {
+      at = varPlace(step.var, loc);
+    } else if (step.var) {
+      const sema::Var& var = project_.var(step.var);
+      at = var.storage == sema::Storage::Image ? imagePlace(var.image, var.type, loc)
+                                               : field(at, var.field, strip(var.type), loc);
+    } else {
+      const TypeInfo& info = types_.info(typeOf(at));
+      uint64_t rest = static_cast<uint64_t>(step.element);
+      std::vector<ExprId> indices(info.dimensions.size());
+      for (size_t d = indices.size(); d-- > 0;) {
+        const types::Dimension& dimension = info.dimensions[d];
+        const int64_t index = dimension.low + static_cast<int64_t>(rest % dimension.count());
+        indices[d] = constant(types::kDInt, static_cast<uint64_t>(index), loc);
+        rest /= dimension.count();
+      }
+      const uint32_t first = static_cast<uint32_t>(body_.operands.size());
+      body_.operands.insert(body_.operands.end(), indices.begin(), indices.end());
+      at = add({.kind = ExprKind::Index,
+                .type = strip(info.base),
+                .loc = loc,
+                .a = at.index,
+                .b = first,
+                .c = static_cast<uint32_t>(indices.size())});
+    }
+  }
+  return at;
+}
+
+void BodyLowering::lowerActivation(uint32_t program, BodyId code, rung::ExprId call,
+                                   std::span<const sema::InstancePlace> places) {
+  const Loc loc = body_.loc;
+  for (const sema::InstancePlace& place : places) {
+    if (!place.located || place.image.area == ImageArea::Output) continue;
+    const TypeId type = project_.var(place.var).type;
+    assign(instancePlace(program, place), imagePlace(place.image, type, loc), loc);
+  }
+  if (call) {
+    const CallExpr& node = tree_.as<CallExpr>(call);
+    lowerBlockCall(project_.call(node.call), node, programPlace(program, loc));
+  } else {
+    append({.kind = StmtKind::Call, .loc = loc, .a = code.index, .b = programPlace(program, loc).index});
+  }
+  for (const sema::InstancePlace& place : places) {
+    if (!place.located || place.image.area == ImageArea::Input) continue;
+    const TypeId type = project_.var(place.var).type;
+    assign(imagePlace(place.image, type, loc), instancePlace(program, place), loc);
+  }
+  body_.first = block_.first;
+  finish();
+}
+
+void BodyLowering::lowerSetup(uint32_t program, std::span<const sema::InstancePlace> places) {
+  const Loc loc = body_.loc;
+  for (const sema::InstancePlace& place : places) {
+    const sema::Var& var = project_.var(place.var);
+    if (place.init) storeInitial(instancePlace(program, place), var.type, place.init, false);
+    // What the image holds counts where there is no initial value.
+    if (place.located && (place.init || var.init))
+      assign(imagePlace(place.image, var.type, loc), instancePlace(program, place), loc);
+  }
+  body_.first = block_.first;
+  finish();
+}
+
+}  // namespace rung::ir
