@@ -89,6 +89,7 @@ struct Pou {
   bool pins_ready = false;
   bool library = false, native = false, pure = false, test = false;
   bool extensible = false;  // has an {extensible} pin
+  bool prefix = false;      // {prefix}: the first n characters of the result follow from the first n of the first input
   bool checked = false;     // its body was checked (library bodies: when used)
   bool used = false;
   bool may_fault = false;
@@ -224,6 +225,11 @@ struct Project {
     Loc loc;
   };
   std::vector<CallEdge> call_edges;
+  struct GlobalWrite {
+    PouId pou;
+    VarId var;
+  };
+  std::vector<GlobalWrite> global_writes;  // by bodies, of variables outside of the instance: for the rule on tasks
   uint32_t image_bytes[3] = {0, 0, 0};           // I, Q, M: end of the last used byte
 
   Var& var(VarId id) { return vars[id.index]; }

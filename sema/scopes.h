@@ -103,6 +103,7 @@ struct Libraries {
 };
 
 struct Scopes {
+  std::vector<uint64_t> told;  // unknown names: the POU or type, and the name
   NameMap pous_and_types;
   NameMap globals;
   NameMap items;                        // enumeration items by their bare name: the first that was declared
@@ -128,7 +129,7 @@ struct Scopes {
 
   // Pragmas and words that declarations look for, as name keys.
   struct Words {
-    NameId attribute_qualified_only, attribute_strict, test, alias, required, lazy, extensible, pure, native, op, std;
+    NameId attribute_qualified_only, attribute_strict, test, alias, required, lazy, extensible, prefix, pure, native, op, std;
   } words;
 
   NamedType* named(TypeId type) {

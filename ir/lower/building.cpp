@@ -167,6 +167,12 @@ ExprId BodyLowering::convert(ExprId operand, TypeId to, Loc loc) {
 }
 
 void BodyLowering::assign(ExprId place, ExprId value, Loc loc) {
+  if (guard_ && mayFault(value) && isTemp(place) && !isAggregate(typeOf(place))) {
+    append({.kind = StmtKind::Assign, .loc = loc, .a = place.index, .b = zero(typeOf(place), loc).index});
+    StmtId then = block([&] { append({.kind = StmtKind::Assign, .loc = loc, .a = place.index, .b = value.index}); });
+    append({.kind = StmtKind::If, .loc = loc, .a = guard_.index, .b = then.index});
+    return;
+  }
   append({.kind = StmtKind::Assign, .loc = loc, .a = place.index, .b = value.index});
 }
 
@@ -181,6 +187,7 @@ StmtId BodyLowering::make(Stmt stmt) {
   } else {
     forEachRoot(in_.module, body_, stmt, [&](uint32_t& slot, Use) { slot = attach(slot); });
   }
+  effects_ += hasEffect(stmt) ? 1 : 0;
   body_.stmts.push_back(stmt);
   return {static_cast<uint32_t>(body_.stmts.size() - 1)};
 }
@@ -192,13 +199,6 @@ StmtId BodyLowering::append(Stmt stmt) {
   else
     block_.first = id;
   block_.last = id;
-  return id;
-}
-
-StmtId BodyLowering::insertAfter(StmtId marker, Stmt stmt) {
-  stmt.next = body_.stmt(marker).next;
-  StmtId id = make(stmt);
-  body_.stmt(marker).next = id;
   return id;
 }
 

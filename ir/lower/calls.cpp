@@ -4,14 +4,19 @@
 
 namespace rung::ir {
 
-ExprId BodyLowering::lowerCall(rung::ExprId id, ExprId target, bool* stored) {
+ExprId BodyLowering::placeOf(Target& target) {
+  if (!target.place) target.place = stable(lowerPlace(target.expr));
+  return target.place;
+}
+
+ExprId BodyLowering::lowerCall(rung::ExprId id, Target* target) {
   const CallExpr& node = tree_.as<CallExpr>(id);
   const sema::Call& call = project_.call(node.call);
   Loc loc = node.h.loc;
 
-  auto plain = [&](ExprId to, bool* was_stored) -> ExprId {
+  auto plain = [&](Target* to) -> ExprId {
     switch (call.kind) {
-      case sema::CallKind::Function: return lowerFunctionCall(call, node, to, was_stored);
+      case sema::CallKind::Function: return lowerFunctionCall(call, node, to);
       case sema::CallKind::Operator: return lowerOperator(call, node);
       case sema::CallKind::Instance: lowerBlockCall(call, node, stable(lowerPlace(call.instance))); return {};
       case sema::CallKind::Program: lowerBlockCall(call, node, lowerPlace(node.callee)); return {};
@@ -19,7 +24,7 @@ ExprId BodyLowering::lowerCall(rung::ExprId id, ExprId target, bool* stored) {
     }
     return {};
   };
-  if (!call.en && !call.eno) return plain(target, stored);
+  if (!call.en && !call.eno) return plain(target);
 
   // EN and ENO: nothing runs when EN is FALSE; a check that fails inside sets ENO FALSE and leaves the outputs alone.
   ExprId en = call.en ? lowerValue(call.en) : constantBool(true, loc);
@@ -35,9 +40,14 @@ ExprId BodyLowering::lowerCall(rung::ExprId id, ExprId target, bool* stored) {
     assign(result, zero(result_type, loc), loc);
   }
   StmtId body = block([&] {
-    ExprId value = plain({}, nullptr);
+    ExprId value = plain(nullptr);
     if (!has_result || !value) return;
-    assign(target ? target : result, target ? convertValue(value, typeOf(target), loc) : value, loc);
+    if (target) {
+      ExprId place = lowerAfter({&value}, [&] { return placeOf(*target); });
+      assign(place, convertValue(value, typeOf(place), loc), loc);
+    } else {
+      assign(result, value, loc);
+    }
   });
   if (call.eno) {
     StmtId guarded = body;
@@ -48,8 +58,8 @@ ExprId BodyLowering::lowerCall(rung::ExprId id, ExprId target, bool* stored) {
   }
   append({.kind = StmtKind::If, .loc = loc, .a = eno.index, .b = body.index});
   if (call.eno) storeOutput(call.eno, eno, false, loc);
-  if (has_result && target && stored) *stored = true;
-  return target ? target : result;
+  if (has_result && target) target->stored = true;
+  return result;
 }
 
 void BodyLowering::storeOutput(rung::ExprId target, ExprId value, bool negated, Loc loc) {
@@ -90,10 +100,9 @@ ExprId BodyLowering::lowerArithmeticOperator(const sema::Call& call, const CallE
     }
   std::vector<ExprId> operands;
   for (const sema::Binding& binding : call.bindings) {
-    StmtId marker = block_.last;
+    Mark mark = here();
     ExprId operand = operandOr0(binding, operand_type, loc);
-    if (block_.last.index != marker.index)  // an operand with a call: what was read before it moves in front
-      for (size_t i = operands.size(); i-- > 0;) spill(marker, {&operands[i]});
+    for (size_t i = operands.size(); i-- > 0;) spill(mark, {&operands[i]});
     operands.push_back(operand);
   }
   if (types::operandCount(op) == 1) return unary(op, type, operands[0], loc);
@@ -119,6 +128,7 @@ ExprId BodyLowering::lowerSelect(const sema::Call& call, const CallExpr& node) {
   TypeId type = strip(node.h.type);
   RUNG_INVARIANT(call.bindings.size() == 3, "SEL has a selector and two inputs");
   ExprId selector = operandOr0(call.bindings[0], types::kBool, loc);
+  if (guard_ && mayFault(selector)) selector = toTemp(selector, loc);
   Block outer = block_;
   auto branch = [&](const sema::Binding& binding, Block& made) {
     block_ = {};
@@ -158,6 +168,7 @@ ExprId BodyLowering::lowerMux(const sema::Call& call, const CallExpr& node) {
   TypeId type = strip(node.h.type);
   RUNG_INVARIANT(call.bindings.size() >= 2, "MUX has a selector and inputs");
   ExprId selector = lowerValue(call.bindings[0].value);
+  if (guard_ && mayFault(selector)) selector = toTemp(selector, loc);
   ExprId result = temp(type, loc);
   uint32_t inputs = static_cast<uint32_t>(call.bindings.size()) - 1;
   std::vector<StmtId> blocks;
@@ -194,20 +205,39 @@ ExprId BodyLowering::defaultArgument(sema::VarId pin_id, Loc loc) {
 }
 
 // The place of a by-reference input: the variable itself when nothing can change it during the call, else a copy.
-ExprId BodyLowering::argumentPlace(rung::ExprId value, TypeId pin_type, bool may_alias) {
-  ExprId place = lowerValue(value);
-  const Expr& expr = body_.expr(place);
+ExprId BodyLowering::argumentPlace(ExprId value, TypeId pin_type, bool may_alias, Loc loc) {
+  const Expr expr = body_.expr(value);
   bool constant_memory = expr.kind == ExprKind::Text || expr.kind == ExprKind::Data || expr.kind == ExprKind::Zero;
   bool is_value = expr.kind == ExprKind::Convert || expr.kind == ExprKind::Select || expr.kind == ExprKind::Call;
-  bool same = typeOf(place) == strip(pin_type) || TypeTable::isText(types_.kind(pin_type));
-  if (constant_memory || (same && !is_value && !may_alias)) return place;
-  if (expr.kind == ExprKind::Local && body_.locals[expr.a].kind == LocalKind::Temp) return place;
-  ExprId copy = temp(same ? typeOf(place) : strip(pin_type), expr.loc);
-  assign(copy, place, tree_.loc(value));
+  bool same = typeOf(value) == strip(pin_type) || TypeTable::isText(types_.kind(pin_type));
+  if (constant_memory || (same && !is_value && !may_alias)) return value;
+  if (expr.kind == ExprKind::Local && body_.locals[expr.a].kind == LocalKind::Temp) return value;
+  ExprId copy = temp(same ? typeOf(value) : strip(pin_type), expr.loc);
+  assign(copy, value, loc);
   return copy;
 }
 
-ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& node, ExprId target, bool* stored) {
+// A call that runs in any case: without EN and ENO.
+bool BodyLowering::isPlainCall(rung::ExprId expr) const {
+  if (tree_.kind(expr) != rung::ExprKind::Call) return false;
+  const sema::Call& call = project_.call(tree_.as<CallExpr>(expr).call);
+  return !call.en && !call.eno;
+}
+
+// Whether the first input of a native text function may be made in the target of its result, as in
+// `s := CONCAT(CONCAT(a, b), c)`: a and b go to s, then c is appended in place. The other arguments must not see that,
+// and what does not fit the target must not count.
+bool BodyLowering::mayChain(const sema::Call& call, const Target& target) const {
+  const sema::Pou& pou = project_.pou(call.pou);
+  if (!target.early) return false;
+  if (!pou.prefix && types_.info(typeOf(target.place)).length < types_.info(strip(pou.result)).length) return false;
+  if (isTemp(target.place)) return true;
+  for (size_t i = 1; i < call.bindings.size(); ++i)
+    if (call.bindings[i].value && !isApart(call.bindings[i].value, rootVar(target.expr))) return false;
+  return true;
+}
+
+ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& node, Target* target) {
   const sema::Pou& pou = project_.pou(call.pou);
   BodyId callee_id = in_.bodyOf(call.pou);
   Loc loc = node.h.loc;
@@ -219,12 +249,34 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
   };
   std::vector<ExprId> arguments;
   std::vector<AfterCall> after;
+  std::vector<bool> is_variable;  // an in-out: the variable itself, reached through temporaries only
+  auto spillArguments = [&](Mark mark) {
+    for (size_t i = 0; i < arguments.size(); ++i)
+      if (!is_variable[i]) spill(mark, {&arguments[i]});
+  };
   bool callee_is_pure = in_.module.body(callee_id).pure;
   bool has_reference_outputs = false;
   for (const sema::Binding& binding : call.bindings) {
     SectionKind section = project_.var(binding.pin).section;
     if (section == SectionKind::InOut || section == SectionKind::Output) has_reference_outputs = true;
   }
+
+  // A native text function writes straight into the target: it copes with inputs that are the target itself.
+  TypeId result_type = pou.result ? strip(pou.result) : TypeId{};
+  bool makes_text = result_type && pou.native && TypeTable::isText(types_.kind(result_type));
+  Target own;
+  if (target && makes_text) {
+    TypeId type = target->place ? typeOf(target->place) : strip(tree_.expr(target->expr).type);
+    if (types_.kind(type) != types_.kind(result_type)) target = nullptr;
+  }
+  if (!makes_text || !target) {
+    target = nullptr;
+    if (makes_text) {
+      own = {.place = temp(result_type, loc), .early = true};
+      target = &own;
+    }
+  }
+  bool chains = makes_text && callee_is_pure && target->early && placeOf(*target) && mayChain(call, *target);
 
   size_t next_binding = 0;
   for (sema::VarId pin_id : pou.vars) {
@@ -243,15 +295,26 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
     }
     bool open = binding == nullptr || !binding->value;
     TypeId pin_type = strip(pin.type);
-    StmtId marker = block_.last;
+    Mark mark = here();
     ExprId argument;
     if (pin.section == SectionKind::Input) {
-      if (open)
+      if (open) {
         argument = defaultArgument(pin_id, loc);
-      else if (isAggregate(pin_type))
-        argument = argumentPlace(binding->value, pin_type, !callee_is_pure && (!pou.native || has_reference_outputs));
-      else
+      } else if (isAggregate(pin_type)) {
+        bool may_alias = !callee_is_pure && (!pou.native || has_reference_outputs);
+        ExprId value;
+        if (chains && arguments.empty() && isPlainCall(binding->value)) {
+          Target inner = *target;
+          value = lowerCall(binding->value, &inner);
+          if (inner.stored) value = inner.place;
+        } else {
+          value = lowerValue(binding->value);
+        }
+        argument = argumentPlace(value, pin_type, may_alias, tree_.loc(binding->value));
+      } else {
         argument = lowerValue(binding->value);
+        if (guard_ && mayFault(argument)) argument = toTemp(argument, loc);
+      }
     } else if (pin.section == SectionKind::InOut) {
       RUNG_INVARIANT(!open, "sema reports an open VAR_IN_OUT");
       argument = stable(lowerPlace(binding->value));
@@ -266,26 +329,25 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
       argument = temp(pin_type, loc);
       after.push_back({binding->value, argument, binding->negated});
     }
-    if (block_.last.index != marker.index)
-      for (ExprId& earlier : arguments) spill(marker, {&earlier});
+    spillArguments(mark);
     arguments.push_back(argument);
+    is_variable.push_back(pin.section == SectionKind::InOut);
   }
 
-  TypeId result_type = pou.result ? strip(pou.result) : TypeId{};
+  ExprId result;
+  if (makes_text) {
+    Mark mark = here();
+    result = placeOf(*target);
+    spillArguments(mark);
+    target->stored = true;
+  }
   uint32_t first = static_cast<uint32_t>(body_.operands.size());
   body_.operands.insert(body_.operands.end(), arguments.begin(), arguments.end());
   uint32_t count = static_cast<uint32_t>(arguments.size());
   if (callee_is_pure && result_type && !isAggregate(result_type) && after.empty())
     return add({.kind = ExprKind::Call, .type = result_type, .loc = loc, .a = callee_id.index, .b = first, .c = count});
 
-  ExprId result;
-  if (result_type) {
-    // A native text function writes straight into the target: it copes with inputs that are the target itself.
-    bool direct = target && stored && pou.native && TypeTable::isText(types_.kind(result_type)) &&
-                  types_.kind(typeOf(target)) == types_.kind(result_type);
-    if (direct) *stored = true;
-    result = direct ? target : temp(result_type, loc);
-  }
+  if (result_type && !result) result = temp(result_type, loc);
   append({.kind = StmtKind::Call, .loc = loc, .a = callee_id.index, .c = first, .d = count, .e = result.index});
   for (const AfterCall& output : after) storeOutput(output.target, output.value, output.negated, loc);
   return result;

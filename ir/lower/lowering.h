@@ -1,6 +1,6 @@
 // The parts of lowering and what they share. Internal to ir/lower/. ModuleLowering (module.cpp) declares the bodies,
 // records and instances of a project; BodyLowering walks one checked body and appends IR to it: places.cpp, values.cpp,
-// calls.cpp, statements.cpp and initial_values.cpp are its subjects.
+// aliases.cpp, calls.cpp, statements.cpp and initial_values.cpp are its subjects.
 #pragma once
 
 #include <functional>
@@ -113,7 +113,6 @@ class BodyLowering {
     return first;
   }
   StmtId make(Stmt stmt);
-  StmtId insertAfter(StmtId marker, Stmt stmt);
   uint32_t attach(uint32_t expr);  // as operand: a node that already has a parent is copied
   uint32_t copyTree(uint32_t expr);
 
@@ -127,37 +126,80 @@ class BodyLowering {
   bool isStable(ExprId expr) const;  // a constant or a temporary: reading it later gives the same
   ExprId rootOf(ExprId place) const;
 
+  // aliases.cpp
+  // A place that is named without indices and pointers, so that it is the same whenever it is evaluated.
+  bool isPlainPlace(rung::ExprId expr) const;
+  sema::VarId rootVar(rung::ExprId plain_place) const;
+  // Evaluating `value` has no effect, cannot fault and does not read `variable`. False where that is not sure.
+  bool isApart(rung::ExprId value, sema::VarId variable) const;
+  bool areApart(sema::VarId a, sema::VarId b) const;
+
   // values.cpp
   ExprId lowerValue(rung::ExprId expr);
   ExprId lowerLiteral(rung::ExprId expr);
   ExprId lowerUnary(rung::ExprId expr);
   ExprId lowerBinary(rung::ExprId expr);
   ExprId lowerLogical(rung::ExprId expr, bool is_and, bool short_circuit);
+  bool callsFunction(rung::ExprId expr) const;
   ExprId lowerConvert(rung::ExprId expr);
   ExprId convertValue(ExprId value, TypeId to, Loc loc);
-  // Lowers `next`; when that emitted statements, `before` was read too early and moves to a temporary in front of them.
+  // A position in the open block. `effects` tells whether what came since could change a variable.
+  struct Mark {
+    StmtId last;
+    uint32_t effects;
+  };
+  Mark here() const { return {block_.last, effects_}; }
+  // Lowers `next`; when the statements that it emitted could change what `before` reads, or must not run when `before`
+  // faults, `before` moves to a temporary in front of them.
   template <class Lower>
   ExprId lowerAfter(std::initializer_list<ExprId*> before, Lower next) {
-    StmtId marker = block_.last;
+    Mark mark = here();
     ExprId value = next();
-    if (block_.last.index != marker.index) spill(marker, before);
+    spill(mark, before);
     return value;
   }
-  void spill(StmtId marker, std::initializer_list<ExprId*> values);
+  void spill(Mark mark, std::initializer_list<ExprId*> values);
+  void spillPlace(Mark mark, ExprId& place);  // the place stays one: what it is reached by moves
+  bool mustSpill(Mark mark, ExprId value) const;
+  bool hasEffect(const Stmt& stmt) const;  // of its own, without its blocks
+  bool isTemp(ExprId place) const;         // a compiler temporary or a part of one
+  // Emits at `mark` instead of at the end of the block.
+  template <class Fill>
+  void insertAt(Mark mark, Fill fill) {
+    Block rest = mark.last ? Block{body_.stmt(mark.last).next, block_.last} : block_;
+    block_ = {mark.last ? block_.first : StmtId{}, mark.last};
+    if (mark.last) body_.stmt(mark.last).next = {};
+    fill();
+    if (block_.last)
+      body_.stmt(block_.last).next = rest.first;
+    else
+      block_.first = rest.first;
+    if (rest.first) block_.last = rest.last;
+  }
   ExprId toTemp(ExprId value, Loc loc);
 
   // calls.cpp
-  // Lowers a call; the result as a value (none: the callee has no result). `target`: the place of an assignment whose
-  // value is this call, or none; when the result went there directly, *stored is set.
-  ExprId lowerCall(rung::ExprId expr, ExprId target = {}, bool* stored = nullptr);
+  // The left side of an assignment whose value is a call: the call may write its result there itself. The place is
+  // lowered after the arguments, like that of any assignment; `early` says that nothing can tell the difference.
+  struct Target {
+    rung::ExprId expr = {};
+    ExprId place = {};
+    bool early = false;
+    bool stored = false;
+  };
+  ExprId placeOf(Target& target);
+  // Lowers a call; the result as a value (none: the callee has no result, or target->stored was set).
+  ExprId lowerCall(rung::ExprId expr, Target* target = nullptr);
   ExprId lowerOperator(const sema::Call& call, const CallExpr& node);
   ExprId lowerArithmeticOperator(const sema::Call& call, const CallExpr& node);
   ExprId lowerSelect(const sema::Call& call, const CallExpr& node);
   ExprId lowerMux(const sema::Call& call, const CallExpr& node);
-  ExprId lowerFunctionCall(const sema::Call& call, const CallExpr& node, ExprId target, bool* stored);
+  ExprId lowerFunctionCall(const sema::Call& call, const CallExpr& node, Target* target);
   void lowerBlockCall(const sema::Call& call, const CallExpr& node, ExprId instance);
   void lowerAssertion(const sema::Call& call, const CallExpr& node);
-  ExprId argumentPlace(rung::ExprId value, TypeId pin_type, bool may_alias);
+  ExprId argumentPlace(ExprId value, TypeId pin_type, bool may_alias, Loc loc);
+  bool isPlainCall(rung::ExprId expr) const;
+  bool mayChain(const sema::Call& call, const Target& target) const;
   ExprId defaultArgument(sema::VarId pin, Loc loc);
   void storeOutput(rung::ExprId target, ExprId value, bool negated, Loc loc);
   ExprId operandOr0(const sema::Binding& binding, TypeId type, Loc loc);
@@ -201,6 +243,10 @@ class BodyLowering {
   std::vector<std::pair<uint32_t, uint32_t>> edge_locals_;  // R_EDGE, F_EDGE pins: VarId and the local with the edge
   uint32_t result_local_ = kNoBit;
   uint32_t temp_count_ = 0;
+  // Inside the right operand of a codesys AND or OR that calls functions: a temporary that is TRUE when its value
+  // matters. Checks count only then.
+  ExprId guard_;
+  uint32_t effects_ = 0;  // statements so far that change more than temporaries
 };
 
 }  // namespace rung::ir

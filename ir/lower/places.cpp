@@ -87,7 +87,10 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
       ExprId base = lowerPlace(node.base);
       std::vector<ExprId> indices;
       for (rung::ExprId index : tree_.list(node.indices)) {
-        ExprId value = lowerAfter({&base}, [&] { return lowerValue(index); });
+        Mark mark = here();
+        ExprId value = lowerValue(index);
+        spillPlace(mark, base);
+        for (ExprId& earlier : indices) spill(mark, {&earlier});
         indices.push_back(value);
       }
       uint32_t first = static_cast<uint32_t>(body_.operands.size());
@@ -190,18 +193,6 @@ ExprId BodyLowering::stable(ExprId place) {
       return add(copy);
     }
     case ExprKind::Index: {
-      if (expr.checks != 0) {  // checked once, here
-        Stmt check{.kind = StmtKind::Evaluate, .loc = expr.loc, .a = place.index};
-        bool plain = true;
-        for (uint32_t i = 0; i < expr.c; ++i) plain = plain && isStable(body_.operands[expr.b + i]);
-        if (plain) {
-          append(check);
-          Expr copy = expr;
-          copy.checks = 0;
-          copy.a = stable(ExprId{expr.a}).index;
-          return add(copy);
-        }
-      }
       Expr copy = expr;
       copy.a = stable(ExprId{expr.a}).index;
       std::vector<ExprId> indices;
@@ -209,14 +200,16 @@ ExprId BodyLowering::stable(ExprId place) {
         ExprId index = body_.operands[expr.b + i];
         indices.push_back(isStable(index) ? index : toTemp(index, expr.loc));
       }
-      copy.b = static_cast<uint32_t>(body_.operands.size());
-      body_.operands.insert(body_.operands.end(), indices.begin(), indices.end());
-      if (copy.checks != 0) {
-        ExprId checked = add(copy);
-        append({.kind = StmtKind::Evaluate, .loc = expr.loc, .a = checked.index});
+      auto made = [&] {  // with a slice of its own
+        copy.b = static_cast<uint32_t>(body_.operands.size());
+        body_.operands.insert(body_.operands.end(), indices.begin(), indices.end());
+        return add(copy);
+      };
+      if (copy.checks != 0) {  // checked once, here
+        append({.kind = StmtKind::Evaluate, .loc = expr.loc, .a = made().index});
         copy.checks = 0;
       }
-      return add(copy);
+      return made();
     }
     case ExprKind::Deref: {
       Expr copy = expr;

@@ -91,17 +91,18 @@ void BodyLowering::lowerAssign(const AssignStmt& stmt) {
       // A call may write its result straight into the target, and EN guards the whole assignment.
       if (tree_.kind(source) == rung::ExprKind::Convert) {
         rung::ExprId operand = tree_.as<ConvertExpr>(source).operand;
-        if (tree_.kind(operand) == rung::ExprKind::Call && TypeTable::isText(types_.kind(tree_.expr(operand).type)))
-          source = operand;  // text is cut to the target's capacity by the assignment itself
+        bool same = strip(tree_.expr(source).type) == strip(tree_.expr(stmt.target).type);
+        bool text = TypeTable::isText(types_.kind(tree_.expr(operand).type));  // the assignment itself cuts it
+        if (tree_.kind(operand) == rung::ExprKind::Call && (same || text)) source = operand;
       }
       if (tree_.kind(source) == rung::ExprKind::Call) {
-        const sema::Call& call = project_.call(tree_.as<CallExpr>(source).call);
         bool text = TypeTable::isText(types_.kind(tree_.expr(source).type));
-        if (text || call.en) {
-          ExprId target = stable(lowerPlace(stmt.target));
-          bool stored = false;
-          ExprId value = lowerCall(source, target, &stored);
-          if (!stored) assign(target, convertValue(value, typeOf(target), loc), loc);
+        if (text || !isPlainCall(source)) {
+          Target target{.expr = stmt.target, .early = isPlainPlace(stmt.target)};
+          ExprId value = lowerCall(source, &target);
+          if (target.stored) return;
+          ExprId place = lowerAfter({&value}, [&] { return placeOf(target); });
+          assign(place, convertValue(value, typeOf(place), loc), loc);
           return;
         }
       }
@@ -248,7 +249,10 @@ void BodyLowering::lowerForWithVariableStep(const ForStmt& stmt, ExprId control,
     assign(next, binary(Op::Add, type, control, step, loc), loc);
     ExprId wrapped =
         chosen(binary(Op::Lt, types::kBool, next, control, loc), binary(Op::Gt, types::kBool, next, control, loc));
-    StmtId stop = block([&] { append({.kind = StmtKind::Break, .loc = loc}); });
+    StmtId stop = block([&] {
+      assign(control, to, loc);
+      append({.kind = StmtKind::Break, .loc = loc});
+    });
     append({.kind = StmtKind::If, .loc = loc, .a = wrapped.index, .b = stop.index});
     assign(control, next, loc);
   });

@@ -166,24 +166,54 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
   return std::nullopt;
 }
 
-void BodyLowering::spill(StmtId marker, std::initializer_list<ExprId*> values) {
-  for (ExprId* value : values) {
-    if (!*value || isStable(*value)) continue;
-    Loc loc = body_.expr(*value).loc;
-    TypeId type = typeOf(*value);
-    if (isAggregate(type)) {  // a place of which a part is read later: keep the place, fix what it is reached by
-      continue;
-    }
-    ExprId place = temp(type, loc);
-    Stmt assign{.kind = StmtKind::Assign, .loc = loc, .a = place.index, .b = value->index};
-    if (marker) {
-      marker = insertAfter(marker, assign);
-    } else {  // in front of the block
-      assign.next = block_.first;
-      marker = block_.first = make(assign);
-    }
-    *value = place;
+bool BodyLowering::isTemp(ExprId place) const {
+  const Expr& root = body_.expr(rootOf(place));
+  return root.kind == ExprKind::Local && body_.locals[root.a].kind == LocalKind::Temp;
+}
+
+bool BodyLowering::hasEffect(const Stmt& stmt) const {
+  switch (stmt.kind) {
+    case StmtKind::Assign:
+    case StmtKind::For: return !isTemp(ExprId{stmt.a});
+    case StmtKind::Call: return !in_.module.body(BodyId{stmt.a}).pure || (stmt.e != 0 && !isTemp(ExprId{stmt.e}));
+    case StmtKind::None:
+    case StmtKind::If:
+    case StmtKind::Switch:
+    case StmtKind::Loop:
+    case StmtKind::Break:
+    case StmtKind::Continue:
+    case StmtKind::Return:
+    case StmtKind::Jump:
+    case StmtKind::Label:
+    case StmtKind::Try:
+    case StmtKind::Evaluate: return false;
+    case StmtKind::Bind:
+    case StmtKind::Fault:
+    case StmtKind::Assert: return true;
   }
+  return true;
+}
+
+bool BodyLowering::mustSpill(Mark mark, ExprId value) const {
+  if (!value || block_.last.index == mark.last.index || isStable(value)) return false;
+  return effects_ != mark.effects || mayFault(value);
+}
+
+void BodyLowering::spill(Mark mark, std::initializer_list<ExprId*> values) {
+  bool any = false;
+  for (ExprId* value : values) any = any || mustSpill(mark, *value);
+  if (!any) return;
+  std::vector<ExprId*> moved;
+  for (ExprId* value : values)
+    if (mustSpill(mark, *value)) moved.push_back(value);
+  insertAt(mark, [&] {
+    for (ExprId* value : moved) *value = toTemp(*value, body_.expr(*value).loc);
+  });
+}
+
+void BodyLowering::spillPlace(Mark mark, ExprId& place) {
+  if (!mustSpill(mark, place)) return;
+  insertAt(mark, [&] { place = stable(place); });
 }
 
 ExprId BodyLowering::toTemp(ExprId value, Loc loc) {
@@ -256,6 +286,42 @@ ExprId BodyLowering::lowerBinary(rung::ExprId id) {
   return binary(operatorOf(op), strip(node.h.type), left, right, node.h.loc);
 }
 
+// Whether a function that may have an effect is called somewhere in the expression.
+bool BodyLowering::callsFunction(rung::ExprId id) const {
+  switch (tree_.kind(id)) {
+    case rung::ExprKind::Unary: return callsFunction(tree_.as<UnaryExpr>(id).operand);
+    case rung::ExprKind::Convert: return callsFunction(tree_.as<ConvertExpr>(id).operand);
+    case rung::ExprKind::Member: return callsFunction(tree_.as<MemberExpr>(id).base);
+    case rung::ExprKind::Deref: return callsFunction(tree_.as<DerefExpr>(id).base);
+    case rung::ExprKind::BitAccess: return callsFunction(tree_.as<BitAccessExpr>(id).base);
+    case rung::ExprKind::Binary:
+      return callsFunction(tree_.as<BinaryExpr>(id).left) || callsFunction(tree_.as<BinaryExpr>(id).right);
+    case rung::ExprKind::Index: {
+      const IndexExpr& node = tree_.as<IndexExpr>(id);
+      for (rung::ExprId index : tree_.list(node.indices))
+        if (callsFunction(index)) return true;
+      return callsFunction(node.base);
+    }
+    case rung::ExprKind::Call: {
+      const sema::Call& call = project_.call(tree_.as<CallExpr>(id).call);
+      if (call.kind != sema::CallKind::Operator && !project_.pou(call.pou).pure) return true;
+      for (const sema::Binding& binding : call.bindings)
+        if (binding.value && callsFunction(binding.value)) return true;
+      return call.en && callsFunction(call.en);
+    }
+    case rung::ExprKind::Error:
+    case rung::ExprKind::Literal:
+    case rung::ExprKind::Name:
+    case rung::ExprKind::TypedName:
+    case rung::ExprKind::Address:
+    case rung::ExprKind::Range:
+    case rung::ExprKind::ArrayInit:
+    case rung::ExprKind::Repeat:
+    case rung::ExprKind::StructInit: return false;
+  }
+  return false;
+}
+
 // BOOL AND and OR (design §6). codesys: calls in both operands run, but a check in the right one counts only when the
 // left lets its value matter. iec and AND_THEN, OR_ELSE: the right operand is not evaluated at all then.
 ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circuit) {
@@ -272,7 +338,15 @@ ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circu
   };
 
   if (!short_circuit) {
+    ExprId outer_guard = guard_;
+    if (callsFunction(node.right)) {
+      left = toTemp(left, loc);
+      ExprId matters = is_and ? left : unary(Op::Not, types::kBool, left, loc);
+      if (guard_) matters = binary(Op::And, types::kBool, guard_, matters, loc);
+      guard_ = is_and && !guard_ ? left : toTemp(matters, loc);
+    }
     ExprId right = lowerAfter({&left}, [&] { return lowerValue(node.right); });
+    guard_ = outer_guard;
     if (!mayFault(right)) return binary(op, types::kBool, left, right, loc);
     ExprId result = temp(types::kBool, loc);
     assign(result, left, loc);

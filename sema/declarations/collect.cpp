@@ -20,6 +20,7 @@ void initWords(Context& context) {
   words.required = word("required");
   words.lazy = word("lazy");
   words.extensible = word("extensible");
+  words.prefix = word("prefix");
   words.pure = word("pure");
   words.native = word("native");
   words.op = word("operator");
@@ -95,6 +96,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.file = file;
   pou.native = decl.body_kind == BodyKind::Native || findPragma(context, decl.h, words.native) != nullptr;
   pou.pure = findPragma(context, decl.h, words.pure) != nullptr;
+  pou.prefix = findPragma(context, decl.h, words.prefix) != nullptr;
   pou.test = findPragma(context, decl.h, words.test) != nullptr;
   if (const Pragma* pragma = findPragma(context, decl.h, words.op)) {
     const std::string_view word = context.tree().text(pragma->value);

@@ -15,71 +15,109 @@ int64_t lengthOf(const Unit* text) {
   while (text[length] != 0) ++length;
   return length;
 }
+inline int64_t lengthOf(const char* text) { return static_cast<int64_t>(strlen(text)); }
 
-// Collects a result apart, since `out` may be an input.
+// As lengthOf, but looks no further than `most`.
 template <class Unit>
-class Result {
- public:
-  void append(const Unit* from, int64_t count) {
-    if (count <= 0) return;
-    const uint32_t room = kLongest - length_;
-    const uint32_t taken = count > room ? room : static_cast<uint32_t>(count);
-    memcpy(units_ + length_, from, taken * sizeof(Unit));
-    length_ += taken;
-  }
-  void finish(Unit* out, uint32_t capacity) {
-    if (length_ > capacity) length_ = capacity;
-    memcpy(out, units_, length_ * sizeof(Unit));
-    out[length_] = 0;
-  }
-
- private:
-  uint32_t length_ = 0;
-  Unit units_[kLongest];
-};
+int64_t lengthUpTo(const Unit* text, int64_t most) {
+  int64_t length = 0;
+  while (length < most && text[length] != 0) ++length;
+  return length;
+}
+inline int64_t lengthUpTo(const char* text, int64_t most) {
+  const void* end = most > 0 ? memchr(text, 0, static_cast<size_t>(most)) : nullptr;
+  return end != nullptr ? static_cast<const char*>(end) - text : most > 0 ? most : 0;
+}
 
 int64_t clip(int64_t value, int64_t low, int64_t high) { return value < low ? low : value > high ? high : value; }
 
+uint32_t limitOf(uint32_t capacity) { return capacity < kLongest ? capacity : kLongest; }
+
+// `count` characters from `from`, which may lie in `out`.
+template <class Unit>
+void give(const Unit* from, int64_t count, Unit* out, uint32_t capacity) {
+  const int64_t taken = clip(count, 0, limitOf(capacity));
+  memmove(out, from, static_cast<size_t>(taken) * sizeof(Unit));
+  out[taken] = 0;
+}
+
+// Whether the `length` characters of `text` lie in the memory that `out` writes.
+template <class Unit>
+bool overlaps(const Unit* text, int64_t length, const Unit* out, uint32_t capacity) {
+  const uintptr_t at = reinterpret_cast<uintptr_t>(text), begin = reinterpret_cast<uintptr_t>(out);
+  return at < begin + (uint64_t{capacity} + 1) * sizeof(Unit) &&
+         begin <= at + static_cast<size_t>(length) * sizeof(Unit);
+}
+
+// Collects a result part by part: in `out` itself where no input lies there, else apart.
+template <class Unit>
+class Result {
+ public:
+  Result(Unit* out, uint32_t capacity, bool apart) : out_(out), to_(apart ? units_ : out), limit_(limitOf(capacity)) {}
+  void append(const Unit* from, int64_t count) {
+    const int64_t taken = clip(count, 0, limit_ - length_);
+    memcpy(to_ + length_, from, static_cast<size_t>(taken) * sizeof(Unit));
+    length_ += static_cast<uint32_t>(taken);
+  }
+  void finish() {
+    if (to_ != out_) memcpy(out_, to_, length_ * sizeof(Unit));
+    out_[length_] = 0;
+  }
+
+ private:
+  Unit* out_;
+  Unit* to_;
+  uint32_t limit_, length_ = 0;
+  Unit units_[kLongest];
+};
+
 template <class Unit>
 void mid(const Unit* in, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
-  const int64_t length = lengthOf(in);
-  Result<Unit> result;
-  if (position >= 1 && position <= length) result.append(in + position - 1, clip(count, 0, length - position + 1));
-  result.finish(out, capacity);
+  const int64_t begin = position - 1, end = begin + clip(count, 0, kLongest);
+  const int64_t length = position >= 1 ? lengthUpTo(in, end) : 0;
+  if (begin >= length)
+    out[0] = 0;
+  else
+    give(in + begin, length - begin, out, capacity);
 }
 
 template <class Unit>
 void left(const Unit* in, int64_t count, Unit* out, uint32_t capacity) {
-  Result<Unit> result;
-  result.append(in, clip(count, 0, lengthOf(in)));
-  result.finish(out, capacity);
+  give(in, lengthUpTo(in, clip(count, 0, kLongest)), out, capacity);
 }
 
 template <class Unit>
 void right(const Unit* in, int64_t count, Unit* out, uint32_t capacity) {
   const int64_t length = lengthOf(in), taken = clip(count, 0, length);
-  Result<Unit> result;
-  result.append(in + length - taken, taken);
-  result.finish(out, capacity);
+  give(in + length - taken, taken, out, capacity);
 }
 
+// Appends in place where `out` is in1.
 template <class Unit>
 void concat(const Unit* in1, const Unit* in2, Unit* out, uint32_t capacity) {
-  Result<Unit> result;
-  result.append(in1, lengthOf(in1));
-  result.append(in2, lengthOf(in2));
-  result.finish(out, capacity);
+  const int64_t limit = limitOf(capacity);
+  const int64_t first = lengthUpTo(in1, limit), second = lengthUpTo(in2, limit - first);
+  if (out != in1 && (overlaps(in1, first, out, capacity) || overlaps(in2, second, out, capacity))) {
+    Result<Unit> result(out, capacity, true);
+    result.append(in1, first);
+    result.append(in2, second);
+    return result.finish();
+  }
+  if (out != in1) memcpy(out, in1, static_cast<size_t>(first) * sizeof(Unit));
+  memmove(out + first, in2, static_cast<size_t>(second) * sizeof(Unit));
+  out[first + second] = 0;
 }
 
 // in1 with `count` characters from `position` (from 1, inside) replaced by in2.
 template <class Unit>
 void splice(const Unit* in1, const Unit* in2, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
   const int64_t length = lengthOf(in1), begin = position - 1, end = begin + clip(count, 0, length - begin);
-  Result<Unit> result;
+  const int64_t middle = lengthOf(in2);
+  Result<Unit> result(out, capacity, overlaps(in1, length, out, capacity) || overlaps(in2, middle, out, capacity));
   result.append(in1, begin);
-  result.append(in2, lengthOf(in2));
+  result.append(in2, middle);
   result.append(in1 + end, length - end);
-  result.finish(out, capacity);
+  result.finish();
 }
 
 template <class Unit>

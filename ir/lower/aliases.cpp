@@ -1,0 +1,93 @@
+// What can be told from names alone about two variables being apart in memory. In: checked expressions. Out: yes, or
+// "not sure". Called by calls.cpp before it lets a chain of text functions work in the variable that is assigned.
+#include "ir/lower/lowering.h"
+
+namespace rung::ir {
+
+bool BodyLowering::isPlainPlace(rung::ExprId id) const { return static_cast<bool>(rootVar(id)); }
+
+sema::VarId BodyLowering::rootVar(rung::ExprId id) const {
+  while (true) {
+    if (tree_.kind(id) == rung::ExprKind::Name) {
+      Entity entity = tree_.as<NameExpr>(id).entity;
+      return entity.what() == EntityKind::Var ? sema::VarId{entity.index} : sema::VarId{};
+    }
+    if (tree_.kind(id) != rung::ExprKind::Member) return {};
+    const MemberExpr& node = tree_.as<MemberExpr>(id);
+    if (node.entity.what() != EntityKind::Var) return {};
+    TypeId base = strip(tree_.expr(node.base).type);
+    if (!base || types_.kind(base) != TypeKind::Record) return sema::VarId{node.entity.index};
+    id = node.base;
+  }
+}
+
+bool BodyLowering::areApart(sema::VarId a, sema::VarId b) const {
+  if (project_.var(a).external) a = project_.var(a).external;
+  if (project_.var(b).external) b = project_.var(b).external;
+  if (a == b) return false;
+  const sema::Var &x = project_.var(a), &y = project_.var(b);
+  // Memory of this call alone. The place of a result is a temporary of the caller.
+  auto isOwn = [&](sema::VarId id, const sema::Var& var) {
+    if (id == project_.pou(pou_).result_var) return true;
+    return var.storage == sema::Storage::Local && !body_.locals[local_of_[var.field] - 1].by_reference;
+  };
+  if (isOwn(a, x) || isOwn(b, y)) return true;
+  auto isReference = [&](const sema::Var& var) {
+    return var.section == SectionKind::InOut || var.storage == sema::Storage::Local ||
+           types_.kind(strip(var.type)) == TypeKind::Reference;
+  };
+  if (isReference(x) || isReference(y)) return false;
+  if (x.storage == sema::Storage::Constant || y.storage == sema::Storage::Constant) return true;
+  if (x.storage == sema::Storage::Image || y.storage == sema::Storage::Image) return x.storage != y.storage;
+  if (x.storage == sema::Storage::Field && y.storage == sema::Storage::Field && x.pou == y.pou) return true;
+  // An instance may hold the memory of this call's own.
+  auto holdsNoInstance = [&](const sema::Var& var) {
+    TypeKind kind = types_.plainKind(strip(var.type));
+    return TypeTable::isScalar(kind) || TypeTable::isText(kind);
+  };
+  return holdsNoInstance(x) && holdsNoInstance(y);
+}
+
+bool BodyLowering::isApart(rung::ExprId id, sema::VarId variable) const {
+  constexpr uint8_t kChecksOfConversions = kCheckSubrange | kCheckConvert;
+  switch (tree_.kind(id)) {
+    case rung::ExprKind::Literal:
+    case rung::ExprKind::TypedName: return true;
+    case rung::ExprKind::Name:
+    case rung::ExprKind::Member: {
+      if (constantOf(project_, id)) return true;
+      sema::VarId root = rootVar(id);
+      return root && areApart(root, variable);
+    }
+    case rung::ExprKind::Convert:
+      return (in_.options.checks & kChecksOfConversions) == 0 && isApart(tree_.as<ConvertExpr>(id).operand, variable);
+    case rung::ExprKind::Unary: return isApart(tree_.as<UnaryExpr>(id).operand, variable);
+    case rung::ExprKind::Binary: {
+      const BinaryExpr& node = tree_.as<BinaryExpr>(id);
+      if (node.op() == BinaryOp::Divide || node.op() == BinaryOp::Modulo || node.op() == BinaryOp::Power) return false;
+      return isApart(node.left, variable) && isApart(node.right, variable);
+    }
+    case rung::ExprKind::Call: {
+      if (!isPlainCall(id)) return false;
+      const sema::Call& call = project_.call(tree_.as<CallExpr>(id).call);
+      if (call.kind != sema::CallKind::Function) return false;
+      const sema::Pou& pou = project_.pou(call.pou);
+      if (!pou.pure || !pou.native) return false;
+      for (const sema::Binding& binding : call.bindings)
+        if (binding.value && !isApart(binding.value, variable)) return false;
+      return true;
+    }
+    case rung::ExprKind::Error:
+    case rung::ExprKind::Index:
+    case rung::ExprKind::Deref:
+    case rung::ExprKind::BitAccess:
+    case rung::ExprKind::Address:
+    case rung::ExprKind::Range:
+    case rung::ExprKind::ArrayInit:
+    case rung::ExprKind::Repeat:
+    case rung::ExprKind::StructInit: return false;
+  }
+  return false;
+}
+
+}  // namespace rung::ir
