@@ -209,7 +209,7 @@ void BodyWriter::copyText(std::string_view to, uint32_t capacity, bool wide, Exp
     case ExprKind::Address: break;
   }
   const std::string source = captured([&] { textValue(from); });
-  if (source == to) return;
+  if (source == to && capacity >= capacityOf(e.type)) return;
   uint32_t length;
   if (isWide(e.type) != wide) {
     begin(wide ? "rung_wtext_of_text" : "rung_text_of_wtext", capacity);
