@@ -74,8 +74,8 @@ class Result {
 template <class Unit>
 void mid(const Unit* in, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
   const int64_t begin = position - 1, end = begin + clip(count, 0, kLongest);
-  const int64_t length = position >= 1 ? lengthUpTo(in, end) : 0;
-  if (begin >= length)
+  const int64_t length = lengthUpTo(in, end);
+  if (begin < 0 || begin >= length)
     out[0] = 0;
   else
     give(in + begin, length - begin, out, capacity);
