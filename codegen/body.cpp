@@ -260,7 +260,7 @@ void BodyWriter::write(ir::BodyId id) {
   std::string& to = group_.code;
   if (uses_fault_ || has_try_) declarations_ += " uint32_t at; int64_t value;";
   if (is_inlined) {
-    to += "static inline ";
+    to += "\nstatic inline ";
   } else {
     to += "\n// ";
     if (body.kind == BodyKind::Init) to += "initial values of ";

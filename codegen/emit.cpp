@@ -46,14 +46,15 @@ std::string around(const ir::Module& module, const Group& group, std::string_vie
   for (ir::BodyId id : group.inlined) files.push_back(inlineFile(module, id));
   std::sort(files.begin(), files.end());
   for (const std::string& file : files) out += "#include \"" + file + "\"\n";
-  out += '\n';
-  out += prototypes(module, group.callees, true, "extern \"C\" ");
+  auto paragraph = [&](const std::string& text) {
+    if (!text.empty()) out += '\n' + text;
+  };
+  paragraph(prototypes(module, group.callees, true, "extern \"C\" "));
   out += "\nnamespace ";
   out += name_space;
-  out += " {\n\n";
-  if (!group.sites.empty()) out += "extern const uint32_t sites_" + group.stem + ";\n";
-  out += prototypes(module, group.callees, false, "");
-  out += group.data;
+  out += " {\n";
+  paragraph((group.sites.empty() ? "" : "extern const uint32_t sites_" + group.stem + ";\n") +
+            prototypes(module, group.callees, false, "") + group.data);
   out += group.code;
   out += "\n}  // namespace ";
   out += name_space;
