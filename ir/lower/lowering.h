@@ -213,7 +213,10 @@ class BodyLowering {
   void lowerIfFrom(std::span<const IfBranch> branches, Slice<rung::StmtId> otherwise, Loc loc);
   void lowerCase(const CaseStmt& stmt);
   void lowerFor(const ForStmt& stmt);
-  void lowerForWithVariableStep(const ForStmt& stmt, ExprId control, TypeId type);
+  void lowerForOfSubrange(const ForStmt& stmt, ExprId control, ExprId from, ExprId to,
+                          const std::optional<Value>& step);
+  void lowerForWithVariableStep(const ForStmt& stmt, ExprId control, ExprId from, ExprId to,
+                                const std::function<void()>& turn);
   void lowerWhile(const WhileStmt& stmt);
   void lowerRepeat(const RepeatStmt& stmt);
   uint32_t labelNumber(NameId label);

@@ -201,30 +201,73 @@ void BodyLowering::lowerCase(const CaseStmt& stmt) {
 void BodyLowering::lowerFor(const ForStmt& stmt) {
   Loc loc = stmt.h.loc;
   ExprId control = stable(lowerPlace(stmt.control));
-  TypeId type = typeOf(control);
-  std::optional<Value> step = Value{type, 1};
-  if (stmt.step) {
-    step = constantOf(project_, stmt.step);
-    if (!step) return lowerForWithVariableStep(stmt, control, type);
-  }
+  TypeId type = typeOf(control), plain = types_.plain(type);
+  std::optional<Value> step = Value{plain, 1};
+  if (stmt.step) step = constantOf(project_, stmt.step);
   ExprId from = lowerValue(stmt.from);
   ExprId to = lowerAfter({&from}, [&] { return lowerValue(stmt.to); });
+  from = convertValue(from, type, loc);
+  to = convertValue(to, type, loc);
+  if (types_.kind(type) == TypeKind::Subrange) return lowerForOfSubrange(stmt, control, from, to, step);
+  if (!step) return lowerForWithVariableStep(stmt, control, from, to, [&] { lowerStatements(stmt.body); });
   StmtId body = block([&] { lowerStatements(stmt.body); });
   append({.kind = StmtKind::For,
           .loc = loc,
           .a = control.index,
-          .b = convertValue(from, type, loc).index,
-          .c = convertValue(to, type, loc).index,
+          .b = from.index,
+          .c = to.index,
           .d = constant(type, step->bits, loc).index,
           .e = body.index});
 }
 
+// The control variable of a subrange type: the loop counts in the plain type, since the first value that fails the test
+// may lie outside. Then the variable is left at the limit.
+void BodyLowering::lowerForOfSubrange(const ForStmt& stmt, ExprId control, ExprId from, ExprId to,
+                                      const std::optional<Value>& step) {
+  Loc loc = stmt.h.loc;
+  TypeId type = typeOf(control), plain = types_.plain(type);
+  ExprId count = temp(plain, loc);
+  ExprId first = toTemp(convertValue(from, plain, loc), loc), last = toTemp(convertValue(to, plain, loc), loc);
+  auto store = [&](ExprId value) {  // in range: no check, no saturation
+    append({.kind = StmtKind::Assign,
+            .loc = loc,
+            .a = control.index,
+            .b = add({.kind = ExprKind::Convert, .type = type, .loc = loc, .a = value.index}).index});
+  };
+  auto turn = [&] {
+    store(count);
+    lowerStatements(stmt.body);
+  };
+  if (step) {
+    StmtId body = block(turn);
+    append({.kind = StmtKind::For,
+            .loc = loc,
+            .a = count.index,
+            .b = first.index,
+            .c = last.index,
+            .d = constant(plain, step->bits, loc).index,
+            .e = body.index});
+  } else {
+    lowerForWithVariableStep(stmt, count, first, last, turn);
+  }
+  const TypeInfo& range = types_.info(type);
+  auto bound = [&](int64_t value) { return constant(plain, static_cast<uint64_t>(value), loc); };
+  ExprId outside = binary(Op::Or, types::kBool, binary(Op::Lt, types::kBool, count, bound(range.low), loc),
+                          binary(Op::Gt, types::kBool, count, bound(range.high), loc), loc);
+  StmtId at_limit = block([&] { store(last); });
+  StmtId past = block([&] { store(count); });
+  append({.kind = StmtKind::If, .loc = loc, .a = outside.index, .b = at_limit.index, .c = past.index});
+}
+
 // FOR with a step that is only known at run time: the direction is tested in each turn, and the loop ends when the next
 // value does not fit the type (design §8).
-void BodyLowering::lowerForWithVariableStep(const ForStmt& stmt, ExprId control, TypeId type) {
+void BodyLowering::lowerForWithVariableStep(const ForStmt& stmt, ExprId control, ExprId from, ExprId to,
+                                            const std::function<void()>& turn) {
   Loc loc = stmt.h.loc;
-  auto evaluate = [&](rung::ExprId expr) { return toTemp(convertValue(lowerValue(expr), type, loc), loc); };
-  ExprId from = evaluate(stmt.from), to = evaluate(stmt.to), step = evaluate(stmt.step);
+  TypeId type = typeOf(control);
+  from = toTemp(from, loc);
+  to = toTemp(to, loc);
+  ExprId step = toTemp(convertValue(lowerValue(stmt.step), type, loc), loc);
   assign(control, from, loc);
   bool is_signed = types_.isSigned(types_.plainKind(type));
   ExprId upward = toTemp(
@@ -243,7 +286,7 @@ void BodyLowering::lowerForWithVariableStep(const ForStmt& stmt, ExprId control,
     ExprId past =
         chosen(binary(Op::Gt, types::kBool, control, to, loc), binary(Op::Lt, types::kBool, control, to, loc));
     append({.kind = StmtKind::If, .loc = loc, .a = past.index, .b = leave.index});
-    lowerStatements(stmt.body);
+    turn();
   });
   StmtId advance = block([&] {
     assign(next, binary(Op::Add, type, control, step, loc), loc);
