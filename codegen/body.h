@@ -151,12 +151,12 @@ class BodyWriter {
   void endCheck(Loc loc, types::Fault fault, std::string_view value, int64_t low = 0, int64_t high = 0);
 
   // ---- places.cpp
-  void place(ExprId id);             // an lvalue; a text: a pointer to its units
-  void member(ExprId base);          // `self.`, `x_->`
+  void place(ExprId id);     // an lvalue; a text: a pointer to its units
+  void member(ExprId base);  // `self.`, `x_->`
   void indexValue(ExprId id, const types::Dimension& dimension);
   ExprId peelIndex(ExprId id, const types::Dimension& dimension, int64_t& addend) const;
   bool isImagePlace(ExprId id) const;
-  void imageAddress(ExprId id);      // a const-less uint8_t*
+  void imageAddress(ExprId id);  // a const-less uint8_t*
   void imageLoad(ExprId id, const Expr& expr);
   bool isLvalue(ExprId id) const;
   // `place = value` as an expression without `;` for a scalar; `value` is C++ text of the right type.
@@ -225,7 +225,7 @@ class BodyWriter {
 
   // Where break and continue go.
   struct Loop {
-    bool in_switch = false;      // at hand is a switch inside of it
+    bool in_switch = false;  // at hand is a switch inside of it
     bool breaks_by_goto = false, continues_by_goto = false;
     bool has_next = false;
     uint32_t try_depth = 0;

@@ -116,9 +116,9 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   setPhaseSubject("", 0);
   for (const ir::Record& record : module.records) {
     const TypeId type = module.types.resolve(record.type);
-    files.push_back({recordFile(module.types, type),
-                     recordHeader(module, record, name_space, facts.is_pointed[type.index] != 0,
-                                  record.init && facts.is_zeroing[record.init.index] == 0)});
+    files.push_back(
+        {recordFile(module.types, type), recordHeader(module, record, name_space, facts.is_pointed[type.index] != 0,
+                                                      record.init && facts.is_zeroing[record.init.index] == 0)});
   }
   Description description = describe(module, options, facts, groups, name_space);
   files.push_back({"module.cpp", std::move(description.module)});

@@ -18,9 +18,7 @@ bool isBitwise(types::Op op) { return op == types::Op::And || op == types::Op::O
 bool isSumOrProduct(types::Op op) { return op == types::Op::Add || op == types::Op::Sub || op == types::Op::Mul; }
 
 // The bounds of a pointer's arithmetic are those of ULINT.
-bool isPointer(types::TypeKind kind) {
-  return kind == types::TypeKind::Pointer || kind == types::TypeKind::Reference;
-}
+bool isPointer(types::TypeKind kind) { return kind == types::TypeKind::Pointer || kind == types::TypeKind::Reference; }
 
 int64_t nanoseconds(types::TypeKind kind) {
   using types::TypeKind;
@@ -130,7 +128,7 @@ void BodyWriter::condition(ExprId id, Prec context) {
 
 void BodyWriter::constant(const Expr& e, Prec context) {
   const TypeKind kind = types_.plainKind(e.type);
-  const bool negative = TypeTable::isReal(kind)   ? (e.bits() >> 63) != 0
+  const bool negative = TypeTable::isReal(kind) ? (e.bits() >> 63) != 0
                         : types_.isSigned(kind) ? static_cast<int64_t>(e.bits()) < 0
                                                 : false;
   if (negative) parenthesis(Prec::Unary, context);
@@ -372,8 +370,8 @@ void BodyWriter::comparison(const Expr& e, Prec context) {
 // ---- integer + - * and negation
 
 bool BodyWriter::isChain(const Expr& e) const {
-  const bool is_arithmetic = (e.kind == ExprKind::Binary && isSumOrProduct(e.op)) ||
-                             (e.kind == ExprKind::Unary && e.op == Op::Neg);
+  const bool is_arithmetic =
+      (e.kind == ExprKind::Binary && isSumOrProduct(e.op)) || (e.kind == ExprKind::Unary && e.op == Op::Neg);
   const TypeKind kind = types_.plainKind(e.type);
   return is_arithmetic && widthOf(kind) > 1 && !TypeTable::isReal(kind);
 }
@@ -761,8 +759,9 @@ void BodyWriter::convert(const Expr& e, Prec context) {
     const bool from_signed = types_.isSigned(source);
     const uint32_t from_width = widthOf(source);
     // The value promotes to int, which is the target's type or holds it.
-    const bool keeps = (from_width == width && from_signed == is_signed && from_width > 1) ||
-                       (from_width < 32 && width <= 32 && from_width < width && (is_signed || (!from_signed && width < 32)));
+    const bool keeps =
+        (from_width == width && from_signed == is_signed && from_width > 1) ||
+        (from_width < 32 && width <= 32 && from_width < width && (is_signed || (!from_signed && width < 32)));
     if (keeps) {
       value(a, context);
     } else {

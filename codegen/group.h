@@ -20,10 +20,10 @@ struct Site {
 };
 
 struct Group {
-  std::string stem;                 // of its file, and part of the names that it defines besides functions
-  std::vector<ir::BodyId> bodies;   // those it defines
-  std::string code;                 // their text
-  std::string data;                 // constant bytes
+  std::string stem;                // of its file, and part of the names that it defines besides functions
+  std::vector<ir::BodyId> bodies;  // those it defines
+  std::string code;                // their text
+  std::string data;                // constant bytes
   std::vector<Site> sites;
   std::vector<TypeId> records;      // whose headers it includes
   std::vector<ir::BodyId> callees;  // functions and natives to be declared

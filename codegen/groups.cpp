@@ -45,7 +45,8 @@ std::vector<Group> makeGroups(const ir::Module& module, const Facts& facts) {
     const bool cut = is_new && (pous >= kMost || (pous >= kLeast && nameHash(rows[i].key) % kUsual == 0));
     if (groups.empty() || cut) {
       groups.emplace_back();
-      groups.back().stem = groups.size() == 1 ? "code" : "code_" + fileStem(module.names.text(module.body(rows[i].body).name));
+      groups.back().stem =
+          groups.size() == 1 ? "code" : "code_" + fileStem(module.names.text(module.body(rows[i].body).name));
       pous = 0;
     }
     pous += is_new;

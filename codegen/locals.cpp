@@ -116,8 +116,8 @@ void BodyWriter::scanBlock(StmtId first, uint32_t weight) {
       }
       controls_.push_back({slot, id});
       scanBlock(StmtId{stmt.e}, inner);
-      private_loop_[id.index] = slot.kind != Slot::None && !controls_.back().disturbed &&
-                                expr(ExprId{stmt.a}).kind != ExprKind::Bits;
+      private_loop_[id.index] =
+          slot.kind != Slot::None && !controls_.back().disturbed && expr(ExprId{stmt.a}).kind != ExprKind::Bits;
       controls_.pop_back();
       continue;
     }

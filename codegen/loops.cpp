@@ -37,7 +37,7 @@ void BodyWriter::loopStatement(StmtId, const Stmt& stmt) {
     block(body_->stmt(first).next);
     close();
   } else if (next && isExitTest(next) && !body_->stmt(next).next) {  // REPEAT
-    loop.has_next = false;  // `continue` goes to the test
+    loop.has_next = false;                                           // `continue` goes to the test
     out_ += "do";
     open();
     loops_.push_back(loop);
@@ -239,7 +239,9 @@ void BodyWriter::forStatement(StmtId id, const Stmt& stmt) {
   out_ += "LL, &" + next + ") ? (";
   std::string last = "(" + type + ")";
   if (step > 0) {
-    const uint64_t high = is_signed ? (uint64_t{1} << (width - 1)) - 1 : width >= 64 ? ~uint64_t{0} : (uint64_t{1} << width) - 1;
+    const uint64_t high = is_signed     ? (uint64_t{1} << (width - 1)) - 1
+                          : width >= 64 ? ~uint64_t{0}
+                                        : (uint64_t{1} << width) - 1;
     appendUnsigned(last, high);
     last += high > INT64_MAX ? "ULL" : "LL";
   } else if (is_signed) {

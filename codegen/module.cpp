@@ -227,8 +227,8 @@ class Describer {
   void addSymbols() {
     for (uint32_t i = 0; i < module_.programs.size(); ++i) {
       const ir::ProgramInstance& program = module_.programs[i];
-      symbol(module_.names.text(program.name), program.record, "RUNG_IN_BLOCK", 255, true, facts_.program_block[i], 0, 0,
-             programPath(program));
+      symbol(module_.names.text(program.name), program.record, "RUNG_IN_BLOCK", 255, true, facts_.program_block[i], 0,
+             0, programPath(program));
     }
     for (uint32_t i = 0; i < module_.lists.size(); ++i) {
       const TypeInfo& record = types_.info(types_.resolve(module_.lists[i].record));
@@ -332,7 +332,8 @@ class Describer {
           if (program.setup) code_ += callOf(program.setup);
           code_ += "}\n";
           for (const Field& field : record.fields) {
-            if (!sameIdentifier(module_.names.text(field.name), "done") || types_.plainKind(field.type) != TypeKind::Bool)
+            if (!sameIdentifier(module_.names.text(field.name), "done") ||
+                types_.plainKind(field.type) != TypeKind::Bool)
               continue;
             done_block = number(block);
             done_offset = number(field.offset);
@@ -407,7 +408,8 @@ class Describer {
     for (const std::string& made : type_rows_) type_rows += made;
     for (const std::string& made : field_rows_) field_rows += made;
     for (const auto& made : symbol_rows_) symbol_rows += made.second;
-    for (const Range& range : retain_) row(retain_rows, {number(range.block), number(range.offset), number(range.size)});
+    for (const Range& range : retain_)
+      row(retain_rows, {number(range.block), number(range.offset), number(range.size)});
     for (const Range& range : persistent_) {
       row(persistent_rows, {number(range.block), number(range.offset), number(range.size)});
     }
@@ -417,7 +419,8 @@ class Describer {
               number(types_.info(types_.resolve(facts_.blocks[i].record)).size) + ");\n";
     }
     for (uint32_t i = 0; i < module_.lists.size(); ++i) {
-      if (hasCode(module_.lists[i].init)) init += callOn(module_.lists[i].init, module_.lists[i].record, facts_.list_block[i]);
+      if (hasCode(module_.lists[i].init))
+        init += callOn(module_.lists[i].init, module_.lists[i].record, facts_.list_block[i]);
     }
     std::vector<uint32_t> order(module_.programs.size());
     for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -484,9 +487,10 @@ class Describer {
       if (group.sites.empty()) continue;
       numbers += "extern const uint32_t sites_" + group.stem + " = " + number(count) + ";\n";
       for (const Site& site : group.sites) {
-        row(rows, {number(text(site.pou)),
-                   number(text(site.origin_path ? module_.names.text(site.origin_path) : module_.sources.path(site.file))),
-                   number(site.line), number(site.column), signedNumber(site.low), signedNumber(site.high)});
+        row(rows,
+            {number(text(site.pou)),
+             number(text(site.origin_path ? module_.names.text(site.origin_path) : module_.sources.path(site.file))),
+             number(site.line), number(site.column), signedNumber(site.low), signedNumber(site.high)});
         ++count;
       }
     }

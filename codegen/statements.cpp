@@ -241,9 +241,7 @@ void BodyWriter::switchStatement(const Stmt& stmt) {
   const uint64_t flip = is_unsigned ? 0 : uint64_t{1} << 63;
   std::vector<Range> taken;
   std::vector<Range> rest;
-  auto label = [&](uint64_t bits) {
-    appendConstant(out_, types_, expr(ExprId{stmt.a}).type, bits);
-  };
+  auto label = [&](uint64_t bits) { appendConstant(out_, types_, expr(ExprId{stmt.a}).type, bits); };
   for (uint32_t i = 0; i < stmt.c; ++i) {
     const ir::Case& one = body_->cases[stmt.b + i];
     rest.clear();

@@ -20,9 +20,9 @@ namespace {
 enum Shape { kI8, kI16, kI32, kI64, kU8, kU16, kU32, kU64, kF32, kF64, kPointer, kText, kWideText, kOther };
 constexpr const char* kPlainNames[] = {"int8_t",   "int16_t", "int32_t", "int64_t", "uint8_t", "uint16_t", "uint32_t",
                                        "uint64_t", "float",   "double",  "void*",   "char",    "char16_t", "void"};
-constexpr const char* kAliasNames[] = {"rung_i8_at",  "rung_i16_at", "rung_i32_at", "rung_i64_at",     "rung_u8_at",
-                                       "rung_u16_at", "rung_u32_at", "rung_u64_at", "rung_f32_at",     "rung_f64_at",
-                                       "rung_pointer_at", "char",    "char16_t",    "void"};
+constexpr const char* kAliasNames[] = {"rung_i8_at",      "rung_i16_at", "rung_i32_at", "rung_i64_at", "rung_u8_at",
+                                       "rung_u16_at",     "rung_u32_at", "rung_u64_at", "rung_f32_at", "rung_f64_at",
+                                       "rung_pointer_at", "char",        "char16_t",    "void"};
 
 Shape shapeOf(const TypeTable& types, TypeId type) {
   const TypeKind kind = types.plainKind(type);
@@ -316,8 +316,8 @@ void appendConstant(std::string& out, const TypeTable& types, TypeId type, uint6
   }
 }
 
-std::string recordHeader(const ir::Module& module, const ir::Record& record, std::string_view name_space,
-                         bool pointed, bool has_init) {
+std::string recordHeader(const ir::Module& module, const ir::Record& record, std::string_view name_space, bool pointed,
+                         bool has_init) {
   const TypeTable& types = module.types;
   const Names& names = module.names;
   const TypeInfo& info = types.info(types.resolve(record.type));

@@ -36,7 +36,7 @@ TypeId elementOf(const types::TypeTable& types, TypeId type);
 
 // The header of a record: the struct, its layout as an assertion, and what works on it.
 // `pointed`: pointers may read it as memory of another type; `has_init`: its initialiser is generated.
-std::string recordHeader(const ir::Module& module, const ir::Record& record, std::string_view name_space,
-                         bool pointed, bool has_init);
+std::string recordHeader(const ir::Module& module, const ir::Record& record, std::string_view name_space, bool pointed,
+                         bool has_init);
 
 }  // namespace rung::codegen

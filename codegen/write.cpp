@@ -1,5 +1,5 @@
-// Output files on disk: see write.h. A new folder is filled under a temporary name and renamed as a whole. In an old one
-// every new content is first written beside its file; only when all are there, they are renamed, the manifest last.
+// Output files on disk: see write.h. A new folder is filled under a temporary name and renamed as a whole. In an old
+// one every new content is first written beside its file; only when all are there, they are renamed, the manifest last.
 #include "codegen/write.h"
 
 #include <dirent.h>

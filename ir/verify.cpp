@@ -173,7 +173,8 @@ void Verifier::checkModule() {
     for (BodyId function : {program.run, program.setup}) {
       require(!function || (function.index < module_.bodies.size() &&
                             module_.body(function).kind == BodyKind::Function && !module_.body(function).result &&
-                            std::none_of(module_.body(function).locals.begin(), module_.body(function).locals.end(), isParameter)),
+                            std::none_of(module_.body(function).locals.begin(), module_.body(function).locals.end(),
+                                         isParameter)),
               2, "a run or setup of a program instance that is no function without parameters and result");
     }
   }

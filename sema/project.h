@@ -195,7 +195,7 @@ struct LibraryFile {
 struct Options {
   text::Standard standard = text::Standard::Codesys;
   uint32_t pointer_size = 8;
-  std::span<const LibraryFile> libraries;  // texts that outlive the project; declarations are parsed on first use
+  std::span<const LibraryFile> libraries;    // texts that outlive the project; declarations are parsed on first use
   int64_t default_interval_ns = 10'000'000;  // of the task that is made when there is no CONFIGURATION
 };
 
@@ -230,7 +230,7 @@ struct Project {
     VarId var;
   };
   std::vector<GlobalWrite> global_writes;  // by bodies, of variables outside of the instance: for the rule on tasks
-  uint32_t image_bytes[3] = {0, 0, 0};           // I, Q, M: end of the last used byte
+  uint32_t image_bytes[3] = {0, 0, 0};     // I, Q, M: end of the last used byte
 
   Var& var(VarId id) { return vars[id.index]; }
   const Var& var(VarId id) const { return vars[id.index]; }

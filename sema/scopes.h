@@ -106,10 +106,10 @@ struct Scopes {
   std::vector<uint64_t> told;  // unknown names: the POU or type, and the name
   NameMap pous_and_types;
   NameMap globals;
-  NameMap items;                        // enumeration items by their bare name: the first that was declared
-  NameMap qualifiers;                   // global lists, program instances
+  NameMap items;       // enumeration items by their bare name: the first that was declared
+  NameMap qualifiers;  // global lists, program instances
   NameMap programs_with_instance, programs_with_several;  // of which configurations have one, several; a set
-  std::vector<bool> item_is_ambiguous;  // by index of the first EnumValue
+  std::vector<bool> item_is_ambiguous;                    // by index of the first EnumValue
 
   std::vector<uint32_t> named_of_type;  // by TypeId: index into named_types, 0: none
   std::deque<NamedType> named_types{1};
@@ -129,7 +129,8 @@ struct Scopes {
 
   // Pragmas and words that declarations look for, as name keys.
   struct Words {
-    NameId attribute_qualified_only, attribute_strict, test, alias, required, lazy, extensible, prefix, pure, native, op, std;
+    NameId attribute_qualified_only, attribute_strict, test, alias, required, lazy, extensible, prefix, pure, native,
+        op, std;
   } words;
 
   NamedType* named(TypeId type) {

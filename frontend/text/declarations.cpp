@@ -329,6 +329,7 @@ DeclId Parser::parseVar(SectionKind section) {
     advance();
     if (at(Tok::Address)) {
       d.located = true;
+      d.address_loc = here();
       if (readAddress(textOf(t_), here(), diagnostics_, d.address, numbers_))
         d.address.path = tree_.addList<uint32_t>(numbers_);
       else
@@ -355,6 +356,7 @@ DeclId Parser::parseVar(SectionKind section) {
     // access name : path : type direction, or : %address : type direction
     if (at(Tok::Address)) {
       d.located = true;
+      d.address_loc = here();
       if (readAddress(textOf(t_), here(), diagnostics_, d.address, numbers_))
         d.address.path = tree_.addList<uint32_t>(numbers_);
       advance();

@@ -313,7 +313,8 @@ void collectConfigurations(Context& context) {
       if (decl.type.empty()) return;
       const NameId key = keyOf(context, tree.list(decl.type)[decl.type.count - 1].name);
       const Entity mark = Entity::of(EntityKind::Program, 0);
-      if (!context.scopes.programs_with_instance.insert(key, mark)) context.scopes.programs_with_several.insert(key, mark);
+      if (!context.scopes.programs_with_instance.insert(key, mark))
+        context.scopes.programs_with_several.insert(key, mark);
       return;
     }
     if (tree.kind(member) != DeclKind::Section) return;

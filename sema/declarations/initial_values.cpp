@@ -179,7 +179,8 @@ struct Initializer {
     node.h.type = type;
     Loc surplus;
     const uint64_t count = elements(node.elements, info.base, room, surplus);
-    if (surplus && !broken) context.report(Diag::SurplusElements, surplus, {std::to_string(count), std::to_string(room)});
+    if (surplus && !broken)
+      context.report(Diag::SurplusElements, surplus, {std::to_string(count), std::to_string(room)});
   }
 
   // Forbids members that do not exist, that are set twice, or that an initial value cannot set. Design §6: inputs, and

@@ -17,8 +17,8 @@ namespace {
 struct Resolver {
   Context& context;
   Project& project;
-  std::vector<InstancePlace> places;        // of fields, in order of instances and declarations
-  std::vector<uint8_t> has_open_;           // by TypeId of a record: 0 unknown, 1 no, 2 yes
+  std::vector<InstancePlace> places;           // of fields, in order of instances and declarations
+  std::vector<uint8_t> has_open_;              // by TypeId of a record: 0 unknown, 1 no, 2 yes
   std::vector<std::pair<VarId, bool>> whole_;  // open addresses that are views themselves; completed?
 
   Tree& tree() const { return context.tree(); }
@@ -78,7 +78,8 @@ struct Resolver {
   void collect() {
     for (uint32_t i = 1; i < project.vars.size(); ++i) {
       const Var& var = project.vars[i];
-      if (var.open_address && !inField(var) && !var.external && var.type != types::kError) whole_.push_back({{i}, false});
+      if (var.open_address && !inField(var) && !var.external && var.type != types::kError)
+        whole_.push_back({{i}, false});
     }
     for (uint32_t i = 0; i < project.instances.size(); ++i) {
       InstancePlace at;
@@ -126,7 +127,9 @@ struct Resolver {
   //   fails   VAR_CONFIG Main.drivee.ready AT %IX1.0 : BOOL; END_VAR       E0825
   bool follow(std::span<const Ident> names, InstancePlace& out) {
     size_t next = 0;
-    const auto matches = [&](NameId name) { return next < names.size() && name && context.names().same(name, names[next].name); };
+    const auto matches = [&](NameId name) {
+      return next < names.size() && name && context.names().same(name, names[next].name);
+    };
     Entity found;
     for (uint32_t i = 0; i < project.instances.size() && !out.program; ++i) {
       const ProgramInstance& instance = project.instances[i];
@@ -194,7 +197,9 @@ struct Resolver {
     Var& var = project.var(place.var);
     if (type == types::kError || var.type == types::kError) return;
     if (context.types().resolve(type) != context.types().resolve(var.type)) {
-      context.report(Diag::ExternalType, tree().loc(decl.type), {text(last.name), context.types().spell(type), context.types().spell(var.type)})
+      context
+          .report(Diag::ExternalType, tree().loc(decl.type),
+                  {text(last.name), context.types().spell(type), context.types().spell(var.type)})
           .note(var.loc, Note::DeclaredHere);
       return;
     }
@@ -216,7 +221,8 @@ struct Resolver {
       view = resolveAddress(context, decl.address, decl.address_loc, type);
       if (!view) return;
     }
-    if (decl.init) checkInitializerAs(context, decl.init, type, "the initial value of `" + spelled(context, last.name) + "`");
+    if (decl.init)
+      checkInitializerAs(context, decl.init, type, "the initial value of `" + spelled(context, last.name) + "`");
     if (inField(var) || !var.open_address) {
       for (InstancePlace& known : places) {
         if (!samePath(known, place)) continue;

@@ -43,29 +43,35 @@ struct ArithmeticTest : testing::Test {
     if (kind == TypeKind::Bool) return {0, 1};
     if (TypeTable::isReal(kind)) {
       std::vector<uint64_t> bits;
-      for (double v : {0.0, -0.0, 1.0, -1.5, 0.5, 2.5, 3.5, 1e10, -3e9, 32767.5, 65536.0, 1e30, HUGE_VAL, -HUGE_VAL, std::nan("")}) {
+      for (double v : {0.0, -0.0, 1.0, -1.5, 0.5, 2.5, 3.5, 1e10, -3e9, 32767.5, 65536.0, 1e30, HUGE_VAL, -HUGE_VAL,
+                       std::nan("")}) {
         bits.push_back(Value::ofReal(types::idOf(kind), kind == TypeKind::Real ? static_cast<float>(v) : v).bits);
       }
       return bits;
     }
     const uint32_t width = TypeTable::bitWidth(kind);
     const bool is_signed = types.isSigned(kind);
-    const uint64_t high = is_signed ? (uint64_t{1} << (width - 1)) - 1 : width == 64 ? ~uint64_t{0} : (uint64_t{1} << width) - 1;
+    const uint64_t high = is_signed     ? (uint64_t{1} << (width - 1)) - 1
+                          : width == 64 ? ~uint64_t{0}
+                                        : (uint64_t{1} << width) - 1;
     std::vector<uint64_t> values = {0, 1, 2, 7, 31, high - 1, high, high / 2, high / 3};
     if (is_signed) values.insert(values.end(), {~uint64_t{0}, ~uint64_t{6}, ~high, ~high + 1, ~(high / 2)});
     return values;
   }
 
   // A row of the driver's table: the function with these operands gives this.
-  void addCall(const std::string& name, TypeId result, TypeId a, uint64_t x, TypeId b, uint64_t y, const Value& expected) {
+  void addCall(const std::string& name, TypeId result, TypeId a, uint64_t x, TypeId b, uint64_t y,
+               const Value& expected) {
     if (name != last) {
       if (!last.empty()) rows += "};\n";
       last = name;
-      const std::string types_of = std::string(scalarType(types, a)) + (b ? std::string(", ") + scalarType(types, b) : "");
-      prototypes += std::string(scalarType(types, result)) + " " + mangle(name) + "fn(rung_context*, " + types_of + ");\n";
+      const std::string types_of =
+          std::string(scalarType(types, a)) + (b ? std::string(", ") + scalarType(types, b) : "");
+      prototypes +=
+          std::string(scalarType(types, result)) + " " + mangle(name) + "fn(rung_context*, " + types_of + ");\n";
       rows += "static const Row rows_" + mangle(name) + "[] = {\n";
-      calls += "  for (const Row& r : rows_" + mangle(name) + ") check(\"" + name + "\", r, bits(plc_::" + mangle(name) +
-               "fn(&ctx, of<" + scalarType(types, a) + ">(r.x)" +
+      calls += "  for (const Row& r : rows_" + mangle(name) + ") check(\"" + name +
+               "\", r, bits(plc_::" + mangle(name) + "fn(&ctx, of<" + scalarType(types, a) + ">(r.x)" +
                (b ? std::string(", of<") + scalarType(types, b) + ">(r.y)" : "") + ")));\n";
     }
     rows += "{" + std::to_string(x) + "u," + std::to_string(y) + "u," + std::to_string(expected.bits) + "u},";
@@ -92,7 +98,8 @@ static void check(const char* what, const Row& row, uint64_t got) {
          (unsigned long long)got, (unsigned long long)row.want);
 }
 namespace plc_ {
-)" + prototypes + "}\n" + rows + "};\nint main() {\n" + calls + "  return wrong != 0;\n}\n";
+)" + prototypes + "}\n" + rows +
+                               "};\nint main() {\n" + calls + "  return wrong != 0;\n}\n";
     const NativeResult result = runNatively(module, driver, flags);
     EXPECT_TRUE(result.good);
     EXPECT_EQ(result.output.substr(0, 2000), "");
@@ -132,7 +139,8 @@ TEST_F(ArithmeticTest, OperatorsAgreeWithTheKernel) {
       const std::vector<uint64_t> shifts = {0, 1, 5, 8, 16, 31, 32, 63, 64, ~uint64_t{0}};
       for (uint64_t x : valuesOf(kind)) {
         if (!binary) {
-          addCall(name, result, type, x, {}, 0, plain(types::apply(types, names, op, {type, x}).value, is_real && result == type));
+          addCall(name, result, type, x, {}, 0,
+                  plain(types::apply(types, names, op, {type, x}).value, is_real && result == type));
           continue;
         }
         for (uint64_t y : is_shift ? shifts : valuesOf(kind)) {
@@ -154,7 +162,8 @@ TEST_F(ArithmeticTest, ConversionsAgreeWithTheKernel) {
     for (TypeId to : targets) {
       const TypeId from = targets[s];
       const std::string name = types.spell(from) + "_TO_" + types.spell(to);
-      function(name, from, {}, to, [&](ir::Builder& b, uint32_t x, uint32_t) { return b.convert(to, b.localPlace(x)); });
+      function(name, from, {}, to,
+               [&](ir::Builder& b, uint32_t x, uint32_t) { return b.convert(to, b.localPlace(x)); });
       for (uint64_t x : valuesOf(types.kind(from))) {
         const bool is_real = TypeTable::isReal(types.plainKind(to));
         addCall(name, to, from, x, {}, 0, plain(types::convert(types, {from, x}, to).value, is_real));
@@ -166,11 +175,13 @@ TEST_F(ArithmeticTest, ConversionsAgreeWithTheKernel) {
 
 // Chains of + - * with constants, as index arithmetic and averages write them: cut once, at the end.
 TEST_F(ArithmeticTest, ChainsAreCutAtTheirWidth) {
-  for (TypeKind kind : {TypeKind::SInt, TypeKind::Int, TypeKind::UInt, TypeKind::DInt, TypeKind::UDInt, TypeKind::LInt, TypeKind::Time}) {
+  for (TypeKind kind : {TypeKind::SInt, TypeKind::Int, TypeKind::UInt, TypeKind::DInt, TypeKind::UDInt, TypeKind::LInt,
+                        TypeKind::Time}) {
     const TypeId type = types::idOf(kind);
     const std::string name = "chain_" + types.spell(type);
     function(name, type, type, type, [&](ir::Builder& b, uint32_t x, uint32_t y) {
-      const ir::ExprId product = b.binary(Op::Mul, b.binary(Op::Add, b.localPlace(x), b.integer(type, 5)), b.localPlace(y));
+      const ir::ExprId product =
+          b.binary(Op::Mul, b.binary(Op::Add, b.localPlace(x), b.integer(type, 5)), b.localPlace(y));
       const ir::ExprId square = b.binary(Op::Mul, b.localPlace(x), b.localPlace(x));
       return b.binary(Op::Sub, b.binary(Op::Mul, product, square), b.unary(Op::Neg, b.localPlace(y)));
     });

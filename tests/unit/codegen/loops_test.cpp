@@ -55,7 +55,8 @@ TEST(For, TurnsAndLastValue) {
     for (const Case& c : {Case{5, 5, 1}, Case{6, 5, 1}, Case{0, 9, 3}, Case{high - 5, high, 1}, Case{high - 5, high, 4},
                           Case{high, high, 7}, Case{low + 5, low, -1}, Case{low + 5, low, -4}, Case{9, 1, -2},
                           Case{low, low + 3, 2}, Case{3, 9, -1}, Case{high - 3, high - 1, 1}}) {
-      for (int form = 0; form < 3; ++form) {  // 0: constant bounds, 1: bounds from inputs, 2: the body writes the control
+      for (int form = 0; form < 3;
+           ++form) {  // 0: constant bounds, 1: bounds from inputs, 2: the body writes the control
         const std::string name = "f" + std::to_string(number++) + "_" + types.spell(type);
         ir::Body& body = module.bodies.emplace_back();
         body.name = body.spelling = names.intern(name);
@@ -91,9 +92,9 @@ TEST(For, TurnsAndLastValue) {
         appendConstant(y, types, type, static_cast<uint64_t>(c.to));
         appendConstant(z, types, type, static_cast<uint64_t>(expected.last));
         calls += "  { " + c_type + " last = 0; int turns = plc_::" + mangle(name) + "fn(&ctx, " + x + ", " + y +
-                 ", &last); if (turns != " + std::to_string(expected.turns) + " || last != " + z + ") { printf(\"" + name +
-                 ": form " + std::to_string(form) + ", %d turns, last %lld; not " + std::to_string(expected.turns) +
-                 " and " + z + "\\n\", turns, (long long)last); wrong = 1; } }\n";
+                 ", &last); if (turns != " + std::to_string(expected.turns) + " || last != " + z + ") { printf(\"" +
+                 name + ": form " + std::to_string(form) + ", %d turns, last %lld; not " +
+                 std::to_string(expected.turns) + " and " + z + "\\n\", turns, (long long)last); wrong = 1; } }\n";
       }
     }
   }

@@ -19,7 +19,8 @@ TEST(Mangle, KeepsTheSpelling) {
 
 TEST(Mangle, NeverTwoNamesInOne) {
   std::set<std::string> seen;
-  const char* names[] = {"a", "_a", "__a", "a_", "ua0u", "u__a0u", "_u_a", "\xc3\xa4", "_xc3_xa4", "x.y", "x_x2ey", "_x_x2ey", "1a"};
+  const char* names[] = {"a",        "_a",       "__a", "a_",     "ua0u",    "u__a0u", "_u_a",
+                         "\xc3\xa4", "_xc3_xa4", "x.y", "x_x2ey", "_x_x2ey", "1a"};
   for (const char* name : names) EXPECT_TRUE(seen.insert(mangle(name)).second) << name;
 }
 
@@ -36,7 +37,9 @@ TEST(Mangle, LongNamesHaveShortFiles) {
 
 TEST(Literals, QuotesAndEscapes) {
   std::string out;
-  appendQuoted(out, "a\"b\\?\n\xc3\xa4" "1");
+  appendQuoted(out,
+               "a\"b\\?\n\xc3\xa4"
+               "1");
   EXPECT_EQ(out, R"("a\"b\\\?\012\303\2441")");
   out.clear();
   appendQuotedWide(out, "a\xc3\xa4\xf0\x9f\x98\x80");

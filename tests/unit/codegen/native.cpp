@@ -40,8 +40,11 @@ NativeResult runNatively(const ir::Module& module, const std::string& driver, co
   NativeResult result;
   result.output = writeOutputs(folder, files).error;
   if (result.output.empty()) {
-    result = command("cd " + folder + " && " RUNG_COMPILER " -std=c++17 -Wall -Wextra -Werror -fno-rtti "
-                     "-ffp-contract=off " + flags + " -I. -I" RUNG_INCLUDE + sources + " " RUNG_RUNTIME " -o program");
+    result = command("cd " + folder +
+                     " && " RUNG_COMPILER
+                     " -std=c++17 -Wall -Wextra -Werror -fno-rtti "
+                     "-ffp-contract=off " +
+                     flags + " -I. -I" RUNG_INCLUDE + sources + " " RUNG_RUNTIME " -o program");
   }
   if (result.good) result = command(folder + "/program");
   std::filesystem::remove_all(folder);

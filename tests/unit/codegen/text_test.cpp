@@ -34,11 +34,11 @@ struct TextTest : testing::Test {
     return b.text(types.string(static_cast<uint32_t>(text.size())), names.intern(text));
   }
   void run() {
-    const NativeResult result = runNatively(module,
-                                            "#include <stdio.h>\n#include \"rung/code.h\"\nnamespace plc_ {\n" + driver +
-                                                "}\nint main() {\n  rung_context ctx = {}; int wrong = 0;\n" + calls +
-                                                "  return wrong;\n}\n",
-                                            "-O1 -fsanitize=address,undefined -fno-sanitize-recover=undefined");
+    const NativeResult result =
+        runNatively(module,
+                    "#include <stdio.h>\n#include \"rung/code.h\"\nnamespace plc_ {\n" + driver +
+                        "}\nint main() {\n  rung_context ctx = {}; int wrong = 0;\n" + calls + "  return wrong;\n}\n",
+                    "-O1 -fsanitize=address,undefined -fno-sanitize-recover=undefined");
     EXPECT_TRUE(result.good);
     EXPECT_EQ(result.output.substr(0, 3000), "");
   }
@@ -52,7 +52,8 @@ struct TextTest : testing::Test {
 
 TEST_F(TextTest, AssignmentAndComparison) {
   auto equals = [&](const std::string& text) {
-    return [&, text](ir::Builder& b, uint32_t local) { return b.binary(Op::Eq, b.localPlace(local), literal(b, text)); };
+    return
+        [&, text](ir::Builder& b, uint32_t local) { return b.binary(Op::Eq, b.localPlace(local), literal(b, text)); };
   };
   function("cut", 3, "abcdef", equals("abc"));
   function("fits", 6, "abcdef", equals("abcdef"));
@@ -62,12 +63,10 @@ TEST_F(TextTest, AssignmentAndComparison) {
   function("shorter_memory", 2, "ab", [&](ir::Builder& b, uint32_t local) {
     return b.binary(Op::Ne, b.localPlace(local), literal(b, "abcdefgh"));
   });
-  function("order", 5, "abd", [&](ir::Builder& b, uint32_t local) {
-    return b.binary(Op::Gt, b.localPlace(local), literal(b, "abc"));
-  });
-  function("high_bytes_are_high", 5, "\xc3\xa4", [&](ir::Builder& b, uint32_t local) {
-    return b.binary(Op::Gt, b.localPlace(local), literal(b, "z"));
-  });
+  function("order", 5, "abd",
+           [&](ir::Builder& b, uint32_t local) { return b.binary(Op::Gt, b.localPlace(local), literal(b, "abc")); });
+  function("high_bytes_are_high", 5, "\xc3\xa4",
+           [&](ir::Builder& b, uint32_t local) { return b.binary(Op::Gt, b.localPlace(local), literal(b, "z")); });
   function("cut_by_conversion", 10, "abcdef", [&](ir::Builder& b, uint32_t local) {
     const ir::ExprId cut = b.convert(types.string(2), b.localPlace(local));
     return b.binary(Op::Eq, cut, literal(b, "ab"));

@@ -57,7 +57,8 @@ TEST_F(WriteTest, LeavesNothingWhenOneFileIsRefused) {
   EXPECT_NE(result.error, "");
   EXPECT_EQ(text("a.cpp"), "1");
   size_t files = 0;
-  for (const auto& entry : fs::directory_iterator(folder)) files += entry.path().filename().string().find(".rung-") != std::string::npos;
+  for (const auto& entry : fs::directory_iterator(folder))
+    files += entry.path().filename().string().find(".rung-") != std::string::npos;
   EXPECT_EQ(files, 0u);
 }
 

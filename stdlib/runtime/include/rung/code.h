@@ -46,7 +46,7 @@ typedef uint32_t RUNG_MAY_ALIAS rung_u32_at;
 typedef uint64_t RUNG_MAY_ALIAS rung_u64_at;
 typedef float RUNG_MAY_ALIAS rung_f32_at;
 typedef double RUNG_MAY_ALIAS rung_f64_at;
-typedef void *RUNG_MAY_ALIAS rung_pointer_at;
+typedef void* RUNG_MAY_ALIAS rung_pointer_at;
 
 /* A check in front of a statement: `at` is number << 3 | kind of fault; the label is at the end of the body. */
 #define RUNG_CHECK(bad, number, what) \
@@ -81,7 +81,9 @@ static inline uint32_t rung_shr(uint32_t a, uint64_t n) { return n >= 32 ? 0 : a
 static inline uint64_t rung_shl64(uint64_t a, uint64_t n) { return n >= 64 ? 0 : a << n; }
 static inline uint64_t rung_shr64(uint64_t a, uint64_t n) { return n >= 64 ? 0 : a >> n; }
 static inline uint8_t rung_rol8(uint8_t a, uint64_t n) { return (uint8_t)(a << (n & 7) | a >> (-n & 7)); }
-static inline uint16_t rung_rol16(uint16_t a, uint64_t n) { return (uint16_t)((uint32_t)a << (n & 15) | a >> (-n & 15)); }
+static inline uint16_t rung_rol16(uint16_t a, uint64_t n) {
+  return (uint16_t)((uint32_t)a << (n & 15) | a >> (-n & 15));
+}
 static inline uint32_t rung_rol32(uint32_t a, uint64_t n) { return a << (n & 31) | a >> (-n & 31); }
 static inline uint64_t rung_rol64(uint64_t a, uint64_t n) { return a << (n & 63) | a >> (-n & 63); }
 
@@ -140,24 +142,24 @@ static inline int32_t rung_abs_i32(int32_t a) { return a < 0 ? (int32_t)(0u - (u
 static inline int64_t rung_abs_i64(int64_t a) { return a < 0 ? (int64_t)(0u - (uint64_t)a) : a; }
 
 /* ---- process image: little-endian at any address, on any machine. */
-static inline uint16_t rung_get16(const uint8_t *p) { return (uint16_t)(p[0] | p[1] << 8); }
-static inline uint32_t rung_get32(const uint8_t *p) {
+static inline uint16_t rung_get16(const uint8_t* p) { return (uint16_t)(p[0] | p[1] << 8); }
+static inline uint32_t rung_get32(const uint8_t* p) {
   return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
 }
-static inline uint64_t rung_get64(const uint8_t *p) { return rung_get32(p) | (uint64_t)rung_get32(p + 4) << 32; }
-static inline void rung_put16(uint8_t *p, uint16_t v) {
+static inline uint64_t rung_get64(const uint8_t* p) { return rung_get32(p) | (uint64_t)rung_get32(p + 4) << 32; }
+static inline void rung_put16(uint8_t* p, uint16_t v) {
   p[0] = (uint8_t)v;
   p[1] = (uint8_t)(v >> 8);
 }
-static inline void rung_put32(uint8_t *p, uint32_t v) {
+static inline void rung_put32(uint8_t* p, uint32_t v) {
   rung_put16(p, (uint16_t)v);
   rung_put16(p + 2, (uint16_t)(v >> 16));
 }
-static inline void rung_put64(uint8_t *p, uint64_t v) {
+static inline void rung_put64(uint8_t* p, uint64_t v) {
   rung_put32(p, (uint32_t)v);
   rung_put32(p + 4, (uint32_t)(v >> 32));
 }
-static inline void rung_put_bit(uint8_t *p, uint32_t bit, bool v) {
+static inline void rung_put_bit(uint8_t* p, uint32_t bit, bool v) {
   *p = (uint8_t)((*p & ~(1u << bit)) | (uint32_t)v << bit);
 }
 static inline float rung_f32_of(uint32_t bits) {
@@ -186,42 +188,42 @@ extern "C" {
 
 /* ---- text. In place, NUL-terminated, `capacity` without the NUL; too long results are cut. `to` may be `from`, also
  * in part. The same holds for every native function of a library: `out` may be one of its text inputs. */
-void rung_text_assign(char *to, uint32_t capacity, const char *from);
-void rung_wtext_assign(char16_t *to, uint32_t capacity, const char16_t *from);
+void rung_text_assign(char* to, uint32_t capacity, const char* from);
+void rung_wtext_assign(char16_t* to, uint32_t capacity, const char16_t* from);
 /* Below, at or above 0, by unsigned units. */
-int rung_text_compare(const char *a, const char *b) RUNG_PURE;
-int rung_wtext_compare(const char16_t *a, const char16_t *b) RUNG_PURE;
-uint32_t rung_wtext_length(const char16_t *text) RUNG_PURE;
+int rung_text_compare(const char* a, const char* b) RUNG_PURE;
+int rung_wtext_compare(const char16_t* a, const char16_t* b) RUNG_PURE;
+uint32_t rung_wtext_length(const char16_t* text) RUNG_PURE;
 /* STRING is UTF-8 here, WSTRING UTF-16; what is no code point becomes '?'. */
-void rung_text_of_wtext(char *to, uint32_t capacity, const char16_t *from);
-void rung_wtext_of_text(char16_t *to, uint32_t capacity, const char *from);
+void rung_text_of_wtext(char* to, uint32_t capacity, const char16_t* from);
+void rung_wtext_of_text(char16_t* to, uint32_t capacity, const char* from);
 /* A scalar as text, as <T>_TO_STRING spells it, and back. `kind`: rung_type_kind; `bits`: the value, sign- or
  * zero-extended (REAL and LREAL: the bits of a double). Reading gives 0 where the text is no such value; the result
  * is to be cut to the type's width. */
-void rung_text_of_scalar(char *to, uint32_t capacity, uint8_t kind, uint64_t bits);
-void rung_wtext_of_scalar(char16_t *to, uint32_t capacity, uint8_t kind, uint64_t bits);
-uint64_t rung_scalar_of_text(uint8_t kind, const char *text) RUNG_PURE;
-uint64_t rung_scalar_of_wtext(uint8_t kind, const char16_t *text) RUNG_PURE;
+void rung_text_of_scalar(char* to, uint32_t capacity, uint8_t kind, uint64_t bits);
+void rung_wtext_of_scalar(char16_t* to, uint32_t capacity, uint8_t kind, uint64_t bits);
+uint64_t rung_scalar_of_text(uint8_t kind, const char* text) RUNG_PURE;
+uint64_t rung_scalar_of_wtext(uint8_t kind, const char16_t* text) RUNG_PURE;
 
 /* ---- faults */
 /* Runs `run(frame)` and catches its faults: RUNG_FAULT_NONE, or the kind, details in ctx->fault. Nests. For __TRY. */
-uint8_t rung_try(rung_context *ctx, void (*run)(void *frame), void *frame);
+uint8_t rung_try(rung_context* ctx, void (*run)(void* frame), void* frame);
 
 /* ---- assertions of tests. `text` may be null. Values are reported to ctx->host->assertion as the trace spells them.
  * The same kinds and bits as rung_text_of_scalar; equal means IEC `=` (NaN is equal to NaN here). */
-void rung_assert(rung_context *ctx, const char *file, uint32_t line, bool good, const char *text);
-void rung_assert_equal(rung_context *ctx, const char *file, uint32_t line, uint8_t kind, uint64_t expected,
-                       uint64_t actual, const char *text);
-void rung_assert_equal_text(rung_context *ctx, const char *file, uint32_t line, const char *expected,
-                            const char *actual, const char *text);
-void rung_assert_equal_wtext(rung_context *ctx, const char *file, uint32_t line, const char16_t *expected,
-                             const char16_t *actual, const char *text);
+void rung_assert(rung_context* ctx, const char* file, uint32_t line, bool good, const char* text);
+void rung_assert_equal(rung_context* ctx, const char* file, uint32_t line, uint8_t kind, uint64_t expected,
+                       uint64_t actual, const char* text);
+void rung_assert_equal_text(rung_context* ctx, const char* file, uint32_t line, const char* expected,
+                            const char* actual, const char* text);
+void rung_assert_equal_wtext(rung_context* ctx, const char* file, uint32_t line, const char16_t* expected,
+                             const char16_t* actual, const char* text);
 /* Enumerations: `items` is `name\0value\0name\0value\0\0`, values decimal. */
-void rung_assert_equal_enum(rung_context *ctx, const char *file, uint32_t line, const char *items, int64_t expected,
-                            int64_t actual, const char *text);
+void rung_assert_equal_enum(rung_context* ctx, const char* file, uint32_t line, const char* items, int64_t expected,
+                            int64_t actual, const char* text);
 /* kind: RUNG_REAL or RUNG_LREAL; good when |expected - actual| <= tolerance, or both are equal. */
-void rung_assert_near(rung_context *ctx, const char *file, uint32_t line, uint8_t kind, double expected, double actual,
-                      double tolerance, const char *text);
+void rung_assert_near(rung_context* ctx, const char* file, uint32_t line, uint8_t kind, double expected, double actual,
+                      double tolerance, const char* text);
 
 } /* extern "C" */
 #endif
