@@ -97,6 +97,7 @@ class BodyWriter {
   void close();         // `}`, written where the next statement begins
   void flushCloses(uint32_t lines);
   void ifStatement(const Stmt& stmt);
+  void deepIf(const Stmt& stmt);
   void switchStatement(const Stmt& stmt);
   void callStatement(const Stmt& stmt);
   void tryStatement(const Stmt& stmt);

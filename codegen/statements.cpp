@@ -14,6 +14,10 @@ using types::TypeTable;
 namespace {
 
 constexpr uint32_t kMostBlankLines = 6, kAnyLines = ~0u;
+constexpr uint32_t kDeepestIndent = 40;
+constexpr uint32_t kDeepestBraces = 200;  // clang++ takes 256
+
+size_t indentOf(uint32_t depth) { return 2 * static_cast<size_t>(std::min(depth, kDeepestIndent)); }
 
 struct Position {
   FileId file;
@@ -36,7 +40,7 @@ void BodyWriter::flushCloses(uint32_t lines) {
   for (; closes_ > 0; --closes_) {
     if (lines > 0) {
       out_ += '\n';
-      out_.append(2 * static_cast<size_t>(depth_ + closes_ - 1), ' ');
+      out_.append(indentOf(depth_ + closes_ - 1), ' ');
       if (line_ != 0) ++line_;
       --lines;
     } else {
@@ -48,7 +52,7 @@ void BodyWriter::flushCloses(uint32_t lines) {
 
 void BodyWriter::begin(Loc loc) {
   const Position at = options_.line_directives ? positionOf(module_, *body_, loc) : Position{};
-  const size_t indent = 2 * static_cast<size_t>(depth_);
+  const size_t indent = indentOf(depth_);
   if (at.line == 0) {
     flushCloses(kAnyLines);
     out_ += '\n';
@@ -182,9 +186,30 @@ bool BodyWriter::endsInJump(StmtId first) const {
          last == StmtKind::Fault;
 }
 
+// Without braces: every variable is declared at the top, so that jumps cross nothing.
+void BodyWriter::deepIf(const Stmt& stmt) {
+  const std::string otherwise = newName("else"), end = newName("end");
+  prepare(ExprId{stmt.a});
+  out_ += "if (!";
+  condition(ExprId{stmt.a}, Prec::Unary);
+  out_ += ") goto " + otherwise + ";";
+  block(StmtId{stmt.b});
+  flushCloses(0);
+  if (stmt.c != 0) out_ += " goto " + end + ";";
+  out_ += " " + otherwise + ":;";
+  if (stmt.c == 0) return;
+  block(StmtId{stmt.c});
+  flushCloses(0);
+  out_ += " " + end + ":;";
+}
+
 void BodyWriter::ifStatement(const Stmt& stmt) {
   const Stmt* at = &stmt;
   for (;;) {
+    if (depth_ > kDeepestBraces) {
+      deepIf(*at);
+      return;
+    }
     prepare(ExprId{at->a});
     out_ += "if (";
     condition(ExprId{at->a}, Prec::Comma);
@@ -212,7 +237,7 @@ void BodyWriter::ifStatement(const Stmt& stmt) {
     }
     if (next.line != 0 && line_ != 0 && next.line == line_ + 1 && next.file == line_file_) {
       out_ += '\n';
-      out_.append(2 * static_cast<size_t>(depth_), ' ');
+      out_.append(indentOf(depth_), ' ');
       ++line_;
     } else {
       out_ += ' ';

@@ -354,7 +354,10 @@ void Reader::function() {
     const TypeId local_type = type();
     if (!failed_) builder.local(local, local_type, kind);
   }
-  if (failed_) return;
+  if (failed_) {
+    broken_names_.emplace(body.name.index, id.index);
+    return;
+  }
   if (!body_by_name_.emplace(body.name.index, id.index).second)
     fail(Diag::IrRepeatedName, body.loc, {module_.names.text(body.name)});
 }
@@ -376,6 +379,10 @@ void Reader::blockBody(BodyKind kind) {
     return;
   }
   auto record_type = type_by_name_.find(text);
+  if (record_type == type_by_name_.end() && broken_names_.find(id.index) != broken_names_.end()) {
+    failed_ = true;  // its declaration has been reported
+    return;
+  }
   if (record_type == type_by_name_.end())
     return fail(Diag::IrUnknownName, loc, {text, kind == BodyKind::Init ? "record" : "function or block"});
   auto listed = record_by_type_.find(record_type->second.index);

@@ -98,6 +98,7 @@ class Reader {
   std::vector<size_t> items_;
   std::unordered_map<std::string, TypeId> type_by_name_;
   Map list_by_name_, program_by_name_, task_by_name_, body_by_name_, init_by_name_, record_by_type_;
+  Map broken_names_;                                      // of functions whose declaration has been reported
   std::unordered_map<uint64_t, uint32_t> field_by_name_;  // record type and name
   std::vector<bool> fields_known_;                        // by TypeId
   struct Code {

@@ -43,6 +43,13 @@ bool isAmbiguousItem(Context& context, Entity item);
 // The name of what is in scope nearest to a misspelled one, or empty.
 std::string_view nearestName(Context& context, NameId written);
 
+// Syntax errors took declarations from this POU: what seems to be missing in it is no second mistake.
+bool isBroken(const Context& context, PouId pou);
+// Whether to say that a name, or a member of a record, is not declared: once in a POU, and only where no declaration
+// was lost to a syntax error.
+bool sayUnknown(Context& context, NameId name);
+bool sayUnknownMember(Context& context, TypeId record, NameId name);
+
 // The type that is written; reports what is wrong and gives types::kError then. Writes TypeExprHeader::type.
 TypeId resolveType(Context& context, TypeExprId type);
 // Makes sure that a POU's result, pins and variables are resolved (not its body). Safe against cycles.

@@ -47,10 +47,9 @@ void checkProgramsRun(Context& context) {
   if (project.instances.empty()) return;
   std::vector<bool> runs(project.pous.size());
   for (const ProgramInstance& instance : project.instances) runs[instance.program.index] = true;
-  for (const Project::CallEdge& edge : project.call_edges) runs[edge.callee.index] = true;
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const Pou& pou = project.pous[i];
-    if (pou.kind != PouKind::Program || pou.library || pou.test || runs[i]) continue;
+    if (pou.kind != PouKind::Program || pou.library || pou.test || pou.used || runs[i]) continue;
     context.report(Diag::ProgramNeverRuns, pou.loc, {project.names.text(pou.name)});
   }
 }
@@ -59,6 +58,7 @@ void checkProgramsRun(Context& context) {
 
 void check(Project& project) {
   setPhase("sema");
+  project.diagnostics.closeLines();
   Scopes scopes;
   Context context{.project = project, .scopes = scopes, .pou = {}, .file = {}};
   initWords(context);

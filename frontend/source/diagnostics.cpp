@@ -100,7 +100,26 @@ Report& Report::path(std::string path) {
   return *this;
 }
 
+namespace {
+
+uint64_t lineKey(const Sources& sources, Loc loc) {
+  return uint64_t{sources.fileOf(loc).index} << 32 | sources.lineNumber(loc);
+}
+
+}  // namespace
+
+void Diagnostics::closeLines() {
+  closed_lines_.clear();
+  for (const Diagnostic& diagnostic : list_)
+    if (diagnostic.loc && diagInfo(diagnostic.diag).severity == Severity::Error)
+      closed_lines_.push_back(lineKey(sources_, diagnostic.loc));
+  std::sort(closed_lines_.begin(), closed_lines_.end());
+}
+
 Report Diagnostics::report(Diag diag, Loc loc, std::initializer_list<std::string_view> args) {
+  if (!closed_lines_.empty() && loc &&
+      std::binary_search(closed_lines_.begin(), closed_lines_.end(), lineKey(sources_, loc)))
+    return Report(nullptr);
   if (!enabled(diag) || !firstAt(diag, loc)) return Report(nullptr);
   const DiagInfo& info = diagInfo(diag);
   Severity severity = info.severity;

@@ -81,6 +81,9 @@ class Diagnostics {
   // after max_errors (they are counted). References stay good until the next report.
   Report report(Diag diag, Loc loc, std::initializer_list<std::string_view> args = {});
 
+  // The lines of the errors so far say no more: what later phases find there most likely follows from them.
+  void closeLines();
+
   bool hasErrors() const { return error_count_ > 0; }
   uint32_t errorCount() const { return error_count_; }
   uint32_t warningCount() const { return warning_count_; }
@@ -107,6 +110,7 @@ class Diagnostics {
 
   std::vector<uint64_t> seen_;  // (code, loc) hash set, open addressing
   size_t seen_count_ = 0;
+  std::vector<uint64_t> closed_lines_;  // file and line, sorted
 };
 
 // The candidate nearest to what was written (Damerau-Levenshtein, case folded), or empty when none is near enough.

@@ -365,6 +365,10 @@ struct DeclHeader {
   Loc doc;  // first `///` line above, or nowhere
   Slice<Pragma> pragmas;
 };
+// DeclHeader::bits of a POU and of a TYPE entry: syntax errors took declarations from it, so that a name which seems to
+// be missing in it is no second mistake.
+constexpr uint8_t kBrokenDeclarations = 1;
+
 struct TypeDecl {
   DeclHeader h;
   NameId name;
@@ -515,6 +519,7 @@ class Tree {
   std::string_view text(TextId id) const { return {text_.data() + id.first, id.length}; }
 
   std::vector<FileUnit> files;
+  bool lost_names = false;  // likewise of types and globals: names of the whole project
 
  private:
   static constexpr uint32_t kChunkWords = 1u << 16;

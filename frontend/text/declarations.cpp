@@ -131,6 +131,21 @@ Loc Parser::docBehind(const Token* t) const {
 
 // ---- names
 
+// One token that cannot stand here before one that can: says so and goes on behind it.
+void Parser::skipStray(bool fits_behind, Diag diag) {
+  if (panic_ || !fits_behind || endsDeclarations(kind())) return;
+  if (at(Tok::Error))
+    last_error_ = t_;
+  else
+    slip(diag, t_, {describe(t_)});
+  advance();
+}
+
+bool Parser::beginsType(const Token* t) const {
+  return isTypeWord(t->kind) || t->kind == Tok::Array || t->kind == Tok::Struct || t->kind == Tok::RefTo ||
+         (isName(t->kind) && (t->flags & kLineStart) == 0) || t->kind == Tok::LeftParen;
+}
+
 bool Parser::parseName(Ident& out) {
   if (isName(kind())) {
     out = ident(t_);
@@ -143,6 +158,7 @@ bool Parser::parseName(Ident& out) {
          next == Tok::RightParen || next == Tok::Semicolon) ||
         (t_[1].flags & kLineStart) != 0) {
       slip(Diag::ReservedName, t_, {textOf(t_)});
+      lost_ = true;
       out = {names_.intern(textOf(t_)), here()};
       advance();
       return true;
@@ -195,9 +211,12 @@ void Parser::parseTypes(std::vector<DeclId>& out) {
 }
 
 DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc) {
+  lost_ = false;
+  skipStray(!isName(kind()) && isName(peek()) && peek(2) == Tok::Colon, Diag::MissingName);
   TypeDecl d{{DeclKind::Type, 0, 0, here(), doc, pragmas}, {}, {}, {}};
   Ident name;
   if (!parseName(name)) {
+    tree_.lost_names = true;
     if (!endsDeclarations(kind())) advance();
     syncDeclaration(Tok::EndType);
     return {};
@@ -208,8 +227,10 @@ DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc) {
     advance();
     base = parseNamedType();
   }
+  if (!panic_ && !at(Tok::Colon)) skipStray(peek() == Tok::Colon, Diag::StrayToken);
   if (!panic_) expect(Tok::Colon);
   if (!panic_) d.type = parseType();
+  if (panic_ || !d.type || lost_) tree_.lost_names = true;
   if (!d.type) d.type = tree_.add<TypeExprId>(ErrorTypeExpr{{TypeExprKind::Error, 0, 0, d.h.loc, {}}});
   const bool is_struct = tree_.kind(d.type) == TypeExprKind::Struct;
   if (base && is_struct) tree_.as<StructTypeExpr>(d.type).base = base;
@@ -240,6 +261,7 @@ DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc) {
 DeclId Parser::parseSection() {
   const Token* open = t_;
   SectionDecl d{{DeclKind::Section, 0, 0, here(), takeDoc(), takePragmas()}, sectionOf(kind()), {}};
+  if ((open->flags & (kSynthetic | kReported)) != 0) lost_ = true;  // which section was meant is not known
   advance();
   while (peek() != Tok::Colon && peek() != Tok::Comma && peek() != Tok::At) {
     const int bit = at(Tok::Constant)     ? kConstant
@@ -272,6 +294,7 @@ DeclId Parser::parseSection() {
     missing(Diag::MissingEnd, {"END_VAR", spelling(open->kind), line});
   }
   d.vars = listFrom(decls_, first);
+  if (lost_ && d.section == SectionKind::Global) tree_.lost_names = true;
   return tree_.add<DeclId>(d);
 }
 
@@ -280,6 +303,7 @@ void Parser::parseVars(SectionKind section, Tok end, std::vector<DeclId>& out) {
     if (accept(Tok::Semicolon)) continue;
     if (at(end) || endsDeclarations(kind())) return;
     const Token* before = t_;
+    skipStray(!isName(kind()) && !nameReserved(t_) && beginsDeclaration(t_ + 1) && !at(Tok::At), Diag::NotADeclaration);
     const DeclId var = parseVar(section);
     if (var) out.push_back(var);
     if (t_ == before) advance();
@@ -288,8 +312,9 @@ void Parser::parseVars(SectionKind section, Tok end, std::vector<DeclId>& out) {
 
 // variable = names [AT address] ":" type [R_EDGE | F_EDGE] [":=" init] ";"
 DeclId Parser::parseVar(SectionKind section) {
-  VarDecl d{{DeclKind::Var, 0, 0, here(), takeDoc(), takePragmas()}, {}, {}, {}, EdgeKind::None, false, {}};
+  VarDecl d{{DeclKind::Var, 0, 0, here(), takeDoc(), takePragmas()}, {}, {}, {}, EdgeKind::None, false, {}, {}};
   const size_t first = idents_.size();
+  const auto lost = [&] { lost_ = lost_ || panic_; };
   const bool dotted = section == SectionKind::Config;
   if (!(at(Tok::At) && peek() == Tok::Address)) {
     for (;;) {
@@ -324,6 +349,7 @@ DeclId Parser::parseVar(SectionKind section) {
       break;
     }
   }
+  lost();
   if (!panic_ && at(Tok::At)) {
     const Token* word = t_;
     advance();
@@ -339,6 +365,7 @@ DeclId Parser::parseVar(SectionKind section) {
       fail(Diag::MissingValueBehind, word, {"`AT`"});
     }
   }
+  if (!panic_ && !at(Tok::Colon)) skipStray(peek() == Tok::Colon, Diag::StrayToken);
   if (!panic_ && !accept(Tok::Colon)) {
     if (at(Tok::Assign) || at(Tok::LeftParen) || at(Tok::Dot) || at(Tok::LeftBracket) || at(Tok::PlusAssign))
       fail(Diag::NotADeclaration, t_, {describe(t_)});
@@ -373,6 +400,7 @@ DeclId Parser::parseVar(SectionKind section) {
     }
     expect(Tok::Colon);
   }
+  lost();
   if (idents_.size() > first) d.h.loc = idents_[first].loc;
   d.names = listFrom(idents_, first);
   if (!panic_) {
@@ -447,6 +475,8 @@ TypeExprId Parser::parseType() {
     return {};
   }
   TypeExprId type;
+  if (!beginsType(t_) && (!isName(kind()) || atLineStart()) && !at(Tok::Union) && !at(Tok::Semicolon))
+    skipStray(beginsType(t_ + 1) && (t_[1].flags & kLineStart) == 0, Diag::MissingType);
   const Loc start = here();
   switch (static_cast<int>(kind())) {
     case static_cast<int>(Tok::Array): type = parseArray(); break;
@@ -585,7 +615,9 @@ TypeExprId Parser::parseEnum(TypeExprId base) {
     }
     break;
   }
+  lost_ = lost_ || panic_;
   closeParen(Tok::RightParen, true);
+  lost_ = lost_ || panic_;
   d.items = tree_.addList<EnumItem>(items);
   if (!panic_ && !d.base && (isName(kind()) || isTypeWord(kind())) && !atLineStart()) d.base = parseNamedType();
   return tree_.add<TypeExprId>(d);
@@ -617,7 +649,10 @@ TypeExprId Parser::parseArray() {
         const uint64_t size = tree_.as<LiteralExpr>(bound.low).value();
         const std::string written = std::to_string(size), last = std::to_string(size == 0 ? 0 : size - 1);
         slip(Diag::ArraySize, t_ - 1, {written, last});
-        bound.high = bound.low;
+        LiteralExpr end = tree_.as<LiteralExpr>(bound.low);
+        end.setValue(size == 0 ? 0 : size - 1);
+        bound.high = tree_.add<ExprId>(end);
+        tree_.as<LiteralExpr>(bound.low).setValue(0);
       } else if (isOperand(kind())) {
         slip(Diag::MissingToken, t_, {"..", describe(t_)});
       } else {
@@ -661,9 +696,15 @@ ExprId Parser::parseArrayInit() {
   advance();
   const size_t first = exprs_.size();
   while (!panic_ && !at(Tok::RightBracket)) {
-    if (at(Tok::Number) && peek() == Tok::LeftParen) {
+    // N(1, 2) looks like a call and is told from one by sema.
+    const bool named =
+        isName(kind()) && peek() == Tok::LeftParen &&
+        (peek(2) == Tok::LeftBracket || (peek(2) == Tok::LeftParen && isName(peek(3)) && peek(4) == Tok::Assign));
+    if (named || (at(Tok::Number) && peek() == Tok::LeftParen)) {
       const Loc count_loc = here();
-      const ExprId count = parseNumber({}, false, count_loc);
+      const ExprId count = named ? tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, count_loc), nameOf(t_), {}})
+                                 : parseNumber({}, false, count_loc);
+      if (named) advance();
       advance();
       const size_t inner = exprs_.size();
       while (!panic_ && !at(Tok::RightParen)) {

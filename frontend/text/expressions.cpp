@@ -1,4 +1,5 @@
 // Expressions: precedence climbing over kOperators, postfix chains, literals and arguments.
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -70,12 +71,17 @@ bool Parser::isOperand(Tok kind) const {
 
 ExprId Parser::parseExpr(uint32_t least) {
   ExprId left = parseUnary();
-  for (uint32_t count = 0;; ++count) {
+  uint32_t height = height_;
+  for (;;) {
     const Operator row = kOperators[static_cast<size_t>(t_->kind)];
-    if (row.precedence < least || row.precedence == 0) return left;
+    if (row.precedence < least || row.precedence == 0) {
+      height_ = height;
+      return left;
+    }
     const Token* op = t_;
-    if (count == kMaxChain) {
+    if (height >= kMaxExprHeight) {
       tooDeep("operators", kMaxChain);
+      height_ = height;
       return left;
     }
     if (op->kind >= Tok::EqualEqual && op->kind <= Tok::EqualLess)
@@ -84,9 +90,15 @@ ExprId Parser::parseExpr(uint32_t least) {
     // No value: the next line begins with a statement of its own.
     if (atLineStart() && !panic_ && isName(kind()) && peek() == Tok::Assign) {
       fail(Diag::MissingValueBehind, op, {describe(op)});
-      return left;
+      return errorExpr(loc(op));
     }
     const ExprId right = parseExpr(row.precedence + 1u);
+    height = std::max(height, height_) + 1;
+    if (height > kMaxExprHeight + 1) {
+      tooDeep("operators", kMaxChain);
+      height_ = 1;
+      return errorExpr(loc(op));
+    }
     if (row.op == BinaryOp::Power && standard_ != Standard::Codesys && tree_.kind(left) == ExprKind::Unary &&
         tree_.expr(left).in_parens == 0 && tree_.as<UnaryExpr>(left).op() == UnaryOp::Negate)
       diagnostics_.report(Diag::NegatedPower, tree_.loc(left), {"tighter"});
@@ -114,6 +126,11 @@ ExprId Parser::parseUnary() {
   advance();
   const ExprId operand = standard_ == Standard::Codesys ? parseExpr(kPowerPrecedence) : parseUnary();
   --expr_depth_;
+  if (++height_ > kMaxExprHeight + 1) {
+    tooDeep("operators", kMaxChain);
+    height_ = 1;
+    return errorExpr(start);
+  }
   if (op == UnaryOp::Negate && tree_.kind(operand) == ExprKind::Binary && tree_.expr(operand).in_parens == 0)
     diagnostics_.report(Diag::NegatedPower, start, {"weaker"});
   return tree_.add<ExprId>(UnaryExpr{exprHeader(ExprKind::Unary, start, static_cast<uint8_t>(op)), operand});
@@ -121,11 +138,9 @@ ExprId Parser::parseUnary() {
 
 ExprId Parser::parsePrimary() {
   const Loc start = here();
+  height_ = 1;
   switch (static_cast<int>(kind())) {
-    case static_cast<int>(Tok::Number): {
-      const ExprId number = parseNumber({}, false, start);
-      return number;
-    }
+    case static_cast<int>(Tok::Number): return parseNumber({}, false, start);
     case static_cast<int>(Tok::Text):
     case static_cast<int>(Tok::WideText): return parseText({}, start);
     case static_cast<int>(Tok::Duration):
@@ -151,7 +166,8 @@ ExprId Parser::parsePrimary() {
         return errorExpr(start);
       }
       advance();
-      const ExprId inner = parseExpr();
+      ExprId inner = parseExpr();
+      if (at(Tok::Assign)) inner = parseCompared(inner);
       closeParen(Tok::RightParen, false);
       --expr_depth_;
       tree_.expr(inner).in_parens = 1;
@@ -192,10 +208,12 @@ ExprId Parser::parsePrimary() {
 
 // postfix = {"." (name | bit | "%X" bit) | "[" expr {"," expr} "]" | "^" | "(" arguments ")"}
 ExprId Parser::parsePostfix(ExprId base) {
-  for (uint32_t count = 0;; ++count) {
+  uint32_t height = height_;
+  for (;; ++height) {
+    height_ = height;
     const Tok next = kind();
     if (next != Tok::Dot && next != Tok::LeftParen && next != Tok::LeftBracket && next != Tok::Caret) return base;
-    if (count == kMaxChain) {
+    if (height >= kMaxExprHeight) {
       tooDeep("accesses", kMaxChain);
       return base;
     }
@@ -237,7 +255,7 @@ ExprId Parser::parsePostfix(ExprId base) {
             fail(Diag::MissingName, t_, {describe(t_)});
           else
             fail(Diag::MissingName, dot, {describe(dot)});
-          return base;
+          return errorExpr(loc(dot));
         }
         break;
       }
@@ -250,8 +268,10 @@ ExprId Parser::parsePostfix(ExprId base) {
         }
         advance();
         const size_t first = exprs_.size();
-        do exprs_.push_back(parseExpr());
-        while (!panic_ && accept(Tok::Comma));
+        do {
+          exprs_.push_back(parseExpr());
+          height = std::max(height, height_);
+        } while (!panic_ && accept(Tok::Comma));
         closeParen(Tok::RightBracket, false);
         --expr_depth_;
         base = tree_.add<ExprId>(IndexExpr{exprHeader(ExprKind::Index, start), base, listFrom(exprs_, first)});
@@ -269,7 +289,9 @@ ExprId Parser::parsePostfix(ExprId base) {
           return base;
         }
         Loc end;
+        height_ = 0;
         const Slice<Argument> arguments = parseArguments(end);
+        height = std::max(height, height_);
         --expr_depth_;
         base = tree_.add<ExprId>(CallExpr{exprHeader(ExprKind::Call, start), base, arguments, end, {}});
         break;
@@ -282,6 +304,7 @@ ExprId Parser::parsePostfix(ExprId base) {
 // argument  = expr | name ":=" [expr] | [NOT] name "=>" [target]
 Slice<Argument> Parser::parseArguments(Loc& end) {
   const size_t first = arguments_.size();
+  uint32_t height = 0;
   advance();
   bool open = !at(Tok::RightParen);
   while (open) {
@@ -289,7 +312,11 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
     a.loc = here();
     const bool negated = at(Tok::Not) && (isName(peek()) || isTypeWord(peek())) && peek(2) == Tok::Arrow;
     const Token* pin = negated ? t_ + 1 : t_;
-    const Tok binder = pin[1].kind;
+    Tok binder = pin[1].kind;
+    if (binder == Tok::Colon && isName(pin->kind)) {  // `IN : TRUE`
+      slip(Diag::WrongWord, pin + 1, {":", ":="});
+      binder = Tok::Assign;
+    }
     if ((isName(pin->kind) || isTypeWord(pin->kind)) && (binder == Tok::Assign || binder == Tok::Arrow)) {
       a.pin = ident(pin);
       a.negated = negated;
@@ -303,6 +330,7 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
     } else {
       a.value = parseExpr();
     }
+    height = std::max(height, height_);
     arguments_.push_back(a);
     if (!panic_) {
       if (at(Tok::RightParen)) break;
@@ -317,6 +345,18 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
         }
         advance();
         continue;
+      }
+      // `f(a := 1; b := 2)`
+      if (at(Tok::Semicolon) && isName(peek()) && (peek(2) == Tok::Assign || peek(2) == Tok::Arrow)) {
+        const Token* t = t_ + 1;
+        while (t->kind != Tok::Semicolon && t->kind != Tok::RightParen && t->kind != Tok::End &&
+               (t->flags & kLineStart) == 0)
+          ++t;
+        if (t->kind == Tok::RightParen) {
+          slip(Diag::WrongWord, t_, {";", ","});
+          advance();
+          continue;
+        }
       }
       // `f(a b)` and, over lines, `f(a := 1 <line end> b := 2)`: a comma is missing where the list does get closed.
       bool closes = false;
@@ -344,21 +384,27 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
   }
   end = here();
   closeParen(Tok::RightParen, true);
+  height_ = height;
   return listFrom(arguments_, first);
+}
+
+// `:=` behind a condition or inside parentheses is meant as `=`, and is read as such.
+ExprId Parser::parseCompared(ExprId left) {
+  if (!at(Tok::Assign) || panic_) return left;
+  const Loc op = here();
+  const uint32_t height = height_;
+  slip(Diag::CompareWithAssign, t_);
+  advance();
+  const ExprId right = parseExpr();
+  height_ = std::max(height, height_) + 1;
+  return tree_.add<ExprId>(
+      BinaryExpr{exprHeader(ExprKind::Binary, op, static_cast<uint8_t>(BinaryOp::Equal)), left, right});
 }
 
 // Consumes the closing bracket; without it says so and finds the place to go on.
 void Parser::closeParen(Tok close, bool is_arguments) {
   if (!panic_) {
     if (accept(close)) return;
-    if (!is_arguments && at(Tok::Assign)) {
-      slip(Diag::CompareWithAssign, t_);
-      advance();
-      parseExpr();
-      if (!panic_ && accept(close)) return;
-    }
-  }
-  if (!panic_) {
     const Tok k = kind();
     const bool ends = k == Tok::Semicolon || k == Tok::End || (isReserved(k) && !isOperand(k)) || startsStatement(t_);
     if (ends) {
@@ -440,7 +486,11 @@ ExprId Parser::parseTyped() {
   if (at(Tok::Text) || at(Tok::WideText)) return parseText(prefix, start);
   if (at(Tok::True) || at(Tok::False)) {
     const bool value = at(Tok::True);
-    if (isTypeWord(type->kind) && type->kind != Tok::Bool) slip(Diag::LiteralPrefix, t_, {textOf(t_), textOf(type)});
+    if (isTypeWord(type->kind) && type->kind != Tok::Bool) {
+      slip(Diag::LiteralPrefix, t_, {textOf(t_), textOf(type)});
+      advance();
+      return errorExpr(start);
+    }
     advance();
     return boolLiteral(value, prefix, start);
   }
@@ -472,9 +522,12 @@ ExprId Parser::parseNumber(NameId prefix, bool negative, Loc start) {
       value.is_real = true;
       value.real = static_cast<double>(value.integer);
     }
-    if (isTypeWord(type->kind) && ((value.is_real && !is_real_type) || (is_real_type && value.is_based) ||
-                                   type->kind == Tok::Bool || type->kind == Tok::String || type->kind == Tok::Wstring))
+    if (isTypeWord(type->kind) &&
+        ((value.is_real && !is_real_type) || (is_real_type && value.is_based) || type->kind == Tok::Bool ||
+         type->kind == Tok::String || type->kind == Tok::Wstring)) {
       slip(Diag::LiteralPrefix, token, {textOf(token), textOf(type)});
+      return errorExpr(start);
+    }
     if (value.is_real && negative) value.real = -value.real;
   }
   LiteralExpr e{exprHeader(ExprKind::Literal, start,
@@ -487,9 +540,7 @@ ExprId Parser::parseNumber(NameId prefix, bool negative, Loc start) {
   } else {
     e.setValue(value.integer);
   }
-  const ExprId id = tree_.add<ExprId>(e);
-  // A repetition `3(0)` of an initial value is read by parseArrayInit.
-  return id;
+  return tree_.add<ExprId>(e);
 }
 
 ExprId Parser::parseText(NameId prefix, Loc start) {
@@ -502,7 +553,10 @@ ExprId Parser::parseText(NameId prefix, Loc start) {
     const bool good = type == Tok::String || type == Tok::Char     ? !wide
                       : type == Tok::Wstring || type == Tok::Wchar ? wide
                                                                    : !isTypeWord(type);
-    if (!good) slip(Diag::LiteralPrefix, token, {textOf(token), textOf(token - 2)});
+    if (!good) {
+      slip(Diag::LiteralPrefix, token, {textOf(token), textOf(token - 2)});
+      return errorExpr(start);
+    }
   }
   readString(textOf(token), loc(token), diagnostics_, buffer_);
   const TextId text = tree_.addText(buffer_);

@@ -240,6 +240,8 @@ bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
   bool had_fraction = false;
   uint64_t sum = 0;
   bool fits = true;
+  Loc last_part;
+  std::string_view last_text;
   if (rest.empty()) {
     diagnostics.report(Diag::TimeUnit, loc, {text});
     return false;
@@ -249,7 +251,7 @@ bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
     const Loc part = at();
     const std::string_view part_text = rest;
     if (had_fraction) {
-      diagnostics.report(Diag::TimeFraction, loc, {text});
+      diagnostics.report(Diag::TimeFraction, last_part, {last_text}).length(static_cast<uint32_t>(last_text.size()));
       return false;
     }
     size_t n = 0;
@@ -280,6 +282,8 @@ bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
       return false;
     }
     rest.remove_prefix(n);
+    last_part = part;
+    last_text = part_text.substr(0, part_text.size() - rest.size());
     next_unit = u + 1;
     uint64_t amount = 0, product = 0;
     if (!checkUnderscores(digits, text, loc, diagnostics)) return false;

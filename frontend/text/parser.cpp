@@ -199,6 +199,7 @@ void Parser::parseTopLevel(std::vector<DeclId>& out) {
   } else {
     slip(Diag::NotAtFileLevel, t_, {describe(t_)});
   }
+  tree_.lost_names = true;
   advance();
   skipToTopLevel();
 }
@@ -212,6 +213,19 @@ void Parser::unsupported(const char* what, const char* end_word) {
   slip(Diag::NotSupportedYet, t_, {shown});
   while (!at(Tok::End) && !(at(Tok::Ident) && is(t_, end_word))) advance();
   advance();
+}
+
+// False: a POU without END_…, which codesys allows, so that a VAR_GLOBAL behind it begins a list of globals.
+bool Parser::pouCloses() {
+  if (standard_ != Standard::Codesys) return true;
+  if (pou_closes_ == Known::NotYet) {
+    const Token* t = t_;
+    while (t->kind != pou_end_ && t->kind != Tok::End && t->kind != Tok::Function && t->kind != Tok::FunctionBlock &&
+           t->kind != Tok::Program && t->kind != Tok::Type && t->kind != Tok::Configuration)
+      ++t;
+    pou_closes_ = t->kind == pou_end_ && pou_end_ != Tok::End ? Known::Yes : Known::No;
+  }
+  return pou_closes_ == Known::Yes;
 }
 
 // pou = FUNCTION name [":" type] | FUNCTION_BLOCK name | PROGRAM name, sections, statements, [END_…]
@@ -241,6 +255,7 @@ DeclId Parser::parsePou() {
   } else if (!parseName(name)) {
     while (!atLineStart() && !at(Tok::Colon) && !at(Tok::Semicolon)) advance();
     panic_ = false;
+    tree_.lost_names = true;
   }
   d.name = name.name;
   d.h.loc = name.loc;
@@ -266,15 +281,18 @@ DeclId Parser::parsePou() {
     slip(Diag::StrayToken, t_, {describe(t_)});
     advance();
   }
-  declared_in_body_ = false;
+  declared_in_body_ = lost_ = false;
+  pou_end_ = end;
+  pou_closes_ = Known::NotYet;
   const size_t first = decls_.size();
-  while (atSection() && (!at(Tok::VarGlobal) || standard_ != Standard::Codesys)) {
+  while (atSection() && (!at(Tok::VarGlobal) || pouCloses())) {
     const DeclId section = parseSection();
     decls_.push_back(section);
   }
   d.sections = listFrom(decls_, first);
   if (at(Tok::Method) && isName(peek())) unsupported("METHOD", "END_METHOD");
   d.body = parseStatements(0);
+  if (lost_ || declared_in_body_) d.h.bits |= kBrokenDeclarations;
   d.body_kind = pragmaNamed(d.h.pragmas, "native") ? BodyKind::Native : BodyKind::St;
   if (accept(end)) {
     d.closed = true;
@@ -399,7 +417,9 @@ DeclId Parser::parseTask() {
   TaskDecl d{{DeclKind::Task, 0, 0, here(), takeDoc(), takePragmas()}, {}, {}};
   advance();
   Ident name;
-  if (parseName(name)) {
+  if (!parseName(name)) {
+    tree_.lost_names = true;
+  } else {
     d.name = name.name;
     d.h.loc = name.loc;
     Loc end;

@@ -69,6 +69,7 @@ class Parser {
   void skipToTopLevel();
   bool atTopLevelWord() const;
   DeclId parsePou();
+  bool pouCloses();
   DeclId parseConfiguration();
   DeclId parseResource();
   DeclId parseTask();
@@ -85,6 +86,8 @@ class Parser {
   DeclId parseVar(SectionKind section);
   void parseVars(SectionKind section, Tok end, std::vector<DeclId>& out);
   void syncDeclaration(Tok end);
+  void skipStray(bool fits_behind, Diag diag);
+  bool beginsType(const Token* t) const;
   bool parseName(Ident& out);
   bool parsePath(std::vector<Ident>& out);
   TypeExprId parseType();
@@ -110,7 +113,7 @@ class Parser {
     kStopLabel = 8
   };  // words that end a list, beside END_…
   Slice<StmtId> parseStatements(uint8_t stops);
-  bool atBlockEnd() const;
+  bool atBlockEnd();
   void parseStatement();
   void parseIf();
   void parseCase();
@@ -142,6 +145,7 @@ class Parser {
   ExprId parseTime();
   ExprId parseAddress();
   Slice<Argument> parseArguments(Loc& end);
+  ExprId parseCompared(ExprId left);
   ExprId errorExpr(Loc loc) { return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)}); }
   ExprHeader exprHeader(ExprKind kind, Loc loc, uint8_t op = 0, uint8_t bits = 0) const {
     return {kind, 0, 0, 0, op, bits, loc, {}};
@@ -170,9 +174,13 @@ class Parser {
   Token* t_ = nullptr;
   bool panic_ = false;
   bool declared_in_body_ = false;  // said once for a POU
+  bool lost_ = false;              // declarations of the POU or TYPE entry at hand could not be read
+  Tok pou_end_ = Tok::End;         // the END_… of the POU at hand
+  enum class Known : uint8_t { NotYet, Yes, No } pou_closes_ = Known::NotYet;  // whether it has that END_…
   const Token* last_error_ = nullptr;
   const Token* statement_start_ = nullptr;
   uint32_t expr_depth_ = 0, stmt_depth_ = 0;
+  uint32_t height_ = 0;  // of the tree of the expression read last
   std::string buffer_;
   // Scratch stacks of lists that are being built.
   std::vector<StmtId> stmts_;
@@ -188,6 +196,7 @@ class Parser {
 
 constexpr uint32_t kMaxExprDepth = 1000;
 constexpr uint32_t kMaxChain = 2000;  // operators in a row: a left-deep tree
+constexpr uint32_t kMaxExprHeight = kMaxChain + 1;
 constexpr uint32_t kMaxStmtDepth = 2000;
 constexpr uint32_t kMaxTypeDepth = 200;
 

@@ -609,8 +609,19 @@ void Balancer::stray(uint32_t i, Tok closer) {
       return;
     }
   }
-  // Another word stands where VAR should.
-  if (closer == Tok::EndVar && decl_start_ < i && !isName(tokens_[decl_start_].kind) && atLineStart(decl_start_ + 1)) {
+  // Another word stands where VAR should; it may have been reported and taken away already.
+  if (closer == Tok::EndVar && decl_start_ < i && (tokens_[decl_start_].flags & kReported) != 0 &&
+      !isName(tokens_[decl_start_].kind)) {
+    markReported(decl_start_ + 1);
+    edit(decl_start_ + 1, EditKind::Insert, Tok::Var);
+    decl_start_ = i + 1;
+    return;
+  }
+  if (closer == Tok::EndVar && decl_start_ < i && !isName(tokens_[decl_start_].kind) &&
+      (atLineStart(decl_start_ + 1) ||
+       (isName(tokens_[decl_start_ + 1].kind) &&
+        (tokens_[decl_start_ + 2].kind == Tok::Colon || tokens_[decl_start_ + 2].kind == Tok::Comma ||
+         tokens_[decl_start_ + 2].kind == Tok::At)))) {
     diagnostics_.report(Diag::WrongWord, loc(decl_start_), {textOf(decl_start_), "VAR"})
         .length(static_cast<uint32_t>(textOf(decl_start_).size()));
     markReported(decl_start_);
@@ -664,6 +675,18 @@ bool Balancer::insideExpression(uint32_t i) const {
     return true;
   if (pending_header_ != 0 && isStatementOpener(k) && before != Tok::EndSlip && before != k) return true;
   if (isPouOpener(k) && before != Tok::Semicolon && !isCloser(before)) return true;
+  const bool is_statement_word = isStatementOpener(k) || k == Tok::EndIf || k == Tok::EndCase || k == Tok::EndFor ||
+                                 k == Tok::EndWhile || k == Tok::EndRepeat;
+  if (is_statement_word && !stack_.empty() && (isVarWord(stack_.back().kind) || stack_.back().kind == Tok::Struct) &&
+      before != Tok::Semicolon && stack_.back().index + 1 != i)
+    return true;
+  // `f IF (x);`: behind a value a statement begins only where its header follows.
+  if (isStatementOpener(k) && k != Tok::Repeat && before != Tok::EndSlip &&
+      (isName(before) || (before >= Tok::Number && before <= Tok::Ident) || before == Tok::RightParen)) {
+    for (uint32_t n = i + 1; n < count_ && !atLineStart(n) && tokens_[n].kind != Tok::Semicolon; ++n)
+      if (tokens_[n].kind == Tok::Then || tokens_[n].kind == Tok::Do || tokens_[n].kind == Tok::Of) return false;
+    return true;
+  }
   return (k == Tok::EndVar || k == Tok::EndStruct) && before != Tok::Semicolon && !isVarWord(before) &&
          before != Tok::Struct && !atLineStart(i + 1) && next != Tok::Semicolon && !isVarWord(next);
 }

@@ -37,9 +37,9 @@ bool isAssign(Tok k) { return k == Tok::Assign || (k >= Tok::PlusAssign && k <= 
 
 }  // namespace
 
-bool Parser::atBlockEnd() const {
+bool Parser::atBlockEnd() {
   const Tok k = kind();
-  return isEndWord(k) || isPouWord(k) || (k == Tok::VarGlobal && stmt_depth_ == 0);
+  return isEndWord(k) || isPouWord(k) || (k == Tok::VarGlobal && stmt_depth_ == 0 && !pouCloses());
 }
 
 bool Parser::startsStatement(const Token* t) const {
@@ -294,6 +294,12 @@ void Parser::parseChain(ExprId target, ExprId value, Token* value_start, const T
       fail(Diag::CompareWithAssign, t_);
       break;
     }
+    // Read twice, as a target and as a value: a call in it would run twice.
+    for (const Token* t = value_start; t < t_; ++t)
+      if (t->kind == Tok::LeftParen && (isName(t[-1].kind) || isTypeWord(t[-1].kind))) {
+        slip(Diag::ChainedCall, t - 1);
+        break;
+      }
     links.push_back({value, value_start, here()});
     advance();
     value_start = t_;
@@ -391,12 +397,7 @@ void Parser::syncStatement() {
 
 // The condition of a block's header and the word behind it.
 ExprId Parser::parseHeader(Tok connective) {
-  const ExprId condition = parseExpr();
-  if (at(Tok::Assign) && !panic_) {
-    slip(Diag::CompareWithAssign, t_);
-    advance();
-    parseExpr();
-  }
+  const ExprId condition = parseCompared(parseExpr());
   finishHeader(connective);
   return condition;
 }
@@ -675,12 +676,7 @@ void Parser::parseRepeat() {
   RepeatStmt s{header(StmtKind::Repeat, loc(open)), {}, {}};
   s.body = parseStatements(kStopUntil);
   if (accept(Tok::Until)) {
-    s.until = parseExpr();
-    if (at(Tok::Assign) && !panic_) {
-      slip(Diag::CompareWithAssign, t_);
-      advance();
-      parseExpr();
-    }
+    s.until = parseCompared(parseExpr());
     accept(Tok::Semicolon);
     if (!at(Tok::EndRepeat)) {
       if (!panic_ && !atLineStart() && !atBlockEnd())

@@ -164,7 +164,8 @@ inline std::string_view text(const Context& context, NameId name) { return conte
 // A constant integer that costs nothing to know, or evaluates. None when the expression is no constant.
 std::optional<int64_t> constantInteger(Context& context, ExprId expr);
 
-constexpr uint32_t kMaxExprDepth = 2100;  // the parser stops at 2000 operators in a row
-constexpr uint32_t kMaxStmtDepth = 2000;
+// Above the limits of the parser, which speaks first; they bound the trees of schedulers.
+constexpr uint32_t kMaxExprDepth = 2100;
+constexpr uint32_t kMaxStmtDepth = 2100;
 
 }  // namespace rung::sema

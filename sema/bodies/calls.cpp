@@ -242,6 +242,7 @@ TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool 
       return refuse(context, node);
     case PouKind::Program:
       if (context.iec()) {
+        context.project.pou(pou).used = true;  // what is refused here is no program that nobody calls
         context.report(Diag::CallOfProgram, node.h.loc, {text(context, callee.name)});
         return refuse(context, node);
       }
@@ -297,7 +298,8 @@ TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected)
   if (const auto assertion = assertionOf(context.names(), name)) return checkAssertion(context, expr, *assertion);
   if (isNamed(context, name, "SIZEOF")) return sizeOf(context, expr);
   if (const TypeId type = checkRuleCall(context, expr, name, expected)) return type;
-  context.report(Diag::UnknownName, node.h.loc, {text(context, name)}).didYouMean(nearestName(context, name));
+  if (sayUnknown(context, name))
+    context.report(Diag::UnknownName, node.h.loc, {text(context, name)}).didYouMean(nearestName(context, name));
   context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);
   return refuse(context, node);
 }
@@ -370,8 +372,9 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
         size_t inputs = 0;
         for (size_t p = 0; p < pins.size(); ++p) inputs += isOutput(p) ? 0 : 1;
         const Loc loc = argument.value ? context.tree().begin(argument.value) : argument.loc;
-        context.report(Diag::TooManyArguments, loc,
-                       {text(context, context.project.pou(pou).name), std::to_string(inputs)});
+        if (!isBroken(context, pou))
+          context.report(Diag::TooManyArguments, loc,
+                         {text(context, context.project.pou(pou).name), std::to_string(inputs)});
       }
       out.good = false;
       checkLoose(context, node, i);
@@ -398,10 +401,11 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
         continue;
       }
       out.good = false;
-      context
-          .report(Diag::UnknownPin, argument.pin.loc,
-                  {text(context, context.project.pou(pou).name), text(context, argument.pin.name)})
-          .didYouMean(nearestPin(context, pou, argument.pin.name));
+      if (!isBroken(context, pou))
+        context
+            .report(Diag::UnknownPin, argument.pin.loc,
+                    {text(context, context.project.pou(pou).name), text(context, argument.pin.name)})
+            .didYouMean(nearestPin(context, pou, argument.pin.name));
       checkLoose(context, node, i);
       continue;
     }

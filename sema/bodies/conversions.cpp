@@ -171,6 +171,15 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
     case Fit::Extension:
     case Fit::No: break;
   }
+  const TypeKind own = context.types().plainKind(from), wanted = context.types().plainKind(to);
+  if (context.tree().kind(expr) == ExprKind::Literal && own != wanted && TypeTable::isText(own) &&
+      TypeTable::isText(wanted)) {
+    const bool wide = own == TypeKind::WString;
+    context.report(Diag::TextQuotes, loc,
+                   {wide ? "double" : "single", wide ? "WSTRING" : "STRING", wide ? "STRING" : "WSTRING",
+                    wide ? "single" : "double", wide ? "'" : "\""});
+    return false;
+  }
   const std::string function = conversionName(context, from, to);
   if (function.empty()) {
     context.report(Diag::WrongType, loc,

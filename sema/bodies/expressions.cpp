@@ -117,20 +117,9 @@ TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) 
     case ExprKind::Call: return checkCall(context, expr, expected, false);
     case ExprKind::Convert: return tree.expr(expr).type;  // checked before
     case ExprKind::ArrayInit:
-    case ExprKind::StructInit: {
-      const TypeKind wanted = expected ? context.types().kind(expected) : TypeKind::None;
-      if (wanted == TypeKind::Error) return tree.expr(expr).type = types::kError;
-      if (wanted != (tree.kind(expr) == ExprKind::ArrayInit ? TypeKind::Array : TypeKind::Record)) {
-        context.report(Diag::InitializerOutOfPlace, tree.loc(expr));
-        return tree.expr(expr).type = types::kError;
-      }
-      checkInitializer(context, expr, expected);
-      return tree.expr(expr).type = expected;
-    }
+    case ExprKind::StructInit:
     case ExprKind::Range:
-    case ExprKind::Repeat:
-      context.report(Diag::InitializerOutOfPlace, tree.loc(expr));
-      return tree.expr(expr).type = types::kError;
+    case ExprKind::Repeat: RUNG_INVARIANT(false, "lists and ranges stand in initial values and CASE labels only");
   }
   return types::kError;
 }

@@ -231,8 +231,9 @@ TypeId prefixType(Context& context, LiteralExpr& node) {
   const Entity entity = lookUp(context, node.prefix);
   if (entity.what() == EntityKind::Type) return TypeId{entity.index};
   if (!entity) {
-    context.report(Diag::UnknownName, node.h.loc, {text(context, node.prefix)})
-        .didYouMean(nearestName(context, node.prefix));
+    if (sayUnknown(context, node.prefix))
+      context.report(Diag::UnknownName, node.h.loc, {text(context, node.prefix)})
+          .didYouMean(nearestName(context, node.prefix));
   } else {
     context.report(Diag::NotALiteralType, node.h.loc, {text(context, node.prefix)});
   }
@@ -274,7 +275,17 @@ TypeId checkTypedNumber(Context& context, ExprId& expr) {
 TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind shorter, TypeKind longer,
                  int64_t unit) {
   const TypeKind wanted = expected ? context.types().plainKind(expected) : TypeKind::None;
-  if ((node.h.bits & kLiteralLong) != 0 || wanted == longer) return node.h.type = types::idOf(longer);
+  // A duration is 64 bits of nanoseconds, of which a signed LTIME takes one less.
+  const bool is_long = (node.h.bits & kLiteralLong) != 0 || wanted == longer;
+  const bool beyond = longer == TypeKind::LTime && (node.h.bits & kLiteralNegative) == 0 && node.value() >> 63 != 0;
+  if (is_long && beyond && context.types().isSigned(longer)) {
+    context.report(Diag::ConstantOutOfRange, node.h.loc,
+                   {context.project.sources.tokenAt(node.h.loc), context.types().spell(types::idOf(longer)),
+                    types::spell(context.types(), context.names(), {types::kLTime, uint64_t{1} << 63}),
+                    types::spell(context.types(), context.names(), {types::kLTime, ~uint64_t{0} >> 1})});
+    return node.h.type = types::kError;
+  }
+  if (is_long) return node.h.type = types::idOf(longer);
   const int64_t count = static_cast<int64_t>(node.value()) / unit;
   const Bounds bounds = boundsOf(context.types(), shorter);
   const bool negative = static_cast<int64_t>(node.value()) < 0;

@@ -93,7 +93,7 @@ TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId 
       const Pou& pou = context.project.pou(PouId{entity.index});
       if (access == Access::Qualifier && pou.kind != PouKind::FunctionBlock) return header.type = {};
       if (access == Access::Address) return header.type = pou.record ? pou.record : types::kError;
-      context.report(Diag::NotAValue, loc, {text(context, name), wordOf(pou.kind)});
+      if (sayUnknown(context, name)) context.report(Diag::NotAValue, loc, {text(context, name), wordOf(pou.kind)});
       return header.type = types::kError;
     }
     case EntityKind::Type:
@@ -103,7 +103,7 @@ TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId 
     case EntityKind::Namespace:
     case EntityKind::Program:
       if (access == Access::Qualifier) return header.type = {};
-      context.report(Diag::NotAValue, loc, {text(context, name), wordOf(entity.what())});
+      if (sayUnknown(context, name)) context.report(Diag::NotAValue, loc, {text(context, name), wordOf(entity.what())});
       return header.type = types::kError;
   }
   return header.type = types::kError;
@@ -154,10 +154,11 @@ TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access acces
     if (const VarId var = findMember(context, record, node.member)) found = Entity::of(EntityKind::Var, var.index);
   }
   if (!found) {
-    context
-        .report(Diag::UnknownMember, node.h.loc,
-                {text(context, nameOf(context, node.base)), text(context, node.member)})
-        .didYouMean(record ? nearestField(context, record, node.member) : nearestIn(context, qualifier, node.member));
+    if (!record || sayUnknownMember(context, record, node.member))
+      context
+          .report(Diag::UnknownMember, node.h.loc,
+                  {text(context, nameOf(context, node.base)), text(context, node.member)})
+          .didYouMean(record ? nearestField(context, record, node.member) : nearestIn(context, qualifier, node.member));
     node.entity = Entity::of(EntityKind::Error, 0);
     return node.h.type = types::kError;
   }
@@ -172,7 +173,13 @@ void markAccess(Context& context, VarId id, Access access) {
   for (VarId at = id; at; at = context.project.var(at).external) {
     Var& var = context.project.var(at);
     if (access != Access::Write) var.read = true;
-    if (access != Access::Read) var.written = true;
+    if (access == Access::Read) continue;
+    var.written = true;
+    if (access == Access::Address || !context.body || !var.name || var.external) continue;
+    const bool outside = var.storage == Storage::Global || var.storage == Storage::Image;
+    auto& writes = context.project.global_writes;
+    const auto known = [&] { return !writes.empty() && writes.back().pou == context.pou && writes.back().var == at; };
+    if (outside && !known()) writes.push_back({context.pou, at});
   }
 }
 
@@ -229,7 +236,8 @@ Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected) {
     }
     return entity;
   }
-  context.report(Diag::UnknownName, loc, {text(context, name)}).didYouMean(nearestName(context, name));
+  if (sayUnknown(context, name))
+    context.report(Diag::UnknownName, loc, {text(context, name)}).didYouMean(nearestName(context, name));
   return Entity::of(EntityKind::Error, 0);
 }
 
@@ -251,8 +259,9 @@ TypeId checkTypedName(Context& context, ExprId& expr) {
   if (type.what() != EntityKind::Type) {
     node.entity = Entity::of(EntityKind::Error, 0);
     if (!type && !context.types().elementary(node.type_name.name)) {
-      context.report(Diag::UnknownName, node.type_name.loc, {text(context, node.type_name.name)})
-          .didYouMean(nearestName(context, node.type_name.name));
+      if (sayUnknown(context, node.type_name.name))
+        context.report(Diag::UnknownName, node.type_name.loc, {text(context, node.type_name.name)})
+            .didYouMean(nearestName(context, node.type_name.name));
     } else {
       context.report(Diag::NotAnEnumeration, node.type_name.loc, {text(context, node.type_name.name)});
     }
@@ -268,9 +277,11 @@ TypeId checkTypedName(Context& context, ExprId& expr) {
   }
   node.entity = lookUpIn(context, Entity::of(EntityKind::Type, enumeration.index), node.item.name);
   if (node.entity.what() != EntityKind::EnumValue) {
-    context
-        .report(Diag::UnknownMember, node.item.loc, {text(context, node.type_name.name), text(context, node.item.name)})
-        .didYouMean(nearestField(context, enumeration, node.item.name));
+    if (sayUnknownMember(context, enumeration, node.item.name))
+      context
+          .report(Diag::UnknownMember, node.item.loc,
+                  {text(context, node.type_name.name), text(context, node.item.name)})
+          .didYouMean(nearestField(context, enumeration, node.item.name));
     node.entity = Entity::of(EntityKind::Error, 0);
     return node.h.type = types::kError;
   }
@@ -297,8 +308,9 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   const VarId member = findMember(context, record, node.member);
   if (!member) {
     node.entity = Entity::of(EntityKind::Error, 0);
-    context.report(Diag::UnknownMember, node.h.loc, {context.types().spell(base), text(context, node.member)})
-        .didYouMean(nearestField(context, record, node.member));
+    if (sayUnknownMember(context, record, node.member))
+      context.report(Diag::UnknownMember, node.h.loc, {context.types().spell(base), text(context, node.member)})
+          .didYouMean(nearestField(context, record, node.member));
     return node.h.type = types::kError;
   }
   node.entity = Entity::of(EntityKind::Var, member.index);

@@ -5,8 +5,10 @@
 #include "sema/checks/constant_condition.h"
 #include "sema/checks/for_header.h"
 #include "sema/checks/jump_labels.h"
+#include "sema/checks/overlapping_addresses.h"
 #include "sema/checks/recursion.h"
 #include "sema/checks/result_assigned.h"
+#include "sema/checks/shared_globals.h"
 #include "sema/checks/unused_variables.h"
 #include "sema/checks/writable.h"
 
@@ -50,6 +52,8 @@ void checkReferenceAssign(Context& context, AssignStmt& node) {
   } else if (!sameType(context, type, value)) {
     context.report(Diag::WrongType, context.tree().loc(node.value),
                    {context.types().spell(value), "bound to the reference", context.types().spell(type)});
+  } else {
+    context.report(Diag::NotSupportedYet, node.h.loc, {"`REF=`"});
   }
 }
 
@@ -216,17 +220,17 @@ bool checkCase(Context& context, CaseStmt& node) {
 void checkFor(Context& context, ForStmt& node) {
   const TypeId type = checkForControl(context, node);
   const NameId name = placeName(context, node.control);
-  const auto bound = [&](ExprId& expr, std::string_view words) {
+  const auto bound = [&](ExprId& expr, TypeId wanted, std::string_view words) {
     if (!expr) return;
-    if (type == types::kError) {
+    if (wanted == types::kError) {
       checkExpr(context, expr);
     } else {
-      checkAs(context, expr, type, Purpose{words, name, {}});
+      checkAs(context, expr, wanted, Purpose{words, name, {}});
     }
   };
-  bound(node.from, "assigned to");
-  bound(node.to, "used as the limit of");
-  bound(node.step, "added to");
+  bound(node.from, type, "assigned to");
+  bound(node.to, type, "used as the limit of");
+  bound(node.step, context.types().plain(type), "added to");  // a step is no value of the subrange
   if (type != types::kError) checkForBounds(context, node);
   VarId control;
   if (context.tree().kind(node.control) == ExprKind::Name) {
@@ -355,6 +359,8 @@ void checkBody(Context& context, PouId id) {
 void checkAfterBodies(Context& context) {
   checkRecursion(context);
   checkUnusedVariables(context);
+  checkOverlappingAddresses(context);
+  checkSharedGlobals(context);
 }
 
 }  // namespace rung::sema

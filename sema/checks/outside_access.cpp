@@ -27,7 +27,7 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
     case SectionKind::Local:
     case SectionKind::Temp:
     case SectionKind::External:
-    case SectionKind::Stat: return program ? true : refuse(Diag::InternalVariable);
+    case SectionKind::Stat: return program || isBroken(context, var.pou) ? true : refuse(Diag::InternalVariable);
     case SectionKind::Global:
     case SectionKind::Access:
     case SectionKind::Config: return true;

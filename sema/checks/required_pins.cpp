@@ -25,8 +25,9 @@ bool checkRequiredPins(Context& context, const CallExpr& node, PouId id, const A
           .note(pin.loc, Note::DeclaredHere);
       good = false;
     } else if (by_position && pin.section == SectionKind::Input && !pin.init) {
-      context.report(Diag::MissingArgument, node.end ? node.end : node.h.loc,
-                     {text(context, pou.name), text(context, pin.name)});
+      if (!isBroken(context, id))
+        context.report(Diag::MissingArgument, node.end ? node.end : node.h.loc,
+                       {text(context, pou.name), text(context, pin.name)});
       return false;
     }
   }

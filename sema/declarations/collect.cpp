@@ -117,6 +117,14 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   }
   if (library == kNoLibrary) {
     declare(context, scopes.pous_and_types, pou.name, pou.loc, entity(pou_id));
+    if (!mayHoldGlobals(context, pou.kind)) return;
+    for (uint32_t s = 0; s < decl.sections.count; ++s) {
+      const DeclId id_of_section = context.tree().list(decl.sections)[s];
+      const SectionDecl& section = context.tree().as<SectionDecl>(id_of_section);
+      if (section.section != SectionKind::Global) continue;
+      addGlobals(context, listNamed(context, spelled(context, pou.name), file, section.h.loc, scopes.qualifiers),
+                 id_of_section, scopes.globals);
+    }
     return;
   }
   pou.library = pou.used = true;

@@ -141,9 +141,10 @@ struct TaskReader {
         task.sensitivity = static_cast<uint32_t>(*value);
     } else {
       const std::string_view written = context.names().text(argument.pin.name);
-      context.report(Diag::TaskSettingUnknown, argument.pin.loc, {written})
-          .didYouMean(
-              nearest(written, {"INTERVAL", "PRIORITY", "SINGLE", "KIND", "TRIGGER", "WATCHDOG", "SENSITIVITY"}));
+      if (argument.pin.name)
+        context.report(Diag::TaskSettingUnknown, argument.pin.loc, {written})
+            .didYouMean(
+                nearest(written, {"INTERVAL", "PRIORITY", "SINGLE", "KIND", "TRIGGER", "WATCHDOG", "SENSITIVITY"}));
     }
   }
 
@@ -226,7 +227,8 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
       if (pou.kind == PouKind::Program && pou.name && !pou.library) programs.push_back(context.names().text(pou.name));
     }
     const std::string_view text = context.names().text(type.name);
-    context.report(Diag::NoProgram, type.loc, {text}).didYouMean(nearest(text, programs));
+    if (!context.tree().lost_names)
+      context.report(Diag::NoProgram, type.loc, {text}).didYouMean(nearest(text, programs));
     return;
   }
   if (decl.task.name) {
@@ -239,7 +241,8 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
     }
     if (instance.task == 0) {
       const std::string_view text = context.names().text(decl.task.name);
-      context.report(Diag::UnknownTask, decl.task.loc, {text}).didYouMean(nearest(text, names));
+      if (!context.tree().lost_names)
+        context.report(Diag::UnknownTask, decl.task.loc, {text}).didYouMean(nearest(text, names));
     }
   } else {
     context.report(Diag::ProgramWithoutTask, decl.h.loc, {context.names().text(decl.name)});

@@ -81,9 +81,9 @@ Op opOf(BinaryOp op) {
 
 // Forbids constant expressions that fault; warns of those that overflow. Design §6.
 //   fails   VAR CONSTANT n : INT := 1 / 0; END_VAR      E0323
-std::optional<Value> checked(Context& context, const Outcome& outcome, Loc loc) {
+std::optional<Value> checked(Context& context, const Outcome& outcome, Loc loc, Loc divisor) {
   if (outcome.fault == types::Fault::Div) {
-    context.report(Diag::ConstantDivision, loc);
+    context.report(Diag::ConstantDivision, divisor);
     return std::nullopt;
   }
   if (outcome.overflow) {
@@ -101,7 +101,7 @@ bool isOperand(const TypeTable& table, TypeId type) {
   return TypeTable::isElementary(kind) || isUntypedLiteral(kind);
 }
 
-std::optional<Value> applyChecked(Context& context, Op op, Value left, Value right, Loc loc) {
+std::optional<Value> applyChecked(Context& context, Op op, Value left, Value right, Loc loc, Loc divisor) {
   const TypeTable& table = context.types();
   if (!isOperand(table, left.type) || !isOperand(table, right.type)) return std::nullopt;
   const TypeKind a = table.plainKind(left.type), b = table.plainKind(right.type);
@@ -116,7 +116,7 @@ std::optional<Value> applyChecked(Context& context, Op op, Value left, Value rig
   if (op == Op::Power && a == TypeKind::IntegerLiteral && TypeTable::isReal(b)) {
     left = types::convert(table, left, right.type).value;
   }
-  return checked(context, types::apply(table, context.names(), op, left, right), loc);
+  return checked(context, types::apply(table, context.names(), op, left, right), loc, divisor);
 }
 
 std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32_t depth) {
@@ -142,11 +142,12 @@ std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32
       }
       return types::convert(context.types(), operands[0], node.h.type).value;
     case Pou::Operator::Op: {
-      if (types::operandCount(pou.op) == 1) return applyChecked(context, pou.op, operands[0], operands[0], node.h.loc);
+      if (types::operandCount(pou.op) == 1)
+        return applyChecked(context, pou.op, operands[0], operands[0], node.h.loc, {});
       if (types::isComparison(pou.op)) {  // GT(a, b, c): a > b and b > c
         bool all = true;
         for (size_t i = 1; i < operands.size(); ++i) {
-          const auto pair = applyChecked(context, pou.op, operands[i - 1], operands[i], node.h.loc);
+          const auto pair = applyChecked(context, pou.op, operands[i - 1], operands[i], node.h.loc, {});
           if (!pair) return std::nullopt;
           all = all && pair->bits != 0;
         }
@@ -154,7 +155,8 @@ std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32
       }
       Value result = operands[0];
       for (size_t i = 1; i < operands.size(); ++i) {
-        const auto next = applyChecked(context, pou.op, result, operands[i], node.h.loc);
+        const Loc divisor = context.tree().begin(call.bindings[i].value);
+        const auto next = applyChecked(context, pou.op, result, operands[i], node.h.loc, divisor);
         if (!next) return std::nullopt;
         result = *next;
       }
@@ -207,7 +209,7 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
       if (!value || !isOperand(context.types(), value->type)) return std::nullopt;
       if (TypeTable::isText(context.types().plainKind(value->type))) return std::nullopt;
       if (node.op() == UnaryOp::Plus) return value;
-      return applyChecked(context, node.op() == UnaryOp::Not ? Op::Not : Op::Neg, *value, *value, node.h.loc);
+      return applyChecked(context, node.op() == UnaryOp::Not ? Op::Not : Op::Neg, *value, *value, node.h.loc, {});
     }
     case ExprKind::Binary: {
       const BinaryExpr& node = tree.as<BinaryExpr>(id);
@@ -215,7 +217,7 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
       if (!left) return std::nullopt;
       const auto right = evaluateAt(context, node.right, depth + 1);
       if (!right) return std::nullopt;
-      return applyChecked(context, opOf(node.op()), *left, *right, node.h.loc);
+      return applyChecked(context, opOf(node.op()), *left, *right, node.h.loc, tree.begin(node.right));
     }
     case ExprKind::Call: return evaluateCall(context, tree.as<CallExpr>(id), depth);
     case ExprKind::Error:

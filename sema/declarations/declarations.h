@@ -38,6 +38,8 @@ void reportTwice(Context& context, NameId name, Loc loc, Loc first);
 void declareItems(Context& context, TypeId type, TypeExprId written, NameMap* bare, bool project_wide);
 
 // ---- variables.cpp
+// VAR_GLOBAL in a PROGRAM: the standard has it, codesys has not.
+inline bool mayHoldGlobals(const Context& context, PouKind kind) { return kind == PouKind::Program && context.iec(); }
 // Gives the variables of one VarDecl their ids and names. Types come later.
 void declareVars(Context& context, DeclId decl, const SectionDecl& section, PouId pou, ListId list, NameMap* names,
                  std::vector<VarId>& into);

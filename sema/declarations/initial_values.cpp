@@ -118,6 +118,27 @@ struct Initializer {
     return tree().add<ExprId>(literal);
   }
 
+  // N(1, 2) with a constant N is a repetition as 3(1, 2) is; other calls stay what they are.
+  ExprId repetition(ExprId id) const {
+    const CallExpr& call = tree().as<CallExpr>(id);
+    if (tree().kind(call.callee) != ExprKind::Name) return id;
+    const Entity found = lookUp(context, tree().as<NameExpr>(call.callee).name);
+    if (found.what() != EntityKind::Var || !context.project.vars[found.index].constant) return id;
+    if (!TypeTable::isInteger(context.types().plainKind(context.project.vars[found.index].type))) return id;
+    std::vector<ExprId> values;
+    for (uint32_t i = 0; i < call.arguments.count; ++i) {
+      const Argument& argument = tree().list(call.arguments)[i];
+      if (argument.pin.name) return id;
+      values.push_back(argument.value);
+    }
+    RepeatExpr repeat{};
+    repeat.h.kind = ExprKind::Repeat;
+    repeat.h.loc = call.h.loc;
+    repeat.count = call.callee;
+    repeat.elements = tree().addList<ExprId>(values);
+    return tree().add<ExprId>(repeat);
+  }
+
   // Checks the elements that have a place; gives how many values there are, the surplus included.
   uint64_t elements(Slice<ExprId>& slice, TypeId element, uint64_t room, Loc& surplus) {
     uint64_t count = 0;
@@ -125,6 +146,10 @@ struct Initializer {
     for (uint32_t i = 0; i < slice.count; ++i) {
       ExprId id = tree().list(slice)[i];
       if (tree().kind(id) == ExprKind::Error) broken = true;
+      if (tree().kind(id) == ExprKind::Call) {
+        id = repetition(id);
+        tree().list(slice)[i] = id;
+      }
       if (count >= room && kept == slice.count) {
         kept = i;
         if (!surplus) surplus = tree().begin(id);

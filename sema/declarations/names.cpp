@@ -1,4 +1,5 @@
 // Name lookup: what a name stands for at a place, members of records, the nearest name to a misspelled one.
+#include <algorithm>
 #include <vector>
 
 #include "sema/declarations/declarations.h"
@@ -57,7 +58,8 @@ Entity findOwnItem(Context& context, NameId key) {
   const auto& items = context.types().info(context.items_of).items;
   if (items.empty()) return {};
   const Entity first = named.members.find(keyOf(context, items[0].first));
-  return found.index - first.index < items.size() ? found : Entity{};
+  const bool known = uint32_t{found.index} - uint32_t{first.index} < items.size();
+  return known ? found : Entity{};
 }
 
 Entity findName(Context& context, NameId key) {
@@ -131,6 +133,35 @@ VarId findPin(Context& context, PouId pou, NameId name) {
   if (context.project.var(id).pou != pou || id == context.project.pou(pou).result_var) return {};
   ensureVarType(context, id);
   return id;
+}
+
+bool isBroken(const Context& context, PouId id) {
+  const DeclId decl = id ? context.project.pou(id).decl : DeclId{};
+  return decl && (context.tree().decl(decl).bits & kBrokenDeclarations) != 0;
+}
+
+namespace {
+
+bool firstTime(Context& context, uint32_t where, NameId name) {
+  if (context.project.diagnostics.full()) return true;  // only counted, and not worth the search
+  const uint64_t key = uint64_t{where} << 32 | keyOf(context, name).index;
+  std::vector<uint64_t>& told = context.scopes.told;
+  if (std::find(told.begin(), told.end(), key) != told.end()) return false;
+  told.push_back(key);
+  return true;
+}
+
+}  // namespace
+
+bool sayUnknown(Context& context, NameId name) {
+  if (context.tree().lost_names || isBroken(context, context.pou)) return false;
+  return firstTime(context, context.pou.index, name);
+}
+
+bool sayUnknownMember(Context& context, TypeId record, NameId name) {
+  const NamedType* named = context.scopes.named(context.types().resolve(record));
+  if (named != nullptr && (isBroken(context, named->pou) || context.tree().lost_names)) return false;
+  return firstTime(context, 0x80000000u | record.index, name);
 }
 
 std::string_view nearestName(Context& context, NameId written) {

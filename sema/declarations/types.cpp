@@ -30,6 +30,7 @@ void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
     context.report(Diag::FunctionAsType, loc, {text}).note(context.project.pous[found.index].loc, Note::DeclaredHere);
     return;
   }
+  if (!sayUnknown(context, name)) return;
   if (context.project.diagnostics.full()) {
     context.report(Diag::UnknownType, loc, {text});
     return;
@@ -101,7 +102,7 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
     found = lookUpLibrary(context, keyOf(context, last.name), qualifier.index);
   }
   const TypeId type = typeOf(context, found);
-  if (type) return type;
+  if (type) return context.types().resolve(type) == types::kError ? types::kError : type;
   reportUnknownType(context, last.name, last.loc, found);
   return types::kError;
 }

@@ -1,4 +1,5 @@
 // Variables of POUs and global lists: their names first, then types and storage, then initial values; each on demand.
+#include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {
@@ -40,7 +41,7 @@ bool hasOwnPlaces(const Context& context, PouId pou) {
 Storage storageOf(const Context& context, SectionKind section, PouId pou, const VarDecl& decl) {
   if (decl.located && decl.address.incomplete && hasOwnPlaces(context, pou)) return Storage::Field;
   if (decl.located) return Storage::Image;
-  if (!pou || section == SectionKind::External) return Storage::Global;
+  if (!pou || section == SectionKind::External || section == SectionKind::Stat) return Storage::Global;
   if (section == SectionKind::Temp || context.project.pou(pou).kind == PouKind::Function) return Storage::Local;
   return Storage::Field;
 }
@@ -98,7 +99,9 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
     if (!names->insert(key, entity(id))) {
       const Entity first = names->find(key);
       const Loc loc = first.what() == EntityKind::Var ? project.vars[first.index].loc : Loc{};
-      reportTwice(context, var.name, var.loc, loc);
+      // What could not be read as a declaration is none.
+      if (!decl.type || context.tree().kind(decl.type) != TypeExprKind::Error)
+        reportTwice(context, var.name, var.loc, loc);
       continue;
     }
     for (const NameId alias : var.aliases) names->insert(keyOf(context, alias), entity(id));
@@ -329,15 +332,24 @@ void declarePou(Context& context, PouId id) {
   for (uint32_t s = 0; s < decl.sections.count; ++s) {
     const SectionDecl& section = tree.as<SectionDecl>(tree.list(decl.sections)[s]);
     // Forbids sections that a POU cannot have. IEC 61131-3 ed. 3 table 14.
+    if (section.section == SectionKind::Global && mayHoldGlobals(context, kind)) continue;  // collect.cpp
     const bool misplaced = section.section == SectionKind::Global || section.section == SectionKind::Access ||
                            section.section == SectionKind::Config ||
-                           (section.section == SectionKind::Stat && kind == PouKind::Function);
+                           (section.section == SectionKind::Stat && context.iec());
     if (misplaced) {
       there.report(Diag::SectionNotAllowed, section.h.loc, {sectionWord(section.section), kindWord(kind)});
       if (section.section != SectionKind::Global && section.section != SectionKind::Stat) continue;
     }
     for (uint32_t i = 0; i < section.vars.count; ++i) {
-      declareVars(there, tree.list(section.vars)[i], section, id, {}, &scope.names, project.pou(id).vars);
+      const DeclId var = tree.list(section.vars)[i];
+      if (section.section == SectionKind::Stat) {
+        // One for all instances and calls: a list of its own, which only this POU sees. codesys.
+        const std::string name = spelled(context, project.pou(id).unique_name) + "__static";
+        const ListId list = listNamed(context, name, project.pou(id).file, section.h.loc, context.scopes.qualifiers);
+        declareVars(there, var, section, id, list, &scope.names, project.global_lists[list.index].vars);
+        continue;
+      }
+      declareVars(there, var, section, id, {}, &scope.names, project.pou(id).vars);
     }
   }
   if (project.pou(id).result_var) {

@@ -350,21 +350,25 @@ class Builder {
     Hash hash;
     hash.add(tool_key_);
     hash.add(installation().include);
+    hash.add("header in the cache");
     const std::string compiled = cache_.path(hash.hex(), "gch");  // …/KEY.gch beside the header …/KEY
     const std::string header = compiled.substr(0, compiled.size() - 4);
-    if (cache_.has(compiled) && cache_.has(header)) return header;
+    // clang++ remembers the header's path and time: it is compiled where it stays, and never marked as used.
+    const bool has_header = access(header.c_str(), R_OK) == 0;
+    if (has_header && cache_.has(compiled)) return header;
     if (units < kPrecompileFrom) return {};
 
     const std::string part = work_ + "/rung_runtime.h";
     if (!writePlain("rung_runtime.h", "#include \"rung/code.h\"\n")) return {};
+    if (!has_header && !cache_.put(part, header)) return {};
     std::vector<Process> processes(1);
     processes[0].arguments = compiler_;
     processes[0].arguments.insert(processes[0].arguments.end(), flags_.begin(), flags_.end());
     processes[0].arguments.insert(processes[0].arguments.end(),
-                                  {"-I", installation().include, "-x", "c++-header", part, "-o", part + ".gch"});
+                                  {"-I", installation().include, "-x", "c++-header", header, "-o", part + ".gch"});
     processes[0].log = work_ + "/header.log";
     if (runAll(processes, 1, "precompiling") != nullptr) return {};  // the objects can be made without it
-    if (!cache_.put(part, header) || !cache_.put(part + ".gch", compiled)) return {};
+    if (!cache_.put(part + ".gch", compiled)) return {};
     return header;
   }
 

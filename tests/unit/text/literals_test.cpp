@@ -64,7 +64,7 @@ TEST(Literals, Durations) {
   EXPECT_EQ(value("LTIME#213504D23H34M33S709MS551US616NS"), "2:6 E0126");
   EXPECT_EQ(value("t#4ms13d"), "2:13 E0124");
   EXPECT_EQ(value("T#1s2s"), "2:11 E0124");
-  EXPECT_EQ(value("T#1.5s200ms"), "2:6 E0125");
+  EXPECT_EQ(value("T#1.5s200ms"), "2:8 E0125");
   EXPECT_EQ(value("T#5"), "2:8 E0123");
   EXPECT_EQ(value("T#5x"), "2:9 E0123");
   EXPECT_EQ(value("T#"), "2:6 E0123");

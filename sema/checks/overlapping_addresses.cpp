@@ -1,0 +1,57 @@
+// Warns of two located variables that share bytes and are both written, unless they are the same view: equal address
+// and type. Reading the bits of a word that others write is what views are for. Manual 4.1.1; IEC 61131-3 ed. 3, 6.5.5.
+//   passes  word AT %MW0 : WORD; bit AT %MX0.3 : BOOL;   only one of them is written
+//   fails   low AT %MW0 : DWORD; high AT %MW1 : WORD;    both are
+// Called once, when all bodies are checked and all addresses are known. Sorted by place: no pair is looked at twice.
+#include "sema/checks/overlapping_addresses.h"
+
+#include <algorithm>
+
+namespace rung::sema {
+
+namespace {
+
+struct Span {
+  ImageArea area;
+  uint64_t begin, end;  // in bits
+  VarId var;
+};
+
+}  // namespace
+
+void checkOverlappingAddresses(Context& context) {
+  const Project& project = context.project;
+  const types::TypeTable& table = context.types();
+  std::vector<Span> spans;
+  for (uint32_t i = 1; i < project.vars.size(); ++i) {
+    const Var& var = project.vars[i];
+    if (var.storage != Storage::Image || var.external || !var.type || var.type == types::kError) continue;
+    if (!var.written && !var.init) continue;
+    const ImageView& view = var.image;
+    const uint64_t begin = uint64_t{view.byte} * 8 + (view.is_bit ? view.bit : 0);
+    const uint64_t bits = view.is_bit ? 1 : uint64_t{table.info(table.resolve(var.type)).size} * 8;
+    spans.push_back({view.area, begin, begin + bits, {i}});
+  }
+  std::stable_sort(spans.begin(), spans.end(),
+                   [](const Span& a, const Span& b) { return a.area != b.area ? a.area < b.area : a.begin < b.begin; });
+  const auto name = [&](const Var& var) { return var.name ? text(context, var.name) : std::string_view("AT"); };
+  for (size_t i = 1, last = 0; i < spans.size(); ++i) {  // last: of those before, the one that ends last
+    const Span& one = spans[last];
+    const Span& other = spans[i];
+    const bool overlaps = one.area == other.area && other.begin < one.end;
+    const Var& first = project.var(one.var);
+    const Var& second = project.var(other.var);
+    const bool same =
+        one.begin == other.begin && one.end == other.end && table.resolve(first.type) == table.resolve(second.type);
+    if (overlaps && !same) {
+      const bool in_order = first.loc.offset < second.loc.offset;
+      const Var& later = in_order ? second : first;
+      const Var& earlier = in_order ? first : second;
+      context.report(Diag::AddressOverlap, later.loc, {name(later), name(earlier)})
+          .note(earlier.loc, Note::DeclaredHere);
+    }
+    if (!overlaps || other.end > one.end) last = i;
+  }
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,47 @@
+// Warns of a variable outside of the program that the programs of two tasks write: one task may interrupt the other
+// between its reading and its writing. Globals are shared directly (design §9).
+//   passes  one task writes `level`, the other reads it
+//   fails   both tasks have `count := count + 1;`
+// Called once, after the recursion rule, which sorts the calls by their caller. Linear in POUs and calls for each task.
+#include "sema/checks/shared_globals.h"
+
+namespace rung::sema {
+
+void checkSharedGlobals(Context& context) {
+  const Project& project = context.project;
+  if (project.tasks.size() < 2) return;
+  const auto& edges = project.call_edges;
+  const size_t count = project.pous.size();
+  std::vector<uint32_t> first(count + 1, 0);
+  for (const auto& edge : edges) ++first[edge.caller.index + 1];
+  for (size_t i = 0; i < count; ++i) first[i + 1] += first[i];
+
+  std::vector<uint32_t> writer(project.vars.size(), 0);  // the task, from 1; told: ~0
+  std::vector<uint32_t> seen(count, 0);
+  std::vector<uint32_t> open;
+  for (uint32_t task = 1; task <= project.tasks.size(); ++task) {
+    for (const ProgramInstance& instance : project.instances) {
+      if (instance.task == task && instance.program) open.push_back(instance.program.index);
+    }
+    while (!open.empty()) {
+      const uint32_t pou = open.back();
+      open.pop_back();
+      if (seen[pou] == task) continue;
+      seen[pou] = task;
+      for (uint32_t e = first[pou]; e < first[pou + 1]; ++e) open.push_back(edges[e].callee.index);
+    }
+    for (const auto& write : project.global_writes) {
+      if (seen[write.pou.index] != task) continue;
+      uint32_t& by = writer[write.var.index];
+      if (by == 0) by = task;
+      if (by == task || by == ~0u) continue;
+      const Var& var = project.var(write.var);
+      context.report(Diag::TwoTasksWrite, var.loc,
+                     {text(context, var.name), text(context, project.tasks[by - 1].name),
+                      text(context, project.tasks[task - 1].name)});
+      by = ~0u;
+    }
+  }
+}
+
+}  // namespace rung::sema

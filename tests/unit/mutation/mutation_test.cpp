@@ -1,0 +1,194 @@
+// One wrong token, one error, on its line: valid programs are spoilt token by token and checked, parser and sema
+// together. The seed is fixed; RUNG_MUTATION_SEED and RUNG_MUTATION_COUNT try others, RUNG_MUTATION_SHOW=1 prints each
+// mutant that has its first error elsewhere, or more than one.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <random>
+
+#include "frontend/text/lexer.h"
+#include "sema/project.h"
+
+namespace rung {
+namespace {
+
+namespace fs = std::filesystem;
+using text::Tok;
+
+constexpr const char* kPrograms[] = {
+    "samples/tank/tank.st",
+    "samples/traffic_light/traffic_light.st",
+    "samples/conveyor/conveyor.st",
+    "tests/conformance/tm_tp_5_2/loops.st",
+    "tests/conformance/tm_tp_5_2/selection.st",
+    "tests/conformance/tm_tp_5_2/expressions.st",
+    "tests/conformance/iec_syntax_5_6/arrays.st",
+    "tests/conformance/iec_syntax_5_6/statements.st",
+    "tests/conformance/table46/ton.st",
+    "tests/conformance/semantics/names_like_library_blocks.st",
+};
+
+// The texts of the standard library, kept for all runs.
+const std::vector<sema::LibraryFile>& libraryFiles() {
+  static std::vector<std::unique_ptr<std::string>> texts;
+  static const std::vector<sema::LibraryFile> files = [] {
+    std::vector<std::string> paths;
+    for (const auto& entry : fs::directory_iterator(RUNG_SOURCE_ROOT "/stdlib/standard"))
+      if (entry.path().extension() == ".st") paths.push_back(entry.path().string());
+    std::sort(paths.begin(), paths.end());
+    std::vector<sema::LibraryFile> list;
+    for (const std::string& path : paths) {
+      texts.push_back(std::make_unique<std::string>(path));
+      const char* name = texts.back()->c_str();
+      texts.push_back(std::make_unique<std::string>(readFile(path).text));
+      list.push_back({"Standard", name, *texts.back()});
+    }
+    return list;
+  }();
+  return files;
+}
+
+struct Outcome {
+  uint32_t errors = 0;
+  uint32_t first_line = 0;
+  std::string messages;
+};
+
+Outcome check(const std::string& program) {
+  Sources sources;
+  Names names;
+  Diagnostics diagnostics(sources);
+  Tree tree;
+  sema::Options options;
+  options.libraries = libraryFiles();
+  const FileId file = sources.add("mutant.st", program);
+  text::parseFile(tree, names, sources, file, options.standard, diagnostics);
+  sema::Project project(sources, names, diagnostics, tree, options);
+  sema::check(project);
+  diagnostics.sort();
+  Outcome out;
+  for (const Diagnostic& diagnostic : diagnostics.all()) {
+    if (diagnostic.severity != Severity::Error) continue;
+    const uint32_t line = sources.lineNumber(diagnostic.loc);
+    if (out.errors++ == 0) out.first_line = line;
+    out.messages +=
+        "    " + std::to_string(line) + " " + diagInfo(diagnostic.diag).code + " " + diagnostic.message + "\n";
+  }
+  return out;
+}
+
+struct Piece {
+  uint32_t begin, length, line;
+  Tok kind;
+};
+
+std::vector<Piece> piecesOf(const std::string& program) {
+  Sources sources;
+  Names names;
+  Diagnostics diagnostics(sources);
+  const FileId file = sources.add("program.st", program);
+  text::TokenStream stream;
+  text::lex(stream, names, sources, file, 0, static_cast<uint32_t>(program.size()), text::Standard::Codesys,
+            diagnostics);
+  std::vector<Piece> pieces;
+  for (const text::Token& token : stream.tokens) {
+    if (token.kind == Tok::End) break;
+    const Loc loc{sources.begin(file).offset + token.offset};
+    const bool named = text::isName(token.kind) || text::isTypeWord(token.kind);
+    const auto length = named ? static_cast<uint32_t>(names.text({token.value}).size()) : token.value;
+    pieces.push_back({token.offset, length, sources.lineNumber(loc), token.kind});
+  }
+  return pieces;
+}
+
+enum class Kind : uint8_t { Delete, Double, Misspell, Replace, Insert };
+constexpr const char* kKindNames[] = {"delete", "double", "misspell", "replace", "insert"};
+
+class Mutator {
+ public:
+  explicit Mutator(uint32_t seed) : random_(seed) {}
+
+  uint32_t below(size_t n) { return static_cast<uint32_t>(random_() % n); }
+
+  // Spoils one piece; `what` says how.
+  std::string mutate(const std::string& program, const std::vector<Piece>& pieces, uint32_t& line, std::string& what) {
+    const Piece& piece = pieces[below(pieces.size())];
+    const std::string own = program.substr(piece.begin, piece.length);
+    const auto kind = static_cast<Kind>(below(5));
+    std::string put;
+    switch (kind) {
+      case Kind::Delete: break;
+      case Kind::Double: put = own + ' ' + own; break;
+      case Kind::Misspell: put = misspelled(own); break;
+      case Kind::Replace: put = ' ' + std::string(stray()) + ' '; break;
+      case Kind::Insert: put = own + ' ' + stray(); break;
+    }
+    line = piece.line;
+    what = std::string(kKindNames[static_cast<size_t>(kind)]) + " `" + own + "` -> `" + put + "`";
+    return program.substr(0, piece.begin) + put + program.substr(piece.begin + piece.length);
+  }
+
+ private:
+  const char* stray() {
+    static constexpr const char* kStrays[] = {
+        ";",  ":", ":=", ",",    ".",  "(",  ")",   "[",   "]",  "=",   "<>",   "+",    "-",      "*",     "..",
+        "=>", "#", "IF", "THEN", "DO", "OF", "AND", "NOT", "42", "1.5", "TRUE", "'it'", "END_IF", "stray", "INT"};
+    return kStrays[below(std::size(kStrays))];
+  }
+  std::string misspelled(std::string word) {
+    if (word.size() < 2) return word + word;
+    const uint32_t at = below(word.size() - 1);
+    switch (below(3)) {
+      case 0: std::swap(word[at], word[at + 1]); break;
+      case 1: word.erase(at, 1); break;
+      default: word.insert(at, 1, word[at]); break;
+    }
+    return word;
+  }
+
+  std::mt19937 random_;  // its sequence is the same everywhere
+};
+
+uint32_t numberFrom(const char* variable, uint32_t otherwise) {
+  const char* value = std::getenv(variable);
+  return value != nullptr ? static_cast<uint32_t>(std::strtoul(value, nullptr, 10)) : otherwise;
+}
+
+TEST(Mutation, one_error_on_the_line_of_the_wrong_token) {
+  std::vector<std::string> programs;
+  std::vector<std::vector<Piece>> pieces;
+  for (const char* path : kPrograms) {
+    programs.push_back(readFile(std::string(RUNG_SOURCE_ROOT "/") + path).text);
+    pieces.push_back(piecesOf(programs.back()));
+    ASSERT_FALSE(pieces.back().empty()) << path;
+    ASSERT_EQ(check(programs.back()).messages, "") << path;
+  }
+  Mutator mutator(numberFrom("RUNG_MUTATION_SEED", 1131));
+  const uint32_t wanted = numberFrom("RUNG_MUTATION_COUNT", 300);
+  const bool show = std::getenv("RUNG_MUTATION_SHOW") != nullptr;
+  uint32_t invalid = 0, on_line = 0, errors = 0;
+  for (uint32_t tries = 0; invalid < wanted && tries < 10 * wanted; ++tries) {
+    const size_t which = tries % programs.size();
+    uint32_t line = 0;
+    std::string what;
+    const std::string mutant = mutator.mutate(programs[which], pieces[which], line, what);
+    const Outcome outcome = check(mutant);
+    if (outcome.errors == 0) continue;  // still a program
+    ++invalid;
+    on_line += outcome.first_line == line ? 1 : 0;
+    errors += outcome.errors;
+    if (show && (outcome.errors > 1 || outcome.first_line != line))
+      std::printf("%s:%u: %s\n%s", kPrograms[which], line, what.c_str(), outcome.messages.c_str());
+  }
+  ASSERT_GE(invalid, wanted);
+  const double share = 100.0 * on_line / invalid, average = 1.0 * errors / invalid;
+  std::printf("%u invalid mutants: first error on the line %.1f %%, %.3f errors on average\n", invalid, share, average);
+  EXPECT_GE(share, 90.0);
+  EXPECT_LE(average, 1.1);
+}
+
+}  // namespace
+}  // namespace rung
