@@ -1,6 +1,7 @@
 // The function around the statements of a body: signature, variables, exits. See body.h.
 #include "codegen/body.h"
 
+#include "codegen/effort.h"
 #include "frontend/source/invariant.h"
 #include "ir/builder.h"
 #include "ir/walk.h"
@@ -266,6 +267,7 @@ void BodyWriter::write(ir::BodyId id) {
     if (body.kind == BodyKind::Init) to += "initial values of ";
     to += text(body.spelling ? body.spelling : body.name);
     to += '\n';
+    if (!options_.optimize_all && isStraight(body)) to += "RUNG_STRAIGHT ";
   }
   appendSignature(to, module_, body);
   to += " {";
