@@ -267,7 +267,9 @@ void BodyWriter::write(ir::BodyId id) {
     if (body.kind == BodyKind::Init) to += "initial values of ";
     to += text(body.spelling ? body.spelling : body.name);
     to += '\n';
-    if (!options_.optimize_all && isStraight(body)) to += "RUNG_STRAIGHT ";
+    const Effort effort = effortFor(body);
+    if (effort == Effort::Straight && !options_.optimize_all) to += "RUNG_STRAIGHT ";
+    if (effort == Effort::Loops) to += "RUNG_LOOPS ";
   }
   appendSignature(to, module_, body);
   to += " {";

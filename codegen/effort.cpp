@@ -22,6 +22,7 @@ constexpr uint64_t kSearch = 8, kCounted = 256,
 
 struct Work {
   uint64_t statements = 0, runs = 0;
+  bool loops = false;
 };
 
 uint64_t turns(const ir::Body& body, const Stmt& loop) {
@@ -39,6 +40,7 @@ void add(const ir::Body& body, StmtId first, uint64_t times, Work& work) {
     work.statements += 1;
     work.runs += times;
     const bool loops = stmt.kind == StmtKind::Loop || stmt.kind == StmtKind::For;
+    work.loops |= loops;
     const uint64_t inner = loops ? std::min(times * std::min(turns(body, stmt), kMostWork), kMostWork) : times;
     ir::forEachBlock(body, stmt, [&](const uint32_t& block) { add(body, StmtId{block}, inner, work); });
   }
@@ -46,11 +48,14 @@ void add(const ir::Body& body, StmtId first, uint64_t times, Work& work) {
 
 }  // namespace
 
-bool isStraight(const ir::Body& body) {
-  if (body.library || body.has_labels) return false;
+Effort effortFor(const ir::Body& body) {
+  if (body.kind == ir::BodyKind::Init && !body.library) return Effort::Straight;
   Work work;
   add(body, body.first, 1, work);
-  return work.statements > kSmall && work.runs <= (1 + kLoopShare) * work.statements;
+  const bool is_straight =
+      !body.library && !body.has_labels && work.statements > kSmall && work.runs <= (1 + kLoopShare) * work.statements;
+  if (is_straight) return Effort::Straight;
+  return work.loops || body.has_labels ? Effort::Loops : Effort::Plain;
 }
 
 }  // namespace rung::codegen

@@ -5,12 +5,6 @@
 #ifndef RUNG_CODE_H
 #define RUNG_CODE_H
 
-#if defined(RUNG_GENERATED) && defined(__GNUC__) && !defined(__clang__)
-/* Two neighbours that change places become one wide load and store, whose next load waits for both: four times slower
- * in every sort. Loops are vectorized all the same. In front of every include, so that all functions agree. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
-
 #include <string.h>
 
 #include "rung/module.h"
@@ -34,11 +28,15 @@
 #define RUNG_MAY_ALIAS __attribute__((may_alias))
 #define RUNG_COLD __attribute__((cold, noinline))
 #define RUNG_PURE __attribute__((pure))
-/* A body whose loops do little: the quick passes of the compiler are enough for it (codegen/effort.h). */
+/* What g++ does for a body (codegen/effort.h). Straight: its loops do little, the quick passes are enough. Loops: two
+ * neighbours that change places must not become one wide load and store, whose next load waits for both: four times
+ * slower in every sort; loops are vectorized all the same. As attributes: a pragma costs time at each declaration. */
 #if defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && defined(__GNUC__) && !defined(__clang__)
 #define RUNG_STRAIGHT __attribute__((optimize("Og")))
+#define RUNG_LOOPS __attribute__((optimize("no-tree-slp-vectorize")))
 #else
 #define RUNG_STRAIGHT
+#define RUNG_LOOPS
 #endif
 
 /* Scalars behind POINTER and UNION: memory of any type. */
