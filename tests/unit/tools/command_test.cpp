@@ -215,5 +215,24 @@ TEST_F(CommandTest, Explain) {
   expect("rung explain E9999", 2, "there is no diagnostic `E9999`");
 }
 
+// A change of a block's fields is one of its users' text; only what many use is in a header (codegen/records.h).
+TEST_F(CommandTest, AnInterfaceChangesItsUsersOnly) {
+  std::string text = "TYPE Shared : STRUCT n : INT; END_STRUCT END_TYPE\n";
+  for (int i = 0; i < 400; ++i) {
+    text += "FUNCTION_BLOCK Unit" + std::to_string(i) +
+            " VAR s : Shared; END_VAR VAR_INPUT x : INT; END_VAR s.n := x; END_FUNCTION_BLOCK\n";
+  }
+  folder.write("units.st", text + "PROGRAM Main VAR u : Unit7; END_VAR u(); END_PROGRAM\n");
+  expect("rung emit units.st -o out", 0, "");
+  EXPECT_TRUE(exists("out/Shared_.h"));
+  EXPECT_FALSE(exists("out/Unit7_.h"));
+  expect(
+      "touch stamp; sleep 0.05; sed -i 's/Unit7 VAR/Unit7 VAR more : INT; END_VAR VAR/' units.st; rung emit units.st "
+      "-o out",
+      0, "");
+  expect("test $(grep -l 'struct Unit7_type {' out/*.cpp | wc -l) = 2", 0, "");
+  expect("test $(find out -name 'code*' -newer stamp | wc -l) = 2", 0, "");
+}
+
 }  // namespace
 }  // namespace rung::tool
