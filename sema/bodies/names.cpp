@@ -2,6 +2,7 @@
 // In: NameExpr, TypedNameExpr, MemberExpr. Out: their entity and type. Called for every operand of every body.
 #include "sema/bodies/bodies.h"
 #include "sema/checks/outside_access.h"
+#include "sema/declarations/declarations.h"
 #include "sema/scopes.h"
 
 namespace rung::sema {
@@ -256,6 +257,10 @@ TypeId checkName(Context& context, ExprId& expr, TypeId expected, Access access)
 TypeId checkTypedName(Context& context, ExprId& expr) {
   TypedNameExpr& node = context.tree().as<TypedNameExpr>(expr);
   Entity type = lookUp(context, node.type_name.name);
+  if (type.what() == EntityKind::Var) {  // `mode : Mode; … Mode#Idle`: before `#` no variable hides the type
+    if (const TypeId hidden = lookUpType(context, node.type_name.name))
+      type = Entity::of(EntityKind::Type, hidden.index);
+  }
   if (type.what() != EntityKind::Type) {
     node.entity = Entity::of(EntityKind::Error, 0);
     if (!type && !context.types().elementary(node.type_name.name)) {

@@ -29,12 +29,13 @@ const char kHelp[] =
   --list          only print the jobs
 
   tests/golden/**.st        `// expect: ` headings of `rung check`; `// expect tree:` and other emitted text
-  tests/golden/**.test      sessions at a console
+  tests/golden/**.test      sessions at a console, also in tests/programs
   tests/golden/ir/*.ir      passes, with ir_golden
   tests/conformance/**.st   {test} POUs by `rung test`, or `// expect:`
   tests/programs/**         `// run: ` options and `// trace: ` lines
   docs/**.md, README.md     ```st wrong, mended, check, run; ```console
   unit/NAME, tools/house    GoogleTest programs; the checks of tools/precommit.sh
+  A run of everything writes build/test-results.tsv and compares docs/compliance.md with it.
 )";
 
 struct Arguments {
@@ -134,6 +135,17 @@ void writeRows(const Setting& setting, std::vector<Row> rows) {
   writeText(setting.bin + "/../test-results.tsv", text);
 }
 
+// docs/compliance.md must say what this run has shown.
+bool complianceIsTrue(const Setting& setting) {
+  Command check;
+  check.arguments = {setting.root + "/tools/compliance/compliance.sh", "--check", setting.bin + "/../test-results.tsv"};
+  check.folder = setting.root;
+  check.merged = true;
+  const Output output = run(check);
+  if (output.exit_code != 0) std::printf("FAILED docs/compliance.md\n%s", output.out.c_str());
+  return output.exit_code == 0;
+}
+
 int runAll(const Setting& setting, const Arguments& arguments, std::vector<Job>& jobs) {
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.cost > b.cost; });
   std::atomic<size_t> next{0};
@@ -157,7 +169,10 @@ int runAll(const Setting& setting, const Arguments& arguments, std::vector<Job>&
   work();
   for (std::thread& thread : threads) thread.join();
 
-  if (setting.wanted.empty() && !setting.update) writeRows(setting, std::move(rows));
+  if (setting.wanted.empty() && !setting.update) {
+    writeRows(setting, std::move(rows));
+    if (failed == 0) (complianceIsTrue(setting) ? passed : failed) += 1;
+  }
   std::printf("%u passed, %u failed\n", passed, failed);
   return failed == 0 ? 0 : 1;
 }
