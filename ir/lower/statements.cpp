@@ -9,7 +9,16 @@ void BodyLowering::lowerPou() {
   for (sema::VarId id : pou.vars) {
     const sema::Var& var = project_.var(id);
     if (var.storage != sema::Storage::Local) continue;
-    if (var.section == SectionKind::Input || var.section == SectionKind::InOut) continue;
+    if (var.section == SectionKind::InOut) continue;
+    if (var.section == SectionKind::Input) {
+      // The caller's variable stays as it is: a body that writes an input by reference writes a copy of its own.
+      uint32_t& index = local_of_[var.field];
+      if (!var.written || !body_.locals[index - 1].by_reference) continue;
+      ExprId copy = temp(strip(var.type), var.loc);
+      assign(copy, local(index - 1, var.loc), var.loc);
+      index = body_.expr(copy).a + 1;
+      continue;
+    }
     storeInitial(local(local_of_[var.field] - 1, var.loc), strip(var.type), var.init, false);
   }
   if (result_local_ != kNoBit) {
