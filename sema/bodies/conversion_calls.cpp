@@ -194,6 +194,11 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
     replaceArgument();
     return callLibrary(context, expr, function, expected, name);
   }
+  // A number becomes a date by way of the date and time that it counts, so that a DATE is always a whole day.
+  const bool to_day = target == TypeKind::Date || target == TypeKind::LDate;
+  if (to_day && !TypeTable::isDate(source)) {
+    wrapConvert(context, value, types::idOf(target == TypeKind::Date ? TypeKind::DateTime : TypeKind::LDateTime));
+  }
   wrapConvert(context, value, rule.to);
   context.tree().expr(value).loc = node.h.loc;
   if (input.en || input.eno) return guarded(context, expr, input, value, name);
