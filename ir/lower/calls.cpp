@@ -310,7 +310,16 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
         } else {
           value = lowerValue(binding->value);
         }
-        argument = argumentPlace(value, pin_type, may_alias, tree_.loc(binding->value));
+        Loc at = tree_.loc(binding->value);
+        // A body in ST sees no more of a text than its pin takes; the library's C functions take any length.
+        bool cut = !pou.native && TypeTable::isText(types_.kind(pin_type)) &&
+                   types_.info(typeOf(value)).length > types_.info(pin_type).length;
+        if (cut) {
+          argument = temp(pin_type, at);
+          assign(argument, value, at);
+        } else {
+          argument = argumentPlace(value, pin_type, may_alias, at);
+        }
       } else {
         argument = lowerValue(binding->value);
         if (guard_ && mayFault(argument)) argument = toTemp(argument, loc);

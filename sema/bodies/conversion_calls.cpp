@@ -118,6 +118,17 @@ TypeId guarded(Context& context, ExprId& expr, const OneInput& input, ExprId val
   return callLibrary(context, expr, "MOVE", context.tree().expr(value).type, name);
 }
 
+// The name of the library's own function for two types where the dialect has one: `DWORD_TO_REAL` transfers the bits in
+// edition 3. Else empty.
+std::string libraryConversion(Context& context, TypeKind from, TypeKind to) {
+  if (!context.iec() || TypeTable::isReal(from) == TypeTable::isReal(to)) return {};
+  std::string function(text(context, context.types().info(types::idOf(from)).name));
+  function.append("_TO_").append(text(context, context.types().info(types::idOf(to)).name));
+  const Entity entity = lookUp(context, context.names().intern(function));
+  return entity.what() == EntityKind::Pou && context.project.pou(PouId{entity.index}).library ? function
+                                                                                              : std::string();
+}
+
 TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& rule, TypeId expected) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   const OneInput input = oneInput(context, node, name);
@@ -178,6 +189,15 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
     if (trunc.what() != EntityKind::Pou) return {};
     replaceArgument();
     return checkGenericCall(context, expr, PouId{trunc.index}, expected, rule.to);
+  }
+  if (const std::string function = libraryConversion(context, source, target); !function.empty()) {
+    replaceArgument();
+    return callLibrary(context, expr, function, expected, name);
+  }
+  // A number becomes a date by way of the date and time that it counts, so that a DATE is always a whole day.
+  const bool to_day = target == TypeKind::Date || target == TypeKind::LDate;
+  if (to_day && !TypeTable::isDate(source)) {
+    wrapConvert(context, value, types::idOf(target == TypeKind::Date ? TypeKind::DateTime : TypeKind::LDateTime));
   }
   wrapConvert(context, value, rule.to);
   context.tree().expr(value).loc = node.h.loc;

@@ -195,12 +195,13 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   if (!checkRequiredPins(context, node, pou, arguments)) return node.h.type = types::kError;
   GenericOperands operands = groupOperands(context, node, pou, arguments, expected, forced, false);
   if (!operands.good) return node.h.type = types::kError;
-  // A text has its largest capacity inside: one instance serves every length.
+  // A text has its largest capacity inside: one instance serves every length. C functions know no named types.
+  const bool native = context.project.pou(pou).native;
   const auto normal = [&](TypeId type) {
     const TypeKind kind = context.types().plainKind(type);
     if (kind == TypeKind::String) return context.types().string(255);
     if (kind == TypeKind::WString) return context.types().wstring(255);
-    return type;
+    return native ? context.types().plain(type) : type;
   };
   std::vector<TypeId> types_by_pin;
   const Pou& generic = context.project.pou(pou);

@@ -217,6 +217,25 @@ bool checkCase(Context& context, CaseStmt& node) {
   return falls || otherwise || !node.has_else;
 }
 
+// What the step of a FOR over `control` has to be. A step has a sign though the variable may have none:
+// FOR u := 9 TO 0 BY -1 counts an unsigned variable down (codesys; the standard wants one type for all).
+TypeId stepType(Context& context, ExprId step, TypeId control) {
+  const TypeId plain = context.types().plain(control);  // a step is no value of the subrange
+  const TypeKind kind = context.types().info(plain).kind;
+  if (context.iec() || context.types().isSigned(kind)) return plain;
+  const TypeId type = context.tree().expr(step).type;
+  __int128 value = 0;
+  const bool negative = isUntyped(context, type) ? untypedValue(context, step, value) && value < 0
+                                                 : context.types().isSigned(context.types().plainKind(type));
+  if (!negative) return plain;
+  switch (types::TypeTable::bitWidth(kind)) {
+    case 8: return types::kSInt;
+    case 16: return types::kInt;
+    case 32: return types::kDInt;
+    default: return types::kLInt;
+  }
+}
+
 void checkFor(Context& context, ForStmt& node) {
   const TypeId type = checkForControl(context, node);
   const NameId name = placeName(context, node.control);
@@ -230,7 +249,14 @@ void checkFor(Context& context, ForStmt& node) {
   };
   bound(node.from, type, "assigned to");
   bound(node.to, type, "used as the limit of");
-  bound(node.step, context.types().plain(type), "added to");  // a step is no value of the subrange
+  if (node.step && type != types::kError) {
+    const TypeId step = check(context, node.step, type, Access::Read);
+    if (step != types::kError) {
+      convert(context, node.step, stepType(context, node.step, type), Purpose{"added to", name, {}});
+    }
+  } else {
+    bound(node.step, type, "added to");
+  }
   if (type != types::kError) checkForBounds(context, node);
   VarId control;
   if (context.tree().kind(node.control) == ExprKind::Name) {

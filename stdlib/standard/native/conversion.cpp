@@ -119,6 +119,20 @@ void rung_standard_TO_WSTRING__WSTRING_255(rung_context*, const char16_t* in, ch
   rung_wtext_assign(out, capacity, in);
 }
 
+// ---- binary transfer
+float rung_standard_DWORD_TO_REAL(rung_context*, uint32_t in) {
+  float out;
+  std::memcpy(&out, &in, sizeof out);
+  return out;
+}
+uint32_t rung_standard_REAL_TO_DWORD(rung_context*, float in) {
+  uint32_t out;
+  std::memcpy(&out, &in, sizeof out);
+  return out;
+}
+double rung_standard_LWORD_TO_LREAL(rung_context*, uint64_t in) { return rung_f64_of(in); }
+uint64_t rung_standard_LREAL_TO_LWORD(rung_context*, double in) { return rung_bits_of_f64(in); }
+
 // ---- single characters
 #define RUNG_CHAR_OF(TYPE, T)                                                                     \
   uint8_t rung_standard_TO_CHAR__##TYPE(rung_context*, T in) { return static_cast<uint8_t>(in); } \
