@@ -8,6 +8,7 @@
 
 #include "faults.h"
 #include "inputs.h"
+#include "plot.h"
 #include "realtime.h"
 #include "retain.h"
 #include "rung/host.h"
@@ -56,7 +57,8 @@ struct Run {
         symbols(chosen, memory),
         schedule(symbols, chosen_options.interval_ns),
         inputs(symbols),
-        trace(symbols) {}
+        trace(symbols),
+        plot(chosen) {}
 
   int prepare();
   int runVirtual();
@@ -75,6 +77,7 @@ struct Run {
   Schedule schedule;
   Inputs inputs;
   Trace trace;
+  Plot plot;
   std::optional<Retain> retain;
   rung_host host{};
   int64_t cycles = 0;
@@ -86,7 +89,7 @@ int Run::prepare() {
   if (!schedule.prepare(error)) return refuse(error);
   // Everything that the user wrote is checked before anything runs or is written.
   if (!options.inputs_path.empty() && !inputs.load(options.inputs_path, error)) return refuse(error);
-  if (!trace.choose(options.watch, error)) return refuse(error);
+  if (!trace.choose(options.watch, error)) return refuse("--watch: " + error);
 
   rung_context& context = memory.context();
   host.wall_clock = options.realtime ? systemClock : virtualClock;
@@ -105,9 +108,10 @@ int Run::prepare() {
   }
   for (const auto& [path, value] : options.sets) {
     const std::string what = applySet(symbols, path, value);
-    if (!what.empty()) return refuse("--set: " + what);
+    if (!what.empty()) return refuse("--set " + path + "=" + value + ": " + what);
   }
   if (!trace.open(options.trace_path, error)) return refuse(error);
+  if (!options.plot_path.empty() && !plot.open(options.plot_path, trace.variables(), error)) return refuse(error);
 
   const int64_t row_ns = schedule.rowNs();
   if (options.cycles >= 0)
@@ -123,7 +127,7 @@ int Run::finish(bool faulted, const rung_fault& fault, const std::string& extra)
   std::string error;
   if (faulted) memory.makeOutputsSafe();
   const std::string refused = saveRetained();
-  if (!trace.close(error)) return refuse(error);
+  if (!trace.close(error) || !plot.close(schedule.rowNs(), error)) return refuse(error);
   if (options.trace_path.empty()) {
     const std::string lines = faulted ? "" : trace.lastRow();
     printf("%s%lld cycles of %s, %s of program time\n", lines.c_str(), static_cast<long long>(rows_done),
@@ -146,6 +150,7 @@ int Run::runVirtual() {
     inputs.apply(row);
     if (schedule.run(row, context) != RUNG_FAULT_NONE) return finish(true, context.fault, "");
     trace.row(row, row * row_ns);
+    plot.row();
     rows_done = row + 1;
     if (retain && row % 64 == 0 && processorNs() >= next_save) {
       const std::string refused = saveRetained();
@@ -161,12 +166,17 @@ int Run::runInRealTime() {
   if (cycles == 0) return finish(false, {}, "");
   const RealtimeResult result = runRealtime(
       schedule, memory.context(), cycles, [&](int64_t row) { inputs.apply(row); },
-      [&](int64_t row) { trace.row(row, row * row_ns); }, [&] { saveRetained(); });
+      [&](int64_t row) {
+        trace.row(row, row * row_ns);
+        plot.row();
+      },
+      [&] { saveRetained(); });
   rows_done = result.rows;
   if (!result.watchdog.empty()) {
     memory.makeOutputsSafe();
     std::string error;
     trace.close(error);
+    plot.close(row_ns, error);
     fflush(stdout);
     fprintf(stderr, "fault[watchdog]: task `%s` ran longer than its watchdog allows\n", result.watchdog.c_str());
     fflush(stderr);
