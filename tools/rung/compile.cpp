@@ -128,6 +128,7 @@ bool Compilation::check() {
     sema_options.standard = options.standard;
     sema_options.libraries = libraries.files();
     sema_options.default_interval_ns = options.default_interval_ns;
+    sema_options.pointer_size = options.pointer_size;
     project = std::make_unique<sema::Project>(sources, names, diagnostics, tree, sema_options);
     sema::check(*project);
   }

@@ -339,6 +339,8 @@ class Builder {
       if (!header.empty()) process.arguments.insert(process.arguments.end(), {"-include", header});
       process.arguments.insert(process.arguments.end(),
                                {"-I", installation().include, "-c", missing[i]->source, "-o", objectPart(i)});
+      // Debuggers look for the sources in the folder they stand in, and no path of this machine gets into an object.
+      process.arguments.push_back("-ffile-prefix-map=" + work_ + "=.");
       process.folder = work_;
       process.log = work_ + "/" + std::to_string(i) + ".log";
       processes.push_back(std::move(process));

@@ -64,6 +64,7 @@ enum class Key : uint8_t {
   Filter,
   Junit,
   Separate,
+  TargetPointer,
   Signature,
   Later,
   Help,
@@ -115,6 +116,8 @@ constexpr OptionRow kOptions[] = {
     {Key::Library, "-I", "DIR", kReads, "folder with libraries; may be repeated"},
     {Key::Root, "--root", "DIR", kReads, "paths in the output are relative to DIR"},
     {Key::Name, "--name", "ID", kCompile, "prefix of the module's symbols (plc)"},
+    {Key::TargetPointer, "--target-pointer", "8|4", bit(Command::Emit) | bit(Command::Build),
+     "bytes of a pointer on the target (8)"},
     {Key::Jobs, "-j", "N", bit(Command::Build) | bit(Command::Run) | bit(Command::Test), "C++ compilers at a time"},
     {Key::DumpAfter, "--dump-after", "NAME", kCompile, "print to stderr what parse, lower or a pass gives"},
     {Key::TimePhases, "--time-phases", nullptr, kCompile, "print time and lines per second of each phase"},
@@ -257,6 +260,10 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
     case Key::Filter: options.filter = value; return {};
     case Key::Junit: options.junit = value; return {};
     case Key::Separate: options.separate = true; return {};
+    case Key::TargetPointer:
+      error = parseChoice(row.name, value, row.value, choice);
+      options.pointer_size = choice == 0 ? 8 : 4;
+      return error;
     case Key::Signature: options.signature = value; return {};
     case Key::Later: return quoted(row.name) + " is not supported in this version of rung";
     case Key::Help: options.help = true; return {};

@@ -65,6 +65,7 @@ struct Options {
 
   // run: options that the host parses (rung::host::parseRunOptions), one `--name=value` each
   std::vector<std::string> host_arguments;
+  uint32_t pointer_size = 8;
   int64_t default_interval_ns = 10'000'000;  // set from --interval by run.cpp
 
   // test

@@ -1,5 +1,6 @@
 // The options of `rung run`, for the tool and for executables of `rung build`. See rung/host.h.
 #include <charconv>
+#include <csignal>
 #include <cstdio>
 
 #include "rung/host.h"
@@ -98,6 +99,7 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
 }
 
 int applicationMain(const rung_module& module, int argc, char** argv) {
+  signal(SIGXFSZ, SIG_IGN);  // a limit for files is an error of the write, as a full disk is
   RunOptions options;
   std::vector<std::string> rest;
   const std::string wrong =
