@@ -481,7 +481,7 @@ void BodyWriter::faultStatement(const Stmt& stmt) {
 void BodyWriter::guarded(const std::string& frame, const std::string& fault, StmtId first) {
   std::vector<Loop> outer_loops = loops_;
   for (Loop& loop : loops_) loop.try_depth += 1;
-  out_ += "auto " + frame + " = [&]()";
+  out_ += "{ auto " + frame + " = [&]()";  // in a scope of its own: a jump to `fault` from before must not enter it
   open();
   const bool outer_uses_fault = uses_fault_;
   uses_fault_ = false;
@@ -494,7 +494,7 @@ void BodyWriter::guarded(const std::string& frame, const std::string& fault, Stm
   uses_fault_ = outer_uses_fault;
   --depth_;
   out_ += " }; " + fault + " = rung_try(ctx, [](void* frame) { (*static_cast<decltype(" + frame +
-          ")*>(frame))(); }, &" + frame + ");";
+          ")*>(frame))(); }, &" + frame + "); }";
   loops_ = std::move(outer_loops);
 }
 

@@ -222,8 +222,10 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   if (!call.pou) return node.h.type = types::kError;
   context.project.pou(call.pou).used = true;
   const std::span<const VarId> pins = pinsOf(context, call.pou);
+  node.h.is_constant = generic.library && generic.pure && !native && !call.en && !call.eno;
   for (size_t i = 0; i < operands.values.size() && i < pins.size(); ++i) {
     if (!operands.values[i]) continue;
+    node.h.is_constant = node.h.is_constant && context.tree().expr(operands.values[i]).is_constant;
     Binding binding;
     binding.pin = pins[i];
     binding.value = operands.values[i];
