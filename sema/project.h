@@ -246,4 +246,8 @@ struct Project {
 // literals have their context's type, and project.pous lists user POUs and the library POUs in use.
 void check(Project& project);
 
+// The value of a checked literal, in its type; and the operator of the arithmetic kernel that an infix one is.
+types::Value valueOf(const Project& project, const LiteralExpr& literal);
+types::Op operatorOf(BinaryOp op);
+
 }  // namespace rung::sema

@@ -115,9 +115,12 @@ TypeId checkBase(Context& context, ExprId& base, Access access) {
   const ExprKind kind = context.tree().kind(base);
   if (kind != ExprKind::Name && kind != ExprKind::Member) return check(context, base, {}, access);
   const TypeId type = check(context, base, {}, Access::Qualifier);
-  const Entity entity = entityOf(context, base);
-  if (type && entity.what() == EntityKind::Var) markAccess(context, VarId{entity.index}, access);
-  return type;
+  if (!type || access == Access::Qualifier) return type;
+  for (ExprId at = base;; at = context.tree().as<MemberExpr>(at).base) {  // of a.b.c both a and b
+    const Entity entity = entityOf(context, at);
+    if (entity.what() == EntityKind::Var) markAccess(context, VarId{entity.index}, access);
+    if (context.tree().kind(at) != ExprKind::Member) return type;
+  }
 }
 
 std::string_view nearestField(Context& context, TypeId record, NameId written) {

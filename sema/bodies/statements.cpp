@@ -278,8 +278,9 @@ void checkFor(Context& context, ForStmt& node) {
   if (control) context.body->loop_controls.pop_back();
 }
 
-// A loop whose condition is the constant that keeps it going, and that nothing leaves.
-bool endless(Context& context, ExprId condition, bool goes_on, uint32_t ways_out_before, Loc loc) {
+// Warns of a loop whose condition is the constant that keeps it going, and that nothing leaves. What stands behind it
+// is no second mistake.
+bool checkEndless(Context& context, ExprId condition, bool goes_on, uint32_t ways_out_before, Loc loc) {
   const Tree& tree = context.tree();
   if (tree.kind(condition) != ExprKind::Literal || tree.expr(condition).type != types::kBool) return false;
   if ((tree.as<LiteralExpr>(condition).value() != 0) != goes_on) return false;
@@ -306,7 +307,8 @@ bool checkStatement(Context& context, StmtId id) {
       ++context.loop_depth;
       checkStatements(context, node.body);
       --context.loop_depth;
-      return !endless(context, node.condition, true, before, node.h.loc);
+      checkEndless(context, node.condition, true, before, node.h.loc);
+      return true;
     }
     case StmtKind::Repeat: {
       RepeatStmt& node = tree.as<RepeatStmt>(id);
@@ -315,7 +317,7 @@ bool checkStatement(Context& context, StmtId id) {
       const bool falls = checkStatements(context, node.body);
       --context.loop_depth;
       checkCondition(context, node.until, "used as the condition of UNTIL");
-      return !endless(context, node.until, false, before, node.h.loc) && (falls || body.ways_out != before);
+      return checkEndless(context, node.until, false, before, node.h.loc) || falls || body.ways_out != before;
     }
     case StmtKind::Exit:
     case StmtKind::Continue:

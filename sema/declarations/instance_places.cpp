@@ -228,8 +228,12 @@ struct Resolver {
       view = resolveAddress(context, decl.address, decl.address_loc, type);
       if (!view) return;
     }
-    if (decl.init)
+    if (decl.init) {
       checkInitializerAs(context, decl.init, type, "the initial value of `" + spelled(context, last.name) + "`");
+      for (const PathStep& step : place.path) {  // what is configured has a value though no body writes it
+        if (step.var) context.project.var(step.var).written = true;
+      }
+    }
     if (inField(var) || !var.open_address) {
       for (InstancePlace& known : places) {
         if (!samePath(known, place)) continue;
