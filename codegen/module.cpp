@@ -17,9 +17,9 @@ using types::TypeTable;
 namespace {
 
 constexpr const char* kTypeKinds[] = {
-    "RUNG_BOOL",  "RUNG_BYTE",  "RUNG_WORD",   "RUNG_DWORD",   "RUNG_LWORD", "RUNG_SINT",  "RUNG_INT",    "RUNG_DINT",
-    "RUNG_LINT",  "RUNG_USINT", "RUNG_UINT",   "RUNG_UDINT",   "RUNG_ULINT", "RUNG_REAL",  "RUNG_LREAL",  "RUNG_TIME",
-    "RUNG_LTIME", "RUNG_DATE",  "RUNG_LDATE",  "RUNG_TOD",     "RUNG_LTOD",  "RUNG_DT",    "RUNG_LDT",    "RUNG_CHAR",
+    "RUNG_BOOL",  "RUNG_BYTE",   "RUNG_WORD",    "RUNG_DWORD", "RUNG_LWORD", "RUNG_SINT",   "RUNG_INT",    "RUNG_DINT",
+    "RUNG_LINT",  "RUNG_USINT",  "RUNG_UINT",    "RUNG_UDINT", "RUNG_ULINT", "RUNG_REAL",   "RUNG_LREAL",  "RUNG_TIME",
+    "RUNG_LTIME", "RUNG_DATE",   "RUNG_LDATE",   "RUNG_TOD",   "RUNG_LTOD",  "RUNG_DT",     "RUNG_LDT",    "RUNG_CHAR",
     "RUNG_WCHAR", "RUNG_STRING", "RUNG_WSTRING", "RUNG_ENUM",  "RUNG_ARRAY", "RUNG_RECORD", "RUNG_POINTER"};
 static_assert(std::size(kTypeKinds) == RUNG_POINTER + 1);
 constexpr const char* kPlaces[] = {"RUNG_IN_BLOCK", "RUNG_IN_INPUTS", "RUNG_IN_OUTPUTS", "RUNG_IN_MEMORY"};
@@ -192,8 +192,7 @@ class Describer {
     }
     std::string init = "static void init(rung_context* ctx) {\n  (void)ctx;\n";
     for (uint32_t i = 0; i < facts_.blocks.size(); ++i) {
-      init += "  memset(ctx->blocks[" + number(i) + "], 0, " +
-              number(is_.blocks[i].size) + ");\n";
+      init += "  memset(ctx->blocks[" + number(i) + "], 0, " + number(is_.blocks[i].size) + ");\n";
     }
     for (uint32_t i = 0; i < module_.lists.size(); ++i) {
       if (hasCode(module_.lists[i].init))
@@ -265,10 +264,10 @@ class Describer {
       if (group.sites.empty()) continue;
       numbers += "extern const uint32_t sites_" + group.stem + " = " + number(count) + ";\n";
       for (const Site& site : group.sites) {
-        row(rows,
-            {number(is_.text.add(module_.names.text(site.pou))),
-             number(is_.text.add(site.origin_path ? module_.names.text(site.origin_path) : module_.sources.path(site.file))),
-             number(site.line), number(site.column), signedNumber(site.low), signedNumber(site.high)});
+        row(rows, {number(is_.text.add(module_.names.text(site.pou))),
+                   number(is_.text.add(site.origin_path ? module_.names.text(site.origin_path)
+                                                        : module_.sources.path(site.file))),
+                   number(site.line), number(site.column), signedNumber(site.low), signedNumber(site.high)});
         ++count;
       }
     }

@@ -1,6 +1,7 @@
 // What a module looks like to its host, as the tables of rung/module.h: types, symbols, memory blocks, kept ranges,
-// tasks and tests. In: the IR module. Out: tables numbered in the order in which the blocks, sorted by name, reach their
-// rows, so that the order of the inputs does not show. Codegen prints them; the interpreter hands them to its host.
+// tasks and tests. In: the IR module. Out: tables numbered in the order in which the blocks, sorted by name, reach
+// their rows, so that the order of the inputs does not show. Codegen prints them; the interpreter hands them to its
+// host.
 #pragma once
 
 #include <string>

@@ -17,9 +17,9 @@
 #define RUNG_HANDLER_PARAMETERS \
   [[maybe_unused]] const Insn *ip, [[maybe_unused]] uint8_t *fp, [[maybe_unused]] uint8_t *self, Machine *m
 #if RUNG_INTERPRETER_JUMPS
-#define RUNG_GO(next, frame, instance)               \
-  do {                                               \
-    const Insn* const go_to = (next);                \
+#define RUNG_GO(next, frame, instance)                \
+  do {                                                \
+    const Insn* const go_to = (next);                 \
     return go_to->run(go_to, (frame), (instance), m); \
   } while (0)
 #else

@@ -28,7 +28,7 @@ Handler roundedRangeHandler();
 Handler zeroPowerHandler(Scalar base);  // base b is 0 and exponent c (I64) negative
 
 // ---- handlers_compare.cpp
-Handler compareHandler(Op op, Scalar type, Mode left, Mode right, Mode to);  // a := b op c
+Handler compareHandler(Op op, Scalar type, Mode left, Mode right, Mode to);    // a := b op c
 Handler branchHandler(Op op, Scalar type, Mode left, Mode right, bool sense);  // to d when (a op b) == sense
 Handler branchTruthHandler(Mode mode, bool sense);                             // to d when a == sense
 // Jumps on: the control a steps by imm; to d while it has not passed the limit b (in the frame).
@@ -44,17 +44,17 @@ struct SwitchRange {
 Handler switchRangesHandler(Scalar type, Mode mode);
 
 // ---- handlers_memory.cpp
-Handler moveHandler(Scalar type, Mode from, Mode to);               // a := b
-Handler loadHandler(Scalar type, Mode to);                          // a := memory at (pointer slot b) + c
-Handler storeHandler(Scalar type, Mode from);                       // memory at (pointer slot a) + b := c
+Handler moveHandler(Scalar type, Mode from, Mode to);  // a := b
+Handler loadHandler(Scalar type, Mode to);             // a := memory at (pointer slot b) + c
+Handler storeHandler(Scalar type, Mode from);          // memory at (pointer slot a) + b := c
 Handler loadElementHandler(Scalar type, Scalar index, Base base, Mode index_mode, Mode to);     // a := b[c]
 Handler storeElementHandler(Scalar type, Scalar index, Base base, Mode index_mode, Mode from);  // b[c] := a
 // Slot a := address of base b + (c - low) * stride. low: imm of the next; stride, offset: its a, b. imm: count.
 Handler elementHandler(Scalar index, Base base, Mode index_mode);
-Handler leaHandler(Base base);  // slot a := address of b, plus c
-Handler checkNullHandler();     // pointer slot b
-Handler loadBitHandler();       // a := bit d of the byte at (pointer slot b) + c
-Handler storeBitHandler();      // bit d of the byte at (pointer slot a) + b := truth in the frame at c
+Handler leaHandler(Base base);            // slot a := address of b, plus c
+Handler checkNullHandler();               // pointer slot b
+Handler loadBitHandler();                 // a := bit d of the byte at (pointer slot b) + c
+Handler storeBitHandler();                // bit d of the byte at (pointer slot a) + b := truth in the frame at c
 Handler copyHandler(Base to, Base from);  // c bytes
 Handler clearHandler(Base to);            // c bytes
 Handler blockHandler();                   // slot a := address of block b
@@ -71,8 +71,8 @@ Handler scalarOfTextHandler(bool wide);  // slot a := bits of the text at (slot 
 
 // ---- handlers_control.cpp
 Handler jumpHandler();
-Handler callHandler();         // of a function: its frame begins at a; c: the most that it and its frame need
-Handler callOnSelfHandler();   // self + b
+Handler callHandler();           // of a function: its frame begins at a; c: the most that it and its frame need
+Handler callOnSelfHandler();     // self + b
 Handler callOnPointerHandler();  // slot b
 Handler returnHandler();
 Handler haltHandler();

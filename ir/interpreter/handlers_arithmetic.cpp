@@ -225,7 +225,8 @@ void range(RUNG_HANDLER_PARAMETERS) {
 
 void roundedRange(RUNG_HANDLER_PARAMETERS) {
   const double value = load<double>(fp + ip->b);
-  const double low = rung_f64_of(static_cast<uint64_t>(ip[1].imm)), high = rung_f64_of(static_cast<uint64_t>(ip[2].imm));
+  const double low = rung_f64_of(static_cast<uint64_t>(ip[1].imm)),
+               high = rung_f64_of(static_cast<uint64_t>(ip[2].imm));
   if (RUNG_UNLIKELY(rung_round_saturates(value, low, high))) fail(m, RUNG_FAULT_CONVERT, ip->d, rung_round_i64(value));
   RUNG_GO(ip + 3, fp, self);
 }
@@ -340,9 +341,8 @@ Handler unaryHandler(Op op, Scalar type, Mode from, Mode to) {
     if (type == Scalar::Bool) return unaryOf<Op::Not, Truth>(from, to);
     return withUnsigned(sizeOf(type), [&]<class T>(T) { return unaryOf<Op::Not, T>(from, to); });
   }
-  return withNumber(type, [&]<class T>(T) {
-    return op == Op::Neg ? unaryOf<Op::Neg, T>(from, to) : unaryOf<Op::Abs, T>(from, to);
-  });
+  return withNumber(
+      type, [&]<class T>(T) { return op == Op::Neg ? unaryOf<Op::Neg, T>(from, to) : unaryOf<Op::Abs, T>(from, to); });
 }
 
 Handler convertHandler(Scalar from, Scalar to, Mode source, Mode target) {

@@ -106,9 +106,8 @@ Handler compareOf(Mode left, Mode right, Mode to) {
 template <Op O, class T>
 Handler branchOf(Mode left, Mode right, bool sense) {
   return withTarget(left, [&](auto a) {
-    return withSource(right, [&](auto b) -> Handler {
-      return sense ? branch<O, T, a(), b(), true> : branch<O, T, a(), b(), false>;
-    });
+    return withSource(
+        right, [&](auto b) -> Handler { return sense ? branch<O, T, a(), b(), true> : branch<O, T, a(), b(), false>; });
   });
 }
 
@@ -165,8 +164,7 @@ Handler branchHandler(Op op, Scalar type, Mode left, Mode right, bool sense) {
   });
 }
 Handler branchTruthHandler(Mode mode, bool sense) {
-  return withTarget(mode,
-                    [&](auto a) -> Handler { return sense ? branchTruth<a(), true> : branchTruth<a(), false>; });
+  return withTarget(mode, [&](auto a) -> Handler { return sense ? branchTruth<a(), true> : branchTruth<a(), false>; });
 }
 Handler forHandler(Scalar type, bool up, Mode control) {
   return withInteger(type, [&]<class T>(T) {
@@ -177,14 +175,12 @@ Handler forFlagHandler(Scalar type, bool up) {
   return withInteger(type, [&]<class T>(T) -> Handler { return up ? forFlag<T, true> : forFlag<T, false>; });
 }
 Handler switchHandler(Scalar type, Mode mode) {
-  return withInteger(type, [&]<class T>(T) {
-    return withTarget(mode, [](auto a) -> Handler { return switchTable<T, a()>; });
-  });
+  return withInteger(
+      type, [&]<class T>(T) { return withTarget(mode, [](auto a) -> Handler { return switchTable<T, a()>; }); });
 }
 Handler switchRangesHandler(Scalar type, Mode mode) {
-  return withInteger(type, [&]<class T>(T) {
-    return withTarget(mode, [](auto a) -> Handler { return switchRanges<T, a()>; });
-  });
+  return withInteger(
+      type, [&]<class T>(T) { return withTarget(mode, [](auto a) -> Handler { return switchRanges<T, a()>; }); });
 }
 
 }  // namespace rung::ir::interpreter

@@ -65,9 +65,7 @@ void rethrow(RUNG_HANDLER_PARAMETERS) {
   }
   RUNG_NEXT;
 }
-void raise(RUNG_HANDLER_PARAMETERS) {
-  fail(m, static_cast<rung_fault_kind>(ip->a), ip->d, load<int64_t>(fp + ip->b));
-}
+void raise(RUNG_HANDLER_PARAMETERS) { fail(m, static_cast<rung_fault_kind>(ip->a), ip->d, load<int64_t>(fp + ip->b)); }
 
 void tick(RUNG_HANDLER_PARAMETERS) {
   if (--m->budget < 0) fail(m, RUNG_FAULT_STACK, 0, 0);
@@ -90,8 +88,8 @@ void assertion(RUNG_HANDLER_PARAMETERS) {
     rung_assert_equal_text(ctx, place.file, place.line, load<const char*>(slots), load<const char*>(slots + 8),
                            place.text);
   } else if constexpr (K == AssertionKind::EqualWText) {
-    rung_assert_equal_wtext(ctx, place.file, place.line, load<const char16_t*>(slots),
-                            load<const char16_t*>(slots + 8), place.text);
+    rung_assert_equal_wtext(ctx, place.file, place.line, load<const char16_t*>(slots), load<const char16_t*>(slots + 8),
+                            place.text);
   } else if constexpr (K == AssertionKind::EqualEnum) {
     rung_assert_equal_enum(ctx, place.file, place.line, place.items, load<int64_t>(slots), load<int64_t>(slots + 8),
                            place.text);

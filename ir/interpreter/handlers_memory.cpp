@@ -130,26 +130,22 @@ Handler withIndex(Scalar type, F&& f) {
 
 Handler moveHandler(Scalar type, Mode from, Mode to) {
   return withWidth(type, [&]<class T>(T) {
-    return withTarget(to, [&](auto d) {
-      return withSource(from, [&](auto a) -> Handler { return move<T, a(), d()>; });
-    });
+    return withTarget(to,
+                      [&](auto d) { return withSource(from, [&](auto a) -> Handler { return move<T, a(), d()>; }); });
   });
 }
 Handler loadHandler(Scalar type, Mode to) {
-  return withWidth(type, [&]<class T>(T) {
-    return withTarget(to, [](auto d) -> Handler { return loadAt<T, d()>; });
-  });
+  return withWidth(type, [&]<class T>(T) { return withTarget(to, [](auto d) -> Handler { return loadAt<T, d()>; }); });
 }
 Handler storeHandler(Scalar type, Mode from) {
-  return withWidth(type, [&]<class T>(T) {
-    return withSource(from, [](auto a) -> Handler { return storeAt<T, a()>; });
-  });
+  return withWidth(type,
+                   [&]<class T>(T) { return withSource(from, [](auto a) -> Handler { return storeAt<T, a()>; }); });
 }
 Handler loadElementHandler(Scalar type, Scalar index, Base base, Mode index_mode, Mode to) {
   return withWidth(type, [&]<class T>(T) {
     return withIndex(index, [&]<class I>(I) {
       return withAddress(base, [&](auto b) {
-        return withModes(index_mode, to, [](auto i, auto d) -> Handler { return loadElement<T, I, b(), i(), d()>; });
+        return withModes(index_mode, to, [&](auto i, auto d) -> Handler { return loadElement<T, I, b(), i(), d()>; });
       });
     });
   });
@@ -158,16 +154,16 @@ Handler storeElementHandler(Scalar type, Scalar index, Base base, Mode index_mod
   return withWidth(type, [&]<class T>(T) {
     return withIndex(index, [&]<class I>(I) {
       return withAddress(base, [&](auto b) {
-        return withModes(index_mode, from, [](auto i, auto a) -> Handler { return storeElement<T, I, b(), i(), a()>; });
+        return withModes(index_mode, from,
+                         [&](auto i, auto a) -> Handler { return storeElement<T, I, b(), i(), a()>; });
       });
     });
   });
 }
 Handler elementHandler(Scalar index, Base base, Mode index_mode) {
   return withIndex(index, [&]<class I>(I) {
-    return withAddress(base, [&](auto b) {
-      return withTarget(index_mode, [](auto i) -> Handler { return element<I, b(), i()>; });
-    });
+    return withAddress(
+        base, [&](auto b) { return withTarget(index_mode, [&](auto i) -> Handler { return element<I, b(), i()>; }); });
   });
 }
 Handler leaHandler(Base base) {
@@ -177,9 +173,8 @@ Handler checkNullHandler() { return checkNull; }
 Handler loadBitHandler() { return loadBit; }
 Handler storeBitHandler() { return storeBit; }
 Handler copyHandler(Base to, Base from) {
-  return withAddress(to, [&](auto d) {
-    return withAnyAddress(from, [](auto a) -> Handler { return copy<d(), a()>; });
-  });
+  return withAddress(to,
+                     [&](auto d) { return withAnyAddress(from, [&](auto a) -> Handler { return copy<d(), a()>; }); });
 }
 Handler clearHandler(Base to) {
   return withAddress(to, [](auto d) -> Handler { return clear<d()>; });

@@ -64,14 +64,13 @@ void scalarOfText(RUNG_HANDLER_PARAMETERS) {
 template <bool Wide, bool FromWide>
 Handler assignOf(Base to, Base from) {
   return withAddress(to, [&](auto d) {
-    return withAnyAddress(from, [](auto a) -> Handler { return assign<Wide, FromWide, d(), a()>; });
+    return withAnyAddress(from, [&](auto a) -> Handler { return assign<Wide, FromWide, d(), a()>; });
   });
 }
 template <bool Wide>
 Handler compareOf(Base left, Base right) {
-  return withAddress(left, [&](auto a) {
-    return withAnyAddress(right, [](auto b) -> Handler { return compare<Wide, a(), b()>; });
-  });
+  return withAddress(
+      left, [&](auto a) { return withAnyAddress(right, [&](auto b) -> Handler { return compare<Wide, a(), b()>; }); });
 }
 
 }  // namespace

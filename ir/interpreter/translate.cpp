@@ -15,9 +15,7 @@ namespace {
 
 constexpr uint32_t kNowhere = ~0u;
 
-uint32_t alignUp(uint64_t value, uint32_t align) {
-  return static_cast<uint32_t>((value + align - 1) / align * align);
-}
+uint32_t alignUp(uint64_t value, uint32_t align) { return static_cast<uint32_t>((value + align - 1) / align * align); }
 
 bool isParameter(LocalKind kind) {
   return kind == LocalKind::Input || kind == LocalKind::Output || kind == LocalKind::InOut;

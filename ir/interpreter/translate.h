@@ -30,7 +30,7 @@ struct Code {
   std::deque<std::vector<int32_t>> tables;
   std::deque<std::vector<SwitchRange>> ranges;
   std::deque<AssertionPlace> assertions;
-  std::vector<const uint64_t*> data_of_module;  // by index of Module::data
+  std::vector<const uint64_t*> data_of_module;     // by index of Module::data
   std::vector<std::pair<uint32_t, BodyId>> calls;  // instructions that wait for where a body begins
   std::string missing;  // a native function that is not at hand, as the library names it; else empty
 };
@@ -77,7 +77,14 @@ class BodyTranslator {
 
  private:
   using Label = uint32_t;
-  struct Element;
+  // An element of an array of scalars, of which an instruction takes the base and the last index.
+  struct Element {
+    Address base;  // of the lowest index, without an offset behind a pointer
+    Operand index;
+    Scalar index_type = Scalar::I64;
+    int64_t range = 0;  // as the instructions read it: lowest index, count
+    uint32_t site = 0;
+  };
 
   // ---- translate.cpp: instructions, labels, frame
   uint32_t emit(Handler run, Ref a = {}, Ref b = {}, Ref c = {}, uint32_t d = 0, int64_t imm = 0);
@@ -124,21 +131,16 @@ class BodyTranslator {
   // ---- places.cpp
   Address place(ExprId id);
   Address fieldMemory(const Expr& e);  // of a by-reference field: of the pointer itself
-  Address indexed(const Expr& e);
-  bool element(const Expr& e, Element& out);  // of an array of scalars, for an instruction that takes base and index
+  Address indexed(const Expr& e, uint32_t count);
+  bool element(const Expr& e, Element& out);  // false: not of that kind, and nothing was done
   Operand indexOperand(ExprId id, Scalar& type);
   Operand read(const Address& from, Scalar type, const Operand* want);
   void write(const Address& to, Scalar type, const Operand& value);
-  static bool isDirect(const Address& a) {
-    return a.bit == kNoBit && (a.base == Base::Frame || a.base == Base::Self);
-  }
-  static Operand direct(const Address& a) {
-    return {a.base == Base::Frame ? Mode::Frame : Mode::Self, a.ref, 0};
-  }
+  static bool isDirect(const Address& a) { return a.bit == kNoBit && (a.base == Base::Frame || a.base == Base::Self); }
+  static Operand direct(const Address& a) { return {a.base == Base::Frame ? Mode::Frame : Mode::Self, a.ref, 0}; }
   static Address shifted(Address a, uint64_t bytes);
-  Ref pointerTo(const Address& a);           // a slot that holds the address
+  Ref pointerTo(const Address& a);  // a slot that holds the address
   void pointerInto(const Address& a, Ref to);
-  Address plain(const Address& a);           // without an offset behind a pointer
   bool isImage(ExprId id) const;
 
   // ---- texts.cpp
@@ -204,8 +206,8 @@ class BodyTranslator {
   const Body* body_ = nullptr;
   std::vector<uint32_t> local_offset_;
   Ref result_slot_;
-  uint32_t top_ = 0, frame_ = 0;     // of temporaries now, and the most
-  uint32_t native_slots_ = 0;        // the most bytes that a native function gets
+  uint32_t top_ = 0, frame_ = 0;  // of temporaries now, and the most
+  uint32_t native_slots_ = 0;     // the most bytes that a native function gets
   std::vector<std::pair<uint32_t, Ref>> block_slots_, image_slots_;
   struct Outgoing {
     uint32_t insn;
