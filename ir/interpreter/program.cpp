@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "frontend/source/invariant.h"
 #include "ir/description.h"
 #include "ir/interpreter/translate.h"
 
@@ -66,7 +67,15 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
   TranslateOptions translate_options;
   translate_options.natives = options.natives;
   BodyTranslator translator(module, blocks, description->text, translate_options, code);
-  translateBodies(translator, module, code);
+  code.bodies.resize(module.bodies.size());
+  translateData(module, code);
+  for (uint32_t i = 1; i < module.bodies.size(); ++i) {
+    if (module.bodies[i].native) continue;
+    const std::string_view body_name = module.names.text(module.bodies[i].name);
+    setPhaseSubject(body_name.data(), body_name.size());
+    translator.translate(BodyId{i});
+  }
+  setPhaseSubject("", 0);
   const auto runOf = [&](std::vector<Step>& steps, uint32_t p) {
     const ProgramInstance& program = module.programs[p];
     if (program.run) {

@@ -208,21 +208,12 @@ Code::Entry BodyTranslator::finish(uint32_t first) {
   return {first, size + native_slots_ + kFrameHeader};
 }
 
-void translateBodies(BodyTranslator& translator, const Module& module, Code& code) {
-  code.bodies.resize(module.bodies.size());
+void translateData(const Module& module, Code& code) {
   for (const Data& data : module.data) {
     code.data.emplace_back((data.bytes.size() + 8) / 8);
     std::copy(data.bytes.begin(), data.bytes.end(), reinterpret_cast<uint8_t*>(code.data.back().data()));
     code.data_of_module.push_back(code.data.back().data());
   }
-  for (uint32_t i = 1; i < module.bodies.size(); ++i) {
-    const Body& body = module.bodies[i];
-    if (body.native) continue;
-    const std::string_view name = module.names.text(body.name);
-    setPhaseSubject(name.data(), name.size());
-    translator.translate(BodyId{i});
-  }
-  setPhaseSubject("", 0);
 }
 
 void link(Code& code) {

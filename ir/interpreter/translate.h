@@ -246,11 +246,8 @@ class BodyTranslator {
   std::vector<UserLabel> user_labels_;
 };
 
-// The name of a native body's C function: `rung_standard_MID`.
-std::string nativeName(const Module& module, const Body& body);
-
-// Translates the bodies of the module; entries follow with translateSteps.
-void translateBodies(BodyTranslator& translator, const Module& module, Code& code);
+// The constant bytes of the module; before any body.
+void translateData(const Module& module, Code& code);
 // Lets each call know where its callee begins; after everything is translated.
 void link(Code& code);
 

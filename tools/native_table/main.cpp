@@ -12,7 +12,6 @@
 #include "codegen/types.h"
 #include "frontend/source/render.h"
 #include "ir/builder.h"
-#include "ir/interpreter/translate.h"
 #include "ir/lower.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/libraries.h"
@@ -140,7 +139,7 @@ bool addThunks(const Texts& texts, rung::text::Standard standard, std::map<std::
   for (size_t i = 1; i < module.bodies.size(); ++i) {
     const rung::ir::Body& body = module.bodies[i];
     if (!body.native) continue;
-    const std::string function = rung::ir::interpreter::nativeName(module, body);
+    const std::string function = rung::ir::nativeName(module, body);
     if (table.contains(function)) continue;
     const TypeTable& types = module.types;
     std::string arguments = "ctx";
