@@ -35,20 +35,6 @@ void appendParameter(std::string& out, const TypeTable& types, const ir::Local& 
 
 }  // namespace
 
-void BodyWriter::appendNativeName(std::string& out, const ir::Module& module, const ir::Body& body) {
-  const std::string_view library = module.names.text(body.library_name);
-  std::string_view name = module.names.text(body.name);
-  out += "rung_";
-  for (char c : library) out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  out += '_';
-  // A function that a user's one hides is `Standard__MID`: the C function has its plain name.
-  if (name.size() > library.size() + 2 && name.substr(0, library.size()) == library &&
-      name.substr(library.size(), 2) == "__") {
-    name.remove_prefix(library.size() + 2);
-  }
-  out += name;
-}
-
 void BodyWriter::appendSignature(std::string& out, const ir::Module& module, const ir::Body& body) {
   const TypeTable& types = module.types;
   const ir::Local* result = nullptr;
@@ -64,7 +50,7 @@ void BodyWriter::appendSignature(std::string& out, const ir::Module& module, con
   }
   out += ' ';
   if (body.native) {
-    appendNativeName(out, module, body);
+    out += ir::nativeName(module, body);
   } else {
     appendFunctionName(out, module, body);
   }

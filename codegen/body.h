@@ -42,7 +42,6 @@ class BodyWriter {
 
   // `float Scale_fn(rung_context* ctx, int16_t raw_)`, without `;`. Native: as the library defines it.
   static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body);
-  static void appendNativeName(std::string& out, const ir::Module& module, const ir::Body& body);
 
  private:
   using Body = ir::Body;

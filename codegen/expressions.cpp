@@ -141,7 +141,7 @@ void BodyWriter::callExpr(const Expr& e) {
   const Body& callee = module_.body(id);
   call(id);
   if (callee.native) {
-    appendNativeName(out_, module_, callee);
+    out_ += ir::nativeName(module_, callee);
   } else {
     appendFunctionName(out_, module_, callee);
   }

@@ -411,7 +411,7 @@ void BodyWriter::callStatement(const Stmt& stmt) {
 
   const std::string function = captured([&] {
     if (callee.native) {
-      appendNativeName(out_, module_, callee);
+      out_ += ir::nativeName(module_, callee);
       out_ += "(ctx";
       if (stmt.b != 0) {
         out_ += ", &";

@@ -269,4 +269,7 @@ struct Module {
   const Body& body(BodyId id) const { return bodies[id.index]; }
 };
 
+// The C function of a native body: `rung_standard_MID`.
+std::string nativeName(const Module& module, const Body& body);
+
 }  // namespace rung::ir

@@ -24,7 +24,8 @@ const char kHelp[] =
     R"(rung_test_runner [options] [FILE|FOLDER...]     without files: every test
 
   --update        rewrite golden text (tests/update)
-  --ways=LIST     options that programs run with, separated by commas: -O0,-O1
+  --ways=LIST     options that programs run with, separated by commas; a blank joins two options of one way:
+                  --engine=interp -O0,--engine=interp,--engine=native -O0,--engine=native
   -j N            processes at once (default: one per processor)
   --list          only print the jobs
 
@@ -66,7 +67,7 @@ Arguments parse(int argc, char** argv, Setting& setting) {
 #ifdef RUNG_SOURCE_ROOT
   if (setting.root.empty()) setting.root = RUNG_SOURCE_ROOT;
 #endif
-  setting.ways = {"-O0", "-O1"};
+  setting.ways = {"--engine=interp -O0", "--engine=interp", "--engine=native -O0", "--engine=native"};
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--help") {

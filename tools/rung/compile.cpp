@@ -18,6 +18,7 @@
 #include "ir/passes/passes.h"
 #include "ir/text.h"
 #include "ir/verify.h"
+#include "native_table.h"
 #include "tools/rung/commands.h"
 #include "tools/rung/crash.h"
 
@@ -165,7 +166,7 @@ bool Compilation::lower() {
 }
 
 bool Compilation::emit(bool with_tests, std::vector<codegen::OutputFile>& files) {
-  if (!lower()) return false;
+  if (!module && !lower()) return false;
   times_.begin("emit");
   codegen::EmitOptions emit_options;
   emit_options.module_name = options.moduleName();
@@ -173,6 +174,23 @@ bool Compilation::emit(bool with_tests, std::vector<codegen::OutputFile>& files)
   files = codegen::emitCpp(*module, emit_options);
   setPhaseSubject("", 0);
   times_.end();
+  return true;
+}
+
+bool Compilation::translate(bool with_tests, std::unique_ptr<ir::interpreter::Program>& program, std::string& why) {
+  if (!lower()) return false;
+  if (options.engine == Engine::Native || (options.engine == Engine::Auto && options.keep)) return true;
+  times_.begin("translate");
+  ir::interpreter::ProgramOptions program_options;
+  const std::string name = options.moduleName();
+  program_options.module_name = name;
+  program_options.with_tests = with_tests;
+  program_options.natives = {natives::table, natives::count};
+  program = std::make_unique<ir::interpreter::Program>(*module, program_options);
+  times_.end();
+  if (program->refusal().empty()) return true;
+  why = program->refusal();
+  program.reset();
   return true;
 }
 

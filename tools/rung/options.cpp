@@ -60,6 +60,7 @@ enum class Key : uint8_t {
   Shared,
   Static,
   Keep,
+  Engine,
   Host,
   Filter,
   Junit,
@@ -88,6 +89,8 @@ constexpr OptionRow kOptions[] = {
     {Key::Static, "--static", nullptr, bit(Command::Build), "make a static library"},
     {Key::Keep, "--keep", nullptr, bit(Command::Build) | bit(Command::Run) | bit(Command::Test),
      "keep the generated C++ and say where it is"},
+    {Key::Engine, "--engine", "native|interp", bit(Command::Run) | bit(Command::Test),
+     "run compiled C++ (fast, starts slowly) or interpret (interp)"},
     {Key::Host, "--cycles", "N", bit(Command::Run), "run N cycles (100, or as far as --inputs goes)"},
     {Key::Host, "--for", "T", bit(Command::Run), "run for a time, such as T#2s"},
     {Key::Host, "--interval", "T", bit(Command::Run), "cycle time where no task is configured (T#10ms)"},
@@ -256,6 +259,10 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       return {};
     }
     case Key::Keep: options.keep = true; return {};
+    case Key::Engine:
+      error = parseChoice(row.name, value, row.value, choice);
+      options.engine = choice == 0 ? Engine::Native : Engine::Interpreter;
+      return error;
     case Key::Host: options.host_arguments.push_back(row.value ? row.name + ("=" + value) : row.name); return {};
     case Key::Filter: options.filter = value; return {};
     case Key::Junit: options.junit = value; return {};

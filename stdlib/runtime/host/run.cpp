@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kGood = 0, kUsage = 2, kFaulted = 3;
 constexpr int64_t kDefaultCycles = 100;
+constexpr int64_t kLongRunNs = 3'000'000'000;  // a run that a faster engine would shorten
 
 int refuse(const std::string& what) {
   fflush(stdout);
@@ -146,12 +147,17 @@ int Run::runVirtual() {
   rung_context& context = memory.context();
   const int64_t row_ns = schedule.rowNs();
   int64_t next_save = processorNs() + 1'000'000'000;
+  int64_t next_hint = options.hint_when_long.empty() || isatty(2) == 0 ? INT64_MAX : processorNs() + kLongRunNs;
   for (int64_t row = 0; row < cycles; ++row) {
     inputs.apply(row);
     if (schedule.run(row, context) != RUNG_FAULT_NONE) return finish(true, context.fault, "");
     trace.row(row, row * row_ns);
     plot.row();
     rows_done = row + 1;
+    if (next_hint != INT64_MAX && row % 64 == 0 && processorNs() >= next_hint) {
+      fprintf(stderr, "%s\n", options.hint_when_long.c_str());
+      next_hint = INT64_MAX;
+    }
     if (retain && row % 64 == 0 && processorNs() >= next_save) {
       const std::string refused = saveRetained();
       if (!refused.empty()) return refuse(refused);

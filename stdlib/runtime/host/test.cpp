@@ -46,6 +46,7 @@ void runCase(const rung_module& module, const rung_test& test, Memory& memory, C
     return kind != RUNG_FAULT_NONE;
   };
   if (faulted(memory.reset())) return;
+  context.entry = &test;
   if (test.init != nullptr && faulted(rung_guarded(&context, test.init))) return;
   const bool has_done = test.done_block != RUNG_NONE;
   for (int64_t cycle = 0; cycle < kMostCycles; ++cycle) {

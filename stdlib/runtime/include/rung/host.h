@@ -25,6 +25,7 @@ struct RunOptions {
   int start = -1;  // --start: rung_start, -1: warm when the retain file exists, else cold
   bool realtime = false;
   bool color = false;
+  std::string hint_when_long;  // printed once on a terminal when the run takes long; empty: nothing
 };
 
 // Runs as `rung run` does; prints what it prints.
