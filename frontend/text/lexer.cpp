@@ -485,6 +485,7 @@ const char* Lexer::pragma(const char* begin) {
       diagnostics_.report(Diag::UnterminatedPragma, loc(begin), {"{END_C++}"}).length(5);
       return end_;
     }
+    diagnostics_.report(Diag::NotSupportedYet, loc(begin), {"a body in C++"}).length(5);
     p += 8;
   } else {
     while (p < end_ && *p != '}') {
