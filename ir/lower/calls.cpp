@@ -221,8 +221,7 @@ ExprId BodyLowering::argumentPlace(ExprId value, TypeId pin_type, bool may_alias
 ExprId BodyLowering::inOutPlace(rung::ExprId argument, TypeId pin_type) {
   Loc loc = tree_.loc(argument);
   ExprId place = lowerPlace(argument);
-  ExprKind kind = body_.expr(place).kind;
-  if (isPlace(kind) && kind != ExprKind::Text && kind != ExprKind::Data && kind != ExprKind::Zero) return stable(place);
+  if (isPlace(body_.expr(place).kind)) return stable(place);
   ExprId copy = temp(strip(pin_type), loc);
   assign(copy, convertValue(place, strip(pin_type), loc), loc);
   return copy;
