@@ -198,6 +198,7 @@ class BodyLowering {
   void lowerBlockCall(const sema::Call& call, const CallExpr& node, ExprId instance);
   void lowerAssertion(const sema::Call& call, const CallExpr& node);
   ExprId argumentPlace(ExprId value, TypeId pin_type, bool may_alias, Loc loc);
+  ExprId inOutPlace(rung::ExprId argument, TypeId pin_type);
   bool isPlainCall(rung::ExprId expr) const;
   bool mayChain(const sema::Call& call, const Target& target) const;
   ExprId defaultArgument(sema::VarId pin, Loc loc);
