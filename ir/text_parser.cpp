@@ -503,7 +503,9 @@ bool Reader::read() {
     code();
     builder_ = nullptr;
   }
-  return !diagnostics_.hasErrors() || had_errors;
+  const bool good = !diagnostics_.hasErrors() || had_errors;
+  for (uint32_t i = 0; good && i < types_.count(); ++i) types_.layout(TypeId{i});  // those of locals, too
+  return good;
 }
 
 // ---- types

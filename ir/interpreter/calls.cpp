@@ -83,15 +83,15 @@ void BodyTranslator::passArguments(std::vector<Argument>& arguments) {
   }
 }
 
-void BodyTranslator::emitCall(BodyId id, const Address* self) {
+void BodyTranslator::emitCall(BodyId id, const Address* self, uint32_t site) {
   const Ref frame{0, true};
   uint32_t insn;
   if (self == nullptr) {
-    insn = emit(callHandler(), frame);
+    insn = emit(callHandler(), frame, {}, {}, 0, site);
   } else if (self->base == Base::Self) {
-    insn = emit(callOnSelfHandler(), frame, self->ref);
+    insn = emit(callOnSelfHandler(), frame, self->ref, {}, 0, site);
   } else {
-    insn = emit(callOnPointerHandler(), frame, pointerTo(*self));
+    insn = emit(callOnPointerHandler(), frame, pointerTo(*self), {}, 0, site);
   }
   code_.calls.push_back({insn, id});
 }
@@ -115,7 +115,7 @@ Operand BodyTranslator::callExpression(const Expr& e, const Operand* want) {
     native_slots_ = std::max(native_slots_, slotsOf(callee, passed.size()));
     emit(nativeHandler(), {0, true}, {}, {}, 0, reinterpret_cast<int64_t>(findNative(callee)));
   } else {
-    emitCall(id, nullptr);
+    emitCall(id, nullptr, site(e.loc));
   }
   const Operand to = target(want);  // another call of the expression would overwrite it
   move(scalarOf(e.type), {Mode::Frame, result, 0}, to);
@@ -136,7 +136,7 @@ Address BodyTranslator::callText(const Expr& e) {
          capacityOf(callee.result));
     emit(nativeHandler(), {0, true}, {}, {}, 0, reinterpret_cast<int64_t>(findNative(callee)));
   } else {
-    emitCall(id, nullptr);
+    emitCall(id, nullptr, site(e.loc));
   }
   return to;
 }
@@ -190,7 +190,7 @@ void BodyTranslator::callStatement(const Stmt& stmt) {
     if (has_self_slot) pointerInto(self, {0, true});
     emit(nativeHandler(), {0, true}, {}, {}, 0, reinterpret_cast<int64_t>(findNative(callee)));
   } else {
-    emitCall(id, stmt.b != 0 ? &self : nullptr);
+    emitCall(id, stmt.b != 0 ? &self : nullptr, site(stmt.loc));
   }
 
   if (to && by_reference && !direct_result) {

@@ -71,7 +71,7 @@ Handler scalarOfTextHandler(bool wide);  // slot a := bits of the text at (slot 
 
 // ---- handlers_control.cpp
 Handler jumpHandler();
-Handler callHandler();           // of a function: its frame begins at a; c: the most that it and its frame need
+Handler callHandler();           // of a function: its frame begins at a and needs c; imm: the site
 Handler callOnSelfHandler();     // self + b
 Handler callOnPointerHandler();  // slot b
 Handler returnHandler();

@@ -170,7 +170,7 @@ Code::Entry BodyTranslator::translateSteps(std::span<const Step> steps) {
       emit(clearHandler(Base::Pointer), instance, {},
            {static_cast<uint32_t>(info(blocks_.blocks[step.block].record).size), false});
     } else if (step.kind == Step::CallOn) {
-      emitCall(step.body, &self);
+      emitCall(step.body, &self, 0);
     } else {
       // A test that is a function: its parameters are zero, its results dropped.
       const Body& callee = module_.body(step.body);
@@ -188,7 +188,7 @@ Code::Entry BodyTranslator::translateSteps(std::span<const Step> steps) {
           emit(moveHandler(Scalar::U64, Mode::Constant, Mode::Frame), {to, true});
         }
       }
-      emitCall(step.body, nullptr);
+      emitCall(step.body, nullptr, 0);
       top_ = before;
     }
   }

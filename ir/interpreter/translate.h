@@ -179,7 +179,7 @@ class BodyTranslator {
   std::vector<Argument> arguments(const Body& callee, uint32_t first, uint32_t count, uint32_t at);
   void passArguments(std::vector<Argument>& arguments);
   void passArgument(Argument& argument, Ref to);
-  void emitCall(BodyId callee, const Address* self);
+  void emitCall(BodyId callee, const Address* self, uint32_t site);
   NativeThunk findNative(const Body& callee);
 
   // ---- small helpers

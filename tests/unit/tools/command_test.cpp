@@ -169,6 +169,13 @@ TEST_F(CommandTest, CompilesWhatItCannotInterpret) {
   expect("rung run a.st -I lib --cycles 1 --engine=interp", 2, "this program cannot be interpreted");
 }
 
+TEST_F(CommandTest, EndlessRecursionIsAFault) {
+  folder.write("a.st",
+               "FUNCTION F : INT\nVAR_INPUT n : INT; END_VAR\nF := F(n + 1) + 1;\nEND_FUNCTION\n"
+               "PROGRAM Main\nVAR x : INT; END_VAR\nx := F(1);\nEND_PROGRAM\n");
+  expect("rung run a.st --cycles 1", 3, "a.st:3: fault[stack]: calls nest too deep in `F`");
+}
+
 TEST_F(CommandTest, ManyRunsAtOnce) {
   folder.write("a.st", kCounter);
   std::vector<std::thread> threads;

@@ -139,7 +139,7 @@ typedef enum rung_fault_kind {
   RUNG_FAULT_SUBRANGE,
   RUNG_FAULT_CONVERT,
   RUNG_FAULT_OVERFLOW,
-  RUNG_FAULT_STACK /* calls nest deeper than the interpreter's stack; `site` is RUNG_NONE */
+  RUNG_FAULT_STACK /* calls nest too deep; of interpreted modules */
 } rung_fault_kind;
 /* Where a check stands: a table of the module, indexed by the number that the code passes. */
 typedef struct rung_site {
