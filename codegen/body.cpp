@@ -228,16 +228,18 @@ void BodyWriter::write(ir::BodyId id) {
   loops_.clear();
   frames_.clear();
   blocks_declared_.clear();
-  has_try_ = self_escapes_ = has_foreign_calls_ = has_calls_ = uses_fault_ = uses_leave_ = false;
+  has_try_ = self_escapes_ = has_foreign_calls_ = has_calls_ = has_measured_ = uses_fault_ = uses_leave_ = false;
   names_made_ = 0;
   depth_ = 1;
   closes_ = 0;
   line_ = 0;
   line_file_ = {};
 
+  known_.clear();
   analyze();
   if (body.self) includeRecord(body.self);
   declareVariables();
+  declareLengths();
   block(body.first);
   flushCloses(0);
   writeExits();

@@ -45,6 +45,11 @@ std::string around(const ir::Module& module, const Group& group, std::string_vie
   for (TypeId record : group.records) files.push_back(recordFile(module.types, record));
   for (ir::BodyId id : group.inlined) files.push_back(inlineFile(module, id));
   std::sort(files.begin(), files.end());
+  for (NameId library : group.libraries) {
+    std::string file(module.names.text(library));
+    for (char& c : file) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    out += "#include \"rung/" + file + ".h\"\n";
+  }
   for (const std::string& file : files) out += "#include \"" + file + "\"\n";
   auto paragraph = [&](const std::string& text) {
     if (!text.empty()) out += '\n' + text;

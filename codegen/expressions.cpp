@@ -139,6 +139,11 @@ void BodyWriter::constant(const Expr& e, Prec context) {
 void BodyWriter::callExpr(const Expr& e) {
   const ir::BodyId id{e.a};
   const Body& callee = module_.body(id);
+  if (!isText(e.type) && isSizedCall(callee, e.b, e.c, {})) {
+    sizedCall(callee, e.b, e.c);
+    out_ += ')';
+    return;
+  }
   call(id);
   if (callee.native) {
     out_ += ir::nativeName(module_, callee);

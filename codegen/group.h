@@ -27,6 +27,7 @@ struct Group {
   std::vector<Site> sites;
   std::vector<TypeId> records;      // whose headers it includes
   std::vector<ir::BodyId> callees;  // functions and natives to be declared
+  std::vector<NameId> libraries;    // whose headers with sized forms it includes
   std::vector<ir::BodyId> inlined;  // small pure library functions that they call, each in a header of its own
   uint32_t data_count = 0;
 };

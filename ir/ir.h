@@ -166,6 +166,7 @@ struct Body {
   BodyKind kind = BodyKind::Function;
   bool native = false;  // no code: a C function of the library's runtime part
   bool pure = false;    // no effect but its result, and no fault
+  bool sized = false;   // native: has a form with lengths of texts in C++ (sized form, rung/<library>.h)
   bool may_fault = false;
   bool library = false;
   bool has_labels = false;  // analyses are conservative

@@ -319,6 +319,7 @@ void Reader::attributes(Body& body) {
     if (!accept("_")) body.library_name = name();
   }
   body.pure = accept("pure");
+  body.sized = accept("sized");
   body.may_fault = accept("faults");
   body.library = accept("library");
   body.test = accept("test");

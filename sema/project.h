@@ -89,6 +89,7 @@ struct Pou {
   bool pins_ready = false;
   bool library = false, native = false, pure = false, test = false;
   bool extensible = false;  // has an {extensible} pin
+  bool sized = false;       // {sized}: has a second native form that takes and gives lengths of texts
   bool prefix = false;      // {prefix}: the first n characters of the result follow from the first n of the first input
   bool checked = false;     // its body was checked (library bodies: when used)
   bool used = false;

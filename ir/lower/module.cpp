@@ -68,6 +68,7 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
   body.kind = pou.kind == PouKind::Function ? BodyKind::Function : BodyKind::Block;
   body.native = pou.native;
   body.pure = pou.pure;
+  body.sized = pou.sized;
   body.library = pou.library;
   body.library_name = pou.library_name;
   body.test = pou.test;

@@ -70,10 +70,11 @@ T readLeadingReal(const char* text) {
 
 }  // namespace
 
-void rung_text_assign(char* to, uint32_t capacity, const char* from) {
+uint32_t rung_text_assign(char* to, uint32_t capacity, const char* from) {
   const size_t length = strnlen(from, capacity);
   memmove(to, from, length);
   to[length] = 0;
+  return static_cast<uint32_t>(length);
 }
 
 void rung_wtext_assign(char16_t* to, uint32_t capacity, const char16_t* from) {
@@ -97,7 +98,7 @@ uint32_t rung_wtext_length(const char16_t* text) {
   return length;
 }
 
-void rung_text_of_wtext(char* to, uint32_t capacity, const char16_t* from) {
+uint32_t rung_text_of_wtext(char* to, uint32_t capacity, const char16_t* from) {
   uint32_t length = 0;
   for (; *from != 0; ++from) {
     uint32_t code = *from;
@@ -126,6 +127,7 @@ void rung_text_of_wtext(char* to, uint32_t capacity, const char16_t* from) {
     length += count;
   }
   to[length] = 0;
+  return length;
 }
 
 void rung_wtext_of_text(char16_t* to, uint32_t capacity, const char* from) {
@@ -164,14 +166,14 @@ void rung_wtext_of_text(char16_t* to, uint32_t capacity, const char* from) {
   to[length] = 0;
 }
 
-void rung_text_of_scalar(char* to, uint32_t capacity, uint8_t kind, uint64_t bits) {
+uint32_t rung_text_of_scalar(char* to, uint32_t capacity, uint8_t kind, uint64_t bits) {
   if (kind == RUNG_WCHAR) {
     const char16_t one[2] = {static_cast<char16_t>(bits), 0};
     return rung_text_of_wtext(to, capacity, one);
   }
   char text[kScalarRoom + 1];
   spellScalar(kind, bits, text);
-  rung_text_assign(to, capacity, text);
+  return rung_text_assign(to, capacity, text);
 }
 
 void rung_wtext_of_scalar(char16_t* to, uint32_t capacity, uint8_t kind, uint64_t bits) {
