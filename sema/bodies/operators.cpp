@@ -19,6 +19,10 @@ bool isTimeKind(TypeKind k) { return TypeTable::isDuration(k) || TypeTable::isDa
 
 TypeId reportOperand(Context& context, std::string_view what, TypeId type, Loc loc) {
   const TypeKind kind = context.types().plainKind(type);
+  if (TypeTable::isText(kind) && what == "+") {
+    context.report(Diag::TextsAdded, loc);
+    return types::kError;
+  }
   const bool extension = context.iec() && (TypeTable::isBits(kind) || TypeTable::isInteger(kind));
   context.report(extension ? Diag::OperandExtension : Diag::OperandType, loc, {what, context.types().spell(type)});
   return types::kError;
