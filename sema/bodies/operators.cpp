@@ -19,10 +19,6 @@ bool isTimeKind(TypeKind k) { return TypeTable::isDuration(k) || TypeTable::isDa
 
 TypeId reportOperand(Context& context, std::string_view what, TypeId type, Loc loc) {
   const TypeKind kind = context.types().plainKind(type);
-  if (TypeTable::isText(kind) && what == "+") {
-    context.report(Diag::TextsAdded, loc);
-    return types::kError;
-  }
   const bool extension = context.iec() && (TypeTable::isBits(kind) || TypeTable::isInteger(kind));
   context.report(extension ? Diag::OperandExtension : Diag::OperandType, loc, {what, context.types().spell(type)});
   return types::kError;
@@ -319,6 +315,11 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
       }
       return node.h.type = reportOperands(context, spelling(op), left, right, loc);
     }
+  }
+  if (op == BinaryOp::Add && TypeTable::isText(context.types().plainKind(left)) &&
+      TypeTable::isText(context.types().plainKind(right))) {
+    context.report(Diag::TextsAdded, node.h.loc);
+    return node.h.type = types::kError;
   }
   ExprId operands[2] = {node.left, node.right};
   const TypeId common =
