@@ -1,7 +1,5 @@
 // Lowering of values: literals, operators, conversions, and the order of evaluation. In: checked expressions. Out: IR
 // expressions; calls inside them become statements in front, and what was read before a call moves to a temporary.
-#include <cmath>
-
 #include "ir/lower/lowering.h"
 
 namespace rung::ir {

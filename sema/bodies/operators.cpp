@@ -316,6 +316,11 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
       return node.h.type = reportOperands(context, spelling(op), left, right, loc);
     }
   }
+  if (op == BinaryOp::Add && TypeTable::isText(context.types().plainKind(left)) &&
+      TypeTable::isText(context.types().plainKind(right))) {
+    context.report(Diag::TextsAdded, node.h.loc);
+    return node.h.type = types::kError;
+  }
   ExprId operands[2] = {node.left, node.right};
   const TypeId common =
       unify(context, operands, operandsOf(op), comparison ? TypeId{} : expected, spelling(op), node.h.loc);
