@@ -119,11 +119,24 @@ std::optional<Value> applyChecked(Context& context, Op op, Value left, Value rig
   return checked(context, types::apply(table, context.names(), op, left, right), loc, divisor);
 }
 
+// A function that has no effect but its result, run in bounds. IEC 61131-3 has no such constants: an extension.
+std::optional<Value> callFunction(Context& context, PouId function, std::span<const Value> values) {
+  Project& project = context.project;
+  if (!project.options.call_constant || project.pou(function).generic) return std::nullopt;
+  for (const Value& value : values) {
+    if (!isOperand(context.types(), value.type) || isUntypedLiteral(context.types().kind(value.type)))
+      return std::nullopt;
+  }
+  return project.options.call_constant(project, function, values,
+                                       [&](PouId callee) { return ensureBody(context, callee); });
+}
+
 std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32_t depth) {
   if (!node.call) return std::nullopt;
   const Project& project = context.project;
   const Call& call = project.call(node.call);
-  if (call.kind != CallKind::Operator || !call.pou || call.en || call.eno) return std::nullopt;
+  if (!call.pou || call.en || call.eno) return std::nullopt;
+  if (call.kind != CallKind::Operator && call.kind != CallKind::Function) return std::nullopt;
   const Pou& pou = project.pou(call.pou);
   std::vector<Value> operands;
   for (const Binding& binding : call.bindings) {
@@ -132,6 +145,7 @@ std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32
     if (!value) return std::nullopt;
     operands.push_back(*value);
   }
+  if (call.kind == CallKind::Function) return callFunction(context, call.pou, operands);
   if (operands.empty()) return std::nullopt;
   switch (pou.operator_kind) {
     case Pou::Operator::Move: return operands[0];
