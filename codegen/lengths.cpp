@@ -231,7 +231,7 @@ void BodyWriter::textLength(ExprId id) {
 void BodyWriter::sizedCall(const Body& callee, uint32_t first, uint32_t count) {
   if (std::find(group_.libraries.begin(), group_.libraries.end(), callee.library_name) == group_.libraries.end())
     group_.libraries.push_back(callee.library_name);
-  appendNativeName(out_, module_, callee);
+  out_ += ir::nativeName(module_, callee);
   out_ += "_sized(";
   for (uint32_t i = 0; i < count; ++i) {
     const ExprId operand = body_->operands[first + i];

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <memory>
 
-#include "ir/interpreter/translate.h"
 #include "ir/builder.h"
+#include "ir/interpreter/translate.h"
 #include "rung/code.h"
 
 namespace rung::ir::interpreter {
@@ -76,7 +76,8 @@ FunctionResult runFunction(const Module& module, BodyId function, std::span<cons
   }
   link(code);
   const Body& body = module.body(function);
-  if (body.native) code.missing = "itself";
+  NativeThunk native = nullptr;
+  if (body.native) native = translator.findNative(body);
   if (!code.missing.empty()) {
     result.trouble = "calls the native function `" + code.missing + "`";
     return result;
@@ -87,7 +88,7 @@ FunctionResult runFunction(const Module& module, BodyId function, std::span<cons
   auto* const fp = reinterpret_cast<uint8_t*>(stack.get());
   *reinterpret_cast<Linkage*>(fp) = {&halt, nullptr, nullptr};
   std::vector<std::unique_ptr<uint64_t[]>> memory;
-  uint32_t at = kFrameHeader;
+  uint32_t at = body.native ? 0 : kFrameHeader;
   size_t next = 0;
   uint64_t* result_memory = nullptr;
   const auto room = [&](TypeId type) {
@@ -124,6 +125,8 @@ FunctionResult runFunction(const Module& module, BodyId function, std::span<cons
   if (body.result && isAggregate(module.types, body.result)) {
     result_memory = room(body.result);
     memcpy(fp + at, &result_memory, 8);
+    const uint64_t capacity = module.types.info(module.types.resolve(body.result)).length;
+    if (body.native) memcpy(fp + at + 8, &capacity, 8);
   }
 
   rung_context ctx{};
@@ -132,14 +135,16 @@ FunctionResult runFunction(const Module& module, BodyId function, std::span<cons
   machine.limit = fp + kStack;
   machine.budget = budget;
   struct Start {
+    NativeThunk native;
     const Insn* ip;
     uint8_t* fp;
     Machine* m;
-  } start{code.insns.data() + code.bodies[function.index].at, fp, &machine};
+  } start{native, code.insns.data() + code.bodies[function.index].at, fp, &machine};
   const uint8_t fault = rung_try(
       &ctx,
       [](void* data) {
         const Start& from = *static_cast<Start*>(data);
+        if (from.native != nullptr) return from.native(from.m->ctx, reinterpret_cast<uint64_t*>(from.fp));
         execute(from.ip, from.fp, nullptr, from.m);
       },
       &start);

@@ -11,7 +11,8 @@ void jump(RUNG_HANDLER_PARAMETERS) { RUNG_JUMP; }
 // The callee finds its caller in front of its frame.
 inline uint8_t* enter(const Insn* ip, uint8_t* fp, uint8_t* self, Machine* m) {
   uint8_t* const frame = fp + ip->a;
-  if (RUNG_UNLIKELY(m->limit - frame < static_cast<ptrdiff_t>(ip->c))) fail(m, RUNG_FAULT_STACK, static_cast<uint32_t>(ip->imm), 0);
+  if (RUNG_UNLIKELY(m->limit - frame < static_cast<ptrdiff_t>(ip->c)))
+    fail(m, RUNG_FAULT_STACK, static_cast<uint32_t>(ip->imm), 0);
   *reinterpret_cast<Linkage*>(frame) = {ip + 1, fp, self};
   return frame;
 }

@@ -74,6 +74,8 @@ class BodyTranslator {
     uint32_t block = 0;
   };
   Code::Entry translateSteps(std::span<const Step> steps);
+  // Null, and its name in Code::missing, when it is not at hand.
+  NativeThunk findNative(const Body& callee);
 
  private:
   using Label = uint32_t;
@@ -180,7 +182,6 @@ class BodyTranslator {
   void passArguments(std::vector<Argument>& arguments);
   void passArgument(Argument& argument, Ref to);
   void emitCall(BodyId callee, const Address* self, uint32_t site);
-  NativeThunk findNative(const Body& callee);
 
   // ---- small helpers
   const Expr& expr(ExprId id) const { return body_->expr(id); }

@@ -102,13 +102,7 @@ std::optional<Value> checked(Context& context, const Outcome& outcome, Loc loc, 
   return outcome.value;
 }
 
-// A call of a function at hand: the values of its inputs, in the order of its pins.
-struct Frame {
-  std::span<const VarId> pins;
-  std::span<const Value> values;
-};
-
-std::optional<Value> evaluateAt(Context& context, ExprId id, const Frame* frame, uint32_t depth);
+std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth);
 
 bool isOperand(const TypeTable& table, TypeId type) {
   const TypeKind kind = table.plainKind(type);
@@ -134,33 +128,37 @@ std::optional<Value> applyChecked(Context& context, Op op, Value left, Value rig
 }
 
 // SEL and MUX: the chosen input alone.
-std::optional<Value> evaluateChoice(Context& context, const Call& call, TypeId type, bool select, const Frame* frame,
-                                    uint32_t depth) {
+std::optional<Value> evaluateChoice(Context& context, const Call& call, TypeId type, bool select, uint32_t depth) {
   if (call.bindings.size() < 2 || !call.bindings[0].value) return std::nullopt;
-  const auto selector = evaluateAt(context, call.bindings[0].value, frame, depth + 1);
+  const auto selector = evaluateAt(context, call.bindings[0].value, depth + 1);
   if (!selector) return std::nullopt;
   const uint64_t last = call.bindings.size() - 2;
   const uint64_t chosen = select ? uint64_t{selector->bits != 0} : std::min(selector->bits, last);
   const ExprId input = call.bindings[1 + chosen].value;
-  const auto value = input ? evaluateAt(context, input, frame, depth + 1) : std::nullopt;
+  const auto value = input ? evaluateAt(context, input, depth + 1) : std::nullopt;
   if (!value || isUntypedLiteral(context.types().kind(type)) || !TypeTable::isScalar(context.types().plainKind(type))) {
     return value;
   }
   return types::convert(context.types(), *value, type).value;
 }
 
-// A library function whose body is one assignment to its result, as LIMIT.
-std::optional<Value> evaluateFunction(Context& context, PouId id, std::span<const Value> values, uint32_t depth) {
-  const Pou& pou = context.project.pou(id);
-  if (!pou.library || !pou.pure || pou.native || !pou.decl) return std::nullopt;
-  if (!pou.checked) checkBody(context, id);
-  const auto body = context.tree().list(context.tree().as<PouDecl>(pou.decl).body);
-  if (body.size() != 1 || context.tree().kind(body[0]) != StmtKind::Assign) return std::nullopt;
-  const Frame frame{pou.pins, values};
-  return evaluateAt(context, context.tree().as<AssignStmt>(body[0]).value, &frame, depth + 1);
+// A function that has no effect but its result, run in bounds. IEC 61131-3 has no such constants: an extension.
+std::optional<Value> callFunction(Context& context, PouId function, std::vector<Value> values) {
+  Project& project = context.project;
+  const Pou& pou = project.pou(function);
+  if (!project.options.call_constant || pou.generic) return std::nullopt;
+  for (size_t i = 0; i < values.size(); ++i) {
+    Value& value = values[i];
+    if (!isOperand(context.types(), value.type)) return std::nullopt;
+    if (!isUntypedLiteral(context.types().kind(value.type))) continue;
+    if (i >= pou.pins.size()) return std::nullopt;
+    value = types::convert(context.types(), value, project.var(pou.pins[i]).type).value;
+  }
+  return project.options.call_constant(project, function, values,
+                                       [&](PouId callee) { return ensureBody(context, callee); });
 }
 
-std::optional<Value> evaluateCall(Context& context, const CallExpr& node, const Frame* frame, uint32_t depth) {
+std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32_t depth) {
   if (!node.call) return std::nullopt;
   const Project& project = context.project;
   const Call& call = project.call(node.call);
@@ -168,20 +166,17 @@ std::optional<Value> evaluateCall(Context& context, const CallExpr& node, const 
   if (call.kind != CallKind::Operator && call.kind != CallKind::Function) return std::nullopt;
   const Pou& pou = project.pou(call.pou);
   if (pou.operator_kind == Pou::Operator::Select || pou.operator_kind == Pou::Operator::Mux) {
-    return evaluateChoice(context, call, node.h.type, pou.operator_kind == Pou::Operator::Select, frame, depth);
+    return evaluateChoice(context, call, node.h.type, pou.operator_kind == Pou::Operator::Select, depth);
   }
   std::vector<Value> operands;
   for (const Binding& binding : call.bindings) {
     if (!binding.value || binding.is_output) return std::nullopt;
-    const auto value = evaluateAt(context, binding.value, frame, depth + 1);
+    const auto value = evaluateAt(context, binding.value, depth + 1);
     if (!value) return std::nullopt;
     operands.push_back(*value);
   }
+  if (call.kind == CallKind::Function) return callFunction(context, call.pou, std::move(operands));
   if (operands.empty()) return std::nullopt;
-  if (call.kind == CallKind::Function) {
-    if (call.bindings.size() != pou.pins.size()) return std::nullopt;
-    return evaluateFunction(context, call.pou, operands, depth);
-  }
   switch (pou.operator_kind) {
     case Pou::Operator::Move: return operands[0];
     case Pou::Operator::Convert:
@@ -218,7 +213,7 @@ std::optional<Value> evaluateCall(Context& context, const CallExpr& node, const 
   return std::nullopt;
 }
 
-std::optional<Value> evaluateAt(Context& context, ExprId id, const Frame* frame, uint32_t depth) {
+std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
   Tree& tree = context.tree();
   const ExprHeader& header = tree.expr(id);
   if (!header.type || header.type == types::kError || depth > kMaxDepth) return std::nullopt;
@@ -235,15 +230,12 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, const Frame* frame,
         return Value{item.type, static_cast<uint64_t>(item.value)};
       }
       if (found.what() != EntityKind::Var) return std::nullopt;
-      for (size_t i = 0; frame != nullptr && i < frame->pins.size(); ++i) {
-        if (frame->pins[i] == VarId{found.index}) return frame->values[i];
-      }
       const Var& var = context.project.vars[found.index];
       if (!var.constant || !var.has_value) return std::nullopt;
       return var.value;
     }
     case ExprKind::Convert: {
-      const auto value = evaluateAt(context, tree.as<ConvertExpr>(id).operand, frame, depth + 1);
+      const auto value = evaluateAt(context, tree.as<ConvertExpr>(id).operand, depth + 1);
       if (!value) return std::nullopt;
       const TypeKind from = context.types().plainKind(value->type), to = context.types().plainKind(header.type);
       if (TypeTable::isText(from) && from == to) {
@@ -257,7 +249,7 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, const Frame* frame,
     }
     case ExprKind::Unary: {
       const UnaryExpr& node = tree.as<UnaryExpr>(id);
-      const auto value = evaluateAt(context, node.operand, frame, depth + 1);
+      const auto value = evaluateAt(context, node.operand, depth + 1);
       if (!value || !isOperand(context.types(), value->type)) return std::nullopt;
       if (TypeTable::isText(context.types().plainKind(value->type))) return std::nullopt;
       if (node.op() == UnaryOp::Plus) return value;
@@ -265,13 +257,13 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, const Frame* frame,
     }
     case ExprKind::Binary: {
       const BinaryExpr& node = tree.as<BinaryExpr>(id);
-      const auto left = evaluateAt(context, node.left, frame, depth + 1);
+      const auto left = evaluateAt(context, node.left, depth + 1);
       if (!left) return std::nullopt;
-      const auto right = evaluateAt(context, node.right, frame, depth + 1);
+      const auto right = evaluateAt(context, node.right, depth + 1);
       if (!right) return std::nullopt;
       return applyChecked(context, operatorOf(node.op()), *left, *right, node.h.loc, tree.begin(node.right));
     }
-    case ExprKind::Call: return evaluateCall(context, tree.as<CallExpr>(id), frame, depth);
+    case ExprKind::Call: return evaluateCall(context, tree.as<CallExpr>(id), depth);
     case ExprKind::Error:
     case ExprKind::Index:
     case ExprKind::Deref:
@@ -305,7 +297,7 @@ std::optional<int64_t> plainInteger(Context& context, ExprId id) {
 
 }  // namespace
 
-std::optional<Value> evaluate(Context& context, ExprId expr) { return evaluateAt(context, expr, nullptr, 0); }
+std::optional<Value> evaluate(Context& context, ExprId expr) { return evaluateAt(context, expr, 0); }
 
 std::optional<Value> requireConstant(Context& context, ExprId expr, TypeId type) {
   if (context.tree().expr(expr).type == types::kError) return std::nullopt;

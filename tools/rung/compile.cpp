@@ -14,6 +14,7 @@
 #include "frontend/source/invariant.h"
 #include "frontend/source/render.h"
 #include "frontend/text/parse.h"
+#include "ir/interpreter/constant_call.h"
 #include "ir/lower.h"
 #include "ir/passes/passes.h"
 #include "ir/text.h"
@@ -130,6 +131,10 @@ bool Compilation::check() {
     sema_options.libraries = libraries.files();
     sema_options.default_interval_ns = options.default_interval_ns;
     sema_options.pointer_size = options.pointer_size;
+    sema_options.call_constant = [](sema::Project& in, sema::PouId function, std::span<const types::Value> values,
+                                    const std::function<bool(sema::PouId)>& ready) {
+      return ir::interpreter::callConstant(in, function, values, {natives::table, natives::count}, ready);
+    };
     project = std::make_unique<sema::Project>(sources, names, diagnostics, tree, sema_options);
     sema::check(*project);
   }
