@@ -45,6 +45,8 @@ void BodyWriter::appendSignature(std::string& out, const ir::Module& module, con
   if (by_value) {
     const char* type = scalarType(types, body.result);
     out += type;
+  } else if (body.native && body.result && TypeTable::isText(types.kind(body.result))) {
+    out += "uint32_t";  // the length
   } else {
     out += "void";
   }
@@ -254,6 +256,7 @@ void BodyWriter::write(ir::BodyId id) {
     if (body.kind == BodyKind::Init) to += "initial values of ";
     to += text(body.spelling ? body.spelling : body.name);
     to += '\n';
+    if (marks_.hot[id.index] == group_number_) to += "RUNG_INLINE ";
   }
   appendSignature(to, module_, body);
   to += " {";

@@ -87,6 +87,7 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   std::vector<Group> groups = makeGroups(module, facts);
   Marks marks;
   marks.body.resize(module.bodies.size());
+  marks.hot.resize(module.bodies.size());
   marks.record.resize(module.types.count());
   marks.data.resize(module.data.size());
   marks.data_number.resize(module.data.size());
@@ -94,6 +95,7 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   std::vector<uint8_t> is_listed(module.bodies.size());
   for (uint32_t i = 0; i < groups.size(); ++i) {
     Group& group = groups[i];
+    markHot(module, group, marks, i + 1);
     BodyWriter writer(module, options, facts, group, marks, i + 1);
     for (ir::BodyId id : group.bodies) {
       const std::string_view name = module.names.text(module.body(id).name);

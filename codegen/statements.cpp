@@ -454,7 +454,7 @@ void BodyWriter::callStatement(const Stmt& stmt) {
     store(ExprId{stmt.e}, function);
     out_ += ';';
   } else {
-    if (is_sized && copy.empty() && !length.empty()) out_ += length + " = ";
+    if (callee.native && copy.empty() && !length.empty()) out_ += length + " = ";
     out_ += function;
     out_ += ';';
   }
@@ -477,7 +477,7 @@ void BodyWriter::callStatement(const Stmt& stmt) {
     }
   }
   if (!length.empty()) {
-    if (!is_sized && copy.empty()) {
+    if (!callee.native && copy.empty()) {
       out_ += ' ' + length + " = rung_text_length(";
       place(ExprId{stmt.e});
       out_ += ");";

@@ -34,12 +34,13 @@ int64_t clip(int64_t value, int64_t low, int64_t high) { return value < low ? lo
 
 uint32_t limitOf(uint32_t capacity) { return capacity < kLongest ? capacity : kLongest; }
 
-// `count` characters from `from`, which may lie in `out`.
+// `count` characters from `from`, which may lie in `out`. Like all that make a text, gives its length.
 template <class Unit>
-void give(const Unit* from, int64_t count, Unit* out, uint32_t capacity) {
+uint32_t give(const Unit* from, int64_t count, Unit* out, uint32_t capacity) {
   const int64_t taken = clip(count, 0, limitOf(capacity));
   memmove(out, from, static_cast<size_t>(taken) * sizeof(Unit));
   out[taken] = 0;
+  return static_cast<uint32_t>(taken);
 }
 
 // Whether the `length` characters of `text` lie in the memory that `out` writes.
@@ -60,7 +61,7 @@ class Result {
     memcpy(to_ + length_, from, static_cast<size_t>(taken) * sizeof(Unit));
     length_ += static_cast<uint32_t>(taken);
   }
-  uint32_t finish() {  // gives the length
+  uint32_t finish() {
     if (to_ != out_) memcpy(out_, to_, length_ * sizeof(Unit));
     out_[length_] = 0;
     return length_;
@@ -74,41 +75,39 @@ class Result {
 };
 
 template <class Unit>
-void mid(const Unit* in, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
+uint32_t mid(const Unit* in, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
   const int64_t begin = position - 1, end = begin + clip(count, 0, kLongest);
   const int64_t length = lengthUpTo(in, end);
-  if (begin < 0 || begin >= length)
-    out[0] = 0;
-  else
-    give(in + begin, length - begin, out, capacity);
+  if (begin < 0 || begin >= length) return give(in, 0, out, capacity);
+  return give(in + begin, length - begin, out, capacity);
 }
 
 template <class Unit>
-void left(const Unit* in, int64_t count, Unit* out, uint32_t capacity) {
-  give(in, lengthUpTo(in, clip(count, 0, kLongest)), out, capacity);
+uint32_t left(const Unit* in, int64_t count, Unit* out, uint32_t capacity) {
+  return give(in, lengthUpTo(in, clip(count, 0, kLongest)), out, capacity);
 }
 
 template <class Unit>
-void right(const Unit* in, int64_t count, Unit* out, uint32_t capacity) {
+uint32_t right(const Unit* in, int64_t count, Unit* out, uint32_t capacity) {
   const int64_t length = lengthOf(in), taken = clip(count, 0, length);
-  give(in + length - taken, taken, out, capacity);
+  return give(in + length - taken, taken, out, capacity);
 }
 
 // Appends in place where `out` is in1.
 template <class Unit>
-void concat(const Unit* in1, const Unit* in2, Unit* out, uint32_t capacity) {
+uint32_t concat(const Unit* in1, const Unit* in2, Unit* out, uint32_t capacity) {
   const int64_t limit = limitOf(capacity);
   const int64_t first = lengthUpTo(in1, limit), second = lengthUpTo(in2, limit - first);
   if (out != in1 && (overlaps(in1, first, out, capacity) || overlaps(in2, second, out, capacity))) {
     Result<Unit> result(out, capacity, true);
     result.append(in1, first);
     result.append(in2, second);
-    result.finish();
-    return;
+    return result.finish();
   }
   if (out != in1) memcpy(out, in1, static_cast<size_t>(first) * sizeof(Unit));
   memmove(out + first, in2, static_cast<size_t>(second) * sizeof(Unit));
   out[first + second] = 0;
+  return static_cast<uint32_t>(first + second);
 }
 
 template <class Unit>
@@ -121,7 +120,7 @@ Text<Unit> measured(const Unit* text) {
   return {text, lengthOf(text)};
 }
 
-// in1 with `count` characters from `position` (from 1, inside) replaced by in2. Gives the length.
+// in1 with `count` characters from `position` (from 1, inside) replaced by in2.
 template <class Unit>
 uint32_t splice(Text<Unit> in1, Text<Unit> in2, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
   const int64_t begin = position - 1, end = begin + clip(count, 0, in1.length - begin), limit = limitOf(capacity);
@@ -180,32 +179,34 @@ inline int16_t find(const char* in1, const char* in2) {
 
 extern "C" {
 
-#define RUNG_STRING_FUNCTIONS(TYPE, Unit)                                                                              \
-  int16_t rung_standard_LEN__##TYPE(rung_context*, const Unit* in) { return asInt(lengthOf(in)); }                     \
-  void rung_standard_LEFT__##TYPE(rung_context*, const Unit* in, int32_t l, Unit* out, uint32_t capacity) {            \
-    left(in, l, out, capacity);                                                                                        \
-  }                                                                                                                    \
-  void rung_standard_RIGHT__##TYPE(rung_context*, const Unit* in, int32_t l, Unit* out, uint32_t capacity) {           \
-    right(in, l, out, capacity);                                                                                       \
-  }                                                                                                                    \
-  void rung_standard_MID__##TYPE(rung_context*, const Unit* in, int32_t l, int32_t p, Unit* out, uint32_t capacity) {  \
-    mid(in, l, p, out, capacity);                                                                                      \
-  }                                                                                                                    \
-  void rung_standard_CONCAT__##TYPE(rung_context*, const Unit* in1, const Unit* in2, Unit* out, uint32_t capacity) {   \
-    concat(in1, in2, out, capacity);                                                                                   \
-  }                                                                                                                    \
-  void rung_standard_INSERT__##TYPE(rung_context*, const Unit* in1, const Unit* in2, int32_t p, Unit* out,             \
-                                    uint32_t capacity) {                                                               \
-    insert(measured(in1), measured(in2), p, out, capacity);                                                            \
-  }                                                                                                                    \
-  void rung_standard_DELETE__##TYPE(rung_context*, const Unit* in, int32_t l, int32_t p, Unit* out,                    \
-                                    uint32_t capacity) {                                                               \
-    remove(measured(in), l, p, out, capacity);                                                                         \
-  }                                                                                                                    \
-  void rung_standard_REPLACE__##TYPE(rung_context*, const Unit* in1, const Unit* in2, int32_t l, int32_t p, Unit* out, \
-                                     uint32_t capacity) {                                                              \
-    replace(measured(in1), measured(in2), l, p, out, capacity);                                                        \
-  }                                                                                                                    \
+#define RUNG_STRING_FUNCTIONS(TYPE, Unit)                                                                        \
+  int16_t rung_standard_LEN__##TYPE(rung_context*, const Unit* in) { return asInt(lengthOf(in)); }               \
+  uint32_t rung_standard_LEFT__##TYPE(rung_context*, const Unit* in, int32_t l, Unit* out, uint32_t capacity) {  \
+    return left(in, l, out, capacity);                                                                           \
+  }                                                                                                              \
+  uint32_t rung_standard_RIGHT__##TYPE(rung_context*, const Unit* in, int32_t l, Unit* out, uint32_t capacity) { \
+    return right(in, l, out, capacity);                                                                          \
+  }                                                                                                              \
+  uint32_t rung_standard_MID__##TYPE(rung_context*, const Unit* in, int32_t l, int32_t p, Unit* out,             \
+                                     uint32_t capacity) {                                                        \
+    return mid(in, l, p, out, capacity);                                                                         \
+  }                                                                                                              \
+  uint32_t rung_standard_CONCAT__##TYPE(rung_context*, const Unit* in1, const Unit* in2, Unit* out,              \
+                                        uint32_t capacity) {                                                     \
+    return concat(in1, in2, out, capacity);                                                                      \
+  }                                                                                                              \
+  uint32_t rung_standard_INSERT__##TYPE(rung_context*, const Unit* in1, const Unit* in2, int32_t p, Unit* out,   \
+                                        uint32_t capacity) {                                                     \
+    return insert(measured(in1), measured(in2), p, out, capacity);                                               \
+  }                                                                                                              \
+  uint32_t rung_standard_DELETE__##TYPE(rung_context*, const Unit* in, int32_t l, int32_t p, Unit* out,          \
+                                        uint32_t capacity) {                                                     \
+    return remove(measured(in), l, p, out, capacity);                                                            \
+  }                                                                                                              \
+  uint32_t rung_standard_REPLACE__##TYPE(rung_context*, const Unit* in1, const Unit* in2, int32_t l, int32_t p,  \
+                                         Unit* out, uint32_t capacity) {                                         \
+    return replace(measured(in1), measured(in2), l, p, out, capacity);                                           \
+  }                                                                                                              \
   int16_t rung_standard_FIND__##TYPE(rung_context*, const Unit* in1, const Unit* in2) { return find(in1, in2); }
 RUNG_STRING_FUNCTIONS(STRING_255, char)
 RUNG_STRING_FUNCTIONS(WSTRING_255, char16_t)

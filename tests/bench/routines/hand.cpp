@@ -140,7 +140,7 @@ struct Recipes {
       const Recipe* best = nullptr;
       float nearest = 1.0e6f;
       for (const Recipe& one : book) {
-        if (!one.enabled || std::string_view(one.name) == "spare") continue;
+        if (!one.enabled || std::strcmp(one.name, "spare") == 0) continue;
         const float distance = std::fabs(one.weight - wanted);
         if (distance < nearest) {
           nearest = distance;

@@ -34,6 +34,8 @@
 #define RUNG_MAY_ALIAS __attribute__((may_alias))
 #define RUNG_COLD __attribute__((cold, noinline))
 #define RUNG_PURE __attribute__((pure))
+/* A small function that its file calls in loops: g++ may inline it there, and others call it. */
+#define RUNG_INLINE __attribute__((used)) inline
 
 /* Scalars behind POINTER and UNION: memory of any type. */
 typedef int8_t RUNG_MAY_ALIAS rung_i8_at;
@@ -187,9 +189,10 @@ static inline uint64_t rung_bits_of_f64(double v) {
 extern "C" {
 
 /* ---- text. In place, NUL-terminated, `capacity` without the NUL; too long results are cut. `to` may be `from`, also
- * in part. The same holds for every native function of a library: `out` may be one of its text inputs. */
-uint32_t rung_text_assign(char* to, uint32_t capacity, const char* from); /* gives the length, as the next two */
-void rung_wtext_assign(char16_t* to, uint32_t capacity, const char16_t* from);
+ * in part. The same holds for every native function of a library: `out` may be one of its text inputs. What makes a
+ * text gives its length. */
+uint32_t rung_text_assign(char* to, uint32_t capacity, const char* from);
+uint32_t rung_wtext_assign(char16_t* to, uint32_t capacity, const char16_t* from);
 /* Below, at or above 0, by unsigned units. */
 int rung_text_compare(const char* a, const char* b) RUNG_PURE;
 int rung_wtext_compare(const char16_t* a, const char16_t* b) RUNG_PURE;
@@ -204,12 +207,12 @@ static inline uint32_t rung_text_put(char* to, uint32_t capacity, const char* fr
 }
 /* STRING is UTF-8 here, WSTRING UTF-16; what is no code point becomes '?'. */
 uint32_t rung_text_of_wtext(char* to, uint32_t capacity, const char16_t* from);
-void rung_wtext_of_text(char16_t* to, uint32_t capacity, const char* from);
+uint32_t rung_wtext_of_text(char16_t* to, uint32_t capacity, const char* from);
 /* A scalar as text, as <T>_TO_STRING spells it, and back. `kind`: rung_type_kind; `bits`: the value, sign- or
  * zero-extended (REAL and LREAL: the bits of a double). Reading gives 0 where the text is no such value; the result
  * is to be cut to the type's width. */
 uint32_t rung_text_of_scalar(char* to, uint32_t capacity, uint8_t kind, uint64_t bits);
-void rung_wtext_of_scalar(char16_t* to, uint32_t capacity, uint8_t kind, uint64_t bits);
+uint32_t rung_wtext_of_scalar(char16_t* to, uint32_t capacity, uint8_t kind, uint64_t bits);
 uint64_t rung_scalar_of_text(uint8_t kind, const char* text) RUNG_PURE;
 uint64_t rung_scalar_of_wtext(uint8_t kind, const char16_t* text) RUNG_PURE;
 
