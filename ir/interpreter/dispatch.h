@@ -8,8 +8,12 @@
 #include "ir/interpreter/code.h"
 #include "rung/code.h"
 
-#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(RUNG_INTERPRETER_LOOP)
+#if defined(__clang__)
 #define RUNG_INTERPRETER_JUMPS 1
+#define RUNG_TAIL_CALL [[clang::musttail]] return
+#elif defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
+#define RUNG_INTERPRETER_JUMPS 1
+#define RUNG_TAIL_CALL return
 #else
 #define RUNG_INTERPRETER_JUMPS 0
 #endif
@@ -17,10 +21,10 @@
 #define RUNG_HANDLER_PARAMETERS \
   [[maybe_unused]] const Insn *ip, [[maybe_unused]] uint8_t *fp, [[maybe_unused]] uint8_t *self, Machine *m
 #if RUNG_INTERPRETER_JUMPS
-#define RUNG_GO(next, frame, instance)                \
-  do {                                                \
-    const Insn* const go_to = (next);                 \
-    return go_to->run(go_to, (frame), (instance), m); \
+#define RUNG_GO(next, frame, instance)                        \
+  do {                                                        \
+    const Insn* const go_to = (next);                         \
+    RUNG_TAIL_CALL go_to->run(go_to, (frame), (instance), m); \
   } while (0)
 #else
 #define RUNG_GO(next, frame, instance) \

@@ -65,6 +65,16 @@ bool BodyTranslator::mayFault(ExprId id) const {
   return found;
 }
 
+bool BodyTranslator::touchesForeignMemory(ExprId id) const {
+  bool found = false;
+  forEachExpr(*body_, id, [&](ExprId at) {
+    const Expr& e = expr(at);
+    found = found || e.kind == ExprKind::Deref || e.kind == ExprKind::Index ||
+            (e.kind == ExprKind::Field && info(expr(ExprId{e.a}).type).fields[e.b].by_reference);
+  });
+  return found;
+}
+
 bool BodyTranslator::contains(ExprId id, ExprKind kind) const {
   bool found = false;
   forEachExpr(*body_, id, [&](ExprId at) { found = found || expr(at).kind == kind; });
@@ -163,6 +173,16 @@ Operand BodyTranslator::binary(const Expr& e, const Operand* want) {
   if (e.op == Op::Power) return power(e, want);
   const Scalar type = scalarOf(a);
   const TypeKind kind = kindOf(a);
+  if (type == Scalar::Bool && (e.op == Op::And || e.op == Op::Or) && !mayFault(b) && touchesForeignMemory(b)) {
+    // Nothing is checked: memory that the left operand guards is not touched, as in native code.
+    const Operand to = temp();
+    const Label decided = newLabel();
+    valueInto(a, to);
+    jumpTo(emit(branchTruthHandler(to.mode, e.op == Op::Or), to.ref), decided);
+    valueInto(b, to);
+    place(decided);
+    return to;
+  }
   Operand left = value(a), right = value(b);
   if (kind == TypeKind::Pointer || kind == TypeKind::Reference) right = wide(right, scalarOf(b));
   uint32_t at = 0;

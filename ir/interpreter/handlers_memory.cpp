@@ -27,16 +27,17 @@ void storeAt(RUNG_HANDLER_PARAMETERS) {
   RUNG_NEXT;
 }
 
-// The position of an element from the lowest index (low half of imm) below the count (high half).
+// The position of an element from the lowest index (low half of imm) below the count (high half). Without a check it
+// may be outside, and so may the memory, as in native code.
 template <class I, Mode M>
-uint32_t position(const Insn* ip, const uint8_t* fp, const uint8_t* self, Machine* m) {
+uint64_t position(const Insn* ip, const uint8_t* fp, const uint8_t* self, Machine* m) {
   const I index = get<M, I>(ip, fp, self, ip->c);
   const auto at = static_cast<uint64_t>(static_cast<int64_t>(index)) -
                   static_cast<uint64_t>(int64_t{static_cast<int32_t>(ip->imm)});
-  if (RUNG_UNLIKELY(at >= static_cast<uint64_t>(ip->imm) >> 32)) {
+  if (RUNG_UNLIKELY(at >= static_cast<uint64_t>(ip->imm) >> 32) && ip->d != 0) {
     fail(m, RUNG_FAULT_INDEX, ip->d, static_cast<int64_t>(index));
   }
-  return static_cast<uint32_t>(at);
+  return at;
 }
 
 template <class T, class I, Base B, Mode M, Mode D>

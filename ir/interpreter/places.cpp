@@ -158,6 +158,10 @@ Operand BodyTranslator::indexOperand(ExprId id, Scalar& type) {
   return inMemory(index, type);
 }
 
+uint32_t BodyTranslator::indexSite(const Expr& e, const Dimension& dimension) {
+  return (e.checks & kCheckIndex) != 0 ? site(e.loc, dimension.low, dimension.high) : 0;
+}
+
 // The element, or with `count` below the number of dimensions the part of the array at the first indices.
 Address BodyTranslator::indexed(const Expr& e, uint32_t count) {
   const TypeInfo& array = info(expr(ExprId{e.a}).type);
@@ -204,7 +208,7 @@ bool BodyTranslator::element(const Expr& e, Element& out) {
   }
   out.index = indexOperand(last, out.index_type);
   out.range = static_cast<int64_t>(dimension.count() << 32 | static_cast<uint32_t>(dimension.low));
-  out.site = site(e.loc, dimension.low, dimension.high);
+  out.site = indexSite(e, dimension);
   return true;
 }
 

@@ -129,11 +129,13 @@ class BodyTranslator {
   void branch(ExprId condition, bool sense, Label to);
   bool mayFault(ExprId id) const;
   bool contains(ExprId id, ExprKind kind) const;
+  bool touchesForeignMemory(ExprId id) const;  // what may not exist where nothing is checked
 
   // ---- places.cpp
   Address place(ExprId id);
   Address fieldMemory(const Expr& e);  // of a by-reference field: of the pointer itself
   Address indexed(const Expr& e, uint32_t count);
+  uint32_t indexSite(const Expr& e, const types::Dimension& dimension);  // 0 where it is not checked
   bool element(const Expr& e, Element& out);  // false: not of that kind, and nothing was done
   Operand indexOperand(ExprId id, Scalar& type);
   Operand read(const Address& from, Scalar type, const Operand* want);
