@@ -108,14 +108,26 @@ wrap() {
 measure_kernels() {  # kernels.st hand.cpp
   $cxx -std=c++17 -O2 "$2" -o "$work/hand"
   "$work/hand" >"$work/hand.tsv"
-  local rounds checks
+  local rounds checks turn
   rounds=$(awk -F'\t' '{ printf "%s=%s ", $2, $3 }' "$work/hand.tsv")
   for checks in none default; do
     rm -rf "$work/out"
     "$rung" emit "$1" --checks=$checks -o "$work/out" || { echo "failed with exit code $?"; return; }
-    $cxx -std=c++17 -O2 -ffp-contract=off -I "$include" "$work"/out/*.cpp tests/bench/kernels/measure.cpp "$runtime" -o "$work/rung_kernels"
-    # shellcheck disable=SC2086
-    "$work/rung_kernels" $rounds >"$work/$checks.tsv" || { echo "failed with exit code $?"; return; }
+    $cxx -std=c++17 -O2 -ffp-contract=off -I "$include" "$work"/out/*.cpp tests/bench/kernels/measure.cpp "$runtime" -o "$work/$checks"
+  done
+  # In turns, the best of each: what else the machine does hits all alike.
+  for turn in 1 2 3 4 5; do
+    "$work/hand" >"$work/hand.$turn"
+    for checks in none default; do
+      # shellcheck disable=SC2086
+      "$work/$checks" $rounds >"$work/$checks.$turn" || { echo "failed with exit code $?"; return; }
+    done
+  done
+  for turn in hand none default; do
+    awk -F'\t' -v OFS='\t' '
+      !($2 in best) { order[++n] = $2 }
+      !($2 in best) || $4 < best[$2] { best[$2] = $4; row[$2] = $0 }
+      END { for (i = 1; i <= n; i++) print row[order[i]] }' "$work/$turn".[1-5] >"$work/$turn.tsv"
   done
   awk -F'\t' '
     FNR == 1 { file++ }
@@ -168,6 +180,8 @@ interp() {
 kernels() {
   echo "== kernels: generated code at -O2, as multiples of hand-written C++"
   measure_kernels tests/bench/kernels/kernels.st tests/bench/kernels/hand.cpp
+  echo "-- routines of plant programs"
+  measure_kernels tests/bench/routines/kernels.st tests/bench/routines/hand.cpp
   if [ -n "$other_kernels" ]; then
     echo "-- $other_kernels"
     wrap "$other_kernels" >"$work/other.st"

@@ -15,6 +15,16 @@ constexpr uint32_t kScalarRoom = RUNG_SPELLED_SCALAR;
 // Decimal digits straight into `to`: the most frequent spelling by far.
 uint32_t spellInteger(char* to, uint32_t capacity, bool negative, uint64_t magnitude) {
   uint32_t length = negative ? 2 : 1;
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+  if (magnitude < 1000000 && capacity >= 7) {  // one store, NUL included, from which the next reader need not wait
+    uint64_t word = '0' + magnitude % 10;
+    for (uint32_t rest = static_cast<uint32_t>(magnitude) / 10; rest != 0; rest /= 10, ++length)
+      word = word << 8 | ('0' + rest % 10);
+    if (negative) word = word << 8 | '-';
+    memcpy(to, &word, sizeof word);
+    return length;
+  }
+#endif
   for (uint64_t rest = magnitude; rest >= 10; rest /= 10) ++length;
   const uint32_t kept = length < capacity ? length : capacity;
   for (uint32_t i = length; i > negative; --i, magnitude /= 10) {
