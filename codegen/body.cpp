@@ -1,6 +1,7 @@
 // The function around the statements of a body: signature, variables, exits. See body.h.
 #include "codegen/body.h"
 
+#include "codegen/effort.h"
 #include "frontend/source/invariant.h"
 #include "ir/builder.h"
 #include "ir/walk.h"
@@ -256,7 +257,11 @@ void BodyWriter::write(ir::BodyId id) {
     if (body.kind == BodyKind::Init) to += "initial values of ";
     to += text(body.spelling ? body.spelling : body.name);
     to += '\n';
-    if (marks_.hot[id.index] == group_number_) to += "RUNG_INLINE ";
+    if (marks_.hot[id.index] == group_number_) {
+      to += "RUNG_INLINE ";
+    } else if (!options_.optimize_all && isStraight(body)) {
+      to += "RUNG_STRAIGHT ";
+    }
   }
   appendSignature(to, module_, body);
   to += " {";

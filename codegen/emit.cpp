@@ -8,6 +8,7 @@
 #include "codegen/group.h"
 #include "codegen/module.h"
 #include "codegen/names.h"
+#include "codegen/records.h"
 #include "codegen/types.h"
 #include "frontend/source/invariant.h"
 
@@ -39,10 +40,25 @@ std::string inlineFile(const ir::Module& module, ir::BodyId id) {
   return fileStem(module.names.text(module.body(id).name)) + "fn.h";
 }
 
+// Of each record once: where its code stands.
+std::string layoutAsserts(const ir::Module& module, const Group& group) {
+  std::string out;
+  TypeId last;
+  for (ir::BodyId id : group.bodies) {
+    const TypeId self = module.body(id).self;
+    if (!self || module.types.resolve(self) == last) continue;
+    last = module.types.resolve(self);
+    appendLayoutAssert(out, module.types, last);
+  }
+  return out;
+}
+
 // What a group's text needs in front of it, the text, and the end of the namespace.
-std::string around(const ir::Module& module, const Group& group, std::string_view name_space, std::string out) {
+std::string around(const ir::Module& module, const Group& group, RecordPlaces& records, std::string_view name_space,
+                   std::string out) {
   std::vector<std::string> files;
-  for (TypeId record : group.records) files.push_back(recordFile(module.types, record));
+  std::string definitions;
+  records.place(group.records, files, definitions);
   for (ir::BodyId id : group.inlined) files.push_back(inlineFile(module, id));
   std::sort(files.begin(), files.end());
   for (NameId library : group.libraries) {
@@ -58,6 +74,8 @@ std::string around(const ir::Module& module, const Group& group, std::string_vie
   out += "\nnamespace ";
   out += name_space;
   out += " {\n";
+  out += definitions;
+  paragraph(layoutAsserts(module, group));
   paragraph((group.sites.empty() ? "" : "extern const uint32_t sites_" + group.stem + ";\n") +
             prototypes(module, group.callees, false, "") + group.data);
   out += group.code;
@@ -67,13 +85,13 @@ std::string around(const ir::Module& module, const Group& group, std::string_vie
   return out;
 }
 
-std::string sourceOf(const ir::Module& module, const Group& group, std::string_view name_space) {
+std::string sourceOf(const ir::Module& module, const Group& group, RecordPlaces& records, std::string_view name_space) {
   std::string out = "// Bodies from ";
   out += module.names.text(module.body(group.bodies.front()).name);
   out += " to ";
   out += module.names.text(module.body(group.bodies.back()).name);
   out += ".\n#define RUNG_GENERATED\n#include \"rung/code.h\"\n";
-  return around(module, group, name_space, std::move(out));
+  return around(module, group, records, name_space, std::move(out));
 }
 
 }  // namespace
@@ -82,7 +100,6 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   setPhase("codegen");
   const std::string name_space = mangle(options.module_name);
   const Facts facts(module);
-  std::vector<OutputFile> files;
 
   std::vector<Group> groups = makeGroups(module, facts);
   Marks marks;
@@ -107,13 +124,11 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
       is_listed[id.index] = 1;
       inlined.push_back(id);
     }
-    files.push_back({group.stem + ".cpp", sourceOf(module, group, name_space)});
   }
+  std::vector<Group> headers;
   for (size_t i = 0; i < inlined.size(); ++i) {
-    Group header;
+    Group& header = headers.emplace_back();
     BodyWriter(module, options, facts, header, marks, static_cast<uint32_t>(groups.size() + i) + 1).write(inlined[i]);
-    files.push_back({inlineFile(module, inlined[i]),
-                     around(module, header, name_space, "#pragma once\n\n#include \"rung/code.h\"\n")});
     for (ir::BodyId id : header.inlined) {
       if (is_listed[id.index] != 0) continue;
       is_listed[id.index] = 1;
@@ -121,12 +136,18 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
     }
   }
   setPhaseSubject("", 0);
-  for (const ir::Record& record : module.records) {
-    const TypeId type = module.types.resolve(record.type);
-    files.push_back(
-        {recordFile(module.types, type), recordHeader(module, record, name_space, facts.is_pointed[type.index] != 0,
-                                                      record.init && facts.is_zeroing[record.init.index] == 0)});
+
+  RecordPlaces records(module, facts, name_space);
+  for (const Group& group : groups) records.need(group.records, false);
+  for (const Group& header : headers) records.need(header.records, true);
+  std::vector<OutputFile> files;
+  for (const Group& group : groups)
+    files.push_back({group.stem + ".cpp", sourceOf(module, group, records, name_space)});
+  for (size_t i = 0; i < headers.size(); ++i) {
+    files.push_back({inlineFile(module, inlined[i]),
+                     around(module, headers[i], records, name_space, "#pragma once\n\n#include \"rung/code.h\"\n")});
   }
+  records.appendHeaders(files);
   Description description = describe(module, options, facts, groups, name_space);
   files.push_back({"module.cpp", std::move(description.module)});
   files.push_back({"sites.cpp", std::move(description.sites)});

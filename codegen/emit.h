@@ -12,7 +12,8 @@ namespace rung::codegen {
 struct EmitOptions {
   std::string module_name = "plc";  // --name: the prefix of every external symbol
   bool line_directives = true;
-  bool with_tests = false;  // `rung test`: entries of the tests instead of tasks
+  bool optimize_all = false;  // -O2: the C++ compiler optimizes every body, not only those that loop (effort.h)
+  bool with_tests = false;    // `rung test`: entries of the tests instead of tasks
 };
 
 struct OutputFile {

@@ -99,37 +99,6 @@ void appendReal(std::string& out, Float value, const char* suffix) {
   out += suffix;
 }
 
-const char* keyword(RecordKind kind) {
-  switch (kind) {
-    case RecordKind::Struct: return "STRUCT";
-    case RecordKind::Union: return "UNION";
-    case RecordKind::FunctionBlock: return "FUNCTION_BLOCK";
-    case RecordKind::Program: return "PROGRAM";
-    case RecordKind::GlobalList: return "VAR_GLOBAL";
-  }
-  return "";
-}
-
-// One assertion for the whole layout: size, and where fields begin; of a large record about kAsserted of them.
-void appendLayoutAssert(std::string& out, const TypeInfo& info, const std::string& name, const Names& names) {
-  out += "static_assert(sizeof(";
-  out += name;
-  out += ") == ";
-  appendUnsigned(out, info.size);
-  constexpr size_t kAsserted = 16;
-  const size_t step = info.fields.size() / kAsserted + 1;
-  for (size_t i = 0; i < info.fields.size(); ++i) {
-    if (info.fields[i].offset == 0 || (i % step != 0 && i + 1 != info.fields.size())) continue;
-    out += " && offsetof(";
-    out += name;
-    out += ", ";
-    appendMangled(out, names.text(info.fields[i].name));
-    out += ") == ";
-    appendUnsigned(out, info.fields[i].offset);
-  }
-  out += ", \"layout\");\n";
-}
-
 }  // namespace
 
 const char* scalarType(const TypeTable& types, TypeId type) { return kPlainNames[shapeOf(types, type)]; }
@@ -317,40 +286,16 @@ void appendConstant(std::string& out, const TypeTable& types, TypeId type, uint6
   }
 }
 
-std::string recordHeader(const ir::Module& module, const ir::Record& record, std::string_view name_space, bool pointed,
-                         bool has_init) {
-  const TypeTable& types = module.types;
-  const Names& names = module.names;
-  const TypeInfo& info = types.info(types.resolve(record.type));
-  const std::string name = recordName(types, record.type);
-  std::string out = "// ";
-  out += keyword(info.record_kind);
-  out += ' ';
-  out += names.text(record.name);
-  out += "\n#pragma once\n\n#include \"rung/code.h\"\n";
-  std::vector<TypeId> held;
-  for (const Field& field : info.fields) {
-    const TypeId element = elementOf(types, field.type);
-    if (field.by_reference || types.kind(element) != TypeKind::Record) continue;
-    bool known = false;
-    for (TypeId other : held) known |= other == element;
-    if (known) continue;
-    held.push_back(element);
-    out += "#include \"";
-    out += recordFile(types, element);
-    out += "\"\n";
-  }
-  out += "\nnamespace ";
-  out += name_space;
-  out += " {\n\n";
+void appendRecordDefinition(std::string& out, const TypeTable& types, TypeId type, bool pointed) {
+  const TypeInfo& info = types.info(types.resolve(type));
   out += info.record_kind == RecordKind::Union ? "union " : "struct ";
   if (pointed) out += "RUNG_MAY_ALIAS ";
-  out += name;
+  out += recordName(types, type);
   out += " {\n";
   std::string field_name;
   for (const Field& field : info.fields) {
     field_name.clear();
-    appendMangled(field_name, names.text(field.name));
+    appendMangled(field_name, types.names().text(field.name));
     out += "  ";
     if (field.by_reference) {
       appendPointer(out, types, field.type, field_name);
@@ -361,19 +306,27 @@ std::string recordHeader(const ir::Module& module, const ir::Record& record, std
     out += ";\n";
   }
   out += "};\n";
-  appendLayoutAssert(out, info, name, names);
-  for (ir::BodyId body : {has_init ? record.init : ir::BodyId{}, record.body}) {
-    if (!body || module.body(body).native) continue;
-    out += "void ";
-    appendFunctionName(out, module, module.body(body));
-    out += '(';
+}
+
+void appendLayoutAssert(std::string& out, const TypeTable& types, TypeId type) {
+  const TypeInfo& info = types.info(types.resolve(type));
+  const std::string name = recordName(types, type);
+  out += "static_assert(sizeof(";
+  out += name;
+  out += ") == ";
+  appendUnsigned(out, info.size);
+  constexpr size_t kAsserted = 16;
+  const size_t step = info.fields.size() / kAsserted + 1;
+  for (size_t i = 0; i < info.fields.size(); ++i) {
+    if (info.fields[i].offset == 0 || (i % step != 0 && i + 1 != info.fields.size())) continue;
+    out += " && offsetof(";
     out += name;
-    out += "& self, rung_context* ctx);\n";
+    out += ", ";
+    appendMangled(out, types.names().text(info.fields[i].name));
+    out += ") == ";
+    appendUnsigned(out, info.fields[i].offset);
   }
-  out += "\n}  // namespace ";
-  out += name_space;
-  out += '\n';
-  return out;
+  out += ", \"layout\");\n";
 }
 
 }  // namespace rung::codegen

@@ -1,4 +1,4 @@
-// Types in C++: spelling, declarations, constants and the header of each record.
+// Types in C++: spelling, declarations, constants, the struct of each record.
 // In: types of the type table, laid out. Out: text appended to `out`. Called by every file of codegen.
 #pragma once
 
@@ -34,9 +34,9 @@ void appendConstant(std::string& out, const types::TypeTable& types, TypeId type
 // The record type that an array is made of, or the type itself.
 TypeId elementOf(const types::TypeTable& types, TypeId type);
 
-// The header of a record: the struct, its layout as an assertion, and what works on it.
-// `pointed`: pointers may read it as memory of another type; `has_init`: its initialiser is generated.
-std::string recordHeader(const ir::Module& module, const ir::Record& record, std::string_view name_space, bool pointed,
-                         bool has_init);
+// The struct or union. `pointed`: pointers may read it as memory of another type.
+void appendRecordDefinition(std::string& out, const types::TypeTable& types, TypeId type, bool pointed);
+// One assertion for the whole layout: size, and where fields begin; of a large record about 16 of them.
+void appendLayoutAssert(std::string& out, const types::TypeTable& types, TypeId type);
 
 }  // namespace rung::codegen

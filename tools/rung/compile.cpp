@@ -176,6 +176,7 @@ bool Compilation::emit(bool with_tests, std::vector<codegen::OutputFile>& files)
   codegen::EmitOptions emit_options;
   emit_options.module_name = options.moduleName();
   emit_options.with_tests = with_tests;
+  emit_options.optimize_all = options.level >= 2;
   files = codegen::emitCpp(*module, emit_options);
   setPhaseSubject("", 0);
   times_.end();

@@ -90,7 +90,7 @@ constexpr OptionRow kOptions[] = {
     {Key::Keep, "--keep", nullptr, bit(Command::Build) | bit(Command::Run) | bit(Command::Test),
      "keep the generated C++ and say where it is"},
     {Key::Engine, "--engine", "native|interp", bit(Command::Run) | bit(Command::Test),
-     "run compiled C++ (fast, starts slowly) or interpret (interp)"},
+     "run compiled C++, or interpret (starts at once)"},
     {Key::Host, "--cycles", "N", bit(Command::Run), "run N cycles (100, or as far as --inputs goes)"},
     {Key::Host, "--for", "T", bit(Command::Run), "run for a time, such as T#2s"},
     {Key::Host, "--interval", "T", bit(Command::Run), "cycle time where no task is configured (T#10ms)"},

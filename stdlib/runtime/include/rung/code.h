@@ -36,6 +36,12 @@
 #define RUNG_PURE __attribute__((pure))
 /* A small function that its file calls in loops: g++ may inline it there, and others call it. */
 #define RUNG_INLINE __attribute__((used)) inline
+/* A body whose loops do little: the quick passes of the compiler are enough for it (codegen/effort.h). */
+#if defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && defined(__GNUC__) && !defined(__clang__)
+#define RUNG_STRAIGHT __attribute__((optimize("Og")))
+#else
+#define RUNG_STRAIGHT
+#endif
 
 /* Scalars behind POINTER and UNION: memory of any type. */
 typedef int8_t RUNG_MAY_ALIAS rung_i8_at;

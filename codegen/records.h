@@ -1,0 +1,48 @@
+// Where the struct of each record stands. In: the records that each source of the module needs complete. Out: their
+// definitions as C++ text. Called by emit.cpp, after the bodies were written.
+//
+// A record that few sources use is written into each of them, behind those that it holds: a change of its fields then
+// changes exactly its users, g++ opens no file for it, and a project of thousands of blocks makes few files. A record
+// that more than kMostCopies sources use has a header of its own, so that the text stays linear in the project.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "codegen/emit.h"
+#include "codegen/facts.h"
+
+namespace rung::codegen {
+
+class RecordPlaces {
+ public:
+  RecordPlaces(const ir::Module& module, const Facts& facts, std::string_view name_space);
+
+  // A source needs these complete. `shared`: it is a header itself, whose text must not stand twice.
+  void need(const std::vector<TypeId>& records, bool shared);
+
+  // After all of them: what such a source includes and the text of what it defines itself.
+  void place(const std::vector<TypeId>& records, std::vector<std::string>& includes, std::string& definitions);
+  void appendHeaders(std::vector<OutputFile>& files);
+
+ private:
+  static constexpr uint32_t kMostCopies = 4;
+  bool hasHeader(uint32_t row) const { return copies_[row] > kMostCopies; }
+  template <class F>
+  void forEachHeld(const std::vector<TypeId>& records, bool into_headers, F&& f);  // each once, what is held first
+  template <class F>
+  void visit(uint32_t row, bool into_headers, F& f);
+  std::string definition(uint32_t row) const;
+  const std::vector<uint32_t>& held(uint32_t row);
+
+  const ir::Module& module_;
+  const Facts& facts_;
+  std::string name_space_;
+  std::vector<uint32_t> row_of_;  // by type: index into module.records + 1
+  std::vector<uint32_t> copies_, seen_, held_seen_;
+  std::vector<std::vector<uint32_t>> held_;
+  std::vector<uint8_t> is_held_known_;
+  uint32_t round_ = 0, held_round_ = 0;
+};
+
+}  // namespace rung::codegen
