@@ -36,20 +36,6 @@ void appendParameter(std::string& out, const TypeTable& types, const ir::Local& 
 
 }  // namespace
 
-void BodyWriter::appendNativeName(std::string& out, const ir::Module& module, const ir::Body& body) {
-  const std::string_view library = module.names.text(body.library_name);
-  std::string_view name = module.names.text(body.name);
-  out += "rung_";
-  for (char c : library) out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  out += '_';
-  // A function that a user's one hides is `Standard__MID`: the C function has its plain name.
-  if (name.size() > library.size() + 2 && name.substr(0, library.size()) == library &&
-      name.substr(library.size(), 2) == "__") {
-    name.remove_prefix(library.size() + 2);
-  }
-  out += name;
-}
-
 void BodyWriter::appendSignature(std::string& out, const ir::Module& module, const ir::Body& body) {
   const TypeTable& types = module.types;
   const ir::Local* result = nullptr;
@@ -60,12 +46,14 @@ void BodyWriter::appendSignature(std::string& out, const ir::Module& module, con
   if (by_value) {
     const char* type = scalarType(types, body.result);
     out += type;
+  } else if (body.native && body.result && TypeTable::isText(types.kind(body.result))) {
+    out += "uint32_t";  // the length
   } else {
     out += "void";
   }
   out += ' ';
   if (body.native) {
-    appendNativeName(out, module, body);
+    out += ir::nativeName(module, body);
   } else {
     appendFunctionName(out, module, body);
   }
@@ -243,16 +231,18 @@ void BodyWriter::write(ir::BodyId id) {
   loops_.clear();
   frames_.clear();
   blocks_declared_.clear();
-  has_try_ = self_escapes_ = has_foreign_calls_ = has_calls_ = uses_fault_ = uses_leave_ = false;
+  has_try_ = self_escapes_ = has_foreign_calls_ = has_calls_ = has_measured_ = uses_fault_ = uses_leave_ = false;
   names_made_ = 0;
   depth_ = 1;
   closes_ = 0;
   line_ = 0;
   line_file_ = {};
 
+  known_.clear();
   analyze();
   if (body.self) includeRecord(body.self);
   declareVariables();
+  declareLengths();
   block(body.first);
   flushCloses(0);
   writeExits();
@@ -267,8 +257,10 @@ void BodyWriter::write(ir::BodyId id) {
     if (body.kind == BodyKind::Init) to += "initial values of ";
     to += text(body.spelling ? body.spelling : body.name);
     to += '\n';
+    const bool is_hot = marks_.hot[id.index] == group_number_;
     const Effort effort = effortFor(body);
-    if (effort == Effort::Straight && !options_.optimize_all) to += "RUNG_STRAIGHT ";
+    if (is_hot) to += "RUNG_INLINE ";
+    if (effort == Effort::Straight && !is_hot && !options_.optimize_all) to += "RUNG_STRAIGHT ";
     if (effort == Effort::Loops) to += "RUNG_LOOPS ";
   }
   appendSignature(to, module_, body);

@@ -42,7 +42,6 @@ class BodyWriter {
 
   // `float Scale_fn(rung_context* ctx, int16_t raw_)`, without `;`. Native: as the library defines it.
   static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body);
-  static void appendNativeName(std::string& out, const ir::Module& module, const ir::Body& body);
 
  private:
   using Body = ir::Body;
@@ -74,6 +73,9 @@ class BodyWriter {
     uint32_t weight = 0, loop_weight = 0;  // uses, those in loops counted more; the part in loops
     bool written = false, exposed = false, cached = false;
     uint8_t wide = 0;  // 32 or 64: the C++ local is wider than the type, as the control of a For
+    // A text: uses by sized functions; its length lives in a C++ local, and is right where the statements stand.
+    uint32_t sized_weight = 0;
+    bool measured = false, known = false;
   };
   struct Control {
     Slot slot;
@@ -88,6 +90,27 @@ class BodyWriter {
   Variable* variableOf(Slot slot);
   bool isPrivateLoop(StmtId loop) const { return !private_loop_.empty() && private_loop_[loop.index] != 0; }
   bool boundsFit(const Stmt& loop) const;
+
+  // ---- lengths.cpp: lengths of texts in C++ locals
+  bool isSized(const Body& callee) const;
+  bool isSizedCall(const Body& callee, uint32_t first, uint32_t count, ExprId result) const;
+  Variable* textVariable(ExprId place);
+  const Variable* measuredText(ExprId place) const;
+  void noteSizedCall(const Body& callee, uint32_t first, uint32_t count, uint32_t weight);
+  void noteTextAssign(const Stmt& stmt, uint32_t weight);
+  void chooseMeasured();
+  void declareLengths();
+  bool needsMeasuring(ExprId id) const;
+  void measure(const Stmt& stmt);
+  void measureExpr(ExprId id);
+  void measureText(ExprId place);
+  void collectUnknown(const Stmt& stmt);
+  void collectUnknown(StmtId first);
+  void forgetLengths(size_t mark);
+  void setKnown(ExprId place);
+  void lengthName(ExprId place);
+  void textLength(ExprId text);
+  void sizedCall(const Body& callee, uint32_t first, uint32_t count);
 
   // ---- statements.cpp
   void block(StmtId first);
@@ -169,7 +192,8 @@ class BodyWriter {
   // ---- text.cpp
   void assign(const Stmt& stmt);
   void prepareText(ExprId from);  // what copyText takes apart itself is not made first
-  void copyText(std::string_view to, uint32_t capacity, bool wide, ExprId from);
+  // `length`: the name of the C++ local that takes the new length, or empty.
+  void copyText(std::string_view to, uint32_t capacity, bool wide, ExprId from, std::string_view length = {});
   void textValue(ExprId id);  // a const char* or const char16_t*
   void compareTexts(const Expr& expr, Prec context);
   bool isBuffer(ExprId id, uint32_t& capacity) const;  // a text in memory that is as long as its type says
@@ -217,10 +241,12 @@ class BodyWriter {
   std::string declarations_;  // the variables at the top
   std::vector<Variable> locals_, fields_;
   std::vector<Control> controls_;  // of the loops at hand
+  std::vector<Variable*> known_;   // the texts whose lengths became known, to be taken back at the end of a block
+  std::vector<ExprId> unknown_;    // collectUnknown: a place of each text that a loop needs the length of
   std::vector<uint8_t> private_loop_;
   std::vector<uint32_t> blocks_declared_;
   std::vector<std::pair<uint32_t, std::string>> made_;  // expression, variable that holds its text
-  bool has_try_ = false, self_escapes_ = false, has_foreign_calls_ = false, has_calls_ = false;
+  bool has_try_ = false, self_escapes_ = false, has_foreign_calls_ = false, has_calls_ = false, has_measured_ = false;
   bool uses_fault_ = false, uses_leave_ = false;
   uint32_t names_made_ = 0;
 

@@ -136,7 +136,10 @@ void BodyWriter::checks(ExprId id, const Expr& e) {
             out_ += ')' + number + " < 0";
           }
         }
-        endCheck(e.loc, Fault::Convert, "(" + captured([&] { value(a, Prec::Comma); }) + ")");
+        // Of a REAL the nearest whole number: a cast of NaN or of what does not fit is undefined.
+        endCheck(e.loc, Fault::Convert, (TypeTable::isReal(source) ? "rung_round_i64(" : "(") + captured([&] {
+                                          value(a, Prec::Ternary);
+                                        }) + ")");
       }
       if ((e.checks & ir::kCheckSubrange) != 0 && info.kind == TypeKind::Subrange) {
         beginCheck();

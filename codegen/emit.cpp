@@ -61,6 +61,11 @@ std::string around(const ir::Module& module, const Group& group, RecordPlaces& r
   records.place(group.records, files, definitions);
   for (ir::BodyId id : group.inlined) files.push_back(inlineFile(module, id));
   std::sort(files.begin(), files.end());
+  for (NameId library : group.libraries) {
+    std::string file(module.names.text(library));
+    for (char& c : file) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    out += "#include \"rung/" + file + ".h\"\n";
+  }
   for (const std::string& file : files) out += "#include \"" + file + "\"\n";
   auto paragraph = [&](const std::string& text) {
     if (!text.empty()) out += '\n' + text;
@@ -99,6 +104,7 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   std::vector<Group> groups = makeGroups(module, facts);
   Marks marks;
   marks.body.resize(module.bodies.size());
+  marks.hot.resize(module.bodies.size());
   marks.record.resize(module.types.count());
   marks.data.resize(module.data.size());
   marks.data_number.resize(module.data.size());
@@ -106,6 +112,7 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   std::vector<uint8_t> is_listed(module.bodies.size());
   for (uint32_t i = 0; i < groups.size(); ++i) {
     Group& group = groups[i];
+    markHot(module, group, marks, i + 1);
     BodyWriter writer(module, options, facts, group, marks, i + 1);
     for (ir::BodyId id : group.bodies) {
       const std::string_view name = module.names.text(module.body(id).name);

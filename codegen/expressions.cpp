@@ -139,9 +139,14 @@ void BodyWriter::constant(const Expr& e, Prec context) {
 void BodyWriter::callExpr(const Expr& e) {
   const ir::BodyId id{e.a};
   const Body& callee = module_.body(id);
+  if (!isText(e.type) && isSizedCall(callee, e.b, e.c, {})) {
+    sizedCall(callee, e.b, e.c);
+    out_ += ')';
+    return;
+  }
   call(id);
   if (callee.native) {
-    appendNativeName(out_, module_, callee);
+    out_ += ir::nativeName(module_, callee);
   } else {
     appendFunctionName(out_, module_, callee);
   }

@@ -1,9 +1,6 @@
 // Facts about the module: see facts.h. One pass over all expressions and statements.
 #include "codegen/facts.h"
 
-#include <algorithm>
-#include <string>
-
 #include "ir/walk.h"
 
 namespace rung::codegen {
@@ -20,14 +17,6 @@ namespace {
 
 constexpr uint8_t kUnknown = 2;
 constexpr size_t kInlineStmts = 16, kInlineExprs = 80;
-
-std::string folded(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return result;
-}
 
 bool isSmall(const Body& body) {
   if (body.stmts.size() > kInlineStmts || body.exprs.size() > kInlineExprs || body.has_labels) return false;
@@ -70,33 +59,7 @@ bool isForeign(const Body& body, ExprId place) {
 
 }  // namespace
 
-Facts::Facts(const ir::Module& module) {
-  // ---- blocks
-  struct Row {
-    std::string key;
-    bool is_program;
-    uint32_t index;
-  };
-  std::vector<Row> rows;
-  for (uint32_t i = 0; i < module.lists.size(); ++i)
-    rows.push_back({folded(module.names.text(module.lists[i].name)), false, i});
-  for (uint32_t i = 0; i < module.programs.size(); ++i)
-    rows.push_back({folded(module.names.text(module.programs[i].name)), true, i});
-  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
-    return a.key != b.key ? a.key < b.key : a.is_program < b.is_program;
-  });
-  list_block.resize(module.lists.size());
-  program_block.resize(module.programs.size());
-  for (const Row& row : rows) {
-    (row.is_program ? program_block : list_block)[row.index] = block_count++;
-    if (row.is_program) {
-      blocks.push_back({module.programs[row.index].name, module.programs[row.index].record});
-    } else {
-      blocks.push_back({module.lists[row.index].name, module.lists[row.index].record});
-    }
-  }
-
-  // ---- bodies
+Facts::Facts(const ir::Module& module) : MemoryBlocks(module) {
   is_zeroing.resize(module.bodies.size(), kUnknown);
   for (uint32_t i = 1; i < module.bodies.size(); ++i) is_zeroing[i] = onlyClears(module, ir::BodyId{i});
   is_inlined.resize(module.bodies.size());

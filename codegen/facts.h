@@ -6,21 +6,12 @@
 #include <unordered_set>
 #include <vector>
 
-#include "ir/ir.h"
+#include "ir/description.h"
 
 namespace rung::codegen {
 
-struct Facts {
+struct Facts : ir::MemoryBlocks {
   explicit Facts(const ir::Module& module);
-
-  // Memory blocks, sorted by name: of list i and of program i.
-  std::vector<uint32_t> list_block, program_block;
-  uint32_t block_count = 0;
-  struct Block {
-    NameId name;
-    TypeId record;
-  };
-  std::vector<Block> blocks;
 
   std::vector<uint8_t> is_inlined;  // by body: a small pure library function, in a header of its own
 

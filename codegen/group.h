@@ -27,6 +27,7 @@ struct Group {
   std::vector<Site> sites;
   std::vector<TypeId> records;      // whose headers it includes
   std::vector<ir::BodyId> callees;  // functions and natives to be declared
+  std::vector<NameId> libraries;    // whose headers with sized forms it includes
   std::vector<ir::BodyId> inlined;  // small pure library functions that they call, each in a header of its own
   uint32_t data_count = 0;
 };
@@ -34,9 +35,14 @@ struct Group {
 // Marks that are equal for what the group at hand has listed already.
 struct Marks {
   std::vector<uint32_t> body, record, data, data_number;
+  std::vector<uint32_t> hot;  // small bodies that the group calls in loops
 };
 
 // Cuts the bodies that have code into groups; the cuts depend on the names alone.
 std::vector<Group> makeGroups(const ir::Module& module, const Facts& facts);
+
+// Marks the small bodies that bodies of the group call in loops. They become inline functions that are emitted all the
+// same: other groups call them, and this group's text depends on its own bodies alone.
+void markHot(const ir::Module& module, const Group& group, Marks& marks, uint32_t group_number);
 
 }  // namespace rung::codegen

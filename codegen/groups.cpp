@@ -4,6 +4,7 @@
 
 #include "codegen/group.h"
 #include "codegen/names.h"
+#include "ir/walk.h"
 
 namespace rung::codegen {
 
@@ -53,6 +54,38 @@ std::vector<Group> makeGroups(const ir::Module& module, const Facts& facts) {
     groups.back().bodies.push_back(rows[i].body);
   }
   return groups;
+}
+
+namespace {
+
+constexpr size_t kHotStmts = 16, kHotExprs = 100;
+
+bool isSmallLeaf(const ir::Body& body) {
+  if (body.native || body.has_labels || body.stmts.size() > kHotStmts || body.exprs.size() > kHotExprs) return false;
+  return std::none_of(body.stmts.begin(), body.stmts.end(), [](const ir::Stmt& stmt) {
+    return stmt.kind == ir::StmtKind::Call || stmt.kind == ir::StmtKind::Loop || stmt.kind == ir::StmtKind::For ||
+           stmt.kind == ir::StmtKind::Try;
+  });
+}
+
+void markCalls(const ir::Module& module, const ir::Body& body, ir::StmtId first, bool in_loop, Marks& marks,
+               uint32_t group_number) {
+  for (ir::StmtId id = first; id; id = body.stmt(id).next) {
+    const ir::Stmt& stmt = body.stmt(id);
+    if (in_loop && stmt.kind == ir::StmtKind::Call && isSmallLeaf(module.body(ir::BodyId{stmt.a})))
+      marks.hot[stmt.a] = group_number;
+    const bool loops = in_loop || stmt.kind == ir::StmtKind::Loop || stmt.kind == ir::StmtKind::For;
+    ir::forEachBlock(body, stmt, [&](const uint32_t& block) {
+      markCalls(module, body, ir::StmtId{block}, loops, marks, group_number);
+    });
+  }
+}
+
+}  // namespace
+
+void markHot(const ir::Module& module, const Group& group, Marks& marks, uint32_t group_number) {
+  for (ir::BodyId id : group.bodies)
+    markCalls(module, module.body(id), module.body(id).first, false, marks, group_number);
 }
 
 }  // namespace rung::codegen

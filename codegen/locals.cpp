@@ -51,8 +51,10 @@ void BodyWriter::scanExpr(ExprId id, uint32_t weight) {
       Slot slot = slotOf(ir::rootOf(*body_, ExprId{e.a}));
       if (!slot.kind) slot = slotOf(ExprId{e.a});
       if (Variable* of = variableOf(slot)) of->exposed = true;
+      if (Variable* of = textVariable(ExprId{e.a})) of->exposed = true;
       break;
     }
+    case ExprKind::Call: noteSizedCall(module_.body(ir::BodyId{e.a}), e.b, e.c, weight); break;
     case ExprKind::None:
     case ExprKind::Const:
     case ExprKind::Text:
@@ -67,14 +69,14 @@ void BodyWriter::scanExpr(ExprId id, uint32_t weight) {
     case ExprKind::Unary:
     case ExprKind::Binary:
     case ExprKind::Convert:
-    case ExprKind::Select:
-    case ExprKind::Call: break;
+    case ExprKind::Select: break;
   }
   ir::forEachSlot(*body_, e, [&](const uint32_t& slot) { scanExpr(ExprId{slot}, weight); });
 }
 
 void BodyWriter::noteWrite(ExprId place, bool by_reference) {
   const Slot slot = slotOf(place);
+  if (Variable* of = by_reference ? textVariable(place) : nullptr) of->exposed = true;
   Variable* of = variableOf(slot);
   if (of == nullptr) {  // a part of an aggregate: the local is in use
     const Expr& root = expr(ir::rootOf(*body_, place));
@@ -100,10 +102,14 @@ void BodyWriter::scanBlock(StmtId first, uint32_t weight) {
       if (use == ir::Use::Reference && !(is_block_call && slot == stmt.b)) noteWrite(root, true);
     });
     if (stmt.kind == StmtKind::Try) has_try_ = true;
+    if (stmt.kind == StmtKind::Assign) noteTextAssign(stmt, weight);
     if (stmt.kind == StmtKind::Call) {
       has_calls_ = true;
       const Body& callee = module_.body(ir::BodyId{stmt.a});
       if (!callee.pure && !callee.library) has_foreign_calls_ = true;
+      noteSizedCall(callee, stmt.c, stmt.d, weight);
+      if (Variable* of = stmt.e != 0 && isSized(callee) ? textVariable(ExprId{stmt.e}) : nullptr)
+        of->sized_weight += weight;
     }
     const bool loops = stmt.kind == StmtKind::For || stmt.kind == StmtKind::Loop;
     const uint32_t inner = loops && weight < kMostWeight ? weight * kLoopWeight : weight;
@@ -163,6 +169,7 @@ void BodyWriter::analyze() {
     if ((has_calls_ ? use.loop_weight : use.weight) <= kWorthIt) continue;
     use.cached = !facts_.isExposed(record, i);
   }
+  chooseMeasured();
   // Controls.
   for (uint32_t i = 0; i < private_loop_.size(); ++i) {
     if (private_loop_[i] == 0) continue;

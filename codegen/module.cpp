@@ -1,71 +1,50 @@
-// The description of the module: see module.h. Every table is numbered in the order in which the blocks, sorted by
-// name, reach its rows, so that the order of the inputs does not show.
+// The description of the module as C++: see module.h. What it says is in ir/description.h.
 #include "codegen/module.h"
 
 #include <algorithm>
-#include <unordered_map>
 
 #include "codegen/body.h"
 #include "codegen/names.h"
 #include "codegen/types.h"
+#include "ir/description.h"
 
 namespace rung::codegen {
 
-using types::Field;
-using types::FieldRole;
-using types::RecordKind;
 using types::TypeInfo;
 using types::TypeKind;
 using types::TypeTable;
 
 namespace {
 
+constexpr const char* kTypeKinds[] = {
+    "RUNG_BOOL",  "RUNG_BYTE",   "RUNG_WORD",    "RUNG_DWORD", "RUNG_LWORD", "RUNG_SINT",   "RUNG_INT",    "RUNG_DINT",
+    "RUNG_LINT",  "RUNG_USINT",  "RUNG_UINT",    "RUNG_UDINT", "RUNG_ULINT", "RUNG_REAL",   "RUNG_LREAL",  "RUNG_TIME",
+    "RUNG_LTIME", "RUNG_DATE",   "RUNG_LDATE",   "RUNG_TOD",   "RUNG_LTOD",  "RUNG_DT",     "RUNG_LDT",    "RUNG_CHAR",
+    "RUNG_WCHAR", "RUNG_STRING", "RUNG_WSTRING", "RUNG_ENUM",  "RUNG_ARRAY", "RUNG_RECORD", "RUNG_POINTER"};
+static_assert(std::size(kTypeKinds) == RUNG_POINTER + 1);
+constexpr const char* kPlaces[] = {"RUNG_IN_BLOCK", "RUNG_IN_INPUTS", "RUNG_IN_OUTPUTS", "RUNG_IN_MEMORY"};
+constexpr const char* kTaskKinds[] = {"RUNG_CYCLIC", "RUNG_FREEWHEELING", "RUNG_EVENT", "RUNG_STATUS", "RUNG_EXTERNAL"};
+
 class Describer {
  public:
   Describer(const ir::Module& module, const EmitOptions& options, const Facts& facts, std::string_view name_space)
-      : module_(module), types_(module.types), options_(options), facts_(facts), name_space_(name_space) {
-    pool_.emplace("", 0);
-    bytes_ += '\0';
-  }
+      : module_(module),
+        types_(module.types),
+        options_(options),
+        facts_(facts),
+        name_space_(name_space),
+        is_(module, facts, options.with_tests) {}
 
   Description run(const std::vector<Group>& groups) {
-    addBodiesAndFiles();
-    for (uint32_t i = 0; i < facts_.blocks.size(); ++i) addBlock(i);
-    addSymbols();
     addTasks();
     addTests();
-    return {moduleText(), sitesText(groups)};
+    Description out;
+    out.sites = sitesText(groups);  // may add texts
+    out.module = moduleText();
+    return out;
   }
 
  private:
-  uint32_t text(std::string_view string) {
-    const auto [at, is_new] = pool_.try_emplace(std::string(string), static_cast<uint32_t>(bytes_.size()));
-    if (is_new) {
-      bytes_ += string;
-      bytes_ += '\0';
-    }
-    return at->second;
-  }
-  uint32_t text(NameId name) { return text(module_.names.text(name)); }
-
-  // Names of sites stand first: they do not depend on which bodies have checks.
-  void addBodiesAndFiles() {
-    std::vector<std::string_view> names;
-    for (uint32_t i = 1; i < module_.bodies.size(); ++i) {
-      const ir::Body& body = module_.bodies[i];
-      if (!body.native) names.push_back(module_.names.text(body.spelling ? body.spelling : body.name));
-    }
-    const size_t files = names.size();
-    for (uint32_t i = 1; i < module_.bodies.size(); ++i) {
-      const ir::Body& body = module_.bodies[i];
-      if (body.native) continue;
-      names.push_back(body.origin.path ? module_.names.text(body.origin.path) : module_.sources.path(body.file));
-    }
-    std::sort(names.begin(), names.begin() + static_cast<ptrdiff_t>(files));
-    std::sort(names.begin() + static_cast<ptrdiff_t>(files), names.end());
-    for (std::string_view name : names) text(name);
-  }
-
   // ---- rows of the tables, in braces
 
   static void row(std::string& table, std::initializer_list<std::string_view> cells) {
@@ -79,186 +58,9 @@ class Describer {
     table += "},\n";
   }
   static std::string number(uint64_t value) { return std::to_string(value); }
-  static std::string unsignedOrNone(uint32_t value) { return value == ~0u ? "RUNG_NONE" : std::to_string(value); }
+  static std::string unsignedOrNone(uint32_t value) { return value == RUNG_NONE ? "RUNG_NONE" : std::to_string(value); }
   static std::string signedNumber(int64_t value) {
     return value == INT64_MIN ? std::string("INT64_MIN") : std::to_string(value) + "LL";
-  }
-
-  // ---- types
-
-  uint32_t type(TypeId id) {
-    id = types_.resolve(id);
-    const TypeInfo* info = &types_.info(id);
-    if (info->kind == TypeKind::Subrange) {
-      id = types_.plain(id);
-      info = &types_.info(id);
-    }
-    const auto known = type_number_.find(id.index);
-    if (known != type_number_.end()) return known->second;
-    const auto index = static_cast<uint32_t>(type_rows_.size());
-    type_number_.emplace(id.index, index);
-    type_rows_.emplace_back();
-
-    uint32_t element = ~0u, first = 0, count = 0;
-    const char* kind = typeKindName(types_, id);
-    if (info->kind == TypeKind::Enum) {
-      kind = "RUNG_ENUM";
-      element = type(info->base);
-      first = item_count_;
-      count = static_cast<uint32_t>(info->items.size());
-      for (const auto& [name, value] : info->items) row(item_rows_, {number(text(name)), signedNumber(value)});
-      item_count_ += count;
-    } else if (info->kind == TypeKind::Array) {
-      element = type(info->base);
-      first = dimension_count_;
-      count = static_cast<uint32_t>(info->dimensions.size());
-      for (const types::Dimension& d : info->dimensions) {
-        row(dimension_rows_, {signedNumber(d.low), signedNumber(d.high)});
-      }
-      dimension_count_ += count;
-    } else if (info->kind == TypeKind::Pointer || info->kind == TypeKind::Reference) {
-      element = type(info->base);
-    } else if (info->kind == TypeKind::Record) {
-      first = static_cast<uint32_t>(field_rows_.size());
-      count = static_cast<uint32_t>(info->fields.size());
-      field_rows_.resize(first + count);
-      for (uint32_t i = 0; i < count; ++i) {
-        const Field& field = info->fields[i];
-        std::string made;
-        row(made, {number(text(field.name)), number(type(field.type)), number(field.offset), number(flags(field))});
-        field_rows_[first + i] = std::move(made);
-      }
-    }
-    const TypeKind plain = types_.plainKind(id);
-    const bool is_signed = TypeTable::isScalar(plain) && types_.isSigned(plain);
-    std::string made;
-    row(made, {kind, is_signed ? "1" : "0", number(text(types_.spell(id))), number(info->size), unsignedOrNone(element),
-               number(info->length), number(first), number(count)});
-    type_rows_[index] = std::move(made);
-    return index;
-  }
-
-  static uint32_t flags(const Field& field) {
-    uint32_t bits = 0;
-    if (field.by_reference) bits |= 1;
-    if (field.constant) bits |= 2;
-    if (field.retain) bits |= 4;
-    if (field.persistent) bits |= 8;
-    if (field.role == FieldRole::Input) bits |= 16;
-    if (field.role == FieldRole::Output) bits |= 32;
-    return bits;
-  }
-
-  // ---- blocks and what is kept of them
-
-  bool keeps(TypeId id) {
-    id = types_.resolve(id);
-    const TypeInfo& info = types_.info(id);
-    if (info.kind == TypeKind::Array) return keeps(info.base);
-    if (info.kind != TypeKind::Record) return false;
-    const auto known = keeps_.find(id.index);
-    if (known != keeps_.end()) return known->second;
-    keeps_[id.index] = false;
-    bool found = false;
-    for (const Field& field : info.fields) {
-      found = found || field.retain || field.persistent || (!field.by_reference && keeps(field.type));
-    }
-    return keeps_[id.index] = found;
-  }
-
-  struct Range {
-    uint32_t block;
-    uint64_t offset, size;
-  };
-  static void add(std::vector<Range>& ranges, uint32_t block, uint64_t offset, uint64_t size) {
-    if (!ranges.empty() && ranges.back().block == block && ranges.back().offset + ranges.back().size == offset) {
-      ranges.back().size += size;
-    } else {
-      ranges.push_back({block, offset, size});
-    }
-  }
-
-  void collectKept(TypeId id, uint32_t block, uint64_t offset) {
-    id = types_.resolve(id);
-    if (!keeps(id)) return;
-    const TypeInfo& info = types_.info(id);
-    if (info.kind == TypeKind::Array) {
-      const uint64_t size = types_.info(types_.resolve(info.base)).size;
-      for (uint64_t at = 0; size > 0 && at < info.size; at += size) collectKept(info.base, block, offset + at);
-      return;
-    }
-    for (const Field& field : info.fields) {
-      if (field.by_reference) continue;
-      const uint64_t size = types_.info(types_.resolve(field.type)).size;
-      if (field.retain) add(retain_, block, offset + field.offset, size);
-      if (field.persistent) add(persistent_, block, offset + field.offset, size);
-      if (!field.retain && !field.persistent) collectKept(field.type, block, offset + field.offset);
-    }
-  }
-
-  void addBlock(uint32_t index) {
-    const Facts::Block& block = facts_.blocks[index];
-    const TypeInfo& info = types_.info(types_.resolve(block.record));
-    row(block_rows_, {number(text(block.name)), number(info.size), number(info.align)});
-    type(block.record);
-    collectKept(block.record, index, 0);
-  }
-
-  // ---- symbols
-
-  void symbol(std::string_view name, TypeId type_id, const char* place, uint32_t bit, bool is_program, uint32_t block,
-              uint64_t offset, uint32_t bits, std::string_view path) {
-    std::string made;
-    row(made, {number(text(name)), number(type(type_id)), place, number(bit), is_program ? "1" : "0", number(block),
-               number(offset), number(bits), number(text(path))});
-    symbol_rows_.push_back({std::string(name), std::move(made)});
-  }
-
-  std::string programPath(const ir::ProgramInstance& program) {
-    std::string path;
-    for (NameId part : {program.configuration, program.resource}) {
-      if (!part) continue;
-      path += module_.names.text(part);
-      path += '.';
-    }
-    return path;
-  }
-
-  void addSymbols() {
-    for (uint32_t i = 0; i < module_.programs.size(); ++i) {
-      const ir::ProgramInstance& program = module_.programs[i];
-      symbol(module_.names.text(program.name), program.record, "RUNG_IN_BLOCK", 255, true, facts_.program_block[i], 0,
-             0, programPath(program));
-    }
-    for (uint32_t i = 0; i < module_.lists.size(); ++i) {
-      const TypeInfo& record = types_.info(types_.resolve(module_.lists[i].record));
-      const std::string path = std::string(module_.names.text(module_.lists[i].name)) + ".";
-      for (const Field& field : record.fields) {
-        symbol(module_.names.text(field.name), field.type, "RUNG_IN_BLOCK", 255, false, facts_.list_block[i],
-               field.offset, flags(field), path);
-      }
-    }
-    constexpr const char* kAreas[] = {"RUNG_IN_INPUTS", "RUNG_IN_OUTPUTS", "RUNG_IN_MEMORY"};
-    for (const ir::Located& located : module_.located) {
-      std::string name, path;
-      if (located.owner_program != 0) {
-        const ir::ProgramInstance& owner = module_.programs[located.owner_program - 1];
-        name = module_.names.text(owner.name);
-        name += '.';
-        path = programPath(owner);
-      }
-      name += module_.names.text(located.name);
-      symbol(name, located.type, kAreas[located.area], located.bit == ir::kNoBit ? 255 : located.bit, false, 0,
-             located.byte, 0, path);
-    }
-    // The order of the input files shows nowhere: programs stay first within equal names.
-    std::stable_sort(symbol_rows_.begin(), symbol_rows_.end(), [](const auto& a, const auto& b) {
-      return std::lexicographical_compare(
-          a.first.begin(), a.first.end(), b.first.begin(), b.first.end(), [](char x, char y) {
-            auto fold = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-            return fold(x) < fold(y);
-          });
-    });
   }
 
   // ---- code: tasks, tests, initial values
@@ -290,70 +92,45 @@ class Describer {
   }
 
   void addTasks() {
-    constexpr const char* kKinds[] = {"RUNG_CYCLIC", "RUNG_FREEWHEELING", "RUNG_EVENT", "RUNG_STATUS", "RUNG_EXTERNAL"};
-    for (uint32_t i = 0; i < module_.tasks.size(); ++i) {
-      const ir::Task& task = module_.tasks[i];
+    for (uint32_t i = 0; i < is_.tasks.size(); ++i) {
+      const rung_task& task = is_.tasks[i];
       const std::string function = "task" + number(i);
       code_ += "static void " + function + "(rung_context* ctx) {\n  (void)ctx;\n";
       for (uint32_t p = 0; p < module_.programs.size(); ++p) {
         const ir::ProgramInstance& program = module_.programs[p];
-        if (program.task == i + 1 && program.body) {
-          code_ += runOf(program, facts_.program_block[p]);
-        }
+        if (program.task == i + 1 && program.body) code_ += runOf(program, facts_.program_block[p]);
       }
       code_ += "}\n";
-      row(task_rows_, {number(text(task.name)), kKinds[static_cast<size_t>(task.kind)], number(task.priority),
-                       signedNumber(task.interval_ns), signedNumber(task.watchdog_ns), number(task.sensitivity),
-                       number(text(task.trigger)), number(text(task.external_event)), function});
+      row(task_rows_, {number(task.name), kTaskKinds[task.kind], number(task.priority), signedNumber(task.interval_ns),
+                       signedNumber(task.watchdog_ns), number(task.sensitivity), number(task.trigger),
+                       number(task.external_event), function});
     }
   }
 
   void addTests() {
-    if (!options_.with_tests) return;
-    for (ir::BodyId id : module_.tests) {
-      const ir::Body& body = module_.body(id);
-      const std::string name = "test" + number(test_count_++);
-      std::string init = "nullptr", done_block = "RUNG_NONE", done_offset = "0";
+    uint32_t count = 0;
+    for (const ir::Description::Test& test : is_.tests) {
+      const ir::Body& body = module_.body(test.body);
+      const std::string name = "test" + number(count++);
+      std::string init = "nullptr";
       std::string run = "static void " + name + "(rung_context* ctx) {\n";
       if (body.kind == ir::BodyKind::Function) {
-        declare(id);
+        declare(test.body);
         run += functionCall(body);
-      } else {
-        for (uint32_t p = 0; p < module_.programs.size(); ++p) {
-          const ir::ProgramInstance& program = module_.programs[p];
-          if (!(program.body == id)) continue;
-          const uint32_t block = facts_.program_block[p];
-          const TypeInfo& record = types_.info(types_.resolve(program.record));
-          run += runOf(program, block);
-          init = name + "_init";
-          code_ += "static void " + init + "(rung_context* ctx) {\n  memset(ctx->blocks[" + number(block) + "], 0, " +
-                   number(record.size) + ");\n";
-          if (hasCode(program.init)) code_ += callOn(program.init, program.record, block);
-          if (program.setup) code_ += callOf(program.setup);
-          code_ += "}\n";
-          for (const Field& field : record.fields) {
-            if (!sameIdentifier(module_.names.text(field.name), "done") ||
-                types_.plainKind(field.type) != TypeKind::Bool)
-              continue;
-            done_block = number(block);
-            done_offset = number(field.offset);
-          }
-          break;
-        }
+      } else if (test.program != RUNG_NONE) {
+        const ir::ProgramInstance& program = module_.programs[test.program];
+        const uint32_t block = facts_.program_block[test.program];
+        run += runOf(program, block);
+        init = name + "_init";
+        code_ += "static void " + init + "(rung_context* ctx) {\n  memset(ctx->blocks[" + number(block) + "], 0, " +
+                 number(is_.blocks[block].size) + ");\n";
+        if (hasCode(program.init)) code_ += callOn(program.init, program.record, block);
+        if (program.setup) code_ += callOf(program.setup);
+        code_ += "}\n";
       }
       code_ += run + "}\n";
-      std::string_view path;
-      uint32_t line;
-      if (body.origin.path) {
-        path = module_.names.text(body.origin.path);
-        line = body.origin.line;
-      } else {
-        const Place place = module_.sources.place(body.loc);
-        path = module_.sources.path(body.file ? body.file : place.file);
-        line = place.line;
-      }
-      row(test_rows_, {number(text(body.spelling ? body.spelling : body.name)), number(text(path)), number(line),
-                       done_block, done_offset, init, name});
+      row(test_rows_, {number(test.row.name), number(test.row.file), number(test.row.line),
+                       unsignedOrNone(test.row.done_block), number(test.row.done_offset), init, name});
     }
   }
 
@@ -380,16 +157,6 @@ class Describer {
     return variables + call + ");\n";
   }
 
-  uint64_t layoutHash() const {
-    uint64_t hash = kHashStart;
-    auto add = [&](const std::string& table) { hash = hashBytes(hash, table.data(), table.size()); };
-    add(block_rows_);
-    for (const std::string& made : type_rows_) add(made);
-    for (const std::string& made : field_rows_) add(made);
-    add(dimension_rows_);
-    return hash;
-  }
-
   static void table(std::string& out, const char* type, const char* name, const std::string& rows) {
     if (rows.empty()) return;
     out += "static const ";
@@ -404,19 +171,28 @@ class Describer {
   }
 
   std::string moduleText() {
-    std::string type_rows, field_rows, symbol_rows, retain_rows, persistent_rows;
-    for (const std::string& made : type_rows_) type_rows += made;
-    for (const std::string& made : field_rows_) field_rows += made;
-    for (const auto& made : symbol_rows_) symbol_rows += made.second;
-    for (const Range& range : retain_)
-      row(retain_rows, {number(range.block), number(range.offset), number(range.size)});
-    for (const Range& range : persistent_) {
-      row(persistent_rows, {number(range.block), number(range.offset), number(range.size)});
+    std::string block_rows, type_rows, field_rows, item_rows, dimension_rows, symbol_rows, retain_rows, persistent_rows;
+    for (const rung_block& is : is_.blocks) row(block_rows, {number(is.name), number(is.size), number(is.align)});
+    for (const rung_type& is : is_.types) {
+      row(type_rows, {kTypeKinds[is.kind], is.is_signed != 0 ? "1" : "0", number(is.name), number(is.size),
+                      unsignedOrNone(is.element), number(is.length), number(is.first), number(is.count)});
+    }
+    for (const rung_field& is : is_.fields) {
+      row(field_rows, {number(is.name), number(is.type), number(is.offset), number(is.flags)});
+    }
+    for (const rung_enum_item& is : is_.enum_items) row(item_rows, {number(is.name), signedNumber(is.value)});
+    for (const rung_dimension& is : is_.dimensions) row(dimension_rows, {signedNumber(is.low), signedNumber(is.high)});
+    for (const rung_symbol& is : is_.symbols) {
+      row(symbol_rows, {number(is.name), number(is.type), kPlaces[is.place], number(is.bit), number(is.is_program),
+                        number(is.block), number(is.offset), number(is.flags), number(is.path)});
+    }
+    for (const rung_range& is : is_.retain) row(retain_rows, {number(is.block), number(is.offset), number(is.size)});
+    for (const rung_range& is : is_.persistent) {
+      row(persistent_rows, {number(is.block), number(is.offset), number(is.size)});
     }
     std::string init = "static void init(rung_context* ctx) {\n  (void)ctx;\n";
     for (uint32_t i = 0; i < facts_.blocks.size(); ++i) {
-      init += "  memset(ctx->blocks[" + number(i) + "], 0, " +
-              number(types_.info(types_.resolve(facts_.blocks[i].record)).size) + ");\n";
+      init += "  memset(ctx->blocks[" + number(i) + "], 0, " + number(is_.blocks[i].size) + ");\n";
     }
     for (uint32_t i = 0; i < module_.lists.size(); ++i) {
       if (hasCode(module_.lists[i].init))
@@ -439,19 +215,20 @@ class Describer {
     out += "#include \"rung/module.h\"\n\nnamespace " + name_space_ + " {\n\n";
     out += "extern const rung_site sites[];\nextern const uint32_t site_count;\n" + prototypes_ + "\n";
     out += "static const char text[] =\n";
-    for (size_t at = 0; at < bytes_.size();) {  // a line per name
-      size_t end = bytes_.find('\0', at);
+    const std::string& bytes = is_.text.bytes();
+    for (size_t at = 0; at < bytes.size();) {  // a line per name
+      size_t end = bytes.find('\0', at);
       out += "  ";
-      appendQuoted(out, std::string_view(bytes_).substr(at, end - at));
+      appendQuoted(out, std::string_view(bytes).substr(at, end - at));
       out += " \"\\0\"\n";
       at = end + 1;
     }
     out += "  ;\n";
-    table(out, "rung_block", "blocks", block_rows_);
+    table(out, "rung_block", "blocks", block_rows);
     table(out, "rung_type", "types", type_rows);
     table(out, "rung_field", "fields", field_rows);
-    table(out, "rung_enum_item", "enum_items", item_rows_);
-    table(out, "rung_dimension", "dimensions", dimension_rows_);
+    table(out, "rung_enum_item", "enum_items", item_rows);
+    table(out, "rung_dimension", "dimensions", dimension_rows);
     table(out, "rung_symbol", "symbols", symbol_rows);
     table(out, "rung_range", "retain", retain_rows);
     table(out, "rung_range", "persistent", persistent_rows);
@@ -461,19 +238,19 @@ class Describer {
     out += init;
     out += "\nstatic const rung_module description = {\n  RUNG_MODULE_ABI, " + number(types_.pointerSize()) + ", ";
     appendQuoted(out, options_.module_name);
-    out += ", \"rung " RUNG_VERSION "\", text, " + number(layoutHash()) + "ULL,\n  ";
-    out += cells("blocks", block_rows_, facts_.blocks.size()) + ",\n  {" + number(module_.image_bytes[0]) + ", " +
+    out += ", \"rung " RUNG_VERSION "\", text, " + number(is_.layout_hash) + "ULL,\n  ";
+    out += cells("blocks", block_rows, is_.blocks.size()) + ",\n  {" + number(module_.image_bytes[0]) + ", " +
            number(module_.image_bytes[1]) + ", " + number(module_.image_bytes[2]) + "},\n  ";
-    out += cells("tasks", task_rows_, module_.tasks.size()) + ", ";
-    out += cells("symbols", symbol_rows, symbol_rows_.size()) + ", ";
-    out += cells("types", type_rows, type_rows_.size()) + ", ";
-    out += cells("fields", field_rows, field_rows_.size()) + ", ";
-    out += cells("enum_items", item_rows_, item_count_) + ", ";
-    out += cells("dimensions", dimension_rows_, dimension_count_) + ",\n  ";
-    out += cells("retain", retain_rows, retain_.size()) + ", ";
-    out += cells("persistent", persistent_rows, persistent_.size()) + ", ";
+    out += cells("tasks", task_rows_, is_.tasks.size()) + ", ";
+    out += cells("symbols", symbol_rows, is_.symbols.size()) + ", ";
+    out += cells("types", type_rows, is_.types.size()) + ", ";
+    out += cells("fields", field_rows, is_.fields.size()) + ", ";
+    out += cells("enum_items", item_rows, is_.enum_items.size()) + ", ";
+    out += cells("dimensions", dimension_rows, is_.dimensions.size()) + ",\n  ";
+    out += cells("retain", retain_rows, is_.retain.size()) + ", ";
+    out += cells("persistent", persistent_rows, is_.persistent.size()) + ", ";
     out += "sites, site_count, ";
-    out += cells("tests", test_rows_, test_count_) + ", init\n};\n";
+    out += cells("tests", test_rows_, is_.tests.size()) + ", init\n};\n";
     out += "\n}  // namespace " + name_space_ + "\n\nextern \"C\" const rung_module* " + options_.module_name +
            "_module(void);\nextern \"C\" const rung_module* " + options_.module_name + "_module(void) { return &" +
            name_space_ + "::description; }\n";
@@ -487,10 +264,10 @@ class Describer {
       if (group.sites.empty()) continue;
       numbers += "extern const uint32_t sites_" + group.stem + " = " + number(count) + ";\n";
       for (const Site& site : group.sites) {
-        row(rows,
-            {number(text(site.pou)),
-             number(text(site.origin_path ? module_.names.text(site.origin_path) : module_.sources.path(site.file))),
-             number(site.line), number(site.column), signedNumber(site.low), signedNumber(site.high)});
+        row(rows, {number(is_.text.add(module_.names.text(site.pou))),
+                   number(is_.text.add(site.origin_path ? module_.names.text(site.origin_path)
+                                                        : module_.sources.path(site.file))),
+                   number(site.line), number(site.column), signedNumber(site.low), signedNumber(site.high)});
         ++count;
       }
     }
@@ -505,17 +282,9 @@ class Describer {
   const EmitOptions& options_;
   const Facts& facts_;
   const std::string name_space_;
-
-  std::unordered_map<std::string, uint32_t> pool_;
-  std::string bytes_;
-  std::unordered_map<uint32_t, uint32_t> type_number_;
-  std::unordered_map<uint32_t, bool> keeps_;
-  std::vector<std::string> type_rows_, field_rows_;
-  std::vector<std::pair<std::string, std::string>> symbol_rows_;  // name, row
-  std::string block_rows_, item_rows_, dimension_rows_, task_rows_, test_rows_, code_, prototypes_;
-  std::vector<Range> retain_, persistent_;
+  ir::Description is_;
+  std::string task_rows_, test_rows_, code_, prototypes_;
   std::vector<uint32_t> declared_;
-  uint32_t item_count_ = 0, dimension_count_ = 0, test_count_ = 0;
 };
 
 }  // namespace

@@ -97,7 +97,9 @@ void BodyWriter::close() {
 // ---- statements
 
 void BodyWriter::block(StmtId first) {
+  const size_t mark = known_.size();
   for (StmtId id = first; id; id = body_->stmt(id).next) statement(id, body_->stmt(id));
+  forgetLengths(mark);
 }
 
 void BodyWriter::statement(StmtId id, const Stmt& stmt) {
@@ -111,6 +113,7 @@ void BodyWriter::statement(StmtId id, const Stmt& stmt) {
     return;
   }
   begin(stmt.loc);
+  measure(stmt);
   switch (stmt.kind) {
     case StmtKind::None: out_ += ';'; return;
     case StmtKind::Assign: assign(stmt); return;
@@ -228,7 +231,8 @@ void BodyWriter::ifStatement(const Stmt& stmt) {
     }
     flushCloses(room);
     out_ += " else";
-    const bool is_chain = other.kind == StmtKind::If && !other.next && !needsPreparation(ExprId{other.a});
+    const bool is_chain = other.kind == StmtKind::If && !other.next && !needsPreparation(ExprId{other.a}) &&
+                          !needsMeasuring(ExprId{other.a});
     if (!is_chain) {
       open();
       block(StmtId{at->c});
@@ -341,8 +345,12 @@ void BodyWriter::callStatement(const Stmt& stmt) {
     if (const ExprId operand = body_->operands[stmt.c + i]) prepare(operand);
   }
   if (stmt.e != 0) prepare(ExprId{stmt.e});
-  if (callee.kind == ir::BodyKind::Function || callee.native) call(callee_id);
+  const bool is_sized = stmt.b == 0 && isSizedCall(callee, stmt.c, stmt.d, ExprId{stmt.e});
+  if ((callee.kind == ir::BodyKind::Function || callee.native) && !is_sized) call(callee_id);
 
+  // A text whose length lives in a local: the call gives it, or it is counted.
+  const std::string length =
+      stmt.e != 0 && measuredText(ExprId{stmt.e}) != nullptr ? captured([&] { lengthName(ExprId{stmt.e}); }) : "";
   std::string before, after;  // parameters that are no variables in memory: bits, views of the image
   const std::string arguments = captured([&] {
     uint32_t i = 0;
@@ -410,8 +418,17 @@ void BodyWriter::callStatement(const Stmt& stmt) {
   }
 
   const std::string function = captured([&] {
+    if (is_sized) {
+      sizedCall(callee, stmt.c, stmt.d);
+      if (by_reference) {
+        out_ += ", ";
+        out_ += result;
+      }
+      out_ += ')';
+      return;
+    }
     if (callee.native) {
-      appendNativeName(out_, module_, callee);
+      out_ += ir::nativeName(module_, callee);
       out_ += "(ctx";
       if (stmt.b != 0) {
         out_ += ", &";
@@ -437,6 +454,7 @@ void BodyWriter::callStatement(const Stmt& stmt) {
     store(ExprId{stmt.e}, function);
     out_ += ';';
   } else {
+    if (callee.native && copy.empty() && !length.empty()) out_ += length + " = ";
     out_ += function;
     out_ += ';';
   }
@@ -445,6 +463,7 @@ void BodyWriter::callStatement(const Stmt& stmt) {
     const TypeId to = expr(ExprId{stmt.e}).type;
     if (isText(to)) {
       const bool wide = isWide(to), from_wide = isWide(callee.result);
+      if (!length.empty()) out_ += length + " = ";
       out_ += wide == from_wide ? (wide ? "rung_wtext_assign(" : "rung_text_assign(")
                                 : (wide ? "rung_wtext_of_text(" : "rung_text_of_wtext(");
       place(ExprId{stmt.e});
@@ -456,6 +475,14 @@ void BodyWriter::callStatement(const Stmt& stmt) {
       place(ExprId{stmt.e});
       out_ += ", &" + copy + ", sizeof " + copy + ");";
     }
+  }
+  if (!length.empty()) {
+    if (!callee.native && copy.empty()) {
+      out_ += ' ' + length + " = rung_text_length(";
+      place(ExprId{stmt.e});
+      out_ += ");";
+    }
+    setKnown(ExprId{stmt.e});
   }
   out_ += after;
 }
@@ -481,7 +508,7 @@ void BodyWriter::faultStatement(const Stmt& stmt) {
 void BodyWriter::guarded(const std::string& frame, const std::string& fault, StmtId first) {
   std::vector<Loop> outer_loops = loops_;
   for (Loop& loop : loops_) loop.try_depth += 1;
-  out_ += "auto " + frame + " = [&]()";
+  out_ += "{ auto " + frame + " = [&]()";  // in a scope of its own: a jump to `fault` from before must not enter it
   open();
   const bool outer_uses_fault = uses_fault_;
   uses_fault_ = false;
@@ -494,7 +521,7 @@ void BodyWriter::guarded(const std::string& frame, const std::string& fault, Stm
   uses_fault_ = outer_uses_fault;
   --depth_;
   out_ += " }; " + fault + " = rung_try(ctx, [](void* frame) { (*static_cast<decltype(" + frame +
-          ")*>(frame))(); }, &" + frame + ");";
+          ")*>(frame))(); }, &" + frame + "); }";
   loops_ = std::move(outer_loops);
 }
 

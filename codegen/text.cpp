@@ -41,7 +41,9 @@ void BodyWriter::assign(const Stmt& stmt) {
     prepare(to);
     prepareText(from);
     const std::string name = captured([&] { place(to); });
-    copyText(name, capacityOf(type), isWide(type), from);
+    const bool is_measured = measuredText(to) != nullptr;
+    copyText(name, capacityOf(type), isWide(type), from, is_measured ? captured([&] { lengthName(to); }) : "");
+    setKnown(to);
     return;
   }
   if (!isAggregate(type)) {
@@ -142,9 +144,22 @@ void BodyWriter::makeText(ExprId id) {
   made_.push_back({id.index, name});
 }
 
-void BodyWriter::copyText(std::string_view to, uint32_t capacity, bool wide, ExprId from) {
+void BodyWriter::copyText(std::string_view to, uint32_t capacity, bool wide, ExprId from, std::string_view length) {
   const Expr& e = expr(from);
+  auto beginLength = [&] {
+    if (length.empty()) return;
+    out_ += length;
+    out_ += " = ";
+  };
+  auto setLength = [&](uint32_t number) {
+    if (length.empty()) return;
+    out_ += ' ';
+    beginLength();
+    appendUnsigned(out_, number);
+    out_ += ';';
+  };
   auto begin = [&](std::string_view function, uint32_t limit) {
+    beginLength();
     out_ += function;
     out_ += '(';
     out_ += to;
@@ -156,6 +171,7 @@ void BodyWriter::copyText(std::string_view to, uint32_t capacity, bool wide, Exp
     case ExprKind::Zero:
       out_ += to;
       out_ += "[0] = 0;";
+      setLength(0);
       return;
     case ExprKind::Text: {
       if (isWide(e.type) != wide) break;
@@ -164,6 +180,7 @@ void BodyWriter::copyText(std::string_view to, uint32_t capacity, bool wide, Exp
       if (literal.empty()) {
         out_ += to;
         out_ += "[0] = 0;";
+        setLength(0);
         return;
       }
       out_ += "memcpy(";
@@ -173,6 +190,7 @@ void BodyWriter::copyText(std::string_view to, uint32_t capacity, bool wide, Exp
       out_ += ", ";
       appendUnsigned(out_, wide ? (uint64_t{wideLength(literal)} + 1) * 2 : literal.size() + 1);
       out_ += ");";
+      setLength(static_cast<uint32_t>(literal.size()));
       return;
     }
     case ExprKind::Convert: {
@@ -180,7 +198,7 @@ void BodyWriter::copyText(std::string_view to, uint32_t capacity, bool wide, Exp
       const uint32_t limit = std::min(capacity, capacityOf(e.type));
       if (isWide(e.type) != wide) break;
       if (isText(expr(inner).type)) {
-        copyText(to, limit, wide, inner);
+        copyText(to, limit, wide, inner, length);
         return;
       }
       begin(wide ? "rung_wtext_of_scalar" : "rung_text_of_scalar", limit);
@@ -210,14 +228,32 @@ void BodyWriter::copyText(std::string_view to, uint32_t capacity, bool wide, Exp
   }
   const std::string source = captured([&] { textValue(from); });
   if (source == to && capacity >= capacityOf(e.type)) return;
-  uint32_t length;
+  const bool is_measured = measuredText(from) != nullptr && measuredText(from)->known;
+  uint32_t room;
   if (isWide(e.type) != wide) {
     begin(wide ? "rung_wtext_of_text" : "rung_text_of_wtext", capacity);
-  } else if (isBuffer(from, length) && length <= capacity && (length + 1) * (wide ? 2 : 1) <= kCopiedWhole) {
+  } else if (isBuffer(from, room) && room <= capacity && (room + 1) * (wide ? 2 : 1) <= kCopiedWhole) {
     out_ += "memcpy(";
     out_ += to;
     out_ += ", " + source + ", ";
-    appendUnsigned(out_, (uint64_t{length} + 1) * (wide ? 2 : 1));
+    appendUnsigned(out_, (uint64_t{room} + 1) * (wide ? 2 : 1));
+    out_ += ");";
+    if (length.empty()) return;
+    out_ += ' ';
+    beginLength();
+    if (is_measured) {
+      lengthName(from);
+    } else {
+      out_ += "rung_text_length(";
+      out_ += to;
+      out_ += ')';
+    }
+    out_ += ';';
+    return;
+  } else if (is_measured && !wide) {
+    begin("rung_text_put", capacity);
+    out_ += source + ", ";
+    lengthName(from);
     out_ += ");";
     return;
   } else {
@@ -308,6 +344,36 @@ void BodyWriter::compareTexts(const Expr& e, Prec context) {
     uint32_t capacity = 0;
     const bool is_buffer = isBuffer(a, capacity);
     const uint32_t bytes = (length + 1) * (wide ? 2 : 1);
+    const Variable* of = measuredText(a);
+    if (of != nullptr && of->known) {
+      const std::string count = captured([&] { lengthName(a); });
+      if (length == 0) {
+        parenthesis(Prec::Equality, context);
+        out_ += count + op;
+        closeParenthesis(Prec::Equality, context);
+        return;
+      }
+      out_ += e.op == Op::Eq ? "(" : "!(";
+      out_ += count + " == ";
+      appendUnsigned(out_, length);
+      const std::string_view literal = text(NameId{expr(b).a});
+      if (length > capacityOf(expr(a).type)) {
+        // Never equal; nothing is read outside of the text.
+      } else if (length <= kComparedByUnit) {
+        for (uint32_t i = 0; i < length; ++i) {
+          out_ += " && " + name + "[";
+          appendUnsigned(out_, i);
+          out_ += "] == (char)";
+          appendUnsigned(out_, static_cast<unsigned char>(literal[i]));
+        }
+      } else {
+        out_ += " && memcmp(" + name + ", " + literal_name + ", ";
+        appendUnsigned(out_, length);
+        out_ += ") == 0";
+      }
+      out_ += ')';
+      return;
+    }
     if (length == 0) {
       parenthesis(Prec::Equality, context);
       out_ += name + "[0]" + op;

@@ -253,4 +253,19 @@ StmtId Builder::assertion(Assertion what, ExprId a, ExprId b, ExprId c, NameId t
   return id;
 }
 
+std::string nativeName(const Module& module, const Body& body) {
+  const std::string_view library = module.names.text(body.library_name);
+  std::string_view name = module.names.text(body.name);
+  std::string out = "rung_";
+  for (char c : library) out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  out += '_';
+  // A function that a user's one hides is `Standard__MID`: the C function has its plain name.
+  if (name.size() > library.size() + 2 && name.substr(0, library.size()) == library &&
+      name.substr(library.size(), 2) == "__") {
+    name.remove_prefix(library.size() + 2);
+  }
+  out += name;
+  return out;
+}
+
 }  // namespace rung::ir

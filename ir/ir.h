@@ -103,11 +103,11 @@ enum class StmtKind : uint8_t {
   Break,     // leaves the innermost Loop or For
   Continue,  // next turn of the innermost Loop or For
   Return,
-  Jump,      // a: label number
-  Label,     // a: label number
-  Try,       // a: body block, b: catch block, c: finally block, d: place for the fault's number or none
-  Fault,     // op: types::Fault, a: value for the message or none
-  Assert,    // of a test. op: Assertion, a: condition or expected, b: actual, c: tolerance, d: text (NameId)
+  Jump,    // a: label number
+  Label,   // a: label number
+  Try,     // a: body block, b: catch block (none: the fault goes on), c: finally block, d: place for its number or none
+  Fault,   // op: types::Fault, a: value for the message or none
+  Assert,  // of a test. op: Assertion, a: condition or expected, b: actual, c: tolerance, d: text (NameId)
   Evaluate,  // a: expression, evaluated for its checks only
 };
 
@@ -166,6 +166,7 @@ struct Body {
   BodyKind kind = BodyKind::Function;
   bool native = false;  // no code: a C function of the library's runtime part
   bool pure = false;    // no effect but its result, and no fault
+  bool sized = false;   // native: has a form with lengths of texts in C++ (sized form, rung/<library>.h)
   bool may_fault = false;
   bool library = false;
   bool has_labels = false;  // analyses are conservative
@@ -268,5 +269,8 @@ struct Module {
   Body& body(BodyId id) { return bodies[id.index]; }
   const Body& body(BodyId id) const { return bodies[id.index]; }
 };
+
+// The C function of a native body: `rung_standard_MID`.
+std::string nativeName(const Module& module, const Body& body);
 
 }  // namespace rung::ir

@@ -14,4 +14,9 @@ struct LowerOptions {
 // With errors in the project: must not be called.
 void lower(const sema::Project& project, const LowerOptions& options, Module& module);
 
+// One checked function and those that it calls, while the project is still being checked. Gives a function whose body
+// is not checked yet, if there is one: check it and lower anew.
+sema::PouId lowerFunction(const sema::Project& project, sema::PouId function, const LowerOptions& options,
+                          Module& module, BodyId& body);
+
 }  // namespace rung::ir

@@ -109,9 +109,12 @@ void Reader::stmt() {
   } else if (accept("try")) {
     const Loc loc = b.loc;
     const StmtId body_block = block();
-    expect("catch");
-    const ExprId number = isPunct("{") ? ExprId{} : expr({});
-    const StmtId catch_block = block();
+    ExprId number;
+    StmtId catch_block;
+    if (accept("catch")) {
+      if (!isPunct("{")) number = expr({});
+      catch_block = block();
+    }
     const StmtId finally_block = accept("finally") ? block() : StmtId{};
     b.loc = loc;
     if (!failed_) b.tryCatch(body_block, catch_block, finally_block, number);

@@ -152,13 +152,15 @@ void Printer::stmt(const Stmt& s) {
     case StmtKind::Try:
       put("try {");
       block(StmtId{s.a});
-      put(" catch ");
-      if (s.d != 0) {
-        expr(ExprId{s.d}, {});
-        put(" ");
+      if (s.b != 0) {
+        put(" catch ");
+        if (s.d != 0) {
+          expr(ExprId{s.d}, {});
+          put(" ");
+        }
+        put("{");
+        block(StmtId{s.b});
       }
-      put("{");
-      block(StmtId{s.b});
       if (s.c != 0) {
         put(" finally {");
         block(StmtId{s.c});

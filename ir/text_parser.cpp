@@ -319,6 +319,7 @@ void Reader::attributes(Body& body) {
     if (!accept("_")) body.library_name = name();
   }
   body.pure = accept("pure");
+  body.sized = accept("sized");
   body.may_fault = accept("faults");
   body.library = accept("library");
   body.test = accept("test");
@@ -503,7 +504,9 @@ bool Reader::read() {
     code();
     builder_ = nullptr;
   }
-  return !diagnostics_.hasErrors() || had_errors;
+  const bool good = !diagnostics_.hasErrors() || had_errors;
+  for (uint32_t i = 0; good && i < types_.count(); ++i) types_.layout(TypeId{i});  // those of locals, too
+  return good;
 }
 
 // ---- types

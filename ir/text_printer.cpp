@@ -353,6 +353,7 @@ void Printer::header(const Body& body) {
       put("_");
   }
   if (body.pure) put(" pure");
+  if (body.sized) put(" sized");
   if (body.may_fault) put(" faults");
   if (body.library) put(" library");
   if (body.test) put(" test");

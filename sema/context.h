@@ -90,6 +90,8 @@ bool checkExprAs(Context& context, ExprId& expr, TypeId to, std::string_view wha
 // A place that may be written: reports constants, inputs, literals.
 TypeId checkPlace(Context& context, ExprId& expr, std::string_view what);
 void checkBody(Context& context, PouId pou);
+// Checks the body of a POU that was not checked. False: it has errors, or is being checked just now.
+bool ensureBody(Context& context, PouId pou);
 // The arguments of PROGRAM p WITH t : Main(...), as of a call of that program.
 void checkConnections(Context& context, ExprId call, PouId program);
 // The rules that need all bodies: recursion, unused variables. check() calls it once, when every body is checked.

@@ -24,19 +24,30 @@ Project::Project(Sources& the_sources, Names& the_names, Diagnostics& the_diagno
   calls.emplace_back();
 }
 
+bool ensureBody(Context& context, PouId id) {
+  Project& project = context.project;
+  if (project.pou(id).checking) return false;
+  if (project.pou(id).checked) return !project.pou(id).broken;
+  project.pou(id).checked = true;
+  if (project.pou(id).native) return true;
+  const std::string_view name = project.names.text(project.pou(id).name);
+  setPhaseSubject(name.data(), name.size());
+  const uint32_t errors = project.diagnostics.errorCount();
+  project.pou(id).checking = true;
+  resolvePou(context, id);
+  Context there = atPou(context, id);
+  checkBody(there, id);
+  project.pou(id).checking = false;
+  project.pou(id).broken = isBroken(context, id) || project.diagnostics.errorCount() != errors;
+  return !project.pou(id).broken;
+}
+
 namespace {
 
 void checkBodies(Context& context) {
   Project& project = context.project;
   for (uint32_t i = 1; i < project.pous.size(); ++i) {  // grows while bodies use library POUs
-    Pou& pou = project.pous[i];
-    if (pou.generic || pou.checked) continue;
-    pou.checked = true;
-    if (pou.native) continue;
-    const std::string_view name = project.names.text(pou.name);
-    setPhaseSubject(name.data(), name.size());
-    Context there = atPou(context, PouId{i});
-    checkBody(there, PouId{i});
+    if (!project.pous[i].generic) ensureBody(context, PouId{i});
   }
   setPhaseSubject("", 0);
 }

@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -89,8 +91,11 @@ struct Pou {
   bool pins_ready = false;
   bool library = false, native = false, pure = false, test = false;
   bool extensible = false;  // has an {extensible} pin
+  bool sized = false;       // {sized}: has a second native form that takes and gives lengths of texts
   bool prefix = false;      // {prefix}: the first n characters of the result follow from the first n of the first input
   bool checked = false;     // its body was checked (library bodies: when used)
+  bool checking = false;    // it is at hand
+  bool broken = false;      // it has errors
   bool used = false;
   bool may_fault = false;
   types::Op op = types::Op::Add;
@@ -185,17 +190,25 @@ struct Call {
   Assertion assertion = Assertion::Assert;
 };
 
+struct Project;
+
 // One file of a library that is built into the compiler.
 struct LibraryFile {
   const char* library;  // `Standard`
   const char* path;     // as diagnostics and faults print it
   std::string_view text;
 };
+// Runs a function whose inputs are constant. `ready`: checks the body of a function; false: it cannot be run. The later
+// layer that can do it is ir/interpreter (constant_call.h).
+using CallConstant = std::function<std::optional<types::Value>(
+    Project& project, PouId function, std::span<const types::Value> values, const std::function<bool(PouId)>& ready)>;
+
 // What the command line and rung.project choose.
 struct Options {
   text::Standard standard = text::Standard::Codesys;
   uint32_t pointer_size = 8;
   std::span<const LibraryFile> libraries;    // texts that outlive the project; declarations are parsed on first use
+  CallConstant call_constant;                // none: calls of functions are no constants
   int64_t default_interval_ns = 10'000'000;  // of the task that is made when there is no CONFIGURATION
 };
 
@@ -245,5 +258,9 @@ struct Project {
 // Afterwards each expression of a checked body has its type, implicit conversions are ConvertExpr nodes, untyped
 // literals have their context's type, and project.pous lists user POUs and the library POUs in use.
 void check(Project& project);
+
+// The value of a checked literal, in its type; and the operator of the arithmetic kernel that an infix one is.
+types::Value valueOf(const Project& project, const LiteralExpr& literal);
+types::Op operatorOf(BinaryOp op);
 
 }  // namespace rung::sema

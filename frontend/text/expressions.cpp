@@ -546,19 +546,19 @@ ExprId Parser::parseNumber(NameId prefix, bool negative, Loc start) {
 ExprId Parser::parseText(NameId prefix, Loc start) {
   const Token* token = t_;
   advance();
-  const bool wide = token->kind == Tok::WideText;
+  bool wide = token->kind == Tok::WideText;
   if ((token->flags & kReported) != 0) last_error_ = token;
   if (prefix) {
     const Tok type = token[-2].kind;
-    const bool good = type == Tok::String || type == Tok::Char     ? !wide
-                      : type == Tok::Wstring || type == Tok::Wchar ? wide
-                                                                   : !isTypeWord(type);
+    const bool double_byte = type == Tok::Wstring || type == Tok::Wchar;  // with either quote: ed. 3 table 6, 4c and 4d
+    const bool good = type == Tok::String || type == Tok::Char ? !wide : double_byte || !isTypeWord(type);
+    wide = wide || double_byte;
     if (!good) {
       slip(Diag::LiteralPrefix, token, {textOf(token), textOf(token - 2)});
       return errorExpr(start);
     }
   }
-  readString(textOf(token), loc(token), diagnostics_, buffer_);
+  readString(textOf(token), wide, loc(token), diagnostics_, buffer_);
   const TextId text = tree_.addText(buffer_);
   return tree_.add<ExprId>(LiteralExpr{
       exprHeader(ExprKind::Literal, start, static_cast<uint8_t>(wide ? LiteralKind::WString : LiteralKind::String)),

@@ -448,20 +448,22 @@ const char* Lexer::lineComment(const char* p) {
 const char* Lexer::blockComment(const char* begin, bool slash) {
   const char open = slash ? '/' : '(', close = slash ? '/' : ')';
   const char* p = begin + 2;
-  const bool nests = standard_ != Standard::Iec2 && !slash;
+  const bool nests = standard_ != Standard::Iec2;
+  bool told = false;
   uint32_t depth = 1;
   for (; p < end_; ++p) {
     if (*p == '*' && p[1] == close) {
       p += 2;
       if (--depth == 0) return p;
       --p;
-    } else if (*p == open && p[1] == '*' && !slash) {
-      // `(*)` closes in edition 2, where it cannot open another one.
+    } else if (*p == open && p[1] == '*') {
+      // `(*)` and `/*/` close in edition 2, where they cannot open another one.
       if (nests) {
         ++depth;
         ++p;
-      } else if (p[2] != ')') {
-        diagnostics_.report(Diag::NestedComment, loc(p)).length(2);
+      } else if (p[2] != close) {
+        if (!told) diagnostics_.report(Diag::NestedComment, loc(p), {std::string_view(p, 2)}).length(2);
+        told = true;
         ++depth;  // most likely it is closed as well
         ++p;
       }
@@ -483,6 +485,7 @@ const char* Lexer::pragma(const char* begin) {
       diagnostics_.report(Diag::UnterminatedPragma, loc(begin), {"{END_C++}"}).length(5);
       return end_;
     }
+    diagnostics_.report(Diag::NotSupportedYet, loc(begin), {"a body in C++"}).length(5);
     p += 8;
   } else {
     while (p < end_ && *p != '}') {

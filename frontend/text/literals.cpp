@@ -336,8 +336,7 @@ bool readDateTime(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
   return true;
 }
 
-bool readString(std::string_view text, Loc loc, Diagnostics& diagnostics, std::string& value) {
-  const bool wide = text.front() == '"';
+bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnostics, std::string& value) {
   std::string_view inner = text.substr(1);
   if (!inner.empty() && inner.back() == text.front()) inner.remove_suffix(1);
   value.clear();

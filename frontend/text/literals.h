@@ -32,7 +32,7 @@ bool readTimeOfDay(std::string_view text, Loc loc, Diagnostics& diagnostics, Tim
 bool readDateTime(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value);
 
 // The text between the quotes with its escapes decoded: bytes for '…', UTF-8 for "…".
-bool readString(std::string_view text, Loc loc, Diagnostics& diagnostics, std::string& value);
+bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnostics, std::string& value);
 
 // %IX0.0  %QW4  %M*; path gets its numbers.
 bool readAddress(std::string_view text, Loc loc, Diagnostics& diagnostics, DirectAddress& address,

@@ -249,8 +249,10 @@ DeclId Parser::parsePou() {
   Ident name{{}, here()};
   if (atLineStart()) {
     missing(Diag::MissingName, {describe(t_)});
-  } else if (isReserved(kind()) && peek() == Tok::Colon && kind() >= Tok::And && kind() <= Tok::Mod) {
-    name = {names_.intern(textOf(t_)), here()};  // the functional form of an operator: FUNCTION AND : ANY_BIT
+  } else if (peek() == Tok::Colon && ((kind() >= Tok::And && kind() <= Tok::Mod) ||
+                                      (isTypeWord(kind()) && pragmaNamed(d.h.pragmas, "native")))) {
+    // The functional form of an operator, FUNCTION AND : ANY_BIT, and the library's FUNCTION TIME : TIME.
+    name = {names_.intern(textOf(t_)), here()};
     advance();
   } else if (!parseName(name)) {
     while (!atLineStart() && !at(Tok::Colon) && !at(Tok::Semicolon)) advance();

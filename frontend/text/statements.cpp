@@ -537,8 +537,18 @@ bool Parser::atCaseLabel() const {
     case static_cast<int>(Tok::Plus):
     case static_cast<int>(Tok::Minus):
     case static_cast<int>(Tok::Star): return true;
+    case static_cast<int>(Tok::LeftParen): break;
     default: return false;
   }
+  // MAX(1, LIMIT): the call of a statement has no colon or comma behind it.
+  uint32_t open = 0;
+  do {
+    if (t->kind == Tok::LeftParen) ++open;
+    if (t->kind == Tok::RightParen) --open;
+    ++t;
+  } while (open != 0 && t->kind != Tok::Semicolon && t->kind != Tok::End &&
+           !(isReserved(t->kind) && isEndWord(t->kind)));
+  return open == 0 && (t->kind == Tok::Colon || t->kind == Tok::Comma || t->kind == Tok::DotDot);
 }
 
 // labels = label {"," label} ":" with label = expr [".." expr]

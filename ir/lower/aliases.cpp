@@ -64,7 +64,11 @@ bool BodyLowering::isApart(rung::ExprId id, sema::VarId variable) const {
     case rung::ExprKind::Unary: return isApart(tree_.as<UnaryExpr>(id).operand, variable);
     case rung::ExprKind::Binary: {
       const BinaryExpr& node = tree_.as<BinaryExpr>(id);
-      if (node.op() == BinaryOp::Divide || node.op() == BinaryOp::Modulo || node.op() == BinaryOp::Power) return false;
+      if (node.op() == BinaryOp::Power) return false;
+      if (node.op() == BinaryOp::Divide || node.op() == BinaryOp::Modulo) {  // a fault would leave the variable changed
+        auto divisor = constantOf(project_, node.right);
+        if (!divisor || !TypeTable::isScalar(types_.plainKind(divisor->type)) || divisor->bits == 0) return false;
+      }
       return isApart(node.left, variable) && isApart(node.right, variable);
     }
     case rung::ExprKind::Call: {

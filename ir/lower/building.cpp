@@ -131,6 +131,9 @@ ExprId BodyLowering::temp(TypeId type, Loc loc) {
 }
 
 ExprId BodyLowering::field(ExprId base, uint32_t index, TypeId type, Loc loc) {
+  // While the project is being checked records may not have their fields yet; only that it is outside matters then.
+  if (in_.partial && (body_.expr(base).kind == ExprKind::Global || body_.expr(base).kind == ExprKind::Program))
+    return add({.kind = ExprKind::Global, .type = type, .loc = loc});
   const types::Field& info = types_.info(typeOf(base)).fields[index];
   uint8_t checks = info.by_reference ? in_.options.checks & kCheckNull : 0;
   return add({.kind = ExprKind::Field, .checks = checks, .type = strip(type), .loc = loc, .a = base.index, .b = index});

@@ -217,6 +217,16 @@ ExprId BodyLowering::argumentPlace(ExprId value, TypeId pin_type, bool may_alias
   return copy;
 }
 
+// What a VAR_IN_OUT refers to: the variable, or, for a VAR_IN_OUT CONSTANT that is given a value, a copy of that.
+ExprId BodyLowering::inOutPlace(rung::ExprId argument, TypeId pin_type) {
+  Loc loc = tree_.loc(argument);
+  ExprId place = lowerPlace(argument);
+  if (isPlace(body_.expr(place).kind)) return stable(place);
+  ExprId copy = temp(strip(pin_type), loc);
+  assign(copy, convertValue(place, strip(pin_type), loc), loc);
+  return copy;
+}
+
 // A call that runs in any case: without EN and ENO.
 bool BodyLowering::isPlainCall(rung::ExprId expr) const {
   if (tree_.kind(expr) != rung::ExprKind::Call) return false;
@@ -310,14 +320,23 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
         } else {
           value = lowerValue(binding->value);
         }
-        argument = argumentPlace(value, pin_type, may_alias, tree_.loc(binding->value));
+        Loc at = tree_.loc(binding->value);
+        // A body in ST sees no more of a text than its pin takes; the library's C functions take any length.
+        bool cut = !pou.native && TypeTable::isText(types_.kind(pin_type)) &&
+                   types_.info(typeOf(value)).length > types_.info(pin_type).length;
+        if (cut) {
+          argument = temp(pin_type, at);
+          assign(argument, value, at);
+        } else {
+          argument = argumentPlace(value, pin_type, may_alias, at);
+        }
       } else {
         argument = lowerValue(binding->value);
         if (guard_ && mayFault(argument)) argument = toTemp(argument, loc);
       }
     } else if (pin.section == SectionKind::InOut) {
       RUNG_INVARIANT(!open, "sema reports an open VAR_IN_OUT");
-      argument = stable(lowerPlace(binding->value));
+      argument = inOutPlace(binding->value, pin_type);
       const Expr& place = body_.expr(argument);
       bool part_of_byte = place.kind == ExprKind::Bits || (place.kind == ExprKind::Image && place.c != kNoBit);
       if (part_of_byte) {  // a copy that is written back
@@ -369,7 +388,7 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
     Loc at = tree_.loc(binding.value);
     ExprId place = field(instance, pin.field, type, at);
     if (pin.section == SectionKind::InOut) {
-      ExprId variable = stable(lowerPlace(binding.value));
+      ExprId variable = inOutPlace(binding.value, type);
       const Expr& expr = body_.expr(variable);
       if (expr.kind == ExprKind::Bits || (expr.kind == ExprKind::Image && expr.c != kNoBit)) {
         ExprId copy = toTemp(variable, at);

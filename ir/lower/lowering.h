@@ -23,6 +23,10 @@ struct ModuleLowering {
   ModuleLowering(const sema::Project& from, const LowerOptions& with, Module& to);
 
   void run();
+  // Bodies that were asked for, and those that they ask for. Stops at one whose POU is not checked, and gives that.
+  sema::PouId lowerBodies();
+  // Lists and instances as they are known while the project is being checked, without their memory and code.
+  void addNames();
   // The body of a POU's code; declares its parameters when first asked for.
   BodyId bodyOf(sema::PouId pou);
   // The initialiser of a record, or none when its initial value is all zeros.
@@ -38,6 +42,7 @@ struct ModuleLowering {
   Module& module;
   const Tree& tree;
   TypeTable& types;
+  bool partial = false;  // a function alone: see lowerFunction
 
  private:
   void declareRecordsOf(TypeId type);
@@ -198,6 +203,7 @@ class BodyLowering {
   void lowerBlockCall(const sema::Call& call, const CallExpr& node, ExprId instance);
   void lowerAssertion(const sema::Call& call, const CallExpr& node);
   ExprId argumentPlace(ExprId value, TypeId pin_type, bool may_alias, Loc loc);
+  ExprId inOutPlace(rung::ExprId argument, TypeId pin_type);
   bool isPlainCall(rung::ExprId expr) const;
   bool mayChain(const sema::Call& call, const Target& target) const;
   ExprId defaultArgument(sema::VarId pin, Loc loc);

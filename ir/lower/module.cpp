@@ -33,17 +33,7 @@ void ModuleLowering::run() {
     bodyOf({i});
   }
   addActivations();
-  // Lowering a body may ask for further ones.
-  for (uint32_t next = 0; next < to_lower_.size(); ++next) {
-    const sema::Pou& pou = project.pou(to_lower_[next]);
-    if (pou.native) continue;
-    std::string_view name = project.names.text(pou.name);
-    setPhaseSubject(name.data(), name.size());
-    Body& body = module.body(body_of_[to_lower_[next].index]);
-    BodyLowering lowering(*this, body, to_lower_[next]);
-    lowering.lowerPou();
-    lowering.finish();
-  }
+  lowerBodies();
   for (List& list : module.lists) list.init = initOf(list.record);
   for (ProgramInstance& instance : module.programs) instance.init = initOf(instance.record);
   for (Record& record : module.records) record.init = initOf(record.type);
@@ -52,6 +42,30 @@ void ModuleLowering::run() {
   addLocated();
   for (int area = 0; area < 3; ++area) module.image_bytes[area] = project.image_bytes[area];
   setPhaseSubject("", 0);
+}
+
+sema::PouId ModuleLowering::lowerBodies() {
+  for (uint32_t next = 0; next < to_lower_.size(); ++next) {
+    const sema::Pou& pou = project.pou(to_lower_[next]);
+    if (pou.native) continue;
+    if (!pou.checked) return to_lower_[next];
+    std::string_view name = project.names.text(pou.name);
+    setPhaseSubject(name.data(), name.size());
+    Body& body = module.body(body_of_[to_lower_[next].index]);
+    BodyLowering lowering(*this, body, to_lower_[next]);
+    lowering.lowerPou();
+    lowering.finish();
+  }
+  return {};
+}
+
+sema::PouId lowerFunction(const sema::Project& project, sema::PouId function, const LowerOptions& options,
+                          Module& module, BodyId& body) {
+  ModuleLowering lowering(project, options, module);
+  lowering.partial = true;
+  lowering.addNames();
+  body = lowering.bodyOf(function);
+  return lowering.lowerBodies();
 }
 
 // ---- bodies ----------------------------------------------------------------------------------------------------
@@ -68,6 +82,7 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
   body.kind = pou.kind == PouKind::Function ? BodyKind::Function : BodyKind::Block;
   body.native = pou.native;
   body.pure = pou.pure;
+  body.sized = pou.sized;
   body.library = pou.library;
   body.library_name = pou.library_name;
   body.test = pou.test;
@@ -339,6 +354,20 @@ void ModuleLowering::addLists() {
     list_index[index] = static_cast<uint32_t>(module.lists.size());
     declareRecordsOf(list.record);
     module.lists.push_back({list.name, list.record, {}});
+  }
+}
+
+void ModuleLowering::addNames() {
+  for (uint32_t i = 1; i < project.global_lists.size(); ++i) {
+    list_index[i] = static_cast<uint32_t>(module.lists.size());
+    module.lists.push_back({project.global_lists[i].name, project.global_lists[i].record, {}});
+  }
+  for (const sema::ProgramInstance& instance : project.instances) {
+    const auto index = static_cast<uint32_t>(module.programs.size());
+    program_of_instance_.push_back(index + 1);
+    instance_of_.insert({instance.program.index, index});
+    module.programs.emplace_back().name = instance.name;
+    module.programs.back().record = project.pou(instance.program).record;
   }
 }
 

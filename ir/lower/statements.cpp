@@ -9,7 +9,16 @@ void BodyLowering::lowerPou() {
   for (sema::VarId id : pou.vars) {
     const sema::Var& var = project_.var(id);
     if (var.storage != sema::Storage::Local) continue;
-    if (var.section == SectionKind::Input || var.section == SectionKind::InOut) continue;
+    if (var.section == SectionKind::InOut) continue;
+    if (var.section == SectionKind::Input) {
+      // The caller's variable stays as it is: a body that writes an input by reference writes a copy of its own.
+      uint32_t& index = local_of_[var.field];
+      if (!var.written || !body_.locals[index - 1].by_reference) continue;
+      ExprId copy = temp(strip(var.type), var.loc);
+      assign(copy, local(index - 1, var.loc), var.loc);
+      index = body_.expr(copy).a + 1;
+      continue;
+    }
     storeInitial(local(local_of_[var.field] - 1, var.loc), strip(var.type), var.init, false);
   }
   if (result_local_ != kNoBit) {
@@ -208,6 +217,9 @@ void BodyLowering::lowerFor(const ForStmt& stmt) {
   ExprId to = lowerAfter({&from}, [&] { return lowerValue(stmt.to); });
   from = convertValue(from, type, loc);
   to = convertValue(to, type, loc);
+  // An unsigned variable that counts down by a constant needs the test of the direction as any unknown step does.
+  if (stmt.step && types_.isSigned(types_.plainKind(tree_.expr(stmt.step).type)) != types_.isSigned(types_.kind(plain)))
+    step.reset();
   if (types_.kind(type) == TypeKind::Subrange) return lowerForOfSubrange(stmt, control, from, to, step);
   if (!step) return lowerForWithVariableStep(stmt, control, from, to, [&] { lowerStatements(stmt.body); });
   StmtId body = block([&] { lowerStatements(stmt.body); });
@@ -267,11 +279,13 @@ void BodyLowering::lowerForWithVariableStep(const ForStmt& stmt, ExprId control,
   TypeId type = typeOf(control);
   from = toTemp(from, loc);
   to = toTemp(to, loc);
-  ExprId step = toTemp(convertValue(lowerValue(stmt.step), type, loc), loc);
+  ExprId step = toTemp(lowerValue(stmt.step), loc);
+  TypeId step_type = typeOf(step);  // of an unsigned variable perhaps the signed type of its width
   assign(control, from, loc);
-  bool is_signed = types_.isSigned(types_.plainKind(type));
+  bool is_signed = types_.isSigned(types_.plainKind(step_type));
   ExprId upward = toTemp(
-      is_signed ? binary(Op::Ge, types::kBool, step, constant(type, 0, loc), loc) : constantBool(true, loc), loc);
+      is_signed ? binary(Op::Ge, types::kBool, step, constant(step_type, 0, loc), loc) : constantBool(true, loc), loc);
+  step = toTemp(convertValue(step, type, loc), loc);
   ExprId next = temp(type, loc);
   StmtId leave = block([&] { append({.kind = StmtKind::Break, .loc = loc}); });
   auto chosen = [&](ExprId when_up, ExprId when_down) {

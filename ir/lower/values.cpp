@@ -1,106 +1,14 @@
 // Lowering of values: literals, operators, conversions, and the order of evaluation. In: checked expressions. Out: IR
 // expressions; calls inside them become statements in front, and what was read before a call moves to a temporary.
-#include <cmath>
-
 #include "ir/lower/lowering.h"
 
 namespace rung::ir {
-
-namespace {
-
-constexpr int64_t kNanosecondsPerMillisecond = 1'000'000;
-constexpr int64_t kNanosecondsPerSecond = 1'000'000'000;
-
-Value literalValue(const sema::Project& project, const LiteralExpr& node) {
-  const TypeTable& types = project.types;
-  TypeId type = types.resolve(node.h.type);
-  TypeKind kind = types.plainKind(type);
-  uint64_t bits = node.value();
-  bool negative = (node.h.bits & kLiteralNegative) != 0;
-  switch (node.literal()) {
-    case LiteralKind::Bool: return {type, bits};
-    case LiteralKind::Integer:
-      if (TypeTable::isReal(kind)) {
-        double value = static_cast<double>(bits);
-        return Value::ofReal(type, negative ? -value : value);
-      }
-      return {type, negative ? 0 - bits : bits};
-    case LiteralKind::Real: {
-      double value;
-      std::memcpy(&value, &bits, sizeof value);
-      if (kind == TypeKind::Real) value = static_cast<float>(value);
-      return Value::ofReal(type, value);
-    }
-    case LiteralKind::Duration:
-    case LiteralKind::TimeOfDay: {
-      int64_t value = static_cast<int64_t>(bits);
-      bool in_milliseconds = kind == TypeKind::Time || kind == TypeKind::TimeOfDay;
-      if (in_milliseconds) value /= kNanosecondsPerMillisecond;
-      // 32-bit times keep their width: sign- or zero-extended as the type is.
-      if (in_milliseconds)
-        return {type, types.isSigned(kind) ? static_cast<uint64_t>(static_cast<int64_t>(static_cast<int32_t>(value)))
-                                           : static_cast<uint32_t>(value)};
-      return {type, static_cast<uint64_t>(value)};
-    }
-    case LiteralKind::Date:
-    case LiteralKind::DateTime: {
-      int64_t value = static_cast<int64_t>(bits);
-      if (kind == TypeKind::Date || kind == TypeKind::DateTime)
-        return {type, static_cast<uint32_t>(value / kNanosecondsPerSecond)};
-      return {type, static_cast<uint64_t>(value)};
-    }
-    case LiteralKind::String:
-    case LiteralKind::WString: {
-      std::string_view text = project.tree.text(node.text());
-      if (kind == TypeKind::Char || kind == TypeKind::WChar) {
-        uint64_t code = text.empty() ? 0 : static_cast<unsigned char>(text[0]);
-        if (kind == TypeKind::WChar && text.size() > 1) {  // UTF-8 to one 16-bit unit
-          unsigned char lead = static_cast<unsigned char>(text[0]);
-          auto next = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) & 0x3fu : 0u; };
-          if (lead >= 0xe0)
-            code = ((lead & 0x0fu) << 12) | (next(1) << 6) | next(2);
-          else if (lead >= 0xc0)
-            code = ((lead & 0x1fu) << 6) | next(1);
-        }
-        return {type, code};
-      }
-      return {type, project.names.intern(text).index};
-    }
-    case LiteralKind::Null: return {type, 0};
-  }
-  return {type, 0};
-}
-
-Op operatorOf(BinaryOp op) {
-  switch (op) {
-    case BinaryOp::Or:
-    case BinaryOp::OrElse: return Op::Or;
-    case BinaryOp::Xor: return Op::Xor;
-    case BinaryOp::And:
-    case BinaryOp::AndThen: return Op::And;
-    case BinaryOp::Equal: return Op::Eq;
-    case BinaryOp::NotEqual: return Op::Ne;
-    case BinaryOp::Less: return Op::Lt;
-    case BinaryOp::LessEqual: return Op::Le;
-    case BinaryOp::Greater: return Op::Gt;
-    case BinaryOp::GreaterEqual: return Op::Ge;
-    case BinaryOp::Add: return Op::Add;
-    case BinaryOp::Subtract: return Op::Sub;
-    case BinaryOp::Multiply: return Op::Mul;
-    case BinaryOp::Divide: return Op::Div;
-    case BinaryOp::Modulo: return Op::Mod;
-    case BinaryOp::Power: return Op::Power;
-  }
-  return Op::Add;
-}
-
-}  // namespace
 
 std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
   const Tree& tree = project.tree;
   const TypeTable& types = project.types;
   switch (tree.kind(id)) {
-    case rung::ExprKind::Literal: return literalValue(project, tree.as<LiteralExpr>(id));
+    case rung::ExprKind::Literal: return sema::valueOf(project, tree.as<LiteralExpr>(id));
     case rung::ExprKind::Name:
     case rung::ExprKind::Member:
     case rung::ExprKind::TypedName: {
@@ -148,7 +56,7 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
       if (!left || !TypeTable::isScalar(types.plainKind(left->type))) return std::nullopt;
       auto right = constantOf(project, node.right);
       if (!right || !TypeTable::isScalar(types.plainKind(right->type))) return std::nullopt;
-      types::Outcome outcome = types::apply(types, project.names, operatorOf(node.op()), *left, *right);
+      types::Outcome outcome = types::apply(types, project.names, sema::operatorOf(node.op()), *left, *right);
       if (outcome.fault != types::Fault::None) return std::nullopt;
       return outcome.value;
     }
@@ -223,7 +131,7 @@ ExprId BodyLowering::toTemp(ExprId value, Loc loc) {
 }
 
 ExprId BodyLowering::lowerLiteral(rung::ExprId id) {
-  return ofValue(literalValue(project_, tree_.as<LiteralExpr>(id)), tree_.loc(id));
+  return ofValue(sema::valueOf(project_, tree_.as<LiteralExpr>(id)), tree_.loc(id));
 }
 
 ExprId BodyLowering::lowerValue(rung::ExprId id) {
@@ -283,7 +191,7 @@ ExprId BodyLowering::lowerBinary(rung::ExprId id) {
   }
   ExprId left = lowerValue(node.left);
   ExprId right = lowerAfter({&left}, [&] { return lowerValue(node.right); });
-  return binary(operatorOf(op), strip(node.h.type), left, right, node.h.loc);
+  return binary(sema::operatorOf(op), strip(node.h.type), left, right, node.h.loc);
 }
 
 // Whether a function that may have an effect is called somewhere in the expression.

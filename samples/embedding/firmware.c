@@ -1,5 +1,5 @@
 /* The smallest product that runs a compiled project: it owns all memory, runs the cyclic tasks in virtual time and
- * prints one symbol. Built by tests/programs/embedding from `rung build --static --name plant`. See docs/embedding.md. */
+ * prints one symbol. Built and run by tests/programs/embedding. See docs/embedding.md. */
 #include <stdio.h>
 #include <string.h>
 

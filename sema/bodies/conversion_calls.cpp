@@ -111,11 +111,15 @@ bool operandAs(Context& context, ExprId& value, TypeId type, NameId function) {
   return true;
 }
 
-// MOVE(EN := …, IN := converted, ENO => …): a conversion has no pins of its own.
-TypeId guarded(Context& context, ExprId& expr, const OneInput& input, ExprId value, NameId name) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
-  context.tree().list(node.arguments)[input.index].value = value;
-  return callLibrary(context, expr, "MOVE", context.tree().expr(value).type, name);
+// The name of the library's own function for two types where the dialect has one: `DWORD_TO_REAL` transfers the bits in
+// edition 3. Else empty.
+std::string libraryConversion(Context& context, TypeKind from, TypeKind to) {
+  if (!context.iec() || TypeTable::isReal(from) == TypeTable::isReal(to)) return {};
+  std::string function(text(context, context.types().info(types::idOf(from)).name));
+  function.append("_TO_").append(text(context, context.types().info(types::idOf(to)).name));
+  const Entity entity = lookUp(context, context.names().intern(function));
+  return entity.what() == EntityKind::Pou && context.project.pou(PouId{entity.index}).library ? function
+                                                                                              : std::string();
 }
 
 TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& rule, TypeId expected) {
@@ -179,9 +183,18 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
     replaceArgument();
     return checkGenericCall(context, expr, PouId{trunc.index}, expected, rule.to);
   }
+  if (const std::string function = libraryConversion(context, source, target); !function.empty()) {
+    replaceArgument();
+    return callLibrary(context, expr, function, expected, name);
+  }
+  // A number becomes a date by way of the date and time that it counts, so that a DATE is always a whole day.
+  const bool to_day = target == TypeKind::Date || target == TypeKind::LDate;
+  if (to_day && !TypeTable::isDate(source)) {
+    wrapConvert(context, value, types::idOf(target == TypeKind::Date ? TypeKind::DateTime : TypeKind::LDateTime));
+  }
   wrapConvert(context, value, rule.to);
   context.tree().expr(value).loc = node.h.loc;
-  if (input.en || input.eno) return guarded(context, expr, input, value, name);
+  if (input.en || input.eno) return guardValue(context, expr, value);
   expr = value;
   return rule.to;
 }
@@ -231,6 +244,20 @@ TypeId checkTypedCall(Context& context, ExprId& expr, std::string_view name, Typ
 }
 
 }  // namespace
+
+TypeId guardValue(Context& context, ExprId& expr, ExprId value) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.tree().expr(value).type);
+  std::vector<Argument> arguments;
+  for (const Argument& argument : context.tree().list(node.arguments)) {
+    const std::string_view pin = argument.pin.name ? text(context, argument.pin.name) : std::string_view();
+    if (sameIdentifier(pin, argument.is_output ? "ENO" : "EN")) arguments.push_back(argument);
+  }
+  arguments.push_back(Argument{{}, value, false, false, node.h.loc});
+  node.arguments = context.tree().addList<Argument>(arguments);
+  const NameId name = context.tree().as<NameExpr>(node.callee).name;
+  return callLibrary(context, expr, "MOVE", context.tree().expr(value).type, name);
+}
 
 TypeId checkRuleCall(Context& context, ExprId& expr, NameId name, TypeId expected) {
   const std::string spelled = upper(text(context, name));

@@ -191,12 +191,26 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
   return false;
 }
 
+namespace {
+
+// A constant is its value: `VAR CONSTANT k : INT := 3` fits a SINT.
+bool constantFits(Context& context, ExprId expr, TypeId to) {
+  if (context.iec() || !context.tree().expr(expr).is_constant) return false;
+  const types::TypeInfo& target = context.types().info(context.types().resolve(to));
+  const std::optional<types::Value> value = evaluate(context, expr);
+  return value && target.kind != TypeKind::Enum && TypeTable::isScalar(context.types().plainKind(value->type)) &&
+         !types::convert(context.types(), *value, to).overflow;
+}
+
+}  // namespace
+
 bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
   const TypeId from = context.tree().expr(expr).type;
   if (from == to) return from != types::kError;
   if (!from || from == types::kError || to == types::kError) return false;
   if (isUntyped(context, from)) return adapt(context, expr, to, purpose);
-  const Fit fitness = fit(context, from, to);
+  Fit fitness = fit(context, from, to);
+  if (fitness == Fit::Lossy && constantFits(context, expr, to)) fitness = Fit::Lossless;
   if (!reportFit(context, fitness, expr, from, to, purpose)) {
     context.tree().expr(expr).type = types::kError;
     return false;

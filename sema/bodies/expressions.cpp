@@ -1,6 +1,8 @@
 // Expressions: dispatch over the kinds, and those that are no names, literals, operators or calls.
 // In: an expression of a body or an initial value, and the type that its context wants. Out: types, entities and
 // conversions written into the tree. Called by statements.cpp and by the declarations.
+#include <algorithm>
+
 #include "sema/bodies/bodies.h"
 #include "sema/checks/constant_index.h"
 #include "sema/checks/writable.h"
@@ -25,7 +27,9 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   if (!array && base != types::kError) {
     context.report(Diag::NotAnArray, node.h.loc, {context.types().spell(base)});
   } else if (array && !info->dimensions.empty() && info->dimensions.size() != count) {
-    context.report(Diag::WrongIndexCount, node.h.loc,
+    // The first index too many, or the last one, behind which some are missing.
+    const uint32_t marked = std::min(static_cast<uint32_t>(info->dimensions.size()), count - 1);
+    context.report(Diag::WrongIndexCount, context.tree().loc(context.tree().list(node.indices)[marked]),
                    {context.types().spell(base), std::to_string(info->dimensions.size()), std::to_string(count)});
   }
   bool good = array && (info->dimensions.empty() || info->dimensions.size() == count);

@@ -195,12 +195,13 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   if (!checkRequiredPins(context, node, pou, arguments)) return node.h.type = types::kError;
   GenericOperands operands = groupOperands(context, node, pou, arguments, expected, forced, false);
   if (!operands.good) return node.h.type = types::kError;
-  // A text has its largest capacity inside: one instance serves every length.
+  // A text has its largest capacity inside: one instance serves every length. C functions know no named types.
+  const bool native = context.project.pou(pou).native;
   const auto normal = [&](TypeId type) {
     const TypeKind kind = context.types().plainKind(type);
     if (kind == TypeKind::String) return context.types().string(255);
     if (kind == TypeKind::WString) return context.types().wstring(255);
-    return type;
+    return native ? context.types().plain(type) : type;
   };
   std::vector<TypeId> types_by_pin;
   const Pou& generic = context.project.pou(pou);
@@ -221,8 +222,10 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   if (!call.pou) return node.h.type = types::kError;
   context.project.pou(call.pou).used = true;
   const std::span<const VarId> pins = pinsOf(context, call.pou);
+  node.h.is_constant = generic.library && generic.pure && !native && !call.en && !call.eno;
   for (size_t i = 0; i < operands.values.size() && i < pins.size(); ++i) {
     if (!operands.values[i]) continue;
+    node.h.is_constant = node.h.is_constant && context.tree().expr(operands.values[i]).is_constant;
     Binding binding;
     binding.pin = pins[i];
     binding.value = operands.values[i];

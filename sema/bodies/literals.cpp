@@ -371,7 +371,10 @@ bool untypedFits(Context& context, ExprId expr, TypeId to) {
   if (types::TypeTable::isReal(kind)) return true;
   if (!integer) return false;
   Int128 value;
-  if (kind == TypeKind::Bool) return untypedValue(context, expr, value) && value >= 0 && value <= 1;
+  if (kind == TypeKind::Bool) {
+    return context.tree().kind(expr) == ExprKind::Literal && untypedValue(context, expr, value) && value >= 0 &&
+           value <= 1;
+  }
   if (!isIntegerLike(kind)) return false;
   if (!untypedValue(context, expr, value)) return true;
   const Bounds bounds = boundsOf(context.types(), kind);

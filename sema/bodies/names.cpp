@@ -2,6 +2,7 @@
 // In: NameExpr, TypedNameExpr, MemberExpr. Out: their entity and type. Called for every operand of every body.
 #include "sema/bodies/bodies.h"
 #include "sema/checks/outside_access.h"
+#include "sema/declarations/declarations.h"
 #include "sema/scopes.h"
 
 namespace rung::sema {
@@ -114,9 +115,12 @@ TypeId checkBase(Context& context, ExprId& base, Access access) {
   const ExprKind kind = context.tree().kind(base);
   if (kind != ExprKind::Name && kind != ExprKind::Member) return check(context, base, {}, access);
   const TypeId type = check(context, base, {}, Access::Qualifier);
-  const Entity entity = entityOf(context, base);
-  if (type && entity.what() == EntityKind::Var) markAccess(context, VarId{entity.index}, access);
-  return type;
+  if (!type || access == Access::Qualifier) return type;
+  for (ExprId at = base;; at = context.tree().as<MemberExpr>(at).base) {  // of a.b.c both a and b
+    const Entity entity = entityOf(context, at);
+    if (entity.what() == EntityKind::Var) markAccess(context, VarId{entity.index}, access);
+    if (context.tree().kind(at) != ExprKind::Member) return type;
+  }
 }
 
 std::string_view nearestField(Context& context, TypeId record, NameId written) {
@@ -256,6 +260,10 @@ TypeId checkName(Context& context, ExprId& expr, TypeId expected, Access access)
 TypeId checkTypedName(Context& context, ExprId& expr) {
   TypedNameExpr& node = context.tree().as<TypedNameExpr>(expr);
   Entity type = lookUp(context, node.type_name.name);
+  if (type.what() == EntityKind::Var) {  // `mode : Mode; … Mode#Idle`: before `#` no variable hides the type
+    if (const TypeId hidden = lookUpType(context, node.type_name.name))
+      type = Entity::of(EntityKind::Type, hidden.index);
+  }
   if (type.what() != EntityKind::Type) {
     node.entity = Entity::of(EntityKind::Error, 0);
     if (!type && !context.types().elementary(node.type_name.name)) {

@@ -108,9 +108,11 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
   if (!checkRequiredPins(context, node, id, arguments)) return node.h.type = types::kError;
   BinaryOp infix;
   bool checked = false;
-  if (pou.operator_kind == Pou::Operator::Op && binaryOf(pou.op, infix) && infix != BinaryOp::Power &&
-      arguments.en == 0 && arguments.eno == 0) {
-    if (const TypeId type = infixTimes(context, expr, arguments, infix, expected, forced)) {
+  if (pou.operator_kind == Pou::Operator::Op && binaryOf(pou.op, infix) && infix != BinaryOp::Power) {
+    ExprId value = expr;
+    if (const TypeId type = infixTimes(context, value, arguments, infix, expected, forced)) {
+      if (type != types::kError && (arguments.en != 0 || arguments.eno != 0)) return guardValue(context, expr, value);
+      expr = value;
       return context.tree().expr(expr).type = type;
     }
     checked = true;

@@ -107,6 +107,21 @@ bool accepts(Context& context, Operands accepted, TypeId type) {
   return false;
 }
 
+// 'x' = c: next to a CHAR or WCHAR a text literal of one character is that character.
+void typeCharacters(Context& context, std::span<const ExprId> operands) {
+  Tree& tree = context.tree();
+  for (const ExprId operand : operands) {
+    const TypeKind kind = context.types().plainKind(tree.expr(operand).type);
+    if (kind != TypeKind::Char && kind != TypeKind::WChar) continue;
+    const TypeId text = kind == TypeKind::Char ? context.types().string(1) : context.types().wstring(1);
+    for (const ExprId other : operands) {
+      if (tree.kind(other) != ExprKind::Literal || tree.as<LiteralExpr>(other).prefix) continue;
+      if (tree.expr(other).type == text) tree.expr(other).type = types::idOf(kind);
+    }
+    return;
+  }
+}
+
 bool keepsOwnType(Operands accepted) {
   return accepted == Operands::Anything || accepted == Operands::Comparable || accepted == Operands::Equatable;
 }
@@ -173,6 +188,7 @@ TypeId combineUntyped(Context& context, BinaryExpr& node) {
 TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, TypeId expected, std::string_view what,
              Loc loc) {
   Tree& tree = context.tree();
+  if (keepsOwnType(accepted)) typeCharacters(context, operands);
   TypeId common;
   bool untyped = false, real = false;
   for (const ExprId operand : operands) {
@@ -299,6 +315,11 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
       }
       return node.h.type = reportOperands(context, spelling(op), left, right, loc);
     }
+  }
+  if (op == BinaryOp::Add && TypeTable::isText(context.types().plainKind(left)) &&
+      TypeTable::isText(context.types().plainKind(right))) {
+    context.report(Diag::TextsAdded, node.h.loc);
+    return node.h.type = types::kError;
   }
   ExprId operands[2] = {node.left, node.right};
   const TypeId common =

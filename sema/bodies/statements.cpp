@@ -172,7 +172,15 @@ ExprId checkLabel(Context& context, ExprId label, TypeId selector, CaseLabels& l
   }
   *value = *known;
   labels.good = true;
-  return label;
+  if (entityOf(context, label) || context.tree().kind(label) == ExprKind::Literal) return label;
+  LiteralExpr folded{};  // lowering need not compute it again
+  folded.h.kind = ExprKind::Literal;
+  folded.h.op = static_cast<uint8_t>(LiteralKind::Integer);
+  folded.h.loc = context.tree().begin(label);
+  folded.h.is_constant = 1;
+  folded.h.type = context.tree().expr(label).type;
+  folded.setValue(static_cast<uint64_t>(*known));
+  return context.tree().add<ExprId>(folded);
 }
 
 bool checkCase(Context& context, CaseStmt& node) {
@@ -217,6 +225,25 @@ bool checkCase(Context& context, CaseStmt& node) {
   return falls || otherwise || !node.has_else;
 }
 
+// What the step of a FOR over `control` has to be. A step has a sign though the variable may have none:
+// FOR u := 9 TO 0 BY -1 counts an unsigned variable down (codesys; the standard wants one type for all).
+TypeId stepType(Context& context, ExprId step, TypeId control) {
+  const TypeId plain = context.types().plain(control);  // a step is no value of the subrange
+  const TypeKind kind = context.types().info(plain).kind;
+  if (context.iec() || context.types().isSigned(kind)) return plain;
+  const TypeId type = context.tree().expr(step).type;
+  __int128 value = 0;
+  const bool negative = isUntyped(context, type) ? untypedValue(context, step, value) && value < 0
+                                                 : context.types().isSigned(context.types().plainKind(type));
+  if (!negative) return plain;
+  switch (types::TypeTable::bitWidth(kind)) {
+    case 8: return types::kSInt;
+    case 16: return types::kInt;
+    case 32: return types::kDInt;
+    default: return types::kLInt;
+  }
+}
+
 void checkFor(Context& context, ForStmt& node) {
   const TypeId type = checkForControl(context, node);
   const NameId name = placeName(context, node.control);
@@ -230,7 +257,14 @@ void checkFor(Context& context, ForStmt& node) {
   };
   bound(node.from, type, "assigned to");
   bound(node.to, type, "used as the limit of");
-  bound(node.step, context.types().plain(type), "added to");  // a step is no value of the subrange
+  if (node.step && type != types::kError) {
+    const TypeId step = check(context, node.step, type, Access::Read);
+    if (step != types::kError) {
+      convert(context, node.step, stepType(context, node.step, type), Purpose{"added to", name, {}});
+    }
+  } else {
+    bound(node.step, type, "added to");
+  }
   if (type != types::kError) checkForBounds(context, node);
   VarId control;
   if (context.tree().kind(node.control) == ExprKind::Name) {
@@ -244,8 +278,9 @@ void checkFor(Context& context, ForStmt& node) {
   if (control) context.body->loop_controls.pop_back();
 }
 
-// A loop whose condition is the constant that keeps it going, and that nothing leaves.
-bool endless(Context& context, ExprId condition, bool goes_on, uint32_t ways_out_before, Loc loc) {
+// Warns of a loop whose condition is the constant that keeps it going, and that nothing leaves. What stands behind it
+// is no second mistake.
+bool checkEndless(Context& context, ExprId condition, bool goes_on, uint32_t ways_out_before, Loc loc) {
   const Tree& tree = context.tree();
   if (tree.kind(condition) != ExprKind::Literal || tree.expr(condition).type != types::kBool) return false;
   if ((tree.as<LiteralExpr>(condition).value() != 0) != goes_on) return false;
@@ -272,7 +307,8 @@ bool checkStatement(Context& context, StmtId id) {
       ++context.loop_depth;
       checkStatements(context, node.body);
       --context.loop_depth;
-      return !endless(context, node.condition, true, before, node.h.loc);
+      checkEndless(context, node.condition, true, before, node.h.loc);
+      return true;
     }
     case StmtKind::Repeat: {
       RepeatStmt& node = tree.as<RepeatStmt>(id);
@@ -281,7 +317,7 @@ bool checkStatement(Context& context, StmtId id) {
       const bool falls = checkStatements(context, node.body);
       --context.loop_depth;
       checkCondition(context, node.until, "used as the condition of UNTIL");
-      return !endless(context, node.until, false, before, node.h.loc) && (falls || body.ways_out != before);
+      return checkEndless(context, node.until, false, before, node.h.loc) || falls || body.ways_out != before;
     }
     case StmtKind::Exit:
     case StmtKind::Continue:

@@ -37,9 +37,13 @@ void checkForBounds(Context& context, const ForStmt& node) {
     }
   }
   if (!from || !to || !step || context.library) return;
-  const bool up = !is_signed || *step > 0;
-  const bool never =
-      is_signed ? (up ? *from > *to : *from < *to) : static_cast<uint64_t>(*from) > static_cast<uint64_t>(*to);
+  const bool step_is_signed =
+      !node.step || context.types().isSigned(context.types().plainKind(context.tree().expr(node.step).type));
+  const bool up = !step_is_signed || *step > 0;
+  const auto less = [&](int64_t a, int64_t b) {
+    return is_signed ? a < b : static_cast<uint64_t>(a) < static_cast<uint64_t>(b);
+  };
+  const bool never = up ? less(*to, *from) : less(*from, *to);
   if (never) {
     context.report(Diag::LoopNeverRuns, context.tree().begin(node.from),
                    {std::to_string(*from), std::to_string(*to), up ? "BY -1" : "a positive step"});

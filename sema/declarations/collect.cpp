@@ -21,6 +21,7 @@ void initWords(Context& context) {
   words.lazy = word("lazy");
   words.extensible = word("extensible");
   words.prefix = word("prefix");
+  words.sized = word("sized");
   words.pure = word("pure");
   words.native = word("native");
   words.op = word("operator");
@@ -97,6 +98,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.native = decl.body_kind == BodyKind::Native || findPragma(context, decl.h, words.native) != nullptr;
   pou.pure = findPragma(context, decl.h, words.pure) != nullptr;
   pou.prefix = findPragma(context, decl.h, words.prefix) != nullptr;
+  pou.sized = findPragma(context, decl.h, words.sized) != nullptr;
   pou.test = findPragma(context, decl.h, words.test) != nullptr;
   if (const Pragma* pragma = findPragma(context, decl.h, words.op)) {
     const std::string_view word = context.tree().text(pragma->value);

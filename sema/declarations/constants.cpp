@@ -1,4 +1,6 @@
 // Constant expressions: their values by the arithmetic kernel.
+#include <algorithm>
+
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {
@@ -15,9 +17,20 @@ constexpr uint32_t kMaxDepth = 2000;
 
 bool isUntypedLiteral(TypeKind kind) { return kind == TypeKind::IntegerLiteral || kind == TypeKind::RealLiteral; }
 
-Value literalValue(Context& context, const LiteralExpr& literal) {
-  const TypeTable& table = context.types();
-  const TypeId type = literal.h.type;
+// The code of the first character of a text in UTF-8, as one 16-bit unit for a WCHAR.
+uint64_t characterOf(std::string_view text, bool wide) {
+  const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const uint64_t lead = byte(0);
+  if (!wide || text.size() < 2 || lead < 0xc0) return lead;
+  if (lead < 0xe0) return (lead & 0x1f) << 6 | (byte(1) & 0x3f);
+  return (lead & 0x0f) << 12 | (byte(1) & 0x3f) << 6 | (byte(2) & 0x3f);
+}
+
+}  // namespace
+
+Value valueOf(const Project& project, const LiteralExpr& literal) {
+  const TypeTable& table = project.types;
+  const TypeId type = table.resolve(literal.h.type);
   const TypeKind kind = table.plainKind(type);
   const bool negative = (literal.h.bits & kLiteralNegative) != 0;
   switch (literal.literal()) {
@@ -25,26 +38,19 @@ Value literalValue(Context& context, const LiteralExpr& literal) {
     case LiteralKind::Null: return {type, literal.value()};
     case LiteralKind::Integer: {
       const uint64_t bits = negative ? 0 - literal.value() : literal.value();
-      if (isUntypedLiteral(kind) && kind == TypeKind::IntegerLiteral) return {type, bits};
-      if (TypeTable::isReal(kind) || kind == TypeKind::RealLiteral) {
-        const Value whole{types::idOf(negative ? TypeKind::LInt : TypeKind::ULInt), bits};
-        return types::convert(table, whole, type).value;
-      }
-      return types::convert(table, {types::idOf(negative ? TypeKind::LInt : TypeKind::ULInt), bits},
-                            TypeTable::isScalar(kind) ? type : types::idOf(TypeKind::LInt))
-          .value;
+      if (!TypeTable::isReal(kind) && kind != TypeKind::RealLiteral) return {type, bits};
+      return types::convert(table, {types::idOf(negative ? TypeKind::LInt : TypeKind::ULInt), bits}, type).value;
     }
     case LiteralKind::Real: {
-      Value number{types::kLReal, literal.value()};
-      if (negative) number = Value::ofReal(types::kLReal, -number.asReal());
+      const Value number{types::kLReal, literal.value()};
       if (kind == TypeKind::RealLiteral) return {type, number.bits};
       return types::convert(table, number, type).value;
     }
     case LiteralKind::String:
     case LiteralKind::WString: {
-      const std::string_view text = context.tree().text(literal.text());
-      if (kind == TypeKind::Char) return {type, text.empty() ? 0u : static_cast<unsigned char>(text[0])};
-      return {type, context.names().intern(text).index};
+      const std::string_view text = project.tree.text(literal.text());
+      if (kind == TypeKind::Char || kind == TypeKind::WChar) return {type, characterOf(text, kind == TypeKind::WChar)};
+      return {type, project.names.intern(text).index};
     }
     case LiteralKind::Duration: return types::convert(table, {types::kLTime, literal.value()}, type).value;
     case LiteralKind::Date: return types::convert(table, {types::idOf(TypeKind::LDate), literal.value()}, type).value;
@@ -56,7 +62,7 @@ Value literalValue(Context& context, const LiteralExpr& literal) {
   return {type, 0};
 }
 
-Op opOf(BinaryOp op) {
+Op operatorOf(BinaryOp op) {
   switch (op) {
     case BinaryOp::Or:
     case BinaryOp::OrElse: return Op::Or;
@@ -78,6 +84,8 @@ Op opOf(BinaryOp op) {
   }
   return Op::Add;
 }
+
+namespace {
 
 // Forbids constant expressions that fault; warns of those that overflow. Design §6.
 //   fails   VAR CONSTANT n : INT := 1 / 0; END_VAR      E0323
@@ -119,12 +127,47 @@ std::optional<Value> applyChecked(Context& context, Op op, Value left, Value rig
   return checked(context, types::apply(table, context.names(), op, left, right), loc, divisor);
 }
 
+// SEL and MUX: the chosen input alone.
+std::optional<Value> evaluateChoice(Context& context, const Call& call, TypeId type, bool select, uint32_t depth) {
+  if (call.bindings.size() < 2 || !call.bindings[0].value) return std::nullopt;
+  const auto selector = evaluateAt(context, call.bindings[0].value, depth + 1);
+  if (!selector) return std::nullopt;
+  const uint64_t last = call.bindings.size() - 2;
+  const uint64_t chosen = select ? uint64_t{selector->bits != 0} : std::min(selector->bits, last);
+  const ExprId input = call.bindings[1 + chosen].value;
+  const auto value = input ? evaluateAt(context, input, depth + 1) : std::nullopt;
+  if (!value || isUntypedLiteral(context.types().kind(type)) || !TypeTable::isScalar(context.types().plainKind(type))) {
+    return value;
+  }
+  return types::convert(context.types(), *value, type).value;
+}
+
+// A function that has no effect but its result, run in bounds. IEC 61131-3 has no such constants: an extension.
+std::optional<Value> callFunction(Context& context, PouId function, std::vector<Value> values) {
+  Project& project = context.project;
+  const Pou& pou = project.pou(function);
+  if (!project.options.call_constant || pou.generic) return std::nullopt;
+  for (size_t i = 0; i < values.size(); ++i) {
+    Value& value = values[i];
+    if (!isOperand(context.types(), value.type)) return std::nullopt;
+    if (!isUntypedLiteral(context.types().kind(value.type))) continue;
+    if (i >= pou.pins.size()) return std::nullopt;
+    value = types::convert(context.types(), value, project.var(pou.pins[i]).type).value;
+  }
+  return project.options.call_constant(project, function, values,
+                                       [&](PouId callee) { return ensureBody(context, callee); });
+}
+
 std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32_t depth) {
   if (!node.call) return std::nullopt;
   const Project& project = context.project;
   const Call& call = project.call(node.call);
-  if (call.kind != CallKind::Operator || !call.pou || call.en || call.eno) return std::nullopt;
+  if (!call.pou || call.en || call.eno) return std::nullopt;
+  if (call.kind != CallKind::Operator && call.kind != CallKind::Function) return std::nullopt;
   const Pou& pou = project.pou(call.pou);
+  if (pou.operator_kind == Pou::Operator::Select || pou.operator_kind == Pou::Operator::Mux) {
+    return evaluateChoice(context, call, node.h.type, pou.operator_kind == Pou::Operator::Select, depth);
+  }
   std::vector<Value> operands;
   for (const Binding& binding : call.bindings) {
     if (!binding.value || binding.is_output) return std::nullopt;
@@ -132,6 +175,7 @@ std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32
     if (!value) return std::nullopt;
     operands.push_back(*value);
   }
+  if (call.kind == CallKind::Function) return callFunction(context, call.pou, std::move(operands));
   if (operands.empty()) return std::nullopt;
   switch (pou.operator_kind) {
     case Pou::Operator::Move: return operands[0];
@@ -174,7 +218,7 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
   const ExprHeader& header = tree.expr(id);
   if (!header.type || header.type == types::kError || depth > kMaxDepth) return std::nullopt;
   switch (header.kind) {
-    case ExprKind::Literal: return literalValue(context, tree.as<LiteralExpr>(id));
+    case ExprKind::Literal: return valueOf(context.project, tree.as<LiteralExpr>(id));
     case ExprKind::Name:
     case ExprKind::TypedName:
     case ExprKind::Member: {
@@ -217,7 +261,7 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
       if (!left) return std::nullopt;
       const auto right = evaluateAt(context, node.right, depth + 1);
       if (!right) return std::nullopt;
-      return applyChecked(context, opOf(node.op()), *left, *right, node.h.loc, tree.begin(node.right));
+      return applyChecked(context, operatorOf(node.op()), *left, *right, node.h.loc, tree.begin(node.right));
     }
     case ExprKind::Call: return evaluateCall(context, tree.as<CallExpr>(id), depth);
     case ExprKind::Error:

@@ -177,6 +177,13 @@ struct Resolver {
     return false;
   }
 
+  // Forbids two lines of VAR_CONFIG for one variable.   fails  Main.start AT %IX0 : BOOL; Main.start AT %IX1 : BOOL;
+  // E0830
+  void reportConfiguredTwice(const Ident& variable, Loc first) {
+    Report report = context.report(Diag::ConfigTwice, variable.loc, {text(variable.name)});
+    if (first) report.note(first, Note::AlsoDeclaredHere);
+  }
+
   static bool samePath(const InstancePlace& a, const InstancePlace& b) {
     if (a.instance != b.instance || a.program != b.program || a.path.size() != b.path.size()) return false;
     for (size_t i = 0; i < a.path.size(); ++i) {
@@ -221,12 +228,16 @@ struct Resolver {
       view = resolveAddress(context, decl.address, decl.address_loc, type);
       if (!view) return;
     }
-    if (decl.init)
+    if (decl.init) {
       checkInitializerAs(context, decl.init, type, "the initial value of `" + spelled(context, last.name) + "`");
+      for (const PathStep& step : place.path) {  // what is configured has a value though no body writes it
+        if (step.var) context.project.var(step.var).written = true;
+      }
+    }
     if (inField(var) || !var.open_address) {
       for (InstancePlace& known : places) {
         if (!samePath(known, place)) continue;
-        if (known.configured) return reportTwice(context, last.name, last.loc, known.loc);
+        if (known.configured) return reportConfiguredTwice(last, known.loc);
         known.configured = true;
         known.loc = last.loc;
         known.init = decl.init;
@@ -244,7 +255,7 @@ struct Resolver {
     }
     for (auto& [open, complete] : whole_) {
       if (!(open == place.var)) continue;
-      if (complete) return reportTwice(context, last.name, last.loc, var.loc);
+      if (complete) return reportConfiguredTwice(last, {});
       complete = view.has_value();
       if (view) var.image = *view;
     }

@@ -147,7 +147,7 @@ Outcome applyReal(const TypeTable& table, Op op, const Value& left, const Value&
     case Op::Mul: result = a * b; break;
     case Op::Div: result = a / b; break;
     case Op::Mod: result = std::fmod(a, b); break;
-    case Op::Power: result = static_cast<Float>(std::pow(static_cast<double>(a), static_cast<double>(b))); break;
+    case Op::Power: result = static_cast<Float>(std::pow(static_cast<double>(a), right.asReal())); break;  // not cut
     case Op::Neg: result = -a; break;
     case Op::Abs: result = std::fabs(a); break;
     case Op::Min: result = b < a ? b : a; break;

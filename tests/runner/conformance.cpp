@@ -2,7 +2,8 @@
 // shown;
 //   // features: 43/1a 43/1b      rows of the standard's tables, at most six     // covers: tm-tp-library:SR
 // A file without `// expect:` lines is run by `rung test`, many files in one process, each a project of its own, once
-// for each way (-O0, -O1); every {test} POU counts. A file with them is checked like a golden file.
+// for each way (interpreted and compiled, -O0 and -O1); every {test} POU counts. A file with them is checked like a
+// golden file.
 #include <algorithm>
 #include <map>
 #include <set>

@@ -1,5 +1,6 @@
-// Console tests: tests/golden/cli/*.test. Line 1 is `# what it shows`. A session runs in an empty folder of its own,
-// with the tool in PATH and the project at $RUNG_SOURCE; stdout and stderr come in one stream.
+// Console tests: .test files in tests/golden and tests/programs. Line 1 is `# what it shows`; a line
+// `# features: 40/4a` names rows of the standard as in conformance tests. A session runs in an
+// empty folder of its own, with the tool in PATH and the project at $RUNG_SOURCE; stdout and stderr come in one stream.
 #include "tests/runner/console.h"
 
 #include <filesystem>
@@ -33,6 +34,7 @@ Result runConsoleTest(const Setting& setting, const std::string& file) {
   result.passed += session.failed == 0 ? 1 : 0;  // a session is one test
   result.failed += session.failed == 0 ? 0 : 1;
   result.log += session.log;
+  result.rows.push_back({file, "", session.failed == 0, valueOf(lines, "features"), valueOf(lines, "covers")});
   if (!setting.update) return result;
   std::string out;
   for (const std::string& line : updated) out += line + '\n';
@@ -102,8 +104,10 @@ std::string folderLikeRoot(const Setting& setting) {
 }
 
 void addConsole(const Setting& setting, std::vector<Job>& jobs) {
-  for (const std::string& file : filesBelow(setting, "tests/golden", ".test")) {
-    jobs.push_back({file, 3, [&setting, file] { return runConsoleTest(setting, file); }});
+  for (const char* folder : {"tests/golden", "tests/programs"}) {
+    for (const std::string& file : filesBelow(setting, folder, ".test")) {
+      jobs.push_back({file, 5, [&setting, file] { return runConsoleTest(setting, file); }});
+    }
   }
 }
 

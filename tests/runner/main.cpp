@@ -24,17 +24,19 @@ const char kHelp[] =
     R"(rung_test_runner [options] [FILE|FOLDER...]     without files: every test
 
   --update        rewrite golden text (tests/update)
-  --ways=LIST     options that programs run with, separated by commas: -O0,-O1
+  --ways=LIST     options that programs run with, separated by commas; a blank joins two options of one way:
+                  --engine=interp -O0,--engine=interp,--engine=native -O0,--engine=native
   -j N            processes at once (default: one per processor)
   --list          only print the jobs
 
   tests/golden/**.st        `// expect: ` headings of `rung check`; `// expect tree:` and other emitted text
-  tests/golden/**.test      sessions at a console
+  tests/golden/**.test      sessions at a console, also in tests/programs
   tests/golden/ir/*.ir      passes, with ir_golden
   tests/conformance/**.st   {test} POUs by `rung test`, or `// expect:`
   tests/programs/**         `// run: ` options and `// trace: ` lines
   docs/**.md, README.md     ```st wrong, mended, check, run; ```console
   unit/NAME, tools/house    GoogleTest programs; the checks of tools/precommit.sh
+  A run of everything writes build/test-results.tsv and compares docs/compliance.md with it.
 )";
 
 struct Arguments {
@@ -65,7 +67,7 @@ Arguments parse(int argc, char** argv, Setting& setting) {
 #ifdef RUNG_SOURCE_ROOT
   if (setting.root.empty()) setting.root = RUNG_SOURCE_ROOT;
 #endif
-  setting.ways = {"-O0", "-O1"};
+  setting.ways = {"--engine=interp -O0", "--engine=interp", "--engine=native -O0", "--engine=native"};
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--help") {
@@ -134,6 +136,17 @@ void writeRows(const Setting& setting, std::vector<Row> rows) {
   writeText(setting.bin + "/../test-results.tsv", text);
 }
 
+// docs/compliance.md must say what this run has shown.
+bool complianceIsTrue(const Setting& setting) {
+  Command check;
+  check.arguments = {setting.root + "/tools/compliance/compliance.sh", "--check", setting.bin + "/../test-results.tsv"};
+  check.folder = setting.root;
+  check.merged = true;
+  const Output output = run(check);
+  if (output.exit_code != 0) std::printf("FAILED docs/compliance.md\n%s", output.out.c_str());
+  return output.exit_code == 0;
+}
+
 int runAll(const Setting& setting, const Arguments& arguments, std::vector<Job>& jobs) {
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.cost > b.cost; });
   std::atomic<size_t> next{0};
@@ -157,7 +170,10 @@ int runAll(const Setting& setting, const Arguments& arguments, std::vector<Job>&
   work();
   for (std::thread& thread : threads) thread.join();
 
-  if (setting.wanted.empty() && !setting.update) writeRows(setting, std::move(rows));
+  if (setting.wanted.empty() && !setting.update) {
+    writeRows(setting, std::move(rows));
+    if (failed == 0) (complianceIsTrue(setting) ? passed : failed) += 1;
+  }
   std::printf("%u passed, %u failed\n", passed, failed);
   return failed == 0 ? 0 : 1;
 }

@@ -2,7 +2,7 @@
 //   // run: --cycles 5 --watch a,b     options of `rung run`; --trace - is added
 //   // trace: cycle,time_ms,a,b        the expected CSV, line by line, computed by hand or from a manual
 //   // exit: 3                         where the program faults; `// expect:` then gives the heading on stderr
-// Each program runs once for each way (-O0, -O1).
+// Each program runs once for each way (interpreted and compiled, -O0 and -O1).
 #include <algorithm>
 #include <filesystem>
 

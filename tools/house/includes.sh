@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # No file includes a header of a later layer (design: each layer uses only those before it), the runtime includes no
-# compiler code, and tests are included by nobody.
+# compiler code, of the compiler only the interpreter includes the runtime, and tests are included by nobody.
 set -eu
 cd "$(dirname "$0")/../.."
 tools/house/tracked .h .cpp .def | grep -v '^tests/' | xargs -d '\n' grep -Hn '^#include "' | awk '
@@ -31,7 +31,7 @@ tools/house/tracked .h .cpp .def | grep -v '^tests/' | xargs -d '\n' grep -Hn '^
     if (header ~ /^tests\//) { print file ":" line ": includes a test, " header; bad = 1; next }
     if (from == "" || to == "" || from == to) next
     if (layer[from] < 0 && layer[to] > 0) { print file ":" line ": the runtime includes compiler code, " header; bad = 1 }
-    if (layer[from] > 0 && layer[to] < 0 && layer[from] < 11 && header != "rung/module.h" && to == "stdlib/") {
+    if (layer[from] > 0 && layer[to] < 0 && layer[from] < 11 && header != "rung/module.h" && to == "stdlib/" && file !~ /^ir\/interpreter\//) {
       print file ":" line ": the compiler includes the runtime, " header; bad = 1
     }
     if (layer[from] > 0 && layer[to] >= layer[from]) {

@@ -14,10 +14,12 @@
 #include "frontend/source/invariant.h"
 #include "frontend/source/render.h"
 #include "frontend/text/parse.h"
+#include "ir/interpreter/constant_call.h"
 #include "ir/lower.h"
 #include "ir/passes/passes.h"
 #include "ir/text.h"
 #include "ir/verify.h"
+#include "native_table.h"
 #include "tools/rung/commands.h"
 #include "tools/rung/crash.h"
 
@@ -128,6 +130,11 @@ bool Compilation::check() {
     sema_options.standard = options.standard;
     sema_options.libraries = libraries.files();
     sema_options.default_interval_ns = options.default_interval_ns;
+    sema_options.pointer_size = options.pointer_size;
+    sema_options.call_constant = [](sema::Project& in, sema::PouId function, std::span<const types::Value> values,
+                                    const std::function<bool(sema::PouId)>& ready) {
+      return ir::interpreter::callConstant(in, function, values, {natives::table, natives::count}, ready);
+    };
     project = std::make_unique<sema::Project>(sources, names, diagnostics, tree, sema_options);
     sema::check(*project);
   }
@@ -164,7 +171,7 @@ bool Compilation::lower() {
 }
 
 bool Compilation::emit(bool with_tests, std::vector<codegen::OutputFile>& files) {
-  if (!lower()) return false;
+  if (!module && !lower()) return false;
   times_.begin("emit");
   codegen::EmitOptions emit_options;
   emit_options.module_name = options.moduleName();
@@ -173,6 +180,23 @@ bool Compilation::emit(bool with_tests, std::vector<codegen::OutputFile>& files)
   files = codegen::emitCpp(*module, emit_options);
   setPhaseSubject("", 0);
   times_.end();
+  return true;
+}
+
+bool Compilation::translate(bool with_tests, std::unique_ptr<ir::interpreter::Program>& program, std::string& why) {
+  if (!lower()) return false;
+  if (options.engine == Engine::Native || (options.engine == Engine::Auto && options.keep)) return true;
+  times_.begin("translate");
+  ir::interpreter::ProgramOptions program_options;
+  const std::string name = options.moduleName();
+  program_options.module_name = name;
+  program_options.with_tests = with_tests;
+  program_options.natives = {natives::table, natives::count};
+  program = std::make_unique<ir::interpreter::Program>(*module, program_options);
+  times_.end();
+  if (program->refusal().empty()) return true;
+  why = program->refusal();
+  program.reset();
   return true;
 }
 

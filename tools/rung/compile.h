@@ -10,6 +10,7 @@
 #include "codegen/emit.h"
 #include "frontend/source/diagnostics.h"
 #include "frontend/syntax/tree.h"
+#include "ir/interpreter/program.h"
 #include "ir/ir.h"
 #include "sema/project.h"
 #include "tools/rung/inputs.h"
@@ -47,6 +48,9 @@ class Compilation {
   bool check();
   bool lower();  // and optimize
   bool emit(bool with_tests, std::vector<codegen::OutputFile>& files);
+  // The program as `rung run` and `rung test` interpret it; none where its refusal stands in `why`, or where native
+  // code is wanted. False: stop.
+  bool translate(bool with_tests, std::unique_ptr<ir::interpreter::Program>& program, std::string& why);
 
   // Prints the diagnostics to stderr and gives the exit code: 0, 1, 2 or 70.
   int finish();

@@ -10,26 +10,9 @@
 
 #include "frontend/source/files.h"
 #include "library_texts.h"
+#include "tools/rung/namespaces.h"
 
 namespace rung::tool {
-namespace {
-
-// Namespaces that are not the folder's name with a capital letter.
-struct Namespace {
-  std::string_view folder;
-  const char* name;
-};
-constexpr Namespace kNamespaces[] = {{"standard", "Standard"}, {"util", "Util"}};
-
-std::string namespaceOf(std::string_view folder) {
-  for (const Namespace& row : kNamespaces)
-    if (folder == row.folder) return row.name;
-  std::string name(folder);
-  if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 32);
-  return name;
-}
-
-}  // namespace
 
 std::string LibrarySet::load(const Options& options) {
   for (size_t i = 0; i < embedded::library_texts_count; i++) {

@@ -1,4 +1,5 @@
 // rung: reads the command line and calls the command. Exit codes are those of options.h; nothing else decides them.
+#include <csignal>
 #include <cstdio>
 
 #include "frontend/source/invariant.h"
@@ -28,6 +29,7 @@ int runCommand(const rung::tool::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  signal(SIGXFSZ, SIG_IGN);  // a limit for files is an error of the write, as a full disk is
   rung::tool::installCrashHandler(argv + 1, argc > 0 ? argc - 1 : 0);
   rung::setPhase("command line");
   std::vector<std::string> words;

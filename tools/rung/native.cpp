@@ -166,6 +166,13 @@ class Builder {
     return run(processes, "archiving");
   }
 
+  // A shared library for a product: one name to call, the others cannot meet those of another module.
+  bool linkModule(const std::string& module_name, const std::string& output) {
+    return needWork() && writePlain("exports.map", "{ global: " + module_name + "_module; local: *; };\n") &&
+           link({"-shared", "-Wl,--version-script=" + work_ + "/exports.map"}, {installation().runtime_library},
+                output);
+  }
+
   // The host's main() for an executable.
   bool addMain(const std::string& module_name) {
     if (!needWork()) return false;
@@ -332,6 +339,8 @@ class Builder {
       if (!header.empty()) process.arguments.insert(process.arguments.end(), {"-include", header});
       process.arguments.insert(process.arguments.end(),
                                {"-I", installation().include, "-c", missing[i]->source, "-o", objectPart(i)});
+      // Debuggers look for the sources in the folder they stand in, and no path of this machine gets into an object.
+      process.arguments.push_back("-ffile-prefix-map=" + work_ + "=.");
       process.folder = work_;
       process.log = work_ + "/" + std::to_string(i) + ".log";
       processes.push_back(std::move(process));
@@ -459,7 +468,7 @@ NativeResult makeOutput(Cache& cache, const NativeRequest& request, BuildKind ki
       good = good && builder.addMain(module_name) &&
              builder.link({}, {rung.host_library, rung.runtime_library, "-pthread"}, part);
       break;
-    case BuildKind::Shared: good = good && builder.link({"-shared"}, {rung.runtime_library}, part); break;
+    case BuildKind::Shared: good = good && builder.linkModule(module_name, part); break;
     case BuildKind::Static: good = good && builder.archive(part); break;
   }
   if (good) {

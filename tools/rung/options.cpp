@@ -33,6 +33,9 @@ constexpr CommandRow kCommands[] = {
     {Command::Version, "version", "", "version of rung"},
 };
 
+// Commands that the documentation of the project announces.
+constexpr std::string_view kLaterCommands[] = {"convert", "graph", "fmt", "cam", "lint", "lsp", "monitor"};
+
 enum class Key : uint8_t {
   Output,
   Library,
@@ -57,11 +60,14 @@ enum class Key : uint8_t {
   Shared,
   Static,
   Keep,
+  Engine,
   Host,
   Filter,
   Junit,
   Separate,
+  TargetPointer,
   Signature,
+  Later,
   Help,
 };
 
@@ -77,19 +83,22 @@ constexpr OptionRow kOptions[] = {
     {Key::Emit, "--emit", "cpp|ir|tree", bit(Command::Emit), "what to write; ir and tree go to stdout (cpp)"},
     {Key::Depfile, "--depfile", "FILE", bit(Command::Emit), "write the inputs as a make rule"},
     {Key::DepfileTarget, "--depfile-target", "PATH", bit(Command::Emit), "the rule's target (DIR/rung.manifest)"},
-    {Key::ListOutputs, "--list-outputs", nullptr, bit(Command::Emit), "print the files that -o would hold, write none"},
-    {Key::Bundles, "--bundles", "N", bit(Command::Emit), "N more files NAME_bundle_K.cpp that include all .cpp files"},
+    {Key::ListOutputs, "--list-outputs", nullptr, bit(Command::Emit), "print the names of the files, write none"},
+    {Key::Bundles, "--bundles", "N", bit(Command::Emit), "N more files, which include all others"},
     {Key::Shared, "--shared", nullptr, bit(Command::Build), "make a shared library"},
     {Key::Static, "--static", nullptr, bit(Command::Build), "make a static library"},
     {Key::Keep, "--keep", nullptr, bit(Command::Build) | bit(Command::Run) | bit(Command::Test),
      "keep the generated C++ and say where it is"},
+    {Key::Engine, "--engine", "native|interp", bit(Command::Run) | bit(Command::Test),
+     "run compiled C++, or interpret (starts at once)"},
     {Key::Host, "--cycles", "N", bit(Command::Run), "run N cycles (100, or as far as --inputs goes)"},
     {Key::Host, "--for", "T", bit(Command::Run), "run for a time, such as T#2s"},
     {Key::Host, "--interval", "T", bit(Command::Run), "cycle time where no task is configured (T#10ms)"},
-    {Key::Host, "--inputs", "FILE", bit(Command::Run), "CSV with header cycle,PATH,...: set variables before cycles"},
+    {Key::Host, "--inputs", "FILE", bit(Command::Run), "CSV, header cycle,PATH,...: values before cycles"},
     {Key::Host, "--set", "PATH=VALUE", bit(Command::Run), "set a variable before cycle 0; may be repeated"},
     {Key::Host, "--watch", "PATH,...", bit(Command::Run), "variables to trace (all of all programs)"},
     {Key::Host, "--trace", "FILE", bit(Command::Run), "write a CSV row after each cycle; - is stdout"},
+    {Key::Host, "--plot", "FILE", bit(Command::Run), "draw the variables over the time, as SVG"},
     {Key::Host, "--retain", "FILE", bit(Command::Run), "keep retained variables in FILE"},
     {Key::Host, "--start", "cold|warm|origin", bit(Command::Run), "how to start (warm when the retain file exists)"},
     {Key::Host, "--realtime", nullptr, bit(Command::Run), "pace the run by the clock"},
@@ -99,10 +108,10 @@ constexpr OptionRow kOptions[] = {
     {Key::Signature, "--signature", "NAME", bit(Command::List), "the declaration of a function, block or type"},
     {Key::Standard, "--std", "codesys|iec3|iec2", kReads, "dialect (codesys)"},
     {Key::Checks, "--checks", "LIST", kCompile,
-     "run-time checks: div,index,null,cast,subrange,convert,overflow,\n"
-     "default, all or none (default: div,index,null,cast)"},
+     "of div,index,null,cast,subrange,convert,overflow;\n"
+     "default, all or none (div,index,null,cast)"},
     {Key::Level, "-O", "0|1|2", kCompile, "optimization (1)"},
-    {Key::Warning, "-W", "NAME", kReads, "-Wno-NAME switches a warning off, -WNAME on; NAME or code"},
+    {Key::Warning, "-W", "NAME", kReads, "-Wno-NAME switches a warning off; NAME or code"},
     {Key::Werror, "--werror", nullptr, kReads, "warnings are errors"},
     {Key::MaxErrors, "--max-errors", "N", kReads, "stop listing after N errors; 0: never (100)"},
     {Key::Format, "--format", "text|json|sarif", kReads, "form of diagnostics (text)"},
@@ -110,10 +119,15 @@ constexpr OptionRow kOptions[] = {
     {Key::Library, "-I", "DIR", kReads, "folder with libraries; may be repeated"},
     {Key::Root, "--root", "DIR", kReads, "paths in the output are relative to DIR"},
     {Key::Name, "--name", "ID", kCompile, "prefix of the module's symbols (plc)"},
+    {Key::TargetPointer, "--target-pointer", "8|4", bit(Command::Emit) | bit(Command::Build),
+     "bytes of a pointer on the target (8)"},
     {Key::Jobs, "-j", "N", bit(Command::Build) | bit(Command::Run) | bit(Command::Test), "C++ compilers at a time"},
-    {Key::DumpAfter, "--dump-after", "NAME", kCompile,
-     "print tree, IR or a pass's result to stderr: parse, lower, PASS"},
+    {Key::DumpAfter, "--dump-after", "NAME", kCompile, "print to stderr what parse, lower or a pass gives"},
     {Key::TimePhases, "--time-phases", nullptr, kCompile, "print time and lines per second of each phase"},
+    {Key::Later, "--files-root", "DIR", bit(Command::Run), nullptr},
+    {Key::Later, "--serial", "N=DEVICE", bit(Command::Run), nullptr},
+    {Key::Later, "--plc-period", "T", bit(Command::Run), nullptr},
+    {Key::Later, "--time-slice", "T", bit(Command::Run), nullptr},
     {Key::Help, "--help", nullptr, kAll, nullptr},
     {Key::Help, "-h", nullptr, kAll, nullptr},
 };
@@ -245,11 +259,20 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       return {};
     }
     case Key::Keep: options.keep = true; return {};
+    case Key::Engine:
+      error = parseChoice(row.name, value, row.value, choice);
+      options.engine = choice == 0 ? Engine::Native : Engine::Interpreter;
+      return error;
     case Key::Host: options.host_arguments.push_back(row.value ? row.name + ("=" + value) : row.name); return {};
     case Key::Filter: options.filter = value; return {};
     case Key::Junit: options.junit = value; return {};
     case Key::Separate: options.separate = true; return {};
+    case Key::TargetPointer:
+      error = parseChoice(row.name, value, row.value, choice);
+      options.pointer_size = choice == 0 ? 8 : 4;
+      return error;
     case Key::Signature: options.signature = value; return {};
+    case Key::Later: return quoted(row.name) + " is not supported in this version of rung";
     case Key::Help: options.help = true; return {};
   }
   return {};
@@ -336,7 +359,7 @@ std::string checkCombination(const Options& options) {
 }
 
 void appendRow(std::string& out, const std::string& left, const char* help) {
-  constexpr size_t kColumn = 30;
+  constexpr size_t kColumn = 28;
   out += "  " + left;
   if (left.size() + 2 >= kColumn)
     out += "\n" + std::string(kColumn, ' ');
@@ -449,6 +472,8 @@ std::string parseOptions(const std::vector<std::string>& words, Options& options
   if (words.empty()) return "no command; `rung --help` lists them";
   options.command = findCommand(words[0]);
   if (options.command == Command::None) {
+    for (const std::string_view later : kLaterCommands)
+      if (words[0] == later) return "`rung " + words[0] + "` is not supported in this version of rung";
     std::vector<std::string_view> names;
     for (const CommandRow& row : kCommands) names.push_back(row.name);
     return withSuggestion("unknown command " + quoted(words[0]), words[0], names) + " (`rung --help` lists all)";
@@ -511,23 +536,23 @@ std::string helpText(Command command) {
     out = "rung: a compiler for the languages of IEC 61131-3\n\nusage: rung COMMAND [options] FILE|DIR ...\n\n";
     for (const CommandRow& row : kCommands) appendRow(out, row.name, row.summary);
     out +=
-        "\n`rung COMMAND --help` lists the options of a command. Inputs are files or folders; `@file` reads words\n"
-        "from a file. Diagnostics go to stderr.\n\n"
-        "exit codes: 0 good, 1 the input has errors, 2 usage or I/O, 3 the program faulted, 4 a test failed,\n"
-        "70 an internal error of rung\n";
+        "\n`rung COMMAND --help` lists the options of a command. Inputs are files or\n"
+        "folders; `@file` reads words from a file. Diagnostics go to stderr.\n\n"
+        "exit codes: 0 good, 1 the input has errors, 2 usage or I/O, 3 the program\n"
+        "faulted, 4 a test failed, 70 an internal error of rung\n";
     return out;
   }
   for (const CommandRow& row : kCommands)
     if (row.command == command)
-      out = std::string("rung ") + row.name + ": " + row.summary + "\n\nusage: rung " + row.name + " [options] " +
-            row.arguments + "\n";
-  bool first = true;
-  for (const OptionRow& row : kOptions) {
-    if (row.help == nullptr || !(row.commands & bit(command))) continue;
-    if (first) out += "\noptions (what is taken without them stands in parentheses):\n";
-    first = false;
-    appendRow(out, spelled(row), row.help);
-  }
+      out = std::string("rung ") + row.name + ": " + row.summary + "\n\nusage: rung " + row.name;
+  std::string options;
+  for (const OptionRow& row : kOptions)
+    if (row.help != nullptr && (row.commands & bit(command))) appendRow(options, spelled(row), row.help);
+  if (!options.empty()) out += " [options]";
+  for (const CommandRow& row : kCommands)
+    if (row.command == command && row.arguments[0] != '\0') out += std::string(" ") + row.arguments;
+  out += '\n';
+  if (!options.empty()) out += "\noptions (what is taken without them stands in parentheses):\n" + options;
   return out;
 }
 

@@ -17,6 +17,8 @@ inline constexpr uint32_t kCommandCount = static_cast<uint32_t>(Command::Help) +
 
 enum class EmitKind : uint8_t { Cpp, Ir, Tree };
 enum class BuildKind : uint8_t { Executable, Shared, Static };
+// What runs a program: instructions over its memory, at once, or compiled C++.
+enum class Engine : uint8_t { Auto, Native, Interpreter };  // Auto: the interpreter where it can
 enum class Color : uint8_t { Auto, Always, Never };
 
 // The exit codes of rung (docs/cli.md).
@@ -65,7 +67,11 @@ struct Options {
 
   // run: options that the host parses (rung::host::parseRunOptions), one `--name=value` each
   std::vector<std::string> host_arguments;
+  uint32_t pointer_size = 8;
   int64_t default_interval_ns = 10'000'000;  // set from --interval by run.cpp
+
+  // run, test
+  Engine engine = Engine::Auto;
 
   // test
   std::string filter, junit;

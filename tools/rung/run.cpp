@@ -1,4 +1,4 @@
-// `rung run`: compiles to a shared object in the cache and runs it here on the bundled host.
+// `rung run`: interprets the program, or compiles it to a shared object in the cache, and runs it on the bundled host.
 #include <cstdio>
 
 #include "ir/ir.h"
@@ -25,28 +25,40 @@ int runRun(const Options& options) {
   Compilation compilation(compiling, times);
   NativeRequest request;
   request.parts.resize(1);
-  const bool good = compilation.emit(false, request.parts[0].files);
+  std::unique_ptr<ir::interpreter::Program> program;
+  std::string why;
+  bool good = compilation.translate(false, program, why);
+  if (good && !program) good = compilation.emit(false, request.parts[0].files);
   int exit = compilation.finish();
   if (!good || exit != kGood) {
     if (options.time_phases) fputs(times.table().c_str(), stderr);
     return exit;
   }
+  if (!why.empty()) {
+    if (options.engine == Engine::Interpreter) return usageError("this program cannot be interpreted: " + why);
+    fprintf(stderr, "rung: this program runs as compiled C++: %s\n", why.c_str());
+  }
 
-  times.begin("c++");
   Cache cache;
-  request.level = compilation.options.level;
-  request.jobs = options.jobs;
-  request.keep = options.keep;
-  NativeResult result = makeShared(cache, request);
-  if (result.exit == kInternal) printInternalError(result.message.c_str());
-  if (result.exit == kUsage) usageError(result.message);
-  if (result.exit != kGood) return result.exit;
   ModuleLibrary library;
-  error = library.open(result.path);
-  const rung_module* module = error.empty() ? library.find(compilation.options.moduleName(), error) : nullptr;
-  if (module == nullptr) {
-    printInternalError(error.c_str());
-    return kInternal;
+  const rung_module* module = program ? &program->description() : nullptr;
+  if (!program) {
+    times.begin("c++");
+    request.level = compilation.options.level;
+    request.jobs = options.jobs;
+    request.keep = options.keep;
+    NativeResult result = makeShared(cache, request);
+    if (result.exit == kInternal) printInternalError(result.message.c_str());
+    if (result.exit == kUsage) usageError(result.message);
+    if (result.exit != kGood) return result.exit;
+    error = library.open(result.path);
+    module = error.empty() ? library.find(compilation.options.moduleName(), error) : nullptr;
+    if (module == nullptr) {
+      printInternalError(error.c_str());
+      return kInternal;
+    }
+  } else if (options.engine == Engine::Auto) {
+    run_options.hint_when_long = "rung: a long run is faster with --engine=native";
   }
 
   times.begin("run");

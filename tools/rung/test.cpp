@@ -1,5 +1,6 @@
-// `rung test`: all POUs marked {test} in one shared object, run here on the bundled host. With --separate each file is
-// a project of its own, so that names of different files never clash; a few C++ units include the code of many.
+// `rung test`: all POUs marked {test}, interpreted or in one shared object, run on the bundled host. With --separate
+// each file is a project of its own, so that names of different files never clash; a few C++ units include the code of
+// many.
 #include <cstdio>
 
 #include "ir/ir.h"
@@ -20,6 +21,7 @@ struct Module {
   std::string name, shown, below;
   bool good = false;
   std::string messages;
+  std::unique_ptr<ir::interpreter::Program> program;  // none: compiled C++
 };
 
 constexpr uint8_t kMemoryChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
@@ -46,12 +48,26 @@ class Tester {
  private:
   int compileTogether() {
     Compilation compilation(options_, times_);
-    request_.parts.resize(1);
-    const bool good = compilation.emit(true, request_.parts[0].files);
+    Module module;
+    NativePart part;
+    module.good = makeModule(compilation, module, part);
     const int exit = compilation.finish();
     checked_ = (compilation.options.checks & kMemoryChecks) == kMemoryChecks;
-    if (good) modules_.push_back({compilation.options.moduleName(), {}, {}, true, {}});
-    return exit;
+    if (exit != kGood || !module.good) return exit;
+    module.name = compilation.options.moduleName();
+    if (!module.program) request_.parts.push_back(std::move(part));
+    modules_.push_back(std::move(module));
+    return why_.empty() ? exit : usageError(why_);
+  }
+
+  // Interpreted where it can be, else as C++ files.
+  bool makeModule(Compilation& compilation, Module& module, NativePart& part) {
+    std::string why;
+    if (!compilation.translate(true, module.program, why)) return false;
+    if (module.program) return true;
+    if (!why.empty() && options_.engine == Engine::Interpreter) why_ = "this program cannot be interpreted: " + why;
+    if (!why.empty() && why_.empty()) fprintf(stderr, "rung: this program runs as compiled C++: %s\n", why.c_str());
+    return compilation.emit(true, part.files);
   }
 
   int compileSeparately() {
@@ -68,11 +84,13 @@ class Tester {
       Compilation compilation(one, times_);
       NativePart part;
       part.folder = one.name;
-      Module module{one.name, file.shown, file.below, compilation.emit(true, part.files), {}};
+      Module module{one.name, file.shown, file.below, false, {}, {}};
+      module.good = makeModule(compilation, module, part);
+      if (!why_.empty()) return usageError(why_);
       if (compilation.exitCode() == kInternal) return compilation.finish();
       module.messages = compilation.diagnosticsText();
       module.good = module.good && compilation.exitCode() == kGood;
-      if (module.good) request_.parts.push_back(std::move(part));
+      if (module.good && !module.program) request_.parts.push_back(std::move(part));
       modules_.push_back(std::move(module));
     }
     checked_ = (all.options.checks & kMemoryChecks) == kMemoryChecks;
@@ -118,7 +136,7 @@ class Tester {
       return kGood;  // the other files count; the exit code says that a test failed
     }
     std::string error;
-    const rung_module* description = library.find(module.name, error);
+    const rung_module* description = module.program ? &module.program->description() : library.find(module.name, error);
     if (description == nullptr) {
       printInternalError(error.c_str());
       return kInternal;
@@ -141,6 +159,7 @@ class Tester {
   NativeRequest request_;
   std::vector<Module> modules_;
   bool checked_ = true;
+  std::string why_;  // an error of use
 };
 
 }  // namespace

@@ -5,30 +5,33 @@ namespace rung::host {
 bool readCsv(std::string_view text, std::vector<CsvRow>& rows, std::string& error) {
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   uint32_t line = 1;
-  size_t at = 0;
+  size_t at = 0, line_begin = 0;
+  const auto fail = [&](CsvRow::Place place, const char* what) {
+    error = std::to_string(place.line) + ":" + std::to_string(place.column) + ": " + what;
+    return false;
+  };
   while (at < text.size()) {
-    CsvRow row{line, {}};
+    CsvRow row;
     for (bool more = true; more;) {
       std::string cell;
+      const auto here = [&] { return CsvRow::Place{line, static_cast<uint32_t>(at - line_begin) + 1}; };
+      row.places.push_back(here());
       if (at < text.size() && text[at] == '"') {
-        const uint32_t opened = line;
         for (++at;; ++at) {
-          if (at == text.size()) {
-            error = std::to_string(opened) + ": the quote of a cell is not closed";
-            return false;
-          }
+          if (at == text.size()) return fail(row.places.back(), "the quote of a cell is not closed");
           if (text[at] == '"') {
             if (at + 1 == text.size() || text[at + 1] != '"') break;
             ++at;
           }
-          if (text[at] == '\n') ++line;
+          if (text[at] == '\n') {
+            ++line;
+            line_begin = at + 1;
+          }
           cell += text[at];
         }
         ++at;
-        if (at < text.size() && text[at] != ',' && text[at] != '\n' && text[at] != '\r') {
-          error = std::to_string(line) + ": text after the closing quote of a cell";
-          return false;
-        }
+        if (at < text.size() && text[at] != ',' && text[at] != '\n' && text[at] != '\r')
+          return fail(here(), "text after the closing quote of a cell");
       } else {
         const size_t begin = at;
         while (at < text.size() && text[at] != ',' && text[at] != '\n' && text[at] != '\r') ++at;
@@ -41,6 +44,7 @@ bool readCsv(std::string_view text, std::vector<CsvRow>& rows, std::string& erro
     if (at < text.size() && text[at] == '\r') ++at;
     if (at < text.size() && text[at] == '\n') ++at;
     ++line;
+    line_begin = at;
     if (row.cells.size() > 1 || !row.cells[0].empty()) rows.push_back(std::move(row));
   }
   return true;

@@ -8,11 +8,14 @@
 namespace rung::host {
 
 struct CsvRow {
-  uint32_t line;  // where it begins, from 1
+  struct Place {
+    uint32_t line, column;  // from 1; columns count bytes
+  };
   std::vector<std::string> cells;
+  std::vector<Place> places;  // where each begins
 };
 
-// Reads a whole text; empty lines are passed over. False: `error` is "LINE: what is wrong".
+// Reads a whole text; empty lines are passed over. False: `error` is "LINE:COLUMN: what is wrong".
 bool readCsv(std::string_view text, std::vector<CsvRow>& rows, std::string& error);
 // The cell, in quotes where it holds a comma, quote or line break.
 void appendCell(std::string& to, std::string_view cell);

@@ -39,6 +39,10 @@ std::string describeFault(const rung_module& module, const rung_fault& fault) {
       word = "overflow";
       what = "the result does not fit its type";
       break;
+    case RUNG_FAULT_STACK:
+      word = "stack";
+      what = "calls nest too deep";
+      break;
   }
   std::string text;
   if (known) text = std::string(module.text + site.file) + ':' + std::to_string(site.line) + ": ";

@@ -13,18 +13,20 @@ namespace rung::host {
 namespace {
 
 // `a[1,2]` unquoted in a header was split at its comma: joined again while brackets are open.
-void joinBrackets(std::vector<std::string>& header) {
-  std::vector<std::string> joined;
+CsvRow joinBrackets(const CsvRow& header) {
+  CsvRow joined;
   bool open = false;
-  for (std::string& cell : header) {
-    if (open)
-      joined.back() += ',' + cell;
-    else
-      joined.push_back(std::move(cell));
-    open = std::count(joined.back().begin(), joined.back().end(), '[') >
-           std::count(joined.back().begin(), joined.back().end(), ']');
+  for (size_t i = 0; i < header.cells.size(); ++i) {
+    if (open) {
+      joined.cells.back() += ',' + header.cells[i];
+    } else {
+      joined.cells.push_back(header.cells[i]);
+      joined.places.push_back(header.places[i]);
+    }
+    const std::string& cell = joined.cells.back();
+    open = std::count(cell.begin(), cell.end(), '[') > std::count(cell.begin(), cell.end(), ']');
   }
-  header = std::move(joined);
+  return joined;
 }
 
 }  // namespace
@@ -50,26 +52,26 @@ bool Inputs::load(const std::string& path, std::string& error) {
   if (!readFile(path, content, error)) return false;
   const std::string place = (path == "-" ? "standard input" : path) + ":";
   if (!readCsv(content, rows, error)) return error = place + error, false;
-  const auto fail = [&](const CsvRow& row, const std::string& what) {
-    error = place + std::to_string(row.line) + ": " + what;
+  const auto fail = [&](const CsvRow& row, size_t cell, const std::string& what) {
+    error = place + std::to_string(row.places[cell].line) + ":" + std::to_string(row.places[cell].column) + ": " + what;
     return false;
   };
-  if (rows.empty()) return error = place + "1: the header `cycle,<path>,...` is missing", false;
+  if (rows.empty()) return error = place + "1:1: the header `cycle,<path>,...` is missing", false;
 
-  std::vector<std::string> header = rows[0].cells;
-  joinBrackets(header);
-  if (lowerCase(header[0]) != "cycle")
-    return fail(rows[0], "the first column must be `cycle`, not `" + header[0] + "`");
+  const CsvRow header = joinBrackets(rows[0]);
+  const std::vector<std::string>& names = header.cells;
+  if (lowerCase(names[0]) != "cycle")
+    return fail(header, 0, "the first column must be `cycle`, not `" + names[0] + "`");
   constexpr uint32_t kIgnored = ~0u;
   std::vector<uint32_t> columns = {kIgnored};
-  for (size_t i = 1; i < header.size(); ++i) {
-    if (header[i] == "time_ms") {  // a trace may be an input
+  for (size_t i = 1; i < names.size(); ++i) {
+    if (names[i] == "time_ms") {  // a trace may be an input
       columns.push_back(kIgnored);
       continue;
     }
     Variable variable;
     std::string what;
-    if (!symbols_.find(header[i], variable, what)) return fail(rows[0], what);
+    if (!symbols_.find(names[i], variable, what)) return fail(header, i, what);
     columns.push_back(static_cast<uint32_t>(variables_.size()));
     variables_.push_back(std::move(variable));
   }
@@ -80,15 +82,16 @@ bool Inputs::load(const std::string& path, std::string& error) {
     const std::string& first = row.cells[0];
     const std::from_chars_result read = std::from_chars(first.data(), first.data() + first.size(), cycle);
     if (read.ec != std::errc{} || read.ptr != first.data() + first.size() || cycle < 0)
-      return fail(row, "`" + first + "` is no cycle; write 0, 1, 2, ...");
+      return fail(row, 0, "`" + first + "` is no cycle; write 0, 1, 2, ...");
     if (row.cells.size() > columns.size())
-      return fail(row, "the row has " + std::to_string(row.cells.size()) + " cells, the header " +
-                           std::to_string(columns.size()));
+      return fail(
+          row, columns.size(),
+          "the row has " + std::to_string(row.cells.size()) + " cells, the header " + std::to_string(columns.size()));
     last_cycle_ = std::max(last_cycle_, cycle);
     for (size_t i = 1; i < row.cells.size(); ++i) {
       if (columns[i] == kIgnored || row.cells[i].empty()) continue;
       const std::string what = assignValue(symbols_.module(), variables_[columns[i]], row.cells[i], true);
-      if (!what.empty()) return fail(row, what);
+      if (!what.empty()) return fail(row, i, what);
       settings_.push_back({cycle, columns[i], std::move(row.cells[i])});
     }
   }

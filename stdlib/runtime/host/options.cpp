@@ -1,5 +1,6 @@
 // The options of `rung run`, for the tool and for executables of `rung build`. See rung/host.h.
 #include <charconv>
+#include <csignal>
 #include <cstdio>
 
 #include "rung/host.h"
@@ -24,6 +25,7 @@ const char kHelp[] =
     "  --set PATH=VALUE      set a variable once, before cycle 0\n"
     "  --watch PATH,...      the variables to trace (default: all of all programs)\n"
     "  --trace FILE|-        write a CSV row after each cycle\n"
+    "  --plot FILE           draw the variables over the time, as SVG\n"
     "  --retain FILE         keep retained variables in FILE\n"
     "  --start cold|warm|origin   default: warm when the retain file exists, else cold\n"
     "  --realtime            run by the clock, until the cycles are done or Ctrl-C\n";
@@ -42,7 +44,7 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
       value = argument.substr(equals + 1);
     }
     static const char* const with_value[] = {"--cycles", "--for",   "--interval", "--inputs", "--set",
-                                             "--watch",  "--trace", "--retain",   "--start"};
+                                             "--watch",  "--trace", "--plot",     "--retain", "--start"};
     bool takes_value = false;
     for (const char* const known : with_value) takes_value = takes_value || name == known;
     if (name == "--realtime") {
@@ -77,6 +79,8 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
       options.watch += (options.watch.empty() ? "" : ",") + value;
     } else if (name == "--trace") {
       options.trace_path = value;
+    } else if (name == "--plot") {
+      options.plot_path = value;
     } else if (name == "--retain") {
       options.retain_path = value;
     } else {
@@ -95,6 +99,7 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
 }
 
 int applicationMain(const rung_module& module, int argc, char** argv) {
+  signal(SIGXFSZ, SIG_IGN);  // a limit for files is an error of the write, as a full disk is
   RunOptions options;
   std::vector<std::string> rest;
   const std::string wrong =

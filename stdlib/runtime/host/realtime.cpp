@@ -61,6 +61,7 @@ bool activate(Shared& shared, Worker& worker, int64_t now_ns) {
   const int64_t begin = monotonicNs();
   worker.running_since.store(begin);
   worker.context.now_ns = now_ns;
+  worker.context.entry = worker.item->task;
   const uint8_t fault = rung_guarded(&worker.context, worker.item->task->run);
   worker.running_since.store(0);
   const int64_t took = monotonicNs() - begin;

@@ -8,6 +8,7 @@
 
 #include "faults.h"
 #include "inputs.h"
+#include "plot.h"
 #include "realtime.h"
 #include "retain.h"
 #include "rung/host.h"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr int kGood = 0, kUsage = 2, kFaulted = 3;
 constexpr int64_t kDefaultCycles = 100;
+constexpr int64_t kLongRunNs = 3'000'000'000;  // a run that a faster engine would shorten
 
 int refuse(const std::string& what) {
   fflush(stdout);
@@ -56,7 +58,8 @@ struct Run {
         symbols(chosen, memory),
         schedule(symbols, chosen_options.interval_ns),
         inputs(symbols),
-        trace(symbols) {}
+        trace(symbols),
+        plot(chosen) {}
 
   int prepare();
   int runVirtual();
@@ -75,6 +78,7 @@ struct Run {
   Schedule schedule;
   Inputs inputs;
   Trace trace;
+  Plot plot;
   std::optional<Retain> retain;
   rung_host host{};
   int64_t cycles = 0;
@@ -86,7 +90,7 @@ int Run::prepare() {
   if (!schedule.prepare(error)) return refuse(error);
   // Everything that the user wrote is checked before anything runs or is written.
   if (!options.inputs_path.empty() && !inputs.load(options.inputs_path, error)) return refuse(error);
-  if (!trace.choose(options.watch, error)) return refuse(error);
+  if (!trace.choose(options.watch, error)) return refuse("--watch: " + error);
 
   rung_context& context = memory.context();
   host.wall_clock = options.realtime ? systemClock : virtualClock;
@@ -105,9 +109,10 @@ int Run::prepare() {
   }
   for (const auto& [path, value] : options.sets) {
     const std::string what = applySet(symbols, path, value);
-    if (!what.empty()) return refuse("--set: " + what);
+    if (!what.empty()) return refuse("--set " + path + "=" + value + ": " + what);
   }
   if (!trace.open(options.trace_path, error)) return refuse(error);
+  if (!options.plot_path.empty() && !plot.open(options.plot_path, trace.variables(), error)) return refuse(error);
 
   const int64_t row_ns = schedule.rowNs();
   if (options.cycles >= 0)
@@ -123,7 +128,7 @@ int Run::finish(bool faulted, const rung_fault& fault, const std::string& extra)
   std::string error;
   if (faulted) memory.makeOutputsSafe();
   const std::string refused = saveRetained();
-  if (!trace.close(error)) return refuse(error);
+  if (!trace.close(error) || !plot.close(schedule.rowNs(), error)) return refuse(error);
   if (options.trace_path.empty()) {
     const std::string lines = faulted ? "" : trace.lastRow();
     printf("%s%lld cycles of %s, %s of program time\n", lines.c_str(), static_cast<long long>(rows_done),
@@ -142,11 +147,17 @@ int Run::runVirtual() {
   rung_context& context = memory.context();
   const int64_t row_ns = schedule.rowNs();
   int64_t next_save = processorNs() + 1'000'000'000;
+  int64_t next_hint = options.hint_when_long.empty() || isatty(2) == 0 ? INT64_MAX : processorNs() + kLongRunNs;
   for (int64_t row = 0; row < cycles; ++row) {
     inputs.apply(row);
     if (schedule.run(row, context) != RUNG_FAULT_NONE) return finish(true, context.fault, "");
     trace.row(row, row * row_ns);
+    plot.row();
     rows_done = row + 1;
+    if (next_hint != INT64_MAX && row % 64 == 0 && processorNs() >= next_hint) {
+      fprintf(stderr, "%s\n", options.hint_when_long.c_str());
+      next_hint = INT64_MAX;
+    }
     if (retain && row % 64 == 0 && processorNs() >= next_save) {
       const std::string refused = saveRetained();
       if (!refused.empty()) return refuse(refused);
@@ -161,12 +172,17 @@ int Run::runInRealTime() {
   if (cycles == 0) return finish(false, {}, "");
   const RealtimeResult result = runRealtime(
       schedule, memory.context(), cycles, [&](int64_t row) { inputs.apply(row); },
-      [&](int64_t row) { trace.row(row, row * row_ns); }, [&] { saveRetained(); });
+      [&](int64_t row) {
+        trace.row(row, row * row_ns);
+        plot.row();
+      },
+      [&] { saveRetained(); });
   rows_done = result.rows;
   if (!result.watchdog.empty()) {
     memory.makeOutputsSafe();
     std::string error;
     trace.close(error);
+    plot.close(row_ns, error);
     fflush(stdout);
     fprintf(stderr, "fault[watchdog]: task `%s` ran longer than its watchdog allows\n", result.watchdog.c_str());
     fflush(stderr);

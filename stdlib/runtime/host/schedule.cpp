@@ -71,6 +71,7 @@ uint8_t Schedule::run(int64_t row, rung_context& context) {
     });
   for (const Activation& activation : due_) {
     context.now_ns = activation.time_ns;
+    context.entry = items_[activation.item].task;
     const uint8_t fault = rung_guarded(&context, items_[activation.item].task->run);
     if (fault != RUNG_FAULT_NONE) return fault;
   }

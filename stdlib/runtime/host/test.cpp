@@ -5,6 +5,7 @@
 
 #include "faults.h"
 #include "memory.h"
+#include "output_file.h"
 #include "rung/host.h"
 #include "symbols.h"
 
@@ -45,6 +46,7 @@ void runCase(const rung_module& module, const rung_test& test, Memory& memory, C
     return kind != RUNG_FAULT_NONE;
   };
   if (faulted(memory.reset())) return;
+  context.entry = &test;
   if (test.init != nullptr && faulted(rung_guarded(&context, test.init))) return;
   const bool has_done = test.done_block != RUNG_NONE;
   for (int64_t cycle = 0; cycle < kMostCycles; ++cycle) {
@@ -145,12 +147,15 @@ int reportTests(const TestResults& results, const TestOptions& options) {
   if (!options.junit_path.empty()) {
     const std::string junit = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" +
                               counts(results.passed, results.failed) + ">\n" + results.junit + "</testsuites>\n";
-    const std::string temporary = options.junit_path + ".tmp";
-    FILE* const file = fopen(temporary.c_str(), "wb");
-    bool good = file != nullptr && fwrite(junit.data(), 1, junit.size(), file) == junit.size();
-    if (file != nullptr) good = fclose(file) == 0 && good;
-    if (!good || rename(temporary.c_str(), options.junit_path.c_str()) != 0) {
-      perror(options.junit_path.c_str());
+    OutputFile file;
+    std::string error;
+    bool good = file.open(options.junit_path, error);
+    if (good) {
+      file.write(junit);
+      good = file.close(error);
+    }
+    if (!good) {
+      fprintf(stderr, "error: %s\n", error.c_str());
       return 2;
     }
   }

@@ -1,10 +1,5 @@
 #include "trace.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-#include <cerrno>
-#include <cstring>
-
 #include "csv.h"
 #include "value_text.h"
 
@@ -17,11 +12,6 @@ std::string millisecondsOf(int64_t ns) {
   std::string digits = std::to_string(1'000'000 + fraction).substr(1);
   while (digits.back() == '0') digits.pop_back();
   return text + '.' + digits;
-}
-
-Trace::~Trace() {
-  if (file_ != nullptr && file_ != stdout) fclose(file_);
-  if (!temporary_.empty()) unlink(temporary_.c_str());
 }
 
 bool Trace::choose(const std::string& watch, std::string& error) {
@@ -43,21 +33,7 @@ bool Trace::choose(const std::string& watch, std::string& error) {
 
 bool Trace::open(const std::string& path, std::string& error) {
   if (path.empty()) return true;
-  path_ = path;
-  if (path == "-") {
-    file_ = stdout;
-  } else {
-    // A temporary beside it, renamed at the end; devices and pipes are written directly.
-    struct stat status;
-    const bool regular = stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode);
-    const std::string target = regular ? path + ".tmp" + std::to_string(getpid()) : path;
-    file_ = fopen(target.c_str(), "wb");
-    if (file_ == nullptr) {
-      error = path + ": " + strerror(errno);
-      return false;
-    }
-    if (regular) temporary_ = target;
-  }
+  if (!file_.open(path, error)) return false;
   buffer_ = "cycle,time_ms";
   for (const Variable& variable : variables_) {
     buffer_ += ',';
@@ -68,7 +44,7 @@ bool Trace::open(const std::string& path, std::string& error) {
 }
 
 void Trace::row(int64_t cycle, int64_t time_ns) {
-  if (file_ == nullptr) return;
+  if (!file_.isOpen()) return;
   buffer_ += std::to_string(cycle);
   buffer_ += ',';
   buffer_ += millisecondsOf(time_ns);
@@ -84,26 +60,15 @@ void Trace::row(int64_t cycle, int64_t time_ns) {
     }
   }
   buffer_ += '\n';
-  if (buffer_.size() >= size_t{1} << 16) flush();
-}
-
-bool Trace::flush() {
-  const bool good = fwrite(buffer_.data(), 1, buffer_.size(), file_) == buffer_.size();
+  if (buffer_.size() < size_t{1} << 16) return;
+  file_.write(buffer_);
   buffer_.clear();
-  return good;
 }
 
 bool Trace::close(std::string& error) {
-  if (file_ == nullptr) return true;
-  bool good = flush() && fflush(file_) == 0 && ferror(file_) == 0;
-  if (file_ != stdout) good = fclose(file_) == 0 && good;
-  file_ = nullptr;
-  if (good && !temporary_.empty()) good = rename(temporary_.c_str(), path_.c_str()) == 0;
-  if (good)
-    temporary_.clear();
-  else
-    error = path_ + ": " + strerror(errno);
-  return good;
+  if (!file_.isOpen()) return true;
+  file_.write(buffer_);
+  return file_.close(error);
 }
 
 std::string Trace::lastRow() const {

@@ -2,10 +2,10 @@
 // variables. Out: a file that appears whole or not at all, or standard output.
 #pragma once
 
-#include <cstdio>
 #include <string>
 #include <vector>
 
+#include "output_file.h"
 #include "symbols.h"
 
 namespace rung::host {
@@ -13,9 +13,6 @@ namespace rung::host {
 class Trace {
  public:
   explicit Trace(const Symbols& symbols) : symbols_(symbols) {}
-  ~Trace();
-  Trace(const Trace&) = delete;
-  Trace& operator=(const Trace&) = delete;
 
   // `watch`: the list of --watch, or empty for all variables of all programs. False: `error` says what is wrong.
   bool choose(const std::string& watch, std::string& error);
@@ -26,14 +23,13 @@ class Trace {
   bool close(std::string& error);
   // `path = value` lines of the variables now.
   std::string lastRow() const;
+  const std::vector<Variable>& variables() const { return variables_; }
 
  private:
-  bool flush();
-
   const Symbols& symbols_;
   std::vector<Variable> variables_;
-  FILE* file_ = nullptr;
-  std::string path_, temporary_, buffer_, cell_;
+  OutputFile file_;
+  std::string buffer_, cell_;
 };
 
 // Milliseconds without trailing zeros: `20`, `0.5`.

@@ -61,6 +61,30 @@ std::string typeName(const rung_module& module, const rung_type& type) {
   return type.kind <= RUNG_POINTER ? kKindNames[type.kind] : "unknown type";
 }
 
+bool numberOf(const rung_module& module, const Variable& variable, double& value) {
+  const uint8_t* const at = variable.address();
+  if (at == nullptr) return false;
+  const rung_type& type = *variable.type;
+  if (type.kind == RUNG_BOOL) {
+    value = (variable.bit == 255 ? *at != 0 : (*at >> variable.bit & 1) != 0) ? 1 : 0;
+  } else if (type.kind == RUNG_REAL) {
+    float number;
+    memcpy(&number, at, sizeof number);
+    value = static_cast<double>(number);
+  } else if (type.kind == RUNG_LREAL) {
+    memcpy(&value, at, sizeof value);
+  } else if (type.kind <= RUNG_LTIME || type.kind == RUNG_ENUM) {
+    const bool is_signed_time = type.is_signed != 0 && (type.kind == RUNG_TIME || type.kind == RUNG_LTIME);
+    const uint8_t kind = is_signed_time ? static_cast<uint8_t>(RUNG_LINT) : integerKind(module, type);
+    const int64_t number = loadInteger(kind, type.size, at);
+    value = number < 0 && (kind < RUNG_SINT || kind > RUNG_LINT) ? static_cast<double>(static_cast<uint64_t>(number))
+                                                                 : static_cast<double>(number);
+  } else {
+    return false;
+  }
+  return true;
+}
+
 void spellValue(const rung_module& module, const Variable& variable, std::string& to) {
   const uint8_t* const at = variable.address();
   if (at == nullptr) return;

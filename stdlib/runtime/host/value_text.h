@@ -8,6 +8,8 @@ namespace rung::host {
 
 // Appends the value; nothing when a pointer on the way is null.
 void spellValue(const rung_module& module, const Variable& variable, std::string& to);
+// The value as a number: BOOL 0 or 1, TIME in its own unit. False: texts, dates, pointers, a null pointer on the way.
+bool numberOf(const rung_module& module, const Variable& variable, double& value);
 // Sets the variable from a literal, or says what is wrong. `dry`: only checks.
 std::string assignValue(const rung_module& module, const Variable& variable, std::string_view text, bool dry = false);
 // The type as messages name it.

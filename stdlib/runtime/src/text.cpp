@@ -12,6 +12,37 @@ namespace {
 // Text of a scalar that TO_STRING spells; enough for every elementary type.
 constexpr uint32_t kScalarRoom = RUNG_SPELLED_SCALAR;
 
+// Decimal digits straight into `to`: the most frequent spelling by far.
+uint32_t spellInteger(char* to, uint32_t capacity, bool negative, uint64_t magnitude) {
+  uint32_t length = negative ? 2 : 1;
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+  if (magnitude < 1000000 && capacity >= 7) {  // one store, NUL included, from which the next reader need not wait
+    uint64_t word = '0' + magnitude % 10;
+    for (uint32_t rest = static_cast<uint32_t>(magnitude) / 10; rest != 0; rest /= 10, ++length)
+      word = word << 8 | ('0' + rest % 10);
+    if (negative) word = word << 8 | '-';
+    memcpy(to, &word, sizeof word);
+    return length;
+  }
+#endif
+  for (uint64_t rest = magnitude; rest >= 10; rest /= 10) ++length;
+  const uint32_t kept = length < capacity ? length : capacity;
+  for (uint32_t i = length; i > negative; --i, magnitude /= 10) {
+    if (i <= kept) to[i - 1] = static_cast<char>('0' + magnitude % 10);
+  }
+  if (negative && kept > 0) to[0] = '-';
+  to[kept] = 0;
+  return kept;
+}
+
+bool isSignedInteger(uint8_t kind) {
+  return kind == RUNG_SINT || kind == RUNG_INT || kind == RUNG_DINT || kind == RUNG_LINT;
+}
+bool isUnsignedInteger(uint8_t kind) {
+  return kind == RUNG_BYTE || kind == RUNG_WORD || kind == RUNG_DWORD || kind == RUNG_LWORD || kind == RUNG_USINT ||
+         kind == RUNG_UINT || kind == RUNG_UDINT || kind == RUNG_ULINT;
+}
+
 uint32_t spellScalar(uint8_t kind, uint64_t bits, char* out) {
   if (kind == RUNG_CHAR) {
     out[0] = static_cast<char>(bits);
@@ -70,17 +101,19 @@ T readLeadingReal(const char* text) {
 
 }  // namespace
 
-void rung_text_assign(char* to, uint32_t capacity, const char* from) {
+uint32_t rung_text_assign(char* to, uint32_t capacity, const char* from) {
   const size_t length = strnlen(from, capacity);
   memmove(to, from, length);
   to[length] = 0;
+  return static_cast<uint32_t>(length);
 }
 
-void rung_wtext_assign(char16_t* to, uint32_t capacity, const char16_t* from) {
+uint32_t rung_wtext_assign(char16_t* to, uint32_t capacity, const char16_t* from) {
   uint32_t length = 0;
   while (length < capacity && from[length] != 0) ++length;
   memmove(to, from, length * sizeof *from);
   to[length] = 0;
+  return length;
 }
 
 int rung_text_compare(const char* a, const char* b) { return strcmp(a, b); }
@@ -97,7 +130,7 @@ uint32_t rung_wtext_length(const char16_t* text) {
   return length;
 }
 
-void rung_text_of_wtext(char* to, uint32_t capacity, const char16_t* from) {
+uint32_t rung_text_of_wtext(char* to, uint32_t capacity, const char16_t* from) {
   uint32_t length = 0;
   for (; *from != 0; ++from) {
     uint32_t code = *from;
@@ -126,9 +159,10 @@ void rung_text_of_wtext(char* to, uint32_t capacity, const char16_t* from) {
     length += count;
   }
   to[length] = 0;
+  return length;
 }
 
-void rung_wtext_of_text(char16_t* to, uint32_t capacity, const char* from) {
+uint32_t rung_wtext_of_text(char16_t* to, uint32_t capacity, const char* from) {
   uint32_t length = 0;
   const unsigned char* at = reinterpret_cast<const unsigned char*>(from);
   while (*at != 0) {
@@ -162,26 +196,32 @@ void rung_wtext_of_text(char16_t* to, uint32_t capacity, const char* from) {
     }
   }
   to[length] = 0;
+  return length;
 }
 
-void rung_text_of_scalar(char* to, uint32_t capacity, uint8_t kind, uint64_t bits) {
+uint32_t rung_text_of_scalar(char* to, uint32_t capacity, uint8_t kind, uint64_t bits) {
   if (kind == RUNG_WCHAR) {
     const char16_t one[2] = {static_cast<char16_t>(bits), 0};
     return rung_text_of_wtext(to, capacity, one);
   }
+  if (isUnsignedInteger(kind)) return spellInteger(to, capacity, false, bits);
+  if (isSignedInteger(kind)) {
+    const bool negative = static_cast<int64_t>(bits) < 0;
+    return spellInteger(to, capacity, negative, negative ? 0 - bits : bits);
+  }
   char text[kScalarRoom + 1];
   spellScalar(kind, bits, text);
-  rung_text_assign(to, capacity, text);
+  return rung_text_assign(to, capacity, text);
 }
 
-void rung_wtext_of_scalar(char16_t* to, uint32_t capacity, uint8_t kind, uint64_t bits) {
+uint32_t rung_wtext_of_scalar(char16_t* to, uint32_t capacity, uint8_t kind, uint64_t bits) {
   if (kind == RUNG_WCHAR) {
     const char16_t one[2] = {static_cast<char16_t>(bits), 0};
     return rung_wtext_assign(to, capacity, one);
   }
   char text[kScalarRoom + 1];
   spellScalar(kind, bits, text);
-  rung_wtext_of_text(to, capacity, text);
+  return rung_wtext_of_text(to, capacity, text);
 }
 
 uint64_t rung_scalar_of_text(uint8_t kind, const char* text) {

@@ -57,14 +57,14 @@ uint8_t isBcd(uint64_t bcd) {
 extern "C" {
 
 // ---- text. TYPE: the name that the language gives the type; KIND: that of rung_type_kind.
-#define RUNG_TEXT_OF(TYPE, KIND, T, bits)                                                            \
-  void rung_standard_TO_STRING__##TYPE(rung_context* ctx, T in, char* out, uint32_t capacity) {      \
-    (void)ctx;                                                                                       \
-    rung_text_of_scalar(out, capacity, RUNG_##KIND, bits);                                           \
-  }                                                                                                  \
-  void rung_standard_TO_WSTRING__##TYPE(rung_context* ctx, T in, char16_t* out, uint32_t capacity) { \
-    (void)ctx;                                                                                       \
-    rung_wtext_of_scalar(out, capacity, RUNG_##KIND, bits);                                          \
+#define RUNG_TEXT_OF(TYPE, KIND, T, bits)                                                                \
+  uint32_t rung_standard_TO_STRING__##TYPE(rung_context* ctx, T in, char* out, uint32_t capacity) {      \
+    (void)ctx;                                                                                           \
+    return rung_text_of_scalar(out, capacity, RUNG_##KIND, bits);                                        \
+  }                                                                                                      \
+  uint32_t rung_standard_TO_WSTRING__##TYPE(rung_context* ctx, T in, char16_t* out, uint32_t capacity) { \
+    (void)ctx;                                                                                           \
+    return rung_wtext_of_scalar(out, capacity, RUNG_##KIND, bits);                                       \
   }
 #define RUNG_OF_TEXT(TYPE, KIND, T)                                      \
   T rung_standard_STRING_TO_##TYPE(rung_context*, const char* in) {      \
@@ -106,18 +106,32 @@ RUNG_TEXT_OF(WCHAR, WCHAR, uint16_t, bitsOf(in))
 #undef RUNG_TEXT_OF
 #undef RUNG_OF_TEXT
 
-void rung_standard_TO_STRING__STRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {
-  rung_text_assign(out, capacity, in);
+uint32_t rung_standard_TO_STRING__STRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {
+  return rung_text_assign(out, capacity, in);
 }
-void rung_standard_TO_STRING__WSTRING_255(rung_context*, const char16_t* in, char* out, uint32_t capacity) {
-  rung_text_of_wtext(out, capacity, in);
+uint32_t rung_standard_TO_STRING__WSTRING_255(rung_context*, const char16_t* in, char* out, uint32_t capacity) {
+  return rung_text_of_wtext(out, capacity, in);
 }
-void rung_standard_TO_WSTRING__STRING_255(rung_context*, const char* in, char16_t* out, uint32_t capacity) {
-  rung_wtext_of_text(out, capacity, in);
+uint32_t rung_standard_TO_WSTRING__STRING_255(rung_context*, const char* in, char16_t* out, uint32_t capacity) {
+  return rung_wtext_of_text(out, capacity, in);
 }
-void rung_standard_TO_WSTRING__WSTRING_255(rung_context*, const char16_t* in, char16_t* out, uint32_t capacity) {
-  rung_wtext_assign(out, capacity, in);
+uint32_t rung_standard_TO_WSTRING__WSTRING_255(rung_context*, const char16_t* in, char16_t* out, uint32_t capacity) {
+  return rung_wtext_assign(out, capacity, in);
 }
+
+// ---- binary transfer
+float rung_standard_DWORD_TO_REAL(rung_context*, uint32_t in) {
+  float out;
+  std::memcpy(&out, &in, sizeof out);
+  return out;
+}
+uint32_t rung_standard_REAL_TO_DWORD(rung_context*, float in) {
+  uint32_t out;
+  std::memcpy(&out, &in, sizeof out);
+  return out;
+}
+double rung_standard_LWORD_TO_LREAL(rung_context*, uint64_t in) { return rung_f64_of(in); }
+uint64_t rung_standard_LREAL_TO_LWORD(rung_context*, double in) { return rung_bits_of_f64(in); }
 
 // ---- single characters
 #define RUNG_CHAR_OF(TYPE, T)                                                                     \
@@ -236,12 +250,12 @@ RUNG_BYTE_ORDER(LREAL, double, rung_f64_of(__builtin_bswap64(rung_bits_of_f64(in
 #undef RUNG_SWAP64
 #undef RUNG_BYTE_ORDER
 
-#define RUNG_TEXT_ORDER(NAME)                                                                                     \
-  void rung_standard_##NAME##__STRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {          \
-    rung_text_assign(out, capacity, in);                                                                          \
-  }                                                                                                               \
-  void rung_standard_##NAME##__WSTRING_255(rung_context*, const char16_t* in, char16_t* out, uint32_t capacity) { \
-    rung_wtext_assign(out, capacity, in);                                                                         \
+#define RUNG_TEXT_ORDER(NAME)                                                                                         \
+  uint32_t rung_standard_##NAME##__STRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {          \
+    return rung_text_assign(out, capacity, in);                                                                       \
+  }                                                                                                                   \
+  uint32_t rung_standard_##NAME##__WSTRING_255(rung_context*, const char16_t* in, char16_t* out, uint32_t capacity) { \
+    return rung_wtext_assign(out, capacity, in);                                                                      \
   }
 RUNG_TEXT_ORDER(TO_BIG_ENDIAN)
 RUNG_TEXT_ORDER(TO_LITTLE_ENDIAN)

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "rung/code.h"
+#include "rung/standard.h"
 
 namespace {
 
@@ -33,12 +34,13 @@ int64_t clip(int64_t value, int64_t low, int64_t high) { return value < low ? lo
 
 uint32_t limitOf(uint32_t capacity) { return capacity < kLongest ? capacity : kLongest; }
 
-// `count` characters from `from`, which may lie in `out`.
+// `count` characters from `from`, which may lie in `out`. Like all that make a text, gives its length.
 template <class Unit>
-void give(const Unit* from, int64_t count, Unit* out, uint32_t capacity) {
+uint32_t give(const Unit* from, int64_t count, Unit* out, uint32_t capacity) {
   const int64_t taken = clip(count, 0, limitOf(capacity));
   memmove(out, from, static_cast<size_t>(taken) * sizeof(Unit));
   out[taken] = 0;
+  return static_cast<uint32_t>(taken);
 }
 
 // Whether the `length` characters of `text` lie in the memory that `out` writes.
@@ -59,9 +61,10 @@ class Result {
     memcpy(to_ + length_, from, static_cast<size_t>(taken) * sizeof(Unit));
     length_ += static_cast<uint32_t>(taken);
   }
-  void finish() {
+  uint32_t finish() {
     if (to_ != out_) memcpy(out_, to_, length_ * sizeof(Unit));
     out_[length_] = 0;
+    return length_;
   }
 
  private:
@@ -72,29 +75,27 @@ class Result {
 };
 
 template <class Unit>
-void mid(const Unit* in, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
+uint32_t mid(const Unit* in, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
   const int64_t begin = position - 1, end = begin + clip(count, 0, kLongest);
   const int64_t length = lengthUpTo(in, end);
-  if (begin < 0 || begin >= length)
-    out[0] = 0;
-  else
-    give(in + begin, length - begin, out, capacity);
+  if (begin < 0 || begin >= length) return give(in, 0, out, capacity);
+  return give(in + begin, length - begin, out, capacity);
 }
 
 template <class Unit>
-void left(const Unit* in, int64_t count, Unit* out, uint32_t capacity) {
-  give(in, lengthUpTo(in, clip(count, 0, kLongest)), out, capacity);
+uint32_t left(const Unit* in, int64_t count, Unit* out, uint32_t capacity) {
+  return give(in, lengthUpTo(in, clip(count, 0, kLongest)), out, capacity);
 }
 
 template <class Unit>
-void right(const Unit* in, int64_t count, Unit* out, uint32_t capacity) {
+uint32_t right(const Unit* in, int64_t count, Unit* out, uint32_t capacity) {
   const int64_t length = lengthOf(in), taken = clip(count, 0, length);
-  give(in + length - taken, taken, out, capacity);
+  return give(in + length - taken, taken, out, capacity);
 }
 
 // Appends in place where `out` is in1.
 template <class Unit>
-void concat(const Unit* in1, const Unit* in2, Unit* out, uint32_t capacity) {
+uint32_t concat(const Unit* in1, const Unit* in2, Unit* out, uint32_t capacity) {
   const int64_t limit = limitOf(capacity);
   const int64_t first = lengthUpTo(in1, limit), second = lengthUpTo(in2, limit - first);
   if (out != in1 && (overlaps(in1, first, out, capacity) || overlaps(in2, second, out, capacity))) {
@@ -106,37 +107,56 @@ void concat(const Unit* in1, const Unit* in2, Unit* out, uint32_t capacity) {
   if (out != in1) memcpy(out, in1, static_cast<size_t>(first) * sizeof(Unit));
   memmove(out + first, in2, static_cast<size_t>(second) * sizeof(Unit));
   out[first + second] = 0;
+  return static_cast<uint32_t>(first + second);
+}
+
+template <class Unit>
+struct Text {
+  const Unit* units;
+  int64_t length;
+};
+template <class Unit>
+Text<Unit> measured(const Unit* text) {
+  return {text, lengthOf(text)};
 }
 
 // in1 with `count` characters from `position` (from 1, inside) replaced by in2.
 template <class Unit>
-void splice(const Unit* in1, const Unit* in2, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
-  const int64_t length = lengthOf(in1), begin = position - 1, end = begin + clip(count, 0, length - begin);
-  const int64_t middle = lengthOf(in2);
-  Result<Unit> result(out, capacity, overlaps(in1, length, out, capacity) || overlaps(in2, middle, out, capacity));
-  result.append(in1, begin);
-  result.append(in2, middle);
-  result.append(in1 + end, length - end);
-  result.finish();
+uint32_t splice(Text<Unit> in1, Text<Unit> in2, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
+  const int64_t begin = position - 1, end = begin + clip(count, 0, in1.length - begin), limit = limitOf(capacity);
+  if (out == in1.units && begin <= limit && !overlaps(in2.units, in2.length, out, capacity)) {
+    const int64_t middle = clip(in2.length, 0, limit - begin);
+    const int64_t rest = clip(in1.length - end, 0, limit - begin - middle);
+    memmove(out + begin + middle, out + end, static_cast<size_t>(rest) * sizeof(Unit));
+    memcpy(out + begin, in2.units, static_cast<size_t>(middle) * sizeof(Unit));
+    out[begin + middle + rest] = 0;
+    return static_cast<uint32_t>(begin + middle + rest);
+  }
+  Result<Unit> result(out, capacity,
+                      overlaps(in1.units, in1.length, out, capacity) || overlaps(in2.units, in2.length, out, capacity));
+  result.append(in1.units, begin);
+  result.append(in2.units, in2.length);
+  result.append(in1.units + end, in1.length - end);
+  return result.finish();
 }
 
 template <class Unit>
-void insert(const Unit* in1, const Unit* in2, int64_t position, Unit* out, uint32_t capacity) {
-  splice(in1, in2, 0, clip(position, 0, lengthOf(in1)) + 1, out, capacity);
+uint32_t insert(Text<Unit> in1, Text<Unit> in2, int64_t position, Unit* out, uint32_t capacity) {
+  return splice(in1, in2, 0, clip(position, 0, in1.length) + 1, out, capacity);
 }
 
 template <class Unit>
-void remove(const Unit* in, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
+uint32_t remove(Text<Unit> in, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
   static const Unit nothing[1] = {0};
-  if (position < 1 || position > lengthOf(in)) return splice(in, nothing, 0, 1, out, capacity);
-  splice(in, nothing, count, position, out, capacity);
+  if (position < 1 || position > in.length) return splice<Unit>(in, {nothing, 0}, 0, 1, out, capacity);
+  return splice<Unit>(in, {nothing, 0}, count, position, out, capacity);
 }
 
 template <class Unit>
-void replace(const Unit* in1, const Unit* in2, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
+uint32_t replace(Text<Unit> in1, Text<Unit> in2, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
   static const Unit nothing[1] = {0};
-  if (position < 1 || position > lengthOf(in1) + 1) return splice(in1, nothing, 0, 1, out, capacity);
-  splice(in1, in2, count, position, out, capacity);
+  if (position < 1 || position > in1.length + 1) return splice<Unit>(in1, {nothing, 0}, 0, 1, out, capacity);
+  return splice(in1, in2, count, position, out, capacity);
 }
 
 int16_t asInt(int64_t value) { return static_cast<int16_t>(clip(value, 0, INT16_MAX)); }
@@ -151,40 +171,70 @@ int16_t find(const Unit* in1, const Unit* in2) {
   }
   return 0;
 }
+inline int16_t find(const char* in1, const char* in2) {
+  return rung_text_find(in1, rung_text_length(in1), in2, rung_text_length(in2));
+}
 
 }  // namespace
 
 extern "C" {
 
-#define RUNG_STRING_FUNCTIONS(TYPE, Unit)                                                                              \
-  int16_t rung_standard_LEN__##TYPE(rung_context*, const Unit* in) { return asInt(lengthOf(in)); }                     \
-  void rung_standard_LEFT__##TYPE(rung_context*, const Unit* in, int32_t l, Unit* out, uint32_t capacity) {            \
-    left(in, l, out, capacity);                                                                                        \
-  }                                                                                                                    \
-  void rung_standard_RIGHT__##TYPE(rung_context*, const Unit* in, int32_t l, Unit* out, uint32_t capacity) {           \
-    right(in, l, out, capacity);                                                                                       \
-  }                                                                                                                    \
-  void rung_standard_MID__##TYPE(rung_context*, const Unit* in, int32_t l, int32_t p, Unit* out, uint32_t capacity) {  \
-    mid(in, l, p, out, capacity);                                                                                      \
-  }                                                                                                                    \
-  void rung_standard_CONCAT__##TYPE(rung_context*, const Unit* in1, const Unit* in2, Unit* out, uint32_t capacity) {   \
-    concat(in1, in2, out, capacity);                                                                                   \
-  }                                                                                                                    \
-  void rung_standard_INSERT__##TYPE(rung_context*, const Unit* in1, const Unit* in2, int32_t p, Unit* out,             \
-                                    uint32_t capacity) {                                                               \
-    insert(in1, in2, p, out, capacity);                                                                                \
-  }                                                                                                                    \
-  void rung_standard_DELETE__##TYPE(rung_context*, const Unit* in, int32_t l, int32_t p, Unit* out,                    \
-                                    uint32_t capacity) {                                                               \
-    remove(in, l, p, out, capacity);                                                                                   \
-  }                                                                                                                    \
-  void rung_standard_REPLACE__##TYPE(rung_context*, const Unit* in1, const Unit* in2, int32_t l, int32_t p, Unit* out, \
-                                     uint32_t capacity) {                                                              \
-    replace(in1, in2, l, p, out, capacity);                                                                            \
-  }                                                                                                                    \
+#define RUNG_STRING_FUNCTIONS(TYPE, Unit)                                                                        \
+  int16_t rung_standard_LEN__##TYPE(rung_context*, const Unit* in) { return asInt(lengthOf(in)); }               \
+  uint32_t rung_standard_LEFT__##TYPE(rung_context*, const Unit* in, int32_t l, Unit* out, uint32_t capacity) {  \
+    return left(in, l, out, capacity);                                                                           \
+  }                                                                                                              \
+  uint32_t rung_standard_RIGHT__##TYPE(rung_context*, const Unit* in, int32_t l, Unit* out, uint32_t capacity) { \
+    return right(in, l, out, capacity);                                                                          \
+  }                                                                                                              \
+  uint32_t rung_standard_MID__##TYPE(rung_context*, const Unit* in, int32_t l, int32_t p, Unit* out,             \
+                                     uint32_t capacity) {                                                        \
+    return mid(in, l, p, out, capacity);                                                                         \
+  }                                                                                                              \
+  uint32_t rung_standard_CONCAT__##TYPE(rung_context*, const Unit* in1, const Unit* in2, Unit* out,              \
+                                        uint32_t capacity) {                                                     \
+    return concat(in1, in2, out, capacity);                                                                      \
+  }                                                                                                              \
+  uint32_t rung_standard_INSERT__##TYPE(rung_context*, const Unit* in1, const Unit* in2, int32_t p, Unit* out,   \
+                                        uint32_t capacity) {                                                     \
+    return insert(measured(in1), measured(in2), p, out, capacity);                                               \
+  }                                                                                                              \
+  uint32_t rung_standard_DELETE__##TYPE(rung_context*, const Unit* in, int32_t l, int32_t p, Unit* out,          \
+                                        uint32_t capacity) {                                                     \
+    return remove(measured(in), l, p, out, capacity);                                                            \
+  }                                                                                                              \
+  uint32_t rung_standard_REPLACE__##TYPE(rung_context*, const Unit* in1, const Unit* in2, int32_t l, int32_t p,  \
+                                         Unit* out, uint32_t capacity) {                                         \
+    return replace(measured(in1), measured(in2), l, p, out, capacity);                                           \
+  }                                                                                                              \
   int16_t rung_standard_FIND__##TYPE(rung_context*, const Unit* in1, const Unit* in2) { return find(in1, in2); }
 RUNG_STRING_FUNCTIONS(STRING_255, char)
 RUNG_STRING_FUNCTIONS(WSTRING_255, char16_t)
 #undef RUNG_STRING_FUNCTIONS
+
+// ---- sized forms (rung/standard.h)
+
+uint32_t rung_standard_INSERT__STRING_255_sized(const char* in1, uint32_t length1, const char* in2, uint32_t length2,
+                                                int32_t p, char* out, uint32_t capacity) {
+  return insert<char>({in1, length1}, {in2, length2}, p, out, capacity);
+}
+uint32_t rung_standard_DELETE__STRING_255_sized(const char* in, uint32_t length, int32_t l, int32_t p, char* out,
+                                                uint32_t capacity) {
+  return remove<char>({in, length}, l, p, out, capacity);
+}
+uint32_t rung_standard_REPLACE__STRING_255_sized(const char* in1, uint32_t length1, const char* in2, uint32_t length2,
+                                                 int32_t l, int32_t p, char* out, uint32_t capacity) {
+  return replace<char>({in1, length1}, {in2, length2}, l, p, out, capacity);
+}
+int16_t rung_text_find(const char* in1, uint32_t length1, const char* in2, uint32_t length2) {
+  if (length2 == 0 || length2 > length1) return 0;
+  const char* const end = in1 + (length1 - length2) + 1;
+  for (const char* at = in1; at < end; ++at) {
+    at = static_cast<const char*>(memchr(at, *in2, static_cast<size_t>(end - at)));
+    if (at == nullptr) return 0;
+    if (memcmp(at, in2, length2) == 0) return asInt(at - in1 + 1);
+  }
+  return 0;
+}
 
 }  // extern "C"

@@ -64,6 +64,8 @@ extern "C" {
 
 uint32_t rung_standard_TASK_TIME(rung_context* ctx) { return static_cast<uint32_t>(ctx->now_ns / 1'000'000); }
 int64_t rung_standard_TASK_LTIME(rung_context* ctx) { return ctx->now_ns; }
+uint32_t rung_standard_TIME(rung_context* ctx) { return rung_standard_TASK_TIME(ctx); }
+int64_t rung_standard_LTIME(rung_context* ctx) { return ctx->now_ns; }
 uint32_t rung_standard_WALL_CLOCK(rung_context* ctx) {
   const int64_t ns =
       ctx->host != nullptr && ctx->host->wall_clock != nullptr ? ctx->host->wall_clock(ctx->host_data) : ctx->now_ns;

@@ -195,7 +195,7 @@ void measure(const char* name, int32_t rounds) {
     check = kernel.run(rounds);
     best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }
-  std::printf("hand\t%s\t%d\t%.4f\t%d\n", name, rounds, best, check);
+  std::printf("hand\t%s\t%d\t%.6f\t%d\n", name, rounds, best, check);
 }
 
 }  // namespace

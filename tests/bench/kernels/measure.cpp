@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       if (seconds < best) best = seconds;
     }
-    std::printf("rung\t%s\t%d\t%.4f\t%d\n", name.c_str(), rounds, best, *out);
+    std::printf("rung\t%s\t%d\t%.6f\t%d\n", name.c_str(), rounds, best, *out);
   }
   return 0;
 }

@@ -22,12 +22,12 @@ done
 accepted=$(for word in $accepted; do echo "$word"; done | sort -fu)
 
 each() { for word in $accepted; do echo "${1//@/$word}"; done; }
-mkdir variables fields items functions blocks types programs lists
+mkdir variables pins fields items functions blocks types programs lists
 { echo "PROGRAM Tester"; echo "VAR"; each "  @ : INT;"; echo "END_VAR"; each "@ := @ + 1;"; echo "END_PROGRAM"; } >variables/main.st
 { echo "FUNCTION F_ : INT"; echo "VAR_INPUT"; each "  @ : INT := 1;"; echo "END_VAR"; each "F_ := F_ + @;"; echo "END_FUNCTION"
   echo "FUNCTION G_ : INT"; echo "VAR_IN_OUT"; each "  @ : STRING;"; echo "END_VAR"; each "@ := CONCAT(@, 'a');"; echo "END_FUNCTION"
   echo "FUNCTION_BLOCK B_"; echo "VAR_INPUT"; each "  @ : BOOL;"; echo "END_VAR"; echo "VAR_OUTPUT n_n : INT; END_VAR"; each "IF @ THEN n_n := n_n + 1; END_IF"; echo "END_FUNCTION_BLOCK"
-  echo "PROGRAM Tester"; echo "VAR instance_ : B_; n_n : INT; END_VAR"; echo "n_n := F_();"; each "instance_(@ := TRUE);"; echo "END_PROGRAM"; } >variables/pins.st
+  echo "PROGRAM Tester"; echo "VAR instance_ : B_; n_n : INT; END_VAR"; echo "n_n := F_();"; each "instance_(@ := TRUE);"; echo "END_PROGRAM"; } >pins/main.st
 { echo "TYPE Record_ : STRUCT"; each "  @ : INT := 1;"; echo "END_STRUCT END_TYPE"; echo "PROGRAM Tester"; echo "VAR r_r : Record_; END_VAR"; each "r_r.@ := r_r.@ + 1;"; echo "END_PROGRAM"; } >fields/main.st
 { echo "TYPE Items_ : ("; each "  @," | sed '$s/,$//'; echo "); END_TYPE"; echo "PROGRAM Tester"; echo "VAR e_e : Items_; n_n : INT; END_VAR"; each "IF e_e = Items_#@ THEN n_n := n_n + 1; END_IF"; echo "END_PROGRAM"; } >items/main.st
 { each "FUNCTION @ : INT VAR_INPUT x_x : INT; END_VAR @ := x_x + 1; END_FUNCTION"; echo "PROGRAM Tester"; echo "VAR n_n : INT; END_VAR"; each "n_n := @(n_n);"; echo "END_PROGRAM"; } >functions/main.st
@@ -49,4 +49,4 @@ for project in *; do
     done
   done
 done
-echo "identifiers: $(echo "$accepted" | wc -w) words in eight places, with $*"
+echo "identifiers: $(echo "$accepted" | wc -w) words in nine places, with $*"

@@ -1,5 +1,6 @@
 // Runs the golden tests of the passes. In: folders or files *.ir, of which line 1 is the purpose; then IR text; then
-//   ; run: @F(1, -2) == 3          the value, or `fault div`, before any pass and after each expected one
+//   ; run: @F(1, -2) == 3          the value, or `fault div`, before any pass and after each expected one; computed by
+//                                  the evaluator and by the interpreter
 //   ; expect <passes>: body @F {   what the passes (one, or several joined by `+`, or `all`) make of the body,
 //   ;   ...                        the following comment lines belong to it
 //   ; }
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "evaluator.h"
+#include "ir/interpreter/function.h"
 #include "ir/passes/passes.h"
 #include "ir/verify.h"
 #include "ir_text.h"
@@ -202,19 +204,29 @@ class Golden {
         if ((local.kind == LocalKind::Input || local.kind == LocalKind::InOut) && next < one.arguments.size())
           arguments.push_back(literal(one.arguments[next++], local.type, m.types));
       const RunResult result = run(m.module, *body, arguments);
-      std::string given;
-      if (!result.trouble.empty())
-        given = result.trouble;
-      else if (result.fault != types::Fault::None)
-        given = std::string("fault ") + types::word(result.fault);
-      else {
-        types::Value expected =
-            one.expected.rfind("fault", 0) == 0 ? types::Value{} : literal(one.expected, result.value.type, m.types);
-        if (expected.bits == result.value.bits && one.expected.rfind("fault", 0) != 0) continue;
-        given = types::spell(m.types, m.names, result.value);
-      }
-      if (given != one.expected) fail(when + ": " + one.text + "\n  gives " + given);
+      compare(m, when, one, result.trouble, result.fault, result.value);
+      const auto index = static_cast<uint32_t>(std::find_if(m.module.bodies.begin(), m.module.bodies.end(),
+                                                            [&](const Body& other) { return &other == body; }) -
+                                               m.module.bodies.begin());
+      const interpreter::FunctionResult second =
+          interpreter::runFunction(m.module, {index}, arguments, {}, 1'000'000, m.names);
+      compare(m, when + " (interpreted)", one, second.trouble, second.fault, second.value);
     }
+  }
+
+  void compare(TestModule& m, const std::string& when, const Run& one, const std::string& trouble, types::Fault fault,
+               const types::Value& value) {
+    std::string given;
+    if (!trouble.empty()) {
+      given = trouble;
+    } else if (fault != types::Fault::None) {
+      given = std::string("fault ") + types::word(fault);
+    } else {
+      const bool wants_fault = one.expected.rfind("fault", 0) == 0;
+      if (!wants_fault && literal(one.expected, value.type, m.types).bits == value.bits) return;
+      given = types::spell(m.types, m.names, value);
+    }
+    if (given != one.expected) fail(when + ": " + one.text + "\n  gives " + given);
   }
 
   bool update_;

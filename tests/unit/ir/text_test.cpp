@@ -263,7 +263,6 @@ TEST(IrText, Statements) {
       "  b = false\n"
       "}\n"
       "try {\n"
-      "} catch {\n"
       "}\n"
       "assert b\n"
       "assert b text 'held'\n"

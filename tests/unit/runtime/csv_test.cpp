@@ -15,18 +15,20 @@ TEST(Csv, ReadsQuotesLineEndsAndEmptyCells) {
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].cells, (std::vector<std::string>{"cycle", "a[1,2]"}));
   EXPECT_EQ(rows[1].cells, (std::vector<std::string>{"0", "say \"hi\"\nx"}));
-  EXPECT_EQ(rows[1].line, 3u);
+  EXPECT_EQ(rows[1].places[0].line, 3u);
+  EXPECT_EQ(rows[1].places[1].column, 3u);
   EXPECT_EQ(rows[2].cells, (std::vector<std::string>{"3", ""}));
-  EXPECT_EQ(rows[2].line, 5u);
+  EXPECT_EQ(rows[2].places[0].line, 5u);
+  EXPECT_EQ(rows[2].places[1].column, 3u);
 }
 
-TEST(Csv, NamesTheLineOfAMistake) {
+TEST(Csv, NamesThePlaceOfAMistake) {
   std::vector<CsvRow> rows;
   std::string error;
   EXPECT_FALSE(readCsv("a\nb,\"c\nd\n", rows, error));
-  EXPECT_EQ(error, "2: the quote of a cell is not closed");
+  EXPECT_EQ(error, "2:3: the quote of a cell is not closed");
   EXPECT_FALSE(readCsv("\"a\"b\n", rows, error));
-  EXPECT_EQ(error, "1: text after the closing quote of a cell");
+  EXPECT_EQ(error, "1:4: text after the closing quote of a cell");
 }
 
 TEST(Csv, QuotesWhereNeeded) {

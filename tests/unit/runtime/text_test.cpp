@@ -63,6 +63,23 @@ TEST(Text, ScalarsAsText) {
   EXPECT_STREQ(small, "12");
 }
 
+TEST(Text, IntegersInEveryRoom) {
+  const int64_t numbers[] = {0, 7, -7, 10, 99, -100, 123456, 999999, -999999, 1000000, -1000000, INT64_MAX, INT64_MIN};
+  for (const int64_t number : numbers) {
+    const std::string whole = std::to_string(number);
+    for (uint32_t capacity = 0; capacity < 24; ++capacity) {
+      char text[32];
+      memset(text, '#', sizeof text);
+      const std::string expected = whole.substr(0, capacity);
+      EXPECT_EQ(rung_text_of_scalar(text, capacity, RUNG_LINT, static_cast<uint64_t>(number)), expected.size());
+      EXPECT_EQ(expected, text);
+      EXPECT_EQ('#', text[capacity + 1]);
+    }
+  }
+  EXPECT_EQ(textOf(RUNG_ULINT, UINT64_MAX), "18446744073709551615");
+  EXPECT_EQ(textOf(RUNG_BYTE, 255), "255");
+}
+
 TEST(Text, TextAsScalars) {
   EXPECT_EQ(static_cast<int64_t>(rung_scalar_of_text(RUNG_INT, "  -17abc")), -17);
   EXPECT_EQ(rung_scalar_of_text(RUNG_INT, "abc"), 0u);

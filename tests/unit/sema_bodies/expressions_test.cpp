@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"tm.NOPE := TRUE;", "1:4 E0329"}, Row{"flag := tm.start = T#0s;", "1:12 E0529"},
                     Row{"tm.Q := TRUE;", "1:4 E0532"}, Row{"counter := counter.x;", "1:20 E0509"},
                     Row{"counter := arr;", "1:12 E0502"}, Row{"counter[1] := 2;", "1:1 E0511"},
-                    Row{"r := grid[1];", "1:6 E0512"}, Row{"arr[r] := 1;", "1:5 E0513"}, Row{"flag := w.15;", ""},
+                    Row{"r := grid[1];", "1:11 E0512"}, Row{"arr[r] := 1;", "1:5 E0513"}, Row{"flag := w.15;", ""},
                     Row{"flag := w.16;", "1:11 E0517"}, Row{"counter := TON;", "1:12 E0518"},
                     Row{"counter := MAX;", "1:12 E0518"}, Row{"counter := counter^;", "1:19 E0515"}));
 

@@ -58,6 +58,10 @@ TEST(Lexer, CommentsNestByDialect) {
   EXPECT_EQ(Lexed("a (* x (* y *) z *) b").words, "a name a name");
   EXPECT_EQ(Lexed("a (* x (* y *) z *) b").codes, "");
   EXPECT_EQ(Lexed("a (* x (* y *) z *) b", Standard::Iec2).codes, "E0114");
+  EXPECT_EQ(Lexed("a (* x (* y (* z *) *) (* v *) *) b", Standard::Iec2).codes, "E0114");
+  EXPECT_EQ(Lexed("a (* x (* y (* z *) *) (* v *) *) b", Standard::Iec2).words, "a name a name");
+  EXPECT_EQ(Lexed("a /* x /* y */ z */ b").words, "a name a name");
+  EXPECT_EQ(Lexed("a /* x /* y */ z */ b", Standard::Iec2).codes, "E0114");
   EXPECT_EQ(Lexed("a // x (* y\nb /* z */ c").words, "a name a name a name");
   EXPECT_EQ(Lexed("a (*).*) b").words, "a name a name");
   EXPECT_EQ(Lexed("a (* open").codes, "E0110");

@@ -146,11 +146,34 @@ TEST_F(CommandTest, BlanksAndUtf8InPaths) {
 
 TEST_F(CommandTest, UnchangedRunUsesTheCache) {
   folder.write("a.st", kCounter);
-  ASSERT_EQ(shell("rung run a.st --cycles 1").exit, 0);
+  ASSERT_EQ(shell("rung run --engine=native a.st --cycles 1").exit, 0);
   // Without a compiler, only the cache can answer; another compiler makes another entry.
-  EXPECT_EQ(shell("PATH=/nowhere; rung run a.st --cycles 1").exit, 2);
-  EXPECT_EQ(shell("rung run a.st --cycles 1").exit, 0);
+  EXPECT_EQ(shell("PATH=/nowhere; rung run --engine=native a.st --cycles 1").exit, 2);
+  EXPECT_EQ(shell("rung run --engine=native a.st --cycles 1").exit, 0);
   EXPECT_EQ(shell("ls '" + cache.path() + "/work' | wc -l").out, "0\n");
+}
+
+TEST_F(CommandTest, InterpretsWithoutACompiler) {
+  folder.write("a.st", kCounter);
+  folder.write("test.st", "{test}\nPROGRAM t\nASSERT_EQ(2, 2);\nEND_PROGRAM\n");
+  EXPECT_EQ(shell("PATH=/nowhere; rung run a.st --cycles 1 --trace -").out,
+            "cycle,time_ms,Main.n,Main.limit\n0,0,1,3\n");
+  EXPECT_EQ(shell("PATH=/nowhere; rung test test.st").out, "pass t\n1 passed, 0 failed\n");
+}
+
+// Native functions of a user's library are not in rung: such a program is compiled, and says so.
+TEST_F(CommandTest, CompilesWhatItCannotInterpret) {
+  folder.write("lib/plant/own.st", "{native}\nFUNCTION OwnCount : INT\nEND_FUNCTION\n");
+  folder.write("a.st", "PROGRAM Main\nVAR x : INT; END_VAR\nx := OwnCount();\nEND_PROGRAM\n");
+  expect("rung run a.st -I lib --cycles 1", 70, "this program runs as compiled C++: the native function `OwnCount`");
+  expect("rung run a.st -I lib --cycles 1 --engine=interp", 2, "this program cannot be interpreted");
+}
+
+TEST_F(CommandTest, EndlessRecursionIsAFault) {
+  folder.write("a.st",
+               "FUNCTION F : INT\nVAR_INPUT n : INT; END_VAR\nF := F(n + 1) + 1;\nEND_FUNCTION\n"
+               "PROGRAM Main\nVAR x : INT; END_VAR\nx := F(1);\nEND_PROGRAM\n");
+  expect("rung run a.st --cycles 1", 3, "a.st:3: fault[stack]: calls nest too deep in `F`");
 }
 
 TEST_F(CommandTest, ManyRunsAtOnce) {
@@ -158,7 +181,7 @@ TEST_F(CommandTest, ManyRunsAtOnce) {
   std::vector<std::thread> threads;
   for (int i = 0; i < 4; i++)
     threads.emplace_back([this] {
-      Outcome outcome = shell("rung run a.st --cycles 1 --trace -");
+      Outcome outcome = shell("rung run --engine=native a.st --cycles 1 --trace -");
       EXPECT_EQ(outcome.out, "cycle,time_ms,Main.n,Main.limit\n0,0,1,3\n") << outcome.err;
     });
   for (std::thread& thread : threads) thread.join();
@@ -166,12 +189,12 @@ TEST_F(CommandTest, ManyRunsAtOnce) {
 
 TEST_F(CommandTest, CacheThatCannotBeWritten) {
   folder.write("a.st", kCounter);
-  EXPECT_EQ(shell("RUNG_CACHE_DIR=/proc/rung rung run a.st --cycles 1").exit, 0);
+  EXPECT_EQ(shell("RUNG_CACHE_DIR=/proc/rung rung run --engine=native a.st --cycles 1").exit, 0);
 }
 
 TEST_F(CommandTest, CompilerThatDoesNotStart) {
   folder.write("a.st", kCounter);
-  expect("CXX=no-such-compiler rung run a.st --cycles 1", 2, "cannot start `no-such-compiler`");
+  expect("CXX=no-such-compiler rung run --engine=native a.st --cycles 1", 2, "cannot start `no-such-compiler`");
   expect("CXXFLAGS=-fno-such-flag rung build a.st -o a", 2, "-fno-such-flag");
   EXPECT_FALSE(exists("a"));
 }

@@ -55,6 +55,13 @@ TEST_F(Arithmetic, reals_round_to_float_after_each_operation) {
   EXPECT_TRUE(std::isinf(apply(table, names, Op::Div, one, Value::ofReal(kReal, 0)).value.asReal()));
 }
 
+// An LREAL exponent of a REAL base keeps its digits: -1 ** 2147483647.5 has no real value.
+TEST_F(Arithmetic, exponents_are_not_cut) {
+  const Value power =
+      apply(table, names, Op::Power, Value::ofReal(kReal, -1.0), Value::ofReal(kLReal, 2147483647.5)).value;
+  EXPECT_TRUE(std::isnan(power.asReal()));
+}
+
 TEST_F(Arithmetic, real_to_integer_rounds_half_to_even_and_saturates) {
   const auto toInt = [&](double value) { return convert(table, Value::ofReal(kLReal, value), kInt).value.asSigned(); };
   EXPECT_EQ(toInt(2.5), 2);

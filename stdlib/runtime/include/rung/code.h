@@ -28,6 +28,8 @@
 #define RUNG_MAY_ALIAS __attribute__((may_alias))
 #define RUNG_COLD __attribute__((cold, noinline))
 #define RUNG_PURE __attribute__((pure))
+/* A small function that its file calls in loops: g++ may inline it there, and others call it. */
+#define RUNG_INLINE __attribute__((used)) inline
 /* What g++ does for a body (codegen/effort.h). Straight: its loops do little, the quick passes are enough. Loops: two
  * neighbours that change places must not become one wide load and store, whose next load waits for both: four times
  * slower in every sort; loops are vectorized all the same. As attributes: a pragma costs time at each declaration. */
@@ -191,21 +193,30 @@ static inline uint64_t rung_bits_of_f64(double v) {
 extern "C" {
 
 /* ---- text. In place, NUL-terminated, `capacity` without the NUL; too long results are cut. `to` may be `from`, also
- * in part. The same holds for every native function of a library: `out` may be one of its text inputs. */
-void rung_text_assign(char* to, uint32_t capacity, const char* from);
-void rung_wtext_assign(char16_t* to, uint32_t capacity, const char16_t* from);
+ * in part. The same holds for every native function of a library: `out` may be one of its text inputs. What makes a
+ * text gives its length. */
+uint32_t rung_text_assign(char* to, uint32_t capacity, const char* from);
+uint32_t rung_wtext_assign(char16_t* to, uint32_t capacity, const char16_t* from);
 /* Below, at or above 0, by unsigned units. */
 int rung_text_compare(const char* a, const char* b) RUNG_PURE;
 int rung_wtext_compare(const char16_t* a, const char16_t* b) RUNG_PURE;
 uint32_t rung_wtext_length(const char16_t* text) RUNG_PURE;
+static inline uint32_t rung_text_length(const char* text) { return (uint32_t)strlen(text); }
+/* As rung_text_assign, of a text whose length is known; `to` and `from` are one variable or apart. */
+static inline uint32_t rung_text_put(char* to, uint32_t capacity, const char* from, uint32_t length) {
+  if (length > capacity) length = capacity;
+  memmove(to, from, length);
+  to[length] = 0;
+  return length;
+}
 /* STRING is UTF-8 here, WSTRING UTF-16; what is no code point becomes '?'. */
-void rung_text_of_wtext(char* to, uint32_t capacity, const char16_t* from);
-void rung_wtext_of_text(char16_t* to, uint32_t capacity, const char* from);
+uint32_t rung_text_of_wtext(char* to, uint32_t capacity, const char16_t* from);
+uint32_t rung_wtext_of_text(char16_t* to, uint32_t capacity, const char* from);
 /* A scalar as text, as <T>_TO_STRING spells it, and back. `kind`: rung_type_kind; `bits`: the value, sign- or
  * zero-extended (REAL and LREAL: the bits of a double). Reading gives 0 where the text is no such value; the result
  * is to be cut to the type's width. */
-void rung_text_of_scalar(char* to, uint32_t capacity, uint8_t kind, uint64_t bits);
-void rung_wtext_of_scalar(char16_t* to, uint32_t capacity, uint8_t kind, uint64_t bits);
+uint32_t rung_text_of_scalar(char* to, uint32_t capacity, uint8_t kind, uint64_t bits);
+uint32_t rung_wtext_of_scalar(char16_t* to, uint32_t capacity, uint8_t kind, uint64_t bits);
 uint64_t rung_scalar_of_text(uint8_t kind, const char* text) RUNG_PURE;
 uint64_t rung_scalar_of_wtext(uint8_t kind, const char16_t* text) RUNG_PURE;
 

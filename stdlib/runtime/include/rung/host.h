@@ -20,10 +20,12 @@ struct RunOptions {
   std::vector<std::pair<std::string, std::string>> sets;  // --set PATH=VALUE
   std::string watch;                                      // --watch PATH,...
   std::string trace_path;                                 // --trace; "-": stdout
+  std::string plot_path;                                  // --plot: SVG; "-": stdout
   std::string retain_path;                                // --retain
   int start = -1;  // --start: rung_start, -1: warm when the retain file exists, else cold
   bool realtime = false;
   bool color = false;
+  std::string hint_when_long;  // printed once on a terminal when the run takes long; empty: nothing
 };
 
 // Runs as `rung run` does; prints what it prints.

@@ -138,7 +138,8 @@ typedef enum rung_fault_kind {
   RUNG_FAULT_CAST,
   RUNG_FAULT_SUBRANGE,
   RUNG_FAULT_CONVERT,
-  RUNG_FAULT_OVERFLOW
+  RUNG_FAULT_OVERFLOW,
+  RUNG_FAULT_STACK /* calls nest too deep; of interpreted modules */
 } rung_fault_kind;
 /* Where a check stands: a table of the module, indexed by the number that the code passes. */
 typedef struct rung_site {
@@ -170,6 +171,9 @@ struct rung_context {
   void* host_data;
   rung_fault fault;   /* of the last run that faulted */
   void* fault_target; /* jmp_buf of the innermost rung_guarded call or __TRY */
+  /* The rung_task or rung_test whose function runs, set by a host that takes interpreted modules: there one function
+   * serves all of them. Compiled modules do not read it. */
+  const void* entry;
 };
 
 typedef enum rung_start { RUNG_COLD, RUNG_WARM, RUNG_ORIGIN } rung_start;

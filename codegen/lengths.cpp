@@ -1,0 +1,249 @@
+// Lengths of texts in C++ locals. A text that nothing else can reach while the body runs (as in locals.cpp) and that
+// sized functions use keeps its length beside it, so that nothing counts its characters again: `s := CONCAT(s, c)` adds
+// at the end, MID knows whether its position is inside. Every write of such a text sets its length. Before the first
+// use in a block the length is counted; a loop counts in front of it what it will need.
+// Sized functions are natives marked {sized}: see docs/architecture.md and rung/standard.h.
+#include <algorithm>
+
+#include "codegen/body.h"
+#include "ir/walk.h"
+
+namespace rung::codegen {
+
+using ir::LocalKind;
+
+namespace {
+
+constexpr uint32_t kWorthCounting = 3;  // uses for which a length is counted
+constexpr uint32_t kWorthKeeping = 2;   // the same where it is known from the first write on
+
+}  // namespace
+
+bool BodyWriter::isSized(const Body& callee) const {
+  if (!callee.sized || isWide(callee.result)) return false;
+  for (const ir::Local& local : callee.locals) {
+    if (isWide(local.type)) return false;
+  }
+  return true;
+}
+
+// `out` of a sized function must be one of its texts or apart from all: true where either side is measured.
+bool BodyWriter::isSizedCall(const Body& callee, uint32_t first, uint32_t count, ExprId result) const {
+  if (!isSized(callee)) return false;
+  if (result && isText(expr(result).type)) {
+    if (isWide(expr(result).type)) return false;
+    if (measuredText(result) != nullptr) return true;
+  }
+  bool has_measured = false, all_apart = true;
+  for (uint32_t i = 0; i < count; ++i) {
+    const ExprId operand = body_->operands[first + i];
+    const Expr& e = expr(operand);
+    if (!isText(e.type)) continue;
+    const bool is_measured = measuredText(operand) != nullptr;
+    has_measured = has_measured || is_measured;
+    all_apart = all_apart && (is_measured || e.kind == ExprKind::Text || e.kind == ExprKind::Zero);
+  }
+  return has_measured && (all_apart || !result || !isText(expr(result).type));
+}
+
+// ---- which texts
+
+BodyWriter::Variable* BodyWriter::textVariable(ExprId place) {
+  const Expr& e = expr(place);
+  if (types_.kind(e.type) != TypeKind::String) return nullptr;
+  if (e.kind == ExprKind::Local) {
+    const ir::Local& local = body_->locals[e.a];
+    // A by-reference result is a variable of the caller's that only this call knows.
+    const bool is_own = !local.by_reference || local.kind == LocalKind::Input || local.kind == LocalKind::Result;
+    return is_own ? &locals_[e.a] : nullptr;
+  }
+  return variableOf(slotOf(place));
+}
+
+const BodyWriter::Variable* BodyWriter::measuredText(ExprId place) const {
+  const Variable* of = const_cast<BodyWriter*>(this)->textVariable(place);
+  return of != nullptr && of->measured ? of : nullptr;
+}
+
+void BodyWriter::noteSizedCall(const Body& callee, uint32_t first, uint32_t count, uint32_t weight) {
+  if (!isSized(callee)) return;
+  for (uint32_t i = 0; i < count; ++i) {
+    const ExprId operand = body_->operands[first + i];
+    if (Variable* of = operand ? textVariable(operand) : nullptr) of->sized_weight += weight;
+  }
+}
+
+// An assignment gives the length on.
+void BodyWriter::noteTextAssign(const Stmt& stmt, uint32_t weight) {
+  Variable* to = textVariable(ExprId{stmt.a});
+  Variable* from = textVariable(ExprId{stmt.b});
+  if (to == nullptr || from == nullptr) return;
+  to->sized_weight += weight;
+  from->sized_weight += weight;
+}
+
+// Called at the end of the analysis: `exposed` and the reach of the instance are known.
+void BodyWriter::chooseMeasured() {
+  if (has_try_ || body_->has_labels) return;
+  for (uint32_t i = 0; i < locals_.size(); ++i) {
+    const bool is_counted = body_->locals[i].kind == LocalKind::Input;
+    locals_[i].measured =
+        !locals_[i].exposed && locals_[i].sized_weight >= (is_counted ? kWorthCounting : kWorthKeeping);
+  }
+  const TypeId record = body_->self ? types_.resolve(body_->self) : TypeId{};
+  for (uint32_t i = 0; i < fields_.size(); ++i) {
+    Variable& of = fields_[i];
+    if (of.sized_weight < kWorthCounting || of.exposed || facts_.isExposed(record, i)) continue;
+    of.measured = !types_.info(record).fields[i].by_reference;
+  }
+}
+
+void BodyWriter::declareLengths() {
+  for (uint32_t i = 0; i < body_->locals.size(); ++i) {
+    Variable& of = locals_[i];
+    if (!of.measured) continue;
+    declarations_ += " uint32_t ";
+    variable(declarations_, body_->locals[i]);
+    declarations_ += "n = 0;";
+    // What is not an input is written before it is read.
+    of.known = body_->locals[i].kind != LocalKind::Input;
+    has_measured_ = true;
+  }
+  for (uint32_t i = 0; i < fields_.size(); ++i) {
+    if (!fields_[i].measured) continue;
+    has_measured_ = true;
+    declarations_ += " uint32_t ";
+    appendMangled(declarations_, text(types_.info(types_.resolve(body_->self)).fields[i].name));
+    declarations_ += "n = 0;";
+  }
+}
+
+// ---- where a length is known
+
+bool BodyWriter::needsMeasuring(ExprId id) const {
+  const Expr& e = expr(id);
+  bool needs = false;
+  if (e.kind == ExprKind::Call && isSizedCall(module_.body(ir::BodyId{e.a}), e.b, e.c, {})) {
+    for (uint32_t i = 0; i < e.c; ++i) {
+      const Variable* of = measuredText(body_->operands[e.b + i]);
+      needs = needs || (of != nullptr && !of->known);
+    }
+  }
+  ir::forEachSlot(*body_, e, [&](const uint32_t& slot) { needs = needs || needsMeasuring(ExprId{slot}); });
+  return needs;
+}
+
+void BodyWriter::setKnown(ExprId place) {
+  Variable* of = textVariable(place);
+  if (of == nullptr || !of->measured || of->known) return;
+  of->known = true;
+  known_.push_back(of);
+}
+
+void BodyWriter::forgetLengths(size_t mark) {
+  for (; known_.size() > mark; known_.pop_back()) known_.back()->known = false;
+}
+
+void BodyWriter::measureText(ExprId place) {
+  const Variable* of = measuredText(place);
+  if (of == nullptr || of->known) return;
+  unknown_.push_back(place);
+  setKnown(place);
+}
+
+void BodyWriter::measureExpr(ExprId id) {
+  const Expr& e = expr(id);
+  if (e.kind == ExprKind::Call && isSizedCall(module_.body(ir::BodyId{e.a}), e.b, e.c, {})) {
+    for (uint32_t i = 0; i < e.c; ++i) measureText(body_->operands[e.b + i]);
+  }
+  ir::forEachSlot(*body_, e, [&](const uint32_t& slot) { measureExpr(ExprId{slot}); });
+}
+
+// The lengths that a statement's own expressions need.
+void BodyWriter::collectUnknown(const Stmt& stmt) {
+  ir::forEachRoot(module_, *body_, stmt, [&](const uint32_t& slot, ir::Use) { measureExpr(ExprId{slot}); });
+  if (stmt.kind == StmtKind::Assign && measuredText(ExprId{stmt.a}) != nullptr) measureText(ExprId{stmt.b});
+  if (stmt.kind != StmtKind::Call) return;
+  if (!isSizedCall(module_.body(ir::BodyId{stmt.a}), stmt.c, stmt.d, ExprId{stmt.e})) return;
+  for (uint32_t i = 0; i < stmt.d; ++i) measureText(body_->operands[stmt.c + i]);
+}
+
+// The lengths that a block needs before it, and what it makes known itself.
+void BodyWriter::collectUnknown(StmtId first) {
+  const size_t mark = known_.size();
+  for (StmtId id = first; id; id = body_->stmt(id).next) {
+    const Stmt& stmt = body_->stmt(id);
+    collectUnknown(stmt);
+    ir::forEachBlock(*body_, stmt, [&](const uint32_t& block) { collectUnknown(StmtId{block}); });
+    if (stmt.kind == StmtKind::Assign) setKnown(ExprId{stmt.a});
+    if (stmt.kind == StmtKind::Call && stmt.e != 0) setKnown(ExprId{stmt.e});
+  }
+  forgetLengths(mark);
+}
+
+// In front of a statement: counts what it needs, a loop all that its turns need.
+void BodyWriter::measure(const Stmt& stmt) {
+  if (!has_measured_) return;
+  unknown_.clear();
+  collectUnknown(stmt);
+  if (stmt.kind == StmtKind::Loop || stmt.kind == StmtKind::For) {
+    const size_t mark = known_.size();
+    ir::forEachBlock(*body_, stmt, [&](const uint32_t& block) { collectUnknown(StmtId{block}); });
+    forgetLengths(mark);
+  }
+  for (const ExprId id : unknown_) {
+    lengthName(id);
+    out_ += " = rung_text_length(";
+    place(id);
+    out_ += "); ";
+    setKnown(id);
+  }
+}
+
+// ---- writing
+
+void BodyWriter::lengthName(ExprId id) {
+  const Expr& e = expr(id);
+  if (e.kind == ExprKind::Local) {
+    variable(out_, body_->locals[e.a]);
+  } else {
+    appendMangled(out_, text(types_.info(types_.resolve(body_->self)).fields[e.b].name));
+  }
+  out_ += 'n';
+}
+
+void BodyWriter::textLength(ExprId id) {
+  const Expr& e = expr(id);
+  if (e.kind == ExprKind::Text) {
+    appendUnsigned(out_, literalLength(e));
+  } else if (e.kind == ExprKind::Zero) {
+    out_ += '0';
+  } else if (measuredText(id) != nullptr) {
+    lengthName(id);
+  } else {
+    out_ += "rung_text_length(";
+    textValue(id);
+    out_ += ')';
+  }
+}
+
+// Name and inputs of a sized form, without the closing parenthesis.
+void BodyWriter::sizedCall(const Body& callee, uint32_t first, uint32_t count) {
+  if (std::find(group_.libraries.begin(), group_.libraries.end(), callee.library_name) == group_.libraries.end())
+    group_.libraries.push_back(callee.library_name);
+  out_ += ir::nativeName(module_, callee);
+  out_ += "_sized(";
+  for (uint32_t i = 0; i < count; ++i) {
+    const ExprId operand = body_->operands[first + i];
+    if (i > 0) out_ += ", ";
+    if (isText(expr(operand).type)) {
+      textValue(operand);
+      out_ += ", ";
+      textLength(operand);
+    } else {
+      value(operand, Prec::Ternary);
+    }
+  }
+}
+
+}  // namespace rung::codegen

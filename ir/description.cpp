@@ -1,0 +1,369 @@
+// The description of a module: see description.h.
+#include "ir/description.h"
+
+#include <algorithm>
+
+namespace rung::ir {
+
+using types::Field;
+using types::FieldRole;
+using types::TypeInfo;
+using types::TypeKind;
+using types::TypeTable;
+
+namespace {
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+std::string folded(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = lower(c);
+  return result;
+}
+
+class Describer {
+ public:
+  Describer(const Module& module, const MemoryBlocks& blocks, Description& out)
+      : module_(module), types_(module.types), blocks_(blocks), out_(out) {}
+
+  void run(bool with_tests) {
+    addBodiesAndFiles();
+    for (uint32_t i = 0; i < blocks_.blocks.size(); ++i) addBlock(i);
+    addSymbols();
+    addTasks();
+    if (with_tests) addTests();
+    out_.layout_hash = layoutHash();
+  }
+
+ private:
+  uint32_t text(std::string_view string) { return out_.text.add(string); }
+  uint32_t text(NameId name) { return text(module_.names.text(name)); }
+
+  void addBodiesAndFiles() {
+    std::vector<std::string_view> names, files;
+    for (size_t i = 1; i < module_.bodies.size(); ++i) {
+      const Body& body = module_.bodies[i];
+      if (body.native) continue;
+      names.push_back(module_.names.text(body.spelling ? body.spelling : body.name));
+      files.push_back(body.origin.path ? module_.names.text(body.origin.path) : module_.sources.path(body.file));
+    }
+    std::sort(names.begin(), names.end());
+    std::sort(files.begin(), files.end());
+    for (std::string_view name : names) text(name);
+    for (std::string_view file : files) text(file);
+  }
+
+  // ---- types
+
+  uint32_t type(TypeId id) {
+    id = types_.resolve(id);
+    const TypeInfo* info = &types_.info(id);
+    if (info->kind == TypeKind::Subrange) {
+      id = types_.plain(id);
+      info = &types_.info(id);
+    }
+    const auto known = type_number_.find(id.index);
+    if (known != type_number_.end()) return known->second;
+    const auto index = static_cast<uint32_t>(out_.types.size());
+    type_number_.emplace(id.index, index);
+    out_.types.emplace_back();
+
+    rung_type row{};
+    row.kind = static_cast<uint8_t>(hostKind(types_, id));
+    row.element = RUNG_NONE;
+    if (info->kind == TypeKind::Enum) {
+      row.kind = RUNG_ENUM;
+      row.element = type(info->base);
+      row.first = static_cast<uint32_t>(out_.enum_items.size());
+      row.count = static_cast<uint32_t>(info->items.size());
+      for (const auto& [name, value] : info->items) out_.enum_items.push_back({text(name), value});
+    } else if (info->kind == TypeKind::Array) {
+      row.element = type(info->base);
+      row.first = static_cast<uint32_t>(out_.dimensions.size());
+      row.count = static_cast<uint32_t>(info->dimensions.size());
+      for (const types::Dimension& d : info->dimensions) out_.dimensions.push_back({d.low, d.high});
+    } else if (info->kind == TypeKind::Pointer || info->kind == TypeKind::Reference) {
+      row.element = type(info->base);
+    } else if (info->kind == TypeKind::Record) {
+      row.first = static_cast<uint32_t>(out_.fields.size());
+      row.count = static_cast<uint32_t>(info->fields.size());
+      out_.fields.resize(row.first + row.count);
+      for (uint32_t i = 0; i < row.count; ++i) {
+        const Field& field = info->fields[i];
+        const rung_field made{text(field.name), type(field.type), field.offset, flags(field)};
+        out_.fields[row.first + i] = made;  // type() may have added fields
+      }
+    }
+    const TypeKind plain = types_.plainKind(id);
+    row.is_signed = TypeTable::isScalar(plain) && types_.isSigned(plain) ? 1 : 0;
+    row.name = text(types_.spell(id));
+    row.size = static_cast<uint32_t>(info->size);
+    row.length = info->length;
+    out_.types[index] = row;
+    return index;
+  }
+
+  static uint32_t flags(const Field& field) {
+    uint32_t bits = 0;
+    if (field.by_reference) bits |= RUNG_FIELD_BY_REFERENCE;
+    if (field.constant) bits |= RUNG_FIELD_CONSTANT;
+    if (field.retain) bits |= RUNG_FIELD_RETAIN;
+    if (field.persistent) bits |= RUNG_FIELD_PERSISTENT;
+    if (field.role == FieldRole::Input) bits |= RUNG_FIELD_INPUT;
+    if (field.role == FieldRole::Output) bits |= RUNG_FIELD_OUTPUT;
+    return bits;
+  }
+
+  // ---- blocks and what is kept of them
+
+  bool keeps(TypeId id) {
+    id = types_.resolve(id);
+    const TypeInfo& info = types_.info(id);
+    if (info.kind == TypeKind::Array) return keeps(info.base);
+    if (info.kind != TypeKind::Record) return false;
+    const auto known = keeps_.find(id.index);
+    if (known != keeps_.end()) return known->second;
+    keeps_[id.index] = false;
+    bool found = false;
+    for (const Field& field : info.fields) {
+      found = found || field.retain || field.persistent || (!field.by_reference && keeps(field.type));
+    }
+    return keeps_[id.index] = found;
+  }
+
+  static void add(std::vector<rung_range>& ranges, uint32_t block, uint64_t offset, uint64_t size) {
+    if (!ranges.empty() && ranges.back().block == block && ranges.back().offset + ranges.back().size == offset) {
+      ranges.back().size += static_cast<uint32_t>(size);
+    } else {
+      ranges.push_back({block, static_cast<uint32_t>(offset), static_cast<uint32_t>(size)});
+    }
+  }
+
+  void collectKept(TypeId id, uint32_t block, uint64_t offset) {
+    id = types_.resolve(id);
+    if (!keeps(id)) return;
+    const TypeInfo& info = types_.info(id);
+    if (info.kind == TypeKind::Array) {
+      const uint64_t size = types_.info(types_.resolve(info.base)).size;
+      for (uint64_t at = 0; size > 0 && at < info.size; at += size) collectKept(info.base, block, offset + at);
+      return;
+    }
+    for (const Field& field : info.fields) {
+      if (field.by_reference) continue;
+      const uint64_t size = types_.info(types_.resolve(field.type)).size;
+      if (field.retain) add(out_.retain, block, offset + field.offset, size);
+      if (field.persistent) add(out_.persistent, block, offset + field.offset, size);
+      if (!field.retain && !field.persistent) collectKept(field.type, block, offset + field.offset);
+    }
+  }
+
+  void addBlock(uint32_t index) {
+    const MemoryBlocks::Block& block = blocks_.blocks[index];
+    const TypeInfo& info = types_.info(types_.resolve(block.record));
+    out_.blocks.push_back({text(block.name), static_cast<uint32_t>(info.size), info.align});
+    type(block.record);
+    collectKept(block.record, index, 0);
+  }
+
+  // ---- symbols
+
+  std::string programPath(const ProgramInstance& program) {
+    std::string path;
+    for (NameId part : {program.configuration, program.resource}) {
+      if (!part) continue;
+      path += module_.names.text(part);
+      path += '.';
+    }
+    return path;
+  }
+
+  void addSymbols() {
+    std::vector<std::pair<std::string, rung_symbol>> rows;  // name in lower case
+    const auto add = [&](std::string_view name, rung_symbol row, std::string_view path) {
+      row.name = text(name);
+      row.path = text(path);
+      rows.push_back({folded(name), row});
+    };
+    const auto inBlock = [&](TypeId type_id, uint32_t block, uint64_t offset) {
+      rung_symbol row{};
+      row.type = type(type_id);
+      row.place = RUNG_IN_BLOCK;
+      row.bit = 255;
+      row.block = block;
+      row.offset = static_cast<uint32_t>(offset);
+      return row;
+    };
+    for (uint32_t i = 0; i < module_.programs.size(); ++i) {
+      const ProgramInstance& program = module_.programs[i];
+      rung_symbol row = inBlock(program.record, blocks_.program_block[i], 0);
+      row.is_program = 1;
+      add(module_.names.text(program.name), row, programPath(program));
+    }
+    for (uint32_t i = 0; i < module_.lists.size(); ++i) {
+      const TypeInfo& record = types_.info(types_.resolve(module_.lists[i].record));
+      const std::string path = std::string(module_.names.text(module_.lists[i].name)) + ".";
+      for (const Field& field : record.fields) {
+        rung_symbol row = inBlock(field.type, blocks_.list_block[i], field.offset);
+        row.flags = flags(field);
+        add(module_.names.text(field.name), row, path);
+      }
+    }
+    for (const Located& located : module_.located) {
+      std::string name, path;
+      if (located.owner_program != 0) {
+        const ProgramInstance& owner = module_.programs[located.owner_program - 1];
+        name = module_.names.text(owner.name);
+        name += '.';
+        path = programPath(owner);
+      }
+      name += module_.names.text(located.name);
+      rung_symbol row = inBlock(located.type, 0, located.byte);
+      row.place = static_cast<uint8_t>(RUNG_IN_INPUTS + located.area);
+      if (located.bit != kNoBit) row.bit = static_cast<uint8_t>(located.bit);
+      add(name, row, path);
+    }
+    // The order of the input files shows nowhere: programs stay first within equal names.
+    std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& row : rows) out_.symbols.push_back(row.second);
+  }
+
+  // ---- tasks and tests
+
+  void addTasks() {
+    for (const Task& task : module_.tasks) {
+      rung_task row{};
+      row.name = text(task.name);
+      row.kind = static_cast<uint8_t>(task.kind);  // in the order of rung_task_kind
+      row.priority = task.priority;
+      row.interval_ns = task.interval_ns;
+      row.watchdog_ns = task.watchdog_ns;
+      row.sensitivity = task.sensitivity;
+      row.trigger = text(task.trigger);
+      row.external_event = text(task.external_event);
+      out_.tasks.push_back(row);
+    }
+  }
+
+  void addTests() {
+    for (BodyId id : module_.tests) {
+      const Body& body = module_.body(id);
+      Description::Test test{{}, id, RUNG_NONE};
+      test.row.done_block = RUNG_NONE;
+      for (uint32_t p = 0; body.kind != BodyKind::Function && p < module_.programs.size(); ++p) {
+        if (!(module_.programs[p].body == id)) continue;
+        test.program = p;
+        for (const Field& field : types_.info(types_.resolve(module_.programs[p].record)).fields) {
+          if (!sameIdentifier(module_.names.text(field.name), "done") ||
+              types_.plainKind(field.type) != TypeKind::Bool) {
+            continue;
+          }
+          test.row.done_block = blocks_.program_block[p];
+          test.row.done_offset = field.offset;
+        }
+        break;
+      }
+      const SourcePlace place = sourcePlace(module_, body, body.loc);
+      test.row.name = text(body.spelling ? body.spelling : body.name);
+      test.row.file = text(place.path);
+      test.row.line = place.line;
+      out_.tests.push_back(test);
+    }
+  }
+
+  // Of what decides where data lies: retained data of another hash does not fit.
+  uint64_t layoutHash() const {
+    uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
+    const auto add = [&](std::string_view bytes) {
+      for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    };
+    const auto numbers = [&](std::initializer_list<int64_t> values) {
+      for (const int64_t value : values) add(std::to_string(value) + ",");
+    };
+    const auto name = [&](uint32_t offset) { add(out_.text.bytes().c_str() + offset); };
+    for (const rung_block& row : out_.blocks) {
+      name(row.name);
+      numbers({row.size, row.align});
+    }
+    for (const rung_type& row : out_.types) {
+      name(row.name);
+      numbers({row.kind, row.is_signed, row.size, row.element, row.length, row.first, row.count});
+    }
+    for (const rung_field& row : out_.fields) {
+      name(row.name);
+      numbers({row.type, row.offset, row.flags});
+    }
+    for (const rung_dimension& row : out_.dimensions) numbers({row.low, row.high});
+    return hash;
+  }
+
+  const Module& module_;
+  const TypeTable& types_;
+  const MemoryBlocks& blocks_;
+  Description& out_;
+  std::unordered_map<uint32_t, uint32_t> type_number_;
+  std::unordered_map<uint32_t, bool> keeps_;
+};
+
+}  // namespace
+
+MemoryBlocks::MemoryBlocks(const Module& module) {
+  struct Row {
+    std::string key;
+    bool is_program;
+    uint32_t index;
+  };
+  std::vector<Row> rows;
+  for (uint32_t i = 0; i < module.lists.size(); ++i)
+    rows.push_back({folded(module.names.text(module.lists[i].name)), false, i});
+  for (uint32_t i = 0; i < module.programs.size(); ++i)
+    rows.push_back({folded(module.names.text(module.programs[i].name)), true, i});
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+    return a.key != b.key ? a.key < b.key : a.is_program < b.is_program;
+  });
+  list_block.resize(module.lists.size());
+  program_block.resize(module.programs.size());
+  for (const Row& row : rows) {
+    (row.is_program ? program_block : list_block)[row.index] = block_count++;
+    if (row.is_program) {
+      blocks.push_back({module.programs[row.index].name, module.programs[row.index].record});
+    } else {
+      blocks.push_back({module.lists[row.index].name, module.lists[row.index].record});
+    }
+  }
+}
+
+TextPool::TextPool() { add(""); }
+
+uint32_t TextPool::add(std::string_view text) {
+  const auto [at, is_new] = known_.try_emplace(std::string(text), static_cast<uint32_t>(bytes_.size()));
+  if (is_new) {
+    bytes_ += text;
+    bytes_ += '\0';
+  }
+  return at->second;
+}
+
+Description::Description(const Module& module, const MemoryBlocks& memory, bool with_tests) {
+  Describer(module, memory, *this).run(with_tests);
+}
+
+rung_type_kind hostKind(const TypeTable& types, TypeId type) {
+  const TypeKind kind = types.plainKind(type);
+  if (kind == TypeKind::Array) return RUNG_ARRAY;
+  if (kind == TypeKind::Record) return RUNG_RECORD;
+  if (!TypeTable::isElementary(kind)) return RUNG_POINTER;
+  // Both lists name the elementary types in the same order.
+  static_assert(static_cast<int>(TypeKind::WString) - static_cast<int>(TypeKind::Bool) == RUNG_WSTRING - RUNG_BOOL);
+  static_assert(static_cast<int>(TypeKind::Time) - static_cast<int>(TypeKind::Bool) == RUNG_TIME - RUNG_BOOL);
+  static_assert(static_cast<int>(TypeKind::LDateTime) - static_cast<int>(TypeKind::Bool) == RUNG_LDT - RUNG_BOOL);
+  return static_cast<rung_type_kind>(static_cast<int>(kind) - static_cast<int>(TypeKind::Bool));
+}
+
+SourcePlace sourcePlace(const Module& module, const Body& body, Loc loc) {
+  if (body.origin.path) return {module.names.text(body.origin.path), body.origin.line, 0};
+  if (!loc) loc = body.loc;
+  const Place place = module.sources.place(loc);
+  return {module.sources.path(place.file), place.line, place.column};
+}
+
+}  // namespace rung::ir

@@ -1,0 +1,73 @@
+// What a module looks like to its host, as the tables of rung/module.h: types, symbols, memory blocks, kept ranges,
+// tasks and tests. In: the IR module. Out: tables numbered in the order in which the blocks, sorted by name, reach
+// their rows, so that the order of the inputs does not show. Codegen prints them; the interpreter hands them to its
+// host.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "ir/ir.h"
+#include "rung/module.h"
+
+namespace rung::ir {
+
+// The blocks of memory that the host places: one for each global list and program instance, sorted by name.
+struct MemoryBlocks {
+  explicit MemoryBlocks(const Module& module);
+
+  std::vector<uint32_t> list_block, program_block;  // of list i and of program i
+  uint32_t block_count = 0;
+  struct Block {
+    NameId name;
+    TypeId record;
+  };
+  std::vector<Block> blocks;
+};
+
+// NUL-terminated texts by offset; the empty text is at 0.
+class TextPool {
+ public:
+  TextPool();
+  uint32_t add(std::string_view text);
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::unordered_map<std::string, uint32_t> known_;
+  std::string bytes_;
+};
+
+struct Description {
+  Description(const Module& module, const MemoryBlocks& blocks, bool with_tests);
+
+  TextPool text;  // names of bodies and files stand first: what refers to them does not move with the rest
+  std::vector<rung_block> blocks;
+  std::vector<rung_type> types;
+  std::vector<rung_field> fields;
+  std::vector<rung_enum_item> enum_items;
+  std::vector<rung_dimension> dimensions;
+  std::vector<rung_symbol> symbols;  // sorted by name
+  std::vector<rung_range> retain, persistent;
+  std::vector<rung_task> tasks;  // `run` is not set
+  struct Test {
+    rung_test row;  // `init` and `run` are not set
+    BodyId body;
+    uint32_t program;  // index into Module::programs of its instance; RUNG_NONE: a function
+  };
+  std::vector<Test> tests;
+  uint64_t layout_hash = 0;
+};
+
+// The kind of rung/module.h for a type behind aliases, enumerations and subranges; a pointer for what has none.
+rung_type_kind hostKind(const types::TypeTable& types, TypeId type);
+
+// Where a body, a check or a test stands.
+struct SourcePlace {
+  std::string_view path;
+  uint32_t line = 0, column = 0;
+};
+SourcePlace sourcePlace(const Module& module, const Body& body, Loc loc);
+
+}  // namespace rung::ir

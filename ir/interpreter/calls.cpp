@@ -1,0 +1,223 @@
+// Calls of the translated code: a caller writes the arguments into the frame that the callee is going to have, behind
+// its own; the result is read from there. See translate.h.
+#include <algorithm>
+
+#include "ir/builder.h"
+#include "ir/interpreter/translate.h"
+#include "ir/walk.h"
+
+namespace rung::ir::interpreter {
+
+using types::TypeTable;
+
+NativeThunk BodyTranslator::findNative(const Body& callee) {
+  const std::string name = nativeName(module_, callee);
+  const auto at =
+      std::lower_bound(options_.natives.begin(), options_.natives.end(), name,
+                       [](const Native& native, const std::string& wanted) { return native.name < wanted; });
+  if (at != options_.natives.end() && name == at->name) return at->call;
+  if (code_.missing.empty()) code_.missing = module_.names.text(callee.spelling ? callee.spelling : callee.name);
+  return nullptr;
+}
+
+// The arguments of a call and where they go; `at` is the offset of the first in the callee's frame.
+std::vector<BodyTranslator::Argument> BodyTranslator::arguments(const Body& callee, uint32_t first, uint32_t count,
+                                                                uint32_t at) {
+  std::vector<Argument> out;
+  uint32_t i = 0;
+  for (const Local& parameter : callee.locals) {
+    if (parameter.kind != LocalKind::Input && parameter.kind != LocalKind::Output &&
+        parameter.kind != LocalKind::InOut) {
+      continue;
+    }
+    if (i == count) break;
+    out.push_back({&parameter, body_->operands[first + i], {at + 8 * i, true}, false, {}});
+    ++i;
+  }
+  return out;
+}
+
+void BodyTranslator::passArgument(Argument& argument, Ref to) {
+  const Local& parameter = *argument.parameter;
+  if (!parameter.by_reference) {
+    valueInto(argument.operand, {Mode::Frame, to, 0});
+    return;
+  }
+  if (!argument.operand) {  // a discarded output
+    const Ref memory = slot(info(parameter.type).size, info(parameter.type).align);
+    return pointerInto({Base::Frame, memory, 0, 0, kNoBit}, to);
+  }
+  const Expr& e = expr(argument.operand);
+  if (isPlace(e.kind) && (e.kind == ExprKind::Bits || isImage(argument.operand))) {
+    // Bits and views of the image are no variables in memory: copied in, and back after the call.
+    argument.copied = true;
+    argument.copy = {Base::Frame, slot(info(parameter.type).size, info(parameter.type).align), 0, 0, kNoBit};
+    if (isAggregate(e.type) || isText(e.type)) {
+      copyAggregate(argument.copy, place(argument.operand), info(e.type).size);
+    } else {
+      valueInto(argument.operand, direct(argument.copy));
+    }
+    return pointerInto(argument.copy, to);
+  }
+  if (isText(parameter.type) && parameter.kind == LocalKind::Input) return pointerInto(text(argument.operand), to);
+  pointerInto(place(argument.operand), to);
+}
+
+// A call inside of an argument uses the same memory for its own arguments: then all are made before.
+void BodyTranslator::passArguments(std::vector<Argument>& arguments) {
+  bool nests = false;
+  for (const Argument& argument : arguments) {
+    nests = nests || (argument.operand && contains(argument.operand, ExprKind::Call));
+  }
+  if (!nests) {
+    for (Argument& argument : arguments) passArgument(argument, argument.to);
+    return;
+  }
+  std::vector<Ref> made;
+  for (Argument& argument : arguments) {
+    made.push_back(slot());
+    passArgument(argument, made.back());
+  }
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    move(Scalar::U64, {Mode::Frame, made[i], 0}, {Mode::Frame, arguments[i].to, 0});
+  }
+}
+
+void BodyTranslator::emitCall(BodyId id, const Address* self, uint32_t site) {
+  const Ref frame{0, true};
+  uint32_t insn;
+  if (self == nullptr) {
+    insn = emit(callHandler(), frame, {}, {}, 0, site);
+  } else if (self->base == Base::Self) {
+    insn = emit(callOnSelfHandler(), frame, self->ref, {}, 0, site);
+  } else {
+    insn = emit(callOnPointerHandler(), frame, pointerTo(*self), {}, 0, site);
+  }
+  code_.calls.push_back({insn, id});
+}
+
+namespace {
+
+// Bytes behind the frame that a native function's slots take.
+uint32_t slotsOf(const Body& callee, size_t arguments) {
+  return static_cast<uint32_t>((arguments + 4 + (callee.self ? 1 : 0)) * 8);
+}
+
+}  // namespace
+
+Operand BodyTranslator::callExpression(const Expr& e, const Operand* want) {
+  const BodyId id{e.a};
+  const Body& callee = module_.body(id);
+  std::vector<Argument> passed = arguments(callee, e.b, e.c, headerSize(callee));
+  passArguments(passed);
+  const Ref result{headerSize(callee) + 8 * static_cast<uint32_t>(passed.size()), true};
+  if (callee.native) {
+    native_slots_ = std::max(native_slots_, slotsOf(callee, passed.size()));
+    emit(nativeHandler(), {0, true}, {}, {}, 0, reinterpret_cast<int64_t>(findNative(callee)));
+  } else {
+    emitCall(id, nullptr, site(e.loc));
+  }
+  const Operand to = target(want);  // another call of the expression would overwrite it
+  move(scalarOf(e.type), {Mode::Frame, result, 0}, to);
+  return to;
+}
+
+Address BodyTranslator::callText(const Expr& e) {
+  const BodyId id{e.a};
+  const Body& callee = module_.body(id);
+  std::vector<Argument> passed = arguments(callee, e.b, e.c, headerSize(callee));
+  passArguments(passed);
+  const Ref result{headerSize(callee) + 8 * static_cast<uint32_t>(passed.size()), true};
+  const Address to = textBuffer(callee.result);
+  pointerInto(to, result);
+  if (callee.native) {
+    native_slots_ = std::max(native_slots_, slotsOf(callee, passed.size()));
+    emit(moveHandler(Scalar::U64, Mode::Constant, Mode::Frame), {result.offset + 8, true}, {}, {}, 0,
+         capacityOf(callee.result));
+    emit(nativeHandler(), {0, true}, {}, {}, 0, reinterpret_cast<int64_t>(findNative(callee)));
+  } else {
+    emitCall(id, nullptr, site(e.loc));
+  }
+  return to;
+}
+
+void BodyTranslator::callStatement(const Stmt& stmt) {
+  const BodyId id{stmt.a};
+  const Body& callee = module_.body(id);
+  Address self;
+  if (stmt.b != 0) {
+    self = place(ExprId{stmt.b});
+    if (self.base != Base::Self) self = {Base::Pointer, pointerTo(self), 0, 0, kNoBit};
+  }
+  const bool has_self_slot = callee.native && callee.self;
+  const uint32_t at = callee.native ? (has_self_slot ? 8 : 0) : kFrameHeader;
+  std::vector<Argument> passed = arguments(callee, stmt.c, stmt.d, at);
+  passArguments(passed);
+  const Ref result{at + 8 * static_cast<uint32_t>(passed.size()), true};
+  const ExprId to{stmt.e};
+  if (to && mayFault(to)) place(to);  // its checks come before the call
+
+  // A result in memory: where it is to go, if nothing that the callee reads can be there.
+  const bool by_reference = callee.result && ir::isAggregate(types_, callee.result);
+  Address memory;
+  bool direct_result = false;
+  if (by_reference) {
+    if (to && !isImage(to) && expr(to).kind != ExprKind::Bits) {
+      const TypeId type = expr(to).type;
+      const Expr& root = expr(rootOf(*body_, to));
+      direct_result = callee.native || (root.kind == ExprKind::Local && !body_->locals[root.a].by_reference);
+      for (const Argument& argument : passed) {
+        if (!direct_result || callee.native || !argument.operand || !isPlace(expr(argument.operand).kind)) continue;
+        const Expr& other = expr(rootOf(*body_, argument.operand));
+        direct_result = !(other.kind == ExprKind::Local && other.a == root.a);
+      }
+      if (isText(callee.result)) {
+        if (!callee.native && capacityOf(type) < capacityOf(callee.result)) direct_result = false;
+        if (isWide(type) != isWide(callee.result)) direct_result = false;
+      }
+    }
+    const TypeId type = direct_result ? expr(to).type : callee.result;
+    memory = direct_result ? place(to) : Address{Base::Frame, slot(info(type).size, info(type).align), 0, 0, kNoBit};
+    pointerInto(memory, result);
+    if (callee.native && isText(callee.result)) {
+      emit(moveHandler(Scalar::U64, Mode::Constant, Mode::Frame), {result.offset + 8, true}, {}, {}, 0,
+           capacityOf(type));
+    }
+  }
+
+  if (callee.native) {
+    native_slots_ = std::max(native_slots_, slotsOf(callee, passed.size()));
+    if (has_self_slot) pointerInto(self, {0, true});
+    emit(nativeHandler(), {0, true}, {}, {}, 0, reinterpret_cast<int64_t>(findNative(callee)));
+  } else {
+    emitCall(id, stmt.b != 0 ? &self : nullptr, site(stmt.loc));
+  }
+
+  if (to && by_reference && !direct_result) {
+    const TypeId type = expr(to).type;
+    if (isText(type)) {
+      copyText(place(to), capacityOf(type), isWide(type), memory, isWide(callee.result));
+    } else {
+      copyAggregate(place(to), memory, info(type).size);
+    }
+  } else if (to && !by_reference && callee.result) {
+    const Scalar type = scalarOf(to);
+    Operand value{Mode::Frame, result, 0};
+    if (contains(to, ExprKind::Call)) {  // the place would overwrite it
+      value = temp();
+      move(type, {Mode::Frame, result, 0}, value);
+    }
+    write(place(to), type, value);
+  }
+  for (const Argument& argument : passed) {
+    if (!argument.copied || argument.parameter->kind == LocalKind::Input) continue;
+    const Expr& e = expr(argument.operand);
+    if (isAggregate(e.type) || isText(e.type)) {
+      copyAggregate(place(argument.operand), argument.copy, info(e.type).size);
+    } else {
+      write(place(argument.operand), scalarOf(argument.operand), direct(argument.copy));
+    }
+  }
+}
+
+}  // namespace rung::ir::interpreter

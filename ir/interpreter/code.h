@@ -1,0 +1,80 @@
+// The compact form of a module that the interpreter executes: one array of instructions over the memory layout that
+// native code has (design §6, §9). In: what translate.cpp makes of verified IR. Out: instructions that dispatch.h runs.
+//
+// An instruction is a function and its operands. Operands are memory: byte offsets in the frame of the call or in the
+// instance, or a constant in `imm`; scalars have their own width, so that a narrowing conversion costs nothing on the
+// little-endian machines that this runs on. A frame is: where to return to, parameters and result in slots of 8 bytes,
+// other locals, temporaries; behind it the frame of a callee begins, in which a caller writes the arguments.
+#pragma once
+
+#include <cstdint>
+
+#include "rung/module.h"
+
+namespace rung::ir::interpreter {
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "operands are narrowed in place");
+
+struct Machine;
+struct Insn;
+using Handler = void (*)(const Insn* ip, uint8_t* fp, uint8_t* self, Machine* m);
+
+struct Insn {
+  Handler run = nullptr;
+  uint32_t a = 0, b = 0, c = 0, d = 0;  // d: a jump's distance in instructions, or a check's site (0: no check)
+  int64_t imm = 0;
+};
+static_assert(sizeof(Insn) == 32);
+
+// How a frame begins.
+struct Linkage {
+  const Insn* ip;
+  uint8_t *fp, *self;
+};
+constexpr uint32_t kFrameHeader = sizeof(Linkage), kFrameAlign = 16;
+
+// One activation on one thread.
+struct Machine {
+  rung_context* ctx = nullptr;
+  uint8_t* limit = nullptr;  // end of the stack of frames
+  int64_t budget = 0;        // turns and calls left, where a run is bounded
+  // What is next, where instructions return to a loop instead of jumping to the next (dispatch.h).
+  const Insn* ip = nullptr;
+  uint8_t *fp = nullptr, *self = nullptr;
+};
+
+// Runs until Halt.
+void execute(const Insn* ip, uint8_t* fp, uint8_t* self, Machine* m);
+
+// Where an operand is.
+enum class Mode : uint8_t {
+  Frame,     // at fp + offset
+  Self,      // at self + offset
+  Constant,  // imm
+};
+// Where memory is that an instruction takes by address.
+enum class Base : uint8_t {
+  Frame,
+  Self,
+  Pointer,  // the frame slot at the offset holds its address
+  Constant  // imm is its address
+};
+
+// What a scalar is in memory.
+enum class Scalar : uint8_t { Bool, I8, I16, I32, I64, U8, U16, U32, U64, F32, F64 };
+constexpr uint32_t sizeOf(Scalar s) {
+  constexpr uint8_t kSizes[] = {1, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8};
+  return kSizes[static_cast<int>(s)];
+}
+constexpr bool isReal(Scalar s) { return s >= Scalar::F32; }
+constexpr bool isSigned(Scalar s) { return s >= Scalar::I8 && s <= Scalar::I64; }
+
+// A native library function behind a uniform call: arguments in `slots`, scalars by value and others by address, the
+// instance first where there is one; then the result, or the address of its memory and, of a text, the capacity.
+using NativeThunk = void (*)(rung_context* ctx, uint64_t* slots);
+struct Native {
+  const char* name;  // of the C function
+  NativeThunk call;
+};
+
+}  // namespace rung::ir::interpreter

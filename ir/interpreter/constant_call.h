@@ -1,0 +1,20 @@
+// Constant functions: a call with constant inputs, run while the program is checked, where the standard wants constants
+// (bounds, CASE labels, initial values of constants). In: the function, whose body `ready` checks when asked, and the
+// values of its inputs. Out: its result; none when it reads or writes anything but its own variables, faults, or does
+// not end in bounds. The tool gives it to sema (sema::Options::call_constant).
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "ir/interpreter/code.h"
+#include "sema/project.h"
+
+namespace rung::ir::interpreter {
+
+std::optional<types::Value> callConstant(sema::Project& project, sema::PouId function,
+                                         std::span<const types::Value> values, std::span<const Native> natives,
+                                         const std::function<bool(sema::PouId)>& ready);
+
+}  // namespace rung::ir::interpreter

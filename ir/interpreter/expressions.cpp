@@ -1,0 +1,448 @@
+// Values of the translated code: see translate.h. An expression has no effect, so its operands may stay where they are
+// in memory until the instruction that reads them.
+#include <limits>
+
+#include "ir/builder.h"
+#include "ir/interpreter/translate.h"
+#include "ir/walk.h"
+#include "rung/code.h"
+
+namespace rung::ir::interpreter {
+
+using types::TypeInfo;
+using types::TypeKind;
+using types::TypeTable;
+
+namespace {
+
+bool isShift(Op op) { return op >= Op::Shl && op <= Op::Ror; }
+bool commutes(Op op) { return op == Op::Add || op == Op::Mul || op == Op::And || op == Op::Or || op == Op::Xor; }
+Op mirrored(Op op) {
+  if (op == Op::Lt) return Op::Gt;
+  if (op == Op::Le) return Op::Ge;
+  if (op == Op::Gt) return Op::Lt;
+  if (op == Op::Ge) return Op::Le;
+  return op;
+}
+
+// ---- times and dates
+
+int64_t nanoseconds(TypeKind kind) {
+  if (kind == TypeKind::Time || kind == TypeKind::TimeOfDay) return 1'000'000;
+  if (kind == TypeKind::Date || kind == TypeKind::DateTime) return 1'000'000'000;
+  return 1;
+}
+bool isTimeOfDay(TypeKind kind) { return kind == TypeKind::TimeOfDay || kind == TypeKind::LTimeOfDay; }
+bool isDateTime(TypeKind kind) { return kind == TypeKind::DateTime || kind == TypeKind::LDateTime; }
+bool isDay(TypeKind kind) { return kind == TypeKind::Date || kind == TypeKind::LDate; }
+bool changesUnit(TypeKind from, TypeKind to) {
+  const bool from_span = TypeTable::isDuration(from) || isTimeOfDay(from);
+  const bool to_span = TypeTable::isDuration(to) || isTimeOfDay(to);
+  const bool from_date = isDay(from) || isDateTime(from);
+  const bool to_date = isDay(to) || isDateTime(to);
+  return from != to && ((from_span && to_span) || (from_date && to_date) || (isDateTime(from) && isTimeOfDay(to)));
+}
+
+}  // namespace
+
+Scalar BodyTranslator::scalarOf(TypeId type) const {
+  const TypeKind kind = types_.plainKind(type);
+  if (kind == TypeKind::Real) return Scalar::F32;
+  if (kind == TypeKind::LReal) return Scalar::F64;
+  if (kind == TypeKind::Bool) return Scalar::Bool;
+  const bool is_signed = TypeTable::isScalar(kind) && types_.isSigned(kind);
+  switch (TypeTable::bitWidth(kind)) {
+    case 8: return is_signed ? Scalar::I8 : Scalar::U8;
+    case 16: return is_signed ? Scalar::I16 : Scalar::U16;
+    case 32: return is_signed ? Scalar::I32 : Scalar::U32;
+    default: return is_signed ? Scalar::I64 : Scalar::U64;  // pointers too
+  }
+}
+
+bool BodyTranslator::mayFault(ExprId id) const {
+  bool found = false;
+  forEachExpr(*body_, id, [&](ExprId at) { found = found || expr(at).checks != 0; });
+  return found;
+}
+
+bool BodyTranslator::touchesForeignMemory(ExprId id) const {
+  bool found = false;
+  forEachExpr(*body_, id, [&](ExprId at) {
+    const Expr& e = expr(at);
+    found = found || e.kind == ExprKind::Deref || e.kind == ExprKind::Index ||
+            (e.kind == ExprKind::Field && info(expr(ExprId{e.a}).type).fields[e.b].by_reference);
+  });
+  return found;
+}
+
+bool BodyTranslator::contains(ExprId id, ExprKind kind) const {
+  bool found = false;
+  forEachExpr(*body_, id, [&](ExprId at) { found = found || expr(at).kind == kind; });
+  return found;
+}
+
+// ---- operands
+
+Operand BodyTranslator::constant(const Expr& e) const {
+  if (types_.plainKind(e.type) == TypeKind::Real) {
+    const auto number = static_cast<float>(rung_f64_of(e.bits()));
+    return {Mode::Constant, {}, static_cast<int64_t>(rung_bits_of_f32(number))};
+  }
+  return {Mode::Constant, {}, static_cast<int64_t>(e.bits())};
+}
+
+void BodyTranslator::move(Scalar type, const Operand& from, const Operand& to) {
+  if (from == to) return;
+  emit(moveHandler(type, from.mode, to.mode), to.ref, from.ref, {}, 0, from.imm);
+}
+
+Operand BodyTranslator::inFrame(const Operand& from, Scalar type) {
+  if (from.mode == Mode::Frame) return from;
+  const Operand to = temp();
+  move(type, from, to);
+  return to;
+}
+
+void BodyTranslator::valueInto(ExprId id, const Operand& to) { move(scalarOf(id), value(id, &to), to); }
+
+// `want` is where the caller would like it; the result says where it is.
+Operand BodyTranslator::value(ExprId id, const Operand* want) {
+  const Expr& e = expr(id);
+  switch (e.kind) {
+    case ExprKind::None: return {};
+    case ExprKind::Const: return constant(e);
+    case ExprKind::Zero: return {};
+    case ExprKind::Index: {
+      Element at;
+      if (!element(e, at)) return read(place(id), scalarOf(id), want);
+      const Operand to = target(want);
+      emit(loadElementHandler(scalarOf(id), at.index_type, at.base.base, at.index.mode, to.mode), to.ref, at.base.ref,
+           at.index.ref, at.site, at.range);
+      return to;
+    }
+    case ExprKind::Local:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program:
+    case ExprKind::Image:
+    case ExprKind::Field:
+    case ExprKind::Deref:
+    case ExprKind::Bits: return read(place(id), scalarOf(id), want);
+    case ExprKind::Unary: return unary(e, want);
+    case ExprKind::Binary: return binary(e, want);
+    case ExprKind::Convert: return convert(id, want);
+    case ExprKind::Select: return select(e, want);
+    case ExprKind::Call: return callExpression(e, want);
+    case ExprKind::Address: {
+      const Operand to = want != nullptr && want->mode == Mode::Frame ? *want : temp();
+      pointerInto(place(ExprId{e.a}), to.ref);
+      return to;
+    }
+    case ExprKind::Text:
+    case ExprKind::Data: break;
+  }
+  return {Mode::Frame, pointerTo(place(id)), 0};
+}
+
+Operand BodyTranslator::operate(Op op, Scalar type, Operand left, Operand right, const Operand* want, uint32_t site) {
+  if (left.mode == Mode::Constant && right.mode == Mode::Constant) left = inFrame(left, type);
+  if (left.mode == Mode::Constant && commutes(op)) std::swap(left, right);
+  const int64_t imm = left.mode == Mode::Constant ? left.imm : right.imm;
+  const Operand to = target(want);
+  emit(binaryHandler(op, type, left.mode, right.mode, to.mode), to.ref, left.ref, right.ref, site, imm);
+  return to;
+}
+
+Operand BodyTranslator::unary(const Expr& e, const Operand* want) {
+  const Scalar type = scalarOf(ExprId{e.a});
+  Operand a = inMemory(value(ExprId{e.a}), type);
+  if ((e.checks & kCheckOverflow) != 0 && type != Scalar::Bool && e.op != Op::Not) {
+    a = inFrame(a, type);
+    emit(overflowHandler(e.op, type), {}, a.ref, {}, site(e.loc));
+  }
+  if (e.op == Op::Abs && !isSigned(type) && !isReal(type)) return a;
+  const Operand to = target(want);
+  emit(unaryHandler(e.op, type, a.mode, to.mode), to.ref, a.ref);
+  return to;
+}
+
+Operand BodyTranslator::binary(const Expr& e, const Operand* want) {
+  const ExprId a{e.a}, b{e.b};
+  if (types::isComparison(e.op)) return comparison(e, want);
+  if (isShift(e.op)) return shift(e, want);
+  if (e.op == Op::Power) return power(e, want);
+  const Scalar type = scalarOf(a);
+  const TypeKind kind = kindOf(a);
+  if (type == Scalar::Bool && (e.op == Op::And || e.op == Op::Or) && !mayFault(b) && touchesForeignMemory(b)) {
+    // Nothing is checked: memory that the left operand guards is not touched, as in native code.
+    const Operand to = temp();
+    const Label decided = newLabel();
+    valueInto(a, to);
+    jumpTo(emit(branchTruthHandler(to.mode, e.op == Op::Or), to.ref), decided);
+    valueInto(b, to);
+    place(decided);
+    return to;
+  }
+  Operand left = value(a), right = value(b);
+  if (kind == TypeKind::Pointer || kind == TypeKind::Reference) right = wide(right, scalarOf(b));
+  uint32_t at = 0;
+  const bool divides = e.op == Op::Div || e.op == Op::Mod;
+  if ((e.checks & kCheckDiv) != 0 && divides) {
+    at = site(e.loc);
+    if (isReal(type)) {
+      const Operand divisor = inMemory(right, type), zero = temp();
+      const Label good = newLabel();
+      jumpTo(emit(branchHandler(Op::Eq, type, divisor.mode, Mode::Constant, false), divisor.ref), good);
+      move(Scalar::U64, {}, zero);
+      emit(raiseHandler(), {RUNG_FAULT_DIV, false}, zero.ref, {}, at);
+      place(good);
+    }
+  }
+  if ((e.checks & kCheckOverflow) != 0 && overflowHandler(e.op, type) != nullptr && type != Scalar::Bool) {
+    left = inFrame(left, type);
+    right = inFrame(right, type);
+    if (divides && at != 0 && !isReal(type)) {  // the divisor first
+      const Operand zero = temp();
+      emit(binaryHandler(e.op, type, left.mode, right.mode, Mode::Frame), zero.ref, left.ref, right.ref, at);
+    }
+    emit(overflowHandler(e.op, type), {}, left.ref, right.ref, site(e.loc));
+  }
+  return operate(e.op, type, left, right, want, isReal(type) ? 0 : at);
+}
+
+Operand BodyTranslator::comparison(const Expr& e, const Operand* want) {
+  const Operand to = target(want);
+  if (isText(expr(ExprId{e.a}).type)) {
+    const Operand order = textOrder(ExprId{e.a}, ExprId{e.b});
+    emit(compareHandler(e.op, Scalar::I32, order.mode, Mode::Constant, to.mode), to.ref, order.ref);
+    return to;
+  }
+  const Scalar type = scalarOf(ExprId{e.a});
+  Operand left = value(ExprId{e.a}), right = value(ExprId{e.b});
+  Op op = e.op;
+  if (left.mode == Mode::Constant && right.mode != Mode::Constant) {
+    std::swap(left, right);
+    op = mirrored(op);
+  }
+  left = inMemory(left, type);
+  emit(compareHandler(op, type, left.mode, right.mode, to.mode), to.ref, left.ref, right.ref, 0, right.imm);
+  return to;
+}
+
+Operand BodyTranslator::shift(const Expr& e, const Operand* want) {
+  const Scalar type = scalarOf(ExprId{e.a});
+  const Operand left = inMemory(value(ExprId{e.a}), type);
+  Operand count = wide(value(ExprId{e.b}), scalarOf(ExprId{e.b}));
+  if (count.mode == Mode::Self) count = inFrame(count, Scalar::U64);
+  const Operand to = target(want);
+  emit(shiftHandler(e.op, type, left.mode, count.mode, to.mode), to.ref, left.ref, count.ref, 0, count.imm);
+  return to;
+}
+
+Operand BodyTranslator::power(const Expr& e, const Operand* want) {
+  const Scalar type = scalarOf(ExprId{e.a}), exponent_type = scalarOf(ExprId{e.b});
+  const Operand base = inFrame(value(ExprId{e.a}), type);
+  Operand exponent = value(ExprId{e.b});
+  Scalar wide_type = isReal(type) || isReal(exponent_type) ? Scalar::F64
+                     : isSigned(exponent_type)             ? Scalar::I64
+                                                           : Scalar::U64;
+  exponent = inFrame(wide_type == Scalar::F64 ? converted(exponent, exponent_type, Scalar::F64, nullptr)
+                                              : wide(exponent, exponent_type),
+                     wide_type);
+  if ((e.checks & kCheckDiv) != 0 && wide_type == Scalar::I64 && !isReal(type)) {
+    emit(zeroPowerHandler(type), {}, base.ref, exponent.ref, site(e.loc));
+  }
+  if ((e.checks & kCheckOverflow) != 0 && isReal(type)) {
+    Operand other = exponent;
+    if (type == Scalar::F32) other = converted(exponent, Scalar::F64, Scalar::F32, nullptr);
+    emit(overflowHandler(Op::Power, type), {}, base.ref, other.ref, site(e.loc));
+  }
+  const Operand to = want != nullptr && want->mode == Mode::Frame ? *want : temp();
+  emit(powerHandler(type, wide_type), to.ref, base.ref, exponent.ref);
+  return to;
+}
+
+Operand BodyTranslator::select(const Expr& e, const Operand* want) {
+  const ExprId condition{e.a}, yes{e.b}, no{e.c};
+  const Scalar type = scalarOf(e.type);
+  if (mayFault(yes) || mayFault(no)) {  // both are evaluated
+    const Operand chooses = inFrame(value(condition), Scalar::Bool);
+    const Operand a = inFrame(value(yes), type), b = inFrame(value(no), type), to = temp();
+    emit(selectHandler(type), to.ref, a.ref, b.ref);
+    // The condition is the fourth operand, always in the own frame.
+    code_.insns.back().d = chooses.ref.offset;
+    return to;
+  }
+  const Operand to = target(want);
+  const Label otherwise = newLabel(), end = newLabel();
+  branch(condition, false, otherwise);
+  valueInto(yes, to);
+  jump(end);
+  place(otherwise);
+  valueInto(no, to);
+  place(end);
+  return to;
+}
+
+// ---- conditions
+
+void BodyTranslator::branch(ExprId id, bool sense, Label to) {
+  const Expr& e = expr(id);
+  if (e.kind == ExprKind::Const) {
+    if ((e.bits() != 0) == sense) jump(to);
+    return;
+  }
+  if (e.kind == ExprKind::Unary && e.op == Op::Not) return branch(ExprId{e.a}, !sense, to);
+  if (e.kind == ExprKind::Binary && types_.plainKind(e.type) == TypeKind::Bool) {
+    const ExprId a{e.a}, b{e.b};
+    const bool is_and = e.op == Op::And;
+    if ((is_and || e.op == Op::Or) && !mayFault(b)) {
+      if (is_and == sense) {  // both have to agree
+        const Label out = newLabel();
+        branch(a, !sense, out);
+        branch(b, sense, to);
+        place(out);
+      } else {
+        branch(a, sense, to);
+        branch(b, sense, to);
+      }
+      return;
+    }
+    if (types::isComparison(e.op)) {
+      if (isText(expr(a).type)) {
+        const Operand order = textOrder(a, b);
+        jumpTo(emit(branchHandler(e.op, Scalar::I32, order.mode, Mode::Constant, sense), order.ref), to);
+        return;
+      }
+      const Scalar type = scalarOf(a);
+      Operand left = value(a), right = value(b);
+      Op op = e.op;
+      if (left.mode == Mode::Constant && right.mode != Mode::Constant) {
+        std::swap(left, right);
+        op = mirrored(op);
+      }
+      left = inMemory(left, type);
+      jumpTo(emit(branchHandler(op, type, left.mode, right.mode, sense), left.ref, right.ref, {}, 0, right.imm), to);
+      return;
+    }
+  }
+  const Operand truth = inMemory(value(id), Scalar::Bool);
+  jumpTo(emit(branchTruthHandler(truth.mode, sense), truth.ref), to);
+}
+
+// ---- conversions
+
+Operand BodyTranslator::converted(Operand from, Scalar source, Scalar target_type, const Operand* want) {
+  if (source == target_type) return from;
+  if (from.mode == Mode::Constant) from = inFrame(from, source);
+  const Handler handler = convertHandler(source, target_type, from.mode, want != nullptr ? want->mode : Mode::Frame);
+  if (handler == nullptr) return from;  // the low bytes are the value
+  const Operand to = target(want);
+  emit(handler, to.ref, from.ref);
+  return to;
+}
+
+Operand BodyTranslator::wide(const Operand& from, Scalar type) {
+  if (from.mode == Mode::Constant) return from;  // constants are extended
+  return converted(from, type, isSigned(type) ? Scalar::I64 : Scalar::U64, nullptr);
+}
+
+Operand BodyTranslator::wideBits(ExprId id) {
+  const Scalar type = scalarOf(id);
+  const Operand from = value(id);
+  if (isReal(type)) return inFrame(converted(from, type, Scalar::F64, nullptr), Scalar::F64);
+  return inFrame(wide(from, type), Scalar::U64);
+}
+
+// With checks, the value must fit the target (convert) or its subrange before it is cut.
+void BodyTranslator::convertChecks(const Expr& e, const Operand& from) {
+  const ExprId a{e.a};
+  const TypeKind source = kindOf(a), target_kind = types_.plainKind(e.type);
+  if (TypeTable::isText(source) || TypeTable::isText(target_kind)) return;
+  const Scalar type = scalarOf(a);
+  const TypeInfo& to = info(e.type);
+  const uint32_t width = TypeTable::bitWidth(target_kind);
+  const auto limits = [&](int64_t low, int64_t high) {
+    emit(haltHandler(), {}, {}, {}, 0, low);
+    emit(haltHandler(), {}, {}, {}, 0, high);
+  };
+  if ((e.checks & kCheckConvert) != 0 && width > 1 && !TypeTable::isReal(target_kind)) {
+    const bool is_signed = types_.isSigned(target_kind);
+    if (isReal(type)) {
+      const Operand number = inFrame(converted(from, type, Scalar::F64, nullptr), Scalar::F64);
+      const double low = is_signed ? -static_cast<double>(uint64_t{1} << (width - 1)) : 0.0;
+      const double high = static_cast<double>(is_signed     ? (uint64_t{1} << (width - 1)) - 1
+                                              : width == 64 ? ~uint64_t{0}
+                                                            : (uint64_t{1} << width) - 1);
+      emit(roundedRangeHandler(), {}, number.ref, {}, site(e.loc));
+      limits(static_cast<int64_t>(rung_bits_of_f64(low)), static_cast<int64_t>(rung_bits_of_f64(high)));
+    } else {
+      const bool from_signed = isSigned(type);
+      const Operand number = inFrame(wide(from, type), Scalar::U64);
+      const int64_t low = is_signed && from_signed ? static_cast<int64_t>(~uint64_t{0} << (width - 1)) : 0;
+      uint64_t high = is_signed     ? (uint64_t{1} << (width - 1)) - 1
+                      : width == 64 ? ~uint64_t{0}
+                                    : (uint64_t{1} << width) - 1;
+      if (from_signed && high > INT64_MAX) high = INT64_MAX;
+      emit(rangeHandler(RUNG_FAULT_CONVERT, from_signed), {}, number.ref, {}, site(e.loc));
+      limits(low, static_cast<int64_t>(high));
+    }
+  }
+  if ((e.checks & kCheckSubrange) != 0 && to.kind == TypeKind::Subrange) {
+    const bool from_signed = isReal(type) || isSigned(type);
+    const Operand number = isReal(type) ? inFrame(converted(from, type, Scalar::I64, nullptr), Scalar::I64)
+                                        : inFrame(wide(from, type), Scalar::U64);
+    const int64_t low = from_signed ? to.low : to.low > 0 ? to.low : 0;
+    emit(rangeHandler(RUNG_FAULT_SUBRANGE, from_signed), {}, number.ref, {}, site(e.loc, to.low, to.high));
+    limits(low, to.high);
+  }
+}
+
+Operand BodyTranslator::convert(ExprId id, const Operand* want) {
+  const Expr& e = expr(id);
+  const ExprId a{e.a};
+  const TypeKind source = kindOf(a), target_kind = types_.plainKind(e.type);
+  const Scalar to = scalarOf(e.type);
+  const TypeInfo& to_info = info(e.type);
+  const bool clamps = to_info.kind == TypeKind::Subrange && types_.resolve(expr(a).type) != types_.resolve(e.type);
+
+  Operand result;
+  if (TypeTable::isText(source)) {
+    const Ref pointer = pointerTo(text(a));
+    const Operand bits = temp();
+    emit(scalarOfTextHandler(source == TypeKind::WString), bits.ref, pointer, {},
+         static_cast<uint32_t>(hostKind(types_, e.type)));
+    result = to == Scalar::F32 ? converted(bits, Scalar::F64, Scalar::F32, nullptr) : bits;
+  } else {
+    const Scalar from = scalarOf(a);
+    Operand number = value(a);
+    if (e.checks != 0) convertChecks(e, number);
+    if (changesUnit(source, target_kind)) {
+      const Scalar wide_type = isSigned(from) ? Scalar::I64 : Scalar::U64;
+      const int64_t unit = nanoseconds(source), to_unit = nanoseconds(target_kind);
+      const int64_t day = 86'400'000'000'000 / unit;
+      const auto apply = [&](Op op, int64_t by) {
+        number = operate(op, wide_type, number, {Mode::Constant, {}, by}, nullptr);
+      };
+      number = inMemory(wide(number, from), wide_type);
+      if (isDateTime(source) && isTimeOfDay(target_kind)) {
+        apply(Op::Mod, day);
+      } else if (isDateTime(source) && isDay(target_kind)) {
+        apply(Op::Div, day);
+        apply(Op::Mul, day);
+      }
+      if (unit > to_unit) apply(Op::Mul, unit / to_unit);
+      if (to_unit > unit) apply(Op::Div, to_unit / unit);
+      result = number;
+    } else {
+      result = converted(number, from, to, clamps ? nullptr : want);
+    }
+  }
+  if (!clamps) return result;
+  const Operand wide_result = inMemory(wide(result, to), to);
+  const Scalar wide_type = isSigned(to) ? Scalar::I64 : Scalar::U64;
+  const Operand raised = operate(Op::Max, wide_type, wide_result, {Mode::Constant, {}, to_info.low}, nullptr);
+  return operate(Op::Min, wide_type, raised, {Mode::Constant, {}, to_info.high}, nullptr);
+}
+
+}  // namespace rung::ir::interpreter

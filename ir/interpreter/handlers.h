@@ -1,0 +1,95 @@
+// The instructions, by what they do and where their operands are. In: an operator, the type in memory, the modes of the
+// operands. Out: the function that an Insn names. Called by the translator only. At each group stands which fields of
+// the Insn its instructions read.
+#pragma once
+
+#include "ir/interpreter/code.h"
+#include "sema/types/arithmetic.h"
+
+namespace rung::ir::interpreter {
+
+using types::Op;
+
+// ---- handlers_arithmetic.cpp: a := b op c. Div and Mod of integers check the divisor when d is not 0.
+// A constant stands on the right, of Sub, Div and Mod also on the left. Shifts: c is 64 bits wide in the frame or imm.
+Handler binaryHandler(Op op, Scalar type, Mode left, Mode right, Mode to);
+Handler shiftHandler(Op op, Scalar type, Mode left, Mode right, Mode to);
+Handler unaryHandler(Op op, Scalar type, Mode from, Mode to);  // a := op b
+// a := b converted; null where nothing needs to be done because memory of `from` read as `to` is the result.
+Handler convertHandler(Scalar from, Scalar to, Mode source, Mode target);
+// a := base b ** exponent c, both in the frame. Exponent: I64, U64 or F64; REAL bases have a F64 exponent.
+Handler powerHandler(Scalar base, Scalar exponent);
+// Checks, d the site. Overflow: of b op c, in the frame. Range: b (I64 or U64) outside [low, high] in the next
+// instruction's (imm, its next one's imm).
+Handler overflowHandler(Op op, Scalar type);
+Handler rangeHandler(rung_fault_kind kind, bool is_signed);
+// b is F64: rounds to outside of [low, high], in F64 bits in the two instructions behind.
+Handler roundedRangeHandler();
+Handler zeroPowerHandler(Scalar base);  // base b is 0 and exponent c (I64) negative
+
+// ---- handlers_compare.cpp
+Handler compareHandler(Op op, Scalar type, Mode left, Mode right, Mode to);    // a := b op c
+Handler branchHandler(Op op, Scalar type, Mode left, Mode right, bool sense);  // to d when (a op b) == sense
+Handler branchTruthHandler(Mode mode, bool sense);                             // to d when a == sense
+// Jumps on: the control a steps by imm; to d while it has not passed the limit b (in the frame).
+Handler forHandler(Scalar type, bool up, Mode control);
+Handler forFlagHandler(Scalar type, bool up);  // the same in the frame, c := whether to go on
+// To the distance in the table at `imm`, by a minus the lowest (imm of the next instruction), c entries, else d.
+Handler switchHandler(Scalar type, Mode mode);
+// Among c SwitchRange sorted by `low` at `imm`, else to d.
+struct SwitchRange {
+  uint64_t low, high;  // order-preserving: the highest bit of a signed one is flipped
+  int32_t to;
+};
+Handler switchRangesHandler(Scalar type, Mode mode);
+
+// ---- handlers_memory.cpp
+Handler moveHandler(Scalar type, Mode from, Mode to);  // a := b
+Handler loadHandler(Scalar type, Mode to);             // a := memory at (pointer slot b) + c
+Handler storeHandler(Scalar type, Mode from);          // memory at (pointer slot a) + b := c
+Handler loadElementHandler(Scalar type, Scalar index, Base base, Mode index_mode, Mode to);     // a := b[c]
+Handler storeElementHandler(Scalar type, Scalar index, Base base, Mode index_mode, Mode from);  // b[c] := a
+// Slot a := address of base b + (c - low) * stride. low: imm of the next; stride, offset: its a, b. imm: count.
+Handler elementHandler(Scalar index, Base base, Mode index_mode);
+Handler leaHandler(Base base);            // slot a := address of b, plus c
+Handler checkNullHandler();               // pointer slot b
+Handler loadBitHandler();                 // a := bit d of the byte at (pointer slot b) + c
+Handler storeBitHandler();                // bit d of the byte at (pointer slot a) + b := truth in the frame at c
+Handler copyHandler(Base to, Base from);  // c bytes
+Handler clearHandler(Base to);            // c bytes
+Handler blockHandler();                   // slot a := address of block b
+Handler imageHandler();                   // slot a := address of image b
+Handler selectHandler(Scalar type);       // a := d ? b : c, all in the frame
+Handler compareMemoryHandler();           // truth a := c bytes at (slot b) equal those at (slot d)
+
+// ---- handlers_text.cpp. Addresses of texts; capacity in c.
+Handler assignTextHandler(bool wide, bool from_wide, Base to, Base from);  // a := b
+Handler compareTextHandler(bool wide, Base left, Base right);              // I32 a := order of b and c
+Handler emptyTextHandler(bool wide, Base to);                              // a
+Handler textOfScalarHandler(bool wide);  // text at (slot a) of the bits in slot b, kind d
+Handler scalarOfTextHandler(bool wide);  // slot a := bits of the text at (slot b), kind d
+
+// ---- handlers_control.cpp
+Handler jumpHandler();
+Handler callHandler();           // of a function: its frame begins at a and needs c; imm: the site
+Handler callOnSelfHandler();     // self + b
+Handler callOnPointerHandler();  // slot b
+Handler returnHandler();
+Handler haltHandler();
+Handler nativeHandler();   // slots at a, imm: NativeThunk
+Handler tryHandler();      // U8 a := fault of running the next instruction on until Halt; then to d
+Handler rethrowHandler();  // when U8 a is not 0
+Handler raiseHandler();    // fault a at site d, value in the frame at b
+Handler tickHandler();     // where runs are bounded
+// Assertions. Slot b and those behind: see handlers_control.cpp; imm: const AssertionPlace*.
+struct AssertionPlace {
+  const char* file;
+  uint32_t line;
+  uint8_t kind;
+  const char* text;   // or null
+  const char* items;  // of an enumeration
+};
+enum class AssertionKind : uint8_t { Truth, Equal, EqualText, EqualWText, EqualEnum, Near };
+Handler assertHandler(AssertionKind kind);
+
+}  // namespace rung::ir::interpreter

@@ -1,0 +1,144 @@
+// Calls, faults and assertions: see handlers.h.
+#include "ir/interpreter/dispatch.h"
+#include "ir/interpreter/handlers.h"
+
+namespace rung::ir::interpreter {
+
+namespace {
+
+void jump(RUNG_HANDLER_PARAMETERS) { RUNG_JUMP; }
+
+// The callee finds its caller in front of its frame.
+inline uint8_t* enter(const Insn* ip, uint8_t* fp, uint8_t* self, Machine* m) {
+  uint8_t* const frame = fp + ip->a;
+  if (RUNG_UNLIKELY(m->limit - frame < static_cast<ptrdiff_t>(ip->c)))
+    fail(m, RUNG_FAULT_STACK, static_cast<uint32_t>(ip->imm), 0);
+  *reinterpret_cast<Linkage*>(frame) = {ip + 1, fp, self};
+  return frame;
+}
+void call(RUNG_HANDLER_PARAMETERS) {
+  uint8_t* const frame = enter(ip, fp, self, m);
+  RUNG_GO(ip + static_cast<int32_t>(ip->d), frame, nullptr);
+}
+void callOnSelf(RUNG_HANDLER_PARAMETERS) {
+  uint8_t* const frame = enter(ip, fp, self, m);
+  RUNG_GO(ip + static_cast<int32_t>(ip->d), frame, self + ip->b);
+}
+void callOnPointer(RUNG_HANDLER_PARAMETERS) {
+  uint8_t* const frame = enter(ip, fp, self, m);
+  RUNG_GO(ip + static_cast<int32_t>(ip->d), frame, load<uint8_t*>(fp + ip->b));
+}
+void giveBack(RUNG_HANDLER_PARAMETERS) {
+  const Linkage caller = *reinterpret_cast<const Linkage*>(fp);
+  RUNG_GO(caller.ip, caller.fp, caller.self);
+}
+void halt(RUNG_HANDLER_PARAMETERS) { m->ip = nullptr; }
+
+void native(RUNG_HANDLER_PARAMETERS) {
+  reinterpret_cast<NativeThunk>(ip->imm)(m->ctx, reinterpret_cast<uint64_t*>(fp + ip->a));
+  RUNG_NEXT;
+}
+
+// The frame of a try is the body's own, so that what it shares with the body is in memory.
+struct Guarded {
+  const Insn* ip;
+  uint8_t *fp, *self;
+  Machine* m;
+};
+[[gnu::noinline]] uint8_t guarded(const Insn* ip, uint8_t* fp, uint8_t* self, Machine* m) {
+  Guarded inside{ip, fp, self, m};
+  return rung_try(
+      m->ctx,
+      [](void* data) {
+        const Guarded& at = *static_cast<Guarded*>(data);
+        execute(at.ip, at.fp, at.self, at.m);
+      },
+      &inside);
+}
+void tryBlock(RUNG_HANDLER_PARAMETERS) {
+  store<uint8_t>(fp + ip->a, guarded(ip + 1, fp, self, m));
+  RUNG_JUMP;
+}
+void rethrow(RUNG_HANDLER_PARAMETERS) {
+  if (load<uint8_t>(fp + ip->a) != 0) {
+    const rung_fault fault = m->ctx->fault;
+    rung_raise(m->ctx, fault.kind, fault.site, fault.value);
+  }
+  RUNG_NEXT;
+}
+void raise(RUNG_HANDLER_PARAMETERS) { fail(m, static_cast<rung_fault_kind>(ip->a), ip->d, load<int64_t>(fp + ip->b)); }
+
+void tick(RUNG_HANDLER_PARAMETERS) {
+  if (--m->budget < 0) fail(m, RUNG_FAULT_STACK, 0, 0);
+  RUNG_NEXT;
+}
+
+// ---- assertions: slots b (expected), b + 8 (actual), b + 16 (tolerance)
+
+template <AssertionKind K>
+void assertion(RUNG_HANDLER_PARAMETERS) {
+  const AssertionPlace& place = *reinterpret_cast<const AssertionPlace*>(ip->imm);
+  const uint8_t* const slots = fp + ip->b;
+  rung_context* const ctx = m->ctx;
+  if constexpr (K == AssertionKind::Truth) {
+    rung_assert(ctx, place.file, place.line, load<uint8_t>(slots) != 0, place.text);
+  } else if constexpr (K == AssertionKind::Equal) {
+    rung_assert_equal(ctx, place.file, place.line, place.kind, load<uint64_t>(slots), load<uint64_t>(slots + 8),
+                      place.text);
+  } else if constexpr (K == AssertionKind::EqualText) {
+    rung_assert_equal_text(ctx, place.file, place.line, load<const char*>(slots), load<const char*>(slots + 8),
+                           place.text);
+  } else if constexpr (K == AssertionKind::EqualWText) {
+    rung_assert_equal_wtext(ctx, place.file, place.line, load<const char16_t*>(slots), load<const char16_t*>(slots + 8),
+                            place.text);
+  } else if constexpr (K == AssertionKind::EqualEnum) {
+    rung_assert_equal_enum(ctx, place.file, place.line, place.items, load<int64_t>(slots), load<int64_t>(slots + 8),
+                           place.text);
+  } else {
+    rung_assert_near(ctx, place.file, place.line, place.kind, load<double>(slots), load<double>(slots + 8),
+                     load<double>(slots + 16), place.text);
+  }
+  RUNG_NEXT;
+}
+
+}  // namespace
+
+void fail(Machine* m, rung_fault_kind kind, uint32_t site, int64_t value) {
+  rung_raise(m->ctx, kind, site == 0 ? RUNG_NONE : site - 1, value);
+}
+
+void execute(const Insn* ip, uint8_t* fp, uint8_t* self, Machine* m) {
+#if RUNG_INTERPRETER_JUMPS
+  ip->run(ip, fp, self, m);
+#else
+  m->ip = ip;
+  m->fp = fp;
+  m->self = self;
+  while (m->ip != nullptr) m->ip->run(m->ip, m->fp, m->self, m);
+#endif
+}
+
+Handler jumpHandler() { return jump; }
+Handler callHandler() { return call; }
+Handler callOnSelfHandler() { return callOnSelf; }
+Handler callOnPointerHandler() { return callOnPointer; }
+Handler returnHandler() { return giveBack; }
+Handler haltHandler() { return halt; }
+Handler nativeHandler() { return native; }
+Handler tryHandler() { return tryBlock; }
+Handler rethrowHandler() { return rethrow; }
+Handler raiseHandler() { return raise; }
+Handler tickHandler() { return tick; }
+Handler assertHandler(AssertionKind kind) {
+  switch (kind) {
+    case AssertionKind::Truth: return assertion<AssertionKind::Truth>;
+    case AssertionKind::Equal: return assertion<AssertionKind::Equal>;
+    case AssertionKind::EqualText: return assertion<AssertionKind::EqualText>;
+    case AssertionKind::EqualWText: return assertion<AssertionKind::EqualWText>;
+    case AssertionKind::EqualEnum: return assertion<AssertionKind::EqualEnum>;
+    case AssertionKind::Near: return assertion<AssertionKind::Near>;
+  }
+  return nullptr;
+}
+
+}  // namespace rung::ir::interpreter

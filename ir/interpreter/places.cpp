@@ -1,0 +1,215 @@
+// Places of the translated code: where variables, fields, elements and bits are. See translate.h.
+#include "ir/builder.h"
+#include "ir/interpreter/translate.h"
+#include "ir/walk.h"
+
+namespace rung::ir::interpreter {
+
+using types::Dimension;
+using types::Field;
+using types::TypeInfo;
+using types::TypeKind;
+using types::TypeTable;
+
+bool BodyTranslator::isImage(ExprId id) const { return expr(rootOf(*body_, id)).kind == ExprKind::Image; }
+
+Address BodyTranslator::shifted(Address a, uint64_t bytes) {
+  if (a.base == Base::Pointer || a.base == Base::Constant) {
+    a.offset += static_cast<uint32_t>(bytes);
+  } else {
+    a.ref.offset += static_cast<uint32_t>(bytes);
+  }
+  return a;
+}
+
+void BodyTranslator::pointerInto(const Address& a, Ref to) {
+  emit(leaHandler(a.base), to, a.ref, {a.offset, false}, 0, a.imm);
+}
+
+Ref BodyTranslator::pointerTo(const Address& a) {
+  if (a.base == Base::Pointer && a.offset == 0) return a.ref;
+  const Ref to = slot();
+  pointerInto(a, to);
+  return to;
+}
+
+Operand BodyTranslator::read(const Address& from, Scalar type, const Operand* want) {
+  if (isDirect(from)) return direct(from);
+  if (from.bit != kNoBit) {
+    const Operand to = want != nullptr && want->mode == Mode::Frame ? *want : temp();
+    const bool is_pointer = from.base == Base::Pointer;
+    const Ref pointer = is_pointer ? from.ref : pointerTo(from);
+    emit(loadBitHandler(), to.ref, pointer, {is_pointer ? from.offset : 0, false}, from.bit);
+    return to;
+  }
+  const bool is_pointer = from.base == Base::Pointer;
+  const Ref pointer = is_pointer ? from.ref : pointerTo(from);
+  const Operand to = target(want);
+  emit(loadHandler(type, to.mode), to.ref, pointer, {is_pointer ? from.offset : 0, false});
+  return to;
+}
+
+void BodyTranslator::write(const Address& to, Scalar type, const Operand& value) {
+  if (isDirect(to)) return move(type, value, direct(to));
+  const bool is_pointer = to.base == Base::Pointer;
+  const Ref pointer = is_pointer ? to.ref : pointerTo(to);
+  const Ref offset{is_pointer ? to.offset : 0, false};
+  if (to.bit != kNoBit) {
+    emit(storeBitHandler(), pointer, offset, inFrame(value, Scalar::Bool).ref, to.bit);
+  } else {
+    emit(storeHandler(type, value.mode), pointer, offset, value.ref, 0, value.imm);
+  }
+}
+
+Address BodyTranslator::fieldMemory(const Expr& e) {
+  const Field& field = info(expr(ExprId{e.a}).type).fields[e.b];
+  return shifted(place(ExprId{e.a}), field.offset);
+}
+
+Address BodyTranslator::place(ExprId id) {
+  const Expr& e = expr(id);
+  switch (e.kind) {
+    case ExprKind::Local: {
+      const Ref at{local_offset_[e.a], false};
+      return {body_->locals[e.a].by_reference ? Base::Pointer : Base::Frame, at, 0, 0, kNoBit};
+    }
+    case ExprKind::Self: return {Base::Self, {}, 0, 0, kNoBit};
+    case ExprKind::Global:
+    case ExprKind::Program: {
+      const uint32_t number = e.kind == ExprKind::Global ? blocks_.list_block[e.a] : blocks_.program_block[e.a];
+      for (const auto& [known, at] : block_slots_) {
+        if (known == number) return {Base::Pointer, at, 0, 0, kNoBit};
+      }
+      return {};
+    }
+    case ExprKind::Image:
+      for (const auto& [known, at] : image_slots_) {
+        if (known == e.a) return {Base::Pointer, at, e.b, 0, e.c};
+      }
+      return {};
+    case ExprKind::Field: {
+      const Field& field = info(expr(ExprId{e.a}).type).fields[e.b];
+      const Address at = fieldMemory(e);
+      if (!field.by_reference) return at;
+      const Operand own = temp();
+      const Operand pointer = inFrame(read(at, Scalar::U64, &own), Scalar::U64);
+      if ((e.checks & kCheckNull) != 0)
+        emit(checkNullHandler(), {RUNG_FAULT_NULL, false}, pointer.ref, {}, site(e.loc));
+      return {Base::Pointer, pointer.ref, 0, 0, kNoBit};
+    }
+    case ExprKind::Index: return indexed(e, e.c);
+    case ExprKind::Deref: {
+      const Operand pointer = inFrame(value(ExprId{e.a}), Scalar::U64);
+      if ((e.checks & (kCheckNull | kCheckCast)) != 0) {
+        const uint32_t kind = (e.checks & kCheckNull) != 0 ? RUNG_FAULT_NULL : RUNG_FAULT_CAST;
+        emit(checkNullHandler(), {kind, false}, pointer.ref, {}, site(e.loc));
+      }
+      return {Base::Pointer, pointer.ref, 0, 0, kNoBit};
+    }
+    case ExprKind::Bits: {  // little-endian: a part is at its own bytes
+      const uint32_t width = TypeTable::bitWidth(types_.plainKind(e.type));
+      const Address base = place(ExprId{e.a});
+      if (width > 1) return shifted(base, uint64_t{e.b} * width / 8);
+      Address at = shifted(base, e.b / 8);
+      at.bit = e.b % 8;
+      return at;
+    }
+    case ExprKind::Data: return {Base::Constant, {}, 0, reinterpret_cast<int64_t>(code_.data_of_module[e.a]), kNoBit};
+    case ExprKind::Zero: {
+      if (isText(e.type)) return text(id);
+      const Ref memory = slot(info(e.type).size, info(e.type).align);
+      emit(clearHandler(Base::Frame), memory, {}, {static_cast<uint32_t>(info(e.type).size), false});
+      return {Base::Frame, memory, 0, 0, kNoBit};
+    }
+    case ExprKind::Select: {
+      const Operand to = temp();
+      const Label otherwise = newLabel(), end = newLabel();
+      branch(ExprId{e.a}, false, otherwise);
+      pointerInto(isText(e.type) ? text(ExprId{e.b}) : place(ExprId{e.b}), to.ref);
+      jump(end);
+      place(otherwise);
+      pointerInto(isText(e.type) ? text(ExprId{e.c}) : place(ExprId{e.c}), to.ref);
+      place(end);
+      return {Base::Pointer, to.ref, 0, 0, kNoBit};
+    }
+    case ExprKind::Text: return literal(e);
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::Unary:
+    case ExprKind::Binary:
+    case ExprKind::Convert:
+    case ExprKind::Call:
+    case ExprKind::Address: break;
+  }
+  if (isText(e.type)) return text(id);
+  return {Base::Frame, inFrame(value(id), scalarOf(id)).ref, 0, 0, kNoBit};
+}
+
+// ---- elements
+
+// Instructions take INT, DINT and LINT; others become LINT.
+Operand BodyTranslator::indexOperand(ExprId id, Scalar& type) {
+  type = scalarOf(id);
+  Operand index = value(id);
+  if (type != Scalar::I16 && type != Scalar::I32 && type != Scalar::I64) {
+    index = wide(index, type);
+    type = Scalar::I64;
+  }
+  return inMemory(index, type);
+}
+
+uint32_t BodyTranslator::indexSite(const Expr& e, const Dimension& dimension) {
+  return (e.checks & kCheckIndex) != 0 ? site(e.loc, dimension.low, dimension.high) : 0;
+}
+
+// The element, or with `count` below the number of dimensions the part of the array at the first indices.
+Address BodyTranslator::indexed(const Expr& e, uint32_t count) {
+  const TypeInfo& array = info(expr(ExprId{e.a}).type);
+  Address at = place(ExprId{e.a});
+  uint64_t stride = info(array.base).size;
+  std::vector<uint64_t> strides(e.c);
+  for (uint32_t i = e.c; i-- > 0;) {
+    strides[i] = stride;
+    stride *= array.dimensions[i].count();
+  }
+  for (uint32_t i = 0; i < count; ++i) {
+    const ExprId operand = body_->operands[e.b + i];
+    const Dimension& dimension = array.dimensions[i];
+    const Expr& index = expr(operand);
+    if (index.kind == ExprKind::Const) {
+      const auto number = static_cast<int64_t>(index.bits());
+      if (number >= dimension.low && number <= dimension.high) {
+        at = shifted(at, static_cast<uint64_t>(number - dimension.low) * strides[i]);
+        continue;
+      }
+    }
+    Scalar type;
+    const Operand number = indexOperand(operand, type);
+    if (at.base == Base::Constant) at = {Base::Pointer, pointerTo(at), 0, 0, kNoBit};
+    const Ref to = slot();
+    emit(elementHandler(type, at.base, number.mode), to, at.ref, number.ref, site(e.loc, dimension.low, dimension.high),
+         static_cast<int64_t>(dimension.count()));
+    emit(haltHandler(), {static_cast<uint32_t>(strides[i]), false}, {at.base == Base::Pointer ? at.offset : 0, false},
+         {}, 0, dimension.low);
+    at = {Base::Pointer, to, 0, 0, kNoBit};
+  }
+  return at;
+}
+
+bool BodyTranslator::element(const Expr& e, Element& out) {
+  if (e.kind != ExprKind::Index || isText(e.type) || isAggregate(e.type)) return false;
+  const Dimension& dimension = info(expr(ExprId{e.a}).type).dimensions[e.c - 1];
+  const ExprId last = body_->operands[e.b + e.c - 1];
+  if (expr(last).kind == ExprKind::Const) return false;
+  if (dimension.low != static_cast<int32_t>(dimension.low) || dimension.count() > UINT32_MAX) return false;
+  out.base = indexed(e, e.c - 1);
+  if (out.base.base == Base::Constant || out.base.offset != 0) {
+    out.base = {Base::Pointer, pointerTo(out.base), 0, 0, kNoBit};
+  }
+  out.index = indexOperand(last, out.index_type);
+  out.range = static_cast<int64_t>(dimension.count() << 32 | static_cast<uint32_t>(dimension.low));
+  out.site = indexSite(e, dimension);
+  return true;
+}
+
+}  // namespace rung::ir::interpreter

@@ -1,0 +1,185 @@
+// A module that the interpreter runs: see program.h.
+#include "ir/interpreter/program.h"
+
+#include <algorithm>
+
+#include "frontend/source/invariant.h"
+#include "ir/description.h"
+#include "ir/interpreter/translate.h"
+
+namespace rung::ir::interpreter {
+
+namespace {
+
+constexpr size_t kStack = size_t{1} << 20;  // of an activation, on top of the largest frame
+
+// The frames of the activation at hand on this thread: made once, so that the cycle allocates nothing.
+struct Stack {
+  std::unique_ptr<uint8_t[]> memory;
+  size_t size = 0;
+};
+thread_local Stack stack;
+
+}  // namespace
+
+struct Program::Parts {
+  rung_module is{};  // first: from a context's module to its program
+  std::string refusal, name;
+  Code code;
+  std::unique_ptr<Description> description;
+  std::vector<rung_task> tasks;
+  std::vector<rung_test> tests;
+  Code::Entry init;
+  std::vector<Code::Entry> of_task, of_test, of_test_init;
+  size_t stack_size = kStack;
+
+  static const Parts& of(const rung_context* ctx) { return *reinterpret_cast<const Parts*>(ctx->module); }
+
+  void run(rung_context* ctx, const Code::Entry& entry) const {
+    if (stack.size < stack_size) {
+      stack.memory = std::make_unique_for_overwrite<uint8_t[]>(stack_size);
+      stack.size = stack_size;
+    }
+    Machine machine;
+    machine.ctx = ctx;
+    uint8_t* const begin = stack.memory.get();
+    machine.limit = begin + stack.size;
+    execute(code.insns.data() + entry.at, begin, nullptr, &machine);
+  }
+
+  static void runInit(rung_context* ctx) { of(ctx).run(ctx, of(ctx).init); }
+  static void runTask(rung_context* ctx) {
+    const Parts& parts = of(ctx);
+    parts.run(ctx, parts.of_task[static_cast<size_t>(static_cast<const rung_task*>(ctx->entry) - parts.tasks.data())]);
+  }
+  static size_t testOf(rung_context* ctx) {
+    return static_cast<size_t>(static_cast<const rung_test*>(ctx->entry) - of(ctx).tests.data());
+  }
+  static void runTestInit(rung_context* ctx) { of(ctx).run(ctx, of(ctx).of_test_init[testOf(ctx)]); }
+  static void runTest(rung_context* ctx) { of(ctx).run(ctx, of(ctx).of_test[testOf(ctx)]); }
+
+  void translate(const Module& module, const MemoryBlocks& blocks, const ProgramOptions& options);
+  void describe();
+};
+
+void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks, const ProgramOptions& options) {
+  using Step = BodyTranslator::Step;
+  TranslateOptions translate_options;
+  translate_options.natives = options.natives;
+  BodyTranslator translator(module, blocks, description->text, translate_options, code);
+  code.bodies.resize(module.bodies.size());
+  translateData(module, code);
+  for (uint32_t i = 1; i < module.bodies.size(); ++i) {
+    if (module.bodies[i].native) continue;
+    const std::string_view body_name = module.names.text(module.bodies[i].name);
+    setPhaseSubject(body_name.data(), body_name.size());
+    translator.translate(BodyId{i});
+  }
+  setPhaseSubject("", 0);
+  const auto runOf = [&](std::vector<Step>& steps, uint32_t p) {
+    const ProgramInstance& program = module.programs[p];
+    if (program.run) {
+      steps.push_back({Step::CallOf, program.run, 0});
+    } else if (program.body) {
+      steps.push_back({Step::CallOn, program.body, blocks.program_block[p]});
+    }
+  };
+
+  std::vector<Step> steps;
+  for (uint32_t i = 0; i < blocks.block_count; ++i) steps.push_back({Step::Clear, {}, i});
+  for (uint32_t i = 0; i < module.lists.size(); ++i) {
+    if (module.lists[i].init) steps.push_back({Step::CallOn, module.lists[i].init, blocks.list_block[i]});
+  }
+  std::vector<uint32_t> order(module.programs.size());
+  for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(),
+            [&](uint32_t a, uint32_t b) { return blocks.program_block[a] < blocks.program_block[b]; });
+  for (uint32_t p : order) {
+    if (module.programs[p].init) steps.push_back({Step::CallOn, module.programs[p].init, blocks.program_block[p]});
+  }
+  for (uint32_t p : order) {
+    if (module.programs[p].setup) steps.push_back({Step::CallOf, module.programs[p].setup, 0});
+  }
+  init = translator.translateSteps(steps);
+
+  for (uint32_t i = 0; i < module.tasks.size(); ++i) {
+    steps.clear();
+    for (uint32_t p = 0; p < module.programs.size(); ++p) {
+      if (module.programs[p].task == i + 1 && module.programs[p].body) runOf(steps, p);
+    }
+    of_task.push_back(translator.translateSteps(steps));
+  }
+  for (const Description::Test& test : description->tests) {
+    steps.clear();
+    std::vector<Step> first;
+    if (test.program == RUNG_NONE) {
+      steps.push_back({Step::CallOf, test.body, 0});
+    } else {
+      const ProgramInstance& program = module.programs[test.program];
+      const uint32_t block = blocks.program_block[test.program];
+      runOf(steps, test.program);
+      first.push_back({Step::Clear, {}, block});
+      if (program.init) first.push_back({Step::CallOn, program.init, block});
+      if (program.setup) first.push_back({Step::CallOf, program.setup, 0});
+    }
+    of_test.push_back(translator.translateSteps(steps));
+    of_test_init.push_back(translator.translateSteps(first));
+  }
+  link(code);
+  for (const Code::Entry& body : code.bodies) stack_size = std::max(stack_size, kStack + 2 * size_t{body.frame});
+  if (!code.missing.empty()) refusal = "the native function `" + code.missing + "` is not part of rung";
+}
+
+void Program::Parts::describe() {
+  const Description& from = *description;
+  tasks = from.tasks;
+  for (rung_task& task : tasks) task.run = runTask;
+  for (const Description::Test& test : from.tests) {
+    tests.push_back(test.row);
+    tests.back().init = runTestInit;
+    tests.back().run = runTest;
+  }
+  if (code.sites.empty()) code.sites.emplace_back();
+  is.abi = RUNG_MODULE_ABI;
+  is.pointer_size = sizeof(void*);
+  is.name = name.c_str();
+  is.compiler = "rung";
+  is.text = from.text.bytes().c_str();
+  is.layout_hash = from.layout_hash;
+  const auto table = [](const auto& rows, auto& to, uint32_t& count) {
+    to = rows.data();
+    count = static_cast<uint32_t>(rows.size());
+  };
+  table(from.blocks, is.blocks, is.block_count);
+  table(tasks, is.tasks, is.task_count);
+  table(from.symbols, is.symbols, is.symbol_count);
+  table(from.types, is.types, is.type_count);
+  table(from.fields, is.fields, is.field_count);
+  table(from.enum_items, is.enum_items, is.enum_item_count);
+  table(from.dimensions, is.dimensions, is.dimension_count);
+  table(from.retain, is.retain, is.retain_count);
+  table(from.persistent, is.persistent, is.persistent_count);
+  table(code.sites, is.sites, is.site_count);
+  table(tests, is.tests, is.test_count);
+  is.init = runInit;
+}
+
+Program::Program(const Module& module, const ProgramOptions& options) : parts_(std::make_unique<Parts>()) {
+  Parts& parts = *parts_;
+  if (module.types.pointerSize() != sizeof(void*)) {
+    parts.refusal = "it is made for another pointer size";
+    return;
+  }
+  const MemoryBlocks blocks(module);
+  parts.name = options.module_name;
+  parts.description = std::make_unique<Description>(module, blocks, options.with_tests);
+  parts.translate(module, blocks, options);
+  for (uint32_t area = 0; area < 3; ++area) parts.is.image_bytes[area] = module.image_bytes[area];
+  parts.describe();
+}
+
+Program::~Program() = default;
+const std::string& Program::refusal() const { return parts_->refusal; }
+const rung_module& Program::description() const { return parts_->is; }
+
+}  // namespace rung::ir::interpreter

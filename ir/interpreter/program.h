@@ -1,0 +1,38 @@
+// A module that the interpreter runs, as its host sees it: the interface of rung/module.h that a compiled project has,
+// so that scheduler, image, traces, forcing, retained data, faults and tests are the same. In: a verified module after
+// its passes. Out: a description whose functions interpret. Called by the tool; the IR may go once it is made.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "ir/interpreter/code.h"
+#include "ir/ir.h"
+#include "rung/module.h"
+
+namespace rung::ir::interpreter {
+
+struct ProgramOptions {
+  std::string module_name = "plc";
+  bool with_tests = false;
+  std::span<const Native> natives;  // sorted by name
+};
+
+class Program {
+ public:
+  Program(const Module& module, const ProgramOptions& options);
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  // Why it cannot be interpreted: `the native function NAME is not part of rung`; empty: it can.
+  const std::string& refusal() const;
+  const rung_module& description() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace rung::ir::interpreter

@@ -1,0 +1,426 @@
+// Statements of the translated code: see translate.h.
+#include <algorithm>
+
+#include "ir/interpreter/translate.h"
+#include "ir/walk.h"
+#include "rung/code.h"
+
+namespace rung::ir::interpreter {
+
+using types::TypeInfo;
+using types::TypeKind;
+using types::TypeTable;
+
+namespace {
+
+constexpr uint64_t kLargestTable = 1024;  // entries of a switch that is a table
+
+}  // namespace
+
+void BodyTranslator::block(StmtId first) {
+  for (StmtId id = first; id; id = body_->stmt(id).next) {
+    const uint32_t before = top_;
+    statement(body_->stmt(id));
+    top_ = before;
+  }
+}
+
+void BodyTranslator::statement(const Stmt& stmt) {
+  switch (stmt.kind) {
+    case StmtKind::None: return;
+    case StmtKind::Assign: return assign(stmt);
+    case StmtKind::Bind: {
+      const Expr& field = expr(ExprId{stmt.a});
+      const Address to = fieldMemory(field);
+      const Address variable = isText(field.type) ? text(ExprId{stmt.b}) : place(ExprId{stmt.b});
+      return write(to, Scalar::U64, {Mode::Frame, pointerTo(variable), 0});
+    }
+    case StmtKind::Call: return callStatement(stmt);
+    case StmtKind::If: {
+      const Label otherwise = newLabel();
+      branch(ExprId{stmt.a}, false, otherwise);
+      block(StmtId{stmt.b});
+      if (stmt.c == 0) return place(otherwise);
+      const Label end = newLabel();
+      jump(end);
+      place(otherwise);
+      block(StmtId{stmt.c});
+      return place(end);
+    }
+    case StmtKind::Switch: return switchStatement(stmt);
+    case StmtKind::Loop: return loopStatement(stmt);
+    case StmtKind::For: return forStatement(stmt);
+    case StmtKind::Break:
+      if (!loops_.empty()) leaveTo(loops_.back().on_break, loops_.back().try_depth);
+      return;
+    case StmtKind::Continue:
+      if (!loops_.empty()) leaveTo(loops_.back().on_continue, loops_.back().try_depth);
+      return;
+    case StmtKind::Return: return leaveTo(return_label_, 0);
+    case StmtKind::Jump: return leaveTo(user_labels_[stmt.a].label, user_labels_[stmt.a].try_depth);
+    case StmtKind::Label:
+      place(user_labels_[stmt.a].label);
+      if (options_.bounded) emit(tickHandler());
+      return;
+    case StmtKind::Try: return tryStatement(stmt);
+    case StmtKind::Fault: {
+      Operand value = temp();
+      if (stmt.a != 0) {
+        value = wideBits(ExprId{stmt.a});
+      } else {
+        move(Scalar::U64, {}, value);
+      }
+      emit(raiseHandler(), {stmt.op, false}, value.ref, {}, site(stmt.loc));
+      return;
+    }
+    case StmtKind::Assert: return assertStatement(stmt);
+    case StmtKind::Evaluate: {
+      const TypeId type = expr(ExprId{stmt.a}).type;
+      if (isText(type)) {
+        text(ExprId{stmt.a});
+      } else if (isAggregate(type)) {
+        place(ExprId{stmt.a});
+      } else {
+        value(ExprId{stmt.a});
+      }
+      return;
+    }
+  }
+}
+
+// ---- assignments
+
+void BodyTranslator::copyAggregate(const Address& to, const Address& from, uint64_t size) {
+  const auto base = [&](const Address& a) -> Address {
+    if (a.base == Base::Frame || a.base == Base::Self || (a.base == Base::Constant && a.offset == 0)) return a;
+    return {Base::Pointer, pointerTo(a), 0, 0, kNoBit};
+  };
+  const Address a = base(to), b = base(from);
+  emit(copyHandler(a.base, b.base), a.ref, b.ref, {static_cast<uint32_t>(size), false}, 0, b.imm);
+}
+
+void BodyTranslator::assign(const Stmt& stmt) {
+  const ExprId to{stmt.a}, from{stmt.b};
+  const TypeId type = expr(to).type;
+  if (isText(type)) {
+    const Address at = place(to);
+    return assignText(at, capacityOf(type), isWide(type), from);
+  }
+  if (isAggregate(type)) {
+    const Address at = place(to);
+    const auto size = static_cast<uint32_t>(info(type).size);
+    if (expr(from).kind == ExprKind::Zero) {
+      const Address base = at.base == Base::Pointer ? Address{Base::Pointer, pointerTo(at), 0, 0, kNoBit} : at;
+      emit(clearHandler(base.base), base.ref, {}, {size, false});
+      return;
+    }
+    return copyAggregate(at, place(from), size);
+  }
+  const Scalar scalar = scalarOf(to);
+  // The checks of the place come first.
+  Element element_at;
+  if (expr(to).kind == ExprKind::Index && !mayFault(from) && !contains(from, ExprKind::Call) &&
+      element(expr(to), element_at)) {
+    const Operand made = inMemory(value(from), scalar);
+    emit(storeElementHandler(scalar, element_at.index_type, element_at.base.base, element_at.index.mode, made.mode),
+         made.ref, element_at.base.ref, element_at.index.ref, element_at.site, element_at.range);
+    return;
+  }
+  const Address at = place(to);
+  if (isDirect(at)) return valueInto(from, direct(at));
+  write(at, scalar, value(from));
+}
+
+// ---- branches
+
+void BodyTranslator::switchStatement(const Stmt& stmt) {
+  const ExprId selector{stmt.a};
+  const Scalar type = scalarOf(selector);
+  const Operand value_of = inMemory(value(selector), type);
+  const Label otherwise = newLabel(), end = newLabel();
+  const uint64_t flip = isSigned(type) ? uint64_t{1} << 63 : 0;
+  struct Row {
+    uint64_t low, high;
+    Label label;
+  };
+  std::vector<Row> rows;
+  std::vector<Label> labels;
+  for (uint32_t i = 0; i < stmt.c; ++i) {
+    const Case& one = body_->cases[stmt.b + i];
+    labels.push_back(newLabel());
+    for (uint32_t r = 0; r < one.range_count; ++r) {
+      const CaseRange& range = body_->ranges[one.first_range + r];
+      rows.push_back(
+          {static_cast<uint64_t>(range.low) ^ flip, static_cast<uint64_t>(range.high) ^ flip, labels.back()});
+    }
+  }
+  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.low < b.low; });
+  if (!rows.empty() && rows.back().high - rows.front().low < kLargestTable) {
+    const uint64_t first = rows.front().low;
+    code_.tables.emplace_back(rows.back().high - first + 1);
+    std::vector<int32_t>& table = code_.tables.back();
+    const uint32_t insn =
+        emit(switchHandler(type, value_of.mode), value_of.ref, {}, {static_cast<uint32_t>(table.size()), false}, 0,
+             reinterpret_cast<int64_t>(table.data()));
+    emit(haltHandler(), {}, {}, {}, 0, static_cast<int64_t>(first ^ flip));
+    jumpTo(insn, otherwise);
+    for (int32_t& to : table) to = -1;
+    for (const Row& row : rows) {
+      for (uint64_t at = row.low - first; at <= row.high - first; ++at) {
+        if (table[at] != -1) continue;
+        table[at] = 0;
+        table_jumps_.push_back({&table[at], insn, row.label});
+      }
+    }
+    for (int32_t& to : table) {
+      if (to == -1) table_jumps_.push_back({&to, insn, otherwise});
+    }
+  } else {
+    code_.ranges.emplace_back(rows.size());
+    std::vector<SwitchRange>& ranges = code_.ranges.back();
+    const uint32_t insn =
+        emit(switchRangesHandler(type, value_of.mode), value_of.ref, {}, {static_cast<uint32_t>(rows.size()), false}, 0,
+             reinterpret_cast<int64_t>(ranges.data()));
+    jumpTo(insn, otherwise);
+    for (size_t i = 0; i < rows.size(); ++i) {
+      ranges[i] = {rows[i].low, rows[i].high, 0};
+      table_jumps_.push_back({&ranges[i].to, insn, rows[i].label});
+    }
+  }
+  for (uint32_t i = 0; i < stmt.c; ++i) {
+    place(labels[i]);
+    block(body_->cases[stmt.b + i].block);
+    jump(end);
+  }
+  place(otherwise);
+  block(StmtId{stmt.d});
+  place(end);
+}
+
+// ---- loops
+
+// `if condition { break }`
+bool BodyTranslator::isExitTest(StmtId id) const {
+  if (!id) return false;
+  const Stmt& stmt = body_->stmt(id);
+  if (stmt.kind != StmtKind::If || stmt.c != 0 || stmt.b == 0) return false;
+  const Stmt& inner = body_->stmt(StmtId{stmt.b});
+  return inner.kind == StmtKind::Break && !inner.next;
+}
+
+// The test of a WHILE stands behind its body, so that a turn takes one branch.
+void BodyTranslator::loopStatement(const Stmt& stmt) {
+  const auto depth = static_cast<uint32_t>(tries_.size());
+  const Label turn = newLabel(), on_continue = newLabel(), end = newLabel();
+  loops_.push_back({end, on_continue, depth});
+  StmtId first{stmt.a};
+  const StmtId next{stmt.b};
+  const bool tests_first = !next && isExitTest(first);
+  const StmtId test = first;
+  if (tests_first) {
+    first = body_->stmt(first).next;
+    jump(on_continue);
+  }
+  place(turn);
+  if (options_.bounded) emit(tickHandler());
+  block(first);
+  place(on_continue);
+  if (tests_first) {
+    branch(ExprId{body_->stmt(test).a}, false, turn);
+  } else if (next && isExitTest(next) && !body_->stmt(next).next) {  // REPEAT
+    branch(ExprId{body_->stmt(next).a}, false, turn);
+  } else {
+    block(next);
+    jump(turn);
+  }
+  place(end);
+  loops_.pop_back();
+}
+
+void BodyTranslator::forStatement(const Stmt& stmt) {
+  const auto depth = static_cast<uint32_t>(tries_.size());
+  const ExprId control{stmt.a}, from{stmt.b}, to{stmt.c};
+  const Scalar type = scalarOf(control);
+  const auto step = static_cast<int64_t>(expr(ExprId{stmt.d}).bits());
+  const bool up = step > 0;
+  const Label turn = newLabel(), on_continue = newLabel(), end = newLabel();
+
+  const Address at = place(control);
+  const Operand begin = temp(), limit = temp();
+  const bool is_direct = isDirect(at);
+  const bool is_constant = expr(from).kind == ExprKind::Const;
+  if (!is_constant) valueInto(from, begin);
+  valueInto(to, limit);
+  const Operand first = is_constant ? constant(expr(from)) : begin;
+  write(at, type, first);
+  const Operand tested = is_constant ? inFrame(first, type) : begin;
+  const bool enters =
+      is_constant && expr(to).kind == ExprKind::Const &&
+      (isSigned(type) ? (up ? static_cast<int64_t>(expr(from).bits()) <= static_cast<int64_t>(expr(to).bits())
+                            : static_cast<int64_t>(expr(from).bits()) >= static_cast<int64_t>(expr(to).bits()))
+                      : (up ? expr(from).bits() <= expr(to).bits() : expr(from).bits() >= expr(to).bits()));
+  if (!enters) {
+    jumpTo(emit(branchHandler(up ? Op::Le : Op::Ge, type, Mode::Frame, Mode::Frame, false), tested.ref, limit.ref),
+           end);
+  }
+  loops_.push_back({end, on_continue, depth});
+  place(turn);
+  if (options_.bounded) emit(tickHandler());
+  block(StmtId{stmt.e});
+  place(on_continue);
+  if (is_direct) {
+    const Operand counter = direct(at);
+    jumpTo(emit(forHandler(type, up, counter.mode), counter.ref, limit.ref, {}, 0, step), turn);
+  } else {
+    const Operand counter = temp(), more = temp();
+    const Address again = place(control);
+    move(type, read(again, type, &counter), counter);
+    emit(forFlagHandler(type, up), counter.ref, limit.ref, more.ref, 0, step);
+    write(again, type, counter);
+    jumpTo(emit(branchTruthHandler(Mode::Frame, true), more.ref), turn);
+  }
+  place(end);
+  loops_.pop_back();
+}
+
+// ---- try
+
+void BodyTranslator::noteLabels(StmtId first, uint32_t depth) {
+  for (StmtId id = first; id; id = body_->stmt(id).next) {
+    const Stmt& stmt = body_->stmt(id);
+    if (stmt.kind == StmtKind::Label) user_labels_[stmt.a].try_depth = depth;
+    const bool guards = stmt.kind == StmtKind::Try;
+    uint32_t part = 0;
+    forEachBlock(*body_, stmt, [&](const uint32_t& inner) {
+      const bool guarded = guards && (part == 0 || (part == 1 && stmt.c != 0));
+      noteLabels(StmtId{inner}, depth + (guarded ? 1 : 0));
+      ++part;
+    });
+  }
+}
+
+// Out of the blocks of a try control goes in steps: each notes where to, and its Halt ends the guarded run.
+void BodyTranslator::leaveTo(Label label, uint32_t try_depth) {
+  if (tries_.size() <= try_depth) return jump(label);
+  Try& inside = tries_.back();
+  inside.exits.push_back({label, try_depth});
+  move(Scalar::U32, {Mode::Constant, {}, static_cast<int64_t>(inside.exits.size())}, inside.exit);
+  emit(haltHandler());
+}
+
+void BodyTranslator::tryStatement(const Stmt& stmt) {
+  const Operand fault = temp(), exit = temp();
+  const bool has_catch = stmt.b != 0, has_finally = stmt.c != 0;
+  move(Scalar::U64, {}, exit);
+  const auto guarded = [&](StmtId first) {
+    const Label after = newLabel();
+    tries_.push_back({exit, {}});
+    jumpTo(emit(tryHandler(), fault.ref), after);
+    block(first);
+    emit(haltHandler());
+    place(after);
+    std::vector<Exit> exits = std::move(tries_.back().exits);
+    tries_.pop_back();
+    return exits;
+  };
+  std::vector<Exit> exits = guarded(StmtId{stmt.a});
+  if (has_catch) {
+    const Label good = newLabel();
+    jumpTo(emit(branchHandler(Op::Eq, Scalar::U8, Mode::Frame, Mode::Constant, true), fault.ref), good);
+    if (stmt.d != 0) {
+      const Scalar type = scalarOf(ExprId{stmt.d});
+      const Operand number = converted(fault, Scalar::U8, type, nullptr);
+      write(place(ExprId{stmt.d}), type, number);
+    }
+    if (has_finally) {
+      // The numbers of its exits go on behind those of the body.
+      tries_.push_back({exit, exits});
+      const Label after = newLabel();
+      jumpTo(emit(tryHandler(), fault.ref), after);
+      block(StmtId{stmt.b});
+      emit(haltHandler());
+      place(after);
+      exits = std::move(tries_.back().exits);
+      tries_.pop_back();
+    } else {
+      block(StmtId{stmt.b});
+    }
+    place(good);
+  }
+  if (has_finally) block(StmtId{stmt.c});
+  if (!has_catch || has_finally) emit(rethrowHandler(), fault.ref);
+  for (size_t i = 0; i < exits.size(); ++i) {
+    const Label other = newLabel();
+    jumpTo(emit(branchHandler(Op::Eq, Scalar::U32, Mode::Frame, Mode::Constant, false), exit.ref, {}, {}, 0,
+                static_cast<int64_t>(i + 1)),
+           other);
+    leaveTo(exits[i].to, exits[i].try_depth);
+    place(other);
+  }
+}
+
+// ---- tests
+
+void BodyTranslator::assertStatement(const Stmt& stmt) {
+  const SourcePlace where = sourcePlace(module_, *body_, stmt.loc);
+  AssertionPlace made{};
+  code_.texts.emplace_back(where.path);
+  made.file = code_.texts.back().c_str();
+  made.line = where.line;
+  if (stmt.d != 0) {
+    code_.texts.emplace_back(module_.names.text(NameId{stmt.d}));
+    made.text = code_.texts.back().c_str();
+  }
+  const ExprId expected{stmt.a}, actual{stmt.b};
+  const Ref slots = slot(24);
+  const auto put = [&](const Operand& from, Scalar type, uint32_t number) {
+    move(type, from, {Mode::Frame, {slots.offset + 8 * number, false}, 0});
+  };
+  AssertionKind kind = AssertionKind::Truth;
+  switch (static_cast<Assertion>(stmt.op)) {
+    case Assertion::Assert: put(value(expected), Scalar::Bool, 0); break;
+    case Assertion::AssertNear: {
+      kind = AssertionKind::Near;
+      made.kind = static_cast<uint8_t>(hostKind(types_, expr(actual).type));
+      uint32_t number = 0;
+      for (ExprId id : {expected, actual, ExprId{stmt.c}}) {
+        put(converted(value(id), scalarOf(id), Scalar::F64, nullptr), Scalar::F64, number++);
+      }
+      break;
+    }
+    case Assertion::AssertEq: {
+      const TypeId type = expr(actual).type;
+      const TypeInfo& of = info(type);
+      if (isText(type)) {
+        kind = isWide(type) ? AssertionKind::EqualWText : AssertionKind::EqualText;
+        pointerInto(text(expected), slots);
+        pointerInto(text(actual), {slots.offset + 8, false});
+      } else if (isAggregate(type)) {
+        const Ref a = pointerTo(place(expected)), b = pointerTo(place(actual));
+        emit(compareMemoryHandler(), slots, a, {static_cast<uint32_t>(of.size), false}, b.offset);
+      } else {
+        kind = AssertionKind::Equal;
+        made.kind = static_cast<uint8_t>(hostKind(types_, type));
+        if (of.kind == TypeKind::Enum) {
+          kind = AssertionKind::EqualEnum;
+          std::string items;
+          for (const auto& [name, item] : of.items) {
+            items += module_.names.text(name);
+            items += '\0';
+            items += std::to_string(item);
+            items += '\0';
+          }
+          code_.texts.push_back(std::move(items));
+          made.items = code_.texts.back().data();
+        }
+        put(wideBits(expected), Scalar::U64, 0);
+        put(wideBits(actual), Scalar::U64, 1);
+      }
+      break;
+    }
+  }
+  code_.assertions.push_back(made);
+  emit(assertHandler(kind), {}, slots, {}, 0, reinterpret_cast<int64_t>(&code_.assertions.back()));
+}
+
+}  // namespace rung::ir::interpreter

@@ -1,0 +1,142 @@
+// Texts of the translated code: in place, NUL-terminated, cut to the capacity of what they are assigned to. See
+// translate.h.
+#include <algorithm>
+#include <cstring>
+
+#include "ir/interpreter/translate.h"
+
+namespace rung::ir::interpreter {
+
+using types::TypeKind;
+using types::TypeTable;
+
+namespace {
+
+std::u16string utf16(std::string_view text) {
+  std::u16string out;
+  const auto byte = [&](size_t i) -> uint32_t { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  for (size_t at = 0; at < text.size();) {
+    const uint32_t lead = byte(at);
+    uint32_t point = lead;
+    if (lead >= 0xf0) {
+      point = (lead & 7) << 18 | (byte(at + 1) & 63) << 12 | (byte(at + 2) & 63) << 6 | (byte(at + 3) & 63);
+      at += 4;
+    } else if (lead >= 0xe0) {
+      point = (lead & 15) << 12 | (byte(at + 1) & 63) << 6 | (byte(at + 2) & 63);
+      at += 3;
+    } else if (lead >= 0xc0) {
+      point = (lead & 31) << 6 | (byte(at + 1) & 63);
+      at += 2;
+    } else {
+      at += 1;
+    }
+    if (point < 0x10000) {
+      out += static_cast<char16_t>(point);
+    } else {
+      out += static_cast<char16_t>(0xd800 + ((point - 0x10000) >> 10));
+      out += static_cast<char16_t>(0xdc00 + ((point - 0x10000) & 0x3ff));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Address BodyTranslator::literal(const Expr& e) {
+  const std::string_view characters = module_.names.text(NameId{e.a});
+  if (isWide(e.type)) {
+    code_.wide_texts.push_back(utf16(characters));
+    return {Base::Constant, {}, 0, reinterpret_cast<int64_t>(code_.wide_texts.back().c_str()), kNoBit};
+  }
+  code_.texts.emplace_back(characters);
+  return {Base::Constant, {}, 0, reinterpret_cast<int64_t>(code_.texts.back().c_str()), kNoBit};
+}
+
+Address BodyTranslator::textBuffer(TypeId type) {
+  return {Base::Frame, slot(info(type).size, info(type).align), 0, 0, kNoBit};
+}
+
+// Where the characters of a text value are: read without a copy where they are in memory.
+Address BodyTranslator::text(ExprId id) {
+  const Expr& e = expr(id);
+  switch (e.kind) {
+    case ExprKind::Text: return literal(e);
+    case ExprKind::Zero: {
+      static constexpr char16_t kEmpty[] = u"";
+      return {Base::Constant, {}, 0, reinterpret_cast<int64_t>(kEmpty), kNoBit};
+    }
+    case ExprKind::Convert: {
+      const Address to = textBuffer(e.type);
+      assignText(to, capacityOf(e.type), isWide(e.type), id);
+      return to;
+    }
+    case ExprKind::Call: return callText(e);
+    case ExprKind::Binary: {  // MIN, MAX
+      const Ref a = pointerTo(text(ExprId{e.a})), b = pointerTo(text(ExprId{e.b}));
+      const Operand order = temp(), takes_first = temp(), to = temp();
+      emit(compareTextHandler(isWide(e.type), Base::Pointer, Base::Pointer), order.ref, a, b);
+      emit(compareHandler(e.op == Op::Min ? Op::Lt : Op::Ge, Scalar::I32, Mode::Frame, Mode::Constant, Mode::Frame),
+           takes_first.ref, order.ref);
+      emit(selectHandler(Scalar::U64), to.ref, a, b, takes_first.ref.offset);
+      return {Base::Pointer, to.ref, 0, 0, kNoBit};
+    }
+    case ExprKind::Data:
+    case ExprKind::Select:
+    case ExprKind::Local:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program:
+    case ExprKind::Image:
+    case ExprKind::Field:
+    case ExprKind::Index:
+    case ExprKind::Deref:
+    case ExprKind::Bits:
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::Unary:
+    case ExprKind::Address: break;
+  }
+  return place(id);
+}
+
+void BodyTranslator::copyText(const Address& to, uint32_t capacity, bool wide, const Address& from, bool from_wide) {
+  const auto base = [&](const Address& a) -> Address {
+    if (a.base != Base::Pointer || a.offset == 0) return a;
+    return {Base::Pointer, pointerTo(a), 0, 0, kNoBit};
+  };
+  const Address a = base(to), b = base(from);
+  emit(assignTextHandler(wide, from_wide, a.base, b.base), a.ref, b.ref, {capacity, false}, 0, b.imm);
+}
+
+void BodyTranslator::assignText(const Address& to, uint32_t capacity, bool wide, ExprId from) {
+  const Expr& e = expr(from);
+  if (e.kind == ExprKind::Convert && isWide(e.type) == wide) {
+    const uint32_t limit = std::min(capacity, capacityOf(e.type));
+    const ExprId inner{e.a};
+    if (isText(expr(inner).type)) return assignText(to, limit, wide, inner);
+    const Operand bits = wideBits(inner);
+    emit(textOfScalarHandler(wide), pointerTo(to), bits.ref, {limit, false},
+         static_cast<uint32_t>(hostKind(types_, expr(inner).type)));
+    return;
+  }
+  if (e.kind == ExprKind::Convert) {  // of another width: its own text first
+    const Address made = textBuffer(e.type);
+    assignText(made, capacityOf(e.type), isWide(e.type), from);
+    return copyText(to, capacity, wide, made, isWide(e.type));
+  }
+  copyText(to, capacity, wide, text(from), isWide(e.type));
+}
+
+Operand BodyTranslator::textOrder(ExprId left, ExprId right) {
+  const auto base = [&](Address a, bool may_be_constant) -> Address {
+    const bool simple = a.base == Base::Constant ? may_be_constant : a.base != Base::Pointer || a.offset == 0;
+    if (simple) return a;
+    return {Base::Pointer, pointerTo(a), 0, 0, kNoBit};
+  };
+  const Address a = base(text(left), false), b = base(text(right), true);
+  const Operand order = temp();
+  emit(compareTextHandler(isWide(expr(left).type), a.base, b.base), order.ref, a.ref, b.ref, 0, b.imm);
+  return order;
+}
+
+}  // namespace rung::ir::interpreter

@@ -1,0 +1,226 @@
+// Instructions, labels and frames of a body: see translate.h.
+#include "ir/interpreter/translate.h"
+
+#include <algorithm>
+
+#include "frontend/source/invariant.h"
+#include "ir/walk.h"
+
+namespace rung::ir::interpreter {
+
+using types::TypeKind;
+using types::TypeTable;
+
+namespace {
+
+constexpr uint32_t kNowhere = ~0u;
+
+uint32_t alignUp(uint64_t value, uint32_t align) { return static_cast<uint32_t>((value + align - 1) / align * align); }
+
+bool isParameter(LocalKind kind) {
+  return kind == LocalKind::Input || kind == LocalKind::Output || kind == LocalKind::InOut;
+}
+
+}  // namespace
+
+// ---- instructions and labels
+
+uint32_t BodyTranslator::emit(Handler run, Ref a, Ref b, Ref c, uint32_t d, int64_t imm) {
+  RUNG_INVARIANT(run != nullptr, "an instruction for these operands exists");
+  const auto at = static_cast<uint32_t>(code_.insns.size());
+  code_.insns.push_back({run, a.offset, b.offset, c.offset, d, imm});
+  if (a.outgoing) outgoing_.push_back({at, 0});
+  if (b.outgoing) outgoing_.push_back({at, 1});
+  if (c.outgoing) outgoing_.push_back({at, 2});
+  return at;
+}
+
+BodyTranslator::Label BodyTranslator::newLabel() {
+  labels_.push_back(kNowhere);
+  return static_cast<Label>(labels_.size() - 1);
+}
+
+void BodyTranslator::place(Label label) { labels_[label] = static_cast<uint32_t>(code_.insns.size()); }
+
+void BodyTranslator::jump(Label label) { jumpTo(emit(jumpHandler()), label); }
+
+// ---- the frame
+
+Ref BodyTranslator::slot(uint64_t size, uint32_t align) {
+  const uint32_t at = alignUp(top_, std::max(align, 8u));
+  top_ = at + static_cast<uint32_t>(size);
+  frame_ = std::max(frame_, top_);
+  return {at, false};
+}
+
+void BodyTranslator::begin() {
+  local_offset_.clear();
+  block_slots_.clear();
+  image_slots_.clear();
+  outgoing_.clear();
+  labels_.clear();
+  jumps_.clear();
+  table_jumps_.clear();
+  loops_.clear();
+  tries_.clear();
+  user_labels_.clear();
+  top_ = frame_ = kFrameHeader;
+  native_slots_ = 0;
+}
+
+void BodyTranslator::layOutLocals() {
+  local_offset_.resize(body_->locals.size());
+  for (size_t i = 0; i < body_->locals.size(); ++i) {
+    if (isParameter(body_->locals[i].kind)) local_offset_[i] = slot().offset;
+  }
+  result_slot_ = slot();
+  for (size_t i = 0; i < body_->locals.size(); ++i) {
+    const Local& local = body_->locals[i];
+    if (isParameter(local.kind)) continue;
+    if (local.kind == LocalKind::Result) {
+      local_offset_[i] = result_slot_.offset;
+    } else {
+      local_offset_[i] = slot(info(local.type).size, info(local.type).align).offset;
+    }
+  }
+}
+
+// The addresses of the blocks and images that the body uses, in slots from the start.
+void BodyTranslator::loadBases() {
+  const auto note = [&](std::vector<std::pair<uint32_t, Ref>>& slots, uint32_t number, Handler run) {
+    for (const auto& known : slots) {
+      if (known.first == number) return;
+    }
+    slots.push_back({number, slot()});
+    emit(run, slots.back().second, {number, false});
+  };
+  forEachStmt(*body_, body_->first, [&](StmtId id) {
+    forEachRoot(module_, *body_, body_->stmt(id), [&](const uint32_t& root, Use) {
+      forEachExpr(*body_, ExprId{root}, [&](ExprId at) {
+        const Expr& e = expr(at);
+        if (e.kind == ExprKind::Global) note(block_slots_, blocks_.list_block[e.a], blockHandler());
+        if (e.kind == ExprKind::Program) note(block_slots_, blocks_.program_block[e.a], blockHandler());
+        if (e.kind == ExprKind::Image) note(image_slots_, e.a, imageHandler());
+      });
+    });
+  });
+}
+
+// Scalar variables begin as 0 where the first statements do not set them.
+void BodyTranslator::clearVariables() {
+  std::vector<bool> is_set(body_->locals.size());
+  for (StmtId id = body_->first; id; id = body_->stmt(id).next) {
+    const Stmt& stmt = body_->stmt(id);
+    if (stmt.kind != StmtKind::Assign) break;
+    bool reads_unset = false;
+    const auto note = [&](ExprId at) {
+      if (expr(at).kind == ExprKind::Local && !is_set[expr(at).a]) {
+        const Local& local = body_->locals[expr(at).a];
+        reads_unset = reads_unset || local.kind == LocalKind::Variable || local.kind == LocalKind::Result;
+      }
+    };
+    const bool sets = expr(ExprId{stmt.a}).kind == ExprKind::Local;
+    forEachExpr(*body_, ExprId{stmt.b}, note);
+    if (!sets) forEachExpr(*body_, ExprId{stmt.a}, note);
+    if (reads_unset) break;
+    if (sets) is_set[expr(ExprId{stmt.a}).a] = true;
+  }
+  for (size_t i = 0; i < body_->locals.size(); ++i) {
+    const Local& local = body_->locals[i];
+    if (is_set[i] || local.by_reference || isAggregate(local.type) || isText(local.type)) continue;
+    if (local.kind != LocalKind::Variable && local.kind != LocalKind::Result) continue;
+    emit(moveHandler(Scalar::U64, Mode::Constant, Mode::Frame), {local_offset_[i], false});
+  }
+}
+
+uint32_t BodyTranslator::site(Loc loc, int64_t low, int64_t high) {
+  const SourcePlace at = sourcePlace(module_, *body_, loc);
+  const NameId pou = body_->spelling ? body_->spelling : body_->name;
+  code_.sites.push_back({pool_.add(module_.names.text(pou)), pool_.add(at.path), at.line, at.column, low, high});
+  return static_cast<uint32_t>(code_.sites.size());
+}
+
+void BodyTranslator::translate(BodyId id) {
+  body_ = &module_.body(id);
+  const auto first = static_cast<uint32_t>(code_.insns.size());
+  begin();
+  layOutLocals();
+  return_label_ = newLabel();
+  for (size_t i = 0; i < body_->labels.size(); ++i) user_labels_.push_back({newLabel(), 0});
+  if (body_->has_labels) noteLabels(body_->first, 0);
+  if (options_.bounded) emit(tickHandler());
+  loadBases();
+  clearVariables();
+  block(body_->first);
+  place(return_label_);
+  emit(returnHandler());
+  code_.bodies[id.index] = finish(first);
+}
+
+Code::Entry BodyTranslator::translateSteps(std::span<const Step> steps) {
+  static const Body kNone;
+  body_ = &kNone;
+  const auto first = static_cast<uint32_t>(code_.insns.size());
+  begin();
+  const Ref instance = slot();
+  const Address self{Base::Pointer, instance, 0, 0, kNoBit};
+  for (const Step& step : steps) {
+    if (step.kind != Step::CallOf) emit(blockHandler(), instance, {step.block, false});
+    if (step.kind == Step::Clear) {
+      emit(clearHandler(Base::Pointer), instance, {},
+           {static_cast<uint32_t>(info(blocks_.blocks[step.block].record).size), false});
+    } else if (step.kind == Step::CallOn) {
+      emitCall(step.body, &self, 0);
+    } else {
+      // A test that is a function: its parameters are zero, its results dropped.
+      const Body& callee = module_.body(step.body);
+      uint32_t at = kFrameHeader;
+      const uint32_t before = top_;
+      for (const Local& local : callee.locals) {
+        if (!isParameter(local.kind) && !(local.kind == LocalKind::Result && local.by_reference)) continue;
+        const uint32_t to = at;
+        if (local.kind != LocalKind::Result) at += 8;
+        if (local.by_reference) {
+          const Ref memory = slot(info(local.type).size, info(local.type).align);
+          emit(clearHandler(Base::Frame), memory, {}, {static_cast<uint32_t>(info(local.type).size), false});
+          pointerInto({Base::Frame, memory, 0, 0, kNoBit}, {to, true});
+        } else {
+          emit(moveHandler(Scalar::U64, Mode::Constant, Mode::Frame), {to, true});
+        }
+      }
+      emitCall(step.body, nullptr, 0);
+      top_ = before;
+    }
+  }
+  emit(haltHandler());
+  return finish(first);
+}
+
+// Now that the frame has its size: where outgoing arguments are, and where jumps go.
+Code::Entry BodyTranslator::finish(uint32_t first) {
+  const uint32_t size = alignUp(frame_, kFrameAlign);
+  for (const Outgoing& out : outgoing_) {
+    Insn& insn = code_.insns[out.insn];
+    (out.field == 0 ? insn.a : out.field == 1 ? insn.b : insn.c) += size;
+  }
+  for (const auto& [insn, label] : jumps_) code_.insns[insn].d = labels_[label] - insn;
+  for (const TableJump& jump : table_jumps_) *jump.to = static_cast<int32_t>(labels_[jump.label] - jump.insn);
+  return {first, size + native_slots_ + kFrameHeader};
+}
+
+void translateData(const Module& module, Code& code) {
+  for (const Data& data : module.data) {
+    code.data.emplace_back((data.bytes.size() + 8) / 8);
+    std::copy(data.bytes.begin(), data.bytes.end(), reinterpret_cast<uint8_t*>(code.data.back().data()));
+    code.data_of_module.push_back(code.data.back().data());
+  }
+}
+
+void link(Code& code) {
+  for (const auto& [insn, body] : code.calls) {
+    code.insns[insn].c = code.bodies[body.index].frame;
+    code.insns[insn].d = code.bodies[body.index].at - insn;
+  }
+}
+
+}  // namespace rung::ir::interpreter

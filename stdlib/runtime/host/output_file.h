@@ -1,0 +1,30 @@
+// A file that appears whole or not at all: written beside its place and renamed at the end. An unfinished one goes when
+// the object goes and when a signal ends the process, also in an endless loop of the program. Used by traces, plots and
+// test results.
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+namespace rung::host {
+
+class OutputFile {
+ public:
+  OutputFile() = default;
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  // "-" is standard output; devices and pipes are written directly. False: `error` says what is wrong.
+  bool open(const std::string& path, std::string& error);
+  bool isOpen() const { return file_ != nullptr; }
+  // What the system refuses shows at close().
+  void write(const std::string& text);
+  bool close(std::string& error);
+
+ private:
+  FILE* file_ = nullptr;
+  std::string path_, temporary_;
+};
+
+}  // namespace rung::host

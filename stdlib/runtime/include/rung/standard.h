@@ -1,0 +1,106 @@
+/* Text functions of the library Standard for texts whose lengths the generated code keeps in C++ locals: the sized
+ * forms of the functions marked {sized} in standard/string.st. In: each text followed by its length. Out: the result in
+ * `out`, and its length. Semantics are those of standard/native/string.cpp: a result has at most 255 characters and at
+ * most `capacity`. `out` is one of the inputs or apart from all; included by generated code that calls one of them. */
+#ifndef RUNG_STANDARD_H
+#define RUNG_STANDARD_H
+
+#include "rung/code.h"
+
+static inline uint32_t rung_text_limit(uint32_t capacity) { return capacity < 255 ? capacity : 255; }
+
+/* Single characters are the most frequent parts of all. */
+static inline uint32_t rung_text_part(char* out, const char* from, uint32_t length) {
+  if (length == 1) {
+    *out = *from;
+  } else {
+    memmove(out, from, length);
+  }
+  out[length] = 0;
+  return length;
+}
+
+static inline int16_t rung_standard_LEN__STRING_255_sized(const char*, uint32_t length) {
+  return length > INT16_MAX ? INT16_MAX : (int16_t)length;
+}
+
+static inline uint32_t rung_standard_LEFT__STRING_255_sized(const char* in, uint32_t length, int32_t l, char* out,
+                                                            uint32_t capacity) {
+  const uint32_t limit = rung_text_limit(capacity);
+  uint32_t count = l < 0 ? 0 : (uint32_t)l;
+  if (count > length) count = length;
+  return rung_text_part(out, in, count > limit ? limit : count);
+}
+
+static inline uint32_t rung_standard_RIGHT__STRING_255_sized(const char* in, uint32_t length, int32_t l, char* out,
+                                                             uint32_t capacity) {
+  const uint32_t limit = rung_text_limit(capacity);
+  uint32_t count = l < 0 ? 0 : (uint32_t)l;
+  if (count > length) count = length;
+  return rung_text_part(out, in + (length - count), count > limit ? limit : count);
+}
+
+static inline uint32_t rung_standard_MID__STRING_255_sized(const char* in, uint32_t length, int32_t l, int32_t p,
+                                                           char* out, uint32_t capacity) {
+  const uint32_t limit = rung_text_limit(capacity);
+  if (l <= 0 || p < 1 || (uint32_t)p > length) {
+    out[0] = 0;
+    return 0;
+  }
+  uint32_t count = (uint32_t)l;
+  if (count > 1 && count > length - ((uint32_t)p - 1)) count = length - ((uint32_t)p - 1);
+  return rung_text_part(out, in + (p - 1), count > limit ? limit : count);
+}
+
+/* Appends in place where `out` is in1. */
+static inline uint32_t rung_standard_CONCAT__STRING_255_sized(const char* in1, uint32_t length1, const char* in2,
+                                                              uint32_t length2, char* out, uint32_t capacity) {
+  const uint32_t limit = rung_text_limit(capacity);
+  if ((out != in1 || capacity > limit) && length1 > limit) length1 = limit; /* what is in `out` fits it */
+  if (length2 > limit - length1) length2 = limit - length1;
+  if (out == in1) return length1 + rung_text_part(out + length1, in2, length2);
+  memmove(out + length1, in2, length2); /* first: `out` may be in2 */
+  memcpy(out, in1, length1);
+  out[length1 + length2] = 0;
+  return length1 + length2;
+}
+
+extern "C" {
+uint32_t rung_standard_INSERT__STRING_255_sized(const char* in1, uint32_t length1, const char* in2, uint32_t length2,
+                                                int32_t p, char* out, uint32_t capacity);
+uint32_t rung_standard_DELETE__STRING_255_sized(const char* in, uint32_t length, int32_t l, int32_t p, char* out,
+                                                uint32_t capacity);
+uint32_t rung_standard_REPLACE__STRING_255_sized(const char* in1, uint32_t length1, const char* in2, uint32_t length2,
+                                                 int32_t l, int32_t p, char* out, uint32_t capacity);
+int16_t rung_text_find(const char* in1, uint32_t length1, const char* in2, uint32_t length2) RUNG_PURE;
+}
+
+/* Index of the first `unit`, or `length`. A set of a few characters, such as the digits, is looked up without a call:
+ * as two words whose bytes are compared at once. */
+static inline uint32_t rung_text_find_unit(const char* in, uint32_t length, char unit) {
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+  if (length >= 8 && length <= 16) {
+    const uint64_t ones = 0x0101010101010101ULL, pattern = ones * (uint8_t)unit;
+    uint64_t first, last;
+    memcpy(&first, in, 8);
+    memcpy(&last, in + length - 8, 8);
+    first ^= pattern;
+    last ^= pattern;
+    first = (first - ones) & ~first & ones << 7; /* the lowest bit set is that of the first equal byte */
+    last = (last - ones) & ~last & ones << 7;
+    if (first != 0) return (uint32_t)__builtin_ctzll(first) / 8;
+    return last != 0 ? length - 8 + (uint32_t)__builtin_ctzll(last) / 8 : length;
+  }
+#endif
+  const char* at = (const char*)memchr(in, unit, length);
+  return at != nullptr ? (uint32_t)(at - in) : length;
+}
+
+static inline int16_t rung_standard_FIND__STRING_255_sized(const char* in1, uint32_t length1, const char* in2,
+                                                           uint32_t length2) {
+  if (length2 != 1) return rung_text_find(in1, length1, in2, length2);
+  const uint32_t at = rung_text_find_unit(in1, length1, *in2);
+  return at == length1 ? 0 : at >= INT16_MAX ? INT16_MAX : (int16_t)(at + 1);
+}
+
+#endif

@@ -1,0 +1,236 @@
+// Writes the table through which the interpreter calls the native bodies of the libraries: a thunk for each, in C++.
+// In: the declarations of stdlib/*/*.st, read by the compiler's own front end. Out: a source file; generic functions
+// appear once for each tuple of types that they admit, so that what a program may call is there, and linking rung fails
+// where a library lacks a body. Run when rung is built.
+//   native_table OUTPUT FILE...      FILE: <folder>/<library>/<name>.st
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include "codegen/body.h"
+#include "codegen/types.h"
+#include "frontend/source/render.h"
+#include "ir/builder.h"
+#include "ir/lower.h"
+#include "sema/declarations/declarations.h"
+#include "sema/declarations/libraries.h"
+#include "tools/rung/namespaces.h"
+
+namespace {
+
+using rung::TypeId;
+using rung::sema::Context;
+using rung::sema::Pou;
+using rung::sema::PouId;
+using rung::sema::VarId;
+using rung::types::TypeKind;
+using rung::types::TypeTable;
+
+struct Texts {
+  std::vector<std::string> names, paths, texts;
+  std::vector<rung::sema::LibraryFile> files;
+};
+
+// Where integers are taken codesys takes bit strings, and the other way round.
+bool admits(TypeKind generic, TypeKind kind) {
+  if (TypeTable::belongsTo(kind, generic)) return true;
+  if (TypeTable::isBits(kind)) {
+    return generic == TypeKind::AnyInt || generic == TypeKind::AnyUnsigned || generic == TypeKind::AnyNum ||
+           generic == TypeKind::AnyMagnitude;
+  }
+  return generic == TypeKind::AnyBit && TypeTable::isInteger(kind);
+}
+
+// Every instance of a generic function.
+void instantiateAll(Context& context, PouId generic) {
+  rung::sema::resolvePou(context, generic);
+  std::vector<TypeId> pins;
+  std::vector<TypeKind> generics;
+  const auto note = [&](TypeId type) {
+    const TypeKind kind = context.types().kind(type);
+    if (TypeTable::isGeneric(kind) && std::find(generics.begin(), generics.end(), kind) == generics.end()) {
+      generics.push_back(kind);
+    }
+  };
+  for (const VarId id : context.project.pou(generic).vars) {
+    const rung::sema::Var& var = context.project.var(id);
+    if (var.section != rung::SectionKind::Input && var.section != rung::SectionKind::InOut &&
+        var.section != rung::SectionKind::Output) {
+      continue;
+    }
+    pins.push_back(var.type);
+    note(var.type);
+  }
+  const TypeId result = context.project.pou(generic).result;
+  if (result) note(result);
+
+  std::vector<TypeId> chosen(generics.size());
+  const auto typeOf = [&](TypeId declared) {
+    for (size_t i = 0; i < generics.size(); ++i) {
+      if (generics[i] == context.types().kind(declared)) return chosen[i];
+    }
+    return declared;
+  };
+  const auto choose = [&](const auto& self, size_t at) -> void {
+    if (at == generics.size()) {
+      std::vector<TypeId> types;
+      for (const TypeId pin : pins) types.push_back(typeOf(pin));
+      const PouId made = rung::sema::instantiate(context, generic, types, result ? typeOf(result) : TypeId{});
+      context.project.pou(made).used = true;
+      return;
+    }
+    for (int kind = static_cast<int>(TypeKind::Bool); kind <= static_cast<int>(TypeKind::WString); ++kind) {
+      const auto of = static_cast<TypeKind>(kind);
+      if (!admits(generics[at], of)) continue;
+      // A text has its largest capacity inside: one instance serves every length.
+      chosen[at] = of == TypeKind::String    ? context.types().string(255)
+                   : of == TypeKind::WString ? context.types().wstring(255)
+                                             : rung::types::idOf(of);
+      self(self, at + 1);
+    }
+  };
+  choose(choose, 0);
+}
+
+// `table`: the thunk by the C function's name.
+bool addThunks(const Texts& texts, rung::text::Standard standard, std::map<std::string, std::string>& table) {
+  rung::Sources sources;
+  rung::Names names;
+  rung::Diagnostics diagnostics(sources);
+  rung::Tree tree;
+  rung::sema::Options options;
+  options.standard = standard;
+  options.libraries = texts.files;
+  rung::sema::Project project(sources, names, diagnostics, tree, options);
+  rung::sema::Scopes scopes;
+  Context context{.project = project, .scopes = scopes, .pou = {}, .file = {}};
+  rung::sema::initWords(context);
+  rung::sema::indexLibraries(context);
+  for (const rung::sema::LibraryFile& file : texts.files) {
+    for (const rung::sema::IndexedBlock& block : rung::sema::indexLibrary(file.text)) {
+      for (const std::string_view name : block.names) {
+        rung::sema::lookUpLibrary(context, names.intern(name));
+        rung::sema::settleDeclarations(context);
+      }
+    }
+  }
+  const size_t declared = project.pous.size();
+  for (uint32_t i = 1; i < declared; ++i) {
+    if (!project.pous[i].native) continue;
+    if (project.pous[i].generic) {
+      instantiateAll(context, {i});
+    } else {
+      project.pous[i].used = true;
+    }
+  }
+  if (diagnostics.hasErrors()) {
+    diagnostics.sort();
+    std::fputs(rung::render(diagnostics, sources, {}).c_str(), stderr);
+    return false;
+  }
+  // Only native bodies matter, which have no code to check.
+  for (uint32_t i = 1; i < project.pous.size(); ++i) {
+    if (!project.pous[i].native) project.pous[i].used = false;
+  }
+  rung::ir::Module module(project.types, names, sources);
+  rung::ir::lower(project, {}, module);
+
+  for (size_t i = 1; i < module.bodies.size(); ++i) {
+    const rung::ir::Body& body = module.bodies[i];
+    if (!body.native) continue;
+    const std::string function = rung::ir::nativeName(module, body);
+    if (table.contains(function)) continue;
+    const TypeTable& types = module.types;
+    std::string arguments = "ctx";
+    uint32_t slot = 0;
+    const auto next = [&] { return "slots + " + std::to_string(slot++); };
+    if (body.self) arguments += ", at<void*>(" + next() + ")";
+    for (const rung::ir::Local& local : body.locals) {
+      if (local.kind != rung::ir::LocalKind::Input && local.kind != rung::ir::LocalKind::Output &&
+          local.kind != rung::ir::LocalKind::InOut) {
+        continue;
+      }
+      const TypeKind kind = types.kind(local.type);
+      std::string type = "void*";
+      if (kind != TypeKind::Array && kind != TypeKind::Record) {
+        type = rung::codegen::scalarType(types, local.type);
+        if (local.by_reference) type += '*';
+      }
+      arguments += ", at<" + type + ">(" + next() + ")";
+    }
+    std::string call = function + '(' + arguments;
+    if (body.result && rung::ir::isAggregate(types, body.result)) {
+      const bool is_text = TypeTable::isText(types.kind(body.result));
+      const std::string type =
+          is_text ? std::string(rung::codegen::scalarType(types, body.result)) + '*' : std::string("void*");
+      call += ", at<" + type + ">(" + next() + ')';
+      if (is_text) call += ", at<uint32_t>(" + next() + ')';
+      call += ");";
+    } else if (body.result) {
+      call = "put(" + next() + ", " + call + "));";
+    } else {
+      call += ");";
+    }
+    std::string& made = table[function];
+    made = "extern \"C\" ";
+    rung::codegen::BodyWriter::appendSignature(made, module, body);
+    made +=
+        ";\nstatic void call_" + function + "(rung_context* ctx, [[maybe_unused]] uint64_t* slots) { " + call + " }\n";
+  }
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::fputs("usage: native_table OUTPUT FILE...\n", stderr);
+    return 2;
+  }
+  Texts texts;
+  const auto count = static_cast<size_t>(argc - 2);
+  texts.names.reserve(count);
+  texts.paths.reserve(count);
+  texts.texts.reserve(count);
+  for (int i = 2; i < argc; ++i) {
+    const std::string path = argv[i];
+    const size_t name = path.rfind('/'), folder = path.rfind('/', name - 1);
+    rung::ReadResult read = rung::readFile(path);
+    if (!read.error.empty() || name == std::string::npos || folder == std::string::npos) {
+      std::fprintf(stderr, "native_table: cannot read `%s`: %s\n", argv[i], read.error.c_str());
+      return 2;
+    }
+    texts.names.push_back(rung::tool::namespaceOf(path.substr(folder + 1, name - folder - 1)));
+    texts.paths.push_back(path.substr(folder + 1));
+    texts.texts.push_back(std::move(read.text));
+    texts.files.push_back({texts.names.back().c_str(), texts.paths.back().c_str(), texts.texts.back()});
+  }
+  std::map<std::string, std::string> table;
+  for (const rung::text::Standard standard :
+       {rung::text::Standard::Codesys, rung::text::Standard::Iec2, rung::text::Standard::Iec3}) {
+    if (!addThunks(texts, standard, table)) return 1;
+  }
+
+  std::string out =
+      "// Made by native_table from the declarations of the libraries.\n#include <string.h>\n\n"
+      "#include \"native_table.h\"\n\nnamespace {\n\n"
+      "template <class T>\nT at(const uint64_t* slot) {\n  T value;\n  memcpy(&value, slot, sizeof value);\n"
+      "  return value;\n}\n"
+      "template <class T>\nvoid put(uint64_t* slot, T value) {\n  memcpy(slot, &value, sizeof value);\n}\n\n"
+      "}  // namespace\n\n";
+  std::string rows;
+  for (const auto& [function, thunk] : table) {
+    out += thunk;
+    rows += "    {\"" + function + "\", call_" + function + "},\n";
+  }
+  out += "\nnamespace rung::natives {\n\nconst ir::interpreter::Native table[] = {\n" + rows +
+         "};\nconst size_t count = sizeof table / sizeof table[0];\n\n}  // namespace rung::natives\n";
+  FILE* file = std::fopen(argv[1], "wb");
+  const bool good = file != nullptr && std::fwrite(out.data(), 1, out.size(), file) == out.size();
+  if (file == nullptr || std::fclose(file) != 0 || !good) {
+    std::perror(argv[1]);
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,24 @@
+// Namespaces of the libraries: see namespaces.h.
+#include "tools/rung/namespaces.h"
+
+namespace rung::tool {
+namespace {
+
+// Namespaces that are not the folder's name with a capital letter.
+struct Namespace {
+  std::string_view folder;
+  const char* name;
+};
+constexpr Namespace kNamespaces[] = {{"standard", "Standard"}, {"util", "Util"}};
+
+}  // namespace
+
+std::string namespaceOf(std::string_view folder) {
+  for (const Namespace& row : kNamespaces)
+    if (folder == row.folder) return row.name;
+  std::string name(folder);
+  if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 32);
+  return name;
+}
+
+}  // namespace rung::tool
