@@ -1,5 +1,6 @@
 // Types, sections and variables, initial values, pragmas and doc comments.
 #include <algorithm>
+#include <utility>
 
 #include "frontend/text/parser.h"
 #include "frontend/text/recover.h"
@@ -244,14 +245,17 @@ DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc) {
     }
   }
   if (!panic_ && !accept(Tok::Semicolon) && !(is_struct && (at(Tok::EndType) || atLineStart()))) {
-    if (atLineStart() || endsDeclarations(kind()))
+    if (atLineStart() || endsDeclarations(kind()) || (isName(kind()) && peek() == Tok::Colon))
       missing(Diag::MissingSemicolon, {describe(t_ - 1)});
     else if (at(Tok::RightParen) || at(Tok::RightBracket))
       fail(Diag::StrayParen, t_, {textOf(t_)});
     else
       fail(Diag::StrayToken, t_, {describe(t_)});
   }
-  if (panic_) syncDeclaration(Tok::EndType);
+  if (panic_) {
+    tree_.lost_names = true;  // another declaration may have been skipped
+    syncDeclaration(Tok::EndType);
+  }
   return tree_.add<DeclId>(d);
 }
 
@@ -353,7 +357,10 @@ DeclId Parser::parseVar(SectionKind section) {
   if (!panic_ && at(Tok::At)) {
     const Token* word = t_;
     advance();
-    if (at(Tok::Address)) {
+    if (at(Tok::Address) && in_structure_) {  // AT %B0: a place in the structure
+      slip(Diag::NotSupportedYet, t_, {"AT in a structure"});
+      advance();
+    } else if (at(Tok::Address)) {
       d.located = true;
       d.address_loc = here();
       if (readAddress(textOf(t_), here(), diagnostics_, d.address, numbers_))
@@ -571,8 +578,14 @@ TypeExprId Parser::parseStruct() {
     advance();
     d.base = parseNamedType();
   }
+  if (at(Tok::Ident) && is(t_, "OVERLAP") && isName(peek())) {
+    slip(Diag::NotSupportedYet, t_, {"`OVERLAP`"});
+    advance();
+  }
   const size_t first = decls_.size();
+  const bool outer = std::exchange(in_structure_, true);
   parseVars(SectionKind::Local, end, decls_);
+  in_structure_ = outer;
   if (!accept(end)) {
     const std::string line = std::to_string(sources_.place(loc(open)).line);
     missing(Diag::MissingEnd, {spelling(end), spelling(open->kind), line});

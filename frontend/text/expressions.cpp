@@ -114,7 +114,13 @@ ExprId Parser::parseUnary() {
     case static_cast<int>(Tok::Minus): op = UnaryOp::Negate; break;
     case static_cast<int>(Tok::Plus): op = UnaryOp::Plus; break;
     case static_cast<int>(Tok::Bang): slip(Diag::ForeignOperator, t_, {"!", "NOT"}); [[fallthrough]];
-    case static_cast<int>(Tok::Not): op = UnaryOp::Not; break;
+    case static_cast<int>(Tok::Not):
+      // NOT(EN := x, IN := y): the functional form, with pins
+      if (peek() == Tok::LeftParen && peek(3) == Tok::Assign && (is(t_ + 2, "EN") || is(t_ + 2, "IN"))) {
+        return parsePrimary();
+      }
+      op = UnaryOp::Not;
+      break;
     default: return parsePrimary();
   }
   const Loc start = here();
@@ -185,7 +191,7 @@ ExprId Parser::parsePrimary() {
     return name;
   }
   // The functional form of operator words: AND(a, b)
-  if ((at(Tok::And) || at(Tok::Or) || at(Tok::Xor) || at(Tok::Mod)) && peek() == Tok::LeftParen) {
+  if ((at(Tok::And) || at(Tok::Or) || at(Tok::Xor) || at(Tok::Mod) || at(Tok::Not)) && peek() == Tok::LeftParen) {
     const ExprId name = tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, start), names_.intern(textOf(t_)), {}});
     advance();
     return parsePostfix(name);
@@ -332,6 +338,12 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
     }
     height = std::max(height, height_);
     arguments_.push_back(a);
+    if (at(Tok::With) && !panic_) {  // PROGRAM p : Main (block WITH task)
+      slip(Diag::NotSupportedYet, t_, {"a block in a task of its own (`WITH`)"});
+      arguments_.pop_back();
+      advance();
+      if (isName(kind())) advance();
+    }
     if (!panic_) {
       if (at(Tok::RightParen)) break;
       if (at(Tok::Comma)) {

@@ -120,6 +120,7 @@ class Parser {
   void parseFor();
   void parseWhile();
   void parseRepeat();
+  bool otherLanguage();
   void parseExprStatement();
   void parseChain(ExprId target, ExprId value, Token* value_start, const Token* op);
   bool atCaseLabel() const;
@@ -174,6 +175,7 @@ class Parser {
   Token* t_ = nullptr;
   bool panic_ = false;
   bool declared_in_body_ = false;  // said once for a POU
+  bool in_structure_ = false;      // a STRUCT or UNION is being read
   bool lost_ = false;              // declarations of the POU or TYPE entry at hand could not be read
   Tok pou_end_ = Tok::End;         // the END_… of the POU at hand
   enum class Known : uint8_t { NotYet, Yes, No } pou_closes_ = Known::NotYet;  // whether it has that END_…

@@ -260,8 +260,10 @@ TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement)
     return callBlock(context, expr, pou, CallKind::Instance, as_statement);
   }
   const NameId name = nameOf(context, node.callee);
-  context.report(Diag::NotCallable, node.h.loc,
-                 {name ? text(context, name) : std::string_view("this"), context.types().spell(type)});
+  const Entity called = entityOf(context, node.callee);
+  Report report = context.report(Diag::NotCallable, node.h.loc,
+                                 {name ? text(context, name) : std::string_view("this"), context.types().spell(type)});
+  if (called.what() == EntityKind::Var) report.note(context.project.vars[called.index].loc, Note::DeclaredHere);
   return refuse(context, node);
 }
 
@@ -298,7 +300,9 @@ TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected)
   if (const auto assertion = assertionOf(context.names(), name)) return checkAssertion(context, expr, *assertion);
   if (isNamed(context, name, "SIZEOF")) return sizeOf(context, expr);
   if (const TypeId type = checkRuleCall(context, expr, name, expected)) return type;
-  if (sayUnknown(context, name))
+  if (isNamed(context, name, "ADR") || isNamed(context, name, "REF")) {
+    context.report(Diag::NotSupportedYet, node.h.loc, {isNamed(context, name, "ADR") ? "`ADR`" : "`REF`"});
+  } else if (sayUnknown(context, name))
     context.report(Diag::UnknownName, node.h.loc, {text(context, name)}).didYouMean(nearestName(context, name));
   context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);
   return refuse(context, node);

@@ -112,9 +112,10 @@ bool operandAs(Context& context, ExprId& value, TypeId type, NameId function) {
 }
 
 // The name of the library's own function for two types where the dialect has one: `DWORD_TO_REAL` transfers the bits in
-// edition 3. Else empty.
+// edition 3, `WORD_TO_BOOL` takes the rightmost one. Else empty.
 std::string libraryConversion(Context& context, TypeKind from, TypeKind to) {
-  if (!context.iec() || TypeTable::isReal(from) == TypeTable::isReal(to)) return {};
+  if (!context.iec()) return {};
+  if (TypeTable::isReal(from) == TypeTable::isReal(to) && (to != TypeKind::Bool || from == TypeKind::Bool)) return {};
   std::string function(text(context, context.types().info(types::idOf(from)).name));
   function.append("_TO_").append(text(context, context.types().info(types::idOf(to)).name));
   const Entity entity = lookUp(context, context.names().intern(function));

@@ -180,7 +180,9 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
                     wide ? "single" : "double", wide ? "'" : "\""});
     return false;
   }
-  const std::string function = conversionName(context, from, to);
+  // BOOL_TO_TIME(FALSE) is no advice: another constant is meant.
+  const bool truth = own == TypeKind::Bool && context.tree().kind(expr) == ExprKind::Literal;
+  const std::string function = truth ? std::string() : conversionName(context, from, to);
   if (function.empty()) {
     context.report(Diag::WrongType, loc,
                    {context.types().spell(from), purpose.spell(context), context.types().spell(to)});

@@ -297,11 +297,29 @@ TypeId checkTypedName(Context& context, ExprId& expr) {
   return node.h.type = context.project.enum_values[node.entity.index].type;
 }
 
+// `phase : Phase; … Phase.Idle`: where the variable has no such member, the name is that of the enumeration which the
+// variable hides. None when it hides none with this item. IEC 61131-3 ed. 3 writes `Phase#Idle`.
+Entity hiddenEnumeration(Context& context, const MemberExpr& node, TypeId base) {
+  if (context.tree().kind(node.base) != ExprKind::Name || context.iec()) return {};
+  const TypeId record = context.types().resolve(base);
+  if (context.types().info(record).kind == TypeKind::Record && findMember(context, record, node.member)) return {};
+  const TypeId hidden = lookUpType(context, context.tree().as<NameExpr>(node.base).name);
+  if (!hidden || context.types().info(context.types().resolve(hidden)).kind != TypeKind::Enum) return {};
+  const Entity type = Entity::of(EntityKind::Type, context.types().resolve(hidden).index);
+  return lookUpIn(context, type, node.member).what() == EntityKind::EnumValue ? type : Entity{};
+}
+
 TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   MemberExpr& node = context.tree().as<MemberExpr>(expr);
   const TypeId base = checkBase(context, node.base, access);
   if (!base) return checkWhole(context, expr, entityOf(context, node.base), access);
   if (base == types::kError) return node.h.type = types::kError;
+  if (const Entity type = hiddenEnumeration(context, node, base)) {
+    NameExpr& name = context.tree().as<NameExpr>(node.base);
+    name.entity = type;
+    name.h.type = {};
+    return checkWhole(context, expr, type, access);
+  }
   const TypeId record = context.types().resolve(base);
   const types::TypeInfo& info = context.types().info(record);
   if (info.kind != TypeKind::Record) {

@@ -306,6 +306,22 @@ void addDefaultTask(Context& context) {
   }
 }
 
+// VAR_EXTERNAL of a resource makes nothing: it names globals that must exist, with the same type.
+// IEC 61131-3 ed. 3 table 62, 13.
+void checkExternals(Context& context, const Part& part, const SectionDecl& section) {
+  if (section.section != SectionKind::External) return;
+  Context there = at(context, {}, part.file, false);
+  NameMap names;
+  std::vector<VarId> externals;
+  for (uint32_t i = 0; i < section.vars.count; ++i) {
+    declareVars(there, context.tree().list(section.vars)[i], section, {}, {}, &names, externals);
+  }
+  for (const VarId external : externals) {
+    ensureVarType(there, external);
+    ensureInitialValue(there, external);
+  }
+}
+
 }  // namespace
 
 void collectConfigurations(Context& context) {
@@ -326,7 +342,8 @@ void collectConfigurations(Context& context) {
       context.report(Diag::AccessPaths, section.h.loc);
       return;
     }
-    if (section.section == SectionKind::Config) return;  // instance_places.cpp
+    if (section.section == SectionKind::Config) return;    // instance_places.cpp
+    if (section.section == SectionKind::External) return;  // resolveConfigurations
     const NameId name = part.resource ? part.resource : part.configuration;
     const ListId list = listNamed(context, std::string(context.names().text(name)), part.file, section.h.loc,
                                   context.scopes.qualifiers);
@@ -341,6 +358,7 @@ void resolveConfigurations(Context& context) {
   bool configured = false;
   forEachMember(context, [&](const Part& part, DeclId member) {
     if (tree.kind(member) == DeclKind::ProgramInstance) configured = true;
+    if (tree.kind(member) == DeclKind::Section) checkExternals(context, part, tree.as<SectionDecl>(member));
     if (tree.kind(member) != DeclKind::Task) return;
     const TaskDecl& decl = tree.as<TaskDecl>(member);
     const NameId resource_key = part.resource ? keyOf(context, part.resource) : NameId{};

@@ -217,10 +217,7 @@ void ensureVarType(Context& context, VarId id) {
     if (var.type) continue;
     var.type = type;
     checkEdge(there, var);
-    if (decl.located && var.record) {
-      there.report(Diag::NotSupportedYet, decl.address_loc, {"AT in a structure"});
-      var.type = types::kError;
-    } else if (decl.located && decl.address.incomplete) {  // completed by resolveInstancePlaces
+    if (decl.located && decl.address.incomplete) {  // completed by resolveInstancePlaces
       if (decl.address.size_given && addressType(decl.address) == types::kBool && type != types::kError &&
           context.types().kind(type) != TypeKind::Bool) {
         const std::string address = {'%', areaLetter(decl.address.area), 'X', '*'};
