@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -123,7 +124,10 @@ void Differential::report(uint64_t seed, const Way& way, const char* checks) {
   shrink(program, [&] {
     const std::string text = program.print();
     const Outcome left = run(text, kJudge, checks);
-    if (!judge.ran()) return left.exit_code == judge.exit_code && left.errors.find(error) != std::string::npos;
+    if (!judge.ran()) {
+      const bool one = std::count(left.errors.begin(), left.errors.end(), '\n') == 1;
+      return left.exit_code == judge.exit_code && left.errors.find(error) != std::string::npos && one;
+    }
     if (!left.ran() || left.exit_code != judge.exit_code) return false;
     const Outcome right = run(text, way, checks);
     return right.exit_code == other.exit_code && !(right == left);

@@ -5,7 +5,7 @@
 namespace rung::differential {
 namespace {
 
-enum class Kind : uint8_t { Bool, Signed, Unsigned, Bits, Real, Duration, Date, Text, WideText, Enum };
+enum class Kind : uint8_t { Bool, Signed, Unsigned, Bits, Real, Duration, Date, Letter, Text, WideText };
 
 struct Type {
   const char* name;
@@ -34,12 +34,17 @@ const Type kTypes[] = {
     {"DATE", Kind::Date, "D#1970-01-01"},
     {"TIME_OF_DAY", Kind::Date, "TOD#00:00:00"},
     {"DATE_AND_TIME", Kind::Date, "DT#1970-01-01-00:00:00"},
+    {"LDATE", Kind::Date, "LDATE#1970-01-01"},
+    {"LTIME_OF_DAY", Kind::Date, "LTOD#00:00:00"},
+    {"LDATE_AND_TIME", Kind::Date, "LDT#1970-01-01-00:00:00"},
+    {"CHAR", Kind::Letter, "CHAR#'a'"},
+    {"WCHAR", Kind::Letter, "WCHAR#\"a\""},
     {"STRING", Kind::Text, "''"},
     {"WSTRING", Kind::WideText, "\"\""},
 };
 constexpr int kTypeCount = sizeof kTypes / sizeof kTypes[0];
 constexpr int kBool = 0, kSint = 1, kInt = 2, kDint = 3, kLint = 4, kUsint = 5, kUint = 6, kUdint = 7, kWord = 10,
-              kReal = 13, kTime = 15, kTod = 18, kDt = 19, kString = 20;
+              kReal = 13, kTime = 15, kLtime = 16, kTod = 18, kDt = 19, kLtod = 21, kLdt = 22, kChar = 23, kString = 25;
 
 class Generator {
  public:
@@ -93,6 +98,7 @@ class Generator {
 
   Node makeFunction(int number);
   Node makeBlock(int number);
+  Node makeAccess();
   Node declarations();
 
   struct Function {
@@ -165,11 +171,14 @@ std::string Generator::literal(int type) {
     case Kind::Date:
       if (type == kTod) return pick({"TOD#00:00:00", "TOD#12:34:56.789", "TOD#23:59:59.999"});
       if (type == kDt) return pick({"DT#1970-01-01-00:00:00", "DT#2024-02-29-12:34:56", "DT#2099-12-31-23:59:59"});
-      return pick({"D#1970-01-01", "D#2024-02-29", "D#2099-12-31"});
+      if (type == kLtod) return pick({"LTOD#00:00:00", "LTOD#12:34:56.789012345"});
+      if (type == kLdt) return pick({"LDT#1970-01-01-00:00:00", "LDT#2024-02-29-12:34:56.000000001"});
+      return (type == kLtod - 1 ? "LDATE#" : "D#") + pick({"1970-01-01", "2024-02-29", "2099-12-31"});
+    case Kind::Letter:
+      return type == kChar ? pick({"CHAR#'a'", "CHAR#'Z'", "CHAR#'$FF'"}) : pick({"WCHAR#\"a\"", "WCHAR#\"$1234\""});
     case Kind::Text:
       return pick({"''", "'a'", "'Rung'", "'12'", "'-3.5'", "'A longer text, with $$ and $''", "'xyzzy'"});
     case Kind::WideText: return pick({"\"\"", "\"a\"", "\"Rung\"", "\"12\"", "\"wide and long\""});
-    case Kind::Enum: break;
   }
   return "0";
 }
@@ -239,9 +248,9 @@ Node Generator::expr(int type, int depth) {
     case Kind::Real: return real(type, depth - 1);
     case Kind::Duration: return duration(type, depth - 1);
     case Kind::Date: return date(type, depth - 1);
+    case Kind::Letter: return leaf(type);
     case Kind::Text:
     case Kind::WideText: return text(type, depth - 1);
-    case Kind::Enum: break;
   }
   return leaf(type);
 }
@@ -259,6 +268,9 @@ Node Generator::boolean(int depth) {
                  ? Expr{kBool, pick({"ton.Q", "tof.Q", "tp.Q", "ctu.Q", "rise.Q", "fall.Q", "latch.Q1"})}
                  : leaf(kBool);
     default: {
+      if (body_ == Body::Program && chance(10)) {
+        return Expr{kBool, "(colour " + pick({"=", "<>", "<"}) + " other_colour)"};
+      }
       const int type = anyType();
       return Expr{
           kBool, "(\1 " + pick({"=", "<>", "<", "<=", ">", ">="}) + " \1)", {expr(type, depth), expr(type, depth)}};
@@ -346,7 +358,8 @@ Node Generator::bits(int type, int depth) {
 }
 
 Node Generator::real(int type, int depth) {
-  switch (below(6)) {
+  switch (below(7)) {
+    case 6: return Expr{type, "EXPT(\1, \1)", {expr(type, depth), expr(chance(50) ? kInt : kReal, depth)}};
     case 0: return Expr{type, pick({"SQRT", "LN", "EXP", "SIN", "COS", "ATAN", "ABS"}) + "(\1)", {expr(type, depth)}};
     case 1: return Expr{type, "(-\1)", {Expr{type, readable(type)}}};
     case 2: return Expr{type, "(\1 * \1)", {expr(type, depth), expr(kReal, depth)}};
@@ -364,8 +377,11 @@ Node Generator::duration(int type, int depth) {
 }
 
 Node Generator::date(int type, int depth) {
-  if (type != kTod && type != kDt) return leaf(type);
-  return Expr{type, "(\1 " + pick({"+", "-"}) + " \1)", {expr(type, depth), expr(kTime, depth)}};
+  const bool is_long = type == kLtod || type == kLdt;
+  if (type != kTod && type != kDt && !is_long) return leaf(type);
+  return Expr{type,
+              "(\1 " + pick({"+", "-"}) + " \1)",
+              {expr(type, depth), expr(is_long && chance(50) ? kLtime : kTime, depth)}};
 }
 
 Node Generator::text(int type, int depth) {
@@ -385,7 +401,10 @@ Node Generator::text(int type, int depth) {
 
 Node Generator::conversion(int type, int depth) {
   const int from = anyType();
-  if (from == type) return leaf(type);
+  const bool letter = kTypes[from].kind == Kind::Letter || kTypes[type].kind == Kind::Letter;
+  const Kind other = kTypes[kTypes[from].kind == Kind::Letter ? type : from].kind;
+  const bool letter_converts = other == Kind::Signed || other == Kind::Unsigned || other == Kind::Bits;
+  if (from == type || (letter && !letter_converts)) return leaf(type);
   return Expr{type,
               (chance(70) ? std::string(kTypes[from].name) + "_TO_" : "TO_") + kTypes[type].name + "(\1)",
               {expr(from, depth)}};
@@ -422,6 +441,12 @@ Node Generator::assignment() {
         chance(50) ? "colour := " + prefix_ + "_Colour#" + pick({"Red", "Green", "Blue"}) + ";\n" : "small := \1;\n",
         {expr(kUsint, 2)}};
   }
+  if (chance(3)) return Stmt{"v_int := v_int2 := \1;\n", {expr(kInt, 2)}};
+  if (chance(3)) return Stmt{"v_dword.%B" + std::to_string(below(4)) + " := \1;\n", {expr(kWord - 1, 2)}};
+  if (chance(3)) return Stmt{"v_lint := \1;\n", {expr(kDint, 3)}};  // widened
+  if (body_ == Body::Program && chance(4)) {
+    return Stmt{"colour := SEL(\1, other_colour, " + prefix_ + "_Colour#Blue);\n", {expr(kBool, 2)}};
+  }
   if (body_ == Body::Function && chance(25)) return Stmt{own_ + " := \1;\n", {expr(own_result_, 3)}};
   return Stmt{writable(type) + " := \1;\n", {expr(type, 3)}};
 }
@@ -430,7 +455,15 @@ Node Generator::loop(int depth) {
   const std::string n = std::to_string(loops_);
   ++loops_;
   Node result;
-  switch (below(3)) {
+  switch (below(4)) {
+    case 3: {
+      const bool narrow = chance(50);
+      result = Stmt{narrow ? "FOR v_usint2 := " + std::to_string(250 + below(6)) + " TO 255 DO\n\1END_FOR\n"
+                           : "FOR v_sint2 := -" + std::to_string(120 + below(9)) + " TO -128 BY -" +
+                                 std::to_string(1 + below(4)) + " DO\n\1END_FOR\n",
+                    {Stmt{"v_lint := v_lint + \1;\n", {Expr{kDint, narrow ? "v_usint2" : "v_sint2"}}}}};
+      break;
+    }
     case 0: {
       const int type = below(3);
       const std::string control = "i" + n, first = std::to_string(below(5) - (type == 0 ? 2 : 0));
@@ -496,7 +529,15 @@ Node Generator::choice(int depth) {
 }
 
 Node Generator::blockCall() {
-  switch (below(9)) {
+  switch (below(11)) {
+    case 9:
+    case 10: {
+      const std::string en = chance(30) ? "EN := v_bool, ENO => v_bool2, " : "";
+      const std::string io = pick({"pair", "table[0]", "table[3]"});
+      return Stmt{pick({"short", "v_string", "pair.title"}) + " := " + prefix_ + "_Access(" + en + "io := " + io +
+                      ", given := table[\1], row := row, title := \1, done => v_bool);\n",
+                  {subscript(-1, 4, 1), expr(kString, 2)}};
+    }
     case 0: return Stmt{pick({"ton", "tof", "tp"}) + "(IN := \1, PT := \1);\n", {expr(kBool, 2), expr(kTime, 1)}};
     case 1: return Stmt{"ctu(CU := \1, RESET := \1, PV := 3, CV => v_word);\n", {expr(kBool, 2), expr(kBool, 1)}};
     case 2: return Stmt{pick({"rise", "fall"}) + "(CLK := \1, Q => v_bool2);\n", {expr(kBool, 2)}};
@@ -598,6 +639,34 @@ Node Generator::makeFunction(int number) {
   return Stmt{head + "END_VAR\n\1\1\1END_FUNCTION\n\n", {std::move(vars), std::move(body), std::move(last)}};
 }
 
+// A function with what goes by reference: an in-out, a structure, an array and a text.
+Node Generator::makeAccess() {
+  own_inputs_.clear();
+  own_ = prefix_ + "_Access";
+  own_result_ = kString;
+  body_ = Body::Function;
+  Node vars = declarations();
+  std::vector<Node> lines;
+  std::string text;
+  for (int n = 2 + below(4); n > 0; --n) {
+    text += kChild;
+    switch (below(7)) {
+      case 0: lines.push_back(Stmt{"io.count := io.count + row[\1];\n", {subscript(0, 2, 1)}}); break;
+      case 1: lines.push_back(Stmt{"io.title := CONCAT(title, \1);\n", {expr(kString, 1)}}); break;
+      case 2: lines.push_back(Stmt{"io := given;\n"}); break;
+      case 3: lines.push_back(Stmt{"done := given.share > io.share;\n"}); break;
+      case 4: lines.push_back(Stmt{"given.count := io.count;\n"}); break;
+      case 5: lines.push_back(Stmt{own_ + " := CONCAT(title, io.title);\n"}); break;
+      default: lines.push_back(statement(1));
+    }
+  }
+  const std::string pair = prefix_ + "_Pair";
+  return Stmt{"FUNCTION " + own_ + " : STRING[20]\nVAR_IN_OUT io : " + pair + "; END_VAR\nVAR_INPUT given : " + pair +
+                  "; row : ARRAY[0..2] OF INT; title : STRING[5]; END_VAR\nVAR_OUTPUT done : BOOL; "
+                  "END_VAR\n\1\1END_FUNCTION\n\n",
+              {std::move(vars), Stmt{text, std::move(lines)}}};
+}
+
 Node Generator::makeBlock(int number) {
   std::vector<int> inputs;
   for (int n = 1 + below(3); n > 0; --n) inputs.push_back(anyType());
@@ -609,10 +678,13 @@ Node Generator::makeBlock(int number) {
   }
   Node vars = declarations();
   Node body = statements(2, 4 + below(5));
+  const std::string inner = number > 0 && chance(60) ? "VAR inner : " + prefix_ + "_B0; END_VAR\n" : "";
+  const std::string call = inner.empty() ? "" : "inner(io := io);\nv_dint := inner.out0;\n";
   blocks_.push_back(std::move(inputs));
-  return Stmt{
-      head + "END_VAR\nVAR_OUTPUT out0 : DINT; END_VAR\nVAR_IN_OUT io : DINT; END_VAR\n\1\1\1END_FUNCTION_BLOCK\n\n",
-      {std::move(vars), std::move(body), Stmt{"io := io + \1;\nout0 := \1;\n", {expr(kDint, 2), expr(kDint, 2)}}}};
+  return Stmt{head + "END_VAR\nVAR_OUTPUT out0 : DINT; END_VAR\nVAR_IN_OUT io : DINT; END_VAR\n" + inner +
+                  "\1\1\1END_FUNCTION_BLOCK\n\n",
+              {std::move(vars), std::move(body),
+               Stmt{call + "io := io + \1;\nout0 := \1;\n", {expr(kDint, 2), expr(kDint, 2)}}}};
 }
 
 Node Generator::program() {
@@ -624,6 +696,7 @@ Node Generator::program() {
   parts.push_back(Stmt{"VAR_GLOBAL " + prefix_ + "_g_dint : DINT; " + prefix_ + "_g_real : REAL; " + prefix_ +
                        "_g_string : STRING; END_VAR\n"});
   for (int i = 0, n = 1 + below(3); i < n; ++i) parts.push_back(makeFunction(i));
+  parts.push_back(makeAccess());
   const int blocks = 1 + below(2);
   for (int i = 0; i < blocks; ++i) parts.push_back(makeBlock(i));
   body_ = Body::Program;
@@ -641,8 +714,9 @@ Node Generator::program() {
   line("short : STRING[3]");
   line("flags : WORD := 16#A5");
   line("percent : " + prefix_ + "_Percent");
+  line("row : ARRAY[0..2] OF INT := [7, -8, 9]");
   line("small : " + prefix_ + "_Small");
-  line("colour : " + prefix_ + "_Colour");
+  line("colour, other_colour : " + prefix_ + "_Colour");
   line("ton : TON");
   line("tof : TOF");
   line("tp : TP");
@@ -659,10 +733,22 @@ Node Generator::program() {
   line("g_real : REAL");
   line("g_string : STRING");
   Node vars = declarations();
-  Node extra = Fixed{more + "END_VAR\n", std::move(lines)};
+
+  line("noise : ULINT := " + std::to_string(random()));
   Node body = statements(3, 8 + below(12));
-  parts.push_back(Fixed{"PROGRAM " + prefix_ + "\n\1\1\1\1END_PROGRAM\n\n",
-                        {std::move(vars), std::move(extra), std::move(body),
+  Node extra = Fixed{more + "END_VAR\n", std::move(lines)};
+  std::vector<Node> inputs{Stmt{"noise := noise * 6364136223846793005 + 1442695040888963407;\n"}};
+  for (int i = 0; i < 8; ++i) {
+    const int type = chance(40) ? 13 + below(2) : anyType();
+    const std::string name = kTypes[type].name;
+    const bool is_text = kTypes[type].kind >= Kind::Letter;
+    inputs.push_back(is_text ? Stmt{"v_string := ULINT_TO_STRING(noise);\n"}
+                             : Stmt{"v_" + lowered(kTypes[type].name) + " := ULINT_TO_" + name + "(SHR(noise, " +
+                                    std::to_string(below(60)) + "));\n"});
+  }
+  Node noise = Stmt{std::string(inputs.size(), kChild), std::move(inputs)};
+  parts.push_back(Fixed{"PROGRAM " + prefix_ + "\n\1\1\1\1\1END_PROGRAM\n\n",
+                        {std::move(vars), std::move(extra), std::move(noise), std::move(body),
                          Stmt{"g_dint := " + prefix_ + "_g_dint;\ng_real := " + prefix_ +
                               "_g_real;\ng_string := " + prefix_ + "_g_string;\n"}}});
   text.assign(parts.size(), kChild);
