@@ -1,4 +1,5 @@
-// Unit tests (the GoogleTest programs that CMake lists in unit_tests.list) and the checks of tools/house.
+// Unit tests (the GoogleTest programs that CMake lists in unit_tests.list), a fixed share of the differential test and
+// the checks of tools/house.
 #include <cstdlib>
 
 #include "tests/runner/diff.h"
@@ -30,6 +31,23 @@ Result runUnit(const Setting& setting, const std::string& name) {
   return result;
 }
 
+// The same 200 programs in each run; more, with other seeds and compilers, by hand.
+Result runDifferential(const Setting& setting) {
+  Command c;
+  c.arguments = {setting.bin + "/differential", "--count=200", "--ways=interp", "--folder=" + freshFolder(setting)};
+  c.folder = setting.root;
+  c.merged = true;
+  c.seconds = 600;
+  const Output output = run(c);
+  Result result;
+  if (output.exit_code == 0) {
+    result.passed = 200;
+  } else {
+    result.fail("unit/differential", output.out.substr(0, 8000), spelled(c));
+  }
+  return result;
+}
+
 Result runHouse(const Setting& setting, const std::string& script) {
   Command c;
   c.arguments = {setting.root + "/" + script};
@@ -52,6 +70,9 @@ void addUnit(const Setting& setting, std::vector<Job>& jobs) {
   for (const std::string& name : splitLines(readText(setting.bin + "/../unit_tests.list"))) {
     if (name.empty() || !isWanted(setting, "unit/" + name)) continue;
     jobs.push_back({"unit/" + name, 5, [&setting, name] { return runUnit(setting, name); }});
+  }
+  if (isWanted(setting, "unit/differential")) {
+    jobs.push_back({"unit/differential", 10, [&setting] { return runDifferential(setting); }});
   }
   for (const std::string& script : filesBelow(setting, "tools/house", ".sh")) {
     jobs.push_back({script, 2, [&setting, script] { return runHouse(setting, script); }});

@@ -1,0 +1,32 @@
+// A generated program as a tree of text, so that the shrinker can take pieces out of it.
+// In: a seed. Out: equal text for equal seeds, on every machine. Called by main.cpp; shrink.cpp changes the nodes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rung::differential {
+
+// The letter that stands in Node::text where the next child is printed.
+constexpr char kChild = '\1';
+
+struct Node {
+  std::string text;
+  std::vector<Node> children;
+  std::string simple;  // may stand instead of the node: a literal for an expression, nothing for a statement
+  bool fixed = false;  // part of its parent: neither left out nor simplified
+  int type = -1;       // of an expression; a child of the same type may stand instead of its parent
+  bool simplified = false;
+  int hoisted = -1;  // the child that is printed instead of this node
+
+  std::string print() const;
+};
+
+enum class Faults : uint8_t { None, Division, Index };  // what the program may end with
+
+// The POUs of one PROGRAM called `P<index>`, all names of which begin with that.
+// Nothing in it is unspecified, and each cycle of it ends soon.
+Node generate(uint64_t seed, unsigned index, Faults faults);
+
+}  // namespace rung::differential
