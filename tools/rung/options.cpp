@@ -101,6 +101,7 @@ constexpr OptionRow kOptions[] = {
     {Key::Host, "--plot", "FILE", bit(Command::Run), "draw the variables over the time, as SVG"},
     {Key::Host, "--retain", "FILE", bit(Command::Run), "keep retained variables in FILE"},
     {Key::Host, "--start", "cold|warm|origin", bit(Command::Run), "how to start (warm when the retain file exists)"},
+    {Key::Host, "--stop-on", "CONDITION", bit(Command::Run), "end after the cycle that makes it TRUE"},
     {Key::Host, "--realtime", nullptr, bit(Command::Run), "pace the run by the clock"},
     {Key::Filter, "--filter", "GLOB", bit(Command::Test), "only tests whose name matches"},
     {Key::Junit, "--junit", "FILE", bit(Command::Test), "write the results as JUnit XML"},

@@ -28,6 +28,7 @@ const char kHelp[] =
     "  --plot FILE           draw the variables over the time, as SVG\n"
     "  --retain FILE         keep retained variables in FILE\n"
     "  --start cold|warm|origin   default: warm when the retain file exists, else cold\n"
+    "  --stop-on CONDITION   end the run after the cycle that makes it TRUE: --stop-on 'Main.n >= 10'\n"
     "  --realtime            run by the clock, until the cycles are done or Ctrl-C\n";
 
 }  // namespace
@@ -43,8 +44,8 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
       name = argument.substr(0, equals);
       value = argument.substr(equals + 1);
     }
-    static const char* const with_value[] = {"--cycles", "--for",   "--interval", "--inputs", "--set",
-                                             "--watch",  "--trace", "--plot",     "--retain", "--start"};
+    static const char* const with_value[] = {"--cycles", "--for",  "--interval", "--inputs", "--set",    "--watch",
+                                             "--trace",  "--plot", "--retain",   "--start",  "--stop-on"};
     bool takes_value = false;
     for (const char* const known : with_value) takes_value = takes_value || name == known;
     if (name == "--realtime") {
@@ -81,6 +82,10 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
       options.trace_path = value;
     } else if (name == "--plot") {
       options.plot_path = value;
+    } else if (name == "--stop-on") {
+      if (!options.stop_on.empty()) return "--stop-on is given twice; join the conditions with OR";
+      if (value.empty()) return "--stop-on needs a condition such as 'Main.n >= 10'";
+      options.stop_on = value;
     } else if (name == "--retain") {
       options.retain_path = value;
     } else {
@@ -95,6 +100,7 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
         return "--start needs cold, warm or origin, not `" + value + "`";
     }
   }
+  if (options.realtime && !options.stop_on.empty()) return "--stop-on ends runs in virtual time; leave out --realtime";
   return "";
 }
 

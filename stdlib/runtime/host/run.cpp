@@ -6,6 +6,7 @@
 #include <ctime>
 #include <optional>
 
+#include "condition.h"
 #include "faults.h"
 #include "inputs.h"
 #include "plot.h"
@@ -59,6 +60,7 @@ struct Run {
         schedule(symbols, chosen_options.interval_ns),
         inputs(symbols),
         trace(symbols),
+        stop_on(symbols),
         plot(chosen) {}
 
   int prepare();
@@ -78,6 +80,7 @@ struct Run {
   Schedule schedule;
   Inputs inputs;
   Trace trace;
+  Condition stop_on;
   Plot plot;
   std::optional<Retain> retain;
   rung_host host{};
@@ -91,6 +94,7 @@ int Run::prepare() {
   // Everything that the user wrote is checked before anything runs or is written.
   if (!options.inputs_path.empty() && !inputs.load(options.inputs_path, error)) return refuse(error);
   if (!trace.choose(options.watch, error)) return refuse("--watch: " + error);
+  if (!options.stop_on.empty() && !stop_on.parse(options.stop_on, error)) return refuse("--stop-on: " + error);
 
   rung_context& context = memory.context();
   host.wall_clock = options.realtime ? systemClock : virtualClock;
@@ -154,6 +158,8 @@ int Run::runVirtual() {
     trace.row(row, row * row_ns);
     plot.row();
     rows_done = row + 1;
+    if (!options.stop_on.empty() && stop_on.holds())
+      return finish(false, {}, "stopped after cycle " + std::to_string(row) + ": " + options.stop_on + "\n");
     if (next_hint != INT64_MAX && row % 64 == 0 && processorNs() >= next_hint) {
       fprintf(stderr, "%s\n", options.hint_when_long.c_str());
       next_hint = INT64_MAX;
@@ -164,7 +170,7 @@ int Run::runVirtual() {
       next_save = processorNs() + 1'000'000'000;
     }
   }
-  return finish(false, {}, "");
+  return finish(false, {}, options.stop_on.empty() ? "" : "never became TRUE: " + options.stop_on + "\n");
 }
 
 int Run::runInRealTime() {

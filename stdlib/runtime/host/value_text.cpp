@@ -61,24 +61,36 @@ std::string typeName(const rung_module& module, const rung_type& type) {
   return type.kind <= RUNG_POINTER ? kKindNames[type.kind] : "unknown type";
 }
 
+bool integerOf(const rung_module& module, const Variable& variable, Integer& value) {
+  const uint8_t* const at = variable.address();
+  const rung_type& type = *variable.type;
+  if (at == nullptr || type.kind == RUNG_REAL || type.kind == RUNG_LREAL || type.kind == RUNG_STRING ||
+      type.kind == RUNG_WSTRING || type.kind >= RUNG_ARRAY)
+    return false;
+  if (type.kind == RUNG_BOOL) {
+    value = {(variable.bit == 255 ? *at != 0 : (*at >> variable.bit & 1) != 0) ? 1 : 0, false};
+    return true;
+  }
+  const bool is_signed_time = type.is_signed != 0 && (type.kind == RUNG_TIME || type.kind == RUNG_LTIME);
+  const uint8_t kind = is_signed_time ? static_cast<uint8_t>(RUNG_LINT) : integerKind(module, type);
+  value = {loadInteger(kind, type.size, at), kind < RUNG_SINT || kind > RUNG_LINT};
+  return true;
+}
+
 bool numberOf(const rung_module& module, const Variable& variable, double& value) {
   const uint8_t* const at = variable.address();
   if (at == nullptr) return false;
   const rung_type& type = *variable.type;
-  if (type.kind == RUNG_BOOL) {
-    value = (variable.bit == 255 ? *at != 0 : (*at >> variable.bit & 1) != 0) ? 1 : 0;
-  } else if (type.kind == RUNG_REAL) {
+  Integer integer;
+  if (type.kind == RUNG_REAL) {
     float number;
     memcpy(&number, at, sizeof number);
     value = static_cast<double>(number);
   } else if (type.kind == RUNG_LREAL) {
     memcpy(&value, at, sizeof value);
-  } else if (type.kind <= RUNG_LTIME || type.kind == RUNG_ENUM) {
-    const bool is_signed_time = type.is_signed != 0 && (type.kind == RUNG_TIME || type.kind == RUNG_LTIME);
-    const uint8_t kind = is_signed_time ? static_cast<uint8_t>(RUNG_LINT) : integerKind(module, type);
-    const int64_t number = loadInteger(kind, type.size, at);
-    value = number < 0 && (kind < RUNG_SINT || kind > RUNG_LINT) ? static_cast<double>(static_cast<uint64_t>(number))
-                                                                 : static_cast<double>(number);
+  } else if ((type.kind <= RUNG_LTIME || type.kind == RUNG_ENUM) && integerOf(module, variable, integer)) {
+    value = integer.isBeyondSigned() ? static_cast<double>(static_cast<uint64_t>(integer.bits))
+                                     : static_cast<double>(integer.bits);
   } else {
     return false;
   }

@@ -22,7 +22,8 @@ struct RunOptions {
   std::string trace_path;                                 // --trace; "-": stdout
   std::string plot_path;                                  // --plot: SVG; "-": stdout
   std::string retain_path;                                // --retain
-  int start = -1;  // --start: rung_start, -1: warm when the retain file exists, else cold
+  int start = -1;       // --start: rung_start, -1: warm when the retain file exists, else cold
+  std::string stop_on;  // --stop-on CONDITION
   bool realtime = false;
   bool color = false;
   std::string hint_when_long;  // printed once on a terminal when the run takes long; empty: nothing
