@@ -228,7 +228,7 @@ void fillEnum(Context& context, TypeId type, TypeExprId id) {
     if (declared.what() == EntityKind::EnumValue && project.enum_values[declared.index].loc == item.item.loc) {
       project.enum_values[declared.index].value = next;
     }
-    ++next;
+    next = static_cast<int64_t>(static_cast<uint64_t>(next) + 1);  // behind the largest value: wraps
   }
   context.items_of = {};
 }
