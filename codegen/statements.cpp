@@ -532,7 +532,7 @@ void BodyWriter::tryStatement(const Stmt& stmt) {
   frames_.back().exit = exit;
   out_ += exit + " = 0; ";
   guarded(newName("f"), fault, StmtId{stmt.a});
-  if (stmt.b != 0) {
+  if (stmt.op != 0) {
     TryFrame frame = frames_.back();
     const bool has_finally = stmt.c != 0;
     if (!has_finally) frames_.pop_back();
@@ -562,7 +562,7 @@ void BodyWriter::tryStatement(const Stmt& stmt) {
     close();
     flushCloses(0);
   }
-  if (stmt.b == 0 || stmt.c != 0) {
+  if (stmt.op == 0 || stmt.c != 0) {
     out_ += " if (" + fault + " != 0) rung_raise(ctx, ctx->fault.kind, ctx->fault.site, ctx->fault.value);";
   }
   if (frame.returns) {

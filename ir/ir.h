@@ -103,11 +103,11 @@ enum class StmtKind : uint8_t {
   Break,     // leaves the innermost Loop or For
   Continue,  // next turn of the innermost Loop or For
   Return,
-  Jump,    // a: label number
-  Label,   // a: label number
-  Try,     // a: body block, b: catch block (none: the fault goes on), c: finally block, d: place for its number or none
-  Fault,   // op: types::Fault, a: value for the message or none
-  Assert,  // of a test. op: Assertion, a: condition or expected, b: actual, c: tolerance, d: text (NameId)
+  Jump,      // a: label number
+  Label,     // a: label number
+  Try,       // a: body block, op: 1 catches (0: the fault goes on), b: catch block, c: finally, d: its number's place
+  Fault,     // op: types::Fault, a: value for the message or none
+  Assert,    // of a test. op: Assertion, a: condition or expected, b: actual, c: tolerance, d: text (NameId)
   Evaluate,  // a: expression, evaluated for its checks only
 };
 

@@ -111,13 +111,14 @@ void Reader::stmt() {
     const StmtId body_block = block();
     ExprId number;
     StmtId catch_block;
-    if (accept("catch")) {
+    const bool catches = accept("catch");
+    if (catches) {
       if (!isPunct("{")) number = expr({});
       catch_block = block();
     }
     const StmtId finally_block = accept("finally") ? block() : StmtId{};
     b.loc = loc;
-    if (!failed_) b.tryCatch(body_block, catch_block, finally_block, number);
+    if (!failed_) b.body.stmts[b.tryCatch(body_block, catch_block, finally_block, number).index].op = catches;
   } else if (accept("fault")) {
     constexpr types::Fault kFaults[] = {types::Fault::Div,     types::Fault::Index,    types::Fault::Null,
                                         types::Fault::Cast,    types::Fault::Subrange, types::Fault::Convert,

@@ -152,7 +152,7 @@ void Printer::stmt(const Stmt& s) {
     case StmtKind::Try:
       put("try {");
       block(StmtId{s.a});
-      if (s.b != 0) {
+      if (s.op != 0) {
         put(" catch ");
         if (s.d != 0) {
           expr(ExprId{s.d}, {});

@@ -310,7 +310,7 @@ void BodyTranslator::leaveTo(Label label, uint32_t try_depth) {
 
 void BodyTranslator::tryStatement(const Stmt& stmt) {
   const Operand fault = temp(), exit = temp();
-  const bool has_catch = stmt.b != 0, has_finally = stmt.c != 0;
+  const bool has_catch = stmt.op != 0, has_finally = stmt.c != 0;
   move(Scalar::U64, {}, exit);
   const auto guarded = [&](StmtId first) {
     const Label after = newLabel();

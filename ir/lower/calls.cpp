@@ -53,7 +53,7 @@ ExprId BodyLowering::lowerCall(rung::ExprId id, Target* target) {
     StmtId guarded = body;
     body = block([&] {
       StmtId failed = block([&] { assign(eno, constantBool(false, loc), loc); });
-      append({.kind = StmtKind::Try, .loc = loc, .a = guarded.index, .b = failed.index});
+      append({.kind = StmtKind::Try, .op = 1, .loc = loc, .a = guarded.index, .b = failed.index});
     });
   }
   append({.kind = StmtKind::If, .loc = loc, .a = eno.index, .b = body.index});
