@@ -141,6 +141,7 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   for (const Group& group : groups) records.need(group.records, false);
   for (const Group& header : headers) records.need(header.records, true);
   std::vector<OutputFile> files;
+  files.reserve(groups.size() + headers.size() + 3);
   for (const Group& group : groups)
     files.push_back({group.stem + ".cpp", sourceOf(module, group, records, name_space)});
   for (size_t i = 0; i < headers.size(); ++i) {

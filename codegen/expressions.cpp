@@ -8,7 +8,6 @@
 
 namespace rung::codegen {
 
-using types::Fault;
 using types::TypeInfo;
 using types::TypeTable;
 
@@ -707,7 +706,7 @@ void BodyWriter::convert(const Expr& e, Prec context) {
       value(a, context);
     } else {
       cast(isPointer(target) ? "void*" : type);
-      out_ += isPointer(target) ? "(uintptr_t)" : "(uintptr_t)";
+      out_ += "(uintptr_t)";
       value(a, Prec::Unary);
       endCast();
     }

@@ -6,7 +6,6 @@
 
 namespace rung::codegen {
 
-using types::TypeInfo;
 using types::TypeTable;
 
 namespace {

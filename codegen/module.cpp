@@ -10,7 +10,6 @@
 
 namespace rung::codegen {
 
-using types::TypeInfo;
 using types::TypeKind;
 using types::TypeTable;
 

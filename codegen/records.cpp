@@ -10,7 +10,6 @@ namespace rung::codegen {
 
 using types::Field;
 using types::RecordKind;
-using types::TypeInfo;
 using types::TypeKind;
 
 namespace {

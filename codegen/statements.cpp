@@ -9,7 +9,6 @@
 namespace rung::codegen {
 
 using types::Fault;
-using types::TypeTable;
 
 namespace {
 

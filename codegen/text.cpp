@@ -7,8 +7,6 @@
 
 namespace rung::codegen {
 
-using types::TypeInfo;
-using types::TypeTable;
 
 namespace {
 

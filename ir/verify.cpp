@@ -58,7 +58,6 @@
 
 namespace rung::ir {
 
-using types::RecordKind;
 using types::TypeInfo;
 using types::TypeKind;
 using types::TypeTable;

@@ -1,6 +1,8 @@
 // The project and its check: collect, resolve, then every body; library POUs join as they are used.
 #include "sema/project.h"
 
+#include <utility>
+
 #include "frontend/source/invariant.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
@@ -14,8 +16,8 @@ Project::Project(Sources& the_sources, Names& the_names, Diagnostics& the_diagno
       names(the_names),
       diagnostics(the_diagnostics),
       tree(the_tree),
-      options(the_options),
-      types(the_names, the_options.pointer_size) {
+      options(std::move(the_options)),
+      types(the_names, options.pointer_size) {
   types.time_is_signed = options.standard != text::Standard::Codesys;
   vars.emplace_back();
   pous.emplace_back();

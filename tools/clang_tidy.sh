@@ -8,6 +8,6 @@ build=${BUILD:-build}
 if [ $# -gt 0 ]; then
   files=("$@")
 else
-  mapfile -t files < <(tools/house/tracked .cpp | grep -vE '^tests/(unit|fuzz)/')
+  mapfile -t files < <(tools/house/tracked .cpp | grep -vE '^tests/(unit|fuzz|bench|programs)/')
 fi
 printf '%s\0' "${files[@]}" | xargs -0 -n 4 -P "$(nproc)" clang-tidy --quiet -p "$build" 2> >(grep -v 'warnings generated' >&2)

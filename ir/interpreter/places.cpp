@@ -8,7 +8,6 @@ namespace rung::ir::interpreter {
 using types::Dimension;
 using types::Field;
 using types::TypeInfo;
-using types::TypeKind;
 using types::TypeTable;
 
 bool BodyTranslator::isImage(ExprId id) const { return expr(rootOf(*body_, id)).kind == ExprKind::Image; }

@@ -9,7 +9,6 @@ namespace rung::ir::interpreter {
 
 using types::TypeInfo;
 using types::TypeKind;
-using types::TypeTable;
 
 namespace {
 

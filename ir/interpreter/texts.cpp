@@ -7,8 +7,6 @@
 
 namespace rung::ir::interpreter {
 
-using types::TypeKind;
-using types::TypeTable;
 
 namespace {
 

@@ -8,8 +8,6 @@
 
 namespace rung::ir::interpreter {
 
-using types::TypeKind;
-using types::TypeTable;
 
 namespace {
 

@@ -7,7 +7,6 @@
 
 namespace rung::ir {
 
-using types::Field;
 using types::RecordKind;
 using types::TypeInfo;
 using types::TypeKind;

@@ -5,7 +5,6 @@
 
 namespace rung::ir {
 
-using types::TypeKind;
 
 namespace {
 

@@ -8,7 +8,6 @@
 namespace rung::sema {
 
 using types::RecordKind;
-using types::TypeKind;
 
 void initWords(Context& context) {
   const auto word = [&](std::string_view text) { return context.names().key(context.names().intern(text)); };
@@ -196,7 +195,7 @@ std::string listName(std::string_view path) {
 }  // namespace
 
 // The list of this name, made when there is none yet.
-ListId listNamed(Context& context, std::string name, FileId file, Loc loc, NameMap& qualifiers) {
+ListId listNamed(Context& context, const std::string& name, FileId file, Loc loc, NameMap& qualifiers) {
   Project& project = context.project;
   Scopes& scopes = context.scopes;
   NameId id = context.names().intern(name);

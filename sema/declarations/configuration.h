@@ -13,7 +13,7 @@ void collectConfigurations(Context& context);
 void resolveConfigurations(Context& context);
 
 // ---- collect.cpp: global lists, which files, configurations and resources have
-ListId listNamed(Context& context, std::string name, FileId file, Loc loc, NameMap& qualifiers);
+ListId listNamed(Context& context, const std::string& name, FileId file, Loc loc, NameMap& qualifiers);
 void addGlobals(Context& context, ListId list, DeclId section, NameMap& bare);
 
 }  // namespace rung::sema

@@ -5,7 +5,6 @@
 
 namespace rung::sema {
 
-using types::RecordKind;
 using types::TypeInfo;
 using types::TypeKind;
 using types::TypeTable;

@@ -4,7 +4,6 @@
 
 namespace rung::sema {
 
-using types::RecordKind;
 using types::TypeInfo;
 using types::TypeKind;
 

@@ -6,7 +6,6 @@ namespace rung::sema {
 
 using types::Field;
 using types::FieldRole;
-using types::RecordKind;
 using types::TypeKind;
 
 namespace {

@@ -55,6 +55,8 @@ Output run(const Command& command) {
   const pid_t child = fork();
   if (child == 0) {  // only calls that are safe after a fork of a program with threads
     setpgid(0, 0);
+    for (const int by_default : {SIGINT, SIGQUIT})
+      signal(by_default, SIG_DFL);  // a shell in the background ignores them
     const int null = open("/dev/null", O_RDONLY);
     dup2(null, 0);
     dup2(out[1], 1);

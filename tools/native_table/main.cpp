@@ -21,7 +21,6 @@ namespace {
 
 using rung::TypeId;
 using rung::sema::Context;
-using rung::sema::Pou;
 using rung::sema::PouId;
 using rung::sema::VarId;
 using rung::types::TypeKind;
@@ -75,6 +74,7 @@ void instantiateAll(Context& context, PouId generic) {
   const auto choose = [&](const auto& self, size_t at) -> void {
     if (at == generics.size()) {
       std::vector<TypeId> types;
+      types.reserve(pins.size());
       for (const TypeId pin : pins) types.push_back(typeOf(pin));
       const PouId made = rung::sema::instantiate(context, generic, types, result ? typeOf(result) : TypeId{});
       context.project.pou(made).used = true;

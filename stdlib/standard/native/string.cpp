@@ -179,6 +179,7 @@ inline int16_t find(const char* in1, const char* in2) {
 
 extern "C" {
 
+// NOLINTBEGIN(bugprone-macro-parentheses): Unit is a type
 #define RUNG_STRING_FUNCTIONS(TYPE, Unit)                                                                        \
   int16_t rung_standard_LEN__##TYPE(rung_context*, const Unit* in) { return asInt(lengthOf(in)); }               \
   uint32_t rung_standard_LEFT__##TYPE(rung_context*, const Unit* in, int32_t l, Unit* out, uint32_t capacity) {  \
@@ -208,6 +209,7 @@ extern "C" {
     return replace(measured(in1), measured(in2), l, p, out, capacity);                                           \
   }                                                                                                              \
   int16_t rung_standard_FIND__##TYPE(rung_context*, const Unit* in1, const Unit* in2) { return find(in1, in2); }
+// NOLINTEND(bugprone-macro-parentheses)
 RUNG_STRING_FUNCTIONS(STRING_255, char)
 RUNG_STRING_FUNCTIONS(WSTRING_255, char16_t)
 #undef RUNG_STRING_FUNCTIONS
