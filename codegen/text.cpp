@@ -7,7 +7,6 @@
 
 namespace rung::codegen {
 
-
 namespace {
 
 constexpr uint32_t kCopiedWhole = 128;   // bytes of a text that are copied without looking for its end

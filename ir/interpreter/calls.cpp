@@ -8,7 +8,6 @@
 
 namespace rung::ir::interpreter {
 
-
 NativeThunk BodyTranslator::findNative(const Body& callee) {
   const std::string name = nativeName(module_, callee);
   const auto at =

@@ -7,7 +7,6 @@
 
 namespace rung::ir::interpreter {
 
-
 namespace {
 
 std::u16string utf16(std::string_view text) {

@@ -8,7 +8,6 @@
 
 namespace rung::ir::interpreter {
 
-
 namespace {
 
 constexpr uint32_t kNowhere = ~0u;

@@ -5,7 +5,6 @@
 
 namespace rung::ir {
 
-
 namespace {
 
 class Simplifier {
