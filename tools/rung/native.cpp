@@ -361,7 +361,7 @@ class Builder {
     hash.add(installation().include);
     hash.add("header in the cache");
     const std::string compiled = cache_.path(hash.hex(), "gch");  // …/KEY.gch beside the header …/KEY
-    const std::string header = compiled.substr(0, compiled.size() - 4);
+    std::string header = compiled.substr(0, compiled.size() - 4);
     // clang++ remembers the header's path and time: it is compiled where it stays, and never marked as used.
     const bool has_header = access(header.c_str(), R_OK) == 0;
     if (has_header && cache_.has(compiled)) return header;
