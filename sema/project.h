@@ -90,6 +90,7 @@ struct Pou {
   std::vector<VarId> pins;  // the inputs, in-outs and outputs among them; filled by bodies/ at the first call
   bool pins_ready = false;
   bool library = false, native = false, pure = false, test = false;
+  bool test_only = false;   // {test_only}: only tests call it
   bool extensible = false;  // has an {extensible} pin
   bool sized = false;       // {sized}: has a second native form that takes and gives lengths of texts
   bool prefix = false;      // {prefix}: the first n characters of the result follow from the first n of the first input

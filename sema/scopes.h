@@ -129,8 +129,8 @@ struct Scopes {
 
   // Pragmas and words that declarations look for, as name keys.
   struct Words {
-    NameId attribute_qualified_only, attribute_strict, test, alias, required, lazy, extensible, prefix, sized, pure,
-        native, op, std;
+    NameId attribute_qualified_only, attribute_strict, test, test_only, alias, required, lazy, extensible, prefix,
+        sized, pure, native, op, std;
   } words;
 
   NamedType* named(TypeId type) {

@@ -5,6 +5,7 @@
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/generic_calls.h"
 #include "sema/checks/required_pins.h"
+#include "sema/checks/test_only.h"
 #include "sema/checks/writable.h"
 
 namespace rung::sema {
@@ -190,6 +191,7 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
   resolvePou(context, pou);
   const Pou& callee = context.project.pou(pou);
   noteCall(context, pou, node.h.loc);
+  checkTestOnly(context, node, pou);
   if (callee.operator_kind != Pou::Operator::None) return checkOperatorCall(context, expr, pou, expected, {});
   if (callee.generic || callee.extensible) return checkGenericCall(context, expr, pou, expected, {});
   const Arguments arguments = matchArguments(context, node, pou);

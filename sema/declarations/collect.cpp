@@ -15,6 +15,7 @@ void initWords(Context& context) {
   words.attribute_qualified_only = word("qualified_only");
   words.attribute_strict = word("strict");
   words.test = word("test");
+  words.test_only = word("test_only");
   words.alias = word("alias");
   words.required = word("required");
   words.lazy = word("lazy");
@@ -98,6 +99,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.pure = findPragma(context, decl.h, words.pure) != nullptr;
   pou.prefix = findPragma(context, decl.h, words.prefix) != nullptr;
   pou.sized = findPragma(context, decl.h, words.sized) != nullptr;
+  pou.test_only = findPragma(context, decl.h, words.test_only) != nullptr;
   pou.test = findPragma(context, decl.h, words.test) != nullptr;
   if (const Pragma* pragma = findPragma(context, decl.h, words.op)) {
     const std::string_view word = context.tree().text(pragma->value);
