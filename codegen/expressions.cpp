@@ -19,28 +19,6 @@ bool isSumOrProduct(types::Op op) { return op == types::Op::Add || op == types::
 // The bounds of a pointer's arithmetic are those of ULINT.
 bool isPointer(types::TypeKind kind) { return kind == types::TypeKind::Pointer || kind == types::TypeKind::Reference; }
 
-int64_t nanoseconds(types::TypeKind kind) {
-  using types::TypeKind;
-  if (kind == TypeKind::Time || kind == TypeKind::TimeOfDay) return 1'000'000;
-  if (kind == TypeKind::Date || kind == TypeKind::DateTime) return 1'000'000'000;
-  return 1;
-}
-bool isTimeOfDay(types::TypeKind kind) {
-  return kind == types::TypeKind::TimeOfDay || kind == types::TypeKind::LTimeOfDay;
-}
-bool isDateTime(types::TypeKind kind) {
-  return kind == types::TypeKind::DateTime || kind == types::TypeKind::LDateTime;
-}
-bool isDay(types::TypeKind kind) { return kind == types::TypeKind::Date || kind == types::TypeKind::LDate; }
-// As in the kernel: which conversions change the unit.
-bool changesUnit(types::TypeKind from, types::TypeKind to) {
-  const bool from_span = TypeTable::isDuration(from) || isTimeOfDay(from);
-  const bool to_span = TypeTable::isDuration(to) || isTimeOfDay(to);
-  const bool from_date = isDay(from) || isDateTime(from);
-  const bool to_date = isDay(to) || isDateTime(to);
-  return from != to && ((from_span && to_span) || (from_date && to_date) || (isDateTime(from) && isTimeOfDay(to)));
-}
-
 }  // namespace
 
 // ---- values
@@ -617,7 +595,7 @@ void BodyWriter::convertTime(ExprId from, TypeKind source, TypeKind target) {
   const bool is_signed = types_.isSigned(source);
   const char* integer = is_signed ? "(int64_t)" : "(uint64_t)";
   const char* suffix = is_signed ? "LL" : "ULL";
-  const int64_t unit = nanoseconds(source), to = nanoseconds(target);
+  const int64_t unit = types::nanoseconds(source), to = types::nanoseconds(target);
   constexpr int64_t kDay = 86'400'000'000'000;
   // Everything in the larger of both units' count: 32-bit values scaled up fit 64 bits.
   auto number = [&] {
@@ -626,12 +604,12 @@ void BodyWriter::convertTime(ExprId from, TypeKind source, TypeKind target) {
   };
   const int64_t day = kDay / unit;
   out_ += '(';
-  if (isDateTime(source) && isTimeOfDay(target)) {
+  if (TypeTable::isDateTime(source) && TypeTable::isTimeOfDay(target)) {
     number();
     out_ += " % ";
     appendSigned(out_, day);
     out_ += suffix;
-  } else if (isDateTime(source) && isDay(target)) {
+  } else if (TypeTable::isDateTime(source) && TypeTable::isDay(target)) {
     number();
     out_ += " / ";
     appendSigned(out_, day);
@@ -753,7 +731,7 @@ void BodyWriter::convert(const Expr& e, Prec context) {
       out_ += ')';
       endCast();
     }
-  } else if (changesUnit(source, target)) {
+  } else if (types::changesUnit(source, target)) {
     cast(type);
     out_ += '(';
     convertTime(a, source, target);

@@ -25,24 +25,6 @@ Op mirrored(Op op) {
   return op;
 }
 
-// ---- times and dates
-
-int64_t nanoseconds(TypeKind kind) {
-  if (kind == TypeKind::Time || kind == TypeKind::TimeOfDay) return 1'000'000;
-  if (kind == TypeKind::Date || kind == TypeKind::DateTime) return 1'000'000'000;
-  return 1;
-}
-bool isTimeOfDay(TypeKind kind) { return kind == TypeKind::TimeOfDay || kind == TypeKind::LTimeOfDay; }
-bool isDateTime(TypeKind kind) { return kind == TypeKind::DateTime || kind == TypeKind::LDateTime; }
-bool isDay(TypeKind kind) { return kind == TypeKind::Date || kind == TypeKind::LDate; }
-bool changesUnit(TypeKind from, TypeKind to) {
-  const bool from_span = TypeTable::isDuration(from) || isTimeOfDay(from);
-  const bool to_span = TypeTable::isDuration(to) || isTimeOfDay(to);
-  const bool from_date = isDay(from) || isDateTime(from);
-  const bool to_date = isDay(to) || isDateTime(to);
-  return from != to && ((from_span && to_span) || (from_date && to_date) || (isDateTime(from) && isTimeOfDay(to)));
-}
-
 }  // namespace
 
 Scalar BodyTranslator::scalarOf(TypeId type) const {
@@ -417,17 +399,17 @@ Operand BodyTranslator::convert(ExprId id, const Operand* want) {
     const Scalar from = scalarOf(a);
     Operand number = value(a);
     if (e.checks != 0) convertChecks(e, number);
-    if (changesUnit(source, target_kind)) {
+    if (types::changesUnit(source, target_kind)) {
       const Scalar wide_type = isSigned(from) ? Scalar::I64 : Scalar::U64;
-      const int64_t unit = nanoseconds(source), to_unit = nanoseconds(target_kind);
+      const int64_t unit = types::nanoseconds(source), to_unit = types::nanoseconds(target_kind);
       const int64_t day = 86'400'000'000'000 / unit;
       const auto apply = [&](Op op, int64_t by) {
         number = operate(op, wide_type, number, {Mode::Constant, {}, by}, nullptr);
       };
       number = inMemory(wide(number, from), wide_type);
-      if (isDateTime(source) && isTimeOfDay(target_kind)) {
+      if (TypeTable::isDateTime(source) && TypeTable::isTimeOfDay(target_kind)) {
         apply(Op::Mod, day);
-      } else if (isDateTime(source) && isDay(target_kind)) {
+      } else if (TypeTable::isDateTime(source) && TypeTable::isDay(target_kind)) {
         apply(Op::Div, day);
         apply(Op::Mul, day);
       }

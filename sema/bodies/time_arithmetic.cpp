@@ -11,7 +11,6 @@ namespace {
 using types::TypeTable;
 
 bool isLong(TypeKind k) { return TypeTable::bitWidth(k) == 64; }
-bool isTimeOfDay(TypeKind k) { return k == TypeKind::TimeOfDay || k == TypeKind::LTimeOfDay; }
 bool isSeconds(TypeKind k) { return k == TypeKind::Date || k == TypeKind::DateTime; }
 TypeId durationFor(TypeKind k) { return isLong(k) ? types::kLTime : types::kTime; }
 
@@ -140,7 +139,7 @@ TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, Ex
   if (op == BinaryOp::Subtract && TypeTable::isDate(a) && TypeTable::isDate(b)) {
     TypeKind kind = a;
     if (a != b) {
-      const bool same_quantity = isTimeOfDay(a) == isTimeOfDay(b) && isLong(a) != isLong(b);
+      const bool same_quantity = TypeTable::isTimeOfDay(a) == TypeTable::isTimeOfDay(b) && isLong(a) != isLong(b);
       if (!same_quantity) return {};
       kind = isLong(a) ? a : b;
     }

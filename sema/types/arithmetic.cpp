@@ -261,25 +261,6 @@ Outcome applyInteger(const TypeTable& table, Op op, const Value& left, const Val
   return {};
 }
 
-// Nanoseconds of one unit of a duration or date kind.
-int64_t unitOf(TypeKind kind) {
-  if (kind == TypeKind::Time || kind == TypeKind::TimeOfDay) return 1'000'000;
-  if (kind == TypeKind::Date || kind == TypeKind::DateTime) return 1'000'000'000;
-  return 1;
-}
-bool isTimeOfDay(TypeKind kind) { return kind == TypeKind::TimeOfDay || kind == TypeKind::LTimeOfDay; }
-bool isDateTime(TypeKind kind) { return kind == TypeKind::DateTime || kind == TypeKind::LDateTime; }
-bool isDay(TypeKind kind) { return kind == TypeKind::Date || kind == TypeKind::LDate; }
-
-// Conversions that change the unit: TIME and LTIME, times of day, and the parts of a date and time.
-bool scales(TypeKind from, TypeKind to) {
-  const bool from_span = TypeTable::isDuration(from) || isTimeOfDay(from);
-  const bool to_span = TypeTable::isDuration(to) || isTimeOfDay(to);
-  const bool from_date = isDay(from) || isDateTime(from);
-  const bool to_date = isDay(to) || isDateTime(to);
-  return (from_span && to_span) || (from_date && to_date) || (isDateTime(from) && isTimeOfDay(to));
-}
-
 Outcome realToInteger(const TypeTable& table, double value, TypeId to, TypeKind kind) {
   Outcome out;
   out.value.type = to;
@@ -356,6 +337,21 @@ Outcome apply(const TypeTable& table, const Names& names, Op op, const Value& le
   return applyInteger(table, op, left, right, kind == TypeKind::IntegerLiteral ? TypeKind::LInt : kind);
 }
 
+int64_t nanoseconds(TypeKind kind) {
+  if (kind == TypeKind::Time || kind == TypeKind::TimeOfDay) return 1'000'000;
+  if (kind == TypeKind::Date || kind == TypeKind::DateTime) return 1'000'000'000;
+  return 1;
+}
+
+bool changesUnit(TypeKind from, TypeKind to) {
+  const bool from_span = TypeTable::isDuration(from) || TypeTable::isTimeOfDay(from);
+  const bool to_span = TypeTable::isDuration(to) || TypeTable::isTimeOfDay(to);
+  const bool from_date = TypeTable::isDay(from) || TypeTable::isDateTime(from);
+  const bool to_date = TypeTable::isDay(to) || TypeTable::isDateTime(to);
+  return from != to && ((from_span && to_span) || (from_date && to_date) ||
+                        (TypeTable::isDateTime(from) && TypeTable::isTimeOfDay(to)));
+}
+
 Outcome convert(const TypeTable& table, const Value& value, TypeId to) {
   const TypeKind written_from = table.plainKind(value.type), kind = table.plainKind(to);
   const TypeKind from = written_from == TypeKind::IntegerLiteral ? TypeKind::LInt : written_from;
@@ -386,12 +382,12 @@ Outcome convert(const TypeTable& table, const Value& value, TypeId to) {
     out.overflow = value.bits > 1;
   } else {
     Int128 number = exact(table, from, value.bits);
-    if (from != kind && scales(from, kind)) {
+    if (changesUnit(from, kind)) {
       constexpr Int128 kDay = Int128{86'400} * 1'000'000'000;
-      number *= unitOf(from);
-      if (isDateTime(from) && isTimeOfDay(kind)) number %= kDay;
-      if (isDateTime(from) && isDay(kind)) number -= number % kDay;
-      number /= unitOf(kind);
+      number *= nanoseconds(from);
+      if (TypeTable::isDateTime(from) && TypeTable::isTimeOfDay(kind)) number %= kDay;
+      if (TypeTable::isDateTime(from) && TypeTable::isDay(kind)) number -= number % kDay;
+      number /= nanoseconds(kind);
     }
     out = ofExact(table, to, kind, number);
   }

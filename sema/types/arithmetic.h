@@ -50,6 +50,12 @@ Outcome apply(const TypeTable& table, const Names& names, Op op, const Value& le
 // `outcome.overflow` when the value changed beyond rounding. Text is not converted here (runtime/text does it).
 Outcome convert(const TypeTable& table, const Value& value, TypeId to);
 
+// Nanoseconds of one unit of a duration or date kind.
+int64_t nanoseconds(TypeKind kind);
+
+// Conversions that change the unit: TIME and LTIME, times of day, and the parts of a date and time.
+bool changesUnit(TypeKind from, TypeKind to);
+
 // The default of a type's memory when nothing is declared: 0, '' or the lower bound of a subrange, the first enum item.
 Value defaultValue(const TypeTable& table, Names& names, TypeId type);
 

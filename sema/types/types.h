@@ -169,6 +169,9 @@ class TypeTable {
   static bool isBits(TypeKind k) { return k >= TypeKind::Byte && k <= TypeKind::LWord; }  // without BOOL
   static bool isReal(TypeKind k) { return k == TypeKind::Real || k == TypeKind::LReal; }
   static bool isDuration(TypeKind k) { return k == TypeKind::Time || k == TypeKind::LTime; }
+  static bool isTimeOfDay(TypeKind k) { return k == TypeKind::TimeOfDay || k == TypeKind::LTimeOfDay; }
+  static bool isDateTime(TypeKind k) { return k == TypeKind::DateTime || k == TypeKind::LDateTime; }
+  static bool isDay(TypeKind k) { return k == TypeKind::Date || k == TypeKind::LDate; }
   static bool isDate(TypeKind k) { return k >= TypeKind::Date && k <= TypeKind::LDateTime; }
   static bool isText(TypeKind k) { return k == TypeKind::String || k == TypeKind::WString; }
   static bool isElementary(TypeKind k) { return k >= TypeKind::Bool && k <= TypeKind::WString; }

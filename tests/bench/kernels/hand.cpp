@@ -8,6 +8,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "../measure_hand.h"
+
 namespace {
 
 struct Filter {
@@ -184,19 +186,6 @@ struct Checksum {
     return crc;
   }
 };
-
-template <class Kernel>
-void measure(const char* name, int32_t rounds) {
-  static Kernel kernel;
-  double best = 1e9;
-  int32_t check = 0;
-  for (int i = 0; i < 5; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
-    check = kernel.run(rounds);
-    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-  }
-  std::printf("hand\t%s\t%d\t%.6f\t%d\n", name, rounds, best, check);
-}
 
 }  // namespace
 

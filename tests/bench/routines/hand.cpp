@@ -9,6 +9,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "../measure_hand.h"
+
 namespace {
 
 int32_t nextSeed(int32_t seed) { return (seed * 1021 + 7477) % 31991; }
@@ -328,19 +330,6 @@ struct Calendar {
     return sum;
   }
 };
-
-template <class Kernel>
-void measure(const char* name, int32_t rounds) {
-  static Kernel kernel;
-  double best = 1e9;
-  int32_t check = 0;
-  for (int i = 0; i < 5; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
-    check = kernel.run(rounds);
-    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-  }
-  std::printf("hand\t%s\t%d\t%.6f\t%d\n", name, rounds, best, check);
-}
 
 }  // namespace
 
