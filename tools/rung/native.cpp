@@ -114,7 +114,7 @@ class Builder {
     flags_.insert(flags_.end(), user_flags_.begin(), user_flags_.end());
 
     Hash tool;
-    tool.add("rung objects 1");
+    tool.add("rung objects 2");
     addIdentity(tool, compiler_);
     for (const std::string& flag : flags_) tool.add(flag);
     addHeaders(tool, installation().include + "/rung");
@@ -339,8 +339,7 @@ class Builder {
       if (!header.empty()) process.arguments.insert(process.arguments.end(), {"-include", header});
       process.arguments.insert(process.arguments.end(),
                                {"-I", installation().include, "-c", missing[i]->source, "-o", objectPart(i)});
-      // Debuggers look for the sources in the folder they stand in, and no path of this machine gets into an object.
-      process.arguments.push_back("-ffile-prefix-map=" + work_ + "=.");
+      hideFolders(process.arguments);
       process.folder = work_;
       process.log = work_ + "/" + std::to_string(i) + ".log";
       processes.push_back(std::move(process));
@@ -350,6 +349,13 @@ class Builder {
       if (!cache_.put(objectPart(i), missing[i]->object))
         return fail(kUsage, "cannot write in the cache folder `" + cache_.folder() + "`: " + strerror(errno));
     return true;
+  }
+
+  // Debuggers look for the sources in the folder they stand in, and no path of this machine gets into an object.
+  void hideFolders(std::vector<std::string>& arguments) const {
+    arguments.push_back("-ffile-prefix-map=" + installation().include + "=rung/include");
+    arguments.push_back("-ffile-prefix-map=" + cache_.folder() + "=rung/cache");
+    arguments.push_back("-ffile-prefix-map=" + work_ + "=.");  // the last that fits counts, and work_ is in the cache
   }
 
   std::string objectPart(size_t i) const { return work_ + "/" + std::to_string(i) + ".o"; }
@@ -375,6 +381,7 @@ class Builder {
     processes[0].arguments.insert(processes[0].arguments.end(), flags_.begin(), flags_.end());
     processes[0].arguments.insert(processes[0].arguments.end(),
                                   {"-I", installation().include, "-x", "c++-header", header, "-o", part + ".gch"});
+    hideFolders(processes[0].arguments);
     processes[0].log = work_ + "/header.log";
     if (runAll(processes, 1, "precompiling") != nullptr) return {};  // the objects can be made without it
     if (!cache_.put(part + ".gch", compiled)) return {};
