@@ -219,6 +219,10 @@ struct ConvertExpr {
   ExprHeader h;
   ExprId operand;
 };
+struct AddressOfExpr {  // h.type: a pointer or reference to the place's type
+  ExprHeader h;
+  ExprId place;
+};
 
 // ---- statements -----------------------------------------------------------------------------------------------
 

@@ -149,7 +149,8 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
     case rung::ExprKind::ArrayInit:
     case rung::ExprKind::Repeat:
     case rung::ExprKind::StructInit:
-    case rung::ExprKind::Convert: return lowerValue(id);
+    case rung::ExprKind::Convert:
+    case rung::ExprKind::AddressOf: return lowerValue(id);
   }
   return {};
 }

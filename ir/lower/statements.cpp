@@ -141,9 +141,13 @@ void BodyLowering::lowerAssign(const AssignStmt& stmt) {
       assign(target, binary(op, type, target, convertValue(value, type, loc), loc), loc);
       return;
     }
-    case AssignOp::Reference: break;
+    case AssignOp::Reference: {  // sema made the value an address
+      ExprId value = lowerValue(stmt.value);
+      ExprId target = lowerAfter({&value}, [&] { return lowerPlace(stmt.target); });
+      assign(target, value, loc);
+      return;
+    }
   }
-  RUNG_INVARIANT(false, "REF= is not lowered yet; sema reports it");
 }
 
 void BodyLowering::lowerIf(const IfStmt& stmt) { lowerIfFrom(tree_.list(stmt.branches), stmt.otherwise, stmt.h.loc); }

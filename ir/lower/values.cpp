@@ -65,6 +65,7 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
     case rung::ExprKind::Deref:
     case rung::ExprKind::BitAccess:
     case rung::ExprKind::Address:
+    case rung::ExprKind::AddressOf:
     case rung::ExprKind::Call:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:
@@ -155,6 +156,7 @@ ExprId BodyLowering::lowerValue(rung::ExprId id) {
     case rung::ExprKind::Unary: return lowerUnary(id);
     case rung::ExprKind::Binary: return lowerBinary(id);
     case rung::ExprKind::Convert: return lowerConvert(id);
+    case rung::ExprKind::AddressOf: return lowerAddressOf(id);
     case rung::ExprKind::Call: return lowerCall(id);
     case rung::ExprKind::Error:
     case rung::ExprKind::Range:
@@ -201,6 +203,7 @@ bool BodyLowering::callsFunction(rung::ExprId id) const {
     case rung::ExprKind::Convert: return callsFunction(tree_.as<ConvertExpr>(id).operand);
     case rung::ExprKind::Member: return callsFunction(tree_.as<MemberExpr>(id).base);
     case rung::ExprKind::Deref: return callsFunction(tree_.as<DerefExpr>(id).base);
+    case rung::ExprKind::AddressOf: return callsFunction(tree_.as<AddressOfExpr>(id).place);
     case rung::ExprKind::BitAccess: return callsFunction(tree_.as<BitAccessExpr>(id).base);
     case rung::ExprKind::Binary:
       return callsFunction(tree_.as<BinaryExpr>(id).left) || callsFunction(tree_.as<BinaryExpr>(id).right);
@@ -281,6 +284,15 @@ ExprId BodyLowering::lowerConvert(rung::ExprId id) {
   if (auto value = constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
   const ConvertExpr& node = tree_.as<ConvertExpr>(id);
   return convertValue(lowerValue(node.operand), strip(node.h.type), node.h.loc);
+}
+
+// The address of what a pointer or reference points to is its value: nothing is read there.
+ExprId BodyLowering::lowerAddressOf(rung::ExprId id) {
+  const AddressOfExpr& node = tree_.as<AddressOfExpr>(id);
+  const TypeId type = strip(node.h.type);
+  if (tree_.kind(node.place) == rung::ExprKind::Deref)
+    return convertValue(lowerValue(tree_.as<DerefExpr>(node.place).base), type, node.h.loc);
+  return add({.kind = ExprKind::Address, .type = type, .loc = node.h.loc, .a = lowerPlace(node.place).index});
 }
 
 ExprId BodyLowering::convertValue(ExprId value, TypeId to, Loc loc) {

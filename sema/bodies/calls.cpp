@@ -135,6 +135,13 @@ void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& bindin
     convert(context, binding.value, pin.type, purpose);
     return;
   }
+  if (context.types().kind(pin.type) == TypeKind::Reference && context.tree().kind(binding.value) == ExprKind::Deref) {
+    const ExprId reference = context.tree().as<DerefExpr>(binding.value).base;  // the reference itself is passed
+    if (sameType(context, context.tree().expr(reference).type, pin.type)) {
+      binding.value = reference;
+      return;
+    }
+  }
   if (!checkWritable(context, binding.value, purpose)) return;
   if (!sameInOut(context, pin.type, actual)) {
     context.report(Diag::OtherInOutType, context.tree().loc(binding.value),
@@ -145,6 +152,10 @@ void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& bindin
 
 void bindInput(Context& context, const Pou& pou, const Var& pin, Binding& binding) {
   const types::TypeInfo& wanted = context.types().info(context.types().resolve(pin.type));
+  if (wanted.kind == TypeKind::Reference) {
+    bindReference(context, binding.value, pin.type);
+    return;
+  }
   if (wanted.kind == TypeKind::Array && wanted.dimensions.empty()) {
     const TypeId actual = check(context, binding.value, {}, Access::Read);
     if (actual != types::kError && !sameInOut(context, pin.type, actual)) {
@@ -273,7 +284,8 @@ TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement)
 TypeId sizeOf(Context& context, ExprId& expr) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (node.arguments.count != 1) {
-    context.report(Diag::WrongArgumentCount, node.h.loc, {"SIZEOF", "1", std::to_string(node.arguments.count)});
+    context.report(Diag::WrongArgumentCount, node.h.loc,
+                   {text(context, nameOf(context, node.callee)), "1", std::to_string(node.arguments.count)});
     return refuse(context, node);
   }
   ExprId operand = context.tree().list(node.arguments)[0].value;
@@ -300,11 +312,10 @@ TypeId sizeOf(Context& context, ExprId& expr) {
 TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (const auto assertion = assertionOf(context.names(), name)) return checkAssertion(context, expr, *assertion);
-  if (isNamed(context, name, "SIZEOF")) return sizeOf(context, expr);
+  if (isNamed(context, name, "SIZEOF") || isNamed(context, name, "XSIZEOF")) return sizeOf(context, expr);
   if (const TypeId type = checkRuleCall(context, expr, name, expected)) return type;
-  if (isNamed(context, name, "ADR") || isNamed(context, name, "REF")) {
-    context.report(Diag::NotSupportedYet, node.h.loc, {isNamed(context, name, "ADR") ? "`ADR`" : "`REF`"});
-  } else if (sayUnknown(context, name))
+  if (const TypeId type = checkAddressCall(context, expr, name)) return type;
+  if (sayUnknown(context, name))
     context.report(Diag::UnknownName, node.h.loc, {text(context, name)}).didYouMean(nearestName(context, name));
   context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);
   return refuse(context, node);
@@ -471,7 +482,7 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
       case EntityKind::Namespace:
       case EntityKind::Program: break;
     }
-    return callValue(context, expr, checkName(context, node.callee, {}, Access::ReadWrite), as_statement);
+    return callValue(context, expr, check(context, node.callee, {}, Access::ReadWrite), as_statement);
   }
   if (context.tree().kind(node.callee) == ExprKind::Member) {
     const TypeId type = check(context, node.callee, {}, Access::Qualifier);

@@ -18,11 +18,7 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   const TypeId base = check(context, node.base, {}, access == Access::Qualifier ? Access::Read : access);
   const uint32_t count = node.indices.count;
   const types::TypeInfo* info = &context.types().info(context.types().resolve(base));
-  if (info->kind == TypeKind::Pointer && count == 1) {
-    // CODESYS indexes a pointer like an array; here it must say what it means.
-    context.report(Diag::IndexOfPointer, node.h.loc);
-    return node.h.type = types::kError;
-  }
+  if (info->kind == TypeKind::Pointer && count == 1) return checkPointerIndex(context, expr);
   const bool array = info->kind == TypeKind::Array;
   if (!array && base != types::kError) {
     context.report(Diag::NotAnArray, node.h.loc, {context.types().spell(base)});
@@ -56,6 +52,7 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
 
 TypeId checkDeref(Context& context, ExprId& expr) {
   DerefExpr& node = context.tree().as<DerefExpr>(expr);
+  if (node.h.type) return node.h.type;  // of a reference that was checked before
   const TypeId base = check(context, node.base, {}, Access::Read);
   if (base == types::kError) return node.h.type = types::kError;
   const types::TypeInfo& info = context.types().info(context.types().resolve(base));
@@ -104,6 +101,20 @@ TypeId checkAddress(Context& context, ExprId& expr) {
   return node.h.type = addressType(node.address);
 }
 
+// A REFERENCE is used like what it refers to.
+TypeId throughReference(Context& context, ExprId& expr, TypeId type) {
+  const types::TypeInfo& info = context.types().info(context.types().resolve(type));
+  if (info.kind != TypeKind::Reference) return type;
+  DerefExpr deref{};
+  deref.h.kind = ExprKind::Deref;
+  deref.h.loc = context.tree().loc(expr);
+  deref.h.writable = 1;
+  deref.h.type = info.base;
+  deref.base = expr;
+  expr = context.tree().add<ExprId>(deref);
+  return info.base;
+}
+
 TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) {
   Tree& tree = context.tree();
   switch (tree.kind(expr)) {
@@ -119,7 +130,8 @@ TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) 
     case ExprKind::Unary: return checkUnary(context, expr, expected);
     case ExprKind::Binary: return checkBinary(context, expr, expected);
     case ExprKind::Call: return checkCall(context, expr, expected, false);
-    case ExprKind::Convert: return tree.expr(expr).type;  // checked before
+    case ExprKind::Convert:
+    case ExprKind::AddressOf: return tree.expr(expr).type;  // checked before
     case ExprKind::ArrayInit:
     case ExprKind::StructInit:
     case ExprKind::Range:
@@ -137,7 +149,8 @@ TypeId check(Context& context, ExprId& expr, TypeId expected, Access access) {
     return context.tree().expr(expr).type = types::kError;
   }
   ++context.depth;
-  const TypeId type = dispatch(context, expr, expected, access);
+  TypeId type = dispatch(context, expr, expected, access);
+  if (context.tree().kind(expr) != ExprKind::AddressOf) type = throughReference(context, expr, type);
   --context.depth;
   return type;
 }

@@ -3,6 +3,7 @@
 #include "sema/bodies/bodies.h"
 #include "sema/checks/case_labels.h"
 #include "sema/checks/constant_condition.h"
+#include "sema/checks/dangling_address.h"
 #include "sema/checks/for_header.h"
 #include "sema/checks/jump_labels.h"
 #include "sema/checks/overlapping_addresses.h"
@@ -42,19 +43,18 @@ TypeId checkTarget(Context& context, ExprId& target, Access access) {
 // x REF= y: the reference itself is the target.
 void checkReferenceAssign(Context& context, AssignStmt& node) {
   const TypeId type = check(context, node.target, {}, Access::Write);
-  const TypeId value = check(context, node.value, {}, Access::ReadWrite);
-  if (type == types::kError || value == types::kError) return;
-  const bool reference = context.tree().kind(node.target) == ExprKind::Deref;
-  if (reference) node.target = context.tree().as<DerefExpr>(node.target).base;
+  if (type == types::kError) {
+    check(context, node.value, {}, Access::Address);
+    return;
+  }
+  if (context.tree().kind(node.target) == ExprKind::Deref) node.target = context.tree().as<DerefExpr>(node.target).base;
   const TypeId own = context.tree().expr(node.target).type;
   if (context.types().kind(own) != TypeKind::Reference) {
-    context.report(Diag::NotAReference, context.tree().loc(node.target), {context.types().spell(own)});
-  } else if (!sameType(context, type, value)) {
-    context.report(Diag::WrongType, context.tree().loc(node.value),
-                   {context.types().spell(value), "bound to the reference", context.types().spell(type)});
-  } else {
-    context.report(Diag::NotSupportedYet, node.h.loc, {"`REF=`"});
+    context.report(Diag::NotAReference, context.tree().loc(node.target), {"REF=", context.types().spell(own)});
+    return;
   }
+  if (!checkWritable(context, node.target, Purpose{"assigned to", {}, {}})) return;
+  if (bindReference(context, node.value, own)) checkDanglingAddress(context, node.target, node.value);
 }
 
 BinaryOp binaryOf(AssignOp op) {
@@ -108,6 +108,7 @@ void checkAssign(Context& context, AssignStmt& node) {
         return;
       }
       checkAs(context, node.value, type, Purpose{"assigned to", placeName(context, node.target), {}});
+      checkDanglingAddress(context, node.target, node.value);
       return;
     }
     case AssignOp::Set:

@@ -269,6 +269,7 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
     case ExprKind::Deref:
     case ExprKind::BitAccess:
     case ExprKind::Address:
+    case ExprKind::AddressOf:
     case ExprKind::Range:
     case ExprKind::ArrayInit:
     case ExprKind::Repeat:

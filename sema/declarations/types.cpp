@@ -332,7 +332,7 @@ TypeId resolveWritten(Context& context, TypeExprId id) {
       const PointerTypeExpr& expr = tree.as<PointerTypeExpr>(id);
       const TypeId target = resolveType(context, expr.target);
       if (target == types::kError) return target;
-      return expr.form == PointerForm::Pointer ? table.pointer(target) : table.reference(target);
+      return expr.form == PointerForm::Reference ? table.reference(target) : table.pointer(target);
     }
   }
   return types::kError;

@@ -85,6 +85,13 @@ TypeTable::TypeTable(Names& names, uint32_t pointer_size) : names_(names), point
     TypeInfo& info = types_[static_cast<size_t>(row.kind)];
     if (!info.name) info.name = name;
   }
+  // CODESYS's names for numbers as wide as an address.
+  const auto native = [&](const char* name, TypeKind wide, TypeKind narrow) {
+    elementary_.emplace(names.key(names.intern(name)).index, idOf(pointer_size == 8 ? wide : narrow));
+  };
+  native("__XWORD", TypeKind::LWord, TypeKind::DWord);
+  native("__XINT", TypeKind::LInt, TypeKind::DInt);
+  native("__UXINT", TypeKind::ULInt, TypeKind::UDInt);
   // STRING and WSTRING without a length are the same types as with the default one.
   interned_.emplace(internKey(TypeKind::String, kDefaultLength), idOf(TypeKind::String));
   interned_.emplace(internKey(TypeKind::WString, kDefaultLength), idOf(TypeKind::WString));
