@@ -74,6 +74,7 @@ Loc Tree::begin(ExprId id) const {
       case ExprKind::Repeat: id = as<RepeatExpr>(id).count; break;
       case ExprKind::Convert: id = as<ConvertExpr>(id).operand; break;
       case ExprKind::AddressOf:
+      case ExprKind::Bound:
       case ExprKind::Error:
       case ExprKind::Literal:
       case ExprKind::Name:

@@ -219,6 +219,11 @@ struct ConvertExpr {
   ExprHeader h;
   ExprId operand;
 };
+struct BoundExpr {
+  ExprHeader h;
+  ExprId array;
+  uint32_t index;  // 0, 1: lower and upper bound of the first dimension, 2, 3: of the second, …
+};
 struct AddressOfExpr {  // h.type: a pointer or reference to the place's type
   ExprHeader h;
   ExprId place;

@@ -148,6 +148,10 @@ TypeId checkPointerIndex(Context& context, ExprId& expr);
 // p + n, p - n, p - q, and pointers as numbers. None when the types do not combine so.
 TypeId combinePointers(Context& context, ExprId& self, TypeId expected);
 
+// ---- open_arrays.cpp
+// LOWER_BOUND(a, n), UPPER_BOUND(a, n). None when the name is another one.
+TypeId checkBoundCall(Context& context, ExprId& expr, NameId name);
+
 // ---- operator_calls.cpp
 TypeId checkOperatorCall(Context& context, ExprId& expr, PouId pou, TypeId expected, TypeId forced);
 // ---- conversion_calls.cpp

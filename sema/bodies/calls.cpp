@@ -104,8 +104,9 @@ bool sameInOut(const Context& context, TypeId pin, TypeId actual) {
   const types::TypeTable& table = context.types();
   const types::TypeInfo& wanted = table.info(table.resolve(pin));
   const types::TypeInfo& given = table.info(table.resolve(actual));
-  if (wanted.kind == TypeKind::Array && wanted.dimensions.empty() && given.kind == TypeKind::Array) {
-    return sameType(context, wanted.base, given.base);
+  if (table.isOpenArray(pin) && given.kind == TypeKind::Array) {
+    const size_t dimensions = given.dimensions.empty() ? given.length : given.dimensions.size();
+    return dimensions == wanted.length && sameType(context, wanted.base, given.base);
   }
   if (types::TypeTable::isText(wanted.kind) && wanted.kind == given.kind) return wanted.length <= given.length;
   return sameType(context, pin, actual);
@@ -131,7 +132,7 @@ void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& bindin
   const TypeId actual = check(context, binding.value, pin.type, Access::ReadWrite);
   if (actual == types::kError || pin.type == types::kError) return;
   if (isUntyped(context, actual)) settle(context, binding.value);
-  if (pin.constant) {  // VAR_IN_OUT CONSTANT takes any value of the type
+  if (pin.constant && !context.types().isOpenArray(pin.type)) {  // VAR_IN_OUT CONSTANT takes any value of the type
     convert(context, binding.value, pin.type, purpose);
     return;
   }
@@ -142,7 +143,7 @@ void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& bindin
       return;
     }
   }
-  if (!checkWritable(context, binding.value, purpose)) return;
+  if (!pin.constant && !checkWritable(context, binding.value, purpose)) return;
   if (!sameInOut(context, pin.type, actual)) {
     context.report(Diag::OtherInOutType, context.tree().loc(binding.value),
                    {context.types().spell(actual), text(context, pin.name), text(context, pou.name),
@@ -154,13 +155,6 @@ void bindInput(Context& context, const Pou& pou, const Var& pin, Binding& bindin
   const types::TypeInfo& wanted = context.types().info(context.types().resolve(pin.type));
   if (wanted.kind == TypeKind::Reference) {
     bindReference(context, binding.value, pin.type);
-    return;
-  }
-  if (wanted.kind == TypeKind::Array && wanted.dimensions.empty()) {
-    const TypeId actual = check(context, binding.value, {}, Access::Read);
-    if (actual != types::kError && !sameInOut(context, pin.type, actual)) {
-      reportFit(context, Fit::No, binding.value, actual, pin.type, Purpose{"passed to", pin.name, pou.name});
-    }
     return;
   }
   checkAs(context, binding.value, pin.type, Purpose{"passed to", pin.name, pou.name});
@@ -315,6 +309,7 @@ TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected)
   if (isNamed(context, name, "SIZEOF") || isNamed(context, name, "XSIZEOF")) return sizeOf(context, expr);
   if (const TypeId type = checkRuleCall(context, expr, name, expected)) return type;
   if (const TypeId type = checkAddressCall(context, expr, name)) return type;
+  if (const TypeId type = checkBoundCall(context, expr, name)) return type;
   if (sayUnknown(context, name))
     context.report(Diag::UnknownName, node.h.loc, {text(context, name)}).didYouMean(nearestName(context, name));
   context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);

@@ -20,15 +20,16 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   const types::TypeInfo* info = &context.types().info(context.types().resolve(base));
   if (info->kind == TypeKind::Pointer && count == 1) return checkPointerIndex(context, expr);
   const bool array = info->kind == TypeKind::Array;
+  const uint32_t dimensions = info->dimensions.empty() ? info->length : static_cast<uint32_t>(info->dimensions.size());
   if (!array && base != types::kError) {
     context.report(Diag::NotAnArray, node.h.loc, {context.types().spell(base)});
-  } else if (array && !info->dimensions.empty() && info->dimensions.size() != count) {
+  } else if (array && dimensions != count) {
     // The first index too many, or the last one, behind which some are missing.
-    const uint32_t marked = std::min(static_cast<uint32_t>(info->dimensions.size()), count - 1);
+    const uint32_t marked = std::min(dimensions, count - 1);
     context.report(Diag::WrongIndexCount, context.tree().loc(context.tree().list(node.indices)[marked]),
-                   {context.types().spell(base), std::to_string(info->dimensions.size()), std::to_string(count)});
+                   {context.types().spell(base), std::to_string(dimensions), std::to_string(count)});
   }
-  bool good = array && (info->dimensions.empty() || info->dimensions.size() == count);
+  bool good = array && dimensions == count;
   for (uint32_t i = 0; i < count; ++i) {
     ExprId index = context.tree().list(node.indices)[i];
     TypeId type = check(context, index, {}, Access::Read);
@@ -131,6 +132,7 @@ TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) 
     case ExprKind::Binary: return checkBinary(context, expr, expected);
     case ExprKind::Call: return checkCall(context, expr, expected, false);
     case ExprKind::Convert:
+    case ExprKind::Bound:
     case ExprKind::AddressOf: return tree.expr(expr).type;  // checked before
     case ExprKind::ArrayInit:
     case ExprKind::StructInit:

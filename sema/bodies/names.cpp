@@ -191,6 +191,7 @@ Entity entityOf(const Context& context, ExprId expr) {
     case ExprKind::Repeat:
     case ExprKind::StructInit:
     case ExprKind::Convert:
+    case ExprKind::Bound:
     case ExprKind::AddressOf: return {};
   }
   return {};

@@ -51,6 +51,7 @@ const char* wrongWith(const Context& context, ExprId place) {
       case ExprKind::Repeat:
       case ExprKind::StructInit:
       case ExprKind::Convert:
+      case ExprKind::Bound:
       case ExprKind::AddressOf: return "a value";
     }
   }

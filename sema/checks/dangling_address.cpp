@@ -29,6 +29,7 @@ VarId rootOf(const Context& context, ExprId place) {
       case ExprKind::AddressOf: place = tree.as<AddressOfExpr>(place).place; break;
       case ExprKind::Deref:
       case ExprKind::Address:
+      case ExprKind::Bound:
       case ExprKind::Error:
       case ExprKind::Literal:
       case ExprKind::TypedName:

@@ -74,6 +74,7 @@ struct Initializer {
       case ExprKind::Deref:
       case ExprKind::BitAccess:
       case ExprKind::Address:
+      case ExprKind::Bound:
       case ExprKind::Range:
       case ExprKind::ArrayInit:
       case ExprKind::Repeat:

@@ -168,6 +168,20 @@ TypeId TypeTable::array(TypeId element, std::span<const Dimension> dimensions) {
   }
 }
 
+TypeId TypeTable::openArray(TypeId element, uint32_t dimensions) {
+  for (uint64_t key = element.index;; key += uint64_t{1} << 32) {
+    TypeId& id = interned_[internKey(TypeKind::Any, key)];
+    if (!id) {
+      TypeInfo info;
+      info.kind = TypeKind::Array;
+      info.base = element;
+      info.length = dimensions;
+      return id = append(types_, std::move(info));
+    }
+    if (types_[id.index].length == dimensions) return id;
+  }
+}
+
 TypeId TypeTable::pointer(TypeId target) {
   TypeId& id = interned_[internKey(TypeKind::Pointer, target.index)];
   if (!id) {

@@ -205,6 +205,7 @@ class Printer {
         expr(tree_.as<AddressOfExpr>(id).place);
         return;
       case ExprKind::Error:
+      case ExprKind::Bound:
       case ExprKind::Address:
       case ExprKind::Range:
       case ExprKind::ArrayInit:
