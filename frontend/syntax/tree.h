@@ -290,6 +290,12 @@ struct RepeatStmt {
   Slice<StmtId> body;
   ExprId until;
 };
+struct TryStmt {  // __TRY body __CATCH(code) handler __FINALLY finally __ENDTRY
+  StmtHeader h;
+  Slice<StmtId> body, handler, finally;
+  ExprId code;  // none: the number of the fault is not wanted
+  bool catches;
+};
 struct ExitStmt {
   StmtHeader h;
 };

@@ -240,6 +240,7 @@ class BodyLowering {
                                 const std::function<void()>& turn);
   void lowerWhile(const WhileStmt& stmt);
   void lowerRepeat(const RepeatStmt& stmt);
+  void lowerTry(const TryStmt& stmt);
   uint32_t labelNumber(NameId label);
 
   // activation.cpp

@@ -290,6 +290,22 @@ bool checkEndless(Context& context, ExprId condition, bool goes_on, uint32_t way
   return true;
 }
 
+// __TRY of CODESYS. The code is a number or an __SYSTEM.ExceptionCode.
+bool checkTry(Context& context, TryStmt& node) {
+  if (context.iec()) context.report(Diag::TryExtension, node.h.loc);
+  const bool falls = checkStatements(context, node.body);
+  if (node.code) {
+    const TypeId type = checkTarget(context, node.code, Access::Write);
+    const TypeKind kind = context.types().plainKind(type);
+    if (type != types::kError && (types::TypeTable::bitWidth(kind) < 32 ||
+                                  !(types::TypeTable::isInteger(kind) || types::TypeTable::isBits(kind))))
+      context.report(Diag::ExceptionCode, context.tree().begin(node.code), {context.types().spell(type)});
+  }
+  const bool handled = checkStatements(context, node.handler);
+  const bool finished = checkStatements(context, node.finally);
+  return (falls || (node.catches && handled)) && finished;
+}
+
 bool checkStatement(Context& context, StmtId id) {
   Tree& tree = context.tree();
   BodyState& body = *context.body;
@@ -320,6 +336,7 @@ bool checkStatement(Context& context, StmtId id) {
       checkCondition(context, node.until, "used as the condition of UNTIL");
       return checkEndless(context, node.until, false, before, node.h.loc) || falls || body.ways_out != before;
     }
+    case StmtKind::Try: return checkTry(context, tree.as<TryStmt>(id));
     case StmtKind::Exit:
     case StmtKind::Continue:
       if (context.loop_depth == 0) {
