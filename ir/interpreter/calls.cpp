@@ -81,10 +81,11 @@ void BodyTranslator::passArguments(std::vector<Argument>& arguments) {
   }
 }
 
-// What code of the project calls; calls inside of libraries and initialisers are not told.
+// What code of the project calls; what runs inside of libraries, their functions and initialisers are not told.
 void BodyTranslator::traceCall(BodyId id, const Address* self) {
   const Body& callee = module_.body(id);
-  if (!options_.trace_calls || body_->library || callee.kind == BodyKind::Init || !callee.spelling) return;
+  if (!options_.trace_calls || body_->library || (callee.library && !callee.self)) return;
+  if (callee.kind == BodyKind::Init || !callee.spelling) return;
   if (code_.called.size() <= id.index) code_.called.resize(module_.bodies.size());
   const char*& name = code_.called[id.index];
   if (name == nullptr) {

@@ -32,6 +32,9 @@ void ModuleLowering::run() {
     if (pou.left_out || (pou.library && !pou.used)) continue;
     bodyOf({i});
   }
+  std::sort(module.tests.begin(), module.tests.end(), [&](BodyId a, BodyId b) {  // as they are written
+    return module.body(a).loc.offset < module.body(b).loc.offset;
+  });
   addActivations();
   lowerBodies();
   for (List& list : module.lists) list.init = initOf(list.record);

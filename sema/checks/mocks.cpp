@@ -43,6 +43,16 @@ void chooseTests(Context& context) {
 
 namespace {
 
+// An error at a pragma marks all of it.
+Report reportPragma(Context& context, Diag diag, const Pragma& pragma, std::initializer_list<std::string_view> args) {
+  const Sources& sources = context.project.sources;
+  const FileId file = sources.fileOf(pragma.loc);
+  const size_t at = pragma.loc.offset - sources.begin(file).offset, end = sources.text(file).find('}', at);
+  Report report = context.report(diag, pragma.loc, args);
+  if (end != std::string_view::npos) report.length(static_cast<uint32_t>(end + 1 - at));
+  return report;
+}
+
 struct Pin {
   VarId var;
   std::string is;  // `VAR_INPUT INT`
@@ -104,12 +114,12 @@ void checkReplaced(Context& context, PouId id, const Pragma& pragma) {
   const std::string_view wanted = context.names().text(mock.replaces);
   if (found.what() != EntityKind::Pou) {
     if (context.tree().lost_names) return;
-    context.report(Diag::MockOfUnknown, pragma.loc, {wanted}).didYouMean(nearestName(context, mock.replaces));
+    reportPragma(context, Diag::MockOfUnknown, pragma, {wanted}).didYouMean(nearestName(context, mock.replaces));
     return;
   }
   const PouId original{found.index};
   if (!canBeReplaced(context.project.pou(original), mock)) {
-    context.report(Diag::MockOfOtherKind, pragma.loc, {context.names().text(mock.name), wanted})
+    reportPragma(context, Diag::MockOfOtherKind, pragma, {context.names().text(mock.name), wanted})
         .note(context.project.pou(original).loc, Note::DeclaredHere);
     return;
   }
@@ -127,7 +137,7 @@ void checkMocks(Context& context) {
   std::vector<bool> taken(project.pous.size());
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const Pou& pou = project.pous[i];
-    if (pou.library || (!pou.replaces && pou.mocks.empty())) continue;
+    if (pou.library) continue;
     Context there = at(context, {}, pou.file, false);
     std::vector<std::pair<NameId, PouId>> replaced;
     for (const Pragma& pragma : context.tree().list(context.tree().decl(pou.decl).pragmas)) {
@@ -135,7 +145,7 @@ void checkMocks(Context& context) {
       if (key == words.replaces) checkReplaced(there, PouId{i}, pragma);
       if (key != words.mock) continue;
       if (!pou.test) {
-        context.report(Diag::MockOutsideTest, pragma.loc, {context.names().text(pou.name)});
+        reportPragma(context, Diag::MockOutsideTest, pragma, {context.names().text(pou.name)});
         break;
       }
       const NameId name = context.names().intern(context.tree().text(pragma.value));
@@ -144,7 +154,7 @@ void checkMocks(Context& context) {
         std::vector<std::string_view> mocks;
         for (const Pou& other : project.pous)
           if (other.replaces) mocks.push_back(context.names().text(other.name));
-        context.report(Diag::NoMock, pragma.loc, {context.names().text(name)})
+        reportPragma(context, Diag::NoMock, pragma, {context.names().text(name)})
             .didYouMean(nearest(context.names().text(name), mocks));
         continue;
       }
@@ -152,9 +162,9 @@ void checkMocks(Context& context) {
       const Pou& mock = project.pous[found.index];
       for (const auto& [other, by] : replaced) {
         if (other != keyOf(context, mock.replaces)) continue;
-        context.report(Diag::TwoMocks, pragma.loc,
-                       {context.names().text(project.pou(by).name), context.names().text(mock.name),
-                        context.names().text(mock.replaces)});
+        reportPragma(context, Diag::TwoMocks, pragma,
+                     {context.names().text(project.pou(by).name), context.names().text(mock.name),
+                      context.names().text(mock.replaces)});
       }
       replaced.push_back({keyOf(context, mock.replaces), PouId{found.index}});
     }

@@ -154,6 +154,8 @@ class Tester {
     times_.begin("run");
     host::TestResults results;
     test_options_.junit_path = options_.junit;
+    if (options_.engine == Engine::Auto && !options_.counts() && request_.parts.empty())
+      test_options_.hint_when_long = "rung: long tests are faster with --engine=native";
     for (const Module& module : modules_) {
       const int exit = runModule(module, library, results);
       if (exit != kGood) return exit;
@@ -161,9 +163,9 @@ class Tester {
     }
     fflush(stderr);
     if (options_.coverage) fputs(coverage_.text().c_str(), stdout);
+    const int exit = host::reportTests(results, test_options_);
     const std::string error = options_.lcov.empty() ? "" : writeFile(options_.lcov, coverage_.lcov());
-    if (!error.empty()) return usageError(error);
-    return host::reportTests(results, test_options_);
+    return error.empty() ? exit : usageError(error);
   }
 
   int runModule(const Module& module, const ModuleLibrary& library, host::TestResults& results) {

@@ -168,7 +168,7 @@ int Run::runVirtual() {
     rows_done = row + 1;
     if (!options.stop_on.empty() && stop_on.holds())
       return finish(false, {}, "stopped after cycle " + std::to_string(row) + ": " + options.stop_on + "\n");
-    if (next_hint != INT64_MAX && row % 64 == 0 && processorNs() >= next_hint) {
+    if (next_hint != INT64_MAX && processorNs() >= next_hint) {
       fprintf(stderr, "%s\n", options.hint_when_long.c_str());
       next_hint = INT64_MAX;
     }

@@ -1,8 +1,10 @@
 // `rung test`: runs the tests of a module, each from fresh memory in virtual time, and reports (design §11). A failing
 // assertion or a fault fails its test and no other. See rung/host.h.
 #include <fnmatch.h>
+#include <unistd.h>
 #include <chrono>
 #include <cstdio>
+#include <functional>
 
 #include "faults.h"
 #include "junit.h"
@@ -17,6 +19,7 @@ namespace {
 constexpr int64_t kCycleNs = 10'000'000;
 constexpr int64_t kMostCycles = 100'000;
 constexpr size_t kMostMessages = 20;  // of one test
+constexpr double kLongSeconds = 3;    // tests that a faster engine would shorten
 
 struct Case {
   rung_context* context;
@@ -60,7 +63,8 @@ void onAssertion(void* data, const rung_assertion* assertion, bool passed, const
   test.fail(TestResult::Failed, message);
 }
 
-void runCase(const rung_module& module, const rung_test& test, Memory& memory, Case& result) {
+void runCase(const rung_module& module, const rung_test& test, Memory& memory, Case& result,
+             const std::function<void()>& onCycle) {
   rung_context& context = memory.context();
   const auto faulted = [&](uint8_t kind) {
     if (kind != RUNG_FAULT_NONE) result.fail(TestResult::Broken, describeFault(module, context.fault));
@@ -74,6 +78,7 @@ void runCase(const rung_module& module, const rung_test& test, Memory& memory, C
     if (cycle > 0) context.now_ns += kCycleNs;  // the test may have moved it: TEST_ADVANCE
     if (faulted(rung_guarded(&context, test.run))) return;
     if (!has_done || memory.block(test.done_block)[test.done_offset] != 0) return;
+    onCycle();
   }
   result.fail(TestResult::Failed, std::string(module.text + test.file) + ':' + std::to_string(test.line) +
                                       ": `done` is still FALSE after " + std::to_string(kMostCycles) + " cycles");
@@ -100,14 +105,21 @@ std::string runTests(const rung_module& module, const TestOptions& options, Test
     one.result.line = test.line;
     memory.context().host_data = &one;
     const auto begin = std::chrono::steady_clock::now();
-    runCase(module, test, memory, one);
-    one.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const auto onCycle = [&] {
+      one.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      if (results.hinted || options.hint_when_long.empty() || isatty(2) == 0) return;
+      results.hinted = results.seconds + one.result.seconds >= kLongSeconds;
+      if (results.hinted) fprintf(stderr, "%s\n", options.hint_when_long.c_str());
+    };
+    runCase(module, test, memory, one, onCycle);
+    onCycle();
     if (one.failures > kMostMessages)
       one.result.messages += "and " + std::to_string(one.failures - kMostMessages) + " more\n";
     const bool good = one.result.kind == TestResult::Passed;
     ++(good ? results.passed : results.failed);
     fputs(one.result.messages.c_str(), stdout);
     printf("%s %s\n", good ? "pass" : "FAIL", name);
+    results.seconds += one.result.seconds;
     results.tests.push_back(std::move(one.result));
   }
   return "";

@@ -5,9 +5,9 @@
 #include <regex>
 #include <sstream>
 
-#include "junit.h"
 #include "rung/host.h"
 #include "sample_module.h"
+#include "stdlib/runtime/host/junit.h"
 
 using namespace rung::host;
 

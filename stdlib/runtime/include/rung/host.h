@@ -34,8 +34,9 @@ struct RunOptions {
 int run(const rung_module& module, const RunOptions& options);
 
 struct TestOptions {
-  std::string filter;      // --filter GLOB
-  std::string junit_path;  // --junit
+  std::string filter;          // --filter GLOB
+  std::string junit_path;      // --junit
+  std::string hint_when_long;  // as in RunOptions
 };
 int test(const rung_module& module, const TestOptions& options);
 
@@ -51,6 +52,8 @@ struct TestResult {
 struct TestResults {
   uint32_t passed = 0, failed = 0;
   std::vector<TestResult> tests;
+  double seconds = 0;   // that all of them took
+  bool hinted = false;  // TestOptions::hint_when_long was printed
 };
 // Empty, or why the module cannot run here. `options.junit_path` is not written.
 std::string runTests(const rung_module& module, const TestOptions& options, TestResults& results);
