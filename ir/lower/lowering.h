@@ -217,6 +217,7 @@ class BodyLowering {
   ExprId lowerFunctionCall(const sema::Call& call, const CallExpr& node, Target* target);
   void lowerBlockCall(const sema::Call& call, const CallExpr& node, ExprId instance);
   void lowerAssertion(const sema::Call& call, const CallExpr& node);
+  NameId shownText(const CallExpr& node, const BinaryExpr& condition);
   ExprId argumentPlace(ExprId value, TypeId pin_type, bool may_alias, Loc loc);
   ExprId inOutPlace(rung::ExprId argument, TypeId pin_type);
   bool isPlainCall(rung::ExprId expr) const;

@@ -29,9 +29,12 @@ void ModuleLowering::run() {
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const sema::Pou& pou = project.pous[i];
     if (pou.generic || pou.operator_kind != sema::Pou::Operator::None) continue;
-    if (pou.library && !pou.used) continue;
+    if (pou.left_out || (pou.library && !pou.used)) continue;
     bodyOf({i});
   }
+  std::sort(module.tests.begin(), module.tests.end(), [&](BodyId a, BodyId b) {  // as they are written
+    return module.body(a).loc.offset < module.body(b).loc.offset;
+  });
   addActivations();
   lowerBodies();
   for (List& list : module.lists) list.init = initOf(list.record);
@@ -86,6 +89,7 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
   body.library = pou.library;
   body.library_name = pou.library_name;
   body.test = pou.test;
+  body.counted = !pou.library && !pou.test && !pou.test_only && !pou.replaces;
   body.self = pou.record;
   body.loc = pou.loc;
   body.file = pou.file;
@@ -119,10 +123,8 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
   if (pou.record) {
     for (Record& record : module.records)
       if (record.type == pou.record) record.body = known;
-    if (pou.test) module.tests.push_back(known);
-  } else if (pou.test) {
-    module.tests.push_back(known);
   }
+  if (pou.test && !pou.left_out) module.tests.push_back(known);
   return known;
 }
 
@@ -396,7 +398,7 @@ void ModuleLowering::addPrograms() {
     module.programs.back().body = bodyOf(instance.program);
   }
   for (uint32_t i = 1; i < project.pous.size(); ++i)
-    if (project.pous[i].test && project.pous[i].record) instanceOf({i});
+    if (project.pous[i].test && !project.pous[i].left_out && project.pous[i].record) instanceOf({i});
 }
 
 uint32_t ModuleLowering::instanceOf(sema::PouId program) {

@@ -196,7 +196,7 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
   resolvePou(context, pou);
   const Pou& callee = context.project.pou(pou);
   noteCall(context, pou, node.h.loc);
-  checkTestOnly(context, node, pou);
+  checkTestOnly(context, pou, node.h.loc);
   if (callee.operator_kind != Pou::Operator::None) return checkOperatorCall(context, expr, pou, expected, {});
   if (callee.generic || callee.extensible) return checkGenericCall(context, expr, pou, expected, {});
   const Arguments arguments = matchArguments(context, node, pou);

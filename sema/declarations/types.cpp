@@ -1,6 +1,7 @@
 // Types as written become TypeIds: elementary types, names, arrays, strings, subranges, enumerations, structures,
 // pointers. Named types are resolved on first use; records only get their fields when somebody asks for them, so that
 // long chains of blocks within blocks need no deep recursion.
+#include "sema/checks/test_only.h"
 #include "sema/declarations/declarations.h"
 
 #include <limits>
@@ -61,6 +62,7 @@ Entity findType(Context& context, NameId name) {
   if (context.library) {
     if (const Entity found = lookUpLibrary(context, key)) return found;
   }
+  if (const Entity mock = mockInUse(context, key)) return mock;
   if (const Entity found = context.scopes.pous_and_types.find(key)) return found;
   return context.library ? Entity{} : lookUpLibrary(context, key);
 }
@@ -99,8 +101,10 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
           .didYouMean(nearestName(context, first.name));
       return types::kError;
     }
-    found = lookUpLibrary(context, keyOf(context, last.name), qualifier.index);
+    found = mockInUse(context, keyOf(context, last.name));
+    if (!found) found = lookUpLibrary(context, keyOf(context, last.name), qualifier.index);
   }
+  if (found.what() == EntityKind::Pou) checkTestOnly(context, PouId{found.index}, last.loc);
   const TypeId type = typeOf(context, found);
   if (type) return context.types().resolve(type) == types::kError ? types::kError : type;
   reportUnknownType(context, last.name, last.loc, found);

@@ -62,10 +62,12 @@ std::vector<TestCase> readJunit(const std::string& xml) {
       const size_t end = std::min(xml.find("</testcase>", tag_end), xml.size());
       const std::string body = xml.substr(tag_end + 1, end - tag_end - 1);
       test.failed = body.find("<failure") != std::string::npos || body.find("<error") != std::string::npos;
-      for (size_t f = body.find("<failure"); f != std::string::npos; f = body.find("<failure", f + 1)) {
-        const size_t text = std::min(body.find('>', f), body.size() - 1) + 1;
-        for (const std::string& line : splitLines(unescaped(body.substr(text, body.find("</failure>", text) - text)))) {
-          if (!trimmed(line).empty()) test.failure += "  " + line + "\n";
+      for (const std::string element : {"failure", "error"}) {
+        for (size_t f = body.find('<' + element); f != std::string::npos; f = body.find('<' + element, f + 1)) {
+          const size_t text = std::min(body.find('>', f), body.size() - 1) + 1;
+          for (const std::string& line :
+               splitLines(unescaped(body.substr(text, body.find("</" + element, text) - text))))
+            if (!trimmed(line).empty()) test.failure += "  " + line + "\n";
         }
       }
     }
