@@ -96,7 +96,9 @@ class Parser {
   TypeExprId parseArray();
   TypeExprId parseNamedType();
   void parseNamePath(Slice<Ident>& out);
+  ExprId parseDeclaredInit(TypeExprId type);
   ExprId parseInit();
+  void parseElements(Tok close);
   ExprId parseArrayInit();
   ExprId parseStructInit();
   Slice<Pragma> takePragmas();
