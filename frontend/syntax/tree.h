@@ -224,6 +224,11 @@ struct BoundExpr {
   ExprId array;
   uint32_t index;  // 0, 1: lower and upper bound of the first dimension, 2, 3: of the second, …
 };
+struct AnyValueExpr {  // h.type: __SYSTEM.AnyType
+  ExprHeader h;
+  ExprId value;
+  uint32_t type_class;  // __SYSTEM.TYPE_CLASS
+};
 struct AddressOfExpr {  // h.type: a pointer or reference to the place's type
   ExprHeader h;
   ExprId place;

@@ -162,6 +162,7 @@ class BodyLowering {
   bool callsFunction(rung::ExprId expr) const;
   ExprId lowerConvert(rung::ExprId expr);
   ExprId lowerAddressOf(rung::ExprId expr);
+  ExprId lowerAnyValue(rung::ExprId expr);
   ExprId convertValue(ExprId value, TypeId to, Loc loc);
   // A position in the open block. `effects` tells whether what came since could change a variable.
   struct Mark {

@@ -152,6 +152,7 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
     case rung::ExprKind::StructInit:
     case rung::ExprKind::Convert:
     case rung::ExprKind::Bound:
+    case rung::ExprKind::AnyValue:
     case rung::ExprKind::AddressOf: return lowerValue(id);
   }
   return {};

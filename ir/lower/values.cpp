@@ -67,6 +67,7 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
     case rung::ExprKind::Address:
     case rung::ExprKind::AddressOf:
     case rung::ExprKind::Bound:
+    case rung::ExprKind::AnyValue:
     case rung::ExprKind::Call:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:
@@ -158,6 +159,7 @@ ExprId BodyLowering::lowerValue(rung::ExprId id) {
     case rung::ExprKind::Binary: return lowerBinary(id);
     case rung::ExprKind::Convert: return lowerConvert(id);
     case rung::ExprKind::AddressOf: return lowerAddressOf(id);
+    case rung::ExprKind::AnyValue: return lowerAnyValue(id);
     case rung::ExprKind::Bound: {
       const BoundExpr& node = tree_.as<BoundExpr>(id);
       return openArrayBound(node.array, node.index, node.h.loc);
@@ -209,6 +211,7 @@ bool BodyLowering::callsFunction(rung::ExprId id) const {
     case rung::ExprKind::Member: return callsFunction(tree_.as<MemberExpr>(id).base);
     case rung::ExprKind::Deref: return callsFunction(tree_.as<DerefExpr>(id).base);
     case rung::ExprKind::Bound: return false;
+    case rung::ExprKind::AnyValue: return callsFunction(tree_.as<AnyValueExpr>(id).value);
     case rung::ExprKind::AddressOf: return callsFunction(tree_.as<AddressOfExpr>(id).place);
     case rung::ExprKind::BitAccess: return callsFunction(tree_.as<BitAccessExpr>(id).base);
     case rung::ExprKind::Binary:
@@ -301,6 +304,25 @@ ExprId BodyLowering::lowerAddressOf(rung::ExprId id) {
   if (tree_.kind(node.place) == rung::ExprKind::Deref)
     return convertValue(lowerValue(tree_.as<DerefExpr>(node.place).base), type, node.h.loc);
   return add({.kind = ExprKind::Address, .type = type, .loc = node.h.loc, .a = lowerPlace(node.place).index});
+}
+
+// A descriptor of the value in a temporary; what has no place of its own gets one.
+ExprId BodyLowering::lowerAnyValue(rung::ExprId id) {
+  const AnyValueExpr& node = tree_.as<AnyValueExpr>(id);
+  const Loc loc = node.h.loc;
+  ExprId value = lowerPlace(node.value);
+  const Expr& expr = body_.expr(value);
+  const bool is_bit = expr.kind == ExprKind::Bits || (expr.kind == ExprKind::Image && expr.c != kNoBit);
+  if (!isPlace(expr.kind) || is_bit) value = toTemp(value, loc);
+  ExprId descriptor = temp(node.h.type, loc);
+  const TypeInfo& record = types_.info(strip(node.h.type));
+  auto part = [&](uint32_t index) { return field(descriptor, index, record.fields[index].type, loc); };
+  const TypeId pointer = strip(record.fields[1].type);
+  const uint64_t size = types_.info(typeOf(value)).size;
+  assign(part(0), constant(strip(record.fields[0].type), node.type_class, loc), loc);
+  assign(part(1), add({.kind = ExprKind::Address, .type = pointer, .loc = loc, .a = value.index}), loc);
+  assign(part(2), constant(types::kDInt, size, loc), loc);
+  return descriptor;
 }
 
 ExprId BodyLowering::convertValue(ExprId value, TypeId to, Loc loc) {

@@ -133,6 +133,7 @@ TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) 
     case ExprKind::Call: return checkCall(context, expr, expected, false);
     case ExprKind::Convert:
     case ExprKind::Bound:
+    case ExprKind::AnyValue:
     case ExprKind::AddressOf: return tree.expr(expr).type;  // checked before
     case ExprKind::ArrayInit:
     case ExprKind::StructInit:

@@ -192,6 +192,7 @@ Entity entityOf(const Context& context, ExprId expr) {
     case ExprKind::StructInit:
     case ExprKind::Convert:
     case ExprKind::Bound:
+    case ExprKind::AnyValue:
     case ExprKind::AddressOf: return {};
   }
   return {};

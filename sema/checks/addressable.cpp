@@ -52,6 +52,7 @@ const char* wrongWith(const Context& context, ExprId place) {
       case ExprKind::StructInit:
       case ExprKind::Convert:
       case ExprKind::Bound:
+      case ExprKind::AnyValue:
       case ExprKind::AddressOf: return "a value";
     }
   }

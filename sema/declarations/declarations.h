@@ -78,6 +78,8 @@ std::optional<int64_t> constantBound(Context& context, ExprId& expr);
 void checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string_view what);
 
 // ---- libraries.cpp
+// The structure __SYSTEM.AnyType.
+TypeId anyType(Context& context);
 void indexLibraries(Context& context);
 // A name of the libraries, read on first use; of one library only when `library` is given.
 Entity lookUpLibrary(Context& context, NameId name, uint32_t library = kNoLibrary);

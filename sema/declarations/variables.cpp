@@ -223,6 +223,12 @@ void ensureVarType(Context& context, VarId id) {
       if (i == first) there.report(Diag::OpenArray, context.tree().loc(decl.type));
       var.type = types::kError;
     }
+    // An ANY input of CODESYS tells of any variable where it is; the standard's generic types are the library's.
+    const bool generic = types::TypeTable::isGeneric(context.types().kind(var.type));
+    if (generic && var.section == SectionKind::Input && !there.library && !there.iec()) {
+      var.any = var.type;
+      var.type = anyType(there);
+    }
     checkEdge(there, var);
     if (decl.located && decl.address.incomplete) {  // completed by resolveInstancePlaces
       if (decl.address.size_given && addressType(decl.address) == types::kBool && type != types::kError &&

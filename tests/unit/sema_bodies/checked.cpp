@@ -206,6 +206,7 @@ class Printer {
         return;
       case ExprKind::Error:
       case ExprKind::Bound:
+      case ExprKind::AnyValue:
       case ExprKind::Address:
       case ExprKind::Range:
       case ExprKind::ArrayInit:
