@@ -49,6 +49,12 @@ MockSets mockSets(const sema::Project& project) {
   return sets;
 }
 
+std::string headingOf(const std::vector<std::string>& mocks) {
+  std::string text;
+  for (const std::string& mock : mocks) text += (text.empty() ? "rung: in the tests with `" : ", `") + mock + '`';
+  return text.empty() ? text : text + ":\n";
+}
+
 class Tester {
  public:
   explicit Tester(const Options& options) : options_(options) { test_options_.filter = options.filter; }
@@ -88,9 +94,11 @@ class Tester {
       if (file != nullptr && compilation.exitCode() != kInternal) {
         module.shown = file->shown;
         module.below = file->below;
-        if (i == 0 || compilation.exitCode() != kGood) module.messages = compilation.diagnosticsText();
+        if (i == 0 || compilation.exitCode() != kGood)
+          module.messages = headingOf(sets[i]) + compilation.diagnosticsText();
         module.good = module.good && compilation.exitCode() == kGood;
       } else if (i == 0 || !module.good) {
+        fputs(headingOf(sets[i]).c_str(), stderr);
         const int exit = compilation.finish();
         if (exit != kGood || !module.good) return exit;
       }
