@@ -37,11 +37,11 @@ uint32_t batchCount(size_t modules) {
 
 using MockSets = std::vector<std::vector<std::string>>;
 
-// The sets of mocks that tests name; none first, whether there is a test without mocks or not.
-MockSets mockSets(const sema::Project& project) {
+// The sets of mocks that the chosen tests name; none first, whether there is a test without mocks or not.
+MockSets mockSets(const sema::Project& project, const host::TestOptions& options) {
   MockSets sets{{}};
   for (const sema::Pou& pou : project.pous) {
-    if (!pou.test || pou.mocks.empty()) continue;
+    if (!pou.test || pou.mocks.empty() || !isChosen(options, std::string(project.names.text(pou.name)))) continue;
     std::vector<std::string> set;
     for (NameId mock : pou.mocks) set.emplace_back(project.names.text(mock));
     if (std::find(sets.begin(), sets.end(), set) == sets.end()) sets.push_back(std::move(set));
@@ -89,7 +89,7 @@ class Tester {
       if (i == 0) {
         name = module.name;
         checked_ = (compilation.options.checks & kMemoryChecks) == kMemoryChecks;
-        if (module.good) sets = mockSets(*compilation.project);
+        if (module.good) sets = mockSets(*compilation.project, test_options_);
       }
       if (file != nullptr && compilation.exitCode() != kInternal) {
         module.shown = file->shown;
