@@ -438,6 +438,7 @@ void ModuleLowering::addTasks() {
 void ModuleLowering::addLocated() {
   for (const sema::Var& var : project.vars) {
     if (var.storage != sema::Storage::Image || !var.name || var.external) continue;
+    if (var.pou && project.pou(var.pou).left_out && !body_of_[var.pou.index]) continue;
     Located made;
     made.name = var.name;
     made.type = types.resolve(var.type);
