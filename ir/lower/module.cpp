@@ -29,7 +29,7 @@ void ModuleLowering::run() {
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const sema::Pou& pou = project.pous[i];
     if (pou.generic || pou.operator_kind != sema::Pou::Operator::None) continue;
-    if (pou.left_out || (pou.library && !pou.used)) continue;
+    if (pou.left_out || (pou.library && !(options.used_of_libraries && pou.used))) continue;  // follows when called
     bodyOf({i});
   }
   std::sort(module.tests.begin(), module.tests.end(), [&](BodyId a, BodyId b) {  // as they are written
