@@ -29,7 +29,7 @@ void ModuleLowering::run() {
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const sema::Pou& pou = project.pous[i];
     if (pou.generic || pou.operator_kind != sema::Pou::Operator::None) continue;
-    if (pou.left_out || (pou.library && !pou.used)) continue;
+    if (pou.left_out || (pou.library && !(options.used_of_libraries && pou.used))) continue;  // follows when called
     bodyOf({i});
   }
   std::sort(module.tests.begin(), module.tests.end(), [&](BodyId a, BodyId b) {  // as they are written
@@ -445,6 +445,7 @@ void ModuleLowering::addTasks() {
 void ModuleLowering::addLocated() {
   for (const sema::Var& var : project.vars) {
     if (var.storage != sema::Storage::Image || !var.name || var.external) continue;
+    if (var.pou && project.pou(var.pou).left_out && !body_of_[var.pou.index]) continue;
     Located made;
     made.name = var.name;
     made.type = types.resolve(var.type);
