@@ -43,7 +43,14 @@ class Sources {
 
   Loc begin(FileId file) const { return {files_[file.index].base}; }
   std::string_view path(FileId file) const { return files_[file.index].path; }
-  std::string_view text(FileId file) const { return files_[file.index].text; }  // text().data()[size()] is NUL
+  // What is parsed: the file as it is, or what activate() made of it. text().data()[size()] is NUL.
+  std::string_view text(FileId file) const {
+    const File& of = files_[file.index];
+    return of.active.empty() ? of.text : of.active;
+  }
+  std::string_view original(FileId file) const { return files_[file.index].text; }
+  // A text of the same length to parse instead: conditional pragmas leave some out. Messages show the original.
+  void activate(FileId file, std::string text);
   uint32_t fileCount() const { return static_cast<uint32_t>(files_.size()) - 1; }
 
   FileId fileOf(Loc loc) const;
@@ -61,6 +68,7 @@ class Sources {
     uint32_t base;
     mutable std::vector<uint32_t> line_starts;  // filled when first asked for
     mutable bool ascii;                         // known once line_starts is
+    std::string active = {};
   };
   const std::vector<uint32_t>& lineStarts(const File& file) const;
 

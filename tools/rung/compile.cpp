@@ -105,6 +105,9 @@ bool Compilation::read() {
 bool Compilation::parse() {
   if (!read()) return false;
   times_.begin("parse");
+  std::vector<FileId> files;
+  for (const InputFile& file : inputs.files) files.push_back(file.file);
+  text::applyConditions(sources, files, options.defines, options.standard, diagnostics);
   for (const InputFile& file : inputs.files) {
     if (diagnostics.full()) break;
     setPhaseSubject(file.below.data(), file.below.size());
@@ -226,7 +229,7 @@ std::string Compilation::diagnosticsText() {
     for (const InputFile& file : inputs.files)
       if (file.file.index == i) path = file.shown;
     if (inputs.project.file.index == i || path == "rung.project") path = inputs.project.folder + "/rung.project";
-    shown.add(std::move(path), std::string(sources.text({i})));
+    shown.add(std::move(path), std::string(sources.original({i})));
   }
   RenderOptions render_options;
   render_options.format = options.format;
