@@ -87,7 +87,7 @@ Facts::Facts(const ir::Module& module) : MemoryBlocks(module) {
     }
     for (const Stmt& stmt : body.stmts) {
       if (stmt.kind == StmtKind::Bind) {
-        expose(module, body, ExprId{stmt.b});
+        if (stmt.b != 0) expose(module, body, ExprId{stmt.b});
       } else if (stmt.kind == StmtKind::Call) {
         ir::forEachRoot(module, body, stmt, [&](const uint32_t& slot, ir::Use use) {
           if (use == ir::Use::Reference && slot != stmt.b) expose(module, body, ExprId{slot});

@@ -140,11 +140,12 @@ struct MemberExpr {  // h.loc is the member's name
   NameId member;
   Entity entity;  // sema: Var for a field or pin (base is the record), else what `base.member` names as a whole
 };
-struct IndexExpr {
+struct IndexExpr {  // base[i, j]; h.bits of a character of a text: kWritesCharacter
   ExprHeader h;
   ExprId base;
   Slice<ExprId> indices;
 };
+constexpr uint8_t kWritesCharacter = 1;  // sema
 struct DerefExpr {
   ExprHeader h;
   ExprId base;

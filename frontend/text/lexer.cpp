@@ -200,6 +200,7 @@ class Lexer {
   const char* stray(const char* p);
   const char* prefixed(const char* begin, const char* p, Prefix prefix);
   void message(const char* begin, const char* end);
+  void checkPragma(std::string_view word, const char* rest, const char* end);
   void checkUnderscores(const char* begin, const char* end);
   Tok last() const { return out_.tokens.empty() ? Tok::End : out_.tokens.back().kind; }
 
@@ -511,7 +512,30 @@ const char* Lexer::pragma(const char* begin) {
   return p + 1;
 }
 
-// {info 'text'}, {WARNING: "text"}, {error 'text'}
+// What is nearly the name of a pragma that does something was most likely meant to be it; all others are passed over.
+void Lexer::checkPragma(std::string_view word, const char* rest, const char* end) {
+  static const std::vector<std::string_view> kPragmas = {
+      "attribute", "test",       "info", "warning", "error",    "text",      "define", "undefine",
+      "IF",        "ELSIF",      "ELSE", "END_IF",  "region",   "endregion", "native", "alias",
+      "required",  "extensible", "lazy", "pure",    "operator", "replaces",  "std",    "sized"};
+  static const std::vector<std::string_view> kAttributes = {"qualified_only", "strict", "test", "no_final_scan"};
+  const std::vector<std::string_view>* known = &kPragmas;
+  if (sameIdentifier(word, "attribute")) {
+    while (rest < end && *rest != '\'') ++rest;
+    if (rest == end) return;
+    const char* close = static_cast<const char*>(std::memchr(rest + 1, '\'', static_cast<size_t>(end - rest - 1)));
+    if (close == nullptr) return;
+    word = {rest + 1, static_cast<size_t>(close - rest - 1)};
+    known = &kAttributes;
+  }
+  for (const std::string_view name : *known)
+    if (sameIdentifier(name, word)) return;
+  const std::string_view near = nearest(word, *known);
+  if (near.empty()) return;
+  diagnostics_.report(Diag::UnknownPragma, loc(word.data()), {word}).didYouMean(near);
+}
+
+// {info 'text'}, {text 'text'}, {WARNING: "text"}, {error 'text'}
 void Lexer::message(const char* begin, const char* end) {
   const auto skip = [&] {
     while (begin < end && (*begin == ' ' || *begin == '\t')) ++begin;
@@ -520,9 +544,9 @@ void Lexer::message(const char* begin, const char* end) {
   const char* word_begin = begin;
   while (begin < end && kWordChar[static_cast<Byte>(*begin)]) ++begin;
   const std::string_view word(word_begin, static_cast<size_t>(begin - word_begin));
-  const bool info = sameIdentifier(word, "info"), warning = sameIdentifier(word, "warning"),
-             error = sameIdentifier(word, "error");
-  if (!info && !warning && !error) return;
+  const bool info = sameIdentifier(word, "info") || sameIdentifier(word, "text"),
+             warning = sameIdentifier(word, "warning"), error = sameIdentifier(word, "error");
+  if (!info && !warning && !error) return checkPragma(word, begin, end);
   skip();
   if (begin < end && *begin == ':') ++begin;
   skip();

@@ -43,6 +43,7 @@ void BodyTranslator::statement(const Stmt& stmt) {
     case StmtKind::Bind: {
       const Expr& field = expr(ExprId{stmt.a});
       const Address to = fieldMemory(field);
+      if (stmt.b == 0) return write(to, Scalar::U64, {Mode::Constant, {}, 0});
       const Address variable = isText(field.type) ? text(ExprId{stmt.b}) : place(ExprId{stmt.b});
       return write(to, Scalar::U64, {Mode::Frame, pointerTo(variable), 0});
     }

@@ -125,6 +125,7 @@ class BodyLowering {
 
   // places.cpp
   ExprId lowerPlace(rung::ExprId expr);
+  ExprId characters(ExprId text, bool writes);
   ExprId varPlace(sema::VarId var, Loc loc);
   ExprId memberPlace(rung::ExprId expr);
   // The same place without operands that a later statement could change: indices and pointers go to temporaries.
