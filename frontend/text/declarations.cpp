@@ -148,10 +148,7 @@ bool Parser::beginsType(const Token* t) const {
 }
 
 bool Parser::parseName(Ident& out) {
-  // Words that CODESYS 2.3 did not have: members of its structures are called so.
-  const bool member = in_structure_ && standard_ == Standard::Codesys && peek() == Tok::Colon &&
-                      (at(Tok::Ldt) || at(Tok::Ldate) || at(Tok::Ltod) || at(Tok::Ltime));
-  if (isName(kind()) || member) {
+  if (isName(kind())) {
     out = ident(t_);
     advance();
     return true;
