@@ -357,8 +357,14 @@ DeclId Parser::parseVar(SectionKind section) {
   if (!panic_ && at(Tok::At)) {
     const Token* word = t_;
     advance();
-    if (at(Tok::Address) && in_structure_) {  // AT %B0: a place in the structure
-      slip(Diag::NotSupportedYet, t_, {"AT in a structure"});
+    if (at(Tok::Address) && in_structure_) {
+      // AT %I*: a place in the image that nobody has named; AT %B0: a place in the structure
+      if (standard_ == Standard::Codesys && textOf(t_).ends_with('*')) {
+        if (!open_address_told_) diagnostics_.report(Diag::OpenAddressInStructure, here(), {textOf(t_)});
+        open_address_told_ = true;
+      } else {
+        slip(Diag::NotSupportedYet, t_, {"AT in a structure"});
+      }
       advance();
     } else if (at(Tok::Address)) {
       d.located = true;
@@ -584,6 +590,7 @@ TypeExprId Parser::parseStruct() {
   }
   const size_t first = decls_.size();
   const bool outer = std::exchange(in_structure_, true);
+  open_address_told_ = false;
   parseVars(SectionKind::Local, end, decls_);
   in_structure_ = outer;
   if (!accept(end)) {
@@ -707,10 +714,11 @@ ExprId Parser::parseDeclaredInit(TypeExprId type) {
   return tree_.add<ExprId>(ArrayInitExpr{exprHeader(ExprKind::ArrayInit, start), listFrom(exprs_, first)});
 }
 
-// init = expr | "[" elements "]" | "(" field ":=" init {"," …} ")"
+// init = expr | "[" elements "]" | "(" [field ":=" init {"," …}] ")"
 ExprId Parser::parseInit() {
   if (at(Tok::LeftBracket)) return parseArrayInit();
   if (at(Tok::LeftParen) && isName(peek()) && peek(2) == Tok::Assign) return parseStructInit();
+  if (at(Tok::LeftParen) && peek() == Tok::RightParen && standard_ == Standard::Codesys) return parseStructInit();
   return parseExpr();
 }
 
