@@ -213,6 +213,10 @@ void Parser::parseTypes(std::vector<DeclId>& out) {
 
 DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc) {
   lost_ = false;
+  // {PUBLIC | INTERNAL | ABSTRACT} of TwinCAT: they keep other libraries from the type, and a program is none.
+  while (standard_ == Standard::Codesys && at(Tok::Ident) && isName(peek()) &&
+         (is(t_, "PUBLIC") || is(t_, "INTERNAL") || is(t_, "ABSTRACT")))
+    advance();
   skipStray(!isName(kind()) && isName(peek()) && peek(2) == Tok::Colon, Diag::MissingName);
   TypeDecl d{{DeclKind::Type, 0, 0, here(), doc, pragmas}, {}, {}, {}};
   Ident name;
