@@ -364,8 +364,8 @@ DeclId Parser::parseVar(SectionKind section) {
     if (at(Tok::Address) && in_structure_) {
       // AT %I*: a place in the image that nobody has named; AT %B0: a place in the structure
       if (standard_ == Standard::Codesys && textOf(t_).ends_with('*')) {
-        if (!open_address_told_) diagnostics_.report(Diag::OpenAddressInStructure, here(), {textOf(t_)});
-        open_address_told_ = true;
+        if (!address_told_) diagnostics_.report(Diag::OpenAddressInStructure, here(), {textOf(t_)});
+        address_told_ = true;
       } else {
         slip(Diag::NotSupportedYet, t_, {"AT in a structure"});
       }
@@ -594,7 +594,7 @@ TypeExprId Parser::parseStruct() {
   }
   const size_t first = decls_.size();
   const bool outer = std::exchange(in_structure_, true);
-  open_address_told_ = false;
+  address_told_ = false;
   parseVars(SectionKind::Local, end, decls_);
   in_structure_ = outer;
   if (!accept(end)) {
