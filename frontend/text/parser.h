@@ -112,7 +112,8 @@ class Parser {
     kStopElse = 1,
     kStopElsif = 2,
     kStopUntil = 4,
-    kStopLabel = 8
+    kStopLabel = 8,
+    kStopTry = 16
   };  // words that end a list, beside END_…
   Slice<StmtId> parseStatements(uint8_t stops);
   bool atBlockEnd();
@@ -122,6 +123,7 @@ class Parser {
   void parseFor();
   void parseWhile();
   void parseRepeat();
+  void parseTry();
   bool otherLanguage();
   void parseExprStatement();
   void parseChain(ExprId target, ExprId value, Token* value_start, const Token* op);

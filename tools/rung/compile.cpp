@@ -150,6 +150,8 @@ bool Compilation::check() {
     sema_options.libraries = libraries.files();
     sema_options.library_aliases = libraries.aliases();
     sema_options.default_interval_ns = options.default_interval_ns;
+    sema_options.with_tests = options.command == Command::Test;
+    sema_options.mocks = options.mocks;
     sema_options.pointer_size = options.pointer_size;
     sema_options.call_constant = [](sema::Project& in, sema::PouId function, std::span<const types::Value> values,
                                     const std::function<bool(sema::PouId)>& ready) {
@@ -212,6 +214,8 @@ bool Compilation::translate(bool with_tests, std::unique_ptr<ir::interpreter::Pr
   program_options.module_name = name;
   program_options.with_tests = with_tests;
   program_options.natives = {natives::table, natives::count};
+  program_options.coverage = options.counts();
+  program_options.trace_calls = options.trace_calls;
   program = std::make_unique<ir::interpreter::Program>(*module, program_options);
   times_.end();
   if (program->refusal().empty()) return true;
