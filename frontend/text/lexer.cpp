@@ -138,6 +138,8 @@ constexpr std::array<bool, kTokCount> makeBlockWords() {
 }
 constexpr std::array<bool, kTokCount> kBlockWord = makeBlockWords();
 
+bool isLongType(Tok kind) { return kind == Tok::Ltime || kind == Tok::Ldate || kind == Tok::Ltod || kind == Tok::Ldt; }
+
 enum class Prefix : uint8_t { None, Duration, Date, TimeOfDay, DateTime };
 Prefix prefixOf(std::string_view word) {
   struct Row {
@@ -202,6 +204,7 @@ class Lexer {
   void message(const char* begin, const char* end);
   void checkPragma(std::string_view word, const char* rest, const char* end);
   void checkUnderscores(const char* begin, const char* end);
+  void settleLongTypes();
   Tok last() const { return out_.tokens.empty() ? Tok::End : out_.tokens.back().kind; }
 
   TokenStream& out_;
@@ -215,6 +218,7 @@ class Lexer {
   uint32_t names_seen_;
   uint8_t flags_ = kLineStart;
   uint32_t pending_pragmas_ = 0;  // pragmas at the end of out_.pragmas that wait for their token
+  bool long_types_ = false;       // LTIME, LDATE, LTOD or LDT was read
   uint32_t doc_ = 0;              // first `///` line above the next token; 0: none, else offset + 1
 };
 
@@ -282,6 +286,7 @@ void Lexer::run(uint32_t begin, uint32_t end) {
   settle();
   flags_ |= kLineStart;
   for (uint32_t i = 0; i < kLookahead; ++i) out_.tokens.push_back({at(end_), 0, Tok::End, flags_, 0});
+  if (long_types_ && standard_ == Standard::Codesys) settleLongTypes();
 }
 
 const char* Lexer::word(const char* begin) {
@@ -303,7 +308,25 @@ const char* Lexer::word(const char* begin) {
     checkUnderscores(begin, p);
   }
   push(kind, begin, name.index);
+  long_types_ = long_types_ || isLongType(kind);
   return p;
+}
+
+// CODESYS 2.3 had no LTIME, LDATE, LTOD and LDT. In a text that declares a variable of such a name, the word is that
+// name wherever no type can stand.
+void Lexer::settleLongTypes() {
+  std::vector<Token>& tokens = out_.tokens;
+  bool declared[kTokCount] = {};
+  for (size_t i = 0; i < tokens.size(); ++i)
+    if (isLongType(tokens[i].kind) && (tokens[i + 1].kind == Tok::Colon || tokens[i + 1].kind == Tok::Comma) &&
+        (tokens[i].flags & kLineStart) != 0)
+      declared[static_cast<size_t>(tokens[i].kind)] = true;
+  Tok before = Tok::Semicolon;
+  for (Token& token : tokens) {
+    const bool type = before == Tok::Colon || before == Tok::Of || before == Tok::To || before == Tok::RefTo;
+    before = token.kind;
+    if (declared[static_cast<size_t>(token.kind)] && !type) token.kind = Tok::Ident;
+  }
 }
 
 void Lexer::checkUnderscores(const char* begin, const char* end) {

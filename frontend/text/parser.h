@@ -180,6 +180,7 @@ class Parser {
   bool panic_ = false;
   bool declared_in_body_ = false;  // said once for a POU
   bool in_structure_ = false;      // a STRUCT or UNION is being read
+  bool address_told_ = false;      // said once for a structure
   bool lost_ = false;              // declarations of the POU or TYPE entry at hand could not be read
   Tok pou_end_ = Tok::End;         // the END_… of the POU at hand
   enum class Known : uint8_t { NotYet, Yes, No } pou_closes_ = Known::NotYet;  // whether it has that END_…
