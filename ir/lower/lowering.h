@@ -274,6 +274,7 @@ class BodyLowering {
   // Inside the right operand of a codesys AND or OR that calls functions: a temporary that is TRUE when its value
   // matters. Checks count only then.
   ExprId guard_;
+  ExprId logical_;        // the temporary of the last AND or OR that needed one
   uint32_t effects_ = 0;  // statements so far that change more than temporaries
 };
 

@@ -249,11 +249,19 @@ ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circu
   Loc loc = node.h.loc;
   Op op = is_and ? Op::And : Op::Or;
   ExprId left = lowerValue(node.left);
+  const ExprId chained = left == logical_ ? left : ExprId{};
   auto guarded = [&](ExprId result, StmtId right_block) {
     Stmt branch{.kind = StmtKind::If, .loc = loc, .a = result.index};
     if (!is_and) branch.a = unary(Op::Not, types::kBool, result, loc).index;
     branch.b = right_block.index;
     append(branch);
+    return logical_ = result;
+  };
+  // `a AND b AND c` and the like have one temporary.
+  auto holding = [&](ExprId value) {
+    if (chained && value == chained) return value;
+    ExprId result = temp(types::kBool, loc);
+    assign(result, value, loc);
     return result;
   };
 
@@ -268,8 +276,7 @@ ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circu
     ExprId right = lowerAfter({&left}, [&] { return lowerValue(node.right); });
     guard_ = outer_guard;
     if (!mayFault(right)) return binary(op, types::kBool, left, right, loc);
-    ExprId result = temp(types::kBool, loc);
-    assign(result, left, loc);
+    ExprId result = holding(left);
     return guarded(result, block([&] { assign(result, right, loc); }));
   }
 
@@ -279,8 +286,7 @@ ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circu
   Block inner = block_;
   block_ = outer;
   if (!inner.first && !mayFault(right)) return binary(op, types::kBool, left, right, loc);
-  ExprId result = temp(types::kBool, loc);
-  assign(result, left, loc);
+  ExprId result = holding(left);
   Block before = block_;
   block_ = inner;
   assign(result, right, loc);
