@@ -399,10 +399,10 @@ struct PouDecl {
   Slice<DeclId> sections;
   Slice<StmtId> body;
   AccessLevel access;
-  uint8_t modifiers;          // Modifier
-  Slice<TypeExprId> bases;    // EXTENDS; several of an INTERFACE
+  uint8_t modifiers;        // Modifier
+  Slice<TypeExprId> bases;  // EXTENDS; several of an INTERFACE
   Slice<TypeExprId> implements;
-  Slice<DeclId> members;      // METHOD, ACTION: Pou; Property
+  Slice<DeclId> members;  // METHOD, ACTION: Pou; Property
   Slice<DeclId> usings;
   Loc begin, end;  // the first pragma before it, else the header keyword; one past END_…: the text of the whole POU
 };

@@ -532,8 +532,8 @@ void Printer::decl(DeclId id, int depth) {
       break;
     case DeclKind::Section: {
       const auto& d = tree_.as<SectionDecl>(id);
-      static const char* const kSections[] = {" local",    " input",  " output", " in_out", " temp",
-                                              " external", " global", " stat",   " inst",   " access", " config"};
+      static const char* const kSections[] = {" local",  " input", " output", " in_out", " temp",  " external",
+                                              " global", " stat",  " inst",   " access", " config"};
       text += kSections[static_cast<size_t>(d.section)];
       bits(h.bits);
       modifiers(d.access, 0);

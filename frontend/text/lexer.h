@@ -76,7 +76,6 @@ struct TokenStream {
 void lex(TokenStream& out, Names& names, const Sources& sources, FileId file, uint32_t begin, uint32_t end,
          Standard standard, Diagnostics& diagnostics);
 
-
 // Makes names of the object words that begin no declaration (objects.cpp).
 void settleObjectWords(TokenStream& stream);
 

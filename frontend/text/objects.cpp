@@ -38,9 +38,9 @@ AccessLevel accessOf(std::string_view word) {
                                              : AccessLevel::None;
 }
 uint8_t modifierOf(std::string_view word) {
-  return sameIdentifier(word, "ABSTRACT")   ? kAbstract
-         : sameIdentifier(word, "FINAL")    ? kFinal
-         : sameIdentifier(word, "OVERRIDE") ? kOverride
+  return sameIdentifier(word, "ABSTRACT")   ? uint8_t{kAbstract}
+         : sameIdentifier(word, "FINAL")    ? uint8_t{kFinal}
+         : sameIdentifier(word, "OVERRIDE") ? uint8_t{kOverride}
                                             : uint8_t{0};
 }
 
@@ -54,12 +54,12 @@ bool Parser::acceptAccess(AccessLevel& access) {
   return true;
 }
 
-// {PUBLIC | PRIVATE | PROTECTED | INTERNAL | ABSTRACT | FINAL | OVERRIDE} before a name, or (of accessors) at the end of
-// the line.
+// {PUBLIC | PRIVATE | PROTECTED | INTERNAL | ABSTRACT | FINAL | OVERRIDE} before a name, or (of accessors) at the end
+// of the line.
 void Parser::parseModifiers(AccessLevel& access, uint8_t& modifiers, bool before_name) {
   while (at(Tok::Ident) && !atLineStart()) {
-    const bool name_follows = isName(peek()) && (t_[1].flags & kLineStart) == 0 && peek() != Tok::Extends &&
-                              peek() != Tok::Implements;
+    const bool name_follows =
+        isName(peek()) && (t_[1].flags & kLineStart) == 0 && peek() != Tok::Extends && peek() != Tok::Implements;
     if (before_name && !name_follows) return;
     const uint8_t modifier = modifierOf(textOf(t_));
     if (modifier != 0) {

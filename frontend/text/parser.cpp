@@ -220,8 +220,8 @@ bool Parser::pouCloses() {
   return pou_closes_ == Known::Yes;
 }
 
-// pou = word modifiers name [EXTENDS types] [IMPLEMENTS types] [":" type], usings, sections, members, statements, [END_…]
-// word = FUNCTION | FUNCTION_BLOCK | PROGRAM | CLASS | INTERFACE | METHOD | ACTION
+// pou = word modifiers name [EXTENDS types] [IMPLEMENTS types] [":" type], usings, sections, members, statements,
+// [END_…] word = FUNCTION | FUNCTION_BLOCK | PROGRAM | CLASS | INTERFACE | METHOD | ACTION
 DeclId Parser::parsePou() {
   const Token* open = t_;
   PouDecl d{};

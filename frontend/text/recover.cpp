@@ -55,8 +55,8 @@ bool isCloser(Tok k) { return std::find(std::begin(kClosers), std::end(kClosers)
 bool isVarWord(Tok k) { return k >= Tok::Var && k <= Tok::VarConfig; }
 bool isMember(Tok k) { return k == Tok::Method || k == Tok::Property || k == Tok::Action; }
 bool isPouOpener(Tok k) {
-  return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program || k == Tok::Interface ||
-         k == Tok::Class || isMember(k);
+  return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program || k == Tok::Interface || k == Tok::Class ||
+         isMember(k);
 }
 bool isPouCloser(Tok k) {
   return k == Tok::EndFunction || k == Tok::EndFunctionBlock || k == Tok::EndProgram || k == Tok::EndInterface ||
@@ -70,10 +70,10 @@ bool isStatementOpener(Tok k) {
 std::span<const Tok> openersFor(Tok closer) {
   static constexpr Tok kVars[] = {Tok::Var,         Tok::VarInput,  Tok::VarOutput, Tok::VarInOut,  Tok::VarTemp,
                                   Tok::VarExternal, Tok::VarGlobal, Tok::VarStat,   Tok::VarAccess, Tok::VarConfig};
-  static constexpr Tok kOthers[] = {Tok::If,      Tok::Case,          Tok::For,     Tok::While,    Tok::Repeat,
-                                    Tok::Type,    Tok::Struct,        Tok::Union,   Tok::Function, Tok::FunctionBlock,
-                                    Tok::Program, Tok::Configuration, Tok::Resource, Tok::Method, Tok::Property,
-                                    Tok::Action, Tok::Interface, Tok::Class};
+  static constexpr Tok kOthers[] = {Tok::If,      Tok::Case,          Tok::For,      Tok::While,    Tok::Repeat,
+                                    Tok::Type,    Tok::Struct,        Tok::Union,    Tok::Function, Tok::FunctionBlock,
+                                    Tok::Program, Tok::Configuration, Tok::Resource, Tok::Method,   Tok::Property,
+                                    Tok::Action,  Tok::Interface,     Tok::Class};
   if (closer == Tok::EndVar) return kVars;
   for (const Tok& t : kOthers)
     if (closerOf(t) == closer) return {&t, 1};

@@ -101,7 +101,8 @@ bool BodyLowering::writeBytes(TypeId type, rung::ExprId init, uint8_t* to) {
   type = strip(type);
   if (tree_.kind(init) == rung::ExprKind::ArrayInit) return writeArray(type, init, to);
   if (tree_.kind(init) == rung::ExprKind::StructInit) {
-    if (!writeDefault(type, to)) return false;
+    const sema::PouId object = in_.pouOfRecord(type);
+    if ((object && project_.pou(object).base) || !writeDefault(type, to)) return false;
     const TypeInfo& info = types_.info(type);
     for (const FieldInit& given : tree_.list(tree_.as<StructInitExpr>(init).fields))
       for (const types::Field& f : info.fields)
@@ -191,14 +192,20 @@ void BodyLowering::storeInitialRecord(ExprId place, TypeId type, rung::ExprId in
   if (BodyId initializer = in_.initOf(type))
     append({.kind = StmtKind::Call, .loc = loc, .a = initializer.index, .b = place.index});
   if (!init) return;
-  const TypeInfo& info = types_.info(type);
   for (uint32_t g = 0; g < tree_.as<StructInitExpr>(init).fields.count; ++g) {
     const FieldInit given = tree_.list(tree_.as<StructInitExpr>(init).fields)[g];
-    for (uint32_t i = 0; i < info.fields.size(); ++i)
-      if (project_.names.same(info.fields[i].name, given.field.name)) {
-        storeInitial(field(place, i, info.fields[i].type, loc), info.fields[i].type, given.value, false);
-        break;
+    ExprId holder = place;
+    for (bool found = false; !found;) {  // the member may be inherited
+      const TypeInfo& info = types_.info(typeOf(holder));
+      for (uint32_t i = 0; i < info.fields.size() && !found; ++i) {
+        if (!project_.names.same(info.fields[i].name, given.field.name)) continue;
+        found = true;
+        storeInitial(field(holder, i, info.fields[i].type, loc), info.fields[i].type, given.value, false);
       }
+      const sema::PouId object = in_.pouOfRecord(typeOf(holder));
+      if (!object || !project_.pou(object).base) break;
+      holder = asBase(holder, project_.pou(object).base, loc);
+    }
   }
 }
 

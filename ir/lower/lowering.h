@@ -34,6 +34,11 @@ struct ModuleLowering {
   uint32_t listIndex(sema::ListId list) const { return list_index[list.index]; }
   // The instance that a program's name stands for; made when the program has none.
   uint32_t instanceOf(sema::PouId program);
+  // The record of the object that a POU's code runs on; none in functions.
+  sema::PouId objectOf(sema::PouId pou) const;
+  sema::PouId pouOfRecord(TypeId record) const {
+    return record.index < pou_of_record_.size() ? pou_of_record_[record.index] : sema::PouId{};
+  }
   uint32_t programOfInstance(uint32_t instance) const { return program_of_instance_[instance] - 1; }
   bool isZero(TypeId type);  // initial value of a type: all bytes zero
 
@@ -50,6 +55,9 @@ struct ModuleLowering {
   void addPrograms();
   void addLists();
   void markFaulting();
+  void addClasses();
+  void addDispatches();
+  sema::PouId implementation(sema::PouId object, sema::PouId method) const;
   void addTasks();
   void addActivations();
   void addActivation(uint32_t program, const sema::ProgramInstance* instance,
@@ -94,6 +102,8 @@ class BodyLowering {
   ExprId temp(TypeId type, Loc loc);  // a new temporary, as a place
   ExprId field(ExprId base, uint32_t index, TypeId type, Loc loc);
   ExprId self(Loc loc);
+  // The place of an object as what it extends.
+  ExprId asBase(ExprId place, sema::PouId base, Loc loc);
   ExprId unary(Op op, TypeId type, ExprId operand, Loc loc);
   ExprId binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc);
   ExprId convert(ExprId operand, TypeId to, Loc loc);
@@ -199,7 +209,10 @@ class BodyLowering {
   ExprId lowerArithmeticOperator(const sema::Call& call, const CallExpr& node);
   ExprId lowerSelect(const sema::Call& call, const CallExpr& node);
   ExprId lowerMux(const sema::Call& call, const CallExpr& node);
-  ExprId lowerFunctionCall(const sema::Call& call, const CallExpr& node, Target* target);
+  // `object`: that a method runs on; none of a function.
+  ExprId lowerFunctionCall(const sema::Call& call, const CallExpr& node, Target* target, ExprId object = {});
+  ExprId lowerMethodCall(const sema::Call& call, const CallExpr& node, Target* target);
+  ExprId lowerObjectConversion(const ConvertExpr& node);
   void lowerBlockCall(const sema::Call& call, const CallExpr& node, ExprId instance);
   void lowerAssertion(const sema::Call& call, const CallExpr& node);
   ExprId argumentPlace(ExprId value, TypeId pin_type, bool may_alias, Loc loc);
