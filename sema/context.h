@@ -61,6 +61,11 @@ bool isKindOf(Context& context, PouId object, PouId base);
 // The interface or block whose instances a pointer to an interface, a record type means; none for other types.
 PouId interfaceOf(Context& context, TypeId type);
 
+// FB_Init of an object, its own or inherited; none when it has none.
+PouId constructorOf(const Context& context, PouId object);
+// The arguments of FB_Init that the declaration of a variable gives; `type` is as written. (bodies/objects.cpp)
+CallId checkConstructor(Context& context, TypeExprId type);
+
 // The type that is written; reports what is wrong and gives types::kError then. Writes TypeExprHeader::type.
 TypeId resolveType(Context& context, TypeExprId type);
 // Makes sure that a POU's result, pins and variables are resolved (not its body). Safe against cycles.

@@ -75,6 +75,7 @@ struct Var {
   VarId external;      // VAR_EXTERNAL: the global it names
   TypeId record;       // field of a structure or union: its type
   AccessLevel access = AccessLevel::None;
+  CallId constructor;           // of a block whose FB_Init has parameters of its own: what the declaration gives them
   VarId edge_memory;            // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
   std::vector<NameId> aliases;  // {alias 'R'}
 };

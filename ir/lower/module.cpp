@@ -35,6 +35,13 @@ ModuleLowering::ModuleLowering(const sema::Project& from, const LowerOptions& wi
 }
 
 void ModuleLowering::run() {
+  for (const sema::Var& var : project.vars) {
+    if (!var.constructor.index || var.storage == sema::Storage::Local) continue;
+    const TypeId record = var.list  ? project.global_lists[var.list.index].record
+                          : var.pou ? project.pou(var.pou).record
+                                    : var.record;
+    constructor_of_[uint64_t{record.index} << 32 | var.field] = var.constructor;
+  }
   addLists();
   addPrograms();
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
@@ -214,7 +221,7 @@ bool ModuleLowering::isZero(TypeId declared) {
       case TypeKind::Record: {
         if (sema::PouId pou = pou_of_record_[declared.index]) {
           if (project.pou(pou).kind == PouKind::Interface) return true;
-          if (project.pou(pou).dispatched) return false;
+          if (project.pou(pou).dispatched || !constructorsOf(pou).empty()) return false;
           for (sema::VarId id : project.pou(pou).vars) {
             const sema::Var& var = project.var(id);
             if (var.storage == sema::Storage::Image && var.init) return false;
@@ -369,6 +376,19 @@ BodyId ModuleLowering::initOf(TypeId type) {
 sema::PouId ModuleLowering::objectOf(sema::PouId pou) const {
   const sema::Pou& of = project.pou(pou);
   return of.owner ? of.owner : of.kind == PouKind::Function ? sema::PouId{} : pou;
+}
+
+std::vector<sema::PouId> ModuleLowering::constructorsOf(sema::PouId object) const {
+  std::vector<sema::PouId> out;
+  for (sema::PouId at = object; at; at = project.pou(at).base)
+    for (sema::PouId member : project.pou(at).members)
+      if (sameIdentifier(project.names.text(project.pou(member).name), "FB_Init")) out.insert(out.begin(), member);
+  return out;
+}
+
+CallId ModuleLowering::constructorOf(TypeId record, uint32_t field) const {
+  auto found = constructor_of_.find(uint64_t{record.index} << 32 | field);
+  return found == constructor_of_.end() ? CallId{} : found->second;
 }
 
 // Numbers the objects that have a type id: each line of descent in one run, in the order of their names.

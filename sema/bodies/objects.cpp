@@ -278,6 +278,56 @@ bool checkPropertyAssign(Context& context, AssignStmt& node) {
   return true;
 }
 
+// Forbids arguments at a declaration that no FB_Init takes, and FB_Init without those that it needs. Codesys.
+//   passes  p : Pump(3);        FB_Init has an input behind bInitRetains and bInCopyCode
+CallId checkConstructor(Context& context, TypeExprId type) {
+  Tree& tree = context.tree();
+  while (tree.kind(type) == TypeExprKind::Array) type = tree.as<ArrayTypeExpr>(type).element;
+  if (tree.kind(type) != TypeExprKind::Named) return {};
+  const NamedTypeExpr& written = tree.as<NamedTypeExpr>(type);
+  const TypeId resolved = context.types().resolve(written.h.type);
+  if (!resolved || resolved == types::kError) return {};
+  const PouId object = context.types().info(resolved).kind == TypeKind::Record ? pouOf(context, resolved) : PouId{};
+  const PouId method = object ? constructorOf(context, object) : PouId{};
+  const std::span<const VarId> pins = method ? pinsOf(context, method) : std::span<const VarId>();
+  constexpr uint32_t kImplicit = 2;  // bInitRetains, bInCopyCode
+  if (pins.size() <= kImplicit) {
+    if (written.has_arguments && written.arguments.count > 0)
+      context.report(Diag::TooManyArguments, tree.list(written.arguments)[0].loc,
+                     {context.types().spell(resolved), "0"});
+    return {};
+  }
+  CallExpr node{};
+  node.h.kind = ExprKind::Call;
+  node.h.loc = node.end = written.h.loc;
+  std::vector<Argument> arguments;
+  for (uint32_t i = 0; i < kImplicit; ++i) {
+    LiteralExpr no{};
+    no.h.kind = ExprKind::Literal;
+    no.h.op = static_cast<uint8_t>(LiteralKind::Bool);
+    no.h.loc = node.h.loc;
+    arguments.push_back({{}, tree.add<ExprId>(no), false, false, node.h.loc});
+  }
+  for (const Argument& argument : tree.list(written.arguments)) arguments.push_back(argument);
+  node.arguments = tree.addList<Argument>(arguments);
+  const Arguments matched = matchArguments(context, node, method);
+  Call call;
+  call.kind = CallKind::Method;
+  call.pou = method;
+  bindArguments(context, node, method, matched, call);
+  if (matched.good) {
+    for (size_t i = kImplicit; i < pins.size(); ++i) {
+      ensureInitialValue(context, pins[i]);
+      const Var& pin = context.project.var(pins[i]);
+      if ((i < matched.slots.size() && matched.slots[i] != 0) || pin.init || pin.section == SectionKind::Output)
+        continue;
+      context.report(Diag::MissingArgument, node.h.loc, {context.types().spell(resolved), text(context, pin.name)});
+      break;
+    }
+  }
+  return addCall(context, std::move(call));
+}
+
 TypeId callMethod(Context& context, ExprId& expr, PouId id, ExprId instance, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   resolvePou(context, id);

@@ -158,8 +158,8 @@ void resolveHeader(Context& context, PouId id) {
   bool own = is_interface || !pou.interfaces.empty() || (pou.modifiers & kAbstract) != 0;
   for (const PouId member : pou.members) {
     const Pou& method = project.pou(member);
-    own = own ||
-          (method.kind == PouKind::Method && (pou.modifiers & kFinal) == 0 && !isLifeMethod(context, method.name));
+    own =
+        own || (method.kind == PouKind::Method && (pou.modifiers & kFinal) == 0 && !isLifeMethod(context, method.name));
   }
   pou.dispatched = own || (pou.base && project.pou(pou.base).dispatched);
 }
@@ -184,6 +184,13 @@ void addObjectFields(Context& context, PouId id) {
   if (pou.dispatched && !(pou.base && project.pou(pou.base).dispatched))
     pou.id_var = hidden("__type", types::idOf(types::TypeKind::UDInt));
   if (pou.base) pou.base_var = hidden("SUPER", project.pou(pou.base).record);
+}
+
+PouId constructorOf(const Context& context, PouId object) {
+  for (PouId at = object; at; at = context.project.pou(at).base)
+    for (const PouId member : context.project.pou(at).members)
+      if (sameIdentifier(context.names().text(context.project.pou(member).name), "FB_Init")) return member;
+  return {};
 }
 
 PouId objectOf(const Context& context) {

@@ -302,6 +302,8 @@ void ensureInitialValue(Context& context, VarId id) {
     --context.scopes.depth;
     decl.init = init;
   }
+  const bool makes_object = var.section != SectionKind::InOut && var.section != SectionKind::External;
+  const CallId constructor = decl.type && makes_object ? checkConstructor(there, decl.type) : CallId{};
   decl.h.spare = static_cast<uint16_t>(State::Done);
   const TypeKind kind = context.types().plainKind(type);
   std::optional<types::Value> value;
@@ -312,6 +314,7 @@ void ensureInitialValue(Context& context, VarId id) {
   for (uint32_t i = firstOfDecl(project, id.index);
        i < project.vars.size() && project.vars[i].decl == project.vars[id.index].decl; ++i) {
     project.vars[i].init = init;
+    project.vars[i].constructor = constructor;
     if (value) {
       project.vars[i].has_value = true;
       project.vars[i].value = *value;
