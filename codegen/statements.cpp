@@ -348,7 +348,13 @@ void BodyWriter::callStatement(const Stmt& stmt) {
   }
   if (stmt.e != 0) prepare(ExprId{stmt.e});
   const bool is_sized = stmt.b == 0 && isSizedCall(callee, stmt.c, stmt.d, ExprId{stmt.e});
-  if ((callee.kind == ir::BodyKind::Function || callee.native) && !is_sized) call(callee_id);
+  const bool is_virtual = stmt.op == ir::kVirtual;
+  if (is_virtual) {
+    if (std::find(group_.virtuals.begin(), group_.virtuals.end(), callee_id) == group_.virtuals.end())
+      group_.virtuals.push_back(callee_id);
+  } else if ((callee.kind == ir::BodyKind::Function || callee.native) && !is_sized) {
+    call(callee_id);
+  }
 
   // A text whose length lives in a local: the call gives it, or it is counted.
   const std::string length =
@@ -437,9 +443,16 @@ void BodyWriter::callStatement(const Stmt& stmt) {
         place(ExprId{stmt.b});
       }
     } else {
-      appendFunctionName(out_, module_, callee);
+      if (is_virtual) {
+        out_ += methodName(module_, callee_id, "table") + "[rung_class_of(&";
+        place(ExprId{stmt.b});
+        out_ += ") - " + methodName(module_, callee_id, "first") + "]";
+      } else {
+        appendFunctionName(out_, module_, callee);
+      }
       out_ += '(';
       if (stmt.b != 0) {
+        if (isMethod(callee)) out_ += '&';
         place(ExprId{stmt.b});
         out_ += ", ";
       }

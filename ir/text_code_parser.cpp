@@ -182,7 +182,7 @@ void Reader::stmt() {
 void Reader::callStmt(ExprId result) {
   Builder& b = *builder_;
   const Loc loc = b.loc;
-  const bool is_init = accept("init");
+  const bool is_init = accept("init"), is_virtual = !is_init && accept("virtual");
   const Loc name_loc = token().loc;
   const std::string text = sigilName();
   if (failed_) return;
@@ -194,7 +194,9 @@ void Reader::callStmt(ExprId result) {
   if (isPunct("(") && !token().first_in_line) given = operands(module_.body(callee));
   const ExprId self = accept("on") ? expr({}) : ExprId{};
   b.loc = loc;
-  if (!failed_) b.callStmt(callee, self, given, result);
+  if (failed_) return;
+  const StmtId made = b.callStmt(callee, self, given, result);
+  if (is_virtual) b.body.stmt(made).op = kVirtual;
 }
 
 std::vector<ExprId> Reader::operands(const Body& callee) {
@@ -497,6 +499,15 @@ ExprId Reader::literal(TypeId of) {
     const bool value = tokens_[at_++].text == "true";
     if (!of) of = types::kBool;
     return kindOf(of) == TypeKind::Bool ? b.constant(of, value) : misfit(value ? "true" : "false");
+  }
+  if (accept("class")) {
+    const TypeId record = type();
+    const ExprId number = b.constant(types::kUDInt, 0);
+    Expr& made = b.body.expr(number);
+    made.c = record.index;
+    for (size_t i = 0; i < module_.classes.size(); ++i)
+      if (module_.classes[i].record == record) made.a = static_cast<uint32_t>(i) + 1;
+    return number;
   }
   if (accept("null")) {
     const TypeKind kind = kindOf(of);

@@ -68,7 +68,7 @@ void Printer::stmt(const Stmt& s) {
         expr(ExprId{s.e}, {});
         put(" = ");
       }
-      put(callee.kind == BodyKind::Init ? "call init @" : "call @");
+      put(callee.kind == BodyKind::Init ? "call init @" : s.op == kVirtual ? "call virtual @" : "call @");
       name(callee.name);
       if (callee.kind == BodyKind::Function || s.d != 0) calleeOperands(callee, s.c, s.d);
       if (s.b != 0) {
@@ -230,6 +230,10 @@ void Printer::checks(const Expr& e) {
 }
 
 void Printer::constant(const Expr& e, TypeId expected) {
+  if (e.kind == ExprKind::Const && e.c != 0) {
+    put("class ");
+    return type(TypeId{e.c});
+  }
   const TypeId id = types_.resolve(e.type);
   const TypeInfo& info = types_.info(id);
   const TypeKind kind = types_.plainKind(id);

@@ -46,7 +46,10 @@
 //   28  Fault: one of the faults. Try: its number goes to an integer place.
 //   29  A body with a check, a fault or a call of a body that may fault `may_fault`; a pure one may not, and neither
 //       assigns outside of its locals nor calls what is not pure.
-//   30  A native body has no code.
+//   30  A native body and an abstract one have no code.
+//   31  Classes have distinct records that are not laid over a base of a later class; a virtual call is of a method
+//       that has a dispatch; a dispatch names methods with the parameters of its own, on classes that exist. An
+//       abstract method is called virtually only.
 #include "ir/verify.h"
 
 #include <algorithm>
@@ -76,6 +79,8 @@ class Verifier {
   std::vector<std::string> problems;
 
   void checkModule();
+  void checkDispatches();
+  bool hasDispatch(BodyId method) const;
   void checkBody(const Body& body);
 
  private:
@@ -191,9 +196,43 @@ void Verifier::checkModule() {
   for (size_t i = 1; i < module_.bodies.size(); ++i)
     if (module_.bodies[i].kind == BodyKind::Init) unique(module_.bodies[i].name, "initialiser");
   checkRecordOrder();
+  checkDispatches();
   for (const Data& data : module_.data)
     require(known(data.type) && types_.info(types_.resolve(data.type)).size == data.bytes.size(), 4,
             [&] { return "data of another size than its type " + spell(data.type); });
+}
+
+bool Verifier::hasDispatch(BodyId method) const {
+  return std::any_of(module_.dispatches.begin(), module_.dispatches.end(),
+                     [&](const Dispatch& dispatch) { return dispatch.method == method; });
+}
+
+void Verifier::checkDispatches() {
+  std::unordered_set<uint32_t> seen;
+  for (const Class& one : module_.classes) {
+    require(!one.base || seen.count(one.base.index) != 0, 31, "a class in front of its base");
+    require(one.record && types_.kind(one.record) == TypeKind::Record && seen.insert(one.record.index).second, 31,
+            "a class without a record of its own");
+  }
+  for (const Dispatch& dispatch : module_.dispatches) {
+    const Body& method = module_.body(dispatch.method);
+    require(dispatch.first >= 1 && dispatch.first - 1 + dispatch.bodies.size() <= module_.classes.size(), 31,
+            "a dispatch of a class that does not exist");
+    for (BodyId id : dispatch.bodies) {
+      if (!id) continue;
+      const Body& body = module_.body(id);
+      std::vector<const Local*> wanted, given;
+      for (const Local& local : method.locals)
+        if (isParameter(local)) wanted.push_back(&local);
+      for (const Local& local : body.locals)
+        if (isParameter(local)) given.push_back(&local);
+      bool same = body.self && wanted.size() == given.size() &&
+                  types_.resolve(method.result) == types_.resolve(body.result) && !body.abstract;
+      for (size_t i = 0; same && i < wanted.size(); ++i)
+        same = wanted[i]->kind == given[i]->kind && types_.resolve(wanted[i]->type) == types_.resolve(given[i]->type);
+      require(same, 31, "a dispatch to a method with other parameters");
+    }
+  }
 }
 
 void Verifier::checkRecordOrder() {
@@ -237,7 +276,7 @@ void Verifier::checkBody(const Body& body) {
   if (body.kind != BodyKind::Function || body.self)
     require(body.self && body.self.index < types_.count() && types_.info(body.self).kind == TypeKind::Record, 8,
             "a body whose self is no record");
-  if (body.native) require(!body.first, 30, "a native body has code");
+  if (body.native || body.abstract) require(!body.first, 30, "a native or abstract body has code");
   block(body.first);
 
   for (const auto& [label, blocks] : jumps_) {
@@ -442,6 +481,13 @@ void Verifier::callStmt(const Stmt& s) {
       s.b != 0 && place(s.b, 22))
     require(typeOf(s.b) == types_.resolve(callee.self), 22, [&] { return "a call on " + spell(typeOf(s.b)); });
   callOperands(callee, s.c, s.d, 22, false);
+  if (s.op == kVirtual) {
+    found_fault_ = true;
+    require(callee.kind == BodyKind::Function && callee.self && hasDispatch(BodyId{s.a}), 31,
+            "a virtual call of what has no dispatch");
+  } else {
+    require(!callee.abstract, 31, "a call of an abstract method that is not virtual");
+  }
   if (s.e != 0 && place(s.e, 22))
     require(callee.result && fits(typeOf(s.e), types_.resolve(callee.result)), 22,
             "a result of another type than its place");

@@ -115,8 +115,9 @@ struct Scopes {
   std::deque<NamedType> named_types{1};
   std::deque<PouScope> pous{1};
   std::deque<ListScope> lists{1};
-  NameMap instances;  // of generic functions, by unique name
-  NameMap mocks;      // in use: from what each replaces
+  NameMap member_names;  // unique names of methods and actions; a set
+  NameMap instances;     // of generic functions, by unique name
+  NameMap mocks;         // in use: from what each replaces
 
   // Everything declared, in order; settle() resolves from these marks on.
   std::vector<TypeId> declared_types;

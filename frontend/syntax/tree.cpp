@@ -66,6 +66,8 @@ Loc Tree::begin(ExprId id) const {
     switch (kind(id)) {
       case ExprKind::Member: id = as<MemberExpr>(id).base; break;
       case ExprKind::Index: id = as<IndexExpr>(id).base; break;
+      case ExprKind::This:
+      case ExprKind::Super: return loc(id);
       case ExprKind::Deref: id = as<DerefExpr>(id).base; break;
       case ExprKind::BitAccess: id = as<BitAccessExpr>(id).base; break;
       case ExprKind::Binary: id = as<BinaryExpr>(id).left; break;

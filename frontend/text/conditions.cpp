@@ -64,7 +64,10 @@ void Declared::add(Slice<DeclId> decls, Loc begin, Loc end) {
       case DeclKind::Task: addNamed(tree_.as<TaskDecl>(id).name, {"task", {}, {}, pragmas, {}}); break;
       case DeclKind::Configuration: add(tree_.as<ConfigurationDecl>(id).members, {}, {}); break;
       case DeclKind::Section: add(tree_.as<SectionDecl>(id).vars, begin, end); break;
+      case DeclKind::Property:
+      case DeclKind::Using:
       case DeclKind::ProgramInstance: break;
+      case DeclKind::Namespace: add(tree_.as<NamespaceDecl>(id).decls, {}, {}); break;
       case DeclKind::Resource: {
         const ResourceDecl& resource = tree_.as<ResourceDecl>(id);
         addNamed(resource.name, {"resource", {}, {}, pragmas, {}});

@@ -20,12 +20,20 @@ bool endsDeclarations(Tok k) {
     case static_cast<int>(Tok::EndProgram):
     case static_cast<int>(Tok::EndConfiguration):
     case static_cast<int>(Tok::EndResource):
+    case static_cast<int>(Tok::EndMethod):
+    case static_cast<int>(Tok::EndProperty):
+    case static_cast<int>(Tok::EndGet):
+    case static_cast<int>(Tok::EndSet):
+    case static_cast<int>(Tok::EndAction):
+    case static_cast<int>(Tok::EndInterface):
+    case static_cast<int>(Tok::EndClass):
+    case static_cast<int>(Tok::EndNamespace):
     case static_cast<int>(Tok::Function):
     case static_cast<int>(Tok::FunctionBlock):
     case static_cast<int>(Tok::Program):
     case static_cast<int>(Tok::Configuration):
     case static_cast<int>(Tok::Type): return true;
-    default: return k >= Tok::Var && k <= Tok::VarConfig;
+    default: return (k >= Tok::Var && k <= Tok::VarConfig) || isObjectWord(k);
   }
 }
 bool beginsDeclaration(const Token* t) {
@@ -43,6 +51,7 @@ SectionKind sectionOf(Tok k) {
     case static_cast<int>(Tok::VarExternal): return SectionKind::External;
     case static_cast<int>(Tok::VarGlobal): return SectionKind::Global;
     case static_cast<int>(Tok::VarStat): return SectionKind::Stat;
+    case static_cast<int>(Tok::VarInst): return SectionKind::Inst;
     case static_cast<int>(Tok::VarAccess): return SectionKind::Access;
     case static_cast<int>(Tok::VarConfig): return SectionKind::Config;
     default: return SectionKind::Local;
@@ -234,6 +243,7 @@ DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc) {
   }
   if (!panic_ && !at(Tok::Colon)) skipStray(peek() == Tok::Colon, Diag::StrayToken);
   if (!panic_) expect(Tok::Colon);
+  in_variable_ = false;
   if (!panic_) d.type = parseType();
   if (panic_ || !d.type || lost_) tree_.lost_names = true;
   if (!d.type) d.type = tree_.add<TypeExprId>(ErrorTypeExpr{{TypeExprKind::Error, 0, 0, d.h.loc, {}}});
@@ -268,7 +278,7 @@ DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc) {
 // VAR_xxx {CONSTANT | RETAIN | NON_RETAIN | PERSISTENT} {variable} END_VAR
 DeclId Parser::parseSection() {
   const Token* open = t_;
-  SectionDecl d{{DeclKind::Section, 0, 0, here(), takeDoc(), takePragmas()}, sectionOf(kind()), {}};
+  SectionDecl d{{DeclKind::Section, 0, 0, here(), takeDoc(), takePragmas()}, sectionOf(kind()), AccessLevel::None, {}};
   if ((open->flags & (kSynthetic | kReported)) != 0) lost_ = true;  // which section was meant is not known
   advance();
   while (peek() != Tok::Colon && peek() != Tok::Comma && peek() != Tok::At) {
@@ -277,6 +287,7 @@ DeclId Parser::parseSection() {
                     : at(Tok::Persistent) ? kPersistent
                     : at(Tok::NonRetain)  ? int{kNonRetain}
                                           : 0;
+    if (bit == 0 && !atLineStart() && acceptAccess(d.access)) continue;
     if (bit == 0) break;
     d.h.bits = static_cast<uint8_t>(d.h.bits | bit);
     advance();
@@ -422,7 +433,9 @@ DeclId Parser::parseVar(SectionKind section) {
   d.names = listFrom(idents_, first);
   if (!panic_) {
     // The edge stands behind the type, and by some before it.
+    const bool outer = std::exchange(in_variable_, true);
     d.type = parseType();
+    in_variable_ = outer;
     if (!panic_ && (at(Tok::REdge) || at(Tok::FEdge))) {
       d.edge = at(Tok::REdge) ? EdgeKind::Rising : EdgeKind::Falling;
       advance();
@@ -544,7 +557,7 @@ TypeExprId Parser::parseNamedType() {
     }
     return tree_.add<TypeExprId>(d);
   }
-  NamedTypeExpr named{{TypeExprKind::Named, 0, 0, start, {}}, {}};
+  NamedTypeExpr named{{TypeExprKind::Named, 0, 0, start, {}}, {}, {}, false};
   const Token* first = t_;
   parseNamePath(named.path);
   const TypeExprId base = tree_.add<TypeExprId>(named);
@@ -566,6 +579,13 @@ TypeExprId Parser::parseNamedType() {
     }
   }
   if (!at(Tok::LeftParen)) return base;
+  if (in_variable_ && !isTypeWord(first->kind) && !rangeFollows()) {  // of FB_Init
+    Loc end;
+    NamedTypeExpr& block = tree_.as<NamedTypeExpr>(base);
+    block.arguments = parseArguments(end);
+    block.has_arguments = true;
+    return base;
+  }
   // `INT (a, b := 2)` names values, `INT (0..9)` a range.
   const Tok next = peek(2);
   if (isName(peek()) && (next == Tok::Comma || next == Tok::RightParen || next == Tok::Assign)) return parseEnum(base);
@@ -576,6 +596,17 @@ TypeExprId Parser::parseNamedType() {
   d.high = panic_ ? errorExpr(here()) : parseExpr();
   closeParen(Tok::RightParen, false);
   return tree_.add<TypeExprId>(d);
+}
+
+// Whether what stands in the parentheses here is `low .. high`.
+bool Parser::rangeFollows() const {
+  uint32_t depth = 0;
+  for (const Token* t = t_; t->kind != Tok::End && t->kind != Tok::Semicolon; ++t) {
+    if (t->kind == Tok::LeftParen) ++depth;
+    if (t->kind == Tok::RightParen && --depth == 0) return false;
+    if (t->kind == Tok::DotDot && depth == 1) return true;
+  }
+  return false;
 }
 
 // STRUCT [EXTENDS type] {variable} END_STRUCT, UNION {variable} END_UNION

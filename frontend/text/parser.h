@@ -1,6 +1,6 @@
 // The parser of Structured Text: recursive descent for declarations and statements, precedence climbing for
 // expressions, over the token array of lexer.h whose blocks recover.h has balanced. Private to frontend/text:
-// parser.cpp (files, POUs, configurations), declarations.cpp, statements.cpp, expressions.cpp.
+// parser.cpp (files, POUs, configurations), objects.cpp, declarations.cpp, statements.cpp, expressions.cpp.
 //
 // Errors. fail() reports and sets panic_: nothing more is reported until the construct at hand has found its
 // synchronization point (`;`, a keyword, a line that begins a statement). slip() reports a mistake whose meaning is
@@ -69,6 +69,7 @@ class Parser {
   void skipToTopLevel();
   bool atTopLevelWord() const;
   DeclId parsePou();
+  void parsePouParts(PouDecl& d);
   bool pouCloses();
   DeclId parseConfiguration();
   DeclId parseResource();
@@ -76,7 +77,18 @@ class Parser {
   DeclId parseProgramInstance();
   void parseMembers(Tok end, std::vector<DeclId>& out);
   bool parseTaskName(Ident& out);
-  void unsupported(const char* what, const char* end_word);
+
+  // ---- objects (objects.cpp)
+  bool atMember() const { return at(Tok::Method) || at(Tok::Property) || at(Tok::Action); }
+  bool acceptAccess(AccessLevel& access);
+  void parseModifiers(AccessLevel& access, uint8_t& modifiers, bool before_name);
+  Slice<TypeExprId> parseTypeNames();
+  void parseMember(std::vector<DeclId>& out);
+  bool atAccessor() const;
+  DeclId parseProperty();
+  DeclId parseAccessor(const Ident& property, const PropertyDecl& of);
+  DeclId parseNamespace();
+  void parseUsing(std::vector<DeclId>& out);
 
   // ---- declarations (declarations.cpp)
   void parseTypes(std::vector<DeclId>& out);
@@ -95,6 +107,7 @@ class Parser {
   TypeExprId parseEnum(TypeExprId base);
   TypeExprId parseArray();
   TypeExprId parseNamedType();
+  bool rangeFollows() const;
   void parseNamePath(Slice<Ident>& out);
   ExprId parseDeclaredInit(TypeExprId type);
   ExprId parseInit();
@@ -179,6 +192,8 @@ class Parser {
   Token* t_ = nullptr;
   bool panic_ = false;
   bool declared_in_body_ = false;  // said once for a POU
+  bool in_variable_ = false;       // the type of a variable is being read: it may have arguments
+  uint32_t in_property_ = 0;       // its accessors are being read
   bool in_structure_ = false;      // a STRUCT or UNION is being read
   bool address_told_ = false;      // said once for a structure
   bool lost_ = false;              // declarations of the POU or TYPE entry at hand could not be read

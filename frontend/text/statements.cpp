@@ -22,13 +22,21 @@ bool isEndWord(Tok k) {
     case static_cast<int>(Tok::EndProgram):
     case static_cast<int>(Tok::EndConfiguration):
     case static_cast<int>(Tok::EndResource):
+    case static_cast<int>(Tok::EndMethod):
+    case static_cast<int>(Tok::EndProperty):
+    case static_cast<int>(Tok::EndGet):
+    case static_cast<int>(Tok::EndSet):
+    case static_cast<int>(Tok::EndAction):
+    case static_cast<int>(Tok::EndInterface):
+    case static_cast<int>(Tok::EndClass):
+    case static_cast<int>(Tok::EndNamespace):
     case static_cast<int>(Tok::End): return true;
     default: return false;
   }
 }
 bool isPouWord(Tok k) {
   return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program || k == Tok::Type ||
-         k == Tok::Configuration;
+         k == Tok::Configuration || isObjectWord(k);
 }
 bool isStatementWord(Tok k) {
   return k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat || k == Tok::Try ||
@@ -40,7 +48,8 @@ bool isAssign(Tok k) { return k == Tok::Assign || (k >= Tok::PlusAssign && k <= 
 
 bool Parser::atBlockEnd() {
   const Tok k = kind();
-  return isEndWord(k) || isPouWord(k) || (k == Tok::VarGlobal && stmt_depth_ == 0 && !pouCloses());
+  return isEndWord(k) || isPouWord(k) || (k == Tok::VarGlobal && stmt_depth_ == 0 && !pouCloses()) ||
+         (in_property_ > 0 && atAccessor());
 }
 
 bool Parser::startsStatement(const Token* t) const {
@@ -174,7 +183,7 @@ bool Parser::otherLanguage() {
                     peek() != Tok::LeftParen;
   if (!chart && !load) return false;
   slip(Diag::NotSupportedYet, t_, {chart ? "a body in SFC" : "a body in IL"});
-  while (!at(Tok::End) && kind() != pou_end_ && (at(Tok::Action) || !atTopLevelWord())) advance();
+  while (!at(Tok::End) && kind() != pou_end_ && !atTopLevelWord()) advance();
   return true;
 }
 
@@ -280,6 +289,15 @@ void Parser::parseExprStatement() {
     return endStatement(first);
   }
   if (misspelledStart(first)) return;
+  const ExprKind written = tree_.kind(target);
+  if (standard_ == Standard::Codesys && at(Tok::Semicolon) &&
+      (written == ExprKind::Name || written == ExprKind::Member)) {  // an action is called by its bare name
+    const Loc start = tree_.loc(target);
+    const ExprId call =
+        tree_.add<ExprId>(CallExpr{exprHeader(ExprKind::Call, start, 0, kBareCall), target, {}, endOf(t_ - 1), {}});
+    stmts_.push_back(tree_.add<StmtId>(CallStmt{header(StmtKind::Call, start), call}));
+    return endStatement(first);
+  }
   stmts_.push_back(tree_.add<StmtId>(ErrorStmt{header(StmtKind::Error, loc(first))}));
   const bool ends = at(Tok::Semicolon) || atLineStart() || atBlockEnd() || startsStatement(t_);
   if (ends) {

@@ -2,6 +2,7 @@
 // its own; the result is read from there. See translate.h.
 #include <algorithm>
 
+#include "frontend/source/invariant.h"
 #include "ir/builder.h"
 #include "ir/interpreter/translate.h"
 #include "ir/walk.h"
@@ -114,6 +115,16 @@ void BodyTranslator::emitCall(BodyId id, const Address* self, uint32_t site) {
   code_.calls.push_back({insn, id});
 }
 
+void BodyTranslator::emitVirtualCall(BodyId method, const Address& self, uint32_t site) {
+  size_t i = 0;
+  while (i < module_.dispatches.size() && module_.dispatches[i].method != method) ++i;
+  RUNG_INVARIANT(i < code_.dispatches.size(), "a virtual call has its dispatch");
+  code_.virtual_calls.push_back({module_.dispatches[i].first, site, code_.dispatches[i].data()});
+  const uint32_t insn = emit(callVirtualHandler(), {0, true}, pointerTo(self), {}, 0,
+                             reinterpret_cast<int64_t>(&code_.virtual_calls.back()));
+  code_.insns[insn].d = insn;
+}
+
 namespace {
 
 // Bytes behind the frame that a native function's slots take.
@@ -210,6 +221,8 @@ void BodyTranslator::callStatement(const Stmt& stmt) {
     native_slots_ = std::max(native_slots_, slotsOf(callee, passed.size()));
     if (has_self_slot) pointerInto(self, {0, true});
     emit(nativeHandler(), {0, true}, {}, {}, 0, reinterpret_cast<int64_t>(findNative(callee)));
+  } else if (stmt.op == kVirtual) {
+    emitVirtualCall(id, self, site(stmt.loc));
   } else {
     emitCall(id, stmt.b != 0 ? &self : nullptr, site(stmt.loc));
   }

@@ -74,6 +74,16 @@ Handler jumpHandler();
 Handler callHandler();           // of a function: its frame begins at a and needs c; imm: the site
 Handler callOnSelfHandler();     // self + b
 Handler callOnPointerHandler();  // slot b
+// On the object at (slot b), its method by type id; imm: const VirtualCall*; d: the instruction's own number.
+Handler callVirtualHandler();
+struct VirtualEntry {
+  uint32_t at = 0, frame = 0;  // as Code::Entry
+};
+struct VirtualCall {
+  uint32_t first = 0;  // class
+  uint32_t site = 0;
+  const VirtualEntry* entries = nullptr;
+};
 Handler returnHandler();
 Handler haltHandler();
 Handler nativeHandler();   // slots at a, imm: NativeThunk

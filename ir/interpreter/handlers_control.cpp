@@ -28,6 +28,15 @@ void callOnPointer(RUNG_HANDLER_PARAMETERS) {
   uint8_t* const frame = enter(ip, fp, self, m);
   RUNG_GO(ip + static_cast<int32_t>(ip->d), frame, load<uint8_t*>(fp + ip->b));
 }
+void callVirtual(RUNG_HANDLER_PARAMETERS) {
+  const VirtualCall& call = *reinterpret_cast<const VirtualCall*>(ip->imm);
+  uint8_t* const object = load<uint8_t*>(fp + ip->b);
+  const VirtualEntry entry = call.entries[load<uint32_t>(object) - call.first];
+  uint8_t* const frame = fp + ip->a;
+  if (RUNG_UNLIKELY(m->limit - frame < static_cast<ptrdiff_t>(entry.frame))) fail(m, RUNG_FAULT_STACK, call.site, 0);
+  *reinterpret_cast<Linkage*>(frame) = {ip + 1, fp, self};
+  RUNG_GO(ip - ip->d + entry.at, frame, object);
+}
 void giveBack(RUNG_HANDLER_PARAMETERS) {
   const Linkage caller = *reinterpret_cast<const Linkage*>(fp);
   RUNG_GO(caller.ip, caller.fp, caller.self);
@@ -125,6 +134,7 @@ Handler jumpHandler() { return jump; }
 Handler callHandler() { return call; }
 Handler callOnSelfHandler() { return callOnSelf; }
 Handler callOnPointerHandler() { return callOnPointer; }
+Handler callVirtualHandler() { return callVirtual; }
 Handler returnHandler() { return giveBack; }
 Handler haltHandler() { return halt; }
 Handler nativeHandler() { return native; }

@@ -218,7 +218,16 @@ void translateData(const Module& module, Code& code) {
   }
 }
 
-void link(Code& code) {
+void translateDispatches(const Module& module, Code& code) {
+  for (const Dispatch& dispatch : module.dispatches) code.dispatches.emplace_back(dispatch.bodies.size());
+}
+
+void link(const Module& module, Code& code) {
+  for (size_t i = 0; i < code.dispatches.size(); ++i) {
+    const std::vector<BodyId>& bodies = module.dispatches[i].bodies;
+    for (size_t b = 0; b < bodies.size(); ++b)
+      code.dispatches[i][b] = {code.bodies[bodies[b].index].at, code.bodies[bodies[b].index].frame};
+  }
   for (const auto& [insn, body] : code.calls) {
     code.insns[insn].c = code.bodies[body.index].frame;
     code.insns[insn].d = code.bodies[body.index].at - insn;

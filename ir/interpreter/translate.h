@@ -31,8 +31,10 @@ struct Code {
   std::deque<std::vector<SwitchRange>> ranges;
   std::deque<AssertionPlace> assertions;
   std::deque<Counter> counters;
-  std::vector<const char*> called;                 // by BodyId: the name that traced calls give, or null
-  std::vector<const uint64_t*> data_of_module;     // by index of Module::data
+  std::vector<const char*> called;                    // by BodyId: the name that traced calls give, or null
+  std::vector<const uint64_t*> data_of_module;        // by index of Module::data
+  std::vector<std::vector<VirtualEntry>> dispatches;  // as Module::dispatches
+  std::deque<VirtualCall> virtual_calls;
   std::vector<std::pair<uint32_t, BodyId>> calls;  // instructions that wait for where a body begins
   std::string missing;  // a native function that is not at hand, as the library names it; else empty
 };
@@ -190,6 +192,7 @@ class BodyTranslator {
   std::vector<Argument> arguments(const Body& callee, uint32_t first, uint32_t count, uint32_t at);
   void passArguments(std::vector<Argument>& arguments);
   void passArgument(Argument& argument, Ref to);
+  void emitVirtualCall(BodyId method, const Address& self, uint32_t site);
   void emitCall(BodyId callee, const Address* self, uint32_t site);
 
   // ---- small helpers
@@ -259,6 +262,7 @@ class BodyTranslator {
 // The constant bytes of the module; before any body.
 void translateData(const Module& module, Code& code);
 // Lets each call know where its callee begins; after everything is translated.
-void link(Code& code);
+void translateDispatches(const Module& module, Code& code);
+void link(const Module& module, Code& code);
 
 }  // namespace rung::ir::interpreter

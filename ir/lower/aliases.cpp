@@ -83,6 +83,8 @@ bool BodyLowering::isApart(rung::ExprId id, sema::VarId variable) const {
     }
     case rung::ExprKind::Error:
     case rung::ExprKind::Index:
+    case rung::ExprKind::This:
+    case rung::ExprKind::Super:
     case rung::ExprKind::Deref:
     case rung::ExprKind::BitAccess:
     case rung::ExprKind::Address:

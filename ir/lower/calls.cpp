@@ -20,6 +20,7 @@ ExprId BodyLowering::lowerCall(rung::ExprId id, Target* target) {
   auto plain = [&](Target* to) -> ExprId {
     switch (call.kind) {
       case sema::CallKind::Function: return lowerFunctionCall(call, node, to);
+      case sema::CallKind::Method: return lowerMethodCall(call, node, to);
       case sema::CallKind::Operator: return lowerOperator(call, node);
       case sema::CallKind::Instance: lowerBlockCall(call, node, stable(lowerPlace(call.instance))); return {};
       case sema::CallKind::Program: lowerBlockCall(call, node, lowerPlace(node.callee)); return {};
@@ -224,6 +225,7 @@ ExprId BodyLowering::argumentPlace(ExprId value, TypeId pin_type, bool may_alias
 ExprId BodyLowering::inOutPlace(rung::ExprId argument, TypeId pin_type) {
   Loc loc = tree_.loc(argument);
   ExprId place = lowerPlace(argument);
+  if (sema::PouId wanted = in_.pouOfRecord(strip(pin_type))) place = asBase(place, wanted, loc);
   if (isPlace(body_.expr(place).kind)) return stable(place);
   ExprId copy = temp(strip(pin_type), loc);
   assign(copy, convertValue(place, strip(pin_type), loc), loc);
@@ -250,7 +252,17 @@ bool BodyLowering::mayChain(const sema::Call& call, const Target& target) const 
   return true;
 }
 
-ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& node, Target* target) {
+ExprId BodyLowering::lowerMethodCall(const sema::Call& call, const CallExpr& node, Target* target) {
+  const sema::PouId owner = project_.pou(call.pou).owner;
+  ExprId object;
+  if (call.instance)
+    object = stable(lowerPlace(call.instance));
+  else
+    object = self(node.h.loc);
+  return lowerFunctionCall(call, node, target, asBase(object, owner, node.h.loc));
+}
+
+ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& node, Target* target, ExprId object) {
   const sema::Pou& pou = project_.pou(call.pou);
   BodyId callee_id = in_.bodyOf(call.pou);
   Loc loc = node.h.loc;
@@ -378,7 +390,14 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
     return add({.kind = ExprKind::Call, .type = result_type, .loc = loc, .a = callee_id.index, .b = first, .c = count});
 
   if (result_type && !result) result = temp(result_type, loc);
-  append({.kind = StmtKind::Call, .loc = loc, .a = callee_id.index, .c = first, .d = count, .e = result.index});
+  append({.kind = StmtKind::Call,
+          .op = call.is_virtual ? kVirtual : uint8_t{0},
+          .loc = loc,
+          .a = callee_id.index,
+          .b = object.index,
+          .c = first,
+          .d = count,
+          .e = result.index});
   for (const AfterCall& output : after) storeOutput(output.target, output.value, output.negated, loc);
   return result;
 }
@@ -401,14 +420,14 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
     Loc at = tree_.loc(binding.value);
     if (types_.isOpenArray(type)) {
       OpenArray array = passOpenArray(binding.value, type);
-      assign(field(instance, pin.field, typeOf(array.pointer), at), array.pointer, at);
+      assign(field(asBase(instance, pin.pou, at), pin.field, typeOf(array.pointer), at), array.pointer, at);
       for (uint32_t i = 0; i < array.bounds.size(); ++i) {
         const sema::Var& bound = project_.var({pin.bounds.index + i});
-        assign(field(instance, bound.field, bound.type, at), array.bounds[i], at);
+        assign(field(asBase(instance, pin.pou, at), bound.field, bound.type, at), array.bounds[i], at);
       }
       continue;
     }
-    ExprId place = field(instance, pin.field, type, at);
+    ExprId place = field(asBase(instance, pin.pou, at), pin.field, type, at);
     if (pin.section == SectionKind::InOut) {
       ExprId variable = inOutPlace(binding.value, type);
       const Expr& expr = body_.expr(variable);
@@ -430,7 +449,8 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
   for (const sema::Binding& binding : call.bindings) {
     if (!binding.is_output || !binding.value) continue;
     const sema::Var& pin = project_.var(binding.pin);
-    storeOutput(binding.value, field(instance, pin.field, strip(pin.type), loc), binding.negated, loc);
+    storeOutput(binding.value, field(asBase(instance, pin.pou, loc), pin.field, strip(pin.type), loc), binding.negated,
+                loc);
   }
 }
 

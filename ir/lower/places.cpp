@@ -11,7 +11,9 @@ ExprId BodyLowering::varPlace(sema::VarId id, Loc loc) {
     case sema::Storage::Field: {
       for (const auto& [pin, edge] : edge_locals_)
         if (pin == id.index) return local(edge, loc);
-      if (var->pou == pou_ || !var->pou) return field(self(loc), var->field, type, loc);
+      if (!var->pou) return field(self(loc), var->field, type, loc);
+      for (sema::PouId at = pou_ ? in_.objectOf(pou_) : sema::PouId{}; at; at = project_.pou(at).base)
+        if (at == var->pou) return field(asBase(self(loc), at, loc), var->field, type, loc);
       // A variable of another program, named through the program.
       uint32_t instance = in_.instanceOf(var->pou);
       TypeId record = in_.module.programs[instance].record;
@@ -51,6 +53,7 @@ ExprId BodyLowering::memberPlace(rung::ExprId id) {
   }
   if (!of_record) return varPlace(var_id, node.h.loc);
   ExprId base = lowerPlace(node.base);
+  if (var.pou) base = asBase(base, var.pou, node.h.loc);
   return field(base, var.field, strip(var.type), node.h.loc);
 }
 
@@ -92,6 +95,7 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
         case EntityKind::Type:
         case EntityKind::EnumValue:
         case EntityKind::GlobalList:
+        case EntityKind::Property:
         case EntityKind::Namespace: return lowerValue(id);
       }
       return {};
@@ -121,7 +125,13 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
                   .b = first,
                   .c = static_cast<uint32_t>(indices.size())});
     }
+    case rung::ExprKind::This:
+    case rung::ExprKind::Super: return lowerValue(id);
     case rung::ExprKind::Deref: {
+      const rung::ExprId target = tree_.as<DerefExpr>(id).base;
+      if (tree_.kind(target) == rung::ExprKind::This) return self(loc);
+      if (tree_.kind(target) == rung::ExprKind::Super)
+        return asBase(self(loc), project_.pou(in_.objectOf(pou_)).base, loc);
       ExprId pointer = lowerValue(tree_.as<DerefExpr>(id).base);
       return add({.kind = ExprKind::Deref,
                   .checks = static_cast<uint8_t>(in_.options.checks & kCheckNull),

@@ -97,6 +97,10 @@ void BodyLowering::lowerAssign(const AssignStmt& stmt) {
   Loc loc = stmt.h.loc;
   switch (stmt.op()) {
     case AssignOp::Assign: {
+      if (tree_.kind(stmt.target) == rung::ExprKind::Call) {  // SET of a property
+        lowerCall(stmt.target);
+        return;
+      }
       rung::ExprId source = stmt.value;
       // A call may write its result straight into the target, and EN guards the whole assignment.
       if (tree_.kind(source) == rung::ExprKind::Convert) {

@@ -61,6 +61,8 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
       return outcome.value;
     }
     case rung::ExprKind::Error:
+    case rung::ExprKind::This:
+    case rung::ExprKind::Super:
     case rung::ExprKind::Index:
     case rung::ExprKind::Deref:
     case rung::ExprKind::BitAccess:
@@ -151,6 +153,14 @@ ExprId BodyLowering::lowerValue(rung::ExprId id) {
       }
       return lowerPlace(id);
     }
+    case rung::ExprKind::This:
+    case rung::ExprKind::Super: {
+      ExprId object = self(tree_.loc(id));
+      if (tree_.kind(id) == rung::ExprKind::Super)
+        object = asBase(object, project_.pou(in_.objectOf(pou_)).base, tree_.loc(id));
+      return add(
+          {.kind = ExprKind::Address, .type = strip(tree_.expr(id).type), .loc = tree_.loc(id), .a = object.index});
+    }
     case rung::ExprKind::Index:
     case rung::ExprKind::Deref:
     case rung::ExprKind::BitAccess:
@@ -233,6 +243,8 @@ bool BodyLowering::callsFunction(rung::ExprId id) const {
     case rung::ExprKind::Literal:
     case rung::ExprKind::Name:
     case rung::ExprKind::TypedName:
+    case rung::ExprKind::This:
+    case rung::ExprKind::Super:
     case rung::ExprKind::Address:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:
@@ -298,6 +310,7 @@ ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circu
 ExprId BodyLowering::lowerConvert(rung::ExprId id) {
   if (auto value = constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
   const ConvertExpr& node = tree_.as<ConvertExpr>(id);
+  if (ExprId object = lowerObjectConversion(node)) return object;
   return convertValue(lowerValue(node.operand), strip(node.h.type), node.h.loc);
 }
 
@@ -329,6 +342,40 @@ ExprId BodyLowering::lowerAnyValue(rung::ExprId id) {
   assign(part(1), add({.kind = ExprKind::Address, .type = pointer, .loc = loc, .a = value.index}), loc);
   assign(part(2), constant(types::kDInt, size, loc), loc);
   return descriptor;
+}
+
+// An object as a pointer to an interface, and a pointer to an object as one to its base; none for other conversions.
+ExprId BodyLowering::lowerObjectConversion(const ConvertExpr& node) {
+  const TypeId to = strip(node.h.type), from = strip(tree_.expr(node.operand).type);
+  if (types_.kind(to) != TypeKind::Pointer && types_.kind(to) != TypeKind::Reference) return {};
+  const sema::PouId wanted = in_.pouOfRecord(strip(types_.info(to).base));
+  if (!wanted) return {};
+  const Loc loc = node.h.loc;
+  auto addressOf = [&](ExprId place) {
+    const TypeId pointer = types_.pointer(typeOf(place));
+    const ExprId address = add({.kind = ExprKind::Address, .type = pointer, .loc = loc, .a = place.index});
+    return pointer == to ? address : add({.kind = ExprKind::Convert, .type = to, .loc = loc, .a = address.index});
+  };
+  if (types_.kind(from) == TypeKind::Record) return addressOf(lowerPlace(node.operand));
+  if (types_.kind(from) != TypeKind::Pointer && types_.kind(from) != TypeKind::Reference) return {};
+  const TypeId target = strip(types_.info(from).base);
+  const sema::PouId object = in_.pouOfRecord(target);
+  if (!object || object == wanted) return {};
+  ExprId pointer = lowerValue(node.operand);
+  const sema::Pou& pou = project_.pou(object);
+  // Only where the base stands behind a type id of the derived object's own is the pointer another.
+  if (project_.pou(wanted).kind == PouKind::Interface || !pou.dispatched || project_.pou(wanted).dispatched)
+    return add({.kind = ExprKind::Convert, .type = to, .loc = loc, .a = pointer.index});
+  if (!isStable(pointer)) pointer = toTemp(pointer, loc);
+  const ExprId result = temp(to, loc);
+  assign(result, constant(to, 0, loc), loc);
+  const ExprId is_null = binary(Op::Ne, types::kBool, pointer, constant(from, 0, loc), loc);
+  const StmtId then = block([&] {
+    const ExprId whole = add({.kind = ExprKind::Deref, .type = target, .loc = loc, .a = pointer.index});
+    assign(result, addressOf(asBase(whole, wanted, loc)), loc);
+  });
+  append({.kind = StmtKind::If, .loc = loc, .a = is_null.index, .b = then.index});
+  return result;
 }
 
 ExprId BodyLowering::convertValue(ExprId value, TypeId to, Loc loc) {

@@ -108,6 +108,11 @@ bool sameInOut(const Context& context, TypeId pin, TypeId actual) {
     const size_t dimensions = given.dimensions.empty() ? given.length : given.dimensions.size();
     return dimensions == wanted.length && sameType(context, wanted.base, given.base);
   }
+  if (wanted.kind == TypeKind::Record && given.kind == TypeKind::Record) {
+    Context here = context;
+    const PouId base = pouOf(here, pin), object = pouOf(here, actual);
+    if (base && object && isKindOf(here, object, base)) return true;
+  }
   if (types::TypeTable::isText(wanted.kind) && wanted.kind == given.kind) return wanted.length <= given.length;
   return sameType(context, pin, actual);
 }
@@ -161,37 +166,6 @@ void bindInput(Context& context, const Pou& pou, const Var& pin, Binding& bindin
   checkAs(context, binding.value, pin.type, Purpose{"passed to", pin.name, pou.name});
 }
 
-// The bindings of a call whose pins have types of their own.
-void bind(Context& context, const CallExpr& node, PouId callee, const Arguments& arguments, Call& call) {
-  const std::span<const VarId> pins = pinsOf(context, callee);
-  const Pou& pou = context.project.pou(callee);
-  call.bindings.reserve(arguments.slots.size());
-  for (size_t i = 0; i < arguments.slots.size() && i < pins.size(); ++i) {
-    if (arguments.slots[i] == 0) continue;
-    const uint32_t index = arguments.slots[i] - 1;
-    const Argument argument = context.tree().list(node.arguments)[index];
-    if (!argument.value) continue;
-    Binding binding;
-    binding.pin = pins[i];
-    binding.value = argument.value;
-    const Var& pin = context.project.var(pins[i]);
-    switch (pin.section) {
-      case SectionKind::Output: bindOutput(context, pou, pin, binding, argument); break;
-      case SectionKind::InOut: bindInOut(context, pou, pin, binding); break;
-      case SectionKind::Input:
-      case SectionKind::Local:
-      case SectionKind::Temp:
-      case SectionKind::External:
-      case SectionKind::Global:
-      case SectionKind::Stat:
-      case SectionKind::Access:
-      case SectionKind::Config: bindInput(context, pou, pin, binding); break;
-    }
-    context.tree().list(node.arguments)[index].value = binding.value;
-    call.bindings.push_back(binding);
-  }
-}
-
 TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   resolvePou(context, pou);
@@ -205,7 +179,7 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
   call.kind = CallKind::Function;
   call.pou = pou;
   bindControlPins(context, node, arguments, call);
-  bind(context, node, pou, arguments, call);
+  bindArguments(context, node, pou, arguments, call);
   if (arguments.good) checkRequiredPins(context, node, pou, arguments);
   node.call = addCall(context, std::move(call));
   if (!callee.result && !as_statement) {
@@ -225,7 +199,7 @@ TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool a
   call.pou = pou;
   if (kind == CallKind::Instance) call.instance = node.callee;
   bindControlPins(context, node, arguments, call);
-  bind(context, node, pou, arguments, call);
+  bindArguments(context, node, pou, arguments, call);
   if (arguments.good) checkRequiredPins(context, node, pou, arguments);
   node.call = addCall(context, std::move(call));
   if (!as_statement) {
@@ -245,7 +219,15 @@ TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool 
   const Pou& callee = context.project.pou(pou);
   switch (callee.kind) {
     case PouKind::Function: return callFunction(context, expr, pou, expected, as_statement);
+    case PouKind::Method:
+    case PouKind::Action: {
+      const bool of_member = context.tree().kind(node.callee) == ExprKind::Member;
+      return callMethod(context, expr, pou, of_member ? context.tree().as<MemberExpr>(node.callee).base : ExprId{},
+                        as_statement);
+    }
     case PouKind::FunctionBlock:
+    case PouKind::Class:
+    case PouKind::Interface:
       context.report(Diag::CallOfBlockType, node.h.loc, {text(context, callee.name)});
       return refuse(context, node);
     case PouKind::Program:
@@ -319,11 +301,46 @@ TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected)
 
 }  // namespace
 
+void bindArguments(Context& context, const CallExpr& node, PouId callee, const Arguments& arguments, Call& call) {
+  const std::span<const VarId> pins = pinsOf(context, callee);
+  const Pou& pou = context.project.pou(callee);
+  call.bindings.reserve(arguments.slots.size());
+  for (size_t i = 0; i < arguments.slots.size() && i < pins.size(); ++i) {
+    if (arguments.slots[i] == 0) continue;
+    const uint32_t index = arguments.slots[i] - 1;
+    const Argument argument = context.tree().list(node.arguments)[index];
+    if (!argument.value) continue;
+    Binding binding;
+    binding.pin = pins[i];
+    binding.value = argument.value;
+    const Var& pin = context.project.var(pins[i]);
+    switch (pin.section) {
+      case SectionKind::Output: bindOutput(context, pou, pin, binding, argument); break;
+      case SectionKind::InOut: bindInOut(context, pou, pin, binding); break;
+      case SectionKind::Input:
+      case SectionKind::Local:
+      case SectionKind::Temp:
+      case SectionKind::External:
+      case SectionKind::Global:
+      case SectionKind::Stat:
+      case SectionKind::Inst:
+      case SectionKind::Access:
+      case SectionKind::Config: bindInput(context, pou, pin, binding); break;
+    }
+    context.tree().list(node.arguments)[index].value = binding.value;
+    call.bindings.push_back(binding);
+  }
+}
+
 std::span<const VarId> pinsOf(Context& context, PouId id) {
   Pou& pou = context.project.pou(id);
   if (!pou.pins_ready) {
     resolvePou(context, id);
     pou.pins.clear();
+    if (pou.base) {  // those of the base come first
+      const std::span<const VarId> inherited = pinsOf(context, pou.base);
+      pou.pins.assign(inherited.begin(), inherited.end());
+    }
     for (const VarId var : pou.vars) {
       if (isPin(context.project.var(var).section)) pou.pins.push_back(var);
     }
@@ -458,8 +475,34 @@ void bindControlPins(Context& context, const CallExpr& node, const Arguments& ar
   }
 }
 
+namespace {
+
+// `name;` calls an action or a method without parameters (codesys). Anything else does nothing.
+bool isBareCall(Context& context, const CallExpr& node) {
+  if (context.tree().kind(node.callee) == ExprKind::Name) {
+    const Entity found = lookUp(context, context.tree().as<NameExpr>(node.callee).name);
+    if (found.what() == EntityKind::Pou && context.project.pous[found.index].owner) return true;
+  } else {
+    ExprId callee = node.callee;
+    const uint32_t errors = context.project.diagnostics.errorCount();
+    check(context, callee, {}, Access::Qualifier);
+    const Entity found = entityOf(context, node.callee);
+    if (found.what() == EntityKind::Pou && context.project.pous[found.index].owner) return true;
+    if (context.project.diagnostics.errorCount() != errors) return false;
+  }
+  const Loc begin = context.tree().begin(node.callee);
+  const std::string_view source = context.project.sources.text(context.project.sources.fileOf(begin));
+  const uint32_t from = begin.offset - context.project.sources.begin(context.project.sources.fileOf(begin)).offset;
+  const std::string shown(source.substr(from, node.end.offset - begin.offset));
+  context.report(Diag::NoEffect, begin, {shown});
+  return false;
+}
+
+}  // namespace
+
 TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
+  if ((node.h.bits & kBareCall) != 0 && !isBareCall(context, node)) return node.h.type = types::kError;
   if (context.tree().kind(node.callee) == ExprKind::Name) {
     NameExpr& callee = context.tree().as<NameExpr>(node.callee);
     callee.entity = lookUp(context, callee.name);
@@ -476,12 +519,14 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
       case EntityKind::EnumValue:
       case EntityKind::GlobalList:
       case EntityKind::Namespace:
+      case EntityKind::Property:
       case EntityKind::Program: break;
     }
     return callValue(context, expr, check(context, node.callee, {}, Access::ReadWrite), as_statement);
   }
   if (context.tree().kind(node.callee) == ExprKind::Member) {
-    const TypeId type = check(context, node.callee, {}, Access::Qualifier);
+    TypeId type = check(context, node.callee, {}, Access::Qualifier);
+    type = throughObject(context, node.callee, type);
     const Entity entity = entityOf(context, node.callee);
     if (!type && entity.what() == EntityKind::Pou) {
       return callPou(context, expr, PouId{entity.index}, expected, as_statement);
@@ -490,7 +535,8 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
     if (entity.what() == EntityKind::Var) markAccess(context, VarId{entity.index}, Access::ReadWrite);
     return callValue(context, expr, type, as_statement);
   }
-  return callValue(context, expr, check(context, node.callee, {}, Access::ReadWrite), as_statement);
+  const TypeId type = check(context, node.callee, {}, Access::ReadWrite);
+  return callValue(context, expr, throughObject(context, node.callee, type), as_statement);
 }
 
 }  // namespace rung::sema

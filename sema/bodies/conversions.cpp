@@ -83,6 +83,22 @@ static bool pointsAlike(const Context& context, TypeId from, TypeId to) {
   return sameType(context, from, to);
 }
 
+namespace {
+
+// An object where an interface that it implements is wanted, and a pointer to an object where one to its base is.
+bool isObjectFit(const Context& constant, const types::TypeInfo& source, TypeId from, const types::TypeInfo& target) {
+  Context context = constant;
+  const PouId wanted = pouOf(context, target.base);
+  const PouId given = source.kind == TypeKind::Record    ? pouOf(context, from)
+                      : source.kind == TypeKind::Pointer ? pouOf(context, source.base)
+                                                         : PouId{};
+  if (!wanted || !given || wanted == given) return false;
+  if (source.kind == TypeKind::Record && context.project.pou(wanted).kind != PouKind::Interface) return false;
+  return isKindOf(context, given, wanted);
+}
+
+}  // namespace
+
 Fit fit(const Context& context, TypeId from, TypeId to) {
   const types::TypeTable& table = context.types();
   from = table.resolve(from);
@@ -110,6 +126,7 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
   if (TypeTable::isText(a) && a == b) return Fit::Same;  // cut to the capacity where it is stored
   if (target.kind == TypeKind::Pointer) {
     if (source.kind == TypeKind::NullLiteral) return Fit::Same;
+    if (isObjectFit(context, source, from, target)) return Fit::Lossless;
     if (source.kind == TypeKind::Pointer)
       return pointsAlike(context, source.base, target.base) ? Fit::Same : Fit::Pointer;
   }

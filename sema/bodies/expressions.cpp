@@ -148,6 +148,8 @@ TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) 
     case ExprKind::TypedName: return checkTypedName(context, expr);
     case ExprKind::Member: return checkMember(context, expr, expected, access);
     case ExprKind::Index: return checkIndex(context, expr, access);
+    case ExprKind::This:
+    case ExprKind::Super: return checkThisOrSuper(context, expr, expected, access);
     case ExprKind::Deref: return checkDeref(context, expr);
     case ExprKind::BitAccess: return checkBitAccess(context, expr, access);
     case ExprKind::Address: return checkAddress(context, expr);

@@ -19,6 +19,7 @@ const char* wordOf(EntityKind kind) {
     case EntityKind::Error:
     case EntityKind::Var:
     case EntityKind::Pou:
+    case EntityKind::Property:
     case EntityKind::EnumValue: return "a name";
   }
   return "a name";
@@ -28,6 +29,10 @@ const char* wordOf(PouKind kind) {
   switch (kind) {
     case PouKind::Function: return "a function; call it with `(...)`";
     case PouKind::FunctionBlock: return "a block type; declare an instance of it";
+    case PouKind::Class: return "a class; declare an instance of it";
+    case PouKind::Interface: return "an interface; declare a variable of it";
+    case PouKind::Method: return "a method; call it with `(...)`";
+    case PouKind::Action: return "an action; call it with `()`";
     case PouKind::Program: return "a program; name one of its variables after a `.`";
   }
   return "a POU";
@@ -76,11 +81,13 @@ TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId 
     case EntityKind::Error: return header.type = types::kError;
     case EntityKind::Pou: {
       const Pou& pou = context.project.pou(PouId{entity.index});
-      if (access == Access::Qualifier && pou.kind != PouKind::FunctionBlock) return header.type = {};
+      if (access == Access::Qualifier && (pou.kind == PouKind::Program || pou.kind == PouKind::Function || pou.owner))
+        return header.type = {};
       if (access == Access::Address) return header.type = pou.record ? pou.record : types::kError;
       if (sayUnknown(context, name)) context.report(Diag::NotAValue, loc, {text(context, name), wordOf(pou.kind)});
       return header.type = types::kError;
     }
+    case EntityKind::Property: return useMember(context, expr, entity, {}, access);
     case EntityKind::Type:
       if (access == Access::Address) return header.type = TypeId{entity.index};
       [[fallthrough]];
@@ -140,6 +147,9 @@ TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access acces
   }
   if (record) {
     if (const VarId var = findMember(context, record, node.member)) found = Entity::of(EntityKind::Var, var.index);
+    if (!found) {
+      if (const auto type = checkObjectMember(context, expr, pouOf(context, record), access)) return *type;
+    }
   }
   if (!found) {
     if (!record || sayUnknownMember(context, record, node.member))
@@ -180,6 +190,8 @@ Entity entityOf(const Context& context, ExprId expr) {
     case ExprKind::Error:
     case ExprKind::Literal:
     case ExprKind::Index:
+    case ExprKind::This:
+    case ExprKind::Super:
     case ExprKind::Deref:
     case ExprKind::BitAccess:
     case ExprKind::Address:
@@ -298,7 +310,8 @@ Entity hiddenEnumeration(Context& context, const MemberExpr& node, TypeId base) 
 
 TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   MemberExpr& node = context.tree().as<MemberExpr>(expr);
-  const TypeId base = checkBase(context, node.base, access);
+  TypeId base = checkBase(context, node.base, access);
+  base = throughObject(context, node.base, base);
   if (!base) return checkWhole(context, expr, entityOf(context, node.base), access);
   if (base == types::kError) return node.h.type = types::kError;
   const Entity hidden = hiddenEnumeration(context, node, base);
@@ -327,7 +340,11 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
     }
     return node.h.type = types::kError;
   }
+  const PouId object = pouOf(context, record);
   const VarId member = findMember(context, record, node.member);
+  if (!member && object) {
+    if (const auto type = checkObjectMember(context, expr, object, access)) return *type;
+  }
   if (!member) {
     node.entity = Entity::of(EntityKind::Error, 0);
     if (sayUnknownMember(context, record, node.member))

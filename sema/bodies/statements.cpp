@@ -35,6 +35,7 @@ NameId placeName(const Context& context, ExprId expr) {
 
 TypeId checkTarget(Context& context, ExprId& target, Access access) {
   const TypeId type = check(context, target, {}, access);
+  if (entityOf(context, target).what() == EntityKind::Property) return type;  // checkPropertyAssign
   if (!type || type == types::kError) return types::kError;
   if (isUntyped(context, type)) settle(context, target);
   return checkWritable(context, target, Purpose{"assigned to", {}, {}}) ? type : types::kError;
@@ -57,6 +58,8 @@ void checkReferenceAssign(Context& context, AssignStmt& node) {
   if (bindReference(context, node.value, own)) checkDanglingAddress(context, node.target, node.value);
 }
 
+}  // namespace
+
 BinaryOp binaryOf(AssignOp op) {
   switch (op) {
     case AssignOp::Subtract: return BinaryOp::Subtract;
@@ -71,6 +74,8 @@ BinaryOp binaryOf(AssignOp op) {
   return BinaryOp::Add;
 }
 
+namespace {
+
 // a += b is a := a + b; lowering keeps the short form where both sides have the target's type.
 void checkCompoundAssign(Context& context, AssignStmt& node) {
   const TypeId type = checkTarget(context, node.target, Access::ReadWrite);
@@ -78,6 +83,7 @@ void checkCompoundAssign(Context& context, AssignStmt& node) {
     checkExpr(context, node.value);
     return;
   }
+  if (checkPropertyAssign(context, node)) return;
   BinaryExpr sum{};
   sum.h.kind = ExprKind::Binary;
   sum.h.op = static_cast<uint8_t>(binaryOf(node.op()));
@@ -107,6 +113,7 @@ void checkAssign(Context& context, AssignStmt& node) {
         checkExpr(context, node.value);
         return;
       }
+      if (checkPropertyAssign(context, node)) return;
       checkAs(context, node.value, type, Purpose{"assigned to", placeName(context, node.target), {}});
       checkDanglingAddress(context, node.target, node.value);
       return;

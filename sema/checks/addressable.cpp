@@ -43,6 +43,8 @@ const char* wrongWith(const Context& context, ExprId place) {
       case ExprKind::Error: return nullptr;
       case ExprKind::Literal:
       case ExprKind::TypedName: return "a constant";
+      case ExprKind::This:
+      case ExprKind::Super:
       case ExprKind::Unary:
       case ExprKind::Binary:
       case ExprKind::Call:

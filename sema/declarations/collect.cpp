@@ -70,6 +70,7 @@ Loc locOf(Context& context, Entity found) {
     case EntityKind::EnumValue: return project.enum_values[found.index].loc;
     case EntityKind::GlobalList: return project.global_lists[found.index].loc;
     case EntityKind::Program: return project.instances[found.index].loc;
+    case EntityKind::Property: return project.properties[found.index].loc;
     case EntityKind::None:
     case EntityKind::Error:
     case EntityKind::Namespace: return {};
@@ -116,9 +117,13 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
                         : types::findOp(word, pou.op) ? Pou::Operator::Op
                                                       : Pou::Operator::None;
   }
+  pou.access = decl.access;
+  pou.modifiers = decl.modifiers;
   if (pou.kind != PouKind::Function) {
-    pou.record = context.types().addRecord(
-        pou.kind == PouKind::Program ? RecordKind::Program : RecordKind::FunctionBlock, pou.name);
+    pou.record = context.types().addRecord(pou.kind == PouKind::Program     ? RecordKind::Program
+                                           : pou.kind == PouKind::Interface ? RecordKind::Interface
+                                                                            : RecordKind::FunctionBlock,
+                                           pou.name);
     NamedType& named = addNamed(context, pou.record);
     named.pou = pou_id;
     named.file = file;
@@ -126,6 +131,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   }
   if (library == kNoLibrary) {
     declare(context, scopes.pous_and_types, pou.name, pou.loc, entity(pou_id));
+    collectMembers(context, pou_id);
     if (!mayHoldGlobals(context, pou.kind)) return;
     for (uint32_t s = 0; s < decl.sections.count; ++s) {
       const DeclId id_of_section = context.tree().list(decl.sections)[s];
@@ -143,6 +149,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
     pou.unique_name = context.names().intern(spelled(context, pou.library_name) + "__" + spelled(context, pou.name));
     if (pou.record) context.types().edit(pou.record).name = pou.unique_name;
   }
+  collectMembers(context, pou_id);
 }
 
 void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
@@ -306,7 +313,14 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
     case DeclKind::Resource:
     case DeclKind::Task:
     case DeclKind::ProgramInstance:
+    case DeclKind::Property:
     case DeclKind::Var: return;
+    case DeclKind::Namespace:
+    case DeclKind::Using: {
+      const bool is_using = context.tree().kind(decl) == DeclKind::Using;
+      context.report(Diag::NotSupportedYet, context.tree().loc(decl), {is_using ? "`USING`" : "`NAMESPACE`"});
+      return;
+    }
   }
 }
 

@@ -71,6 +71,8 @@ struct Initializer {
       case ExprKind::Member: return evaluate(context, id).has_value();
       case ExprKind::Error: return true;
       case ExprKind::Index:
+      case ExprKind::This:
+      case ExprKind::Super:
       case ExprKind::Deref:
       case ExprKind::BitAccess:
       case ExprKind::Address:
@@ -102,7 +104,7 @@ struct Initializer {
     if (!checkExprAs(context, init, type, std::string("used as ") + std::string(what))) return;
     const TypeKind to = context.types().kind(type);
     if (to == TypeKind::Pointer) return;
-    const bool of_call = context.pou && context.project.pou(context.pou).kind == PouKind::Function;
+    const bool of_call = context.pou && isFunction(context.project.pou(context.pou).kind);
     if (of_call && !context.iec()) return;
     const uint32_t errors = context.project.diagnostics.errorCount();
     if (isStatic(init, 0) || context.project.diagnostics.errorCount() != errors) {

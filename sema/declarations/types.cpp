@@ -73,7 +73,10 @@ TypeId typeOf(Context& context, Entity found) {
     if (context.types().info(type).kind != TypeKind::Record) resolveNamed(context, type);
     return type;
   }
-  if (found.what() == EntityKind::Pou) return context.project.pous[found.index].record;
+  if (found.what() == EntityKind::Pou) {
+    const Pou& pou = context.project.pous[found.index];
+    return pou.kind == PouKind::Interface ? context.types().pointer(pou.record) : pou.record;
+  }
   return {};
 }
 

@@ -1,4 +1,5 @@
 // Variables of POUs and global lists: their names first, then types and storage, then initial values; each on demand.
+#include "sema/checks/object_members.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
 
@@ -20,6 +21,7 @@ const char* sectionWord(SectionKind kind) {
     case SectionKind::External: return "VAR_EXTERNAL";
     case SectionKind::Global: return "VAR_GLOBAL";
     case SectionKind::Stat: return "VAR_STAT";
+    case SectionKind::Inst: return "VAR_INST";
     case SectionKind::Access: return "VAR_ACCESS";
     case SectionKind::Config: return "VAR_CONFIG";
   }
@@ -27,12 +29,21 @@ const char* sectionWord(SectionKind kind) {
 }
 
 const char* kindWord(PouKind kind) {
-  return kind == PouKind::Function ? "FUNCTION" : kind == PouKind::Program ? "PROGRAM" : "FUNCTION_BLOCK";
+  switch (kind) {
+    case PouKind::Function: return "FUNCTION";
+    case PouKind::FunctionBlock: return "FUNCTION_BLOCK";
+    case PouKind::Program: return "PROGRAM";
+    case PouKind::Class: return "CLASS";
+    case PouKind::Interface: return "INTERFACE";
+    case PouKind::Method: return "METHOD";
+    case PouKind::Action: return "ACTION";
+  }
+  return "POU";
 }
 
 // A variable AT %I* of a block, or of a program with several instances, has a place of its own in each instance.
 bool hasOwnPlaces(const Context& context, PouId pou) {
-  if (!pou || context.project.pou(pou).kind == PouKind::Function) return false;
+  if (!pou || isFunction(context.project.pou(pou).kind)) return false;
   if (context.project.pou(pou).kind == PouKind::FunctionBlock) return true;
   return static_cast<bool>(context.scopes.programs_with_several.find(keyOf(context, context.project.pou(pou).name)));
 }
@@ -41,7 +52,7 @@ Storage storageOf(const Context& context, SectionKind section, PouId pou, const 
   if (decl.located && decl.address.incomplete && hasOwnPlaces(context, pou)) return Storage::Field;
   if (decl.located) return Storage::Image;
   if (!pou || section == SectionKind::External || section == SectionKind::Stat) return Storage::Global;
-  if (section == SectionKind::Temp || context.project.pou(pou).kind == PouKind::Function) return Storage::Local;
+  if (section == SectionKind::Temp || isFunction(context.project.pou(pou).kind)) return Storage::Local;
   return Storage::Field;
 }
 
@@ -65,6 +76,7 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
   Var var;
   var.decl = decl_id;
   var.section = section.section;
+  var.access = section.access;
   var.storage = storageOf(context, section.section, pou, decl);
   var.edge = decl.edge;
   var.constant = (section.h.bits & kConstant) != 0;
@@ -137,7 +149,7 @@ namespace {
 //   fails   VAR_INPUT clk : INT R_EDGE; END_VAR        E0333
 void checkEdge(Context& context, const Var& var) {
   if (var.edge == EdgeKind::None || var.type == types::kError) return;
-  const bool block = var.pou && context.project.pou(var.pou).kind != PouKind::Function;
+  const bool block = var.pou && !isFunction(context.project.pou(var.pou).kind);
   if (block && var.section == SectionKind::Input && context.types().kind(var.type) == TypeKind::Bool) return;
   context.report(Diag::EdgeNotBool, var.loc, {context.names().text(var.name)});
 }
@@ -230,6 +242,9 @@ void ensureVarType(Context& context, VarId id) {
       var.type = anyType(there);
     }
     checkEdge(there, var);
+    if (var.section != SectionKind::InOut && var.section != SectionKind::External && type != types::kError &&
+        !checkNotAbstract(there, type, context.tree().loc(decl.type)))
+      var.type = types::kError;
     if (decl.located && decl.address.incomplete) {  // completed by resolveInstancePlaces
       if (decl.address.size_given && addressType(decl.address) == types::kBool && type != types::kError &&
           context.types().kind(type) != TypeKind::Bool) {
@@ -301,6 +316,8 @@ void ensureInitialValue(Context& context, VarId id) {
     --context.scopes.depth;
     decl.init = init;
   }
+  const bool makes_object = var.section != SectionKind::InOut && var.section != SectionKind::External;
+  const CallId constructor = decl.type && makes_object ? checkConstructor(there, decl.type) : CallId{};
   decl.h.spare = static_cast<uint16_t>(State::Done);
   const TypeKind kind = context.types().plainKind(type);
   std::optional<types::Value> value;
@@ -311,6 +328,7 @@ void ensureInitialValue(Context& context, VarId id) {
   for (uint32_t i = firstOfDecl(project, id.index);
        i < project.vars.size() && project.vars[i].decl == project.vars[id.index].decl; ++i) {
     project.vars[i].init = init;
+    project.vars[i].constructor = constructor;
     if (value) {
       project.vars[i].has_value = true;
       project.vars[i].value = *value;
@@ -318,6 +336,21 @@ void ensureInitialValue(Context& context, VarId id) {
       id = VarId{i};
       setUnknown();
     }
+  }
+}
+
+// VAR_INST of a method: a variable of the object, which only this method sees.
+static void declareInstanceVars(Context& context, DeclId decl, const SectionDecl& section, PouId method) {
+  Project& project = context.project;
+  const PouId owner = project.pou(method).owner;
+  std::vector<VarId>& vars = project.pou(owner).vars;
+  const size_t first = vars.size();
+  SectionDecl local = section;
+  local.section = SectionKind::Local;
+  declareVars(context, decl, local, owner, {}, &context.scopes.pous[method.index].names, vars);
+  for (size_t i = first; i < vars.size(); ++i) {
+    Var& var = project.var(vars[i]);
+    var.name = context.names().intern(spelled(context, project.pou(method).name) + "__" + spelled(context, var.name));
   }
 }
 
@@ -345,7 +378,8 @@ void declarePou(Context& context, PouId id) {
     if (section.section == SectionKind::Global && mayHoldGlobals(context, kind)) continue;  // collect.cpp
     const bool misplaced = section.section == SectionKind::Global || section.section == SectionKind::Access ||
                            section.section == SectionKind::Config ||
-                           (section.section == SectionKind::Stat && context.iec());
+                           (section.section == SectionKind::Stat && context.iec()) ||
+                           (section.section == SectionKind::Inst && kind != PouKind::Method);
     if (misplaced) {
       there.report(Diag::SectionNotAllowed, section.h.loc, {sectionWord(section.section), kindWord(kind)});
       if (section.section != SectionKind::Global && section.section != SectionKind::Stat) continue;
@@ -359,9 +393,14 @@ void declarePou(Context& context, PouId id) {
         declareVars(there, var, section, id, list, &scope.names, project.global_lists[list.index].vars);
         continue;
       }
+      if (section.section == SectionKind::Inst && kind == PouKind::Method) {
+        declareInstanceVars(there, var, section, id);
+        continue;
+      }
       declareVars(there, var, section, id, {}, &scope.names, project.pou(id).vars);
     }
   }
+  declareMembers(context, id);
   if (project.pou(id).result_var) {
     // The name is the result inside the body, unless a pin has it (reported by nobody: the pin hides it).
     scope.names.insert(keyOf(context, decl.name), entity(project.pou(id).result_var));
@@ -375,6 +414,7 @@ void resolvePou(Context& context, PouId id) {
   declarePou(context, id);
   Project& project = context.project;
   Context there = atPou(context, id);
+  addObjectFields(context, id);
   Pou& pou = project.pou(id);
   const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
   if (decl.result) {
@@ -396,7 +436,7 @@ void resolvePou(Context& context, PouId id) {
     if (context.types().isOpenArray(var.type)) open_arrays.push_back(var_id);
   }
   // Forbids generic types outside of functions: an instance of a block has one layout.
-  if (pou.generic && pou.kind != PouKind::Function) {
+  if (pou.generic && (pou.kind != PouKind::Function || pou.owner)) {
     context.report(Diag::GenericBlock, pou.loc, {context.names().text(pou.name)});
     pou.generic = false;
   }

@@ -158,7 +158,11 @@ std::string TypeTable::spell(TypeId id) const {
     }
     return text + "] OF " + spell(info.base);
   }
-  if (info.kind == TypeKind::Pointer) return "POINTER TO " + spell(info.base);
+  if (info.kind == TypeKind::Pointer) {
+    const TypeInfo& target = types_[resolve(info.base).index];
+    const bool interface = target.kind == TypeKind::Record && target.record_kind == RecordKind::Interface;
+    return (interface ? "" : "POINTER TO ") + spell(info.base);
+  }
   if (info.kind == TypeKind::Reference) return "REFERENCE TO " + spell(info.base);
   if (info.kind == TypeKind::Subrange) {
     text = spell(info.base) + '(';

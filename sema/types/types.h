@@ -85,7 +85,8 @@ inline constexpr TypeId kError = idOf(TypeKind::Error), kBool = idOf(TypeKind::B
                         kUDInt = idOf(TypeKind::UDInt), kULInt = idOf(TypeKind::ULInt), kReal = idOf(TypeKind::Real),
                         kLReal = idOf(TypeKind::LReal), kTime = idOf(TypeKind::Time), kLTime = idOf(TypeKind::LTime);
 
-enum class RecordKind : uint8_t { Struct, Union, FunctionBlock, Program, GlobalList };
+// Interface: what a variable of an INTERFACE type points to: the type id with which every object of a class begins.
+enum class RecordKind : uint8_t { Struct, Union, FunctionBlock, Program, GlobalList, Interface };
 
 enum class FieldRole : uint8_t { Member, Local, Input, Output, InOut };
 struct Field {

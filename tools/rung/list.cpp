@@ -15,6 +15,10 @@ const char* word(PouKind kind) {
     case PouKind::Function: return "FUNCTION";
     case PouKind::FunctionBlock: return "FUNCTION_BLOCK";
     case PouKind::Program: return "PROGRAM";
+    case PouKind::Class: return "CLASS";
+    case PouKind::Interface: return "INTERFACE";
+    case PouKind::Method: return "METHOD";
+    case PouKind::Action: return "ACTION";
   }
   return "";
 }

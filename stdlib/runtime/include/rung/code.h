@@ -63,6 +63,13 @@ typedef void* RUNG_MAY_ALIAS rung_pointer_at;
     goto fault;                       \
   }
 
+/* The type id with which an object begins: the number of its class. */
+static inline uint32_t rung_class_of(const void* object) {
+  uint32_t number;
+  memcpy(&number, object, sizeof number);
+  return number;
+}
+
 /* ---- division: x/0 = 0 and x MOD 0 = 0 where the check is off, INT_MIN/-1 wraps. 8 and 16 bits go through 32. */
 static inline int32_t rung_div_i32(int32_t a, int32_t b) {
   if (b == 0) return 0;
