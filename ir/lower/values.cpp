@@ -322,7 +322,9 @@ ExprId BodyLowering::lowerAddressOf(rung::ExprId id) {
     return convertValue(openArrayPointer(node.place, node.h.loc), type, node.h.loc);
   if (tree_.kind(node.place) == rung::ExprKind::Deref)
     return convertValue(lowerValue(tree_.as<DerefExpr>(node.place).base), type, node.h.loc);
-  return add({.kind = ExprKind::Address, .type = type, .loc = node.h.loc, .a = lowerPlace(node.place).index});
+  const ExprId place = lowerPlace(node.place);
+  if (body_.expr(place).kind == ExprKind::Field) body_.expr(place).checks = 0;  // an in-out that is not bound: null
+  return add({.kind = ExprKind::Address, .type = type, .loc = node.h.loc, .a = place.index});
 }
 
 // A descriptor of the value in a temporary; what has no place of its own gets one.

@@ -376,6 +376,10 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
   size_t next = 0;  // the pin after the last one named: calls mostly keep the order
   size_t input = 0, output = 0, extra = pins.size();
   const auto isOutput = [&](size_t i) { return context.project.var(pins[i]).section == SectionKind::Output; };
+  // f(a := 1, 2): what has no name goes to the next pin that no name before it has taken.
+  const auto isNamedAlready = [&](size_t i) {
+    return i < out.slots.size() && out.slots[i] != 0 && context.tree().list(node.arguments)[out.slots[i] - 1].pin.name;
+  };
   for (uint32_t i = 0; i < node.arguments.count; ++i) {
     const Argument argument = context.tree().list(node.arguments)[i];
     if (!argument.pin.name) {
@@ -384,7 +388,7 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
         continue;
       }
       ++out.positional;
-      while (input < pins.size() && isOutput(input)) ++input;
+      while (input < pins.size() && (isOutput(input) || isNamedAlready(input))) ++input;
       if (input < pins.size()) {
         if (!slots.put(input++, i)) checkLoose(context, node, i);
         continue;

@@ -93,6 +93,20 @@ TypeId checkIsValid(Context& context, ExprId& expr, ExprId operand) {
   if (!type || type == types::kError) return types::kError;
   if (context.tree().kind(operand) == ExprKind::Deref) operand = context.tree().as<DerefExpr>(operand).base;
   const TypeId own = context.tree().expr(operand).type;
+  if (const Entity entity = entityOf(context, operand); entity.what() == EntityKind::Var) {
+    // A VAR_IN_OUT of a block refers to nothing before it is bound; one of a function always refers to something.
+    const Var& var = context.project.vars[entity.index];
+    if (var.section == SectionKind::InOut && context.tree().kind(operand) == ExprKind::Name) {
+      if (var.storage == Storage::Local) {
+        expr = literal(context, LiteralKind::Bool, types::kBool, 1, loc);
+        return types::kBool;
+      }
+      const TypeId pointer = context.types().pointer(type);
+      expr = binary(context, BinaryOp::NotEqual, types::kBool, addressOf(context, operand, pointer, loc),
+                    literal(context, LiteralKind::Null, pointer, 0, loc), loc);
+      return types::kBool;
+    }
+  }
   if (context.types().kind(own) != TypeKind::Reference) {
     context.report(Diag::NotAReference, context.tree().begin(operand), {"__ISVALIDREF", context.types().spell(own)});
     return types::kError;

@@ -1,5 +1,5 @@
-// Forbids what a block does not show: its locals; writing its outputs and in-outs from outside; in iec also reading
-// its inputs, and writing them but in a call. IEC 61131-3 ed. 3, 6.6.3.4; design §6, dialect table.
+// Forbids what a block does not show: its locals (codesys: setting them); writing its outputs and in-outs from outside;
+// in iec also reading its inputs, and writing them but in a call. IEC 61131-3 ed. 3, 6.6.3.4; design §6, dialect table.
 //   passes  x := timer.Q;   timer.PT := T#5s (codesys);
 //   fails   timer.Q := TRUE;   x := mixer.step (a VAR)
 // Called by names.cpp for each `instance.pin`.
@@ -32,9 +32,11 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
     case SectionKind::Output: return writes ? refuse(Diag::OutputWrittenOutside) : true;
     case SectionKind::InOut: return writes ? refuse(Diag::InOutWrittenOutside) : true;
     case SectionKind::Local:
+    case SectionKind::Inst:
+      if (!context.iec() && access != Access::Write) return true;
+      [[fallthrough]];
     case SectionKind::Temp:
     case SectionKind::External:
-    case SectionKind::Inst:
     case SectionKind::Stat: return program || isBroken(context, var.pou) ? true : refuse(Diag::InternalVariable);
     case SectionKind::Global:
     case SectionKind::Access:

@@ -196,12 +196,33 @@ struct Initializer {
     return count;
   }
 
+  // codesys: `limits : Limits := kLimits` begins like another variable, with what that is declared with.
+  bool likeAnother(ExprId& init, TypeId type) const {
+    if (context.iec() || (tree().kind(init) != ExprKind::Name && tree().kind(init) != ExprKind::Member)) return false;
+    if (!checkExprAs(context, init, type, std::string("used as ") + std::string(what))) {
+      init = {};
+      return true;
+    }
+    const ExprKind kind = tree().kind(init);
+    const Entity entity = kind == ExprKind::Name     ? tree().as<NameExpr>(init).entity
+                          : kind == ExprKind::Member ? tree().as<MemberExpr>(init).entity
+                                                     : Entity{};
+    if (entity.what() != EntityKind::Var) return true;
+    const VarId other{entity.index};
+    const Var& var = context.project.var(other);
+    if (var.storage != Storage::Global && var.storage != Storage::Field) return true;
+    ensureInitialValue(context, other);
+    if (!var.record || var.list) init = context.project.var(other).init;
+    return true;
+  }
+
   // Surplus elements are dropped with a warning, missing ones have their default. Manual 5.3.1.2.4, 5.3.3.
   //   passes  a : ARRAY[1..6] OF INT := [1, 2, 3(4), 6];
   //   fails   a : ARRAY[1..6] OF INT := 1;                        E0326
   void array(ExprId& init, TypeId type) {
     const TypeInfo& info = context.types().info(context.types().resolve(type));
     if (tree().kind(init) != ExprKind::ArrayInit) {
+      if (likeAnother(init, type)) return;
       context.report(Diag::ArrayListExpected, tree().begin(init), {context.types().spell(type)});
       init = {};
       return;
@@ -222,6 +243,7 @@ struct Initializer {
   //   fails   t : TON := (PTX := T#5s);                           E0329
   void record(ExprId& init, TypeId type) {
     if (tree().kind(init) != ExprKind::StructInit) {
+      if (likeAnother(init, type)) return;
       context.report(Diag::MembersExpected, tree().begin(init), {context.types().spell(type)});
       init = {};
       return;

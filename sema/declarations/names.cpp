@@ -119,6 +119,7 @@ Entity lookUpIn(Context& context, Entity qualifier, NameId name) {
       return ready(context, mock ? mock : lookUpLibrary(context, key, qualifier.index));
     }
     case EntityKind::Type: {
+      resolveNamed(context, TypeId{qualifier.index});
       const TypeId type = context.types().resolve(TypeId{qualifier.index});
       resolveNamed(context, type);
       if (context.types().info(type).kind != types::TypeKind::Enum) return {};

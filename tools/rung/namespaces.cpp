@@ -9,7 +9,8 @@ struct Namespace {
   std::string_view folder;
   const char* name;
 };
-constexpr Namespace kNamespaces[] = {{"standard", "Standard"}, {"util", "Util"}};
+constexpr Namespace kNamespaces[] = {
+    {"standard", "Standard"}, {"util", "Util"}, {"ibaselibrary", "IBaseLibrary"}, {"tc2_system", "Tc2_System"}};
 
 constexpr NamespaceAlias kAliases[] = {{"Tc2_Standard", "Standard"}, {"Tc3_Standard", "Standard"}};
 
