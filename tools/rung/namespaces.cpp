@@ -9,7 +9,7 @@ struct Namespace {
   std::string_view folder;
   const char* name;
 };
-constexpr Namespace kNamespaces[] = {{"standard", "Standard"}, {"util", "Util"}};
+constexpr Namespace kNamespaces[] = {{"standard", "Standard"}, {"tc2_system", "Tc2_System"}, {"util", "Util"}};
 
 constexpr NamespaceAlias kAliases[] = {{"Tc2_Standard", "Standard"}, {"Tc3_Standard", "Standard"}};
 
