@@ -243,7 +243,8 @@ using CallConstant = std::function<std::optional<types::Value>(
 struct Options {
   text::Standard standard = text::Standard::Codesys;
   uint32_t pointer_size = 8;
-  std::span<const LibraryFile> libraries;  // texts that outlive the project; declarations are parsed on first use
+  std::span<const LibraryFile> libraries;      // texts that outlive the project; declarations are parsed on first use
+  std::span<const std::string> project_names;  // qualify what the project itself declares: `TcUnit.FB_TestSuite`
   std::span<const LibraryAlias> library_aliases;
   CallConstant call_constant;                // none: calls of functions are no constants
   bool with_tests = false;                   // the program is for `rung test`

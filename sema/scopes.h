@@ -98,8 +98,9 @@ struct Libraries {
   std::vector<FileId> sources;            // of Options::libraries; none: not yet added to Sources
   std::vector<LibraryBlock> blocks;
   std::vector<LibraryName> names{1};
-  NameMap index;       // name -> LibraryName (the entity's index; its kind says nothing)
-  NameMap namespaces;  // library name -> Namespace
+  NameMap index;           // name -> LibraryName (the entity's index; its kind says nothing)
+  NameMap namespaces;      // library name -> Namespace
+  uint32_t project = ~0u;  // the index of the Namespace that stands for the project itself
 };
 
 struct Scopes {

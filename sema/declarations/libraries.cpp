@@ -230,6 +230,11 @@ void indexLibraries(Context& context) {
       }
     }
   }
+  libraries.project = static_cast<uint32_t>(libraries.list.size());
+  libraries.list.emplace_back();
+  for (const std::string& name : context.project.options.project_names)
+    libraries.namespaces.insert(keyOf(context, context.names().intern(name)),
+                                Entity::of(EntityKind::Namespace, libraries.project));
   for (const LibraryAlias& alias : context.project.options.library_aliases) {
     const Entity space = libraries.namespaces.find(keyOf(context, context.names().intern(alias.library)));
     if (space) libraries.namespaces.insert(keyOf(context, context.names().intern(alias.alias)), space);
@@ -259,6 +264,11 @@ void load(Context& context, LibraryBlock& block) {
 
 Entity lookUpLibrary(Context& context, NameId key, uint32_t library) {
   Libraries& libraries = context.scopes.libraries;
+  if (library == libraries.project) {
+    for (const NameMap* names : {&context.scopes.pous_and_types, &context.scopes.globals, &context.scopes.qualifiers})
+      if (const Entity found = names->find(key)) return found;
+    return {};
+  }
   const Entity first = libraries.index.find(key);
   if (!first) return {};
   if (library == kNoLibrary && context.library) {  // a library's own names come first

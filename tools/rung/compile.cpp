@@ -109,7 +109,8 @@ bool Compilation::read() {
 void Compilation::noteLibraries() {
   for (const vendor::ProjectEntry& wanted : inputs.libraries) {
     const auto called = [&](std::string_view name) { return sameIdentifier(name, wanted.name); };
-    const bool known = std::any_of(libraries.files().begin(), libraries.files().end(),
+    const bool known = std::any_of(inputs.project_names.begin(), inputs.project_names.end(), called) ||
+                       std::any_of(libraries.files().begin(), libraries.files().end(),
                                    [&](const sema::LibraryFile& file) { return called(file.library); }) ||
                        std::any_of(libraries.aliases().begin(), libraries.aliases().end(),
                                    [&](const sema::LibraryAlias& alias) { return called(alias.alias); });
@@ -152,6 +153,7 @@ bool Compilation::check() {
     sema_options.standard = options.standard;
     sema_options.libraries = libraries.files();
     sema_options.library_aliases = libraries.aliases();
+    sema_options.project_names = inputs.project_names;
     sema_options.default_interval_ns = options.default_interval_ns;
     sema_options.with_tests = options.command == Command::Test;
     sema_options.mocks = options.mocks;

@@ -195,6 +195,7 @@ class Collector {
     if (!vendor::readProject(sources_, file, diagnostics_, project)) return;
     const size_t slash = path.rfind('/');
     const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
+    inputs_.project_names.push_back(path.substr(folder.size(), path.rfind('.') - folder.size()));
     for (const vendor::ProjectEntry& entry : project.files) {
       const std::string listed = sameFile(folder, entry.name);
       struct stat info;

@@ -26,6 +26,15 @@ TEST(Formats, FirstWord) {
   EXPECT_EQ(firstWord("12 PROGRAM"), "");
 }
 
+TEST(Pairs, Names) {
+  for (const char* path : {"a/Motor.pou", "a/motor.ST", "a/Motor_body.st", "a/Motor.impl.st", "a/MOTOR-decl.txt",
+                           "a/Motor/declaration.st", "a/Motor/implementation.st"})
+    EXPECT_EQ(pairName(path), "A/MOTOR") << path;
+  EXPECT_EQ(pairName("a/Antibody.st"), "A/ANTIBODY");
+  EXPECT_EQ(pairName("body.st"), "");
+  EXPECT_EQ(pairName("a.b/c"), "A.B/C");
+}
+
 TEST(TwinCat, MembersStandBetweenDeclarationAndBody) {
   const Reading reading("FB.TcPOU", R"(<TcPlcObject><POU Name="FB">
 <Declaration><![CDATA[FUNCTION_BLOCK FB]]></Declaration>
@@ -103,6 +112,13 @@ TEST(Codesys2, TextThatNeedsNothingIsParsedAsItStands) {
                         "(* @PATH := '' *)\nPROGRAM P\nVAR END_VAR\n(* @END_DECLARATION := '0' *)\n;\nEND_PROGRAM\n"
                         "ACTION A:\nx := 1;\nEND_ACTION\n");
   EXPECT_EQ(reading.program, reading.file);
+}
+
+TEST(Codesys2, FunctionBlockInOneWord) {
+  const Reading reading("a.EXP", "(* @PATH := '' *)\nFUNCTIONBLOCK f\nVAR END_VAR\nEND_FUNCTION_BLOCK\n");
+  EXPECT_EQ(reading.text(), "(* @PATH := '' *)\nFUNCTION_BLOCK f\nVAR END_VAR\nEND_FUNCTION_BLOCK\n");
+  EXPECT_EQ(reading.placeOf("FUNCTION_BLOCK f"), "2:1");
+  EXPECT_EQ(reading.placeOf(" f"), "2:14");
 }
 
 TEST(Codesys2, DrawnBodiesAndForeignObjectsAreLeftOut) {
