@@ -197,6 +197,7 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
       return !context.iec();
     }
     case Fit::Pointer:
+      if (context.library) return true;
       context.report(context.iec() ? Diag::OtherPointer : Diag::PointerToOther, loc,
                      {context.types().spell(from), purpose.spell(context), context.types().spell(to)});
       return !context.iec();
