@@ -36,7 +36,8 @@ void appendParameter(std::string& out, const TypeTable& types, const ir::Local& 
 
 }  // namespace
 
-void BodyWriter::appendSignature(std::string& out, const ir::Module& module, const ir::Body& body) {
+void BodyWriter::appendSignature(std::string& out, const ir::Module& module, const ir::Body& body,
+                                 std::string_view function) {
   const TypeTable& types = module.types;
   const ir::Local* result = nullptr;
   for (const ir::Local& local : body.locals) {
@@ -52,7 +53,9 @@ void BodyWriter::appendSignature(std::string& out, const ir::Module& module, con
     out += "void";
   }
   out += ' ';
-  if (body.native) {
+  if (!function.empty()) {
+    out += function;
+  } else if (body.native) {
     out += ir::nativeName(module, body);
   } else {
     appendFunctionName(out, module, body);
@@ -61,6 +64,8 @@ void BodyWriter::appendSignature(std::string& out, const ir::Module& module, con
   if (body.native) {
     out += "rung_context* ctx";
     if (body.self) out += ", void* self";
+  } else if (isMethod(body)) {
+    out += "void* object, rung_context* ctx";
   } else if (body.self) {
     appendRecordType(out, types, body.self);
     out += "& self, rung_context* ctx";
@@ -265,6 +270,13 @@ void BodyWriter::write(ir::BodyId id) {
   }
   appendSignature(to, module_, body);
   to += " {";
+  if (isMethod(body)) {  // called through tables too: the same type for all objects
+    to += "\n  [[maybe_unused]] ";
+    appendRecordType(to, types_, body.self);
+    to += "& self = *static_cast<";
+    appendRecordType(to, types_, body.self);
+    to += "*>(object);";
+  }
   if (!declarations_.empty()) {
     to += "\n ";
     to += declarations_;

@@ -41,7 +41,11 @@ class BodyWriter {
   void write(ir::BodyId id);
 
   // `float Scale_fn(rung_context* ctx, int16_t raw_)`, without `;`. Native: as the library defines it.
-  static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body);
+  static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body) {
+    appendSignature(out, module, body, {});
+  }
+  // With another name than its own.
+  static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body, std::string_view name);
 
  private:
   using Body = ir::Body;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "codegen/body.h"
+#include "codegen/classes.h"
 #include "codegen/facts.h"
 #include "codegen/group.h"
 #include "codegen/module.h"
@@ -53,6 +54,18 @@ std::string layoutAsserts(const ir::Module& module, const Group& group) {
   return out;
 }
 
+// Sorted by their text, one a line.
+std::string dispatchDeclarations(const ir::Module& module, const Group& group) {
+  std::vector<std::string> lines;
+  for (TypeId record : group.classes)
+    lines.push_back("extern const uint32_t " + className(module.types, record) + ";\n");
+  for (ir::BodyId method : group.virtuals) lines.push_back(declareDispatch(module, method));
+  std::sort(lines.begin(), lines.end());
+  std::string out;
+  for (const std::string& line : lines) out += line;
+  return out;
+}
+
 // What a group's text needs in front of it, the text, and the end of the namespace.
 std::string around(const ir::Module& module, const Group& group, RecordPlaces& records, std::string_view name_space,
                    std::string out) {
@@ -77,7 +90,7 @@ std::string around(const ir::Module& module, const Group& group, RecordPlaces& r
   out += definitions;
   paragraph(layoutAsserts(module, group));
   paragraph((group.sites.empty() ? "" : "extern const uint32_t sites_" + group.stem + ";\n") +
-            prototypes(module, group.callees, false, "") + group.data);
+            prototypes(module, group.callees, false, "") + dispatchDeclarations(module, group) + group.data);
   out += group.code;
   out += "\n}  // namespace ";
   out += name_space;
@@ -151,6 +164,8 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   records.appendHeaders(files);
   Description description = describe(module, options, facts, groups, name_space);
   files.push_back({"module.cpp", std::move(description.module)});
+  if (!module.classes.empty() || !module.dispatches.empty())
+    files.push_back({"classes.cpp", classesText(module, name_space)});
   files.push_back({"sites.cpp", std::move(description.sites)});
   std::sort(files.begin(), files.end(), [](const OutputFile& a, const OutputFile& b) { return a.path < b.path; });
   return files;

@@ -104,6 +104,13 @@ void BodyWriter::condition(ExprId id, Prec context) {
 }
 
 void BodyWriter::constant(const Expr& e, Prec context) {
+  if (e.c != 0) {
+    const TypeId record{e.c};
+    if (std::find(group_.classes.begin(), group_.classes.end(), record) == group_.classes.end())
+      group_.classes.push_back(record);
+    out_ += className(types_, record);
+    return;
+  }
   const TypeKind kind = types_.plainKind(e.type);
   const bool negative = TypeTable::isReal(kind) ? (e.bits() >> 63) != 0
                         : types_.isSigned(kind) ? static_cast<int64_t>(e.bits()) < 0

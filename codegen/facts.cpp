@@ -70,6 +70,7 @@ Facts::Facts(const ir::Module& module) : MemoryBlocks(module) {
     if (info.kind == TypeKind::Pointer || info.kind == TypeKind::Reference)
       is_pointed[module.types.resolve(info.base).index] = 1;
   }
+  for (const ir::Class& one : module.classes) is_seen[module.types.resolve(one.record).index] = 1;
   for (uint32_t i = 1; i < module.bodies.size(); ++i) {
     const Body& body = module.bodies[i];
     is_inlined[i] = body.kind == ir::BodyKind::Function && body.library && body.pure && !body.native && isSmall(body);
@@ -87,8 +88,11 @@ Facts::Facts(const ir::Module& module) : MemoryBlocks(module) {
     }
     for (const Stmt& stmt : body.stmts) {
       if (stmt.kind == StmtKind::Bind) {
-        expose(module, body, ExprId{stmt.b});
+        if (stmt.b != 0) expose(module, body, ExprId{stmt.b});
       } else if (stmt.kind == StmtKind::Call) {
+        const Body& callee = module.body(ir::BodyId{stmt.a});  // a method changes its object
+        if (stmt.b != 0 && callee.kind == ir::BodyKind::Function && isForeign(body, ExprId{stmt.b}))
+          is_seen[module.types.resolve(callee.self).index] |= 1;
         ir::forEachRoot(module, body, stmt, [&](const uint32_t& slot, ir::Use use) {
           if (use == ir::Use::Reference && slot != stmt.b) expose(module, body, ExprId{slot});
         });

@@ -25,10 +25,12 @@ struct Group {
   std::string code;                // their text
   std::string data;                // constant bytes
   std::vector<Site> sites;
-  std::vector<TypeId> records;      // whose headers it includes
-  std::vector<ir::BodyId> callees;  // functions and natives to be declared
-  std::vector<NameId> libraries;    // whose headers with sized forms it includes
-  std::vector<ir::BodyId> inlined;  // small pure library functions that they call, each in a header of its own
+  std::vector<TypeId> records;       // whose headers it includes
+  std::vector<ir::BodyId> callees;   // functions and natives to be declared
+  std::vector<ir::BodyId> virtuals;  // methods whose dispatch it uses
+  std::vector<TypeId> classes;       // whose numbers it uses
+  std::vector<NameId> libraries;     // whose headers with sized forms it includes
+  std::vector<ir::BodyId> inlined;   // small pure library functions that they call, each in a header of its own
   uint32_t data_count = 0;
 };
 

@@ -25,7 +25,7 @@ std::vector<Group> makeGroups(const ir::Module& module, const Facts& facts) {
   rows.reserve(module.bodies.size());
   for (uint32_t i = 1; i < module.bodies.size(); ++i) {
     const ir::Body& body = module.bodies[i];
-    if (body.native || facts.is_inlined[i] != 0 || facts.is_zeroing[i] != 0) continue;
+    if (body.native || body.abstract || facts.is_inlined[i] != 0 || facts.is_zeroing[i] != 0) continue;
     Row row{std::string(module.names.text(body.name)), static_cast<uint32_t>(body.kind), ir::BodyId{i}};
     for (char& c : row.key) {
       if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');

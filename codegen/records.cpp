@@ -21,6 +21,7 @@ const char* keyword(RecordKind kind) {
     case RecordKind::FunctionBlock: return "FUNCTION_BLOCK";
     case RecordKind::Program: return "PROGRAM";
     case RecordKind::GlobalList: return "VAR_GLOBAL";
+    case RecordKind::Interface: return "INTERFACE";
   }
   return "";
 }

@@ -192,6 +192,18 @@ void appendRecordType(std::string& out, const TypeTable& types, TypeId type) {
   out += recordName(types, type);
 }
 
+std::string className(const TypeTable& types, TypeId record) {
+  std::string name;
+  appendMangled(name, types.names().text(types.info(types.resolve(record)).name));
+  return name += "class";
+}
+
+std::string methodName(const ir::Module& module, ir::BodyId method, const char* what) {
+  std::string name;
+  appendMangled(name, module.names.text(module.body(method).name));
+  return name += what;
+}
+
 void appendFunctionName(std::string& out, const ir::Module& module, const ir::Body& body) {
   const TypeTable& types = module.types;
   switch (body.kind) {

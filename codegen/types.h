@@ -26,6 +26,10 @@ void appendRecordType(std::string& out, const types::TypeTable& types, TypeId ty
 std::string recordName(const types::TypeTable& types, TypeId type);  // `Ramp_type`, of a global list `Valves_list`
 std::string recordFile(const types::TypeTable& types, TypeId type);  // `Ramp_.h`, `Valves_list.h`
 // `Ramp_body`, `Scale_fn`, `Ramp_init`.
+// `Motor_class`, and of a method `Motor__Start_call`, …: its number, the type and the table of its dispatch.
+inline bool isMethod(const ir::Body& body) { return body.kind == ir::BodyKind::Function && body.self && !body.native; }
+std::string className(const types::TypeTable& types, TypeId record);
+std::string methodName(const ir::Module& module, ir::BodyId method, const char* what);
 void appendFunctionName(std::string& out, const ir::Module& module, const ir::Body& body);
 
 // A scalar's value, of the C++ type that scalarType names or one that it promotes from. `negative`: begins with `-`.

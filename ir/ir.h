@@ -43,7 +43,7 @@ struct BodyId {
 
 enum class ExprKind : uint8_t {
   None,
-  Const,  // scalar; bits as types::Value
+  Const,  // scalar; bits as types::Value. c: none, or TypeId of a class whose number it is (Module::classes)
   Text,   // a: NameId of the text; type STRING[n] or WSTRING[n]
   Data,   // a: index into Module::data: the constant bytes of an array or record
   Zero,   // all bytes zero of an array, record or text
@@ -91,25 +91,30 @@ struct Expr {
 
 enum class StmtKind : uint8_t {
   None,
-  Assign,    // a: place, b: value. Arrays, records and texts are copied whole; text cut to the place's capacity
-  Bind,      // a: Field place whose field is by-reference, b: place: the field refers to that variable from now on
-  Call,      // a: BodyId, b: self place or none, (c, d): operands, one per parameter: the value, or the place for a
-             // by-reference parameter (none: a discarded output), e: place for the result or none
-  If,        // a: condition, b: then block, c: else block (a block is its first statement, linked by `next`)
-  Switch,    // a: selector, (b, c): slice of Body::cases, d: else block
-  Loop,      // a: body block, b: block run before each next turn (by `continue` too). Endless but for break
-  For,       // a: control place (scalar integer), b: from, c: to, d: step (non-zero Const), e: body block.
-             // from and to are evaluated once, in that order. Leaves the control variable as design §8 says
-  Break,     // leaves the innermost Loop or For
+  Assign,  // a: place, b: value. Arrays, records and texts are copied whole; text cut to the place's capacity
+  Bind,    // a: Field place whose field is by-reference, b: place: the field refers to that variable from now on; 0: to
+           // none
+  Call,    // a: BodyId, b: self place or none, (c, d): operands, one per parameter: the value, or the place for a
+           // by-reference parameter (none: a discarded output), e: place for the result or none.
+           // op: kVirtual: the body that Module::dispatches gives for the class of the object at b
+  If,      // a: condition, b: then block, c: else block (a block is its first statement, linked by `next`)
+  Switch,  // a: selector, (b, c): slice of Body::cases, d: else block
+  Loop,    // a: body block, b: block run before each next turn (by `continue` too). Endless but for break
+  For,     // a: control place (scalar integer), b: from, c: to, d: step (non-zero Const), e: body block.
+           // from and to are evaluated once, in that order. Leaves the control variable as design §8 says
+  Break,   // leaves the innermost Loop or For
   Continue,  // next turn of the innermost Loop or For
   Return,
   Jump,      // a: label number
   Label,     // a: label number
   Try,       // a: body block, op: 1 catches (0: the fault goes on), b: catch block, c: finally, d: its number's place
   Fault,     // op: types::Fault, a: value for the message or none
-  Assert,    // of a test. op: Assertion, a: condition or expected, b: actual, c: tolerance, d: text (NameId)
+  Assert,    // of a test. op: Assertion, a: condition or expected, b: actual, c: tolerance, d: text (NameId).
+             // A condition that compares: b and c are its sides, e their text (NameId, as rung_assertion::shown)
   Evaluate,  // a: expression, evaluated for its checks only
 };
+
+inline constexpr uint8_t kVirtual = 1;
 
 enum class Assertion : uint8_t { Assert, AssertEq, AssertNear };  // in the order of sema::Assertion
 
@@ -164,16 +169,18 @@ struct Body {
   NameId name;      // unique over the module: `Ramp`, `LIMIT__REAL`; an Init has its record's name
   NameId spelling;  // as the user wrote it: in faults and comments
   BodyKind kind = BodyKind::Function;
-  bool native = false;  // no code: a C function of the library's runtime part
-  bool pure = false;    // no effect but its result, and no fault
-  bool sized = false;   // native: has a form with lengths of texts in C++ (sized form, rung/<library>.h)
+  bool native = false;    // no code: a C function of the library's runtime part
+  bool abstract = false;  // no code: a method that is only called through its dispatch
+  bool pure = false;      // no effect but its result, and no fault
+  bool sized = false;     // native: has a form with lengths of texts in C++ (sized form, rung/<library>.h)
   bool may_fault = false;
   bool library = false;
   bool has_labels = false;  // analyses are conservative
   bool test = false;
-  NameId library_name;  // native: which library's C function
-  TypeId self;          // Block, Init
-  TypeId result;        // Function; none: no result
+  bool counted = false;  // written for the product, not for its tests: coverage counts it
+  NameId library_name;   // native: which library's C function
+  TypeId self;           // Block, Init; Function: of a method, the object's record
+  TypeId result;         // Function; none: no result
   Loc loc;
   FileId file;
   Origin origin;
@@ -249,6 +256,18 @@ struct Located {
   uint32_t owner_program = 0; /* index into programs + 1; 0: a global or unnamed */
 };
 
+// The objects that have a type id, each behind what it extends: the number of a class is its index + 1.
+struct Class {
+  TypeId record;
+  TypeId base;  // none
+};
+// Which body a virtual call of `method` runs, by class number - first; none: that class has no such method.
+struct Dispatch {
+  BodyId method;
+  uint32_t first = 1;
+  std::vector<BodyId> bodies;
+};
+
 struct Module {
   Module(types::TypeTable& types, Names& names, const Sources& sources)
       : types(types), names(names), sources(sources) {}
@@ -263,7 +282,9 @@ struct Module {
   std::vector<Task> tasks;
   std::vector<Located> located;
   std::deque<Data> data;
-  std::vector<BodyId> tests;  // Block or Function bodies marked {test}; a Block's instance is in `programs`
+  std::vector<Class> classes;
+  std::vector<Dispatch> dispatches;  // sorted by method
+  std::vector<BodyId> tests;         // Block or Function bodies marked {test}; a Block's instance is in `programs`
   uint32_t image_bytes[3] = {0, 0, 0};
 
   Body& body(BodyId id) { return bodies[id.index]; }

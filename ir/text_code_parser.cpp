@@ -53,7 +53,7 @@ void Reader::stmt() {
   } else if (accept("bind")) {
     const ExprId field = expr({});
     expect("=");
-    const ExprId place = expr({});
+    const ExprId place = accept("null") ? ExprId{} : expr({});
     if (!failed_) b.bind(field, place);
   } else if (accept("call")) {
     callStmt({});
@@ -141,8 +141,17 @@ void Reader::stmt() {
     ++at_;
     const ExprId first = expr(what == Assertion::Assert ? types::kBool : TypeId{});
     ExprId second, third;
+    NameId shown;
     if (failed_) return;
     const TypeId first_type = typeOf(first);
+    if (what == Assertion::Assert && accept("shows")) {
+      second = expr({});
+      if (failed_) return;
+      expect(",");
+      third = expr(typeOf(second));
+      expect("as");
+      shown = module_.names.intern(quotedText(TokenKind::Text));
+    }
     if (what != Assertion::Assert) {
       expect(",");
       second = expr(first_type);
@@ -153,7 +162,7 @@ void Reader::stmt() {
     }
     NameId text;
     if (accept("text")) text = module_.names.intern(quotedText(TokenKind::Text));
-    if (!failed_) b.assertion(what, first, second, third, text);
+    if (!failed_) b.assertion(what, first, second, third, text, shown);
   } else if (accept("evaluate")) {
     const ExprId value = expr({});
     if (!failed_) b.evaluate(value);
@@ -173,7 +182,7 @@ void Reader::stmt() {
 void Reader::callStmt(ExprId result) {
   Builder& b = *builder_;
   const Loc loc = b.loc;
-  const bool is_init = accept("init");
+  const bool is_init = accept("init"), is_virtual = !is_init && accept("virtual");
   const Loc name_loc = token().loc;
   const std::string text = sigilName();
   if (failed_) return;
@@ -185,7 +194,9 @@ void Reader::callStmt(ExprId result) {
   if (isPunct("(") && !token().first_in_line) given = operands(module_.body(callee));
   const ExprId self = accept("on") ? expr({}) : ExprId{};
   b.loc = loc;
-  if (!failed_) b.callStmt(callee, self, given, result);
+  if (failed_) return;
+  const StmtId made = b.callStmt(callee, self, given, result);
+  if (is_virtual) b.body.stmt(made).op = kVirtual;
 }
 
 std::vector<ExprId> Reader::operands(const Body& callee) {
@@ -488,6 +499,15 @@ ExprId Reader::literal(TypeId of) {
     const bool value = tokens_[at_++].text == "true";
     if (!of) of = types::kBool;
     return kindOf(of) == TypeKind::Bool ? b.constant(of, value) : misfit(value ? "true" : "false");
+  }
+  if (accept("class")) {
+    const TypeId record = type();
+    const ExprId number = b.constant(types::kUDInt, 0);
+    Expr& made = b.body.expr(number);
+    made.c = record.index;
+    for (size_t i = 0; i < module_.classes.size(); ++i)
+      if (module_.classes[i].record == record) made.a = static_cast<uint32_t>(i) + 1;
+    return number;
   }
   if (accept("null")) {
     const TypeKind kind = kindOf(of);

@@ -59,6 +59,7 @@ void Printer::stmt(const Stmt& s) {
       if (s.kind == StmtKind::Bind) put("bind ");
       expr(ExprId{s.a}, {});
       put(" = ");
+      if (s.kind == StmtKind::Bind && s.b == 0) return put("null");
       expr(ExprId{s.b}, typeOf(ExprId{s.a}));
       return;
     case StmtKind::Call: {
@@ -67,7 +68,7 @@ void Printer::stmt(const Stmt& s) {
         expr(ExprId{s.e}, {});
         put(" = ");
       }
-      put(callee.kind == BodyKind::Init ? "call init @" : "call @");
+      put(callee.kind == BodyKind::Init ? "call init @" : s.op == kVirtual ? "call virtual @" : "call @");
       name(callee.name);
       if (callee.kind == BodyKind::Function || s.d != 0) calleeOperands(callee, s.c, s.d);
       if (s.b != 0) {
@@ -180,6 +181,14 @@ void Printer::stmt(const Stmt& s) {
       if (what == Assertion::Assert) {
         put("assert ");
         expr(ExprId{s.a}, types::kBool);
+        if (s.b != 0) {
+          put(" shows ");
+          expr(ExprId{s.b}, {});
+          put(", ");
+          expr(ExprId{s.c}, typeOf(ExprId{s.b}));
+          put(" as ");
+          quoted(module_.names.text(NameId{s.e}), '\'');
+        }
       } else {
         put(what == Assertion::AssertEq ? "assert_eq " : "assert_near ");
         expr(ExprId{s.a}, {});
@@ -221,6 +230,10 @@ void Printer::checks(const Expr& e) {
 }
 
 void Printer::constant(const Expr& e, TypeId expected) {
+  if (e.kind == ExprKind::Const && e.c != 0) {
+    put("class ");
+    return type(TypeId{e.c});
+  }
   const TypeId id = types_.resolve(e.type);
   const TypeInfo& info = types_.info(id);
   const TypeKind kind = types_.plainKind(id);

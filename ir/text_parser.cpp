@@ -76,8 +76,9 @@ int64_t Reader::integer() {
 // ---- items
 
 static bool isItemWord(std::string_view word) {
-  for (const char* item : {"enum", "subrange", "struct", "union", "block", "program", "globals", "image", "data",
-                           "list", "task", "instance", "located", "test", "function", "body", "init"})
+  for (const char* item :
+       {"enum",    "subrange", "struct", "union", "block",    "program", "globals", "image",    "data", "interface",
+        "classes", "dispatch", "list",   "task",  "instance", "located", "test",    "function", "body", "init"})
     if (word == item) return true;
   return false;
 }
@@ -110,6 +111,8 @@ void Reader::declareType() {
     kind = RecordKind::Program;
   else if (word == "globals")
     kind = RecordKind::GlobalList;
+  else if (word == "interface")
+    kind = RecordKind::Interface;
   else if (word != "struct" && word != "enum" && word != "subrange")
     return;
   ++at_;
@@ -318,6 +321,7 @@ void Reader::attributes(Body& body) {
     body.native = true;
     if (!accept("_")) body.library_name = name();
   }
+  body.abstract = accept("abstract");
   body.pure = accept("pure");
   body.sized = accept("sized");
   body.may_fault = accept("faults");
@@ -403,6 +407,37 @@ void Reader::blockBody(BodyKind kind) {
   if (!body.native) codes_.push_back({at_, body_id});
 }
 
+// classes @Base, @Pump of @Base
+void Reader::classes() {
+  do {
+    ++at_;
+    Class made;
+    made.record = type();
+    if (accept("of")) made.base = type();
+    if (failed_) return;
+    module_.classes.push_back(made);
+  } while (isPunct(","));
+}
+
+// dispatch @Base__Run from 1: @Base__Run, _
+void Reader::dispatch() {
+  Dispatch made;
+  auto body = [&] {
+    const Loc loc = token().loc;
+    const std::string text = sigilName();
+    auto found = body_by_name_.find(module_.names.intern(text).index);
+    if (!failed_ && found == body_by_name_.end()) fail(Diag::IrUnknownName, loc, {text, "body"});
+    return failed_ ? BodyId{} : BodyId{found->second};
+  };
+  made.method = body();
+  expect("from");
+  made.first = static_cast<uint32_t>(integer());
+  expect(":");
+  do made.bodies.push_back(accept("_") ? BodyId{} : body());
+  while (!failed_ && accept(","));
+  if (!failed_) module_.dispatches.push_back(std::move(made));
+}
+
 void Reader::declareItem() {
   if (isWord("enum")) {
     ++at_;
@@ -437,6 +472,8 @@ void Reader::declareItem() {
     module_.lists.push_back(made);
   } else if (isWord("data")) {
     dataItem();
+  } else if (isWord("classes")) {
+    classes();
   } else if (isWord("task")) {
     task();
   } else if (isWord("instance")) {
@@ -447,7 +484,7 @@ void Reader::declareItem() {
     function();
   } else if (isWord("body") || isWord("init")) {
     blockBody(isWord("body") ? BodyKind::Block : BodyKind::Init);
-  } else if (!isWord("subrange") && !isWord("test")) {
+  } else if (!isWord("subrange") && !isWord("test") && !isWord("dispatch")) {
     record();
   }
 }
@@ -469,7 +506,7 @@ bool Reader::read() {
     // The code of a body is read below.
     const bool is_code = !codes_.empty() && codes_.back().at == at_;
     if (!failed_ && !is_code && token().kind != TokenKind::End && !token().first_in_line && !isWord("subrange") &&
-        !isWord("test"))
+        !isWord("test") && !isWord("dispatch"))
       expected("the end of the line");
   });
   for (const auto& entry : type_by_name_)
@@ -492,6 +529,9 @@ bool Reader::read() {
     auto found = body_by_name_.find(module_.names.intern(text).index);
     if (found == body_by_name_.end()) return fail(Diag::IrUnknownName, loc, {text, "body"});
     module_.tests.push_back(BodyId{found->second});
+  });
+  forEachItem([&] {
+    if (accept("dispatch")) dispatch();
   });
   if (diagnostics_.hasErrors() && !had_errors) return false;
   for (const Code& one : codes_) {

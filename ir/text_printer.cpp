@@ -128,6 +128,7 @@ void Printer::record(TypeId id, const Record* listed) {
     case RecordKind::FunctionBlock: put("block "); break;
     case RecordKind::Program: put("program "); break;
     case RecordKind::GlobalList: put("globals "); break;
+    case RecordKind::Interface: put("interface "); break;
   }
   type(id);
   if (listed != nullptr) {
@@ -325,6 +326,33 @@ void Printer::items() {
     }
     put("\n");
   }
+  // classes @Base, @Pump of @Base      dispatch @Base__Run from 1: @Base__Run, @Pump__Run
+  for (size_t i = 0; i < module_.classes.size(); ++i) {
+    put(i == 0 ? "classes " : ", ");
+    type(module_.classes[i].record);
+    if (module_.classes[i].base) {
+      put(" of ");
+      type(module_.classes[i].base);
+    }
+    if (i + 1 == module_.classes.size()) put("\n");
+  }
+  for (const Dispatch& dispatch : module_.dispatches) {
+    put("dispatch @");
+    name(module_.body(dispatch.method).name);
+    put(" from ");
+    number(dispatch.first);
+    put(":");
+    for (size_t i = 0; i < dispatch.bodies.size(); ++i) {
+      put(i == 0 ? " " : ", ");
+      if (dispatch.bodies[i]) {
+        put("@");
+        name(module_.body(dispatch.bodies[i]).name);
+      } else {
+        put("_");
+      }
+    }
+    put("\n");
+  }
   for (BodyId test : module_.tests) {
     put("test @");
     name(module_.body(test).name);
@@ -352,6 +380,7 @@ void Printer::header(const Body& body) {
     else
       put("_");
   }
+  if (body.abstract) put(" abstract");
   if (body.pure) put(" pure");
   if (body.sized) put(" sized");
   if (body.may_fault) put(" faults");
@@ -384,7 +413,7 @@ void Printer::printBody(const Body& body) {
       type(local.type);
     }
     put(first ? "}\n" : " }\n");
-    if (body.native) return;
+    if (body.native || body.abstract) return;
     put("body @");
     name(body.name);
   } else {

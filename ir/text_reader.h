@@ -56,6 +56,8 @@ class Reader {
   void recordFields(TypeId type);
   void record();
   void dataItem();
+  void classes();
+  void dispatch();
   void task();
   void instance();
   void located();

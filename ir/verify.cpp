@@ -32,11 +32,11 @@
 //   18  Call in an expression: a pure function that cannot fault, one value per parameter.
 //   19  Address: a pointer or reference to a place that has one (no bit).
 //   20  Assign: a place that is no by-reference Input, a value of its type (texts: of its kind).
-//   21  Bind: a by-reference field, a place of the field's type.
+//   21  Bind: a by-reference field, a place of the field's type or nothing.
 //   22  Call statement: one operand per parameter, a value of its type or, for a by-reference one, a place (none only
 //       for an output); a self place of the callee's record where it has one; a result place only of a function with
 //       result, of its type.
-//   23  If, Assert: conditions are BOOL. Assert: as many operands as its kind takes.
+//   23  If, Assert: conditions are BOOL. Assert: as many operands as its kind takes; with a text for its sides, both.
 //   24  Switch: an integer, bit string or enumeration as selector; ranges in the selector's order, low <= high, no
 //       value twice.
 //   25  For: an integer control place without checks; from, to and step of its plain type; step a Const other than 0.
@@ -46,7 +46,10 @@
 //   28  Fault: one of the faults. Try: its number goes to an integer place.
 //   29  A body with a check, a fault or a call of a body that may fault `may_fault`; a pure one may not, and neither
 //       assigns outside of its locals nor calls what is not pure.
-//   30  A native body has no code.
+//   30  A native body and an abstract one have no code.
+//   31  Classes have distinct records that are not laid over a base of a later class; a virtual call is of a method
+//       that has a dispatch; a dispatch names methods with the parameters of its own, on classes that exist. An
+//       abstract method is called virtually only.
 #include "ir/verify.h"
 
 #include <algorithm>
@@ -76,6 +79,8 @@ class Verifier {
   std::vector<std::string> problems;
 
   void checkModule();
+  void checkDispatches();
+  bool hasDispatch(BodyId method) const;
   void checkBody(const Body& body);
 
  private:
@@ -191,9 +196,43 @@ void Verifier::checkModule() {
   for (size_t i = 1; i < module_.bodies.size(); ++i)
     if (module_.bodies[i].kind == BodyKind::Init) unique(module_.bodies[i].name, "initialiser");
   checkRecordOrder();
+  checkDispatches();
   for (const Data& data : module_.data)
     require(known(data.type) && types_.info(types_.resolve(data.type)).size == data.bytes.size(), 4,
             [&] { return "data of another size than its type " + spell(data.type); });
+}
+
+bool Verifier::hasDispatch(BodyId method) const {
+  return std::any_of(module_.dispatches.begin(), module_.dispatches.end(),
+                     [&](const Dispatch& dispatch) { return dispatch.method == method; });
+}
+
+void Verifier::checkDispatches() {
+  std::unordered_set<uint32_t> seen;
+  for (const Class& one : module_.classes) {
+    require(!one.base || seen.count(one.base.index) != 0, 31, "a class in front of its base");
+    require(one.record && types_.kind(one.record) == TypeKind::Record && seen.insert(one.record.index).second, 31,
+            "a class without a record of its own");
+  }
+  for (const Dispatch& dispatch : module_.dispatches) {
+    const Body& method = module_.body(dispatch.method);
+    require(dispatch.first >= 1 && dispatch.first - 1 + dispatch.bodies.size() <= module_.classes.size(), 31,
+            "a dispatch of a class that does not exist");
+    for (BodyId id : dispatch.bodies) {
+      if (!id) continue;
+      const Body& body = module_.body(id);
+      std::vector<const Local*> wanted, given;
+      for (const Local& local : method.locals)
+        if (isParameter(local)) wanted.push_back(&local);
+      for (const Local& local : body.locals)
+        if (isParameter(local)) given.push_back(&local);
+      bool same = body.self && wanted.size() == given.size() &&
+                  types_.resolve(method.result) == types_.resolve(body.result) && !body.abstract;
+      for (size_t i = 0; same && i < wanted.size(); ++i)
+        same = wanted[i]->kind == given[i]->kind && types_.resolve(wanted[i]->type) == types_.resolve(given[i]->type);
+      require(same, 31, "a dispatch to a method with other parameters");
+    }
+  }
 }
 
 void Verifier::checkRecordOrder() {
@@ -237,7 +276,7 @@ void Verifier::checkBody(const Body& body) {
   if (body.kind != BodyKind::Function || body.self)
     require(body.self && body.self.index < types_.count() && types_.info(body.self).kind == TypeKind::Record, 8,
             "a body whose self is no record");
-  if (body.native) require(!body.first, 30, "a native body has code");
+  if (body.native || body.abstract) require(!body.first, 30, "a native or abstract body has code");
   block(body.first);
 
   for (const auto& [label, blocks] : jumps_) {
@@ -315,11 +354,11 @@ void Verifier::stmt(StmtId id) {
       return;
     }
     case StmtKind::Bind: {
-      if (!place(s.a, 21) | !place(s.b, 21)) return;
+      if (!place(s.a, 21) || (s.b != 0 && !place(s.b, 21))) return;
       const Expr& field = body_->exprs[s.a];
       const TypeId record = field.kind == ExprKind::Field ? typeOf(field.a) : TypeId{};
       require(record && types_.info(record).fields[field.b].by_reference, 21, "bind of what is no by-reference field");
-      require(typeOf(s.a) == typeOf(s.b), 21, "bind of a place of another type");
+      require(s.b == 0 || typeOf(s.a) == typeOf(s.b), 21, "bind of a place of another type");
       found_effect_ = true;
       return;
     }
@@ -385,7 +424,7 @@ void Verifier::stmt(StmtId id) {
       found_fault_ = true;
       return;
     case StmtKind::Assert: {
-      const uint32_t wanted = s.op == 0 ? 1 : s.op == 1 ? 2 : 3;
+      const uint32_t wanted = s.op == 0 ? (s.e != 0 ? 3 : 1) : s.op == 1 ? 2 : 3;
       require(s.op <= 2 && (s.a != 0) + (s.b != 0) + (s.c != 0) == static_cast<int>(wanted) && s.a != 0, 23,
               "an assertion with too many or too few operands");
       if (s.a != 0 && value(s.a) && s.op == 0)
@@ -442,6 +481,13 @@ void Verifier::callStmt(const Stmt& s) {
       s.b != 0 && place(s.b, 22))
     require(typeOf(s.b) == types_.resolve(callee.self), 22, [&] { return "a call on " + spell(typeOf(s.b)); });
   callOperands(callee, s.c, s.d, 22, false);
+  if (s.op == kVirtual) {
+    found_fault_ = true;
+    require(callee.kind == BodyKind::Function && callee.self && hasDispatch(BodyId{s.a}), 31,
+            "a virtual call of what has no dispatch");
+  } else {
+    require(!callee.abstract, 31, "a call of an abstract method that is not virtual");
+  }
   if (s.e != 0 && place(s.e, 22))
     require(callee.result && fits(typeOf(s.e), types_.resolve(callee.result)), 22,
             "a result of another type than its place");

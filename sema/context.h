@@ -50,6 +50,22 @@ bool isBroken(const Context& context, PouId pou);
 bool sayUnknown(Context& context, NameId name);
 bool sayUnknownMember(Context& context, TypeId record, NameId name);
 
+// ---- objects (declarations/objects.cpp)
+
+// The object whose members a body may name: its own block, or the owner of the method. None in functions.
+PouId objectOf(const Context& context);
+// A variable, method, action or property of an object or of what it extends; none when there is none.
+Entity findInObject(Context& context, PouId object, NameId name);
+// Whether `object` is `base`, extends it or implements it.
+bool isKindOf(Context& context, PouId object, PouId base);
+// The interface or block whose instances a pointer to an interface, a record type means; none for other types.
+PouId interfaceOf(Context& context, TypeId type);
+
+// FB_Init of an object, its own or inherited; none when it has none.
+PouId constructorOf(const Context& context, PouId object);
+// The arguments of FB_Init that the declaration of a variable gives; `type` is as written. (bodies/objects.cpp)
+CallId checkConstructor(Context& context, TypeExprId type);
+
 // The type that is written; reports what is wrong and gives types::kError then. Writes TypeExprHeader::type.
 TypeId resolveType(Context& context, TypeExprId type);
 // Makes sure that a POU's result, pins and variables are resolved (not its body). Safe against cycles.
@@ -89,6 +105,8 @@ TypeId checkExpr(Context& context, ExprId& expr, TypeId expected = {});
 bool checkExprAs(Context& context, ExprId& expr, TypeId to, std::string_view what);
 // A place that may be written: reports constants, inputs, literals.
 TypeId checkPlace(Context& context, ExprId& expr, std::string_view what);
+// Makes a place what a reference of this type is bound to; reports when it cannot be bound to it.
+bool bindReference(Context& context, ExprId& place, TypeId reference);
 void checkBody(Context& context, PouId pou);
 // Checks the body of a POU that was not checked. False: it has errors, or is being checked just now.
 bool ensureBody(Context& context, PouId pou);

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "frontend/source/invariant.h"
+#include "sema/checks/mocks.h"
+#include "sema/checks/object_members.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/instance_places.h"
@@ -24,6 +26,7 @@ Project::Project(Sources& the_sources, Names& the_names, Diagnostics& the_diagno
   enum_values.emplace_back();
   global_lists.emplace_back();
   calls.emplace_back();
+  properties.emplace_back();
 }
 
 bool ensureBody(Context& context, PouId id) {
@@ -31,7 +34,7 @@ bool ensureBody(Context& context, PouId id) {
   if (project.pou(id).checking) return false;
   if (project.pou(id).checked) return !project.pou(id).broken;
   project.pou(id).checked = true;
-  if (project.pou(id).native) return true;
+  if (project.pou(id).native || (project.pou(id).owner && (project.pou(id).modifiers & kAbstract) != 0)) return true;
   const std::string_view name = project.names.text(project.pou(id).name);
   setPhaseSubject(name.data(), name.size());
   const uint32_t errors = project.diagnostics.errorCount();
@@ -77,9 +80,14 @@ void check(Project& project) {
   initWords(context);
   indexLibraries(context);
   collectFiles(context);
+  chooseTests(context);
   collectConfigurations(context);
   settleDeclarations(context);
   resolveConfigurations(context);
+  checkMocks(context);
+  for (uint32_t i = 1; i < project.pous.size(); ++i)
+    if (project.pous[i].decl && !project.pous[i].owner && !project.pous[i].library)
+      checkObjectMembers(context, PouId{i});
   checkBodies(context);
   resolveInstancePlaces(context);
   checkAfterBodies(context);

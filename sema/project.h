@@ -71,11 +71,23 @@ struct Var {
   ExprId init;         // none: the type's default; checked and converted to `type`
   DeclId decl;
   ImageView image;
-  types::Value value;           // when has_value
-  VarId external;               // VAR_EXTERNAL: the global it names
-  TypeId record;                // field of a structure or union: its type
+  types::Value value;  // when has_value
+  VarId external;      // VAR_EXTERNAL: the global it names
+  TypeId record;       // field of a structure or union: its type
+  AccessLevel access = AccessLevel::None;
+  CallId constructor;           // of a block whose FB_Init has parameters of its own: what the declaration gives them
+  TypeId any;                   // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
+  VarId bounds;                 // ARRAY[*]: the first of the hidden variables with its bounds, two a dimension
+  bool hidden_input = false;    // of a function: such a bound, passed behind the pins
   VarId edge_memory;            // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
   std::vector<NameId> aliases;  // {alias 'R'}
+};
+
+struct Property {
+  NameId name;
+  Loc loc;
+  PouId owner;
+  PouId get, set;  // none: not declared
 };
 
 struct Pou {
@@ -90,7 +102,8 @@ struct Pou {
   std::vector<VarId> pins;  // the inputs, in-outs and outputs among them; filled by bodies/ at the first call
   bool pins_ready = false;
   bool library = false, native = false, pure = false, test = false;
-  bool test_only = false;   // {test_only}: only tests call it
+  bool test_only = false;   // {test_only}, {replaces …}: only tests use it
+  bool left_out = false;    // a test, or only for tests, and not part of this program: checked, not lowered
   bool extensible = false;  // has an {extensible} pin
   bool sized = false;       // {sized}: has a second native form that takes and gives lengths of texts
   bool prefix = false;      // {prefix}: the first n characters of the result follow from the first n of the first input
@@ -113,7 +126,24 @@ struct Pou {
   // IR spell it (`LIMIT__REAL`).
   bool generic = false;
   PouId generic_of;
-  NameId unique_name;  // unique over the project; equals name unless it is an instance of a generic function
+  NameId replaces;            // {replaces 'X'}: a mock of X
+  std::vector<NameId> mocks;  // {mock 'M'} of a test: name keys, sorted
+  NameId
+      unique_name;  // unique over the project; equals name unless it is an instance of a generic function or a member
+  // ---- objects: FUNCTION_BLOCK, CLASS, INTERFACE, and their METHODs and ACTIONs (declarations/objects.cpp)
+  PouId owner;                    // of a method or action
+  PouId base;                     // EXTENDS
+  std::vector<PouId> interfaces;  // IMPLEMENTS; EXTENDS of an interface
+  std::vector<PouId> members;     // methods, actions and accessors, in order
+  std::vector<uint32_t> properties;
+  VarId base_var;   // the hidden field that holds the base
+  VarId id_var;     // the hidden type id, where this object is the first of its line to have one
+  PouId overrides;  // of a method: the one of the nearest base that it replaces
+  AccessLevel access = AccessLevel::None;
+  uint8_t modifiers = 0;                                                       // Modifier
+  enum class Accessor : uint8_t { None, Get, Set } accessor = Accessor::None;  // of a property
+  bool dispatched = false;  // begins with a type id: its methods may be called through a table
+  enum class Header : uint8_t { New, Busy, Done } header = Header::New;  // base and interfaces are known
   FileId file;
 };
 
@@ -179,12 +209,13 @@ struct Binding {
   bool is_output = false;  // copied to `value` after the call
   bool negated = false;    // NOT pin =>
 };
-enum class CallKind : uint8_t { Function, Instance, Program, Operator, Assertion };
+enum class CallKind : uint8_t { Function, Instance, Program, Operator, Assertion, Method };
 enum class Assertion : uint8_t { Assert, AssertEq, AssertNear };
 struct Call {
   CallKind kind = CallKind::Function;
   PouId pou;                      // callee; the instance of a generic function
-  ExprId instance;                // CallKind::Instance: the FB variable
+  ExprId instance;                // Instance: the FB variable; Method: the object, none: the one at hand
+  bool is_virtual = false;        // Method: the object may be of a derived type
   std::vector<Binding> bindings;  // Operator: operands in order, pin none
   ExprId en;                      // EN := …
   ExprId eno;                     // ENO => …
@@ -199,6 +230,10 @@ struct LibraryFile {
   const char* path;     // as diagnostics and faults print it
   std::string_view text;
 };
+// Another name of a library, for qualified names: Tc2_Standard.TON.
+struct LibraryAlias {
+  const char *alias, *library;
+};
 // Runs a function whose inputs are constant. `ready`: checks the body of a function; false: it cannot be run. The later
 // layer that can do it is ir/interpreter (constant_call.h).
 using CallConstant = std::function<std::optional<types::Value>(
@@ -208,8 +243,11 @@ using CallConstant = std::function<std::optional<types::Value>(
 struct Options {
   text::Standard standard = text::Standard::Codesys;
   uint32_t pointer_size = 8;
-  std::span<const LibraryFile> libraries;    // texts that outlive the project; declarations are parsed on first use
+  std::span<const LibraryFile> libraries;  // texts that outlive the project; declarations are parsed on first use
+  std::span<const LibraryAlias> library_aliases;
   CallConstant call_constant;                // none: calls of functions are no constants
+  bool with_tests = false;                   // the program is for `rung test`
+  std::vector<std::string> mocks;            // … of the tests that name exactly these
   int64_t default_interval_ns = 10'000'000;  // of the task that is made when there is no CONFIGURATION
 };
 
@@ -227,6 +265,7 @@ struct Project {
   std::deque<Pou> pous;
   std::vector<EnumValue> enum_values;
   std::deque<GlobalList> global_lists;
+  std::deque<Property> properties;
   std::vector<Task> tasks;
   std::vector<ProgramInstance> instances;
   std::deque<Call> calls;

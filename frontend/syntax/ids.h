@@ -52,6 +52,7 @@ enum class EntityKind : uint8_t {
   GlobalList,  // Project::global_lists (a GVL used as a qualifier)
   Namespace,   // Project::namespaces (a library used as a qualifier)
   Program,     // Project::program_instances
+  Property,    // Project::properties
 };
 struct Entity {
   uint32_t kind : 4 = 0;

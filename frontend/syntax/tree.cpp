@@ -66,6 +66,8 @@ Loc Tree::begin(ExprId id) const {
     switch (kind(id)) {
       case ExprKind::Member: id = as<MemberExpr>(id).base; break;
       case ExprKind::Index: id = as<IndexExpr>(id).base; break;
+      case ExprKind::This:
+      case ExprKind::Super: return loc(id);
       case ExprKind::Deref: id = as<DerefExpr>(id).base; break;
       case ExprKind::BitAccess: id = as<BitAccessExpr>(id).base; break;
       case ExprKind::Binary: id = as<BinaryExpr>(id).left; break;
@@ -73,6 +75,9 @@ Loc Tree::begin(ExprId id) const {
       case ExprKind::Range: id = as<RangeExpr>(id).low; break;
       case ExprKind::Repeat: id = as<RepeatExpr>(id).count; break;
       case ExprKind::Convert: id = as<ConvertExpr>(id).operand; break;
+      case ExprKind::AnyValue: id = as<AnyValueExpr>(id).value; break;
+      case ExprKind::AddressOf:
+      case ExprKind::Bound:
       case ExprKind::Error:
       case ExprKind::Literal:
       case ExprKind::Name:

@@ -100,7 +100,7 @@ struct ExprHeader {
   uint8_t is_constant : 1;  // sema: value known at compile time
   uint8_t writable : 1;     // sema: a place that may be assigned
   uint8_t op;               // UnaryOp, BinaryOp or LiteralKind
-  uint8_t bits;             // LiteralExpr: flags below; ConvertExpr: none
+  uint8_t bits;             // LiteralExpr: flags below; CallExpr: kBareCall
   Loc loc;                  // first token; for Binary the operator, for Member the member name, for Call the callee
   TypeId type;              // sema
 };
@@ -140,10 +140,17 @@ struct MemberExpr {  // h.loc is the member's name
   NameId member;
   Entity entity;  // sema: Var for a field or pin (base is the record), else what `base.member` names as a whole
 };
-struct IndexExpr {
+struct IndexExpr {  // base[i, j]; h.bits of a character of a text: kWritesCharacter
   ExprHeader h;
   ExprId base;
   Slice<ExprId> indices;
+};
+constexpr uint8_t kWritesCharacter = 1;  // sema
+struct ThisExpr {
+  ExprHeader h;
+};
+struct SuperExpr {
+  ExprHeader h;
 };
 struct DerefExpr {
   ExprHeader h;
@@ -187,6 +194,7 @@ struct Argument {  // a | pin := a | pin => a | NOT pin => a | pin := (left open
   bool negated;    // NOT pin =>
   Loc loc;
 };
+constexpr uint8_t kBareCall = 1;  // CallExpr: `name;` without parentheses
 struct CallExpr {
   ExprHeader h;
   ExprId callee;
@@ -219,6 +227,20 @@ struct ConvertExpr {
   ExprHeader h;
   ExprId operand;
 };
+struct BoundExpr {
+  ExprHeader h;
+  ExprId array;
+  uint32_t index;  // 0, 1: lower and upper bound of the first dimension, 2, 3: of the second, …
+};
+struct AnyValueExpr {  // h.type: __SYSTEM.AnyType
+  ExprHeader h;
+  ExprId value;
+  uint32_t type_class;  // __SYSTEM.TYPE_CLASS
+};
+struct AddressOfExpr {  // h.type: a pointer or reference to the place's type
+  ExprHeader h;
+  ExprId place;
+};
 
 // ---- statements -----------------------------------------------------------------------------------------------
 
@@ -244,7 +266,7 @@ struct AssignStmt {
 struct CallStmt {
   StmtHeader h;
   ExprId call;
-};  // a CallExpr; a bare `x;` is reported by the parser
+};  // a CallExpr
 struct IfBranch {
   ExprId condition;
   Slice<StmtId> body;
@@ -281,6 +303,12 @@ struct RepeatStmt {
   Slice<StmtId> body;
   ExprId until;
 };
+struct TryStmt {  // __TRY body __CATCH(code) handler __FINALLY finally __ENDTRY
+  StmtHeader h;
+  Slice<StmtId> body, handler, finally;
+  ExprId code;  // none: the number of the fault is not wanted
+  bool catches;
+};
 struct ExitStmt {
   StmtHeader h;
 };
@@ -314,7 +342,9 @@ struct ErrorTypeExpr {
 struct NamedTypeExpr {
   TypeExprHeader h;
   Slice<Ident> path;
-};  // Lib.Motor
+  Slice<Argument> arguments;  // of FB_Init
+  bool has_arguments;
+};  // Lib.Motor   Pump(3, x := 4)
 struct TextTypeExpr {
   TypeExprHeader h;
   ExprId length;
@@ -376,7 +406,9 @@ struct TypeDecl {
   ExprId init;
 };
 
-enum class PouKind : uint8_t { Function, FunctionBlock, Program };
+enum class PouKind : uint8_t { Function, FunctionBlock, Program, Class, Interface, Method, Action };
+enum class AccessLevel : uint8_t { None, Public, Private, Protected, Internal };  // None: as the dialect has it
+enum Modifier : uint8_t { kAbstract = 1, kFinal = 2, kOverride = 4 };
 enum class BodyKind : uint8_t { None, St, Native };
 struct PouDecl {
   DeclHeader h;
@@ -387,14 +419,42 @@ struct PouDecl {
   TypeExprId result;  // functions; none: no result
   Slice<DeclId> sections;
   Slice<StmtId> body;
+  AccessLevel access;
+  uint8_t modifiers;        // Modifier
+  Slice<TypeExprId> bases;  // EXTENDS; several of an INTERFACE
+  Slice<TypeExprId> implements;
+  Slice<DeclId> members;  // METHOD, ACTION: Pou; Property
+  Slice<DeclId> usings;
   Loc begin, end;  // the first pragma before it, else the header keyword; one past END_…: the text of the whole POU
 };
 
-enum class SectionKind : uint8_t { Local, Input, Output, InOut, Temp, External, Global, Stat, Access, Config };
+// PROPERTY name : type. Its accessors are methods of its name: the getter has its type as result, the setter has an
+// input of that name and type.
+struct PropertyDecl {
+  DeclHeader h;
+  NameId name;
+  AccessLevel access;
+  uint8_t modifiers;
+  TypeExprId type;
+  DeclId get, set;  // Pou; none: not declared
+};
+
+struct NamespaceDecl {
+  DeclHeader h;
+  Slice<Ident> path;
+  Slice<DeclId> decls;
+};
+struct UsingDecl {
+  DeclHeader h;
+  Slice<Ident> path;
+};
+
+enum class SectionKind : uint8_t { Local, Input, Output, InOut, Temp, External, Global, Stat, Inst, Access, Config };
 enum SectionBits : uint8_t { kConstant = 1, kRetain = 2, kPersistent = 4, kNonRetain = 8 };
 struct SectionDecl {
   DeclHeader h; /* bits: SectionBits */
   SectionKind section;
+  AccessLevel access;
   Slice<DeclId> vars;
 };
 
@@ -536,6 +596,7 @@ class Tree {
   std::vector<ExprId> expr_ids_;
   std::vector<StmtId> stmt_ids_;
   std::vector<DeclId> decl_ids_;
+  std::vector<TypeExprId> type_expr_ids_;
   std::vector<Ident> idents_;
   std::vector<Argument> arguments_;
   std::vector<IfBranch> if_branches_;
@@ -558,6 +619,8 @@ std::vector<T>& Tree::storage() {
     return stmt_ids_;
   else if constexpr (std::is_same_v<T, DeclId>)
     return decl_ids_;
+  else if constexpr (std::is_same_v<T, TypeExprId>)
+    return type_expr_ids_;
   else if constexpr (std::is_same_v<T, Ident>)
     return idents_;
   else if constexpr (std::is_same_v<T, Argument>)

@@ -60,6 +60,8 @@ class Printer {
     }
   }
   void pragmas(const DeclHeader& h);
+  void modifiers(AccessLevel access, uint8_t bits);
+  void typeList(const char* what, Slice<TypeExprId> list, int depth);
   void address(const DirectAddress& a);
   void literal(const LiteralExpr& e);
   void expr(ExprId id, int depth = 0);
@@ -97,6 +99,21 @@ void Printer::quoted(std::string_view s) {
     }
   }
   text += '\'';
+}
+
+void Printer::modifiers(AccessLevel access, uint8_t bits) {
+  static const char* const kAccess[] = {"", " public", " private", " protected", " internal"};
+  text += kAccess[static_cast<size_t>(access)];
+  if ((bits & kAbstract) != 0) text += " abstract";
+  if ((bits & kFinal) != 0) text += " final";
+  if ((bits & kOverride) != 0) text += " override";
+}
+
+void Printer::typeList(const char* what, Slice<TypeExprId> list, int depth) {
+  if (list.empty()) return;
+  line(depth + 1);
+  text += what;
+  for (TypeExprId type : tree_.list(list)) typeExpr(type, depth + 2);
 }
 
 void Printer::pragmas(const DeclHeader& h) {
@@ -213,6 +230,8 @@ void Printer::expr(ExprId id, int depth) {
       expr(tree_.as<IndexExpr>(id).base, depth + 1);
       exprs(tree_.as<IndexExpr>(id).indices, depth);
       break;
+    case ExprKind::This:
+    case ExprKind::Super: break;
     case ExprKind::Deref: expr(tree_.as<DerefExpr>(id).base, depth + 1); break;
     case ExprKind::BitAccess: {
       const auto& e = tree_.as<BitAccessExpr>(id);
@@ -261,6 +280,9 @@ void Printer::expr(ExprId id, int depth) {
       }
       break;
     case ExprKind::Convert: expr(tree_.as<ConvertExpr>(id).operand, depth + 1); break;
+    case ExprKind::Bound: expr(tree_.as<BoundExpr>(id).array, depth + 1); break;
+    case ExprKind::AnyValue: expr(tree_.as<AnyValueExpr>(id).value, depth + 1); break;
+    case ExprKind::AddressOf: expr(tree_.as<AddressOfExpr>(id).place, depth + 1); break;
   }
   text += ')';
 }
@@ -342,6 +364,25 @@ void Printer::stmt(StmtId id, int depth) {
       expr(tree_.as<RepeatStmt>(id).until);
       stmts(tree_.as<RepeatStmt>(id).body, depth + 1);
       break;
+    case StmtKind::Try: {
+      const TryStmt& s = tree_.as<TryStmt>(id);
+      stmts(s.body, depth + 1);
+      if (s.catches) {
+        line(depth + 1);
+        text += "catch";
+        if (s.code) {
+          text += ' ';
+          expr(s.code);
+        }
+        stmts(s.handler, depth + 2);
+      }
+      if (!s.finally.empty()) {
+        line(depth + 1);
+        text += "finally";
+        stmts(s.finally, depth + 2);
+      }
+      break;
+    }
     case StmtKind::Jump:
       text += ' ';
       name(tree_.as<JumpStmt>(id).label.name);
@@ -362,6 +403,7 @@ void Printer::typeExpr(TypeExprId id, int depth) {
     case TypeExprKind::Named:
       text += ' ';
       path(tree_.as<NamedTypeExpr>(id).path, ".");
+      if (tree_.as<NamedTypeExpr>(id).has_arguments) arguments(tree_.as<NamedTypeExpr>(id).arguments, 0);
       break;
     case TypeExprKind::Text: {
       const auto& t = tree_.as<TextTypeExpr>(id);
@@ -456,11 +498,16 @@ void Printer::decl(DeclId id, int depth) {
     }
     case DeclKind::Pou: {
       const auto& d = tree_.as<PouDecl>(id);
-      static const char* const kKinds[] = {" function ", " function_block ", " program "};
+      static const char* const kKinds[] = {" function ",  " function_block ", " program ", " class ",
+                                           " interface ", " method ",         " action "};
       text += kKinds[static_cast<size_t>(d.pou_kind)];
       name(d.name);
+      modifiers(d.access, d.modifiers);
       pragmas(h);
       if (!d.closed) text += " open";
+      typeList("extends", d.bases, depth);
+      typeList("implements", d.implements, depth);
+      for (DeclId u : tree_.list(d.usings)) decl(u, depth + 1);
       if (d.result) {
         line(depth + 1);
         text += "result";
@@ -476,14 +523,42 @@ void Printer::decl(DeclId id, int depth) {
         text += "body";
         stmts(d.body, depth + 2);
       }
+      for (DeclId m : tree_.list(d.members)) decl(m, depth + 1);
       break;
     }
+    case DeclKind::Property: {
+      const auto& d = tree_.as<PropertyDecl>(id);
+      text += ' ';
+      name(d.name);
+      modifiers(d.access, d.modifiers);
+      pragmas(h);
+      typeExpr(d.type, depth + 1);
+      for (const DeclId accessor : {d.get, d.set}) {
+        if (!accessor) continue;
+        line(depth + 1);
+        text += accessor == d.get ? "get" : "set";
+        decl(accessor, depth + 2);
+      }
+      break;
+    }
+    case DeclKind::Namespace: {
+      const auto& d = tree_.as<NamespaceDecl>(id);
+      text += ' ';
+      path(d.path, ".");
+      for (DeclId m : tree_.list(d.decls)) decl(m, depth + 1);
+      break;
+    }
+    case DeclKind::Using:
+      text += ' ';
+      path(tree_.as<UsingDecl>(id).path, ".");
+      break;
     case DeclKind::Section: {
       const auto& d = tree_.as<SectionDecl>(id);
-      static const char* const kSections[] = {" local",    " input",  " output", " in_out", " temp",
-                                              " external", " global", " stat",   " access", " config"};
+      static const char* const kSections[] = {" local",  " input", " output", " in_out", " temp",  " external",
+                                              " global", " stat",  " inst",   " access", " config"};
       text += kSections[static_cast<size_t>(d.section)];
       bits(h.bits);
+      modifiers(d.access, 0);
       pragmas(h);
       for (DeclId v : tree_.list(d.vars)) decl(v, depth + 1);
       break;

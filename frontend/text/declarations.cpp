@@ -20,12 +20,20 @@ bool endsDeclarations(Tok k) {
     case static_cast<int>(Tok::EndProgram):
     case static_cast<int>(Tok::EndConfiguration):
     case static_cast<int>(Tok::EndResource):
+    case static_cast<int>(Tok::EndMethod):
+    case static_cast<int>(Tok::EndProperty):
+    case static_cast<int>(Tok::EndGet):
+    case static_cast<int>(Tok::EndSet):
+    case static_cast<int>(Tok::EndAction):
+    case static_cast<int>(Tok::EndInterface):
+    case static_cast<int>(Tok::EndClass):
+    case static_cast<int>(Tok::EndNamespace):
     case static_cast<int>(Tok::Function):
     case static_cast<int>(Tok::FunctionBlock):
     case static_cast<int>(Tok::Program):
     case static_cast<int>(Tok::Configuration):
     case static_cast<int>(Tok::Type): return true;
-    default: return k >= Tok::Var && k <= Tok::VarConfig;
+    default: return (k >= Tok::Var && k <= Tok::VarConfig) || isObjectWord(k);
   }
 }
 bool beginsDeclaration(const Token* t) {
@@ -43,6 +51,7 @@ SectionKind sectionOf(Tok k) {
     case static_cast<int>(Tok::VarExternal): return SectionKind::External;
     case static_cast<int>(Tok::VarGlobal): return SectionKind::Global;
     case static_cast<int>(Tok::VarStat): return SectionKind::Stat;
+    case static_cast<int>(Tok::VarInst): return SectionKind::Inst;
     case static_cast<int>(Tok::VarAccess): return SectionKind::Access;
     case static_cast<int>(Tok::VarConfig): return SectionKind::Config;
     default: return SectionKind::Local;
@@ -213,6 +222,10 @@ void Parser::parseTypes(std::vector<DeclId>& out) {
 
 DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc) {
   lost_ = false;
+  // {PUBLIC | INTERNAL | ABSTRACT} of TwinCAT: they keep other libraries from the type, and a program is none.
+  while (standard_ == Standard::Codesys && at(Tok::Ident) && isName(peek()) &&
+         (is(t_, "PUBLIC") || is(t_, "INTERNAL") || is(t_, "ABSTRACT")))
+    advance();
   skipStray(!isName(kind()) && isName(peek()) && peek(2) == Tok::Colon, Diag::MissingName);
   TypeDecl d{{DeclKind::Type, 0, 0, here(), doc, pragmas}, {}, {}, {}};
   Ident name;
@@ -230,6 +243,7 @@ DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc) {
   }
   if (!panic_ && !at(Tok::Colon)) skipStray(peek() == Tok::Colon, Diag::StrayToken);
   if (!panic_) expect(Tok::Colon);
+  in_variable_ = false;
   if (!panic_) d.type = parseType();
   if (panic_ || !d.type || lost_) tree_.lost_names = true;
   if (!d.type) d.type = tree_.add<TypeExprId>(ErrorTypeExpr{{TypeExprKind::Error, 0, 0, d.h.loc, {}}});
@@ -264,7 +278,7 @@ DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc) {
 // VAR_xxx {CONSTANT | RETAIN | NON_RETAIN | PERSISTENT} {variable} END_VAR
 DeclId Parser::parseSection() {
   const Token* open = t_;
-  SectionDecl d{{DeclKind::Section, 0, 0, here(), takeDoc(), takePragmas()}, sectionOf(kind()), {}};
+  SectionDecl d{{DeclKind::Section, 0, 0, here(), takeDoc(), takePragmas()}, sectionOf(kind()), AccessLevel::None, {}};
   if ((open->flags & (kSynthetic | kReported)) != 0) lost_ = true;  // which section was meant is not known
   advance();
   while (peek() != Tok::Colon && peek() != Tok::Comma && peek() != Tok::At) {
@@ -273,6 +287,7 @@ DeclId Parser::parseSection() {
                     : at(Tok::Persistent) ? kPersistent
                     : at(Tok::NonRetain)  ? int{kNonRetain}
                                           : 0;
+    if (bit == 0 && !atLineStart() && acceptAccess(d.access)) continue;
     if (bit == 0) break;
     d.h.bits = static_cast<uint8_t>(d.h.bits | bit);
     advance();
@@ -357,8 +372,14 @@ DeclId Parser::parseVar(SectionKind section) {
   if (!panic_ && at(Tok::At)) {
     const Token* word = t_;
     advance();
-    if (at(Tok::Address) && in_structure_) {  // AT %B0: a place in the structure
-      slip(Diag::NotSupportedYet, t_, {"AT in a structure"});
+    if (at(Tok::Address) && in_structure_) {
+      // AT %I*: a place in the image that nobody has named; AT %B0: a place in the structure
+      if (standard_ == Standard::Codesys && textOf(t_).ends_with('*')) {
+        if (!address_told_) diagnostics_.report(Diag::OpenAddressInStructure, here(), {textOf(t_)});
+        address_told_ = true;
+      } else {
+        slip(Diag::NotSupportedYet, t_, {"AT in a structure"});
+      }
       advance();
     } else if (at(Tok::Address)) {
       d.located = true;
@@ -412,7 +433,9 @@ DeclId Parser::parseVar(SectionKind section) {
   d.names = listFrom(idents_, first);
   if (!panic_) {
     // The edge stands behind the type, and by some before it.
+    const bool outer = std::exchange(in_variable_, true);
     d.type = parseType();
+    in_variable_ = outer;
     if (!panic_ && (at(Tok::REdge) || at(Tok::FEdge))) {
       d.edge = at(Tok::REdge) ? EdgeKind::Rising : EdgeKind::Falling;
       advance();
@@ -430,7 +453,7 @@ DeclId Parser::parseVar(SectionKind section) {
       advance();
       d.init = parseInit();
     } else if (accept(Tok::Assign)) {
-      d.init = parseInit();
+      d.init = parseDeclaredInit(d.type);
     } else if ((at(Tok::Number) || at(Tok::True) || at(Tok::False) || at(Tok::Text) || at(Tok::Duration)) &&
                !atLineStart()) {
       slip(Diag::MissingToken, t_, {":=", describe(t_)});
@@ -534,7 +557,7 @@ TypeExprId Parser::parseNamedType() {
     }
     return tree_.add<TypeExprId>(d);
   }
-  NamedTypeExpr named{{TypeExprKind::Named, 0, 0, start, {}}, {}};
+  NamedTypeExpr named{{TypeExprKind::Named, 0, 0, start, {}}, {}, {}, false};
   const Token* first = t_;
   parseNamePath(named.path);
   const TypeExprId base = tree_.add<TypeExprId>(named);
@@ -556,6 +579,13 @@ TypeExprId Parser::parseNamedType() {
     }
   }
   if (!at(Tok::LeftParen)) return base;
+  if (in_variable_ && !isTypeWord(first->kind) && !rangeFollows()) {  // of FB_Init
+    Loc end;
+    NamedTypeExpr& block = tree_.as<NamedTypeExpr>(base);
+    block.arguments = parseArguments(end);
+    block.has_arguments = true;
+    return base;
+  }
   // `INT (a, b := 2)` names values, `INT (0..9)` a range.
   const Tok next = peek(2);
   if (isName(peek()) && (next == Tok::Comma || next == Tok::RightParen || next == Tok::Assign)) return parseEnum(base);
@@ -566,6 +596,17 @@ TypeExprId Parser::parseNamedType() {
   d.high = panic_ ? errorExpr(here()) : parseExpr();
   closeParen(Tok::RightParen, false);
   return tree_.add<TypeExprId>(d);
+}
+
+// Whether what stands in the parentheses here is `low .. high`.
+bool Parser::rangeFollows() const {
+  uint32_t depth = 0;
+  for (const Token* t = t_; t->kind != Tok::End && t->kind != Tok::Semicolon; ++t) {
+    if (t->kind == Tok::LeftParen) ++depth;
+    if (t->kind == Tok::RightParen && --depth == 0) return false;
+    if (t->kind == Tok::DotDot && depth == 1) return true;
+  }
+  return false;
 }
 
 // STRUCT [EXTENDS type] {variable} END_STRUCT, UNION {variable} END_UNION
@@ -584,6 +625,7 @@ TypeExprId Parser::parseStruct() {
   }
   const size_t first = decls_.size();
   const bool outer = std::exchange(in_structure_, true);
+  address_told_ = false;
   parseVars(SectionKind::Local, end, decls_);
   in_structure_ = outer;
   if (!accept(end)) {
@@ -691,24 +733,33 @@ TypeExprId Parser::parseArray() {
 
 // ---- initial values
 
-// init = expr | "[" elements "]" | "(" field ":=" init {"," …} ")"
+// The value behind `:=` of a declaration. CODESYS 2.3 writes the values of an array without brackets.
+ExprId Parser::parseDeclaredInit(TypeExprId type) {
+  if (standard_ != Standard::Codesys || at(Tok::LeftBracket) || tree_.kind(type) != TypeExprKind::Array)
+    return parseInit();
+  const Loc start = here();
+  const size_t first = exprs_.size();
+  parseElements(Tok::Semicolon);
+  if (exprs_.size() == first) return errorExpr(start);
+  if (exprs_.size() == first + 1 && tree_.kind(exprs_[first]) != ExprKind::Repeat) {
+    const ExprId only = exprs_[first];
+    exprs_.resize(first);
+    return only;
+  }
+  return tree_.add<ExprId>(ArrayInitExpr{exprHeader(ExprKind::ArrayInit, start), listFrom(exprs_, first)});
+}
+
+// init = expr | "[" elements "]" | "(" [field ":=" init {"," …}] ")"
 ExprId Parser::parseInit() {
   if (at(Tok::LeftBracket)) return parseArrayInit();
   if (at(Tok::LeftParen) && isName(peek()) && peek(2) == Tok::Assign) return parseStructInit();
+  if (at(Tok::LeftParen) && peek() == Tok::RightParen && standard_ == Standard::Codesys) return parseStructInit();
   return parseExpr();
 }
 
-// elements = element {"," element}; element = init | count "(" [elements] ")"
-ExprId Parser::parseArrayInit() {
-  const Loc start = here();
-  if (++expr_depth_ > kMaxExprDepth) {
-    tooDeep("initial values", kMaxExprDepth);
-    --expr_depth_;
-    return errorExpr(start);
-  }
-  advance();
-  const size_t first = exprs_.size();
-  while (!panic_ && !at(Tok::RightBracket)) {
+// elements = element {"," element}; element = init | count "(" [elements] ")". Left on exprs_.
+void Parser::parseElements(Tok close) {
+  while (!panic_ && !at(close)) {
     // N(1, 2) looks like a call and is told from one by sema.
     const bool named =
         isName(kind()) && peek() == Tok::LeftParen &&
@@ -737,6 +788,18 @@ ExprId Parser::parseArrayInit() {
     }
     break;
   }
+}
+
+ExprId Parser::parseArrayInit() {
+  const Loc start = here();
+  if (++expr_depth_ > kMaxExprDepth) {
+    tooDeep("initial values", kMaxExprDepth);
+    --expr_depth_;
+    return errorExpr(start);
+  }
+  advance();
+  const size_t first = exprs_.size();
+  parseElements(Tok::RightBracket);
   closeParen(Tok::RightBracket, true);
   --expr_depth_;
   return tree_.add<ExprId>(ArrayInitExpr{exprHeader(ExprKind::ArrayInit, start), listFrom(exprs_, first)});

@@ -183,6 +183,12 @@ ExprId Parser::parsePrimary() {
   }
   if (isName(kind()) || isTypeWord(kind())) {
     if (peek() == Tok::Hash) return parseTyped();
+    if ((at(Tok::This) || at(Tok::Super)) && peek() != Tok::LeftParen) {
+      const bool is_this = at(Tok::This);
+      advance();
+      return parsePostfix(is_this ? tree_.add<ExprId>(ThisExpr{exprHeader(ExprKind::This, start)})
+                                  : tree_.add<ExprId>(SuperExpr{exprHeader(ExprKind::Super, start)}));
+    }
     const ExprId name = tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, start), nameOf(t_), {}});
     advance();
     const Tok next = kind();

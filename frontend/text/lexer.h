@@ -27,6 +27,11 @@ constexpr uint32_t kTokCount = static_cast<uint32_t>(Tok::EndSlip) + 1;
 // Usable as a name: an identifier, or a word that is no keyword here.
 inline bool isName(Tok kind) { return kind == Tok::Ident || kind >= Tok::At; }
 inline bool isTypeWord(Tok kind) { return kind >= Tok::Bool && kind <= Tok::Wstring; }
+// Words that begin the declaration of an object where a name follows, and are names elsewhere (settleObjectWords).
+inline bool isObjectWord(Tok kind) {
+  return kind == Tok::Method || kind == Tok::Property || kind == Tok::Action || kind == Tok::Interface ||
+         kind == Tok::Class || kind == Tok::Namespace;
+}
 inline bool isReserved(Tok kind) { return kind >= Tok::And && kind <= Tok::EndResource; }
 // The fixed spelling of an operator or word; what a message calls the others ("a number").
 const char* spelling(Tok kind);
@@ -70,5 +75,8 @@ struct TokenStream {
 // Reads [begin, end) of the file's text.
 void lex(TokenStream& out, Names& names, const Sources& sources, FileId file, uint32_t begin, uint32_t end,
          Standard standard, Diagnostics& diagnostics);
+
+// Makes names of the object words that begin no declaration (objects.cpp).
+void settleObjectWords(TokenStream& stream);
 
 }  // namespace rung::text

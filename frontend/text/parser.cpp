@@ -18,6 +18,7 @@ Parser::Parser(Tree& tree, Names& names, const Sources& sources, FileId file, St
 
 void Parser::read(uint32_t begin, uint32_t end) {
   lex(stream_, names_, sources_, file_, begin, end, standard_, diagnostics_);
+  settleObjectWords(stream_);
   balanceBlocks(stream_, names_, sources_, file_, standard_, diagnostics_);
   tokens_ = std::move(stream_.tokens);
   t_ = tokens_.data();
@@ -159,10 +160,10 @@ ExprId Parser::parseLoneExpression() {
 bool Parser::atTopLevelWord() const {
   const Tok k = kind();
   return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program || k == Tok::Type ||
-         k == Tok::Configuration || k == Tok::VarGlobal;
+         k == Tok::Configuration || k == Tok::VarGlobal || isObjectWord(k) || k == Tok::Using || k == Tok::EndNamespace;
 }
 
-// file = {TYPE … | POU | CONFIGURATION … | VAR_GLOBAL …}
+// file = {TYPE … | POU | CONFIGURATION … | VAR_GLOBAL … | NAMESPACE … | USING …}
 void Parser::parseTopLevel(std::vector<DeclId>& out) {
   panic_ = false;
   stmt_depth_ = expr_depth_ = 0;
@@ -171,18 +172,16 @@ void Parser::parseTopLevel(std::vector<DeclId>& out) {
     case static_cast<int>(Tok::Type): parseTypes(out); return;
     case static_cast<int>(Tok::Function):
     case static_cast<int>(Tok::FunctionBlock):
+    case static_cast<int>(Tok::Interface):
+    case static_cast<int>(Tok::Class):
     case static_cast<int>(Tok::Program): out.push_back(parsePou()); return;
+    case static_cast<int>(Tok::Namespace): out.push_back(parseNamespace()); return;
+    case static_cast<int>(Tok::Using): parseUsing(out); return;
     case static_cast<int>(Tok::Configuration): out.push_back(parseConfiguration()); return;
     case static_cast<int>(Tok::VarGlobal):
     case static_cast<int>(Tok::VarConfig):
     case static_cast<int>(Tok::VarAccess):
     case static_cast<int>(Tok::VarExternal): out.push_back(parseSection()); return;
-    case static_cast<int>(Tok::Interface): unsupported("INTERFACE", "END_INTERFACE"); return;
-    case static_cast<int>(Tok::Namespace): unsupported("NAMESPACE", "END_NAMESPACE"); return;
-    case static_cast<int>(Tok::Class): unsupported("CLASS", "END_CLASS"); return;
-    case static_cast<int>(Tok::Method): unsupported("METHOD", "END_METHOD"); return;
-    case static_cast<int>(Tok::Property): unsupported("PROPERTY", "END_PROPERTY"); return;
-    case static_cast<int>(Tok::Action): unsupported("ACTION", "END_ACTION"); return;
     default: break;
   }
   if (at(Tok::Ident)) {
@@ -208,44 +207,48 @@ void Parser::skipToTopLevel() {
   while (!at(Tok::End) && !atTopLevelWord()) advance();
 }
 
-void Parser::unsupported(const char* what, const char* end_word) {
-  const std::string shown = std::string("`") + what + "`";
-  slip(Diag::NotSupportedYet, t_, {shown});
-  while (!at(Tok::End) && !(at(Tok::Ident) && is(t_, end_word))) advance();
-  advance();
-}
-
 // False: a POU without END_…, which codesys allows, so that a VAR_GLOBAL behind it begins a list of globals.
 bool Parser::pouCloses() {
   if (standard_ != Standard::Codesys) return true;
   if (pou_closes_ == Known::NotYet) {
     const Token* t = t_;
     while (t->kind != pou_end_ && t->kind != Tok::End && t->kind != Tok::Function && t->kind != Tok::FunctionBlock &&
-           t->kind != Tok::Program && t->kind != Tok::Type && t->kind != Tok::Configuration)
+           t->kind != Tok::Program && t->kind != Tok::Type && t->kind != Tok::Configuration && !isObjectWord(t->kind))
       ++t;
     pou_closes_ = t->kind == pou_end_ && pou_end_ != Tok::End ? Known::Yes : Known::No;
   }
   return pou_closes_ == Known::Yes;
 }
 
-// pou = FUNCTION name [":" type] | FUNCTION_BLOCK name | PROGRAM name, sections, statements, [END_…]
+// pou = word modifiers name [EXTENDS types] [IMPLEMENTS types] [":" type], usings, sections, members, statements,
+// [END_…] word = FUNCTION | FUNCTION_BLOCK | PROGRAM | CLASS | INTERFACE | METHOD | ACTION
 DeclId Parser::parsePou() {
   const Token* open = t_;
   PouDecl d{};
   d.h = {DeclKind::Pou, 0, 0, here(), takeDoc(), takePragmas()};
   const Tok word = kind();
-  d.pou_kind = word == Tok::Function        ? PouKind::Function
-               : word == Tok::FunctionBlock ? PouKind::FunctionBlock
-                                            : PouKind::Program;
-  const Tok end = word == Tok::Function        ? Tok::EndFunction
-                  : word == Tok::FunctionBlock ? Tok::EndFunctionBlock
-                                               : Tok::EndProgram;
+  struct Words {
+    Tok word, end;
+    PouKind kind;
+  };
+  static constexpr Words kWords[] = {{Tok::Function, Tok::EndFunction, PouKind::Function},
+                                     {Tok::FunctionBlock, Tok::EndFunctionBlock, PouKind::FunctionBlock},
+                                     {Tok::Program, Tok::EndProgram, PouKind::Program},
+                                     {Tok::Class, Tok::EndClass, PouKind::Class},
+                                     {Tok::Interface, Tok::EndInterface, PouKind::Interface},
+                                     {Tok::Method, Tok::EndMethod, PouKind::Method},
+                                     {Tok::Action, Tok::EndAction, PouKind::Action}};
+  const Words* words = kWords;
+  while (words->word != word) ++words;
+  d.pou_kind = words->kind;
+  const Tok end = words->end;
   d.begin = here();
   for (const Pragma& p : tree_.list(d.h.pragmas)) {
     d.begin = p.loc;
     break;
   }
   advance();
+  parseModifiers(d.access, d.modifiers, true);
   Ident name{{}, here()};
   if (atLineStart()) {
     missing(Diag::MissingName, {describe(t_)});
@@ -261,15 +264,14 @@ DeclId Parser::parsePou() {
   }
   d.name = name.name;
   d.h.loc = name.loc;
-  if (at(Tok::Extends) || at(Tok::Implements)) {
-    const std::string shown = describe(t_);
-    slip(Diag::NotSupportedYet, t_, {shown});
-    while (!at(Tok::End) && !atLineStart() && !atSection()) advance();
-  }
-  if (at(Tok::Colon)) {
+  if (at(Tok::Extends)) d.bases = parseTypeNames();
+  if (at(Tok::Implements)) d.implements = parseTypeNames();
+  if (word == Tok::Action) {
+    accept(Tok::Colon);
+  } else if (at(Tok::Colon)) {
     advance();
     d.result = parseType();
-  } else if ((isTypeWord(kind()) || (isName(kind()) && word == Tok::Function)) && !atLineStart()) {
+  } else if ((isTypeWord(kind()) || (isName(kind()) && word == Tok::Function)) && !atLineStart() && !atMember()) {
     slip(Diag::MissingToken, t_, {":", describe(t_)});
     d.result = parseType();
   }
@@ -279,30 +281,31 @@ DeclId Parser::parsePou() {
   }
   accept(Tok::Semicolon);
   // One token too many on the line of the header.
-  if (!atLineStart() && !at(Tok::End) && (t_[1].flags & kLineStart) != 0 && !atBlockEnd() && !atSection()) {
+  if (!atLineStart() && !at(Tok::End) && (t_[1].flags & kLineStart) != 0 && !atBlockEnd() && !atSection() &&
+      !atMember()) {
     slip(Diag::StrayToken, t_, {describe(t_)});
     advance();
   }
   declared_in_body_ = lost_ = false;
   pou_end_ = end;
   pou_closes_ = Known::NotYet;
-  const size_t first = decls_.size();
-  while (atSection() && (!at(Tok::VarGlobal) || pouCloses())) {
-    const DeclId section = parseSection();
-    decls_.push_back(section);
-  }
-  d.sections = listFrom(decls_, first);
-  if (at(Tok::Method) && isName(peek())) unsupported("METHOD", "END_METHOD");
-  d.body = parseStatements(0);
+  parsePouParts(d);
   if (lost_ || declared_in_body_) d.h.bits |= kBrokenDeclarations;
   d.body_kind = pragmaNamed(d.h.pragmas, "native") ? BodyKind::Native : BodyKind::St;
   if (accept(end)) {
     d.closed = true;
     d.end = {loc(t_ - 1).offset + lengthOf(t_ - 1)};
     accept(Tok::Semicolon);
+    if (d.pou_kind != PouKind::Method && d.pou_kind != PouKind::Action && atMember()) {
+      std::vector<DeclId> members;
+      for (DeclId member : tree_.list(d.members)) members.push_back(member);
+      while (atMember()) parseMember(members);
+      d.members = tree_.addList<DeclId>(members);
+    }
   } else {
     d.end = index() > 0 ? endOf(t_ - 1) : here();
-    if (!atTopLevelWord() && !at(Tok::End)) {
+    const bool outer_ends = (d.pou_kind == PouKind::Method || d.pou_kind == PouKind::Action) && isReserved(kind());
+    if (!atTopLevelWord() && !at(Tok::End) && !outer_ends) {
       // An END_… of something else, which block repair would have removed.
       slip(Diag::StrayEnd, t_, {textOf(t_)});
       advance();
@@ -312,6 +315,29 @@ DeclId Parser::parsePou() {
     }
   }
   return tree_.add<DeclId>(d);
+}
+
+// Usings, sections, members and statements; members stand before the statements (edition 3), behind them, or behind the
+// END_… (exports of CODESYS).
+void Parser::parsePouParts(PouDecl& d) {
+  const bool is_member = d.pou_kind == PouKind::Method || d.pou_kind == PouKind::Action;
+  std::vector<DeclId> members, usings;
+  while (at(Tok::Using)) parseUsing(usings);
+  panic_ = false;
+  const size_t first = decls_.size();
+  while (atSection() && (!at(Tok::VarGlobal) || pouCloses())) {
+    const DeclId section = parseSection();
+    decls_.push_back(section);
+  }
+  d.sections = listFrom(decls_, first);
+  while (!is_member && atMember()) parseMember(members);
+  d.body = parseStatements(0);
+  if (!is_member && atMember()) {
+    while (atMember()) parseMember(members);
+    if (d.body.empty()) d.body = parseStatements(0);
+  }
+  d.members = tree_.addList<DeclId>(members);
+  d.usings = tree_.addList<DeclId>(usings);
 }
 
 // ---- configurations

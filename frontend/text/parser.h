@@ -1,6 +1,6 @@
 // The parser of Structured Text: recursive descent for declarations and statements, precedence climbing for
 // expressions, over the token array of lexer.h whose blocks recover.h has balanced. Private to frontend/text:
-// parser.cpp (files, POUs, configurations), declarations.cpp, statements.cpp, expressions.cpp.
+// parser.cpp (files, POUs, configurations), objects.cpp, declarations.cpp, statements.cpp, expressions.cpp.
 //
 // Errors. fail() reports and sets panic_: nothing more is reported until the construct at hand has found its
 // synchronization point (`;`, a keyword, a line that begins a statement). slip() reports a mistake whose meaning is
@@ -69,6 +69,7 @@ class Parser {
   void skipToTopLevel();
   bool atTopLevelWord() const;
   DeclId parsePou();
+  void parsePouParts(PouDecl& d);
   bool pouCloses();
   DeclId parseConfiguration();
   DeclId parseResource();
@@ -76,7 +77,18 @@ class Parser {
   DeclId parseProgramInstance();
   void parseMembers(Tok end, std::vector<DeclId>& out);
   bool parseTaskName(Ident& out);
-  void unsupported(const char* what, const char* end_word);
+
+  // ---- objects (objects.cpp)
+  bool atMember() const { return at(Tok::Method) || at(Tok::Property) || at(Tok::Action); }
+  bool acceptAccess(AccessLevel& access);
+  void parseModifiers(AccessLevel& access, uint8_t& modifiers, bool before_name);
+  Slice<TypeExprId> parseTypeNames();
+  void parseMember(std::vector<DeclId>& out);
+  bool atAccessor() const;
+  DeclId parseProperty();
+  DeclId parseAccessor(const Ident& property, const PropertyDecl& of);
+  DeclId parseNamespace();
+  void parseUsing(std::vector<DeclId>& out);
 
   // ---- declarations (declarations.cpp)
   void parseTypes(std::vector<DeclId>& out);
@@ -95,8 +107,11 @@ class Parser {
   TypeExprId parseEnum(TypeExprId base);
   TypeExprId parseArray();
   TypeExprId parseNamedType();
+  bool rangeFollows() const;
   void parseNamePath(Slice<Ident>& out);
+  ExprId parseDeclaredInit(TypeExprId type);
   ExprId parseInit();
+  void parseElements(Tok close);
   ExprId parseArrayInit();
   ExprId parseStructInit();
   Slice<Pragma> takePragmas();
@@ -110,7 +125,8 @@ class Parser {
     kStopElse = 1,
     kStopElsif = 2,
     kStopUntil = 4,
-    kStopLabel = 8
+    kStopLabel = 8,
+    kStopTry = 16
   };  // words that end a list, beside END_…
   Slice<StmtId> parseStatements(uint8_t stops);
   bool atBlockEnd();
@@ -120,6 +136,7 @@ class Parser {
   void parseFor();
   void parseWhile();
   void parseRepeat();
+  void parseTry();
   bool otherLanguage();
   void parseExprStatement();
   void parseChain(ExprId target, ExprId value, Token* value_start, const Token* op);
@@ -175,7 +192,10 @@ class Parser {
   Token* t_ = nullptr;
   bool panic_ = false;
   bool declared_in_body_ = false;  // said once for a POU
+  bool in_variable_ = false;       // the type of a variable is being read: it may have arguments
+  uint32_t in_property_ = 0;       // its accessors are being read
   bool in_structure_ = false;      // a STRUCT or UNION is being read
+  bool address_told_ = false;      // said once for a structure
   bool lost_ = false;              // declarations of the POU or TYPE entry at hand could not be read
   Tok pou_end_ = Tok::End;         // the END_… of the POU at hand
   enum class Known : uint8_t { NotYet, Yes, No } pou_closes_ = Known::NotYet;  // whether it has that END_…

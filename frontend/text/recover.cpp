@@ -15,6 +15,7 @@ Tok closerOf(Tok open) {
     case static_cast<int>(Tok::For): return Tok::EndFor;
     case static_cast<int>(Tok::While): return Tok::EndWhile;
     case static_cast<int>(Tok::Repeat): return Tok::EndRepeat;
+    case static_cast<int>(Tok::Try): return Tok::EndTry;
     case static_cast<int>(Tok::Type): return Tok::EndType;
     case static_cast<int>(Tok::Struct): return Tok::EndStruct;
     case static_cast<int>(Tok::Union): return Tok::EndUnion;
@@ -23,28 +24,31 @@ Tok closerOf(Tok open) {
     case static_cast<int>(Tok::Program): return Tok::EndProgram;
     case static_cast<int>(Tok::Configuration): return Tok::EndConfiguration;
     case static_cast<int>(Tok::Resource): return Tok::EndResource;
+    case static_cast<int>(Tok::Method): return Tok::EndMethod;
+    case static_cast<int>(Tok::Property): return Tok::EndProperty;
+    case static_cast<int>(Tok::Action): return Tok::EndAction;
+    case static_cast<int>(Tok::Interface): return Tok::EndInterface;
+    case static_cast<int>(Tok::Class): return Tok::EndClass;
     default: return open >= Tok::Var && open <= Tok::VarConfig ? Tok::EndVar : Tok::End;
   }
 }
 
-constexpr Tok kClosers[] = {Tok::EndIf,
-                            Tok::EndCase,
-                            Tok::EndFor,
-                            Tok::EndWhile,
-                            Tok::EndRepeat,
-                            Tok::EndType,
-                            Tok::EndStruct,
-                            Tok::EndUnion,
-                            Tok::EndVar,
-                            Tok::EndFunction,
-                            Tok::EndFunctionBlock,
-                            Tok::EndProgram,
-                            Tok::EndConfiguration,
-                            Tok::EndResource};
+constexpr Tok kClosers[] = {Tok::EndIf,       Tok::EndCase,          Tok::EndFor,       Tok::EndWhile,
+                            Tok::EndRepeat,   Tok::EndTry,           Tok::EndType,      Tok::EndStruct,
+                            Tok::EndUnion,    Tok::EndVar,           Tok::EndFunction,  Tok::EndFunctionBlock,
+                            Tok::EndProgram,  Tok::EndConfiguration, Tok::EndResource,  Tok::EndMethod,
+                            Tok::EndProperty, Tok::EndAction,        Tok::EndInterface, Tok::EndClass};
 bool isCloser(Tok k) { return std::find(std::begin(kClosers), std::end(kClosers), k) != std::end(kClosers); }
 bool isVarWord(Tok k) { return k >= Tok::Var && k <= Tok::VarConfig; }
-bool isPouOpener(Tok k) { return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program; }
-bool isPouCloser(Tok k) { return k == Tok::EndFunction || k == Tok::EndFunctionBlock || k == Tok::EndProgram; }
+bool isMember(Tok k) { return k == Tok::Method || k == Tok::Property || k == Tok::Action; }
+bool isPouOpener(Tok k) {
+  return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program || k == Tok::Interface || k == Tok::Class ||
+         isMember(k);
+}
+bool isPouCloser(Tok k) {
+  return k == Tok::EndFunction || k == Tok::EndFunctionBlock || k == Tok::EndProgram || k == Tok::EndInterface ||
+         k == Tok::EndClass || k == Tok::EndMethod || k == Tok::EndProperty || k == Tok::EndAction;
+}
 bool isStatementOpener(Tok k) {
   return k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat;
 }
@@ -53,9 +57,10 @@ bool isStatementOpener(Tok k) {
 std::span<const Tok> openersFor(Tok closer) {
   static constexpr Tok kVars[] = {Tok::Var,         Tok::VarInput,  Tok::VarOutput, Tok::VarInOut,  Tok::VarTemp,
                                   Tok::VarExternal, Tok::VarGlobal, Tok::VarStat,   Tok::VarAccess, Tok::VarConfig};
-  static constexpr Tok kOthers[] = {Tok::If,      Tok::Case,          Tok::For,     Tok::While,    Tok::Repeat,
-                                    Tok::Type,    Tok::Struct,        Tok::Union,   Tok::Function, Tok::FunctionBlock,
-                                    Tok::Program, Tok::Configuration, Tok::Resource};
+  static constexpr Tok kOthers[] = {Tok::If,      Tok::Case,          Tok::For,      Tok::While,    Tok::Repeat,
+                                    Tok::Type,    Tok::Struct,        Tok::Union,    Tok::Function, Tok::FunctionBlock,
+                                    Tok::Program, Tok::Configuration, Tok::Resource, Tok::Method,   Tok::Property,
+                                    Tok::Action,  Tok::Interface,     Tok::Class};
   if (closer == Tok::EndVar) return kVars;
   for (const Tok& t : kOthers)
     if (closerOf(t) == closer) return {&t, 1};
@@ -121,6 +126,7 @@ class Balancer {
     const Tok k = tokens_[i].kind;
     if (k == Tok::Program) return !isProgramInstance(i);
     if (k == Tok::Resource) return isResource(i);
+    if (isMember(k)) return std::find(members_closed_.begin(), members_closed_.end(), k) != members_closed_.end();
     return closerOf(k) != Tok::End;
   }
   // Words that begin a new region whatever stands open.
@@ -129,7 +135,7 @@ class Balancer {
     if (!atLineStart(i) && i > 0 && !isCloser(tokens_[i - 1].kind) && tokens_[i - 1].kind != Tok::Semicolon)
       return false;
     return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Type || k == Tok::Configuration ||
-           (k == Tok::Program && !isProgramInstance(i));
+           k == Tok::Interface || k == Tok::Class || (k == Tok::Program && !isProgramInstance(i));
   }
   std::string_view textOf(uint32_t i) const {
     const Token& t = tokens_[i];
@@ -181,6 +187,7 @@ class Balancer {
   std::string_view text_;
   uint32_t count_;
   bool in_configuration_ = false;
+  std::vector<Tok> members_closed_;  // METHOD, PROPERTY, ACTION whose END_… the file writes (all of them in iec)
 
   std::vector<Open> stack_;
   std::vector<Orphan> orphans_;
@@ -198,6 +205,11 @@ class Balancer {
 void Balancer::run() {
   // Regions are cut at the words that can only stand at file level, so that one POU's mistake stays in it.
   const std::vector<uint32_t>& blocks = stream_.blocks;
+  for (const Tok member : {Tok::Method, Tok::Property, Tok::Action}) {
+    const auto closes = [&](uint32_t b) { return tokens_[b].kind == closerOf(member); };
+    if (standard_ != Standard::Codesys || std::any_of(blocks.begin(), blocks.end(), closes))
+      members_closed_.push_back(member);
+  }
   size_t start = 0;
   bool any = false;
   std::vector<std::pair<uint32_t, uint32_t>> broken;

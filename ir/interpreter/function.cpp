@@ -74,7 +74,7 @@ FunctionResult runFunction(const Module& module, BodyId function, std::span<cons
   for (const BodyId id : reachable(module, function)) {
     if (!module.body(id).native) translator.translate(id);
   }
-  link(code);
+  link(module, code);
   const Body& body = module.body(function);
   NativeThunk native = nullptr;
   if (body.native) native = translator.findNative(body);

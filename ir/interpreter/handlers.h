@@ -76,6 +76,16 @@ Handler jumpHandler();
 Handler callHandler();           // of a function: its frame begins at a and needs c; imm: the site
 Handler callOnSelfHandler();     // self + b
 Handler callOnPointerHandler();  // slot b
+// On the object at (slot b), its method by type id; imm: const VirtualCall*; d: the instruction's own number.
+Handler callVirtualHandler();
+struct VirtualEntry {
+  uint32_t at = 0, frame = 0;  // as Code::Entry
+};
+struct VirtualCall {
+  uint32_t first = 0;  // class
+  uint32_t site = 0;
+  const VirtualEntry* entries = nullptr;
+};
 Handler returnHandler();
 Handler haltHandler();
 Handler nativeHandler();   // slots at a, imm: NativeThunk
@@ -83,15 +93,14 @@ Handler tryHandler();      // U8 a := fault of running the next instruction on u
 Handler rethrowHandler();  // when U8 a is not 0
 Handler raiseHandler();    // fault a at site d, value in the frame at b
 Handler tickHandler();     // where runs are bounded
+Handler countHandler();    // imm: uint64_t*
+Handler calledHandler();   // tells the host: imm the POU's name, slot b the address of its instance or null
 // Assertions. Slot b and those behind: see handlers_control.cpp; imm: const AssertionPlace*.
 struct AssertionPlace {
-  const char* file;
-  uint32_t line;
-  uint8_t kind;
-  const char* text;   // or null
-  const char* items;  // of an enumeration
+  rung_assertion is;
+  uint8_t kind;  // of the values
 };
-enum class AssertionKind : uint8_t { Truth, Equal, EqualText, EqualWText, EqualEnum, Near };
+enum class AssertionKind : uint8_t { Truth, Compared, Equal, Near };
 Handler assertHandler(AssertionKind kind);
 
 }  // namespace rung::ir::interpreter

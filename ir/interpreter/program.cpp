@@ -66,11 +66,14 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
   using Step = BodyTranslator::Step;
   TranslateOptions translate_options;
   translate_options.natives = options.natives;
+  translate_options.coverage = options.coverage;
+  translate_options.trace_calls = options.trace_calls;
   BodyTranslator translator(module, blocks, description->text, translate_options, code);
   code.bodies.resize(module.bodies.size());
   translateData(module, code);
+  translateDispatches(module, code);
   for (uint32_t i = 1; i < module.bodies.size(); ++i) {
-    if (module.bodies[i].native) continue;
+    if (module.bodies[i].native || module.bodies[i].abstract) continue;
     const std::string_view body_name = module.names.text(module.bodies[i].name);
     setPhaseSubject(body_name.data(), body_name.size());
     translator.translate(BodyId{i});
@@ -125,7 +128,7 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
     of_test.push_back(translator.translateSteps(steps));
     of_test_init.push_back(translator.translateSteps(first));
   }
-  link(code);
+  link(module, code);
   for (const Code::Entry& body : code.bodies) stack_size = std::max(stack_size, kStack + 2 * size_t{body.frame});
   if (!code.missing.empty()) refusal = "the native function `" + code.missing + "` is not part of rung";
 }
@@ -181,5 +184,6 @@ Program::Program(const Module& module, const ProgramOptions& options) : parts_(s
 Program::~Program() = default;
 const std::string& Program::refusal() const { return parts_->refusal; }
 const rung_module& Program::description() const { return parts_->is; }
+const std::deque<Counter>& Program::counters() const { return parts_->code.counters; }
 
 }  // namespace rung::ir::interpreter

@@ -30,7 +30,11 @@ struct Code {
   std::deque<std::vector<int32_t>> tables;
   std::deque<std::vector<SwitchRange>> ranges;
   std::deque<AssertionPlace> assertions;
-  std::vector<const uint64_t*> data_of_module;     // by index of Module::data
+  std::deque<Counter> counters;
+  std::vector<const char*> called;                    // by BodyId: the name that traced calls give, or null
+  std::vector<const uint64_t*> data_of_module;        // by index of Module::data
+  std::vector<std::vector<VirtualEntry>> dispatches;  // as Module::dispatches
+  std::deque<VirtualCall> virtual_calls;
   std::vector<std::pair<uint32_t, BodyId>> calls;  // instructions that wait for where a body begins
   std::string missing;  // a native function that is not at hand, as the library names it; else empty
 };
@@ -38,6 +42,8 @@ struct Code {
 struct TranslateOptions {
   std::span<const Native> natives;  // sorted by name
   bool bounded = false;             // count turns and calls (Machine::budget)
+  bool coverage = false;            // count how often lines run (Code::counters)
+  bool trace_calls = false;         // tell the host of each call of a POU
 };
 
 // An operand or address: an offset, in the frame or in the frame that a callee is going to have.
@@ -170,7 +176,10 @@ class BodyTranslator {
   bool isExitTest(StmtId id) const;
   void noteLabels(StmtId first, uint32_t depth);
 
+  void count(Loc loc, const char* function);
+
   // ---- calls.cpp
+  void traceCall(BodyId callee, const Address* self);
   void callStatement(const Stmt& stmt);
   Operand callExpression(const Expr& e, const Operand* want);
   Address callText(const Expr& e);
@@ -184,6 +193,7 @@ class BodyTranslator {
   std::vector<Argument> arguments(const Body& callee, uint32_t first, uint32_t count, uint32_t at);
   void passArguments(std::vector<Argument>& arguments);
   void passArgument(Argument& argument, Ref to);
+  void emitVirtualCall(BodyId method, const Address& self, uint32_t site);
   void emitCall(BodyId callee, const Address* self, uint32_t site);
 
   // ---- small helpers
@@ -253,6 +263,7 @@ class BodyTranslator {
 // The constant bytes of the module; before any body.
 void translateData(const Module& module, Code& code);
 // Lets each call know where its callee begins; after everything is translated.
-void link(Code& code);
+void translateDispatches(const Module& module, Code& code);
+void link(const Module& module, Code& code);
 
 }  // namespace rung::ir::interpreter

@@ -83,9 +83,14 @@ bool BodyLowering::isApart(rung::ExprId id, sema::VarId variable) const {
     }
     case rung::ExprKind::Error:
     case rung::ExprKind::Index:
+    case rung::ExprKind::This:
+    case rung::ExprKind::Super:
     case rung::ExprKind::Deref:
     case rung::ExprKind::BitAccess:
     case rung::ExprKind::Address:
+    case rung::ExprKind::AddressOf:
+    case rung::ExprKind::Bound:
+    case rung::ExprKind::AnyValue:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:
     case rung::ExprKind::Repeat:

@@ -140,6 +140,15 @@ ExprId BodyLowering::field(ExprId base, uint32_t index, TypeId type, Loc loc) {
   return add({.kind = ExprKind::Field, .checks = checks, .type = strip(type), .loc = loc, .a = base.index, .b = index});
 }
 
+ExprId BodyLowering::asBase(ExprId place, sema::PouId base, Loc loc) {
+  for (;;) {
+    const sema::PouId object = in_.pouOfRecord(typeOf(place));
+    if (object == base || !object || !project_.pou(object).base) return place;
+    const sema::Pou& pou = project_.pou(object);
+    place = field(place, project_.var(pou.base_var).field, project_.pou(pou.base).record, loc);
+  }
+}
+
 ExprId BodyLowering::self(Loc loc) { return add({.kind = ExprKind::Self, .type = body_.self, .loc = loc}); }
 
 ExprId BodyLowering::unary(Op op, TypeId type, ExprId operand, Loc loc) {

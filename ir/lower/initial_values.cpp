@@ -101,7 +101,8 @@ bool BodyLowering::writeBytes(TypeId type, rung::ExprId init, uint8_t* to) {
   type = strip(type);
   if (tree_.kind(init) == rung::ExprKind::ArrayInit) return writeArray(type, init, to);
   if (tree_.kind(init) == rung::ExprKind::StructInit) {
-    if (!writeDefault(type, to)) return false;
+    const sema::PouId object = in_.pouOfRecord(type);
+    if ((object && project_.pou(object).base) || !writeDefault(type, to)) return false;
     const TypeInfo& info = types_.info(type);
     for (const FieldInit& given : tree_.list(tree_.as<StructInitExpr>(init).fields))
       for (const types::Field& f : info.fields)
@@ -187,18 +188,73 @@ void BodyLowering::forEachElement(ExprId array, TypeId type, Loc loc, uint32_t d
 }
 
 void BodyLowering::storeInitialRecord(ExprId place, TypeId type, rung::ExprId init) {
-  Loc loc = body_.expr(place).loc;
   if (BodyId initializer = in_.initOf(type))
-    append({.kind = StmtKind::Call, .loc = loc, .a = initializer.index, .b = place.index});
-  if (!init) return;
-  const TypeInfo& info = types_.info(type);
+    append({.kind = StmtKind::Call, .loc = body_.expr(place).loc, .a = initializer.index, .b = place.index});
+  construct(place, type);
+  if (init) storeMembers(place, init);
+}
+
+// FB_Init of an instance whose declared values are set, those of its bases first. Codesys.
+void BodyLowering::construct(ExprId place, TypeId type) {
+  const sema::PouId object = in_.pouOfRecord(type);
+  if (!object) return;
+  const std::vector<sema::PouId> methods = in_.constructorsOf(object);
+  if (methods.empty()) return;
+  Expr at = body_.expr(place);
+  while (at.kind == ExprKind::Index) at = body_.expr(ExprId{at.a});
+  CallId given;
+  if (at.kind == ExprKind::Field) {
+    const TypeId holder = typeOf(ExprId{at.a});
+    const sema::PouId derived = in_.pouOfRecord(holder);
+    if (derived && project_.pou(derived).base_var && project_.var(project_.pou(derived).base_var).field == at.b)
+      return;  // the whole is not made yet
+    given = in_.constructorOf(holder, at.b);
+  } else if (at.kind == ExprKind::Local && pou_) {
+    for (sema::VarId id : project_.pou(pou_).vars) {
+      const sema::Var& var = project_.var(id);
+      if (var.storage == sema::Storage::Local && local_of_[var.field] == at.a + 1) given = var.constructor;
+    }
+  }
+  CallExpr node{};
+  node.h.loc = at.loc;
+  const std::vector<sema::Binding> none;
+  const std::vector<sema::Binding>& bindings = given.index ? project_.call(given).bindings : none;
+  for (sema::PouId method : methods) {
+    sema::Call call;
+    call.kind = sema::CallKind::Method;
+    call.pou = method;
+    for (sema::VarId pin : project_.pou(method).vars)  // a base's parameters by their names
+      for (const sema::Binding& binding : bindings)
+        if (project_.names.same(project_.var(binding.pin).name, project_.var(pin).name)) {
+          call.bindings.push_back(binding);
+          call.bindings.back().pin = pin;
+        }
+    lowerFunctionCall(call, node, nullptr, asBase(place, project_.pou(method).owner, at.loc));
+  }
+}
+
+// What a declaration says of the members of a record whose other values are set.
+void BodyLowering::storeMembers(ExprId place, rung::ExprId init) {
+  Loc loc = body_.expr(place).loc;
   for (uint32_t g = 0; g < tree_.as<StructInitExpr>(init).fields.count; ++g) {
     const FieldInit given = tree_.list(tree_.as<StructInitExpr>(init).fields)[g];
-    for (uint32_t i = 0; i < info.fields.size(); ++i)
-      if (project_.names.same(info.fields[i].name, given.field.name)) {
-        storeInitial(field(place, i, info.fields[i].type, loc), info.fields[i].type, given.value, false);
-        break;
+    ExprId holder = place;
+    for (bool found = false; !found;) {  // the member may be inherited
+      const TypeInfo& info = types_.info(typeOf(holder));
+      for (uint32_t i = 0; i < info.fields.size() && !found; ++i) {
+        if (!project_.names.same(info.fields[i].name, given.field.name)) continue;
+        found = true;
+        const TypeId type = info.fields[i].type;
+        const ExprId member = field(holder, i, type, loc);
+        if (in_.pouOfRecord(strip(type)) && tree_.kind(given.value) == rung::ExprKind::StructInit)
+          storeMembers(member, given.value);
+        else
+          storeInitial(member, type, given.value, false);
       }
+      const sema::PouId object = in_.pouOfRecord(typeOf(holder));
+      if (!object || !project_.pou(object).base) break;
+      holder = asBase(holder, project_.pou(object).base, loc);
+    }
   }
 }
 

@@ -34,6 +34,15 @@ struct ModuleLowering {
   uint32_t listIndex(sema::ListId list) const { return list_index[list.index]; }
   // The instance that a program's name stands for; made when the program has none.
   uint32_t instanceOf(sema::PouId program);
+  // FB_Init of an object and of those that it extends, the outermost base first.
+  std::vector<sema::PouId> constructorsOf(sema::PouId object) const;
+  // The arguments of FB_Init that a declaration gives to the instance in a field of a record.
+  CallId constructorOf(TypeId record, uint32_t field) const;
+  // The record of the object that a POU's code runs on; none in functions.
+  sema::PouId objectOf(sema::PouId pou) const;
+  sema::PouId pouOfRecord(TypeId record) const {
+    return record.index < pou_of_record_.size() ? pou_of_record_[record.index] : sema::PouId{};
+  }
   uint32_t programOfInstance(uint32_t instance) const { return program_of_instance_[instance] - 1; }
   bool isZero(TypeId type);  // initial value of a type: all bytes zero
 
@@ -50,6 +59,9 @@ struct ModuleLowering {
   void addPrograms();
   void addLists();
   void markFaulting();
+  void addClasses();
+  void addDispatches();
+  sema::PouId implementation(sema::PouId object, sema::PouId method) const;
   void addTasks();
   void addActivations();
   void addActivation(uint32_t program, const sema::ProgramInstance* instance,
@@ -57,20 +69,23 @@ struct ModuleLowering {
   void addLocated();
   std::string pathOf(sema::VarId var);
 
-  std::vector<BodyId> body_of_;                         // by PouId
-  std::unordered_map<uint32_t, BodyId> init_of_;        // by record TypeId
-  std::unordered_set<uint32_t> record_seen_;            // by TypeId
-  std::unordered_map<uint32_t, bool> zero_;             // by TypeId
-  std::vector<sema::PouId> pou_of_record_;              // by TypeId
-  std::vector<sema::ListId> list_of_record_;            // by TypeId
-  std::vector<uint32_t> list_index;                     // by ListId
-  std::vector<uint32_t> program_of_instance_;           // by sema instance: index in Module::programs + 1
-  std::unordered_map<uint32_t, uint32_t> instance_of_;  // by PouId: index in Module::programs
+  std::vector<BodyId> body_of_;                          // by PouId
+  std::unordered_map<uint32_t, BodyId> init_of_;         // by record TypeId
+  std::unordered_set<uint32_t> record_seen_;             // by TypeId
+  std::unordered_map<uint32_t, bool> zero_;              // by TypeId
+  std::unordered_map<uint64_t, CallId> constructor_of_;  // by record and field
+  std::vector<sema::PouId> pou_of_record_;               // by TypeId
+  std::vector<sema::ListId> list_of_record_;             // by TypeId
+  std::vector<uint32_t> list_index;                      // by ListId
+  std::vector<uint32_t> program_of_instance_;            // by sema instance: index in Module::programs + 1
+  std::unordered_map<uint32_t, uint32_t> instance_of_;   // by PouId: index in Module::programs
   std::vector<sema::PouId> to_lower_;
 };
 
 // The scalar or text behind a checked constant expression, or none when it is not that simple.
 std::optional<Value> constantOf(const sema::Project& project, rung::ExprId expr);
+
+inline bool isOpenArray(const TypeTable& types, TypeId type) { return type && types.isOpenArray(type); }
 
 class BodyLowering {
  public:
@@ -94,6 +109,8 @@ class BodyLowering {
   ExprId temp(TypeId type, Loc loc);  // a new temporary, as a place
   ExprId field(ExprId base, uint32_t index, TypeId type, Loc loc);
   ExprId self(Loc loc);
+  // The place of an object as what it extends.
+  ExprId asBase(ExprId place, sema::PouId base, Loc loc);
   ExprId unary(Op op, TypeId type, ExprId operand, Loc loc);
   ExprId binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc);
   ExprId convert(ExprId operand, TypeId to, Loc loc);
@@ -123,6 +140,7 @@ class BodyLowering {
 
   // places.cpp
   ExprId lowerPlace(rung::ExprId expr);
+  ExprId characters(ExprId text, bool writes);
   ExprId varPlace(sema::VarId var, Loc loc);
   ExprId memberPlace(rung::ExprId expr);
   // The same place without operands that a later statement could change: indices and pointers go to temporaries.
@@ -130,6 +148,18 @@ class BodyLowering {
   bool mayFault(ExprId expr) const;
   bool isStable(ExprId expr) const;  // a constant or a temporary: reading it later gives the same
   ExprId rootOf(ExprId place) const;
+
+  // open_arrays.cpp
+  ExprId openArrayPointer(rung::ExprId array, Loc loc);
+  ExprId openArrayBound(rung::ExprId array, uint32_t index, Loc loc);
+  ExprId openArrayElement(const IndexExpr& node);
+  ExprId openArrayPart(rung::ExprId array, sema::VarId part, Loc loc);
+  // What is passed for an ARRAY[*]: the address of the first element, and the bounds.
+  struct OpenArray {
+    ExprId pointer;
+    std::vector<ExprId> bounds;
+  };
+  OpenArray passOpenArray(rung::ExprId argument, TypeId pin_type);
 
   // aliases.cpp
   // A place that is named without indices and pointers, so that it is the same whenever it is evaluated.
@@ -147,6 +177,8 @@ class BodyLowering {
   ExprId lowerLogical(rung::ExprId expr, bool is_and, bool short_circuit);
   bool callsFunction(rung::ExprId expr) const;
   ExprId lowerConvert(rung::ExprId expr);
+  ExprId lowerAddressOf(rung::ExprId expr);
+  ExprId lowerAnyValue(rung::ExprId expr);
   ExprId convertValue(ExprId value, TypeId to, Loc loc);
   // A position in the open block. `effects` tells whether what came since could change a variable.
   struct Mark {
@@ -199,9 +231,13 @@ class BodyLowering {
   ExprId lowerArithmeticOperator(const sema::Call& call, const CallExpr& node);
   ExprId lowerSelect(const sema::Call& call, const CallExpr& node);
   ExprId lowerMux(const sema::Call& call, const CallExpr& node);
-  ExprId lowerFunctionCall(const sema::Call& call, const CallExpr& node, Target* target);
+  // `object`: that a method runs on; none of a function.
+  ExprId lowerFunctionCall(const sema::Call& call, const CallExpr& node, Target* target, ExprId object = {});
+  ExprId lowerMethodCall(const sema::Call& call, const CallExpr& node, Target* target);
+  ExprId lowerObjectConversion(const ConvertExpr& node);
   void lowerBlockCall(const sema::Call& call, const CallExpr& node, ExprId instance);
   void lowerAssertion(const sema::Call& call, const CallExpr& node);
+  NameId shownText(const CallExpr& node, const BinaryExpr& condition);
   ExprId argumentPlace(ExprId value, TypeId pin_type, bool may_alias, Loc loc);
   ExprId inOutPlace(rung::ExprId argument, TypeId pin_type);
   bool isPlainCall(rung::ExprId expr) const;
@@ -225,6 +261,7 @@ class BodyLowering {
                                 const std::function<void()>& turn);
   void lowerWhile(const WhileStmt& stmt);
   void lowerRepeat(const RepeatStmt& stmt);
+  void lowerTry(const TryStmt& stmt);
   uint32_t labelNumber(NameId label);
 
   // activation.cpp
@@ -235,6 +272,8 @@ class BodyLowering {
   // initial_values.cpp
   void storeInitialArray(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero);
   void storeInitialRecord(ExprId place, TypeId type, rung::ExprId init);
+  void storeMembers(ExprId place, rung::ExprId init);
+  void construct(ExprId place, TypeId type);
   void forEachElement(ExprId array, TypeId type, Loc loc, uint32_t dimension, std::vector<ExprId>& indices,
                       const std::function<void(ExprId)>& store);
   bool writeBytes(TypeId type, rung::ExprId init, uint8_t* to);

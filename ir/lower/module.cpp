@@ -6,6 +6,17 @@
 
 namespace rung::ir {
 
+namespace {
+
+std::string folded(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
+}  // namespace
+
 void lower(const sema::Project& project, const LowerOptions& options, Module& module) {
   setPhase("lowering");
   ModuleLowering(project, options, module).run();
@@ -24,19 +35,32 @@ ModuleLowering::ModuleLowering(const sema::Project& from, const LowerOptions& wi
 }
 
 void ModuleLowering::run() {
+  for (const sema::Var& var : project.vars) {
+    if (!var.constructor.index || var.storage == sema::Storage::Local) continue;
+    const TypeId record = var.list  ? project.global_lists[var.list.index].record
+                          : var.pou ? project.pou(var.pou).record
+                                    : var.record;
+    constructor_of_[uint64_t{record.index} << 32 | var.field] = var.constructor;
+  }
   addLists();
   addPrograms();
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const sema::Pou& pou = project.pous[i];
     if (pou.generic || pou.operator_kind != sema::Pou::Operator::None) continue;
-    if (pou.library && !pou.used) continue;
+    if (pou.kind == PouKind::Interface) continue;
+    if (pou.left_out || (pou.library && !(options.used_of_libraries && pou.used))) continue;  // follows when called
     bodyOf({i});
   }
+  std::sort(module.tests.begin(), module.tests.end(), [&](BodyId a, BodyId b) {  // as they are written
+    return module.body(a).loc.offset < module.body(b).loc.offset;
+  });
   addActivations();
   lowerBodies();
   for (List& list : module.lists) list.init = initOf(list.record);
   for (ProgramInstance& instance : module.programs) instance.init = initOf(instance.record);
   for (Record& record : module.records) record.init = initOf(record.type);
+  addClasses();
+  addDispatches();
   markFaulting();
   addTasks();
   addLocated();
@@ -47,7 +71,7 @@ void ModuleLowering::run() {
 sema::PouId ModuleLowering::lowerBodies() {
   for (uint32_t next = 0; next < to_lower_.size(); ++next) {
     const sema::Pou& pou = project.pou(to_lower_[next]);
-    if (pou.native) continue;
+    if (pou.native || (pou.owner && (pou.modifiers & kAbstract) != 0)) continue;
     if (!pou.checked) return to_lower_[next];
     std::string_view name = project.names.text(pou.name);
     setPhaseSubject(name.data(), name.size());
@@ -79,17 +103,24 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
   Body& body = module.bodies.back();
   body.name = pou.unique_name ? pou.unique_name : pou.name;
   body.spelling = pou.name;
-  body.kind = pou.kind == PouKind::Function ? BodyKind::Function : BodyKind::Block;
+  body.kind = pou.kind == PouKind::Function || pou.owner ? BodyKind::Function : BodyKind::Block;
+  if (pou.owner) {
+    std::string spelling(project.names.text(project.pou(pou.owner).name));
+    spelling.append(".").append(project.names.text(pou.name));
+    body.spelling = module.names.intern(spelling);
+    body.abstract = (pou.modifiers & kAbstract) != 0;
+  }
   body.native = pou.native;
   body.pure = pou.pure;
   body.sized = pou.sized;
   body.library = pou.library;
   body.library_name = pou.library_name;
   body.test = pou.test;
-  body.self = pou.record;
+  body.counted = !pou.library && !pou.test && !pou.test_only && !pou.replaces;
+  body.self = pou.owner ? project.pou(pou.owner).record : pou.record;
   body.loc = pou.loc;
   body.file = pou.file;
-  if (pou.record) declareRecordsOf(pou.record);
+  if (body.self) declareRecordsOf(body.self);
   for (sema::VarId var_id : pou.vars) {
     const sema::Var& var = project.var(var_id);
     if (var.storage != sema::Storage::Local) continue;
@@ -98,8 +129,13 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
       if (var.section == SectionKind::Input) kind = LocalKind::Input;
       if (var.section == SectionKind::Output) kind = LocalKind::Output;
       if (var.section == SectionKind::InOut) kind = LocalKind::InOut;
+      if (var.hidden_input) kind = LocalKind::Input;
     }
     TypeId type = types.resolve(var.type);
+    if (types.isOpenArray(type)) {  // the address of the first element
+      type = types.pointer(types.info(type).base);
+      kind = LocalKind::Input;
+    }
     declareRecordsOf(type);
     body.locals.push_back({var.name, type, kind, isPassedByReference(types, kind, type), var.loc});
   }
@@ -114,10 +150,8 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
   if (pou.record) {
     for (Record& record : module.records)
       if (record.type == pou.record) record.body = known;
-    if (pou.test) module.tests.push_back(known);
-  } else if (pou.test) {
-    module.tests.push_back(known);
   }
+  if (pou.test && !pou.left_out) module.tests.push_back(known);
   return known;
 }
 
@@ -128,8 +162,12 @@ void ModuleLowering::markFaulting() {
   for (uint32_t i = 1; i < module.bodies.size(); ++i) {
     Body& body = module.bodies[i];
     for (const Expr& expr : body.exprs) body.may_fault = body.may_fault || expr.checks != 0;
-    for (const Stmt& stmt : body.stmts)
-      if (stmt.kind == StmtKind::Call) callers[stmt.a].push_back(i);
+    for (const Stmt& stmt : body.stmts) {
+      if (stmt.kind == StmtKind::Fault) body.may_fault = true;
+      if (stmt.kind != StmtKind::Call) continue;
+      callers[stmt.a].push_back(i);
+      body.may_fault = body.may_fault || stmt.op == kVirtual;
+    }
     if (body.may_fault) faulting.push_back(i);
   }
   while (!faulting.empty()) {
@@ -169,6 +207,7 @@ void ModuleLowering::addRecord(TypeId type) {
     record.library = owner.library;
   }
   module.records.push_back(record);
+  if (info.record_kind == types::RecordKind::Interface) return;
   if (sema::PouId pou = pou_of_record_[type.index]) {
     BodyId body = bodyOf(pou);
     for (Record& made : module.records)
@@ -190,6 +229,8 @@ bool ModuleLowering::isZero(TypeId declared) {
       case TypeKind::Subrange: return types::defaultValue(types, module.names, declared).bits == 0;
       case TypeKind::Record: {
         if (sema::PouId pou = pou_of_record_[declared.index]) {
+          if (project.pou(pou).kind == PouKind::Interface) return true;
+          if (project.pou(pou).dispatched || !constructorsOf(pou).empty()) return false;
           for (sema::VarId id : project.pou(pou).vars) {
             const sema::Var& var = project.var(id);
             if (var.storage == sema::Storage::Image && var.init) return false;
@@ -312,9 +353,17 @@ BodyId ModuleLowering::initOf(TypeId type) {
     lowering.storeInitial(lowering.field(lowering.self(var.loc), var.field, var.type, var.loc), var.type, var.init,
                           true);
   };
-  if (pou)
+  if (pou) {
     for (sema::VarId var : project.pou(pou).vars) storeVar(var);
-  else if (list)
+    if (project.pou(pou).dispatched) {
+      sema::PouId first = pou;
+      while (!project.pou(first).id_var) first = project.pou(first).base;
+      const uint32_t field = project.var(project.pou(first).id_var).field;
+      ExprId number = lowering.add({.kind = ExprKind::Const, .type = types::kUDInt, .loc = loc, .c = type.index});
+      ExprId place = lowering.field(lowering.asBase(lowering.self(loc), first, loc), field, types::kUDInt, loc);
+      lowering.assign(place, number, loc);
+    }
+  } else if (list)
     for (sema::VarId var : project.global_lists[list.index].vars) storeVar(var);
   else
     for (uint32_t i = 0; i < info.fields.size(); ++i) {
@@ -331,18 +380,108 @@ BodyId ModuleLowering::initOf(TypeId type) {
   return id;
 }
 
-// ---- lists, programs, tasks ------------------------------------------------------------------------------------
+// ---- objects ---------------------------------------------------------------------------------------------------
 
-namespace {
-
-std::string folded(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return result;
+sema::PouId ModuleLowering::objectOf(sema::PouId pou) const {
+  const sema::Pou& of = project.pou(pou);
+  return of.owner ? of.owner : of.kind == PouKind::Function ? sema::PouId{} : pou;
 }
 
-}  // namespace
+std::vector<sema::PouId> ModuleLowering::constructorsOf(sema::PouId object) const {
+  std::vector<sema::PouId> out;
+  for (sema::PouId at = object; at; at = project.pou(at).base)
+    for (sema::PouId member : project.pou(at).members)
+      if (sameIdentifier(project.names.text(project.pou(member).name), "FB_Init")) out.insert(out.begin(), member);
+  return out;
+}
+
+CallId ModuleLowering::constructorOf(TypeId record, uint32_t field) const {
+  auto found = constructor_of_.find(uint64_t{record.index} << 32 | field);
+  return found == constructor_of_.end() ? CallId{} : found->second;
+}
+
+// Numbers the objects that have a type id: each line of descent in one run, in the order of their names.
+void ModuleLowering::addClasses() {
+  std::vector<std::pair<std::string, sema::PouId>> order;
+  for (const Record& record : module.records)
+    if (sema::PouId pou = pou_of_record_[record.type.index])
+      if (project.pou(pou).dispatched && project.pou(pou).kind != PouKind::Interface)
+        order.push_back({folded(project.names.text(project.pou(pou).unique_name)), pou});
+  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<uint32_t> number_of(types.count());
+  auto baseOf = [&](sema::PouId pou) {
+    sema::PouId base = project.pou(pou).base;
+    return base && project.pou(base).dispatched ? base : sema::PouId{};
+  };
+  std::vector<sema::PouId> open;
+  auto visit = [&](sema::PouId pou, TypeId base) {
+    module.classes.push_back({project.pou(pou).record, base});
+    number_of[project.pou(pou).record.index] = static_cast<uint32_t>(module.classes.size());
+  };
+  auto children = [&](sema::PouId of) {
+    for (size_t i = order.size(); i-- > 0;)
+      if (baseOf(order[i].second) == of) open.push_back(order[i].second);
+  };
+  children({});
+  while (!open.empty()) {
+    const sema::PouId next = open.back();
+    open.pop_back();
+    const sema::PouId base = baseOf(next);
+    visit(next, base ? project.pou(base).record : TypeId{});
+    children(next);
+  }
+  for (uint32_t i = 1; i < module.bodies.size(); ++i)
+    for (Expr& expr : module.bodies[i].exprs)
+      if (expr.kind == ExprKind::Const && expr.c != 0) expr.a = number_of[expr.c];
+}
+
+// The method of an object that answers to a call of `method`; none when it has none, or an abstract one.
+sema::PouId ModuleLowering::implementation(sema::PouId object, sema::PouId method) const {
+  const sema::Pou& wanted = project.pou(method);
+  for (sema::PouId at = object; at; at = project.pou(at).base)
+    for (sema::PouId candidate : project.pou(at).members) {
+      const sema::Pou& have = project.pou(candidate);
+      if (have.kind != PouKind::Method || have.accessor != wanted.accessor) continue;
+      if (!project.names.same(have.name, wanted.name)) continue;
+      return (have.modifiers & kAbstract) != 0 ? sema::PouId{} : candidate;
+    }
+  return {};
+}
+
+void ModuleLowering::addDispatches() {
+  std::vector<sema::PouId> method_of(module.bodies.size());
+  for (uint32_t i = 1; i < project.pous.size(); ++i)
+    if (body_of_[i] && project.pous[i].owner) method_of[body_of_[i].index] = {i};
+  std::vector<bool> called(module.bodies.size());
+  for (uint32_t i = 1; i < module.bodies.size(); ++i)
+    for (const Stmt& stmt : module.bodies[i].stmts)
+      if (stmt.kind == StmtKind::Call && stmt.op == kVirtual) called[stmt.a] = true;
+  auto isKindOf = [&](auto& self, sema::PouId object, sema::PouId base) -> bool {
+    for (; object; object = project.pou(object).base) {
+      if (object == base) return true;
+      for (sema::PouId interface : project.pou(object).interfaces)
+        if (self(self, interface, base)) return true;
+    }
+    return false;
+  };
+  for (uint32_t i = 1; i < called.size(); ++i) {
+    if (!called[i]) continue;
+    Dispatch made;
+    made.method = {i};
+    const sema::PouId method = method_of[i];
+    for (uint32_t c = 0; c < module.classes.size(); ++c) {
+      const sema::PouId object = pou_of_record_[module.classes[c].record.index];
+      if (!isKindOf(isKindOf, object, project.pou(method).owner)) continue;
+      if (made.bodies.empty()) made.first = c + 1;
+      made.bodies.resize(c + 1 - made.first);
+      const sema::PouId found = implementation(object, method);
+      made.bodies.push_back(found ? bodyOf(found) : BodyId{});
+    }
+    module.dispatches.push_back(std::move(made));
+  }
+}
+
+// ---- lists, programs, tasks ------------------------------------------------------------------------------------
 
 void ModuleLowering::addLists() {
   std::vector<std::pair<std::string, uint32_t>> order;
@@ -389,7 +528,7 @@ void ModuleLowering::addPrograms() {
     module.programs.back().body = bodyOf(instance.program);
   }
   for (uint32_t i = 1; i < project.pous.size(); ++i)
-    if (project.pous[i].test && project.pous[i].record) instanceOf({i});
+    if (project.pous[i].test && !project.pous[i].left_out && project.pous[i].record) instanceOf({i});
 }
 
 uint32_t ModuleLowering::instanceOf(sema::PouId program) {
@@ -436,6 +575,7 @@ void ModuleLowering::addTasks() {
 void ModuleLowering::addLocated() {
   for (const sema::Var& var : project.vars) {
     if (var.storage != sema::Storage::Image || !var.name || var.external) continue;
+    if (var.pou && project.pou(var.pou).left_out && !body_of_[var.pou.index]) continue;
     Located made;
     made.name = var.name;
     made.type = types.resolve(var.type);

@@ -11,7 +11,9 @@ ExprId BodyLowering::varPlace(sema::VarId id, Loc loc) {
     case sema::Storage::Field: {
       for (const auto& [pin, edge] : edge_locals_)
         if (pin == id.index) return local(edge, loc);
-      if (var->pou == pou_ || !var->pou) return field(self(loc), var->field, type, loc);
+      if (!var->pou) return field(self(loc), var->field, type, loc);
+      for (sema::PouId at = pou_ ? in_.objectOf(pou_) : sema::PouId{}; at; at = project_.pou(at).base)
+        if (at == var->pou) return field(asBase(self(loc), at, loc), var->field, type, loc);
       // A variable of another program, named through the program.
       uint32_t instance = in_.instanceOf(var->pou);
       TypeId record = in_.module.programs[instance].record;
@@ -51,7 +53,23 @@ ExprId BodyLowering::memberPlace(rung::ExprId id) {
   }
   if (!of_record) return varPlace(var_id, node.h.loc);
   ExprId base = lowerPlace(node.base);
+  if (var.pou) base = asBase(base, var.pou, node.h.loc);
   return field(base, var.field, strip(var.type), node.h.loc);
+}
+
+// A text as the array of its bytes or words, with the zero at its end where it is only read.
+ExprId BodyLowering::characters(ExprId text, bool writes) {
+  const Expr place = body_.expr(text);
+  const types::TypeInfo& info = types_.info(types_.resolve(place.type));
+  const types::Dimension range{0, int64_t{info.length} - (writes ? 1 : 0)};
+  const TypeId unit = types::idOf(info.kind == TypeKind::WString ? TypeKind::Word : TypeKind::Byte);
+  if (!isPlace(place.kind)) text = toTemp(text, place.loc);
+  const TypeId array = types_.array(unit, {&range, 1});
+  const TypeId pointer = types_.pointer(array);
+  types_.layout(array);
+  types_.layout(pointer);
+  text = add({.kind = ExprKind::Address, .type = pointer, .loc = place.loc, .a = text.index});
+  return add({.kind = ExprKind::Deref, .type = array, .loc = place.loc, .a = text.index});
 }
 
 ExprId BodyLowering::lowerPlace(rung::ExprId id) {
@@ -77,6 +95,7 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
         case EntityKind::Type:
         case EntityKind::EnumValue:
         case EntityKind::GlobalList:
+        case EntityKind::Property:
         case EntityKind::Namespace: return lowerValue(id);
       }
       return {};
@@ -84,7 +103,10 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
     case rung::ExprKind::Member: return memberPlace(id);
     case rung::ExprKind::Index: {
       const IndexExpr& node = tree_.as<IndexExpr>(id);
+      if (isOpenArray(types_, tree_.expr(node.base).type)) return openArrayElement(node);
       ExprId base = lowerPlace(node.base);
+      if (TypeTable::isText(types_.kind(body_.expr(base).type)))
+        base = characters(base, (node.h.bits & kWritesCharacter) != 0);
       std::vector<ExprId> indices;
       for (rung::ExprId index : tree_.list(node.indices)) {
         Mark mark = here();
@@ -103,7 +125,13 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
                   .b = first,
                   .c = static_cast<uint32_t>(indices.size())});
     }
+    case rung::ExprKind::This:
+    case rung::ExprKind::Super: return lowerValue(id);
     case rung::ExprKind::Deref: {
+      const rung::ExprId target = tree_.as<DerefExpr>(id).base;
+      if (tree_.kind(target) == rung::ExprKind::This) return self(loc);
+      if (tree_.kind(target) == rung::ExprKind::Super)
+        return asBase(self(loc), project_.pou(in_.objectOf(pou_)).base, loc);
       ExprId pointer = lowerValue(tree_.as<DerefExpr>(id).base);
       return add({.kind = ExprKind::Deref,
                   .checks = static_cast<uint8_t>(in_.options.checks & kCheckNull),
@@ -149,7 +177,10 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
     case rung::ExprKind::ArrayInit:
     case rung::ExprKind::Repeat:
     case rung::ExprKind::StructInit:
-    case rung::ExprKind::Convert: return lowerValue(id);
+    case rung::ExprKind::Convert:
+    case rung::ExprKind::Bound:
+    case rung::ExprKind::AnyValue:
+    case rung::ExprKind::AddressOf: return lowerValue(id);
   }
   return {};
 }

@@ -61,10 +61,15 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
       return outcome.value;
     }
     case rung::ExprKind::Error:
+    case rung::ExprKind::This:
+    case rung::ExprKind::Super:
     case rung::ExprKind::Index:
     case rung::ExprKind::Deref:
     case rung::ExprKind::BitAccess:
     case rung::ExprKind::Address:
+    case rung::ExprKind::AddressOf:
+    case rung::ExprKind::Bound:
+    case rung::ExprKind::AnyValue:
     case rung::ExprKind::Call:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:
@@ -148,6 +153,14 @@ ExprId BodyLowering::lowerValue(rung::ExprId id) {
       }
       return lowerPlace(id);
     }
+    case rung::ExprKind::This:
+    case rung::ExprKind::Super: {
+      ExprId object = self(tree_.loc(id));
+      if (tree_.kind(id) == rung::ExprKind::Super)
+        object = asBase(object, project_.pou(in_.objectOf(pou_)).base, tree_.loc(id));
+      return add(
+          {.kind = ExprKind::Address, .type = strip(tree_.expr(id).type), .loc = tree_.loc(id), .a = object.index});
+    }
     case rung::ExprKind::Index:
     case rung::ExprKind::Deref:
     case rung::ExprKind::BitAccess:
@@ -155,6 +168,12 @@ ExprId BodyLowering::lowerValue(rung::ExprId id) {
     case rung::ExprKind::Unary: return lowerUnary(id);
     case rung::ExprKind::Binary: return lowerBinary(id);
     case rung::ExprKind::Convert: return lowerConvert(id);
+    case rung::ExprKind::AddressOf: return lowerAddressOf(id);
+    case rung::ExprKind::AnyValue: return lowerAnyValue(id);
+    case rung::ExprKind::Bound: {
+      const BoundExpr& node = tree_.as<BoundExpr>(id);
+      return openArrayBound(node.array, node.index, node.h.loc);
+    }
     case rung::ExprKind::Call: return lowerCall(id);
     case rung::ExprKind::Error:
     case rung::ExprKind::Range:
@@ -201,6 +220,9 @@ bool BodyLowering::callsFunction(rung::ExprId id) const {
     case rung::ExprKind::Convert: return callsFunction(tree_.as<ConvertExpr>(id).operand);
     case rung::ExprKind::Member: return callsFunction(tree_.as<MemberExpr>(id).base);
     case rung::ExprKind::Deref: return callsFunction(tree_.as<DerefExpr>(id).base);
+    case rung::ExprKind::Bound: return false;
+    case rung::ExprKind::AnyValue: return callsFunction(tree_.as<AnyValueExpr>(id).value);
+    case rung::ExprKind::AddressOf: return callsFunction(tree_.as<AddressOfExpr>(id).place);
     case rung::ExprKind::BitAccess: return callsFunction(tree_.as<BitAccessExpr>(id).base);
     case rung::ExprKind::Binary:
       return callsFunction(tree_.as<BinaryExpr>(id).left) || callsFunction(tree_.as<BinaryExpr>(id).right);
@@ -208,7 +230,7 @@ bool BodyLowering::callsFunction(rung::ExprId id) const {
       const IndexExpr& node = tree_.as<IndexExpr>(id);
       for (rung::ExprId index : tree_.list(node.indices))
         if (callsFunction(index)) return true;
-      return callsFunction(node.base);
+      return isOpenArray(types_, tree_.expr(node.base).type) || callsFunction(node.base);  // its check is a statement
     }
     case rung::ExprKind::Call: {
       const sema::Call& call = project_.call(tree_.as<CallExpr>(id).call);
@@ -221,6 +243,8 @@ bool BodyLowering::callsFunction(rung::ExprId id) const {
     case rung::ExprKind::Literal:
     case rung::ExprKind::Name:
     case rung::ExprKind::TypedName:
+    case rung::ExprKind::This:
+    case rung::ExprKind::Super:
     case rung::ExprKind::Address:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:
@@ -286,7 +310,72 @@ ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circu
 ExprId BodyLowering::lowerConvert(rung::ExprId id) {
   if (auto value = constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
   const ConvertExpr& node = tree_.as<ConvertExpr>(id);
+  if (ExprId object = lowerObjectConversion(node)) return object;
   return convertValue(lowerValue(node.operand), strip(node.h.type), node.h.loc);
+}
+
+// The address of what a pointer or reference points to is its value: nothing is read there.
+ExprId BodyLowering::lowerAddressOf(rung::ExprId id) {
+  const AddressOfExpr& node = tree_.as<AddressOfExpr>(id);
+  const TypeId type = strip(node.h.type);
+  if (isOpenArray(types_, tree_.expr(node.place).type))
+    return convertValue(openArrayPointer(node.place, node.h.loc), type, node.h.loc);
+  if (tree_.kind(node.place) == rung::ExprKind::Deref)
+    return convertValue(lowerValue(tree_.as<DerefExpr>(node.place).base), type, node.h.loc);
+  return add({.kind = ExprKind::Address, .type = type, .loc = node.h.loc, .a = lowerPlace(node.place).index});
+}
+
+// A descriptor of the value in a temporary; what has no place of its own gets one.
+ExprId BodyLowering::lowerAnyValue(rung::ExprId id) {
+  const AnyValueExpr& node = tree_.as<AnyValueExpr>(id);
+  const Loc loc = node.h.loc;
+  ExprId value = lowerPlace(node.value);
+  const Expr& expr = body_.expr(value);
+  const bool is_bit = expr.kind == ExprKind::Bits || (expr.kind == ExprKind::Image && expr.c != kNoBit);
+  if (!isPlace(expr.kind) || is_bit) value = toTemp(value, loc);
+  ExprId descriptor = temp(node.h.type, loc);
+  const TypeInfo& record = types_.info(strip(node.h.type));
+  auto part = [&](uint32_t index) { return field(descriptor, index, record.fields[index].type, loc); };
+  const TypeId pointer = strip(record.fields[1].type);
+  const uint64_t size = types_.info(typeOf(value)).size;
+  assign(part(0), constant(strip(record.fields[0].type), node.type_class, loc), loc);
+  assign(part(1), add({.kind = ExprKind::Address, .type = pointer, .loc = loc, .a = value.index}), loc);
+  assign(part(2), constant(types::kDInt, size, loc), loc);
+  return descriptor;
+}
+
+// An object as a pointer to an interface, and a pointer to an object as one to its base; none for other conversions.
+ExprId BodyLowering::lowerObjectConversion(const ConvertExpr& node) {
+  const TypeId to = strip(node.h.type), from = strip(tree_.expr(node.operand).type);
+  if (types_.kind(to) != TypeKind::Pointer && types_.kind(to) != TypeKind::Reference) return {};
+  const sema::PouId wanted = in_.pouOfRecord(strip(types_.info(to).base));
+  if (!wanted) return {};
+  const Loc loc = node.h.loc;
+  auto addressOf = [&](ExprId place) {
+    const TypeId pointer = types_.pointer(typeOf(place));
+    const ExprId address = add({.kind = ExprKind::Address, .type = pointer, .loc = loc, .a = place.index});
+    return pointer == to ? address : add({.kind = ExprKind::Convert, .type = to, .loc = loc, .a = address.index});
+  };
+  if (types_.kind(from) == TypeKind::Record) return addressOf(lowerPlace(node.operand));
+  if (types_.kind(from) != TypeKind::Pointer && types_.kind(from) != TypeKind::Reference) return {};
+  const TypeId target = strip(types_.info(from).base);
+  const sema::PouId object = in_.pouOfRecord(target);
+  if (!object || object == wanted) return {};
+  ExprId pointer = lowerValue(node.operand);
+  const sema::Pou& pou = project_.pou(object);
+  // Only where the base stands behind a type id of the derived object's own is the pointer another.
+  if (project_.pou(wanted).kind == PouKind::Interface || !pou.dispatched || project_.pou(wanted).dispatched)
+    return add({.kind = ExprKind::Convert, .type = to, .loc = loc, .a = pointer.index});
+  if (!isStable(pointer)) pointer = toTemp(pointer, loc);
+  const ExprId result = temp(to, loc);
+  assign(result, constant(to, 0, loc), loc);
+  const ExprId is_null = binary(Op::Ne, types::kBool, pointer, constant(from, 0, loc), loc);
+  const StmtId then = block([&] {
+    const ExprId whole = add({.kind = ExprKind::Deref, .type = target, .loc = loc, .a = pointer.index});
+    assign(result, addressOf(asBase(whole, wanted, loc)), loc);
+  });
+  append({.kind = StmtKind::If, .loc = loc, .a = is_null.index, .b = then.index});
+  return result;
 }
 
 ExprId BodyLowering::convertValue(ExprId value, TypeId to, Loc loc) {

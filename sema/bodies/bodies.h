@@ -139,6 +139,41 @@ void bindControlPins(Context& context, const CallExpr& node, const Arguments& ar
 void checkLooseArguments(Context& context, const CallExpr& node);
 void noteCall(Context& context, PouId callee, Loc loc);
 CallId addCall(Context& context, Call&& call);
+// The bindings of a call whose pins have types of their own.
+void bindArguments(Context& context, const CallExpr& node, PouId callee, const Arguments& arguments, Call& call);
+
+// ---- objects.cpp
+// A variable may have the name of THIS or SUPER: then it is meant.
+TypeId checkThisOrSuper(Context& context, ExprId& expr, TypeId expected, Access access);
+// `base.member` where base is an object: a method or action (then without a type) or a property that is read. None when
+// the object has no such member but, it may be, a variable.
+std::optional<TypeId> checkObjectMember(Context& context, ExprId& expr, PouId object, Access access);
+// The same for a bare name that means a member of the object at hand.
+TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance, Access access);
+TypeId callMethod(Context& context, ExprId& expr, PouId method, ExprId instance, bool as_statement);
+// `object.property := value`: true when the target is a property; it becomes the call of its SET.
+bool checkPropertyAssign(Context& context, AssignStmt& node);
+// A pointer to an interface, THIS and SUPER are used like what they point to: makes the `^` explicit.
+TypeId throughObject(Context& context, ExprId& expr, TypeId type);
+// The type of the object that a place holds is the one that it was declared with.
+bool isExact(const Context& context, ExprId instance);
+bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, Loc loc);
+
+// ---- pointers.cpp
+// ADR(x), REF(x), BITADR(x), __ISVALIDREF(x). None when the name is another one.
+TypeId checkAddressCall(Context& context, ExprId& expr, NameId name);
+// p[i]: the i-th of what p points to.
+TypeId checkPointerIndex(Context& context, ExprId& expr);
+// p + n, p - n, p - q, and pointers as numbers. None when the types do not combine so.
+TypeId combinePointers(Context& context, ExprId& self, TypeId expected);
+
+// ---- open_arrays.cpp
+// LOWER_BOUND(a, n), UPPER_BOUND(a, n). None when the name is another one.
+TypeId checkBoundCall(Context& context, ExprId& expr, NameId name);
+
+// ---- any_inputs.cpp
+// The value of an input of type ANY, ANY_NUM …, of a POU in codesys.
+void bindAny(Context& context, const Pou& pou, const Var& pin, ExprId& value);
 
 // ---- operator_calls.cpp
 TypeId checkOperatorCall(Context& context, ExprId& expr, PouId pou, TypeId expected, TypeId forced);
@@ -153,6 +188,8 @@ std::optional<Assertion> assertionOf(const Names& names, NameId name);
 // ---- statements.cpp
 // Checks a list of statements; true when the end of the list can be reached.
 bool checkStatements(Context& context, Slice<StmtId> list);
+// The operator of += and its kin.
+BinaryOp binaryOf(AssignOp op);
 
 // ---- small things
 inline NameId nameOf(const Context& context, ExprId expr) {

@@ -104,8 +104,14 @@ bool sameInOut(const Context& context, TypeId pin, TypeId actual) {
   const types::TypeTable& table = context.types();
   const types::TypeInfo& wanted = table.info(table.resolve(pin));
   const types::TypeInfo& given = table.info(table.resolve(actual));
-  if (wanted.kind == TypeKind::Array && wanted.dimensions.empty() && given.kind == TypeKind::Array) {
-    return sameType(context, wanted.base, given.base);
+  if (table.isOpenArray(pin) && given.kind == TypeKind::Array) {
+    const size_t dimensions = given.dimensions.empty() ? given.length : given.dimensions.size();
+    return dimensions == wanted.length && sameType(context, wanted.base, given.base);
+  }
+  if (wanted.kind == TypeKind::Record && given.kind == TypeKind::Record) {
+    Context here = context;
+    const PouId base = pouOf(here, pin), object = pouOf(here, actual);
+    if (base && object && isKindOf(here, object, base)) return true;
   }
   if (types::TypeTable::isText(wanted.kind) && wanted.kind == given.kind) return wanted.length <= given.length;
   return sameType(context, pin, actual);
@@ -131,11 +137,18 @@ void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& bindin
   const TypeId actual = check(context, binding.value, pin.type, Access::ReadWrite);
   if (actual == types::kError || pin.type == types::kError) return;
   if (isUntyped(context, actual)) settle(context, binding.value);
-  if (pin.constant) {  // VAR_IN_OUT CONSTANT takes any value of the type
+  if (pin.constant && !context.types().isOpenArray(pin.type)) {  // VAR_IN_OUT CONSTANT takes any value of the type
     convert(context, binding.value, pin.type, purpose);
     return;
   }
-  if (!checkWritable(context, binding.value, purpose)) return;
+  if (context.types().kind(pin.type) == TypeKind::Reference && context.tree().kind(binding.value) == ExprKind::Deref) {
+    const ExprId reference = context.tree().as<DerefExpr>(binding.value).base;  // the reference itself is passed
+    if (sameType(context, context.tree().expr(reference).type, pin.type)) {
+      binding.value = reference;
+      return;
+    }
+  }
+  if (!pin.constant && !checkWritable(context, binding.value, purpose)) return;
   if (!sameInOut(context, pin.type, actual)) {
     context.report(Diag::OtherInOutType, context.tree().loc(binding.value),
                    {context.types().spell(actual), text(context, pin.name), text(context, pou.name),
@@ -145,45 +158,12 @@ void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& bindin
 
 void bindInput(Context& context, const Pou& pou, const Var& pin, Binding& binding) {
   const types::TypeInfo& wanted = context.types().info(context.types().resolve(pin.type));
-  if (wanted.kind == TypeKind::Array && wanted.dimensions.empty()) {
-    const TypeId actual = check(context, binding.value, {}, Access::Read);
-    if (actual != types::kError && !sameInOut(context, pin.type, actual)) {
-      reportFit(context, Fit::No, binding.value, actual, pin.type, Purpose{"passed to", pin.name, pou.name});
-    }
+  if (wanted.kind == TypeKind::Reference) {
+    bindReference(context, binding.value, pin.type);
     return;
   }
+  if (pin.any) return bindAny(context, pou, pin, binding.value);
   checkAs(context, binding.value, pin.type, Purpose{"passed to", pin.name, pou.name});
-}
-
-// The bindings of a call whose pins have types of their own.
-void bind(Context& context, const CallExpr& node, PouId callee, const Arguments& arguments, Call& call) {
-  const std::span<const VarId> pins = pinsOf(context, callee);
-  const Pou& pou = context.project.pou(callee);
-  call.bindings.reserve(arguments.slots.size());
-  for (size_t i = 0; i < arguments.slots.size() && i < pins.size(); ++i) {
-    if (arguments.slots[i] == 0) continue;
-    const uint32_t index = arguments.slots[i] - 1;
-    const Argument argument = context.tree().list(node.arguments)[index];
-    if (!argument.value) continue;
-    Binding binding;
-    binding.pin = pins[i];
-    binding.value = argument.value;
-    const Var& pin = context.project.var(pins[i]);
-    switch (pin.section) {
-      case SectionKind::Output: bindOutput(context, pou, pin, binding, argument); break;
-      case SectionKind::InOut: bindInOut(context, pou, pin, binding); break;
-      case SectionKind::Input:
-      case SectionKind::Local:
-      case SectionKind::Temp:
-      case SectionKind::External:
-      case SectionKind::Global:
-      case SectionKind::Stat:
-      case SectionKind::Access:
-      case SectionKind::Config: bindInput(context, pou, pin, binding); break;
-    }
-    context.tree().list(node.arguments)[index].value = binding.value;
-    call.bindings.push_back(binding);
-  }
 }
 
 TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, bool as_statement) {
@@ -191,7 +171,7 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
   resolvePou(context, pou);
   const Pou& callee = context.project.pou(pou);
   noteCall(context, pou, node.h.loc);
-  checkTestOnly(context, node, pou);
+  checkTestOnly(context, pou, node.h.loc);
   if (callee.operator_kind != Pou::Operator::None) return checkOperatorCall(context, expr, pou, expected, {});
   if (callee.generic || callee.extensible) return checkGenericCall(context, expr, pou, expected, {});
   const Arguments arguments = matchArguments(context, node, pou);
@@ -199,7 +179,7 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
   call.kind = CallKind::Function;
   call.pou = pou;
   bindControlPins(context, node, arguments, call);
-  bind(context, node, pou, arguments, call);
+  bindArguments(context, node, pou, arguments, call);
   if (arguments.good) checkRequiredPins(context, node, pou, arguments);
   node.call = addCall(context, std::move(call));
   if (!callee.result && !as_statement) {
@@ -219,7 +199,7 @@ TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool a
   call.pou = pou;
   if (kind == CallKind::Instance) call.instance = node.callee;
   bindControlPins(context, node, arguments, call);
-  bind(context, node, pou, arguments, call);
+  bindArguments(context, node, pou, arguments, call);
   if (arguments.good) checkRequiredPins(context, node, pou, arguments);
   node.call = addCall(context, std::move(call));
   if (!as_statement) {
@@ -239,7 +219,15 @@ TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool 
   const Pou& callee = context.project.pou(pou);
   switch (callee.kind) {
     case PouKind::Function: return callFunction(context, expr, pou, expected, as_statement);
+    case PouKind::Method:
+    case PouKind::Action: {
+      const bool of_member = context.tree().kind(node.callee) == ExprKind::Member;
+      return callMethod(context, expr, pou, of_member ? context.tree().as<MemberExpr>(node.callee).base : ExprId{},
+                        as_statement);
+    }
     case PouKind::FunctionBlock:
+    case PouKind::Class:
+    case PouKind::Interface:
       context.report(Diag::CallOfBlockType, node.h.loc, {text(context, callee.name)});
       return refuse(context, node);
     case PouKind::Program:
@@ -273,7 +261,8 @@ TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement)
 TypeId sizeOf(Context& context, ExprId& expr) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (node.arguments.count != 1) {
-    context.report(Diag::WrongArgumentCount, node.h.loc, {"SIZEOF", "1", std::to_string(node.arguments.count)});
+    context.report(Diag::WrongArgumentCount, node.h.loc,
+                   {text(context, nameOf(context, node.callee)), "1", std::to_string(node.arguments.count)});
     return refuse(context, node);
   }
   ExprId operand = context.tree().list(node.arguments)[0].value;
@@ -300,11 +289,11 @@ TypeId sizeOf(Context& context, ExprId& expr) {
 TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (const auto assertion = assertionOf(context.names(), name)) return checkAssertion(context, expr, *assertion);
-  if (isNamed(context, name, "SIZEOF")) return sizeOf(context, expr);
+  if (isNamed(context, name, "SIZEOF") || isNamed(context, name, "XSIZEOF")) return sizeOf(context, expr);
   if (const TypeId type = checkRuleCall(context, expr, name, expected)) return type;
-  if (isNamed(context, name, "ADR") || isNamed(context, name, "REF")) {
-    context.report(Diag::NotSupportedYet, node.h.loc, {isNamed(context, name, "ADR") ? "`ADR`" : "`REF`"});
-  } else if (sayUnknown(context, name))
+  if (const TypeId type = checkAddressCall(context, expr, name)) return type;
+  if (const TypeId type = checkBoundCall(context, expr, name)) return type;
+  if (sayUnknown(context, name))
     context.report(Diag::UnknownName, node.h.loc, {text(context, name)}).didYouMean(nearestName(context, name));
   context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);
   return refuse(context, node);
@@ -312,11 +301,46 @@ TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected)
 
 }  // namespace
 
+void bindArguments(Context& context, const CallExpr& node, PouId callee, const Arguments& arguments, Call& call) {
+  const std::span<const VarId> pins = pinsOf(context, callee);
+  const Pou& pou = context.project.pou(callee);
+  call.bindings.reserve(arguments.slots.size());
+  for (size_t i = 0; i < arguments.slots.size() && i < pins.size(); ++i) {
+    if (arguments.slots[i] == 0) continue;
+    const uint32_t index = arguments.slots[i] - 1;
+    const Argument argument = context.tree().list(node.arguments)[index];
+    if (!argument.value) continue;
+    Binding binding;
+    binding.pin = pins[i];
+    binding.value = argument.value;
+    const Var& pin = context.project.var(pins[i]);
+    switch (pin.section) {
+      case SectionKind::Output: bindOutput(context, pou, pin, binding, argument); break;
+      case SectionKind::InOut: bindInOut(context, pou, pin, binding); break;
+      case SectionKind::Input:
+      case SectionKind::Local:
+      case SectionKind::Temp:
+      case SectionKind::External:
+      case SectionKind::Global:
+      case SectionKind::Stat:
+      case SectionKind::Inst:
+      case SectionKind::Access:
+      case SectionKind::Config: bindInput(context, pou, pin, binding); break;
+    }
+    context.tree().list(node.arguments)[index].value = binding.value;
+    call.bindings.push_back(binding);
+  }
+}
+
 std::span<const VarId> pinsOf(Context& context, PouId id) {
   Pou& pou = context.project.pou(id);
   if (!pou.pins_ready) {
     resolvePou(context, id);
     pou.pins.clear();
+    if (pou.base) {  // those of the base come first
+      const std::span<const VarId> inherited = pinsOf(context, pou.base);
+      pou.pins.assign(inherited.begin(), inherited.end());
+    }
     for (const VarId var : pou.vars) {
       if (isPin(context.project.var(var).section)) pou.pins.push_back(var);
     }
@@ -451,8 +475,34 @@ void bindControlPins(Context& context, const CallExpr& node, const Arguments& ar
   }
 }
 
+namespace {
+
+// `name;` calls an action or a method without parameters (codesys). Anything else does nothing.
+bool isBareCall(Context& context, const CallExpr& node) {
+  if (context.tree().kind(node.callee) == ExprKind::Name) {
+    const Entity found = lookUp(context, context.tree().as<NameExpr>(node.callee).name);
+    if (found.what() == EntityKind::Pou && context.project.pous[found.index].owner) return true;
+  } else {
+    ExprId callee = node.callee;
+    const uint32_t errors = context.project.diagnostics.errorCount();
+    check(context, callee, {}, Access::Qualifier);
+    const Entity found = entityOf(context, node.callee);
+    if (found.what() == EntityKind::Pou && context.project.pous[found.index].owner) return true;
+    if (context.project.diagnostics.errorCount() != errors) return false;
+  }
+  const Loc begin = context.tree().begin(node.callee);
+  const std::string_view source = context.project.sources.text(context.project.sources.fileOf(begin));
+  const uint32_t from = begin.offset - context.project.sources.begin(context.project.sources.fileOf(begin)).offset;
+  const std::string shown(source.substr(from, node.end.offset - begin.offset));
+  context.report(Diag::NoEffect, begin, {shown});
+  return false;
+}
+
+}  // namespace
+
 TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
+  if ((node.h.bits & kBareCall) != 0 && !isBareCall(context, node)) return node.h.type = types::kError;
   if (context.tree().kind(node.callee) == ExprKind::Name) {
     NameExpr& callee = context.tree().as<NameExpr>(node.callee);
     callee.entity = lookUp(context, callee.name);
@@ -469,12 +519,14 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
       case EntityKind::EnumValue:
       case EntityKind::GlobalList:
       case EntityKind::Namespace:
+      case EntityKind::Property:
       case EntityKind::Program: break;
     }
-    return callValue(context, expr, checkName(context, node.callee, {}, Access::ReadWrite), as_statement);
+    return callValue(context, expr, check(context, node.callee, {}, Access::ReadWrite), as_statement);
   }
   if (context.tree().kind(node.callee) == ExprKind::Member) {
-    const TypeId type = check(context, node.callee, {}, Access::Qualifier);
+    TypeId type = check(context, node.callee, {}, Access::Qualifier);
+    type = throughObject(context, node.callee, type);
     const Entity entity = entityOf(context, node.callee);
     if (!type && entity.what() == EntityKind::Pou) {
       return callPou(context, expr, PouId{entity.index}, expected, as_statement);
@@ -483,7 +535,8 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
     if (entity.what() == EntityKind::Var) markAccess(context, VarId{entity.index}, Access::ReadWrite);
     return callValue(context, expr, type, as_statement);
   }
-  return callValue(context, expr, check(context, node.callee, {}, Access::ReadWrite), as_statement);
+  const TypeId type = check(context, node.callee, {}, Access::ReadWrite);
+  return callValue(context, expr, throughObject(context, node.callee, type), as_statement);
 }
 
 }  // namespace rung::sema

@@ -13,36 +13,56 @@ namespace {
 
 using types::TypeTable;
 
+// An integer; reports what is none.
+TypeId checkIndexValue(Context& context, ExprId& index) {
+  TypeId type = check(context, index, {}, Access::Read);
+  if (isUntyped(context, type)) type = settle(context, index);
+  const TypeKind kind = context.types().plainKind(type);
+  const bool enumeration = context.types().kind(type) == TypeKind::Enum;
+  if (type == types::kError) return type;
+  if ((TypeTable::isInteger(kind) || TypeTable::isBits(kind)) && !(enumeration && context.iec())) return type;
+  context.report(Diag::IndexNotInteger, context.tree().loc(index), {context.types().spell(type)});
+  return types::kError;
+}
+
+// s[i], an extension of codesys: the bytes of a STRING and the words of a WSTRING, from 0. The zero behind the last
+// one that fits can be read, so that a loop finds the end of a full text; written it would be no end any more.
+TypeId checkCharacter(Context& context, IndexExpr& node, TypeId text_type, Access access) {
+  const types::TypeInfo& info = context.types().info(context.types().resolve(text_type));
+  const bool reads = access == Access::Read || access == Access::Qualifier;
+  const types::Dimension characters{0, int64_t{info.length} - (reads ? 0 : 1)};
+  ExprId& index = context.tree().list(node.indices)[0];
+  const TypeId type = checkIndexValue(context, index);
+  if (type == types::kError) return type;
+  checkConstantIndex(context, index, &characters, text_type);
+  if (!reads) node.h.bits |= kWritesCharacter;
+  node.h.writable = context.tree().expr(node.base).writable;
+  return types::idOf(info.kind == TypeKind::WString ? TypeKind::Word : TypeKind::Byte);
+}
+
 TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   IndexExpr& node = context.tree().as<IndexExpr>(expr);
   const TypeId base = check(context, node.base, {}, access == Access::Qualifier ? Access::Read : access);
   const uint32_t count = node.indices.count;
   const types::TypeInfo* info = &context.types().info(context.types().resolve(base));
-  if (info->kind == TypeKind::Pointer && count == 1) {
-    // CODESYS indexes a pointer like an array; here it must say what it means.
-    context.report(Diag::IndexOfPointer, node.h.loc);
-    return node.h.type = types::kError;
+  if (info->kind == TypeKind::Pointer && count == 1) return checkPointerIndex(context, expr);
+  if (TypeTable::isText(info->kind) && count == 1 && !context.iec()) {
+    return node.h.type = checkCharacter(context, node, base, access);
   }
   const bool array = info->kind == TypeKind::Array;
+  const uint32_t dimensions = info->dimensions.empty() ? info->length : static_cast<uint32_t>(info->dimensions.size());
   if (!array && base != types::kError) {
     context.report(Diag::NotAnArray, node.h.loc, {context.types().spell(base)});
-  } else if (array && !info->dimensions.empty() && info->dimensions.size() != count) {
+  } else if (array && dimensions != count) {
     // The first index too many, or the last one, behind which some are missing.
-    const uint32_t marked = std::min(static_cast<uint32_t>(info->dimensions.size()), count - 1);
+    const uint32_t marked = std::min(dimensions, count - 1);
     context.report(Diag::WrongIndexCount, context.tree().loc(context.tree().list(node.indices)[marked]),
-                   {context.types().spell(base), std::to_string(info->dimensions.size()), std::to_string(count)});
+                   {context.types().spell(base), std::to_string(dimensions), std::to_string(count)});
   }
-  bool good = array && (info->dimensions.empty() || info->dimensions.size() == count);
+  bool good = array && dimensions == count;
   for (uint32_t i = 0; i < count; ++i) {
     ExprId index = context.tree().list(node.indices)[i];
-    TypeId type = check(context, index, {}, Access::Read);
-    if (isUntyped(context, type)) type = settle(context, index);
-    const TypeKind kind = context.types().plainKind(type);
-    const bool enumeration = context.types().kind(type) == TypeKind::Enum;
-    if (type == types::kError) {
-      good = false;
-    } else if ((!TypeTable::isInteger(kind) && !TypeTable::isBits(kind)) || (enumeration && context.iec())) {
-      context.report(Diag::IndexNotInteger, context.tree().loc(index), {context.types().spell(type)});
+    if (checkIndexValue(context, index) == types::kError) {
       good = false;
     } else if (good) {
       checkConstantIndex(context, index, info->dimensions.empty() ? nullptr : &info->dimensions[i], base);
@@ -56,6 +76,7 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
 
 TypeId checkDeref(Context& context, ExprId& expr) {
   DerefExpr& node = context.tree().as<DerefExpr>(expr);
+  if (node.h.type) return node.h.type;  // of a reference that was checked before
   const TypeId base = check(context, node.base, {}, Access::Read);
   if (base == types::kError) return node.h.type = types::kError;
   const types::TypeInfo& info = context.types().info(context.types().resolve(base));
@@ -104,6 +125,20 @@ TypeId checkAddress(Context& context, ExprId& expr) {
   return node.h.type = addressType(node.address);
 }
 
+// A REFERENCE is used like what it refers to.
+TypeId throughReference(Context& context, ExprId& expr, TypeId type) {
+  const types::TypeInfo& info = context.types().info(context.types().resolve(type));
+  if (info.kind != TypeKind::Reference) return type;
+  DerefExpr deref{};
+  deref.h.kind = ExprKind::Deref;
+  deref.h.loc = context.tree().loc(expr);
+  deref.h.writable = 1;
+  deref.h.type = info.base;
+  deref.base = expr;
+  expr = context.tree().add<ExprId>(deref);
+  return info.base;
+}
+
 TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) {
   Tree& tree = context.tree();
   switch (tree.kind(expr)) {
@@ -113,13 +148,18 @@ TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) 
     case ExprKind::TypedName: return checkTypedName(context, expr);
     case ExprKind::Member: return checkMember(context, expr, expected, access);
     case ExprKind::Index: return checkIndex(context, expr, access);
+    case ExprKind::This:
+    case ExprKind::Super: return checkThisOrSuper(context, expr, expected, access);
     case ExprKind::Deref: return checkDeref(context, expr);
     case ExprKind::BitAccess: return checkBitAccess(context, expr, access);
     case ExprKind::Address: return checkAddress(context, expr);
     case ExprKind::Unary: return checkUnary(context, expr, expected);
     case ExprKind::Binary: return checkBinary(context, expr, expected);
     case ExprKind::Call: return checkCall(context, expr, expected, false);
-    case ExprKind::Convert: return tree.expr(expr).type;  // checked before
+    case ExprKind::Convert:
+    case ExprKind::Bound:
+    case ExprKind::AnyValue:
+    case ExprKind::AddressOf: return tree.expr(expr).type;  // checked before
     case ExprKind::ArrayInit:
     case ExprKind::StructInit:
     case ExprKind::Range:
@@ -137,7 +177,8 @@ TypeId check(Context& context, ExprId& expr, TypeId expected, Access access) {
     return context.tree().expr(expr).type = types::kError;
   }
   ++context.depth;
-  const TypeId type = dispatch(context, expr, expected, access);
+  TypeId type = dispatch(context, expr, expected, access);
+  if (context.tree().kind(expr) != ExprKind::AddressOf) type = throughReference(context, expr, type);
   --context.depth;
   return type;
 }

@@ -19,6 +19,7 @@ const char* wordOf(EntityKind kind) {
     case EntityKind::Error:
     case EntityKind::Var:
     case EntityKind::Pou:
+    case EntityKind::Property:
     case EntityKind::EnumValue: return "a name";
   }
   return "a name";
@@ -28,24 +29,13 @@ const char* wordOf(PouKind kind) {
   switch (kind) {
     case PouKind::Function: return "a function; call it with `(...)`";
     case PouKind::FunctionBlock: return "a block type; declare an instance of it";
+    case PouKind::Class: return "a class; declare an instance of it";
+    case PouKind::Interface: return "an interface; declare a variable of it";
+    case PouKind::Method: return "a method; call it with `(...)`";
+    case PouKind::Action: return "an action; call it with `()`";
     case PouKind::Program: return "a program; name one of its variables after a `.`";
   }
   return "a POU";
-}
-
-// A REFERENCE is used like what it refers to.
-TypeId throughReference(Context& context, ExprId& expr, TypeId type) {
-  const types::TypeInfo& info = context.types().info(context.types().resolve(type));
-  if (info.kind != TypeKind::Reference) return type;
-  context.tree().expr(expr).type = type;
-  DerefExpr deref{};
-  deref.h.kind = ExprKind::Deref;
-  deref.h.loc = context.tree().loc(expr);
-  deref.h.writable = 1;
-  deref.h.type = info.base;
-  deref.base = expr;
-  expr = context.tree().add<ExprId>(deref);
-  return info.base;
 }
 
 TypeId typeOf(const Context& context, VarId id) {
@@ -60,8 +50,7 @@ TypeId useVar(Context& context, ExprId& expr, VarId id, Access access) {
   header.is_constant = var.constant && var.has_value;
   header.writable = !var.constant;
   const TypeId type = typeOf(context, id);
-  header.type = type;
-  return throughReference(context, expr, type);
+  return header.type = type;
 }
 
 TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
@@ -92,11 +81,13 @@ TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId 
     case EntityKind::Error: return header.type = types::kError;
     case EntityKind::Pou: {
       const Pou& pou = context.project.pou(PouId{entity.index});
-      if (access == Access::Qualifier && pou.kind != PouKind::FunctionBlock) return header.type = {};
+      if (access == Access::Qualifier && (pou.kind == PouKind::Program || pou.kind == PouKind::Function || pou.owner))
+        return header.type = {};
       if (access == Access::Address) return header.type = pou.record ? pou.record : types::kError;
       if (sayUnknown(context, name)) context.report(Diag::NotAValue, loc, {text(context, name), wordOf(pou.kind)});
       return header.type = types::kError;
     }
+    case EntityKind::Property: return useMember(context, expr, entity, {}, access);
     case EntityKind::Type:
       if (access == Access::Address) return header.type = TypeId{entity.index};
       [[fallthrough]];
@@ -156,6 +147,9 @@ TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access acces
   }
   if (record) {
     if (const VarId var = findMember(context, record, node.member)) found = Entity::of(EntityKind::Var, var.index);
+    if (!found) {
+      if (const auto type = checkObjectMember(context, expr, pouOf(context, record), access)) return *type;
+    }
   }
   if (!found) {
     if (!record || sayUnknownMember(context, record, node.member))
@@ -196,6 +190,8 @@ Entity entityOf(const Context& context, ExprId expr) {
     case ExprKind::Error:
     case ExprKind::Literal:
     case ExprKind::Index:
+    case ExprKind::This:
+    case ExprKind::Super:
     case ExprKind::Deref:
     case ExprKind::BitAccess:
     case ExprKind::Address:
@@ -206,7 +202,10 @@ Entity entityOf(const Context& context, ExprId expr) {
     case ExprKind::ArrayInit:
     case ExprKind::Repeat:
     case ExprKind::StructInit:
-    case ExprKind::Convert: return {};
+    case ExprKind::Convert:
+    case ExprKind::Bound:
+    case ExprKind::AnyValue:
+    case ExprKind::AddressOf: return {};
   }
   return {};
 }
@@ -300,7 +299,7 @@ TypeId checkTypedName(Context& context, ExprId& expr) {
 // `phase : Phase; … Phase.Idle`: where the variable has no such member, the name is that of the enumeration which the
 // variable hides. None when it hides none with this item. IEC 61131-3 ed. 3 writes `Phase#Idle`.
 Entity hiddenEnumeration(Context& context, const MemberExpr& node, TypeId base) {
-  if (context.tree().kind(node.base) != ExprKind::Name || context.iec()) return {};
+  if (context.tree().kind(node.base) != ExprKind::Name) return {};
   const TypeId record = context.types().resolve(base);
   if (context.types().info(record).kind == TypeKind::Record && findMember(context, record, node.member)) return {};
   const TypeId hidden = lookUpType(context, context.tree().as<NameExpr>(node.base).name);
@@ -311,14 +310,24 @@ Entity hiddenEnumeration(Context& context, const MemberExpr& node, TypeId base) 
 
 TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   MemberExpr& node = context.tree().as<MemberExpr>(expr);
-  const TypeId base = checkBase(context, node.base, access);
+  TypeId base = checkBase(context, node.base, access);
+  base = throughObject(context, node.base, base);
   if (!base) return checkWhole(context, expr, entityOf(context, node.base), access);
   if (base == types::kError) return node.h.type = types::kError;
-  if (const Entity type = hiddenEnumeration(context, node, base)) {
+  const Entity hidden = hiddenEnumeration(context, node, base);
+  if (hidden && context.iec()) {
+    const std::string typed =
+        std::string(text(context, nameOf(context, node.base))) + "#" + std::string(text(context, node.member));
+    context.report(Diag::NotARecord, node.h.loc, {text(context, node.member), context.types().spell(base)})
+        .didYouMean(typed);
+    node.entity = Entity::of(EntityKind::Error, 0);
+    return node.h.type = types::kError;
+  }
+  if (hidden) {
     NameExpr& name = context.tree().as<NameExpr>(node.base);
-    name.entity = type;
+    name.entity = hidden;
     name.h.type = {};
-    return checkWhole(context, expr, type, access);
+    return checkWhole(context, expr, hidden, access);
   }
   const TypeId record = context.types().resolve(base);
   const types::TypeInfo& info = context.types().info(record);
@@ -331,7 +340,11 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
     }
     return node.h.type = types::kError;
   }
+  const PouId object = pouOf(context, record);
   const VarId member = findMember(context, record, node.member);
+  if (!member && object) {
+    if (const auto type = checkObjectMember(context, expr, object, access)) return *type;
+  }
   if (!member) {
     node.entity = Entity::of(EntityKind::Error, 0);
     if (sayUnknownMember(context, record, node.member))

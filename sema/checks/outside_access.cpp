@@ -10,6 +10,13 @@ namespace rung::sema {
 bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, TypeId record, Access access) {
   if (access == Access::Address) return true;
   const Var& var = context.project.var(member);
+  const PouId object = objectOf(context);
+  if (object &&
+      (var.pou == object || isKindOf(context, object, var.pou)))  // THIS^.x, another instance of the same block
+    return var.access != AccessLevel::Private || var.pou == object ||
+           mayAccess(context, var.access, var.pou, var.name, node.h.loc);
+  if (var.access == AccessLevel::Public || var.access == AccessLevel::Internal) return true;
+  if (var.access != AccessLevel::None && !mayAccess(context, var.access, var.pou, var.name, node.h.loc)) return false;
   const bool program = context.types().info(record).record_kind == types::RecordKind::Program;
   const bool writes = access == Access::Write || access == Access::ReadWrite;
   const std::string_view pin = text(context, var.name);
@@ -27,6 +34,7 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
     case SectionKind::Local:
     case SectionKind::Temp:
     case SectionKind::External:
+    case SectionKind::Inst:
     case SectionKind::Stat: return program || isBroken(context, var.pou) ? true : refuse(Diag::InternalVariable);
     case SectionKind::Global:
     case SectionKind::Access:

@@ -11,7 +11,7 @@ bool checkRequiredPins(Context& context, const CallExpr& node, PouId id, const A
   const Pou& pou = context.project.pou(id);
   const std::span<const VarId> pins = pinsOf(context, id);
   const uint32_t named = node.arguments.count - arguments.positional;
-  const bool by_position = pou.kind == PouKind::Function && named == 0;
+  const bool by_position = (pou.kind == PouKind::Function || pou.kind == PouKind::Method) && named == 0;
   bool good = true;
   for (size_t i = 0; i < pins.size(); ++i) {
     const bool given = i < arguments.slots.size() && arguments.slots[i] != 0;

@@ -4,11 +4,14 @@
 // Called at the end of each body.
 #include "sema/checks/result_assigned.h"
 
+#include "sema/declarations/declarations.h"
+
 namespace rung::sema {
 
 void checkResultAssigned(Context& context) {
   const Pou& pou = context.project.pou(context.pou);
   if (pou.library || !pou.result_var || context.project.var(pou.result_var).written) return;
+  if (pou.owner && isLifeMethod(context, pou.name)) return;  // nobody looks at theirs
   context.report(Diag::ResultNotAssigned, pou.loc, {text(context, pou.name)});
 }
 

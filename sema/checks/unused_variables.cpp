@@ -21,7 +21,7 @@ void checkUnusedVariables(Context& context) {
           var.section == SectionKind::Local || var.section == SectionKind::Temp || var.section == SectionKind::Stat;
       if (local && !var.read && !var.written) {
         context.report(Diag::UnusedVariable, var.loc, {text(context, var.name)});
-      } else if (local && !var.written && !var.init && pou.kind != PouKind::Program) {
+      } else if (local && !var.written && !var.init && var.constructor.index == 0 && pou.kind != PouKind::Program) {
         context.report(Diag::NeverWritten, var.loc, {text(context, var.name)});
       } else if (var.section == SectionKind::Output && !var.written && !var.init) {
         context.report(Diag::OutputNeverWritten, var.loc, {text(context, var.name), text(context, pou.name)});

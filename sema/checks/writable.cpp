@@ -66,6 +66,8 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
       }
       case ExprKind::Index: expr = tree.as<IndexExpr>(expr).base; break;
       case ExprKind::BitAccess: expr = tree.as<BitAccessExpr>(expr).base; break;
+      case ExprKind::This:
+      case ExprKind::Super:
       case ExprKind::Deref:
       case ExprKind::Address:
       case ExprKind::Error: return true;
@@ -79,6 +81,9 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
       case ExprKind::Repeat:
       case ExprKind::StructInit:
       case ExprKind::Convert:
+      case ExprKind::Bound:
+      case ExprKind::AnyValue:
+      case ExprKind::AddressOf:
         context.report(Diag::NotAPlace, tree.begin(whole), {purpose.spell(context)});
         return false;
     }

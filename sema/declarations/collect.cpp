@@ -16,6 +16,8 @@ void initWords(Context& context) {
   words.attribute_strict = word("strict");
   words.test = word("test");
   words.test_only = word("test_only");
+  words.replaces = word("replaces");
+  words.mock = word("mock");
   words.alias = word("alias");
   words.required = word("required");
   words.lazy = word("lazy");
@@ -68,6 +70,7 @@ Loc locOf(Context& context, Entity found) {
     case EntityKind::EnumValue: return project.enum_values[found.index].loc;
     case EntityKind::GlobalList: return project.global_lists[found.index].loc;
     case EntityKind::Program: return project.instances[found.index].loc;
+    case EntityKind::Property: return project.properties[found.index].loc;
     case EntityKind::None:
     case EntityKind::Error:
     case EntityKind::Namespace: return {};
@@ -101,6 +104,10 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.sized = findPragma(context, decl.h, words.sized) != nullptr;
   pou.test_only = findPragma(context, decl.h, words.test_only) != nullptr;
   pou.test = findPragma(context, decl.h, words.test) != nullptr;
+  if (const Pragma* pragma = findPragma(context, decl.h, words.replaces); pragma != nullptr && library == kNoLibrary) {
+    pou.replaces = context.names().intern(context.tree().text(pragma->value));
+    pou.test_only = true;
+  }
   if (const Pragma* pragma = findPragma(context, decl.h, words.op)) {
     const std::string_view word = context.tree().text(pragma->value);
     pou.operator_kind = word == "select"              ? Pou::Operator::Select
@@ -110,9 +117,13 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
                         : types::findOp(word, pou.op) ? Pou::Operator::Op
                                                       : Pou::Operator::None;
   }
+  pou.access = decl.access;
+  pou.modifiers = decl.modifiers;
   if (pou.kind != PouKind::Function) {
-    pou.record = context.types().addRecord(
-        pou.kind == PouKind::Program ? RecordKind::Program : RecordKind::FunctionBlock, pou.name);
+    pou.record = context.types().addRecord(pou.kind == PouKind::Program     ? RecordKind::Program
+                                           : pou.kind == PouKind::Interface ? RecordKind::Interface
+                                                                            : RecordKind::FunctionBlock,
+                                           pou.name);
     NamedType& named = addNamed(context, pou.record);
     named.pou = pou_id;
     named.file = file;
@@ -120,6 +131,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   }
   if (library == kNoLibrary) {
     declare(context, scopes.pous_and_types, pou.name, pou.loc, entity(pou_id));
+    collectMembers(context, pou_id);
     if (!mayHoldGlobals(context, pou.kind)) return;
     for (uint32_t s = 0; s < decl.sections.count; ++s) {
       const DeclId id_of_section = context.tree().list(decl.sections)[s];
@@ -137,6 +149,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
     pou.unique_name = context.names().intern(spelled(context, pou.library_name) + "__" + spelled(context, pou.name));
     if (pou.record) context.types().edit(pou.record).name = pou.unique_name;
   }
+  collectMembers(context, pou_id);
 }
 
 void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
@@ -300,7 +313,14 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
     case DeclKind::Resource:
     case DeclKind::Task:
     case DeclKind::ProgramInstance:
+    case DeclKind::Property:
     case DeclKind::Var: return;
+    case DeclKind::Namespace:
+    case DeclKind::Using: {
+      const bool is_using = context.tree().kind(decl) == DeclKind::Using;
+      context.report(Diag::NotSupportedYet, context.tree().loc(decl), {is_using ? "`USING`" : "`NAMESPACE`"});
+      return;
+    }
   }
 }
 

@@ -266,9 +266,14 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
     case ExprKind::Call: return evaluateCall(context, tree.as<CallExpr>(id), depth);
     case ExprKind::Error:
     case ExprKind::Index:
+    case ExprKind::This:
+    case ExprKind::Super:
     case ExprKind::Deref:
     case ExprKind::BitAccess:
     case ExprKind::Address:
+    case ExprKind::AddressOf:
+    case ExprKind::Bound:
+    case ExprKind::AnyValue:
     case ExprKind::Range:
     case ExprKind::ArrayInit:
     case ExprKind::Repeat:

@@ -37,6 +37,15 @@ void reportTwice(Context& context, NameId name, Loc loc, Loc first);
 // Items of an enumeration into a table, values to be resolved.
 void declareItems(Context& context, TypeId type, TypeExprId written, NameMap* bare, bool project_wide);
 
+// What has locals and parameters instead of an instance of its own.
+inline bool isFunction(PouKind kind) {
+  return kind == PouKind::Function || kind == PouKind::Method || kind == PouKind::Action;
+}
+
+// ---- names.cpp
+// The mock that stands for what this name means elsewhere: in all of the project but the mock itself.
+Entity mockInUse(const Context& context, NameId key);
+
 // ---- variables.cpp
 // VAR_GLOBAL in a PROGRAM: the standard has it, codesys has not.
 inline bool mayHoldGlobals(const Context& context, PouKind kind) { return kind == PouKind::Program && context.iec(); }
@@ -50,6 +59,18 @@ void declarePou(Context& context, PouId pou);
 void resolveList(Context& context, ListId list);
 // The field of a record that holds a variable.
 void addField(Context& context, TypeId record, VarId id);
+
+// ---- objects.cpp
+// METHODs, ACTIONs and PROPERTYs of a POU: a Pou each.
+void collectMembers(Context& context, PouId owner);
+// FB_Init, FB_Reinit, FB_Exit: called when an instance is made, moved and taken away (codesys).
+bool isLifeMethod(const Context& context, NameId name);
+// What an object extends and implements; checked once.
+void resolveHeader(Context& context, PouId object);
+// The hidden fields with which an object begins: type id, base.
+void addObjectFields(Context& context, PouId object);
+// The names of members in the scope of their object, and VAR_INST of its methods.
+void declareMembers(Context& context, PouId object);
 
 // ---- addresses.cpp: see resolveAddress in context.h
 inline char areaLetter(ImageArea area) {
@@ -74,6 +95,8 @@ std::optional<int64_t> constantBound(Context& context, ExprId& expr);
 void checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string_view what);
 
 // ---- libraries.cpp
+// The structure __SYSTEM.AnyType.
+TypeId anyType(Context& context);
 void indexLibraries(Context& context);
 // A name of the libraries, read on first use; of one library only when `library` is given.
 Entity lookUpLibrary(Context& context, NameId name, uint32_t library = kNoLibrary);

@@ -230,6 +230,10 @@ void indexLibraries(Context& context) {
       }
     }
   }
+  for (const LibraryAlias& alias : context.project.options.library_aliases) {
+    const Entity space = libraries.namespaces.find(keyOf(context, context.names().intern(alias.library)));
+    if (space) libraries.namespaces.insert(keyOf(context, context.names().intern(alias.alias)), space);
+  }
 }
 
 namespace {
@@ -275,6 +279,13 @@ Entity lookUpLibrary(Context& context, NameId key, uint32_t library) {
     if (const Entity found = libraries.list[from].names.find(key)) return found;
   }
   return {};
+}
+
+TypeId anyType(Context& context) {
+  const Entity system = context.scopes.libraries.namespaces.find(keyOf(context, context.names().intern("__SYSTEM")));
+  if (!system) return types::kError;
+  const Entity found = lookUpLibrary(context, keyOf(context, context.names().intern("AnyType")), system.index);
+  return found.what() == EntityKind::Type ? TypeId{found.index} : types::kError;
 }
 
 }  // namespace rung::sema

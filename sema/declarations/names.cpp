@@ -27,6 +27,12 @@ bool NameMap::insert(NameId key, Entity entity) {
   }
 }
 
+Entity mockInUse(const Context& context, NameId key) {
+  if (context.library) return {};
+  const Entity mock = context.scopes.mocks.find(key);
+  return mock.index == context.pou.index ? Entity{} : mock;
+}
+
 namespace {
 
 // What is found must be usable at once: its type resolved, its value known when it is constant.
@@ -41,6 +47,12 @@ Entity ready(Context& context, Entity found) {
     case EntityKind::EnumValue: resolveNamed(context, context.project.enum_values[found.index].type); break;
     case EntityKind::Type: resolveNamed(context, TypeId{found.index}); break;
     case EntityKind::Pou: resolvePou(context, PouId{found.index}); break;
+    case EntityKind::Property: {
+      const Property& property = context.project.properties[found.index];
+      for (const PouId accessor : {property.get, property.set})
+        if (accessor) resolvePou(context, accessor);
+      break;
+    }
     case EntityKind::None:
     case EntityKind::Error:
     case EntityKind::GlobalList:
@@ -69,10 +81,15 @@ Entity findName(Context& context, NameId key) {
   }
   if (context.pou) {
     if (const Entity found = scopes.pous[context.pou.index].names.find(key)) return found;
+    const Pou& pou = context.project.pou(context.pou);
+    if (const PouId object = objectOf(context); object && (pou.owner || pou.base)) {
+      if (const Entity found = findInObject(context, object, key)) return found;
+    }
   }
   if (context.library) {  // a library is never captured by names of the project
     if (const Entity found = lookUpLibrary(context, key)) return found;
   }
+  if (const Entity mock = mockInUse(context, key)) return mock;
   if (const Entity found = scopes.pous_and_types.find(key)) return found;
   if (const Entity found = scopes.globals.find(key)) return found;
   if (const Entity found = scopes.items.find(key)) return found;
@@ -97,7 +114,10 @@ Entity lookUpIn(Context& context, Entity qualifier, NameId name) {
   Scopes& scopes = context.scopes;
   switch (qualifier.what()) {
     case EntityKind::GlobalList: return ready(context, scopes.lists[qualifier.index].names.find(key));
-    case EntityKind::Namespace: return ready(context, lookUpLibrary(context, key, qualifier.index));
+    case EntityKind::Namespace: {
+      const Entity mock = mockInUse(context, key);
+      return ready(context, mock ? mock : lookUpLibrary(context, key, qualifier.index));
+    }
     case EntityKind::Type: {
       const TypeId type = context.types().resolve(TypeId{qualifier.index});
       resolveNamed(context, type);
@@ -110,6 +130,7 @@ Entity lookUpIn(Context& context, Entity qualifier, NameId name) {
     case EntityKind::Var:
     case EntityKind::Pou:
     case EntityKind::EnumValue:
+    case EntityKind::Property:
     case EntityKind::Program: return {};
   }
   return {};
@@ -127,12 +148,15 @@ VarId findMember(Context& context, TypeId record, NameId name) {
 
 VarId findPin(Context& context, PouId pou, NameId name) {
   resolvePou(context, pou);
-  const Entity found = context.scopes.pous[pou.index].names.find(keyOf(context, name));
-  if (found.what() != EntityKind::Var) return {};
-  const VarId id{found.index};
-  if (context.project.var(id).pou != pou || id == context.project.pou(pou).result_var) return {};
-  ensureVarType(context, id);
-  return id;
+  for (; pou; pou = context.project.pou(pou).base) {
+    const Entity found = context.scopes.pous[pou.index].names.find(keyOf(context, name));
+    if (found.what() != EntityKind::Var) continue;
+    const VarId id{found.index};
+    if (context.project.var(id).pou != pou || id == context.project.pou(pou).result_var) continue;
+    ensureVarType(context, id);
+    return id;
+  }
+  return {};
 }
 
 bool isBroken(const Context& context, PouId id) {
@@ -173,11 +197,15 @@ std::string_view nearestName(Context& context, NameId written) {
     NameId spelling = key;
     if (found.what() == EntityKind::Var) spelling = context.project.vars[found.index].name;
     if (found.what() == EntityKind::Pou) spelling = context.project.pous[found.index].name;
+    if (found.what() == EntityKind::Property) spelling = context.project.properties[found.index].name;
     if (found.what() == EntityKind::EnumValue) spelling = context.project.enum_values[found.index].name;
     if (found.what() == EntityKind::Type) spelling = context.types().info(TypeId{found.index}).name;
     candidates.push_back(names.text(spelling && names.same(spelling, key) ? spelling : key));
   };
   if (context.pou) context.scopes.pous[context.pou.index].names.forEach(addDeclared);
+  const PouId object = objectOf(context);
+  for (PouId at = object; at; at = context.project.pou(at).base)
+    if (at != context.pou) context.scopes.pous[at.index].names.forEach(addDeclared);
   context.scopes.pous_and_types.forEach(addDeclared);
   context.scopes.globals.forEach(addDeclared);
   context.scopes.items.forEach(addDeclared);

@@ -1,4 +1,5 @@
 // Variables of POUs and global lists: their names first, then types and storage, then initial values; each on demand.
+#include "sema/checks/object_members.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
 
@@ -20,6 +21,7 @@ const char* sectionWord(SectionKind kind) {
     case SectionKind::External: return "VAR_EXTERNAL";
     case SectionKind::Global: return "VAR_GLOBAL";
     case SectionKind::Stat: return "VAR_STAT";
+    case SectionKind::Inst: return "VAR_INST";
     case SectionKind::Access: return "VAR_ACCESS";
     case SectionKind::Config: return "VAR_CONFIG";
   }
@@ -27,12 +29,21 @@ const char* sectionWord(SectionKind kind) {
 }
 
 const char* kindWord(PouKind kind) {
-  return kind == PouKind::Function ? "FUNCTION" : kind == PouKind::Program ? "PROGRAM" : "FUNCTION_BLOCK";
+  switch (kind) {
+    case PouKind::Function: return "FUNCTION";
+    case PouKind::FunctionBlock: return "FUNCTION_BLOCK";
+    case PouKind::Program: return "PROGRAM";
+    case PouKind::Class: return "CLASS";
+    case PouKind::Interface: return "INTERFACE";
+    case PouKind::Method: return "METHOD";
+    case PouKind::Action: return "ACTION";
+  }
+  return "POU";
 }
 
 // A variable AT %I* of a block, or of a program with several instances, has a place of its own in each instance.
 bool hasOwnPlaces(const Context& context, PouId pou) {
-  if (!pou || context.project.pou(pou).kind == PouKind::Function) return false;
+  if (!pou || isFunction(context.project.pou(pou).kind)) return false;
   if (context.project.pou(pou).kind == PouKind::FunctionBlock) return true;
   return static_cast<bool>(context.scopes.programs_with_several.find(keyOf(context, context.project.pou(pou).name)));
 }
@@ -41,7 +52,7 @@ Storage storageOf(const Context& context, SectionKind section, PouId pou, const 
   if (decl.located && decl.address.incomplete && hasOwnPlaces(context, pou)) return Storage::Field;
   if (decl.located) return Storage::Image;
   if (!pou || section == SectionKind::External || section == SectionKind::Stat) return Storage::Global;
-  if (section == SectionKind::Temp || context.project.pou(pou).kind == PouKind::Function) return Storage::Local;
+  if (section == SectionKind::Temp || isFunction(context.project.pou(pou).kind)) return Storage::Local;
   return Storage::Field;
 }
 
@@ -65,6 +76,7 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
   Var var;
   var.decl = decl_id;
   var.section = section.section;
+  var.access = section.access;
   var.storage = storageOf(context, section.section, pou, decl);
   var.edge = decl.edge;
   var.constant = (section.h.bits & kConstant) != 0;
@@ -118,6 +130,10 @@ void addField(Context& context, TypeId record, VarId id) {
                : var.pou                            ? FieldRole::Local
                                                     : FieldRole::Member;
   field.by_reference = var.section == SectionKind::InOut;
+  if (context.types().isOpenArray(var.type)) {  // a pointer to the first element; the bounds are fields of their own
+    field.type = context.types().pointer(context.types().info(context.types().resolve(var.type)).base);
+    field.by_reference = false;
+  }
   field.retain = var.retain;
   field.persistent = var.persistent;
   field.constant = var.constant;
@@ -133,7 +149,7 @@ namespace {
 //   fails   VAR_INPUT clk : INT R_EDGE; END_VAR        E0333
 void checkEdge(Context& context, const Var& var) {
   if (var.edge == EdgeKind::None || var.type == types::kError) return;
-  const bool block = var.pou && context.project.pou(var.pou).kind != PouKind::Function;
+  const bool block = var.pou && !isFunction(context.project.pou(var.pou).kind);
   if (block && var.section == SectionKind::Input && context.types().kind(var.type) == TypeKind::Bool) return;
   context.report(Diag::EdgeNotBool, var.loc, {context.names().text(var.name)});
 }
@@ -215,7 +231,20 @@ void ensureVarType(Context& context, VarId id) {
     Var& var = project.vars[i];
     if (var.type) continue;
     var.type = type;
+    if (context.types().isOpenArray(type) && var.section != SectionKind::InOut) {
+      if (i == first) there.report(Diag::OpenArray, context.tree().loc(decl.type));
+      var.type = types::kError;
+    }
+    // An ANY input of CODESYS tells of any variable where it is; the standard's generic types are the library's.
+    const bool generic = types::TypeTable::isGeneric(context.types().kind(var.type));
+    if (generic && var.section == SectionKind::Input && !there.library && !there.iec()) {
+      var.any = var.type;
+      var.type = anyType(there);
+    }
     checkEdge(there, var);
+    if (var.section != SectionKind::InOut && var.section != SectionKind::External && type != types::kError &&
+        !checkNotAbstract(there, type, context.tree().loc(decl.type)))
+      var.type = types::kError;
     if (decl.located && decl.address.incomplete) {  // completed by resolveInstancePlaces
       if (decl.address.size_given && addressType(decl.address) == types::kBool && type != types::kError &&
           context.types().kind(type) != TypeKind::Bool) {
@@ -287,6 +316,8 @@ void ensureInitialValue(Context& context, VarId id) {
     --context.scopes.depth;
     decl.init = init;
   }
+  const bool makes_object = var.section != SectionKind::InOut && var.section != SectionKind::External;
+  const CallId constructor = decl.type && makes_object ? checkConstructor(there, decl.type) : CallId{};
   decl.h.spare = static_cast<uint16_t>(State::Done);
   const TypeKind kind = context.types().plainKind(type);
   std::optional<types::Value> value;
@@ -297,6 +328,7 @@ void ensureInitialValue(Context& context, VarId id) {
   for (uint32_t i = firstOfDecl(project, id.index);
        i < project.vars.size() && project.vars[i].decl == project.vars[id.index].decl; ++i) {
     project.vars[i].init = init;
+    project.vars[i].constructor = constructor;
     if (value) {
       project.vars[i].has_value = true;
       project.vars[i].value = *value;
@@ -304,6 +336,21 @@ void ensureInitialValue(Context& context, VarId id) {
       id = VarId{i};
       setUnknown();
     }
+  }
+}
+
+// VAR_INST of a method: a variable of the object, which only this method sees.
+static void declareInstanceVars(Context& context, DeclId decl, const SectionDecl& section, PouId method) {
+  Project& project = context.project;
+  const PouId owner = project.pou(method).owner;
+  std::vector<VarId>& vars = project.pou(owner).vars;
+  const size_t first = vars.size();
+  SectionDecl local = section;
+  local.section = SectionKind::Local;
+  declareVars(context, decl, local, owner, {}, &context.scopes.pous[method.index].names, vars);
+  for (size_t i = first; i < vars.size(); ++i) {
+    Var& var = project.var(vars[i]);
+    var.name = context.names().intern(spelled(context, project.pou(method).name) + "__" + spelled(context, var.name));
   }
 }
 
@@ -331,7 +378,8 @@ void declarePou(Context& context, PouId id) {
     if (section.section == SectionKind::Global && mayHoldGlobals(context, kind)) continue;  // collect.cpp
     const bool misplaced = section.section == SectionKind::Global || section.section == SectionKind::Access ||
                            section.section == SectionKind::Config ||
-                           (section.section == SectionKind::Stat && context.iec());
+                           (section.section == SectionKind::Stat && context.iec()) ||
+                           (section.section == SectionKind::Inst && kind != PouKind::Method);
     if (misplaced) {
       there.report(Diag::SectionNotAllowed, section.h.loc, {sectionWord(section.section), kindWord(kind)});
       if (section.section != SectionKind::Global && section.section != SectionKind::Stat) continue;
@@ -345,9 +393,14 @@ void declarePou(Context& context, PouId id) {
         declareVars(there, var, section, id, list, &scope.names, project.global_lists[list.index].vars);
         continue;
       }
+      if (section.section == SectionKind::Inst && kind == PouKind::Method) {
+        declareInstanceVars(there, var, section, id);
+        continue;
+      }
       declareVars(there, var, section, id, {}, &scope.names, project.pou(id).vars);
     }
   }
+  declareMembers(context, id);
   if (project.pou(id).result_var) {
     // The name is the result inside the body, unless a pin has it (reported by nobody: the pin hides it).
     scope.names.insert(keyOf(context, decl.name), entity(project.pou(id).result_var));
@@ -361,6 +414,7 @@ void resolvePou(Context& context, PouId id) {
   declarePou(context, id);
   Project& project = context.project;
   Context there = atPou(context, id);
+  addObjectFields(context, id);
   Pou& pou = project.pou(id);
   const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
   if (decl.result) {
@@ -369,7 +423,7 @@ void resolvePou(Context& context, PouId id) {
     project.var(pou.result_var).type = result;
     if (types::TypeTable::isGeneric(context.types().kind(result))) pou.generic = true;
   }
-  std::vector<VarId> edges;
+  std::vector<VarId> edges, open_arrays;
   for (size_t i = 0; i < pou.vars.size(); ++i) {
     const VarId var_id = pou.vars[i];
     ensureVarType(there, var_id);
@@ -379,25 +433,36 @@ void resolvePou(Context& context, PouId id) {
     if (types::TypeTable::isGeneric(context.types().kind(var.type))) pou.generic = true;
     if (var.extensible) pou.extensible = true;
     if (var.edge != EdgeKind::None && var.storage == Storage::Field) edges.push_back(var_id);
+    if (context.types().isOpenArray(var.type)) open_arrays.push_back(var_id);
   }
   // Forbids generic types outside of functions: an instance of a block has one layout.
-  if (pou.generic && pou.kind != PouKind::Function) {
+  if (pou.generic && (pou.kind != PouKind::Function || pou.owner)) {
     context.report(Diag::GenericBlock, pou.loc, {context.names().text(pou.name)});
     pou.generic = false;
   }
-  for (const VarId edge : edges) {
-    Var memory;
-    memory.name = context.names().intern("__" + std::string(spelled(context, project.var(edge).name)) + "_edge");
-    memory.loc = project.var(edge).loc;
-    memory.type = types::kBool;
-    memory.storage = Storage::Field;
-    memory.pou = id;
-    memory.read = memory.written = true;
-    const VarId memory_id{static_cast<uint32_t>(project.vars.size())};
-    project.vars.push_back(memory);
-    project.var(edge).edge_memory = memory_id;
-    pou.vars.push_back(memory_id);
-    addField(there, pou.record, memory_id);
+  const auto addHidden = [&](VarId of, const std::string& suffix, TypeId type) {
+    Var hidden;
+    hidden.name = context.names().intern("__" + spelled(context, project.var(of).name) + suffix);
+    hidden.loc = project.var(of).loc;
+    hidden.type = type;
+    hidden.storage = project.var(of).storage;
+    hidden.pou = id;
+    hidden.read = hidden.written = true;
+    hidden.field = static_cast<uint32_t>(pou.vars.size());
+    hidden.hidden_input = hidden.storage == Storage::Local;
+    const VarId hidden_id{static_cast<uint32_t>(project.vars.size())};
+    project.vars.push_back(hidden);
+    pou.vars.push_back(hidden_id);
+    if (hidden.storage == Storage::Field) addField(there, pou.record, hidden_id);
+    return hidden_id;
+  };
+  for (const VarId edge : edges) project.var(edge).edge_memory = addHidden(edge, "_edge", types::kBool);
+  for (const VarId array : open_arrays) {
+    const uint32_t dimensions = context.types().info(context.types().resolve(project.var(array).type)).length;
+    for (uint32_t i = 0; i < 2 * dimensions; ++i) {
+      const VarId bound = addHidden(array, (i % 2 == 0 ? "_low" : "_high") + std::to_string(i / 2 + 1), types::kDInt);
+      if (i == 0) project.var(array).bounds = bound;
+    }
   }
   scope.resolved = State::Done;
 }

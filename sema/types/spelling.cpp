@@ -149,7 +149,7 @@ std::string TypeTable::spell(TypeId id) const {
   if (info.name) return std::string(names_.text(info.name));
   if (info.kind == TypeKind::Array) {
     text = "ARRAY[";
-    if (info.dimensions.empty()) text += '*';
+    for (uint32_t i = 0; i < info.length; ++i) text += i == 0 ? "*" : ", *";
     for (size_t i = 0; i < info.dimensions.size(); ++i) {
       if (i > 0) text += ", ";
       appendSigned(text, info.dimensions[i].low);
@@ -158,7 +158,11 @@ std::string TypeTable::spell(TypeId id) const {
     }
     return text + "] OF " + spell(info.base);
   }
-  if (info.kind == TypeKind::Pointer) return "POINTER TO " + spell(info.base);
+  if (info.kind == TypeKind::Pointer) {
+    const TypeInfo& target = types_[resolve(info.base).index];
+    const bool interface = target.kind == TypeKind::Record && target.record_kind == RecordKind::Interface;
+    return (interface ? "" : "POINTER TO ") + spell(info.base);
+  }
   if (info.kind == TypeKind::Reference) return "REFERENCE TO " + spell(info.base);
   if (info.kind == TypeKind::Subrange) {
     text = spell(info.base) + '(';

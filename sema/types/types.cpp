@@ -62,6 +62,15 @@ constexpr ElementaryName kElementaryNames[] = {
 };
 constexpr uint32_t kDefaultLength = 80;
 
+// A text is laid out from the start, like a scalar: lowering makes more of them when all layouts are known.
+void setLength(TypeInfo& info, uint32_t length) {
+  const uint32_t unit = info.kind == TypeKind::WString ? 2 : 1;
+  info.length = length;
+  info.size = (uint64_t{length} + 1) * unit;
+  info.align = unit;
+  info.laid_out = true;
+}
+
 uint64_t internKey(TypeKind kind, uint64_t value) { return static_cast<uint64_t>(kind) << 56 ^ value; }
 
 }  // namespace
@@ -76,7 +85,7 @@ TypeTable::TypeTable(Names& names, uint32_t pointer_size) : names_(names), point
       info.align = static_cast<uint32_t>(info.size);
       info.laid_out = true;
     } else if (isText(info.kind)) {
-      info.length = kDefaultLength;
+      setLength(info, kDefaultLength);
     }
   }
   for (const ElementaryName& row : kElementaryNames) {
@@ -85,6 +94,13 @@ TypeTable::TypeTable(Names& names, uint32_t pointer_size) : names_(names), point
     TypeInfo& info = types_[static_cast<size_t>(row.kind)];
     if (!info.name) info.name = name;
   }
+  // CODESYS's names for numbers as wide as an address.
+  const auto native = [&](const char* name, TypeKind wide, TypeKind narrow) {
+    elementary_.emplace(names.key(names.intern(name)).index, idOf(pointer_size == 8 ? wide : narrow));
+  };
+  native("__XWORD", TypeKind::LWord, TypeKind::DWord);
+  native("__XINT", TypeKind::LInt, TypeKind::DInt);
+  native("__UXINT", TypeKind::ULInt, TypeKind::UDInt);
   // STRING and WSTRING without a length are the same types as with the default one.
   interned_.emplace(internKey(TypeKind::String, kDefaultLength), idOf(TypeKind::String));
   interned_.emplace(internKey(TypeKind::WString, kDefaultLength), idOf(TypeKind::WString));
@@ -117,7 +133,7 @@ TypeId TypeTable::string(uint32_t length) {
   if (!id) {
     TypeInfo info;
     info.kind = TypeKind::String;
-    info.length = length;
+    setLength(info, length);
     id = append(types_, std::move(info));
   }
   return id;
@@ -128,7 +144,7 @@ TypeId TypeTable::wstring(uint32_t length) {
   if (!id) {
     TypeInfo info;
     info.kind = TypeKind::WString;
-    info.length = length;
+    setLength(info, length);
     id = append(types_, std::move(info));
   }
   return id;
@@ -158,6 +174,20 @@ TypeId TypeTable::array(TypeId element, std::span<const Dimension> dimensions) {
     info.base = element;
     info.dimensions.assign(dimensions.begin(), dimensions.end());
     return id = append(types_, std::move(info));
+  }
+}
+
+TypeId TypeTable::openArray(TypeId element, uint32_t dimensions) {
+  for (uint64_t key = element.index;; key += uint64_t{1} << 32) {
+    TypeId& id = interned_[internKey(TypeKind::Any, key)];
+    if (!id) {
+      TypeInfo info;
+      info.kind = TypeKind::Array;
+      info.base = element;
+      info.length = dimensions;
+      return id = append(types_, std::move(info));
+    }
+    if (types_[id.index].length == dimensions) return id;
   }
 }
 

@@ -15,6 +15,10 @@ const char* word(PouKind kind) {
     case PouKind::Function: return "FUNCTION";
     case PouKind::FunctionBlock: return "FUNCTION_BLOCK";
     case PouKind::Program: return "PROGRAM";
+    case PouKind::Class: return "CLASS";
+    case PouKind::Interface: return "INTERFACE";
+    case PouKind::Method: return "METHOD";
+    case PouKind::Action: return "ACTION";
   }
   return "";
 }
@@ -37,9 +41,7 @@ int listPous(const Options& options) {
     for (DeclId id : tree.list(unit.decls)) {
       if (tree.kind(id) != DeclKind::Pou) continue;
       const PouDecl& pou = tree.as<PouDecl>(id);
-      std::string name(compilation.names.text(pou.name)), shown(compilation.sources.path(unit.file));
-      for (const InputFile& file : compilation.inputs.files)
-        if (file.file == unit.file) shown = file.shown;
+      std::string name(compilation.names.text(pou.name)), shown(compilation.sources.shown(unit.file));
       out += std::string(word(pou.pou_kind)) + " " + name + "  " + shown + ":" +
              std::to_string(compilation.sources.place(pou.h.loc).line) + "\n";
     }

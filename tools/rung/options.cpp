@@ -39,6 +39,7 @@ constexpr std::string_view kLaterCommands[] = {"convert", "graph", "fmt", "cam",
 enum class Key : uint8_t {
   Output,
   Library,
+  Define,
   Root,
   Name,
   Standard,
@@ -64,6 +65,8 @@ enum class Key : uint8_t {
   Host,
   Filter,
   Junit,
+  Coverage,
+  Lcov,
   Separate,
   TargetPointer,
   Signature,
@@ -102,9 +105,12 @@ constexpr OptionRow kOptions[] = {
     {Key::Host, "--retain", "FILE", bit(Command::Run), "keep retained variables in FILE"},
     {Key::Host, "--start", "cold|warm|origin", bit(Command::Run), "how to start (warm when the retain file exists)"},
     {Key::Host, "--stop-on", "CONDITION", bit(Command::Run), "end after the cycle that makes it TRUE"},
+    {Key::Host, "--trace-calls", nullptr, bit(Command::Run), "print which POUs ran in each cycle"},
     {Key::Host, "--realtime", nullptr, bit(Command::Run), "pace the run by the clock"},
     {Key::Filter, "--filter", "GLOB", bit(Command::Test), "only tests whose name matches"},
     {Key::Junit, "--junit", "FILE", bit(Command::Test), "write the results as JUnit XML"},
+    {Key::Coverage, "--coverage", nullptr, bit(Command::Test), "print which lines of the program ran"},
+    {Key::Lcov, "--lcov", "FILE", bit(Command::Test), "write the same for lcov and genhtml"},
     {Key::Separate, "--separate", nullptr, bit(Command::Test), "each file is a project of its own"},
     {Key::Signature, "--signature", "NAME", bit(Command::List), "the declaration of a function, block or type"},
     {Key::Standard, "--std", "codesys|iec3|iec2", kReads, "dialect (codesys)"},
@@ -117,6 +123,7 @@ constexpr OptionRow kOptions[] = {
     {Key::MaxErrors, "--max-errors", "N", kReads, "stop listing after N errors; 0: never (100)"},
     {Key::Format, "--format", "text|json|sarif", kReads, "form of diagnostics (text)"},
     {Key::Color, "--color", "auto|always|never", kReads, "colours (auto: on a terminal)"},
+    {Key::Define, "-D", "NAME[=VALUE]", kReads, "define NAME for {IF defined (NAME)}; may be repeated"},
     {Key::Library, "-I", "DIR", kReads, "folder with libraries; may be repeated"},
     {Key::Root, "--root", "DIR", kReads, "paths in the output are relative to DIR"},
     {Key::Name, "--name", "ID", kCompile, "prefix of the module's symbols (plc)"},
@@ -206,6 +213,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       options.output = value;
       return {};
     case Key::Library: options.library_paths.push_back(value); return {};
+    case Key::Define: return parseDefine(value, options.defines);
     case Key::Root: options.root = value; return {};
     case Key::Name:
       if (!isIdentifier(value)) return quoted(value) + " is no C identifier; `--name` takes letters, digits and `_`";
@@ -267,6 +275,8 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
     case Key::Host: options.host_arguments.push_back(row.value ? row.name + ("=" + value) : row.name); return {};
     case Key::Filter: options.filter = value; return {};
     case Key::Junit: options.junit = value; return {};
+    case Key::Coverage: options.coverage = true; return {};
+    case Key::Lcov: options.lcov = value; return {};
     case Key::Separate: options.separate = true; return {};
     case Key::TargetPointer:
       error = parseChoice(row.name, value, row.value, choice);
@@ -354,6 +364,14 @@ std::string checkCombination(const Options& options) {
     if (!options.depfile.empty() && options.output.empty() && options.depfile_target.empty())
       return "`--depfile` needs `-o` or `--depfile-target`";
   }
+  const bool native = options.engine == Engine::Native || options.keep;
+  if (options.counts() && native)
+    return std::string(options.coverage ? "`--coverage`" : "`--lcov`") + " needs the interpreter; leave out " +
+           (options.keep ? "`--keep`" : "`--engine=native`");
+  for (const std::string& argument : options.host_arguments)
+    if (argument == "--trace-calls" && native)
+      return std::string("`--trace-calls` needs the interpreter; leave out ") +
+             (options.keep ? "`--keep`" : "`--engine=native`");
   if (options.command == Command::Build && options.output.empty())
     return "`rung build` needs a name for its output: add `-o FILE`";
   return {};
@@ -400,6 +418,14 @@ std::string parseStandard(std::string_view name, text::Standard& standard) {
   std::string error = parseChoice("--std", name, "iec2|iec3|codesys", choice);
   if (error.empty()) standard = static_cast<text::Standard>(choice);
   return error;
+}
+
+std::string parseDefine(std::string_view text, std::vector<text::Define>& defines) {
+  const size_t equal = text.find('=');
+  const std::string_view name = text.substr(0, equal);
+  if (!isIdentifier(name)) return quoted(name) + " is no name; `-D` takes NAME or NAME=VALUE";
+  defines.push_back({std::string(name), equal == text.npos ? "" : std::string(text.substr(equal + 1))});
+  return {};
 }
 
 std::string parseChecks(std::string_view list, uint8_t& checks) {

@@ -173,6 +173,26 @@ TEST(Verify, Rule29Purity) {
   expectBroken(29, withStatements("  fault div", ""));
   expectBroken(29, "globals @G { x: int }\nlist @G: @G\nfunction @f pure { in i: int }\nbody @f { @G.x = i }\n");
 }
+TEST(Verify, Rule31Dispatch) {
+  const std::string base =
+      "block @Base { var id: udint }\nblock @Pump { var SUPER: @Base }\nfunction @Base__Run on @Base faults { in x: "
+      "int }\n"
+      "body @Base__Run { }\nfunction @Pump__Run on @Pump { in y: int }\nbody @Pump__Run { }\n"
+      "function @Shape__Run on @Base abstract { in x: int }\n";
+  const auto call = [](const std::string& how) {
+    return "function @go faults { inout b: @Base }\nbody @go { call " + how + "(1) on b }\n";
+  };
+  const std::string classes = "classes @Base, @Pump of @Base\n";
+  TestModule good(base + classes + "dispatch @Base__Run from 1: @Base__Run, _\n" + call("virtual @Base__Run"));
+  ASSERT_TRUE(good.good) << good.errors();
+  EXPECT_TRUE(verify(good.module).empty()) << verify(good.module)[0];
+  expectBroken(31, base + "classes @Pump of @Base, @Base\n");
+  expectBroken(31, base + classes + "dispatch @Base__Run from 2: @Base__Run, @Base__Run\n");
+  expectBroken(31, base + classes + "dispatch @Base__Run from 1: @Base__Run, @Pump__Run\n" +
+                       "function @Other on @Base { }\n" + "dispatch @Other from 1: @Base__Run\n");
+  expectBroken(31, base + classes + call("virtual @Base__Run"));
+  expectBroken(31, base + classes + call("@Shape__Run"));
+}
 TEST(Verify, Rule30Native) { expectBroken(30, "function @f native Standard { in i: int }\nbody @f { i = 1 }\n"); }
 
 }  // namespace

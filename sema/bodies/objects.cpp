@@ -1,0 +1,354 @@
+// Objects in bodies: THIS and SUPER, calls of methods and actions, properties. In: names and members that mean such a
+// thing. Out: a sema::Call of kind Method; a property that is read is the call of its GET, one that is written that of
+// its SET. Called by names.cpp, calls.cpp and statements.cpp.
+#include "sema/bodies/bodies.h"
+#include "sema/checks/required_pins.h"
+#include "sema/declarations/declarations.h"
+#include "sema/scopes.h"
+
+namespace rung::sema {
+
+namespace {
+
+const char* wordOf(AccessLevel access) {
+  switch (access) {
+    case AccessLevel::Private: return "PRIVATE";
+    case AccessLevel::Protected: return "PROTECTED";
+    case AccessLevel::Internal: return "INTERNAL";
+    case AccessLevel::None:
+    case AccessLevel::Public: break;
+  }
+  return "PUBLIC";
+}
+
+ExprId deref(Context& context, ExprId pointer, TypeId target) {
+  DerefExpr node{};
+  node.h.kind = ExprKind::Deref;
+  node.h.loc = context.tree().loc(pointer);
+  node.h.writable = 1;
+  node.h.type = target;
+  node.base = pointer;
+  return context.tree().add<ExprId>(node);
+}
+
+// The object that an instance expression names, as the owner of the method that is called: an interface pointer becomes
+// one of the interface that declares the method.
+ExprId instanceFor(Context& context, ExprId instance, PouId method) {
+  if (!instance) return instance;
+  const Pou& owner = context.project.pou(context.project.pou(method).owner);
+  const types::TypeInfo& info = context.types().info(context.types().resolve(context.tree().expr(instance).type));
+  if (owner.kind != PouKind::Interface || info.kind != TypeKind::Record ||
+      owner.record == context.types().resolve(context.tree().expr(instance).type) ||
+      context.tree().kind(instance) != ExprKind::Deref)
+    return instance;
+  ExprId pointer = context.tree().as<DerefExpr>(instance).base;
+  wrapConvert(context, pointer, context.types().pointer(owner.record));
+  return deref(context, pointer, owner.record);
+}
+
+// What a call on an object does to the variables that lead to it: a pointer is read, an object may change.
+void markObject(Context& context, ExprId at) {
+  Access access = Access::ReadWrite;
+  const Tree& tree = context.tree();
+  while (at) {
+    const Entity entity = entityOf(context, at);
+    if (entity.what() == EntityKind::Var) markAccess(context, VarId{entity.index}, access);
+    const ExprKind kind = tree.kind(at);
+    if (kind == ExprKind::Deref) access = Access::Read;
+    at = kind == ExprKind::Member  ? tree.as<MemberExpr>(at).base
+         : kind == ExprKind::Index ? tree.as<IndexExpr>(at).base
+         : kind == ExprKind::Deref ? tree.as<DerefExpr>(at).base
+                                   : ExprId{};
+  }
+}
+
+CallId addMethodCall(Context& context, PouId method, ExprId instance, std::vector<Binding>&& bindings) {
+  const Pou& callee = context.project.pou(method);
+  const Pou& owner = context.project.pou(callee.owner);
+  Call call;
+  call.kind = CallKind::Method;
+  call.pou = method;
+  call.instance = instanceFor(context, instance, method);
+  call.bindings = std::move(bindings);
+  const bool fixed = callee.kind == PouKind::Action || !owner.dispatched || callee.access == AccessLevel::Private ||
+                     ((callee.modifiers | owner.modifiers) & kFinal) != 0;
+  call.is_virtual = !fixed && !(instance && isExact(context, instance));
+  return addCall(context, std::move(call));
+}
+
+}  // namespace
+
+bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, Loc loc) {
+  if (access == AccessLevel::None && context.iec()) access = AccessLevel::Protected;
+  if (access == AccessLevel::None || access == AccessLevel::Public || access == AccessLevel::Internal) return true;
+  const PouId object = objectOf(context);
+  if (object == owner) return true;
+  if (access == AccessLevel::Protected && object && isKindOf(context, object, owner)) return true;
+  context.report(Diag::NotAccessible, loc,
+                 {text(context, name), wordOf(access), text(context, context.project.pou(owner).name)});
+  return false;
+}
+
+namespace {
+
+// Forbids THIS outside of objects.   fails   FUNCTION f … x := THIS^.y;       E0550
+TypeId checkThis(Context& context, ExprId expr) {
+  ExprHeader& header = context.tree().expr(expr);
+  const PouId object = objectOf(context);
+  if (!object || context.project.pou(object).kind == PouKind::Program) {
+    context.report(Diag::ThisOutside, header.loc, {"THIS"});
+    return header.type = types::kError;
+  }
+  return header.type = context.types().pointer(context.project.pou(object).record);
+}
+
+// Forbids SUPER where there is no base.   fails   FUNCTION_BLOCK a … SUPER^.m();       E0551
+TypeId checkSuper(Context& context, ExprId expr) {
+  ExprHeader& header = context.tree().expr(expr);
+  const PouId object = objectOf(context);
+  if (!object || context.project.pou(object).kind == PouKind::Program) {
+    context.report(Diag::ThisOutside, header.loc, {"SUPER"});
+    return header.type = types::kError;
+  }
+  const PouId base = context.project.pou(object).base;
+  if (!base) {
+    if (context.tree().as<PouDecl>(context.project.pou(object).decl).bases.empty())
+      context.report(Diag::SuperWithoutBase, header.loc, {text(context, context.project.pou(object).name)});
+    return header.type = types::kError;
+  }
+  return header.type = context.types().pointer(context.project.pou(base).record);
+}
+
+}  // namespace
+
+TypeId checkThisOrSuper(Context& context, ExprId& expr, TypeId expected, Access access) {
+  const bool is_this = context.tree().kind(expr) == ExprKind::This;
+  NameExpr name{};
+  name.h = context.tree().expr(expr);
+  name.h.kind = ExprKind::Name;
+  name.name = context.names().intern(is_this ? "THIS" : "SUPER");
+  const Entity found = lookUp(context, name.name);
+  if (found.what() != EntityKind::Var || context.project.vars[found.index].type == types::kError)
+    return is_this ? checkThis(context, expr) : checkSuper(context, expr);
+  expr = context.tree().add<ExprId>(name);
+  return checkName(context, expr, expected, access);
+}
+
+TypeId throughObject(Context& context, ExprId& expr, TypeId type) {
+  if (!type || type == types::kError) return type;
+  const ExprKind kind = context.tree().kind(expr);
+  if (kind != ExprKind::This && kind != ExprKind::Super && !interfaceOf(context, type)) return type;
+  const TypeId target = context.types().info(context.types().resolve(type)).base;
+  expr = deref(context, expr, target);
+  return target;
+}
+
+bool isExact(const Context& context, ExprId instance) {
+  const Tree& tree = context.tree();
+  for (;;) {
+    switch (tree.kind(instance)) {
+      case ExprKind::Name: {
+        const Entity entity = tree.as<NameExpr>(instance).entity;
+        return entity.what() != EntityKind::Var || context.project.vars[entity.index].section != SectionKind::InOut;
+      }
+      case ExprKind::Member: {
+        const Entity entity = tree.as<MemberExpr>(instance).entity;
+        return entity.what() != EntityKind::Var || context.project.vars[entity.index].section != SectionKind::InOut;
+      }
+      case ExprKind::Index: instance = tree.as<IndexExpr>(instance).base; break;
+      case ExprKind::Deref: return tree.kind(tree.as<DerefExpr>(instance).base) == ExprKind::Super;
+      case ExprKind::Error:
+      case ExprKind::Literal:
+      case ExprKind::TypedName:
+      case ExprKind::This:
+      case ExprKind::Super:
+      case ExprKind::BitAccess:
+      case ExprKind::Address:
+      case ExprKind::Unary:
+      case ExprKind::Binary:
+      case ExprKind::Call:
+      case ExprKind::Range:
+      case ExprKind::ArrayInit:
+      case ExprKind::Repeat:
+      case ExprKind::StructInit:
+      case ExprKind::Bound:
+      case ExprKind::AnyValue:
+      case ExprKind::AddressOf:
+      case ExprKind::Convert: return false;
+    }
+  }
+}
+
+TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance, Access access) {
+  const Loc loc = context.tree().loc(expr);
+  ExprHeader& header = context.tree().expr(expr);
+  if (member.what() == EntityKind::Pou) {
+    const Pou& method = context.project.pou(PouId{member.index});
+    if (!mayAccess(context, method.access, method.owner, method.name, loc)) return header.type = types::kError;
+    if (access == Access::Qualifier) return header.type = {};
+    context.report(Diag::NotAValue, loc,
+                   {text(context, method.name), method.kind == PouKind::Action ? "an action; call it with `()`"
+                                                                               : "a method; call it with `(...)`"});
+    return header.type = types::kError;
+  }
+  const Property property = context.project.properties[member.index];
+  const PouId accessor = property.get ? property.get : property.set;
+  if (!accessor) return header.type = types::kError;
+  resolvePou(context, accessor);
+  if (access == Access::Write || access == Access::ReadWrite) {  // an assignment looks at it; others want a variable
+    header.type = property.get ? context.project.pou(property.get).result
+                               : context.project.var(pinsOf(context, property.set)[0]).type;
+    return header.type;
+  }
+  if (!property.get) {
+    context.report(Diag::PropertyWithoutGet, loc, {text(context, property.name)});
+    return header.type = types::kError;
+  }
+  const Pou& getter = context.project.pou(property.get);
+  if (!mayAccess(context, getter.access, getter.owner, property.name, loc)) return header.type = types::kError;
+  noteCall(context, property.get, loc);
+  CallExpr call{};
+  call.h.kind = ExprKind::Call;
+  call.h.loc = loc;
+  call.h.type = getter.result ? getter.result : types::kError;
+  call.callee = expr;
+  call.end = loc;
+  call.call = addMethodCall(context, property.get, instance, {});
+  header.type = {};
+  expr = context.tree().add<ExprId>(call);
+  return call.h.type;
+}
+
+std::optional<TypeId> checkObjectMember(Context& context, ExprId& expr, PouId object, Access access) {
+  if (!object) return std::nullopt;
+  MemberExpr& node = context.tree().as<MemberExpr>(expr);
+  const Entity found = findInObject(context, object, node.member);
+  if (found.what() != EntityKind::Pou && found.what() != EntityKind::Property) return std::nullopt;
+  node.entity = found;
+  markObject(context, node.base);
+  return useMember(context, expr, found, node.base, access);
+}
+
+bool checkPropertyAssign(Context& context, AssignStmt& node) {
+  const Entity found = entityOf(context, node.target);
+  if (found.what() != EntityKind::Property) return false;
+  const Property property = context.project.properties[found.index];
+  const Loc loc = context.tree().loc(node.target);
+  if (!property.set) {
+    context.report(Diag::PropertyWithoutSet, loc, {text(context, property.name)});
+    checkExpr(context, node.value);
+    return true;
+  }
+  resolvePou(context, property.set);
+  const Pou& setter = context.project.pou(property.set);
+  const VarId pin = pinsOf(context, property.set)[0];
+  const bool good = mayAccess(context, setter.access, setter.owner, property.name, loc);
+  const ExprId instance =
+      context.tree().kind(node.target) == ExprKind::Member ? context.tree().as<MemberExpr>(node.target).base : ExprId{};
+  if (node.op() != AssignOp::Assign) {  // x.p += 1 reads it first
+    ExprId read = context.tree().kind(node.target) == ExprKind::Member
+                      ? context.tree().add<ExprId>(MemberExpr(context.tree().as<MemberExpr>(node.target)))
+                      : context.tree().add<ExprId>(NameExpr(context.tree().as<NameExpr>(node.target)));
+    useMember(context, read, found, instance, Access::Read);
+    BinaryExpr sum{};
+    sum.h.kind = ExprKind::Binary;
+    sum.h.op = static_cast<uint8_t>(binaryOf(node.op()));
+    sum.h.loc = node.h.loc;
+    sum.left = read;
+    sum.right = node.value;
+    node.value = context.tree().add<ExprId>(sum);
+    node.h.op = static_cast<uint8_t>(AssignOp::Assign);
+    const TypeId type = context.project.var(pin).type;
+    check(context, context.tree().as<BinaryExpr>(node.value).right, type, Access::Read);
+    if (combine(context, node.value, type) == types::kError) return true;
+    convert(context, node.value, type, Purpose{"assigned to", property.name, {}});
+  } else {
+    checkAs(context, node.value, context.project.var(pin).type, Purpose{"assigned to", property.name, {}});
+  }
+  if (!good) return true;
+  noteCall(context, property.set, loc);
+  Binding binding;
+  binding.pin = pin;
+  binding.value = node.value;
+  CallExpr call{};
+  call.h.kind = ExprKind::Call;
+  call.h.loc = loc;
+  call.callee = node.target;
+  call.end = loc;
+  call.call = addMethodCall(context, property.set, instance, {binding});
+  context.tree().expr(node.target).type = {};
+  node.target = context.tree().add<ExprId>(call);
+  return true;
+}
+
+// Forbids arguments at a declaration that no FB_Init takes, and FB_Init without those that it needs. Codesys.
+//   passes  p : Pump(3);        FB_Init has an input behind bInitRetains and bInCopyCode
+CallId checkConstructor(Context& context, TypeExprId type) {
+  Tree& tree = context.tree();
+  while (tree.kind(type) == TypeExprKind::Array) type = tree.as<ArrayTypeExpr>(type).element;
+  if (tree.kind(type) != TypeExprKind::Named) return {};
+  const NamedTypeExpr& written = tree.as<NamedTypeExpr>(type);
+  const TypeId resolved = context.types().resolve(written.h.type);
+  if (!resolved || resolved == types::kError) return {};
+  const PouId object = context.types().info(resolved).kind == TypeKind::Record ? pouOf(context, resolved) : PouId{};
+  const PouId method = object ? constructorOf(context, object) : PouId{};
+  const std::span<const VarId> pins = method ? pinsOf(context, method) : std::span<const VarId>();
+  constexpr uint32_t kImplicit = 2;  // bInitRetains, bInCopyCode
+  if (pins.size() <= kImplicit) {
+    if (written.has_arguments && written.arguments.count > 0)
+      context.report(Diag::TooManyArguments, tree.list(written.arguments)[0].loc,
+                     {context.types().spell(resolved), "0"});
+    return {};
+  }
+  CallExpr node{};
+  node.h.kind = ExprKind::Call;
+  node.h.loc = node.end = written.h.loc;
+  std::vector<Argument> arguments;
+  for (uint32_t i = 0; i < kImplicit; ++i) {
+    LiteralExpr no{};
+    no.h.kind = ExprKind::Literal;
+    no.h.op = static_cast<uint8_t>(LiteralKind::Bool);
+    no.h.loc = node.h.loc;
+    arguments.push_back({{}, tree.add<ExprId>(no), false, false, node.h.loc});
+  }
+  for (const Argument& argument : tree.list(written.arguments)) arguments.push_back(argument);
+  node.arguments = tree.addList<Argument>(arguments);
+  const Arguments matched = matchArguments(context, node, method);
+  Call call;
+  call.kind = CallKind::Method;
+  call.pou = method;
+  bindArguments(context, node, method, matched, call);
+  if (matched.good) {
+    for (size_t i = kImplicit; i < pins.size(); ++i) {
+      ensureInitialValue(context, pins[i]);
+      const Var& pin = context.project.var(pins[i]);
+      if ((i < matched.slots.size() && matched.slots[i] != 0) || pin.init || pin.section == SectionKind::Output)
+        continue;
+      context.report(Diag::MissingArgument, node.h.loc, {context.types().spell(resolved), text(context, pin.name)});
+      break;
+    }
+  }
+  return addCall(context, std::move(call));
+}
+
+TypeId callMethod(Context& context, ExprId& expr, PouId id, ExprId instance, bool as_statement) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  resolvePou(context, id);
+  noteCall(context, id, node.h.loc);
+  const Arguments arguments = matchArguments(context, node, id);
+  const CallId made = addMethodCall(context, id, instance, {});
+  Call call = context.project.call(made);
+  bindControlPins(context, node, arguments, call);
+  bindArguments(context, node, id, arguments, call);
+  if (arguments.good) checkRequiredPins(context, node, id, arguments);
+  context.project.call(made) = std::move(call);
+  node.call = made;
+  const Pou& callee = context.project.pou(id);
+  if (!callee.result && !as_statement) {
+    context.report(Diag::NoResult, node.h.loc, {text(context, callee.name)});
+    return node.h.type = types::kError;
+  }
+  return node.h.type = callee.result;
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,167 @@
+// Forbids what a block, class or interface cannot promise: a method of an interface or an abstract one of a base that
+// it does not have; another signature than that of the method it replaces; replacing a FINAL one; OVERRIDE without a
+// method to replace, and in edition 3 replacing without OVERRIDE; an abstract method in what is not ABSTRACT; a
+// variable of the base declared again. IEC 61131-3 ed. 3, 6.6.5.5.4, 6.6.6.6.
+//   passes  FUNCTION_BLOCK Pump IMPLEMENTS IDrive METHOD Start … END_METHOD
+//   fails   FUNCTION_BLOCK Pump IMPLEMENTS IDrive (without Start)                    E0355
+// Called once for each object of the project, when everything is declared.
+#include "sema/checks/object_members.h"
+
+#include <algorithm>
+
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+namespace {
+
+PouId methodOf(const Context& context, PouId object, const Pou& like) {
+  for (const PouId member : context.project.pou(object).members) {
+    const Pou& pou = context.project.pou(member);
+    if (pou.kind == PouKind::Method && pou.accessor == like.accessor && context.names().same(pou.name, like.name))
+      return member;
+  }
+  return {};
+}
+
+PouId inherited(const Context& context, PouId object, const Pou& like) {
+  for (PouId at = object; at; at = context.project.pou(at).base)
+    if (const PouId found = methodOf(context, at, like)) return found;
+  return {};
+}
+
+std::string_view wordOf(const Pou& member) {
+  return member.accessor == Pou::Accessor::None  ? "method"
+         : member.accessor == Pou::Accessor::Get ? "GET of the property"
+                                                 : "SET of the property";
+}
+
+void checkSignature(Context& context, PouId method, PouId replaced) {
+  resolvePou(context, method);
+  resolvePou(context, replaced);
+  const std::span<const VarId> pins = pinsOf(context, method), wanted = pinsOf(context, replaced);
+  const Pou& pou = context.project.pou(method);
+  const Pou& other = context.project.pou(replaced);
+  std::string difference;
+  const auto spell = [&](TypeId type) { return type ? context.types().spell(type) : std::string("nothing"); };
+  if (!pou.result != !other.result || (pou.result && !sameType(context, pou.result, other.result)))
+    difference = "its result is `" + spell(other.result) + "`";
+  for (size_t i = 0; difference.empty() && i < std::max(pins.size(), wanted.size()); ++i) {
+    if (i >= wanted.size()) {
+      difference = "that has no `" + std::string(text(context, context.project.var(pins[i]).name)) + "`";
+      continue;
+    }
+    const Var& there = context.project.var(wanted[i]);
+    const std::string name(text(context, there.name));
+    if (i >= pins.size() || context.project.var(pins[i]).section != there.section ||
+        !context.names().same(context.project.var(pins[i]).name, there.name)) {
+      difference = "the next is `" + name + "`";
+    } else if (!sameType(context, context.project.var(pins[i]).type, there.type)) {
+      difference = "`" + name + "` is `" + spell(there.type) + "`";
+    }
+  }
+  if (difference.empty() || isBroken(context, method) || isBroken(context, replaced)) return;
+  context
+      .report(Diag::OtherSignature, pou.loc,
+              {text(context, pou.name), text(context, context.project.pou(other.owner).name), difference})
+      .note(other.loc, Note::DeclaredHere);
+}
+
+struct Demands {
+  Context& context;
+  PouId object;
+  Loc loc;  // of the name that demands
+  std::vector<PouId> seen;
+
+  void interface(PouId id) {
+    if (std::find(seen.begin(), seen.end(), id) != seen.end()) return;
+    seen.push_back(id);
+    for (const PouId method : context.project.pou(id).members) demand(method);
+    for (const PouId base : context.project.pou(id).interfaces) interface(base);
+  }
+
+  void demand(PouId method) {
+    const Pou& wanted = context.project.pou(method);
+    const PouId found = inherited(context, object, wanted);
+    if (found && found != method) {
+      if (context.project.pou(found).owner == object) checkSignature(context, found, method);
+      return;
+    }
+    const Pou& pou = context.project.pou(object);
+    if ((pou.modifiers & kAbstract) != 0 || isBroken(context, object)) return;
+    context
+        .report(Diag::MemberMissing, loc,
+                {text(context, pou.name), wordOf(wanted), text(context, wanted.name),
+                 text(context, context.project.pou(wanted.owner).name)})
+        .note(wanted.loc, Note::DeclaredHere);
+  }
+};
+
+void checkMethod(Context& context, PouId object, PouId id) {
+  const Pou& method = context.project.pou(id);
+  const Pou& owner = context.project.pou(object);
+  if (method.kind != PouKind::Method) return;
+  if ((method.modifiers & kAbstract) != 0 && (owner.modifiers & kAbstract) == 0) {
+    context.report(Diag::AbstractInConcrete, method.loc, {text(context, method.name), text(context, owner.name)});
+    return;
+  }
+  const PouId replaced = owner.base ? inherited(context, owner.base, method) : PouId{};
+  if (!replaced || context.project.pou(replaced).access == AccessLevel::Private) {
+    if ((method.modifiers & kOverride) != 0)
+      context.report(Diag::OverridesNothing, method.loc, {text(context, method.name)});
+    return;
+  }
+  const Pou& other = context.project.pou(replaced);
+  const std::string_view base = text(context, context.project.pou(other.owner).name);
+  if ((other.modifiers & kFinal) != 0) {
+    context.report(Diag::OverridesFinal, method.loc, {text(context, method.name), base})
+        .note(other.loc, Note::DeclaredHere);
+  } else if (isLifeMethod(context, method.name)) {
+    return;  // FB_Init has parameters of its own
+  } else if (context.iec() && (method.modifiers & kOverride) == 0) {
+    context.report(Diag::OverrideMissing, method.loc, {text(context, method.name), base});
+  } else {
+    checkSignature(context, id, replaced);
+  }
+}
+
+}  // namespace
+
+void checkObjectMembers(Context& context, PouId object) {
+  const Pou& pou = context.project.pou(object);
+  if (pou.kind == PouKind::Interface) return;
+  const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
+  for (const PouId member : pou.members) checkMethod(context, object, member);
+  for (uint32_t i = 0; i < decl.implements.count; ++i) {
+    const TypeExprId written = context.tree().list(decl.implements)[i];
+    Demands demands{context, object, context.tree().loc(written), {}};
+    if (const PouId interface = interfaceOf(context, context.tree().typeExpr(written).type))
+      demands.interface(interface);
+  }
+  if (!pou.base) return;
+  const Loc base_loc = context.tree().loc(context.tree().list(decl.bases)[0]);
+  for (PouId at = pou.base; at; at = context.project.pou(at).base) {
+    Demands demands{context, object, base_loc, {}};
+    for (const PouId method : context.project.pou(at).members)
+      if ((context.project.pou(method).modifiers & kAbstract) != 0 &&
+          inherited(context, object, context.project.pou(method)) == method)
+        demands.demand(method);
+  }
+  for (const VarId id : pou.vars) {
+    const Var& var = context.project.var(id);
+    if (!var.decl || !var.name) continue;
+    const Entity first = findInObject(context, pou.base, var.name);
+    if (first.what() == EntityKind::Var) reportTwice(context, var.name, var.loc, context.project.vars[first.index].loc);
+  }
+}
+
+// Forbids instances of what is ABSTRACT.   fails   VAR s : Shape; END_VAR (ABSTRACT)      E0356
+bool checkNotAbstract(Context& context, TypeId type, Loc loc) {
+  while (context.types().kind(type) == TypeKind::Array) type = context.types().info(context.types().resolve(type)).base;
+  const PouId pou = context.types().kind(type) == TypeKind::Record ? pouOf(context, type) : PouId{};
+  if (!pou || (context.project.pou(pou).modifiers & kAbstract) == 0) return true;
+  context.report(Diag::AbstractInstance, loc, {text(context, context.project.pou(pou).name)});
+  return false;
+}
+
+}  // namespace rung::sema

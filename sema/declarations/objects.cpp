@@ -1,0 +1,241 @@
+// Objects: which methods, actions and properties a block, class or interface has, what it extends and implements, and
+// the hidden fields with which its instances begin.
+//
+// An object that may be met through a pointer, an in-out or an interface begins with a 32-bit type id, by which its
+// methods are found (`dispatched`): its own declaration decides, so that its layout does not change when somebody
+// extends it. A derived object holds its base as its first field; where the base has no type id and the derived one
+// has, the id comes first.
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+bool isLifeMethod(const Context& context, NameId name) {
+  const std::string_view text = context.names().text(name);
+  return sameIdentifier(text, "FB_Init") || sameIdentifier(text, "FB_Reinit") || sameIdentifier(text, "FB_Exit");
+}
+
+namespace {
+
+// `Motor__Start`: unique among functions and members of the project.
+NameId uniqueName(Context& context, const Pou& owner, std::string name) {
+  Scopes& scopes = context.scopes;
+  std::string unique = spelled(context, owner.unique_name) + "__" + name;
+  for (uint32_t n = 2;; ++n) {
+    const NameId id = context.names().intern(unique);
+    const NameId key = keyOf(context, id);
+    if (!scopes.pous_and_types.find(key) && scopes.member_names.insert(key, Entity::of(EntityKind::Error, 0)))
+      return id;
+    unique = spelled(context, owner.unique_name) + "__" + name + std::to_string(n);
+  }
+}
+
+PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accessor) {
+  Project& project = context.project;
+  const PouDecl& decl = context.tree().as<PouDecl>(id);
+  const PouId member_id{static_cast<uint32_t>(project.pous.size())};
+  project.pous.emplace_back();
+  context.scopes.pous.emplace_back();
+  Pou& member = project.pous.back();
+  Pou& owner = project.pou(owner_id);
+  member.name = decl.name;
+  member.loc = decl.h.loc;
+  member.kind = decl.pou_kind;
+  member.decl = id;
+  member.file = owner.file;
+  member.native = decl.body_kind == BodyKind::Native;
+  member.library = owner.library;
+  member.used = owner.library;
+  member.library_name = owner.library_name;
+  member.owner = owner_id;
+  member.access = decl.access;
+  member.modifiers = decl.modifiers;
+  member.unique_name = uniqueName(context, owner, spelled(context, decl.name) + accessor);
+  if (owner.kind == PouKind::Interface) member.modifiers |= kAbstract;
+  owner.members.push_back(member_id);
+  return member_id;
+}
+
+// The object that a name of EXTENDS or IMPLEMENTS means; reports what is none.
+PouId objectNamed(Context& context, TypeExprId written, bool want_interface) {
+  const TypeId type = resolveType(context, written);
+  if (type == types::kError) return {};
+  const PouId interface = interfaceOf(context, type);
+  const NamedType* named = context.scopes.named(context.types().resolve(type));
+  const PouId block = named != nullptr ? named->pou : PouId{};
+  if (want_interface ? static_cast<bool>(interface) : block && context.project.pou(block).kind != PouKind::Program)
+    return want_interface ? interface : block;
+  context.report(want_interface ? Diag::NotAnInterface : Diag::NotABase, context.tree().loc(written),
+                 {context.types().spell(type)});
+  return {};
+}
+
+}  // namespace
+
+void collectMembers(Context& context, PouId owner) {
+  const PouDecl& decl = context.tree().as<PouDecl>(context.project.pou(owner).decl);
+  for (uint32_t i = 0; i < decl.members.count; ++i) {
+    const DeclId member = context.tree().list(decl.members)[i];
+    if (context.tree().kind(member) == DeclKind::Pou) {
+      addMember(context, owner, member, "");
+      continue;
+    }
+    const PropertyDecl& property = context.tree().as<PropertyDecl>(member);
+    Property made{property.name, property.h.loc, owner, {}, {}};
+    if (property.get) {
+      made.get = addMember(context, owner, property.get, "__get");
+      context.project.pou(made.get).accessor = Pou::Accessor::Get;
+    }
+    if (property.set) {
+      made.set = addMember(context, owner, property.set, "__set");
+      context.project.pou(made.set).accessor = Pou::Accessor::Set;
+    }
+    context.project.pou(owner).properties.push_back(static_cast<uint32_t>(context.project.properties.size()));
+    context.project.properties.push_back(made);
+  }
+}
+
+void declareMembers(Context& context, PouId object) {
+  Project& project = context.project;
+  NameMap& names = context.scopes.pous[object.index].names;
+  const auto declare = [&](NameId name, Loc loc, Entity declared) {
+    if (!name || names.insert(keyOf(context, name), declared)) return;
+    const Entity first = names.find(keyOf(context, name));
+    const Loc known = first.what() == EntityKind::Var        ? project.vars[first.index].loc
+                      : first.what() == EntityKind::Property ? project.properties[first.index].loc
+                      : first.what() == EntityKind::Pou      ? project.pous[first.index].loc
+                                                             : Loc{};
+    reportTwice(context, name, loc, known);
+  };
+  for (const uint32_t property : project.pou(object).properties) {
+    const Property& of = project.properties[property];
+    declare(of.name, of.loc, Entity::of(EntityKind::Property, property));
+  }
+  for (const PouId member : project.pou(object).members) {
+    if (project.pou(member).accessor == Pou::Accessor::None)
+      declare(project.pou(member).name, project.pou(member).loc, entity(member));
+    declarePou(context, member);  // its VAR_INST are variables of the object
+  }
+}
+
+// Forbids EXTENDS of what is no block, class or interface, of a FINAL one, and of itself; IMPLEMENTS of what is no
+// interface. IEC 61131-3 ed. 3, 6.6.5.5, 6.6.6.5.
+//   fails   FUNCTION_BLOCK a EXTENDS b … FUNCTION_BLOCK b EXTENDS a …                 E0342
+void resolveHeader(Context& context, PouId id) {
+  Project& project = context.project;
+  if (project.pou(id).header != Pou::Header::New || !project.pou(id).decl) return;
+  project.pou(id).header = Pou::Header::Busy;
+  Context there = at(context, {}, project.pou(id).file, project.pou(id).library);
+  const PouDecl& decl = context.tree().as<PouDecl>(project.pou(id).decl);
+  const bool is_interface = decl.pou_kind == PouKind::Interface;
+  for (uint32_t i = 0; i < decl.bases.count; ++i) {
+    const TypeExprId written = context.tree().list(decl.bases)[i];
+    const PouId base = objectNamed(there, written, is_interface);
+    if (!base) continue;
+    resolveHeader(context, base);
+    const std::string_view name = context.names().text(project.pou(base).name);
+    if (project.pou(base).header == Pou::Header::Busy) {
+      there.report(Diag::ExtendsItself, context.tree().loc(written), {context.names().text(project.pou(id).name)});
+    } else if (is_interface) {
+      project.pou(id).interfaces.push_back(base);
+    } else if (project.pou(id).base) {
+      there.report(Diag::SeveralBases, context.tree().loc(written), {context.names().text(project.pou(id).name)});
+    } else if ((project.pou(base).modifiers & kFinal) != 0) {
+      there.report(Diag::ExtendsFinal, context.tree().loc(written), {name})
+          .note(project.pou(base).loc, Note::DeclaredHere);
+    } else {
+      project.pou(id).base = base;
+    }
+  }
+  for (uint32_t i = 0; i < decl.implements.count; ++i) {
+    if (const PouId interface = objectNamed(there, context.tree().list(decl.implements)[i], true)) {
+      resolveHeader(context, interface);
+      project.pou(id).interfaces.push_back(interface);
+    }
+  }
+  Pou& pou = project.pou(id);
+  pou.header = Pou::Header::Done;
+  if (pou.kind != PouKind::FunctionBlock && pou.kind != PouKind::Class && !is_interface) return;
+  bool own = is_interface || !pou.interfaces.empty() || (pou.modifiers & kAbstract) != 0;
+  for (const PouId member : pou.members) {
+    const Pou& method = project.pou(member);
+    own =
+        own || (method.kind == PouKind::Method && (pou.modifiers & kFinal) == 0 && !isLifeMethod(context, method.name));
+  }
+  pou.dispatched = own || (pou.base && project.pou(pou.base).dispatched);
+}
+
+void addObjectFields(Context& context, PouId id) {
+  Project& project = context.project;
+  resolveHeader(context, id);
+  Pou& pou = project.pou(id);
+  const auto hidden = [&](std::string_view name, TypeId type) {
+    Var var;
+    var.name = context.names().intern(name);
+    var.loc = pou.loc;
+    var.type = type;
+    var.storage = Storage::Field;
+    var.pou = id;
+    var.read = var.written = true;
+    const VarId made{static_cast<uint32_t>(project.vars.size())};
+    project.vars.push_back(var);
+    pou.vars.insert(pou.vars.begin() + (pou.id_var ? 1 : 0), made);
+    return made;
+  };
+  if (pou.dispatched && !(pou.base && project.pou(pou.base).dispatched))
+    pou.id_var = hidden("__type", types::idOf(types::TypeKind::UDInt));
+  if (pou.base) pou.base_var = hidden("SUPER", project.pou(pou.base).record);
+}
+
+PouId constructorOf(const Context& context, PouId object) {
+  for (PouId at = object; at; at = context.project.pou(at).base)
+    for (const PouId member : context.project.pou(at).members)
+      if (sameIdentifier(context.names().text(context.project.pou(member).name), "FB_Init")) return member;
+  return {};
+}
+
+PouId objectOf(const Context& context) {
+  if (!context.pou) return {};
+  const Pou& pou = context.project.pou(context.pou);
+  if (pou.owner) return pou.owner;
+  return pou.kind == PouKind::Function ? PouId{} : context.pou;
+}
+
+Entity findInObject(Context& context, PouId object, NameId name) {
+  const NameId key = keyOf(context, name);
+  for (PouId at = object; at; at = context.project.pou(at).base) {
+    resolveHeader(context, at);
+    declarePou(context, at);
+    if (const Entity found = context.scopes.pous[at.index].names.find(key)) {
+      if (found.what() != EntityKind::Var) return found;
+      if (context.project.vars[found.index].pou == at) {
+        ensureVarType(context, VarId{found.index});
+        return found;
+      }
+    }
+    if (context.project.pou(at).kind != PouKind::Interface) continue;
+    for (const PouId base : context.project.pou(at).interfaces)
+      if (const Entity found = findInObject(context, base, name)) return found;
+  }
+  return {};
+}
+
+bool isKindOf(Context& context, PouId object, PouId base) {
+  for (PouId at = object; at; at = context.project.pou(at).base) {
+    if (at == base) return true;
+    resolveHeader(context, at);
+    for (const PouId interface : context.project.pou(at).interfaces)
+      if (isKindOf(context, interface, base)) return true;
+  }
+  return false;
+}
+
+PouId interfaceOf(Context& context, TypeId type) {
+  const types::TypeInfo& pointer = context.types().info(context.types().resolve(type));
+  if (pointer.kind != types::TypeKind::Pointer) return {};
+  const TypeId record = context.types().resolve(pointer.base);
+  const types::TypeInfo& info = context.types().info(record);
+  if (info.kind != types::TypeKind::Record || info.record_kind != types::RecordKind::Interface) return {};
+  return context.scopes.named(record)->pou;
+}
+
+}  // namespace rung::sema
