@@ -96,8 +96,10 @@ Operand BodyTranslator::value(ExprId id, const Operand* want) {
     case ExprKind::Zero: return {};
     case ExprKind::Index: {
       Element at;
+      Operand to;
+      if (loadOfTwo(id, want, to)) return to;
       if (!element(e, at)) return read(place(id), scalarOf(id), want);
-      const Operand to = target(want);
+      to = target(want);
       emit(loadElementHandler(scalarOf(id), at.index_type, at.base.base, at.index.mode, to.mode), to.ref, at.base.ref,
            at.index.ref, at.site, at.range);
       return to;

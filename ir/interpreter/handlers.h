@@ -47,7 +47,9 @@ Handler switchRangesHandler(Scalar type, Mode mode);
 Handler moveHandler(Scalar type, Mode from, Mode to);  // a := b
 Handler loadHandler(Scalar type, Mode to);             // a := memory at (pointer slot b) + c
 Handler storeHandler(Scalar type, Mode from);          // memory at (pointer slot a) + b := c
-Handler loadElementHandler(Scalar type, Scalar index, Base base, Mode index_mode, Mode to);     // a := b[c]
+Handler loadElementHandler(Scalar type, Scalar index, Base base, Mode index_mode, Mode to);  // a := b[c]
+// a := b[c, c of the next], indices I16 or I32. Of the next also a: the stride of the first index, d and imm.
+Handler loadElementOfTwoHandler(Scalar type, Scalar index, Base base, Mode index_mode, Mode to);
 Handler storeElementHandler(Scalar type, Scalar index, Base base, Mode index_mode, Mode from);  // b[c] := a
 // Slot a := address of base b + (c - low) * stride. low: imm of the next; stride, offset: its a, b. imm: count.
 Handler elementHandler(Scalar index, Base base, Mode index_mode);

@@ -41,6 +41,13 @@ uint64_t position(const Insn* ip, const uint8_t* fp, const uint8_t* self, Machin
 }
 
 template <class T, class I, Base B, Mode M, Mode D>
+void loadElementOfTwo(RUNG_HANDLER_PARAMETERS) {
+  const uint64_t row = position<I, M>(ip, fp, self, m), column = position<I, M>(ip + 1, fp, self, m);
+  put<D, T>(fp, self, ip->a, fetch<T>(address<B>(ip, fp, self, ip->b) + row * ip[1].a + column * sizeof(Raw<T>)));
+  RUNG_GO(ip + 2, fp, self);
+}
+
+template <class T, class I, Base B, Mode M, Mode D>
 void loadElement(RUNG_HANDLER_PARAMETERS) {
   const uint64_t at = position<I, M>(ip, fp, self, m);
   put<D, T>(fp, self, ip->a, fetch<T>(address<B>(ip, fp, self, ip->b) + at * sizeof(Raw<T>)));
@@ -147,6 +154,16 @@ Handler loadElementHandler(Scalar type, Scalar index, Base base, Mode index_mode
     return withIndex(index, [&]<class I>(I) {
       return withAddress(base, [&](auto b) {
         return withModes(index_mode, to, [&](auto i, auto d) -> Handler { return loadElement<T, I, b(), i(), d()>; });
+      });
+    });
+  });
+}
+Handler loadElementOfTwoHandler(Scalar type, Scalar index, Base base, Mode index_mode, Mode to) {
+  return withWidth(type, [&]<class T>(T) {
+    return withAddress(base, [&](auto b) {
+      return withModes(index_mode, to, [&](auto i, auto d) -> Handler {
+        if (index == Scalar::I16) return loadElementOfTwo<T, int16_t, b(), i(), d()>;
+        return loadElementOfTwo<T, int32_t, b(), i(), d()>;
       });
     });
   });

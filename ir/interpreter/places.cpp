@@ -195,18 +195,56 @@ Address BodyTranslator::indexed(const Expr& e, uint32_t count) {
   return at;
 }
 
+namespace {
+
+bool fitsInstruction(const Dimension& dimension) {
+  return dimension.low == static_cast<int32_t>(dimension.low) && dimension.count() <= UINT32_MAX;
+}
+int64_t rangeOf(const Dimension& dimension) {
+  return static_cast<int64_t>(dimension.count() << 32 | static_cast<uint32_t>(dimension.low));
+}
+
+}  // namespace
+
+bool BodyTranslator::loadOfTwo(ExprId id, const Operand* want, Operand& to) {
+  const Expr& e = expr(id);
+  if (e.c != 2 || isText(e.type) || isAggregate(e.type)) return false;
+  const ExprId first = body_->operands[e.b], second = body_->operands[e.b + 1];
+  const Scalar type = scalarOf(first);
+  if (expr(first).kind == ExprKind::Const || expr(second).kind == ExprKind::Const || type != scalarOf(second) ||
+      (type != Scalar::I16 && type != Scalar::I32) || mayFault(second) || contains(second, ExprKind::Call))
+    return false;
+  const TypeInfo& array = info(expr(ExprId{e.a}).type);
+  const Dimension &rows = array.dimensions[0], &columns = array.dimensions[1];
+  const uint64_t stride = info(array.base).size * columns.count();
+  if (!fitsInstruction(rows) || !fitsInstruction(columns) || stride > UINT32_MAX) return false;
+  Address base = place(ExprId{e.a});
+  if (base.base == Base::Constant || (base.base == Base::Pointer && base.offset != 0))
+    base = {Base::Pointer, pointerTo(base), 0, 0, kNoBit};
+  Operand row = inMemory(value(first), type), column = inMemory(value(second), type);
+  if (row.mode != column.mode) {
+    row = inFrame(row, type);
+    column = inFrame(column, type);
+  }
+  to = target(want);
+  emit(loadElementOfTwoHandler(scalarOf(id), type, base.base, row.mode, to.mode), to.ref, base.ref, row.ref,
+       indexSite(e, rows), rangeOf(rows));
+  emit(haltHandler(), {static_cast<uint32_t>(stride), false}, {}, column.ref, indexSite(e, columns), rangeOf(columns));
+  return true;
+}
+
 bool BodyTranslator::element(const Expr& e, Element& out) {
   if (e.kind != ExprKind::Index || isText(e.type) || isAggregate(e.type)) return false;
   const Dimension& dimension = info(expr(ExprId{e.a}).type).dimensions[e.c - 1];
   const ExprId last = body_->operands[e.b + e.c - 1];
   if (expr(last).kind == ExprKind::Const) return false;
-  if (dimension.low != static_cast<int32_t>(dimension.low) || dimension.count() > UINT32_MAX) return false;
+  if (!fitsInstruction(dimension)) return false;
   out.base = indexed(e, e.c - 1);
   if (out.base.base == Base::Constant || out.base.offset != 0) {
     out.base = {Base::Pointer, pointerTo(out.base), 0, 0, kNoBit};
   }
   out.index = indexOperand(last, out.index_type);
-  out.range = static_cast<int64_t>(dimension.count() << 32 | static_cast<uint32_t>(dimension.low));
+  out.range = rangeOf(dimension);
   out.site = indexSite(e, dimension);
   return true;
 }

@@ -142,6 +142,7 @@ class BodyTranslator {
   Address fieldMemory(const Expr& e);  // of a by-reference field: of the pointer itself
   Address indexed(const Expr& e, uint32_t count);
   uint32_t indexSite(const Expr& e, const types::Dimension& dimension);  // 0 where it is not checked
+  bool loadOfTwo(ExprId id, const Operand* want, Operand& to);           // a[i, j] by one instruction
   bool element(const Expr& e, Element& out);  // false: not of that kind, and nothing was done
   Operand indexOperand(ExprId id, Scalar& type);
   Operand read(const Address& from, Scalar type, const Operand* want);

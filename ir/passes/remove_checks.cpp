@@ -2,6 +2,8 @@
 // the end of a branch takes them back, and branches that meet join what each left.
 #include "ir/passes/remove_checks.h"
 
+#include <algorithm>
+
 #include "ir/passes/interval.h"
 #include "ir/passes/support.h"
 
@@ -28,7 +30,7 @@ class Analysis {
   Analysis(Module& module, Body& body) : module_(module), types_(module.types), body_(body) {}
 
   bool run() {
-    if (body_.has_labels || !body_.first || !hasChecks()) return false;
+    if (body_.has_labels || !body_.first || !isWorthIt()) return false;
     private_ = privateLocals(module_, body_);
     self_first_ = static_cast<uint32_t>(body_.locals.size());
     const size_t fields = body_.self ? types_.info(types_.resolve(body_.self)).fields.size() : 0;
@@ -41,25 +43,65 @@ class Analysis {
   }
 
  private:
-  bool hasChecks() const {
+  bool isWorthIt() const {
     for (const Expr& e : body_.exprs)
-      if ((e.checks & ~(kCheckNull | kCheckCast)) != 0) return true;
+      if ((e.checks & ~(kCheckNull | kCheckCast)) != 0 || isSignedDivision(e)) return true;
     return false;
   }
 
-  // Marks the expressions with a check in or below them; the others need a look only where their value matters.
+  // By a positive constant: cheaper without sign.
+  bool isSignedDivision(const Expr& e) const {
+    if (e.kind != ExprKind::Binary || (e.op != Op::Div && e.op != Op::Mod) || !unsignedOf(e.type)) return false;
+    const Expr& divisor = body_.exprs[e.b];
+    return isConst(divisor) && static_cast<int64_t>(divisor.bits()) > 0;
+  }
+  static TypeId unsignedOf(TypeId type) {
+    return type == types::kSInt   ? types::kUSInt
+           : type == types::kInt  ? types::kUInt
+           : type == types::kDInt ? types::kUDInt
+           : type == types::kLInt ? types::kULInt
+                                  : TypeId{};
+  }
+  void dropSign(ExprId id) {
+    const Expr signed_one = body_.expr(id);
+    const TypeId type = unsignedOf(signed_one.type);
+    const auto add = [&](Expr e) {
+      e.type = type;
+      e.loc = signed_one.loc;
+      has_checks_.push_back(has_checks_[id.index]);
+      body_.exprs.push_back(e);
+      return static_cast<uint32_t>(body_.exprs.size() - 1);
+    };
+    Expr dividend, division = signed_one;
+    dividend.kind = ExprKind::Convert;
+    dividend.a = signed_one.a;
+    division.a = add(dividend);
+    division.b = add(body_.exprs[signed_one.b]);
+    const uint32_t made = add(division);
+    Expr& e = body_.expr(id);
+    e.kind = ExprKind::Convert;
+    e.a = made;
+    e.b = 0;
+    changed_ = true;
+  }
+
+  // Marks the expressions with a check or a division that may lose its sign in or below them; the others need a look
+  // only where their value matters.
   void findChecks() {
     has_checks_.assign(body_.exprs.size(), false);
     bool all_known = true;
+    size_t divisions = 0;
     for (uint32_t i = 1; i < body_.exprs.size(); ++i) {
       const Expr& e = body_.exprs[i];
-      uint8_t found = e.checks != 0;
+      divisions += isSignedDivision(e);
+      uint8_t found = e.checks != 0 || isSignedDivision(e);
       forEachSlot(body_, e, [&](const uint32_t& slot) {
         found |= has_checks_[slot];
         all_known = all_known && slot < i;
       });
       has_checks_[i] = found;
     }
+    if (divisions != 0) body_.exprs.reserve(body_.exprs.size() + 3 * divisions);  // nodes stay where they are
     if (!all_known) has_checks_.assign(body_.exprs.size(), true);  // a pass left users before their operands
   }
 
@@ -291,7 +333,8 @@ class Analysis {
 
   // ---- loops. At the head of a loop a variable that it writes may have any value, but for one that each turn leaves
   // within some interval around the values from before the loop. Such an interval is guessed and a walk through the
-  // loop judges it: first those values alone, then without the bounds that the turn passes, then what that turn left.
+  // loop judges it: first those values alone, then without the bounds that the turn passes (but for 0), then what that
+  // turn left.
 
   struct Watch {
     uint32_t variable;
@@ -375,7 +418,8 @@ class Analysis {
       return true;
     }
     const Interval any = all(one.variable);
-    one.head = {below ? any.low : last.low, above ? any.high : last.high};
+    const Int128 least = left.low >= 0 ? std::max<Int128>(any.low, 0) : any.low;
+    one.head = {below ? least : last.low, above ? any.high : last.high};
     return true;
   }
   template <class Before>
@@ -602,6 +646,7 @@ class Analysis {
         if ((e.op == Op::Div || e.op == Op::Mod) && !b.contains(0)) clear(e, kCheckDiv);
         const IntervalResult result = apply(e.op, a, b, allOf(e.type, false));
         if (result.fits) clear(e, kCheckOverflow);
+        if (!asking_ && a.low >= 0 && e.checks == 0 && isSignedDivision(e)) dropSign(id);
         return result.interval;
       }
       case ExprKind::Convert: {

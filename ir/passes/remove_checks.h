@@ -3,10 +3,13 @@
 // dominate the use. They are kept for private locals and for the scalar fields of self, until something may have
 // written them: a call that is not pure, a write through a pointer, reference or global.
 //   needs  verified IR; proves more after folding and propagation
-//   keeps  everything but check flags; bodies with labels as they are
-//   gives  `h[idx - 1]` without check in `FOR idx := 15 TO 1 BY -1` on [0..15]; `a[i MOD 8]` on unsigned i
-//   cost   nothing for a body without checks; else one walk with a loop's body scanned once more per nesting depth, and
-//          one array over locals and fields of self
+//   keeps  everything but check flags and the sign of divisions by a constant, which costs instructions; bodies with
+//          labels as they are
+//   gives  `h[idx - 1]` without check in `FOR idx := 15 TO 1 BY -1` on [0..15]; `a[i MOD 8]` on unsigned i;
+//          `convert int (mod uint (convert uint i), uint#8)` for `i MOD 8` where i is not negative
+//   cost   nothing for a body without checks and divisions; else one walk, some more of a loop with checks, and one
+//   array
+//          over locals and fields of self
 #pragma once
 
 #include "ir/ir.h"

@@ -9,13 +9,16 @@
 
 static inline uint32_t rung_text_limit(uint32_t capacity) { return capacity < 255 ? capacity : 255; }
 
-/* Single characters are the most frequent parts of all. */
+/* Single characters are the most frequent parts of all: one store for the character and the NUL. */
 static inline uint32_t rung_text_part(char* out, const char* from, uint32_t length) {
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
   if (length == 1) {
-    *out = *from;
-  } else {
-    memmove(out, from, length);
+    const uint16_t ended = (uint8_t)*from;
+    memcpy(out, &ended, 2);
+    return 1;
   }
+#endif
+  memmove(out, from, length);
   out[length] = 0;
   return length;
 }
