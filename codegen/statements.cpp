@@ -491,8 +491,10 @@ void BodyWriter::callStatement(const Stmt& stmt) {
 
 void BodyWriter::faultStatement(const Stmt& stmt) {
   if (stmt.a != 0) prepare(ExprId{stmt.a});
+  const auto fault = static_cast<Fault>(stmt.op);
   out_ += "at = ";
-  appendUnsigned(out_, site(stmt.loc, static_cast<Fault>(stmt.op)));
+  // The bounds of an ARRAY[*] are not known here: low above high says so.
+  appendUnsigned(out_, fault == Fault::Index ? site(stmt.loc, fault, 1, 0) : site(stmt.loc, fault));
   out_ += "; value = ";
   if (stmt.a != 0) {
     out_ += "(int64_t)";

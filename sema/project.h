@@ -74,6 +74,8 @@ struct Var {
   types::Value value;           // when has_value
   VarId external;               // VAR_EXTERNAL: the global it names
   TypeId record;                // field of a structure or union: its type
+  VarId bounds;                 // ARRAY[*]: the first of the hidden variables with its bounds, two a dimension
+  bool hidden_input = false;    // of a function: such a bound, passed behind the pins
   VarId edge_memory;            // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
   std::vector<NameId> aliases;  // {alias 'R'}
 };
@@ -202,6 +204,10 @@ struct LibraryFile {
   const char* path;     // as diagnostics and faults print it
   std::string_view text;
 };
+// Another name of a library, for qualified names: Tc2_Standard.TON.
+struct LibraryAlias {
+  const char *alias, *library;
+};
 // Runs a function whose inputs are constant. `ready`: checks the body of a function; false: it cannot be run. The later
 // layer that can do it is ir/interpreter (constant_call.h).
 using CallConstant = std::function<std::optional<types::Value>(
@@ -211,7 +217,8 @@ using CallConstant = std::function<std::optional<types::Value>(
 struct Options {
   text::Standard standard = text::Standard::Codesys;
   uint32_t pointer_size = 8;
-  std::span<const LibraryFile> libraries;    // texts that outlive the project; declarations are parsed on first use
+  std::span<const LibraryFile> libraries;  // texts that outlive the project; declarations are parsed on first use
+  std::span<const LibraryAlias> library_aliases;
   CallConstant call_constant;                // none: calls of functions are no constants
   bool with_tests = false;                   // the program is for `rung test`
   std::vector<std::string> mocks;            // … of the tests that name exactly these

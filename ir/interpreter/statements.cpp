@@ -81,7 +81,8 @@ void BodyTranslator::statement(const Stmt& stmt) {
       } else {
         move(Scalar::U64, {}, value);
       }
-      emit(raiseHandler(), {stmt.op, false}, value.ref, {}, site(stmt.loc));
+      const bool open_array = static_cast<types::Fault>(stmt.op) == types::Fault::Index;  // low above high: not known
+      emit(raiseHandler(), {stmt.op, false}, value.ref, {}, open_array ? site(stmt.loc, 1, 0) : site(stmt.loc));
       return;
     }
     case StmtKind::Assert: return assertStatement(stmt);

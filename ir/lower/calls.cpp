@@ -260,7 +260,7 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
     ExprId value;
     bool negated;
   };
-  std::vector<ExprId> arguments;
+  std::vector<ExprId> arguments, hidden;
   std::vector<AfterCall> after;
   std::vector<bool> is_variable;  // an in-out: the variable itself, reached through temporaries only
   auto spillArguments = [&](Mark mark) {
@@ -337,6 +337,10 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
         argument = lowerValue(binding->value);
         if (guard_ && mayFault(argument)) argument = toTemp(argument, loc);
       }
+    } else if (pin.section == SectionKind::InOut && types_.isOpenArray(pin_type)) {
+      OpenArray array = passOpenArray(binding->value, pin_type);
+      argument = array.pointer;
+      hidden.insert(hidden.end(), array.bounds.begin(), array.bounds.end());
     } else if (pin.section == SectionKind::InOut) {
       RUNG_INVARIANT(!open, "sema reports an open VAR_IN_OUT");
       argument = inOutPlace(binding->value, pin_type);
@@ -353,7 +357,11 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
     }
     spillArguments(mark);
     arguments.push_back(argument);
-    is_variable.push_back(pin.section == SectionKind::InOut);
+    is_variable.push_back(pin.section == SectionKind::InOut && !types_.isOpenArray(pin_type));
+  }
+  for (ExprId bound : hidden) {
+    arguments.push_back(bound);
+    is_variable.push_back(false);
   }
 
   ExprId result;
@@ -389,6 +397,15 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
     const sema::Var& pin = project_.var(binding.pin);
     TypeId type = strip(pin.type);
     Loc at = tree_.loc(binding.value);
+    if (types_.isOpenArray(type)) {
+      OpenArray array = passOpenArray(binding.value, type);
+      assign(field(instance, pin.field, typeOf(array.pointer), at), array.pointer, at);
+      for (uint32_t i = 0; i < array.bounds.size(); ++i) {
+        const sema::Var& bound = project_.var({pin.bounds.index + i});
+        assign(field(instance, bound.field, bound.type, at), array.bounds[i], at);
+      }
+      continue;
+    }
     ExprId place = field(instance, pin.field, type, at);
     if (pin.section == SectionKind::InOut) {
       ExprId variable = inOutPlace(binding.value, type);

@@ -102,8 +102,13 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
       if (var.section == SectionKind::Input) kind = LocalKind::Input;
       if (var.section == SectionKind::Output) kind = LocalKind::Output;
       if (var.section == SectionKind::InOut) kind = LocalKind::InOut;
+      if (var.hidden_input) kind = LocalKind::Input;
     }
     TypeId type = types.resolve(var.type);
+    if (types.isOpenArray(type)) {  // the address of the first element
+      type = types.pointer(types.info(type).base);
+      kind = LocalKind::Input;
+    }
     declareRecordsOf(type);
     body.locals.push_back({var.name, type, kind, isPassedByReference(types, kind, type), var.loc});
   }
@@ -130,8 +135,10 @@ void ModuleLowering::markFaulting() {
   for (uint32_t i = 1; i < module.bodies.size(); ++i) {
     Body& body = module.bodies[i];
     for (const Expr& expr : body.exprs) body.may_fault = body.may_fault || expr.checks != 0;
-    for (const Stmt& stmt : body.stmts)
+    for (const Stmt& stmt : body.stmts) {
       if (stmt.kind == StmtKind::Call) callers[stmt.a].push_back(i);
+      if (stmt.kind == StmtKind::Fault) body.may_fault = true;
+    }
     if (body.may_fault) faulting.push_back(i);
   }
   while (!faulting.empty()) {

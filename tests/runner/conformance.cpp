@@ -1,6 +1,7 @@
 // Conformance tests, tests/conformance/**.st: what the language promises, feature by feature. Line 1 says what is
 // shown;
-//   // features: 43/1a 43/1b      rows of the standard's tables, at most six     // covers: tm-tp-library:SR
+//   // features: 43/1a 43/1b      rows of the standard's tables, at most six
+//   // covers: tm-tp-library:SR    rows of the manuals' catalogues; codesys:NAME where no manual lists it
 // A file without `// expect:` lines is run by `rung test`, many files in one process, each a project of its own, once
 // for each way (interpreted and compiled, -O0 and -O1); every {test} POU counts. A file with them is checked like a
 // golden file.
