@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "frontend/source/invariant.h"
+#include "sema/checks/mocks.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/instance_places.h"
@@ -77,9 +78,11 @@ void check(Project& project) {
   initWords(context);
   indexLibraries(context);
   collectFiles(context);
+  chooseTests(context);
   collectConfigurations(context);
   settleDeclarations(context);
   resolveConfigurations(context);
+  checkMocks(context);
   checkBodies(context);
   resolveInstancePlaces(context);
   checkAfterBodies(context);

@@ -104,6 +104,8 @@ constexpr std::array<bool, kTokCount> makeBlockWords() {
                 Tok::EndWhile,
                 Tok::Repeat,
                 Tok::EndRepeat,
+                Tok::Try,
+                Tok::EndTry,
                 Tok::Type,
                 Tok::EndType,
                 Tok::Struct,

@@ -96,7 +96,9 @@ class Parser {
   TypeExprId parseArray();
   TypeExprId parseNamedType();
   void parseNamePath(Slice<Ident>& out);
+  ExprId parseDeclaredInit(TypeExprId type);
   ExprId parseInit();
+  void parseElements(Tok close);
   ExprId parseArrayInit();
   ExprId parseStructInit();
   Slice<Pragma> takePragmas();
@@ -110,7 +112,8 @@ class Parser {
     kStopElse = 1,
     kStopElsif = 2,
     kStopUntil = 4,
-    kStopLabel = 8
+    kStopLabel = 8,
+    kStopTry = 16
   };  // words that end a list, beside END_…
   Slice<StmtId> parseStatements(uint8_t stops);
   bool atBlockEnd();
@@ -120,6 +123,7 @@ class Parser {
   void parseFor();
   void parseWhile();
   void parseRepeat();
+  void parseTry();
   bool otherLanguage();
   void parseExprStatement();
   void parseChain(ExprId target, ExprId value, Token* value_start, const Token* op);

@@ -15,6 +15,7 @@ Tok closerOf(Tok open) {
     case static_cast<int>(Tok::For): return Tok::EndFor;
     case static_cast<int>(Tok::While): return Tok::EndWhile;
     case static_cast<int>(Tok::Repeat): return Tok::EndRepeat;
+    case static_cast<int>(Tok::Try): return Tok::EndTry;
     case static_cast<int>(Tok::Type): return Tok::EndType;
     case static_cast<int>(Tok::Struct): return Tok::EndStruct;
     case static_cast<int>(Tok::Union): return Tok::EndUnion;
@@ -27,20 +28,10 @@ Tok closerOf(Tok open) {
   }
 }
 
-constexpr Tok kClosers[] = {Tok::EndIf,
-                            Tok::EndCase,
-                            Tok::EndFor,
-                            Tok::EndWhile,
-                            Tok::EndRepeat,
-                            Tok::EndType,
-                            Tok::EndStruct,
-                            Tok::EndUnion,
-                            Tok::EndVar,
-                            Tok::EndFunction,
-                            Tok::EndFunctionBlock,
-                            Tok::EndProgram,
-                            Tok::EndConfiguration,
-                            Tok::EndResource};
+constexpr Tok kClosers[] = {Tok::EndIf,      Tok::EndCase,          Tok::EndFor,      Tok::EndWhile,
+                            Tok::EndRepeat,  Tok::EndTry,           Tok::EndType,     Tok::EndStruct,
+                            Tok::EndUnion,   Tok::EndVar,           Tok::EndFunction, Tok::EndFunctionBlock,
+                            Tok::EndProgram, Tok::EndConfiguration, Tok::EndResource};
 bool isCloser(Tok k) { return std::find(std::begin(kClosers), std::end(kClosers), k) != std::end(kClosers); }
 bool isVarWord(Tok k) { return k >= Tok::Var && k <= Tok::VarConfig; }
 bool isPouOpener(Tok k) { return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program; }

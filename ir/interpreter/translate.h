@@ -30,6 +30,8 @@ struct Code {
   std::deque<std::vector<int32_t>> tables;
   std::deque<std::vector<SwitchRange>> ranges;
   std::deque<AssertionPlace> assertions;
+  std::deque<Counter> counters;
+  std::vector<const char*> called;                 // by BodyId: the name that traced calls give, or null
   std::vector<const uint64_t*> data_of_module;     // by index of Module::data
   std::vector<std::pair<uint32_t, BodyId>> calls;  // instructions that wait for where a body begins
   std::string missing;  // a native function that is not at hand, as the library names it; else empty
@@ -38,6 +40,8 @@ struct Code {
 struct TranslateOptions {
   std::span<const Native> natives;  // sorted by name
   bool bounded = false;             // count turns and calls (Machine::budget)
+  bool coverage = false;            // count how often lines run (Code::counters)
+  bool trace_calls = false;         // tell the host of each call of a POU
 };
 
 // An operand or address: an offset, in the frame or in the frame that a callee is going to have.
@@ -169,7 +173,10 @@ class BodyTranslator {
   bool isExitTest(StmtId id) const;
   void noteLabels(StmtId first, uint32_t depth);
 
+  void count(Loc loc, const char* function);
+
   // ---- calls.cpp
+  void traceCall(BodyId callee, const Address* self);
   void callStatement(const Stmt& stmt);
   Operand callExpression(const Expr& e, const Operand* want);
   Address callText(const Expr& e);

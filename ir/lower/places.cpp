@@ -99,6 +99,7 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
     case rung::ExprKind::Member: return memberPlace(id);
     case rung::ExprKind::Index: {
       const IndexExpr& node = tree_.as<IndexExpr>(id);
+      if (isOpenArray(types_, tree_.expr(node.base).type)) return openArrayElement(node);
       ExprId base = lowerPlace(node.base);
       if (TypeTable::isText(types_.kind(body_.expr(base).type)))
         base = characters(base, (node.h.bits & kWritesCharacter) != 0);
@@ -166,7 +167,9 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
     case rung::ExprKind::ArrayInit:
     case rung::ExprKind::Repeat:
     case rung::ExprKind::StructInit:
-    case rung::ExprKind::Convert: return lowerValue(id);
+    case rung::ExprKind::Convert:
+    case rung::ExprKind::Bound:
+    case rung::ExprKind::AddressOf: return lowerValue(id);
   }
   return {};
 }

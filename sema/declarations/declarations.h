@@ -37,6 +37,10 @@ void reportTwice(Context& context, NameId name, Loc loc, Loc first);
 // Items of an enumeration into a table, values to be resolved.
 void declareItems(Context& context, TypeId type, TypeExprId written, NameMap* bare, bool project_wide);
 
+// ---- names.cpp
+// The mock that stands for what this name means elsewhere: in all of the project but the mock itself.
+Entity mockInUse(const Context& context, NameId key);
+
 // ---- variables.cpp
 // VAR_GLOBAL in a PROGRAM: the standard has it, codesys has not.
 inline bool mayHoldGlobals(const Context& context, PouKind kind) { return kind == PouKind::Program && context.iec(); }
