@@ -483,23 +483,23 @@ void applyConditions(Sources& sources, std::span<const FileId> files, std::span<
     conditions.run();
     return conditions;
   };
-  // All but what asks for declarations; said by the second reading where there is one.
+  // First all but what asks for declarations. The second reading says what is wrong.
   Diagnostics silent(sources);
-  Sources scratch;  // the same texts at the same places
+  std::vector<std::string> texts(sources.fileCount() + 1);
   bool asked = false;
-  for (uint32_t i = 1; i <= sources.fileCount(); ++i) {
-    const FileId file{i};
-    std::string text(sources.text(file));
-    if (std::find(with.begin(), with.end(), file) != with.end()) {
-      const FileConditions conditions = evaluate(file, nullptr, silent);
-      asked |= conditions.asked;
-      text = blanked(text, conditions.blanks);
-    }
-    scratch.add(std::string(sources.path(file)), std::move(text));
+  for (const FileId file : with) {
+    const FileConditions conditions = evaluate(file, nullptr, silent);
+    asked |= conditions.asked;
+    texts[file.index] = blanked(sources.text(file), conditions.blanks);
   }
+  Sources scratch;  // the same files at the same places
   Tree tree;
   Names names;
   if (asked) {
+    for (uint32_t i = 1; i < texts.size(); ++i) {
+      if (texts[i].empty()) texts[i] = sources.text(FileId{i});
+      scratch.add(std::string(sources.path(FileId{i})), std::move(texts[i]));
+    }
     Diagnostics dropped(scratch);
     for (const FileId file : files) parseFile(tree, names, scratch, file, standard, dropped);
   }
