@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "codegen/body.h"
+#include "ir/assertion.h"
 #include "ir/builder.h"
 #include "ir/walk.h"
 
@@ -503,8 +504,10 @@ void BodyWriter::callStatement(const Stmt& stmt) {
 
 void BodyWriter::faultStatement(const Stmt& stmt) {
   if (stmt.a != 0) prepare(ExprId{stmt.a});
+  const auto fault = static_cast<Fault>(stmt.op);
   out_ += "at = ";
-  appendUnsigned(out_, site(stmt.loc, static_cast<Fault>(stmt.op)));
+  // The bounds of an ARRAY[*] are not known here: low above high says so.
+  appendUnsigned(out_, fault == Fault::Index ? site(stmt.loc, fault, 1, 0) : site(stmt.loc, fault));
   out_ += "; value = ";
   if (stmt.a != 0) {
     out_ += "(int64_t)";
@@ -598,83 +601,78 @@ void BodyWriter::assertStatement(const Stmt& stmt) {
   for (uint32_t slot : {stmt.a, stmt.b, stmt.c}) {
     if (slot != 0) prepare(ExprId{slot});
   }
-  std::string where = "(ctx, ";
-  if (body_->origin.path) {
-    appendQuoted(where, text(body_->origin.path));
-    where += ", ";
-    appendUnsigned(where, body_->origin.line);
-  } else {
-    const Place place = stmt.loc ? module_.sources.place(stmt.loc) : Place{};
-    appendQuoted(where, module_.sources.path(place.file));
-    where += ", ";
-    appendUnsigned(where, place.line);
+  const ir::AssertionTexts texts = ir::assertionTexts(module_, *body_, stmt);
+  const auto quotedOrNull = [&](std::string_view string) {
+    if (string.empty()) {
+      out_ += "nullptr";
+    } else {
+      appendQuoted(out_, string);
+    }
+  };
+  out_ += "{ static const rung_assertion assertion = {";
+  appendQuoted(out_, texts.place.path);
+  out_ += ", ";
+  appendUnsigned(out_, texts.place.line);
+  out_ += ", ";
+  appendUnsigned(out_, texts.place.column);
+  for (const std::string_view string : {texts.source, texts.text, texts.shown, std::string_view(texts.items)}) {
+    out_ += ", ";
+    quotedOrNull(string);
   }
-  where += ", ";
-  std::string message = ", ";
-  if (stmt.d != 0) {
-    appendQuoted(message, text(NameId{stmt.d}));
-  } else {
-    message += "nullptr";
-  }
-  message += ");";
+  out_ += "}; ";
 
-  const ExprId expected{stmt.a}, actual{stmt.b};
+  const auto kind = [&](TypeId type) {
+    if (types_.info(types_.resolve(type)).kind == TypeKind::Enum) {
+      out_ += "RUNG_ENUM";
+    } else {
+      out_ += isText(type) ? (isWide(type) ? "RUNG_WSTRING" : "RUNG_STRING") : typeKindName(types_, type);
+    }
+  };
+  const auto bits = [&](ExprId id) {
+    out_ += ", ";
+    if (!isText(expr(id).type)) return scalarBits(id);
+    out_ += "(uint64_t)(uintptr_t)";
+    textValue(id);
+  };
+  const ExprId first{stmt.a}, second{stmt.b}, third{stmt.c};
   switch (static_cast<ir::Assertion>(stmt.op)) {
     case ir::Assertion::Assert:
-      out_ += "rung_assert" + where;
-      condition(expected, Prec::Ternary);
+      out_ += second ? "rung_assert_compared(ctx, &assertion, " : "rung_assert(ctx, &assertion, ";
+      condition(first, Prec::Ternary);
+      if (!second) break;
+      out_ += ", ";
+      kind(expr(second).type);
+      bits(second);
+      bits(third);
       break;
     case ir::Assertion::AssertNear:
-      out_ += "rung_assert_near" + where;
-      out_ += typeKindName(types_, expr(actual).type);
-      for (ExprId id : {expected, actual, ExprId{stmt.c}}) {
+      out_ += "rung_assert_near(ctx, &assertion, ";
+      kind(expr(second).type);
+      for (ExprId id : {first, second, third}) {
         out_ += ", ";
         value(id, Prec::Ternary);
       }
       break;
     case ir::Assertion::AssertEq: {
-      const TypeId type = expr(actual).type;
-      const types::TypeInfo& info = types_.info(types_.resolve(type));
-      if (isText(type)) {
-        out_ += isWide(type) ? "rung_assert_equal_wtext" : "rung_assert_equal_text";
-        out_ += where;
-        textValue(expected);
-        out_ += ", ";
-        textValue(actual);
-      } else if (isAggregate(type)) {
-        out_ += "rung_assert" + where + "memcmp(&";
-        place(expected);
+      const TypeId type = expr(second).type;
+      if (isAggregate(type) && !isText(type)) {
+        out_ += "rung_assert(ctx, &assertion, memcmp(&";
+        place(first);
         out_ += ", &";
-        place(actual);
+        place(second);
         out_ += ", ";
-        appendUnsigned(out_, info.size);
+        appendUnsigned(out_, types_.info(types_.resolve(type)).size);
         out_ += ") == 0";
-      } else if (info.kind == TypeKind::Enum) {
-        std::string items;
-        for (const auto& [name, item] : info.items) {
-          items += text(name);
-          items += '\0';
-          appendSigned(items, item);
-          items += '\0';
-        }
-        out_ += "rung_assert_equal_enum" + where;
-        appendQuoted(out_, items);
-        out_ += ", ";
-        value(expected, Prec::Ternary);
-        out_ += ", ";
-        value(actual, Prec::Ternary);
       } else {
-        out_ += "rung_assert_equal" + where;
-        out_ += typeKindName(types_, type);
-        out_ += ", ";
-        scalarBits(expected);
-        out_ += ", ";
-        scalarBits(actual);
+        out_ += "rung_assert_equal(ctx, &assertion, ";
+        kind(type);
+        bits(first);
+        bits(second);
       }
       break;
     }
   }
-  out_ += message;
+  out_ += "); }";
 }
 
 }  // namespace rung::codegen

@@ -247,8 +247,8 @@ StmtId Builder::fault(types::Fault fault, ExprId value) {
   return id;
 }
 
-StmtId Builder::assertion(Assertion what, ExprId a, ExprId b, ExprId c, NameId text) {
-  StmtId id = append(StmtKind::Assert, a.index, b.index, c.index, text.index);
+StmtId Builder::assertion(Assertion what, ExprId a, ExprId b, ExprId c, NameId text, NameId shown) {
+  StmtId id = append(StmtKind::Assert, a.index, b.index, c.index, text.index, shown.index);
   body.stmt(id).op = static_cast<uint8_t>(what);
   return id;
 }

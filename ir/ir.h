@@ -108,7 +108,8 @@ enum class StmtKind : uint8_t {
   Label,     // a: label number
   Try,       // a: body block, op: 1 catches (0: the fault goes on), b: catch block, c: finally, d: its number's place
   Fault,     // op: types::Fault, a: value for the message or none
-  Assert,    // of a test. op: Assertion, a: condition or expected, b: actual, c: tolerance, d: text (NameId)
+  Assert,    // of a test. op: Assertion, a: condition or expected, b: actual, c: tolerance, d: text (NameId).
+             // A condition that compares: b and c are its sides, e their text (NameId, as rung_assertion::shown)
   Evaluate,  // a: expression, evaluated for its checks only
 };
 
@@ -175,9 +176,10 @@ struct Body {
   bool library = false;
   bool has_labels = false;  // analyses are conservative
   bool test = false;
-  NameId library_name;  // native: which library's C function
-  TypeId self;          // Block, Init; Function: of a method, the object's record
-  TypeId result;        // Function; none: no result
+  bool counted = false;  // written for the product, not for its tests: coverage counts it
+  NameId library_name;   // native: which library's C function
+  TypeId self;           // Block, Init; Function: of a method, the object's record
+  TypeId result;         // Function; none: no result
   Loc loc;
   FileId file;
   Origin origin;

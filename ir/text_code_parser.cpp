@@ -141,8 +141,17 @@ void Reader::stmt() {
     ++at_;
     const ExprId first = expr(what == Assertion::Assert ? types::kBool : TypeId{});
     ExprId second, third;
+    NameId shown;
     if (failed_) return;
     const TypeId first_type = typeOf(first);
+    if (what == Assertion::Assert && accept("shows")) {
+      second = expr({});
+      if (failed_) return;
+      expect(",");
+      third = expr(typeOf(second));
+      expect("as");
+      shown = module_.names.intern(quotedText(TokenKind::Text));
+    }
     if (what != Assertion::Assert) {
       expect(",");
       second = expr(first_type);
@@ -153,7 +162,7 @@ void Reader::stmt() {
     }
     NameId text;
     if (accept("text")) text = module_.names.intern(quotedText(TokenKind::Text));
-    if (!failed_) b.assertion(what, first, second, third, text);
+    if (!failed_) b.assertion(what, first, second, third, text, shown);
   } else if (accept("evaluate")) {
     const ExprId value = expr({});
     if (!failed_) b.evaluate(value);

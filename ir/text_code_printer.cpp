@@ -180,6 +180,14 @@ void Printer::stmt(const Stmt& s) {
       if (what == Assertion::Assert) {
         put("assert ");
         expr(ExprId{s.a}, types::kBool);
+        if (s.b != 0) {
+          put(" shows ");
+          expr(ExprId{s.b}, {});
+          put(", ");
+          expr(ExprId{s.c}, typeOf(ExprId{s.b}));
+          put(" as ");
+          quoted(module_.names.text(NameId{s.e}), '\'');
+        }
       } else {
         put(what == Assertion::AssertEq ? "assert_eq " : "assert_near ");
         expr(ExprId{s.a}, {});

@@ -36,7 +36,7 @@
 //   22  Call statement: one operand per parameter, a value of its type or, for a by-reference one, a place (none only
 //       for an output); a self place of the callee's record where it has one; a result place only of a function with
 //       result, of its type.
-//   23  If, Assert: conditions are BOOL. Assert: as many operands as its kind takes.
+//   23  If, Assert: conditions are BOOL. Assert: as many operands as its kind takes; with a text for its sides, both.
 //   24  Switch: an integer, bit string or enumeration as selector; ranges in the selector's order, low <= high, no
 //       value twice.
 //   25  For: an integer control place without checks; from, to and step of its plain type; step a Const other than 0.
@@ -424,7 +424,7 @@ void Verifier::stmt(StmtId id) {
       found_fault_ = true;
       return;
     case StmtKind::Assert: {
-      const uint32_t wanted = s.op == 0 ? 1 : s.op == 1 ? 2 : 3;
+      const uint32_t wanted = s.op == 0 ? (s.e != 0 ? 3 : 1) : s.op == 1 ? 2 : 3;
       require(s.op <= 2 && (s.a != 0) + (s.b != 0) + (s.c != 0) == static_cast<int>(wanted) && s.a != 0, 23,
               "an assertion with too many or too few operands");
       if (s.a != 0 && value(s.a) && s.op == 0)

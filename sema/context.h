@@ -105,6 +105,8 @@ TypeId checkExpr(Context& context, ExprId& expr, TypeId expected = {});
 bool checkExprAs(Context& context, ExprId& expr, TypeId to, std::string_view what);
 // A place that may be written: reports constants, inputs, literals.
 TypeId checkPlace(Context& context, ExprId& expr, std::string_view what);
+// Makes a place what a reference of this type is bound to; reports when it cannot be bound to it.
+bool bindReference(Context& context, ExprId& place, TypeId reference);
 void checkBody(Context& context, PouId pou);
 // Checks the body of a POU that was not checked. False: it has errors, or is being checked just now.
 bool ensureBody(Context& context, PouId pou);

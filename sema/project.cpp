@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "frontend/source/invariant.h"
+#include "sema/checks/mocks.h"
 #include "sema/checks/object_members.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
@@ -79,9 +80,11 @@ void check(Project& project) {
   initWords(context);
   indexLibraries(context);
   collectFiles(context);
+  chooseTests(context);
   collectConfigurations(context);
   settleDeclarations(context);
   resolveConfigurations(context);
+  checkMocks(context);
   for (uint32_t i = 1; i < project.pous.size(); ++i)
     if (project.pous[i].decl && !project.pous[i].owner && !project.pous[i].library)
       checkObjectMembers(context, PouId{i});

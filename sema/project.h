@@ -71,9 +71,11 @@ struct Var {
   ExprId init;         // none: the type's default; checked and converted to `type`
   DeclId decl;
   ImageView image;
-  types::Value value;  // when has_value
-  VarId external;      // VAR_EXTERNAL: the global it names
-  TypeId record;       // field of a structure or union: its type
+  types::Value value;         // when has_value
+  VarId external;             // VAR_EXTERNAL: the global it names
+  TypeId record;              // field of a structure or union: its type
+  VarId bounds;               // ARRAY[*]: the first of the hidden variables with its bounds, two a dimension
+  bool hidden_input = false;  // of a function: such a bound, passed behind the pins
   AccessLevel access = AccessLevel::None;
   CallId constructor;           // of a block whose FB_Init has parameters of its own: what the declaration gives them
   VarId edge_memory;            // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
@@ -99,7 +101,8 @@ struct Pou {
   std::vector<VarId> pins;  // the inputs, in-outs and outputs among them; filled by bodies/ at the first call
   bool pins_ready = false;
   bool library = false, native = false, pure = false, test = false;
-  bool test_only = false;   // {test_only}: only tests call it
+  bool test_only = false;   // {test_only}, {replaces …}: only tests use it
+  bool left_out = false;    // a test, or only for tests, and not part of this program: checked, not lowered
   bool extensible = false;  // has an {extensible} pin
   bool sized = false;       // {sized}: has a second native form that takes and gives lengths of texts
   bool prefix = false;      // {prefix}: the first n characters of the result follow from the first n of the first input
@@ -122,6 +125,8 @@ struct Pou {
   // IR spell it (`LIMIT__REAL`).
   bool generic = false;
   PouId generic_of;
+  NameId replaces;            // {replaces 'X'}: a mock of X
+  std::vector<NameId> mocks;  // {mock 'M'} of a test: name keys, sorted
   NameId
       unique_name;  // unique over the project; equals name unless it is an instance of a generic function or a member
   // ---- objects: FUNCTION_BLOCK, CLASS, INTERFACE, and their METHODs and ACTIONs (declarations/objects.cpp)
@@ -224,6 +229,10 @@ struct LibraryFile {
   const char* path;     // as diagnostics and faults print it
   std::string_view text;
 };
+// Another name of a library, for qualified names: Tc2_Standard.TON.
+struct LibraryAlias {
+  const char *alias, *library;
+};
 // Runs a function whose inputs are constant. `ready`: checks the body of a function; false: it cannot be run. The later
 // layer that can do it is ir/interpreter (constant_call.h).
 using CallConstant = std::function<std::optional<types::Value>(
@@ -233,8 +242,11 @@ using CallConstant = std::function<std::optional<types::Value>(
 struct Options {
   text::Standard standard = text::Standard::Codesys;
   uint32_t pointer_size = 8;
-  std::span<const LibraryFile> libraries;    // texts that outlive the project; declarations are parsed on first use
+  std::span<const LibraryFile> libraries;  // texts that outlive the project; declarations are parsed on first use
+  std::span<const LibraryAlias> library_aliases;
   CallConstant call_constant;                // none: calls of functions are no constants
+  bool with_tests = false;                   // the program is for `rung test`
+  std::vector<std::string> mocks;            // … of the tests that name exactly these
   int64_t default_interval_ns = 10'000'000;  // of the task that is made when there is no CONFIGURATION
 };
 

@@ -117,6 +117,7 @@ struct Scopes {
   std::deque<ListScope> lists{1};
   NameMap member_names;  // unique names of methods and actions; a set
   NameMap instances;     // of generic functions, by unique name
+  NameMap mocks;         // in use: from what each replaces
 
   // Everything declared, in order; settle() resolves from these marks on.
   std::vector<TypeId> declared_types;
@@ -130,8 +131,8 @@ struct Scopes {
 
   // Pragmas and words that declarations look for, as name keys.
   struct Words {
-    NameId attribute_qualified_only, attribute_strict, test, test_only, alias, required, lazy, extensible, prefix,
-        sized, pure, native, op, std;
+    NameId attribute_qualified_only, attribute_strict, test, test_only, replaces, mock, alias, required, lazy,
+        extensible, prefix, sized, pure, native, op, std;
   } words;
 
   NamedType* named(TypeId type) {

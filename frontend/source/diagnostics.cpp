@@ -135,7 +135,7 @@ Report Diagnostics::report(Diag diag, Loc loc, std::initializer_list<std::string
       return Report(nullptr);
     }
   }
-  list_.push_back({diag, severity, loc, {}, 0, format(info.text, args), {}, {}});
+  list_.push_back({diag, severity, loc, {}, {}, 0, format(info.text, args), {}, {}});
   return Report(&list_.back());
 }
 
@@ -164,8 +164,9 @@ bool Diagnostics::firstAt(Diag diag, Loc loc) {
 
 void Diagnostics::sort() {
   // Locations grow with files in the order of adding; paths decide between what has no location.
+  for (Diagnostic& diagnostic : list_) diagnostic.written = sources_.written(diagnostic.loc);
   std::stable_sort(list_.begin(), list_.end(), [](const Diagnostic& a, const Diagnostic& b) {
-    return a.loc != b.loc ? a.loc < b.loc : a.path < b.path;
+    return a.written != b.written ? a.written < b.written : a.path < b.path;
   });
 }
 

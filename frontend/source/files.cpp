@@ -102,14 +102,18 @@ size_t addressLength(std::string_view text) {
 
 }  // namespace
 
-Sources::Sources() { files_.push_back({{}, {}, 0, {}, true}); }
+Sources::Sources() { files_.push_back({{}, {}, 0, {}, {}, {}, true}); }
 
 FileId Sources::add(std::string path, std::string text) {
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  return addAssembled(std::move(path), std::move(text), {});
+}
+
+FileId Sources::addAssembled(std::string path, std::string text, std::vector<Segment> segments) {
   const File& last = files_.back();
   const uint64_t base = uint64_t{last.base} + last.text.size() + 1;  // one past the NUL: the end of a file is its own
   if (base + text.size() + 1 > UINT32_MAX) return {};
-  files_.push_back({std::move(path), std::move(text), static_cast<uint32_t>(base), {}, false});
+  files_.push_back({std::move(path), std::move(text), static_cast<uint32_t>(base), std::move(segments), {}, {}, false});
   return {static_cast<uint32_t>(files_.size() - 1)};
 }
 
@@ -127,6 +131,17 @@ FileId Sources::fileOf(Loc loc) const {
   return {index};
 }
 
+Loc Sources::written(Loc loc) const {
+  const FileId id = fileOf(loc);
+  if (!id || files_[id.index].segments.empty()) return loc;
+  const std::vector<Segment>& segments = files_[id.index].segments;
+  const uint32_t at = loc.offset - files_[id.index].base;
+  const auto after = std::upper_bound(segments.begin() + 1, segments.end(), at,
+                                      [](uint32_t offset, const Segment& segment) { return offset < segment.at; });
+  const Segment& segment = *(after - 1);
+  return {segment.from.offset + (segment.verbatim ? at - segment.at : 0)};
+}
+
 const std::vector<uint32_t>& Sources::lineStarts(const File& file) const {
   if (file.line_starts.empty()) {
     file.line_starts = findLineStarts(file.text);
@@ -139,6 +154,7 @@ uint32_t Sources::lineNumber(Loc loc) const {
   const FileId id = fileOf(loc);
   if (!id) return 0;
   const File& file = files_[id.index];
+  if (!file.segments.empty()) return lineNumber(written(loc));
   const std::vector<uint32_t>& starts = lineStarts(file);
   const uint32_t at = loc.offset - file.base;
   // Places are mostly asked for in order: try the last line and the next one before searching.
@@ -149,6 +165,7 @@ uint32_t Sources::lineNumber(Loc loc) const {
 }
 
 Place Sources::place(Loc loc) const {
+  loc = written(loc);
   const uint32_t line = lineNumber(loc);
   if (line == 0) return {};
   const FileId id{last_file_};
@@ -216,6 +233,49 @@ ReadResult readFile(const std::string& path) {
   ::close(fd);
   result.text.resize(result.error.empty() ? used : 0);
   return result;
+}
+
+void appendUtf8(std::string& out, uint32_t c) {
+  const auto add = [&out](uint32_t byte) { out += static_cast<char>(byte); };
+  if (c < 0x80) {
+    add(c);
+  } else if (c < 0x800) {
+    add(0xc0 | c >> 6);
+    add(0x80 | (c & 63));
+  } else if (c < 0x10000) {
+    add(0xe0 | c >> 12);
+    add(0x80 | (c >> 6 & 63));
+    add(0x80 | (c & 63));
+  } else {
+    add(0xf0 | c >> 18);
+    add(0x80 | (c >> 12 & 63));
+    add(0x80 | (c >> 6 & 63));
+    add(0x80 | (c & 63));
+  }
+}
+
+bool decodeUtf16(std::string& text) {
+  const bool little = text.starts_with("\xff\xfe");
+  if (!little && !text.starts_with("\xfe\xff")) return true;
+  if (text.size() % 2 != 0) return false;
+  std::string out;
+  out.reserve(text.size());
+  const auto unit = [&](size_t i) {
+    const auto first = static_cast<unsigned char>(text[i]), second = static_cast<unsigned char>(text[i + 1]);
+    return static_cast<uint32_t>(little ? first | second << 8 : first << 8 | second);
+  };
+  for (size_t i = 2; i < text.size(); i += 2) {
+    uint32_t c = unit(i);
+    if (c >= 0xd800 && c < 0xe000) {
+      const uint32_t low = i + 2 < text.size() ? unit(i + 2) : 0;
+      if (c >= 0xdc00 || low < 0xdc00 || low >= 0xe000) return false;
+      c = 0x10000 + ((c - 0xd800) << 10) + (low - 0xdc00);
+      i += 2;
+    }
+    appendUtf8(out, c);
+  }
+  text = std::move(out);
+  return true;
 }
 
 size_t findInvalidUtf8(std::string_view text) {

@@ -31,6 +31,14 @@ struct Place {
   uint32_t column = 0;  // from 1, in characters (UTF-8 code points)
 };
 
+// Of an assembled text: what it has from `at` on stands in the file at `from`, byte for byte (`verbatim`), or was put
+// there for what stands at `from`: an entity of XML, or a word that the file leaves out.
+struct Segment {
+  uint32_t at;
+  Loc from;
+  bool verbatim;
+};
+
 class Sources {
  public:
   Sources();
@@ -41,12 +49,24 @@ class Sources {
   // A BOM is dropped. Returns no file when the 32-bit space is full.
   FileId add(std::string path, std::string text);
 
+  // Adds a text that was put together from parts of other files: the program that a vendor's XML holds, say. Its
+  // locations are places of those files, in every question below. Segments are sorted by `at`, the first has `at` 0.
+  FileId addAssembled(std::string path, std::string text, std::vector<Segment> segments);
+
+  // Messages name the file so, where that is not its path.
+  void showAs(FileId file, std::string shown) { files_[file.index].shown = std::move(shown); }
+
   Loc begin(FileId file) const { return {files_[file.index].base}; }
   std::string_view path(FileId file) const { return files_[file.index].path; }
+  std::string_view shown(FileId file) const {
+    const File& f = files_[file.index];
+    return f.shown.empty() ? f.path : f.shown;
+  }
   std::string_view text(FileId file) const { return files_[file.index].text; }  // text().data()[size()] is NUL
   uint32_t fileCount() const { return static_cast<uint32_t>(files_.size()) - 1; }
 
   FileId fileOf(Loc loc) const;
+  Loc written(Loc loc) const;  // where the file on disk has it: another place only for assembled texts
   Place place(Loc loc) const;
   uint32_t lineNumber(Loc loc) const;  // place(loc).line without the counting of columns; 0: nowhere
   std::string_view line(FileId file, uint32_t line) const;  // without its line end
@@ -59,6 +79,8 @@ class Sources {
     std::string path;
     std::string text;
     uint32_t base;
+    std::vector<Segment> segments;  // of an assembled text
+    std::string shown;
     mutable std::vector<uint32_t> line_starts;  // filled when first asked for
     mutable bool ascii;                         // known once line_starts is
   };
@@ -69,6 +91,11 @@ class Sources {
   mutable Place last_place_;
   mutable uint32_t last_place_at_ = 0;
 };
+
+// A text that begins with a UTF-16 byte order mark becomes UTF-8. False: it is no UTF-16 behind that mark.
+[[nodiscard]] bool decodeUtf16(std::string& text);
+
+void appendUtf8(std::string& out, uint32_t c);
 
 // Reads a whole file. The error says what the system said ("No such file or directory").
 struct ReadResult {

@@ -92,9 +92,9 @@ Range rangeOf(const Sources& sources, Loc loc, uint32_t length, std::string_view
   if (!loc) return range;
   range.place = sources.place(loc);
   if (!range.place.file) return range;
-  range.path = sources.path(range.place.file);
+  range.path = sources.shown(range.place.file);
   range.line = sources.line(range.place.file, range.place.line);
-  const uint32_t offset = loc.offset - sources.begin(range.place.file).offset;
+  const uint32_t offset = sources.written(loc).offset - sources.begin(range.place.file).offset;
   const auto line_start = static_cast<size_t>(range.line.data() - sources.text(range.place.file).data());
   range.line_at = std::min<size_t>(offset - line_start, range.line.size());
   const size_t wanted = length != 0 ? length : sources.tokenAt(loc).size();

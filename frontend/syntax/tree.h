@@ -226,6 +226,15 @@ struct ConvertExpr {
   ExprHeader h;
   ExprId operand;
 };
+struct BoundExpr {
+  ExprHeader h;
+  ExprId array;
+  uint32_t index;  // 0, 1: lower and upper bound of the first dimension, 2, 3: of the second, …
+};
+struct AddressOfExpr {  // h.type: a pointer or reference to the place's type
+  ExprHeader h;
+  ExprId place;
+};
 
 // ---- statements -----------------------------------------------------------------------------------------------
 
@@ -287,6 +296,12 @@ struct RepeatStmt {
   StmtHeader h;
   Slice<StmtId> body;
   ExprId until;
+};
+struct TryStmt {  // __TRY body __CATCH(code) handler __FINALLY finally __ENDTRY
+  StmtHeader h;
+  Slice<StmtId> body, handler, finally;
+  ExprId code;  // none: the number of the fault is not wanted
+  bool catches;
 };
 struct ExitStmt {
   StmtHeader h;

@@ -280,6 +280,8 @@ void Printer::expr(ExprId id, int depth) {
       }
       break;
     case ExprKind::Convert: expr(tree_.as<ConvertExpr>(id).operand, depth + 1); break;
+    case ExprKind::Bound: expr(tree_.as<BoundExpr>(id).array, depth + 1); break;
+    case ExprKind::AddressOf: expr(tree_.as<AddressOfExpr>(id).place, depth + 1); break;
   }
   text += ')';
 }
@@ -361,6 +363,25 @@ void Printer::stmt(StmtId id, int depth) {
       expr(tree_.as<RepeatStmt>(id).until);
       stmts(tree_.as<RepeatStmt>(id).body, depth + 1);
       break;
+    case StmtKind::Try: {
+      const TryStmt& s = tree_.as<TryStmt>(id);
+      stmts(s.body, depth + 1);
+      if (s.catches) {
+        line(depth + 1);
+        text += "catch";
+        if (s.code) {
+          text += ' ';
+          expr(s.code);
+        }
+        stmts(s.handler, depth + 2);
+      }
+      if (!s.finally.empty()) {
+        line(depth + 1);
+        text += "finally";
+        stmts(s.finally, depth + 2);
+      }
+      break;
+    }
     case StmtKind::Jump:
       text += ' ';
       name(tree_.as<JumpStmt>(id).label.name);

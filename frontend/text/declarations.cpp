@@ -157,7 +157,10 @@ bool Parser::beginsType(const Token* t) const {
 }
 
 bool Parser::parseName(Ident& out) {
-  if (isName(kind())) {
+  // Words that CODESYS 2.3 did not have: members of its structures are called so.
+  const bool member = in_structure_ && standard_ == Standard::Codesys && peek() == Tok::Colon &&
+                      (at(Tok::Ldt) || at(Tok::Ldate) || at(Tok::Ltod) || at(Tok::Ltime));
+  if (isName(kind()) || member) {
     out = ident(t_);
     advance();
     return true;
@@ -443,7 +446,7 @@ DeclId Parser::parseVar(SectionKind section) {
       advance();
       d.init = parseInit();
     } else if (accept(Tok::Assign)) {
-      d.init = parseInit();
+      d.init = parseDeclaredInit(d.type);
     } else if ((at(Tok::Number) || at(Tok::True) || at(Tok::False) || at(Tok::Text) || at(Tok::Duration)) &&
                !atLineStart()) {
       slip(Diag::MissingToken, t_, {":=", describe(t_)});
@@ -722,6 +725,22 @@ TypeExprId Parser::parseArray() {
 
 // ---- initial values
 
+// The value behind `:=` of a declaration. CODESYS 2.3 writes the values of an array without brackets.
+ExprId Parser::parseDeclaredInit(TypeExprId type) {
+  if (standard_ != Standard::Codesys || at(Tok::LeftBracket) || tree_.kind(type) != TypeExprKind::Array)
+    return parseInit();
+  const Loc start = here();
+  const size_t first = exprs_.size();
+  parseElements(Tok::Semicolon);
+  if (exprs_.size() == first) return errorExpr(start);
+  if (exprs_.size() == first + 1 && tree_.kind(exprs_[first]) != ExprKind::Repeat) {
+    const ExprId only = exprs_[first];
+    exprs_.resize(first);
+    return only;
+  }
+  return tree_.add<ExprId>(ArrayInitExpr{exprHeader(ExprKind::ArrayInit, start), listFrom(exprs_, first)});
+}
+
 // init = expr | "[" elements "]" | "(" field ":=" init {"," …} ")"
 ExprId Parser::parseInit() {
   if (at(Tok::LeftBracket)) return parseArrayInit();
@@ -729,17 +748,9 @@ ExprId Parser::parseInit() {
   return parseExpr();
 }
 
-// elements = element {"," element}; element = init | count "(" [elements] ")"
-ExprId Parser::parseArrayInit() {
-  const Loc start = here();
-  if (++expr_depth_ > kMaxExprDepth) {
-    tooDeep("initial values", kMaxExprDepth);
-    --expr_depth_;
-    return errorExpr(start);
-  }
-  advance();
-  const size_t first = exprs_.size();
-  while (!panic_ && !at(Tok::RightBracket)) {
+// elements = element {"," element}; element = init | count "(" [elements] ")". Left on exprs_.
+void Parser::parseElements(Tok close) {
+  while (!panic_ && !at(close)) {
     // N(1, 2) looks like a call and is told from one by sema.
     const bool named =
         isName(kind()) && peek() == Tok::LeftParen &&
@@ -768,6 +779,18 @@ ExprId Parser::parseArrayInit() {
     }
     break;
   }
+}
+
+ExprId Parser::parseArrayInit() {
+  const Loc start = here();
+  if (++expr_depth_ > kMaxExprDepth) {
+    tooDeep("initial values", kMaxExprDepth);
+    --expr_depth_;
+    return errorExpr(start);
+  }
+  advance();
+  const size_t first = exprs_.size();
+  parseElements(Tok::RightBracket);
   closeParen(Tok::RightBracket, true);
   --expr_depth_;
   return tree_.add<ExprId>(ArrayInitExpr{exprHeader(ExprKind::ArrayInit, start), listFrom(exprs_, first)});

@@ -106,7 +106,7 @@ constexpr std::array<bool, kTokCount> makeBlockWords() {
                 Tok::Property,  Tok::EndProperty,  Tok::Action,        Tok::EndAction,
                 Tok::Interface, Tok::EndInterface, Tok::Class,         Tok::EndClass,
                 Tok::Namespace, Tok::Using,        Tok::Configuration, Tok::EndConfiguration,
-                Tok::Resource,  Tok::EndResource})
+                Tok::Resource,  Tok::EndResource,  Tok::Try,           Tok::EndTry})
     b[static_cast<size_t>(t)] = true;
   return b;
 }

@@ -121,24 +121,6 @@ bool takeTime(std::string_view text, std::string_view whole, const char* sample,
   return true;
 }
 
-void appendUtf8(std::string& to, uint32_t code) {
-  if (code < 0x80) {
-    to += static_cast<char>(code);
-  } else if (code < 0x800) {
-    to += static_cast<char>(0xC0 | (code >> 6));
-    to += static_cast<char>(0x80 | (code & 63));
-  } else if (code < 0x10000) {
-    to += static_cast<char>(0xE0 | (code >> 12));
-    to += static_cast<char>(0x80 | ((code >> 6) & 63));
-    to += static_cast<char>(0x80 | (code & 63));
-  } else {
-    to += static_cast<char>(0xF0 | (code >> 18));
-    to += static_cast<char>(0x80 | ((code >> 12) & 63));
-    to += static_cast<char>(0x80 | ((code >> 6) & 63));
-    to += static_cast<char>(0x80 | (code & 63));
-  }
-}
-
 }  // namespace
 
 bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, NumberValue& value) {

@@ -109,7 +109,9 @@ class Parser {
   TypeExprId parseNamedType();
   bool rangeFollows() const;
   void parseNamePath(Slice<Ident>& out);
+  ExprId parseDeclaredInit(TypeExprId type);
   ExprId parseInit();
+  void parseElements(Tok close);
   ExprId parseArrayInit();
   ExprId parseStructInit();
   Slice<Pragma> takePragmas();
@@ -123,7 +125,8 @@ class Parser {
     kStopElse = 1,
     kStopElsif = 2,
     kStopUntil = 4,
-    kStopLabel = 8
+    kStopLabel = 8,
+    kStopTry = 16
   };  // words that end a list, beside END_…
   Slice<StmtId> parseStatements(uint8_t stops);
   bool atBlockEnd();
@@ -133,6 +136,7 @@ class Parser {
   void parseFor();
   void parseWhile();
   void parseRepeat();
+  void parseTry();
   bool otherLanguage();
   void parseExprStatement();
   void parseChain(ExprId target, ExprId value, Token* value_start, const Token* op);

@@ -15,6 +15,7 @@ Tok closerOf(Tok open) {
     case static_cast<int>(Tok::For): return Tok::EndFor;
     case static_cast<int>(Tok::While): return Tok::EndWhile;
     case static_cast<int>(Tok::Repeat): return Tok::EndRepeat;
+    case static_cast<int>(Tok::Try): return Tok::EndTry;
     case static_cast<int>(Tok::Type): return Tok::EndType;
     case static_cast<int>(Tok::Struct): return Tok::EndStruct;
     case static_cast<int>(Tok::Union): return Tok::EndUnion;
@@ -50,7 +51,8 @@ constexpr Tok kClosers[] = {Tok::EndIf,
                             Tok::EndProperty,
                             Tok::EndAction,
                             Tok::EndInterface,
-                            Tok::EndClass};
+                            Tok::EndClass,
+                            Tok::EndTry};
 bool isCloser(Tok k) { return std::find(std::begin(kClosers), std::end(kClosers), k) != std::end(kClosers); }
 bool isVarWord(Tok k) { return k >= Tok::Var && k <= Tok::VarConfig; }
 bool isMember(Tok k) { return k == Tok::Method || k == Tok::Property || k == Tok::Action; }

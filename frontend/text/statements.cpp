@@ -12,6 +12,7 @@ bool isEndWord(Tok k) {
     case static_cast<int>(Tok::EndFor):
     case static_cast<int>(Tok::EndWhile):
     case static_cast<int>(Tok::EndRepeat):
+    case static_cast<int>(Tok::EndTry):
     case static_cast<int>(Tok::EndType):
     case static_cast<int>(Tok::EndStruct):
     case static_cast<int>(Tok::EndUnion):
@@ -38,8 +39,8 @@ bool isPouWord(Tok k) {
          k == Tok::Configuration || isObjectWord(k);
 }
 bool isStatementWord(Tok k) {
-  return k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat || k == Tok::Exit ||
-         k == Tok::Continue || k == Tok::Return || k == Tok::Jmp;
+  return k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat || k == Tok::Try ||
+         k == Tok::Exit || k == Tok::Continue || k == Tok::Return || k == Tok::Jmp;
 }
 bool isAssign(Tok k) { return k == Tok::Assign || (k >= Tok::PlusAssign && k <= Tok::SlashAssign); }
 
@@ -82,6 +83,10 @@ Slice<StmtId> Parser::parseStatements(uint8_t stops) {
       case static_cast<int>(Tok::Until):
         if ((stops & kStopUntil) != 0) return listFrom(stmts_, first);
         break;
+      case static_cast<int>(Tok::Catch):
+      case static_cast<int>(Tok::Finally):
+        if ((stops & kStopTry) != 0) return listFrom(stmts_, first);
+        break;
       default:
         if (atBlockEnd()) return listFrom(stmts_, first);
         if ((stops & kStopLabel) != 0 && atCaseLabel()) return listFrom(stmts_, first);
@@ -108,6 +113,7 @@ void Parser::parseStatement() {
     case static_cast<int>(Tok::For): return parseFor();
     case static_cast<int>(Tok::While): return parseWhile();
     case static_cast<int>(Tok::Repeat): return parseRepeat();
+    case static_cast<int>(Tok::Try): return parseTry();
     case static_cast<int>(Tok::Exit):
       advance();
       stmts_.push_back(tree_.add<StmtId>(ExitStmt{header(StmtKind::Exit, start)}));
@@ -494,8 +500,10 @@ bool Parser::enterBlock() {
   uint32_t open = 0;
   do {
     const Tok k = kind();
-    if (k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat) ++open;
-    if (k == Tok::EndIf || k == Tok::EndCase || k == Tok::EndFor || k == Tok::EndWhile || k == Tok::EndRepeat) --open;
+    if (k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat || k == Tok::Try) ++open;
+    if (k == Tok::EndIf || k == Tok::EndCase || k == Tok::EndFor || k == Tok::EndWhile || k == Tok::EndRepeat ||
+        k == Tok::EndTry)
+      --open;
     advance();
   } while (open > 0 && !at(Tok::End));
   accept(Tok::Semicolon);
@@ -732,6 +740,26 @@ void Parser::parseRepeat() {
     if (last_error_ == nullptr || last_error_ < statement_start_) slip(Diag::MissingToken, t_, {"UNTIL", describe(t_)});
   }
   closeBlock(open, Tok::EndRepeat);
+  stmts_.push_back(tree_.add<StmtId>(s));
+}
+
+// __TRY statements [__CATCH ["(" place ")"] statements] [__FINALLY statements] __ENDTRY
+void Parser::parseTry() {
+  const Token* open = t_;
+  if (!enterBlock()) return;
+  advance();
+  TryStmt s{header(StmtKind::Try, loc(open)), {}, {}, {}, {}, false};
+  s.body = parseStatements(kStopTry);
+  if (accept(Tok::Catch)) {
+    s.catches = true;
+    if (accept(Tok::LeftParen)) {
+      s.code = parseExpr();
+      expect(Tok::RightParen);
+    }
+    s.handler = parseStatements(kStopTry);
+  }
+  if (accept(Tok::Finally)) s.finally = parseStatements(0);
+  closeBlock(open, Tok::EndTry);
   stmts_.push_back(tree_.add<StmtId>(s));
 }
 

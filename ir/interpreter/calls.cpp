@@ -82,6 +82,26 @@ void BodyTranslator::passArguments(std::vector<Argument>& arguments) {
   }
 }
 
+// What code of the project calls; what runs inside of libraries, their functions and initialisers are not told.
+void BodyTranslator::traceCall(BodyId id, const Address* self) {
+  const Body& callee = module_.body(id);
+  if (!options_.trace_calls || body_->library || (callee.library && !callee.self)) return;
+  if (callee.kind == BodyKind::Init || !callee.spelling) return;
+  if (code_.called.size() <= id.index) code_.called.resize(module_.bodies.size());
+  const char*& name = code_.called[id.index];
+  if (name == nullptr) {
+    code_.texts.push_back(callee.self ? types_.spell(callee.self) : std::string(module_.names.text(callee.spelling)));
+    name = code_.texts.back().c_str();
+  }
+  Ref instance = slot();
+  if (self != nullptr) {
+    instance = pointerTo(*self);
+  } else {
+    emit(moveHandler(Scalar::U64, Mode::Constant, Mode::Frame), instance);
+  }
+  emit(calledHandler(), {}, instance, {}, 0, reinterpret_cast<int64_t>(name));
+}
+
 void BodyTranslator::emitCall(BodyId id, const Address* self, uint32_t site) {
   const Ref frame{0, true};
   uint32_t insn;
@@ -118,6 +138,7 @@ Operand BodyTranslator::callExpression(const Expr& e, const Operand* want) {
   const BodyId id{e.a};
   const Body& callee = module_.body(id);
   std::vector<Argument> passed = arguments(callee, e.b, e.c, headerSize(callee));
+  traceCall(id, nullptr);
   passArguments(passed);
   const Ref result{headerSize(callee) + 8 * static_cast<uint32_t>(passed.size()), true};
   if (callee.native) {
@@ -135,6 +156,7 @@ Address BodyTranslator::callText(const Expr& e) {
   const BodyId id{e.a};
   const Body& callee = module_.body(id);
   std::vector<Argument> passed = arguments(callee, e.b, e.c, headerSize(callee));
+  traceCall(id, nullptr);
   passArguments(passed);
   const Ref result{headerSize(callee) + 8 * static_cast<uint32_t>(passed.size()), true};
   const Address to = textBuffer(callee.result);
@@ -158,6 +180,7 @@ void BodyTranslator::callStatement(const Stmt& stmt) {
     self = place(ExprId{stmt.b});
     if (self.base != Base::Self) self = {Base::Pointer, pointerTo(self), 0, 0, kNoBit};
   }
+  traceCall(id, stmt.b != 0 ? &self : nullptr);
   const bool has_self_slot = callee.native && callee.self;
   const uint32_t at = callee.native ? (has_self_slot ? 8 : 0) : kFrameHeader;
   std::vector<Argument> passed = arguments(callee, stmt.c, stmt.d, at);

@@ -69,6 +69,13 @@ constexpr uint32_t sizeOf(Scalar s) {
 constexpr bool isReal(Scalar s) { return s >= Scalar::F32; }
 constexpr bool isSigned(Scalar s) { return s >= Scalar::I8 && s <= Scalar::I64; }
 
+// How often a line of the source was executed or, where `function` has its name, a POU was called.
+struct Counter {
+  const char *file, *function;
+  uint32_t line;
+  uint64_t count;
+};
+
 // A native library function behind a uniform call: arguments in `slots`, scalars by value and others by address, the
 // instance first where there is one; then the result, or the address of its memory and, of a text, the capacity.
 using NativeThunk = void (*)(rung_context* ctx, uint64_t* slots);

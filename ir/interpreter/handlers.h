@@ -91,15 +91,14 @@ Handler tryHandler();      // U8 a := fault of running the next instruction on u
 Handler rethrowHandler();  // when U8 a is not 0
 Handler raiseHandler();    // fault a at site d, value in the frame at b
 Handler tickHandler();     // where runs are bounded
+Handler countHandler();    // imm: uint64_t*
+Handler calledHandler();   // tells the host: imm the POU's name, slot b the address of its instance or null
 // Assertions. Slot b and those behind: see handlers_control.cpp; imm: const AssertionPlace*.
 struct AssertionPlace {
-  const char* file;
-  uint32_t line;
-  uint8_t kind;
-  const char* text;   // or null
-  const char* items;  // of an enumeration
+  rung_assertion is;
+  uint8_t kind;  // of the values
 };
-enum class AssertionKind : uint8_t { Truth, Equal, EqualText, EqualWText, EqualEnum, Near };
+enum class AssertionKind : uint8_t { Truth, Compared, Equal, Near };
 Handler assertHandler(AssertionKind kind);
 
 }  // namespace rung::ir::interpreter

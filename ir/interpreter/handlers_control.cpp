@@ -82,30 +82,33 @@ void tick(RUNG_HANDLER_PARAMETERS) {
   RUNG_NEXT;
 }
 
-// ---- assertions: slots b (expected), b + 8 (actual), b + 16 (tolerance)
+void count(RUNG_HANDLER_PARAMETERS) {
+  ++*reinterpret_cast<uint64_t*>(ip->imm);
+  RUNG_NEXT;
+}
+void called(RUNG_HANDLER_PARAMETERS) {
+  const rung_host* const host = m->ctx->host;
+  if (host != nullptr && host->called != nullptr)
+    host->called(m->ctx->host_data, reinterpret_cast<const char*>(ip->imm), load<const void*>(fp + ip->b));
+  RUNG_NEXT;
+}
+
+// ---- assertions: slots b (condition or expected), b + 8 (left or actual), b + 16 (right or tolerance)
 
 template <AssertionKind K>
 void assertion(RUNG_HANDLER_PARAMETERS) {
   const AssertionPlace& place = *reinterpret_cast<const AssertionPlace*>(ip->imm);
   const uint8_t* const slots = fp + ip->b;
-  rung_context* const ctx = m->ctx;
   if constexpr (K == AssertionKind::Truth) {
-    rung_assert(ctx, place.file, place.line, load<uint8_t>(slots) != 0, place.text);
+    rung_assert(m->ctx, &place.is, load<uint8_t>(slots) != 0);
+  } else if constexpr (K == AssertionKind::Compared) {
+    rung_assert_compared(m->ctx, &place.is, load<uint8_t>(slots) != 0, place.kind, load<uint64_t>(slots + 8),
+                         load<uint64_t>(slots + 16));
   } else if constexpr (K == AssertionKind::Equal) {
-    rung_assert_equal(ctx, place.file, place.line, place.kind, load<uint64_t>(slots), load<uint64_t>(slots + 8),
-                      place.text);
-  } else if constexpr (K == AssertionKind::EqualText) {
-    rung_assert_equal_text(ctx, place.file, place.line, load<const char*>(slots), load<const char*>(slots + 8),
-                           place.text);
-  } else if constexpr (K == AssertionKind::EqualWText) {
-    rung_assert_equal_wtext(ctx, place.file, place.line, load<const char16_t*>(slots), load<const char16_t*>(slots + 8),
-                            place.text);
-  } else if constexpr (K == AssertionKind::EqualEnum) {
-    rung_assert_equal_enum(ctx, place.file, place.line, place.items, load<int64_t>(slots), load<int64_t>(slots + 8),
-                           place.text);
+    rung_assert_equal(m->ctx, &place.is, place.kind, load<uint64_t>(slots), load<uint64_t>(slots + 8));
   } else {
-    rung_assert_near(ctx, place.file, place.line, place.kind, load<double>(slots), load<double>(slots + 8),
-                     load<double>(slots + 16), place.text);
+    rung_assert_near(m->ctx, &place.is, place.kind, load<double>(slots), load<double>(slots + 8),
+                     load<double>(slots + 16));
   }
   RUNG_NEXT;
 }
@@ -139,13 +142,13 @@ Handler tryHandler() { return tryBlock; }
 Handler rethrowHandler() { return rethrow; }
 Handler raiseHandler() { return raise; }
 Handler tickHandler() { return tick; }
+Handler countHandler() { return count; }
+Handler calledHandler() { return called; }
 Handler assertHandler(AssertionKind kind) {
   switch (kind) {
     case AssertionKind::Truth: return assertion<AssertionKind::Truth>;
+    case AssertionKind::Compared: return assertion<AssertionKind::Compared>;
     case AssertionKind::Equal: return assertion<AssertionKind::Equal>;
-    case AssertionKind::EqualText: return assertion<AssertionKind::EqualText>;
-    case AssertionKind::EqualWText: return assertion<AssertionKind::EqualWText>;
-    case AssertionKind::EqualEnum: return assertion<AssertionKind::EqualEnum>;
     case AssertionKind::Near: return assertion<AssertionKind::Near>;
   }
   return nullptr;

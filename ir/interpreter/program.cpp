@@ -66,6 +66,8 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
   using Step = BodyTranslator::Step;
   TranslateOptions translate_options;
   translate_options.natives = options.natives;
+  translate_options.coverage = options.coverage;
+  translate_options.trace_calls = options.trace_calls;
   BodyTranslator translator(module, blocks, description->text, translate_options, code);
   code.bodies.resize(module.bodies.size());
   translateData(module, code);
@@ -182,5 +184,6 @@ Program::Program(const Module& module, const ProgramOptions& options) : parts_(s
 Program::~Program() = default;
 const std::string& Program::refusal() const { return parts_->refusal; }
 const rung_module& Program::description() const { return parts_->is; }
+const std::deque<Counter>& Program::counters() const { return parts_->code.counters; }
 
 }  // namespace rung::ir::interpreter

@@ -3,6 +3,7 @@
 // its passes. Out: a description whose functions interpret. Called by the tool; the IR may go once it is made.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <span>
 #include <string>
@@ -17,6 +18,8 @@ struct ProgramOptions {
   std::string module_name = "plc";
   bool with_tests = false;
   std::span<const Native> natives;  // sorted by name
+  bool coverage = false;            // counters() tell how often each line ran
+  bool trace_calls = false;         // rung_host::called is told of each call of a POU
 };
 
 class Program {
@@ -29,6 +32,7 @@ class Program {
   // Why it cannot be interpreted: `the native function NAME is not part of rung`; empty: it can.
   const std::string& refusal() const;
   const rung_module& description() const;
+  const std::deque<Counter>& counters() const;
 
  private:
   struct Parts;

@@ -1,6 +1,7 @@
 // Statements of the translated code: see translate.h.
 #include <algorithm>
 
+#include "ir/assertion.h"
 #include "ir/interpreter/translate.h"
 #include "ir/walk.h"
 #include "rung/code.h"
@@ -24,7 +25,18 @@ void BodyTranslator::block(StmtId first) {
   }
 }
 
+void BodyTranslator::count(Loc loc, const char* function) {
+  if (!options_.coverage || !body_->counted || !loc) return;
+  if (function == nullptr && loc == body_->loc) return;  // made for the header: no statement of the source
+  const SourcePlace place = sourcePlace(module_, *body_, loc);
+  code_.texts.emplace_back(place.path);
+  const char* const file = code_.texts.back().c_str();
+  code_.counters.push_back({file, function, place.line, 0});
+  emit(countHandler(), {}, {}, {}, 0, reinterpret_cast<int64_t>(&code_.counters.back().count));
+}
+
 void BodyTranslator::statement(const Stmt& stmt) {
+  count(stmt.loc, nullptr);
   switch (stmt.kind) {
     case StmtKind::None: return;
     case StmtKind::Assign: return assign(stmt);
@@ -69,7 +81,8 @@ void BodyTranslator::statement(const Stmt& stmt) {
       } else {
         move(Scalar::U64, {}, value);
       }
-      emit(raiseHandler(), {stmt.op, false}, value.ref, {}, site(stmt.loc));
+      const bool open_array = static_cast<types::Fault>(stmt.op) == types::Fault::Index;  // low above high: not known
+      emit(raiseHandler(), {stmt.op, false}, value.ref, {}, open_array ? site(stmt.loc, 1, 0) : site(stmt.loc));
       return;
     }
     case StmtKind::Assert: return assertStatement(stmt);
@@ -361,59 +374,50 @@ void BodyTranslator::tryStatement(const Stmt& stmt) {
 // ---- tests
 
 void BodyTranslator::assertStatement(const Stmt& stmt) {
-  const SourcePlace where = sourcePlace(module_, *body_, stmt.loc);
+  AssertionTexts texts = assertionTexts(module_, *body_, stmt);
+  const auto keep = [&](std::string_view text) -> const char* {
+    if (text.empty()) return nullptr;
+    code_.texts.emplace_back(text);
+    return code_.texts.back().c_str();
+  };
   AssertionPlace made{};
-  code_.texts.emplace_back(where.path);
-  made.file = code_.texts.back().c_str();
-  made.line = where.line;
-  if (stmt.d != 0) {
-    code_.texts.emplace_back(module_.names.text(NameId{stmt.d}));
-    made.text = code_.texts.back().c_str();
-  }
-  const ExprId expected{stmt.a}, actual{stmt.b};
+  made.is = {keep(texts.place.path), texts.place.line,  texts.place.column, keep(texts.source),
+             keep(texts.text),       keep(texts.shown), keep(texts.items)};
   const Ref slots = slot(24);
-  const auto put = [&](const Operand& from, Scalar type, uint32_t number) {
-    move(type, from, {Mode::Frame, {slots.offset + 8 * number, false}, 0});
+  const auto put = [&](ExprId id, uint32_t number) {
+    const Ref to{slots.offset + 8 * number, false};
+    if (isText(expr(id).type)) return pointerInto(text(id), to);
+    move(Scalar::U64, wideBits(id), {Mode::Frame, to, 0});
   };
   AssertionKind kind = AssertionKind::Truth;
+  const ExprId first{stmt.a}, second{stmt.b}, third{stmt.c};
+  if (second) made.kind = assertedKind(types_, expr(second).type);
   switch (static_cast<Assertion>(stmt.op)) {
-    case Assertion::Assert: put(value(expected), Scalar::Bool, 0); break;
+    case Assertion::Assert:
+      move(Scalar::Bool, value(first), {Mode::Frame, slots, 0});
+      if (!second) break;
+      kind = AssertionKind::Compared;
+      put(second, 1);
+      put(third, 2);
+      break;
     case Assertion::AssertNear: {
       kind = AssertionKind::Near;
-      made.kind = static_cast<uint8_t>(hostKind(types_, expr(actual).type));
       uint32_t number = 0;
-      for (ExprId id : {expected, actual, ExprId{stmt.c}}) {
-        put(converted(value(id), scalarOf(id), Scalar::F64, nullptr), Scalar::F64, number++);
+      for (ExprId id : {first, second, third}) {
+        const Operand real = converted(value(id), scalarOf(id), Scalar::F64, nullptr);
+        move(Scalar::F64, real, {Mode::Frame, {slots.offset + 8 * number++, false}, 0});
       }
       break;
     }
     case Assertion::AssertEq: {
-      const TypeId type = expr(actual).type;
-      const TypeInfo& of = info(type);
-      if (isText(type)) {
-        kind = isWide(type) ? AssertionKind::EqualWText : AssertionKind::EqualText;
-        pointerInto(text(expected), slots);
-        pointerInto(text(actual), {slots.offset + 8, false});
-      } else if (isAggregate(type)) {
-        const Ref a = pointerTo(place(expected)), b = pointerTo(place(actual));
-        emit(compareMemoryHandler(), slots, a, {static_cast<uint32_t>(of.size), false}, b.offset);
+      const TypeId type = expr(second).type;
+      if (isAggregate(type) && !isText(type)) {
+        const Ref a = pointerTo(place(first)), b = pointerTo(place(second));
+        emit(compareMemoryHandler(), slots, a, {static_cast<uint32_t>(info(type).size), false}, b.offset);
       } else {
         kind = AssertionKind::Equal;
-        made.kind = static_cast<uint8_t>(hostKind(types_, type));
-        if (of.kind == TypeKind::Enum) {
-          kind = AssertionKind::EqualEnum;
-          std::string items;
-          for (const auto& [name, item] : of.items) {
-            items += module_.names.text(name);
-            items += '\0';
-            items += std::to_string(item);
-            items += '\0';
-          }
-          code_.texts.push_back(std::move(items));
-          made.items = code_.texts.back().data();
-        }
-        put(wideBits(expected), Scalar::U64, 0);
-        put(wideBits(actual), Scalar::U64, 1);
+        put(first, 0);
+        put(second, 1);
       }
       break;
     }

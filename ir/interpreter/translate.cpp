@@ -146,6 +146,10 @@ void BodyTranslator::translate(BodyId id) {
   for (size_t i = 0; i < body_->labels.size(); ++i) user_labels_.push_back({newLabel(), 0});
   if (body_->has_labels) noteLabels(body_->first, 0);
   if (options_.bounded) emit(tickHandler());
+  if (options_.coverage && body_->counted) {
+    code_.texts.emplace_back(module_.names.text(body_->spelling ? body_->spelling : body_->name));
+    count(body_->loc, code_.texts.back().c_str());
+  }
   loadBases();
   clearVariables();
   block(body_->first);
@@ -167,6 +171,7 @@ Code::Entry BodyTranslator::translateSteps(std::span<const Step> steps) {
       emit(clearHandler(Base::Pointer), instance, {},
            {static_cast<uint32_t>(info(blocks_.blocks[step.block].record).size), false});
     } else if (step.kind == Step::CallOn) {
+      traceCall(step.body, &self);
       emitCall(step.body, &self, 0);
     } else {
       // A test that is a function: its parameters are zero, its results dropped.

@@ -33,6 +33,8 @@ struct Code {
   std::vector<const uint64_t*> data_of_module;        // by index of Module::data
   std::vector<std::vector<VirtualEntry>> dispatches;  // as Module::dispatches
   std::deque<VirtualCall> virtual_calls;
+  std::deque<Counter> counters;
+  std::vector<const char*> called;                 // by BodyId: the name that traced calls give, or null
   std::vector<std::pair<uint32_t, BodyId>> calls;  // instructions that wait for where a body begins
   std::string missing;  // a native function that is not at hand, as the library names it; else empty
 };
@@ -40,6 +42,8 @@ struct Code {
 struct TranslateOptions {
   std::span<const Native> natives;  // sorted by name
   bool bounded = false;             // count turns and calls (Machine::budget)
+  bool coverage = false;            // count how often lines run (Code::counters)
+  bool trace_calls = false;         // tell the host of each call of a POU
 };
 
 // An operand or address: an offset, in the frame or in the frame that a callee is going to have.
@@ -171,7 +175,10 @@ class BodyTranslator {
   bool isExitTest(StmtId id) const;
   void noteLabels(StmtId first, uint32_t depth);
 
+  void count(Loc loc, const char* function);
+
   // ---- calls.cpp
+  void traceCall(BodyId callee, const Address* self);
   void callStatement(const Stmt& stmt);
   Operand callExpression(const Expr& e, const Operand* want);
   Address callText(const Expr& e);

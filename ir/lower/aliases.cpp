@@ -88,6 +88,8 @@ bool BodyLowering::isApart(rung::ExprId id, sema::VarId variable) const {
     case rung::ExprKind::Deref:
     case rung::ExprKind::BitAccess:
     case rung::ExprKind::Address:
+    case rung::ExprKind::AddressOf:
+    case rung::ExprKind::Bound:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:
     case rung::ExprKind::Repeat:

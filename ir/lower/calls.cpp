@@ -1,5 +1,8 @@
 // Lowering of calls: functions, FB and program instances, operators in call form, assertions. In: calls that sema has
 // resolved. Out: Call statements with temporaries for their results; pure functions stay expressions.
+#include <algorithm>
+
+#include "ir/assertion.h"
 #include "ir/lower/lowering.h"
 
 namespace rung::ir {
@@ -269,7 +272,7 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
     ExprId value;
     bool negated;
   };
-  std::vector<ExprId> arguments;
+  std::vector<ExprId> arguments, hidden;
   std::vector<AfterCall> after;
   std::vector<bool> is_variable;  // an in-out: the variable itself, reached through temporaries only
   auto spillArguments = [&](Mark mark) {
@@ -346,6 +349,10 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
         argument = lowerValue(binding->value);
         if (guard_ && mayFault(argument)) argument = toTemp(argument, loc);
       }
+    } else if (pin.section == SectionKind::InOut && types_.isOpenArray(pin_type)) {
+      OpenArray array = passOpenArray(binding->value, pin_type);
+      argument = array.pointer;
+      hidden.insert(hidden.end(), array.bounds.begin(), array.bounds.end());
     } else if (pin.section == SectionKind::InOut) {
       RUNG_INVARIANT(!open, "sema reports an open VAR_IN_OUT");
       argument = inOutPlace(binding->value, pin_type);
@@ -362,7 +369,11 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
     }
     spillArguments(mark);
     arguments.push_back(argument);
-    is_variable.push_back(pin.section == SectionKind::InOut);
+    is_variable.push_back(pin.section == SectionKind::InOut && !types_.isOpenArray(pin_type));
+  }
+  for (ExprId bound : hidden) {
+    arguments.push_back(bound);
+    is_variable.push_back(false);
   }
 
   ExprId result;
@@ -405,6 +416,15 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
     const sema::Var& pin = project_.var(binding.pin);
     TypeId type = strip(pin.type);
     Loc at = tree_.loc(binding.value);
+    if (types_.isOpenArray(type)) {
+      OpenArray array = passOpenArray(binding.value, type);
+      assign(field(asBase(instance, pin.pou, at), pin.field, typeOf(array.pointer), at), array.pointer, at);
+      for (uint32_t i = 0; i < array.bounds.size(); ++i) {
+        const sema::Var& bound = project_.var({pin.bounds.index + i});
+        assign(field(asBase(instance, pin.pou, at), bound.field, bound.type, at), array.bounds[i], at);
+      }
+      continue;
+    }
     ExprId place = field(asBase(instance, pin.pou, at), pin.field, type, at);
     if (pin.section == SectionKind::InOut) {
       ExprId variable = inOutPlace(binding.value, type);
@@ -431,14 +451,76 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
 
 // ---- assertions ------------------------------------------------------------------------------------------------
 
+namespace {
+
+// One line, without blanks at its ends and without parentheses that open or close outside of it.
+std::string tidied(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const bool blank = c == ' ' || c == '\t' || c == '\r' || c == '\n';
+    if (!blank) out += c;
+    if (blank && !out.empty() && out.back() != ' ') out += ' ';
+  }
+  const auto count = [&](char c) { return std::count(out.begin(), out.end(), c); };
+  while (!out.empty() && (out.back() == ' ' || (out.back() == ')' && count(')') > count('(')))) out.pop_back();
+  while (!out.empty() && (out[0] == ' ' || (out[0] == '(' && count('(') > count(')')))) out.erase(0, 1);
+  return out;
+}
+
+}  // namespace
+
+// The condition, its left and its right side as they are written, a line each; a literal's side is empty.
+NameId BodyLowering::shownText(const CallExpr& node, const BinaryExpr& condition) {
+  const Sources& sources = project_.sources;
+  const FileId file = sources.fileOf(node.h.loc);
+  const std::string_view source = sources.text(file);
+  const uint32_t base = sources.begin(file).offset;
+  const size_t open = source.find('(', tree_.begin(node.callee).offset - base);
+  const size_t at = condition.h.loc.offset - base, op_size = sources.tokenAt(condition.h.loc).size();
+  size_t end = node.end.offset - base;
+  if (node.arguments.count > 1) end = source.rfind(',', tree_.begin(tree_.list(node.arguments)[1].value).offset - base);
+  if (end == std::string_view::npos || open >= at || at + op_size > end || end > source.size()) return {};
+  const std::string left = tidied(source.substr(open + 1, at - open - 1)), op(source.substr(at, op_size)),
+                    right = tidied(source.substr(at + op_size, end - at - op_size));
+  const auto name = [&](rung::ExprId side, const std::string& text) {
+    while (tree_.kind(side) == rung::ExprKind::Convert) side = tree_.as<ConvertExpr>(side).operand;
+    const TypeKind kind = types_.info(strip(tree_.expr(side).type)).kind;
+    const bool says_its_value =
+        tree_.kind(side) == rung::ExprKind::Literal || (kind == TypeKind::Enum && constantOf(project_, side));
+    return says_its_value ? std::string() : text;
+  };
+  const std::string left_name = name(condition.left, left), right_name = name(condition.right, right);
+  if (left_name.empty() && right_name.empty()) return {};
+  return in_.module.names.intern(left + ' ' + op + ' ' + right + '\n' + left_name + '\n' + right_name);
+}
+
 void BodyLowering::lowerAssertion(const sema::Call& call, const CallExpr& node) {
   Stmt stmt{.kind = StmtKind::Assert, .op = static_cast<uint8_t>(call.assertion), .loc = node.h.loc};
   size_t count = call.bindings.size();
   size_t operands = call.assertion == sema::Assertion::Assert ? 1 : call.assertion == sema::Assertion::AssertEq ? 2 : 3;
   RUNG_INVARIANT(count >= operands, "an assertion has its operands");
-  ExprId a = lowerValue(call.bindings[0].value), b, c;
-  if (operands > 1) b = lowerAfter({&a}, [&] { return lowerValue(call.bindings[1].value); });
-  if (operands > 2) c = lowerAfter({&a, &b}, [&] { return lowerValue(call.bindings[2].value); });
+  const rung::ExprId condition = call.bindings[0].value;
+  if (operands == 1 && tree_.kind(condition) == rung::ExprKind::Binary) {
+    const BinaryExpr& node_of = tree_.as<BinaryExpr>(condition);
+    const BinaryOp op = node_of.op();
+    const TypeId type = strip(tree_.expr(node_of.left).type);
+    const bool compares = op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual;
+    if (compares && assertedKind(types_, type) != RUNG_POINTER) stmt.e = shownText(node, node_of).index;
+  }
+  ExprId a, b, c;
+  if (stmt.e != 0) {
+    const BinaryExpr& compared = tree_.as<BinaryExpr>(condition);
+    const auto once = [&](ExprId value) { return isStable(value) ? value : toTemp(value, compared.h.loc); };
+    b = lowerValue(compared.left);
+    c = lowerAfter({&b}, [&] { return lowerValue(compared.right); });
+    b = once(b);
+    c = once(c);
+    a = binary(sema::operatorOf(compared.op()), types::kBool, b, c, compared.h.loc);
+  } else {
+    a = lowerValue(condition);
+    if (operands > 1) b = lowerAfter({&a}, [&] { return lowerValue(call.bindings[1].value); });
+    if (operands > 2) c = lowerAfter({&a, &b}, [&] { return lowerValue(call.bindings[2].value); });
+  }
   stmt.a = a.index;
   stmt.b = b.index;
   stmt.c = c.index;

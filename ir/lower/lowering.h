@@ -85,6 +85,8 @@ struct ModuleLowering {
 // The scalar or text behind a checked constant expression, or none when it is not that simple.
 std::optional<Value> constantOf(const sema::Project& project, rung::ExprId expr);
 
+inline bool isOpenArray(const TypeTable& types, TypeId type) { return type && types.isOpenArray(type); }
+
 class BodyLowering {
  public:
   BodyLowering(ModuleLowering& in, Body& body, sema::PouId pou);
@@ -146,6 +148,18 @@ class BodyLowering {
   bool isStable(ExprId expr) const;  // a constant or a temporary: reading it later gives the same
   ExprId rootOf(ExprId place) const;
 
+  // open_arrays.cpp
+  ExprId openArrayPointer(rung::ExprId array, Loc loc);
+  ExprId openArrayBound(rung::ExprId array, uint32_t index, Loc loc);
+  ExprId openArrayElement(const IndexExpr& node);
+  ExprId openArrayPart(rung::ExprId array, sema::VarId part, Loc loc);
+  // What is passed for an ARRAY[*]: the address of the first element, and the bounds.
+  struct OpenArray {
+    ExprId pointer;
+    std::vector<ExprId> bounds;
+  };
+  OpenArray passOpenArray(rung::ExprId argument, TypeId pin_type);
+
   // aliases.cpp
   // A place that is named without indices and pointers, so that it is the same whenever it is evaluated.
   bool isPlainPlace(rung::ExprId expr) const;
@@ -162,6 +176,7 @@ class BodyLowering {
   ExprId lowerLogical(rung::ExprId expr, bool is_and, bool short_circuit);
   bool callsFunction(rung::ExprId expr) const;
   ExprId lowerConvert(rung::ExprId expr);
+  ExprId lowerAddressOf(rung::ExprId expr);
   ExprId convertValue(ExprId value, TypeId to, Loc loc);
   // A position in the open block. `effects` tells whether what came since could change a variable.
   struct Mark {
@@ -220,6 +235,7 @@ class BodyLowering {
   ExprId lowerObjectConversion(const ConvertExpr& node);
   void lowerBlockCall(const sema::Call& call, const CallExpr& node, ExprId instance);
   void lowerAssertion(const sema::Call& call, const CallExpr& node);
+  NameId shownText(const CallExpr& node, const BinaryExpr& condition);
   ExprId argumentPlace(ExprId value, TypeId pin_type, bool may_alias, Loc loc);
   ExprId inOutPlace(rung::ExprId argument, TypeId pin_type);
   bool isPlainCall(rung::ExprId expr) const;
@@ -243,6 +259,7 @@ class BodyLowering {
                                 const std::function<void()>& turn);
   void lowerWhile(const WhileStmt& stmt);
   void lowerRepeat(const RepeatStmt& stmt);
+  void lowerTry(const TryStmt& stmt);
   uint32_t labelNumber(NameId label);
 
   // activation.cpp

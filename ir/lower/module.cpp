@@ -47,9 +47,12 @@ void ModuleLowering::run() {
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const sema::Pou& pou = project.pous[i];
     if (pou.generic || pou.operator_kind != sema::Pou::Operator::None) continue;
-    if ((pou.library && !pou.used) || pou.kind == PouKind::Interface) continue;
+    if (pou.left_out || (pou.library && !pou.used) || pou.kind == PouKind::Interface) continue;
     bodyOf({i});
   }
+  std::sort(module.tests.begin(), module.tests.end(), [&](BodyId a, BodyId b) {  // as they are written
+    return module.body(a).loc.offset < module.body(b).loc.offset;
+  });
   addActivations();
   lowerBodies();
   for (List& list : module.lists) list.init = initOf(list.record);
@@ -112,6 +115,7 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
   body.library = pou.library;
   body.library_name = pou.library_name;
   body.test = pou.test;
+  body.counted = !pou.library && !pou.test && !pou.test_only && !pou.replaces;
   body.self = pou.owner ? project.pou(pou.owner).record : pou.record;
   body.loc = pou.loc;
   body.file = pou.file;
@@ -124,8 +128,13 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
       if (var.section == SectionKind::Input) kind = LocalKind::Input;
       if (var.section == SectionKind::Output) kind = LocalKind::Output;
       if (var.section == SectionKind::InOut) kind = LocalKind::InOut;
+      if (var.hidden_input) kind = LocalKind::Input;
     }
     TypeId type = types.resolve(var.type);
+    if (types.isOpenArray(type)) {  // the address of the first element
+      type = types.pointer(types.info(type).base);
+      kind = LocalKind::Input;
+    }
     declareRecordsOf(type);
     body.locals.push_back({var.name, type, kind, isPassedByReference(types, kind, type), var.loc});
   }
@@ -140,10 +149,8 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
   if (pou.record) {
     for (Record& record : module.records)
       if (record.type == pou.record) record.body = known;
-    if (pou.test) module.tests.push_back(known);
-  } else if (pou.test) {
-    module.tests.push_back(known);
   }
+  if (pou.test && !pou.left_out) module.tests.push_back(known);
   return known;
 }
 
@@ -154,11 +161,10 @@ void ModuleLowering::markFaulting() {
   for (uint32_t i = 1; i < module.bodies.size(); ++i) {
     Body& body = module.bodies[i];
     for (const Expr& expr : body.exprs) body.may_fault = body.may_fault || expr.checks != 0;
-    for (const Stmt& stmt : body.stmts)
-      if (stmt.kind == StmtKind::Call) {
-        callers[stmt.a].push_back(i);
-        body.may_fault = body.may_fault || stmt.op == kVirtual;
-      }
+    for (const Stmt& stmt : body.stmts) {
+      if (stmt.kind == StmtKind::Call) callers[stmt.a].push_back(i);
+      if (stmt.kind == StmtKind::Fault || (stmt.kind == StmtKind::Call && stmt.op == kVirtual)) body.may_fault = true;
+    }
     if (body.may_fault) faulting.push_back(i);
   }
   while (!faulting.empty()) {
@@ -519,7 +525,7 @@ void ModuleLowering::addPrograms() {
     module.programs.back().body = bodyOf(instance.program);
   }
   for (uint32_t i = 1; i < project.pous.size(); ++i)
-    if (project.pous[i].test && project.pous[i].record) instanceOf({i});
+    if (project.pous[i].test && !project.pous[i].left_out && project.pous[i].record) instanceOf({i});
 }
 
 uint32_t ModuleLowering::instanceOf(sema::PouId program) {

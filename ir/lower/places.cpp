@@ -88,6 +88,7 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
     case rung::ExprKind::Member: return memberPlace(id);
     case rung::ExprKind::Index: {
       const IndexExpr& node = tree_.as<IndexExpr>(id);
+      if (isOpenArray(types_, tree_.expr(node.base).type)) return openArrayElement(node);
       ExprId base = lowerPlace(node.base);
       std::vector<ExprId> indices;
       for (rung::ExprId index : tree_.list(node.indices)) {
@@ -159,7 +160,9 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
     case rung::ExprKind::ArrayInit:
     case rung::ExprKind::Repeat:
     case rung::ExprKind::StructInit:
-    case rung::ExprKind::Convert: return lowerValue(id);
+    case rung::ExprKind::Convert:
+    case rung::ExprKind::Bound:
+    case rung::ExprKind::AddressOf: return lowerValue(id);
   }
   return {};
 }

@@ -9,7 +9,7 @@ void BodyLowering::lowerPou() {
   for (sema::VarId id : pou.vars) {
     const sema::Var& var = project_.var(id);
     if (var.storage != sema::Storage::Local) continue;
-    if (var.section == SectionKind::InOut) continue;
+    if (var.section == SectionKind::InOut || var.hidden_input) continue;
     if (var.section == SectionKind::Input) {
       // The caller's variable stays as it is: a body that writes an input by reference writes a copy of its own.
       uint32_t& index = local_of_[var.field];
@@ -70,6 +70,7 @@ void BodyLowering::lowerStatement(rung::StmtId id) {
     case rung::StmtKind::For: return lowerFor(tree_.as<ForStmt>(id));
     case rung::StmtKind::While: return lowerWhile(tree_.as<WhileStmt>(id));
     case rung::StmtKind::Repeat: return lowerRepeat(tree_.as<RepeatStmt>(id));
+    case rung::StmtKind::Try: return lowerTry(tree_.as<TryStmt>(id));
     case rung::StmtKind::Exit: append({.kind = StmtKind::Break, .loc = loc}); return;
     case rung::StmtKind::Continue: append({.kind = StmtKind::Continue, .loc = loc}); return;
     case rung::StmtKind::Return: append({.kind = StmtKind::Return, .loc = loc}); return;
@@ -145,9 +146,13 @@ void BodyLowering::lowerAssign(const AssignStmt& stmt) {
       assign(target, binary(op, type, target, convertValue(value, type, loc), loc), loc);
       return;
     }
-    case AssignOp::Reference: break;
+    case AssignOp::Reference: {  // sema made the value an address
+      ExprId value = lowerValue(stmt.value);
+      ExprId target = lowerAfter({&value}, [&] { return lowerPlace(stmt.target); });
+      assign(target, value, loc);
+      return;
+    }
   }
-  RUNG_INVARIANT(false, "REF= is not lowered yet; sema reports it");
 }
 
 void BodyLowering::lowerIf(const IfStmt& stmt) { lowerIfFrom(tree_.list(stmt.branches), stmt.otherwise, stmt.h.loc); }
@@ -341,6 +346,54 @@ void BodyLowering::lowerRepeat(const RepeatStmt& stmt) {
     append({.kind = StmtKind::If, .loc = loc, .a = condition.index, .b = leave.index});
   });
   append({.kind = StmtKind::Loop, .loc = stmt.h.loc, .a = body.index, .b = test.index});
+}
+
+// The number of a fault as CODESYS's runtime numbers it: the items of __SYSTEM.ExceptionCode.
+static uint32_t exceptionCode(types::Fault fault) {
+  switch (fault) {
+    case types::Fault::None: return 0;
+    case types::Fault::Div: return 0x102;       // RTSEXCPT_DIVIDEBYZERO
+    case types::Fault::Index: return 0x101;     // RTSEXCPT_ARRAYBOUNDS
+    case types::Fault::Null: return 0x51;       // RTSEXCPT_ACCESS_VIOLATION
+    case types::Fault::Overflow: return 0x103;  // RTSEXCPT_OVERFLOW
+    case types::Fault::Cast:
+    case types::Fault::Subrange:
+    case types::Fault::Convert: break;
+  }
+  return 0xffffffff;  // RTSEXCPT_UNKNOWN
+}
+
+void BodyLowering::lowerTry(const TryStmt& stmt) {
+  const Loc loc = stmt.h.loc;
+  StmtId body = block([&] { lowerStatements(stmt.body); });
+  ExprId number = stmt.code ? temp(types::kDInt, loc) : ExprId{};
+  StmtId handler = block([&] {
+    if (number) {
+      ExprId code = constant(types::kUDInt, exceptionCode(types::Fault::Cast), loc);
+      for (types::Fault fault : {types::Fault::Div, types::Fault::Index, types::Fault::Null, types::Fault::Overflow}) {
+        ExprId is_it =
+            binary(Op::Eq, types::kBool, number, constant(types::kDInt, static_cast<uint64_t>(fault), loc), loc);
+        ExprId own = constant(types::kUDInt, exceptionCode(fault), loc);
+        code = add({.kind = ExprKind::Select,
+                    .type = types::kUDInt,
+                    .loc = loc,
+                    .a = is_it.index,
+                    .b = own.index,
+                    .c = code.index});
+      }
+      ExprId place = lowerPlace(stmt.code);
+      assign(place, convertValue(code, typeOf(place), loc), loc);
+    }
+    lowerStatements(stmt.handler);
+  });
+  StmtId finally = block([&] { lowerStatements(stmt.finally); });
+  append({.kind = StmtKind::Try,
+          .op = static_cast<uint8_t>(stmt.catches ? 1 : 0),
+          .loc = loc,
+          .a = body.index,
+          .b = handler.index,
+          .c = finally.index,
+          .d = number.index});
 }
 
 }  // namespace rung::ir

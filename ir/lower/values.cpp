@@ -67,6 +67,8 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
     case rung::ExprKind::Deref:
     case rung::ExprKind::BitAccess:
     case rung::ExprKind::Address:
+    case rung::ExprKind::AddressOf:
+    case rung::ExprKind::Bound:
     case rung::ExprKind::Call:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:
@@ -165,6 +167,11 @@ ExprId BodyLowering::lowerValue(rung::ExprId id) {
     case rung::ExprKind::Unary: return lowerUnary(id);
     case rung::ExprKind::Binary: return lowerBinary(id);
     case rung::ExprKind::Convert: return lowerConvert(id);
+    case rung::ExprKind::AddressOf: return lowerAddressOf(id);
+    case rung::ExprKind::Bound: {
+      const BoundExpr& node = tree_.as<BoundExpr>(id);
+      return openArrayBound(node.array, node.index, node.h.loc);
+    }
     case rung::ExprKind::Call: return lowerCall(id);
     case rung::ExprKind::Error:
     case rung::ExprKind::Range:
@@ -211,6 +218,8 @@ bool BodyLowering::callsFunction(rung::ExprId id) const {
     case rung::ExprKind::Convert: return callsFunction(tree_.as<ConvertExpr>(id).operand);
     case rung::ExprKind::Member: return callsFunction(tree_.as<MemberExpr>(id).base);
     case rung::ExprKind::Deref: return callsFunction(tree_.as<DerefExpr>(id).base);
+    case rung::ExprKind::Bound: return false;
+    case rung::ExprKind::AddressOf: return callsFunction(tree_.as<AddressOfExpr>(id).place);
     case rung::ExprKind::BitAccess: return callsFunction(tree_.as<BitAccessExpr>(id).base);
     case rung::ExprKind::Binary:
       return callsFunction(tree_.as<BinaryExpr>(id).left) || callsFunction(tree_.as<BinaryExpr>(id).right);
@@ -218,7 +227,7 @@ bool BodyLowering::callsFunction(rung::ExprId id) const {
       const IndexExpr& node = tree_.as<IndexExpr>(id);
       for (rung::ExprId index : tree_.list(node.indices))
         if (callsFunction(index)) return true;
-      return callsFunction(node.base);
+      return isOpenArray(types_, tree_.expr(node.base).type) || callsFunction(node.base);  // its check is a statement
     }
     case rung::ExprKind::Call: {
       const sema::Call& call = project_.call(tree_.as<CallExpr>(id).call);
@@ -328,6 +337,17 @@ ExprId BodyLowering::lowerObjectConversion(const ConvertExpr& node) {
   });
   append({.kind = StmtKind::If, .loc = loc, .a = is_null.index, .b = then.index});
   return result;
+}
+
+// The address of what a pointer or reference points to is its value: nothing is read there.
+ExprId BodyLowering::lowerAddressOf(rung::ExprId id) {
+  const AddressOfExpr& node = tree_.as<AddressOfExpr>(id);
+  const TypeId type = strip(node.h.type);
+  if (isOpenArray(types_, tree_.expr(node.place).type))
+    return convertValue(openArrayPointer(node.place, node.h.loc), type, node.h.loc);
+  if (tree_.kind(node.place) == rung::ExprKind::Deref)
+    return convertValue(lowerValue(tree_.as<DerefExpr>(node.place).base), type, node.h.loc);
+  return add({.kind = ExprKind::Address, .type = type, .loc = node.h.loc, .a = lowerPlace(node.place).index});
 }
 
 ExprId BodyLowering::convertValue(ExprId value, TypeId to, Loc loc) {

@@ -159,6 +159,18 @@ TypeId throughObject(Context& context, ExprId& expr, TypeId type);
 bool isExact(const Context& context, ExprId instance);
 bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, Loc loc);
 
+// ---- pointers.cpp
+// ADR(x), REF(x), BITADR(x), __ISVALIDREF(x). None when the name is another one.
+TypeId checkAddressCall(Context& context, ExprId& expr, NameId name);
+// p[i]: the i-th of what p points to.
+TypeId checkPointerIndex(Context& context, ExprId& expr);
+// p + n, p - n, p - q, and pointers as numbers. None when the types do not combine so.
+TypeId combinePointers(Context& context, ExprId& self, TypeId expected);
+
+// ---- open_arrays.cpp
+// LOWER_BOUND(a, n), UPPER_BOUND(a, n). None when the name is another one.
+TypeId checkBoundCall(Context& context, ExprId& expr, NameId name);
+
 // ---- operator_calls.cpp
 TypeId checkOperatorCall(Context& context, ExprId& expr, PouId pou, TypeId expected, TypeId forced);
 // ---- conversion_calls.cpp

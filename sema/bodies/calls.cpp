@@ -104,8 +104,9 @@ bool sameInOut(const Context& context, TypeId pin, TypeId actual) {
   const types::TypeTable& table = context.types();
   const types::TypeInfo& wanted = table.info(table.resolve(pin));
   const types::TypeInfo& given = table.info(table.resolve(actual));
-  if (wanted.kind == TypeKind::Array && wanted.dimensions.empty() && given.kind == TypeKind::Array) {
-    return sameType(context, wanted.base, given.base);
+  if (table.isOpenArray(pin) && given.kind == TypeKind::Array) {
+    const size_t dimensions = given.dimensions.empty() ? given.length : given.dimensions.size();
+    return dimensions == wanted.length && sameType(context, wanted.base, given.base);
   }
   if (wanted.kind == TypeKind::Record && given.kind == TypeKind::Record) {
     Context here = context;
@@ -136,11 +137,18 @@ void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& bindin
   const TypeId actual = check(context, binding.value, pin.type, Access::ReadWrite);
   if (actual == types::kError || pin.type == types::kError) return;
   if (isUntyped(context, actual)) settle(context, binding.value);
-  if (pin.constant) {  // VAR_IN_OUT CONSTANT takes any value of the type
+  if (pin.constant && !context.types().isOpenArray(pin.type)) {  // VAR_IN_OUT CONSTANT takes any value of the type
     convert(context, binding.value, pin.type, purpose);
     return;
   }
-  if (!checkWritable(context, binding.value, purpose)) return;
+  if (context.types().kind(pin.type) == TypeKind::Reference && context.tree().kind(binding.value) == ExprKind::Deref) {
+    const ExprId reference = context.tree().as<DerefExpr>(binding.value).base;  // the reference itself is passed
+    if (sameType(context, context.tree().expr(reference).type, pin.type)) {
+      binding.value = reference;
+      return;
+    }
+  }
+  if (!pin.constant && !checkWritable(context, binding.value, purpose)) return;
   if (!sameInOut(context, pin.type, actual)) {
     context.report(Diag::OtherInOutType, context.tree().loc(binding.value),
                    {context.types().spell(actual), text(context, pin.name), text(context, pou.name),
@@ -150,11 +158,8 @@ void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& bindin
 
 void bindInput(Context& context, const Pou& pou, const Var& pin, Binding& binding) {
   const types::TypeInfo& wanted = context.types().info(context.types().resolve(pin.type));
-  if (wanted.kind == TypeKind::Array && wanted.dimensions.empty()) {
-    const TypeId actual = check(context, binding.value, {}, Access::Read);
-    if (actual != types::kError && !sameInOut(context, pin.type, actual)) {
-      reportFit(context, Fit::No, binding.value, actual, pin.type, Purpose{"passed to", pin.name, pou.name});
-    }
+  if (wanted.kind == TypeKind::Reference) {
+    bindReference(context, binding.value, pin.type);
     return;
   }
   checkAs(context, binding.value, pin.type, Purpose{"passed to", pin.name, pou.name});
@@ -165,7 +170,7 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
   resolvePou(context, pou);
   const Pou& callee = context.project.pou(pou);
   noteCall(context, pou, node.h.loc);
-  checkTestOnly(context, node, pou);
+  checkTestOnly(context, pou, node.h.loc);
   if (callee.operator_kind != Pou::Operator::None) return checkOperatorCall(context, expr, pou, expected, {});
   if (callee.generic || callee.extensible) return checkGenericCall(context, expr, pou, expected, {});
   const Arguments arguments = matchArguments(context, node, pou);
@@ -255,7 +260,8 @@ TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement)
 TypeId sizeOf(Context& context, ExprId& expr) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (node.arguments.count != 1) {
-    context.report(Diag::WrongArgumentCount, node.h.loc, {"SIZEOF", "1", std::to_string(node.arguments.count)});
+    context.report(Diag::WrongArgumentCount, node.h.loc,
+                   {text(context, nameOf(context, node.callee)), "1", std::to_string(node.arguments.count)});
     return refuse(context, node);
   }
   ExprId operand = context.tree().list(node.arguments)[0].value;
@@ -282,11 +288,11 @@ TypeId sizeOf(Context& context, ExprId& expr) {
 TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (const auto assertion = assertionOf(context.names(), name)) return checkAssertion(context, expr, *assertion);
-  if (isNamed(context, name, "SIZEOF")) return sizeOf(context, expr);
+  if (isNamed(context, name, "SIZEOF") || isNamed(context, name, "XSIZEOF")) return sizeOf(context, expr);
   if (const TypeId type = checkRuleCall(context, expr, name, expected)) return type;
-  if (isNamed(context, name, "ADR") || isNamed(context, name, "REF")) {
-    context.report(Diag::NotSupportedYet, node.h.loc, {isNamed(context, name, "ADR") ? "`ADR`" : "`REF`"});
-  } else if (sayUnknown(context, name))
+  if (const TypeId type = checkAddressCall(context, expr, name)) return type;
+  if (const TypeId type = checkBoundCall(context, expr, name)) return type;
+  if (sayUnknown(context, name))
     context.report(Diag::UnknownName, node.h.loc, {text(context, name)}).didYouMean(nearestName(context, name));
   context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);
   return refuse(context, node);
@@ -515,7 +521,7 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
       case EntityKind::Property:
       case EntityKind::Program: break;
     }
-    return callValue(context, expr, checkName(context, node.callee, {}, Access::ReadWrite), as_statement);
+    return callValue(context, expr, check(context, node.callee, {}, Access::ReadWrite), as_statement);
   }
   if (context.tree().kind(node.callee) == ExprKind::Member) {
     TypeId type = check(context, node.callee, {}, Access::Qualifier);

@@ -91,6 +91,14 @@ bool isObjectFit(const Context& constant, const types::TypeInfo& source, TypeId 
 
 }  // namespace
 
+// A pointer to a text may name a longer one.
+static bool pointsAlike(const Context& context, TypeId from, TypeId to) {
+  const types::TypeInfo& source = context.types().info(context.types().resolve(from));
+  const types::TypeInfo& target = context.types().info(context.types().resolve(to));
+  if (TypeTable::isText(source.kind) && source.kind == target.kind) return source.length >= target.length;
+  return sameType(context, from, to);
+}
+
 Fit fit(const Context& context, TypeId from, TypeId to) {
   const types::TypeTable& table = context.types();
   from = table.resolve(from);
@@ -119,8 +127,15 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
   if (target.kind == TypeKind::Pointer) {
     if (source.kind == TypeKind::NullLiteral) return Fit::Same;
     if (isObjectFit(context, source, from, target)) return Fit::Lossless;
-    if (source.kind == TypeKind::Pointer) return sameType(context, from, to) ? Fit::Same : Fit::Pointer;
-    return Fit::No;
+    if (source.kind == TypeKind::Pointer)
+      return pointsAlike(context, source.base, target.base) ? Fit::Same : Fit::Pointer;
+  }
+  // CODESYS takes a pointer as the number of its first byte, and a number as a pointer.
+  if ((target.kind == TypeKind::Pointer && isWholeKind(a)) || (source.kind == TypeKind::Pointer && isWholeKind(b))) {
+    const uint32_t bits = table.pointerSize() * 8;
+    if (context.iec()) return Fit::No;
+    const bool narrow = source.kind == TypeKind::Pointer && TypeTable::bitWidth(b) < bits;
+    return narrow ? Fit::Lossy : Fit::Lossless;
   }
   return sameType(context, from, to) ? Fit::Same : Fit::No;
 }

@@ -18,21 +18,18 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   const TypeId base = check(context, node.base, {}, access == Access::Qualifier ? Access::Read : access);
   const uint32_t count = node.indices.count;
   const types::TypeInfo* info = &context.types().info(context.types().resolve(base));
-  if (info->kind == TypeKind::Pointer && count == 1) {
-    // CODESYS indexes a pointer like an array; here it must say what it means.
-    context.report(Diag::IndexOfPointer, node.h.loc);
-    return node.h.type = types::kError;
-  }
+  if (info->kind == TypeKind::Pointer && count == 1) return checkPointerIndex(context, expr);
   const bool array = info->kind == TypeKind::Array;
+  const uint32_t dimensions = info->dimensions.empty() ? info->length : static_cast<uint32_t>(info->dimensions.size());
   if (!array && base != types::kError) {
     context.report(Diag::NotAnArray, node.h.loc, {context.types().spell(base)});
-  } else if (array && !info->dimensions.empty() && info->dimensions.size() != count) {
+  } else if (array && dimensions != count) {
     // The first index too many, or the last one, behind which some are missing.
-    const uint32_t marked = std::min(static_cast<uint32_t>(info->dimensions.size()), count - 1);
+    const uint32_t marked = std::min(dimensions, count - 1);
     context.report(Diag::WrongIndexCount, context.tree().loc(context.tree().list(node.indices)[marked]),
-                   {context.types().spell(base), std::to_string(info->dimensions.size()), std::to_string(count)});
+                   {context.types().spell(base), std::to_string(dimensions), std::to_string(count)});
   }
-  bool good = array && (info->dimensions.empty() || info->dimensions.size() == count);
+  bool good = array && dimensions == count;
   for (uint32_t i = 0; i < count; ++i) {
     ExprId index = context.tree().list(node.indices)[i];
     TypeId type = check(context, index, {}, Access::Read);
@@ -56,6 +53,7 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
 
 TypeId checkDeref(Context& context, ExprId& expr) {
   DerefExpr& node = context.tree().as<DerefExpr>(expr);
+  if (node.h.type) return node.h.type;  // of a reference that was checked before
   const TypeId base = check(context, node.base, {}, Access::Read);
   if (base == types::kError) return node.h.type = types::kError;
   const types::TypeInfo& info = context.types().info(context.types().resolve(base));
@@ -104,6 +102,20 @@ TypeId checkAddress(Context& context, ExprId& expr) {
   return node.h.type = addressType(node.address);
 }
 
+// A REFERENCE is used like what it refers to.
+TypeId throughReference(Context& context, ExprId& expr, TypeId type) {
+  const types::TypeInfo& info = context.types().info(context.types().resolve(type));
+  if (info.kind != TypeKind::Reference) return type;
+  DerefExpr deref{};
+  deref.h.kind = ExprKind::Deref;
+  deref.h.loc = context.tree().loc(expr);
+  deref.h.writable = 1;
+  deref.h.type = info.base;
+  deref.base = expr;
+  expr = context.tree().add<ExprId>(deref);
+  return info.base;
+}
+
 TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) {
   Tree& tree = context.tree();
   switch (tree.kind(expr)) {
@@ -121,7 +133,9 @@ TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) 
     case ExprKind::Unary: return checkUnary(context, expr, expected);
     case ExprKind::Binary: return checkBinary(context, expr, expected);
     case ExprKind::Call: return checkCall(context, expr, expected, false);
-    case ExprKind::Convert: return tree.expr(expr).type;  // checked before
+    case ExprKind::Convert:
+    case ExprKind::Bound:
+    case ExprKind::AddressOf: return tree.expr(expr).type;  // checked before
     case ExprKind::ArrayInit:
     case ExprKind::StructInit:
     case ExprKind::Range:
@@ -139,7 +153,8 @@ TypeId check(Context& context, ExprId& expr, TypeId expected, Access access) {
     return context.tree().expr(expr).type = types::kError;
   }
   ++context.depth;
-  const TypeId type = dispatch(context, expr, expected, access);
+  TypeId type = dispatch(context, expr, expected, access);
+  if (context.tree().kind(expr) != ExprKind::AddressOf) type = throughReference(context, expr, type);
   --context.depth;
   return type;
 }

@@ -38,21 +38,6 @@ const char* wordOf(PouKind kind) {
   return "a POU";
 }
 
-// A REFERENCE is used like what it refers to.
-TypeId throughReference(Context& context, ExprId& expr, TypeId type) {
-  const types::TypeInfo& info = context.types().info(context.types().resolve(type));
-  if (info.kind != TypeKind::Reference) return type;
-  context.tree().expr(expr).type = type;
-  DerefExpr deref{};
-  deref.h.kind = ExprKind::Deref;
-  deref.h.loc = context.tree().loc(expr);
-  deref.h.writable = 1;
-  deref.h.type = info.base;
-  deref.base = expr;
-  expr = context.tree().add<ExprId>(deref);
-  return info.base;
-}
-
 TypeId typeOf(const Context& context, VarId id) {
   const TypeId type = context.project.var(id).type;
   return type ? type : types::kError;
@@ -65,8 +50,7 @@ TypeId useVar(Context& context, ExprId& expr, VarId id, Access access) {
   header.is_constant = var.constant && var.has_value;
   header.writable = !var.constant;
   const TypeId type = typeOf(context, id);
-  header.type = type;
-  return throughReference(context, expr, type);
+  return header.type = type;
 }
 
 TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
@@ -218,7 +202,9 @@ Entity entityOf(const Context& context, ExprId expr) {
     case ExprKind::ArrayInit:
     case ExprKind::Repeat:
     case ExprKind::StructInit:
-    case ExprKind::Convert: return {};
+    case ExprKind::Convert:
+    case ExprKind::Bound:
+    case ExprKind::AddressOf: return {};
   }
   return {};
 }

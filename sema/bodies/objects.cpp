@@ -171,7 +171,9 @@ bool isExact(const Context& context, ExprId instance) {
       case ExprKind::ArrayInit:
       case ExprKind::Repeat:
       case ExprKind::StructInit:
-      case ExprKind::Convert: return false;
+      case ExprKind::Convert:
+      case ExprKind::Bound:
+      case ExprKind::AddressOf: return false;
     }
   }
 }

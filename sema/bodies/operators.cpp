@@ -305,6 +305,9 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
     const Loc loc = node.h.loc;
     return node.h.type = power(context, node.left, node.right, expected, loc);
   }
+  if (context.types().kind(left) == TypeKind::Pointer || context.types().kind(right) == TypeKind::Pointer) {
+    if (const TypeId type = combinePointers(context, self, expected)) return context.tree().expr(self).type = type;
+  }
   if (!comparison && operandsOf(op) != Operands::Bits) {
     const TypeKind a = untyped_left ? TypeKind::None : context.types().plainKind(left);
     const TypeKind b = untyped_right ? TypeKind::None : context.types().plainKind(right);

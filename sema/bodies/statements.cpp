@@ -3,6 +3,7 @@
 #include "sema/bodies/bodies.h"
 #include "sema/checks/case_labels.h"
 #include "sema/checks/constant_condition.h"
+#include "sema/checks/dangling_address.h"
 #include "sema/checks/for_header.h"
 #include "sema/checks/jump_labels.h"
 #include "sema/checks/overlapping_addresses.h"
@@ -43,19 +44,18 @@ TypeId checkTarget(Context& context, ExprId& target, Access access) {
 // x REF= y: the reference itself is the target.
 void checkReferenceAssign(Context& context, AssignStmt& node) {
   const TypeId type = check(context, node.target, {}, Access::Write);
-  const TypeId value = check(context, node.value, {}, Access::ReadWrite);
-  if (type == types::kError || value == types::kError) return;
-  const bool reference = context.tree().kind(node.target) == ExprKind::Deref;
-  if (reference) node.target = context.tree().as<DerefExpr>(node.target).base;
+  if (type == types::kError) {
+    check(context, node.value, {}, Access::Address);
+    return;
+  }
+  if (context.tree().kind(node.target) == ExprKind::Deref) node.target = context.tree().as<DerefExpr>(node.target).base;
   const TypeId own = context.tree().expr(node.target).type;
   if (context.types().kind(own) != TypeKind::Reference) {
-    context.report(Diag::NotAReference, context.tree().loc(node.target), {context.types().spell(own)});
-  } else if (!sameType(context, type, value)) {
-    context.report(Diag::WrongType, context.tree().loc(node.value),
-                   {context.types().spell(value), "bound to the reference", context.types().spell(type)});
-  } else {
-    context.report(Diag::NotSupportedYet, node.h.loc, {"`REF=`"});
+    context.report(Diag::NotAReference, context.tree().loc(node.target), {"REF=", context.types().spell(own)});
+    return;
   }
+  if (!checkWritable(context, node.target, Purpose{"assigned to", {}, {}})) return;
+  if (bindReference(context, node.value, own)) checkDanglingAddress(context, node.target, node.value);
 }
 
 }  // namespace
@@ -115,6 +115,7 @@ void checkAssign(Context& context, AssignStmt& node) {
       }
       if (checkPropertyAssign(context, node)) return;
       checkAs(context, node.value, type, Purpose{"assigned to", placeName(context, node.target), {}});
+      checkDanglingAddress(context, node.target, node.value);
       return;
     }
     case AssignOp::Set:
@@ -296,6 +297,22 @@ bool checkEndless(Context& context, ExprId condition, bool goes_on, uint32_t way
   return true;
 }
 
+// __TRY of CODESYS. The code is a number or an __SYSTEM.ExceptionCode.
+bool checkTry(Context& context, TryStmt& node) {
+  if (context.iec()) context.report(Diag::TryExtension, node.h.loc);
+  const bool falls = checkStatements(context, node.body);
+  if (node.code) {
+    const TypeId type = checkTarget(context, node.code, Access::Write);
+    const TypeKind kind = context.types().plainKind(type);
+    if (type != types::kError && (types::TypeTable::bitWidth(kind) < 32 ||
+                                  !(types::TypeTable::isInteger(kind) || types::TypeTable::isBits(kind))))
+      context.report(Diag::ExceptionCode, context.tree().begin(node.code), {context.types().spell(type)});
+  }
+  const bool handled = checkStatements(context, node.handler);
+  const bool finished = checkStatements(context, node.finally);
+  return (falls || (node.catches && handled)) && finished;
+}
+
 bool checkStatement(Context& context, StmtId id) {
   Tree& tree = context.tree();
   BodyState& body = *context.body;
@@ -326,6 +343,7 @@ bool checkStatement(Context& context, StmtId id) {
       checkCondition(context, node.until, "used as the condition of UNTIL");
       return checkEndless(context, node.until, false, before, node.h.loc) || falls || body.ways_out != before;
     }
+    case StmtKind::Try: return checkTry(context, tree.as<TryStmt>(id));
     case StmtKind::Exit:
     case StmtKind::Continue:
       if (context.loop_depth == 0) {

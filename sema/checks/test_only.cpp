@@ -1,16 +1,18 @@
-// Forbids a call of a POU marked {test_only} in a POU that is no test: a program that moves its own clock would run
-// otherwise in the plant. Design §11.
+// Forbids the use of a POU marked {test_only}, or of a mock, in a POU that is not for tests: a program that moves its
+// own clock would run otherwise in the plant. Design §11.
 //   passes  {test} PROGRAM opens_late … TEST_ADVANCE(T#100ms);
 //   fails   PROGRAM Main … TEST_ADVANCE(T#100ms);          E0620
-// Called by calls.cpp for every call of a function.
+// Called for every call of a function and every type that is named.
 #include "sema/checks/test_only.h"
 
 namespace rung::sema {
 
-void checkTestOnly(Context& context, const CallExpr& node, PouId callee) {
-  const Pou& pou = context.project.pou(callee);
-  if (!pou.test_only || context.project.pou(context.pou).test) return;
-  context.report(Diag::TestOnly, node.h.loc, {text(context, pou.name)});
+void checkTestOnly(Context& context, PouId used, Loc loc) {
+  const Pou& pou = context.project.pou(used);
+  if (!pou.test_only || context.library) return;
+  const Pou& user = context.project.pou(context.pou);
+  if (user.test || user.test_only) return;
+  context.report(Diag::TestOnly, loc, {context.names().text(pou.name)});
 }
 
 }  // namespace rung::sema

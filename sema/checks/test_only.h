@@ -1,10 +1,10 @@
-// Forbids calls outside tests of what only a test may call; see test_only.cpp.
+// Forbids outside of tests what only tests may use; see test_only.cpp.
 #pragma once
 
-#include "sema/bodies/bodies.h"
+#include "sema/context.h"
 
 namespace rung::sema {
 
-void checkTestOnly(Context& context, const CallExpr& node, PouId callee);
+void checkTestOnly(Context& context, PouId used, Loc loc);
 
 }  // namespace rung::sema

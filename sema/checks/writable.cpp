@@ -81,6 +81,8 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
       case ExprKind::Repeat:
       case ExprKind::StructInit:
       case ExprKind::Convert:
+      case ExprKind::Bound:
+      case ExprKind::AddressOf:
         context.report(Diag::NotAPlace, tree.begin(whole), {purpose.spell(context)});
         return false;
     }

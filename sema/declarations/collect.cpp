@@ -16,6 +16,8 @@ void initWords(Context& context) {
   words.attribute_strict = word("strict");
   words.test = word("test");
   words.test_only = word("test_only");
+  words.replaces = word("replaces");
+  words.mock = word("mock");
   words.alias = word("alias");
   words.required = word("required");
   words.lazy = word("lazy");
@@ -102,6 +104,10 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.sized = findPragma(context, decl.h, words.sized) != nullptr;
   pou.test_only = findPragma(context, decl.h, words.test_only) != nullptr;
   pou.test = findPragma(context, decl.h, words.test) != nullptr;
+  if (const Pragma* pragma = findPragma(context, decl.h, words.replaces); pragma != nullptr && library == kNoLibrary) {
+    pou.replaces = context.names().intern(context.tree().text(pragma->value));
+    pou.test_only = true;
+  }
   if (const Pragma* pragma = findPragma(context, decl.h, words.op)) {
     const std::string_view word = context.tree().text(pragma->value);
     pou.operator_kind = word == "select"              ? Pou::Operator::Select

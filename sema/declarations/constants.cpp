@@ -271,6 +271,8 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
     case ExprKind::Deref:
     case ExprKind::BitAccess:
     case ExprKind::Address:
+    case ExprKind::AddressOf:
+    case ExprKind::Bound:
     case ExprKind::Range:
     case ExprKind::ArrayInit:
     case ExprKind::Repeat:

@@ -41,6 +41,10 @@ void declareItems(Context& context, TypeId type, TypeExprId written, NameMap* ba
 inline bool isFunction(PouKind kind) {
   return kind == PouKind::Function || kind == PouKind::Method || kind == PouKind::Action;
 }
+// ---- names.cpp
+// The mock that stands for what this name means elsewhere: in all of the project but the mock itself.
+Entity mockInUse(const Context& context, NameId key);
+
 // ---- variables.cpp
 // VAR_GLOBAL in a PROGRAM: the standard has it, codesys has not.
 inline bool mayHoldGlobals(const Context& context, PouKind kind) { return kind == PouKind::Program && context.iec(); }

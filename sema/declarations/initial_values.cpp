@@ -51,6 +51,7 @@ struct Initializer {
     switch (header.kind) {
       case ExprKind::Literal: return true;
       case ExprKind::Convert: return isStatic(tree().as<ConvertExpr>(id).operand, depth + 1);
+      case ExprKind::AddressOf: return true;
       case ExprKind::Unary: return isStatic(tree().as<UnaryExpr>(id).operand, depth + 1);
       case ExprKind::Binary:
         return isStatic(tree().as<BinaryExpr>(id).left, depth + 1) &&
@@ -75,6 +76,7 @@ struct Initializer {
       case ExprKind::Deref:
       case ExprKind::BitAccess:
       case ExprKind::Address:
+      case ExprKind::Bound:
       case ExprKind::Range:
       case ExprKind::ArrayInit:
       case ExprKind::Repeat:
@@ -94,9 +96,13 @@ struct Initializer {
       return;
     }
     if (plainLiteral(init, type)) return;
+    if (context.types().kind(type) == TypeKind::Reference) {
+      if (!bindReference(context, init, type)) init = {};
+      return;
+    }
     if (!checkExprAs(context, init, type, std::string("used as ") + std::string(what))) return;
     const TypeKind to = context.types().kind(type);
-    if (to == TypeKind::Pointer || to == TypeKind::Reference) return;
+    if (to == TypeKind::Pointer) return;
     const bool of_call = context.pou && isFunction(context.project.pou(context.pou).kind);
     if (of_call && !context.iec()) return;
     const uint32_t errors = context.project.diagnostics.errorCount();

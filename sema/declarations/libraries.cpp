@@ -230,6 +230,10 @@ void indexLibraries(Context& context) {
       }
     }
   }
+  for (const LibraryAlias& alias : context.project.options.library_aliases) {
+    const Entity space = libraries.namespaces.find(keyOf(context, context.names().intern(alias.library)));
+    if (space) libraries.namespaces.insert(keyOf(context, context.names().intern(alias.alias)), space);
+  }
 }
 
 namespace {

@@ -27,6 +27,12 @@ bool NameMap::insert(NameId key, Entity entity) {
   }
 }
 
+Entity mockInUse(const Context& context, NameId key) {
+  if (context.library) return {};
+  const Entity mock = context.scopes.mocks.find(key);
+  return mock.index == context.pou.index ? Entity{} : mock;
+}
+
 namespace {
 
 // What is found must be usable at once: its type resolved, its value known when it is constant.
@@ -83,6 +89,7 @@ Entity findName(Context& context, NameId key) {
   if (context.library) {  // a library is never captured by names of the project
     if (const Entity found = lookUpLibrary(context, key)) return found;
   }
+  if (const Entity mock = mockInUse(context, key)) return mock;
   if (const Entity found = scopes.pous_and_types.find(key)) return found;
   if (const Entity found = scopes.globals.find(key)) return found;
   if (const Entity found = scopes.items.find(key)) return found;
@@ -107,7 +114,10 @@ Entity lookUpIn(Context& context, Entity qualifier, NameId name) {
   Scopes& scopes = context.scopes;
   switch (qualifier.what()) {
     case EntityKind::GlobalList: return ready(context, scopes.lists[qualifier.index].names.find(key));
-    case EntityKind::Namespace: return ready(context, lookUpLibrary(context, key, qualifier.index));
+    case EntityKind::Namespace: {
+      const Entity mock = mockInUse(context, key);
+      return ready(context, mock ? mock : lookUpLibrary(context, key, qualifier.index));
+    }
     case EntityKind::Type: {
       const TypeId type = context.types().resolve(TypeId{qualifier.index});
       resolveNamed(context, type);

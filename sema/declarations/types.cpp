@@ -1,6 +1,7 @@
 // Types as written become TypeIds: elementary types, names, arrays, strings, subranges, enumerations, structures,
 // pointers. Named types are resolved on first use; records only get their fields when somebody asks for them, so that
 // long chains of blocks within blocks need no deep recursion.
+#include "sema/checks/test_only.h"
 #include "sema/declarations/declarations.h"
 
 #include <limits>
@@ -61,6 +62,7 @@ Entity findType(Context& context, NameId name) {
   if (context.library) {
     if (const Entity found = lookUpLibrary(context, key)) return found;
   }
+  if (const Entity mock = mockInUse(context, key)) return mock;
   if (const Entity found = context.scopes.pous_and_types.find(key)) return found;
   return context.library ? Entity{} : lookUpLibrary(context, key);
 }
@@ -102,8 +104,10 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
           .didYouMean(nearestName(context, first.name));
       return types::kError;
     }
-    found = lookUpLibrary(context, keyOf(context, last.name), qualifier.index);
+    found = mockInUse(context, keyOf(context, last.name));
+    if (!found) found = lookUpLibrary(context, keyOf(context, last.name), qualifier.index);
   }
+  if (found.what() == EntityKind::Pou) checkTestOnly(context, PouId{found.index}, last.loc);
   const TypeId type = typeOf(context, found);
   if (type) return context.types().resolve(type) == types::kError ? types::kError : type;
   reportUnknownType(context, last.name, last.loc, found);
@@ -123,17 +127,26 @@ TypeId resolveText(Context& context, TypeExprId id) {
   return expr.wide ? context.types().wstring(capacity) : context.types().string(capacity);
 }
 
+// Forbids ARRAY[*] as the type of anything but a VAR_IN_OUT. IEC 61131-3 ed. 3 table 15, 2.
+//   passes  VAR_IN_OUT a : ARRAY[*] OF INT; END_VAR      fails  p : POINTER TO ARRAY[*] OF INT      E0313
+TypeId closedType(Context& context, TypeExprId written) {
+  const TypeId type = resolveType(context, written);
+  if (type == types::kError || !context.types().isOpenArray(type)) return type;
+  context.report(Diag::OpenArray, context.tree().loc(written));
+  return types::kError;
+}
+
 // Forbids array bounds that are not constant or that are reversed. IEC 61131-3 ed. 3, 6.4.4.5.
 //   passes  ARRAY[1..10] OF INT        fails  ARRAY[10..1] OF INT      E0306
 TypeId resolveArray(Context& context, TypeExprId id) {
   ArrayTypeExpr& expr = context.tree().as<ArrayTypeExpr>(id);
   std::vector<Dimension> dimensions;
   bool good = true;
+  uint32_t open = 0;
   for (uint32_t i = 0; i < expr.bounds.count; ++i) {
     ArrayBound bound = context.tree().list(expr.bounds)[i];
     if (!bound.low) {
-      context.report(Diag::OpenArray, expr.h.loc);
-      good = false;
+      ++open;
       continue;
     }
     const auto low = constantBound(context, bound.low);
@@ -151,9 +164,12 @@ TypeId resolveArray(Context& context, TypeExprId id) {
       dimensions.push_back({*low, *high});
     }
   }
-  const TypeId element = resolveType(context, expr.element);
+  const TypeId element = closedType(context, expr.element);
   if (!good || element == types::kError) return types::kError;
-  return context.types().array(element, dimensions);
+  if (open == 0) return context.types().array(element, dimensions);
+  if (open == expr.bounds.count) return context.types().openArray(element, open);
+  context.report(Diag::OpenArray, expr.h.loc);
+  return types::kError;
 }
 
 // The integer type that a subrange or an enumeration stands on.
@@ -333,9 +349,9 @@ TypeId resolveWritten(Context& context, TypeExprId id) {
     }
     case TypeExprKind::Pointer: {
       const PointerTypeExpr& expr = tree.as<PointerTypeExpr>(id);
-      const TypeId target = resolveType(context, expr.target);
+      const TypeId target = closedType(context, expr.target);
       if (target == types::kError) return target;
-      return expr.form == PointerForm::Pointer ? table.pointer(target) : table.reference(target);
+      return expr.form == PointerForm::Reference ? table.reference(target) : table.pointer(target);
     }
   }
   return types::kError;
@@ -401,7 +417,7 @@ void resolveNamed(Context& context, TypeId type) {
     case TypeExprKind::Text:
     case TypeExprKind::Array:
     case TypeExprKind::Pointer: {
-      const TypeId target = resolveType(there, named->type);
+      const TypeId target = closedType(there, named->type);
       TypeId step = target;  // an alias that leads back here was reported
       while (step != type && context.types().info(step).kind == TypeKind::Alias) step = context.types().info(step).base;
       context.types().edit(type).base = step == type ? types::kError : target;

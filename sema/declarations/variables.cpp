@@ -130,6 +130,10 @@ void addField(Context& context, TypeId record, VarId id) {
                : var.pou                            ? FieldRole::Local
                                                     : FieldRole::Member;
   field.by_reference = var.section == SectionKind::InOut;
+  if (context.types().isOpenArray(var.type)) {  // a pointer to the first element; the bounds are fields of their own
+    field.type = context.types().pointer(context.types().info(context.types().resolve(var.type)).base);
+    field.by_reference = false;
+  }
   field.retain = var.retain;
   field.persistent = var.persistent;
   field.constant = var.constant;
@@ -227,6 +231,10 @@ void ensureVarType(Context& context, VarId id) {
     Var& var = project.vars[i];
     if (var.type) continue;
     var.type = type;
+    if (context.types().isOpenArray(type) && var.section != SectionKind::InOut) {
+      if (i == first) there.report(Diag::OpenArray, context.tree().loc(decl.type));
+      var.type = types::kError;
+    }
     checkEdge(there, var);
     if (var.section != SectionKind::InOut && var.section != SectionKind::External && type != types::kError &&
         !checkNotAbstract(there, type, context.tree().loc(decl.type)))
@@ -409,7 +417,7 @@ void resolvePou(Context& context, PouId id) {
     project.var(pou.result_var).type = result;
     if (types::TypeTable::isGeneric(context.types().kind(result))) pou.generic = true;
   }
-  std::vector<VarId> edges;
+  std::vector<VarId> edges, open_arrays;
   for (size_t i = 0; i < pou.vars.size(); ++i) {
     const VarId var_id = pou.vars[i];
     ensureVarType(there, var_id);
@@ -419,25 +427,36 @@ void resolvePou(Context& context, PouId id) {
     if (types::TypeTable::isGeneric(context.types().kind(var.type))) pou.generic = true;
     if (var.extensible) pou.extensible = true;
     if (var.edge != EdgeKind::None && var.storage == Storage::Field) edges.push_back(var_id);
+    if (context.types().isOpenArray(var.type)) open_arrays.push_back(var_id);
   }
   // Forbids generic types outside of functions: an instance of a block has one layout.
   if (pou.generic && (pou.kind != PouKind::Function || pou.owner)) {
     context.report(Diag::GenericBlock, pou.loc, {context.names().text(pou.name)});
     pou.generic = false;
   }
-  for (const VarId edge : edges) {
-    Var memory;
-    memory.name = context.names().intern("__" + std::string(spelled(context, project.var(edge).name)) + "_edge");
-    memory.loc = project.var(edge).loc;
-    memory.type = types::kBool;
-    memory.storage = Storage::Field;
-    memory.pou = id;
-    memory.read = memory.written = true;
-    const VarId memory_id{static_cast<uint32_t>(project.vars.size())};
-    project.vars.push_back(memory);
-    project.var(edge).edge_memory = memory_id;
-    pou.vars.push_back(memory_id);
-    addField(there, pou.record, memory_id);
+  const auto addHidden = [&](VarId of, const std::string& suffix, TypeId type) {
+    Var hidden;
+    hidden.name = context.names().intern("__" + spelled(context, project.var(of).name) + suffix);
+    hidden.loc = project.var(of).loc;
+    hidden.type = type;
+    hidden.storage = project.var(of).storage;
+    hidden.pou = id;
+    hidden.read = hidden.written = true;
+    hidden.field = static_cast<uint32_t>(pou.vars.size());
+    hidden.hidden_input = hidden.storage == Storage::Local;
+    const VarId hidden_id{static_cast<uint32_t>(project.vars.size())};
+    project.vars.push_back(hidden);
+    pou.vars.push_back(hidden_id);
+    if (hidden.storage == Storage::Field) addField(there, pou.record, hidden_id);
+    return hidden_id;
+  };
+  for (const VarId edge : edges) project.var(edge).edge_memory = addHidden(edge, "_edge", types::kBool);
+  for (const VarId array : open_arrays) {
+    const uint32_t dimensions = context.types().info(context.types().resolve(project.var(array).type)).length;
+    for (uint32_t i = 0; i < 2 * dimensions; ++i) {
+      const VarId bound = addHidden(array, (i % 2 == 0 ? "_low" : "_high") + std::to_string(i / 2 + 1), types::kDInt);
+      if (i == 0) project.var(array).bounds = bound;
+    }
   }
   scope.resolved = State::Done;
 }

@@ -149,7 +149,7 @@ std::string TypeTable::spell(TypeId id) const {
   if (info.name) return std::string(names_.text(info.name));
   if (info.kind == TypeKind::Array) {
     text = "ARRAY[";
-    if (info.dimensions.empty()) text += '*';
+    for (uint32_t i = 0; i < info.length; ++i) text += i == 0 ? "*" : ", *";
     for (size_t i = 0; i < info.dimensions.size(); ++i) {
       if (i > 0) text += ", ";
       appendSigned(text, info.dimensions[i].low);

@@ -85,6 +85,13 @@ TypeTable::TypeTable(Names& names, uint32_t pointer_size) : names_(names), point
     TypeInfo& info = types_[static_cast<size_t>(row.kind)];
     if (!info.name) info.name = name;
   }
+  // CODESYS's names for numbers as wide as an address.
+  const auto native = [&](const char* name, TypeKind wide, TypeKind narrow) {
+    elementary_.emplace(names.key(names.intern(name)).index, idOf(pointer_size == 8 ? wide : narrow));
+  };
+  native("__XWORD", TypeKind::LWord, TypeKind::DWord);
+  native("__XINT", TypeKind::LInt, TypeKind::DInt);
+  native("__UXINT", TypeKind::ULInt, TypeKind::UDInt);
   // STRING and WSTRING without a length are the same types as with the default one.
   interned_.emplace(internKey(TypeKind::String, kDefaultLength), idOf(TypeKind::String));
   interned_.emplace(internKey(TypeKind::WString, kDefaultLength), idOf(TypeKind::WString));
@@ -158,6 +165,20 @@ TypeId TypeTable::array(TypeId element, std::span<const Dimension> dimensions) {
     info.base = element;
     info.dimensions.assign(dimensions.begin(), dimensions.end());
     return id = append(types_, std::move(info));
+  }
+}
+
+TypeId TypeTable::openArray(TypeId element, uint32_t dimensions) {
+  for (uint64_t key = element.index;; key += uint64_t{1} << 32) {
+    TypeId& id = interned_[internKey(TypeKind::Any, key)];
+    if (!id) {
+      TypeInfo info;
+      info.kind = TypeKind::Array;
+      info.base = element;
+      info.length = dimensions;
+      return id = append(types_, std::move(info));
+    }
+    if (types_[id.index].length == dimensions) return id;
   }
 }
 

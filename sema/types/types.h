@@ -110,7 +110,7 @@ struct TypeInfo {
   bool strict = false;  // enumerations: TYPE#item only ({attribute 'strict'}, edition 3 strict form)
   NameId name;          // named types
   TypeId base;          // Enum, Subrange: the integer type; Alias, Array (element), Pointer, Reference: the target
-  uint32_t length = 0;  // String, WString: capacity in characters
+  uint32_t length = 0;  // String, WString: capacity in characters; Array without `dimensions`: how many are open
   int64_t low = 0, high = 0;  // Subrange: bounds in the base type's bits
   uint64_t size = 0;          // bytes, after layout
   uint32_t align = 1;
@@ -146,6 +146,7 @@ class TypeTable {
   TypeId string(uint32_t length);
   TypeId wstring(uint32_t length);
   TypeId array(TypeId element, std::span<const Dimension> dimensions);
+  TypeId openArray(TypeId element, uint32_t dimensions);  // ARRAY[*], ARRAY[*, *]: of a VAR_IN_OUT
   TypeId pointer(TypeId target);
   TypeId reference(TypeId target);
   TypeId addEnum(NameId name, TypeId base);
@@ -175,6 +176,10 @@ class TypeTable {
   static bool isDay(TypeKind k) { return k == TypeKind::Date || k == TypeKind::LDate; }
   static bool isDate(TypeKind k) { return k >= TypeKind::Date && k <= TypeKind::LDateTime; }
   static bool isText(TypeKind k) { return k == TypeKind::String || k == TypeKind::WString; }
+  bool isOpenArray(TypeId id) const {
+    const TypeInfo& info = types_[resolve(id).index];
+    return info.kind == TypeKind::Array && info.dimensions.empty();
+  }
   static bool isElementary(TypeKind k) { return k >= TypeKind::Bool && k <= TypeKind::WString; }
   static bool isGeneric(TypeKind k) { return k >= TypeKind::Any && k <= TypeKind::AnyDerived; }
   static bool isScalar(TypeKind k) { return k >= TypeKind::Bool && k <= TypeKind::WChar; }  // elementary, no text

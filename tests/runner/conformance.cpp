@@ -1,6 +1,7 @@
 // Conformance tests, tests/conformance/**.st: what the language promises, feature by feature. Line 1 says what is
 // shown;
-//   // features: 43/1a 43/1b      rows of the standard's tables, at most six     // covers: tm-tp-library:SR
+//   // features: 43/1a 43/1b      rows of the standard's tables, at most six
+//   // covers: tm-tp-library:SR    rows of the manuals' catalogues; codesys:NAME where no manual lists it
 // A file without `// expect:` lines is run by `rung test`, many files in one process, each a project of its own, once
 // for each way (interpreted and compiled, -O0 and -O1); every {test} POU counts. A file with them is checked like a
 // golden file.
@@ -61,10 +62,12 @@ std::vector<TestCase> readJunit(const std::string& xml) {
       const size_t end = std::min(xml.find("</testcase>", tag_end), xml.size());
       const std::string body = xml.substr(tag_end + 1, end - tag_end - 1);
       test.failed = body.find("<failure") != std::string::npos || body.find("<error") != std::string::npos;
-      for (size_t f = body.find("<failure"); f != std::string::npos; f = body.find("<failure", f + 1)) {
-        const size_t text = std::min(body.find('>', f), body.size() - 1) + 1;
-        for (const std::string& line : splitLines(unescaped(body.substr(text, body.find("</failure>", text) - text)))) {
-          if (!trimmed(line).empty()) test.failure += "  " + line + "\n";
+      for (const std::string element : {"failure", "error"}) {
+        for (size_t f = body.find('<' + element); f != std::string::npos; f = body.find('<' + element, f + 1)) {
+          const size_t text = std::min(body.find('>', f), body.size() - 1) + 1;
+          for (const std::string& line :
+               splitLines(unescaped(body.substr(text, body.find("</" + element, text) - text))))
+            if (!trimmed(line).empty()) test.failure += "  " + line + "\n";
         }
       }
     }

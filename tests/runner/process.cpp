@@ -57,6 +57,9 @@ Output run(const Command& command) {
     setpgid(0, 0);
     for (const int by_default : {SIGINT, SIGQUIT})
       signal(by_default, SIG_DFL);  // a shell in the background ignores them
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, nullptr);  // what a thread of ours holds back is not theirs to
     const int null = open("/dev/null", O_RDONLY);
     dup2(null, 0);
     dup2(out[1], 1);

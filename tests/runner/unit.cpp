@@ -34,7 +34,8 @@ Result runUnit(const Setting& setting, const std::string& name) {
 // The same 200 programs in each run; more, with other seeds and compilers, by hand.
 Result runDifferential(const Setting& setting) {
   Command c;
-  c.arguments = {setting.bin + "/differential", "--count=200", "--ways=suite", "--folder=" + freshFolder(setting)};
+  c.arguments = {setting.bin + "/differential", "--count=200", "--ways=suite", "-j2",
+                 "--folder=" + freshFolder(setting)};
   c.folder = setting.root;
   c.merged = true;
   c.seconds = 600;

@@ -98,13 +98,31 @@ bool Compilation::read() {
     times_.lines += static_cast<uint64_t>(std::count(text.begin(), text.end(), '\n'));
     times_.bytes += text.size();
   }
+  noteLibraries();
+  const bool good = usage_error_.empty() && !inputs.io_error && !diagnostics.hasErrors();
+  if (good) readPrograms(sources, diagnostics, inputs);
   times_.end();
-  return usage_error_.empty() && !inputs.io_error && !diagnostics.hasErrors();
+  return good;
+}
+
+// Names the libraries that a project of another tool asks for and Rung does not have.
+void Compilation::noteLibraries() {
+  for (const vendor::ProjectEntry& wanted : inputs.libraries) {
+    const auto called = [&](std::string_view name) { return sameIdentifier(name, wanted.name); };
+    const bool known = std::any_of(libraries.files().begin(), libraries.files().end(),
+                                   [&](const sema::LibraryFile& file) { return called(file.library); }) ||
+                       std::any_of(libraries.aliases().begin(), libraries.aliases().end(),
+                                   [&](const sema::LibraryAlias& alias) { return called(alias.alias); });
+    if (!known)
+      diagnostics.report(Diag::LibraryNotKnown, wanted.loc, {wanted.name})
+          .length(static_cast<uint32_t>(wanted.name.size()));
+  }
 }
 
 bool Compilation::parse() {
   if (!read()) return false;
   times_.begin("parse");
+  tree.lost_names = inputs.unread;
   for (const InputFile& file : inputs.files) {
     if (diagnostics.full()) break;
     setPhaseSubject(file.below.data(), file.below.size());
@@ -112,6 +130,7 @@ bool Compilation::parse() {
   }
   if (!inputs.project.configuration.empty()) {
     FileId file = sources.add("rung.project", inputs.project.configuration);
+    sources.showAs(file, inputs.project.folder + "/rung.project");
     if (file) text::parseFile(tree, names, sources, file, options.standard, diagnostics);
   }
   setPhaseSubject("", 0);
@@ -129,7 +148,10 @@ bool Compilation::check() {
     sema::Options sema_options;
     sema_options.standard = options.standard;
     sema_options.libraries = libraries.files();
+    sema_options.library_aliases = libraries.aliases();
     sema_options.default_interval_ns = options.default_interval_ns;
+    sema_options.with_tests = options.command == Command::Test;
+    sema_options.mocks = options.mocks;
     sema_options.pointer_size = options.pointer_size;
     sema_options.call_constant = [](sema::Project& in, sema::PouId function, std::span<const types::Value> values,
                                     const std::function<bool(sema::PouId)>& ready) {
@@ -192,6 +214,8 @@ bool Compilation::translate(bool with_tests, std::unique_ptr<ir::interpreter::Pr
   program_options.module_name = name;
   program_options.with_tests = with_tests;
   program_options.natives = {natives::table, natives::count};
+  program_options.coverage = options.counts();
+  program_options.trace_calls = options.trace_calls;
   program = std::make_unique<ir::interpreter::Program>(*module, program_options);
   times_.end();
   if (program->refusal().empty()) return true;
@@ -218,21 +242,11 @@ int Compilation::exitCode() const {
 std::string Compilation::diagnosticsText() {
   if (diagnostics.all().empty() && options.format == DiagnosticFormat::Text) return {};
   diagnostics.sort();
-  // The output names files from the project's root; people get the path that they typed. The same texts in the same
-  // order have the same locations.
-  Sources shown;
-  for (uint32_t i = 1; i <= sources.fileCount(); i++) {
-    std::string path(sources.path({i}));
-    for (const InputFile& file : inputs.files)
-      if (file.file.index == i) path = file.shown;
-    if (inputs.project.file.index == i || path == "rung.project") path = inputs.project.folder + "/rung.project";
-    shown.add(std::move(path), std::string(sources.text({i})));
-  }
   RenderOptions render_options;
   render_options.format = options.format;
   render_options.color = useColor(options);
   render_options.page = errorPage;
-  return render(diagnostics, shown, render_options);
+  return render(diagnostics, sources, render_options);
 }
 
 int Compilation::finish() {

@@ -69,6 +69,7 @@ class Compilation {
   std::unique_ptr<ir::Module> module;
 
  private:
+  void noteLibraries();
   void dump(const std::string& text) const;
   bool verified(const char* after);
 

@@ -9,6 +9,9 @@
 #include <cstring>
 #include <filesystem>
 
+#include "frontend/source/names.h"
+#include "frontend/xml/xml.h"
+
 namespace rung::tool {
 namespace {
 
@@ -28,8 +31,13 @@ struct Extension {
   const char* extension;
   FileKind kind;
 };
-constexpr Extension kExtensions[] = {{".st", FileKind::St},   {".iecst", FileKind::St}, {".il", FileKind::Il},
-                                     {".xml", FileKind::Xml}, {".nct", FileKind::Nct},  {".cam", FileKind::Cam}};
+constexpr Extension kExtensions[] = {
+    {".st", FileKind::St},         {".iecst", FileKind::St},      {".pou", FileKind::St},
+    {".decl", FileKind::St},       {".impl", FileKind::St},       {".exp", FileKind::Codesys2},
+    {".tcpou", FileKind::TwinCat}, {".tcdut", FileKind::TwinCat}, {".tcgvl", FileKind::TwinCat},
+    {".tcio", FileKind::TwinCat},  {".tctto", FileKind::TwinCat}, {".plcproj", FileKind::PlcProject},
+    {".il", FileKind::Il},         {".xml", FileKind::Xml},       {".nct", FileKind::Nct},
+    {".cam", FileKind::Cam}};
 
 FileKind kindOfExtension(std::string_view path) {
   if (path == "rung.project" || path.ends_with("/rung.project")) return FileKind::Project;
@@ -57,46 +65,27 @@ bool isBinary(std::string_view text) {
   return bad * 5 > head.size();
 }
 
-// The first word behind blanks, comments and pragmas, in upper case.
-std::string firstWord(std::string_view text) {
-  size_t i = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
-  while (i < text.size()) {
-    std::string_view rest = text.substr(i);
-    size_t end = std::string_view::npos;
-    if (rest[0] == ' ' || rest[0] == '\t' || rest[0] == '\r' || rest[0] == '\n') {
-      i++;
-      continue;
-    }
-    if (rest.starts_with("//"))
-      end = rest.find('\n');
-    else if (rest.starts_with("(*"))
-      end = rest.find("*)");
-    else if (rest.starts_with("/*"))
-      end = rest.find("*/");
-    else if (rest.starts_with("{"))
-      end = rest.find('}');
-    else
-      break;
-    if (end == std::string_view::npos) return {};
-    i += end + (rest[0] == '{' || rest.starts_with("//") ? 1 : 2);
-  }
-  std::string word;
-  for (; i < text.size(); i++) {
-    char c = text[i];
+std::string upper(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
-    if (!((c >= 'A' && c <= 'Z') || c == '_')) break;
-    word += c;
-  }
-  return word;
+  return out;
 }
 
 bool startsDeclaration(std::string_view text) {
   static constexpr const char* kWords[] = {"PROGRAM",   "FUNCTION",      "FUNCTION_BLOCK", "TYPE",
                                            "INTERFACE", "CONFIGURATION", "VAR_GLOBAL",     "NAMESPACE"};
-  std::string word = firstWord(text);
+  const std::string word = vendor::firstWord(text);
   for (const char* known : kWords)
     if (word == known) return true;
   return false;
+}
+
+vendor::Format formatOf(FileKind kind) {
+  return kind == FileKind::TwinCat     ? vendor::Format::TwinCat
+         : kind == FileKind::Codesys2  ? vendor::Format::Codesys2
+         : kind == FileKind::Multiprog ? vendor::Format::Multiprog
+                                       : vendor::Format::None;
 }
 
 const char* describe(FileKind kind) {
@@ -107,6 +96,10 @@ const char* describe(FileKind kind) {
     case FileKind::Cam: return "a cam table";
     case FileKind::Unknown:
     case FileKind::St:
+    case FileKind::TwinCat:
+    case FileKind::PlcProject:
+    case FileKind::Codesys2:
+    case FileKind::Multiprog:
     case FileKind::Project:
     case FileKind::Binary: break;
   }
@@ -190,8 +183,60 @@ class Collector {
       addProjectFolder(folder);
     } else {
       bases_.push_back(absolute(word.find('/') == std::string::npos ? "." : word.substr(0, word.rfind('/') + 1)));
-      candidates_.push_back({absolute(word), word, {}, true});
+      addNamedFile(word);
     }
+  }
+
+  void addNamedFile(const std::string& path) {
+    if (kindOfExtension(path) == FileKind::PlcProject) return addPlcProject(path);
+    candidates_.push_back({absolute(path), path, {}, true});
+  }
+
+  // What the project file of TwinCAT lists, relative to its folder.
+  void addPlcProject(const std::string& path) {
+    ReadResult read = readFile(path);
+    if (!read.error.empty()) return fail(Diag::CannotRead, path, {path, read.error});
+    inputs_.read.push_back(path);
+    const FileId file = sources_.add(path, std::move(read.text));
+    if (!file) return fail(Diag::TooMuchInput, path, {path});
+    vendor::Project project;
+    if (!vendor::readProject(sources_, file, diagnostics_, project)) return;
+    const size_t slash = path.rfind('/');
+    const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
+    for (const vendor::ProjectEntry& entry : project.files) {
+      const std::string listed = sameFile(folder, entry.name);
+      struct stat info;
+      if (stat(listed.c_str(), &info) == 0) {
+        candidates_.push_back({absolute(listed), listed, {}, true});
+        continue;
+      }
+      const char* why = strerror(errno);
+      diagnostics_.report(Diag::CannotRead, entry.loc, {entry.name, why})
+          .length(static_cast<uint32_t>(entry.name.size()));
+      inputs_.io_error = true;
+    }
+    for (vendor::ProjectEntry& library : project.libraries) inputs_.libraries.push_back(std::move(library));
+  }
+
+  // `path` below the folder, in the letter case that the disk has: project files come from systems that do not care.
+  static std::string sameFile(const std::string& folder, const std::string& path) {
+    struct stat info;
+    if (stat((folder + path).c_str(), &info) == 0) return folder + path;
+    std::string found = folder;
+    for (size_t begin = 0; begin <= path.size();) {
+      const size_t slash = std::min(path.find('/', begin), path.size());
+      const std::string part = path.substr(begin, slash - begin);
+      std::string match = part;
+      if (DIR* dir = opendir(found.empty() ? "." : found.c_str())) {
+        while (const dirent* entry = readdir(dir))
+          if (sameIdentifier(entry->d_name, part)) match = entry->d_name;
+        closedir(dir);
+      }
+      found += match;
+      if (slash < path.size()) found += '/';
+      begin = slash + 1;
+    }
+    return found;
   }
 
   void addProjectFolder(const std::string& folder) {
@@ -209,6 +254,7 @@ class Collector {
     FileId id = sources_.add("rung.project", std::move(read.text));
     if (!id) return fail(Diag::TooMuchInput, file, {file});
     inputs_.project.folder = folder;
+    sources_.showAs(id, folder + "/rung.project");
     project_shown_ = file;
     parseProjectFile(sources_, id, diagnostics_, inputs_.project);
     if (inputs_.project.sources.empty()) return addFolder(folder);
@@ -221,7 +267,7 @@ class Collector {
       } else if (S_ISDIR(entry.st_mode)) {
         addFolder(path);
       } else {
-        candidates_.push_back({absolute(path), path, {}, true});
+        addNamedFile(path);
       }
     }
   }
@@ -234,13 +280,15 @@ class Collector {
     if (candidates_.size() == before) fail(Diag::EmptyFolder, folder, {folder});
   }
 
+  // A folder with a .plcproj takes what that lists.
   void scan(const std::string& folder, int depth) {
     DIR* dir = opendir(folder.c_str());
     if (dir == nullptr) {
       const char* why = strerror(errno);
       return fail(Diag::CannotRead, folder, {folder, why});
     }
-    std::vector<std::string> folders;
+    const size_t before = candidates_.size();
+    std::vector<std::string> folders, projects;
     const std::string prefix = folder.back() == '/' ? folder : folder + "/";
     while (const dirent* entry = readdir(dir)) {
       if (entry->d_name[0] == '.') continue;
@@ -259,10 +307,20 @@ class Collector {
       } else if (type == DT_REG) {
         FileKind kind = kindOfExtension(path);
         if (kind == FileKind::Unknown || kind == FileKind::Project) continue;
+        if (kind == FileKind::PlcProject) {
+          projects.push_back(std::move(path));
+          continue;
+        }
         candidates_.push_back({absolute(path), std::move(path), {}, false});
       }
     }
     closedir(dir);
+    if (!projects.empty()) {
+      candidates_.resize(before);
+      std::sort(projects.begin(), projects.end());
+      for (const std::string& project : projects) addPlcProject(project);
+      return;
+    }
     for (const std::string& inner : folders) {
       if (depth > 100) continue;
       inputs_.read.push_back(inner);
@@ -297,11 +355,13 @@ class Collector {
     ReadResult read = readFile(candidate.path);
     if (!read.error.empty()) return fail(Diag::CannotRead, candidate.path, {candidate.path, read.error});
     inputs_.read.push_back(candidate.path);
-    if (read.text.starts_with("\xff\xfe") || read.text.starts_with("\xfe\xff"))
-      return fail(Diag::Utf16File, candidate.path, {candidate.path});
+    if (!decodeUtf16(read.text)) return fail(Diag::Utf16File, candidate.path, {candidate.path});
     FileKind kind = kindOf(candidate.path, read.text);
     switch (kind) {
-      case FileKind::St: break;
+      case FileKind::St:
+      case FileKind::TwinCat:
+      case FileKind::Codesys2:
+      case FileKind::Multiprog: break;
       case FileKind::Binary: return fail(Diag::BinaryFile, candidate.path, {candidate.path});
       case FileKind::Unknown: return fail(Diag::UnknownFileKind, candidate.path, {candidate.path});
       case FileKind::Il:
@@ -311,10 +371,12 @@ class Collector {
         if (candidate.named) return fail(Diag::KindNotRead, candidate.path, {candidate.path, describe(kind)});
         diagnostics_.report(Diag::KindPassedOver, {}, {candidate.path, describe(kind)}).path(candidate.path);
         return;
+      case FileKind::PlcProject:
       case FileKind::Project: return;
     }
     FileId file = sources_.add(candidate.below, std::move(read.text));
     if (!file) return fail(Diag::TooMuchInput, candidate.path, {candidate.path});
+    sources_.showAs(file, candidate.path);
     inputs_.files.push_back({candidate.path, candidate.path, candidate.below, kind, file});
   }
 
@@ -327,22 +389,90 @@ class Collector {
   std::string project_shown_;
 };
 
+// ---- POUs in two files
+
+// What two files of one POU have in common: their path without extension and without the word that tells them apart.
+// Motor.pou and Motor.st, Motor.decl and Motor.impl, Motor_declaration.st and Motor_body.st, Motor/declaration.st and
+// Motor/implementation.st.
+std::string pairName(std::string_view path) {
+  const size_t slash = path.rfind('/');
+  const size_t dot = path.rfind('.');
+  if (dot != std::string_view::npos && (slash == std::string_view::npos || dot > slash)) path = path.substr(0, dot);
+  std::string name = upper(path);
+  for (const std::string_view part : {"DECLARATION", "DECL", "IMPLEMENTATION", "IMPL", "BODY"}) {
+    if (!name.ends_with(part)) continue;
+    const size_t rest = name.size() - part.size();
+    if (rest != 0 && std::string_view("._-/").find(name[rest - 1]) == std::string_view::npos) continue;
+    name.resize(rest == 0 ? 0 : rest - 1);
+    break;
+  }
+  return name;
+}
+
+// Two files of one name, of which one begins a POU and the other no declaration, are that POU and its body.
+void joinPairs(Sources& sources, std::vector<InputFile>& files) {
+  std::vector<std::pair<std::string, size_t>> bodies, declarations;
+  for (size_t i = 0; i < files.size(); i++) {
+    if (files[i].kind != FileKind::St) continue;
+    const std::string_view text = sources.text(files[i].file);
+    const std::string word = vendor::firstWord(text);
+    if (word == "PROGRAM" || word == "FUNCTION" || word == "FUNCTION_BLOCK")
+      declarations.emplace_back(pairName(files[i].below), i);
+    else if (!startsDeclaration(text))
+      bodies.emplace_back(pairName(files[i].below), i);
+  }
+  std::sort(bodies.begin(), bodies.end());
+  std::sort(declarations.begin(), declarations.end());
+  for (size_t i = 0; i < bodies.size(); i++) {
+    const std::string& name = bodies[i].first;
+    if ((i > 0 && bodies[i - 1].first == name) || (i + 1 < bodies.size() && bodies[i + 1].first == name)) continue;
+    const auto from = std::lower_bound(declarations.begin(), declarations.end(), std::pair{name, size_t{0}});
+    if (from == declarations.end() || from->first != name) continue;
+    if (from + 1 != declarations.end() && (from + 1)->first == name) continue;
+    InputFile& declaration = files[from->second];
+    declaration.file = vendor::joinPair(sources, declaration.file, files[bodies[i].second].file);
+    files[bodies[i].second].file = {};
+  }
+  std::erase_if(files, [](const InputFile& file) { return !file.file; });
+}
+
 }  // namespace
 
 FileKind kindOf(std::string_view path, std::string_view text) {
   FileKind by_name = kindOfExtension(path);
   if (isBinary(text)) return FileKind::Binary;
+  switch (vendor::formatOf(text)) {
+    case vendor::Format::TwinCat: return FileKind::TwinCat;
+    case vendor::Format::TwinCatProject: return FileKind::PlcProject;
+    case vendor::Format::Codesys2: return FileKind::Codesys2;
+    case vendor::Format::Multiprog: return FileKind::Multiprog;
+    case vendor::Format::None: break;
+  }
   std::string_view start = text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
   size_t first = start.find_first_not_of(" \t\r\n");
   if (first != std::string_view::npos && start.substr(first).starts_with("<") && by_name != FileKind::St)
     return FileKind::Xml;
   if (by_name == FileKind::Unknown && startsDeclaration(text)) return FileKind::St;
-  if (by_name == FileKind::Xml) return FileKind::Unknown;  // named so, but no XML
+  // Named so, but no XML.
+  if (by_name == FileKind::Xml || by_name == FileKind::TwinCat || by_name == FileKind::PlcProject)
+    return FileKind::Unknown;
+  if (by_name == FileKind::Codesys2) return FileKind::St;  // without the comments of an export
   return by_name;
 }
 
 void readInputs(const Options& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
   Collector(options, sources, diagnostics, inputs).collect();
+}
+
+void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
+  joinPairs(sources, inputs.files);
+  for (InputFile& input : inputs.files) {
+    const vendor::Format format = formatOf(input.kind);
+    if (format == vendor::Format::None) continue;
+    input.file = vendor::readProgram(sources, input.file, format, diagnostics);
+    if (!input.file) inputs.unread = true;
+  }
+  std::erase_if(inputs.files, [](const InputFile& input) { return !input.file; });
 }
 
 }  // namespace rung::tool

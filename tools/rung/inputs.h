@@ -8,12 +8,26 @@
 #include <vector>
 
 #include "frontend/source/diagnostics.h"
+#include "frontend/vendor/vendor.h"
 #include "tools/rung/options.h"
 #include "tools/rung/project_file.h"
 
 namespace rung::tool {
 
-enum class FileKind : uint8_t { Unknown, St, Il, Xml, Nct, Cam, Project, Binary };
+enum class FileKind : uint8_t {
+  Unknown,
+  St,
+  Il,
+  Xml,
+  Nct,
+  Cam,
+  TwinCat,
+  PlcProject,
+  Codesys2,
+  Multiprog,
+  Project,
+  Binary
+};
 
 // By content, then extension. `text` may be cut.
 FileKind kindOf(std::string_view path, std::string_view text);
@@ -31,9 +45,14 @@ struct Inputs {
   std::vector<InputFile> files;   // the ones to compile, sorted by `below`
   std::vector<std::string> read;  // every file and folder looked at, for depfiles
   ProjectFile project;
-  bool io_error = false;  // something could not be read: exit 2
+  std::vector<vendor::ProjectEntry> libraries;  // that the .plcproj files among them ask for
+  bool unread = false;                          // a vendor's file could not be understood: what it declares is missing
+  bool io_error = false;                        // something could not be read: exit 2
 };
 
 void readInputs(const Options& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs);
+
+// Puts the program in place of each vendor's file, and one text in place of the two files of a POU.
+void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs);
 
 }  // namespace rung::tool

@@ -22,6 +22,7 @@ std::string LibrarySet::load(const Options& options) {
     texts_.emplace_back(file.name);
     files_.push_back({library, texts_.back().c_str(), file.text});
   }
+  for (const NamespaceAlias& row : namespaceAliases()) aliases_.push_back({row.alias, row.name});
   for (const std::string& folder : options.library_paths)
     if (std::string error = addFolder(folder, true); !error.empty()) return error;
   return {};

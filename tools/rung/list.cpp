@@ -41,9 +41,7 @@ int listPous(const Options& options) {
     for (DeclId id : tree.list(unit.decls)) {
       if (tree.kind(id) != DeclKind::Pou) continue;
       const PouDecl& pou = tree.as<PouDecl>(id);
-      std::string name(compilation.names.text(pou.name)), shown(compilation.sources.path(unit.file));
-      for (const InputFile& file : compilation.inputs.files)
-        if (file.file == unit.file) shown = file.shown;
+      std::string name(compilation.names.text(pou.name)), shown(compilation.sources.shown(unit.file));
       out += std::string(word(pou.pou_kind)) + " " + name + "  " + shown + ":" +
              std::to_string(compilation.sources.place(pou.h.loc).line) + "\n";
     }

@@ -11,7 +11,11 @@ struct Namespace {
 };
 constexpr Namespace kNamespaces[] = {{"standard", "Standard"}, {"util", "Util"}};
 
+constexpr NamespaceAlias kAliases[] = {{"Tc2_Standard", "Standard"}, {"Tc3_Standard", "Standard"}};
+
 }  // namespace
+
+std::span<const NamespaceAlias> namespaceAliases() { return kAliases; }
 
 std::string namespaceOf(std::string_view folder) {
   for (const Namespace& row : kNamespaces)

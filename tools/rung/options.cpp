@@ -64,6 +64,8 @@ enum class Key : uint8_t {
   Host,
   Filter,
   Junit,
+  Coverage,
+  Lcov,
   Separate,
   TargetPointer,
   Signature,
@@ -102,9 +104,12 @@ constexpr OptionRow kOptions[] = {
     {Key::Host, "--retain", "FILE", bit(Command::Run), "keep retained variables in FILE"},
     {Key::Host, "--start", "cold|warm|origin", bit(Command::Run), "how to start (warm when the retain file exists)"},
     {Key::Host, "--stop-on", "CONDITION", bit(Command::Run), "end after the cycle that makes it TRUE"},
+    {Key::Host, "--trace-calls", nullptr, bit(Command::Run), "print which POUs ran in each cycle"},
     {Key::Host, "--realtime", nullptr, bit(Command::Run), "pace the run by the clock"},
     {Key::Filter, "--filter", "GLOB", bit(Command::Test), "only tests whose name matches"},
     {Key::Junit, "--junit", "FILE", bit(Command::Test), "write the results as JUnit XML"},
+    {Key::Coverage, "--coverage", nullptr, bit(Command::Test), "print which lines of the program ran"},
+    {Key::Lcov, "--lcov", "FILE", bit(Command::Test), "write the same for lcov and genhtml"},
     {Key::Separate, "--separate", nullptr, bit(Command::Test), "each file is a project of its own"},
     {Key::Signature, "--signature", "NAME", bit(Command::List), "the declaration of a function, block or type"},
     {Key::Standard, "--std", "codesys|iec3|iec2", kReads, "dialect (codesys)"},
@@ -267,6 +272,8 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
     case Key::Host: options.host_arguments.push_back(row.value ? row.name + ("=" + value) : row.name); return {};
     case Key::Filter: options.filter = value; return {};
     case Key::Junit: options.junit = value; return {};
+    case Key::Coverage: options.coverage = true; return {};
+    case Key::Lcov: options.lcov = value; return {};
     case Key::Separate: options.separate = true; return {};
     case Key::TargetPointer:
       error = parseChoice(row.name, value, row.value, choice);
@@ -354,6 +361,14 @@ std::string checkCombination(const Options& options) {
     if (!options.depfile.empty() && options.output.empty() && options.depfile_target.empty())
       return "`--depfile` needs `-o` or `--depfile-target`";
   }
+  const bool native = options.engine == Engine::Native || options.keep;
+  if (options.counts() && native)
+    return std::string(options.coverage ? "`--coverage`" : "`--lcov`") + " needs the interpreter; leave out " +
+           (options.keep ? "`--keep`" : "`--engine=native`");
+  for (const std::string& argument : options.host_arguments)
+    if (argument == "--trace-calls" && native)
+      return std::string("`--trace-calls` needs the interpreter; leave out ") +
+             (options.keep ? "`--keep`" : "`--engine=native`");
   if (options.command == Command::Build && options.output.empty())
     return "`rung build` needs a name for its output: add `-o FILE`";
   return {};

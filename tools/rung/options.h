@@ -73,8 +73,13 @@ struct Options {
   // run, test
   Engine engine = Engine::Auto;
 
+  bool trace_calls = false;  // set from --trace-calls by run.cpp
+
   // test
-  std::string filter, junit;
+  std::string filter, junit, lcov;
+  bool coverage = false;           // as text
+  std::vector<std::string> mocks;  // sema::Options::mocks, set by test.cpp
+  bool counts() const { return coverage || !lcov.empty(); }
   bool separate = false;
 
   // list

@@ -22,6 +22,7 @@ int runRun(const Options& options) {
   PhaseTimes times;
   Options compiling = options;
   compiling.default_interval_ns = run_options.interval_ns;
+  compiling.trace_calls = run_options.trace_calls;
   Compilation compilation(compiling, times);
   NativeRequest request;
   request.parts.resize(1);
@@ -35,7 +36,8 @@ int runRun(const Options& options) {
     return exit;
   }
   if (!why.empty()) {
-    if (options.engine == Engine::Interpreter) return usageError("this program cannot be interpreted: " + why);
+    if (options.engine == Engine::Interpreter || run_options.trace_calls)
+      return usageError("this program cannot be interpreted: " + why);
     fprintf(stderr, "rung: this program runs as compiled C++: %s\n", why.c_str());
   }
 

@@ -1,12 +1,14 @@
-// `rung test`: all POUs marked {test}, interpreted or in one shared object, run on the bundled host. With --separate
-// each file is a project of its own, so that names of different files never clash; a few C++ units include the code of
-// many.
+// `rung test`: all POUs marked {test}, interpreted or in one shared object, run on the bundled host. Tests that take
+// the same mocks are one module. With --separate each file is a project of its own, so that names of different files
+// never clash; a few C++ units include the code of many.
+#include <algorithm>
 #include <cstdio>
 
 #include "ir/ir.h"
 #include "rung/host.h"
 #include "tools/rung/commands.h"
 #include "tools/rung/compile.h"
+#include "tools/rung/coverage.h"
 #include "tools/rung/crash.h"
 #include "tools/rung/module_library.h"
 #include "tools/rung/native.h"
@@ -33,12 +35,26 @@ uint32_t batchCount(size_t modules) {
   return count;
 }
 
+using MockSets = std::vector<std::vector<std::string>>;
+
+// The sets of mocks that tests name; none first, whether there is a test without mocks or not.
+MockSets mockSets(const sema::Project& project) {
+  MockSets sets{{}};
+  for (const sema::Pou& pou : project.pous) {
+    if (!pou.test || pou.mocks.empty()) continue;
+    std::vector<std::string> set;
+    for (NameId mock : pou.mocks) set.emplace_back(project.names.text(mock));
+    if (std::find(sets.begin(), sets.end(), set) == sets.end()) sets.push_back(std::move(set));
+  }
+  return sets;
+}
+
 class Tester {
  public:
   explicit Tester(const Options& options) : options_(options) { test_options_.filter = options.filter; }
 
   int run() {
-    int exit = options_.separate ? compileSeparately() : compileTogether();
+    int exit = options_.separate ? compileSeparately() : compileProject(options_, nullptr);
     if (exit == kGood) exit = buildAndRun();
     times_.end();
     if (options_.time_phases) fputs(times_.table().c_str(), stderr);
@@ -46,18 +62,46 @@ class Tester {
   }
 
  private:
-  int compileTogether() {
-    Compilation compilation(options_, times_);
-    Module module;
-    NativePart part;
-    module.good = makeModule(compilation, module, part);
-    const int exit = compilation.finish();
-    checked_ = (compilation.options.checks & kMemoryChecks) == kMemoryChecks;
-    if (exit != kGood || !module.good) return exit;
-    module.name = compilation.options.moduleName();
-    if (!module.program) request_.parts.push_back(std::move(part));
-    modules_.push_back(std::move(module));
-    return why_.empty() ? exit : usageError(why_);
+  // The modules of one project: of the tests without mocks, then of each set of mocks. `file`: the only one of a
+  // project whose errors are those of a failed test.
+  int compileProject(const Options& options, const InputFile* file) {
+    MockSets sets{{}};
+    std::string name;
+    for (size_t i = 0; i < sets.size(); i++) {
+      Options one = options;
+      one.mocks = sets[i];
+      if (i > 0) one.name = name + "_mocks_" + std::to_string(i);
+      if (options.counts()) {  // each statement as it is written
+        one.level = 0;
+        one.level_given = true;
+      }
+      Compilation compilation(one, times_);
+      Module module;
+      NativePart part;
+      module.good = makeModule(compilation, module, part);
+      module.name = compilation.options.moduleName();
+      if (i == 0) {
+        name = module.name;
+        checked_ = (compilation.options.checks & kMemoryChecks) == kMemoryChecks;
+        if (module.good) sets = mockSets(*compilation.project);
+      }
+      if (file != nullptr && compilation.exitCode() != kInternal) {
+        module.shown = file->shown;
+        module.below = file->below;
+        if (i == 0 || compilation.exitCode() != kGood) module.messages = compilation.diagnosticsText();
+        module.good = module.good && compilation.exitCode() == kGood;
+      } else if (i == 0 || !module.good) {
+        const int exit = compilation.finish();
+        if (exit != kGood || !module.good) return exit;
+      }
+      if (!why_.empty()) return usageError(why_);
+      for (const InputFile& input : compilation.inputs.files) coverage_.nameFile(input.below, input.shown);
+      if (module.good && i == 0 && sets.size() > 1 && compilation.module->tests.empty()) continue;
+      if (file != nullptr || i > 0) part.folder = module.name;
+      if (module.good && !module.program) request_.parts.push_back(std::move(part));
+      modules_.push_back(std::move(module));
+    }
+    return kGood;
   }
 
   // Interpreted where it can be, else as C++ files.
@@ -65,7 +109,8 @@ class Tester {
     std::string why;
     if (!compilation.translate(true, module.program, why)) return false;
     if (module.program) return true;
-    if (!why.empty() && options_.engine == Engine::Interpreter) why_ = "this program cannot be interpreted: " + why;
+    const bool must = options_.engine == Engine::Interpreter || options_.counts();
+    if (!why.empty() && must) why_ = "this program cannot be interpreted: " + why;
     if (!why.empty() && why_.empty()) fprintf(stderr, "rung: this program runs as compiled C++: %s\n", why.c_str());
     return compilation.emit(true, part.files);
   }
@@ -81,19 +126,9 @@ class Tester {
       one.inputs = {file.path};
       one.root = root;
       one.name = all.options.moduleName() + "_" + std::to_string(i);
-      Compilation compilation(one, times_);
-      NativePart part;
-      part.folder = one.name;
-      Module module{one.name, file.shown, file.below, false, {}, {}};
-      module.good = makeModule(compilation, module, part);
-      if (!why_.empty()) return usageError(why_);
-      if (compilation.exitCode() == kInternal) return compilation.finish();
-      module.messages = compilation.diagnosticsText();
-      module.good = module.good && compilation.exitCode() == kGood;
-      if (module.good && !module.program) request_.parts.push_back(std::move(part));
-      modules_.push_back(std::move(module));
+      const int exit = compileProject(one, &file);
+      if (exit != kGood) return exit;
     }
-    checked_ = (all.options.checks & kMemoryChecks) == kMemoryChecks;
     request_.batches = batchCount(request_.parts.size());
     return kGood;
   }
@@ -119,12 +154,18 @@ class Tester {
     times_.begin("run");
     host::TestResults results;
     test_options_.junit_path = options_.junit;
+    if (options_.engine == Engine::Auto && !options_.counts() && request_.parts.empty())
+      test_options_.hint_when_long = "rung: long tests are faster with --engine=native";
     for (const Module& module : modules_) {
       const int exit = runModule(module, library, results);
       if (exit != kGood) return exit;
+      if (module.program) coverage_.add(*module.program);
     }
     fflush(stderr);
-    return host::reportTests(results, test_options_);
+    if (options_.coverage) fputs(coverage_.text().c_str(), stdout);
+    const int exit = host::reportTests(results, test_options_);
+    const std::string error = options_.lcov.empty() ? "" : writeFile(options_.lcov, coverage_.lcov());
+    return error.empty() ? exit : usageError(error);
   }
 
   int runModule(const Module& module, const ModuleLibrary& library, host::TestResults& results) {
@@ -132,7 +173,7 @@ class Tester {
     if (!module.good) {
       printf("FAIL %s: does not compile\n", module.shown.c_str());
       results.failed++;
-      results.junit += host::brokenSuite(module.below, module.messages);
+      results.tests.push_back({"compile", module.below, 1, host::TestResult::Broken, 0, 0, module.messages});
       return kGood;  // the other files count; the exit code says that a test failed
     }
     std::string error;
@@ -158,6 +199,7 @@ class Tester {
   PhaseTimes times_;
   NativeRequest request_;
   std::vector<Module> modules_;
+  Coverage coverage_;
   bool checked_ = true;
   std::string why_;  // an error of use
 };

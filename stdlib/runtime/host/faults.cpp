@@ -17,7 +17,7 @@ std::string describeFault(const rung_module& module, const rung_fault& fault) {
       break;
     case RUNG_FAULT_INDEX:
       word = "index";
-      what = "index " + value + " is outside " + range;
+      what = "index " + value + " is outside " + (site.low > site.high ? "the bounds of the ARRAY[*]" : range);
       break;
     case RUNG_FAULT_NULL:
       word = "null";

@@ -48,9 +48,9 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
                                              "--trace",  "--plot", "--retain",   "--start",  "--stop-on"};
     bool takes_value = false;
     for (const char* const known : with_value) takes_value = takes_value || name == known;
-    if (name == "--realtime") {
-      if (has_value) return "--realtime takes no value";
-      options.realtime = true;
+    if (name == "--realtime" || name == "--trace-calls") {
+      if (has_value) return name + " takes no value";
+      (name == "--realtime" ? options.realtime : options.trace_calls) = true;
       continue;
     }
     if (!takes_value) {
@@ -101,6 +101,9 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
     }
   }
   if (options.realtime && !options.stop_on.empty()) return "--stop-on ends runs in virtual time; leave out --realtime";
+  if (options.realtime && options.trace_calls) return "--trace-calls is for runs in virtual time; leave out --realtime";
+  if (options.trace_calls && options.trace_path == "-")
+    return "--trace-calls and --trace - would both write to stdout; give --trace a file";
   return "";
 }
 
@@ -112,6 +115,10 @@ int applicationMain(const rung_module& module, int argc, char** argv) {
       parseRunOptions(std::vector<std::string>(argv + (argc > 0 ? 1 : 0), argv + argc), options, rest);
   if (!wrong.empty()) {
     fprintf(stderr, "error: %s\n", wrong.c_str());
+    return 2;
+  }
+  if (options.trace_calls) {
+    fputs("error: --trace-calls needs the interpreter: use `rung run`\n", stderr);
     return 2;
   }
   for (const std::string& argument : rest) {

@@ -6,6 +6,7 @@
 #include <ctime>
 #include <optional>
 
+#include "call_trace.h"
 #include "condition.h"
 #include "faults.h"
 #include "inputs.h"
@@ -29,8 +30,6 @@ int refuse(const std::string& what) {
   return kUsage;
 }
 
-// In virtual time the wall clock starts at 0 with the program.
-int64_t virtualClock(void* data) { return static_cast<const rung_context*>(data)->now_ns; }
 int64_t systemClock(void*) {
   timespec now;
   clock_gettime(CLOCK_REALTIME, &now);
@@ -61,7 +60,8 @@ struct Run {
         inputs(symbols),
         trace(symbols),
         stop_on(symbols),
-        plot(chosen) {}
+        plot(chosen),
+        calls(chosen, memory) {}
 
   int prepare();
   int runVirtual();
@@ -82,11 +82,16 @@ struct Run {
   Trace trace;
   Condition stop_on;
   Plot plot;
+  CallTrace calls;
   std::optional<Retain> retain;
   rung_host host{};
   int64_t cycles = 0;
   int64_t rows_done = 0;
 };
+
+// In virtual time the wall clock starts at 0 with the program.
+int64_t virtualClock(void* data) { return static_cast<Run*>(data)->memory.context().now_ns; }
+void onCall(void* data, const char* pou, const void* instance) { static_cast<Run*>(data)->calls.called(pou, instance); }
 
 int Run::prepare() {
   std::string error;
@@ -99,7 +104,7 @@ int Run::prepare() {
   rung_context& context = memory.context();
   host.wall_clock = options.realtime ? systemClock : virtualClock;
   context.host = &host;
-  context.host_data = &context;
+  context.host_data = this;
   if (memory.reset() != RUNG_FAULT_NONE) {
     fprintf(stderr, "%s\n", describeFault(module, context.fault).c_str());
     return kFaulted;
@@ -125,6 +130,7 @@ int Run::prepare() {
     cycles = options.for_ns / row_ns + (options.for_ns % row_ns != 0 ? 1 : 0);
   else
     cycles = options.realtime ? -1 : inputs.lastCycle() >= 0 ? inputs.lastCycle() + 1 : kDefaultCycles;
+  if (options.trace_calls) host.called = onCall;
   return kGood;
 }
 
@@ -154,13 +160,15 @@ int Run::runVirtual() {
   int64_t next_hint = options.hint_when_long.empty() || isatty(2) == 0 ? INT64_MAX : processorNs() + kLongRunNs;
   for (int64_t row = 0; row < cycles; ++row) {
     inputs.apply(row);
-    if (schedule.run(row, context) != RUNG_FAULT_NONE) return finish(true, context.fault, "");
+    const uint8_t fault = schedule.run(row, context);
+    if (options.trace_calls) fputs(calls.line(row).c_str(), stdout);
+    if (fault != RUNG_FAULT_NONE) return finish(true, context.fault, "");
     trace.row(row, row * row_ns);
     plot.row();
     rows_done = row + 1;
     if (!options.stop_on.empty() && stop_on.holds())
       return finish(false, {}, "stopped after cycle " + std::to_string(row) + ": " + options.stop_on + "\n");
-    if (next_hint != INT64_MAX && row % 64 == 0 && processorNs() >= next_hint) {
+    if (next_hint != INT64_MAX && processorNs() >= next_hint) {
       fprintf(stderr, "%s\n", options.hint_when_long.c_str());
       next_hint = INT64_MAX;
     }

@@ -1,9 +1,13 @@
 // `rung test`: runs the tests of a module, each from fresh memory in virtual time, and reports (design §11). A failing
 // assertion or a fault fails its test and no other. See rung/host.h.
 #include <fnmatch.h>
+#include <unistd.h>
+#include <chrono>
 #include <cstdio>
+#include <functional>
 
 #include "faults.h"
+#include "junit.h"
 #include "memory.h"
 #include "output_file.h"
 #include "rung/host.h"
@@ -15,34 +19,55 @@ namespace {
 constexpr int64_t kCycleNs = 10'000'000;
 constexpr int64_t kMostCycles = 100'000;
 constexpr size_t kMostMessages = 20;  // of one test
+constexpr double kLongSeconds = 3;    // tests that a faster engine would shorten
 
 struct Case {
   rung_context* context;
-  uint64_t assertions = 0, failures = 0;
-  std::string messages;
+  TestResult result;
+  uint64_t failures = 0;
 
-  void fail(const std::string& message) {
-    if (++failures <= kMostMessages) messages += message + '\n';
+  void fail(TestResult::Kind kind, const std::string& message) {
+    if (result.kind < kind) result.kind = kind;
+    if (++failures <= kMostMessages) result.messages += message + '\n';
   }
 };
 
 int64_t testClock(void* data) { return static_cast<Case*>(data)->context->now_ns; }
 
-void onAssertion(void* data, bool passed, const char* file, uint32_t line, const char* expected, const char* actual,
-                 const char* text) {
-  Case& test = *static_cast<Case*>(data);
-  ++test.assertions;
-  if (passed) return;
-  std::string message =
-      std::string(file) + ':' + std::to_string(line) + ": assertion failed: expected " + expected + ", got " + actual;
-  if (text != nullptr && *text != 0) message += std::string(" (") + text + ')';
-  test.fail(message);
+bool isOfName(char c) { return c == '_' || (c >= '0' && c <= '9') || ((c | 32) >= 'a' && (c | 32) <= 'z'); }
+
+// The line of the program with the assertion's name marked, as diagnostics show it.
+std::string excerpt(const rung_assertion& assertion) {
+  const std::string number = std::to_string(assertion.line);
+  std::string mark;
+  const char* at = assertion.source;
+  for (uint32_t column = 1; column < assertion.column && *at != 0; ++column) {
+    mark += *at == '\t' ? '\t' : ' ';  // kept, so that the mark stands right whatever a tab is worth
+    do ++at;
+    while ((*at & 0xc0) == 0x80);
+  }
+  mark += '^';
+  while (isOfName(*at) && isOfName(*++at)) mark += '~';
+  return ' ' + number + " | " + assertion.source + '\n' + std::string(number.size() + 2, ' ') + "| " + mark;
 }
 
-void runCase(const rung_module& module, const rung_test& test, Memory& memory, Case& result) {
+void onAssertion(void* data, const rung_assertion* assertion, bool passed, const char* expected, const char* actual) {
+  Case& test = *static_cast<Case*>(data);
+  ++test.result.assertions;
+  if (passed) return;
+  std::string message = std::string(assertion->file) + ':' + std::to_string(assertion->line);
+  if (assertion->column != 0) message += ':' + std::to_string(assertion->column);
+  message += std::string(": assertion failed: expected ") + expected + ", got " + actual;
+  if (assertion->text != nullptr) message += std::string(" (") + assertion->text + ')';
+  if (assertion->source != nullptr) message += '\n' + excerpt(*assertion);
+  test.fail(TestResult::Failed, message);
+}
+
+void runCase(const rung_module& module, const rung_test& test, Memory& memory, Case& result,
+             const std::function<void()>& onCycle) {
   rung_context& context = memory.context();
   const auto faulted = [&](uint8_t kind) {
-    if (kind != RUNG_FAULT_NONE) result.fail(describeFault(module, context.fault));
+    if (kind != RUNG_FAULT_NONE) result.fail(TestResult::Broken, describeFault(module, context.fault));
     return kind != RUNG_FAULT_NONE;
   };
   if (faulted(memory.reset())) return;
@@ -53,30 +78,10 @@ void runCase(const rung_module& module, const rung_test& test, Memory& memory, C
     if (cycle > 0) context.now_ns += kCycleNs;  // the test may have moved it: TEST_ADVANCE
     if (faulted(rung_guarded(&context, test.run))) return;
     if (!has_done || memory.block(test.done_block)[test.done_offset] != 0) return;
+    onCycle();
   }
-  result.fail(std::string(module.text + test.file) + ':' + std::to_string(test.line) +
-              ": `done` is still FALSE after " + std::to_string(kMostCycles) + " cycles");
-}
-
-void appendXml(std::string& to, std::string_view text) {
-  for (const char c : text) {
-    switch (c) {
-      case '&': to += "&amp;"; break;
-      case '<': to += "&lt;"; break;
-      case '>': to += "&gt;"; break;
-      case '"': to += "&quot;"; break;
-      case '\n': to += "&#10;"; break;
-      default:
-        if (static_cast<unsigned char>(c) < 0x20 && c != '\t')
-          to += '?';  // XML 1.0 has no such character
-        else
-          to += c;
-    }
-  }
-}
-
-std::string counts(uint32_t passed, uint32_t failed) {
-  return " tests=\"" + std::to_string(passed + failed) + "\" failures=\"" + std::to_string(failed) + '"';
+  result.fail(TestResult::Failed, std::string(module.text + test.file) + ':' + std::to_string(test.line) +
+                                      ": `done` is still FALSE after " + std::to_string(kMostCycles) + " cycles");
 }
 
 }  // namespace
@@ -89,69 +94,46 @@ std::string runTests(const rung_module& module, const TestOptions& options, Test
   host.assertion = onAssertion;
   memory.context().host = &host;
 
-  uint32_t passed = 0, failed = 0;
-  std::string junit;
   const std::string glob = lowerCase(options.filter);
   for (uint32_t i = 0; i < module.test_count; ++i) {
     const rung_test& test = module.tests[i];
     const char* const name = module.text + test.name;
     if (!glob.empty() && fnmatch(glob.c_str(), lowerCase(name).c_str(), 0) != 0) continue;
-    Case result{&memory.context(), 0, 0, {}};
-    memory.context().host_data = &result;
-    runCase(module, test, memory, result);
-    const bool good = result.failures == 0;
-    ++(good ? passed : failed);
-    if (result.failures > kMostMessages)
-      result.messages += "and " + std::to_string(result.failures - kMostMessages) + " more\n";
-    fputs(result.messages.c_str(), stdout);
+    Case one{&memory.context(), {}};
+    one.result.name = name;
+    one.result.file = module.text + test.file;
+    one.result.line = test.line;
+    memory.context().host_data = &one;
+    const auto begin = std::chrono::steady_clock::now();
+    const auto onCycle = [&] {
+      one.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      if (results.hinted || options.hint_when_long.empty() || isatty(2) == 0) return;
+      results.hinted = results.seconds + one.result.seconds >= kLongSeconds;
+      if (results.hinted) fprintf(stderr, "%s\n", options.hint_when_long.c_str());
+    };
+    runCase(module, test, memory, one, onCycle);
+    onCycle();
+    if (one.failures > kMostMessages)
+      one.result.messages += "and " + std::to_string(one.failures - kMostMessages) + " more\n";
+    const bool good = one.result.kind == TestResult::Passed;
+    ++(good ? results.passed : results.failed);
+    fputs(one.result.messages.c_str(), stdout);
     printf("%s %s\n", good ? "pass" : "FAIL", name);
-
-    junit += "    <testcase name=\"";
-    appendXml(junit, name);
-    junit += "\" classname=\"";
-    appendXml(junit, module.text + test.file);
-    junit += "\" file=\"";
-    appendXml(junit, module.text + test.file);
-    junit += "\" line=\"" + std::to_string(test.line) + "\" assertions=\"" + std::to_string(result.assertions) + '"';
-    if (good) {
-      junit += "/>\n";
-    } else {
-      junit += ">\n      <failure message=\"";
-      appendXml(junit, result.messages.substr(0, result.messages.find('\n')));
-      junit += "\">";
-      appendXml(junit, result.messages);
-      junit += "</failure>\n    </testcase>\n";
-    }
+    results.seconds += one.result.seconds;
+    results.tests.push_back(std::move(one.result));
   }
-  results.passed += passed;
-  results.failed += failed;
-  results.junit += "  <testsuite name=\"";
-  appendXml(results.junit, module.name);
-  results.junit += '"' + counts(passed, failed) + ">\n" + junit + "  </testsuite>\n";
   return "";
-}
-
-std::string brokenSuite(const std::string& file, const std::string& messages) {
-  std::string name, text, out;
-  appendXml(name, file);
-  appendXml(text, messages);
-  out = "  <testsuite name=\"" + name + '"' + counts(0, 1) + ">\n    <testcase name=\"compile\" classname=\"" + name +
-        "\" file=\"" + name + "\">\n      <failure message=\"does not compile\">" + text +
-        "</failure>\n    </testcase>\n  </testsuite>\n";
-  return out;
 }
 
 int reportTests(const TestResults& results, const TestOptions& options) {
   printf("%u passed, %u failed\n", results.passed, results.failed);
   fflush(stdout);
   if (!options.junit_path.empty()) {
-    const std::string junit = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" +
-                              counts(results.passed, results.failed) + ">\n" + results.junit + "</testsuites>\n";
     OutputFile file;
     std::string error;
     bool good = file.open(options.junit_path, error);
     if (good) {
-      file.write(junit);
+      file.write(junitXml(results));
       good = file.close(error);
     }
     if (!good) {

@@ -1,6 +1,7 @@
-// ASSERT, ASSERT_EQ and ASSERT_NEAR of tests (rung/code.h): compares, spells both values as the trace does, and reports
-// to the host's `assertion` callback. A failing assertion does not end the test.
+// ASSERT, ASSERT_EQ and ASSERT_NEAR of tests (rung/code.h): compares, spells the values of what failed as the trace
+// does, and reports to the host's `assertion` callback. A failing assertion does not end the test.
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 
 #include "rung/code.h"
@@ -8,89 +9,109 @@
 
 namespace {
 
-void report(rung_context* ctx, bool passed, const char* file, uint32_t line, const char* expected, const char* actual,
-            const char* text) {
+void report(rung_context* ctx, const rung_assertion* assertion, bool passed, const char* expected, const char* actual) {
   if (ctx->host != nullptr && ctx->host->assertion != nullptr)
-    ctx->host->assertion(ctx->host_data, passed, file, line, expected, actual, text);
+    ctx->host->assertion(ctx->host_data, assertion, passed, expected, actual);
 }
 
-void spellScalar(uint8_t kind, uint64_t bits, char* out) {
-  if (kind == RUNG_REAL) {
-    const float value = static_cast<float>(rung_f64_of(bits));
-    rung_spell(kind, false, &value, out, RUNG_SPELLED_SCALAR);
-  } else {
-    rung_spell(kind, static_cast<int64_t>(bits) < 0, &bits, out, RUNG_SPELLED_SCALAR);
-  }
+// Room for texts of the functions' 255 characters, each as `$hhhh`.
+constexpr uint32_t kRoom = 5 * 255 + 2;
+struct Spelled {
+  char text[kRoom + 1];
+};
+
+template <class Char>
+const Char* textAt(uint64_t bits) {
+  return reinterpret_cast<const Char*>(static_cast<uintptr_t>(bits));
 }
 
 bool isReal(uint8_t kind) { return kind == RUNG_REAL || kind == RUNG_LREAL; }
 
 // `Red`, or the number when no item has it.
-void spellItem(const char* items, int64_t value, char* out, size_t room) {
-  rung_spell(RUNG_LINT, true, &value, out, static_cast<uint32_t>(room - 1));
-  while (*items != 0) {
+void spellItem(const char* items, uint64_t bits, Spelled& out) {
+  rung_spell(RUNG_LINT, true, &bits, out.text, kRoom);
+  while (items != nullptr && *items != 0) {
     const char* const name = items;
     const char* const number = name + strlen(name) + 1;
-    if (strcmp(number, out) == 0) {
-      rung_text_assign(out, static_cast<uint32_t>(room - 1), name);
+    if (strcmp(number, out.text) == 0) {
+      rung_text_assign(out.text, kRoom, name);
       return;
     }
     items = number + strlen(number) + 1;
   }
 }
 
-// Room for texts of the functions' 255 characters, each as `$hh`.
-constexpr uint32_t kTextRoom = 3 * 255 + 2;
+void spell(const rung_assertion* assertion, uint8_t kind, uint64_t bits, Spelled& out) {
+  if (kind == RUNG_STRING) {
+    rung_spell(kind, false, textAt<char>(bits), out.text, kRoom);
+  } else if (kind == RUNG_WSTRING) {
+    rung_spell(kind, false, textAt<char16_t>(bits), out.text, kRoom);
+  } else if (kind == RUNG_ENUM) {
+    spellItem(assertion->items, bits, out);
+  } else if (kind == RUNG_REAL) {
+    const float value = static_cast<float>(rung_f64_of(bits));
+    rung_spell(kind, false, &value, out.text, kRoom);
+  } else {
+    rung_spell(kind, static_cast<int64_t>(bits) < 0, &bits, out.text, kRoom);
+  }
+}
+
+bool areEqual(uint8_t kind, uint64_t a, uint64_t b) {
+  if (kind == RUNG_STRING) return strcmp(textAt<char>(a), textAt<char>(b)) == 0;
+  if (kind == RUNG_WSTRING) return rung_wtext_compare(textAt<char16_t>(a), textAt<char16_t>(b)) == 0;
+  if (!isReal(kind)) return a == b;
+  const double x = rung_f64_of(a), y = rung_f64_of(b);
+  return x == y || (std::isnan(x) && std::isnan(y));
+}
+
+void reportValues(rung_context* ctx, const rung_assertion* assertion, uint8_t kind, uint64_t expected,
+                  uint64_t actual) {
+  Spelled wanted, seen;
+  spell(assertion, kind, expected, wanted);
+  spell(assertion, kind, actual, seen);
+  report(ctx, assertion, false, wanted.text, seen.text);
+}
 
 }  // namespace
 
-void rung_assert(rung_context* ctx, const char* file, uint32_t line, bool good, const char* text) {
-  report(ctx, good, file, line, "TRUE", good ? "TRUE" : "FALSE", text);
+void rung_assert(rung_context* ctx, const rung_assertion* assertion, bool good) {
+  report(ctx, assertion, good, good ? nullptr : "TRUE", good ? nullptr : "FALSE");
 }
 
-void rung_assert_equal(rung_context* ctx, const char* file, uint32_t line, uint8_t kind, uint64_t expected,
-                       uint64_t actual, const char* text) {
-  bool good = expected == actual;
-  if (isReal(kind)) {
-    const double a = rung_f64_of(expected), b = rung_f64_of(actual);
-    good = a == b || (std::isnan(a) && std::isnan(b));
+void rung_assert_compared(rung_context* ctx, const rung_assertion* assertion, bool good, uint8_t kind, uint64_t left,
+                          uint64_t right) {
+  if (good || assertion->shown == nullptr) return rung_assert(ctx, assertion, good);
+  const char* const condition = assertion->shown;
+  const size_t condition_length = strcspn(condition, "\n");
+  const char* const left_name = condition + condition_length + 1;
+  const size_t left_length = strcspn(left_name, "\n");
+  const char* const right_name = left_name + left_length + 1;
+  Spelled value;
+  char wanted[512], seen[2 * kRoom + 512];
+  snprintf(wanted, sizeof wanted, "%.*s", static_cast<int>(condition_length), condition);
+  int length = 0;
+  if (left_length != 0) {
+    spell(assertion, kind, left, value);
+    length = snprintf(seen, sizeof seen, "%.*s = %s", static_cast<int>(left_length), left_name, value.text);
   }
-  char wanted[RUNG_SPELLED_SCALAR + 1], seen[RUNG_SPELLED_SCALAR + 1];
-  spellScalar(kind, expected, wanted);
-  spellScalar(kind, actual, seen);
-  report(ctx, good, file, line, wanted, seen, text);
+  if (*right_name != 0 && length < static_cast<int>(sizeof seen)) {
+    spell(assertion, kind, right, value);
+    snprintf(seen + length, sizeof seen - static_cast<size_t>(length), "%s%s = %s", length == 0 ? "" : ", ", right_name,
+             value.text);
+  }
+  report(ctx, assertion, false, wanted, seen);
 }
 
-void rung_assert_equal_text(rung_context* ctx, const char* file, uint32_t line, const char* expected,
-                            const char* actual, const char* text) {
-  char wanted[kTextRoom + 1], seen[kTextRoom + 1];
-  rung_spell(RUNG_STRING, false, expected, wanted, kTextRoom);
-  rung_spell(RUNG_STRING, false, actual, seen, kTextRoom);
-  report(ctx, strcmp(expected, actual) == 0, file, line, wanted, seen, text);
+void rung_assert_equal(rung_context* ctx, const rung_assertion* assertion, uint8_t kind, uint64_t expected,
+                       uint64_t actual) {
+  if (areEqual(kind, expected, actual)) return report(ctx, assertion, true, nullptr, nullptr);
+  reportValues(ctx, assertion, kind, expected, actual);
 }
 
-void rung_assert_equal_wtext(rung_context* ctx, const char* file, uint32_t line, const char16_t* expected,
-                             const char16_t* actual, const char* text) {
-  char wanted[2 * kTextRoom + 1], seen[2 * kTextRoom + 1];
-  rung_spell(RUNG_WSTRING, false, expected, wanted, 2 * kTextRoom);
-  rung_spell(RUNG_WSTRING, false, actual, seen, 2 * kTextRoom);
-  report(ctx, rung_wtext_compare(expected, actual) == 0, file, line, wanted, seen, text);
-}
-
-void rung_assert_equal_enum(rung_context* ctx, const char* file, uint32_t line, const char* items, int64_t expected,
-                            int64_t actual, const char* text) {
-  char wanted[256], seen[256];
-  spellItem(items, expected, wanted, sizeof wanted);
-  spellItem(items, actual, seen, sizeof seen);
-  report(ctx, expected == actual, file, line, wanted, seen, text);
-}
-
-void rung_assert_near(rung_context* ctx, const char* file, uint32_t line, uint8_t kind, double expected, double actual,
-                      double tolerance, const char* text) {
+void rung_assert_near(rung_context* ctx, const rung_assertion* assertion, uint8_t kind, double expected, double actual,
+                      double tolerance) {
   const bool good =
       expected == actual || std::fabs(expected - actual) <= tolerance || (std::isnan(expected) && std::isnan(actual));
-  char wanted[RUNG_SPELLED_SCALAR + 1], seen[RUNG_SPELLED_SCALAR + 1];
-  spellScalar(kind, rung_bits_of_f64(expected), wanted);
-  spellScalar(kind, rung_bits_of_f64(actual), seen);
-  report(ctx, good, file, line, wanted, seen, text);
+  if (good) return report(ctx, assertion, true, nullptr, nullptr);
+  reportValues(ctx, assertion, kind, rung_bits_of_f64(expected), rung_bits_of_f64(actual));
 }

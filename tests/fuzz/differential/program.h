@@ -23,10 +23,12 @@ struct Node {
   std::string print() const;
 };
 
-enum class Faults : uint8_t { None, Division, Index };  // what the program may end with
+enum class Faults : uint8_t { None, Division, Index, Range };  // what the program may end with
+enum class Dialect : uint8_t { Codesys, Iec3, Iec2 };
 
-// The POUs of one PROGRAM called `P<index>`, all names of which begin with that.
+// The POUs of one PROGRAM called `P<index>`, all names of which begin with that. It does nothing unless the global
+// `differential_only` holds its index, or -1 and no fault is wanted.
 // Nothing in it is unspecified, and each cycle of it ends soon.
-Node generate(uint64_t seed, unsigned index, Faults faults);
+Node generate(uint64_t seed, unsigned index, Faults faults, Dialect dialect);
 
 }  // namespace rung::differential

@@ -266,6 +266,7 @@ TEST(IrText, Statements) {
       "}\n"
       "assert b\n"
       "assert b text 'held'\n"
+      "assert gt int i, 3 shows i, 3 as 'i > 3$0Ai$0A' text 'held'\n"
       "assert_eq 3, i\n"
       "assert_near r, 1.0, 0.5 text 'near'\n"
       "evaluate ptr^!\n"

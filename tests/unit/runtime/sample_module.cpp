@@ -56,18 +56,27 @@ void onEvent(rung_context* ctx) {
   ++self(ctx).event_runs;
 }
 
-void testGood(rung_context* ctx) { rung_assert_equal(ctx, "t.st", 3, RUNG_INT, 5, 5, nullptr); }
+rung_assertion at(uint32_t line, const char* text = nullptr) {
+  return {"t.st", line, 0, nullptr, text, nullptr, nullptr};
+}
+void testGood(rung_context* ctx) {
+  const rung_assertion first = at(3);
+  rung_assert_equal(ctx, &first, RUNG_INT, 5, 5);
+}
 void testBad(rung_context* ctx) {
-  rung_assert_equal(ctx, "t.st", 8, RUNG_INT, 5, static_cast<uint64_t>(int64_t{-7}), "the level");
-  rung_assert_equal_text(ctx, "t.st", 9, "a", "b$", nullptr);
-  rung_assert(ctx, "t.st", 10, false, "never");
+  const rung_assertion level = at(8, "the level"), text = at(9);
+  rung_assert_equal(ctx, &level, RUNG_INT, 5, static_cast<uint64_t>(int64_t{-7}));
+  rung_assert_equal(ctx, &text, RUNG_STRING, reinterpret_cast<uintptr_t>("a"), reinterpret_cast<uintptr_t>("b$"));
+  const rung_assertion never{"t.st", 10, 4, "\tü ASSERT(FALSE);", "never", nullptr, nullptr};
+  rung_assert(ctx, &never, false);
 }
 void testFaults(rung_context* ctx) { rung_raise(ctx, RUNG_FAULT_INDEX, 1, 11); }
 void testUntilDone(rung_context* ctx) {
   Main& m = self(ctx);
   if (++m.count == 5) m.run = 1;
-  rung_assert_equal(ctx, "t.st", 20, RUNG_TIME, static_cast<uint64_t>(m.count - 1) * 10,
-                    static_cast<uint64_t>(ctx->now_ns / 1'000'000), nullptr);
+  const rung_assertion time = at(20);
+  rung_assert_equal(ctx, &time, RUNG_TIME, static_cast<uint64_t>(m.count - 1) * 10,
+                    static_cast<uint64_t>(ctx->now_ns / 1'000'000));
 }
 void testNever(rung_context*) {}
 

@@ -98,11 +98,10 @@ TEST(Text, TextAsScalars) {
 
 struct Report {
   bool passed;
-  std::string expected, actual, text;
+  std::string expected, actual;
 };
-void collect(void* data, bool passed, const char*, uint32_t, const char* expected, const char* actual,
-             const char* text) {
-  *static_cast<Report*>(data) = {passed, expected, actual, text == nullptr ? "" : text};
+void collect(void* data, const rung_assertion*, bool passed, const char* expected, const char* actual) {
+  *static_cast<Report*>(data) = {passed, expected == nullptr ? "" : expected, actual == nullptr ? "" : actual};
 }
 
 TEST(Assertions, ReportBothValues) {
@@ -112,20 +111,44 @@ TEST(Assertions, ReportBothValues) {
   rung_context ctx{};
   ctx.host = &host;
   ctx.host_data = &last;
-  rung_assert_equal(&ctx, "f", 1, RUNG_TIME, 5000, 4000, "why");
+  rung_assertion at{"f", 1, 1, nullptr, nullptr, nullptr, nullptr};
+  rung_assert_equal(&ctx, &at, RUNG_TIME, 5000, 4000);
   EXPECT_FALSE(last.passed);
-  EXPECT_EQ(last.expected + last.actual + last.text, "T#5sT#4swhy");
+  EXPECT_EQ(last.expected + last.actual, "T#5sT#4s");
   const uint64_t nan = rung_bits_of_f64(std::numeric_limits<double>::quiet_NaN());
-  rung_assert_equal(&ctx, "f", 1, RUNG_LREAL, nan, nan, nullptr);
+  rung_assert_equal(&ctx, &at, RUNG_LREAL, nan, nan);
   EXPECT_TRUE(last.passed);
-  rung_assert_equal_enum(&ctx, "f", 1, "Red\0000\0Green\0001\0\0", 1, 7, nullptr);
+  at.items = "Red\0000\0Green\0001\0\0";
+  rung_assert_equal(&ctx, &at, RUNG_ENUM, 1, 7);
   EXPECT_EQ(last.expected + last.actual, "Green7");
-  rung_assert_equal_wtext(&ctx, "f", 1, u"a", u"b", nullptr);
+  rung_assert_equal(&ctx, &at, RUNG_WSTRING, reinterpret_cast<uintptr_t>(u"a"), reinterpret_cast<uintptr_t>(u"b"));
   EXPECT_EQ(last.expected + last.actual, "\"a\"\"b\"");
-  rung_assert_near(&ctx, "f", 1, RUNG_REAL, 1.0, 1.25, 0.25, nullptr);
+  rung_assert_near(&ctx, &at, RUNG_REAL, 1.0, 1.25, 0.25);
   EXPECT_TRUE(last.passed);
-  rung_assert_near(&ctx, "f", 1, RUNG_REAL, 1.0, 1.5, 0.25, nullptr);
+  rung_assert_near(&ctx, &at, RUNG_REAL, 1.0, 1.5, 0.25);
   EXPECT_FALSE(last.passed);
+}
+
+TEST(Assertions, ShowTheSidesOfAComparison) {
+  Report last{};
+  rung_host host{};
+  host.assertion = collect;
+  rung_context ctx{};
+  ctx.host = &host;
+  ctx.host_data = &last;
+  rung_assertion at{"f", 1, 1, nullptr, nullptr, "a > b\na\nb", nullptr};
+  rung_assert_compared(&ctx, &at, true, RUNG_INT, 6, 5);
+  EXPECT_TRUE(last.passed);
+  rung_assert_compared(&ctx, &at, false, RUNG_INT, 3, 5);
+  EXPECT_FALSE(last.passed);
+  EXPECT_EQ(last.expected + " / " + last.actual, "a > b / a = 3, b = 5");
+  at.shown = "5 < b\n\nb";
+  rung_assert_compared(&ctx, &at, false, RUNG_INT, 5, 3);
+  EXPECT_EQ(last.expected + " / " + last.actual, "5 < b / b = 3");
+  at.shown = "a <> 'x'\na\n";
+  rung_assert_compared(&ctx, &at, false, RUNG_STRING, reinterpret_cast<uintptr_t>("x"),
+                       reinterpret_cast<uintptr_t>("x"));
+  EXPECT_EQ(last.expected + " / " + last.actual, "a <> 'x' / a = 'x'");
 }
 
 int depth = 0;

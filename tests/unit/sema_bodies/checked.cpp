@@ -200,7 +200,12 @@ class Printer {
         expr(tree_.as<ConvertExpr>(id).operand);
         out += ")";
         return;
+      case ExprKind::AddressOf:
+        out += "&";
+        expr(tree_.as<AddressOfExpr>(id).place);
+        return;
       case ExprKind::Error:
+      case ExprKind::Bound:
       case ExprKind::Address:
       case ExprKind::Range:
       case ExprKind::ArrayInit:

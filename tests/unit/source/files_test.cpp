@@ -93,5 +93,36 @@ TEST(Files, InvalidUtf8) {
   EXPECT_EQ(findInvalidUtf8("12345678\xe2\x82"), 8u);  // cut
 }
 
+TEST(Files, AssembledTextsHaveThePlacesOfTheirParts) {
+  Sources sources;
+  const FileId a = sources.add("a.xml", "one\n  two"), b = sources.add("b.xml", "three");
+  const FileId made =
+      sources.addAssembled("a.xml", "two END three",
+                           {{0, at(sources, a, 6), true}, {3, at(sources, a, 9), false}, {8, at(sources, b, 0), true}});
+  EXPECT_EQ(sources.place(at(sources, made, 0)).line, 2u);
+  EXPECT_EQ(sources.place(at(sources, made, 2)).column, 5u);
+  EXPECT_EQ(sources.place(at(sources, made, 5)).column, 6u);  // END stands behind `two`
+  EXPECT_EQ(sources.lineNumber(at(sources, made, 5)), 2u);
+  EXPECT_EQ(sources.place(at(sources, made, 9)).file, b);
+  EXPECT_EQ(sources.place(at(sources, made, 9)).column, 2u);
+  EXPECT_EQ(sources.fileOf(at(sources, made, 9)), made);
+  EXPECT_EQ(sources.written(at(sources, a, 3)), at(sources, a, 3));
+  EXPECT_EQ(sources.tokenAt(at(sources, made, 8)), "three");
+}
+
+TEST(Files, Utf16BecomesUtf8) {
+  std::string little("\xff\xfe\x41\x00\xe4\x00\x3d\xd8\x00\xde", 10), big("\xfe\xff\x00\x41\x20\xac", 6);
+  EXPECT_TRUE(decodeUtf16(little));
+  EXPECT_EQ(little, "Aä😀");
+  EXPECT_TRUE(decodeUtf16(big));
+  EXPECT_EQ(big, "A€");
+  std::string plain = "A", odd("\xff\xfe\x41", 3), half("\xff\xfe\x3d\xd8", 4), alone("\xff\xfe\x00\xde\x41\x00", 6);
+  EXPECT_TRUE(decodeUtf16(plain));
+  EXPECT_EQ(plain, "A");
+  EXPECT_FALSE(decodeUtf16(odd));
+  EXPECT_FALSE(decodeUtf16(half));
+  EXPECT_FALSE(decodeUtf16(alone));
+}
+
 }  // namespace
 }  // namespace rung

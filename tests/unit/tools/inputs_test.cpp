@@ -86,7 +86,7 @@ TEST_F(InputsTest, BinaryAndUtf16) {
 
   Diagnostics more(sources);
   Inputs second;
-  options.inputs = {folder.write("wide.st", std::string("\xff\xfeP\0R\0", 6))};
+  options.inputs = {folder.write("wide.st", std::string("\xff\xfeP\0R", 5))};
   readInputs(options, sources, more, second);
   EXPECT_EQ(more.all()[0].diag, Diag::Utf16File);
 }
@@ -113,6 +113,45 @@ TEST_F(InputsTest, ProjectFileNamesItsSources) {
   EXPECT_EQ(paths(), (std::vector<std::string>{"lib/x.st", "main.st"}));
   applyProjectFile(inputs.project, options);
   EXPECT_EQ(options.standard, text::Standard::Iec3);
+}
+
+TEST_F(InputsTest, ProjectOfTwinCatTakesWhatItLists) {
+  const std::string object =
+      "<TcPlcObject><DUT Name='a'><Declaration>TYPE a : INT; END_TYPE</Declaration></DUT></TcPlcObject>";
+  folder.write(
+      "p/plc/x.plcproj",
+      "<Project xmlns=\"http://schemas.microsoft.com/developer/msbuild/2003\"><Compile Include=\"DUTS\\A.tcdut\"/>"
+      "</Project>");
+  folder.write("p/plc/DUTs/a.TcDUT", object);
+  folder.write("p/plc/other.TcDUT", object);
+  folder.write("p/plain.st", kProgram);
+  read({folder.path() + "/p"});
+  EXPECT_EQ(paths(), (std::vector<std::string>{"plain.st", "plc/DUTs/a.TcDUT"}));
+  EXPECT_FALSE(inputs.io_error);
+}
+
+TEST_F(InputsTest, ListedFileThatIsGone) {
+  read({folder.write("x.plcproj",
+                     "<Project xmlns=\"http://schemas.microsoft.com/developer/msbuild/2003\">\n<Compile "
+                     "Include=\"gone.TcPOU\"/></Project>")});
+  EXPECT_EQ(onlyMessage(), "cannot read `gone.TcPOU`: No such file or directory");
+  EXPECT_EQ(sources.place(diagnostics.all()[0].loc).line, 2u);
+  EXPECT_EQ(sources.place(diagnostics.all()[0].loc).column, 19u);
+  EXPECT_TRUE(inputs.io_error);
+}
+
+TEST_F(InputsTest, PairsOfFilesAreOnePou) {
+  folder.write("p/a.pou", "PROGRAM a\nVAR x : INT; END_VAR\n");
+  folder.write("p/A.st", "x := 1;");
+  folder.write("p/b.st", kProgram);
+  folder.write("p/c_body.st", "y := 1;");  // whose declaration is nowhere
+  folder.write("p/two.decl", "PROGRAM two\n");
+  folder.write("p/two.pou", "PROGRAM two\n");
+  folder.write("p/two.impl", ";");  // of which?
+  read({folder.path() + "/p"});
+  readPrograms(sources, diagnostics, inputs);
+  EXPECT_EQ(paths(), (std::vector<std::string>{"a.pou", "b.st", "c_body.st", "two.decl", "two.impl", "two.pou"}));
+  EXPECT_EQ(sources.text(inputs.files[0].file), "PROGRAM a\nVAR x : INT; END_VAR\n\nx := 1;\nEND_PROGRAM");
 }
 
 TEST(KindOf, ContentThenExtension) {

@@ -231,21 +231,18 @@ uint64_t rung_scalar_of_wtext(uint8_t kind, const char16_t* text) RUNG_PURE;
 /* Runs `run(frame)` and catches its faults: RUNG_FAULT_NONE, or the kind, details in ctx->fault. Nests. For __TRY. */
 uint8_t rung_try(rung_context* ctx, void (*run)(void* frame), void* frame);
 
-/* ---- assertions of tests. `text` may be null. Values are reported to ctx->host->assertion as the trace spells them.
- * The same kinds and bits as rung_text_of_scalar; equal means IEC `=` (NaN is equal to NaN here). */
-void rung_assert(rung_context* ctx, const char* file, uint32_t line, bool good, const char* text);
-void rung_assert_equal(rung_context* ctx, const char* file, uint32_t line, uint8_t kind, uint64_t expected,
-                       uint64_t actual, const char* text);
-void rung_assert_equal_text(rung_context* ctx, const char* file, uint32_t line, const char* expected,
-                            const char* actual, const char* text);
-void rung_assert_equal_wtext(rung_context* ctx, const char* file, uint32_t line, const char16_t* expected,
-                             const char16_t* actual, const char* text);
-/* Enumerations: `items` is `name\0value\0name\0value\0\0`, values decimal. */
-void rung_assert_equal_enum(rung_context* ctx, const char* file, uint32_t line, const char* items, int64_t expected,
-                            int64_t actual, const char* text);
+/* ---- assertions of tests, reported to ctx->host->assertion. `kind` and bits: as rung_text_of_scalar takes them, and
+ * RUNG_ENUM; of RUNG_STRING and RUNG_WSTRING the bits are the address. Equal means IEC `=` (NaN is equal to NaN here).
+ */
+void rung_assert(rung_context* ctx, const rung_assertion* assertion, bool good);
+/* The same for a comparison, whose sides the report shows. */
+void rung_assert_compared(rung_context* ctx, const rung_assertion* assertion, bool good, uint8_t kind, uint64_t left,
+                          uint64_t right);
+void rung_assert_equal(rung_context* ctx, const rung_assertion* assertion, uint8_t kind, uint64_t expected,
+                       uint64_t actual);
 /* kind: RUNG_REAL or RUNG_LREAL; good when |expected - actual| <= tolerance, or both are equal. */
-void rung_assert_near(rung_context* ctx, const char* file, uint32_t line, uint8_t kind, double expected, double actual,
-                      double tolerance, const char* text);
+void rung_assert_near(rung_context* ctx, const rung_assertion* assertion, uint8_t kind, double expected, double actual,
+                      double tolerance);
 
 } /* extern "C" */
 #endif

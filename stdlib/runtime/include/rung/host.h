@@ -22,8 +22,9 @@ struct RunOptions {
   std::string trace_path;                                 // --trace; "-": stdout
   std::string plot_path;                                  // --plot: SVG; "-": stdout
   std::string retain_path;                                // --retain
-  int start = -1;       // --start: rung_start, -1: warm when the retain file exists, else cold
-  std::string stop_on;  // --stop-on CONDITION
+  int start = -1;            // --start: rung_start, -1: warm when the retain file exists, else cold
+  std::string stop_on;       // --stop-on CONDITION
+  bool trace_calls = false;  // --trace-calls, of interpreted modules that tell of their calls
   bool realtime = false;
   bool color = false;
   std::string hint_when_long;  // printed once on a terminal when the run takes long; empty: nothing
@@ -33,20 +34,29 @@ struct RunOptions {
 int run(const rung_module& module, const RunOptions& options);
 
 struct TestOptions {
-  std::string filter;      // --filter GLOB
-  std::string junit_path;  // --junit
+  std::string filter;          // --filter GLOB
+  std::string junit_path;      // --junit
+  std::string hint_when_long;  // as in RunOptions
 };
 int test(const rung_module& module, const TestOptions& options);
 
 // The same in two steps, for a run over many modules: runs and prints the tests of one, then writes all results.
+struct TestResult {
+  std::string name, file;
+  uint32_t line = 0;
+  enum Kind : uint8_t { Passed, Failed, Broken } kind = Passed;  // Broken: a fault, or a file that does not compile
+  uint64_t assertions = 0;
+  double seconds = 0;
+  std::string messages;
+};
 struct TestResults {
   uint32_t passed = 0, failed = 0;
-  std::string junit;  // <testsuite> elements
+  std::vector<TestResult> tests;
+  double seconds = 0;   // that all of them took
+  bool hinted = false;  // TestOptions::hint_when_long was printed
 };
 // Empty, or why the module cannot run here. `options.junit_path` is not written.
 std::string runTests(const rung_module& module, const TestOptions& options, TestResults& results);
-// The <testsuite> of a file that did not compile: one failure with its messages.
-std::string brokenSuite(const std::string& file, const std::string& messages);
 // 0, 2 or 4, as test() gives them.
 int reportTests(const TestResults& results, const TestOptions& options);
 

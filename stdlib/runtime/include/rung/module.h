@@ -153,13 +153,24 @@ typedef struct rung_fault {
   int64_t value; /* the index, say */
 } rung_fault;
 
+/* An assertion of a test: where it stands and what its report shows. A text that is not there is null. */
+typedef struct rung_assertion {
+  const char* file;
+  uint32_t line, column;
+  const char* source; /* the line of the program */
+  const char* text;   /* of its author */
+  const char* shown;  /* ASSERT(a > b): `a > b`, `a` and `b`, a line each; empty for a literal */
+  const char* items;  /* enumerations: `name\0value\0name\0value\0\0`, values decimal */
+} rung_assertion;
+
 /* ---- the host's side */
 typedef struct rung_host {
   /* Wall clock, nanoseconds since 1970-01-01 UTC. Default: 0 at the start, then task time. */
   int64_t (*wall_clock)(void* data);
-  /* A failed or passed assertion of a test. Values are spelled as the trace spells them. */
-  void (*assertion)(void* data, bool passed, const char* file, uint32_t line, const char* expected, const char* actual,
-                    const char* text);
+  /* An assertion of a test. Values are spelled as the trace spells them; null when it passed. */
+  void (*assertion)(void* data, const rung_assertion* assertion, bool passed, const char* expected, const char* actual);
+  /* A call of a POU in an interpreted module whose calls are traced; `instance` is null for a function. */
+  void (*called)(void* data, const char* pou, const void* instance);
 } rung_host;
 
 struct rung_context {

@@ -1,0 +1,114 @@
+// CODESYS 2.3 exports (.EXP): objects one behind the other, each below comments like `(* @PATH := '\/Pumps' *)`. POUs,
+// their actions (which follow the END_…), types and lists of globals are ST as they stand, but for bodies that are
+// drawn
+// (`_FBD_BODY` …). Whatever else is exported (visualisations, the PLC's configuration, lists of libraries) is passed
+// over; a word that no export has is left to the parser, which says so.
+#include "frontend/source/names.h"
+#include "frontend/vendor/assembly.h"
+#include "frontend/vendor/readers.h"
+#include "frontend/vendor/words.h"
+
+namespace rung::vendor {
+namespace {
+
+// What an object begins with that holds no program.
+bool isForeign(std::string_view word) {
+  for (const std::string_view known :
+       {"VISUALISATION", "VISUALIZATION", "LIBRARY", "PLC_CONFIGURATION", "PLC_CONFIG", "TASK_CONFIGURATION",
+        "TASKCONFIG", "ALARM_CONFIGURATION", "TRACE", "SAMPLING_TRACE", "WATCH", "WORKSPACE", "CNC", "CAM"})
+    if (sameIdentifier(word, known)) return true;
+  return word.starts_with("_");
+}
+
+class Codesys2Reader {
+ public:
+  Codesys2Reader(const Sources& sources, FileId file, Diagnostics& diagnostics)
+      : diagnostics_(diagnostics), text_(sources.text(file)), base_(sources.begin(file).offset), program_(sources) {}
+
+  // False: nothing had to be moved or left out.
+  bool run() {
+    Words words(text_);
+    while (words.next()) {
+      const size_t begin = words.begin();
+      std::string_view word = words.word();
+      if (sameIdentifier(word, "FUNCTIONBLOCK")) {  // taken by that compiler
+        keep(begin);
+        word = "FUNCTION_BLOCK";
+        program_.replace(loc(begin), loc(words.end()), word);
+        kept_ = words.end();
+        changed_ = true;
+      }
+      if (sameIdentifier(word, "TYPE")) {
+        words.moveTo(endOfObject(words, "END_TYPE"));
+      } else if (sameIdentifier(word, "VAR_GLOBAL") || sameIdentifier(word, "VAR_CONFIG")) {
+        words.moveTo(endOfObject(words, "END_VAR"));
+      } else if (!endWordOf(word).empty()) {
+        words.moveTo(endOfPou(words, endWordOf(word)));
+      } else if (isForeign(word)) {
+        size_t next = text_.find("(* @NESTEDCOMMENTS", begin);
+        if (next == std::string_view::npos) next = text_.size();
+        leaveOut(begin, next);
+        words.moveTo(next);
+      }
+    }
+    if (!changed_) return false;
+    keep(text_.size());
+    return true;
+  }
+
+  Assembly& program() { return program_; }
+
+ private:
+  Loc loc(size_t at) const { return {base_ + static_cast<uint32_t>(at)}; }
+  void keep(size_t to) {
+    if (to > kept_) program_.add(loc(kept_), loc(to));
+    kept_ = to;
+  }
+  void leaveOut(size_t begin, size_t end) {
+    keep(begin);
+    kept_ = end;
+    changed_ = true;
+  }
+
+  static size_t endOfObject(Words& words, std::string_view closing) {
+    while (words.next())
+      if (sameIdentifier(words.word(), closing)) break;
+    return words.end();
+  }
+
+  // The POU or action whose first word has been read: passes over it, leaving out a body that is drawn. Its end.
+  size_t endOfPou(Words& words, std::string_view closing) {
+    std::string_view name;
+    while (words.next()) {
+      const std::string_view word = words.word();
+      if (name.empty()) name = word;
+      if (sameIdentifier(word, closing)) break;
+      if (!word.starts_with("_") || !word.ends_with("_BODY") || !words.atLineStart()) continue;
+      const std::string how = "drawn in " + std::string(word.substr(1, word.size() - 6));
+      diagnostics_.report(Diag::NetworkBody, loc(words.begin()), {name, how})
+          .length(static_cast<uint32_t>(word.size()));
+      // Its texts follow no rules of ST: the line that closes the POU is what can be found.
+      size_t end = text_.find("\n" + std::string(closing), words.begin());
+      end = end == std::string_view::npos ? text_.size() : end + 1;
+      leaveOut(words.begin(), end);
+      words.moveTo(end);
+    }
+    return words.end();
+  }
+
+  Diagnostics& diagnostics_;
+  std::string_view text_;
+  uint32_t base_;
+  Assembly program_;
+  size_t kept_ = 0;  // everything before is taken over or left out
+  bool changed_ = false;
+};
+
+}  // namespace
+
+FileId readCodesys2(Sources& sources, FileId file, Diagnostics& diagnostics) {
+  Codesys2Reader reader(sources, file, diagnostics);
+  return reader.run() ? reader.program().finish(sources, file) : file;
+}
+
+}  // namespace rung::vendor

@@ -1,0 +1,165 @@
+// TwinCAT 3: .TcPOU, .TcDUT, .TcGVL, .TcIO and .TcTTO. An object of the project is an element with a <Declaration> in
+// ST; POUs have an <Implementation> and members besides. Bodies that are drawn are named in an error; what such a POU
+// declares counts nevertheless.
+#include <string>
+
+#include "frontend/vendor/assembly.h"
+#include "frontend/vendor/readers.h"
+#include "frontend/vendor/vendor.h"
+#include "frontend/vendor/words.h"
+
+namespace rung::vendor {
+namespace {
+
+constexpr uint64_t kLowestPriority = 31;  // of Rung's tasks; TwinCAT counts further
+
+// What TwinCAT calls the languages of bodies.
+const char* languageOf(std::string_view element) {
+  if (element == "NWL" || element == "FBD" || element == "LD" || element == "LADDER")
+    return "drawn in networks (FBD or LD)";
+  if (element == "CFC") return "drawn in CFC";
+  if (element == "SFC") return "drawn in SFC";
+  if (element == "IL") return "written in IL";
+  return nullptr;
+}
+
+class TwinCatReader {
+ public:
+  TwinCatReader(const Sources& sources, const xml::Document& document, Diagnostics& diagnostics)
+      : sources_(sources), document_(document), diagnostics_(diagnostics), program_(sources) {}
+
+  Assembly& run() {
+    for (const xml::Element* e = document_.firstChild(document_.elements[0]); e != nullptr; e = document_.next(*e)) {
+      if (e->name == "POU" || e->name == "Itf") {
+        readPou(*e);
+      } else if (e->name == "DUT" || e->name == "GVL") {
+        part(*e, "Declaration");
+      } else if (e->name == "Task") {
+        readTask(*e);
+      }  // pictures, texts and lists of them
+    }
+    return program_;
+  }
+
+ private:
+  void part(const xml::Element& element, std::string_view name) {
+    const xml::Element* text = document_.child(element, name);
+    if (text == nullptr) return;
+    program_.add(document_, *text);
+    program_.word("\n");
+  }
+
+  // POU = declaration {member} body END_…
+  void readPou(const xml::Element& pou) {
+    const xml::Element* declaration = document_.child(pou, "Declaration");
+    if (declaration == nullptr) return;
+    const std::string name = document_.value(pou, "Name");
+    part(pou, "Declaration");
+    for (const xml::Element* e = document_.firstChild(pou); e != nullptr; e = document_.next(*e)) {
+      if (e->name == "Method") readMethod(*e, name);
+      if (e->name == "Property") readProperty(*e, name);
+      if (e->name == "Action") readAction(*e, name);
+    }
+    readBody(pou, name);
+    closeWith(endWordOf(firstWord(document_.text(*declaration, sources_))));
+  }
+
+  void readMethod(const xml::Element& method, const std::string& owner) {
+    part(method, "Declaration");
+    readBody(method, owner + "." + document_.value(method, "Name"));
+    closeWith("END_METHOD");
+  }
+
+  void readProperty(const xml::Element& property, const std::string& owner) {
+    part(property, "Declaration");
+    for (const xml::Element* e = document_.firstChild(property); e != nullptr; e = document_.next(*e)) {
+      const bool get = e->name == "Get";
+      if (!get && e->name != "Set") continue;
+      program_.word(get ? "GET\n" : "SET\n");
+      part(*e, "Declaration");
+      readBody(*e, owner + "." + document_.value(property, "Name"));
+      closeWith(get ? "END_GET" : "END_SET");
+    }
+    closeWith("END_PROPERTY");
+  }
+
+  void readAction(const xml::Element& action, const std::string& owner) {
+    const xml::Attribute* name = document_.attribute(action, "Name");
+    if (name == nullptr) return;
+    program_.word("ACTION ");
+    program_.add(name->loc, {name->loc.offset + static_cast<uint32_t>(name->raw.size())});
+    program_.word(" :\n");
+    readBody(action, owner + "." + document_.value(action, "Name"));
+    closeWith("END_ACTION");
+  }
+
+  void readBody(const xml::Element& owner, const std::string& name) {
+    const xml::Element* body = document_.child(owner, "Implementation");
+    if (body == nullptr) return;
+    for (const xml::Element* e = document_.firstChild(*body); e != nullptr; e = document_.next(*e)) {
+      if (e->name == "ST") {
+        program_.add(document_, *e);
+        program_.word("\n");
+      } else if (const char* language = languageOf(e->name)) {
+        diagnostics_.report(Diag::NetworkBody, e->loc, {name, language});
+      }
+    }
+  }
+
+  void closeWith(std::string_view word) {
+    program_.word(word);
+    program_.word("\n");
+  }
+
+  // A cyclic task and the programs that it calls. <CycleTime> is in microseconds.
+  void readTask(const xml::Element& task) {
+    const xml::Attribute* name = document_.attribute(task, "Name");
+    const xml::Element* cycle = document_.child(task, "CycleTime");
+    if (name == nullptr || cycle == nullptr) return;
+    const auto addName = [&] { program_.add(name->loc, {name->loc.offset + static_cast<uint32_t>(name->raw.size())}); };
+    program_.word("CONFIGURATION ");
+    addName();
+    program_.word("_configuration\nRESOURCE ");
+    addName();
+    program_.word("_resource ON PLC\nTASK ");
+    addName();
+    program_.word("(INTERVAL := T#" + document_.text(*cycle, sources_) +
+                  "us, PRIORITY := " + std::to_string(priorityOf(task)) + ");\n");
+    for (const xml::Element* call = document_.firstChild(task); call != nullptr; call = document_.next(*call)) {
+      const xml::Element* called = call->name == "PouCall" ? document_.child(*call, "Name") : nullptr;
+      if (called == nullptr) continue;
+      program_.word("PROGRAM ");
+      program_.add(document_, *called);
+      program_.word(" WITH ");
+      addName();
+      program_.word(" : ");
+      program_.add(document_, *called);
+      program_.word(";\n");
+    }
+    program_.word("END_RESOURCE\nEND_CONFIGURATION\n");
+  }
+
+  uint64_t priorityOf(const xml::Element& task) const {
+    const xml::Element* priority = document_.child(task, "Priority");
+    if (priority == nullptr) return kLowestPriority;
+    uint64_t value = 0;
+    for (const char c : document_.text(*priority, sources_))
+      if (c >= '0' && c <= '9' && value < kLowestPriority) value = value * 10 + static_cast<uint64_t>(c - '0');
+    return value < kLowestPriority ? value : kLowestPriority;
+  }
+
+  const Sources& sources_;
+  const xml::Document& document_;
+  Diagnostics& diagnostics_;
+  Assembly program_;
+};
+
+}  // namespace
+
+FileId readTwinCat(Sources& sources, FileId file, Diagnostics& diagnostics) {
+  xml::Document document;
+  if (!xml::read(sources, file, diagnostics, document)) return {};
+  return TwinCatReader(sources, document, diagnostics).run().finish(sources, file);
+}
+
+}  // namespace rung::vendor

@@ -1,0 +1,43 @@
+// Reading ST text without parsing it: words outside of comments, strings and pragmas. Used by the readers of this
+// folder, which must know where a POU begins and ends.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace rung::vendor {
+
+// Walks over the words of [begin, end) of a text.
+class Words {
+ public:
+  Words(std::string_view text, size_t begin, size_t end) : text_(text), p_(begin), end_(end) {}
+  explicit Words(std::string_view text) : Words(text, 0, text.size()) {}
+
+  // The next word; false at the end. Numbers and operators are passed over.
+  bool next();
+  std::string_view word() const { return text_.substr(begin_, p_ - begin_); }
+  size_t begin() const { return begin_; }  // of the word
+  size_t end() const { return p_; }
+  bool atLineStart() const { return first_on_line_ == begin_ + 1; }  // only blanks and comments before it on its line
+  // Passed over since the last word: something that is neither blank, comment nor pragma.
+  bool passedOther() const { return passed_other_; }
+  void moveTo(size_t at) { p_ = at; }
+
+ private:
+  std::string_view text_;
+  size_t begin_ = 0, p_, end_;
+  size_t first_on_line_ = 0;  // one past the begin of the last word that began a line
+  bool line_start_ = true;
+  bool passed_other_ = false;
+};
+
+// One past the comment that begins at `at`; the end of the text where it is not closed. Comments nest.
+size_t endOfComment(std::string_view text, size_t at);
+
+std::string upper(std::string_view text);
+
+// END_FUNCTION for FUNCTION; empty for what is no POU.
+std::string_view endWordOf(std::string_view word);
+
+}  // namespace rung::vendor

@@ -1,0 +1,357 @@
+// The reader of XML files; see xml.h. One loop over the text and no recursion, so depth costs no stack.
+#include "frontend/xml/xml.h"
+
+#include <cstring>
+#include <string>
+
+namespace rung::xml {
+namespace {
+
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+bool beginsName(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == ':' ||
+         static_cast<unsigned char>(c) >= 0x80;
+}
+
+bool inName(char c) { return beginsName(c) || (c >= '0' && c <= '9') || c == '-' || c == '.'; }
+
+std::string_view withoutPrefix(std::string_view name) {
+  const size_t colon = name.rfind(':');
+  return colon == std::string_view::npos || colon + 1 == name.size() ? name : name.substr(colon + 1);
+}
+
+// What `&name;` or `&#number;` stands for, without `&` and `;`; 0: nothing.
+char32_t characterOf(std::string_view entity) {
+  struct Row {
+    std::string_view name;
+    char32_t character;
+  };
+  static constexpr Row kRows[] = {{"lt", U'<'}, {"gt", U'>'}, {"amp", U'&'}, {"quot", U'"'}, {"apos", U'\''}};
+  for (const Row& row : kRows)
+    if (entity == row.name) return row.character;
+  if (entity.size() < 2 || entity[0] != '#') return 0;
+  const bool hex = entity[1] == 'x';
+  entity.remove_prefix(hex ? 2 : 1);
+  if (entity.empty() || entity.size() > 8) return 0;
+  uint32_t value = 0;
+  for (const char c : entity) {
+    const uint32_t digit = c >= '0' && c <= '9'          ? static_cast<uint32_t>(c - '0')
+                           : hex && c >= 'a' && c <= 'f' ? static_cast<uint32_t>(c - 'a') + 10
+                           : hex && c >= 'A' && c <= 'F' ? static_cast<uint32_t>(c - 'A') + 10
+                                                         : 99;
+    if (digit == 99) return 0;
+    value = value * (hex ? 16 : 10) + digit;
+    if (value > 0x10ffff) return 0;
+  }
+  const bool forbidden =
+      (value >= 0xd800 && value < 0xe000) || (value < 0x20 && value != 9 && value != 10 && value != 13);
+  return forbidden ? 0 : static_cast<char32_t>(value);
+}
+
+class Reader {
+ public:
+  Reader(const Sources& sources, FileId file, Diagnostics& diagnostics, Document& out)
+      : sources_(sources),
+        diagnostics_(diagnostics),
+        out_(out),
+        text_(sources.text(file)),
+        base_(sources.begin(file).offset) {}
+
+  bool run();
+
+ private:
+  Loc loc(size_t at) const { return {base_ + static_cast<uint32_t>(at)}; }
+  bool at(std::string_view word) const { return text_.substr(p_, word.size()) == word; }
+  bool broken(size_t at, std::string_view what) {
+    diagnostics_.report(Diag::XmlSyntax, loc(at), {what}).length(1);
+    return false;
+  }
+  void skipBlanks() {
+    while (p_ < text_.size() && isBlank(text_[p_])) ++p_;
+  }
+  std::string_view name() {
+    const size_t begin = p_;
+    if (p_ < text_.size() && beginsName(text_[p_]))
+      while (p_ < text_.size() && inName(text_[p_])) ++p_;
+    return text_.substr(begin, p_ - begin);
+  }
+  // Passes over what begins at p_ and ends with `end`.
+  bool skipTo(std::string_view end, std::string_view what) {
+    const size_t found = text_.find(end, p_);
+    if (found == std::string_view::npos) return broken(p_, what);
+    p_ = found + end.size();
+    return true;
+  }
+
+  bool readMarkup();
+  bool readDocumentType();
+  bool readStart();
+  bool readAttributes();
+  bool readEnd();
+  bool readText();
+  bool readEntity(size_t end, char32_t& character, uint32_t& length);
+  bool checkEntities(size_t begin, size_t end);
+  void close(size_t end);
+  void addRun(size_t begin, size_t end) {
+    if (end > begin) out_.runs.push_back({loc(begin), static_cast<uint32_t>(end - begin), 0});
+  }
+
+  const Sources& sources_;
+  Diagnostics& diagnostics_;
+  Document& out_;
+  std::string_view text_;
+  uint32_t base_;
+  size_t p_ = 0;
+  uint32_t open_ = kNone;  // the innermost open element
+  uint32_t depth_ = 0;
+  std::vector<uint32_t> last_child_;  // by depth
+};
+
+bool Reader::run() {
+  while (p_ < text_.size()) {
+    const bool good = text_[p_] == '<' ? readMarkup() : readText();
+    if (!good) return false;
+  }
+  if (open_ != kNone) {
+    const Element& element = out_.elements[open_];
+    diagnostics_.report(Diag::XmlNotClosed, element.loc, {element.name})
+        .length(static_cast<uint32_t>(element.name.size()));
+    return false;
+  }
+  if (out_.elements.empty()) return broken(0, "it holds no element");
+  return true;
+}
+
+bool Reader::readMarkup() {
+  if (at("<!--")) return skipTo("-->", "this comment has no `-->`");
+  if (at("<?")) return skipTo("?>", "this instruction has no `?>`");
+  if (at("<![CDATA[")) {
+    if (open_ == kNone) return broken(p_, "text stands outside of the root element");
+    const size_t begin = p_ + 9;
+    if (!skipTo("]]>", "this CDATA section has no `]]>`")) return false;
+    addRun(begin, p_ - 3);
+    return true;
+  }
+  if (at("<!DOCTYPE")) return readDocumentType();
+  if (at("</")) return readEnd();
+  return readStart();
+}
+
+// <!DOCTYPE name [ … ]>: its declarations are not read, the entities among them stay unknown.
+bool Reader::readDocumentType() {
+  const size_t begin = p_;
+  uint32_t brackets = 0;
+  for (; p_ < text_.size(); ++p_) {
+    const char c = text_[p_];
+    if (c == '[') ++brackets;
+    if (c == ']' && brackets > 0) --brackets;
+    if (c == '"' || c == '\'') {
+      const size_t close = text_.find(c, p_ + 1);
+      if (close == std::string_view::npos) break;
+      p_ = close;
+    }
+    if (c == '>' && brackets == 0) {
+      ++p_;
+      return true;
+    }
+  }
+  return broken(begin, "this DOCTYPE has no `>`");
+}
+
+bool Reader::readStart() {
+  const size_t begin = p_++;
+  const size_t name_at = p_;
+  const std::string_view full = name();
+  if (full.empty()) return broken(begin, "a name must follow `<`; write `&lt;` for the character itself");
+  if (open_ == kNone && !out_.elements.empty()) return broken(begin, "a second root element begins");
+  if (depth_ == kMaxDepth || out_.elements.size() == kMaxElements) {
+    const std::string limit = std::to_string(depth_ == kMaxDepth ? kMaxDepth : kMaxElements);
+    diagnostics_.report(Diag::XmlTooLarge, loc(name_at),
+                        {limit, depth_ == kMaxDepth ? "elements inside each other" : "elements"});
+    return false;
+  }
+  const auto index = static_cast<uint32_t>(out_.elements.size());
+  out_.elements.push_back({withoutPrefix(full),
+                           loc(name_at),
+                           open_,
+                           kNone,
+                           kNone,
+                           static_cast<uint32_t>(out_.attributes.size()),
+                           0,
+                           static_cast<uint32_t>(out_.runs.size()),
+                           static_cast<uint32_t>(out_.runs.size()),
+                           {}});
+  if (open_ != kNone) {
+    uint32_t& link = out_.elements[open_].first_child == kNone ? out_.elements[open_].first_child
+                                                               : out_.elements[last_child_[depth_]].next;
+    link = index;
+  }
+  if (last_child_.size() < depth_ + 2) last_child_.resize(depth_ + 2);
+  last_child_[depth_] = index;
+  open_ = index;
+  ++depth_;
+  if (!readAttributes()) return false;
+  if (text_[p_] == '/') {
+    close(p_);
+    p_ += 2;
+  } else {
+    ++p_;
+  }
+  return true;
+}
+
+// Leaves p_ at the `>` or `/>`.
+bool Reader::readAttributes() {
+  for (;;) {
+    const size_t before = p_;
+    skipBlanks();
+    if (p_ == text_.size()) return broken(p_, "the file ends inside a tag");
+    if (text_[p_] == '>' || at("/>")) return true;
+    const size_t name_at = p_;
+    const std::string_view full = name();
+    if (full.empty()) return broken(p_, "an attribute, `>` or `/>` is needed");
+    if (before == name_at) return broken(name_at, "a blank must stand before an attribute");
+    skipBlanks();
+    if (!at("=")) return broken(p_, "`=` and a value must follow an attribute's name");
+    ++p_;
+    skipBlanks();
+    if (!at("\"") && !at("'")) return broken(p_, "the value of an attribute needs quotes");
+    const size_t begin = p_ + 1;
+    const size_t end = text_.find(text_[p_], begin);
+    if (end == std::string_view::npos) return broken(p_, "this quote is not closed");
+    if (const size_t open = text_.substr(begin, end - begin).find('<'); open != std::string_view::npos)
+      return broken(begin + open, "`<` cannot stand in a value; write `&lt;`, or close the quote before it");
+    if (!checkEntities(begin, end)) return false;
+    out_.attributes.push_back({withoutPrefix(full), text_.substr(begin, end - begin), loc(begin)});
+    ++out_.elements[open_].attribute_count;
+    p_ = end + 1;
+  }
+}
+
+void Reader::close(size_t end) {
+  Element& element = out_.elements[open_];
+  element.end_run = static_cast<uint32_t>(out_.runs.size());
+  element.end = loc(end);
+  open_ = element.parent;
+  --depth_;
+}
+
+bool Reader::readEnd() {
+  const size_t begin = p_;
+  p_ += 2;
+  const std::string_view full = name();
+  skipBlanks();
+  if (!at(">")) return broken(p_, "`>` must close an end tag");
+  ++p_;
+  if (open_ == kNone || withoutPrefix(full) != out_.elements[open_].name) {
+    if (open_ == kNone) return broken(begin, "this end tag closes nothing");
+    const Element& element = out_.elements[open_];
+    const std::string line = std::to_string(sources_.place(element.loc).line);
+    diagnostics_.report(Diag::XmlWrongEnd, loc(begin + 2), {full, element.name, line});
+    return false;
+  }
+  close(begin);
+  return true;
+}
+
+// The entity at p_, which ends before `end`.
+bool Reader::readEntity(size_t end, char32_t& character, uint32_t& length) {
+  const size_t stop = text_.substr(0, std::min(end, p_ + 12)).find(';', p_);
+  const std::string_view entity =
+      stop == std::string_view::npos ? std::string_view{} : text_.substr(p_ + 1, stop - p_ - 1);
+  character = characterOf(entity);
+  length = static_cast<uint32_t>(entity.size() + 2);
+  if (character != 0) return true;
+  const std::string shown = stop == std::string_view::npos ? "&" : "&" + std::string(entity) + ";";
+  diagnostics_.report(Diag::XmlEntity, loc(p_), {shown}).length(static_cast<uint32_t>(shown.size()));
+  return false;
+}
+
+bool Reader::checkEntities(size_t begin, size_t end) {
+  char32_t character;
+  uint32_t length;
+  while ((begin = text_.substr(0, end).find('&', begin)) != std::string_view::npos) {
+    p_ = begin;
+    if (!readEntity(end, character, length)) return false;
+    begin += length;
+  }
+  return true;
+}
+
+bool Reader::readText() {
+  const size_t begin = p_;
+  size_t end = text_.find('<', p_);
+  if (end == std::string_view::npos) end = text_.size();
+  if (open_ == kNone) {
+    skipBlanks();
+    return p_ >= end || broken(p_, out_.elements.empty() ? "text stands before the root element"
+                                                         : "text stands behind the root element");
+  }
+  size_t plain = begin;
+  for (size_t i = begin; i < end;) {
+    const void* ampersand = memchr(text_.data() + i, '&', end - i);
+    if (ampersand == nullptr) break;
+    i = static_cast<size_t>(static_cast<const char*>(ampersand) - text_.data());
+    addRun(plain, i);
+    p_ = i;
+    Run run{loc(i), 0, 0};
+    if (!readEntity(end, run.character, run.length)) return false;
+    out_.runs.push_back(run);
+    i += run.length;
+    plain = i;
+  }
+  addRun(plain, end);
+  p_ = end;
+  return true;
+}
+
+}  // namespace
+
+const Attribute* Document::attribute(const Element& element, std::string_view name) const {
+  for (uint32_t i = 0; i < element.attribute_count; ++i)
+    if (attributes[element.first_attribute + i].name == name) return &attributes[element.first_attribute + i];
+  return nullptr;
+}
+
+std::string Document::value(const Element& element, std::string_view name) const {
+  const Attribute* found = attribute(element, name);
+  if (found == nullptr) return {};
+  std::string out;
+  for (size_t i = 0; i < found->raw.size();) {
+    if (found->raw[i] != '&') {
+      out += found->raw[i++];
+      continue;
+    }
+    const size_t end = found->raw.find(';', i);  // read() has seen to it
+    appendUtf8(out, characterOf(found->raw.substr(i + 1, end - i - 1)));
+    i = end + 1;
+  }
+  return out;
+}
+
+const Element* Document::child(const Element& element, std::string_view name) const {
+  for (const Element* e = firstChild(element); e != nullptr; e = next(*e))
+    if (e->name == name) return e;
+  return nullptr;
+}
+
+std::string Document::text(const Element& element, const Sources& sources) const {
+  std::string out;
+  if (elements.empty()) return out;
+  const FileId file = sources.fileOf(elements[0].loc);
+  const uint32_t base = sources.begin(file).offset;
+  for (uint32_t i = element.first_run; i < element.end_run; ++i) {
+    if (runs[i].character != 0)
+      appendUtf8(out, runs[i].character);
+    else
+      out += sources.text(file).substr(runs[i].loc.offset - base, runs[i].length);
+  }
+  return out;
+}
+
+bool read(const Sources& sources, FileId file, Diagnostics& diagnostics, Document& out) {
+  return Reader(sources, file, diagnostics, out).run();
+}
+
+}  // namespace rung::xml

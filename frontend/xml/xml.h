@@ -1,0 +1,63 @@
+// The reader of XML files. In: one source text (UTF-8). Out: its elements, attributes and runs of text, all with their
+// places, in flat lists; or one error at the place where the text stops being XML. Names lose their namespace prefix,
+// comments and processing instructions are passed over, and no entity is known but the five of XML and the numbered
+// ones, so nothing expands. Called by the readers of vendor files.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/source/diagnostics.h"
+
+namespace rung::xml {
+
+constexpr uint32_t kNone = UINT32_MAX;
+constexpr uint32_t kMaxDepth = 1000;         // elements inside each other
+constexpr uint32_t kMaxElements = 1u << 24;  // in one file
+
+struct Attribute {
+  std::string_view name;
+  std::string_view raw;  // with its entities; value() decodes
+  Loc loc;               // of the value
+};
+
+// Text of the file as it stands, or what one entity stands for.
+struct Run {
+  Loc loc;
+  uint32_t length;     // bytes in the file
+  char32_t character;  // of an entity; 0: the text stands in the file
+};
+
+struct Element {
+  std::string_view name;               // without a prefix
+  Loc loc;                             // of the name
+  uint32_t parent, first_child, next;  // indices of elements, or kNone
+  uint32_t first_attribute, attribute_count;
+  uint32_t first_run, end_run;  // the text in it and in all elements below it
+  Loc end;                      // of its end tag, or of the `/>`
+};
+
+struct Document {
+  std::vector<Element> elements;  // in the order of the file; the root is the first
+  std::vector<Attribute> attributes;
+  std::vector<Run> runs;
+
+  const Attribute* attribute(const Element& element, std::string_view name) const;
+  // Its value, decoded; empty where there is none.
+  std::string value(const Element& element, std::string_view name) const;
+  // The first child of this name, or null.
+  const Element* child(const Element& element, std::string_view name) const;
+  const Element* next(const Element& element) const { return at(element.next); }
+  const Element* firstChild(const Element& element) const { return at(element.first_child); }
+  std::string text(const Element& element, const Sources& sources) const;  // decoded
+
+ private:
+  const Element* at(uint32_t index) const { return index == kNone ? nullptr : &elements[index]; }
+};
+
+// False: an error has been reported, and the document holds what stands before it.
+[[nodiscard]] bool read(const Sources& sources, FileId file, Diagnostics& diagnostics, Document& out);
+
+}  // namespace rung::xml

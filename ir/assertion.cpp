@@ -1,0 +1,33 @@
+// What the report of an assertion shows: see assertion.h.
+#include "ir/assertion.h"
+
+namespace rung::ir {
+
+rung_type_kind assertedKind(const types::TypeTable& types, TypeId type) {
+  const types::TypeKind kind = types.kind(type);
+  if (kind == types::TypeKind::String) return RUNG_STRING;
+  if (kind == types::TypeKind::WString) return RUNG_WSTRING;
+  return types.info(types.resolve(type)).kind == types::TypeKind::Enum ? RUNG_ENUM : hostKind(types, type);
+}
+
+AssertionTexts assertionTexts(const Module& module, const Body& body, const Stmt& stmt) {
+  AssertionTexts out;
+  out.place = sourcePlace(module, body, stmt.loc);
+  if (!body.origin.path && stmt.loc) {
+    out.source = module.sources.line(module.sources.fileOf(stmt.loc), out.place.line);
+  }
+  if (stmt.d != 0) out.text = module.names.text(NameId{stmt.d});
+  if (stmt.e != 0) out.shown = module.names.text(NameId{stmt.e});
+  if (stmt.b == 0) return out;
+  const types::TypeInfo& type = module.types.info(module.types.resolve(body.expr(ExprId{stmt.b}).type));
+  if (type.kind != types::TypeKind::Enum) return out;
+  for (const auto& [name, value] : type.items) {
+    out.items += module.names.text(name);
+    out.items += '\0';
+    out.items += std::to_string(value);
+    out.items += '\0';
+  }
+  return out;
+}
+
+}  // namespace rung::ir

@@ -1,0 +1,105 @@
+// Lowering of ARRAY[*], which a VAR_IN_OUT may be. In memory and in a call it is a pointer to the first element and two
+// numbers for each dimension (sema::Var::bounds). An element is reached through a pointer to one row of elements, long
+// enough for all; its check is a statement in front, because the bounds are no constants.
+#include "ir/lower/lowering.h"
+
+namespace rung::ir {
+
+namespace {
+
+constexpr uint64_t kMostBytes = uint64_t{1} << 30;
+
+}  // namespace
+
+// The pointer or a bound: a local of a function, a field of the instance.
+ExprId BodyLowering::openArrayPart(rung::ExprId array, sema::VarId part, Loc loc) {
+  const sema::Var& var = project_.var(part);
+  const TypeId type =
+      types_.isOpenArray(var.type) ? types_.pointer(types_.info(strip(var.type)).base) : strip(var.type);
+  if (var.storage == sema::Storage::Local) return local(local_of_[var.field] - 1, loc);
+  if (tree_.kind(array) == rung::ExprKind::Member)
+    return field(lowerPlace(tree_.as<MemberExpr>(array).base), var.field, type, loc);
+  return field(self(loc), var.field, type, loc);
+}
+
+ExprId BodyLowering::openArrayPointer(rung::ExprId array, Loc loc) { return openArrayPart(array, rootVar(array), loc); }
+
+ExprId BodyLowering::openArrayBound(rung::ExprId array, uint32_t index, Loc loc) {
+  return openArrayPart(array, {project_.var(rootVar(array)).bounds.index + index}, loc);
+}
+
+ExprId BodyLowering::openArrayElement(const IndexExpr& node) {
+  const Loc loc = node.h.loc;
+  const TypeId element = strip(node.h.type);
+  const TypeId number = types::kLInt;
+  ExprId offset;  // of the element, counted in elements
+  std::vector<ExprId> indices;
+  for (rung::ExprId index : tree_.list(node.indices)) {
+    Mark mark = here();
+    ExprId value = lowerValue(index);
+    for (ExprId& earlier : indices) spill(mark, {&earlier});
+    indices.push_back(value);
+  }
+  for (uint32_t i = 0; i < indices.size(); ++i) {
+    ExprId index = convertValue(indices[i], number, loc);
+    if (!isStable(index)) index = toTemp(index, loc);
+    auto bound = [&](uint32_t which) {
+      return convertValue(openArrayBound(node.base, 2 * i + which, loc), number, loc);
+    };
+    if ((in_.options.checks & kCheckIndex) != 0) {
+      ExprId outside = binary(Op::Or, types::kBool, binary(Op::Lt, types::kBool, index, bound(0), loc),
+                              binary(Op::Gt, types::kBool, index, bound(1), loc), loc);
+      if (guard_) outside = binary(Op::And, types::kBool, guard_, outside, loc);
+      StmtId fault = block([&] {
+        append(
+            {.kind = StmtKind::Fault, .op = static_cast<uint8_t>(types::Fault::Index), .loc = loc, .a = index.index});
+      });
+      append({.kind = StmtKind::If, .loc = loc, .a = outside.index, .b = fault.index});
+    }
+    ExprId step = binary(Op::Sub, number, index, bound(0), loc);
+    if (!offset) {
+      offset = step;
+      continue;
+    }
+    ExprId count =
+        binary(Op::Add, number, binary(Op::Sub, number, bound(1), bound(0), loc), constant(number, 1, loc), loc);
+    offset = binary(Op::Add, number, binary(Op::Mul, number, offset, count, loc), step, loc);
+  }
+  const uint64_t size = std::max<uint64_t>(1, types_.info(element).size);
+  const types::Dimension all{0, static_cast<int64_t>(kMostBytes / size) - 1};
+  const TypeId row = types_.array(element, {&all, 1});
+  types_.layout(row);
+  const ExprId pointer = convert(openArrayPointer(node.base, loc), types_.pointer(row), loc);
+  const bool of_block = project_.var(rootVar(node.base)).storage == sema::Storage::Field;  // may be called without it
+  const ExprId base = add({.kind = ExprKind::Deref,
+                           .checks = static_cast<uint8_t>(of_block ? in_.options.checks & kCheckNull : 0),
+                           .type = row,
+                           .loc = loc,
+                           .a = pointer.index});
+  const auto first = static_cast<uint32_t>(body_.operands.size());
+  body_.operands.push_back(offset);
+  return add({.kind = ExprKind::Index, .type = element, .loc = loc, .a = base.index, .b = first, .c = 1});
+}
+
+BodyLowering::OpenArray BodyLowering::passOpenArray(rung::ExprId argument, TypeId pin_type) {
+  const Loc loc = tree_.loc(argument);
+  const TypeInfo& given = types_.info(strip(tree_.expr(argument).type));
+  const uint32_t count = 2 * types_.info(strip(pin_type)).length;
+  OpenArray passed;
+  if (given.dimensions.empty()) {  // passed on
+    passed.pointer = openArrayPointer(argument, loc);
+    for (uint32_t i = 0; i < count; ++i) passed.bounds.push_back(openArrayBound(argument, i, loc));
+    return passed;
+  }
+  const TypeId pointer = types_.pointer(types_.info(strip(pin_type)).base);
+  passed.pointer =
+      add({.kind = ExprKind::Address, .type = pointer, .loc = loc, .a = stable(lowerPlace(argument)).index});
+  for (uint32_t i = 0; i < count; ++i) {
+    const types::Dimension& dimension = given.dimensions[i / 2];
+    passed.bounds.push_back(
+        constant(types::kDInt, static_cast<uint64_t>(i % 2 == 0 ? dimension.low : dimension.high), loc));
+  }
+  return passed;
+}
+
+}  // namespace rung::ir

@@ -1,0 +1,57 @@
+// LOWER_BOUND and UPPER_BOUND. IEC 61131-3 ed. 3 table 16, 1 and 2. In: calls. Out: a literal where the array has its
+// own bounds, a BoundExpr where it is an ARRAY[*] of a VAR_IN_OUT, whose bounds come with the variable that is bound to
+// it.
+#include "sema/bodies/bodies.h"
+
+namespace rung::sema {
+
+TypeId checkBoundCall(Context& context, ExprId& expr, NameId name) {
+  const std::string_view word = text(context, name);
+  const bool lower = sameIdentifier(word, "LOWER_BOUND"), upper = sameIdentifier(word, "UPPER_BOUND");
+  if (!lower && !upper) return {};
+  const CallExpr node = context.tree().as<CallExpr>(expr);
+  const auto fail = [&] { return context.tree().expr(expr).type = types::kError; };
+  if (node.arguments.count != 2) {
+    context.report(Diag::WrongArgumentCount, node.h.loc, {word, "2", std::to_string(node.arguments.count)});
+    checkLooseArguments(context, node);
+    return fail();
+  }
+  ExprId array = context.tree().list(node.arguments)[0].value, number = context.tree().list(node.arguments)[1].value;
+  const TypeId type = check(context, array, {}, Access::Read);
+  if (checkExpr(context, number) == types::kError || type == types::kError || !type) return fail();
+  const types::TypeInfo& info = context.types().info(context.types().resolve(type));
+  if (info.kind != TypeKind::Array) {
+    context.report(Diag::NotAnArray, context.tree().begin(array), {context.types().spell(type)});
+    return fail();
+  }
+  const uint32_t dimensions = info.dimensions.empty() ? info.length : static_cast<uint32_t>(info.dimensions.size());
+  const std::optional<int64_t> dimension = constantInteger(context, number);
+  if (!dimension || *dimension < 1 || *dimension > dimensions) {
+    context.report(Diag::BoundDimension, context.tree().begin(number), {word, std::to_string(dimensions)});
+    return fail();
+  }
+  const auto index = static_cast<uint32_t>(*dimension - 1);
+  if (info.dimensions.empty()) {
+    BoundExpr bound{};
+    bound.h.kind = ExprKind::Bound;
+    bound.h.loc = node.h.loc;
+    bound.h.type = types::kDInt;
+    bound.array = array;
+    bound.index = 2 * index + (upper ? 1 : 0);
+    expr = context.tree().add<ExprId>(bound);
+    return types::kDInt;
+  }
+  const int64_t value = lower ? info.dimensions[index].low : info.dimensions[index].high;
+  LiteralExpr literal{};
+  literal.h.kind = ExprKind::Literal;
+  literal.h.op = static_cast<uint8_t>(LiteralKind::Integer);
+  literal.h.bits = value < 0 ? kLiteralNegative : 0;
+  literal.h.loc = node.h.loc;
+  literal.h.is_constant = 1;
+  literal.h.type = types::kDInt;
+  literal.setValue(static_cast<uint64_t>(value < 0 ? -value : value));
+  expr = context.tree().add<ExprId>(literal);
+  return types::kDInt;
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,228 @@
+// Pointers and references: taking addresses, binding references, and arithmetic on addresses as CODESYS does it.
+// In: checked or unchecked operands. Out: AddressOf and Deref nodes, and arithmetic on the 64-bit numbers of addresses.
+// TM/TP manual 5.2, 5.3 (ADR, BITADR, POINTER TO); IEC 61131-3 ed. 3, 6.4.4.10 (REF_TO).
+#include "sema/bodies/bodies.h"
+#include "sema/checks/addressable.h"
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+namespace {
+
+bool isNamed(const Context& context, NameId name, std::string_view word) {
+  const std::string_view spelled = text(context, name);
+  return spelled.size() == word.size() && sameIdentifier(spelled, word);
+}
+
+ExprId addressOf(Context& context, ExprId place, TypeId type, Loc loc) {
+  AddressOfExpr node{};
+  node.h.kind = ExprKind::AddressOf;
+  node.h.loc = loc;
+  node.h.type = type;
+  node.place = place;
+  return context.tree().add<ExprId>(node);
+}
+
+ExprId literal(Context& context, LiteralKind kind, TypeId type, uint64_t value, Loc loc) {
+  LiteralExpr node{};
+  node.h.kind = ExprKind::Literal;
+  node.h.op = static_cast<uint8_t>(kind);
+  node.h.loc = loc;
+  node.h.is_constant = 1;
+  node.h.type = type;
+  node.setValue(value);
+  return context.tree().add<ExprId>(node);
+}
+
+ExprId binary(Context& context, BinaryOp op, TypeId type, ExprId left, ExprId right, Loc loc) {
+  BinaryExpr node{};
+  node.h.kind = ExprKind::Binary;
+  node.h.op = static_cast<uint8_t>(op);
+  node.h.loc = loc;
+  node.h.type = type;
+  node.left = left;
+  node.right = right;
+  return context.tree().add<ExprId>(node);
+}
+
+// ADR(x), REF(x): the type is that of the operand, so that what it is assigned to decides whether it fits.
+TypeId checkAddress(Context& context, ExprId& expr, ExprId place) {
+  const Loc loc = context.tree().loc(expr);
+  const TypeId type = check(context, place, {}, Access::Address);
+  if (!type || type == types::kError) return types::kError;
+  if (!checkAddressable(context, place)) return types::kError;
+  expr = addressOf(context, place, context.types().pointer(type), loc);
+  return context.tree().expr(expr).type;
+}
+
+// BITADR(x) of a located BOOL: its bit offset, with the area in the two highest bits: %M 2#01, %I 2#10, %Q 2#11.
+TypeId checkBitAddress(Context& context, ExprId& expr, ExprId place) {
+  const Loc loc = context.tree().loc(expr);
+  if (check(context, place, {}, Access::Address) == types::kError) return types::kError;
+  std::optional<ImageView> view;
+  if (context.tree().kind(place) == ExprKind::Address) {
+    view = resolveAddress(context, context.tree().as<AddressExpr>(place).address, loc, {});
+  } else if (const Entity entity = entityOf(context, place); entity.what() == EntityKind::Var) {
+    const Var& var = context.project.vars[entity.index];
+    if (var.storage == Storage::Image) view = var.image;
+  }
+  if (!view) {
+    context.report(Diag::NoBitAddress, context.tree().begin(place));
+    return types::kError;
+  }
+  const uint32_t area = view->area == ImageArea::Memory ? 1 : view->area == ImageArea::Input ? 2 : 3;
+  expr =
+      literal(context, LiteralKind::Integer, types::kDWord, uint64_t{area} << 30 | (view->byte * 8 + view->bit), loc);
+  return types::kDWord;
+}
+
+// VAL(p) is p^. IEC syntax manual 5.3.1.3.2.
+TypeId checkVal(Context& context, ExprId& expr, ExprId pointer) {
+  DerefExpr deref{};
+  deref.h.kind = ExprKind::Deref;
+  deref.h.loc = context.tree().loc(expr);
+  deref.base = pointer;
+  expr = context.tree().add<ExprId>(deref);
+  return check(context, expr, {}, Access::Read);
+}
+
+// The reference or pointer itself, where the operand is what it refers to.
+TypeId checkIsValid(Context& context, ExprId& expr, ExprId operand) {
+  const Loc loc = context.tree().loc(expr);
+  const TypeId type = check(context, operand, {}, Access::Read);
+  if (!type || type == types::kError) return types::kError;
+  if (context.tree().kind(operand) == ExprKind::Deref) operand = context.tree().as<DerefExpr>(operand).base;
+  const TypeId own = context.tree().expr(operand).type;
+  if (context.types().kind(own) != TypeKind::Reference) {
+    context.report(Diag::NotAReference, context.tree().begin(operand), {"__ISVALIDREF", context.types().spell(own)});
+    return types::kError;
+  }
+  const ExprId null = literal(context, LiteralKind::Null, own, 0, loc);
+  expr = binary(context, BinaryOp::NotEqual, types::kBool, operand, null, loc);
+  return types::kBool;
+}
+
+// A pointer as the signed number of its first byte, so that negative steps are no overflow.
+void toNumber(Context& context, ExprId& expr) { wrapConvert(context, expr, types::kLInt); }
+
+bool isPointer(const Context& context, TypeId type) { return context.types().kind(type) == TypeKind::Pointer; }
+bool isWhole(const Context& context, TypeId type) {
+  const TypeKind kind = context.types().plainKind(type);
+  return types::TypeTable::isInteger(kind) || types::TypeTable::isBits(kind) || kind == TypeKind::IntegerLiteral;
+}
+
+}  // namespace
+
+TypeId checkAddressCall(Context& context, ExprId& expr, NameId name) {
+  TypeId (*of)(Context&, ExprId&, ExprId) = nullptr;
+  if (isNamed(context, name, "ADR") || isNamed(context, name, "REF")) of = checkAddress;
+  if (isNamed(context, name, "VAL")) of = checkVal;
+  if (isNamed(context, name, "BITADR")) of = checkBitAddress;
+  if (isNamed(context, name, "__ISVALIDREF")) of = checkIsValid;
+  if (of == nullptr) return {};
+  const CallExpr node = context.tree().as<CallExpr>(expr);
+  const Slice<Argument> arguments = node.arguments;
+  if (arguments.count != 1 || !context.tree().list(arguments)[0].value) {
+    context.report(Diag::WrongArgumentCount, node.h.loc, {text(context, name), "1", std::to_string(arguments.count)});
+    checkLooseArguments(context, node);
+    return context.tree().expr(expr).type = types::kError;
+  }
+  const TypeId type = of(context, expr, context.tree().list(arguments)[0].value);
+  return context.tree().expr(expr).type = type;
+}
+
+bool bindReference(Context& context, ExprId& place, TypeId reference) {
+  const TypeId wanted = context.types().info(context.types().resolve(reference)).base;
+  const bool zero = context.tree().kind(place) == ExprKind::Literal &&
+                    context.tree().as<LiteralExpr>(place).literal() == LiteralKind::Integer &&
+                    context.tree().as<LiteralExpr>(place).value() == 0;
+  const Loc loc = context.tree().loc(place);
+  if (zero) {  // REF= 0: it refers to nothing
+    place = literal(context, LiteralKind::Null, reference, 0, loc);
+    return true;
+  }
+  const TypeId type = check(context, place, {}, Access::Address);
+  if (!type || type == types::kError || wanted == types::kError) return false;
+  if (context.types().info(type).kind == TypeKind::NullLiteral) {
+    context.tree().expr(place).type = reference;
+    return true;
+  }
+  if (!checkAddressable(context, place)) return false;
+  const Fit fitness = fit(context, context.types().pointer(type), context.types().pointer(wanted));
+  if (fitness != Fit::Same) {
+    context.report(Diag::WrongType, context.tree().begin(place),
+                   {context.types().spell(type), "bound to the reference", context.types().spell(reference)});
+    return false;
+  }
+  place = addressOf(context, place, reference, loc);
+  return true;
+}
+
+TypeId checkPointerIndex(Context& context, ExprId& expr) {
+  IndexExpr& node = context.tree().as<IndexExpr>(expr);
+  const Loc loc = node.h.loc;
+  if (context.iec()) {
+    context.report(Diag::IndexOfPointer, loc);
+    return node.h.type = types::kError;
+  }
+  const ExprId pointer = node.base;
+  const TypeId type = context.tree().expr(pointer).type;
+  ExprId index = context.tree().list(node.indices)[0];
+  const TypeId given = checkExpr(context, index);
+  if (given == types::kError) return node.h.type = types::kError;
+  if (!isWhole(context, given)) {
+    context.report(Diag::IndexNotInteger, context.tree().loc(index), {context.types().spell(given)});
+    return node.h.type = types::kError;
+  }
+  const TypeId target = context.types().info(context.types().resolve(type)).base;
+  if (const PouId pou = pouOf(context, target)) resolvePou(context, pou);
+  if (!ensureLayout(context, target)) return node.h.type = types::kError;
+  if (given != types::kLInt) wrapConvert(context, index, types::kLInt);
+  const uint64_t size = context.types().info(context.types().resolve(target)).size;
+  const ExprId width = literal(context, LiteralKind::Integer, types::kLInt, size, loc);
+  ExprId sum = pointer;
+  toNumber(context, sum);
+  sum = binary(context, BinaryOp::Add, types::kLInt, sum,
+               binary(context, BinaryOp::Multiply, types::kLInt, index, width, loc), loc);
+  wrapConvert(context, sum, type);
+  DerefExpr deref{};
+  deref.h.kind = ExprKind::Deref;
+  deref.h.loc = loc;
+  deref.h.writable = 1;
+  deref.h.type = target;
+  deref.base = sum;
+  expr = context.tree().add<ExprId>(deref);
+  return target;
+}
+
+// CODESYS counts in bytes: p + 4 is 4 bytes behind p whatever it points to.
+TypeId combinePointers(Context& context, ExprId& self, TypeId expected) {
+  BinaryExpr& node = context.tree().as<BinaryExpr>(self);
+  const TypeId left = context.tree().expr(node.left).type, right = context.tree().expr(node.right).type;
+  const bool both = isPointer(context, left) && isPointer(context, right);
+  if (!both && !isWhole(context, isPointer(context, left) ? right : left)) return {};
+  const BinaryOp op = node.op();
+  const bool comparison = op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual;
+  if (context.iec() || (both && comparison)) return {};
+  if (isUntyped(context, left)) settle(context, node.left, types::kLInt);
+  if (isUntyped(context, right)) settle(context, node.right, types::kLInt);
+  const bool step = !both && (op == BinaryOp::Add || (op == BinaryOp::Subtract && isPointer(context, left)));
+  if (!step && !(both && op == BinaryOp::Subtract)) {  // a number like another: masks, MOD, comparisons
+    for (ExprId* side : {&node.left, &node.right}) {
+      if (isPointer(context, context.tree().expr(*side).type))
+        wrapConvert(context, *side, types::kULInt);
+      else if (comparison)
+        wrapConvert(context, *side, types::kULInt);
+    }
+    return combine(context, self, expected);
+  }
+  for (ExprId* side : {&node.left, &node.right}) {
+    if (context.tree().expr(*side).type != types::kLInt) toNumber(context, *side);
+  }
+  node.h.type = types::kLInt;
+  node.h.is_constant = 0;
+  if (step) wrapConvert(context, self, isPointer(context, left) ? left : right);
+  return context.tree().expr(self).type;
+}
+
+}  // namespace rung::sema

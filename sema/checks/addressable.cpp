@@ -1,0 +1,70 @@
+// Forbids the address of what has none: one bit, a value, a constant number. Arrays, structures and texts have memory
+// even when they are constant. Design §6; TM/TP manual 5.2 (ADR).
+//   passes  p := ADR(level);  p := ADR(motors[2].speed);  p := ADR(table) where table is VAR CONSTANT
+//   fails   p := ADR(word.3);  p := ADR(a + b);  p := ADR(limit) where limit : INT is VAR CONSTANT      E0537
+// Called for the operand of ADR and REF, and for what a reference is bound to.
+#include "sema/checks/addressable.h"
+
+namespace rung::sema {
+
+namespace {
+
+// What is wrong with the variable as the root of a place, or nothing.
+const char* wrongWith(const Context& context, VarId id) {
+  const Var* var = &context.project.var(id);
+  if (var->external) var = &context.project.var(var->external);
+  if (var->storage == Storage::Image && var->image.is_bit) return "one bit of the process image";
+  if (var->storage == Storage::Constant) return "a constant";
+  const bool number = types::TypeTable::isScalar(context.types().plainKind(var->type));
+  return var->constant && number && var->section != SectionKind::InOut ? "a constant" : nullptr;
+}
+
+const char* wrongWith(const Context& context, ExprId place) {
+  const Tree& tree = context.tree();
+  for (;;) {
+    switch (tree.kind(place)) {
+      case ExprKind::Name:
+      case ExprKind::Member: {
+        const Entity entity = entityOf(context, place);
+        if (entity.what() == EntityKind::EnumValue) return "a constant";
+        if (entity.what() == EntityKind::Program) return nullptr;
+        if (entity.what() == EntityKind::Pou)
+          return context.project.pou(PouId{entity.index}).kind == PouKind::Program ? nullptr : "the name of a POU";
+        if (entity.what() != EntityKind::Var) return "the name of a type";
+        if (const char* wrong = wrongWith(context, VarId{entity.index})) return wrong;
+        if (tree.kind(place) == ExprKind::Name || isWhole(context, tree.as<MemberExpr>(place))) return nullptr;
+        place = tree.as<MemberExpr>(place).base;
+        break;
+      }
+      case ExprKind::Index: place = tree.as<IndexExpr>(place).base; break;
+      case ExprKind::Deref: return nullptr;
+      case ExprKind::BitAccess: return tree.as<BitAccessExpr>(place).width == 1 ? "one bit" : "a part of a number";
+      case ExprKind::Address: return tree.expr(place).type == types::kBool ? "one bit of the process image" : nullptr;
+      case ExprKind::Error: return nullptr;
+      case ExprKind::Literal:
+      case ExprKind::TypedName: return "a constant";
+      case ExprKind::Unary:
+      case ExprKind::Binary:
+      case ExprKind::Call:
+      case ExprKind::Range:
+      case ExprKind::ArrayInit:
+      case ExprKind::Repeat:
+      case ExprKind::StructInit:
+      case ExprKind::Convert:
+      case ExprKind::This:
+      case ExprKind::Super:
+      case ExprKind::Bound:
+      case ExprKind::AddressOf: return "a value";
+    }
+  }
+}
+
+}  // namespace
+
+bool checkAddressable(Context& context, ExprId place) {
+  const char* wrong = wrongWith(context, place);
+  if (wrong != nullptr) context.report(Diag::NoAddress, context.tree().begin(place), {wrong});
+  return wrong == nullptr;
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,11 @@
+// Forbids the address of what has none; see addressable.cpp.
+#pragma once
+
+#include "sema/bodies/bodies.h"
+
+namespace rung::sema {
+
+// False after a report.
+bool checkAddressable(Context& context, ExprId place);
+
+}  // namespace rung::sema

@@ -1,0 +1,179 @@
+// Mocks of tests (design §11). A mock replaces a function or block in the tests that name it. It has the pins and the
+// result of what it replaces, so each test is checked with the original; for `rung test`, tests with mocks are then
+// checked and translated once more for each set of mocks (Options::mocks), where the replaced names mean the mocks.
+//   passes  {replaces 'Level'} FUNCTION Full : REAL …   {test} {mock 'Full'} PROGRAM stops_when_full …
+//   fails   {replaces 'Levl'} FUNCTION Full : REAL …                                             E0621
+//   fails   {replaces 'Level'} FUNCTION_BLOCK Full …                                             E0622
+//   fails   {replaces 'Level'} FUNCTION Full : INT …                                             E0623
+//   fails   {test} {mock 'Ful'} PROGRAM stops_when_full …                                        E0624
+//   fails   {test} {mock 'Full'} {mock 'Empty'} PROGRAM stops_when_full …                        E0625
+//   fails   {mock 'Full'} PROGRAM Main …                                                         E0626
+#include "sema/checks/mocks.h"
+
+#include <algorithm>
+
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+void chooseTests(Context& context) {
+  Project& project = context.project;
+  const Options& options = project.options;
+  std::vector<NameId> chosen;
+  for (const std::string& name : options.mocks) chosen.push_back(keyOf(context, context.names().intern(name)));
+  const auto byIndex = [](NameId a, NameId b) { return a.index < b.index; };
+  std::sort(chosen.begin(), chosen.end(), byIndex);
+  for (uint32_t i = 1; i < project.pous.size(); ++i) {
+    Pou& pou = project.pous[i];
+    for (const Pragma& pragma : context.tree().list(context.tree().decl(pou.decl).pragmas)) {
+      if (keyOf(context, pragma.name) != context.scopes.words.mock) continue;
+      pou.mocks.push_back(keyOf(context, context.names().intern(context.tree().text(pragma.value))));
+    }
+    std::sort(pou.mocks.begin(), pou.mocks.end(), byIndex);
+    if (pou.test) {
+      pou.left_out = !options.with_tests || pou.mocks != chosen;
+    } else if (pou.replaces && std::count(chosen.begin(), chosen.end(), keyOf(context, pou.name)) != 0) {
+      pou.test_only = false;  // the program uses it now
+      context.scopes.mocks.insert(keyOf(context, pou.replaces), entity(PouId{i}));
+    } else {
+      pou.left_out = pou.replaces || (pou.test_only && !options.with_tests);
+    }
+  }
+}
+
+namespace {
+
+// An error at a pragma marks all of it.
+Report reportPragma(Context& context, Diag diag, const Pragma& pragma, std::initializer_list<std::string_view> args) {
+  const Sources& sources = context.project.sources;
+  const FileId file = sources.fileOf(pragma.loc);
+  const size_t at = pragma.loc.offset - sources.begin(file).offset, end = sources.text(file).find('}', at);
+  Report report = context.report(diag, pragma.loc, args);
+  if (end != std::string_view::npos) report.length(static_cast<uint32_t>(end + 1 - at));
+  return report;
+}
+
+struct Pin {
+  VarId var;
+  std::string is;  // `VAR_INPUT INT`
+};
+
+std::vector<Pin> pinsOf(Context& context, PouId id) {
+  std::vector<Pin> pins;
+  for (const VarId var_id : context.project.pou(id).vars) {
+    const Var& var = context.project.var(var_id);
+    const char* const section = var.section == SectionKind::Input    ? "`VAR_INPUT "
+                                : var.section == SectionKind::Output ? "`VAR_OUTPUT "
+                                : var.section == SectionKind::InOut  ? "`VAR_IN_OUT "
+                                                                     : nullptr;
+    if (section != nullptr) pins.push_back({var_id, section + context.types().spell(var.type) + "`"});
+  }
+  return pins;
+}
+
+void compare(Context& context, PouId mock_id, PouId original_id) {
+  Project& project = context.project;
+  const Pou &mock = project.pou(mock_id), &original = project.pou(original_id);
+  const std::string_view mock_name = context.names().text(mock.name),
+                         original_name = context.names().text(original.name);
+  const auto differs = [&](Loc loc, Loc there, std::string_view what, std::string_view is, std::string_view is_there) {
+    Report report = context.report(Diag::MockDiffers, loc, {what, is, mock_name, is_there, original_name});
+    if (there) report.note(there, Note::DeclaredHere);
+  };
+  const auto resultOf = [&](const Pou& pou) {
+    return pou.result ? '`' + context.types().spell(pou.result) + '`' : std::string("missing");
+  };
+  if (resultOf(mock) != resultOf(original))
+    differs(mock.loc, original.loc, "the result", resultOf(mock), resultOf(original));
+  const std::vector<Pin> pins = pinsOf(context, mock_id), wanted = pinsOf(context, original_id);
+  for (size_t i = 0; i < std::max(pins.size(), wanted.size()); ++i) {
+    const Var* const pin = i < pins.size() ? &project.var(pins[i].var) : nullptr;
+    const Var* const other = i < wanted.size() ? &project.var(wanted[i].var) : nullptr;
+    if (pin != nullptr && other != nullptr && context.names().same(pin->name, other->name)) {
+      if (pins[i].is == wanted[i].is) continue;
+      const std::string what = "the pin `" + spelled(context, pin->name) + "`";
+      return differs(pin->loc, other->loc, what, pins[i].is, wanted[i].is);
+    }
+    const std::string what = "pin " + std::to_string(i + 1);
+    const auto nameOf = [&](const Var* var) {
+      return var == nullptr ? std::string("missing") : '`' + spelled(context, var->name) + '`';
+    };
+    return differs(pin != nullptr ? pin->loc : mock.loc, other != nullptr ? other->loc : original.loc, what,
+                   nameOf(pin), nameOf(other));
+  }
+}
+
+bool canBeReplaced(const Pou& original, const Pou& mock) {
+  return original.kind == mock.kind && mock.kind != PouKind::Program && !original.generic && !original.extensible &&
+         original.operator_kind == Pou::Operator::None && !original.test && !original.replaces && !mock.test;
+}
+
+void checkReplaced(Context& context, PouId id, const Pragma& pragma) {
+  const Entity found = lookUp(context, context.project.pou(id).replaces);
+  const Pou& mock = context.project.pou(id);
+  const std::string_view wanted = context.names().text(mock.replaces);
+  if (found.what() != EntityKind::Pou) {
+    if (context.tree().lost_names) return;
+    reportPragma(context, Diag::MockOfUnknown, pragma, {wanted}).didYouMean(nearestName(context, mock.replaces));
+    return;
+  }
+  const PouId original{found.index};
+  if (!canBeReplaced(context.project.pou(original), mock)) {
+    reportPragma(context, Diag::MockOfOtherKind, pragma, {context.names().text(mock.name), wanted})
+        .note(context.project.pou(original).loc, Note::DeclaredHere);
+    return;
+  }
+  if (isBroken(context, id) || isBroken(context, original)) return;
+  resolvePou(context, id);
+  compare(context, id, original);
+}
+
+}  // namespace
+
+void checkMocks(Context& context) {
+  Project& project = context.project;
+  if (!project.options.mocks.empty()) return;  // was done with the originals
+  const Scopes::Words& words = context.scopes.words;
+  std::vector<bool> taken(project.pous.size());
+  for (uint32_t i = 1; i < project.pous.size(); ++i) {
+    const Pou& pou = project.pous[i];
+    if (pou.library) continue;
+    Context there = at(context, {}, pou.file, false);
+    std::vector<std::pair<NameId, PouId>> replaced;
+    for (const Pragma& pragma : context.tree().list(context.tree().decl(pou.decl).pragmas)) {
+      const NameId key = keyOf(context, pragma.name);
+      if (key == words.replaces) checkReplaced(there, PouId{i}, pragma);
+      if (key != words.mock) continue;
+      if (!pou.test) {
+        reportPragma(context, Diag::MockOutsideTest, pragma, {context.names().text(pou.name)});
+        break;
+      }
+      const NameId name = context.names().intern(context.tree().text(pragma.value));
+      const Entity found = lookUp(there, name);
+      if (found.what() != EntityKind::Pou || !project.pous[found.index].replaces) {
+        std::vector<std::string_view> mocks;
+        for (const Pou& other : project.pous)
+          if (other.replaces) mocks.push_back(context.names().text(other.name));
+        reportPragma(context, Diag::NoMock, pragma, {context.names().text(name)})
+            .didYouMean(nearest(context.names().text(name), mocks));
+        continue;
+      }
+      taken[found.index] = true;
+      const Pou& mock = project.pous[found.index];
+      for (const auto& [other, by] : replaced) {
+        if (other != keyOf(context, mock.replaces)) continue;
+        reportPragma(context, Diag::TwoMocks, pragma,
+                     {context.names().text(project.pou(by).name), context.names().text(mock.name),
+                      context.names().text(mock.replaces)});
+      }
+      replaced.push_back({keyOf(context, mock.replaces), PouId{found.index}});
+    }
+  }
+  if (project.diagnostics.hasErrors()) return;
+  for (uint32_t i = 1; i < taken.size(); ++i) {
+    const Pou& pou = project.pous[i];
+    if (pou.replaces && !taken[i]) context.report(Diag::MockUnused, pou.loc, {context.names().text(pou.name)});
+  }
+}
+
+}  // namespace rung::sema

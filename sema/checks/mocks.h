@@ -1,0 +1,13 @@
+// Mocks: {replaces 'X'} before a function or block, {mock 'M'} before a test; see mocks.cpp.
+#pragma once
+
+#include "sema/context.h"
+
+namespace rung::sema {
+
+// Which tests and mocks are part of the program. Between collecting the declarations and resolving them.
+void chooseTests(Context& context);
+// Before the bodies: library blocks that mocks replace join the project.
+void checkMocks(Context& context);
+
+}  // namespace rung::sema

@@ -1,0 +1,37 @@
+// Which POUs ran in a cycle, as `rung run --trace-calls` prints them. In: the calls that an interpreted module tells
+// (rung_host::called). Out: `cycle 3: Main, Main.rest (TON) x2, Ramp`: instances by path and type, functions by name,
+// in the order of their first call.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "memory.h"
+
+namespace rung::host {
+
+class CallTrace {
+ public:
+  CallTrace(const rung_module& module, const Memory& memory) : module_(module), memory_(memory) {}
+
+  void called(const char* pou, const void* instance);
+  // The line of what was called since the last one.
+  std::string line(int64_t cycle);
+
+ private:
+  struct Call {
+    std::string name;
+    uint64_t count;
+  };
+  std::string nameOf(const char* pou, const uint8_t* instance) const;
+  std::string pathInside(const rung_type* type, uint32_t offset, const char* pou) const;
+
+  const rung_module& module_;
+  const Memory& memory_;
+  std::vector<Call> calls_;
+  std::map<std::pair<const void*, const char*>, size_t> index_;  // of an instance and its type; into calls_
+};
+
+}  // namespace rung::host

@@ -1,0 +1,167 @@
+// What generates a program from a seed: types, random numbers, and the parts that make expressions, statements and
+// POUs. Private to this folder: expressions.cpp, statements.cpp, program.cpp.
+#pragma once
+
+#include <initializer_list>
+
+#include "tests/fuzz/differential/program.h"
+
+namespace rung::differential {
+
+enum class Kind : uint8_t { Bool, Signed, Unsigned, Bits, Real, Duration, Date, Letter, Text, WideText };
+
+struct Type {
+  const char* name;
+  Kind kind;
+  const char* zero;  // a literal
+  bool in_edition2;
+};
+
+inline const Type kTypes[] = {
+    {"BOOL", Kind::Bool, "FALSE", true},
+    {"SINT", Kind::Signed, "SINT#0", true},
+    {"INT", Kind::Signed, "INT#0", true},
+    {"DINT", Kind::Signed, "DINT#0", true},
+    {"LINT", Kind::Signed, "LINT#0", true},
+    {"USINT", Kind::Unsigned, "USINT#0", true},
+    {"UINT", Kind::Unsigned, "UINT#0", true},
+    {"UDINT", Kind::Unsigned, "UDINT#0", true},
+    {"ULINT", Kind::Unsigned, "ULINT#0", true},
+    {"BYTE", Kind::Bits, "BYTE#0", true},
+    {"WORD", Kind::Bits, "WORD#0", true},
+    {"DWORD", Kind::Bits, "DWORD#0", true},
+    {"LWORD", Kind::Bits, "LWORD#0", true},
+    {"REAL", Kind::Real, "REAL#0.0", true},
+    {"LREAL", Kind::Real, "LREAL#0.0", true},
+    {"TIME", Kind::Duration, "T#0s", true},
+    {"LTIME", Kind::Duration, "LTIME#0s", false},
+    {"DATE", Kind::Date, "D#1970-01-01", true},
+    {"TIME_OF_DAY", Kind::Date, "TOD#00:00:00", true},
+    {"DATE_AND_TIME", Kind::Date, "DT#1970-01-01-00:00:00", true},
+    {"LDATE", Kind::Date, "LDATE#1970-01-01", false},
+    {"LTIME_OF_DAY", Kind::Date, "LTOD#00:00:00", false},
+    {"LDATE_AND_TIME", Kind::Date, "LDT#1970-01-01-00:00:00", false},
+    {"CHAR", Kind::Letter, "CHAR#'a'", false},
+    {"WCHAR", Kind::Letter, "WCHAR#\"a\"", false},
+    {"STRING", Kind::Text, "''", true},
+    {"WSTRING", Kind::WideText, "\"\"", true},
+};
+constexpr int kTypeCount = sizeof kTypes / sizeof kTypes[0];
+constexpr int kBool = 0, kSint = 1, kInt = 2, kDint = 3, kLint = 4, kUsint = 5, kUint = 6, kUdint = 7, kByte = 9,
+              kWord = 10, kDword = 11, kLword = 12, kReal = 13, kTime = 15, kLtime = 16, kTod = 18, kDt = 19,
+              kLtod = 21, kLdt = 22, kChar = 23, kString = 25;
+
+std::string lowered(const char* name);
+
+// Made with braces, so that the random numbers are drawn from left to right with every compiler.
+struct Fixed : Node {
+  Fixed(std::string text_, std::vector<Node> children_ = {}) {
+    text = std::move(text_);
+    children = std::move(children_);
+    fixed = true;
+  }
+};
+
+struct Stmt : Node {
+  Stmt(std::string text_, std::vector<Node> children_ = {}) {
+    text = std::move(text_);
+    children = std::move(children_);
+  }
+};
+
+struct Expr : Stmt {
+  Expr(int type_, std::string text_, std::vector<Node> children_ = {}) : Stmt(std::move(text_), std::move(children_)) {
+    type = type_;
+    simple = kTypes[type].zero;
+  }
+};
+
+class Generator {
+ public:
+  Generator(uint64_t seed, unsigned index, Faults faults, Dialect dialect)
+      : state_(seed * 0x9E3779B97F4A7C15u + 1),
+        index_(index),
+        prefix_("P" + std::to_string(index)),
+        faults_(faults),
+        dialect_(dialect) {}
+
+  Node program();
+
+ private:
+  // splitmix64: the same numbers with every C++ library.
+  uint64_t random() {
+    uint64_t z = (state_ += 0x9E3779B97F4A7C15u);
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+  }
+  int below(int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); }
+  bool chance(int percent) { return below(100) < percent; }
+  std::string pick(std::initializer_list<const char*> words) {
+    return words.begin()[below(static_cast<int>(words.size()))];
+  }
+  int anyType() {
+    int type = below(kTypeCount);
+    while (dialect_ == Dialect::Iec2 && !kTypes[type].in_edition2) type = below(kTypeCount);
+    return type;
+  }
+  int anyInteger() { return 1 + below(8); }
+  bool codesys() const { return dialect_ == Dialect::Codesys; }
+  bool bitArithmetic() const { return codesys(); }
+
+  Node expr(int type, int depth);
+  Node leaf(int type);
+  Node boolean(int depth);
+  Node integer(int type, int depth);
+  Node bits(int type, int depth);
+  Node real(int type, int depth);
+  Node duration(int type, int depth);
+  Node date(int type, int depth);
+  Node text(int type, int depth);
+  Node conversion(int type, int depth);
+  Node call(int type, int depth);
+  std::string literal(int type);
+  std::string readable(int type);
+  std::string writable(int type);
+  std::string part(int type);
+  Node variable(int type);
+  Node divisor(int type, int depth);
+  Node subscript(int first, int last, int depth);
+
+  Node statement(int depth);
+  Node statements(int depth, int count);
+  Node assignment();
+  Node loop(int depth);
+  Node choice(int depth);
+  Node jump(int depth);
+  Node blockCall();
+  Node guardedCall();
+
+  Node makeFunction(int number);
+  Node makeBlock(int number);
+  Node makeAccess();
+  Node declarations(std::initializer_list<const Node*> users);
+
+  struct Function {
+    std::string name;
+    int result;
+    std::vector<int> inputs;
+  };
+
+  uint64_t state_;
+  unsigned index_;
+  std::string prefix_;
+  Faults faults_;
+  Dialect dialect_;
+  enum class Body : uint8_t { Function, Block, Program } body_ = Body::Program;
+  std::string own_;  // name of the function whose body this is
+  int own_result_ = 0;
+  std::vector<int> own_inputs_;  // types of in0, in1, …
+  std::vector<Function> functions_;
+  std::vector<std::vector<int>> blocks_;  // input types
+  int loops_ = 0;                         // around the statement
+  int cases_ = 0;                         // around it, in which a label would be one of the CASE
+  int labels_ = 0;                        // of the body so far
+};
+
+}  // namespace rung::differential

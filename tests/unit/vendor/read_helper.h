@@ -1,0 +1,38 @@
+// A vendor's file read as the tool reads it.
+#pragma once
+
+#include <string>
+
+#include "frontend/vendor/vendor.h"
+
+namespace rung::vendor {
+
+struct Reading {
+  explicit Reading(const std::string& path, std::string text) {
+    file = sources.add(path, std::move(text));
+    program = readProgram(sources, file, formatOf(sources.text(file)), diagnostics);
+  }
+  std::string text() const { return program ? std::string(sources.text(program)) : "none"; }
+  // "line:column" in the vendor's file of the first place where the program has `what`.
+  std::string placeOf(std::string_view what) const {
+    const size_t at = sources.text(program).find(what);
+    if (at == std::string_view::npos) return "none";
+    return place({sources.begin(program).offset + static_cast<uint32_t>(at)});
+  }
+  std::string place(Loc loc) const {
+    const Place p = sources.place(loc);
+    return std::to_string(p.line) + ":" + std::to_string(p.column);
+  }
+  // "line:column message" lines.
+  std::string errors() const {
+    std::string out;
+    for (const Diagnostic& d : diagnostics.all()) out += place(d.loc) + " " + d.message + "\n";
+    return out;
+  }
+
+  Sources sources;
+  Diagnostics diagnostics{sources};
+  FileId file, program;
+};
+
+}  // namespace rung::vendor
