@@ -164,7 +164,8 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   records.appendHeaders(files);
   Description description = describe(module, options, facts, groups, name_space);
   files.push_back({"module.cpp", std::move(description.module)});
-  if (!module.classes.empty() || !module.dispatches.empty()) files.push_back({"classes.cpp", classesText(module, name_space)});
+  if (!module.classes.empty() || !module.dispatches.empty())
+    files.push_back({"classes.cpp", classesText(module, name_space)});
   files.push_back({"sites.cpp", std::move(description.sites)});
   std::sort(files.begin(), files.end(), [](const OutputFile& a, const OutputFile& b) { return a.path < b.path; });
   return files;
