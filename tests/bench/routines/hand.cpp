@@ -331,6 +331,44 @@ struct Calendar {
   }
 };
 
+struct Stations {
+  struct Station {
+    virtual int32_t step(int32_t x) = 0;
+    virtual void clear() = 0;
+  };
+  struct Feeder : Station {
+    uint32_t n = 0;
+    int32_t step(int32_t x) override { return static_cast<int32_t>(n += static_cast<uint32_t>(x)); }
+    void clear() override { n = 0; }
+  };
+  struct Press : Feeder {
+    uint32_t turns = 0;
+    int32_t step(int32_t x) override { return static_cast<int32_t>(static_cast<uint32_t>(x) * 3 + ++turns); }
+    void clear() override { turns = 0; }
+  };
+  struct Sorter : Station {
+    uint32_t last = 0;
+    int32_t step(int32_t x) override {
+      const uint32_t now = static_cast<uint32_t>(x), before = last;
+      last = now;
+      return static_cast<int32_t>(now - before);
+    }
+    void clear() override { last = 0; }
+  };
+  Feeder feeders[3];
+  Press presses[3];
+  Sorter sorters[2];
+  Station* line[8] = {&feeders[0], &presses[0], &sorters[0], &feeders[1],
+                      &presses[1], &sorters[1], &feeders[2], &presses[2]};
+  int32_t run(int32_t rounds) {
+    int32_t x = 1;
+    for (Station* station : line) station->clear();
+    for (int32_t r = 0; r < rounds; ++r)
+      for (Station* station : line) x = station->step(x);
+    return x;
+  }
+};
+
 }  // namespace
 
 int main() {
@@ -344,5 +382,6 @@ int main() {
   measure<Transform>("transform", 200000);
   measure<Ranking>("ranking", 5000);
   measure<Calendar>("calendar", 1000000);
+  measure<Stations>("stations", 1000000);
   return 0;
 }
