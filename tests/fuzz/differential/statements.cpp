@@ -26,7 +26,7 @@ Node Generator::assignment() {
     const int number = 1 + below(14);
     if (number < kReal + 2 && chance(25)) {
       return Stmt{writable(number) + " /= \1;\n",
-                  {kTypes[number].kind == Kind::Real ? expr(number, 1) : divisor(number, 1)}};
+                  {kTypes[number].kind == Kind::Real ? variable(number) : divisor(number, 1)}};
     }
     return Stmt{writable(number) + " " + pick({"+=", "-=", "*="}) + " \1;\n", {expr(number, 2)}};
   }
