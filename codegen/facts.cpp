@@ -88,7 +88,7 @@ Facts::Facts(const ir::Module& module) : MemoryBlocks(module) {
     }
     for (const Stmt& stmt : body.stmts) {
       if (stmt.kind == StmtKind::Bind) {
-        expose(module, body, ExprId{stmt.b});
+        if (stmt.b != 0) expose(module, body, ExprId{stmt.b});
       } else if (stmt.kind == StmtKind::Call) {
         const Body& callee = module.body(ir::BodyId{stmt.a});  // a method changes its object
         if (stmt.b != 0 && callee.kind == ir::BodyKind::Function && isForeign(body, ExprId{stmt.b}))

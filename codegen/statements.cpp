@@ -119,13 +119,15 @@ void BodyWriter::statement(StmtId id, const Stmt& stmt) {
     case StmtKind::Assign: assign(stmt); return;
     case StmtKind::Bind: {
       prepareChildren(expr(ExprId{stmt.a}));  // the field itself holds no variable yet
-      prepare(ExprId{stmt.b});
+      if (stmt.b != 0) prepare(ExprId{stmt.b});
       const Expr& field = expr(ExprId{stmt.a});
       member(ExprId{field.a});
       const types::Field& info = types_.info(types_.resolve(expr(ExprId{field.a}).type)).fields[field.b];
       appendMangled(out_, text(info.name));
       out_ += " = ";
-      if (isText(info.type)) {
+      if (stmt.b == 0) {
+        out_ += "nullptr";
+      } else if (isText(info.type)) {
         place(ExprId{stmt.b});
       } else {
         // The variable may be of a type that is the same in memory.

@@ -1,9 +1,11 @@
 // Output files on disk: see write.h. A new folder is filled under a temporary name and renamed as a whole. In an old
 // one every new content is first written beside its file; only when all are there, they are renamed, the manifest last.
+// A temporary name ends in the number of the process; what one that was killed left there goes with the next run.
 #include "codegen/write.h"
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -17,6 +19,44 @@ namespace rung::codegen {
 namespace {
 
 constexpr const char* kManifest = "rung.manifest";
+constexpr std::string_view kUnfinished = ".rung-";
+
+std::string unfinishedSuffix() { return std::string(kUnfinished) + std::to_string(getpid()); }
+
+// Whoever ends the process waits until the files are whole, some milliseconds.
+class HeldSignals {
+ public:
+  HeldSignals() {
+    sigset_t ending;
+    sigemptyset(&ending);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, number);
+    pthread_sigmask(SIG_BLOCK, &ending, &before_);
+  }
+  ~HeldSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+// Removes NAME.rung-PID of the folder where no such process lives; `names` are sorted.
+void removeAbandoned(const std::string& folder, const std::vector<std::string>& names) {
+  std::vector<std::string> abandoned;
+  DIR* const dir = opendir(folder.empty() ? "." : folder.c_str());
+  if (dir == nullptr) return;
+  while (const dirent* entry = readdir(dir)) {
+    const std::string_view name = entry->d_name;
+    const size_t at = name.rfind(kUnfinished);
+    if (at == std::string_view::npos || at + kUnfinished.size() == name.size()) continue;
+    const std::string process(name.substr(at + kUnfinished.size()));
+    if (process.size() > 9 || process.find_first_not_of("0123456789") != std::string::npos) continue;
+    if (kill(static_cast<pid_t>(std::stol(process)), 0) == 0 || errno != ESRCH) continue;
+    if (std::binary_search(names.begin(), names.end(), name.substr(0, at))) abandoned.emplace_back(name);
+  }
+  closedir(dir);
+  for (const std::string& name : abandoned) unlink((folder.empty() ? name : folder + "/" + name).c_str());
+}
 
 std::string systemError(const std::string& path) { return path + ": " + std::strerror(errno); }
 
@@ -118,7 +158,7 @@ std::string manifestOf(const std::vector<OutputFile>& files, std::vector<std::st
 // Fills a folder that is not there yet: no file needs a temporary name or a look at what stands in its place.
 WriteResult writeNewFolder(const std::string& folder, const std::vector<OutputFile>& files) {
   WriteResult result;
-  const std::string made = folder + ".rung-" + std::to_string(getpid());
+  const std::string made = folder + unfinishedSuffix();
   if (!makeFolder(made)) {
     result.error = systemError(folder);
     return result;
@@ -149,6 +189,7 @@ WriteResult writeNewFolder(const std::string& folder, const std::vector<OutputFi
 }  // namespace
 
 WriteResult writeOutputs(const std::string& folder, const std::vector<OutputFile>& files) {
+  const HeldSignals held;
   struct stat info;
   if (!folder.empty() && folder.back() != '/' && lstat(folder.c_str(), &info) != 0 && errno == ENOENT) {
     return writeNewFolder(folder, files);
@@ -159,7 +200,7 @@ WriteResult writeOutputs(const std::string& folder, const std::vector<OutputFile
     return result;
   }
   const std::string base = folder.empty() ? "" : folder + "/";
-  const std::string suffix = ".rung-" + std::to_string(getpid());
+  const std::string suffix = unfinishedSuffix();
 
   std::vector<std::string> names;
   const std::string manifest = manifestOf(files, names);
@@ -184,6 +225,7 @@ WriteResult writeOutputs(const std::string& folder, const std::vector<OutputFile
     result.written.push_back(name);
     return true;
   };
+  removeAbandoned(folder, names);
   for (const OutputFile& file : files) {
     if (!stage(file.path, file.content)) return giveUp(base + file.path);
   }

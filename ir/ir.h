@@ -91,17 +91,18 @@ struct Expr {
 
 enum class StmtKind : uint8_t {
   None,
-  Assign,    // a: place, b: value. Arrays, records and texts are copied whole; text cut to the place's capacity
-  Bind,      // a: Field place whose field is by-reference, b: place: the field refers to that variable from now on
-  Call,      // a: BodyId, b: self place or none, (c, d): operands, one per parameter: the value, or the place for a
-             // by-reference parameter (none: a discarded output), e: place for the result or none.
-             // op: kVirtual: the body that Module::dispatches gives for the class of the object at b
-  If,        // a: condition, b: then block, c: else block (a block is its first statement, linked by `next`)
-  Switch,    // a: selector, (b, c): slice of Body::cases, d: else block
-  Loop,      // a: body block, b: block run before each next turn (by `continue` too). Endless but for break
-  For,       // a: control place (scalar integer), b: from, c: to, d: step (non-zero Const), e: body block.
-             // from and to are evaluated once, in that order. Leaves the control variable as design §8 says
-  Break,     // leaves the innermost Loop or For
+  Assign,  // a: place, b: value. Arrays, records and texts are copied whole; text cut to the place's capacity
+  Bind,    // a: Field place whose field is by-reference, b: place: the field refers to that variable from now on; 0: to
+           // none
+  Call,    // a: BodyId, b: self place or none, (c, d): operands, one per parameter: the value, or the place for a
+           // by-reference parameter (none: a discarded output), e: place for the result or none.
+           // op: kVirtual: the body that Module::dispatches gives for the class of the object at b
+  If,      // a: condition, b: then block, c: else block (a block is its first statement, linked by `next`)
+  Switch,  // a: selector, (b, c): slice of Body::cases, d: else block
+  Loop,    // a: body block, b: block run before each next turn (by `continue` too). Endless but for break
+  For,     // a: control place (scalar integer), b: from, c: to, d: step (non-zero Const), e: body block.
+           // from and to are evaluated once, in that order. Leaves the control variable as design §8 says
+  Break,   // leaves the innermost Loop or For
   Continue,  // next turn of the innermost Loop or For
   Return,
   Jump,      // a: label number

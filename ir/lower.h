@@ -10,6 +10,7 @@ namespace rung::ir {
 
 struct LowerOptions {
   uint8_t checks = kCheckDiv | kCheckIndex | kCheckNull | kCheckCast;
+  bool used_of_libraries = false;  // library POUs marked `used` even where no code of the project leads to them
 };
 // With errors in the project: must not be called.
 void lower(const sema::Project& project, const LowerOptions& options, Module& module);

@@ -53,7 +53,7 @@ void Reader::stmt() {
   } else if (accept("bind")) {
     const ExprId field = expr({});
     expect("=");
-    const ExprId place = expr({});
+    const ExprId place = accept("null") ? ExprId{} : expr({});
     if (!failed_) b.bind(field, place);
   } else if (accept("call")) {
     callStmt({});

@@ -59,6 +59,7 @@ void Printer::stmt(const Stmt& s) {
       if (s.kind == StmtKind::Bind) put("bind ");
       expr(ExprId{s.a}, {});
       put(" = ");
+      if (s.kind == StmtKind::Bind && s.b == 0) return put("null");
       expr(ExprId{s.b}, typeOf(ExprId{s.a}));
       return;
     case StmtKind::Call: {

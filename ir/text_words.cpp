@@ -25,7 +25,7 @@ constexpr const char* kReserved[] = {"address",   "array",  "assert", "assert_eq
                                      "next",      "null",   "of",     "on",         "out",         "pointer", "ref",
                                      "reference", "result", "return", "select",     "self",        "string",  "switch",
                                      "temp",      "to",     "true",   "try",        "value",       "var",     "wstring",
-                                     "zero",      "by",     "retain", "persistent", "constant",    "text"};
+                                     "zero",      "by",     "retain", "persistent", "constant",    "text",    "shows"};
 constexpr CheckWord kCheckWords[] = {
     {"div", kCheckDiv},           {"index", kCheckIndex},     {"null", kCheckNull},        {"cast", kCheckCast},
     {"subrange", kCheckSubrange}, {"convert", kCheckConvert}, {"overflow", kCheckOverflow}};

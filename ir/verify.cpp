@@ -32,7 +32,7 @@
 //   18  Call in an expression: a pure function that cannot fault, one value per parameter.
 //   19  Address: a pointer or reference to a place that has one (no bit).
 //   20  Assign: a place that is no by-reference Input, a value of its type (texts: of its kind).
-//   21  Bind: a by-reference field, a place of the field's type.
+//   21  Bind: a by-reference field, a place of the field's type or nothing.
 //   22  Call statement: one operand per parameter, a value of its type or, for a by-reference one, a place (none only
 //       for an output); a self place of the callee's record where it has one; a result place only of a function with
 //       result, of its type.
@@ -354,11 +354,11 @@ void Verifier::stmt(StmtId id) {
       return;
     }
     case StmtKind::Bind: {
-      if (!place(s.a, 21) | !place(s.b, 21)) return;
+      if (!place(s.a, 21) || (s.b != 0 && !place(s.b, 21))) return;
       const Expr& field = body_->exprs[s.a];
       const TypeId record = field.kind == ExprKind::Field ? typeOf(field.a) : TypeId{};
       require(record && types_.info(record).fields[field.b].by_reference, 21, "bind of what is no by-reference field");
-      require(typeOf(s.a) == typeOf(s.b), 21, "bind of a place of another type");
+      require(s.b == 0 || typeOf(s.a) == typeOf(s.b), 21, "bind of a place of another type");
       found_effect_ = true;
       return;
     }

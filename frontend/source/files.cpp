@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "frontend/source/invariant.h"
+
 namespace rung {
 namespace {
 
@@ -115,6 +117,12 @@ FileId Sources::addAssembled(std::string path, std::string text, std::vector<Seg
   if (base + text.size() + 1 > UINT32_MAX) return {};
   files_.push_back({std::move(path), std::move(text), static_cast<uint32_t>(base), std::move(segments), {}, {}, false});
   return {static_cast<uint32_t>(files_.size() - 1)};
+}
+
+void Sources::activate(FileId file, std::string text) {
+  File& of = files_[file.index];
+  RUNG_INVARIANT(text.size() == of.text.size(), "a text is replaced by one of its length");
+  of.active = std::move(text);
 }
 
 FileId Sources::fileOf(Loc loc) const {

@@ -62,7 +62,14 @@ class Sources {
     const File& f = files_[file.index];
     return f.shown.empty() ? f.path : f.shown;
   }
-  std::string_view text(FileId file) const { return files_[file.index].text; }  // text().data()[size()] is NUL
+  // What is parsed: the file as it is, or what activate() made of it. text().data()[size()] is NUL.
+  std::string_view text(FileId file) const {
+    const File& of = files_[file.index];
+    return of.active.empty() ? of.text : of.active;
+  }
+  std::string_view original(FileId file) const { return files_[file.index].text; }
+  // A text of the same length to parse instead: conditional pragmas leave some out. Messages show the original.
+  void activate(FileId file, std::string text);
   uint32_t fileCount() const { return static_cast<uint32_t>(files_.size()) - 1; }
 
   FileId fileOf(Loc loc) const;
@@ -83,6 +90,7 @@ class Sources {
     std::string shown;
     mutable std::vector<uint32_t> line_starts;  // filled when first asked for
     mutable bool ascii;                         // known once line_starts is
+    std::string active = {};
   };
   const std::vector<uint32_t>& lineStarts(const File& file) const;
 

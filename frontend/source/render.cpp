@@ -95,7 +95,7 @@ Range rangeOf(const Sources& sources, Loc loc, uint32_t length, std::string_view
   range.path = sources.shown(range.place.file);
   range.line = sources.line(range.place.file, range.place.line);
   const uint32_t offset = sources.written(loc).offset - sources.begin(range.place.file).offset;
-  const auto line_start = static_cast<size_t>(range.line.data() - sources.text(range.place.file).data());
+  const auto line_start = static_cast<size_t>(range.line.data() - sources.original(range.place.file).data());
   range.line_at = std::min<size_t>(offset - line_start, range.line.size());
   const size_t wanted = length != 0 ? length : sources.tokenAt(loc).size();
   range.bytes = static_cast<uint32_t>(std::min(wanted, range.line.size() - range.line_at));

@@ -140,11 +140,12 @@ struct MemberExpr {  // h.loc is the member's name
   NameId member;
   Entity entity;  // sema: Var for a field or pin (base is the record), else what `base.member` names as a whole
 };
-struct IndexExpr {
+struct IndexExpr {  // base[i, j]; h.bits of a character of a text: kWritesCharacter
   ExprHeader h;
   ExprId base;
   Slice<ExprId> indices;
 };
+constexpr uint8_t kWritesCharacter = 1;  // sema
 struct ThisExpr {
   ExprHeader h;
 };
@@ -230,6 +231,11 @@ struct BoundExpr {
   ExprHeader h;
   ExprId array;
   uint32_t index;  // 0, 1: lower and upper bound of the first dimension, 2, 3: of the second, …
+};
+struct AnyValueExpr {  // h.type: __SYSTEM.AnyType
+  ExprHeader h;
+  ExprId value;
+  uint32_t type_class;  // __SYSTEM.TYPE_CLASS
 };
 struct AddressOfExpr {  // h.type: a pointer or reference to the place's type
   ExprHeader h;

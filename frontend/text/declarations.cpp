@@ -157,10 +157,7 @@ bool Parser::beginsType(const Token* t) const {
 }
 
 bool Parser::parseName(Ident& out) {
-  // Words that CODESYS 2.3 did not have: members of its structures are called so.
-  const bool member = in_structure_ && standard_ == Standard::Codesys && peek() == Tok::Colon &&
-                      (at(Tok::Ldt) || at(Tok::Ldate) || at(Tok::Ltod) || at(Tok::Ltime));
-  if (isName(kind()) || member) {
+  if (isName(kind())) {
     out = ident(t_);
     advance();
     return true;
@@ -225,6 +222,10 @@ void Parser::parseTypes(std::vector<DeclId>& out) {
 
 DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc) {
   lost_ = false;
+  // {PUBLIC | INTERNAL | ABSTRACT} of TwinCAT: they keep other libraries from the type, and a program is none.
+  while (standard_ == Standard::Codesys && at(Tok::Ident) && isName(peek()) &&
+         (is(t_, "PUBLIC") || is(t_, "INTERNAL") || is(t_, "ABSTRACT")))
+    advance();
   skipStray(!isName(kind()) && isName(peek()) && peek(2) == Tok::Colon, Diag::MissingName);
   TypeDecl d{{DeclKind::Type, 0, 0, here(), doc, pragmas}, {}, {}, {}};
   Ident name;
@@ -371,8 +372,14 @@ DeclId Parser::parseVar(SectionKind section) {
   if (!panic_ && at(Tok::At)) {
     const Token* word = t_;
     advance();
-    if (at(Tok::Address) && in_structure_) {  // AT %B0: a place in the structure
-      slip(Diag::NotSupportedYet, t_, {"AT in a structure"});
+    if (at(Tok::Address) && in_structure_) {
+      // AT %I*: a place in the image that nobody has named; AT %B0: a place in the structure
+      if (standard_ == Standard::Codesys && textOf(t_).ends_with('*')) {
+        if (!address_told_) diagnostics_.report(Diag::OpenAddressInStructure, here(), {textOf(t_)});
+        address_told_ = true;
+      } else {
+        slip(Diag::NotSupportedYet, t_, {"AT in a structure"});
+      }
       advance();
     } else if (at(Tok::Address)) {
       d.located = true;
@@ -618,6 +625,7 @@ TypeExprId Parser::parseStruct() {
   }
   const size_t first = decls_.size();
   const bool outer = std::exchange(in_structure_, true);
+  address_told_ = false;
   parseVars(SectionKind::Local, end, decls_);
   in_structure_ = outer;
   if (!accept(end)) {
@@ -741,10 +749,11 @@ ExprId Parser::parseDeclaredInit(TypeExprId type) {
   return tree_.add<ExprId>(ArrayInitExpr{exprHeader(ExprKind::ArrayInit, start), listFrom(exprs_, first)});
 }
 
-// init = expr | "[" elements "]" | "(" field ":=" init {"," …} ")"
+// init = expr | "[" elements "]" | "(" [field ":=" init {"," …}] ")"
 ExprId Parser::parseInit() {
   if (at(Tok::LeftBracket)) return parseArrayInit();
   if (at(Tok::LeftParen) && isName(peek()) && peek(2) == Tok::Assign) return parseStructInit();
+  if (at(Tok::LeftParen) && peek() == Tok::RightParen && standard_ == Standard::Codesys) return parseStructInit();
   return parseExpr();
 }
 

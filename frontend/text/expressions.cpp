@@ -183,7 +183,7 @@ ExprId Parser::parsePrimary() {
   }
   if (isName(kind()) || isTypeWord(kind())) {
     if (peek() == Tok::Hash) return parseTyped();
-    if (at(Tok::This) || at(Tok::Super)) {
+    if ((at(Tok::This) || at(Tok::Super)) && peek() != Tok::LeftParen) {
       const bool is_this = at(Tok::This);
       advance();
       return parsePostfix(is_this ? tree_.add<ExprId>(ThisExpr{exprHeader(ExprKind::This, start)})

@@ -94,23 +94,64 @@ Tok findWord(const char* s, uint32_t n) {
 // Words that open, divide or close blocks; recover.cpp checks that they balance.
 constexpr std::array<bool, kTokCount> makeBlockWords() {
   std::array<bool, kTokCount> b{};
-  for (Tok t : {Tok::If,        Tok::EndIf,        Tok::Case,          Tok::EndCase,
-                Tok::For,       Tok::EndFor,       Tok::While,         Tok::EndWhile,
-                Tok::Repeat,    Tok::EndRepeat,    Tok::Type,          Tok::EndType,
-                Tok::Struct,    Tok::EndStruct,    Tok::Union,         Tok::EndUnion,
-                Tok::Var,       Tok::VarInput,     Tok::VarOutput,     Tok::VarInOut,
-                Tok::VarTemp,   Tok::VarExternal,  Tok::VarGlobal,     Tok::VarStat,
-                Tok::VarAccess, Tok::VarInst,      Tok::VarConfig,     Tok::EndVar,
-                Tok::Function,  Tok::EndFunction,  Tok::FunctionBlock, Tok::EndFunctionBlock,
-                Tok::Program,   Tok::EndProgram,   Tok::Method,        Tok::EndMethod,
-                Tok::Property,  Tok::EndProperty,  Tok::Action,        Tok::EndAction,
-                Tok::Interface, Tok::EndInterface, Tok::Class,         Tok::EndClass,
-                Tok::Namespace, Tok::Using,        Tok::Configuration, Tok::EndConfiguration,
-                Tok::Resource,  Tok::EndResource,  Tok::Try,           Tok::EndTry})
+  for (Tok t : {Tok::If,
+                Tok::EndIf,
+                Tok::Case,
+                Tok::EndCase,
+                Tok::For,
+                Tok::EndFor,
+                Tok::While,
+                Tok::EndWhile,
+                Tok::Repeat,
+                Tok::EndRepeat,
+                Tok::Try,
+                Tok::EndTry,
+                Tok::Type,
+                Tok::EndType,
+                Tok::Struct,
+                Tok::EndStruct,
+                Tok::Union,
+                Tok::EndUnion,
+                Tok::Var,
+                Tok::VarInput,
+                Tok::VarOutput,
+                Tok::VarInOut,
+                Tok::VarTemp,
+                Tok::VarExternal,
+                Tok::VarGlobal,
+                Tok::VarStat,
+                Tok::VarAccess,
+                Tok::VarInst,
+                Tok::VarConfig,
+                Tok::EndVar,
+                Tok::Function,
+                Tok::EndFunction,
+                Tok::FunctionBlock,
+                Tok::EndFunctionBlock,
+                Tok::Program,
+                Tok::EndProgram,
+                Tok::Method,
+                Tok::EndMethod,
+                Tok::Property,
+                Tok::EndProperty,
+                Tok::Action,
+                Tok::EndAction,
+                Tok::Interface,
+                Tok::EndInterface,
+                Tok::Class,
+                Tok::EndClass,
+                Tok::Namespace,
+                Tok::Using,
+                Tok::Configuration,
+                Tok::EndConfiguration,
+                Tok::Resource,
+                Tok::EndResource})
     b[static_cast<size_t>(t)] = true;
   return b;
 }
 constexpr std::array<bool, kTokCount> kBlockWord = makeBlockWords();
+
+bool isLongType(Tok kind) { return kind == Tok::Ltime || kind == Tok::Ldate || kind == Tok::Ltod || kind == Tok::Ldt; }
 
 enum class Prefix : uint8_t { None, Duration, Date, TimeOfDay, DateTime };
 Prefix prefixOf(std::string_view word) {
@@ -174,7 +215,9 @@ class Lexer {
   const char* stray(const char* p);
   const char* prefixed(const char* begin, const char* p, Prefix prefix);
   void message(const char* begin, const char* end);
+  void checkPragma(std::string_view word, const char* rest, const char* end);
   void checkUnderscores(const char* begin, const char* end);
+  void settleLongTypes();
   Tok last() const { return out_.tokens.empty() ? Tok::End : out_.tokens.back().kind; }
 
   TokenStream& out_;
@@ -188,6 +231,7 @@ class Lexer {
   uint32_t names_seen_;
   uint8_t flags_ = kLineStart;
   uint32_t pending_pragmas_ = 0;  // pragmas at the end of out_.pragmas that wait for their token
+  bool long_types_ = false;       // LTIME, LDATE, LTOD or LDT was read
   uint32_t doc_ = 0;              // first `///` line above the next token; 0: none, else offset + 1
 };
 
@@ -255,6 +299,7 @@ void Lexer::run(uint32_t begin, uint32_t end) {
   settle();
   flags_ |= kLineStart;
   for (uint32_t i = 0; i < kLookahead; ++i) out_.tokens.push_back({at(end_), 0, Tok::End, flags_, 0});
+  if (long_types_ && standard_ == Standard::Codesys) settleLongTypes();
 }
 
 const char* Lexer::word(const char* begin) {
@@ -276,7 +321,25 @@ const char* Lexer::word(const char* begin) {
     checkUnderscores(begin, p);
   }
   push(kind, begin, name.index);
+  long_types_ = long_types_ || isLongType(kind);
   return p;
+}
+
+// CODESYS 2.3 had no LTIME, LDATE, LTOD and LDT. In a text that declares a variable of such a name, the word is that
+// name wherever no type can stand.
+void Lexer::settleLongTypes() {
+  std::vector<Token>& tokens = out_.tokens;
+  bool declared[kTokCount] = {};
+  for (size_t i = 0; i < tokens.size(); ++i)
+    if (isLongType(tokens[i].kind) && (tokens[i + 1].kind == Tok::Colon || tokens[i + 1].kind == Tok::Comma) &&
+        (tokens[i].flags & kLineStart) != 0)
+      declared[static_cast<size_t>(tokens[i].kind)] = true;
+  Tok before = Tok::Semicolon;
+  for (Token& token : tokens) {
+    const bool type = before == Tok::Colon || before == Tok::Of || before == Tok::To || before == Tok::RefTo;
+    before = token.kind;
+    if (declared[static_cast<size_t>(token.kind)] && !type) token.kind = Tok::Ident;
+  }
 }
 
 void Lexer::checkUnderscores(const char* begin, const char* end) {
@@ -485,7 +548,30 @@ const char* Lexer::pragma(const char* begin) {
   return p + 1;
 }
 
-// {info 'text'}, {WARNING: "text"}, {error 'text'}
+// What is nearly the name of a pragma that does something was most likely meant to be it; all others are passed over.
+void Lexer::checkPragma(std::string_view word, const char* rest, const char* end) {
+  static const std::vector<std::string_view> kPragmas = {
+      "attribute", "test",       "info", "warning", "error",    "text",      "define", "undefine",
+      "IF",        "ELSIF",      "ELSE", "END_IF",  "region",   "endregion", "native", "alias",
+      "required",  "extensible", "lazy", "pure",    "operator", "replaces",  "std",    "sized"};
+  static const std::vector<std::string_view> kAttributes = {"qualified_only", "strict", "test", "no_final_scan"};
+  const std::vector<std::string_view>* known = &kPragmas;
+  if (sameIdentifier(word, "attribute")) {
+    while (rest < end && *rest != '\'') ++rest;
+    if (rest == end) return;
+    const char* close = static_cast<const char*>(std::memchr(rest + 1, '\'', static_cast<size_t>(end - rest - 1)));
+    if (close == nullptr) return;
+    word = {rest + 1, static_cast<size_t>(close - rest - 1)};
+    known = &kAttributes;
+  }
+  for (const std::string_view name : *known)
+    if (sameIdentifier(name, word)) return;
+  const std::string_view near = nearest(word, *known);
+  if (near.empty()) return;
+  diagnostics_.report(Diag::UnknownPragma, loc(word.data()), {word}).didYouMean(near);
+}
+
+// {info 'text'}, {text 'text'}, {WARNING: "text"}, {error 'text'}
 void Lexer::message(const char* begin, const char* end) {
   const auto skip = [&] {
     while (begin < end && (*begin == ' ' || *begin == '\t')) ++begin;
@@ -494,9 +580,9 @@ void Lexer::message(const char* begin, const char* end) {
   const char* word_begin = begin;
   while (begin < end && kWordChar[static_cast<Byte>(*begin)]) ++begin;
   const std::string_view word(word_begin, static_cast<size_t>(begin - word_begin));
-  const bool info = sameIdentifier(word, "info"), warning = sameIdentifier(word, "warning"),
-             error = sameIdentifier(word, "error");
-  if (!info && !warning && !error) return;
+  const bool info = sameIdentifier(word, "info") || sameIdentifier(word, "text"),
+             warning = sameIdentifier(word, "warning"), error = sameIdentifier(word, "error");
+  if (!info && !warning && !error) return checkPragma(word, begin, end);
   skip();
   if (begin < end && *begin == ':') ++begin;
   skip();

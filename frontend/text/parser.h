@@ -195,6 +195,7 @@ class Parser {
   bool in_variable_ = false;       // the type of a variable is being read: it may have arguments
   uint32_t in_property_ = 0;       // its accessors are being read
   bool in_structure_ = false;      // a STRUCT or UNION is being read
+  bool address_told_ = false;      // said once for a structure
   bool lost_ = false;              // declarations of the POU or TYPE entry at hand could not be read
   Tok pou_end_ = Tok::End;         // the END_… of the POU at hand
   enum class Known : uint8_t { NotYet, Yes, No } pou_closes_ = Known::NotYet;  // whether it has that END_…

@@ -33,26 +33,11 @@ Tok closerOf(Tok open) {
   }
 }
 
-constexpr Tok kClosers[] = {Tok::EndIf,
-                            Tok::EndCase,
-                            Tok::EndFor,
-                            Tok::EndWhile,
-                            Tok::EndRepeat,
-                            Tok::EndType,
-                            Tok::EndStruct,
-                            Tok::EndUnion,
-                            Tok::EndVar,
-                            Tok::EndFunction,
-                            Tok::EndFunctionBlock,
-                            Tok::EndProgram,
-                            Tok::EndConfiguration,
-                            Tok::EndResource,
-                            Tok::EndMethod,
-                            Tok::EndProperty,
-                            Tok::EndAction,
-                            Tok::EndInterface,
-                            Tok::EndClass,
-                            Tok::EndTry};
+constexpr Tok kClosers[] = {Tok::EndIf,       Tok::EndCase,          Tok::EndFor,       Tok::EndWhile,
+                            Tok::EndRepeat,   Tok::EndTry,           Tok::EndType,      Tok::EndStruct,
+                            Tok::EndUnion,    Tok::EndVar,           Tok::EndFunction,  Tok::EndFunctionBlock,
+                            Tok::EndProgram,  Tok::EndConfiguration, Tok::EndResource,  Tok::EndMethod,
+                            Tok::EndProperty, Tok::EndAction,        Tok::EndInterface, Tok::EndClass};
 bool isCloser(Tok k) { return std::find(std::begin(kClosers), std::end(kClosers), k) != std::end(kClosers); }
 bool isVarWord(Tok k) { return k >= Tok::Var && k <= Tok::VarConfig; }
 bool isMember(Tok k) { return k == Tok::Method || k == Tok::Property || k == Tok::Action; }

@@ -1,8 +1,8 @@
 // CODESYS 2.3 exports (.EXP): objects one behind the other, each below comments like `(* @PATH := '\/Pumps' *)`. POUs,
-// their actions (which follow the END_…), types and lists of globals are ST as they stand, but for bodies that are
-// drawn
-// (`_FBD_BODY` …). Whatever else is exported (visualisations, the PLC's configuration, lists of libraries) is passed
-// over; a word that no export has is left to the parser, which says so.
+// their actions (which follow the END_…), types and lists of globals are ST as they stand, except bodies that are
+// drawn:
+// `_FBD_BODY` and the like. Whatever else is exported (visualisations, the PLC's configuration, lists of libraries) is
+// passed over; a word that no export has is left to the parser, which says so.
 #include "frontend/source/names.h"
 #include "frontend/vendor/assembly.h"
 #include "frontend/vendor/readers.h"

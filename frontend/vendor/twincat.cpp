@@ -75,8 +75,9 @@ class TwinCatReader {
     for (const xml::Element* e = document_.firstChild(property); e != nullptr; e = document_.next(*e)) {
       const bool get = e->name == "Get";
       if (!get && e->name != "Set") continue;
-      program_.word(get ? "GET\n" : "SET\n");
+      program_.word(get ? "GET " : "SET ");  // `GET PROTECTED` begins in the declaration
       part(*e, "Declaration");
+      program_.word("\n");
       readBody(*e, owner + "." + document_.value(property, "Name"));
       closeWith(get ? "END_GET" : "END_SET");
     }

@@ -69,6 +69,21 @@ FileId readProgram(Sources& sources, FileId file, Format format, Diagnostics& di
   return file;
 }
 
+std::string pairName(std::string_view path) {
+  const size_t slash = path.rfind('/');
+  const size_t dot = path.rfind('.');
+  if (dot != std::string_view::npos && (slash == std::string_view::npos || dot > slash)) path = path.substr(0, dot);
+  std::string name = upper(path);
+  for (const std::string_view part : {"DECLARATION", "DECL", "IMPLEMENTATION", "IMPL", "BODY"}) {
+    if (!name.ends_with(part)) continue;
+    const size_t rest = name.size() - part.size();
+    if (rest != 0 && std::string_view("._-/").find(name[rest - 1]) == std::string_view::npos) continue;
+    name.resize(rest == 0 ? 0 : rest - 1);
+    break;
+  }
+  return name;
+}
+
 FileId joinPair(Sources& sources, FileId declaration, FileId body) {
   Assembly program(sources);
   const auto whole = [&](FileId file) {

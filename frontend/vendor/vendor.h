@@ -30,6 +30,11 @@ Format formatOf(std::string_view text);
 // error has been reported.
 FileId readProgram(Sources& sources, FileId file, Format format, Diagnostics& diagnostics);
 
+// What two files of one POU have in common: their path without extension and without the word that tells them apart.
+// Motor.pou and Motor.st, Motor.decl and Motor.impl, Motor_declaration.st and Motor_body.st, Motor/declaration.st and
+// Motor/implementation.st.
+std::string pairName(std::string_view path);
+
 // A POU from the file of its declaration and the file of its body.
 FileId joinPair(Sources& sources, FileId declaration, FileId body);
 

@@ -42,29 +42,30 @@ size_t endOfComment(std::string_view text, size_t at) {
 }
 
 bool Words::next() {
+  const size_t end = text_.size();
   passed_other_ = false;
-  while (p_ < end_) {
-    const char c = text_[p_], after = p_ + 1 < end_ ? text_[p_ + 1] : '\0';
+  while (p_ < end) {
+    const char c = text_[p_], after = p_ + 1 < end ? text_[p_ + 1] : '\0';
     if (c == '\n' || c == '\r') {
       line_start_ = true;
       ++p_;
     } else if (c == ' ' || c == '\t' || c == '\f' || c == '\v') {
       ++p_;
     } else if (c == '/' && after == '/') {
-      p_ = std::min(text_.find('\n', p_), end_);
+      p_ = std::min(text_.find('\n', p_), end);
     } else if ((c == '(' || c == '/') && after == '*') {
-      p_ = std::min(endOfComment(text_, p_), end_);
+      p_ = std::min(endOfComment(text_, p_), end);
     } else if (c == '{') {
-      p_ = std::min(endOfPragma(text_, p_), end_);
+      p_ = std::min(endOfPragma(text_, p_), end);
     } else if (c == '\'' || c == '"') {
       passed_other_ = true;
       size_t i = p_ + 1;
-      while (i < end_ && text_[i] != c && text_[i] != '\n') i += text_[i] == '$' ? 2 : 1;
-      p_ = std::min(i < end_ && text_[i] == c ? i + 1 : i, end_);
+      while (i < end && text_[i] != c && text_[i] != '\n') i += text_[i] == '$' ? 2 : 1;
+      p_ = std::min(i < end && text_[i] == c ? i + 1 : i, end);
       line_start_ = false;
     } else if (isWordChar(c)) {
       begin_ = p_;
-      while (p_ < end_ && isWordChar(text_[p_])) ++p_;
+      while (p_ < end && isWordChar(text_[p_])) ++p_;
       const bool number = c >= '0' && c <= '9';
       if (!number) {
         if (line_start_) first_on_line_ = begin_ + 1;

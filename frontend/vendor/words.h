@@ -8,11 +8,10 @@
 
 namespace rung::vendor {
 
-// Walks over the words of [begin, end) of a text.
+// Walks over the words of a text.
 class Words {
  public:
-  Words(std::string_view text, size_t begin, size_t end) : text_(text), p_(begin), end_(end) {}
-  explicit Words(std::string_view text) : Words(text, 0, text.size()) {}
+  explicit Words(std::string_view text) : text_(text) {}
 
   // The next word; false at the end. Numbers and operators are passed over.
   bool next();
@@ -26,7 +25,7 @@ class Words {
 
  private:
   std::string_view text_;
-  size_t begin_ = 0, p_, end_;
+  size_t begin_ = 0, p_ = 0;
   size_t first_on_line_ = 0;  // one past the begin of the last word that began a line
   bool line_start_ = true;
   bool passed_other_ = false;

@@ -29,20 +29,21 @@ void BodyTranslator::count(Loc loc, const char* function) {
   if (!options_.coverage || !body_->counted || !loc) return;
   if (function == nullptr && loc == body_->loc) return;  // made for the header: no statement of the source
   const SourcePlace place = sourcePlace(module_, *body_, loc);
-  code_.texts.emplace_back(place.path);
-  const char* const file = code_.texts.back().c_str();
+  const char* file = code_.counters.empty() ? nullptr : code_.counters.back().file;
+  if (file == nullptr || place.path != file) file = code_.texts.emplace_back(place.path).c_str();
   code_.counters.push_back({file, function, place.line, 0});
   emit(countHandler(), {}, {}, {}, 0, reinterpret_cast<int64_t>(&code_.counters.back().count));
 }
 
 void BodyTranslator::statement(const Stmt& stmt) {
-  count(stmt.loc, nullptr);
+  if (stmt.kind != StmtKind::Label) count(stmt.loc, nullptr);
   switch (stmt.kind) {
     case StmtKind::None: return;
     case StmtKind::Assign: return assign(stmt);
     case StmtKind::Bind: {
       const Expr& field = expr(ExprId{stmt.a});
       const Address to = fieldMemory(field);
+      if (stmt.b == 0) return write(to, Scalar::U64, {Mode::Constant, {}, 0});
       const Address variable = isText(field.type) ? text(ExprId{stmt.b}) : place(ExprId{stmt.b});
       return write(to, Scalar::U64, {Mode::Frame, pointerTo(variable), 0});
     }

@@ -30,11 +30,11 @@ struct Code {
   std::deque<std::vector<int32_t>> tables;
   std::deque<std::vector<SwitchRange>> ranges;
   std::deque<AssertionPlace> assertions;
+  std::deque<Counter> counters;
+  std::vector<const char*> called;                    // by BodyId: the name that traced calls give, or null
   std::vector<const uint64_t*> data_of_module;        // by index of Module::data
   std::vector<std::vector<VirtualEntry>> dispatches;  // as Module::dispatches
   std::deque<VirtualCall> virtual_calls;
-  std::deque<Counter> counters;
-  std::vector<const char*> called;                 // by BodyId: the name that traced calls give, or null
   std::vector<std::pair<uint32_t, BodyId>> calls;  // instructions that wait for where a body begins
   std::string missing;  // a native function that is not at hand, as the library names it; else empty
 };

@@ -126,6 +126,7 @@ ExprId BodyLowering::temp(TypeId type, Loc loc) {
   char name[16];
   int length = std::snprintf(name, sizeof name, "t%u", ++temp_count_);
   NameId id = in_.module.names.intern({name, static_cast<size_t>(length)});
+  in_.module.types.layout(strip(type));  // of a text's length that no declaration has
   body_.locals.push_back({id, strip(type), LocalKind::Temp, false, loc});
   return local(static_cast<uint32_t>(body_.locals.size() - 1), loc);
 }

@@ -411,6 +411,8 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
     ExprId value;
   };
   std::vector<CopyBack> copies;
+  std::vector<ExprId> short_lived;  // in-outs of an instance that outlives their variable
+  const auto isLocal = [&](ExprId place) { return body_.expr(rootOf(place)).kind == ExprKind::Local; };
   for (const sema::Binding& binding : call.bindings) {
     if (binding.is_output || !binding.value) continue;
     const sema::Var& pin = project_.var(binding.pin);
@@ -434,12 +436,15 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
         copies.push_back({binding.value, copy});
         variable = copy;
       }
+      if (isLocal(variable) && !isLocal(instance)) short_lived.push_back(place);
       append({.kind = StmtKind::Bind, .loc = at, .a = place.index, .b = variable.index});
     } else {
       assign(place, lowerValue(binding.value), at);
     }
   }
   append({.kind = StmtKind::Call, .loc = loc, .a = in_.bodyOf(call.pou).index, .b = instance.index});
+  // What they referred to ends with this body or sooner, and a trace must not follow them there.
+  for (const ExprId field : short_lived) append({.kind = StmtKind::Bind, .loc = loc, .a = field.index});
   for (const CopyBack& copy : copies) storeOutput(copy.target, copy.value, false, loc);
   for (const sema::Binding& binding : call.bindings) {
     if (!binding.is_output || !binding.value) continue;

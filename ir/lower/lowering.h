@@ -140,6 +140,7 @@ class BodyLowering {
 
   // places.cpp
   ExprId lowerPlace(rung::ExprId expr);
+  ExprId characters(ExprId text, bool writes);
   ExprId varPlace(sema::VarId var, Loc loc);
   ExprId memberPlace(rung::ExprId expr);
   // The same place without operands that a later statement could change: indices and pointers go to temporaries.
@@ -177,6 +178,7 @@ class BodyLowering {
   bool callsFunction(rung::ExprId expr) const;
   ExprId lowerConvert(rung::ExprId expr);
   ExprId lowerAddressOf(rung::ExprId expr);
+  ExprId lowerAnyValue(rung::ExprId expr);
   ExprId convertValue(ExprId value, TypeId to, Loc loc);
   // A position in the open block. `effects` tells whether what came since could change a variable.
   struct Mark {
@@ -292,6 +294,7 @@ class BodyLowering {
   // Inside the right operand of a codesys AND or OR that calls functions: a temporary that is TRUE when its value
   // matters. Checks count only then.
   ExprId guard_;
+  ExprId logical_;        // the temporary of the last AND or OR that needed one
   uint32_t effects_ = 0;  // statements so far that change more than temporaries
 };
 

@@ -47,7 +47,8 @@ void ModuleLowering::run() {
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const sema::Pou& pou = project.pous[i];
     if (pou.generic || pou.operator_kind != sema::Pou::Operator::None) continue;
-    if (pou.left_out || (pou.library && !pou.used) || pou.kind == PouKind::Interface) continue;
+    if (pou.kind == PouKind::Interface) continue;
+    if (pou.left_out || (pou.library && !(options.used_of_libraries && pou.used))) continue;  // follows when called
     bodyOf({i});
   }
   std::sort(module.tests.begin(), module.tests.end(), [&](BodyId a, BodyId b) {  // as they are written
@@ -162,8 +163,10 @@ void ModuleLowering::markFaulting() {
     Body& body = module.bodies[i];
     for (const Expr& expr : body.exprs) body.may_fault = body.may_fault || expr.checks != 0;
     for (const Stmt& stmt : body.stmts) {
-      if (stmt.kind == StmtKind::Call) callers[stmt.a].push_back(i);
-      if (stmt.kind == StmtKind::Fault || (stmt.kind == StmtKind::Call && stmt.op == kVirtual)) body.may_fault = true;
+      if (stmt.kind == StmtKind::Fault) body.may_fault = true;
+      if (stmt.kind != StmtKind::Call) continue;
+      callers[stmt.a].push_back(i);
+      body.may_fault = body.may_fault || stmt.op == kVirtual;
     }
     if (body.may_fault) faulting.push_back(i);
   }
@@ -572,6 +575,7 @@ void ModuleLowering::addTasks() {
 void ModuleLowering::addLocated() {
   for (const sema::Var& var : project.vars) {
     if (var.storage != sema::Storage::Image || !var.name || var.external) continue;
+    if (var.pou && project.pou(var.pou).left_out && !body_of_[var.pou.index]) continue;
     Located made;
     made.name = var.name;
     made.type = types.resolve(var.type);

@@ -57,6 +57,21 @@ ExprId BodyLowering::memberPlace(rung::ExprId id) {
   return field(base, var.field, strip(var.type), node.h.loc);
 }
 
+// A text as the array of its bytes or words, with the zero at its end where it is only read.
+ExprId BodyLowering::characters(ExprId text, bool writes) {
+  const Expr place = body_.expr(text);
+  const types::TypeInfo& info = types_.info(types_.resolve(place.type));
+  const types::Dimension range{0, int64_t{info.length} - (writes ? 1 : 0)};
+  const TypeId unit = types::idOf(info.kind == TypeKind::WString ? TypeKind::Word : TypeKind::Byte);
+  if (!isPlace(place.kind)) text = toTemp(text, place.loc);
+  const TypeId array = types_.array(unit, {&range, 1});
+  const TypeId pointer = types_.pointer(array);
+  types_.layout(array);
+  types_.layout(pointer);
+  text = add({.kind = ExprKind::Address, .type = pointer, .loc = place.loc, .a = text.index});
+  return add({.kind = ExprKind::Deref, .type = array, .loc = place.loc, .a = text.index});
+}
+
 ExprId BodyLowering::lowerPlace(rung::ExprId id) {
   Loc loc = tree_.loc(id);
   switch (tree_.kind(id)) {
@@ -90,6 +105,8 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
       const IndexExpr& node = tree_.as<IndexExpr>(id);
       if (isOpenArray(types_, tree_.expr(node.base).type)) return openArrayElement(node);
       ExprId base = lowerPlace(node.base);
+      if (TypeTable::isText(types_.kind(body_.expr(base).type)))
+        base = characters(base, (node.h.bits & kWritesCharacter) != 0);
       std::vector<ExprId> indices;
       for (rung::ExprId index : tree_.list(node.indices)) {
         Mark mark = here();
@@ -162,6 +179,7 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
     case rung::ExprKind::StructInit:
     case rung::ExprKind::Convert:
     case rung::ExprKind::Bound:
+    case rung::ExprKind::AnyValue:
     case rung::ExprKind::AddressOf: return lowerValue(id);
   }
   return {};

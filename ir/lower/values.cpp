@@ -69,6 +69,7 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
     case rung::ExprKind::Address:
     case rung::ExprKind::AddressOf:
     case rung::ExprKind::Bound:
+    case rung::ExprKind::AnyValue:
     case rung::ExprKind::Call:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:
@@ -168,6 +169,7 @@ ExprId BodyLowering::lowerValue(rung::ExprId id) {
     case rung::ExprKind::Binary: return lowerBinary(id);
     case rung::ExprKind::Convert: return lowerConvert(id);
     case rung::ExprKind::AddressOf: return lowerAddressOf(id);
+    case rung::ExprKind::AnyValue: return lowerAnyValue(id);
     case rung::ExprKind::Bound: {
       const BoundExpr& node = tree_.as<BoundExpr>(id);
       return openArrayBound(node.array, node.index, node.h.loc);
@@ -219,6 +221,7 @@ bool BodyLowering::callsFunction(rung::ExprId id) const {
     case rung::ExprKind::Member: return callsFunction(tree_.as<MemberExpr>(id).base);
     case rung::ExprKind::Deref: return callsFunction(tree_.as<DerefExpr>(id).base);
     case rung::ExprKind::Bound: return false;
+    case rung::ExprKind::AnyValue: return callsFunction(tree_.as<AnyValueExpr>(id).value);
     case rung::ExprKind::AddressOf: return callsFunction(tree_.as<AddressOfExpr>(id).place);
     case rung::ExprKind::BitAccess: return callsFunction(tree_.as<BitAccessExpr>(id).base);
     case rung::ExprKind::Binary:
@@ -258,11 +261,19 @@ ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circu
   Loc loc = node.h.loc;
   Op op = is_and ? Op::And : Op::Or;
   ExprId left = lowerValue(node.left);
+  const ExprId chained = left == logical_ ? left : ExprId{};
   auto guarded = [&](ExprId result, StmtId right_block) {
     Stmt branch{.kind = StmtKind::If, .loc = loc, .a = result.index};
     if (!is_and) branch.a = unary(Op::Not, types::kBool, result, loc).index;
     branch.b = right_block.index;
     append(branch);
+    return logical_ = result;
+  };
+  // `a AND b AND c` and the like have one temporary.
+  auto holding = [&](ExprId value) {
+    if (chained && value == chained) return value;
+    ExprId result = temp(types::kBool, loc);
+    assign(result, value, loc);
     return result;
   };
 
@@ -277,8 +288,7 @@ ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circu
     ExprId right = lowerAfter({&left}, [&] { return lowerValue(node.right); });
     guard_ = outer_guard;
     if (!mayFault(right)) return binary(op, types::kBool, left, right, loc);
-    ExprId result = temp(types::kBool, loc);
-    assign(result, left, loc);
+    ExprId result = holding(left);
     return guarded(result, block([&] { assign(result, right, loc); }));
   }
 
@@ -288,8 +298,7 @@ ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circu
   Block inner = block_;
   block_ = outer;
   if (!inner.first && !mayFault(right)) return binary(op, types::kBool, left, right, loc);
-  ExprId result = temp(types::kBool, loc);
-  assign(result, left, loc);
+  ExprId result = holding(left);
   Block before = block_;
   block_ = inner;
   assign(result, right, loc);
@@ -303,6 +312,36 @@ ExprId BodyLowering::lowerConvert(rung::ExprId id) {
   const ConvertExpr& node = tree_.as<ConvertExpr>(id);
   if (ExprId object = lowerObjectConversion(node)) return object;
   return convertValue(lowerValue(node.operand), strip(node.h.type), node.h.loc);
+}
+
+// The address of what a pointer or reference points to is its value: nothing is read there.
+ExprId BodyLowering::lowerAddressOf(rung::ExprId id) {
+  const AddressOfExpr& node = tree_.as<AddressOfExpr>(id);
+  const TypeId type = strip(node.h.type);
+  if (isOpenArray(types_, tree_.expr(node.place).type))
+    return convertValue(openArrayPointer(node.place, node.h.loc), type, node.h.loc);
+  if (tree_.kind(node.place) == rung::ExprKind::Deref)
+    return convertValue(lowerValue(tree_.as<DerefExpr>(node.place).base), type, node.h.loc);
+  return add({.kind = ExprKind::Address, .type = type, .loc = node.h.loc, .a = lowerPlace(node.place).index});
+}
+
+// A descriptor of the value in a temporary; what has no place of its own gets one.
+ExprId BodyLowering::lowerAnyValue(rung::ExprId id) {
+  const AnyValueExpr& node = tree_.as<AnyValueExpr>(id);
+  const Loc loc = node.h.loc;
+  ExprId value = lowerPlace(node.value);
+  const Expr& expr = body_.expr(value);
+  const bool is_bit = expr.kind == ExprKind::Bits || (expr.kind == ExprKind::Image && expr.c != kNoBit);
+  if (!isPlace(expr.kind) || is_bit) value = toTemp(value, loc);
+  ExprId descriptor = temp(node.h.type, loc);
+  const TypeInfo& record = types_.info(strip(node.h.type));
+  auto part = [&](uint32_t index) { return field(descriptor, index, record.fields[index].type, loc); };
+  const TypeId pointer = strip(record.fields[1].type);
+  const uint64_t size = types_.info(typeOf(value)).size;
+  assign(part(0), constant(strip(record.fields[0].type), node.type_class, loc), loc);
+  assign(part(1), add({.kind = ExprKind::Address, .type = pointer, .loc = loc, .a = value.index}), loc);
+  assign(part(2), constant(types::kDInt, size, loc), loc);
+  return descriptor;
 }
 
 // An object as a pointer to an interface, and a pointer to an object as one to its base; none for other conversions.
@@ -337,17 +376,6 @@ ExprId BodyLowering::lowerObjectConversion(const ConvertExpr& node) {
   });
   append({.kind = StmtKind::If, .loc = loc, .a = is_null.index, .b = then.index});
   return result;
-}
-
-// The address of what a pointer or reference points to is its value: nothing is read there.
-ExprId BodyLowering::lowerAddressOf(rung::ExprId id) {
-  const AddressOfExpr& node = tree_.as<AddressOfExpr>(id);
-  const TypeId type = strip(node.h.type);
-  if (isOpenArray(types_, tree_.expr(node.place).type))
-    return convertValue(openArrayPointer(node.place, node.h.loc), type, node.h.loc);
-  if (tree_.kind(node.place) == rung::ExprKind::Deref)
-    return convertValue(lowerValue(tree_.as<DerefExpr>(node.place).base), type, node.h.loc);
-  return add({.kind = ExprKind::Address, .type = type, .loc = node.h.loc, .a = lowerPlace(node.place).index});
 }
 
 ExprId BodyLowering::convertValue(ExprId value, TypeId to, Loc loc) {

@@ -6,13 +6,14 @@
 #include "ir/passes/remove_checks.h"
 #include "ir/passes/remove_dead_code.h"
 #include "ir/passes/simplify_branches.h"
+#include "ir/passes/thread_conditions.h"
 
 namespace rung::ir {
 
 namespace {
 constexpr Pass kBodyPasses[] = {
-    {"propagation", propagate}, {"constants", foldConstants},  {"branches", simplifyBranches},
-    {"checks", removeChecks},   {"dead-code", removeDeadCode},
+    {"propagation", propagate},       {"constants", foldConstants}, {"branches", simplifyBranches},
+    {"conditions", threadConditions}, {"checks", removeChecks},     {"dead-code", removeDeadCode},
 };
 }  // namespace
 

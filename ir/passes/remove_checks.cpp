@@ -167,11 +167,14 @@ class Analysis {
         if (falls) touched_.push_back({v, 1, left});
       }
     }
+    undo(mark);
+    return falls;
+  }
+  void undo(size_t mark) {
     while (trail_.size() > mark) {
       facts_[trail_.back().variable] = trail_.back().before;
       trail_.pop_back();
     }
-    return falls;
   }
   bool branch(StmtId first) {
     return branch(first, [] {});
@@ -219,8 +222,8 @@ class Analysis {
     switch (s.kind) {
       case StmtKind::None:
       case StmtKind::Label: return true;
-      case StmtKind::Break:
-      case StmtKind::Continue:
+      case StmtKind::Break: note(&Watch::at_exit); return false;
+      case StmtKind::Continue: note(&Watch::at_end); return false;
       case StmtKind::Return:
       case StmtKind::Jump: return false;
       case StmtKind::Fault:
@@ -258,12 +261,14 @@ class Analysis {
       }
       case StmtKind::Switch: return switchStmt(s);
       case StmtKind::Loop: {
-        effectsIn(StmtId{s.a});
-        effectsIn(StmtId{s.b});
-        const size_t mark = touched_.size();
-        branch(StmtId{s.a});
-        branch(StmtId{s.b});
-        forgetTouched(mark);
+        Turns loop{StmtId{s.a}, StmtId{s.b}, {}};
+        const size_t mark = trail_.size();
+        effectsIn(loop.body);
+        effectsIn(loop.next);
+        watch(loop, mark, kNone);
+        takeTurns(loop, [] {});
+        for (const Watch& one : loop.watches)
+          if (one.at_exit.known) setInterval(one.variable, one.at_exit.interval);
         return true;
       }
       case StmtKind::For: return forLoop(s);
@@ -284,8 +289,125 @@ class Analysis {
     return true;
   }
 
-  // Behind a loop the facts are those of its head.
-  void forgetTouched(size_t mark) { touched_.resize(mark); }
+  // ---- loops. At the head of a loop a variable that it writes may have any value, but for one that each turn leaves
+  // within some interval around the values from before the loop. Such an interval is guessed and a walk through the
+  // loop judges it: first those values alone, then without the bounds that the turn passes, then what that turn left.
+
+  struct Watch {
+    uint32_t variable;
+    Interval before, head;
+    Interval agreed = {};            // the last guess that held
+    Fact at_end = {}, at_exit = {};  // joined over all ends of a turn, over all breaks
+    bool is_narrowed = false;
+  };
+  struct Turns {
+    StmtId body, next;
+    std::vector<Watch> watches;
+  };
+  static constexpr int kMostRounds = 6, kMostTrials = 2;  // walks of a loop, loops in loops that are tried
+
+  void note(Fact Watch::*where) {
+    if (turns_.empty()) return;
+    for (Watch& one : turns_.back()->watches) {
+      Fact& fact = one.*where;
+      const Interval now = current(one.variable);
+      fact.interval = fact.known ? join(fact.interval, now) : now;
+      fact.known = true;
+    }
+  }
+
+  // A break or continue in a Try runs its last block first.
+  bool isWorthWatching(StmtId first) {
+    bool has_checks = false, has_try = false;
+    forEachStmt(body_, first, [&](StmtId id) {
+      has_try = has_try || body_.stmt(id).kind == StmtKind::Try;
+      forEachRoot(module_, body_, body_.stmt(id),
+                  [&](const uint32_t& slot, Use) { has_checks = has_checks || has_checks_[slot] != 0; });
+    });
+    return has_checks && !has_try;
+  }
+  // The variables whose facts went into the trail from `mark` on, because the loop writes them.
+  void watch(Turns& loop, size_t mark, uint32_t control) {
+    if (trials_ == kMostTrials || mark == trail_.size()) return;
+    if (!isWorthWatching(loop.body) && !isWorthWatching(loop.next)) return;
+    const uint32_t now = ++stamps_;
+    for (size_t i = mark; i < trail_.size(); ++i) {
+      const uint32_t v = trail_[i].variable;
+      if (v == control || stamp_[v] == now) continue;
+      stamp_[v] = now;
+      if (holds(v, trail_[i].before)) {
+        const Interval before = trail_[i].before.interval;
+        loop.watches.push_back({v, before, before});
+      }
+    }
+  }
+
+  template <class Before>
+  void turn(Turns& loop, Before&& before) {
+    for (Watch& one : loop.watches) one.at_end.known = one.at_exit.known = false;
+    const size_t mark = trail_.size(), touched = touched_.size();
+    turns_.push_back(&loop);
+    for (const Watch& one : loop.watches) setInterval(one.variable, one.head);
+    before();
+    if (block(loop.body)) note(&Watch::at_end);
+    undo(mark);
+    if (loop.next) {
+      for (Watch& one : loop.watches) {
+        if (one.at_end.known) setInterval(one.variable, one.at_end.interval);
+        one.at_end.known = false;
+      }
+      if (block(loop.next)) note(&Watch::at_end);
+      undo(mark);
+    }
+    turns_.pop_back();
+    touched_.resize(touched);
+  }
+  // The next guess for a variable whose turns leave `left`; false: this one stays. A counter that a test stops at 7
+  // fails at first, as what is counted beyond the largest value wraps to the smallest: then the test's bound is tried.
+  bool guess(Watch& one) {
+    if (!one.at_end.known) return false;
+    const Interval left = join(one.before, one.at_end.interval), last = one.head;
+    if (left == last || (one.is_narrowed && left.within(last))) return false;
+    const bool below = left.low<last.low, above = left.high> last.high;
+    if (!one.is_narrowed && !(below && above) && (left.low > last.low || left.high < last.high)) {
+      one.head = meet(left, last);
+      one.is_narrowed = true;
+      return true;
+    }
+    const Interval any = all(one.variable);
+    one.head = {below ? any.low : last.low, above ? any.high : last.high};
+    return true;
+  }
+  template <class Before>
+  void takeTurns(Turns& loop, Before&& before) {
+    const bool outer = asking_;
+    asking_ = true;
+    ++trials_;
+    bool has_agreed = false;
+    for (int round = 0; !loop.watches.empty(); ++round) {
+      if (round < kMostRounds) turn(loop, before);
+      bool holds = round < kMostRounds, changed = false;
+      for (const Watch& one : loop.watches)
+        holds = holds && (!one.at_end.known || one.at_end.interval.within(one.head));
+      if (!holds && has_agreed) {
+        for (Watch& one : loop.watches) one.head = one.agreed;
+        break;
+      }
+      if (round == kMostRounds) {
+        loop.watches.clear();
+        break;
+      }
+      if (holds) {
+        for (Watch& one : loop.watches) one.agreed = one.head;
+        has_agreed = true;
+      }
+      for (Watch& one : loop.watches) changed = guess(one) || changed;
+      if (!changed) break;
+    }
+    --trials_;
+    asking_ = outer;
+    turn(loop, before);
+  }
 
   bool switchStmt(Stmt& s) {
     value(ExprId{s.a});
@@ -319,17 +441,20 @@ class Analysis {
     const uint32_t epoch_before = epoch_;
     // Whether the body itself writes the control variable: its fact is marked before the scan.
     if (control != kNone) setInterval(control, from);
+    const size_t mark = trail_.size();
     effectsIn(StmtId{s.e});
     const bool is_kept = control != kNone && facts_[control].known && (control < self_first_ || epoch_ == epoch_before);
+    Turns loop{StmtId{s.e}, {}, {}};
+    watch(loop, mark, control);
     written(ExprId{s.a});
     const bool up =
         static_cast<int64_t>(body_.exprs[s.d].bits()) > 0 || !types_.isSigned(types_.plainKind(body_.exprs[s.d].type));
     const Interval bounds = up ? Interval{from.low, to.high} : Interval{to.low, from.high};
-    const size_t mark = touched_.size();
-    branch(StmtId{s.e}, [&] {
+    takeTurns(loop, [&] {
       if (is_kept && !bounds.isEmpty()) narrow(control, bounds);
     });
-    forgetTouched(mark);
+    for (const Watch& one : loop.watches)
+      setInterval(one.variable, one.at_exit.known ? join(one.head, one.at_exit.interval) : one.head);
     return true;
   }
 
@@ -354,8 +479,8 @@ class Analysis {
     if (both.isEmpty() || both == now) return;  // empty: never reached
     setInterval(v, both);
   }
-  Interval current(uint32_t v) {
-    if (holds(v, facts_[v])) return facts_[v].interval;
+  Interval current(uint32_t v) { return holds(v, facts_[v]) ? facts_[v].interval : all(v); }
+  Interval all(uint32_t v) {
     const TypeId type =
         v < self_first_ ? body_.locals[v].type : types_.info(types_.resolve(body_.self)).fields[v - self_first_].type;
     return allOf(type, true);
@@ -382,9 +507,10 @@ class Analysis {
     const uint32_t v = variableBehind(one);
     if (v == kNone) return;
     // Only asked: its checks were done before the condition had an outcome.
+    const bool outer = asking_;
     asking_ = true;
     const Interval o = value(other);
-    asking_ = false;
+    asking_ = outer;
     if (!outcome) {
       op = op == Op::Eq   ? Op::Ne
            : op == Op::Ne ? Op::Eq
@@ -524,8 +650,10 @@ class Analysis {
   std::vector<uint32_t> stamp_, stamp_entry_;
   std::vector<Change> trail_;
   std::vector<Touched> touched_;
+  std::vector<Turns*> turns_;  // of the loops at hand
   uint32_t self_first_ = 0;
   uint32_t epoch_ = 0, stamps_ = 0;
+  int trials_ = 0;
   bool asking_ = false;
   bool changed_ = false;
 };

@@ -22,7 +22,7 @@ std::vector<bool> privateLocals(const Module& module, const Body& body) {
   for (const Expr& e : body.exprs)
     if (e.kind == ExprKind::Address) expose(ExprId{e.a});
   for (const Stmt& s : body.stmts)
-    if (s.kind == StmtKind::Bind) expose(ExprId{s.b});
+    if (s.kind == StmtKind::Bind && s.b != 0) expose(ExprId{s.b});
   return result;
 }
 

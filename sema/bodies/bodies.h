@@ -171,6 +171,10 @@ TypeId combinePointers(Context& context, ExprId& self, TypeId expected);
 // LOWER_BOUND(a, n), UPPER_BOUND(a, n). None when the name is another one.
 TypeId checkBoundCall(Context& context, ExprId& expr, NameId name);
 
+// ---- any_inputs.cpp
+// The value of an input of type ANY, ANY_NUM …, of a POU in codesys.
+void bindAny(Context& context, const Pou& pou, const Var& pin, ExprId& value);
+
 // ---- operator_calls.cpp
 TypeId checkOperatorCall(Context& context, ExprId& expr, PouId pou, TypeId expected, TypeId forced);
 // ---- conversion_calls.cpp

@@ -162,6 +162,7 @@ void bindInput(Context& context, const Pou& pou, const Var& pin, Binding& bindin
     bindReference(context, binding.value, pin.type);
     return;
   }
+  if (pin.any) return bindAny(context, pou, pin, binding.value);
   checkAs(context, binding.value, pin.type, Purpose{"passed to", pin.name, pou.name});
 }
 

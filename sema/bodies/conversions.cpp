@@ -75,6 +75,14 @@ bool sameType(const Context& context, TypeId a, TypeId b) {
   return sameType(context, left.base, right.base);
 }
 
+// A pointer to a text may name a longer one.
+static bool pointsAlike(const Context& context, TypeId from, TypeId to) {
+  const types::TypeInfo& source = context.types().info(context.types().resolve(from));
+  const types::TypeInfo& target = context.types().info(context.types().resolve(to));
+  if (TypeTable::isText(source.kind) && source.kind == target.kind) return source.length >= target.length;
+  return sameType(context, from, to);
+}
+
 namespace {
 
 // An object where an interface that it implements is wanted, and a pointer to an object where one to its base is.
@@ -90,14 +98,6 @@ bool isObjectFit(const Context& constant, const types::TypeInfo& source, TypeId 
 }
 
 }  // namespace
-
-// A pointer to a text may name a longer one.
-static bool pointsAlike(const Context& context, TypeId from, TypeId to) {
-  const types::TypeInfo& source = context.types().info(context.types().resolve(from));
-  const types::TypeInfo& target = context.types().info(context.types().resolve(to));
-  if (TypeTable::isText(source.kind) && source.kind == target.kind) return source.length >= target.length;
-  return sameType(context, from, to);
-}
 
 Fit fit(const Context& context, TypeId from, TypeId to) {
   const types::TypeTable& table = context.types();

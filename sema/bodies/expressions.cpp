@@ -13,12 +13,42 @@ namespace {
 
 using types::TypeTable;
 
+// An integer; reports what is none.
+TypeId checkIndexValue(Context& context, ExprId& index) {
+  TypeId type = check(context, index, {}, Access::Read);
+  if (isUntyped(context, type)) type = settle(context, index);
+  const TypeKind kind = context.types().plainKind(type);
+  const bool enumeration = context.types().kind(type) == TypeKind::Enum;
+  if (type == types::kError) return type;
+  if ((TypeTable::isInteger(kind) || TypeTable::isBits(kind)) && !(enumeration && context.iec())) return type;
+  context.report(Diag::IndexNotInteger, context.tree().loc(index), {context.types().spell(type)});
+  return types::kError;
+}
+
+// s[i], an extension of codesys: the bytes of a STRING and the words of a WSTRING, from 0. The zero behind the last
+// one that fits can be read, so that a loop finds the end of a full text; written it would be no end any more.
+TypeId checkCharacter(Context& context, IndexExpr& node, TypeId text_type, Access access) {
+  const types::TypeInfo& info = context.types().info(context.types().resolve(text_type));
+  const bool reads = access == Access::Read || access == Access::Qualifier;
+  const types::Dimension characters{0, int64_t{info.length} - (reads ? 0 : 1)};
+  ExprId& index = context.tree().list(node.indices)[0];
+  const TypeId type = checkIndexValue(context, index);
+  if (type == types::kError) return type;
+  checkConstantIndex(context, index, &characters, text_type);
+  if (!reads) node.h.bits |= kWritesCharacter;
+  node.h.writable = context.tree().expr(node.base).writable;
+  return types::idOf(info.kind == TypeKind::WString ? TypeKind::Word : TypeKind::Byte);
+}
+
 TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   IndexExpr& node = context.tree().as<IndexExpr>(expr);
   const TypeId base = check(context, node.base, {}, access == Access::Qualifier ? Access::Read : access);
   const uint32_t count = node.indices.count;
   const types::TypeInfo* info = &context.types().info(context.types().resolve(base));
   if (info->kind == TypeKind::Pointer && count == 1) return checkPointerIndex(context, expr);
+  if (TypeTable::isText(info->kind) && count == 1 && !context.iec()) {
+    return node.h.type = checkCharacter(context, node, base, access);
+  }
   const bool array = info->kind == TypeKind::Array;
   const uint32_t dimensions = info->dimensions.empty() ? info->length : static_cast<uint32_t>(info->dimensions.size());
   if (!array && base != types::kError) {
@@ -32,14 +62,7 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   bool good = array && dimensions == count;
   for (uint32_t i = 0; i < count; ++i) {
     ExprId index = context.tree().list(node.indices)[i];
-    TypeId type = check(context, index, {}, Access::Read);
-    if (isUntyped(context, type)) type = settle(context, index);
-    const TypeKind kind = context.types().plainKind(type);
-    const bool enumeration = context.types().kind(type) == TypeKind::Enum;
-    if (type == types::kError) {
-      good = false;
-    } else if ((!TypeTable::isInteger(kind) && !TypeTable::isBits(kind)) || (enumeration && context.iec())) {
-      context.report(Diag::IndexNotInteger, context.tree().loc(index), {context.types().spell(type)});
+    if (checkIndexValue(context, index) == types::kError) {
       good = false;
     } else if (good) {
       checkConstantIndex(context, index, info->dimensions.empty() ? nullptr : &info->dimensions[i], base);
@@ -135,6 +158,7 @@ TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) 
     case ExprKind::Call: return checkCall(context, expr, expected, false);
     case ExprKind::Convert:
     case ExprKind::Bound:
+    case ExprKind::AnyValue:
     case ExprKind::AddressOf: return tree.expr(expr).type;  // checked before
     case ExprKind::ArrayInit:
     case ExprKind::StructInit:

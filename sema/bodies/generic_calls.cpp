@@ -6,20 +6,8 @@
 
 namespace rung::sema {
 
-namespace {
-
 using types::TypeTable;
 
-Operands classOf(TypeKind generic) {
-  if (generic >= TypeKind::AnyNum && generic <= TypeKind::AnySigned) return Operands::Number;
-  if (generic == TypeKind::AnyMagnitude || generic == TypeKind::AnyDuration) return Operands::NumberOrTime;
-  if (generic == TypeKind::AnyBit) return Operands::Bits;
-  if (generic == TypeKind::AnyElementary || generic == TypeKind::AnyDate) return Operands::Comparable;
-  if (generic >= TypeKind::AnyChars && generic <= TypeKind::AnyChar) return Operands::Comparable;
-  return Operands::Anything;
-}
-
-// In codesys bit strings are numbers, and integers are bit strings.
 bool belongs(const Context& context, TypeId type, TypeKind generic) {
   const TypeKind kind = context.types().kind(type), plain = context.types().plainKind(type);
   if (TypeTable::belongsTo(kind, generic) || TypeTable::belongsTo(plain, generic)) return true;
@@ -30,6 +18,17 @@ bool belongs(const Context& context, TypeId type, TypeKind generic) {
            generic == TypeKind::AnyMagnitude;
   }
   return generic == TypeKind::AnyBit && TypeTable::isInteger(plain);
+}
+
+namespace {
+
+Operands classOf(TypeKind generic) {
+  if (generic >= TypeKind::AnyNum && generic <= TypeKind::AnySigned) return Operands::Number;
+  if (generic == TypeKind::AnyMagnitude || generic == TypeKind::AnyDuration) return Operands::NumberOrTime;
+  if (generic == TypeKind::AnyBit) return Operands::Bits;
+  if (generic == TypeKind::AnyElementary || generic == TypeKind::AnyDate) return Operands::Comparable;
+  if (generic >= TypeKind::AnyChars && generic <= TypeKind::AnyChar) return Operands::Comparable;
+  return Operands::Anything;
 }
 
 TypeId groupType(Context& context, std::span<ExprId> operands, TypeKind generic, TypeId expected, const Pou& pou,

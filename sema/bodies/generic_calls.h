@@ -24,6 +24,9 @@ struct GenericOperands {
   TypeId typeFor(const Context& context, TypeId declared) const;
 };
 
+// In codesys bit strings are numbers, and integers are bit strings.
+bool belongs(const Context& context, TypeId type, TypeKind generic);
+
 // `forced` (or none): the type that a typed name such as MUX_INT asks for. `checked`: the operands have their types.
 GenericOperands groupOperands(Context& context, const CallExpr& node, PouId pou, const Arguments& arguments,
                               TypeId expected, TypeId forced, bool checked);

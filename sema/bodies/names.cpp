@@ -204,6 +204,7 @@ Entity entityOf(const Context& context, ExprId expr) {
     case ExprKind::StructInit:
     case ExprKind::Convert:
     case ExprKind::Bound:
+    case ExprKind::AnyValue:
     case ExprKind::AddressOf: return {};
   }
   return {};
@@ -298,7 +299,7 @@ TypeId checkTypedName(Context& context, ExprId& expr) {
 // `phase : Phase; … Phase.Idle`: where the variable has no such member, the name is that of the enumeration which the
 // variable hides. None when it hides none with this item. IEC 61131-3 ed. 3 writes `Phase#Idle`.
 Entity hiddenEnumeration(Context& context, const MemberExpr& node, TypeId base) {
-  if (context.tree().kind(node.base) != ExprKind::Name || context.iec()) return {};
+  if (context.tree().kind(node.base) != ExprKind::Name) return {};
   const TypeId record = context.types().resolve(base);
   if (context.types().info(record).kind == TypeKind::Record && findMember(context, record, node.member)) return {};
   const TypeId hidden = lookUpType(context, context.tree().as<NameExpr>(node.base).name);
@@ -313,11 +314,20 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   base = throughObject(context, node.base, base);
   if (!base) return checkWhole(context, expr, entityOf(context, node.base), access);
   if (base == types::kError) return node.h.type = types::kError;
-  if (const Entity type = hiddenEnumeration(context, node, base)) {
+  const Entity hidden = hiddenEnumeration(context, node, base);
+  if (hidden && context.iec()) {
+    const std::string typed =
+        std::string(text(context, nameOf(context, node.base))) + "#" + std::string(text(context, node.member));
+    context.report(Diag::NotARecord, node.h.loc, {text(context, node.member), context.types().spell(base)})
+        .didYouMean(typed);
+    node.entity = Entity::of(EntityKind::Error, 0);
+    return node.h.type = types::kError;
+  }
+  if (hidden) {
     NameExpr& name = context.tree().as<NameExpr>(node.base);
-    name.entity = type;
+    name.entity = hidden;
     name.h.type = {};
-    return checkWhole(context, expr, type, access);
+    return checkWhole(context, expr, hidden, access);
   }
   const TypeId record = context.types().resolve(base);
   const types::TypeInfo& info = context.types().info(record);

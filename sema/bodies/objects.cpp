@@ -171,9 +171,10 @@ bool isExact(const Context& context, ExprId instance) {
       case ExprKind::ArrayInit:
       case ExprKind::Repeat:
       case ExprKind::StructInit:
-      case ExprKind::Convert:
       case ExprKind::Bound:
-      case ExprKind::AddressOf: return false;
+      case ExprKind::AnyValue:
+      case ExprKind::AddressOf:
+      case ExprKind::Convert: return false;
     }
   }
 }

@@ -43,6 +43,8 @@ const char* wrongWith(const Context& context, ExprId place) {
       case ExprKind::Error: return nullptr;
       case ExprKind::Literal:
       case ExprKind::TypedName: return "a constant";
+      case ExprKind::This:
+      case ExprKind::Super:
       case ExprKind::Unary:
       case ExprKind::Binary:
       case ExprKind::Call:
@@ -51,9 +53,8 @@ const char* wrongWith(const Context& context, ExprId place) {
       case ExprKind::Repeat:
       case ExprKind::StructInit:
       case ExprKind::Convert:
-      case ExprKind::This:
-      case ExprKind::Super:
       case ExprKind::Bound:
+      case ExprKind::AnyValue:
       case ExprKind::AddressOf: return "a value";
     }
   }

@@ -111,7 +111,8 @@ bool canBeReplaced(const Pou& original, const Pou& mock) {
 void checkReplaced(Context& context, PouId id, const Pragma& pragma) {
   const Entity found = lookUp(context, context.project.pou(id).replaces);
   const Pou& mock = context.project.pou(id);
-  const std::string_view wanted = context.names().text(mock.replaces);
+  std::string_view wanted = context.names().text(mock.replaces);
+  if (wanted.empty()) wanted = "...";
   if (found.what() != EntityKind::Pou) {
     if (context.tree().lost_names) return;
     reportPragma(context, Diag::MockOfUnknown, pragma, {wanted}).didYouMean(nearestName(context, mock.replaces));
@@ -154,8 +155,9 @@ void checkMocks(Context& context) {
         std::vector<std::string_view> mocks;
         for (const Pou& other : project.pous)
           if (other.replaces) mocks.push_back(context.names().text(other.name));
-        reportPragma(context, Diag::NoMock, pragma, {context.names().text(name)})
-            .didYouMean(nearest(context.names().text(name), mocks));
+        const std::string_view written = context.names().text(name);
+        reportPragma(context, Diag::NoMock, pragma, {written.empty() ? "..." : written})
+            .didYouMean(nearest(written, mocks));
         continue;
       }
       taken[found.index] = true;

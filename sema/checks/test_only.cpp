@@ -11,7 +11,7 @@ void checkTestOnly(Context& context, PouId used, Loc loc) {
   const Pou& pou = context.project.pou(used);
   if (!pou.test_only || context.library) return;
   const Pou& user = context.project.pou(context.pou);
-  if (user.test || user.test_only) return;
+  if (user.test || user.test_only || user.replaces) return;
   context.report(Diag::TestOnly, loc, {context.names().text(pou.name)});
 }
 

@@ -41,6 +41,7 @@ void declareItems(Context& context, TypeId type, TypeExprId written, NameMap* ba
 inline bool isFunction(PouKind kind) {
   return kind == PouKind::Function || kind == PouKind::Method || kind == PouKind::Action;
 }
+
 // ---- names.cpp
 // The mock that stands for what this name means elsewhere: in all of the project but the mock itself.
 Entity mockInUse(const Context& context, NameId key);
@@ -94,6 +95,8 @@ std::optional<int64_t> constantBound(Context& context, ExprId& expr);
 void checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string_view what);
 
 // ---- libraries.cpp
+// The structure __SYSTEM.AnyType.
+TypeId anyType(Context& context);
 void indexLibraries(Context& context);
 // A name of the libraries, read on first use; of one library only when `library` is given.
 Entity lookUpLibrary(Context& context, NameId name, uint32_t library = kNoLibrary);

@@ -77,6 +77,7 @@ struct Initializer {
       case ExprKind::BitAccess:
       case ExprKind::Address:
       case ExprKind::Bound:
+      case ExprKind::AnyValue:
       case ExprKind::Range:
       case ExprKind::ArrayInit:
       case ExprKind::Repeat:

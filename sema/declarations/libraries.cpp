@@ -281,4 +281,11 @@ Entity lookUpLibrary(Context& context, NameId key, uint32_t library) {
   return {};
 }
 
+TypeId anyType(Context& context) {
+  const Entity system = context.scopes.libraries.namespaces.find(keyOf(context, context.names().intern("__SYSTEM")));
+  if (!system) return types::kError;
+  const Entity found = lookUpLibrary(context, keyOf(context, context.names().intern("AnyType")), system.index);
+  return found.what() == EntityKind::Type ? TypeId{found.index} : types::kError;
+}
+
 }  // namespace rung::sema

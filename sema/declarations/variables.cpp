@@ -235,6 +235,12 @@ void ensureVarType(Context& context, VarId id) {
       if (i == first) there.report(Diag::OpenArray, context.tree().loc(decl.type));
       var.type = types::kError;
     }
+    // An ANY input of CODESYS tells of any variable where it is; the standard's generic types are the library's.
+    const bool generic = types::TypeTable::isGeneric(context.types().kind(var.type));
+    if (generic && var.section == SectionKind::Input && !there.library && !there.iec()) {
+      var.any = var.type;
+      var.type = anyType(there);
+    }
     checkEdge(there, var);
     if (var.section != SectionKind::InOut && var.section != SectionKind::External && type != types::kError &&
         !checkNotAbstract(there, type, context.tree().loc(decl.type)))

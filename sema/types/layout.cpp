@@ -17,13 +17,7 @@ bool TypeTable::layout(TypeId id) {
   if (info.laid_out) return info.size < kMaxSize;
   info.laid_out = true;
   bool fits = true;
-  if (info.kind == TypeKind::String) {
-    info.size = static_cast<uint64_t>(info.length) + 1;
-    info.align = 1;
-  } else if (info.kind == TypeKind::WString) {
-    info.size = (static_cast<uint64_t>(info.length) + 1) * 2;
-    info.align = 2;
-  } else if (info.kind == TypeKind::Pointer || info.kind == TypeKind::Reference) {
+  if (info.kind == TypeKind::Pointer || info.kind == TypeKind::Reference) {
     info.size = info.align = pointer_size_;
   } else if (info.kind == TypeKind::Enum || info.kind == TypeKind::Subrange || info.kind == TypeKind::Alias) {
     fits = layout(info.base);
@@ -64,7 +58,7 @@ bool TypeTable::layout(TypeId id) {
     }
     info.align = align;
     info.size = end == 0 ? align : alignUp(end, align);
-  }  // scalars are laid out from the start; literal and generic types have no memory
+  }  // scalars and texts are laid out from the start; literal and generic types have no memory
   if (!fits || info.size >= kMaxSize) {
     info.size = kMaxSize;
     return false;

@@ -62,6 +62,15 @@ constexpr ElementaryName kElementaryNames[] = {
 };
 constexpr uint32_t kDefaultLength = 80;
 
+// A text is laid out from the start, like a scalar: lowering makes more of them when all layouts are known.
+void setLength(TypeInfo& info, uint32_t length) {
+  const uint32_t unit = info.kind == TypeKind::WString ? 2 : 1;
+  info.length = length;
+  info.size = (uint64_t{length} + 1) * unit;
+  info.align = unit;
+  info.laid_out = true;
+}
+
 uint64_t internKey(TypeKind kind, uint64_t value) { return static_cast<uint64_t>(kind) << 56 ^ value; }
 
 }  // namespace
@@ -76,7 +85,7 @@ TypeTable::TypeTable(Names& names, uint32_t pointer_size) : names_(names), point
       info.align = static_cast<uint32_t>(info.size);
       info.laid_out = true;
     } else if (isText(info.kind)) {
-      info.length = kDefaultLength;
+      setLength(info, kDefaultLength);
     }
   }
   for (const ElementaryName& row : kElementaryNames) {
@@ -124,7 +133,7 @@ TypeId TypeTable::string(uint32_t length) {
   if (!id) {
     TypeInfo info;
     info.kind = TypeKind::String;
-    info.length = length;
+    setLength(info, length);
     id = append(types_, std::move(info));
   }
   return id;
@@ -135,7 +144,7 @@ TypeId TypeTable::wstring(uint32_t length) {
   if (!id) {
     TypeInfo info;
     info.kind = TypeKind::WString;
-    info.length = length;
+    setLength(info, length);
     id = append(types_, std::move(info));
   }
   return id;

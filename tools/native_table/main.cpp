@@ -134,7 +134,9 @@ bool addThunks(const Texts& texts, rung::text::Standard standard, std::map<std::
     if (!project.pous[i].native) project.pous[i].used = false;
   }
   rung::ir::Module module(project.types, names, sources);
-  rung::ir::lower(project, {}, module);
+  rung::ir::LowerOptions lower_options;
+  lower_options.used_of_libraries = true;
+  rung::ir::lower(project, lower_options, module);
 
   for (size_t i = 1; i < module.bodies.size(); ++i) {
     const rung::ir::Body& body = module.bodies[i];

@@ -123,6 +123,9 @@ bool Compilation::parse() {
   if (!read()) return false;
   times_.begin("parse");
   tree.lost_names = inputs.unread;
+  std::vector<FileId> files;
+  for (const InputFile& file : inputs.files) files.push_back(file.file);
+  text::applyConditions(sources, files, options.defines, options.standard, diagnostics);
   for (const InputFile& file : inputs.files) {
     if (diagnostics.full()) break;
     setPhaseSubject(file.below.data(), file.below.size());

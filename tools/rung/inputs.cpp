@@ -10,7 +10,6 @@
 #include <filesystem>
 
 #include "frontend/source/names.h"
-#include "frontend/xml/xml.h"
 
 namespace rung::tool {
 namespace {
@@ -63,13 +62,6 @@ bool isBinary(std::string_view text) {
     i += good;
   }
   return bad * 5 > head.size();
-}
-
-std::string upper(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
-  return out;
 }
 
 bool startsDeclaration(std::string_view text) {
@@ -277,7 +269,7 @@ class Collector {
     const size_t before = candidates_.size();
     inputs_.read.push_back(folder);
     scan(folder, 0);
-    if (candidates_.size() == before) fail(Diag::EmptyFolder, folder, {folder});
+    if (candidates_.size() == before && !diagnostics_.hasErrors()) fail(Diag::EmptyFolder, folder, {folder});
   }
 
   // A folder with a .plcproj takes what that lists.
@@ -391,24 +383,6 @@ class Collector {
 
 // ---- POUs in two files
 
-// What two files of one POU have in common: their path without extension and without the word that tells them apart.
-// Motor.pou and Motor.st, Motor.decl and Motor.impl, Motor_declaration.st and Motor_body.st, Motor/declaration.st and
-// Motor/implementation.st.
-std::string pairName(std::string_view path) {
-  const size_t slash = path.rfind('/');
-  const size_t dot = path.rfind('.');
-  if (dot != std::string_view::npos && (slash == std::string_view::npos || dot > slash)) path = path.substr(0, dot);
-  std::string name = upper(path);
-  for (const std::string_view part : {"DECLARATION", "DECL", "IMPLEMENTATION", "IMPL", "BODY"}) {
-    if (!name.ends_with(part)) continue;
-    const size_t rest = name.size() - part.size();
-    if (rest != 0 && std::string_view("._-/").find(name[rest - 1]) == std::string_view::npos) continue;
-    name.resize(rest == 0 ? 0 : rest - 1);
-    break;
-  }
-  return name;
-}
-
 // Two files of one name, of which one begins a POU and the other no declaration, are that POU and its body.
 void joinPairs(Sources& sources, std::vector<InputFile>& files) {
   std::vector<std::pair<std::string, size_t>> bodies, declarations;
@@ -417,9 +391,9 @@ void joinPairs(Sources& sources, std::vector<InputFile>& files) {
     const std::string_view text = sources.text(files[i].file);
     const std::string word = vendor::firstWord(text);
     if (word == "PROGRAM" || word == "FUNCTION" || word == "FUNCTION_BLOCK")
-      declarations.emplace_back(pairName(files[i].below), i);
+      declarations.emplace_back(vendor::pairName(files[i].below), i);
     else if (!startsDeclaration(text))
-      bodies.emplace_back(pairName(files[i].below), i);
+      bodies.emplace_back(vendor::pairName(files[i].below), i);
   }
   std::sort(bodies.begin(), bodies.end());
   std::sort(declarations.begin(), declarations.end());

@@ -39,6 +39,7 @@ constexpr std::string_view kLaterCommands[] = {"convert", "graph", "fmt", "cam",
 enum class Key : uint8_t {
   Output,
   Library,
+  Define,
   Root,
   Name,
   Standard,
@@ -122,6 +123,7 @@ constexpr OptionRow kOptions[] = {
     {Key::MaxErrors, "--max-errors", "N", kReads, "stop listing after N errors; 0: never (100)"},
     {Key::Format, "--format", "text|json|sarif", kReads, "form of diagnostics (text)"},
     {Key::Color, "--color", "auto|always|never", kReads, "colours (auto: on a terminal)"},
+    {Key::Define, "-D", "NAME[=VALUE]", kReads, "define NAME for {IF defined (NAME)}; may be repeated"},
     {Key::Library, "-I", "DIR", kReads, "folder with libraries; may be repeated"},
     {Key::Root, "--root", "DIR", kReads, "paths in the output are relative to DIR"},
     {Key::Name, "--name", "ID", kCompile, "prefix of the module's symbols (plc)"},
@@ -211,6 +213,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       options.output = value;
       return {};
     case Key::Library: options.library_paths.push_back(value); return {};
+    case Key::Define: return parseDefine(value, options.defines);
     case Key::Root: options.root = value; return {};
     case Key::Name:
       if (!isIdentifier(value)) return quoted(value) + " is no C identifier; `--name` takes letters, digits and `_`";
@@ -415,6 +418,14 @@ std::string parseStandard(std::string_view name, text::Standard& standard) {
   std::string error = parseChoice("--std", name, "iec2|iec3|codesys", choice);
   if (error.empty()) standard = static_cast<text::Standard>(choice);
   return error;
+}
+
+std::string parseDefine(std::string_view text, std::vector<text::Define>& defines) {
+  const size_t equal = text.find('=');
+  const std::string_view name = text.substr(0, equal);
+  if (!isIdentifier(name)) return quoted(name) + " is no name; `-D` takes NAME or NAME=VALUE";
+  defines.push_back({std::string(name), equal == text.npos ? "" : std::string(text.substr(equal + 1))});
+  return {};
 }
 
 std::string parseChecks(std::string_view list, uint8_t& checks) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "frontend/source/render.h"
+#include "frontend/text/conditions.h"
 #include "frontend/text/parse.h"
 
 namespace rung::tool {
@@ -37,6 +38,7 @@ struct Options {
   // common
   std::string output;                      // -o
   std::vector<std::string> library_paths;  // -I
+  std::vector<text::Define> defines;       // -D
   std::string root;                        // --root
   std::string name;                        // --name; empty: plc
   text::Standard standard = text::Standard::Codesys;
@@ -96,6 +98,8 @@ struct Options {
 
 // The bits of `div,index,…`, `default`, `all` or `none`.
 [[nodiscard]] std::string parseChecks(std::string_view list, uint8_t& checks);
+// NAME or NAME=VALUE.
+[[nodiscard]] std::string parseDefine(std::string_view text, std::vector<text::Define>& defines);
 [[nodiscard]] std::string parseStandard(std::string_view name, text::Standard& standard);
 
 // One screen of help: of rung (Command::None) or of one command.

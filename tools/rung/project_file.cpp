@@ -11,7 +11,7 @@ struct Schema {
   const char* keys;  // separated by blanks
 };
 constexpr Schema kSchemas[] = {
-    {"project", false, "name sources std libraries checks optimize warnings"},
+    {"project", false, "name sources std libraries checks optimize warnings defines"},
     {"task", true, "kind interval priority trigger watchdog sensitivity programs"},
     {"module", true, "type slot inputs outputs address station parameters"},
     {"axis", true, nullptr},   // the parameters of the axis: their names are checked by the motion library
@@ -163,6 +163,9 @@ void readProjectSection(const ProjectSection& section, Diagnostics& diagnostics,
         error = "it takes 0, 1 or 2";
       else
         project.level = entry.value[0] - '0';
+    } else if (entry.key == "defines") {
+      for (const std::string& item : list(entry.value))
+        if (error.empty()) error = parseDefine(item, project.defines);
     } else if (entry.key == "warnings") {
       for (const std::string& item : list(entry.value)) {
         bool on = !item.starts_with("no-");
@@ -253,6 +256,8 @@ void applyProjectFile(const ProjectFile& project, Options& options) {
   if (project.has_level && !options.level_given) options.level = project.level;
   if (options.name.empty()) options.name = project.name;
   options.warnings.insert(options.warnings.begin(), project.warnings.begin(), project.warnings.end());
+  // Of two with one name the later one counts: the command line's.
+  options.defines.insert(options.defines.begin(), project.defines.begin(), project.defines.end());
   for (const std::string& folder : project.libraries) options.library_paths.push_back(project.folder + "/" + folder);
 }
 

@@ -36,6 +36,7 @@ struct ProjectFile {
   uint8_t checks = 0;
   int level = 1;
   std::vector<WarningSwitch> warnings;
+  std::vector<text::Define> defines;
 
   // The tasks as a CONFIGURATION in ST, each on the line of its section; empty: no [task] section.
   std::string configuration;

@@ -37,16 +37,22 @@ uint32_t batchCount(size_t modules) {
 
 using MockSets = std::vector<std::vector<std::string>>;
 
-// The sets of mocks that tests name; none first, whether there is a test without mocks or not.
-MockSets mockSets(const sema::Project& project) {
+// The sets of mocks that the chosen tests name; none first, whether there is a test without mocks or not.
+MockSets mockSets(const sema::Project& project, const host::TestOptions& options) {
   MockSets sets{{}};
   for (const sema::Pou& pou : project.pous) {
-    if (!pou.test || pou.mocks.empty()) continue;
+    if (!pou.test || pou.mocks.empty() || !isChosen(options, std::string(project.names.text(pou.name)))) continue;
     std::vector<std::string> set;
     for (NameId mock : pou.mocks) set.emplace_back(project.names.text(mock));
     if (std::find(sets.begin(), sets.end(), set) == sets.end()) sets.push_back(std::move(set));
   }
   return sets;
+}
+
+std::string headingOf(const std::vector<std::string>& mocks) {
+  std::string text;
+  for (const std::string& mock : mocks) text += (text.empty() ? "rung: in the tests with `" : ", `") + mock + '`';
+  return text.empty() ? text : text + ":\n";
 }
 
 class Tester {
@@ -83,14 +89,16 @@ class Tester {
       if (i == 0) {
         name = module.name;
         checked_ = (compilation.options.checks & kMemoryChecks) == kMemoryChecks;
-        if (module.good) sets = mockSets(*compilation.project);
+        if (module.good) sets = mockSets(*compilation.project, test_options_);
       }
       if (file != nullptr && compilation.exitCode() != kInternal) {
         module.shown = file->shown;
         module.below = file->below;
-        if (i == 0 || compilation.exitCode() != kGood) module.messages = compilation.diagnosticsText();
+        if (i == 0 || compilation.exitCode() != kGood)
+          module.messages = headingOf(sets[i]) + compilation.diagnosticsText();
         module.good = module.good && compilation.exitCode() == kGood;
       } else if (i == 0 || !module.good) {
+        fputs(headingOf(sets[i]).c_str(), stderr);
         const int exit = compilation.finish();
         if (exit != kGood || !module.good) return exit;
       }

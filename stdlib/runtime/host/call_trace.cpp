@@ -35,7 +35,7 @@ std::string CallTrace::nameOf(const char* pou, const uint8_t* instance) const {
     const rung_type& type = module_.types[symbol.type];
     const uint8_t* const begin = memory_.block(symbol.block) + symbol.offset;
     if (instance < begin || instance >= begin + (type.size == 0 ? 1 : type.size)) continue;
-    const std::string name = module_.text + symbol.name;
+    std::string name = module_.text + symbol.name;
     const std::string inside = pathInside(&type, static_cast<uint32_t>(instance - begin), pou);
     if (inside.empty()) continue;
     if (inside == "." && lowerCase(name) == lowerCase(pou)) return name;  // the instance of a program

@@ -86,6 +86,10 @@ void runCase(const rung_module& module, const rung_test& test, Memory& memory, C
 
 }  // namespace
 
+bool isChosen(const TestOptions& options, const std::string& name) {
+  return options.filter.empty() || fnmatch(lowerCase(options.filter).c_str(), lowerCase(name).c_str(), 0) == 0;
+}
+
 std::string runTests(const rung_module& module, const TestOptions& options, TestResults& results) {
   if (const char* const why = refusal(module)) return why;
   Memory memory(module);
@@ -94,11 +98,10 @@ std::string runTests(const rung_module& module, const TestOptions& options, Test
   host.assertion = onAssertion;
   memory.context().host = &host;
 
-  const std::string glob = lowerCase(options.filter);
   for (uint32_t i = 0; i < module.test_count; ++i) {
     const rung_test& test = module.tests[i];
     const char* const name = module.text + test.name;
-    if (!glob.empty() && fnmatch(glob.c_str(), lowerCase(name).c_str(), 0) != 0) continue;
+    if (!isChosen(options, name)) continue;
     Case one{&memory.context(), {}};
     one.result.name = name;
     one.result.file = module.text + test.file;

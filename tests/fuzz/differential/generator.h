@@ -79,11 +79,9 @@ struct Expr : Stmt {
 class Generator {
  public:
   Generator(uint64_t seed, unsigned index, Faults faults, Dialect dialect)
-      : state_(seed * 0x9E3779B97F4A7C15u + 1),
-        index_(index),
-        prefix_("P" + std::to_string(index)),
-        faults_(faults),
-        dialect_(dialect) {}
+      : state_(seed), index_(index), prefix_("P" + std::to_string(index)), faults_(faults), dialect_(dialect) {
+    state_ = random();  // the numbers of the next seed must not be these, one further on
+  }
 
   Node program();
 

@@ -242,7 +242,7 @@ void Worker::report(uint64_t seed, const Setting& setting) {
       const std::string text = program.print();
       const Outcome left = run(text, slow);
       if (!wanted.ran()) {
-        const bool one = std::count(left.errors.begin(), left.errors.end(), '\n') == 1;
+        const bool one = error.empty() || std::count(left.errors.begin(), left.errors.end(), '\n') == 1;
         return left.exit_code == wanted.exit_code && left.errors.find(error) != std::string::npos && one;
       }
       if (!left.ran() || left.exit_code != wanted.exit_code) return false;

@@ -243,7 +243,7 @@ class Machine {
           Flow flow = turn(StmtId{s.a}, leave);
           if (flow != Flow::Next || leave) return flow;
           flow = block(StmtId{s.b});
-          if (flow != Flow::Next) return flow;
+          if (flow != Flow::Next) return flow == Flow::Break ? Flow::Next : flow;
         }
       case StmtKind::For: {
         Value* control = place(ExprId{s.a});

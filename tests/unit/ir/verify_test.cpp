@@ -175,7 +175,7 @@ TEST(Verify, Rule29Purity) {
 }
 TEST(Verify, Rule31Dispatch) {
   const std::string base =
-      "block @Base { var id: udint }\nblock @Pump { var SUPER: @Base }\nfunction @Base__Run faults on @Base { in x: "
+      "block @Base { var id: udint }\nblock @Pump { var SUPER: @Base }\nfunction @Base__Run on @Base faults { in x: "
       "int }\n"
       "body @Base__Run { }\nfunction @Pump__Run on @Pump { in y: int }\nbody @Pump__Run { }\n"
       "function @Shape__Run on @Base abstract { in x: int }\n";

@@ -120,6 +120,7 @@ class Printer {
     }
     const sema::Call& call = c_.project.call(node.call);
     switch (call.kind) {
+      case sema::CallKind::Method:
       case sema::CallKind::Instance: expr(call.instance); break;
       case sema::CallKind::Assertion: out += "ASSERT"; break;
       case sema::CallKind::Function:
@@ -204,8 +205,11 @@ class Printer {
         out += "&";
         expr(tree_.as<AddressOfExpr>(id).place);
         return;
+      case ExprKind::This: out += "THIS"; return;
+      case ExprKind::Super: out += "SUPER"; return;
       case ExprKind::Error:
       case ExprKind::Bound:
+      case ExprKind::AnyValue:
       case ExprKind::Address:
       case ExprKind::Range:
       case ExprKind::ArrayInit:

@@ -207,7 +207,8 @@ TEST_F(CommandTest, SeparateTests) {
   Outcome outcome = shell("rung test --separate t --junit junit.xml");
   EXPECT_EQ(outcome.exit, 0) << outcome.err.substr(0, 2000);
   EXPECT_NE(outcome.out.find("\n40 passed, 0 failed\n"), std::string::npos) << outcome.out;
-  EXPECT_NE(readFile(folder.path() + "/junit.xml").text.find("<testsuites name=\"rung\" tests=\"40\" failures=\"0\""),
+  EXPECT_NE(readFile(folder.path() + "/junit.xml")
+                .text.find("<testsuites name=\"rung\" tests=\"40\" failures=\"0\" errors=\"0\""),
             std::string::npos);
   folder.write("t/t7.st", "{test}\nPROGRAM same_name\nx := 1;\nEND_PROGRAM\n");
   outcome = shell("rung test --separate t");

@@ -34,14 +34,14 @@ TEST(TwinCat, MembersStandBetweenDeclarationAndBody) {
 <Method Name="Start"><Declaration><![CDATA[METHOD Start : BOOL]]></Declaration>
   <Implementation><ST><![CDATA[Start := TRUE;]]></ST></Implementation></Method>
 <Property Name="Speed"><Declaration><![CDATA[PROPERTY Speed : INT]]></Declaration>
-  <Get Name="Get"><Declaration><![CDATA[VAR END_VAR]]></Declaration><Implementation><ST>Speed := 1;</ST></Implementation></Get>
+  <Get Name="Get"><Declaration><![CDATA[PROTECTED VAR END_VAR]]></Declaration><Implementation><ST>Speed := 1;</ST></Implementation></Get>
   <Set Name="Set"><Declaration></Declaration><Implementation><ST><![CDATA[]]></ST></Implementation></Set></Property>
 <Action Name="Stop"><Implementation><ST><![CDATA[x := 1;]]></ST></Implementation></Action>
 </POU></TcPlcObject>)");
   EXPECT_EQ(reading.text(),
             "FUNCTION_BLOCK FB\n"
             "METHOD Start : BOOL\nStart := TRUE;\nEND_METHOD\n"
-            "PROPERTY Speed : INT\nGET\nVAR END_VAR\nSpeed := 1;\nEND_GET\nSET\n\n\nEND_SET\nEND_PROPERTY\n"
+            "PROPERTY Speed : INT\nGET PROTECTED VAR END_VAR\n\nSpeed := 1;\nEND_GET\nSET \n\n\nEND_SET\nEND_PROPERTY\n"
             "ACTION Stop :\nx := 1;\nEND_ACTION\n"
             "run();\nEND_FUNCTION_BLOCK\n");
   EXPECT_EQ(reading.errors(), "");

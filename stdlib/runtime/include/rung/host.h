@@ -55,6 +55,8 @@ struct TestResults {
   double seconds = 0;   // that all of them took
   bool hinted = false;  // TestOptions::hint_when_long was printed
 };
+// Whether --filter takes a test of this name.
+bool isChosen(const TestOptions& options, const std::string& name);
 // Empty, or why the module cannot run here. `options.junit_path` is not written.
 std::string runTests(const rung_module& module, const TestOptions& options, TestResults& results);
 // 0, 2 or 4, as test() gives them.

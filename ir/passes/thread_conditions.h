@@ -1,0 +1,16 @@
+// Conditions: a temporary that holds the outcome of an AND or OR whose right operand could not stand in an expression
+// (it may fault or calls) becomes branches, where an `if` asks for it and nothing else does.
+//   needs  verified IR
+//   keeps  order of evaluation and faults; a temporary that is read elsewhere; bodies with labels as they are
+//   gives  `while i < n AND a[i] <> 0` without temporary: what the left operand proves holds where the right one stands
+//   cost   one walk that counts the reads of temporaries and one over the statements; nothing for a body without `if`
+//          on a temporary
+#pragma once
+
+#include "ir/ir.h"
+
+namespace rung::ir {
+
+bool threadConditions(Module& module, Body& body);  // true when something changed
+
+}  // namespace rung::ir

@@ -1,0 +1,98 @@
+// Inputs of type ANY, ANY_NUM … of a POU in codesys: the caller passes where its variable is, how long it is and of
+// which class its type is (__SYSTEM.AnyType). In: the argument. Out: an AnyValueExpr. Called for each call that binds
+// one.
+#include "sema/bodies/bodies.h"
+#include "sema/bodies/generic_calls.h"
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+namespace {
+
+// Items of __SYSTEM.TYPE_CLASS.
+uint32_t classOf(const Context& context, TypeId type) {
+  switch (context.types().kind(type)) {
+    case TypeKind::Bool: return 0;
+    case TypeKind::Byte:
+    case TypeKind::Char: return 2;
+    case TypeKind::Word:
+    case TypeKind::WChar: return 3;
+    case TypeKind::DWord: return 4;
+    case TypeKind::LWord: return 5;
+    case TypeKind::SInt: return 6;
+    case TypeKind::Int: return 7;
+    case TypeKind::DInt: return 8;
+    case TypeKind::LInt: return 9;
+    case TypeKind::USInt: return 10;
+    case TypeKind::UInt: return 11;
+    case TypeKind::UDInt: return 12;
+    case TypeKind::ULInt: return 13;
+    case TypeKind::Real: return 14;
+    case TypeKind::LReal: return 15;
+    case TypeKind::String: return 16;
+    case TypeKind::WString: return 17;
+    case TypeKind::Time: return 18;
+    case TypeKind::Date:
+    case TypeKind::LDate: return 19;
+    case TypeKind::DateTime:
+    case TypeKind::LDateTime: return 20;
+    case TypeKind::TimeOfDay:
+    case TypeKind::LTimeOfDay: return 21;
+    case TypeKind::Pointer: return 22;
+    case TypeKind::Reference: return 23;
+    case TypeKind::Subrange: return 24;
+    case TypeKind::Enum: return 25;
+    case TypeKind::Array: return 26;
+    case TypeKind::Record: return 28;
+    case TypeKind::LTime: return 37;
+    case TypeKind::None:
+    case TypeKind::Error:
+    case TypeKind::IntegerLiteral:
+    case TypeKind::RealLiteral:
+    case TypeKind::NullLiteral:
+    case TypeKind::Any:
+    case TypeKind::AnyElementary:
+    case TypeKind::AnyMagnitude:
+    case TypeKind::AnyNum:
+    case TypeKind::AnyReal:
+    case TypeKind::AnyInt:
+    case TypeKind::AnyUnsigned:
+    case TypeKind::AnySigned:
+    case TypeKind::AnyDuration:
+    case TypeKind::AnyBit:
+    case TypeKind::AnyChars:
+    case TypeKind::AnyString:
+    case TypeKind::AnyChar:
+    case TypeKind::AnyDate:
+    case TypeKind::AnyDerived:
+    case TypeKind::Alias:
+    case TypeKind::Count_: return 29;
+  }
+  return 29;
+}
+
+}  // namespace
+
+void bindAny(Context& context, const Pou& pou, const Var& pin, ExprId& value) {
+  TypeId type = check(context, value, {}, Access::Address);
+  if (isUntyped(context, type)) type = settle(context, value);
+  if (!type || type == types::kError || pin.type == types::kError) return;
+  if (context.types().resolve(type) == context.types().resolve(pin.type)) return;  // an ANY input passed on
+  const Loc loc = context.tree().begin(value);
+  if (context.types().isOpenArray(type) || !belongs(context, type, context.types().kind(pin.any))) {
+    context.report(Diag::NotOfGeneric, loc,
+                   {context.types().spell(type), text(context, pou.name), context.types().spell(pin.any)});
+    return;
+  }
+  if (const PouId record = pouOf(context, type)) resolvePou(context, record);
+  if (!ensureLayout(context, type)) return;
+  AnyValueExpr node{};
+  node.h.kind = ExprKind::AnyValue;
+  node.h.loc = loc;
+  node.h.type = pin.type;
+  node.value = value;
+  node.type_class = classOf(context, type);
+  value = context.tree().add<ExprId>(node);
+}
+
+}  // namespace rung::sema
