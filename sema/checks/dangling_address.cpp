@@ -27,8 +27,6 @@ VarId rootOf(const Context& context, ExprId place) {
       case ExprKind::BitAccess: place = tree.as<BitAccessExpr>(place).base; break;
       case ExprKind::Convert: place = tree.as<ConvertExpr>(place).operand; break;
       case ExprKind::AddressOf: place = tree.as<AddressOfExpr>(place).place; break;
-      case ExprKind::This:
-      case ExprKind::Super:
       case ExprKind::Deref:
       case ExprKind::Address:
       case ExprKind::Bound:
