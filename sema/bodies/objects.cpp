@@ -285,8 +285,8 @@ bool checkPropertyAssign(Context& context, AssignStmt& node) {
 //   passes  p : Pump(3);        FB_Init has an input behind bInitRetains and bInCopyCode
 CallId checkConstructor(Context& context, TypeExprId type) {
   Tree& tree = context.tree();
-  while (tree.kind(type) == TypeExprKind::Array) type = tree.as<ArrayTypeExpr>(type).element;
-  if (tree.kind(type) != TypeExprKind::Named) return {};
+  while (type && tree.kind(type) == TypeExprKind::Array) type = tree.as<ArrayTypeExpr>(type).element;
+  if (!type || tree.kind(type) != TypeExprKind::Named) return {};
   const NamedTypeExpr& written = tree.as<NamedTypeExpr>(type);
   const TypeId resolved = context.types().resolve(written.h.type);
   if (!resolved || resolved == types::kError) return {};

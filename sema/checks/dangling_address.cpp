@@ -39,6 +39,8 @@ VarId rootOf(const Context& context, ExprId place) {
       case ExprKind::Call:
       case ExprKind::Range:
       case ExprKind::ArrayInit:
+      case ExprKind::This:
+      case ExprKind::Super:
       case ExprKind::Repeat:
       case ExprKind::StructInit: return {};
     }

@@ -1,5 +1,6 @@
-// Forbids what a block does not show: its locals (codesys: setting them); writing its outputs and in-outs from outside;
-// in iec also reading its inputs, and writing them but in a call. IEC 61131-3 ed. 3, 6.6.3.4; design §6, dialect table.
+// Forbids what a block does not show: its locals (codesys: those of a library, and setting them); writing its outputs
+// and in-outs from outside; in iec also reading its inputs, and writing them but in a call. IEC 61131-3 ed. 3, 6.6.3.4;
+// design §6, dialect table.
 //   passes  x := timer.Q;   timer.PT := T#5s (codesys);
 //   fails   timer.Q := TRUE;   x := mixer.step (a VAR)
 // Called by names.cpp for each `instance.pin`.
@@ -33,7 +34,7 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
     case SectionKind::InOut: return writes ? refuse(Diag::InOutWrittenOutside) : true;
     case SectionKind::Local:
     case SectionKind::Inst:
-      if (!context.iec() && access != Access::Write) return true;
+      if (!context.iec() && access != Access::Write && !context.project.pou(var.pou).library) return true;
       [[fallthrough]];
     case SectionKind::Temp:
     case SectionKind::External:
