@@ -107,6 +107,8 @@ bool checkExprAs(Context& context, ExprId& expr, TypeId to, std::string_view wha
 TypeId checkPlace(Context& context, ExprId& expr, std::string_view what);
 // Makes a place what a reference of this type is bound to; reports when it cannot be bound to it.
 bool bindReference(Context& context, ExprId& place, TypeId reference);
+// A literal of a known type (made_nodes.cpp).
+ExprId makeLiteral(Context& context, LiteralKind kind, TypeId type, int64_t value, Loc loc);
 void checkBody(Context& context, PouId pou);
 // Checks the body of a POU that was not checked. False: it has errors, or is being checked just now.
 bool ensureBody(Context& context, PouId pou);

@@ -167,6 +167,10 @@ TypeId checkPointerIndex(Context& context, ExprId& expr);
 // p + n, p - n, p - q, and pointers as numbers. None when the types do not combine so.
 TypeId combinePointers(Context& context, ExprId& self, TypeId expected);
 
+// ---- made_nodes.cpp: nodes that need not be checked again; makeLiteral is in context.h
+ExprId makeBinary(Context& context, BinaryOp op, ExprId left, ExprId right, TypeId type, Loc loc);
+ExprId makeDeref(Context& context, ExprId pointer, TypeId target, Loc loc);
+
 // ---- open_arrays.cpp
 // LOWER_BOUND(a, n), UPPER_BOUND(a, n). None when the name is another one.
 TypeId checkBoundCall(Context& context, ExprId& expr, NameId name);
@@ -198,6 +202,10 @@ inline NameId nameOf(const Context& context, ExprId expr) {
   return {};
 }
 inline std::string_view text(const Context& context, NameId name) { return context.names().text(name); }
+inline bool isNamed(const Context& context, NameId name, std::string_view word) {
+  const std::string_view spelled = text(context, name);
+  return spelled.size() == word.size() && sameIdentifier(spelled, word);
+}
 // A constant integer that costs nothing to know, or evaluates. None when the expression is no constant.
 std::optional<int64_t> constantInteger(Context& context, ExprId expr);
 

@@ -52,11 +52,6 @@ int extensibleSlot(Context& context, PouId pou, NameId written) {
   return -1;
 }
 
-bool isNamed(const Context& context, NameId name, std::string_view word) {
-  const std::string_view spelled = text(context, name);
-  return spelled.size() == word.size() && sameIdentifier(spelled, word);
-}
-
 struct Slots {
   Context& context;
   const CallExpr& node;
@@ -275,15 +270,10 @@ TypeId sizeOf(Context& context, ExprId& expr) {
   if (!type || type == types::kError) return node.h.type = types::kError;
   if (const PouId pou = pouOf(context, type)) resolvePou(context, pou);
   if (!context.types().layout(type)) return node.h.type = types::kError;
-  LiteralExpr size{};
-  size.h.kind = ExprKind::Literal;
-  size.h.op = static_cast<uint8_t>(LiteralKind::Integer);
-  size.h.loc = node.h.loc;
-  size.h.is_constant = 1;
-  size.h.type = types::idOf(TypeKind::IntegerLiteral);
-  size.setValue(context.types().info(context.types().resolve(type)).size);
-  expr = context.tree().add<ExprId>(size);
-  return size.h.type;
+  const TypeId untyped = types::idOf(TypeKind::IntegerLiteral);
+  const auto size = static_cast<int64_t>(context.types().info(context.types().resolve(type)).size);
+  expr = makeLiteral(context, LiteralKind::Integer, untyped, size, node.h.loc);
+  return untyped;
 }
 
 TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected) {

@@ -129,13 +129,7 @@ TypeId checkAddress(Context& context, ExprId& expr) {
 TypeId throughReference(Context& context, ExprId& expr, TypeId type) {
   const types::TypeInfo& info = context.types().info(context.types().resolve(type));
   if (info.kind != TypeKind::Reference) return type;
-  DerefExpr deref{};
-  deref.h.kind = ExprKind::Deref;
-  deref.h.loc = context.tree().loc(expr);
-  deref.h.writable = 1;
-  deref.h.type = info.base;
-  deref.base = expr;
-  expr = context.tree().add<ExprId>(deref);
+  expr = makeDeref(context, expr, info.base, context.tree().loc(expr));
   return info.base;
 }
 

@@ -21,16 +21,6 @@ const char* wordOf(AccessLevel access) {
   return "PUBLIC";
 }
 
-ExprId deref(Context& context, ExprId pointer, TypeId target) {
-  DerefExpr node{};
-  node.h.kind = ExprKind::Deref;
-  node.h.loc = context.tree().loc(pointer);
-  node.h.writable = 1;
-  node.h.type = target;
-  node.base = pointer;
-  return context.tree().add<ExprId>(node);
-}
-
 // The object that an instance expression names, as the owner of the method that is called: an interface pointer becomes
 // one of the interface that declares the method.
 ExprId instanceFor(Context& context, ExprId instance, PouId method) {
@@ -43,7 +33,7 @@ ExprId instanceFor(Context& context, ExprId instance, PouId method) {
     return instance;
   ExprId pointer = context.tree().as<DerefExpr>(instance).base;
   wrapConvert(context, pointer, context.types().pointer(owner.record));
-  return deref(context, pointer, owner.record);
+  return makeDeref(context, pointer, owner.record, context.tree().loc(pointer));
 }
 
 // What a call on an object does to the variables that lead to it: a pointer is read, an object may change.
@@ -139,7 +129,7 @@ TypeId throughObject(Context& context, ExprId& expr, TypeId type) {
   const ExprKind kind = context.tree().kind(expr);
   if (kind != ExprKind::This && kind != ExprKind::Super && !interfaceOf(context, type)) return type;
   const TypeId target = context.types().info(context.types().resolve(type)).base;
-  expr = deref(context, expr, target);
+  expr = makeDeref(context, expr, target, context.tree().loc(expr));
   return target;
 }
 
@@ -305,11 +295,8 @@ CallId checkConstructor(Context& context, TypeExprId type) {
   node.h.loc = node.end = written.h.loc;
   std::vector<Argument> arguments;
   for (uint32_t i = 0; i < kImplicit; ++i) {
-    LiteralExpr no{};
-    no.h.kind = ExprKind::Literal;
-    no.h.op = static_cast<uint8_t>(LiteralKind::Bool);
-    no.h.loc = node.h.loc;
-    arguments.push_back({{}, tree.add<ExprId>(no), false, false, node.h.loc});
+    const ExprId no = makeLiteral(context, LiteralKind::Bool, types::kBool, 0, node.h.loc);
+    arguments.push_back({{}, no, false, false, node.h.loc});
   }
   for (const Argument& argument : tree.list(written.arguments)) arguments.push_back(argument);
   node.arguments = tree.addList<Argument>(arguments);

@@ -42,15 +42,8 @@ TypeId checkBoundCall(Context& context, ExprId& expr, NameId name) {
     return types::kDInt;
   }
   const int64_t value = lower ? info.dimensions[index].low : info.dimensions[index].high;
-  LiteralExpr literal{};
-  literal.h.kind = ExprKind::Literal;
-  literal.h.op = static_cast<uint8_t>(LiteralKind::Integer);
-  literal.h.bits = value < 0 ? kLiteralNegative : 0;
-  literal.h.loc = node.h.loc;
-  literal.h.is_constant = 1;
-  literal.h.type = types::kDInt;
-  literal.setValue(static_cast<uint64_t>(value < 0 ? -value : value));
-  expr = context.tree().add<ExprId>(literal);
+  expr = makeLiteral(context, LiteralKind::Integer, types::kDInt, value < 0 ? -value : value, node.h.loc);
+  if (value < 0) context.tree().expr(expr).bits = kLiteralNegative;
   return types::kDInt;
 }
 

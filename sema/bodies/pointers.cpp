@@ -9,39 +9,12 @@ namespace rung::sema {
 
 namespace {
 
-bool isNamed(const Context& context, NameId name, std::string_view word) {
-  const std::string_view spelled = text(context, name);
-  return spelled.size() == word.size() && sameIdentifier(spelled, word);
-}
-
 ExprId addressOf(Context& context, ExprId place, TypeId type, Loc loc) {
   AddressOfExpr node{};
   node.h.kind = ExprKind::AddressOf;
   node.h.loc = loc;
   node.h.type = type;
   node.place = place;
-  return context.tree().add<ExprId>(node);
-}
-
-ExprId literal(Context& context, LiteralKind kind, TypeId type, uint64_t value, Loc loc) {
-  LiteralExpr node{};
-  node.h.kind = ExprKind::Literal;
-  node.h.op = static_cast<uint8_t>(kind);
-  node.h.loc = loc;
-  node.h.is_constant = 1;
-  node.h.type = type;
-  node.setValue(value);
-  return context.tree().add<ExprId>(node);
-}
-
-ExprId binary(Context& context, BinaryOp op, TypeId type, ExprId left, ExprId right, Loc loc) {
-  BinaryExpr node{};
-  node.h.kind = ExprKind::Binary;
-  node.h.op = static_cast<uint8_t>(op);
-  node.h.loc = loc;
-  node.h.type = type;
-  node.left = left;
-  node.right = right;
   return context.tree().add<ExprId>(node);
 }
 
@@ -71,8 +44,8 @@ TypeId checkBitAddress(Context& context, ExprId& expr, ExprId place) {
     return types::kError;
   }
   const uint32_t area = view->area == ImageArea::Memory ? 1 : view->area == ImageArea::Input ? 2 : 3;
-  expr =
-      literal(context, LiteralKind::Integer, types::kDWord, uint64_t{area} << 30 | (view->byte * 8 + view->bit), loc);
+  expr = makeLiteral(context, LiteralKind::Integer, types::kDWord, uint64_t{area} << 30 | (view->byte * 8 + view->bit),
+                     loc);
   return types::kDWord;
 }
 
@@ -98,12 +71,12 @@ TypeId checkIsValid(Context& context, ExprId& expr, ExprId operand) {
     const Var& var = context.project.vars[entity.index];
     if (var.section == SectionKind::InOut && context.tree().kind(operand) == ExprKind::Name) {
       if (var.storage == Storage::Local) {
-        expr = literal(context, LiteralKind::Bool, types::kBool, 1, loc);
+        expr = makeLiteral(context, LiteralKind::Bool, types::kBool, 1, loc);
         return types::kBool;
       }
       const TypeId pointer = context.types().pointer(type);
-      expr = binary(context, BinaryOp::NotEqual, types::kBool, addressOf(context, operand, pointer, loc),
-                    literal(context, LiteralKind::Null, pointer, 0, loc), loc);
+      expr = makeBinary(context, BinaryOp::NotEqual, addressOf(context, operand, pointer, loc),
+                        makeLiteral(context, LiteralKind::Null, pointer, 0, loc), types::kBool, loc);
       return types::kBool;
     }
   }
@@ -111,8 +84,8 @@ TypeId checkIsValid(Context& context, ExprId& expr, ExprId operand) {
     context.report(Diag::NotAReference, context.tree().begin(operand), {"__ISVALIDREF", context.types().spell(own)});
     return types::kError;
   }
-  const ExprId null = literal(context, LiteralKind::Null, own, 0, loc);
-  expr = binary(context, BinaryOp::NotEqual, types::kBool, operand, null, loc);
+  const ExprId null = makeLiteral(context, LiteralKind::Null, own, 0, loc);
+  expr = makeBinary(context, BinaryOp::NotEqual, operand, null, types::kBool, loc);
   return types::kBool;
 }
 
@@ -152,7 +125,7 @@ bool bindReference(Context& context, ExprId& place, TypeId reference) {
                     context.tree().as<LiteralExpr>(place).value() == 0;
   const Loc loc = context.tree().loc(place);
   if (zero) {  // REF= 0: it refers to nothing
-    place = literal(context, LiteralKind::Null, reference, 0, loc);
+    place = makeLiteral(context, LiteralKind::Null, reference, 0, loc);
     return true;
   }
   const TypeId type = check(context, place, {}, Access::Address);
@@ -193,19 +166,13 @@ TypeId checkPointerIndex(Context& context, ExprId& expr) {
   if (!ensureLayout(context, target)) return node.h.type = types::kError;
   if (given != types::kLInt) wrapConvert(context, index, types::kLInt);
   const uint64_t size = context.types().info(context.types().resolve(target)).size;
-  const ExprId width = literal(context, LiteralKind::Integer, types::kLInt, size, loc);
+  const ExprId width = makeLiteral(context, LiteralKind::Integer, types::kLInt, size, loc);
   ExprId sum = pointer;
   toNumber(context, sum);
-  sum = binary(context, BinaryOp::Add, types::kLInt, sum,
-               binary(context, BinaryOp::Multiply, types::kLInt, index, width, loc), loc);
+  sum = makeBinary(context, BinaryOp::Add, sum,
+                   makeBinary(context, BinaryOp::Multiply, index, width, types::kLInt, loc), types::kLInt, loc);
   wrapConvert(context, sum, type);
-  DerefExpr deref{};
-  deref.h.kind = ExprKind::Deref;
-  deref.h.loc = loc;
-  deref.h.writable = 1;
-  deref.h.type = target;
-  deref.base = sum;
-  expr = context.tree().add<ExprId>(deref);
+  expr = makeDeref(context, sum, target, loc);
   return target;
 }
 

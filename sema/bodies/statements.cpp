@@ -181,14 +181,9 @@ ExprId checkLabel(Context& context, ExprId label, TypeId selector, CaseLabels& l
   *value = *known;
   labels.good = true;
   if (entityOf(context, label) || context.tree().kind(label) == ExprKind::Literal) return label;
-  LiteralExpr folded{};  // lowering need not compute it again
-  folded.h.kind = ExprKind::Literal;
-  folded.h.op = static_cast<uint8_t>(LiteralKind::Integer);
-  folded.h.loc = context.tree().begin(label);
-  folded.h.is_constant = 1;
-  folded.h.type = context.tree().expr(label).type;
-  folded.setValue(static_cast<uint64_t>(*known));
-  return context.tree().add<ExprId>(folded);
+  // Lowering need not compute it again.
+  return makeLiteral(context, LiteralKind::Integer, context.tree().expr(label).type, *known,
+                     context.tree().begin(label));
 }
 
 bool checkCase(Context& context, CaseStmt& node) {

@@ -20,29 +20,6 @@ TypeId counter(const Context& context, TypeKind k) {
   return isLong(k) ? types::kULInt : types::kUDInt;
 }
 
-ExprId binary(Context& context, BinaryOp op, ExprId left, ExprId right, TypeId type, Loc loc) {
-  BinaryExpr node{};
-  node.h.kind = ExprKind::Binary;
-  node.h.op = static_cast<uint8_t>(op);
-  node.h.loc = loc;
-  node.h.type = type;
-  node.h.in_parens = 1;
-  node.left = left;
-  node.right = right;
-  return context.tree().add<ExprId>(node);
-}
-
-ExprId number(Context& context, uint64_t value, TypeId type, Loc loc) {
-  LiteralExpr node{};
-  node.h.kind = ExprKind::Literal;
-  node.h.op = static_cast<uint8_t>(LiteralKind::Integer);
-  node.h.loc = loc;
-  node.h.type = type;
-  node.h.is_constant = 1;
-  node.setValue(value);
-  return context.tree().add<ExprId>(node);
-}
-
 ExprId converted(Context& context, ExprId expr, TypeId to) {
   if (context.tree().expr(expr).type != to) wrapConvert(context, expr, to);
   return expr;
@@ -55,7 +32,8 @@ ExprId spanIn(Context& context, ExprId span, TypeKind kind, Loc loc) {
   const TypeId count = counter(context, context.types().kind(durationFor(kind)));
   span = converted(context, span, count);
   if (isSeconds(kind)) {
-    span = binary(context, BinaryOp::Divide, span, number(context, 1000, count, loc), count, loc);
+    span = makeBinary(context, BinaryOp::Divide, span, makeLiteral(context, LiteralKind::Integer, count, 1000, loc),
+                      count, loc);
   }
   return converted(context, span, units);
 }
@@ -67,7 +45,7 @@ TypeId scale(Context& context, ExprId& self, BinaryOp op, ExprId span, ExprId fa
   if (TypeTable::isReal(by) || by == TypeKind::RealLiteral) {
     if (by == TypeKind::RealLiteral && !adapt(context, factor, types::kLReal, {})) return types::kError;
     span = converted(context, converted(context, span, counter(context, kind)), types::kLReal);
-    self = binary(context, op, span, converted(context, factor, types::kLReal), types::kLReal, loc);
+    self = makeBinary(context, op, span, converted(context, factor, types::kLReal), types::kLReal, loc);
     // The count is rounded as any REAL is.
     self = converted(context, converted(context, self, counter(context, kind)), duration);
     return duration;
@@ -87,7 +65,7 @@ TypeId scale(Context& context, ExprId& self, BinaryOp op, ExprId span, ExprId fa
     }
   }
   span = converted(context, span, units);
-  self = binary(context, op, span, converted(context, factor, units), units, loc);
+  self = makeBinary(context, op, span, converted(context, factor, units), units, loc);
   self = converted(context, self, duration);
   return duration;
 }
@@ -111,7 +89,7 @@ TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, Ex
   if (op == BinaryOp::Modulo && span_left && span_right && !context.iec()) {
     const TypeKind kind = isLong(a) || isLong(b) ? TypeKind::LTime : TypeKind::Time;
     const TypeId units = counter(context, kind);
-    self = binary(context, op, spanIn(context, left, kind, loc), spanIn(context, right, kind, loc), units, loc);
+    self = makeBinary(context, op, spanIn(context, left, kind, loc), spanIn(context, right, kind, loc), units, loc);
     self = converted(context, self, types::idOf(kind));
     return types::idOf(kind);
   }
@@ -126,13 +104,13 @@ TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, Ex
   if (TypeTable::isDate(a) && span_right) {
     if (a == TypeKind::Date || a == TypeKind::LDate) return {};  // a DATE has no time of day to add to
     const TypeId units = counter(context, a);
-    self = binary(context, op, converted(context, left, units), spanIn(context, right, a, loc), units, loc);
+    self = makeBinary(context, op, converted(context, left, units), spanIn(context, right, a, loc), units, loc);
     self = converted(context, self, types::idOf(a));
     return types::idOf(a);
   }
   if (op == BinaryOp::Add && span_left && TypeTable::isDate(b) && b != TypeKind::Date && b != TypeKind::LDate) {
     const TypeId units = counter(context, b);
-    self = binary(context, op, spanIn(context, left, b, loc), converted(context, right, units), units, loc);
+    self = makeBinary(context, op, spanIn(context, left, b, loc), converted(context, right, units), units, loc);
     self = converted(context, self, types::idOf(b));
     return types::idOf(b);
   }
@@ -149,10 +127,11 @@ TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, Ex
     const TypeId span = durationFor(kind);
     const TypeId count = counter(context, context.types().kind(span));
     ExprId difference =
-        binary(context, op, converted(context, left, units), converted(context, right, units), units, loc);
+        makeBinary(context, op, converted(context, left, units), converted(context, right, units), units, loc);
     difference = converted(context, difference, count);
     if (isSeconds(kind)) {
-      difference = binary(context, BinaryOp::Multiply, difference, number(context, 1000, count, loc), count, loc);
+      difference = makeBinary(context, BinaryOp::Multiply, difference,
+                              makeLiteral(context, LiteralKind::Integer, count, 1000, loc), count, loc);
     }
     self = converted(context, difference, span);
     return span;

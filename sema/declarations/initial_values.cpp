@@ -115,17 +115,6 @@ struct Initializer {
     init = {};
   }
 
-  ExprId countLiteral(Loc loc, uint64_t value) const {
-    LiteralExpr literal{};
-    literal.h.kind = ExprKind::Literal;
-    literal.h.op = static_cast<uint8_t>(LiteralKind::Integer);
-    literal.h.is_constant = 1;
-    literal.h.loc = loc;
-    literal.h.type = types::idOf(TypeKind::LInt);
-    literal.setValue(value);
-    return tree().add<ExprId>(literal);
-  }
-
   // N(1, 2) with a constant N is a repetition as 3(1, 2) is; other calls stay what they are.
   ExprId repetition(ExprId id) const {
     const CallExpr& call = tree().as<CallExpr>(id);
@@ -174,7 +163,8 @@ struct Initializer {
           continue;
         }
         if (tree().kind(repeat.count) != ExprKind::Literal) {
-          repeat.count = countLiteral(tree().loc(repeat.count), static_cast<uint64_t>(*turns));
+          repeat.count =
+              makeLiteral(context, LiteralKind::Integer, types::idOf(TypeKind::LInt), *turns, tree().loc(repeat.count));
         }
         uint64_t group = 1;
         Loc inner;
