@@ -109,6 +109,8 @@ TypeId checkPlace(Context& context, ExprId& expr, std::string_view what);
 bool bindReference(Context& context, ExprId& place, TypeId reference);
 // A literal of a known type (made_nodes.cpp).
 ExprId makeLiteral(Context& context, LiteralKind kind, TypeId type, int64_t value, Loc loc);
+// A text that lives in the tree, of the type STRING(its length).
+ExprId makeText(Context& context, std::string_view text, Loc loc);
 void checkBody(Context& context, PouId pou);
 // Checks the body of a POU that was not checked. False: it has errors, or is being checked just now.
 bool ensureBody(Context& context, PouId pou);

@@ -64,6 +64,7 @@ struct Var {
   bool required = false, lazy = false,
        extensible = false;             // pins of library declarations: {required} {lazy} {extensible}
   bool open_address = false;           // AT %I*: the number comes from VAR_CONFIG or from the system
+  bool instance_path = false;          // {attribute 'instance-path'}: holds the path of its instance
   bool read = false, written = false;  // by any body: for the warnings
   PouId pou;                           // owner, or none
   ListId list;                         // owner when global
@@ -243,6 +244,7 @@ using CallConstant = std::function<std::optional<types::Value>(
 struct Options {
   text::Standard standard = text::Standard::Codesys;
   uint32_t pointer_size = 8;
+  std::string_view name = "plc";               // of the module: instance paths begin with it
   std::span<const LibraryFile> libraries;      // texts that outlive the project; declarations are parsed on first use
   std::span<const std::string> project_names;  // qualify what the project itself declares: `TcUnit.FB_TestSuite`
   std::span<const LibraryAlias> library_aliases;

@@ -259,6 +259,10 @@ ExprId BodyLowering::lowerMethodCall(const sema::Call& call, const CallExpr& nod
     object = stable(lowerPlace(call.instance));
   else
     object = self(node.h.loc);
+  if (!call.bindings.empty() && project_.pou(call.pou).kind == PouKind::Action) {
+    lowerBlockCall(call, node, object);
+    return {};
+  }
   return lowerFunctionCall(call, node, target, asBase(object, owner, node.h.loc));
 }
 
@@ -442,7 +446,13 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
       assign(place, lowerValue(binding.value), at);
     }
   }
-  append({.kind = StmtKind::Call, .loc = loc, .a = in_.bodyOf(call.pou).index, .b = instance.index});
+  if (project_.pou(call.pou).kind == PouKind::Action) {
+    sema::Call action = call;
+    action.bindings.clear();
+    lowerFunctionCall(action, node, nullptr, asBase(instance, project_.pou(call.pou).owner, loc));
+  } else {
+    append({.kind = StmtKind::Call, .loc = loc, .a = in_.bodyOf(call.pou).index, .b = instance.index});
+  }
   // What they referred to ends with this body or sooner, and a trace must not follow them there.
   for (const ExprId field : short_lived) append({.kind = StmtKind::Bind, .loc = loc, .a = field.index});
   for (const CopyBack& copy : copies) storeOutput(copy.target, copy.value, false, loc);

@@ -15,6 +15,16 @@ ExprId makeLiteral(Context& context, LiteralKind kind, TypeId type, int64_t valu
   return context.tree().add<ExprId>(node);
 }
 
+ExprId makeText(Context& context, std::string_view text, Loc loc) {
+  const TypeId type = context.types().string(static_cast<uint32_t>(text.size()));
+  const ExprId made = makeLiteral(context, LiteralKind::String, type, 0, loc);
+  const TextId id = context.tree().addText(text);
+  auto& node = context.tree().as<LiteralExpr>(made);
+  node.low = id.first;
+  node.high = id.length;
+  return made;
+}
+
 ExprId makeBinary(Context& context, BinaryOp op, ExprId left, ExprId right, TypeId type, Loc loc) {
   BinaryExpr node{};
   node.h.kind = ExprKind::Binary;

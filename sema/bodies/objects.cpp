@@ -322,12 +322,16 @@ TypeId callMethod(Context& context, ExprId& expr, PouId id, ExprId instance, boo
   CallExpr& node = context.tree().as<CallExpr>(expr);
   resolvePou(context, id);
   noteCall(context, id, node.h.loc);
-  const Arguments arguments = matchArguments(context, node, id);
+  // An action has the pins of its block (codesys): they are set before it runs and copied after.
+  const bool is_action = context.project.pou(id).kind == PouKind::Action;
+  const PouId has_pins = is_action ? context.project.pou(id).owner : id;
+  resolvePou(context, has_pins);
+  const Arguments arguments = matchArguments(context, node, has_pins);
   const CallId made = addMethodCall(context, id, instance, {});
   Call call = context.project.call(made);
   bindControlPins(context, node, arguments, call);
-  bindArguments(context, node, id, arguments, call);
-  if (arguments.good) checkRequiredPins(context, node, id, arguments);
+  bindArguments(context, node, has_pins, arguments, call);
+  if (arguments.good && !is_action) checkRequiredPins(context, node, id, arguments);
   context.project.call(made) = std::move(call);
   node.call = made;
   const Pou& callee = context.project.pou(id);

@@ -14,6 +14,7 @@ void initWords(Context& context) {
   Scopes::Words& words = context.scopes.words;
   words.attribute_qualified_only = word("qualified_only");
   words.attribute_strict = word("strict");
+  words.attribute_instance_path = word("instance-path");
   words.test = word("test");
   words.test_only = word("test_only");
   words.replaces = word("replaces");

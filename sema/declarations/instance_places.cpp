@@ -1,10 +1,11 @@
 // Open addresses and VAR_CONFIG: see instance_places.h. A variable AT %I* of a list, or of a program with one instance,
 // is a view of the image like any located variable. One of a block has a field in each instance, which the program's
-// activation copies from and to the image (ir/lower).
+// activation copies from and to the image (ir/lower). {attribute 'instance-path'} is an initial value of the same kind.
 #include "sema/declarations/instance_places.h"
 
 #include <algorithm>
 
+#include "sema/bodies/bodies.h"
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {
@@ -26,6 +27,44 @@ struct Resolver {
 
   bool inField(const Var& var) const { return var.storage == Storage::Field; }
 
+  bool holdsPath(const Var& var) const {
+    return var.instance_path && inField(var) && context.types().kind(var.type) == TypeKind::String;
+  }
+
+  // `plc.Main.fb[2]` of a variable in that block, as CODESYS and TwinCAT spell it.
+  ExprId pathLiteral(const InstancePlace& place) {
+    std::string out(project.options.name);
+    if (place.program)
+      out.append(".").append(text(place.instance == InstancePlace::kNone ? project.pou(place.program).name
+                                                                         : project.instances[place.instance].name));
+    TypeId type;
+    for (size_t i = 0; i + 1 < place.path.size(); ++i) {
+      const PathStep& step = place.path[i];
+      if (step.var) {
+        type = project.var(step.var).type;
+        const Var& var = project.var(step.var);
+        const bool inherited = var.pou && project.pou(var.pou).base_var == step.var;
+        if (!inherited) out.append(".").append(text(var.name));
+        continue;
+      }
+      const TypeInfo& array = context.types().info(context.types().resolve(type));
+      int64_t rest = step.element;
+      std::string indices;
+      for (size_t d = array.dimensions.size(); d-- > 0;) {
+        const types::Dimension& dimension = array.dimensions[d];
+        const auto count = static_cast<int64_t>(dimension.count());
+        indices = std::to_string(dimension.low + rest % count) + (indices.empty() ? "" : ",") + indices;
+        rest /= count;
+      }
+      out += "[" + indices + "]";
+      type = array.base;
+    }
+    const Var& var = project.var(place.var);
+    const uint32_t capacity = context.types().info(context.types().resolve(var.type)).length;
+    if (out.size() > capacity) out.resize(capacity);
+    return makeText(context, out, var.loc);
+  }
+
   // True when instances of the record hold a field with an open address.
   bool hasOpen(TypeId type) {
     type = context.types().resolve(type);
@@ -41,7 +80,7 @@ struct Resolver {
     for (const VarId id : named->fields) {
       const Var& var = project.var(id);
       if (var.section == SectionKind::InOut) continue;
-      found = found || var.open_address || hasOpen(var.type);
+      found = found || var.open_address || holdsPath(var) || hasOpen(var.type);
     }
     has_open_[type.index] = found ? 2 : 1;
     return found;
@@ -68,6 +107,10 @@ struct Resolver {
       if (project.var(id).open_address) {
         at.var = id;
         places.push_back(at);
+      } else if (holdsPath(project.var(id))) {
+        at.var = id;
+        places.push_back(at);
+        places.back().init = pathLiteral(at);
       } else {
         walkValue(at, project.var(id).type);
       }

@@ -262,7 +262,7 @@ void load(Context& context, LibraryBlock& block) {
 
 }  // namespace
 
-Entity lookUpLibrary(Context& context, NameId key, uint32_t library) {
+static Entity findInLibraries(Context& context, NameId key, uint32_t library) {
   Libraries& libraries = context.scopes.libraries;
   if (library == libraries.project) {
     for (const NameMap* names : {&context.scopes.pous_and_types, &context.scopes.globals, &context.scopes.qualifiers})
@@ -274,7 +274,7 @@ Entity lookUpLibrary(Context& context, NameId key, uint32_t library) {
   if (library == kNoLibrary && context.library) {  // a library's own names come first
     for (uint32_t f = 0; f < libraries.sources.size(); ++f) {
       if (!(libraries.sources[f] == context.file)) continue;
-      if (const Entity own = lookUpLibrary(context, key, libraries.library_of_file[f])) return own;
+      if (const Entity own = findInLibraries(context, key, libraries.library_of_file[f])) return own;
       break;
     }
   }
@@ -289,6 +289,12 @@ Entity lookUpLibrary(Context& context, NameId key, uint32_t library) {
     if (const Entity found = libraries.list[from].names.find(key)) return found;
   }
   return {};
+}
+
+Entity lookUpLibrary(Context& context, NameId key, uint32_t library) {
+  const Entity own = findInLibraries(context, key, library);
+  if (own || library == kNoLibrary) return own;
+  return context.scopes.libraries.namespaces.find(key);  // what a library uses is reached through it: SysFile.SysTypes
 }
 
 TypeId anyType(Context& context) {

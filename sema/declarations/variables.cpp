@@ -87,6 +87,7 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
   if (!decl.h.pragmas.empty()) {
     var.required = findPragma(context, decl.h, words.required) != nullptr;
     var.lazy = findPragma(context, decl.h, words.lazy) != nullptr;
+    var.instance_path = findPragma(context, decl.h, words.attribute_instance_path) != nullptr;
     var.extensible = findPragma(context, decl.h, words.extensible) != nullptr;
     for (const Pragma& pragma : context.tree().list(decl.h.pragmas)) {
       if (keyOf(context, pragma.name) == words.alias) {

@@ -151,6 +151,7 @@ bool Compilation::check() {
   if (!diagnostics.full()) {
     sema::Options sema_options;
     sema_options.standard = options.standard;
+    if (!options.name.empty()) sema_options.name = options.name;
     sema_options.libraries = libraries.files();
     sema_options.library_aliases = libraries.aliases();
     sema_options.project_names = inputs.project_names;

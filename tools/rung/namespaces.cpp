@@ -13,9 +13,11 @@ constexpr Namespace kNamespaces[] = {{"standard", "Standard"},
                                      {"util", "Util"},
                                      {"ibaselibrary", "IBaseLibrary"},
                                      {"tc2_system", "Tc2_System"},
-                                     {"tc2_utilities", "Tc2_Utilities"}};
+                                     {"tc2_utilities", "Tc2_Utilities"},
+                                 {"twincat_systeminfovarlist", "TwinCAT_SystemInfoVarList"}};
 
-constexpr NamespaceAlias kAliases[] = {{"Tc2_Standard", "Standard"}, {"Tc3_Standard", "Standard"}};
+constexpr NamespaceAlias kAliases[] = {
+    {"Tc2_Standard", "Standard"}, {"Tc3_Standard", "Standard"}, {"IBaseLibrary", "__system"}};
 
 }  // namespace
 

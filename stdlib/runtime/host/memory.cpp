@@ -36,6 +36,7 @@ uint8_t Memory::reset() {
   for (uint32_t i = 0; i < module_.block_count; ++i) memset(blocks_[i], 0, module_.blocks[i].size);
   for (uint32_t area = 0; area < 3; ++area) memset(images_[area], 0, module_.image_bytes[area]);
   context_.now_ns = 0;
+  context_.task = context_.activation = 0;
   context_.fault = {};
   return module_.init == nullptr ? uint8_t{RUNG_FAULT_NONE} : rung_guarded(&context_, module_.init);
 }

@@ -1,4 +1,5 @@
 // The options of `rung run`, for the tool and for executables of `rung build`. See rung/host.h.
+#include <sys/stat.h>
 #include <charconv>
 #include <csignal>
 #include <cstdio>
@@ -27,6 +28,7 @@ const char kHelp[] =
     "  --trace FILE|-        write a CSV row after each cycle\n"
     "  --plot FILE           draw the variables over the time, as SVG\n"
     "  --retain FILE         keep retained variables in FILE\n"
+    "  --files-root DIR      the folder of the program's files (default: the current one)\n"
     "  --start cold|warm|origin   default: warm when the retain file exists, else cold\n"
     "  --stop-on CONDITION   end the run after the cycle that makes it TRUE: --stop-on 'Main.n >= 10'\n"
     "  --realtime            run by the clock, until the cycles are done or Ctrl-C\n";
@@ -44,8 +46,9 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
       name = argument.substr(0, equals);
       value = argument.substr(equals + 1);
     }
-    static const char* const with_value[] = {"--cycles", "--for",  "--interval", "--inputs", "--set",    "--watch",
-                                             "--trace",  "--plot", "--retain",   "--start",  "--stop-on"};
+    static const char* const with_value[] = {"--cycles", "--for",   "--interval", "--inputs",
+                                             "--set",    "--watch", "--trace",    "--plot",
+                                             "--retain", "--start", "--stop-on",  "--files-root"};
     bool takes_value = false;
     for (const char* const known : with_value) takes_value = takes_value || name == known;
     if (name == "--realtime" || name == "--trace-calls") {
@@ -86,6 +89,11 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
       if (!options.stop_on.empty()) return "--stop-on is given twice; join the conditions with OR";
       if (value.empty()) return "--stop-on needs a condition such as 'Main.n >= 10'";
       options.stop_on = value;
+    } else if (name == "--files-root") {
+      struct stat info;
+      if (stat(value.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
+        return "--files-root needs a folder that is there, not `" + value + "`";
+      options.files_root = value;
     } else if (name == "--retain") {
       options.retain_path = value;
     } else {

@@ -62,6 +62,7 @@ bool activate(Shared& shared, Worker& worker, int64_t now_ns) {
   worker.running_since.store(begin);
   worker.context.now_ns = now_ns;
   worker.context.entry = worker.item->task;
+  ++worker.context.activation;
   const uint8_t fault = rung_guarded(&worker.context, worker.item->task->run);
   worker.running_since.store(0);
   const int64_t took = monotonicNs() - begin;
@@ -150,6 +151,8 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
     auto worker = std::make_unique<Worker>();
     worker->item = &item;
     worker->context = context;
+    worker->context.task = static_cast<uint32_t>(workers.size()) + 1;
+    worker->context.activation = 0;
     if (item.task->kind == RUNG_CYCLIC && (fastest == nullptr || item.interval_ns < fastest->item->interval_ns))
       fastest = worker.get();
     workers.push_back(std::move(worker));

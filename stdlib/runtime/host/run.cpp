@@ -9,6 +9,7 @@
 #include "call_trace.h"
 #include "condition.h"
 #include "faults.h"
+#include "files.h"
 #include "inputs.h"
 #include "plot.h"
 #include "realtime.h"
@@ -61,7 +62,8 @@ struct Run {
         trace(symbols),
         stop_on(symbols),
         plot(chosen),
-        calls(chosen, memory) {}
+        calls(chosen, memory),
+        files(chosen_options.files_root) {}
 
   int prepare();
   int runVirtual();
@@ -83,6 +85,7 @@ struct Run {
   Condition stop_on;
   Plot plot;
   CallTrace calls;
+  Files files;
   std::optional<Retain> retain;
   rung_host host{};
   int64_t cycles = 0;
@@ -91,6 +94,12 @@ struct Run {
 
 // In virtual time the wall clock starts at 0 with the program.
 int64_t virtualClock(void* data) { return static_cast<Run*>(data)->memory.context().now_ns; }
+void onMessage(void* data, uint8_t severity, const char* text) {
+  static const char* const words[] = {"note", "warning", "error"};
+  const int64_t ms = static_cast<Run*>(data)->memory.context().now_ns / 1'000'000;
+  fprintf(stderr, "%lld.%03d s: %s: %s\n", static_cast<long long>(ms / 1000), static_cast<int>(ms % 1000),
+          words[severity <= RUNG_MESSAGE_ERROR ? severity : 0], text);
+}
 void onCall(void* data, const char* pou, const void* instance) { static_cast<Run*>(data)->calls.called(pou, instance); }
 
 int Run::prepare() {
@@ -103,6 +112,8 @@ int Run::prepare() {
 
   rung_context& context = memory.context();
   host.wall_clock = options.realtime ? systemClock : virtualClock;
+  host.message = onMessage;
+  files.serve(host);
   context.host = &host;
   context.host_data = this;
   if (memory.reset() != RUNG_FAULT_NONE) {

@@ -14,7 +14,7 @@ Schedule::Schedule(const Symbols& symbols, int64_t interval_ns) : symbols_(symbo
   const rung_module& module = symbols.module();
   for (uint32_t i = 0; i < module.task_count; ++i) {
     const rung_task& task = module.tasks[i];
-    Item item{&task, task.interval_ns, 0, false, {}};
+    Item item{&task, task.interval_ns, 0, false, 0, {}};
     if (task.kind == RUNG_CYCLIC) {
       if (task.interval_ns <= 0) item.interval_ns = interval_ns;
       row_ns_ = row_ns_ == 0 ? item.interval_ns : std::min(row_ns_, item.interval_ns);
@@ -71,8 +71,11 @@ uint8_t Schedule::run(int64_t row, rung_context& context) {
     });
   for (const Activation& activation : due_) {
     context.now_ns = activation.time_ns;
-    context.entry = items_[activation.item].task;
-    const uint8_t fault = rung_guarded(&context, items_[activation.item].task->run);
+    Item& item = items_[activation.item];
+    context.entry = item.task;
+    context.task = activation.item + 1;
+    context.activation = ++item.activations;
+    const uint8_t fault = rung_guarded(&context, item.task->run);
     if (fault != RUNG_FAULT_NONE) return fault;
   }
   return RUNG_FAULT_NONE;

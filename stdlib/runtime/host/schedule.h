@@ -24,6 +24,7 @@ class Schedule {
     int64_t interval_ns;
     int64_t next_ns = 0;    // cyclic
     bool was_true = false;  // event: at the last sample
+    uint32_t activations = 0;
     Variable trigger;
   };
   const std::vector<Item>& items() const { return items_; }

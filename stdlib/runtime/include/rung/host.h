@@ -22,6 +22,7 @@ struct RunOptions {
   std::string trace_path;                                 // --trace; "-": stdout
   std::string plot_path;                                  // --plot: SVG; "-": stdout
   std::string retain_path;                                // --retain
+  std::string files_root = ".";                           // --files-root
   int start = -1;            // --start: rung_start, -1: warm when the retain file exists, else cold
   std::string stop_on;       // --stop-on CONDITION
   bool trace_calls = false;  // --trace-calls, of interpreted modules that tell of their calls

@@ -164,6 +164,39 @@ typedef struct rung_assertion {
 } rung_assertion;
 
 /* ---- the host's side */
+
+/* Files of the program. Names have '/' between folders; a file is a number > 0. What fails gives a negative
+ * rung_file_error. Positions and counts are bytes. */
+typedef enum rung_file_error {
+  RUNG_FILE_MISSING = -1,
+  RUNG_FILE_DENIED = -2,
+  RUNG_FILE_EXISTS = -3,
+  RUNG_FILE_NAME = -4,   /* leaves the folder that the program may use, or is empty */
+  RUNG_FILE_HANDLE = -5, /* not open, or not for this */
+  RUNG_FILE_FAILED = -6
+} rung_file_error;
+enum rung_file_mode {
+  RUNG_FILE_READ = 1,
+  RUNG_FILE_WRITE = 2,
+  RUNG_FILE_APPEND = 4, /* every write goes to the end */
+  RUNG_FILE_CREATE = 8, /* when it is not there */
+  RUNG_FILE_TRUNCATE = 16
+};
+typedef struct rung_files {
+  int64_t (*open)(void* data, const char* name, uint32_t mode);
+  int64_t (*close)(void* data, int64_t file);
+  int64_t (*read)(void* data, int64_t file, void* bytes, uint64_t count); /* bytes read; 0 at the end */
+  int64_t (*write)(void* data, int64_t file, const void* bytes, uint64_t count);
+  int64_t (*seek)(void* data, int64_t file, int64_t offset, int from); /* 0 begin, 1 here, 2 end: the position */
+  int64_t (*size)(void* data, const char* name);
+  int64_t (*remove)(void* data, const char* name);
+  int64_t (*rename)(void* data, const char* from, const char* to);
+  int64_t (*make_folder)(void* data, const char* name);
+  int64_t (*remove_folder)(void* data, const char* name);
+} rung_files;
+
+enum rung_severity { RUNG_MESSAGE_NOTE, RUNG_MESSAGE_WARNING, RUNG_MESSAGE_ERROR };
+
 typedef struct rung_host {
   /* Wall clock, nanoseconds since 1970-01-01 UTC. Default: 0 at the start, then task time. */
   int64_t (*wall_clock)(void* data);
@@ -171,6 +204,11 @@ typedef struct rung_host {
   void (*assertion)(void* data, const rung_assertion* assertion, bool passed, const char* expected, const char* actual);
   /* A call of a POU in an interpreted module whose calls are traced; `instance` is null for a function. */
   void (*called)(void* data, const char* pou, const void* instance);
+  /* What the program tells its operator (ADSLOGSTR). Default: nothing. `severity` is a rung_severity. */
+  void (*message)(void* data, uint8_t severity, const char* text);
+  /* Default (null): opening fails as RUNG_FILE_DENIED. */
+  const rung_files* files;
+  void* files_data;
 } rung_host;
 
 struct rung_context {
@@ -185,6 +223,8 @@ struct rung_context {
   /* The rung_task or rung_test whose function runs, set by a host that takes interpreted modules: there one function
    * serves all of them. Compiled modules do not read it. */
   const void* entry;
+  uint32_t task;       /* the number of the task that runs, from 1; 0 outside of tasks */
+  uint32_t activation; /* of that task: 1 the first time */
 };
 
 typedef enum rung_start { RUNG_COLD, RUNG_WARM, RUNG_ORIGIN } rung_start;
