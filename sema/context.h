@@ -11,6 +11,12 @@ namespace rung::sema {
 struct Scopes;     // scopes.h: hash tables of the project, of each POU, of libraries
 struct BodyState;  // bodies/bodies.h: what the statements of one body share
 
+// A piece of text with its own view of names (declarations/namespaces.cpp); 0: file level without USING.
+struct RegionId {
+  uint32_t index = 0;
+  explicit operator bool() const { return index != 0; }
+};
+
 struct Context {
   Project& project;
   Scopes& scopes;
@@ -21,6 +27,7 @@ struct Context {
   BodyState* body = nullptr;  // none outside of a body
   TypeId items_of = {};       // an enumeration whose declaration is at hand: its items need no qualifier
   bool library = false;       // a library's text is at hand: read as codesys, names of the project do not count
+  RegionId region = {};       // the namespaces around the place at hand
 
   Tree& tree() const { return project.tree; }
   types::TypeTable& types() const { return project.types; }
@@ -33,11 +40,16 @@ struct Context {
 
 // ---- declarations (declarations/)
 
-// What a name stands for where `context` is: variables of the POU, then POUs, types, globals, enumeration items and
-// lists of the project, then libraries, which are read on first use. None when unknown; nothing is reported.
-Entity lookUp(Context& context, NameId name);
+// What a name stands for where `context` is: variables of the POU, then the namespaces around it, then POUs, types,
+// globals, enumeration items and lists of the project, then libraries, which are read on first use. None when unknown.
+// Nothing is reported but, where `loc` is given, a name that USINGs make ambiguous or that is INTERNAL elsewhere.
+Entity lookUp(Context& context, NameId name, Loc loc = {});
 // `qualifier.name`: members of a GVL, of a namespace, of an enumeration type.
 Entity lookUpIn(Context& context, Entity qualifier, NameId name);
+// Whether this place may name what was found; reports what is INTERNAL to another namespace.
+bool checkVisible(Context& context, Entity found, Loc loc);
+// Whether this place is in the namespace of a region, or in one within it.
+bool isInside(const Context& context, RegionId declared);
 // True when several enumerations have an item of this bare name: its context must tell which is meant.
 bool isAmbiguousItem(Context& context, Entity item);
 // The name of what is in scope nearest to a misspelled one, or empty.

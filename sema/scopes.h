@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "sema/project.h"
@@ -52,6 +53,8 @@ struct NamedType {
   State resolved = State::New;
   State cut = State::New;  // looked at by the search for types that contain themselves
   bool library = false;
+  bool internal = false;  // INTERNAL of a type; that of a POU is its access
+  RegionId region;
   NameMap members;            // of records: Var; of enumerations: EnumValue
   std::vector<VarId> fields;  // of records, by field index
 };
@@ -64,6 +67,7 @@ struct Substitution {  // of an instance of a generic function
 struct PouScope {
   State resolved = State::New;
   bool declared = false;  // its variables have their names
+  RegionId region;
   NameMap names;
   std::vector<Substitution> substitutions;
 };
@@ -88,18 +92,32 @@ struct LibraryName {
   uint32_t block = 0;
   uint32_t next = 0;  // another declaration of the name, 0: none
 };
-struct Library {
-  NameId name;
-  NameMap names;  // what was read so far
+
+// A library, the project itself, or a NAMESPACE of the project (namespaces.cpp), in this order.
+struct Namespace {
+  NameId name;             // `Standard`, `Simatic.Ax`
+  NameMap names;           // POUs, types, namespaces; of a library all that was read so far
+  NameMap globals, items;  // of a NAMESPACE: its variables; enumeration items by their bare name
+  uint32_t outer = ~0u;    // the NAMESPACE around it
+  bool internal = false;
+  Loc loc;
+};
+// A piece of text with its own view of names: a NAMESPACE block, a file or a POU with USING.
+struct Region {
+  RegionId outer;
+  uint32_t space = ~0u;  // the namespace that the block declares
+  bool of_file = false;
+  std::vector<DeclId> usings;  // as written
+  std::vector<uint32_t> open;  // the namespaces that they open
 };
 struct Libraries {
-  std::vector<Library> list;              // by namespace index
+  std::deque<Namespace> list;             // by namespace index
   std::vector<uint32_t> library_of_file;  // of Options::libraries
   std::vector<FileId> sources;            // of Options::libraries; none: not yet added to Sources
   std::vector<LibraryBlock> blocks;
   std::vector<LibraryName> names{1};
   NameMap index;           // name -> LibraryName (the entity's index; its kind says nothing)
-  NameMap namespaces;      // library name -> Namespace
+  NameMap namespaces;      // name or alias of a library -> Namespace
   uint32_t project = ~0u;  // the index of the Namespace that stands for the project itself
 };
 
@@ -129,7 +147,10 @@ struct Scopes {
   uint32_t depth = 0;  // of declarations resolved within each other
 
   Libraries libraries;
-
+  NameMap namespaces;              // NAMESPACEs that stand in no other
+  std::deque<Region> regions{1};   // 0: file level without USING
+  std::unordered_map<uint32_t, RegionId> region_of_file;    // by FileId: of files with USING
+  std::unordered_map<uint32_t, RegionId> region_of_global;  // by VarId: of globals in a region
   // Pragmas and words that declarations look for, as name keys.
   struct Words {
     NameId attribute_qualified_only, attribute_strict, attribute_instance_path, test, test_only, replaces, mock, alias,

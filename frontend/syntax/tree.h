@@ -399,8 +399,9 @@ struct DeclHeader {
 // be missing in it is no second mistake.
 constexpr uint8_t kBrokenDeclarations = 1;
 
+enum DeclBits : uint8_t { kInternal = 1 };  // of types and namespaces: INTERNAL
 struct TypeDecl {
-  DeclHeader h;
+  DeclHeader h; /* bits: DeclBits */
   NameId name;
   TypeExprId type;
   ExprId init;
@@ -440,7 +441,7 @@ struct PropertyDecl {
 };
 
 struct NamespaceDecl {
-  DeclHeader h;
+  DeclHeader h; /* bits: DeclBits */
   Slice<Ident> path;
   Slice<DeclId> decls;
 };

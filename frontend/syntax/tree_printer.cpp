@@ -488,6 +488,7 @@ void Printer::decl(DeclId id, int depth) {
       const auto& d = tree_.as<TypeDecl>(id);
       text += ' ';
       name(d.name);
+      if ((h.bits & kInternal) != 0) text += " internal";
       pragmas(h);
       if (d.init) {
         text += " := ";
@@ -545,6 +546,7 @@ void Printer::decl(DeclId id, int depth) {
       const auto& d = tree_.as<NamespaceDecl>(id);
       text += ' ';
       path(d.path, ".");
+      if ((h.bits & kInternal) != 0) text += " internal";
       for (DeclId m : tree_.list(d.decls)) decl(m, depth + 1);
       break;
     }

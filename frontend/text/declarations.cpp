@@ -194,12 +194,15 @@ void Parser::parseNamePath(Slice<Ident>& out) {
 
 // ---- TYPE
 
-// TYPE {name [EXTENDS type] ":" type [":=" init] [";"]} END_TYPE
+// TYPE [access] {[access] name [EXTENDS type] ":" type [":=" init] [";"]} END_TYPE
 void Parser::parseTypes(std::vector<DeclId>& out) {
   const Token* open = t_;
   Slice<Pragma> pragmas = takePragmas();
   Loc doc = takeDoc();
   advance();
+  AccessLevel access{};
+  uint8_t modifiers = 0;
+  if (!atLineStart()) parseModifiers(access, modifiers, false);
   for (;;) {
     if (accept(Tok::Semicolon)) continue;
     if (accept(Tok::EndType)) {
@@ -213,21 +216,22 @@ void Parser::parseTypes(std::vector<DeclId>& out) {
     }
     if (t_[0].flags & kPragma) pragmas = takePragmas();
     if (t_[0].flags & kDoc) doc = takeDoc();
-    const DeclId entry = parseTypeEntry(pragmas, doc);
+    const DeclId entry = parseTypeEntry(pragmas, doc, access);
     if (entry) out.push_back(entry);
     pragmas = {};
     doc = {};
   }
 }
 
-DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc) {
+DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessLevel access) {
   lost_ = false;
-  // {PUBLIC | INTERNAL | ABSTRACT} of TwinCAT: they keep other libraries from the type, and a program is none.
-  while (standard_ == Standard::Codesys && at(Tok::Ident) && isName(peek()) &&
-         (is(t_, "PUBLIC") || is(t_, "INTERNAL") || is(t_, "ABSTRACT")))
+  while (at(Tok::Ident) && isName(peek()) && (is(t_, "PUBLIC") || is(t_, "INTERNAL") || is(t_, "ABSTRACT"))) {
+    if (is(t_, "INTERNAL")) access = AccessLevel::Internal;
     advance();
+  }
   skipStray(!isName(kind()) && isName(peek()) && peek(2) == Tok::Colon, Diag::MissingName);
   TypeDecl d{{DeclKind::Type, 0, 0, here(), doc, pragmas}, {}, {}, {}};
+  if (access == AccessLevel::Internal) d.h.bits |= kInternal;
   Ident name;
   if (!parseName(name)) {
     tree_.lost_names = true;

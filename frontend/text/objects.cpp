@@ -18,7 +18,7 @@ void settleObjectWords(TokenStream& stream) {
       const bool behind_operator = (before > Tok::Semicolon && before <= Tok::EqualLess) ||
                                    (before >= Tok::And && before <= Tok::Not) || before == Tok::Mod;
       const bool line_start = (tokens[i].flags & kLineStart) != 0;
-      if (!names_something || (!line_start && (behind_operator || k == Tok::Using))) {
+      if (!names_something || (!line_start && behind_operator)) {
         tokens[i].kind = Tok::Ident;
         continue;
       }
@@ -189,6 +189,7 @@ DeclId Parser::parseNamespace() {
   AccessLevel access{};
   uint8_t modifiers = 0;
   parseModifiers(access, modifiers, true);
+  if (access == AccessLevel::Internal) d.h.bits |= kInternal;
   d.h.loc = here();
   parseNamePath(d.path);
   panic_ = false;

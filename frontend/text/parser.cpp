@@ -220,8 +220,8 @@ bool Parser::pouCloses() {
   return pou_closes_ == Known::Yes;
 }
 
-// pou = word modifiers name [EXTENDS types] [IMPLEMENTS types] [":" type], usings, sections, members, statements,
-// [END_…] word = FUNCTION | FUNCTION_BLOCK | PROGRAM | CLASS | INTERFACE | METHOD | ACTION
+// pou = word modifiers name usings [EXTENDS types] [IMPLEMENTS types] [":" type], usings, sections, members,
+// statements, [END_…] word = FUNCTION | FUNCTION_BLOCK | PROGRAM | CLASS | INTERFACE | METHOD | ACTION
 DeclId Parser::parsePou() {
   const Token* open = t_;
   PouDecl d{};
@@ -264,6 +264,8 @@ DeclId Parser::parsePou() {
   }
   d.name = name.name;
   d.h.loc = name.loc;
+  std::vector<DeclId> usings;
+  while (at(Tok::Using)) parseUsing(usings);
   if (at(Tok::Extends)) d.bases = parseTypeNames();
   if (at(Tok::Implements)) d.implements = parseTypeNames();
   if (word == Tok::Action) {
@@ -289,6 +291,9 @@ DeclId Parser::parsePou() {
   declared_in_body_ = lost_ = false;
   pou_end_ = end;
   pou_closes_ = Known::NotYet;
+  while (at(Tok::Using)) parseUsing(usings);
+  panic_ = false;
+  d.usings = tree_.addList<DeclId>(usings);
   parsePouParts(d);
   if (lost_ || declared_in_body_) d.h.bits |= kBrokenDeclarations;
   d.body_kind = pragmaNamed(d.h.pragmas, "native") ? BodyKind::Native : BodyKind::St;
@@ -317,13 +322,11 @@ DeclId Parser::parsePou() {
   return tree_.add<DeclId>(d);
 }
 
-// Usings, sections, members and statements; members stand before the statements (edition 3), behind them, or behind the
+// Sections, members and statements; members stand before the statements (edition 3), behind them, or behind the
 // END_… (exports of CODESYS).
 void Parser::parsePouParts(PouDecl& d) {
   const bool is_member = d.pou_kind == PouKind::Method || d.pou_kind == PouKind::Action;
-  std::vector<DeclId> members, usings;
-  while (at(Tok::Using)) parseUsing(usings);
-  panic_ = false;
+  std::vector<DeclId> members;
   const size_t first = decls_.size();
   while (atSection() && (!at(Tok::VarGlobal) || pouCloses())) {
     const DeclId section = parseSection();
@@ -337,7 +340,6 @@ void Parser::parsePouParts(PouDecl& d) {
     if (d.body.empty()) d.body = parseStatements(0);
   }
   d.members = tree_.addList<DeclId>(members);
-  d.usings = tree_.addList<DeclId>(usings);
 }
 
 // ---- configurations

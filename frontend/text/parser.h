@@ -92,7 +92,7 @@ class Parser {
 
   // ---- declarations (declarations.cpp)
   void parseTypes(std::vector<DeclId>& out);
-  DeclId parseTypeEntry(Slice<Pragma> pragmas, Loc doc);
+  DeclId parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessLevel access);
   DeclId parseSection();
   bool atSection() const { return kind() >= Tok::Var && kind() <= Tok::VarConfig; }
   DeclId parseVar(SectionKind section);

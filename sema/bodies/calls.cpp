@@ -499,7 +499,7 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
   if ((node.h.bits & kBareCall) != 0 && !isBareCall(context, node)) return node.h.type = types::kError;
   if (context.tree().kind(node.callee) == ExprKind::Name) {
     NameExpr& callee = context.tree().as<NameExpr>(node.callee);
-    callee.entity = lookUp(context, callee.name);
+    callee.entity = lookUp(context, callee.name, callee.h.loc);
     switch (callee.entity.what()) {
       case EntityKind::None: return callUnknown(context, expr, callee.name, expected);
       case EntityKind::Pou: return callPou(context, expr, PouId{callee.entity.index}, expected, as_statement);

@@ -13,7 +13,7 @@ const char* wordOf(EntityKind kind) {
   switch (kind) {
     case EntityKind::Type: return "a type";
     case EntityKind::GlobalList: return "a list of globals";
-    case EntityKind::Namespace: return "a library";
+    case EntityKind::Namespace: return "a namespace";
     case EntityKind::Program: return "a program";
     case EntityKind::None:
     case EntityKind::Error:
@@ -160,6 +160,8 @@ TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access acces
     node.entity = Entity::of(EntityKind::Error, 0);
     return node.h.type = types::kError;
   }
+  if (qualifier.what() == EntityKind::Namespace && !checkVisible(context, found, node.h.loc))
+    found = Entity::of(EntityKind::Error, 0);
   node.entity = found;
   return useEntity(context, expr, found, node.h.loc, node.member, access, false);
 }
@@ -220,7 +222,7 @@ PouId pouOf(Context& context, TypeId record) {
 }
 
 Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected) {
-  Entity entity = lookUp(context, name);
+  Entity entity = lookUp(context, name, loc);
   const TypeId wanted = expected ? context.types().resolve(expected) : expected;
   if (wanted && context.types().info(wanted).kind == TypeKind::Enum) {
     const bool other_item = entity.what() == EntityKind::EnumValue &&
@@ -258,7 +260,7 @@ TypeId checkName(Context& context, ExprId& expr, TypeId expected, Access access)
 
 TypeId checkTypedName(Context& context, ExprId& expr) {
   TypedNameExpr& node = context.tree().as<TypedNameExpr>(expr);
-  Entity type = lookUp(context, node.type_name.name);
+  Entity type = lookUp(context, node.type_name.name, node.type_name.loc);
   if (type.what() == EntityKind::Var) {  // `mode : Mode; … Mode#Idle`: before `#` no variable hides the type
     if (const TypeId hidden = lookUpType(context, node.type_name.name))
       type = Entity::of(EntityKind::Type, hidden.index);

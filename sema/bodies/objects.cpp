@@ -70,7 +70,10 @@ CallId addMethodCall(Context& context, PouId method, ExprId instance, std::vecto
 
 bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, Loc loc) {
   if (access == AccessLevel::None && context.iec()) access = AccessLevel::Protected;
-  if (access == AccessLevel::None || access == AccessLevel::Public || access == AccessLevel::Internal) return true;
+  if (access == AccessLevel::None || access == AccessLevel::Public) return true;
+  const bool same_text = context.library || !context.project.pou(owner).library;
+  if (access == AccessLevel::Internal && same_text && isInside(context, context.scopes.pous[owner.index].region))
+    return true;
   const PouId object = objectOf(context);
   if (object == owner) return true;
   if (access == AccessLevel::Protected && object && isKindOf(context, object, owner)) return true;

@@ -406,7 +406,8 @@ void checkBody(Context& context, PouId id) {
                 .pou = id,
                 .file = pou.file,
                 .body = &body,
-                .library = pou.library};
+                .library = pou.library,
+                .region = context.region};
   checkStatements(inner, decl.body);
   checkJumpLabels(inner);
   checkResultAssigned(inner);

@@ -139,7 +139,8 @@ void checkMocks(Context& context) {
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const Pou& pou = project.pous[i];
     if (pou.library) continue;
-    Context there = at(context, {}, pou.file, false);
+    Context there = atPou(context, PouId{i});
+    there.pou = {};
     std::vector<std::pair<NameId, PouId>> replaced;
     for (const Pragma& pragma : context.tree().list(context.tree().decl(pou.decl).pragmas)) {
       const NameId key = keyOf(context, pragma.name);

@@ -16,8 +16,8 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
       (var.pou == object || isKindOf(context, object, var.pou)))  // THIS^.x, another instance of the same block
     return var.access != AccessLevel::Private || var.pou == object ||
            mayAccess(context, var.access, var.pou, var.name, node.h.loc);
-  if (var.access == AccessLevel::Public || var.access == AccessLevel::Internal) return true;
   if (var.access != AccessLevel::None && !mayAccess(context, var.access, var.pou, var.name, node.h.loc)) return false;
+  if (var.access == AccessLevel::Public || var.access == AccessLevel::Internal) return true;
   const bool program = context.types().info(record).record_kind == types::RecordKind::Program;
   const bool writes = access == Access::Write || access == Access::ReadWrite;
   const std::string_view pin = text(context, var.name);

@@ -72,9 +72,9 @@ Loc locOf(Context& context, Entity found) {
     case EntityKind::GlobalList: return project.global_lists[found.index].loc;
     case EntityKind::Program: return project.instances[found.index].loc;
     case EntityKind::Property: return project.properties[found.index].loc;
+    case EntityKind::Namespace: return context.scopes.libraries.list[found.index].loc;
     case EntityKind::None:
-    case EntityKind::Error:
-    case EntityKind::Namespace: return {};
+    case EntityKind::Error: return {};
   }
   return {};
 }
@@ -82,7 +82,10 @@ Loc locOf(Context& context, Entity found) {
 void declare(Context& context, NameMap& names, NameId name, Loc loc, Entity declared) {
   if (!name) return;
   const NameId key = keyOf(context, name);
-  if (!names.insert(key, declared)) reportTwice(context, name, loc, locOf(context, names.find(key)));
+  Entity first;
+  if (&names == &context.scopes.pous_and_types) first = context.scopes.namespaces.find(key);
+  if (!first && !names.insert(key, declared)) first = names.find(key);
+  if (first) reportTwice(context, name, loc, locOf(context, first));
 }
 
 void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
@@ -94,7 +97,10 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   project.pous.emplace_back();
   scopes.pous.emplace_back();
   Pou& pou = project.pous.back();
-  pou.name = pou.unique_name = decl.name;
+  scopes.pous.back().region = regionOfPou(context, decl);
+  Namespace* const space = namespaceAround(context);
+  pou.name = decl.name;
+  pou.unique_name = qualifiedName(context, decl.name);
   pou.loc = decl.h.loc;
   pou.kind = decl.pou_kind;
   pou.decl = id;
@@ -124,14 +130,15 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
     pou.record = context.types().addRecord(pou.kind == PouKind::Program     ? RecordKind::Program
                                            : pou.kind == PouKind::Interface ? RecordKind::Interface
                                                                             : RecordKind::FunctionBlock,
-                                           pou.name);
+                                           pou.unique_name);
     NamedType& named = addNamed(context, pou.record);
     named.pou = pou_id;
     named.file = file;
     named.library = library != kNoLibrary;
+    named.region = context.region;
   }
   if (library == kNoLibrary) {
-    declare(context, scopes.pous_and_types, pou.name, pou.loc, entity(pou_id));
+    declare(context, space != nullptr ? space->names : scopes.pous_and_types, pou.name, pou.loc, entity(pou_id));
     collectMembers(context, pou_id);
     if (!mayHoldGlobals(context, pou.kind)) return;
     for (uint32_t s = 0; s < decl.sections.count; ++s) {
@@ -158,8 +165,9 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   Tree& tree = context.tree();
   const TypeDecl& decl = tree.as<TypeDecl>(id);
   types::TypeTable& table = context.types();
-  NameId name = decl.name;
-  NameMap& names = library == kNoLibrary ? scopes.pous_and_types : scopes.libraries.list[library].names;
+  NameId name = qualifiedName(context, decl.name);
+  Namespace* const space = library == kNoLibrary ? namespaceAround(context) : &scopes.libraries.list[library];
+  NameMap& names = space != nullptr ? space->names : scopes.pous_and_types;
   if (library != kNoLibrary && name && scopes.pous_and_types.find(keyOf(context, name))) {
     name =
         context.names().intern(spelled(context, scopes.libraries.list[library].name) + "__" + spelled(context, name));
@@ -183,12 +191,14 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   named.type = decl.type;
   named.file = file;
   named.library = library != kNoLibrary;
+  named.internal = (decl.h.bits & kInternal) != 0;
+  named.region = context.region;
   declare(context, names, decl.name, decl.h.loc, entity(type));
   if (tree.kind(decl.type) == TypeExprKind::Enum) {
     const bool strict = findPragma(context, decl.h, scopes.words.attribute_strict) != nullptr ||
                         findPragma(context, decl.h, scopes.words.attribute_qualified_only) != nullptr;
     table.edit(type).strict = strict;
-    NameMap* bare = library == kNoLibrary ? &scopes.items : &scopes.libraries.list[library].names;
+    NameMap* bare = library != kNoLibrary ? &names : space != nullptr ? &space->items : &scopes.items;
     declareItems(context, type, decl.type, strict ? nullptr : bare, library == kNoLibrary);
   }
 }
@@ -247,6 +257,8 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
     scope.decls.push_back(decl);
     declareVars(context, decl, section, {}, list_id, &scope.names, list.vars);
   }
+  for (size_t i = first; context.region && i < list.vars.size(); ++i)
+    scopes.region_of_global[list.vars[i].index] = context.region;
   if (qualified_only) return;
   for (size_t i = first; i < list.vars.size(); ++i) {
     const Var& var = project.var(list.vars[i]);
@@ -298,11 +310,15 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
         return;
       }
       const std::string stem = listName(context.project.sources.path(file));
+      if (Namespace* const space = namespaceAround(context); space != nullptr) {  // one list for all of its sections
+        const ListId list = listNamed(context, spelled(context, space->name), file, loc, context.scopes.qualifiers);
+        return addGlobals(context, list, decl, space->globals);
+      }
       if (library == kNoLibrary) {
         const ListId list = listNamed(context, stem, file, loc, context.scopes.qualifiers);
         return addGlobals(context, list, decl, context.scopes.globals);
       }
-      Library& from = context.scopes.libraries.list[library];
+      Namespace& from = context.scopes.libraries.list[library];
       std::string name = spelled(context, from.name) + "_" + stem;
       if (context.project.global_lists.size() > 1)
         name += "_" + std::to_string(loc.offset - context.project.sources.begin(file).offset);
@@ -315,25 +331,20 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
     case DeclKind::Task:
     case DeclKind::ProgramInstance:
     case DeclKind::Property:
-    case DeclKind::Var: return;
-    case DeclKind::Namespace:
-    case DeclKind::Using: {
-      const bool is_using = context.tree().kind(decl) == DeclKind::Using;
-      context.report(Diag::NotSupportedYet, context.tree().loc(decl), {is_using ? "`USING`" : "`NAMESPACE`"});
-      return;
-    }
+    case DeclKind::Var:
+    case DeclKind::Namespace:  // collectNamespaces
+    case DeclKind::Using: return;
   }
 }
 
 void collectFiles(Context& context) {
-  Tree& tree = context.tree();
+  const std::vector<PlacedDecl> declared = collectNamespaces(context);
   // POUs and types first: a global list is named differently when a POU has its name.
   for (const bool sections : {false, true}) {
-    for (const FileUnit& unit : tree.files) {
-      for (uint32_t i = 0; i < unit.decls.count; ++i) {
-        const DeclId decl = tree.list(unit.decls)[i];
-        if ((tree.kind(decl) == DeclKind::Section) == sections) collectDecl(context, decl, unit.file, kNoLibrary);
-      }
+    for (const PlacedDecl& placed : declared) {
+      if ((context.tree().kind(placed.decl) == DeclKind::Section) != sections) continue;
+      Context there = at(context, {}, placed.file, false, placed.region);
+      collectDecl(there, placed.decl, placed.file, kNoLibrary);
     }
   }
 }

@@ -217,8 +217,15 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
   instance.loc = decl.h.loc;
   if (decl.type.empty()) return;  // reported by the parser
   const Ident type = context.tree().list(decl.type)[decl.type.count - 1];
-  Entity found = context.scopes.pous_and_types.find(keyOf(context, type.name));
-  if (!found) found = lookUpLibrary(context, keyOf(context, type.name));
+  const NameId type_key = keyOf(context, type.name);
+  Entity found;
+  if (decl.type.count > 1 && findNamespace(context, context.tree().list(decl.type)[0].name)) {
+    found = lookUpQualified(context, decl.type);
+    if (found.what() == EntityKind::Error) return;
+  }
+  if (!found) found = context.scopes.pous_and_types.find(type_key);
+  if (!found) found = lookUpOpened(context, type_key, type.loc, true);
+  if (!found) found = lookUpLibrary(context, type_key);
   if (found.what() == EntityKind::Pou && project.pous[found.index].kind == PouKind::Program) {
     instance.program = PouId{found.index};
   } else {
@@ -310,7 +317,7 @@ void addDefaultTask(Context& context) {
 // IEC 61131-3 ed. 3 table 62, 13.
 void checkExternals(Context& context, const Part& part, const SectionDecl& section) {
   if (section.section != SectionKind::External) return;
-  Context there = at(context, {}, part.file, false);
+  Context there = at(context, {}, part.file, false, regionOfFile(context, part.file));
   NameMap names;
   std::vector<VarId> externals;
   for (uint32_t i = 0; i < section.vars.count; ++i) {
@@ -372,7 +379,7 @@ void resolveConfigurations(Context& context) {
     task.name = decl.name;
     task.priority = 1;
     task.loc = decl.h.loc;
-    Context there = at(context, {}, part.file, false);
+    Context there = at(context, {}, part.file, false, regionOfFile(context, part.file));
     TaskReader reader{.context = there, .task = task};
     reader.read(decl);
     project.tasks.push_back(task);
@@ -384,7 +391,7 @@ void resolveConfigurations(Context& context) {
   }
   forEachMember(context, [&](const Part& part, DeclId member) {
     if (tree.kind(member) != DeclKind::ProgramInstance) return;
-    Context there = at(context, {}, part.file, false);
+    Context there = at(context, {}, part.file, false, regionOfFile(context, part.file));
     addInstance(there, part, tree.as<ProgramInstanceDecl>(member), tasks);
   });
 }

@@ -11,11 +11,17 @@ namespace rung::sema {
 inline constexpr uint32_t kMaxDeclarationDepth = 500;
 
 // The same project seen from another place.
-inline Context at(Context& context, PouId pou, FileId file, bool library) {
-  return Context{.project = context.project, .scopes = context.scopes, .pou = pou, .file = file, .library = library};
+inline Context at(Context& context, PouId pou, FileId file, bool library, RegionId region = {}) {
+  return Context{.project = context.project,
+                 .scopes = context.scopes,
+                 .pou = pou,
+                 .file = file,
+                 .library = library,
+                 .region = region};
 }
 inline Context atPou(Context& context, PouId pou) {
-  return at(context, pou, context.project.pou(pou).file, context.project.pou(pou).library);
+  return at(context, pou, context.project.pou(pou).file, context.project.pou(pou).library,
+            context.scopes.pous[pou.index].region);
 }
 inline Entity entity(VarId id) { return Entity::of(EntityKind::Var, id.index); }
 inline Entity entity(PouId id) { return Entity::of(EntityKind::Pou, id.index); }
@@ -27,7 +33,7 @@ inline std::string spelled(const Context& context, NameId name) { return std::st
 void initWords(Context& context);
 // The declarations of all files of the tree.
 void collectFiles(Context& context);
-// One declaration; of a library when `library` is given.
+// One declaration where `context` is; of a library when `library` is given.
 void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library);
 inline constexpr uint32_t kNoLibrary = ~0u;
 NamedType& addNamed(Context& context, TypeId type);
@@ -36,6 +42,34 @@ const Pragma* findPragma(const Context& context, const DeclHeader& header, NameI
 void reportTwice(Context& context, NameId name, Loc loc, Loc first);
 // Items of an enumeration into a table, values to be resolved.
 void declareItems(Context& context, TypeId type, TypeExprId written, NameMap* bare, bool project_wide);
+
+// ---- namespaces.cpp
+struct PlacedDecl {
+  DeclId decl;
+  FileId file;
+  RegionId region;
+};
+// The declarations of all files with their regions, those of NAMESPACEs among them; makes the namespaces.
+std::vector<PlacedDecl> collectNamespaces(Context& context);
+// The region of a POU that is declared here: its own where it has USINGs.
+RegionId regionOfPou(Context& context, const PouDecl& decl);
+// The NAMESPACE around the place at hand, or null; and a name of it in full: `Simatic.Ax.Motor`.
+Namespace* namespaceAround(Context& context);
+NameId qualifiedName(Context& context, NameId name);
+// What the namespaces around a place and their USINGs say of a name; and the USINGs of the file, which come after the
+// names of the project.
+Entity lookUpAround(Context& context, NameId key, Loc loc, bool types_only);
+Entity lookUpOpened(Context& context, NameId key, Loc loc, bool types_only);
+RegionId regionOfFile(const Context& context, FileId file);
+// What `A.B.name` means; Error after a report.
+Entity lookUpQualified(Context& context, Slice<Ident> path);
+// The namespace of a name where `context` is: a NAMESPACE, a library, the project.
+Entity findNamespace(Context& context, NameId name);
+// What a namespace declares under a name.
+Entity lookUpNamespace(Context& context, uint32_t space, NameId key);
+bool isVisible(Context& context, Entity found);
+// In full, what a NAMESPACE declares under a name that is unknown here; empty when none does.
+std::string_view nameElsewhere(Context& context, NameId key);
 
 // What has locals and parameters instead of an instance of its own.
 inline bool isFunction(PouKind kind) {
@@ -80,7 +114,7 @@ inline constexpr uint64_t kMaxImageBytes = uint64_t{1} << 24;
 
 // ---- types.cpp
 void resolveNamed(Context& context, TypeId type);
-TypeId lookUpType(Context& context, NameId name);
+TypeId lookUpType(Context& context, NameId name, Loc loc = {});
 
 // ---- settle.cpp
 void settleDeclarations(Context& context);

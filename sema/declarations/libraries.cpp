@@ -211,7 +211,7 @@ void indexLibraries(Context& context) {
     if (!space) {
       space = Entity::of(EntityKind::Namespace, static_cast<uint32_t>(libraries.list.size()));
       libraries.namespaces.insert(key, space);
-      libraries.list.push_back({name, {}});
+      libraries.list.emplace_back().name = name;
     }
     libraries.library_of_file[f] = space.index;
     for (const IndexedBlock& block : indexLibrary(files[f].text)) {
@@ -257,7 +257,8 @@ void load(Context& context, LibraryBlock& block) {
   const Slice<DeclId> decls =
       text::parseDeclarations(project.tree, project.names, project.sources, Loc{base + block.begin},
                               Loc{base + block.end}, text::Standard::Codesys, project.diagnostics);
-  for (uint32_t i = 0; i < decls.count; ++i) collectDecl(context, project.tree.list(decls)[i], from, library);
+  Context there = at(context, {}, from, true);
+  for (uint32_t i = 0; i < decls.count; ++i) collectDecl(there, project.tree.list(decls)[i], from, library);
 }
 
 }  // namespace
@@ -265,7 +266,8 @@ void load(Context& context, LibraryBlock& block) {
 static Entity findInLibraries(Context& context, NameId key, uint32_t library) {
   Libraries& libraries = context.scopes.libraries;
   if (library == libraries.project) {
-    for (const NameMap* names : {&context.scopes.pous_and_types, &context.scopes.globals, &context.scopes.qualifiers})
+    for (const NameMap* names : {&context.scopes.pous_and_types, &context.scopes.namespaces, &context.scopes.globals,
+                                 &context.scopes.qualifiers})
       if (const Entity found = names->find(key)) return found;
     return {};
   }

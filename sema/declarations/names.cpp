@@ -74,7 +74,7 @@ Entity findOwnItem(Context& context, NameId key) {
   return known ? found : Entity{};
 }
 
-Entity findName(Context& context, NameId key) {
+Entity findName(Context& context, NameId key, Loc loc) {
   Scopes& scopes = context.scopes;
   if (context.items_of) {
     if (const Entity found = findOwnItem(context, key)) return found;
@@ -90,10 +90,15 @@ Entity findName(Context& context, NameId key) {
     if (const Entity found = lookUpLibrary(context, key)) return found;
   }
   if (const Entity mock = mockInUse(context, key)) return mock;
+  if (context.region)
+    if (const Entity found = lookUpAround(context, key, loc, false)) return found;
   if (const Entity found = scopes.pous_and_types.find(key)) return found;
   if (const Entity found = scopes.globals.find(key)) return found;
   if (const Entity found = scopes.items.find(key)) return found;
+  if (const Entity found = scopes.namespaces.find(key)) return found;
   if (const Entity found = scopes.qualifiers.find(key)) return found;
+  if (context.region)
+    if (const Entity found = lookUpOpened(context, key, loc, false)) return found;
   if (!context.library) {
     if (const Entity found = lookUpLibrary(context, key)) return found;
   }
@@ -102,7 +107,9 @@ Entity findName(Context& context, NameId key) {
 
 }  // namespace
 
-Entity lookUp(Context& context, NameId name) { return ready(context, findName(context, keyOf(context, name))); }
+Entity lookUp(Context& context, NameId name, Loc loc) {
+  return ready(context, findName(context, keyOf(context, name), loc));
+}
 
 bool isAmbiguousItem(Context& context, Entity item) {
   return item.what() == EntityKind::EnumValue && item.index < context.scopes.item_is_ambiguous.size() &&
@@ -116,7 +123,7 @@ Entity lookUpIn(Context& context, Entity qualifier, NameId name) {
     case EntityKind::GlobalList: return ready(context, scopes.lists[qualifier.index].names.find(key));
     case EntityKind::Namespace: {
       const Entity mock = mockInUse(context, key);
-      return ready(context, mock ? mock : lookUpLibrary(context, key, qualifier.index));
+      return ready(context, mock ? mock : lookUpNamespace(context, qualifier.index, key));
     }
     case EntityKind::Type: {
       resolveNamed(context, TypeId{qualifier.index});
@@ -191,6 +198,8 @@ bool sayUnknownMember(Context& context, TypeId record, NameId name) {
 
 std::string_view nearestName(Context& context, NameId written) {
   if (context.project.diagnostics.full()) return {};  // nobody would see it, and the search looks at every name
+  if (const std::string_view elsewhere = nameElsewhere(context, keyOf(context, written)); !elsewhere.empty())
+    return elsewhere;
   std::vector<std::string_view> candidates;
   const Names& names = context.names();
   const auto add = [&](NameId key, Entity) { candidates.push_back(names.text(key)); };
@@ -207,6 +216,11 @@ std::string_view nearestName(Context& context, NameId written) {
   const PouId object = objectOf(context);
   for (PouId at = object; at; at = context.project.pou(at).base)
     if (at != context.pou) context.scopes.pous[at.index].names.forEach(addDeclared);
+  if (const Namespace* space = namespaceAround(context); space != nullptr) {
+    space->names.forEach(addDeclared);
+    space->globals.forEach(addDeclared);
+  }
+  context.scopes.namespaces.forEach(add);
   context.scopes.pous_and_types.forEach(addDeclared);
   context.scopes.globals.forEach(addDeclared);
   context.scopes.items.forEach(addDeclared);

@@ -37,6 +37,8 @@ PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accesso
   context.scopes.pous.emplace_back();
   Pou& member = project.pous.back();
   Pou& owner = project.pou(owner_id);
+  Context there = atPou(context, owner_id);
+  context.scopes.pous.back().region = regionOfPou(there, decl);
   member.name = decl.name;
   member.loc = decl.h.loc;
   member.kind = decl.pou_kind;
@@ -124,7 +126,8 @@ void resolveHeader(Context& context, PouId id) {
   Project& project = context.project;
   if (project.pou(id).header != Pou::Header::New || !project.pou(id).decl) return;
   project.pou(id).header = Pou::Header::Busy;
-  Context there = at(context, {}, project.pou(id).file, project.pou(id).library);
+  Context there = atPou(context, id);
+  there.pou = {};
   const PouDecl& decl = context.tree().as<PouDecl>(project.pou(id).decl);
   const bool is_interface = decl.pou_kind == PouKind::Interface;
   for (uint32_t i = 0; i < decl.bases.count; ++i) {

@@ -104,7 +104,7 @@ void checkTypeInit(Context& context, TypeId type) {
   if (!named.decl) return;
   TypeDecl& decl = context.tree().as<TypeDecl>(named.decl);
   if (!decl.init) return;
-  Context there = at(context, {}, named.file, named.library);
+  Context there = at(context, {}, named.file, named.library, named.region);
   if (context.types().kind(type) == TypeKind::Enum) there.items_of = context.types().resolve(type);
   checkInitializerAs(there, decl.init, type, "the initial value of `" + spelled(context, decl.name) + "`");
   auto& inits = context.project.type_inits;

@@ -36,6 +36,10 @@ void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
     context.report(Diag::UnknownType, loc, {text});
     return;
   }
+  if (const std::string_view elsewhere = nameElsewhere(context, keyOf(context, name)); !elsewhere.empty()) {
+    context.report(Diag::UnknownType, loc, {text}).didYouMean(elsewhere);
+    return;
+  }
   std::vector<std::string_view> candidates;
   const auto add = [&](NameId key, Entity declared) {
     if (declared.what() == EntityKind::Type) {
@@ -45,6 +49,7 @@ void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
       candidates.push_back(context.names().text(context.project.pous[declared.index].name));
     }
   };
+  if (const Namespace* space = namespaceAround(context); space != nullptr) space->names.forEach(add);
   context.scopes.pous_and_types.forEach(add);
   const Libraries& libraries = context.scopes.libraries;
   libraries.index.forEach(
@@ -56,14 +61,19 @@ void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
   context.report(Diag::UnknownType, loc, {text}).didYouMean(nearest(text, candidates));
 }
 
-// A type or block by name: of the project, then of libraries (a library's own names first for its texts).
-Entity findType(Context& context, NameId name) {
+// A type or block by name: of the namespaces around, of the project, then of libraries (a library's own names first for
+// its texts).
+Entity findType(Context& context, NameId name, Loc loc) {
   const NameId key = keyOf(context, name);
   if (context.library) {
     if (const Entity found = lookUpLibrary(context, key)) return found;
   }
   if (const Entity mock = mockInUse(context, key)) return mock;
+  if (context.region)
+    if (const Entity found = lookUpAround(context, key, loc, true)) return found;
   if (const Entity found = context.scopes.pous_and_types.find(key)) return found;
+  if (context.region)
+    if (const Entity found = lookUpOpened(context, key, loc, true)) return found;
   return context.library ? Entity{} : lookUpLibrary(context, key);
 }
 
@@ -95,18 +105,11 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
       }
       return elementary;
     }
-    found = findType(context, first.name);
+    found = findType(context, first.name, first.loc);
   } else {
-    // Lib.Motor, or Lib.Sub.Motor of nested name spaces.
-    Entity qualifier = context.scopes.libraries.namespaces.find(keyOf(context, first.name));
-    if (!qualifier) {
-      context.report(Diag::UnknownName, first.loc, {context.names().text(first.name)})
-          .didYouMean(nearestName(context, first.name));
-      return types::kError;
-    }
-    found = mockInUse(context, keyOf(context, last.name));
-    if (!found) found = lookUpLibrary(context, keyOf(context, last.name), qualifier.index);
+    found = lookUpQualified(context, expr.path);  // Lib.Motor, A.B.Motor
   }
+  if (found.what() == EntityKind::Error) return types::kError;
   if (found.what() == EntityKind::Pou) checkTestOnly(context, PouId{found.index}, last.loc);
   const TypeId type = typeOf(context, found);
   if (type) return context.types().resolve(type) == types::kError ? types::kError : type;
@@ -314,6 +317,7 @@ NamedType& addInPlace(Context& context, TypeId type, TypeExprId written) {
   named.owner = context.pou;
   named.file = context.file;
   named.library = context.library;
+  named.region = context.region;
   return named;
 }
 
@@ -359,9 +363,9 @@ TypeId resolveWritten(Context& context, TypeExprId id) {
 
 }  // namespace
 
-TypeId lookUpType(Context& context, NameId name) {
+TypeId lookUpType(Context& context, NameId name, Loc loc) {
   if (const TypeId elementary = context.types().elementary(name)) return elementary;
-  return typeOf(context, findType(context, name));
+  return typeOf(context, findType(context, name, loc));
 }
 
 TypeId resolveType(Context& context, TypeExprId id) {
@@ -407,7 +411,7 @@ void resolveNamed(Context& context, TypeId type) {
   }
   named->resolved = State::Busy;
   ++context.scopes.depth;
-  Context there = at(context, named->owner, named->file, named->library);
+  Context there = at(context, named->owner, named->file, named->library, named->region);
   switch (context.tree().kind(named->type)) {
     case TypeExprKind::Enum: fillEnum(there, type, named->type); break;
     case TypeExprKind::Subrange: fillSubrange(there, type, named->type); break;

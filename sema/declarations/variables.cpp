@@ -56,14 +56,18 @@ Storage storageOf(const Context& context, SectionKind section, PouId pou, const 
   return Storage::Field;
 }
 
-Context contextOf(Context& context, const Var& var) {
+Context contextOf(Context& context, VarId id) {
+  const Var& var = context.project.var(id);
   if (var.pou) return atPou(context, var.pou);
   if (const NamedType* named = var.record ? context.scopes.named(var.record) : nullptr) {
-    return at(context, named->owner, named->file, named->library);
+    return at(context, named->owner, named->file, named->library, named->region);
   }
   const NamedType* list = nullptr;
   if (var.list) list = context.scopes.named(context.project.global_lists[var.list.index].record);
-  return at(context, {}, context.project.sources.fileOf(var.loc), list != nullptr && list->library);
+  const auto& regions = context.scopes.region_of_global;
+  const auto region = regions.find(id.index);
+  return at(context, {}, context.project.sources.fileOf(var.loc), list != nullptr && list->library,
+            region == regions.end() ? RegionId{} : region->second);
 }
 
 }  // namespace
@@ -162,7 +166,11 @@ void matchExternal(Context& context, VarId id) {
   Project& project = context.project;
   const NameId name = project.var(id).name;
   const Loc loc = project.var(id).loc;
-  const Entity found = context.scopes.globals.find(keyOf(context, name));
+  Entity found;
+  for (const Namespace* space = namespaceAround(context); space != nullptr && !found;
+       space = space->outer == kNoLibrary ? nullptr : &context.scopes.libraries.list[space->outer])
+    found = space->globals.find(keyOf(context, name));
+  if (!found) found = context.scopes.globals.find(keyOf(context, name));
   if (found.what() != EntityKind::Var) {
     std::vector<std::string_view> candidates;
     context.scopes.globals.forEach(
@@ -216,7 +224,7 @@ uint32_t firstOfDecl(const Project& project, uint32_t index) {
 void ensureVarType(Context& context, VarId id) {
   Project& project = context.project;
   if (project.var(id).type || !project.var(id).decl) return;
-  Context there = contextOf(context, project.var(id));
+  Context there = contextOf(context, id);
   VarDecl& decl = context.tree().as<VarDecl>(project.var(id).decl);
   if (context.scopes.depth > kMaxDeclarationDepth) {
     context.report(Diag::DeclarationsTooDeep, project.var(id).loc, {context.names().text(project.var(id).name)});
@@ -276,7 +284,7 @@ void ensureInitialValue(Context& context, VarId id) {
   VarDecl& decl = context.tree().as<VarDecl>(project.var(id).decl);
   if (decl.h.spare == static_cast<uint16_t>(State::Done)) return;
   if (project.var(id).section == SectionKind::External && project.var(id).external && !decl.init) return;
-  Context there = contextOf(context, project.var(id));
+  Context there = contextOf(context, id);
   const auto setUnknown = [&] {  // what follows from the mistake is silent
     Var& var = project.var(id);
     const TypeKind kind = context.types().plainKind(var.type);

@@ -1,0 +1,332 @@
+// NAMESPACE and USING: which namespaces the project has, which of them a place in the text sees, and what their names
+// stand for there. In: the declarations of all files. Out: a Namespace for each NAMESPACE, a Region for each piece of
+// text with its own view of names. IEC 61131-3 ed. 3, 6.9, tables 64 to 66.
+//
+// A name means, from the inside to the outside: what the namespace around it declares, then what the USINGs of that
+// block open, then the same of the namespace around that one; at file level the project's names, the USINGs of the
+// file, the libraries. A USING opens what its namespace declares itself, not the namespaces in it.
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+namespace {
+
+bool isNamespace(Entity found) { return found.what() == EntityKind::Namespace; }
+
+Namespace& spaceAt(Context& context, uint32_t space) { return context.scopes.libraries.list[space]; }
+
+// `Simatic.Ax`: the spelling of a namespace does not depend on which of its blocks comes first.
+void spellLike(Context& context, Namespace& space, NameId full) {
+  if (!space.name || context.names().text(full) < context.names().text(space.name)) space.name = full;
+}
+
+// The namespace of this name in another one (or none), made when there is none yet.
+uint32_t namespaceNamed(Context& context, uint32_t outer, const Ident& name) {
+  Libraries& libraries = context.scopes.libraries;
+  const NameId key = keyOf(context, name.name);
+  const std::string prefix = outer == kNoLibrary ? "" : spelled(context, libraries.list[outer].name) + ".";
+  const NameId full = context.names().intern(prefix + spelled(context, name.name));
+  NameMap& siblings = outer == kNoLibrary ? context.scopes.namespaces : libraries.list[outer].names;
+  if (const Entity known = siblings.find(key)) {
+    spellLike(context, libraries.list[known.index], full);
+    return known.index;
+  }
+  const auto made = static_cast<uint32_t>(libraries.list.size());
+  siblings.insert(key, Entity::of(EntityKind::Namespace, made));
+  libraries.list.emplace_back();
+  Namespace& space = libraries.list.back();
+  space.outer = outer;
+  space.loc = name.loc;
+  spellLike(context, space, full);
+  return made;
+}
+
+RegionId addRegion(Context& context, RegionId outer, uint32_t space, bool of_file = false) {
+  context.scopes.regions.push_back({.outer = outer, .space = space, .of_file = of_file, .usings = {}, .open = {}});
+  return RegionId{static_cast<uint32_t>(context.scopes.regions.size() - 1)};
+}
+
+// The namespace around a region; none at file level.
+uint32_t spaceOf(const Context& context, RegionId region) {
+  for (; region; region = context.scopes.regions[region.index].outer)
+    if (context.scopes.regions[region.index].space != kNoLibrary) return context.scopes.regions[region.index].space;
+  return kNoLibrary;
+}
+
+struct Collector {
+  Context& context;
+  std::vector<PlacedDecl>& out;
+
+  // Forbids what a namespace cannot hold.   fails   NAMESPACE a CONFIGURATION c …            E0305
+  void collect(Slice<DeclId> decls, FileId file, RegionId region, bool at_file_level) {
+    Tree& tree = context.tree();
+    std::vector<DeclId> usings;
+    for (uint32_t i = 0; i < decls.count; ++i)
+      if (const DeclId decl = tree.list(decls)[i]; tree.kind(decl) == DeclKind::Using) usings.push_back(decl);
+    if (at_file_level && !usings.empty()) region = addRegion(context, {}, kNoLibrary, true);
+    if (at_file_level && region) context.scopes.region_of_file[file.index] = region;
+    if (!usings.empty()) context.scopes.regions[region.index].usings = std::move(usings);
+    for (uint32_t i = 0; i < decls.count; ++i) {
+      const DeclId decl = tree.list(decls)[i];
+      if (tree.kind(decl) == DeclKind::Using) continue;
+      if (tree.kind(decl) == DeclKind::Namespace) {
+        space(tree.as<NamespaceDecl>(decl), file, region);
+      } else if (tree.kind(decl) == DeclKind::Configuration && !at_file_level) {
+        context.report(Diag::SectionNotAllowed, tree.loc(decl), {"CONFIGURATION", "NAMESPACE"});
+      } else {
+        out.push_back({decl, file, region});
+      }
+    }
+  }
+
+  void space(const NamespaceDecl& decl, FileId file, RegionId region) {
+    uint32_t around = spaceOf(context, region);
+    for (uint32_t i = 0; i < decl.path.count; ++i) {
+      around = namespaceNamed(context, around, context.tree().list(decl.path)[i]);
+      region = addRegion(context, region, around);
+    }
+    if (decl.path.empty()) return;  // reported by the parser
+    if ((decl.h.bits & kInternal) != 0) spaceAt(context, around).internal = true;
+    collect(decl.decls, file, region, false);
+  }
+};
+
+// What a namespace declares under a name: a NAMESPACE of the project, or a library.
+Entity findInSpace(Context& context, uint32_t space, NameId key, bool types_only) {
+  if (space <= context.scopes.libraries.project) return lookUpLibrary(context, key, space);
+  const Namespace& from = spaceAt(context, space);
+  if (const Entity found = from.names.find(key)) return found;
+  if (types_only) return {};
+  if (const Entity found = from.globals.find(key)) return found;
+  return from.items.find(key);
+}
+
+// Forbids a bare name that several USINGs of one place open.
+//   passes  USING a; USING b; … a.Pump          fails  … Pump, which both have           E0403
+Entity findOpened(Context& context, RegionId region, NameId key, Loc loc, bool types_only) {
+  Entity found, hidden;
+  uint32_t from = kNoLibrary;
+  for (const uint32_t space : context.scopes.regions[region.index].open) {
+    const Entity here = findInSpace(context, space, key, types_only);
+    if (!here || isNamespace(here) || (here.kind == found.kind && here.index == found.index)) continue;
+    if (!isVisible(context, here)) {
+      hidden = here;
+      continue;
+    }
+    if (found) {
+      const std::string first = spelled(context, spaceAt(context, from).name),
+                        second = spelled(context, spaceAt(context, space).name);
+      if (loc && sayUnknown(context, key))
+        context.report(Diag::AmbiguousName, loc, {context.names().text(key), first, second});
+      return Entity::of(EntityKind::Error, 0);
+    }
+    found = here;
+    from = space;
+  }
+  if (!found && hidden) {
+    if (loc) checkVisible(context, hidden, loc);
+    return Entity::of(EntityKind::Error, 0);
+  }
+  return found;
+}
+
+// Where an entity is declared.
+uint32_t spaceAround(Context& context, Entity found) {
+  switch (found.what()) {
+    case EntityKind::Pou: return spaceOf(context, context.scopes.pous[found.index].region);
+    case EntityKind::Type: {
+      const NamedType* named = context.scopes.named(TypeId{found.index});
+      return named == nullptr ? kNoLibrary : spaceOf(context, named->region);
+    }
+    case EntityKind::Namespace: return spaceAt(context, found.index).outer;
+    case EntityKind::None:
+    case EntityKind::Error:
+    case EntityKind::Var:
+    case EntityKind::EnumValue:
+    case EntityKind::GlobalList:
+    case EntityKind::Property:
+    case EntityKind::Program: break;
+  }
+  return kNoLibrary;
+}
+
+bool isInternal(Context& context, Entity found) {
+  switch (found.what()) {
+    case EntityKind::Pou: return context.project.pous[found.index].access == AccessLevel::Internal;
+    case EntityKind::Type: {
+      const NamedType* named = context.scopes.named(TypeId{found.index});
+      return named != nullptr && named->internal;
+    }
+    case EntityKind::Namespace: return spaceAt(context, found.index).internal;
+    case EntityKind::None:
+    case EntityKind::Error:
+    case EntityKind::Var:
+    case EntityKind::EnumValue:
+    case EntityKind::GlobalList:
+    case EntityKind::Property:
+    case EntityKind::Program: break;
+  }
+  return false;
+}
+
+// Forbids USING of what is no namespace.   fails   USING Sytem.Strings;                E0404
+void openUsings(Context& context, RegionId region) {
+  Tree& tree = context.tree();
+  for (size_t i = 0; i < context.scopes.regions[region.index].usings.size(); ++i) {
+    const UsingDecl& decl = tree.as<UsingDecl>(context.scopes.regions[region.index].usings[i]);
+    Context there = context;
+    there.region = region;
+    Entity space;
+    for (uint32_t p = 0; p < decl.path.count; ++p) {
+      const Ident& part = tree.list(decl.path)[p];
+      const bool of_library = p > 0 && space.index <= there.scopes.libraries.project;
+      space = p == 0       ? findNamespace(there, part.name)
+              : of_library ? Entity{}
+                           : spaceAt(there, space.index).names.find(keyOf(there, part.name));
+      if (isNamespace(space)) continue;
+      there.report(Diag::UnknownNamespace, part.loc, {context.names().text(part.name)});
+      break;
+    }
+    if (isNamespace(space) && checkVisible(there, space, tree.list(decl.path)[decl.path.count - 1].loc))
+      context.scopes.regions[region.index].open.push_back(space.index);
+  }
+}
+
+}  // namespace
+
+RegionId regionOfFile(const Context& context, FileId file) {
+  const auto found = context.scopes.region_of_file.find(file.index);
+  return found == context.scopes.region_of_file.end() ? RegionId{} : found->second;
+}
+
+std::vector<PlacedDecl> collectNamespaces(Context& context) {
+  std::vector<PlacedDecl> out;
+  Collector collector{context, out};
+  for (const FileUnit& unit : context.tree().files) collector.collect(unit.decls, unit.file, {}, true);
+  for (uint32_t i = 1; i < context.scopes.regions.size(); ++i) openUsings(context, RegionId{i});
+  return out;
+}
+
+RegionId regionOfPou(Context& context, const PouDecl& decl) {
+  if (decl.usings.empty()) return context.region;
+  const RegionId region = addRegion(context, context.region, kNoLibrary);
+  for (const DeclId open : context.tree().list(decl.usings))
+    context.scopes.regions[region.index].usings.push_back(open);
+  openUsings(context, region);
+  return region;
+}
+
+Namespace* namespaceAround(Context& context) {
+  const uint32_t space = spaceOf(context, context.region);
+  return space == kNoLibrary ? nullptr : &spaceAt(context, space);
+}
+
+NameId qualifiedName(Context& context, NameId name) {
+  const Namespace* space = namespaceAround(context);
+  if (space == nullptr || !name) return name;
+  return context.names().intern(spelled(context, space->name) + "." + spelled(context, name));
+}
+
+Entity lookUpAround(Context& context, NameId key, Loc loc, bool types_only) {
+  for (RegionId at = context.region; at; at = context.scopes.regions[at.index].outer) {
+    const Region& region = context.scopes.regions[at.index];
+    if (region.of_file) break;  // the file's USINGs come after the project's names
+    if (region.space != kNoLibrary)
+      if (const Entity found = findInSpace(context, region.space, key, types_only)) return found;
+    if (const Entity found = findOpened(context, at, key, loc, types_only)) return found;
+  }
+  return {};
+}
+
+Entity lookUpOpened(Context& context, NameId key, Loc loc, bool types_only) {
+  RegionId at = context.region;
+  while (at && context.scopes.regions[at.index].outer) at = context.scopes.regions[at.index].outer;
+  if (!context.scopes.regions[at.index].of_file) return {};
+  return findOpened(context, at, key, loc, types_only);
+}
+
+Entity findNamespace(Context& context, NameId name) {
+  const NameId key = keyOf(context, name);
+  for (uint32_t space = spaceOf(context, context.region); space != kNoLibrary; space = spaceAt(context, space).outer)
+    if (const Entity found = spaceAt(context, space).names.find(key); isNamespace(found)) return found;
+  if (const Entity found = context.scopes.namespaces.find(key)) return found;
+  return context.scopes.libraries.namespaces.find(key);
+}
+
+Entity lookUpNamespace(Context& context, uint32_t space, NameId key) { return findInSpace(context, space, key, false); }
+
+Entity lookUpQualified(Context& context, Slice<Ident> path) {
+  const Entity wrong = Entity::of(EntityKind::Error, 0);
+  const Ident first = context.tree().list(path)[0];
+  Entity found = findNamespace(context, first.name);
+  if (!found) {
+    context.report(Diag::UnknownName, first.loc, {context.names().text(first.name)})
+        .didYouMean(nearestName(context, first.name));
+    return wrong;
+  }
+  for (uint32_t i = 1; i < path.count; ++i) {
+    const Ident part = context.tree().list(path)[i];
+    const bool last = i + 1 == path.count;
+    if (!last && found.index <= context.scopes.libraries.project) continue;  // Lib.Sub.Motor of nested libraries
+    if (!isNamespace(found)) {
+      const Ident before = context.tree().list(path)[i - 1];
+      context.report(Diag::UnknownNamespace, before.loc, {context.names().text(before.name)});
+      return wrong;
+    }
+    if (!checkVisible(context, found, context.tree().list(path)[i - 1].loc)) return wrong;
+    const NameId key = keyOf(context, part.name);
+    const Entity mock = last ? mockInUse(context, key) : Entity{};
+    found = mock ? mock : findInSpace(context, found.index, key, false);
+    if (!checkVisible(context, found, part.loc)) return wrong;
+  }
+  return found;
+}
+
+bool isInside(const Context& context, RegionId declared) {
+  const uint32_t space = spaceOf(context, declared);
+  if (space == kNoLibrary) return true;
+  for (uint32_t at = spaceOf(context, context.region); at != kNoLibrary; at = context.scopes.libraries.list[at].outer)
+    if (at == space) return true;
+  return false;
+}
+
+bool isVisible(Context& context, Entity found) {
+  if (!isInternal(context, found)) return true;
+  const uint32_t space = spaceAround(context, found);
+  if (space == kNoLibrary) return true;
+  for (uint32_t at = spaceOf(context, context.region); at != kNoLibrary; at = spaceAt(context, at).outer)
+    if (at == space) return true;
+  return false;
+}
+
+// Forbids what is INTERNAL to another namespace. IEC 61131-3 ed. 3 table 64, 1b, 5.
+//   fails   NAMESPACE a FUNCTION INTERNAL f … END_NAMESPACE … y := a.f();               E0552
+bool checkVisible(Context& context, Entity found, Loc loc) {
+  if (isVisible(context, found)) return true;
+  NameId name;
+  if (found.what() == EntityKind::Pou) name = context.project.pous[found.index].name;
+  if (found.what() == EntityKind::Type) name = context.types().info(TypeId{found.index}).name;
+  if (isNamespace(found)) name = spaceAt(context, found.index).name;
+  context.report(Diag::NotAccessible, loc,
+                 {context.names().text(name), "INTERNAL",
+                  context.names().text(spaceAt(context, spaceAround(context, found)).name)});
+  return false;
+}
+
+std::string_view nameElsewhere(Context& context, NameId key) {
+  Libraries& libraries = context.scopes.libraries;
+  for (uint32_t space = libraries.project + 1; space < libraries.list.size(); ++space) {
+    const Entity found = findInSpace(context, space, key, false);
+    if (!found || isNamespace(found) || !isVisible(context, found)) continue;
+    NameId name = key;
+    if (found.what() == EntityKind::Pou) name = context.project.pous[found.index].name;
+    if (found.what() == EntityKind::Var) name = context.project.vars[found.index].name;
+    if (found.what() == EntityKind::EnumValue) name = context.project.enum_values[found.index].name;
+    if (found.what() == EntityKind::Type) return context.names().text(context.types().info(TypeId{found.index}).name);
+    return context.names().text(
+        context.names().intern(spelled(context, libraries.list[space].name) + "." + spelled(context, name)));
+  }
+  return {};
+}
+
+}  // namespace rung::sema
