@@ -267,7 +267,10 @@ Entity lookUpQualified(Context& context, Slice<Ident> path) {
   for (uint32_t i = 1; i < path.count; ++i) {
     const Ident part = context.tree().list(path)[i];
     const bool last = i + 1 == path.count;
-    if (!last && found.index <= context.scopes.libraries.project) continue;  // Lib.Sub.Motor of nested libraries
+    if (!last && found.index <= context.scopes.libraries.project) {  // Lib.Sub.Motor: a library that Lib uses
+      if (const Entity used = context.scopes.libraries.namespaces.find(keyOf(context, part.name))) found = used;
+      continue;
+    }
     if (!isNamespace(found)) {
       const Ident before = context.tree().list(path)[i - 1];
       context.report(Diag::UnknownNamespace, before.loc, {context.names().text(before.name)});
