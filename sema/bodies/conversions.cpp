@@ -108,7 +108,8 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
   const types::TypeInfo& target = table.info(to);
   const TypeKind a = table.plainKind(from), b = table.plainKind(to);
   if (source.kind == TypeKind::Enum || target.kind == TypeKind::Enum) {
-    if (source.kind == target.kind || source.strict || target.strict) return Fit::No;
+    if (source.kind == target.kind) return context.iec() ? Fit::No : Fit::Lossy;
+    if (source.strict || target.strict) return Fit::No;
     if (!isNumberKind(a) || !isNumberKind(b)) return Fit::No;
     if (TypeTable::isReal(a)) return Fit::No;
     if (context.iec()) return Fit::Extension;
@@ -246,6 +247,10 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
   if (isUntyped(context, from)) return adapt(context, expr, to, purpose);
   Fit fitness = fit(context, from, to);
   if (fitness == Fit::Lossy && constantFits(context, expr, to)) fitness = Fit::Lossless;
+  // A strict enumeration takes an item of another one, and no variable.
+  const types::TypeInfo& wanted = context.types().info(context.types().resolve(to));
+  if (fitness == Fit::Lossy && wanted.kind == TypeKind::Enum && wanted.strict && !context.tree().expr(expr).is_constant)
+    fitness = Fit::No;
   if (!reportFit(context, fitness, expr, from, to, purpose)) {
     context.tree().expr(expr).type = types::kError;
     return false;

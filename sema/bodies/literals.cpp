@@ -176,6 +176,20 @@ bool adaptInteger(Context& context, ExprId& expr, TypeId to, Bounds bounds) {
   return true;
 }
 
+// A negative number where the type has no sign is the bit pattern of that width (codesys): `mask : WORD := -1`.
+//   warns   count : UINT := -1;      W0507
+bool adaptNegative(Context& context, ExprId& expr, TypeId to, TypeKind kind) {
+  Int128 value;
+  if (context.iec() || context.types().isSigned(kind) || kind == TypeKind::Bool) return false;
+  const uint32_t width = types::TypeTable::bitWidth(kind);
+  if (!untypedValue(context, expr, value) || value >= 0 || value < -(Int128{1} << (width - 1))) return false;
+  const Int128 bits = (Int128{1} << width) + value;
+  const Loc loc = context.tree().begin(expr);
+  context.report(Diag::NegativeWithoutSign, loc, {spellNumber(value), context.types().spell(to), spellNumber(bits)});
+  expr = makeLiteral(context, LiteralKind::Integer, to, static_cast<int64_t>(bits), loc);
+  return true;
+}
+
 bool adaptReal(Context& context, ExprId& expr, TypeId to);
 
 // `whole`: an integer expression without a quotient in it, or a part of one.
@@ -407,6 +421,7 @@ bool adapt(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
       return adaptInteger(context, expr, to, bounds);
     }
     if (isIntegerLike(kind) && info.kind != TypeKind::Enum) {
+      if (adaptNegative(context, expr, to, kind)) return true;
       return adaptInteger(context, expr, to, boundsOf(context.types(), kind));
     }
     if (kind == TypeKind::Bool) {

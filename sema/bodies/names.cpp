@@ -83,6 +83,8 @@ TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId 
       const Pou& pou = context.project.pou(PouId{entity.index});
       if (access == Access::Qualifier && (pou.kind == PouKind::Program || pou.kind == PouKind::Function || pou.owner))
         return header.type = {};
+      const bool is_block = pou.kind == PouKind::FunctionBlock || pou.kind == PouKind::Class;
+      if (access == Access::Qualifier && is_block && !context.iec()) return header.type = {};
       if (access == Access::Address) return header.type = pou.record ? pou.record : types::kError;
       if (sayUnknown(context, name)) context.report(Diag::NotAValue, loc, {text(context, name), wordOf(pou.kind)});
       return header.type = types::kError;
@@ -130,11 +132,32 @@ std::string_view nearestIn(Context& context, Entity qualifier, NameId written) {
   return {};
 }
 
+bool isBlockType(const Context& context, PouId pou) {
+  const Pou& type = context.project.pou(pou);
+  return (type.kind == PouKind::FunctionBlock || type.kind == PouKind::Class) && !type.owner;
+}
+
+// `Motor.MAX_SPEED`: a constant is the same in all instances (codesys). Forbids other members without an instance.
+//   passes  Motor.MAX_SPEED      fails  Motor.speed      E0518
+Entity constantOfBlock(Context& context, PouId block, const MemberExpr& node) {
+  declarePou(context, block);
+  const Entity found = context.scopes.pous[block.index].names.find(keyOf(context, node.member));
+  if (found.what() == EntityKind::Var && context.project.var(VarId{found.index}).constant) {
+    ensureInitialValue(context, VarId{found.index});
+    if (context.project.var(VarId{found.index}).has_value) return found;
+  }
+  context.report(Diag::NotAValue, context.tree().loc(node.base),
+                 {text(context, nameOf(context, node.base)), wordOf(context.project.pou(block).kind)});
+  return Entity::of(EntityKind::Error, 0);
+}
+
 TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access access) {
   MemberExpr& node = context.tree().as<MemberExpr>(expr);
   Entity found;
   TypeId record;
-  if (qualifier.what() == EntityKind::Pou) {
+  if (qualifier.what() == EntityKind::Pou && isBlockType(context, PouId{qualifier.index})) {
+    found = constantOfBlock(context, PouId{qualifier.index}, node);
+  } else if (qualifier.what() == EntityKind::Pou) {
     const PouId pou{qualifier.index};
     resolvePou(context, pou);
     record = context.project.pou(pou).record;

@@ -183,6 +183,14 @@ TypeId combineUntyped(Context& context, BinaryExpr& node) {
   return types::idOf(real ? TypeKind::RealLiteral : TypeKind::IntegerLiteral);
 }
 
+// Comparing items of two enumerations means their numbers (codesys).
+bool areOtherEnums(const Context& context, Operands accepted, TypeId a, TypeId b) {
+  const types::TypeTable& table = context.types();
+  const bool compares = accepted == Operands::Comparable || accepted == Operands::Equatable;
+  return compares && !context.iec() && table.kind(a) == TypeKind::Enum && table.kind(b) == TypeKind::Enum &&
+         table.resolve(a) != table.resolve(b);
+}
+
 }  // namespace
 
 TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, TypeId expected, std::string_view what,
@@ -190,7 +198,7 @@ TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, Ty
   Tree& tree = context.tree();
   if (keepsOwnType(accepted)) typeCharacters(context, operands);
   TypeId common;
-  bool untyped = false, real = false;
+  bool untyped = false, real = false, mixed_enums = false;
   for (const ExprId operand : operands) {
     const TypeId type = tree.expr(operand).type;
     if (!type || type == types::kError) return types::kError;
@@ -205,6 +213,12 @@ TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, Ty
         return reportOperands(context, what, common, type, place);
       }
       return reportOperand(context, what, type, place);
+    }
+    if (common && areOtherEnums(context, accepted, common, type)) {
+      context.report(Diag::EnumsCompared, loc, {what, context.types().spell(common), context.types().spell(type)});
+      common = commonNumber(context, common, type);
+      mixed_enums = true;
+      continue;
     }
     const TypeId joined = common ? join(context, common, type) : type;
     if (!joined) return reportOperands(context, what, common, type, loc);
@@ -239,6 +253,10 @@ TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, Ty
   }
   if (TypeTable::isText(context.types().plainKind(common))) return common;
   for (ExprId& operand : operands) {
+    if (mixed_enums && context.types().kind(tree.expr(operand).type) == TypeKind::Enum) {
+      wrapConvert(context, operand, common);
+      continue;
+    }
     if (!convert(context, operand, common, kOperand)) return types::kError;
   }
   return common;

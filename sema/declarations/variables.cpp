@@ -246,7 +246,8 @@ void ensureVarType(Context& context, VarId id) {
     }
     // An ANY input of CODESYS tells of any variable where it is; the standard's generic types are the library's.
     const bool generic = types::TypeTable::isGeneric(context.types().kind(var.type));
-    if (generic && var.section == SectionKind::Input && !there.library && !there.iec()) {
+    const bool may_tell = var.section == SectionKind::Input || var.section == SectionKind::Local;
+    if (generic && may_tell && !there.library && !there.iec()) {
       var.any = var.type;
       var.type = anyType(there);
     }
