@@ -159,6 +159,12 @@ TypeId throughObject(Context& context, ExprId& expr, TypeId type);
 bool isExact(const Context& context, ExprId instance);
 bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, Loc loc);
 
+// ---- attempts.cpp
+// target ?= source
+void checkAttempt(Context& context, AssignStmt& node);
+// __QUERYINTERFACE(source, target), __QUERYPOINTER(source, target). None when the name is another one.
+TypeId checkQueryCall(Context& context, ExprId& expr, NameId name);
+
 // ---- pointers.cpp
 // ADR(x), REF(x), BITADR(x), __ISVALIDREF(x). None when the name is another one.
 TypeId checkAddressCall(Context& context, ExprId& expr, NameId name);

@@ -136,6 +136,11 @@ bool bindReference(Context& context, ExprId& place, TypeId reference) {
   }
   if (!checkAddressable(context, place)) return false;
   const Fit fitness = fit(context, context.types().pointer(type), context.types().pointer(wanted));
+  if (fitness == Fit::Lossless) {  // an object of a derived block
+    place = addressOf(context, place, context.types().pointer(type), loc);
+    wrapConvert(context, place, reference);
+    return true;
+  }
   if (fitness != Fit::Same) {
     context.report(Diag::WrongType, context.tree().begin(place),
                    {context.types().spell(type), "bound to the reference", context.types().spell(reference)});
