@@ -244,6 +244,7 @@ class BodyLowering {
   ExprId lowerObjectConversion(const ConvertExpr& node);
   // objects.cpp
   ExprId lowerAttempt(const sema::Call& call, Loc loc);
+  ExprId checkedDowncast(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc);
   ExprId isKindOf(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc);
   void lowerBlockCall(const sema::Call& call, const CallExpr& node, ExprId instance);
   void lowerAssertion(const sema::Call& call, const CallExpr& node);

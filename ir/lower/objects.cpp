@@ -216,6 +216,21 @@ ExprId BodyLowering::isKindOf(ExprId pointer, sema::PouId given, sema::PouId wan
   return add({.kind = ExprKind::Call, .type = types::kBool, .loc = loc, .a = test.index, .b = operands, .c = 1});
 }
 
+// A pointer to a base where one to what extends it is wanted: what it leads to must be that.
+ExprId BodyLowering::checkedDowncast(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc) {
+  if ((in_.options.checks & kCheckCast) == 0 || !project_.pou(given).dispatched) return pointer;
+  pointer = toTemp(pointer, loc);
+  const ExprId is_set = binary(Op::Ne, types::kBool, pointer, constant(typeOf(pointer), 0, loc), loc);
+  const StmtId test = block([&] {
+    const ExprId is_other = unary(Op::Not, types::kBool, isKindOf(pointer, given, wanted, loc), loc);
+    const StmtId fault = block(
+        [&] { append({.kind = StmtKind::Fault, .op = static_cast<uint8_t>(types::Fault::Cast), .loc = loc}); });
+    append({.kind = StmtKind::If, .loc = loc, .a = is_other.index, .b = fault.index});
+  });
+  append({.kind = StmtKind::If, .loc = loc, .a = is_set.index, .b = test.index});
+  return pointer;
+}
+
 ExprId BodyLowering::lowerAttempt(const sema::Call& call, Loc loc) {
   const ExprId source = toTemp(lowerValue(call.bindings[0].value), loc);
   const sema::PouId given = in_.pouOfRecord(strip(types_.info(typeOf(source)).base));

@@ -93,6 +93,8 @@ enum class Fit : uint8_t {
   No,
 };
 Fit fit(const Context& context, TypeId from, TypeId to);
+// One is a type with named values, the other its base type. IEC 61131-3 ed. 3, 6.4.4.3.
+bool isNamedValueOf(const Context& context, TypeId a, TypeId b);
 bool sameType(const Context& context, TypeId a, TypeId b);
 // The expression was checked: adapts literals, converts to `to`, or reports.
 bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose);

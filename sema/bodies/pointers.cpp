@@ -21,8 +21,10 @@ ExprId addressOf(Context& context, ExprId place, TypeId type, Loc loc) {
 // ADR(x), REF(x): the type is that of the operand, so that what it is assigned to decides whether it fits.
 TypeId checkAddress(Context& context, ExprId& expr, ExprId place) {
   const Loc loc = context.tree().loc(expr);
-  const TypeId type = check(context, place, {}, Access::Address);
+  TypeId type = check(context, place, {}, Access::Address);
   if (!type || type == types::kError) return types::kError;
+  const ExprKind kind = context.tree().kind(place);
+  if (kind == ExprKind::This || kind == ExprKind::Super) type = throughObject(context, place, type);
   if (!checkAddressable(context, place)) return types::kError;
   expr = addressOf(context, place, context.types().pointer(type), loc);
   return context.tree().expr(expr).type;
