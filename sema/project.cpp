@@ -82,6 +82,7 @@ void check(Project& project) {
   collectFiles(context);
   chooseTests(context);
   collectConfigurations(context);
+  resolveHeaders(context);
   settleDeclarations(context);
   resolveConfigurations(context);
   checkMocks(context);

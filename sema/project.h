@@ -143,7 +143,8 @@ struct Pou {
   AccessLevel access = AccessLevel::None;
   uint8_t modifiers = 0;                                                       // Modifier
   enum class Accessor : uint8_t { None, Get, Set } accessor = Accessor::None;  // of a property
-  bool dispatched = false;  // begins with a type id: its methods may be called through a table
+  bool extended = false;    // another block of the project extends it
+  bool dispatched = false;  // begins with a type id: its methods and body may be called through a table
   enum class Header : uint8_t { New, Busy, Done } header = Header::New;  // base and interfaces are known
   FileId file;
 };
@@ -210,13 +211,15 @@ struct Binding {
   bool is_output = false;  // copied to `value` after the call
   bool negated = false;    // NOT pin =>
 };
-enum class CallKind : uint8_t { Function, Instance, Program, Operator, Assertion, Method };
+// Attempt: the first binding is a pointer to an object, the second the place that takes it when the object is a `pou`
+// (none: any), and 0 when not; the result is whether it was.
+enum class CallKind : uint8_t { Function, Instance, Program, Operator, Assertion, Method, Attempt };
 enum class Assertion : uint8_t { Assert, AssertEq, AssertNear };
 struct Call {
   CallKind kind = CallKind::Function;
   PouId pou;                      // callee; the instance of a generic function
   ExprId instance;                // Instance: the FB variable; Method: the object, none: the one at hand
-  bool is_virtual = false;        // Method: the object may be of a derived type
+  bool is_virtual = false;        // Method, Instance: the object may be of a derived type
   std::vector<Binding> bindings;  // Operator: operands in order, pin none
   ExprId en;                      // EN := …
   ExprId eno;                     // ENO => …

@@ -44,6 +44,7 @@ const char* spelling(AssignOp op) {
     case AssignOp::Subtract: return "-=";
     case AssignOp::Multiply: return "*=";
     case AssignOp::Divide: return "/=";
+    case AssignOp::Attempt: return "?=";
   }
   return "";
 }

@@ -250,7 +250,8 @@ struct StmtHeader {
   uint16_t spare;
   Loc loc;
 };
-enum class AssignOp : uint8_t { Assign, Set, Reset, Reference, Add, Subtract, Multiply, Divide };  // := S= R= REF= += …
+// := S= R= REF= += -= *= /= ?=
+enum class AssignOp : uint8_t { Assign, Set, Reset, Reference, Add, Subtract, Multiply, Divide, Attempt };
 const char* spelling(AssignOp op);
 struct ErrorStmt {
   StmtHeader h;

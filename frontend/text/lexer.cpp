@@ -20,7 +20,7 @@ constexpr std::array<uint8_t, 256> makeClasses() {
   c['_'] = kLetter;
   for (int i = '0'; i <= '9'; ++i) c[static_cast<size_t>(i)] = kDigit;
   for (char p :
-       {';', ':', ',', '.', '(', ')', '[', ']', '^', '#', '=', '+', '-', '*', '/', '<', '>', '&', '!', '|', '%', '{'})
+       {';', ':', ',', '.', '(', ')', '[', ']', '^', '#', '=', '+', '-', '*', '/', '<', '>', '&', '!', '|', '%', '{', '?'})
     c[static_cast<unsigned char>(p)] = kPunct;
   c['\''] = c['"'] = kQuote;
   return c;
@@ -460,6 +460,7 @@ const char* Lexer::punct(const char* p) {
     case '<': return p[1] == '>' ? two(Tok::NotEqual) : p[1] == '=' ? two(Tok::LessEqual) : one(Tok::Less);
     case '>': return p[1] == '=' ? two(Tok::GreaterEqual) : one(Tok::Greater);
     case '&': return p[1] == '&' ? two(Tok::AmpersandTwice) : one(Tok::Ampersand);
+    case '?': return p[1] == '=' ? two(Tok::TryAssign) : stray(p);
     case '!': return p[1] == '=' ? two(Tok::BangEqual) : one(Tok::Bang);
     case '|': return p[1] == '|' ? two(Tok::BarTwice) : one(Tok::Bar);
     case '%': {

@@ -42,7 +42,7 @@ bool isStatementWord(Tok k) {
   return k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat || k == Tok::Try ||
          k == Tok::Exit || k == Tok::Continue || k == Tok::Return || k == Tok::Jmp;
 }
-bool isAssign(Tok k) { return k == Tok::Assign || (k >= Tok::PlusAssign && k <= Tok::SlashAssign); }
+bool isAssign(Tok k) { return k == Tok::Assign || (k >= Tok::PlusAssign && k <= Tok::TryAssign); }
 
 }  // namespace
 
@@ -234,6 +234,10 @@ void Parser::parseExprStatement() {
         break;
       case static_cast<int>(Tok::SlashAssign):
         assign = AssignOp::Divide;
+        advance();
+        break;
+      case static_cast<int>(Tok::TryAssign):
+        assign = AssignOp::Attempt;
         advance();
         break;
       case static_cast<int>(Tok::Equal):

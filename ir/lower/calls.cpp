@@ -25,6 +25,7 @@ ExprId BodyLowering::lowerCall(rung::ExprId id, Target* target) {
       case sema::CallKind::Instance: lowerBlockCall(call, node, stable(lowerPlace(call.instance))); return {};
       case sema::CallKind::Program: lowerBlockCall(call, node, lowerPlace(node.callee)); return {};
       case sema::CallKind::Assertion: lowerAssertion(call, node); return {};
+      case sema::CallKind::Attempt: return lowerAttempt(call, loc);
     }
     return {};
   };
@@ -451,7 +452,12 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
     action.bindings.clear();
     lowerFunctionCall(action, node, nullptr, asBase(instance, project_.pou(call.pou).owner, loc));
   } else {
-    append({.kind = StmtKind::Call, .loc = loc, .a = in_.bodyOf(call.pou).index, .b = instance.index});
+    const BodyId callee = call.is_virtual ? in_.blockCallOf(call.pou) : in_.bodyOf(call.pou);
+    append({.kind = StmtKind::Call,
+            .op = call.is_virtual ? kVirtual : uint8_t{0},
+            .loc = loc,
+            .a = callee.index,
+            .b = instance.index});
   }
   // What they referred to ends with this body or sooner, and a trace must not follow them there.
   for (const ExprId field : short_lived) append({.kind = StmtKind::Bind, .loc = loc, .a = field.index});

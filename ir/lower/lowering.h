@@ -1,6 +1,6 @@
 // The parts of lowering and what they share. Internal to ir/lower/. ModuleLowering (module.cpp) declares the bodies,
 // records and instances of a project; BodyLowering walks one checked body and appends IR to it: places.cpp, values.cpp,
-// aliases.cpp, calls.cpp, statements.cpp and initial_values.cpp are its subjects.
+// aliases.cpp, calls.cpp, objects.cpp, statements.cpp and initial_values.cpp are its subjects.
 #pragma once
 
 #include <functional>
@@ -34,6 +34,10 @@ struct ModuleLowering {
   uint32_t listIndex(sema::ListId list) const { return list_index[list.index]; }
   // The instance that a program's name stands for; made when the program has none.
   uint32_t instanceOf(sema::PouId program);
+  // The function that tells of a type id whether it is that of an object of this kind.
+  BodyId kindTestOf(sema::PouId wanted);
+  bool isKindOf(sema::PouId object, sema::PouId base) const;
+  BodyId blockCallOf(sema::PouId block);
   // FB_Init of an object and of those that it extends, the outermost base first.
   std::vector<sema::PouId> constructorsOf(sema::PouId object) const;
   // The arguments of FB_Init that a declaration gives to the instance in a field of a record.
@@ -60,6 +64,8 @@ struct ModuleLowering {
   void addLists();
   void markFaulting();
   void addClasses();
+  void fillKindTests();
+  BodyId addHelper(sema::PouId object, const char* suffix);
   void addDispatches();
   sema::PouId implementation(sema::PouId object, sema::PouId method) const;
   void addTasks();
@@ -80,6 +86,7 @@ struct ModuleLowering {
   std::vector<uint32_t> program_of_instance_;            // by sema instance: index in Module::programs + 1
   std::unordered_map<uint32_t, uint32_t> instance_of_;   // by PouId: index in Module::programs
   std::vector<sema::PouId> to_lower_;
+  std::vector<std::pair<sema::PouId, BodyId>> kind_tests_, block_calls_;
 };
 
 // The scalar or text behind a checked constant expression, or none when it is not that simple.
@@ -235,6 +242,10 @@ class BodyLowering {
   ExprId lowerFunctionCall(const sema::Call& call, const CallExpr& node, Target* target, ExprId object = {});
   ExprId lowerMethodCall(const sema::Call& call, const CallExpr& node, Target* target);
   ExprId lowerObjectConversion(const ConvertExpr& node);
+  // objects.cpp
+  ExprId lowerAttempt(const sema::Call& call, Loc loc);
+  ExprId checkedDowncast(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc);
+  ExprId isKindOf(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc);
   void lowerBlockCall(const sema::Call& call, const CallExpr& node, ExprId instance);
   void lowerAssertion(const sema::Call& call, const CallExpr& node);
   NameId shownText(const CallExpr& node, const BinaryExpr& condition);

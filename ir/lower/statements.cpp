@@ -146,6 +146,7 @@ void BodyLowering::lowerAssign(const AssignStmt& stmt) {
       assign(target, binary(op, type, target, convertValue(value, type, loc), loc), loc);
       return;
     }
+    case AssignOp::Attempt: break;  // sema made a call of it
     case AssignOp::Reference: {  // sema made the value an address
       ExprId value = lowerValue(stmt.value);
       ExprId target = lowerAfter({&value}, [&] { return lowerPlace(stmt.target); });

@@ -364,6 +364,7 @@ ExprId BodyLowering::lowerObjectConversion(const ConvertExpr& node) {
   const sema::PouId object = in_.pouOfRecord(target);
   if (!object || object == wanted) return {};
   ExprId pointer = lowerValue(node.operand);
+  if (in_.isKindOf(wanted, object)) pointer = checkedDowncast(pointer, object, wanted, loc);
   const sema::Pou& pou = project_.pou(object);
   // Only where the base stands behind a type id of the derived object's own is the pointer another.
   if (project_.pou(wanted).kind == PouKind::Interface || !pou.dispatched || project_.pou(wanted).dispatched)

@@ -93,6 +93,8 @@ enum class Fit : uint8_t {
   No,
 };
 Fit fit(const Context& context, TypeId from, TypeId to);
+// One is a type with named values, the other its base type. IEC 61131-3 ed. 3, 6.4.4.3.
+bool isNamedValueOf(const Context& context, TypeId a, TypeId b);
 bool sameType(const Context& context, TypeId a, TypeId b);
 // The expression was checked: adapts literals, converts to `to`, or reports.
 bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose);
@@ -158,6 +160,12 @@ TypeId throughObject(Context& context, ExprId& expr, TypeId type);
 // The type of the object that a place holds is the one that it was declared with.
 bool isExact(const Context& context, ExprId instance);
 bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, Loc loc);
+
+// ---- attempts.cpp
+// target ?= source
+void checkAttempt(Context& context, AssignStmt& node);
+// __QUERYINTERFACE(source, target), __QUERYPOINTER(source, target). None when the name is another one.
+TypeId checkQueryCall(Context& context, ExprId& expr, NameId name);
 
 // ---- pointers.cpp
 // ADR(x), REF(x), BITADR(x), __ISVALIDREF(x). None when the name is another one.

@@ -192,7 +192,11 @@ TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool a
   Call call;
   call.kind = kind;
   call.pou = pou;
-  if (kind == CallKind::Instance) call.instance = node.callee;
+  if (kind == CallKind::Instance) {
+    call.instance = node.callee;
+    const Pou& block = context.project.pou(pou);
+    call.is_virtual = block.dispatched && (block.modifiers & kFinal) == 0 && !isExact(context, node.callee);
+  }
   bindControlPins(context, node, arguments, call);
   bindArguments(context, node, pou, arguments, call);
   if (arguments.good) checkRequiredPins(context, node, pou, arguments);
@@ -283,6 +287,7 @@ TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected)
   if (const TypeId type = checkRuleCall(context, expr, name, expected)) return type;
   if (const TypeId type = checkAddressCall(context, expr, name)) return type;
   if (const TypeId type = checkBoundCall(context, expr, name)) return type;
+  if (const TypeId type = checkQueryCall(context, expr, name)) return type;
   if (sayUnknown(context, name))
     context.report(Diag::UnknownName, node.h.loc, {text(context, name)}).didYouMean(nearestName(context, name));
   context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);

@@ -99,6 +99,13 @@ bool isObjectFit(const Context& constant, const types::TypeInfo& source, TypeId 
 
 }  // namespace
 
+bool isNamedValueOf(const Context& context, TypeId a, TypeId b) {
+  const types::TypeTable& table = context.types();
+  const types::TypeInfo &left = table.info(table.resolve(a)), &right = table.info(table.resolve(b));
+  if (left.named_values == right.named_values) return false;
+  return left.named_values ? table.resolve(left.base) == table.resolve(b) : table.resolve(right.base) == table.resolve(a);
+}
+
 Fit fit(const Context& context, TypeId from, TypeId to) {
   const types::TypeTable& table = context.types();
   from = table.resolve(from);
@@ -108,6 +115,7 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
   const types::TypeInfo& target = table.info(to);
   const TypeKind a = table.plainKind(from), b = table.plainKind(to);
   if (source.kind == TypeKind::Enum || target.kind == TypeKind::Enum) {
+    if (context.iec() && isNamedValueOf(context, from, to)) return Fit::Lossless;
     if (source.kind == target.kind) return context.iec() ? Fit::No : Fit::Lossy;
     if (source.strict || target.strict) return Fit::No;
     if (!isNumberKind(a) || !isNumberKind(b)) return Fit::No;

@@ -69,7 +69,8 @@ CallId addMethodCall(Context& context, PouId method, ExprId instance, std::vecto
 }  // namespace
 
 bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, Loc loc) {
-  if (access == AccessLevel::None && context.iec()) access = AccessLevel::Protected;
+  const bool of_interface = context.project.pou(owner).kind == PouKind::Interface;
+  if (access == AccessLevel::None && context.iec() && !of_interface) access = AccessLevel::Protected;
   if (access == AccessLevel::None || access == AccessLevel::Public) return true;
   const bool same_text = context.library || !context.project.pou(owner).library;
   if (access == AccessLevel::Internal && same_text && isInside(context, context.scopes.pous[owner.index].region))

@@ -39,6 +39,7 @@ TypeId reportOperands(Context& context, std::string_view what, TypeId a, TypeId 
 TypeId join(Context& context, TypeId a, TypeId b) {
   types::TypeTable& table = context.types();
   if (sameType(context, a, b)) return a;
+  if (isNamedValueOf(context, a, b)) return table.plain(a);
   const TypeKind x = table.plainKind(a), y = table.plainKind(b);
   if (isNumberKind(x) && isNumberKind(y)) {
     const bool enums = table.kind(a) == TypeKind::Enum || table.kind(b) == TypeKind::Enum;
@@ -88,7 +89,8 @@ bool accepts(Context& context, Operands accepted, TypeId type) {
   const TypeKind plain = context.types().plainKind(type);
   const bool enumeration = kind == TypeKind::Enum;
   if (enumeration && accepted != Operands::Anything && accepted != Operands::Equatable) {
-    if (context.iec() ||
+    const bool named_values = context.types().info(context.types().resolve(type)).named_values;
+    if ((context.iec() && !named_values) ||
         (context.types().info(context.types().resolve(type)).strict && accepted != Operands::Comparable)) {
       return false;
     }

@@ -21,8 +21,10 @@ ExprId addressOf(Context& context, ExprId place, TypeId type, Loc loc) {
 // ADR(x), REF(x): the type is that of the operand, so that what it is assigned to decides whether it fits.
 TypeId checkAddress(Context& context, ExprId& expr, ExprId place) {
   const Loc loc = context.tree().loc(expr);
-  const TypeId type = check(context, place, {}, Access::Address);
+  TypeId type = check(context, place, {}, Access::Address);
   if (!type || type == types::kError) return types::kError;
+  const ExprKind kind = context.tree().kind(place);
+  if (kind == ExprKind::This || kind == ExprKind::Super) type = throughObject(context, place, type);
   if (!checkAddressable(context, place)) return types::kError;
   expr = addressOf(context, place, context.types().pointer(type), loc);
   return context.tree().expr(expr).type;
@@ -136,6 +138,11 @@ bool bindReference(Context& context, ExprId& place, TypeId reference) {
   }
   if (!checkAddressable(context, place)) return false;
   const Fit fitness = fit(context, context.types().pointer(type), context.types().pointer(wanted));
+  if (fitness == Fit::Lossless) {  // an object of a derived block
+    place = addressOf(context, place, context.types().pointer(type), loc);
+    wrapConvert(context, place, reference);
+    return true;
+  }
   if (fitness != Fit::Same) {
     context.report(Diag::WrongType, context.tree().begin(place),
                    {context.types().spell(type), "bound to the reference", context.types().spell(reference)});

@@ -69,7 +69,8 @@ BinaryOp binaryOf(AssignOp op) {
     case AssignOp::Assign:
     case AssignOp::Set:
     case AssignOp::Reset:
-    case AssignOp::Reference: return BinaryOp::Add;
+    case AssignOp::Reference:
+    case AssignOp::Attempt: return BinaryOp::Add;
   }
   return BinaryOp::Add;
 }
@@ -132,6 +133,7 @@ void checkAssign(Context& context, AssignStmt& node) {
     case AssignOp::Subtract:
     case AssignOp::Multiply:
     case AssignOp::Divide: checkCompoundAssign(context, node); return;
+    case AssignOp::Attempt: checkAttempt(context, node); return;
   }
 }
 

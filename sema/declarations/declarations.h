@@ -101,6 +101,8 @@ void collectMembers(Context& context, PouId owner);
 bool isLifeMethod(const Context& context, NameId name);
 // What an object extends and implements; checked once.
 void resolveHeader(Context& context, PouId object);
+// Those of all POUs, so that it is known which blocks are extended before the first is laid out.
+void resolveHeaders(Context& context);
 // The hidden fields with which an object begins: type id, base.
 void addObjectFields(Context& context, PouId object);
 // The names of members in the scope of their object, and VAR_INST of its methods.

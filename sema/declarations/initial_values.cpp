@@ -256,7 +256,8 @@ struct Initializer {
         continue;
       }
       const bool settable = var.storage == Storage::Field && var.section != SectionKind::InOut &&
-                            (!var.pou || var.section == SectionKind::Input || !context.iec());
+                            (!var.pou || var.section == SectionKind::Input ||
+                             var.access == AccessLevel::Public || !context.iec());
       if (!settable) {
         context.report(Diag::MemberNotSettable, given.field.loc, {name, context.types().spell(type)})
             .note(var.loc, Note::DeclaredHere);

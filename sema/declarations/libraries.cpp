@@ -178,6 +178,8 @@ std::vector<IndexedBlock> indexLibrary(std::string_view text) {
     const char* end = scan.is("FUNCTION_BLOCK") ? "END_FUNCTION_BLOCK"
                       : scan.is("FUNCTION")     ? "END_FUNCTION"
                       : scan.is("PROGRAM")      ? "END_PROGRAM"
+                      : scan.is("INTERFACE")    ? "END_INTERFACE"
+                      : scan.is("CLASS")        ? "END_CLASS"
                                                 : nullptr;
     if (end != nullptr) {
       if (scan.next() != Kind::Word) continue;

@@ -2,8 +2,8 @@
 // the hidden fields with which its instances begin.
 //
 // An object that may be met through a pointer, an in-out or an interface begins with a 32-bit type id, by which its
-// methods are found (`dispatched`): its own declaration decides, so that its layout does not change when somebody
-// extends it. A derived object holds its base as its first field; where the base has no type id and the derived one
+// methods and its body are found (`dispatched`): one with methods, interfaces or ABSTRACT, and one that the project
+// extends. A derived object holds its base as its first field; where the base has no type id and the derived one
 // has, the id comes first.
 #include "sema/declarations/declarations.h"
 
@@ -119,6 +119,24 @@ void declareMembers(Context& context, PouId object) {
   }
 }
 
+namespace {
+
+void decideDispatch(Context& context, PouId id) {
+  Pou& pou = context.project.pou(id);
+  const bool is_interface = pou.kind == PouKind::Interface;
+  if (pou.kind != PouKind::FunctionBlock && pou.kind != PouKind::Class && !is_interface) return;
+  if (pou.base) decideDispatch(context, pou.base);
+  bool own = is_interface || pou.extended || !pou.interfaces.empty() || (pou.modifiers & kAbstract) != 0;
+  for (const PouId member : pou.members) {
+    const Pou& method = context.project.pou(member);
+    own =
+        own || (method.kind == PouKind::Method && (pou.modifiers & kFinal) == 0 && !isLifeMethod(context, method.name));
+  }
+  pou.dispatched = own || (pou.base && context.project.pou(pou.base).dispatched);
+}
+
+}  // namespace
+
 // Forbids EXTENDS of what is no block, class or interface, of a FINAL one, and of itself; IMPLEMENTS of what is no
 // interface. IEC 61131-3 ed. 3, 6.6.5.5, 6.6.6.5.
 //   fails   FUNCTION_BLOCK a EXTENDS b … FUNCTION_BLOCK b EXTENDS a …                 E0342
@@ -147,6 +165,7 @@ void resolveHeader(Context& context, PouId id) {
           .note(project.pou(base).loc, Note::DeclaredHere);
     } else {
       project.pou(id).base = base;
+      if (!project.pou(base).native) project.pou(base).extended = true;
     }
   }
   for (uint32_t i = 0; i < decl.implements.count; ++i) {
@@ -155,16 +174,16 @@ void resolveHeader(Context& context, PouId id) {
       project.pou(id).interfaces.push_back(interface);
     }
   }
-  Pou& pou = project.pou(id);
-  pou.header = Pou::Header::Done;
-  if (pou.kind != PouKind::FunctionBlock && pou.kind != PouKind::Class && !is_interface) return;
-  bool own = is_interface || !pou.interfaces.empty() || (pou.modifiers & kAbstract) != 0;
-  for (const PouId member : pou.members) {
-    const Pou& method = project.pou(member);
-    own =
-        own || (method.kind == PouKind::Method && (pou.modifiers & kFinal) == 0 && !isLifeMethod(context, method.name));
-  }
-  pou.dispatched = own || (pou.base && project.pou(pou.base).dispatched);
+  project.pou(id).header = Pou::Header::Done;
+  decideDispatch(context, id);
+}
+
+void resolveHeaders(Context& context) {
+  context.scopes.settling = true;  // a library's block that is read now may yet be extended
+  for (uint32_t i = 1; i < context.project.pous.size(); ++i)
+    if (!context.project.pous[i].owner) resolveHeader(context, PouId{i});
+  context.scopes.settling = false;
+  for (uint32_t i = 1; i < context.project.pous.size(); ++i) decideDispatch(context, PouId{i});
 }
 
 void addObjectFields(Context& context, PouId id) {

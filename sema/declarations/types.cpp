@@ -229,6 +229,7 @@ void fillEnum(Context& context, TypeId type, TypeExprId id) {
     if (base == types::kError) base = types::kInt;
   }
   context.types().edit(type).base = base;
+  context.types().edit(type).named_values = static_cast<bool>(expr.base);
   NamedType& named = *context.scopes.named(type);
   context.items_of = type;
   int64_t next = 0;

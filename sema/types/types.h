@@ -107,6 +107,7 @@ struct TypeInfo {
   TypeKind kind = TypeKind::None;
   RecordKind record_kind = RecordKind::Struct;
   bool laid_out = false;
+  bool named_values = false;  // enumerations with a base type: its values have names, others have none
   bool strict = false;  // enumerations: TYPE#item only ({attribute 'strict'}, edition 3 strict form)
   NameId name;          // named types
   TypeId base;          // Enum, Subrange: the integer type; Alias, Array (element), Pointer, Reference: the target

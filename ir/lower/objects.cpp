@@ -1,0 +1,251 @@
+// Lowering of what only objects need: class numbers, dispatch tables, tests of what an object is, constructors.
+// In: the objects of a checked project. Out: Module::classes and dispatches, and small functions that stand for the body
+// of a block in a table, or tell what a type id means.
+#include <algorithm>
+
+#include "ir/lower/lowering.h"
+
+namespace rung::ir {
+
+namespace {
+
+std::string folded(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
+}  // namespace
+
+sema::PouId ModuleLowering::objectOf(sema::PouId pou) const {
+  const sema::Pou& of = project.pou(pou);
+  return of.owner ? of.owner : of.kind == PouKind::Function ? sema::PouId{} : pou;
+}
+
+std::vector<sema::PouId> ModuleLowering::constructorsOf(sema::PouId object) const {
+  std::vector<sema::PouId> out;
+  for (sema::PouId at = object; at; at = project.pou(at).base)
+    for (sema::PouId member : project.pou(at).members)
+      if (sameIdentifier(project.names.text(project.pou(member).name), "FB_Init")) out.insert(out.begin(), member);
+  return out;
+}
+
+CallId ModuleLowering::constructorOf(TypeId record, uint32_t field) const {
+  auto found = constructor_of_.find(uint64_t{record.index} << 32 | field);
+  return found == constructor_of_.end() ? CallId{} : found->second;
+}
+
+// Numbers the objects that have a type id: each line of descent in one run, in the order of their names.
+void ModuleLowering::addClasses() {
+  std::vector<std::pair<std::string, sema::PouId>> order;
+  for (const Record& record : module.records)
+    if (sema::PouId pou = pou_of_record_[record.type.index])
+      if (project.pou(pou).dispatched && project.pou(pou).kind != PouKind::Interface)
+        order.push_back({folded(project.names.text(project.pou(pou).unique_name)), pou});
+  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<uint32_t> number_of(types.count());
+  auto baseOf = [&](sema::PouId pou) {
+    sema::PouId base = project.pou(pou).base;
+    return base && project.pou(base).dispatched ? base : sema::PouId{};
+  };
+  std::vector<sema::PouId> open;
+  auto visit = [&](sema::PouId pou, TypeId base) {
+    module.classes.push_back({project.pou(pou).record, base});
+    number_of[project.pou(pou).record.index] = static_cast<uint32_t>(module.classes.size());
+  };
+  auto children = [&](sema::PouId of) {
+    for (size_t i = order.size(); i-- > 0;)
+      if (baseOf(order[i].second) == of) open.push_back(order[i].second);
+  };
+  children({});
+  while (!open.empty()) {
+    const sema::PouId next = open.back();
+    open.pop_back();
+    const sema::PouId base = baseOf(next);
+    visit(next, base ? project.pou(base).record : TypeId{});
+    children(next);
+  }
+  fillKindTests();
+  for (uint32_t i = 1; i < module.bodies.size(); ++i)
+    for (Expr& expr : module.bodies[i].exprs)
+      if (expr.kind == ExprKind::Const && expr.c != 0) expr.a = number_of[expr.c];
+}
+
+// The method of an object that answers to a call of `method`; none when it has none, or an abstract one.
+sema::PouId ModuleLowering::implementation(sema::PouId object, sema::PouId method) const {
+  const sema::Pou& wanted = project.pou(method);
+  for (sema::PouId at = object; at; at = project.pou(at).base)
+    for (sema::PouId candidate : project.pou(at).members) {
+      const sema::Pou& have = project.pou(candidate);
+      if (have.kind != PouKind::Method || have.accessor != wanted.accessor) continue;
+      if (!project.names.same(have.name, wanted.name)) continue;
+      return (have.modifiers & kAbstract) != 0 ? sema::PouId{} : candidate;
+    }
+  return {};
+}
+
+void ModuleLowering::addDispatches() {
+  std::vector<sema::PouId> method_of(module.bodies.size());
+  for (uint32_t i = 1; i < project.pous.size(); ++i)
+    if (body_of_[i] && project.pous[i].owner) method_of[body_of_[i].index] = {i};
+  std::vector<bool> called(module.bodies.size());
+  for (uint32_t i = 1; i < module.bodies.size(); ++i)
+    for (const Stmt& stmt : module.bodies[i].stmts)
+      if (stmt.kind == StmtKind::Call && stmt.op == kVirtual) called[stmt.a] = true;
+  const std::vector<std::pair<sema::PouId, BodyId>> block_calls = block_calls_;  // more are made below
+  for (uint32_t i = 1; i < called.size(); ++i) {
+    if (!called[i]) continue;
+    Dispatch made;
+    made.method = {i};
+    sema::PouId block;  // whose body is called; else a method is
+    for (const auto& [pou, body] : block_calls)
+      if (body.index == i) block = pou;
+    const sema::PouId owner = block ? block : project.pou(method_of[i]).owner;
+    for (uint32_t c = 0; c < module.classes.size(); ++c) {
+      const sema::PouId object = pou_of_record_[module.classes[c].record.index];
+      if (!isKindOf(object, owner)) continue;
+      if (made.bodies.empty()) made.first = c + 1;
+      made.bodies.resize(c + 1 - made.first);
+      if (block) {
+        made.bodies.push_back(blockCallOf(object));
+      } else {
+        const sema::PouId found = implementation(object, method_of[i]);
+        made.bodies.push_back(found ? bodyOf(found) : BodyId{});
+      }
+    }
+    module.dispatches.push_back(std::move(made));
+  }
+}
+
+bool ModuleLowering::isKindOf(sema::PouId object, sema::PouId base) const {
+  for (; object; object = project.pou(object).base) {
+    if (object == base) return true;
+    for (sema::PouId interface : project.pou(object).interfaces)
+      if (isKindOf(interface, base)) return true;
+  }
+  return false;
+}
+
+BodyId ModuleLowering::addHelper(sema::PouId object, const char* suffix) {
+  const sema::Pou& pou = project.pou(object);
+  module.bodies.emplace_back();
+  Body& body = module.bodies.back();
+  std::string name(project.names.text(pou.unique_name));
+  body.name = body.spelling = module.names.intern(name + suffix);
+  body.kind = BodyKind::Function;
+  body.library = pou.library;
+  body.library_name = pou.library_name;
+  body.loc = pou.loc;
+  body.file = pou.file;
+  return BodyId{static_cast<uint32_t>(module.bodies.size() - 1)};
+}
+
+// The body of a block as a method, so that tables can hold it.
+BodyId ModuleLowering::blockCallOf(sema::PouId block) {
+  for (const auto& [pou, body] : block_calls_)
+    if (pou == block) return body;
+  const BodyId code = bodyOf(block);
+  const BodyId made = addHelper(block, "()");
+  block_calls_.push_back({block, made});
+  Body& body = module.body(made);
+  body.self = project.pou(block).record;
+  BodyLowering lowering(*this, body, {});
+  lowering.append({.kind = StmtKind::Call, .loc = body.loc, .a = code.index, .b = lowering.self(body.loc).index});
+  body.first = lowering.block_.first;
+  lowering.finish();
+  return made;
+}
+
+BodyId ModuleLowering::kindTestOf(sema::PouId wanted) {
+  for (const auto& [pou, body] : kind_tests_)
+    if (pou == wanted) return body;
+  const BodyId made = addHelper(wanted, "?");
+  kind_tests_.push_back({wanted, made});
+  Body& body = module.body(made);
+  body.pure = true;
+  body.result = types::kBool;
+  body.locals.push_back({module.names.intern("id"), types::kUDInt, LocalKind::Input, false, body.loc});
+  body.locals.push_back({module.names.intern("is"), types::kBool, LocalKind::Result, false, body.loc});
+  return made;
+}
+
+// Numbers of one line of descent follow each other, so that a kind is one run of numbers or a few.
+void ModuleLowering::fillKindTests() {
+  for (const auto& [wanted, test] : kind_tests_) {
+    Body& body = module.body(test);
+    const Loc loc = body.loc;
+    BodyLowering lowering(*this, body, {});
+    auto holds = [&](size_t c) {
+      return c < module.classes.size() && isKindOf(pou_of_record_[module.classes[c].record.index], wanted);
+    };
+    auto compare = [&](Op op, size_t c) {
+      const ExprId number = lowering.add(
+          {.kind = ExprKind::Const, .type = types::kUDInt, .loc = loc, .c = module.classes[c].record.index});
+      return lowering.binary(op, types::kBool, lowering.local(0, loc), number, loc);
+    };
+    ExprId is;
+    for (size_t c = 0; c < module.classes.size(); ++c) {
+      if (!holds(c)) continue;
+      const size_t first = c;
+      while (holds(c + 1)) ++c;
+      const ExprId run = first == c ? compare(Op::Eq, c)
+                                    : lowering.binary(Op::And, types::kBool, compare(Op::Ge, first), compare(Op::Le, c), loc);
+      is = is ? lowering.binary(Op::Or, types::kBool, is, run, loc) : run;
+    }
+    lowering.assign(lowering.local(1, loc), is ? is : lowering.constantBool(false, loc), loc);
+    body.first = lowering.block_.first;
+    lowering.finish();
+  }
+}
+
+// ---- in bodies
+
+// Whether the object at a pointer that is not null is of a kind.
+ExprId BodyLowering::isKindOf(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc) {
+  if (!project_.pou(given).dispatched) return constantBool(in_.isKindOf(given, wanted), loc);
+  const TypeId record = strip(types_.info(typeOf(pointer)).base);
+  sema::PouId first = given;
+  while (!project_.pou(first).id_var) first = project_.pou(first).base;
+  ExprId object = add({.kind = ExprKind::Deref, .type = record, .loc = loc, .a = pointer.index});
+  object = asBase(object, first, loc);
+  const ExprId id = field(object, project_.var(project_.pou(first).id_var).field, types::kUDInt, loc);
+  const BodyId test = in_.kindTestOf(wanted);
+  const auto operands = static_cast<uint32_t>(body_.operands.size());
+  body_.operands.push_back(id);
+  return add({.kind = ExprKind::Call, .type = types::kBool, .loc = loc, .a = test.index, .b = operands, .c = 1});
+}
+
+// A pointer to a base where one to what extends it is wanted: what it leads to must be that.
+ExprId BodyLowering::checkedDowncast(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc) {
+  if ((in_.options.checks & kCheckCast) == 0 || !project_.pou(given).dispatched) return pointer;
+  pointer = toTemp(pointer, loc);
+  const ExprId is_set = binary(Op::Ne, types::kBool, pointer, constant(typeOf(pointer), 0, loc), loc);
+  const StmtId test = block([&] {
+    const ExprId is_other = unary(Op::Not, types::kBool, isKindOf(pointer, given, wanted, loc), loc);
+    const StmtId fault = block(
+        [&] { append({.kind = StmtKind::Fault, .op = static_cast<uint8_t>(types::Fault::Cast), .loc = loc}); });
+    append({.kind = StmtKind::If, .loc = loc, .a = is_other.index, .b = fault.index});
+  });
+  append({.kind = StmtKind::If, .loc = loc, .a = is_set.index, .b = test.index});
+  return pointer;
+}
+
+ExprId BodyLowering::lowerAttempt(const sema::Call& call, Loc loc) {
+  const ExprId source = toTemp(lowerValue(call.bindings[0].value), loc);
+  const sema::PouId given = in_.pouOfRecord(strip(types_.info(typeOf(source)).base));
+  const ExprId is = temp(types::kBool, loc);
+  assign(is, binary(Op::Ne, types::kBool, source, constant(typeOf(source), 0, loc), loc), loc);
+  if (call.pou) {
+    const StmtId test = block([&] { assign(is, isKindOf(source, given, call.pou, loc), loc); });
+    append({.kind = StmtKind::If, .loc = loc, .a = is.index, .b = test.index});
+  }
+  const ExprId target = stable(lowerPlace(call.bindings[1].value));
+  const TypeId type = typeOf(target);
+  const StmtId taken = block([&] { assign(target, convertValue(source, type, loc), loc); });
+  const StmtId refused = block([&] { assign(target, constant(type, 0, loc), loc); });
+  append({.kind = StmtKind::If, .loc = loc, .a = is.index, .b = taken.index, .c = refused.index});
+  return is;
+}
+
+}  // namespace rung::ir

@@ -1,0 +1,121 @@
+// Assignment attempts: an object as what it may be, found out when the program runs. `target ?= source` of edition 3,
+// __QUERYINTERFACE and __QUERYPOINTER of CODESYS. In: unchecked operands. Out: a sema::Call of kind Attempt.
+// IEC 61131-3 ed. 3, 6.6.6.7, table 52.
+#include "sema/bodies/bodies.h"
+#include "sema/checks/dangling_address.h"
+#include "sema/checks/writable.h"
+
+namespace rung::sema {
+
+namespace {
+
+constexpr const char* kObjectWords = "an interface, a block, or a pointer or reference to a block";
+
+// The object behind a pointer type; none where it points to something else.
+PouId pointedObject(Context& context, TypeId type) {
+  const types::TypeInfo& info = context.types().info(context.types().resolve(type));
+  if (info.kind != TypeKind::Pointer && info.kind != TypeKind::Reference) return {};
+  const PouId object = pouOf(context, info.base);
+  return object && context.project.pou(object).kind != PouKind::Program ? object : PouId{};
+}
+
+// Forbids asking of what is no object what it is.   fails   shape ?= 7;                              E0560
+PouId checkSource(Context& context, ExprId& source, std::string_view word) {
+  const TypeId type = check(context, source, {}, Access::Read);
+  if (!type || type == types::kError) return {};
+  if (const PouId object = pointedObject(context, type)) return object;
+  const PouId object = context.types().kind(type) == TypeKind::Record ? pouOf(context, type) : PouId{};
+  if (object && context.project.pou(object).kind != PouKind::Program) {
+    AddressOfExpr address{};
+    address.h.kind = ExprKind::AddressOf;
+    address.h.loc = context.tree().loc(source);
+    address.h.type = context.types().pointer(type);
+    address.place = source;
+    source = context.tree().add<ExprId>(address);
+    return object;
+  }
+  context.report(Diag::AttemptNeedsObject, context.tree().begin(source),
+                 {word, kObjectWords, context.types().spell(type)});
+  return {};
+}
+
+// The variable that takes the object: an interface, a pointer, or the reference itself.
+TypeId checkTaker(Context& context, ExprId& target) {
+  const TypeId type = check(context, target, {}, Access::Write);
+  if (!type || type == types::kError) return types::kError;
+  if (context.tree().kind(target) == ExprKind::Deref) {
+    const ExprId reference = context.tree().as<DerefExpr>(target).base;
+    if (context.types().kind(context.tree().expr(reference).type) == TypeKind::Reference) target = reference;
+  }
+  return checkWritable(context, target, Purpose{"assigned to", {}, {}}) ? context.tree().expr(target).type
+                                                                       : types::kError;
+}
+
+void refuseTaker(Context& context, ExprId target, TypeId type, std::string_view word, std::string_view wanted) {
+  if (type == types::kError) return;
+  context.report(Diag::AttemptNeedsObject, context.tree().begin(target), {word, wanted, context.types().spell(type)});
+}
+
+// `wanted`: what the object must be; none: any.
+ExprId makeAttempt(Context& context, ExprId source, PouId given, ExprId target, PouId wanted, Loc loc) {
+  const TypeId type = context.tree().expr(target).type;
+  Call call;
+  call.kind = CallKind::Attempt;
+  call.pou = wanted;
+  if (wanted && isKindOf(context, given, wanted)) {  // it is, whatever it is
+    call.pou = {};
+    if (given != wanted) wrapConvert(context, source, type);
+  }
+  checkDanglingAddress(context, target, source);
+  call.bindings.resize(2);
+  call.bindings[0].value = source;
+  call.bindings[1].value = target;
+  CallExpr node{};
+  node.h.kind = ExprKind::Call;
+  node.h.loc = loc;
+  node.h.type = types::kBool;
+  node.callee = target;
+  node.end = loc;
+  node.call = addCall(context, std::move(call));
+  return context.tree().add<ExprId>(node);
+}
+
+}  // namespace
+
+void checkAttempt(Context& context, AssignStmt& node) {
+  const TypeId type = checkTaker(context, node.target);
+  const PouId wanted = type == types::kError ? PouId{} : pointedObject(context, type);
+  if (!wanted) refuseTaker(context, node.target, type, "?=", kObjectWords);
+  const PouId given = checkSource(context, node.value, "?=");
+  if (!wanted || !given) return;
+  const ExprId call = makeAttempt(context, node.value, given, node.target, wanted, node.h.loc);
+  node.h.op = static_cast<uint8_t>(AssignOp::Assign);
+  node.target = call;
+}
+
+TypeId checkQueryCall(Context& context, ExprId& expr, NameId name) {
+  const bool to_pointer = isNamed(context, name, "__QUERYPOINTER");
+  if (!to_pointer && !isNamed(context, name, "__QUERYINTERFACE")) return {};
+  const CallExpr node = context.tree().as<CallExpr>(expr);
+  const std::span<const Argument> arguments = context.tree().list(node.arguments);
+  if (arguments.size() != 2 || !arguments[0].value || !arguments[1].value) {
+    context.report(Diag::WrongArgumentCount, node.h.loc, {text(context, name), "2", std::to_string(arguments.size())});
+    checkLooseArguments(context, node);
+    return context.tree().expr(expr).type = types::kError;
+  }
+  ExprId source = arguments[0].value, target = arguments[1].value;
+  const PouId given = checkSource(context, source, text(context, name));
+  const TypeId type = checkTaker(context, target);
+  const PouId wanted = type == types::kError ? PouId{} : pointedObject(context, type);
+  const bool is_interface = wanted && context.project.pou(wanted).kind == PouKind::Interface;
+  const bool is_pointer = type != types::kError && context.types().kind(type) == TypeKind::Pointer;
+  if (to_pointer ? is_interface || !is_pointer : !is_interface) {
+    refuseTaker(context, target, type, text(context, name), to_pointer ? "a pointer" : "an interface variable");
+    return context.tree().expr(expr).type = types::kError;
+  }
+  if (!given) return context.tree().expr(expr).type = types::kError;
+  expr = makeAttempt(context, source, given, target, wanted, node.h.loc);
+  return types::kBool;
+}
+
+}  // namespace rung::sema
