@@ -111,6 +111,7 @@ class Describer {
     if (field.persistent) bits |= RUNG_FIELD_PERSISTENT;
     if (field.role == FieldRole::Input) bits |= RUNG_FIELD_INPUT;
     if (field.role == FieldRole::Output) bits |= RUNG_FIELD_OUTPUT;
+    if (field.role == FieldRole::Base) bits |= RUNG_FIELD_BASE;
     return bits;
   }
 

@@ -164,6 +164,8 @@ void Reader::recordFields(TypeId type_id) {
       field.role = FieldRole::InOut;
     else if (accept("var"))
       field.role = FieldRole::Local;
+    else if (accept("base"))
+      field.role = FieldRole::Base;
     field.by_reference = field.role == FieldRole::InOut;
     if (accept("ref"))
       field.by_reference = true;

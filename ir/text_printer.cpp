@@ -148,6 +148,7 @@ void Printer::record(TypeId id, const Record* listed) {
       case FieldRole::Input: put("in "); break;
       case FieldRole::Output: put("out "); break;
       case FieldRole::InOut: put("inout "); break;
+      case FieldRole::Base: put("base "); break;
     }
     if (field.by_reference != (field.role == FieldRole::InOut)) put(field.by_reference ? "ref " : "value ");
     if (field.retain) put("retain ");

@@ -124,6 +124,11 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
   }
 }
 
+static bool isBase(const Context& context, VarId id) {
+  const PouId pou = context.project.var(id).pou;
+  return pou && context.project.pou(pou).base_var == id;
+}
+
 void addField(Context& context, TypeId record, VarId id) {
   Var& var = context.project.var(id);
   Field field;
@@ -132,6 +137,7 @@ void addField(Context& context, TypeId record, VarId id) {
   field.role = var.section == SectionKind::Input    ? FieldRole::Input
                : var.section == SectionKind::Output ? FieldRole::Output
                : var.section == SectionKind::InOut  ? FieldRole::InOut
+               : isBase(context, id)                ? FieldRole::Base
                : var.pou                            ? FieldRole::Local
                                                     : FieldRole::Member;
   field.by_reference = var.section == SectionKind::InOut;

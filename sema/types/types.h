@@ -88,7 +88,7 @@ inline constexpr TypeId kError = idOf(TypeKind::Error), kBool = idOf(TypeKind::B
 // Interface: what a variable of an INTERFACE type points to: the type id with which every object of a class begins.
 enum class RecordKind : uint8_t { Struct, Union, FunctionBlock, Program, GlobalList, Interface };
 
-enum class FieldRole : uint8_t { Member, Local, Input, Output, InOut };
+enum class FieldRole : uint8_t { Member, Local, Input, Output, InOut, Base };  // Base: what a block extends
 struct Field {
   NameId name;
   TypeId type;

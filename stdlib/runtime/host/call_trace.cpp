@@ -73,7 +73,7 @@ std::string CallTrace::pathInside(const rung_type* type, uint32_t offset, const 
       if (offset < field.offset + module_.types[field.type].size) inside = &field;
     }
     if (inside == nullptr) return "";
-    path += std::string(".") + (module_.text + inside->name);
+    if ((inside->flags & RUNG_FIELD_BASE) == 0) path += std::string(".") + (module_.text + inside->name);
     offset -= inside->offset;
     type = &module_.types[inside->type];
   }

@@ -170,6 +170,32 @@ bool Symbols::findAddress(std::string_view path, Variable& variable, std::string
   return true;
 }
 
+// A field of a record, its own or inherited. False: `names` has those that there are.
+bool Symbols::enter(Variable& variable, std::string_view name, std::vector<std::string_view>& names) const {
+  const rung_type& type = *variable.type;
+  const rung_field* base = nullptr;
+  for (uint32_t i = 0; i < type.count; ++i) {
+    const rung_field& field = module_.fields[type.first + i];
+    if ((field.flags & RUNG_FIELD_BASE) != 0) {
+      base = &field;
+      continue;
+    }
+    names.push_back(text(field.name));
+    if (!equalNames(name, text(field.name))) continue;
+    variable.path += '.';
+    variable.path += text(field.name);
+    variable.type = &module_.types[field.type];
+    variable.lastOffset() += field.offset;
+    variable.flags = field.flags;
+    if ((field.flags & RUNG_FIELD_BY_REFERENCE) != 0) variable.hops.push_back(0);
+    return true;
+  }
+  if (base == nullptr) return false;
+  variable.type = &module_.types[base->type];
+  variable.lastOffset() += base->offset;
+  return enter(variable, name, names);
+}
+
 // One `.field`, `[i,j]`, `^` or `.bit` at the front of `rest`.
 bool Symbols::step(Variable& variable, std::string_view& rest, std::string& error) const {
   const rung_type& type = *variable.type;
@@ -237,16 +263,7 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
   }
   if (type.kind != RUNG_RECORD) return error = quoted(variable.path) + " has no fields", false;
   std::vector<std::string_view> names;
-  for (uint32_t i = 0; i < type.count; ++i) {
-    const rung_field& field = module_.fields[type.first + i];
-    names.push_back(text(field.name));
-    if (!equalNames(name, text(field.name))) continue;
-    variable.path += '.';
-    variable.path += text(field.name);
-    variable.type = &module_.types[field.type];
-    variable.lastOffset() += field.offset;
-    variable.flags = field.flags;
-    if ((field.flags & RUNG_FIELD_BY_REFERENCE) != 0) variable.hops.push_back(0);
+  if (enter(variable, name, names)) {
     rest.remove_prefix(length);
     return true;
   }
@@ -292,8 +309,10 @@ void Symbols::expand(const Variable& variable, std::vector<Variable>& to) const 
           strncmp(name, "__", 2) == 0)
         continue;
       Variable part = variable;
-      part.path += '.';
-      part.path += name;
+      if ((field.flags & RUNG_FIELD_BASE) == 0) {
+        part.path += '.';
+        part.path += name;
+      }
       part.type = &module_.types[field.type];
       part.lastOffset() += field.offset;
       part.flags = field.flags;

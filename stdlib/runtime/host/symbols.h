@@ -53,6 +53,7 @@ class Symbols {
  private:
   Variable root(uint32_t symbol) const;
   bool findAddress(std::string_view path, Variable& variable, std::string& error) const;
+  bool enter(Variable& variable, std::string_view name, std::vector<std::string_view>& names) const;
   bool step(Variable& variable, std::string_view& rest, std::string& error) const;
 
   const rung_module& module_;

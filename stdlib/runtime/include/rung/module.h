@@ -69,7 +69,8 @@ enum rung_field_flags {
   RUNG_FIELD_RETAIN = 4,
   RUNG_FIELD_PERSISTENT = 8,
   RUNG_FIELD_INPUT = 16,
-  RUNG_FIELD_OUTPUT = 32
+  RUNG_FIELD_OUTPUT = 32,
+  RUNG_FIELD_BASE = 64 /* what a block extends: its fields are named as if they stood here */
 };
 typedef struct rung_field {
   uint32_t name, type, offset, flags;
