@@ -252,6 +252,7 @@ struct Options {
   std::span<const std::string> project_names;  // qualify what the project itself declares: `TcUnit.FB_TestSuite`
   std::span<const LibraryAlias> library_aliases;
   CallConstant call_constant;                // none: calls of functions are no constants
+  bool free_subranges = false;               // a subrange takes all values of its base, as in TwinCAT
   bool with_tests = false;                   // the program is for `rung test`
   std::vector<std::string> mocks;            // … of the tests that name exactly these
   int64_t default_interval_ns = 10'000'000;  // of the task that is made when there is no CONFIGURATION

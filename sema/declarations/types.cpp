@@ -215,8 +215,14 @@ void fillSubrange(Context& context, TypeId type, TypeExprId id) {
     info.base = types::kError;
     return;
   }
-  info.low = *low;
+  info.initial = info.low = *low;
   info.high = *high;
+  if (!context.project.options.free_subranges) return;
+  const TypeKind kind = context.types().plainKind(base);
+  const uint32_t rest = 64 - TypeTable::bitWidth(kind);
+  const bool is_signed = context.types().isSigned(kind);
+  info.low = is_signed ? std::numeric_limits<int64_t>::min() >> rest : 0;
+  info.high = is_signed ? std::numeric_limits<int64_t>::max() >> rest : static_cast<int64_t>(~uint64_t{0} >> rest);
 }
 
 // Items without a value follow the one before, from 0. IEC 61131-3 ed. 3, 6.4.4.2 and table 11, 3.

@@ -407,7 +407,7 @@ Outcome convert(const TypeTable& table, const Value& value, TypeId to) {
 Value defaultValue(const TypeTable& table, Names& names, TypeId type) {
   const TypeInfo& info = table.info(table.resolve(type));
   Value value{type, 0};
-  if (info.kind == TypeKind::Subrange) value.bits = static_cast<uint64_t>(info.low);
+  if (info.kind == TypeKind::Subrange) value.bits = static_cast<uint64_t>(info.initial);
   if (info.kind == TypeKind::Enum && !info.items.empty()) value.bits = static_cast<uint64_t>(info.items[0].second);
   if (TypeTable::isText(info.kind)) value.bits = names.intern("").index;
   return value;

@@ -226,7 +226,7 @@ TypeId TypeTable::addSubrange(NameId name, TypeId base, int64_t low, int64_t hig
   info.kind = TypeKind::Subrange;
   info.name = name;
   info.base = base;
-  info.low = low;
+  info.low = info.initial = low;
   info.high = high;
   return append(types_, std::move(info));
 }

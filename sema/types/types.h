@@ -108,11 +108,12 @@ struct TypeInfo {
   RecordKind record_kind = RecordKind::Struct;
   bool laid_out = false;
   bool named_values = false;  // enumerations with a base type: its values have names, others have none
-  bool strict = false;  // enumerations: TYPE#item only ({attribute 'strict'}, edition 3 strict form)
-  NameId name;          // named types
+  bool strict = false;        // enumerations: TYPE#item only ({attribute 'strict'}, edition 3 strict form)
+  NameId name;                // named types
   TypeId base;          // Enum, Subrange: the integer type; Alias, Array (element), Pointer, Reference: the target
   uint32_t length = 0;  // String, WString: capacity in characters; Array without `dimensions`: how many are open
   int64_t low = 0, high = 0;  // Subrange: bounds in the base type's bits
+  int64_t initial = 0;        // Subrange: the value that a variable begins with
   uint64_t size = 0;          // bytes, after layout
   uint32_t align = 1;
   std::vector<Dimension> dimensions;              // Array; empty: ARRAY[*]

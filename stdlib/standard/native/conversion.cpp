@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "rung/code.h"
+#include "rung/values.h"
 
 namespace {
 
@@ -27,6 +28,15 @@ struct Read<double> {
 };
 
 // TIME is signed where the module says so; the C type is unsigned in any dialect.
+// As text. In codesys LTIME has no sign, which its 64 bits do not tell.
+const char* longTimeText(const rung_context* ctx, int64_t value, char (&text)[64]) {
+  bool is_signed = true;
+  for (uint32_t i = 0; ctx->module != nullptr && i < ctx->module->type_count; ++i)
+    if (ctx->module->types[i].kind == RUNG_LTIME) is_signed = ctx->module->types[i].is_signed != 0;
+  rung_spell(RUNG_LTIME, is_signed, &value, text, sizeof text - 1);
+  return text;
+}
+
 uint64_t timeBits(const rung_context* ctx, uint32_t value) {
   if (ctx->module == nullptr) return value;
   for (uint32_t i = 0; i < ctx->module->type_count; ++i)
@@ -93,7 +103,15 @@ RUNG_TEXT_BOTH(REAL, REAL, float)
 RUNG_TEXT_BOTH(LREAL, LREAL, double)
 RUNG_TEXT_OF(TIME, TIME, uint32_t, timeBits(ctx, in))
 RUNG_OF_TEXT(TIME, TIME, uint32_t)
-RUNG_TEXT_BOTH(LTIME, LTIME, int64_t)
+RUNG_OF_TEXT(LTIME, LTIME, int64_t)
+uint32_t rung_standard_TO_STRING__LTIME(rung_context* ctx, int64_t in, char* out, uint32_t capacity) {
+  char text[64];
+  return rung_text_assign(out, capacity, longTimeText(ctx, in, text));
+}
+uint32_t rung_standard_TO_WSTRING__LTIME(rung_context* ctx, int64_t in, char16_t* out, uint32_t capacity) {
+  char text[64];
+  return rung_wtext_of_text(out, capacity, longTimeText(ctx, in, text));
+}
 RUNG_TEXT_BOTH(DATE, DATE, uint32_t)
 RUNG_TEXT_BOTH(LDATE, LDATE, uint64_t)
 RUNG_TEXT_BOTH(TIME_OF_DAY, TOD, uint32_t)
