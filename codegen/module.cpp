@@ -209,6 +209,7 @@ class Describer {
       if (module_.programs[i].setup) init += callOf(module_.programs[i].setup);
     }
     init += "}\n";
+    if (module_.exit) init += "static void exit(rung_context* ctx) {\n" + callOf(module_.exit) + "}\n";
 
     std::string out = "// The description of the module: see rung/module.h.\n#include <string.h>\n\n";
     out += "#include \"rung/module.h\"\n\nnamespace " + name_space_ + " {\n\n";
@@ -249,7 +250,7 @@ class Describer {
     out += cells("retain", retain_rows, is_.retain.size()) + ", ";
     out += cells("persistent", persistent_rows, is_.persistent.size()) + ", ";
     out += "sites, site_count, ";
-    out += cells("tests", test_rows_, is_.tests.size()) + ", init\n};\n";
+    out += cells("tests", test_rows_, is_.tests.size()) + ", init, " + (module_.exit ? "exit" : "nullptr") + "\n};\n";
     out += "\n}  // namespace " + name_space_ + "\n\nextern \"C\" const rung_module* " + options_.module_name +
            "_module(void);\nextern \"C\" const rung_module* " + options_.module_name + "_module(void) { return &" +
            name_space_ + "::description; }\n";

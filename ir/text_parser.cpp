@@ -78,7 +78,7 @@ int64_t Reader::integer() {
 static bool isItemWord(std::string_view word) {
   for (const char* item :
        {"enum",    "subrange", "struct", "union", "block",    "program", "globals", "image",    "data", "interface",
-        "classes", "dispatch", "list",   "task",  "instance", "located", "test",    "function", "body", "init"})
+        "classes", "dispatch", "list",   "task",  "instance", "located", "test",    "exit", "function", "body", "init"})
     if (word == item) return true;
   return false;
 }
@@ -486,7 +486,7 @@ void Reader::declareItem() {
     function();
   } else if (isWord("body") || isWord("init")) {
     blockBody(isWord("body") ? BodyKind::Block : BodyKind::Init);
-  } else if (!isWord("subrange") && !isWord("test") && !isWord("dispatch")) {
+  } else if (!isWord("subrange") && !isWord("test") && !isWord("exit") && !isWord("dispatch")) {
     record();
   }
 }
@@ -508,7 +508,7 @@ bool Reader::read() {
     // The code of a body is read below.
     const bool is_code = !codes_.empty() && codes_.back().at == at_;
     if (!failed_ && !is_code && token().kind != TokenKind::End && !token().first_in_line && !isWord("subrange") &&
-        !isWord("test") && !isWord("dispatch"))
+        !isWord("test") && !isWord("exit") && !isWord("dispatch"))
       expected("the end of the line");
   });
   for (const auto& entry : type_by_name_)
@@ -525,12 +525,16 @@ bool Reader::read() {
     program.body = initOf(program.record).body;
   }
   forEachItem([&] {
-    if (!accept("test")) return;
+    const bool is_exit = accept("exit");
+    if (!is_exit && !accept("test")) return;
     const Loc loc = token().loc;
     const std::string text = sigilName();
     auto found = body_by_name_.find(module_.names.intern(text).index);
     if (found == body_by_name_.end()) return fail(Diag::IrUnknownName, loc, {text, "body"});
-    module_.tests.push_back(BodyId{found->second});
+    if (is_exit)
+      module_.exit = BodyId{found->second};
+    else
+      module_.tests.push_back(BodyId{found->second});
   });
   forEachItem([&] {
     if (accept("dispatch")) dispatch();

@@ -354,6 +354,11 @@ void Printer::items() {
     }
     put("\n");
   }
+  if (module_.exit) {
+    put("exit @");
+    name(module_.body(module_.exit).name);
+    put("\n");
+  }
   for (BodyId test : module_.tests) {
     put("test @");
     name(module_.body(test).name);

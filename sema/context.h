@@ -76,7 +76,8 @@ PouId interfaceOf(Context& context, TypeId type);
 // FB_Init of an object, its own or inherited; none when it has none.
 PouId constructorOf(const Context& context, PouId object);
 // The arguments of FB_Init that the declaration of a variable gives; `type` is as written. (bodies/objects.cpp)
-CallId checkConstructor(Context& context, TypeExprId type);
+// Of an array, `elements` calls follow each other where each element has arguments of its own.
+CallId checkConstructor(Context& context, TypeExprId type, uint32_t& elements);
 
 // The type that is written; reports what is wrong and gives types::kError then. Writes TypeExprHeader::type.
 TypeId resolveType(Context& context, TypeExprId type);

@@ -345,7 +345,8 @@ struct NamedTypeExpr {
   Slice<Ident> path;
   Slice<Argument> arguments;  // of FB_Init
   bool has_arguments;
-};  // Lib.Motor   Pump(3, x := 4)
+  Slice<ExprId> elements;  // of an array's elements, a CallExpr without callee each
+};  // Lib.Motor   Pump(3, x := 4)   ARRAY[0..1] OF Pump[(3), (4)]
 struct TextTypeExpr {
   TypeExprHeader h;
   ExprId length;

@@ -404,6 +404,8 @@ void Printer::typeExpr(TypeExprId id, int depth) {
       text += ' ';
       path(tree_.as<NamedTypeExpr>(id).path, ".");
       if (tree_.as<NamedTypeExpr>(id).has_arguments) arguments(tree_.as<NamedTypeExpr>(id).arguments, 0);
+      for (ExprId element : tree_.list(tree_.as<NamedTypeExpr>(id).elements))
+        arguments(tree_.as<CallExpr>(element).arguments, 0);
       break;
     case TypeExprKind::Text: {
       const auto& t = tree_.as<TextTypeExpr>(id);

@@ -561,7 +561,7 @@ TypeExprId Parser::parseNamedType() {
     }
     return tree_.add<TypeExprId>(d);
   }
-  NamedTypeExpr named{{TypeExprKind::Named, 0, 0, start, {}}, {}, {}, false};
+  NamedTypeExpr named{{TypeExprKind::Named, 0, 0, start, {}}, {}, {}, false, {}};
   const Token* first = t_;
   parseNamePath(named.path);
   const TypeExprId base = tree_.add<TypeExprId>(named);
@@ -581,6 +581,19 @@ TypeExprId Parser::parseNamedType() {
       respell(meant);
       return parseType();
     }
+  }
+  if (in_variable_ && at(Tok::LeftBracket) && peek() == Tok::LeftParen) {  // of FB_Init of each element
+    std::vector<ExprId> elements;
+    advance();
+    do {
+      CallExpr call{exprHeader(ExprKind::Call, here()), {}, {}, {}, {}};
+      if (!at(Tok::LeftParen)) break;
+      call.arguments = parseArguments(call.end);
+      elements.push_back(tree_.add<ExprId>(call));
+    } while (!panic_ && accept(Tok::Comma));
+    if (!panic_) expect(Tok::RightBracket);
+    tree_.as<NamedTypeExpr>(base).elements = tree_.addList<ExprId>(elements);
+    return base;
   }
   if (!at(Tok::LeftParen)) return base;
   if (in_variable_ && !isTypeWord(first->kind) && !rangeFollows()) {  // of FB_Init

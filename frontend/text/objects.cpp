@@ -76,7 +76,7 @@ Slice<TypeExprId> Parser::parseTypeNames() {
   std::vector<TypeExprId> list;
   advance();
   do {
-    NamedTypeExpr named{{TypeExprKind::Named, 0, 0, here(), {}}, {}, {}, false};
+    NamedTypeExpr named{{TypeExprKind::Named, 0, 0, here(), {}}, {}, {}, false, {}};
     parseNamePath(named.path);
     if (panic_) break;
     list.push_back(tree_.add<TypeExprId>(named));

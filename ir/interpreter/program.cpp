@@ -29,7 +29,7 @@ struct Program::Parts {
   std::unique_ptr<Description> description;
   std::vector<rung_task> tasks;
   std::vector<rung_test> tests;
-  Code::Entry init;
+  Code::Entry init, exit;
   std::vector<Code::Entry> of_task, of_test, of_test_init;
   size_t stack_size = kStack;
 
@@ -48,6 +48,7 @@ struct Program::Parts {
   }
 
   static void runInit(rung_context* ctx) { of(ctx).run(ctx, of(ctx).init); }
+  static void runExit(rung_context* ctx) { of(ctx).run(ctx, of(ctx).exit); }
   static void runTask(rung_context* ctx) {
     const Parts& parts = of(ctx);
     parts.run(ctx, parts.of_task[static_cast<size_t>(static_cast<const rung_task*>(ctx->entry) - parts.tasks.data())]);
@@ -104,6 +105,11 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
     if (module.programs[p].setup) steps.push_back({Step::CallOf, module.programs[p].setup, 0});
   }
   init = translator.translateSteps(steps);
+  if (module.exit) {
+    steps.assign(1, {Step::CallOf, module.exit, 0});
+    exit = translator.translateSteps(steps);
+    is.exit = runExit;
+  }
 
   for (uint32_t i = 0; i < module.tasks.size(); ++i) {
     steps.clear();

@@ -160,7 +160,7 @@ bool BodyLowering::writeArray(TypeId type, rung::ExprId init, uint8_t* to) {
 }
 
 void BodyLowering::forEachElement(ExprId array, TypeId type, Loc loc, uint32_t dimension, std::vector<ExprId>& indices,
-                                  const std::function<void(ExprId)>& store) {
+                                  const std::function<void(ExprId)>& store, bool backwards) {
   const TypeInfo& info = types_.info(type);
   if (dimension == info.dimensions.size()) {
     uint32_t first = static_cast<uint32_t>(body_.operands.size());
@@ -175,15 +175,16 @@ void BodyLowering::forEachElement(ExprId array, TypeId type, Loc loc, uint32_t d
   }
   ExprId control = temp(types::kDInt, loc);
   indices.push_back(control);
-  StmtId body = block([&] { forEachElement(array, type, loc, dimension + 1, indices, store); });
+  StmtId body = block([&] { forEachElement(array, type, loc, dimension + 1, indices, store, backwards); });
   indices.pop_back();
+  const types::Dimension range = types_.info(type).dimensions[dimension];
   auto bound = [&](int64_t value) { return constant(types::kDInt, static_cast<uint64_t>(value), loc); };
   append({.kind = StmtKind::For,
           .loc = loc,
           .a = control.index,
-          .b = bound(info.dimensions[dimension].low).index,
-          .c = bound(info.dimensions[dimension].high).index,
-          .d = bound(1).index,
+          .b = bound(backwards ? range.high : range.low).index,
+          .c = bound(backwards ? range.low : range.high).index,
+          .d = bound(backwards ? -1 : 1).index,
           .e = body.index});
 }
 
@@ -194,26 +195,37 @@ void BodyLowering::storeInitialRecord(ExprId place, TypeId type, rung::ExprId in
   if (init) storeMembers(place, init);
 }
 
+// The variable that holds a place, where its declaration gives arguments to FB_Init.
+const sema::Var* BodyLowering::constructedVar(ExprId place) const {
+  Expr at = body_.expr(place);
+  while (at.kind == ExprKind::Index) at = body_.expr(ExprId{at.a});
+  if (at.kind == ExprKind::Field) return in_.constructedVar(typeOf(ExprId{at.a}), at.b);
+  if (at.kind != ExprKind::Local || !pou_) return nullptr;
+  for (sema::VarId id : project_.pou(pou_).vars) {
+    const sema::Var& var = project_.var(id);
+    if (var.storage == sema::Storage::Local && local_of_[var.field] == at.a + 1 && var.constructor.index != 0)
+      return &var;
+  }
+  return nullptr;
+}
+
 // FB_Init of an instance whose declared values are set, those of its bases first. Codesys.
 void BodyLowering::construct(ExprId place, TypeId type) {
   const sema::PouId object = in_.pouOfRecord(type);
   if (!object) return;
-  const std::vector<sema::PouId> methods = in_.constructorsOf(object);
+  const std::vector<sema::PouId> methods = in_.lifeMethodsOf(object, "FB_Init");
   if (methods.empty()) return;
   Expr at = body_.expr(place);
   while (at.kind == ExprKind::Index) at = body_.expr(ExprId{at.a});
-  CallId given;
   if (at.kind == ExprKind::Field) {
-    const TypeId holder = typeOf(ExprId{at.a});
-    const sema::PouId derived = in_.pouOfRecord(holder);
+    const sema::PouId derived = in_.pouOfRecord(typeOf(ExprId{at.a}));
     if (derived && project_.pou(derived).base_var && project_.var(project_.pou(derived).base_var).field == at.b)
       return;  // the whole is not made yet
-    given = in_.constructorOf(holder, at.b);
-  } else if (at.kind == ExprKind::Local && pou_) {
-    for (sema::VarId id : project_.pou(pou_).vars) {
-      const sema::Var& var = project_.var(id);
-      if (var.storage == sema::Storage::Local && local_of_[var.field] == at.a + 1) given = var.constructor;
-    }
+  }
+  CallId given;
+  if (const sema::Var* var = constructedVar(place)) {
+    given = var->constructor;
+    if (var->element_constructors != 0) given.index += element_;
   }
   CallExpr node{};
   node.h.loc = at.loc;
@@ -258,6 +270,26 @@ void BodyLowering::storeMembers(ExprId place, rung::ExprId init) {
   }
 }
 
+// An element by its number, counted row by row.
+ExprId BodyLowering::elementAt(ExprId array, uint64_t number, Loc loc) {
+  const TypeInfo& info = types_.info(typeOf(array));
+  std::vector<ExprId> at(info.dimensions.size());
+  for (size_t d = info.dimensions.size(); d-- > 0;) {
+    const types::Dimension& dimension = info.dimensions[d];
+    at[d] = constant(types::kDInt,
+                     static_cast<uint64_t>(dimension.low + static_cast<int64_t>(number % dimension.count())), loc);
+    number /= dimension.count();
+  }
+  const auto first = static_cast<uint32_t>(body_.operands.size());
+  body_.operands.insert(body_.operands.end(), at.begin(), at.end());
+  return add({.kind = ExprKind::Index,
+              .type = strip(info.base),
+              .loc = loc,
+              .a = array.index,
+              .b = first,
+              .c = static_cast<uint32_t>(at.size())});
+}
+
 void BodyLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero) {
   Loc loc = body_.expr(place).loc;
   const TypeInfo& info = types_.info(type);
@@ -276,8 +308,17 @@ void BodyLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId ini
     return;
   }
   // Elements with code of their own: FB instances, and whatever holds them.
-  std::vector<ExprId> indices;
-  forEachElement(place, type, loc, 0, indices, [&](ExprId element) { storeInitial(element, info.base, {}, false); });
+  if (const sema::Var* var = constructedVar(place); var != nullptr && var->element_constructors != 0) {
+    const bool whole = body_.expr(place).kind != ExprKind::Index;
+    if (whole) element_ = 0;
+    for (uint64_t i = 0; i < elementCount(info); ++i) {
+      storeInitial(elementAt(place, i, loc), info.base, {}, false);
+      if (in_.pouOfRecord(strip(info.base))) ++element_;
+    }
+  } else {
+    std::vector<ExprId> indices;
+    forEachElement(place, type, loc, 0, indices, [&](ExprId element) { storeInitial(element, info.base, {}, false); });
+  }
   if (!init || tree_.kind(init) != rung::ExprKind::ArrayInit) return;
   // The elements that the initialiser names, one by one.
   std::vector<rung::ExprId> items;
@@ -302,22 +343,7 @@ void BodyLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId ini
   flatten(flatten, tree_.list(tree_.as<ArrayInitExpr>(init).elements));
   for (uint64_t i = 0; i < items.size() && i < count; ++i) {
     if (!items[i]) continue;
-    uint64_t rest = i;
-    std::vector<ExprId> at(info.dimensions.size());
-    for (size_t d = info.dimensions.size(); d-- > 0;) {
-      const types::Dimension& dimension = info.dimensions[d];
-      at[d] = constant(types::kDInt,
-                       static_cast<uint64_t>(dimension.low + static_cast<int64_t>(rest % dimension.count())), loc);
-      rest /= dimension.count();
-    }
-    uint32_t first = static_cast<uint32_t>(body_.operands.size());
-    body_.operands.insert(body_.operands.end(), at.begin(), at.end());
-    ExprId element = add({.kind = ExprKind::Index,
-                          .type = strip(info.base),
-                          .loc = loc,
-                          .a = place.index,
-                          .b = first,
-                          .c = static_cast<uint32_t>(at.size())});
+    const ExprId element = elementAt(place, i, loc);
     storeInitial(element, info.base, items[i], false);
   }
 }

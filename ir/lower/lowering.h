@@ -38,10 +38,15 @@ struct ModuleLowering {
   BodyId kindTestOf(sema::PouId wanted);
   bool isKindOf(sema::PouId object, sema::PouId base) const;
   BodyId blockCallOf(sema::PouId block);
-  // FB_Init of an object and of those that it extends, the outermost base first.
-  std::vector<sema::PouId> constructorsOf(sema::PouId object) const;
-  // The arguments of FB_Init that a declaration gives to the instance in a field of a record.
-  CallId constructorOf(TypeId record, uint32_t field) const;
+  // FB_Init or FB_Exit of an object and of those that it extends, the outermost base first.
+  std::vector<sema::PouId> lifeMethodsOf(sema::PouId object, std::string_view name) const;
+  // exits.cpp: whether a type holds an object with FB_Exit; the function that ends those of a record, or none; the
+  // same as one that a table can hold.
+  bool hasExit(TypeId type);
+  BodyId exitOf(TypeId record);
+  BodyId exitCallOf(sema::PouId object);
+  // The variable whose declaration gives arguments to FB_Init, in a field of a record; or null.
+  const sema::Var* constructedVar(TypeId record, uint32_t field) const;
   // The record of the object that a POU's code runs on; none in functions.
   sema::PouId objectOf(sema::PouId pou) const;
   sema::PouId pouOfRecord(TypeId record) const {
@@ -65,7 +70,8 @@ struct ModuleLowering {
   void markFaulting();
   void addClasses();
   void fillKindTests();
-  BodyId addHelper(sema::PouId object, const char* suffix);
+  BodyId addHelper(NameId name, sema::PouId object, const char* suffix);
+  void addExit();
   void addDispatches();
   sema::PouId implementation(sema::PouId object, sema::PouId method) const;
   void addTasks();
@@ -77,9 +83,11 @@ struct ModuleLowering {
 
   std::vector<BodyId> body_of_;                          // by PouId
   std::unordered_map<uint32_t, BodyId> init_of_;         // by record TypeId
+  std::unordered_map<uint32_t, BodyId> exit_of_;         // by record TypeId
+  std::unordered_map<uint32_t, bool> has_exit_;          // by record TypeId
   std::unordered_set<uint32_t> record_seen_;             // by TypeId
   std::unordered_map<uint32_t, bool> zero_;              // by TypeId
-  std::unordered_map<uint64_t, CallId> constructor_of_;  // by record and field
+  std::unordered_map<uint64_t, const sema::Var*> constructed_;  // by record and field
   std::vector<sema::PouId> pou_of_record_;               // by TypeId
   std::vector<sema::ListId> list_of_record_;             // by TypeId
   std::vector<uint32_t> list_index;                      // by ListId
@@ -280,13 +288,22 @@ class BodyLowering {
   ExprId instancePlace(uint32_t program, const sema::InstancePlace& place);
   ExprId imagePlace(const sema::ImageView& view, TypeId type, Loc loc);
 
+  // exits.cpp
+  // Ends the object at a place and what it holds: FB_Exit. `exact`: it is of the type of the place. (__DELETE)
+  void callExit(ExprId place, bool exact, Loc loc);
+  void lowerExit(ExprId place, TypeId record);
+  void exitParts(ExprId place, TypeId record);
+  void exitElement(ExprId place, TypeId type);
+
   // initial_values.cpp
   void storeInitialArray(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero);
   void storeInitialRecord(ExprId place, TypeId type, rung::ExprId init);
   void storeMembers(ExprId place, rung::ExprId init);
   void construct(ExprId place, TypeId type);
+  const sema::Var* constructedVar(ExprId place) const;
+  ExprId elementAt(ExprId array, uint64_t number, Loc loc);
   void forEachElement(ExprId array, TypeId type, Loc loc, uint32_t dimension, std::vector<ExprId>& indices,
-                      const std::function<void(ExprId)>& store);
+                      const std::function<void(ExprId)>& store, bool backwards = false);
   bool writeBytes(TypeId type, rung::ExprId init, uint8_t* to);
   bool writeDefault(TypeId type, uint8_t* to);
   bool writeArray(TypeId type, rung::ExprId init, uint8_t* to);
@@ -305,6 +322,7 @@ class BodyLowering {
   // Inside the right operand of a codesys AND or OR that calls functions: a temporary that is TRUE when its value
   // matters. Checks count only then.
   ExprId guard_;
+  uint32_t element_ = 0;  // of an array whose elements have arguments of their own for FB_Init: the one at hand
   ExprId logical_;        // the temporary of the last AND or OR that needed one
   uint32_t effects_ = 0;  // statements so far that change more than temporaries
 };

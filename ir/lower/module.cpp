@@ -40,7 +40,7 @@ void ModuleLowering::run() {
     const TypeId record = var.list  ? project.global_lists[var.list.index].record
                           : var.pou ? project.pou(var.pou).record
                                     : var.record;
-    constructor_of_[uint64_t{record.index} << 32 | var.field] = var.constructor;
+    constructed_[uint64_t{record.index} << 32 | var.field] = &var;
   }
   addLists();
   addPrograms();
@@ -59,6 +59,7 @@ void ModuleLowering::run() {
   for (List& list : module.lists) list.init = initOf(list.record);
   for (ProgramInstance& instance : module.programs) instance.init = initOf(instance.record);
   for (Record& record : module.records) record.init = initOf(record.type);
+  addExit();
   addClasses();
   addDispatches();
   markFaulting();
@@ -230,7 +231,7 @@ bool ModuleLowering::isZero(TypeId declared) {
       case TypeKind::Record: {
         if (sema::PouId pou = pou_of_record_[declared.index]) {
           if (project.pou(pou).kind == PouKind::Interface) return true;
-          if (project.pou(pou).dispatched || !constructorsOf(pou).empty()) return false;
+          if (project.pou(pou).dispatched || !lifeMethodsOf(pou, "FB_Init").empty()) return false;
           for (sema::VarId id : project.pou(pou).vars) {
             const sema::Var& var = project.var(id);
             if (var.storage == sema::Storage::Image && var.init) return false;

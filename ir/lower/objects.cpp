@@ -23,17 +23,17 @@ sema::PouId ModuleLowering::objectOf(sema::PouId pou) const {
   return of.owner ? of.owner : of.kind == PouKind::Function ? sema::PouId{} : pou;
 }
 
-std::vector<sema::PouId> ModuleLowering::constructorsOf(sema::PouId object) const {
+std::vector<sema::PouId> ModuleLowering::lifeMethodsOf(sema::PouId object, std::string_view name) const {
   std::vector<sema::PouId> out;
   for (sema::PouId at = object; at; at = project.pou(at).base)
     for (sema::PouId member : project.pou(at).members)
-      if (sameIdentifier(project.names.text(project.pou(member).name), "FB_Init")) out.insert(out.begin(), member);
+      if (sameIdentifier(project.names.text(project.pou(member).name), name)) out.insert(out.begin(), member);
   return out;
 }
 
-CallId ModuleLowering::constructorOf(TypeId record, uint32_t field) const {
-  auto found = constructor_of_.find(uint64_t{record.index} << 32 | field);
-  return found == constructor_of_.end() ? CallId{} : found->second;
+const sema::Var* ModuleLowering::constructedVar(TypeId record, uint32_t field) const {
+  auto found = constructed_.find(uint64_t{record.index} << 32 | field);
+  return found == constructed_.end() ? nullptr : found->second;
 }
 
 // Numbers the objects that have a type id: each line of descent in one run, in the order of their names.
@@ -98,10 +98,12 @@ void ModuleLowering::addDispatches() {
     if (!called[i]) continue;
     Dispatch made;
     made.method = {i};
-    sema::PouId block;  // whose body is called; else a method is
+    sema::PouId block;  // whose body is called, or whose end; else a method is
     for (const auto& [pou, body] : block_calls)
       if (body.index == i) block = pou;
-    const sema::PouId owner = block ? block : project.pou(method_of[i]).owner;
+    sema::PouId ended;
+    if (!block && !method_of[i]) ended = pouOfRecord(module.bodies[i].self);
+    const sema::PouId owner = block ? block : ended ? ended : project.pou(method_of[i]).owner;
     for (uint32_t c = 0; c < module.classes.size(); ++c) {
       const sema::PouId object = pou_of_record_[module.classes[c].record.index];
       if (!isKindOf(object, owner)) continue;
@@ -109,6 +111,8 @@ void ModuleLowering::addDispatches() {
       made.bodies.resize(c + 1 - made.first);
       if (block) {
         made.bodies.push_back(blockCallOf(object));
+      } else if (ended) {
+        made.bodies.push_back(exitCallOf(object));
       } else {
         const sema::PouId found = implementation(object, method_of[i]);
         made.bodies.push_back(found ? bodyOf(found) : BodyId{});
@@ -127,12 +131,11 @@ bool ModuleLowering::isKindOf(sema::PouId object, sema::PouId base) const {
   return false;
 }
 
-BodyId ModuleLowering::addHelper(sema::PouId object, const char* suffix) {
+BodyId ModuleLowering::addHelper(NameId name, sema::PouId object, const char* suffix) {
   const sema::Pou& pou = project.pou(object);
   module.bodies.emplace_back();
   Body& body = module.bodies.back();
-  std::string name(project.names.text(pou.unique_name));
-  body.name = body.spelling = module.names.intern(name + suffix);
+  body.name = body.spelling = module.names.intern(std::string(project.names.text(name)) + suffix);
   body.kind = BodyKind::Function;
   body.library = pou.library;
   body.library_name = pou.library_name;
@@ -146,7 +149,7 @@ BodyId ModuleLowering::blockCallOf(sema::PouId block) {
   for (const auto& [pou, body] : block_calls_)
     if (pou == block) return body;
   const BodyId code = bodyOf(block);
-  const BodyId made = addHelper(block, "()");
+  const BodyId made = addHelper(project.pou(block).unique_name, block, "()");
   block_calls_.push_back({block, made});
   Body& body = module.body(made);
   body.self = project.pou(block).record;
@@ -160,7 +163,7 @@ BodyId ModuleLowering::blockCallOf(sema::PouId block) {
 BodyId ModuleLowering::kindTestOf(sema::PouId wanted) {
   for (const auto& [pou, body] : kind_tests_)
     if (pou == wanted) return body;
-  const BodyId made = addHelper(wanted, "?");
+  const BodyId made = addHelper(project.pou(wanted).unique_name, wanted, "?");
   kind_tests_.push_back({wanted, made});
   Body& body = module.body(made);
   body.pure = true;

@@ -275,10 +275,54 @@ bool checkPropertyAssign(Context& context, AssignStmt& node) {
   return true;
 }
 
-// Forbids arguments at a declaration that no FB_Init takes, and FB_Init without those that it needs. Codesys.
-//   passes  p : Pump(3);        FB_Init has an input behind bInitRetains and bInCopyCode
-CallId checkConstructor(Context& context, TypeExprId type) {
+namespace {
+
+constexpr uint32_t kImplicit = 2;  // bInitRetains, bInCopyCode of FB_Init
+
+// Forbids FB_Init without the arguments that it needs.
+Call constructorCall(Context& context, TypeId block, PouId method, Slice<Argument> given, Loc loc) {
+  const std::span<const VarId> pins = pinsOf(context, method);
+  CallExpr node{};
+  node.h.kind = ExprKind::Call;
+  node.h.loc = node.end = loc;
+  std::vector<Argument> arguments;
+  for (uint32_t i = 0; i < kImplicit; ++i)
+    arguments.push_back({{}, makeLiteral(context, LiteralKind::Bool, types::kBool, 0, loc), false, false, loc});
+  for (const Argument& argument : context.tree().list(given)) arguments.push_back(argument);
+  node.arguments = context.tree().addList<Argument>(arguments);
+  const Arguments matched = matchArguments(context, node, method);
+  Call call;
+  call.kind = CallKind::Method;
+  call.pou = method;
+  bindArguments(context, node, method, matched, call);
+  if (!matched.good) return call;
+  for (size_t i = kImplicit; i < pins.size(); ++i) {
+    ensureInitialValue(context, pins[i]);
+    const Var& pin = context.project.var(pins[i]);
+    if ((i < matched.slots.size() && matched.slots[i] != 0) || pin.init || pin.section == SectionKind::Output) continue;
+    context.report(Diag::MissingArgument, loc, {context.types().spell(block), text(context, pin.name)});
+    break;
+  }
+  return call;
+}
+
+uint64_t elementCount(const Context& context, TypeId type) {
+  const types::TypeInfo& info = context.types().info(context.types().resolve(type));
+  if (info.kind != TypeKind::Array) return 1;
+  uint64_t count = elementCount(context, info.base);
+  for (const types::Dimension& dimension : info.dimensions) count *= dimension.count();
+  return count;
+}
+
+}  // namespace
+
+// Forbids arguments at a declaration that no FB_Init takes, and others than one list for each element of an array.
+// Codesys.
+//   passes  p : Pump(3);    a : ARRAY[0..1] OF Pump[(3), (4)];    FB_Init has an input behind its two implicit ones
+//   fails   a : ARRAY[0..2] OF Pump[(3), (4)];                                                        E0362
+CallId checkConstructor(Context& context, TypeExprId type, uint32_t& elements) {
   Tree& tree = context.tree();
+  const TypeExprId whole = type;
   while (type && tree.kind(type) == TypeExprKind::Array) type = tree.as<ArrayTypeExpr>(type).element;
   if (!type || tree.kind(type) != TypeExprKind::Named) return {};
   const NamedTypeExpr& written = tree.as<NamedTypeExpr>(type);
@@ -287,39 +331,32 @@ CallId checkConstructor(Context& context, TypeExprId type) {
   const PouId object = context.types().info(resolved).kind == TypeKind::Record ? pouOf(context, resolved) : PouId{};
   const PouId method = object ? constructorOf(context, object) : PouId{};
   const std::span<const VarId> pins = method ? pinsOf(context, method) : std::span<const VarId>();
-  constexpr uint32_t kImplicit = 2;  // bInitRetains, bInCopyCode
+  const std::span<const ExprId> lists = tree.list(written.elements);
   if (pins.size() <= kImplicit) {
-    if (written.has_arguments && written.arguments.count > 0)
-      context.report(Diag::TooManyArguments, tree.list(written.arguments)[0].loc,
-                     {context.types().spell(resolved), "0"});
+    Slice<Argument> first = written.arguments;
+    if (!lists.empty()) first = tree.as<CallExpr>(lists[0]).arguments;
+    if (first.count > 0)
+      context.report(Diag::TooManyArguments, tree.list(first)[0].loc, {context.types().spell(resolved), "0"});
     return {};
   }
-  CallExpr node{};
-  node.h.kind = ExprKind::Call;
-  node.h.loc = node.end = written.h.loc;
-  std::vector<Argument> arguments;
-  for (uint32_t i = 0; i < kImplicit; ++i) {
-    const ExprId no = makeLiteral(context, LiteralKind::Bool, types::kBool, 0, node.h.loc);
-    arguments.push_back({{}, no, false, false, node.h.loc});
+  if (lists.empty())
+    return addCall(context, constructorCall(context, resolved, method, written.arguments, written.h.loc));
+  const uint64_t count = elementCount(context, tree.typeExpr(whole).type);
+  if (count != lists.size()) {
+    context.report(Diag::ElementArguments, tree.loc(lists[0]), {std::to_string(lists.size()), std::to_string(count)});
+    return {};
   }
-  for (const Argument& argument : tree.list(written.arguments)) arguments.push_back(argument);
-  node.arguments = tree.addList<Argument>(arguments);
-  const Arguments matched = matchArguments(context, node, method);
-  Call call;
-  call.kind = CallKind::Method;
-  call.pou = method;
-  bindArguments(context, node, method, matched, call);
-  if (matched.good) {
-    for (size_t i = kImplicit; i < pins.size(); ++i) {
-      ensureInitialValue(context, pins[i]);
-      const Var& pin = context.project.var(pins[i]);
-      if ((i < matched.slots.size() && matched.slots[i] != 0) || pin.init || pin.section == SectionKind::Output)
-        continue;
-      context.report(Diag::MissingArgument, node.h.loc, {context.types().spell(resolved), text(context, pin.name)});
-      break;
-    }
+  std::vector<Call> calls;
+  for (const ExprId list : lists)
+    calls.push_back(
+        constructorCall(context, resolved, method, tree.as<CallExpr>(list).arguments, tree.loc(list)));
+  CallId first;
+  for (Call& call : calls) {
+    const CallId made = addCall(context, std::move(call));
+    if (!first) first = made;
   }
-  return addCall(context, std::move(call));
+  elements = static_cast<uint32_t>(calls.size());
+  return first;
 }
 
 TypeId callMethod(Context& context, ExprId& expr, PouId id, ExprId instance, bool as_statement) {

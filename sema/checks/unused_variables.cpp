@@ -7,6 +7,18 @@
 
 namespace rung::sema {
 
+namespace {
+
+// An object that is made by FB_Init works without being named.
+bool isMadeByMethod(Context& context, TypeId type) {
+  while (context.types().kind(type) == types::TypeKind::Array)
+    type = context.types().info(context.types().resolve(type)).base;
+  const PouId object = context.types().kind(type) == types::TypeKind::Record ? pouOf(context, type) : PouId{};
+  return object && constructorOf(context, object);
+}
+
+}  // namespace
+
 void checkUnusedVariables(Context& context) {
   if (context.project.diagnostics.hasErrors()) return;
   for (uint32_t i = 1; i < context.project.pous.size(); ++i) {
@@ -20,6 +32,7 @@ void checkUnusedVariables(Context& context) {
       const bool local =
           var.section == SectionKind::Local || var.section == SectionKind::Temp || var.section == SectionKind::Stat;
       if (local && !var.read && !var.written) {
+        if (isMadeByMethod(context, var.type)) continue;
         context.report(Diag::UnusedVariable, var.loc, {text(context, var.name)});
       } else if (local && !var.written && !var.init && var.constructor.index == 0 && pou.kind != PouKind::Program) {
         context.report(Diag::NeverWritten, var.loc, {text(context, var.name)});

@@ -333,7 +333,8 @@ void ensureInitialValue(Context& context, VarId id) {
     decl.init = init;
   }
   const bool makes_object = var.section != SectionKind::InOut && var.section != SectionKind::External;
-  const CallId constructor = decl.type && makes_object ? checkConstructor(there, decl.type) : CallId{};
+  uint32_t elements = 0;
+  const CallId constructor = decl.type && makes_object ? checkConstructor(there, decl.type, elements) : CallId{};
   decl.h.spare = static_cast<uint16_t>(State::Done);
   const TypeKind kind = context.types().plainKind(type);
   std::optional<types::Value> value;
@@ -345,6 +346,7 @@ void ensureInitialValue(Context& context, VarId id) {
        i < project.vars.size() && project.vars[i].decl == project.vars[id.index].decl; ++i) {
     project.vars[i].init = init;
     project.vars[i].constructor = constructor;
+    project.vars[i].element_constructors = elements;
     if (value) {
       project.vars[i].has_value = true;
       project.vars[i].value = *value;

@@ -32,6 +32,10 @@ Memory::Memory(const rung_module& module) : module_(module) {
   context_.module = &module;
 }
 
+uint8_t Memory::end() {
+  return module_.exit == nullptr ? uint8_t{RUNG_FAULT_NONE} : rung_guarded(&context_, module_.exit);
+}
+
 uint8_t Memory::reset() {
   for (uint32_t i = 0; i < module_.block_count; ++i) memset(blocks_[i], 0, module_.blocks[i].size);
   for (uint32_t area = 0; area < 3; ++area) memset(images_[area], 0, module_.image_bytes[area]);

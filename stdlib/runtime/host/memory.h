@@ -20,6 +20,8 @@ class Memory {
   uint8_t* image(uint32_t area) const { return images_[area]; }
   // Zeroes everything and runs the module's init; RUNG_FAULT_NONE or what it raised.
   uint8_t reset();
+  // Ends all objects (FB_Exit); the same.
+  uint8_t end();
   // Outputs to their safe values, after a fault.
   void makeOutputsSafe();
 

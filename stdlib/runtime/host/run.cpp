@@ -68,7 +68,7 @@ struct Run {
   int prepare();
   int runVirtual();
   int runInRealTime();
-  int finish(bool faulted, const rung_fault& fault, const std::string& extra);
+  int finish(bool faulted, rung_fault fault, const std::string& extra);
   std::string saveRetained() {
     std::string error;
     if (retain && !retain->save(symbols, error)) return error;
@@ -145,15 +145,20 @@ int Run::prepare() {
   return kGood;
 }
 
-int Run::finish(bool faulted, const rung_fault& fault, const std::string& extra) {
+int Run::finish(bool faulted, rung_fault fault, const std::string& extra) {
   std::string error;
+  const std::string last_row = options.trace_path.empty() && !faulted ? trace.lastRow() : std::string();
+  if (memory.end() != RUNG_FAULT_NONE && !faulted) {
+    faulted = true;
+    fault = memory.context().fault;
+  }
   if (faulted) memory.makeOutputsSafe();
   const std::string refused = saveRetained();
   if (!trace.close(error) || !plot.close(schedule.rowNs(), error)) return refuse(error);
   if (options.trace_path.empty()) {
-    const std::string lines = faulted ? "" : trace.lastRow();
-    printf("%s%lld cycles of %s, %s of program time\n", lines.c_str(), static_cast<long long>(rows_done),
-           durationText(schedule.rowNs()).c_str(), durationText(rows_done * schedule.rowNs()).c_str());
+    printf("%s%lld cycles of %s, %s of program time\n", faulted ? "" : last_row.c_str(),
+           static_cast<long long>(rows_done), durationText(schedule.rowNs()).c_str(),
+           durationText(rows_done * schedule.rowNs()).c_str());
   }
   if (!extra.empty()) fputs(extra.c_str(), options.trace_path == "-" ? stderr : stdout);
   fflush(stdout);

@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-#define RUNG_MODULE_ABI 1u
+#define RUNG_MODULE_ABI 2u
 #define RUNG_NONE 0xffffffffu
 
 typedef struct rung_context rung_context;
@@ -262,6 +262,8 @@ typedef struct rung_module {
   uint32_t test_count;
   /* Sets every variable to its initial value; located variables without one leave the image as it is. */
   void (*init)(rung_context*);
+  /* Ends all objects (FB_Exit); to be called once, before the memory is given up or init is called again. Or null. */
+  void (*exit)(rung_context*);
 } rung_module;
 
 /* Every module exports one function, <name>_module, that returns its description. */

@@ -1,0 +1,123 @@
+// FB_Exit: what runs when objects end. In: the objects of a checked project. Out: for each record that holds an object
+// with FB_Exit, at any depth, a function that ends all of them, and Module::exit, which ends those of the whole
+// project. The order is the reverse of that of FB_Init: what extends before its base, the whole before its parts, the
+// last variable before the first. Codesys.
+#include "ir/lower/lowering.h"
+
+namespace rung::ir {
+
+bool ModuleLowering::hasExit(TypeId type) {
+  type = types.resolve(type);
+  const TypeInfo& info = types.info(type);
+  if (info.kind == TypeKind::Array) return hasExit(info.base);
+  if (info.kind != TypeKind::Record || info.record_kind == types::RecordKind::Union) return false;
+  const auto known = has_exit_.find(type.index);
+  if (known != has_exit_.end()) return known->second;
+  has_exit_[type.index] = false;
+  bool found = !lifeMethodsOf(pouOfRecord(type), "FB_Exit").empty();
+  for (const types::Field& field : info.fields) found = found || (!field.by_reference && hasExit(field.type));
+  return has_exit_[type.index] = found;
+}
+
+BodyId ModuleLowering::exitOf(TypeId record) {
+  record = types.resolve(record);
+  if (!hasExit(record)) return {};
+  const auto known = exit_of_.find(record.index);
+  if (known != exit_of_.end()) return known->second;
+  const sema::PouId pou = pouOfRecord(record);
+  const BodyId made = addHelper(pou ? project.pou(pou).unique_name : types.info(record).name, pou, "~");
+  exit_of_[record.index] = made;
+  Body& body = module.body(made);
+  body.self = record;
+  BodyLowering lowering(*this, body, {});
+  lowering.lowerExit(lowering.self(body.loc), record);
+  body.first = lowering.block_.first;
+  lowering.finish();
+  return made;
+}
+
+BodyId ModuleLowering::exitCallOf(sema::PouId object) {
+  const TypeId record = project.pou(object).record;
+  if (const BodyId body = exitOf(record)) return body;
+  const BodyId made = addHelper(project.pou(object).unique_name, object, "~");
+  exit_of_[record.index] = made;
+  module.body(made).self = record;
+  return made;
+}
+
+void ModuleLowering::addExit() {
+  bool needed = false;
+  for (const List& list : module.lists) needed = needed || hasExit(list.record);
+  for (const ProgramInstance& program : module.programs) needed = needed || hasExit(program.record);
+  if (!needed) return;
+  module.exit = addHelper(module.names.intern("FB_Exit"), {}, "~");
+  std::vector<BodyId> ends;
+  for (const List& list : module.lists) ends.push_back(exitOf(list.record));
+  for (const ProgramInstance& program : module.programs) ends.push_back(exitOf(program.record));
+  Body& body = module.body(module.exit);
+  BodyLowering lowering(*this, body, {});
+  for (size_t i = ends.size(); i-- > 0;) {
+    if (!ends[i]) continue;
+    const auto index = static_cast<uint32_t>(i);
+    const bool is_list = i < module.lists.size();
+    const uint32_t number = is_list ? index : index - static_cast<uint32_t>(module.lists.size());
+    const ExprId place = lowering.add({.kind = is_list ? ExprKind::Global : ExprKind::Program,
+                                       .type = is_list ? module.lists[number].record : module.programs[number].record,
+                                       .loc = body.loc,
+                                       .a = number});
+    lowering.append({.kind = StmtKind::Call, .loc = body.loc, .a = ends[i].index, .b = place.index});
+  }
+  body.first = lowering.block_.first;
+  lowering.finish();
+}
+
+void BodyLowering::lowerExit(ExprId place, TypeId record) {
+  const Loc loc = body_.loc;
+  const std::vector<sema::PouId> methods = in_.lifeMethodsOf(in_.pouOfRecord(record), "FB_Exit");
+  CallExpr node{};
+  node.h.loc = loc;
+  for (size_t i = methods.size(); i-- > 0;) {
+    sema::Call call;
+    call.kind = sema::CallKind::Method;
+    call.pou = methods[i];
+    lowerFunctionCall(call, node, nullptr, asBase(place, project_.pou(methods[i]).owner, loc));
+  }
+  exitParts(place, record);
+}
+
+void BodyLowering::exitParts(ExprId place, TypeId record) {
+  const Loc loc = body_.loc;
+  const auto count = static_cast<uint32_t>(types_.info(record).fields.size());
+  for (uint32_t i = count; i-- > 0;) {
+    const types::Field held = types_.info(record).fields[i];
+    if (held.by_reference || !in_.hasExit(held.type)) continue;
+    const TypeId type = strip(held.type);
+    const ExprId part = field(place, i, type, loc);
+    if (held.role == types::FieldRole::Base) {
+      exitParts(part, type);
+      continue;
+    }
+    exitElement(part, type);
+  }
+}
+
+void BodyLowering::exitElement(ExprId place, TypeId type) {
+  const Loc loc = body_.loc;
+  if (types_.kind(type) == TypeKind::Array) {
+    std::vector<ExprId> indices;
+    forEachElement(place, type, loc, 0, indices, [&](ExprId element) { exitElement(element, typeOf(element)); }, true);
+    return;
+  }
+  append({.kind = StmtKind::Call, .loc = loc, .a = in_.exitOf(type).index, .b = place.index});
+}
+
+void BodyLowering::callExit(ExprId place, bool exact, Loc loc) {
+  const sema::PouId object = in_.pouOfRecord(typeOf(place));
+  const bool is_virtual = object && !exact && project_.pou(object).dispatched;
+  const BodyId end = is_virtual ? in_.exitCallOf(object) : in_.exitOf(typeOf(place));
+  if (!end) return;
+  append(
+      {.kind = StmtKind::Call, .op = is_virtual ? kVirtual : uint8_t{0}, .loc = loc, .a = end.index, .b = place.index});
+}
+
+}  // namespace rung::ir
