@@ -192,11 +192,8 @@ void BodyWriter::writeBack(std::string& out) {
   const TypeInfo& record = types_.info(types_.resolve(body_->self));
   for (uint32_t i = 0; i < fields_.size(); ++i) {
     if (fields_[i].slice) {
-      const std::string name = [&] {
-        std::string mangled;
-        appendMangled(mangled, text(record.fields[i].name));
-        return mangled;
-      }();
+      std::string name;
+      appendMangled(name, text(record.fields[i].name));
       out += " if (" + name + "v != nullptr) rung_text_put(self." + name + ", ";
       appendUnsigned(out, capacityOf(record.fields[i].type));
       out += ", " + name + "v, " + name + "n);";
