@@ -10,16 +10,8 @@
 
 static inline uint32_t rung_text_limit(uint32_t capacity) { return capacity < 255 ? capacity : 255; }
 
-/* Single characters are the most frequent parts of all: one store for the character and the NUL. */
 static inline uint32_t rung_text_part(char* out, const char* from, uint32_t length) {
-#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-  if (length == 1) {
-    const uint16_t ended = (uint8_t)*from;
-    memcpy(out, &ended, 2);
-    return 1;
-  }
-#endif
-  memmove(out, from, length);
+  rung_text_move(out, from, length);
   out[length] = 0;
   return length;
 }
@@ -79,20 +71,9 @@ static inline uint32_t rung_standard_MID__STRING_255_sized(const char* in, uint3
   return rung_text_part(out, from, count);
 }
 
-/* Appends in place where `out` is in1. */
-static inline uint32_t rung_standard_CONCAT__STRING_255_sized(const char* in1, uint32_t length1, const char* in2,
-                                                              uint32_t length2, char* out, uint32_t capacity) {
-  const uint32_t limit = rung_text_limit(capacity);
-  if ((out != in1 || capacity > limit) && length1 > limit) length1 = limit; /* what is in `out` fits it */
-  if (length2 > limit - length1) length2 = limit - length1;
-  if (out == in1) return length1 + rung_text_part(out + length1, in2, length2);
-  memmove(out + length1, in2, length2); /* first: `out` may be in2 */
-  memcpy(out, in1, length1);
-  out[length1 + length2] = 0;
-  return length1 + length2;
-}
-
 extern "C" {
+uint32_t rung_text_join(const char* in1, uint32_t length1, const char* in2, uint32_t length2, char* out,
+                        uint32_t capacity);
 uint32_t rung_standard_INSERT__STRING_255_sized(const char* in1, uint32_t length1, const char* in2, uint32_t length2,
                                                 int32_t p, char* out, uint32_t capacity);
 uint32_t rung_standard_DELETE__STRING_255_sized(const char* in, uint32_t length, int32_t l, int32_t p, char* out,
@@ -100,6 +81,15 @@ uint32_t rung_standard_DELETE__STRING_255_sized(const char* in, uint32_t length,
 uint32_t rung_standard_REPLACE__STRING_255_sized(const char* in1, uint32_t length1, const char* in2, uint32_t length2,
                                                  int32_t l, int32_t p, char* out, uint32_t capacity);
 int16_t rung_text_find(const char* in1, uint32_t length1, const char* in2, uint32_t length2) RUNG_PURE;
+}
+
+/* What fits is appended in place, without a call where its length is a constant. */
+static inline uint32_t rung_standard_CONCAT__STRING_255_sized(const char* in1, uint32_t length1, const char* in2,
+                                                              uint32_t length2, char* out, uint32_t capacity) {
+  const uint32_t limit = rung_text_limit(capacity);
+  if (out != in1 || length2 > limit || length1 > limit - length2)
+    return rung_text_join(in1, length1, in2, length2, out, capacity);
+  return length1 + rung_text_part(out + length1, in2, length2);
 }
 
 /* A bit at the top of each byte that is `unit`; the lowest bit set is that of the first one. */
