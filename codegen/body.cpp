@@ -147,6 +147,7 @@ void BodyWriter::declareVariables() {
     if ((local.kind == LocalKind::Result && local.by_reference) || (use.weight == 0 && !use.written && !is_result)) {
       continue;
     }
+    if (use.slice) continue;
     std::string name;
     variable(name, local);
     declarations_ += ' ';
@@ -190,6 +191,14 @@ void BodyWriter::writeBack(std::string& out) {
   if (fields_.empty()) return;
   const TypeInfo& record = types_.info(types_.resolve(body_->self));
   for (uint32_t i = 0; i < fields_.size(); ++i) {
+    if (fields_[i].slice) {
+      std::string name;
+      appendMangled(name, text(record.fields[i].name));
+      out += " if (" + name + "v != nullptr) rung_text_put(self." + name + ", ";
+      appendUnsigned(out, capacityOf(record.fields[i].type));
+      out += ", " + name + "v, " + name + "n);";
+      continue;
+    }
     if (!fields_[i].cached || !fields_[i].written) continue;
     out += " self.";
     appendMangled(out, text(record.fields[i].name));
@@ -236,7 +245,8 @@ void BodyWriter::write(ir::BodyId id) {
   loops_.clear();
   frames_.clear();
   blocks_declared_.clear();
-  has_try_ = self_escapes_ = has_foreign_calls_ = has_calls_ = has_measured_ = uses_fault_ = uses_leave_ = false;
+  has_try_ = self_escapes_ = has_foreign_calls_ = has_calls_ = has_measured_ = has_leaving_calls_ = has_slices_ =
+      uses_fault_ = uses_leave_ = false;
   names_made_ = 0;
   depth_ = 1;
   closes_ = 0;

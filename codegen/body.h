@@ -80,6 +80,8 @@ class BodyWriter {
     // A text: uses by sized functions; its length lives in a C++ local, and is right where the statements stand.
     uint32_t sized_weight = 0;
     bool measured = false, known = false;
+    bool sliced = false;  // a text that is made by functions marked {slice} where that pays
+    bool slice = false;   // a measured text that is a part of another: its address lives in a C++ local too
   };
   struct Control {
     Slot slot;
@@ -114,7 +116,20 @@ class BodyWriter {
   void setKnown(ExprId place);
   void lengthName(ExprId place);
   void textLength(ExprId text);
-  void sizedCall(const Body& callee, uint32_t first, uint32_t count);
+  // `form`: sized or slice.
+  void sizedCall(const Body& callee, uint32_t first, uint32_t count, const char* form = "sized");
+
+  // ---- slices.cpp: texts that are parts of others
+  const Variable* sliceText(ExprId place) const;
+  bool isSliceSource(ExprId id);
+  void noteSlice(const Stmt& stmt, uint32_t weight);
+  void chooseSlices();
+  void refuseSlice(ExprId place);
+  void judgeBlock(StmtId first);
+  void judgeWrite(ExprId place, bool makes_slice);
+  void judgeRead(ExprId id, bool is_sized);
+  void sliceName(ExprId place);
+  void assignSlice(ExprId to, ExprId from);
 
   // ---- statements.cpp
   void block(StmtId first);
@@ -200,6 +215,8 @@ class BodyWriter {
   void copyText(std::string_view to, uint32_t capacity, bool wide, ExprId from, std::string_view length = {});
   void textValue(ExprId id);  // a const char* or const char16_t*
   void compareTexts(const Expr& expr, Prec context);
+  bool isSizedComparison(const Expr& expr) const;
+  ExprId uncut(ExprId id) const;                       // a text without the conversions that cut it
   bool isBuffer(ExprId id, uint32_t& capacity) const;  // a text in memory that is as long as its type says
   uint32_t literalLength(const Expr& text) const;
   void dataReference(uint32_t index);
@@ -250,7 +267,8 @@ class BodyWriter {
   std::vector<uint8_t> private_loop_;
   std::vector<uint32_t> blocks_declared_;
   std::vector<std::pair<uint32_t, std::string>> made_;  // expression, variable that holds its text
-  bool has_try_ = false, self_escapes_ = false, has_foreign_calls_ = false, has_calls_ = false, has_measured_ = false;
+  bool has_try_ = false, self_escapes_ = false, has_foreign_calls_ = false, has_calls_ = false, has_measured_ = false,
+       has_leaving_calls_ = false, has_slices_ = false, slices_changed_ = false;
   bool uses_fault_ = false, uses_leave_ = false;
   uint32_t names_made_ = 0;
 

@@ -105,6 +105,11 @@ void BodyWriter::declareLengths() {
     declarations_ += " uint32_t ";
     variable(declarations_, body_->locals[i]);
     declarations_ += "n = 0;";
+    if (of.slice) {
+      declarations_ += " const char* ";
+      variable(declarations_, body_->locals[i]);
+      declarations_ += "v = nullptr;";
+    }
     // What is not an input is written before it is read.
     of.known = body_->locals[i].kind != LocalKind::Input;
     has_measured_ = true;
@@ -113,8 +118,14 @@ void BodyWriter::declareLengths() {
     if (!fields_[i].measured) continue;
     has_measured_ = true;
     declarations_ += " uint32_t ";
-    appendMangled(declarations_, text(types_.info(types_.resolve(body_->self)).fields[i].name));
+    const NameId name = types_.info(types_.resolve(body_->self)).fields[i].name;
+    appendMangled(declarations_, text(name));
     declarations_ += "n = 0;";
+    if (!fields_[i].slice) continue;
+    fields_[i].known = true;
+    declarations_ += " const char* ";
+    appendMangled(declarations_, text(name));
+    declarations_ += "v = nullptr;";
   }
 }
 
@@ -228,11 +239,13 @@ void BodyWriter::textLength(ExprId id) {
 }
 
 // Name and inputs of a sized form, without the closing parenthesis.
-void BodyWriter::sizedCall(const Body& callee, uint32_t first, uint32_t count) {
+void BodyWriter::sizedCall(const Body& callee, uint32_t first, uint32_t count, const char* form) {
   if (std::find(group_.libraries.begin(), group_.libraries.end(), callee.library_name) == group_.libraries.end())
     group_.libraries.push_back(callee.library_name);
   out_ += ir::nativeName(module_, callee);
-  out_ += "_sized(";
+  out_ += '_';
+  out_ += form;
+  out_ += '(';
   for (uint32_t i = 0; i < count; ++i) {
     const ExprId operand = body_->operands[first + i];
     if (i > 0) out_ += ", ";

@@ -106,6 +106,8 @@ void BodyWriter::scanBlock(StmtId first, uint32_t weight) {
       has_calls_ = true;
       const Body& callee = module_.body(ir::BodyId{stmt.a});
       if (!callee.pure && !callee.library) has_foreign_calls_ = true;
+      if (callee.may_fault || stmt.op == ir::kVirtual || (callee.native && !callee.pure)) has_leaving_calls_ = true;
+      if (callee.slice) noteSlice(stmt, weight);
       noteSizedCall(callee, stmt.c, stmt.d, weight);
       if (Variable* of = stmt.e != 0 && isSized(callee) ? textVariable(ExprId{stmt.e}) : nullptr)
         of->sized_weight += weight;
@@ -169,6 +171,7 @@ void BodyWriter::analyze() {
     use.cached = !facts_.isExposed(record, i);
   }
   chooseMeasured();
+  chooseSlices();
   // Controls.
   for (uint32_t i = 0; i < private_loop_.size(); ++i) {
     if (private_loop_[i] == 0) continue;

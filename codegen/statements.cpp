@@ -356,6 +356,18 @@ void BodyWriter::callStatement(const Stmt& stmt) {
     call(callee_id);
   }
 
+  if (is_sized && stmt.e != 0 && sliceText(ExprId{stmt.e}) != nullptr) {
+    sliceName(ExprId{stmt.e});
+    out_ += " = ";
+    sizedCall(callee, stmt.c, stmt.d, "slice");
+    out_ += ", ";
+    appendUnsigned(out_, capacityOf(expr(ExprId{stmt.e}).type));
+    out_ += ", &";
+    lengthName(ExprId{stmt.e});
+    out_ += ");";
+    return;
+  }
+
   // A text whose length lives in a local: the call gives it, or it is counted.
   const std::string length =
       stmt.e != 0 && measuredText(ExprId{stmt.e}) != nullptr ? captured([&] { lengthName(ExprId{stmt.e}); }) : "";

@@ -35,6 +35,7 @@ void BodyWriter::assign(const Stmt& stmt) {
   const TypeId type = expr(to).type;
   const Expr& source = expr(from);
   if (isText(type)) {
+    if (sliceText(to) != nullptr) return assignSlice(to, from);
     prepare(to);
     prepareText(from);
     const std::string name = captured([&] { place(to); });
@@ -88,6 +89,7 @@ uint32_t BodyWriter::literalLength(const Expr& e) const {
 bool BodyWriter::isBuffer(ExprId id, uint32_t& capacity) const {
   const Expr& e = expr(id);
   capacity = capacityOf(e.type);
+  if (sliceText(id) != nullptr) return false;
   switch (e.kind) {
     case ExprKind::Local: return !body_->locals[e.a].by_reference;
     case ExprKind::Field: return !types_.info(types_.resolve(expr(ExprId{e.a}).type)).fields[e.b].by_reference;
@@ -306,7 +308,13 @@ void BodyWriter::textValue(ExprId id) {
     case ExprKind::Local:
     case ExprKind::Field:
     case ExprKind::Index:
-    case ExprKind::Deref: place(id); return;
+    case ExprKind::Deref:
+      if (sliceText(id) != nullptr) {
+        sliceName(id);
+      } else {
+        place(id);
+      }
+      return;
     case ExprKind::Image:
       out_ += wide ? "(char16_t*)(" : "(char*)(";
       imageAddress(id);
@@ -321,6 +329,24 @@ void BodyWriter::textValue(ExprId id) {
     case ExprKind::Unary:
     case ExprKind::Address: out_ += wide ? "u\"\"" : "\"\""; return;
   }
+}
+
+ir::ExprId BodyWriter::uncut(ExprId id) const {
+  for (const Expr* e = &expr(id); e->kind == ExprKind::Convert && e->checks == 0 && isText(e->type); e = &expr(id)) {
+    const TypeId inner = expr(ExprId{e->a}).type;
+    if (!isText(inner) || isWide(inner) != isWide(e->type)) break;
+    id = ExprId{e->a};
+  }
+  return id;
+}
+
+// True when it is written with the lengths of both sides.
+bool BodyWriter::isSizedComparison(const Expr& e) const {
+  if (e.op != Op::Eq && e.op != Op::Ne) return false;
+  auto is_measured = [&](ExprId side) { return measuredText(side) != nullptr && measuredText(side)->known; };
+  auto is_literal = [&](ExprId side) { return expr(side).kind == ExprKind::Text; };
+  const ExprId a{e.a}, b{e.b};
+  return (is_measured(a) && (is_measured(b) || is_literal(b))) || (is_literal(a) && is_measured(b));
 }
 
 void BodyWriter::compareTexts(const Expr& e, Prec context) {
@@ -399,6 +425,18 @@ void BodyWriter::compareTexts(const Expr& e, Prec context) {
       out_ += ')';
       return;
     }
+  }
+  if (isSizedComparison(e)) {
+    const std::string count = captured([&] { lengthName(a); });
+    out_ += e.op == Op::Eq ? "(" : "!(";
+    out_ += count + " == ";
+    lengthName(b);
+    out_ += " && memcmp(";
+    textValue(a);
+    out_ += ", ";
+    textValue(b);
+    out_ += ", " + count + ") == 0)";
+    return;
   }
   const Prec own = is_equality ? Prec::Equality : Prec::Relation;
   parenthesis(own, context);

@@ -173,6 +173,7 @@ struct Body {
   bool abstract = false;  // no code: a method that is only called through its dispatch
   bool pure = false;      // no effect but its result, and no fault
   bool sized = false;     // native: has a form with lengths of texts in C++ (sized form, rung/<library>.h)
+  bool slice = false;     // native, sized: and one that only tells which part of the first input the result is
   bool may_fault = false;
   bool library = false;
   bool has_labels = false;  // analyses are conservative

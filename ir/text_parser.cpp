@@ -326,6 +326,7 @@ void Reader::attributes(Body& body) {
   body.abstract = accept("abstract");
   body.pure = accept("pure");
   body.sized = accept("sized");
+  body.slice = accept("slice");
   body.may_fault = accept("faults");
   body.library = accept("library");
   body.test = accept("test");

@@ -389,6 +389,7 @@ void Printer::header(const Body& body) {
   if (body.abstract) put(" abstract");
   if (body.pure) put(" pure");
   if (body.sized) put(" sized");
+  if (body.slice) put(" slice");
   if (body.may_fault) put(" faults");
   if (body.library) put(" library");
   if (body.test) put(" test");

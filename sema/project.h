@@ -108,6 +108,7 @@ struct Pou {
   bool left_out = false;    // a test, or only for tests, and not part of this program: checked, not lowered
   bool extensible = false;  // has an {extensible} pin
   bool sized = false;       // {sized}: has a second native form that takes and gives lengths of texts
+  bool slice = false;       // {slice}: and a third that only tells which part of the first input the result is
   bool prefix = false;      // {prefix}: the first n characters of the result follow from the first n of the first input
   bool checked = false;     // its body was checked (library bodies: when used)
   bool checking = false;    // it is at hand

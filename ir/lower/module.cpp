@@ -114,6 +114,7 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
   body.native = pou.native;
   body.pure = pou.pure;
   body.sized = pou.sized;
+  body.slice = pou.slice;
   body.library = pou.library;
   body.library_name = pou.library_name;
   body.test = pou.test;

@@ -2,6 +2,7 @@
 #include "ir/passes/passes.h"
 
 #include "ir/passes/fold_constants.h"
+#include "ir/passes/privatize.h"
 #include "ir/passes/propagate.h"
 #include "ir/passes/remove_checks.h"
 #include "ir/passes/remove_dead_code.h"
@@ -13,7 +14,8 @@ namespace rung::ir {
 namespace {
 constexpr Pass kBodyPasses[] = {
     {"propagation", propagate},       {"constants", foldConstants}, {"branches", simplifyBranches},
-    {"conditions", threadConditions}, {"checks", removeChecks},     {"dead-code", removeDeadCode},
+    {"conditions", threadConditions}, {"checks", removeChecks},     {"privatization", privatize},
+    {"dead-code", removeDeadCode},
 };
 }  // namespace
 

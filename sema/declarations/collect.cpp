@@ -25,6 +25,7 @@ void initWords(Context& context) {
   words.extensible = word("extensible");
   words.prefix = word("prefix");
   words.sized = word("sized");
+  words.slice = word("slice");
   words.pure = word("pure");
   words.native = word("native");
   words.op = word("operator");
@@ -109,6 +110,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.pure = findPragma(context, decl.h, words.pure) != nullptr;
   pou.prefix = findPragma(context, decl.h, words.prefix) != nullptr;
   pou.sized = findPragma(context, decl.h, words.sized) != nullptr;
+  pou.slice = findPragma(context, decl.h, words.slice) != nullptr;
   pou.test_only = findPragma(context, decl.h, words.test_only) != nullptr;
   pou.test = findPragma(context, decl.h, words.test) != nullptr;
   if (const Pragma* pragma = findPragma(context, decl.h, words.replaces); pragma != nullptr && library == kNoLibrary) {

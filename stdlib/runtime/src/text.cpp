@@ -12,27 +12,13 @@ namespace {
 // Text of a scalar that TO_STRING spells; enough for every elementary type.
 constexpr uint32_t kScalarRoom = RUNG_SPELLED_SCALAR;
 
-// Decimal digits straight into `to`: the most frequent spelling by far.
-uint32_t spellInteger(char* to, uint32_t capacity, bool negative, uint64_t magnitude) {
-  uint32_t length = negative ? 2 : 1;
-#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-  if (magnitude < 1000000 && capacity >= 7) {  // one store, NUL included, from which the next reader need not wait
-    uint64_t word = '0' + magnitude % 10;
-    for (uint32_t rest = static_cast<uint32_t>(magnitude) / 10; rest != 0; rest /= 10, ++length)
-      word = word << 8 | ('0' + rest % 10);
-    if (negative) word = word << 8 | '-';
-    memcpy(to, &word, sizeof word);
-    return length;
-  }
-#endif
-  for (uint64_t rest = magnitude; rest >= 10; rest /= 10) ++length;
-  const uint32_t kept = length < capacity ? length : capacity;
-  for (uint32_t i = length; i > negative; --i, magnitude /= 10) {
-    if (i <= kept) to[i - 1] = static_cast<char>('0' + magnitude % 10);
-  }
-  if (negative && kept > 0) to[0] = '-';
-  to[kept] = 0;
-  return kept;
+// The digits of a number below 10000 in the bytes of a word, the first in the lowest: divided by 100, then both halves
+// by 10.
+uint32_t fourDigits(uint32_t number) {
+  const uint32_t hundreds = number * 5243 >> 19;
+  const uint32_t halves = hundreds | (number - hundreds * 100) << 16;
+  const uint32_t tens = halves * 103 >> 10 & 0x000f000f;
+  return tens | (halves - tens * 10) << 8;
 }
 
 bool isSignedInteger(uint8_t kind) {
@@ -199,15 +185,42 @@ uint32_t rung_wtext_of_text(char16_t* to, uint32_t capacity, const char* from) {
   return length;
 }
 
+uint32_t rung_text_of_integer(char* to, uint32_t capacity, bool negative, uint64_t magnitude) {
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+  if (magnitude < 1000000 && capacity >= 7) {
+    // All digits at once; then the zeros in front go, zeros come in behind, and one store is text and NUL.
+    const auto number = static_cast<uint32_t>(magnitude);
+    const bool is_short = number < 10000;
+    const uint64_t digits =
+        is_short ? fourDigits(number) : fourDigits(number / 10000) | uint64_t{fourDigits(number % 10000)} << 32;
+    const uint32_t last = is_short ? 24 : 56;  // the bit where the last digit begins, which may be a zero
+    const uint32_t zeros = static_cast<uint32_t>(__builtin_ctzll(digits | uint64_t{1} << last)) & ~7u;
+    uint64_t word = (digits | uint64_t{0x3030303030303030} >> (56 - last)) >> zeros;
+    if (negative) word = word << 8 | '-';
+    memcpy(to, &word, sizeof word);
+    return (last - zeros) / 8 + 1 + negative;
+  }
+#endif
+  uint32_t length = negative ? 2 : 1;
+  for (uint64_t rest = magnitude; rest >= 10; rest /= 10) ++length;
+  const uint32_t kept = length < capacity ? length : capacity;
+  for (uint32_t i = length; i > negative; --i, magnitude /= 10) {
+    if (i <= kept) to[i - 1] = static_cast<char>('0' + magnitude % 10);
+  }
+  if (negative && kept > 0) to[0] = '-';
+  to[kept] = 0;
+  return kept;
+}
+
 uint32_t rung_text_of_scalar(char* to, uint32_t capacity, uint8_t kind, uint64_t bits) {
   if (kind == RUNG_WCHAR) {
     const char16_t one[2] = {static_cast<char16_t>(bits), 0};
     return rung_text_of_wtext(to, capacity, one);
   }
-  if (isUnsignedInteger(kind)) return spellInteger(to, capacity, false, bits);
+  if (isUnsignedInteger(kind)) return rung_text_of_integer(to, capacity, false, bits);
   if (isSignedInteger(kind)) {
     const bool negative = static_cast<int64_t>(bits) < 0;
-    return spellInteger(to, capacity, negative, negative ? 0 - bits : bits);
+    return rung_text_of_integer(to, capacity, negative, negative ? 0 - bits : bits);
   }
   char text[kScalarRoom + 1];
   spellScalar(kind, bits, text);

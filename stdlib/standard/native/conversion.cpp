@@ -1,5 +1,6 @@
 // Native bodies of conversion.st: values to and from text, BCD, byte order.
 #include <cstring>
+#include <type_traits>
 
 #include "rung/code.h"
 #include "rung/values.h"
@@ -26,6 +27,13 @@ template <>
 struct Read<double> {
   static double from(uint64_t bits) { return rung_f64_of(bits); }
 };
+
+template <class T>
+uint32_t textOfInteger(T value, char* out, uint32_t capacity) {
+  const uint64_t bits = bitsOf(value);
+  const bool negative = std::is_signed<T>::value && static_cast<int64_t>(bits) < 0;
+  return rung_text_of_integer(out, capacity, negative, negative ? 0 - bits : bits);
+}
 
 // TIME is signed where the module says so; the C type is unsigned in any dialect.
 // As text. In codesys LTIME has no sign, which its 64 bits do not tell.
@@ -67,11 +75,13 @@ uint8_t isBcd(uint64_t bcd) {
 extern "C" {
 
 // ---- text. TYPE: the name that the language gives the type; KIND: that of rung_type_kind.
-#define RUNG_TEXT_OF(TYPE, KIND, T, bits)                                                                \
-  uint32_t rung_standard_TO_STRING__##TYPE(rung_context* ctx, T in, char* out, uint32_t capacity) {      \
-    (void)ctx;                                                                                           \
-    return rung_text_of_scalar(out, capacity, RUNG_##KIND, bits);                                        \
-  }                                                                                                      \
+#define RUNG_TEXT_OF(TYPE, KIND, T, bits)                                                           \
+  uint32_t rung_standard_TO_STRING__##TYPE(rung_context* ctx, T in, char* out, uint32_t capacity) { \
+    (void)ctx;                                                                                      \
+    return rung_text_of_scalar(out, capacity, RUNG_##KIND, bits);                                   \
+  }                                                                                                 \
+  RUNG_WTEXT_OF(TYPE, KIND, T, bits)
+#define RUNG_WTEXT_OF(TYPE, KIND, T, bits)                                                               \
   uint32_t rung_standard_TO_WSTRING__##TYPE(rung_context* ctx, T in, char16_t* out, uint32_t capacity) { \
     (void)ctx;                                                                                           \
     return rung_wtext_of_scalar(out, capacity, RUNG_##KIND, bits);                                       \
@@ -86,19 +96,25 @@ extern "C" {
 #define RUNG_TEXT_BOTH(TYPE, KIND, T)     \
   RUNG_TEXT_OF(TYPE, KIND, T, bitsOf(in)) \
   RUNG_OF_TEXT(TYPE, KIND, T)
+#define RUNG_INTEGER_BOTH(TYPE, T)                                                              \
+  uint32_t rung_standard_TO_STRING__##TYPE(rung_context*, T in, char* out, uint32_t capacity) { \
+    return textOfInteger(in, out, capacity);                                                    \
+  }                                                                                             \
+  RUNG_WTEXT_OF(TYPE, TYPE, T, bitsOf(in))                                                      \
+  RUNG_OF_TEXT(TYPE, TYPE, T)
 RUNG_TEXT_BOTH(BOOL, BOOL, uint8_t)
-RUNG_TEXT_BOTH(BYTE, BYTE, uint8_t)
-RUNG_TEXT_BOTH(WORD, WORD, uint16_t)
-RUNG_TEXT_BOTH(DWORD, DWORD, uint32_t)
-RUNG_TEXT_BOTH(LWORD, LWORD, uint64_t)
-RUNG_TEXT_BOTH(SINT, SINT, int8_t)
-RUNG_TEXT_BOTH(INT, INT, int16_t)
-RUNG_TEXT_BOTH(DINT, DINT, int32_t)
-RUNG_TEXT_BOTH(LINT, LINT, int64_t)
-RUNG_TEXT_BOTH(USINT, USINT, uint8_t)
-RUNG_TEXT_BOTH(UINT, UINT, uint16_t)
-RUNG_TEXT_BOTH(UDINT, UDINT, uint32_t)
-RUNG_TEXT_BOTH(ULINT, ULINT, uint64_t)
+RUNG_INTEGER_BOTH(BYTE, uint8_t)
+RUNG_INTEGER_BOTH(WORD, uint16_t)
+RUNG_INTEGER_BOTH(DWORD, uint32_t)
+RUNG_INTEGER_BOTH(LWORD, uint64_t)
+RUNG_INTEGER_BOTH(SINT, int8_t)
+RUNG_INTEGER_BOTH(INT, int16_t)
+RUNG_INTEGER_BOTH(DINT, int32_t)
+RUNG_INTEGER_BOTH(LINT, int64_t)
+RUNG_INTEGER_BOTH(USINT, uint8_t)
+RUNG_INTEGER_BOTH(UINT, uint16_t)
+RUNG_INTEGER_BOTH(UDINT, uint32_t)
+RUNG_INTEGER_BOTH(ULINT, uint64_t)
 RUNG_TEXT_BOTH(REAL, REAL, float)
 RUNG_TEXT_BOTH(LREAL, LREAL, double)
 RUNG_TEXT_OF(TIME, TIME, uint32_t, timeBits(ctx, in))
@@ -120,7 +136,9 @@ RUNG_TEXT_BOTH(DATE_AND_TIME, DT, uint32_t)
 RUNG_TEXT_BOTH(LDATE_AND_TIME, LDT, uint64_t)
 RUNG_TEXT_OF(CHAR, CHAR, uint8_t, bitsOf(in))
 RUNG_TEXT_OF(WCHAR, WCHAR, uint16_t, bitsOf(in))
+#undef RUNG_INTEGER_BOTH
 #undef RUNG_TEXT_BOTH
+#undef RUNG_WTEXT_OF
 #undef RUNG_TEXT_OF
 #undef RUNG_OF_TEXT
 

@@ -216,6 +216,16 @@ RUNG_STRING_FUNCTIONS(WSTRING_255, char16_t)
 
 // ---- sized forms (rung/standard.h)
 
+uint32_t rung_text_join(const char* in1, uint32_t length1, const char* in2, uint32_t length2, char* out,
+                        uint32_t capacity) {
+  const uint32_t limit = limitOf(capacity);
+  if ((out != in1 || capacity > limit) && length1 > limit) length1 = limit;  // what is in `out` fits it
+  if (length2 > limit - length1) length2 = limit - length1;
+  memmove(out + length1, in2, length2);  // first: `out` may be in2
+  if (out != in1) memcpy(out, in1, length1);
+  out[length1 + length2] = 0;
+  return length1 + length2;
+}
 uint32_t rung_standard_INSERT__STRING_255_sized(const char* in1, uint32_t length1, const char* in2, uint32_t length2,
                                                 int32_t p, char* out, uint32_t capacity) {
   return insert<char>({in1, length1}, {in2, length2}, p, out, capacity);

@@ -76,6 +76,10 @@ TEST(Text, IntegersInEveryRoom) {
       EXPECT_EQ('#', text[capacity + 1]);
     }
   }
+  for (int64_t number = -20000; number < 20000; ++number)
+    ASSERT_EQ(std::to_string(number), textOf(RUNG_LINT, static_cast<uint64_t>(number)));
+  for (int64_t number = 20000; number < 1000100; number += 37)
+    ASSERT_EQ(std::to_string(number), textOf(RUNG_LINT, static_cast<uint64_t>(number)));
   EXPECT_EQ(textOf(RUNG_ULINT, UINT64_MAX), "18446744073709551615");
   EXPECT_EQ(textOf(RUNG_BYTE, 255), "255");
 }

@@ -1,0 +1,147 @@
+// Slices: texts that need no memory of their own while the body runs, because they are parts of texts that keep still.
+// In `rest := MID(rest, LEN(rest) - at, at + 1)` nothing moves: the address and the length of `rest` change, and where
+// the body ends its characters are put into the instance, once. A text becomes a slice when
+//   - its length lives in a local (lengths.cpp), and functions marked {slice} (LEFT, RIGHT, MID) make it in a loop;
+//   - every write makes it a part of a literal, of another slice, or of a text that this body never writes;
+//   - every read comes behind a write of it, and is one that takes a length: it has no NUL at its end;
+//   - nothing is called that may fault, so that the body is left at its own exits only, or that the host may answer.
+// Since what slices are parts of keeps still, they may be put back in any order. Called by locals.cpp once it is known
+// which lengths live in locals; written by text.cpp and statements.cpp.
+#include <algorithm>
+
+#include "codegen/body.h"
+#include "ir/walk.h"
+
+namespace rung::codegen {
+
+using ir::LocalKind;
+
+const BodyWriter::Variable* BodyWriter::sliceText(ExprId place) const {
+  if (!has_slices_) return nullptr;
+  const Variable* of = measuredText(place);
+  return of != nullptr && of->slice ? of : nullptr;
+}
+
+// Something that keeps still, or a part of it.
+bool BodyWriter::isSliceSource(ExprId id) {
+  const Expr& e = expr(id);
+  if (e.kind == ExprKind::Text) return !isWide(e.type);
+  if (e.kind == ExprKind::Zero) return true;
+  const Variable* of = textVariable(id);
+  if (of == nullptr || of->slice) return of != nullptr;
+  if (of->written || of->exposed) return false;
+  if (e.kind == ExprKind::Local) return body_->locals[e.a].kind == LocalKind::Input;
+  const TypeId record = types_.resolve(body_->self);
+  return !facts_.isExposed(record, e.b) && !types_.info(record).fields[e.b].by_reference;
+}
+
+// ---- which texts
+
+void BodyWriter::noteSlice(const Stmt& stmt, uint32_t weight) {
+  Variable* of = stmt.e != 0 ? textVariable(ExprId{stmt.e}) : nullptr;
+  if (of == nullptr) return;
+  // A text of the instance is put back at the exits: that pays in loops only.
+  if (weight > 1 || expr(ExprId{stmt.e}).kind == ExprKind::Local) of->sliced = has_slices_ = true;
+}
+
+// Begins with all that might be, and refuses until the rest fulfils the conditions.
+void BodyWriter::chooseSlices() {
+  if (has_leaving_calls_) has_slices_ = false;
+  if (!has_slices_) return;
+  for (uint32_t i = 0; i < locals_.size(); ++i) {
+    const LocalKind kind = body_->locals[i].kind;
+    locals_[i].slice =
+        locals_[i].measured && locals_[i].sliced && (kind == LocalKind::Temp || kind == LocalKind::Variable);
+  }
+  for (Variable& of : fields_) of.slice = of.measured && of.sliced;
+  do {
+    slices_changed_ = false;
+    judgeBlock(body_->first);
+  } while (slices_changed_);
+}
+
+void BodyWriter::refuseSlice(ExprId place) {
+  textVariable(place)->slice = false;
+  slices_changed_ = true;
+}
+
+void BodyWriter::judgeWrite(ExprId place, bool makes_slice) {
+  if (textVariable(place) != nullptr) {
+    if (!makes_slice && sliceText(place) != nullptr) refuseSlice(place);
+    setKnown(place);
+  } else {
+    ir::forEachSlot(*body_, expr(place), [&](const uint32_t& slot) { judgeRead(ExprId{slot}, false); });
+  }
+}
+
+// is_sized: by something that is given the length.
+void BodyWriter::judgeRead(ExprId id, bool is_sized) {
+  const Expr& e = expr(id);
+  if (const Variable* of = sliceText(id)) {
+    if (!is_sized || !of->known) refuseSlice(id);
+    return;
+  }
+  bool reads_sized =
+      e.kind == ExprKind::Call && !isText(e.type) && isSizedCall(module_.body(ir::BodyId{e.a}), e.b, e.c, {});
+  if (e.kind == ExprKind::Binary) reads_sized = isSizedComparison(e);
+  ir::forEachSlot(*body_, e, [&](const uint32_t& slot) { judgeRead(ExprId{slot}, reads_sized); });
+}
+
+void BodyWriter::judgeBlock(StmtId first) {
+  const size_t mark = known_.size();
+  for (StmtId id = first; id; id = body_->stmt(id).next) {
+    const Stmt& stmt = body_->stmt(id);
+    if (stmt.kind == StmtKind::Assign) {
+      const ExprId to{stmt.a}, from = uncut(ExprId{stmt.b});
+      judgeRead(from, isText(expr(to).type) && !isWide(expr(to).type));
+      judgeWrite(to, isSliceSource(from));
+    } else if (stmt.kind == StmtKind::Call) {
+      const Body& callee = module_.body(ir::BodyId{stmt.a});
+      const bool is_sized = stmt.b == 0 && isSizedCall(callee, stmt.c, stmt.d, ExprId{stmt.e});
+      if (stmt.b != 0) judgeRead(ExprId{stmt.b}, false);
+      for (uint32_t i = 0; i < stmt.d; ++i) {
+        if (const ExprId operand = body_->operands[stmt.c + i]) judgeRead(operand, is_sized);
+      }
+      if (stmt.e != 0) judgeWrite(ExprId{stmt.e}, is_sized && callee.slice && isSliceSource(body_->operands[stmt.c]));
+    } else {
+      ir::forEachRoot(module_, *body_, stmt, [&](const uint32_t& slot, ir::Use) { judgeRead(ExprId{slot}, false); });
+    }
+    ir::forEachBlock(*body_, stmt, [&](const uint32_t& block) { judgeBlock(StmtId{block}); });
+  }
+  forgetLengths(mark);
+}
+
+// ---- writing
+
+void BodyWriter::sliceName(ExprId id) {
+  lengthName(id);
+  out_.back() = 'v';
+}
+
+void BodyWriter::assignSlice(ExprId to, ExprId from) {
+  uint32_t capacity = capacityOf(expr(to).type);
+  for (ExprId cut = from; cut != uncut(from); cut = ExprId{expr(cut).a})
+    capacity = std::min(capacity, capacityOf(expr(cut).type));
+  from = uncut(from);
+  sliceName(to);
+  out_ += " = ";
+  textValue(from);
+  out_ += "; ";
+  lengthName(to);
+  out_ += " = ";
+  const Expr& source = expr(from);
+  if (source.kind == ExprKind::Text) {
+    appendUnsigned(out_, std::min(literalLength(source), capacity));
+  } else if (source.kind == ExprKind::Zero || capacityOf(source.type) <= capacity) {
+    textLength(from);
+  } else {
+    out_ += "rung_min_u32(";
+    textLength(from);
+    out_ += ", ";
+    appendUnsigned(out_, capacity);
+    out_ += ')';
+  }
+  out_ += ';';
+}
+
+}  // namespace rung::codegen
