@@ -75,12 +75,15 @@ struct Var {
   VarId external;      // VAR_EXTERNAL: the global it names
   TypeId record;       // field of a structure or union: its type
   AccessLevel access = AccessLevel::None;
-  CallId constructor;           // of a block whose FB_Init has parameters of its own: what the declaration gives them
-  TypeId any;                   // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
-  VarId bounds;                 // ARRAY[*]: the first of the hidden variables with its bounds, two a dimension
-  bool hidden_input = false;    // of a function: such a bound, passed behind the pins
-  VarId edge_memory;            // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
-  std::vector<NameId> aliases;  // {alias 'R'}
+  CallId constructor;         // of a block whose FB_Init has parameters of its own: what the declaration gives them
+  TypeId any;                 // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
+  VarId bounds;               // ARRAY[*]: the first of the hidden variables with its bounds, two a dimension
+  bool hidden_input = false;  // of a function: such a bound, passed behind the pins
+  VarId bits_of;              // a member of type BIT: the hidden byte whose `bit` it is; `field` is that byte's
+  uint8_t bit = 0;
+  bool is_bit = false, holds_bits = false;  // is such a member; is such a byte
+  VarId edge_memory;                        // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
+  std::vector<NameId> aliases;              // {alias 'R'}
 };
 
 struct Property {
@@ -209,13 +212,14 @@ struct Binding {
   bool is_output = false;  // copied to `value` after the call
   bool negated = false;    // NOT pin =>
 };
-enum class CallKind : uint8_t { Function, Instance, Program, Operator, Assertion, Method };
+enum class CallKind : uint8_t { Function, Instance, Program, Operator, Assertion, Method, Delete };
 enum class Assertion : uint8_t { Assert, AssertEq, AssertNear };
 struct Call {
   CallKind kind = CallKind::Function;
-  PouId pou;                      // callee; the instance of a generic function
-  ExprId instance;                // Instance: the FB variable; Method: the object, none: the one at hand
-  bool is_virtual = false;        // Method: the object may be of a derived type
+  PouId pou;                // callee; the instance of a generic function
+  ExprId instance;          // Instance: the FB variable; Method: the object, none: the one at hand; Delete: pointer
+  PouId owns;               // Delete: tells whether memory is of the pool; `pou` gives it back
+  bool is_virtual = false;  // Method: the object may be of a derived type
   std::vector<Binding> bindings;  // Operator: operands in order, pin none
   ExprId en;                      // EN := …
   ExprId eno;                     // ENO => …
@@ -247,6 +251,7 @@ struct Options {
   std::span<const std::string> project_names;  // qualify what the project itself declares: `TcUnit.FB_TestSuite`
   std::span<const LibraryAlias> library_aliases;
   CallConstant call_constant;                // none: calls of functions are no constants
+  uint32_t pool_bytes = 0;                   // of the pool behind __NEW; 0: as the library has it
   bool with_tests = false;                   // the program is for `rung test`
   std::vector<std::string> mocks;            // … of the tests that name exactly these
   int64_t default_interval_ns = 10'000'000;  // of the task that is made when there is no CONFIGURATION

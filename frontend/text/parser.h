@@ -156,6 +156,8 @@ class Parser {
   ExprId parseExpr(uint32_t least = 1);
   ExprId parseUnary();
   ExprId parsePostfix(ExprId base);
+  bool isNew(ExprId callee) const;
+  ExprId parseNew(ExprId callee);
   ExprId parsePrimary();
   ExprId parseTyped();
   ExprId parseNumber(NameId prefix, bool negative, Loc loc);

@@ -25,6 +25,7 @@ ExprId BodyLowering::lowerCall(rung::ExprId id, Target* target) {
       case sema::CallKind::Instance: lowerBlockCall(call, node, stable(lowerPlace(call.instance))); return {};
       case sema::CallKind::Program: lowerBlockCall(call, node, lowerPlace(node.callee)); return {};
       case sema::CallKind::Assertion: lowerAssertion(call, node); return {};
+      case sema::CallKind::Delete: lowerDelete(call, loc); return {};
     }
     return {};
   };
@@ -427,7 +428,7 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
       }
       continue;
     }
-    ExprId place = field(asBase(instance, pin.pou, at), pin.field, type, at);
+    ExprId place = pinPlace(instance, pin, at);
     if (pin.section == SectionKind::InOut) {
       ExprId variable = inOutPlace(binding.value, type);
       const Expr& expr = body_.expr(variable);
@@ -449,8 +450,7 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
   for (const sema::Binding& binding : call.bindings) {
     if (!binding.is_output || !binding.value) continue;
     const sema::Var& pin = project_.var(binding.pin);
-    storeOutput(binding.value, field(asBase(instance, pin.pou, loc), pin.field, strip(pin.type), loc), binding.negated,
-                loc);
+    storeOutput(binding.value, pinPlace(instance, pin, loc), binding.negated, loc);
   }
 }
 

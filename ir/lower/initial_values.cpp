@@ -203,7 +203,9 @@ void BodyLowering::construct(ExprId place, TypeId type) {
   Expr at = body_.expr(place);
   while (at.kind == ExprKind::Index) at = body_.expr(ExprId{at.a});
   CallId given;
-  if (at.kind == ExprKind::Field) {
+  if (at.kind == ExprKind::Deref) {
+    given = given_;
+  } else if (at.kind == ExprKind::Field) {
     const TypeId holder = typeOf(ExprId{at.a});
     const sema::PouId derived = in_.pouOfRecord(holder);
     if (derived && project_.pou(derived).base_var && project_.var(project_.pou(derived).base_var).field == at.b)

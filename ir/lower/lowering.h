@@ -36,6 +36,9 @@ struct ModuleLowering {
   uint32_t instanceOf(sema::PouId program);
   // FB_Init of an object and of those that it extends, the outermost base first.
   std::vector<sema::PouId> constructorsOf(sema::PouId object) const;
+  // FB_Exit of an object and of those that it extends, its own first.
+  std::vector<sema::PouId> destructorsOf(sema::PouId object) const;
+  bool needsDestroying(TypeId type) const;
   // The arguments of FB_Init that a declaration gives to the instance in a field of a record.
   CallId constructorOf(TypeId record, uint32_t field) const;
   // The record of the object that a POU's code runs on; none in functions.
@@ -53,8 +56,9 @@ struct ModuleLowering {
   TypeTable& types;
   bool partial = false;  // a function alone: see lowerFunction
 
- private:
   void declareRecordsOf(TypeId type);
+
+ private:
   void addRecord(TypeId record);
   void addPrograms();
   void addLists();
@@ -143,6 +147,9 @@ class BodyLowering {
   ExprId characters(ExprId text, bool writes);
   ExprId varPlace(sema::VarId var, Loc loc);
   ExprId memberPlace(rung::ExprId expr);
+  // What the field of a variable is: a member of type BIT has a byte.
+  TypeId fieldType(const sema::Var& var) const;
+  ExprId pinPlace(ExprId instance, const sema::Var& pin, Loc loc);
   // The same place without operands that a later statement could change: indices and pointers go to temporaries.
   ExprId stable(ExprId place);
   bool mayFault(ExprId expr) const;
@@ -179,6 +186,13 @@ class BodyLowering {
   ExprId lowerConvert(rung::ExprId expr);
   ExprId lowerAddressOf(rung::ExprId expr);
   ExprId lowerAnyValue(rung::ExprId expr);
+
+  // dynamic_memory.cpp
+  ExprId lowerNew(rung::ExprId expr);
+  void lowerDelete(const sema::Call& call, Loc loc);
+  // The one place that ends an instance: FB_Exit of its type and of what that extends, then of what it holds.
+  void destroy(ExprId place, TypeId type);
+  ExprId callPool(sema::PouId function, std::initializer_list<ExprId> arguments, Loc loc);
   ExprId convertValue(ExprId value, TypeId to, Loc loc);
   // A position in the open block. `effects` tells whether what came since could change a variable.
   struct Mark {
@@ -294,6 +308,7 @@ class BodyLowering {
   // Inside the right operand of a codesys AND or OR that calls functions: a temporary that is TRUE when its value
   // matters. Checks count only then.
   ExprId guard_;
+  CallId given_;          // the arguments of FB_Init for what __NEW makes
   ExprId logical_;        // the temporary of the last AND or OR that needed one
   uint32_t effects_ = 0;  // statements so far that change more than temporaries
 };

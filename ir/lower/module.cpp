@@ -348,7 +348,7 @@ BodyId ModuleLowering::initOf(TypeId type) {
       return;
     }
     if (var.storage != sema::Storage::Field && var.storage != sema::Storage::Global) return;
-    if (var.section == SectionKind::InOut) return;
+    if (var.section == SectionKind::InOut || var.is_bit) return;
     if (!var.init && isZero(var.type)) return;
     lowering.storeInitial(lowering.field(lowering.self(var.loc), var.field, var.type, var.loc), var.type, var.init,
                           true);

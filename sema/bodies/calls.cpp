@@ -276,13 +276,15 @@ TypeId sizeOf(Context& context, ExprId& expr) {
   return untyped;
 }
 
-TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected) {
+TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (const auto assertion = assertionOf(context.names(), name)) return checkAssertion(context, expr, *assertion);
   if (isNamed(context, name, "SIZEOF") || isNamed(context, name, "XSIZEOF")) return sizeOf(context, expr);
   if (const TypeId type = checkRuleCall(context, expr, name, expected)) return type;
   if (const TypeId type = checkAddressCall(context, expr, name)) return type;
   if (const TypeId type = checkBoundCall(context, expr, name)) return type;
+  if (const TypeId type = checkDeleteCall(context, expr, name, as_statement)) return type;
+  if (const TypeId type = checkKnownCall(context, expr, name)) return type;
   if (sayUnknown(context, name))
     context.report(Diag::UnknownName, node.h.loc, {text(context, name)}).didYouMean(nearestName(context, name));
   context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);
@@ -501,7 +503,7 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
     NameExpr& callee = context.tree().as<NameExpr>(node.callee);
     callee.entity = lookUp(context, callee.name);
     switch (callee.entity.what()) {
-      case EntityKind::None: return callUnknown(context, expr, callee.name, expected);
+      case EntityKind::None: return callUnknown(context, expr, callee.name, expected, as_statement);
       case EntityKind::Pou: return callPou(context, expr, PouId{callee.entity.index}, expected, as_statement);
       case EntityKind::Error: return refuse(context, node);
       case EntityKind::Var:

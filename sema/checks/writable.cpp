@@ -82,6 +82,7 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
       case ExprKind::StructInit:
       case ExprKind::Convert:
       case ExprKind::Bound:
+      case ExprKind::New:
       case ExprKind::AnyValue:
       case ExprKind::AddressOf:
         context.report(Diag::NotAPlace, tree.begin(whole), {purpose.spell(context)});

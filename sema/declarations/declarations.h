@@ -60,6 +60,13 @@ void resolveList(Context& context, ListId list);
 // The field of a record that holds a variable.
 void addField(Context& context, TypeId record, VarId id);
 
+// ---- bit_members.cpp
+bool isNamedBit(const Context& context, NameId name);
+bool isBit(Context& context, TypeExprId written);
+bool mayBeBit(Context& context, const Var& var, TypeExprId written);
+void addBit(Context& context, TypeId record, VarId id);
+uint8_t initialBits(Context& context, TypeId record, VarId byte);
+
 // ---- objects.cpp
 // METHODs, ACTIONs and PROPERTYs of a POU: a Pou each.
 void collectMembers(Context& context, PouId owner);
@@ -95,6 +102,8 @@ std::optional<int64_t> constantBound(Context& context, ExprId& expr);
 void checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string_view what);
 
 // ---- libraries.cpp
+// What the library __SYSTEM, the compiler's own, declares by this name.
+Entity lookUpSystem(Context& context, std::string_view name);
 // The structure __SYSTEM.AnyType.
 TypeId anyType(Context& context);
 void indexLibraries(Context& context);

@@ -108,6 +108,10 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
     if (!found) found = lookUpLibrary(context, keyOf(context, last.name), qualifier.index);
   }
   if (found.what() == EntityKind::Pou) checkTestOnly(context, PouId{found.index}, last.loc);
+  if (!found && length == 1 && !context.iec() && isNamedBit(context, last.name)) {
+    context.report(Diag::BitOutside, last.loc);
+    return types::kError;
+  }
   const TypeId type = typeOf(context, found);
   if (type) return context.types().resolve(type) == types::kError ? types::kError : type;
   reportUnknownType(context, last.name, last.loc, found);
@@ -264,16 +268,23 @@ void inheritFields(Context& context, TypeId record, TypeExprId base_expr) {
   }
   resolveNamed(context, base);
   NamedType& named = *context.scopes.named(record);
-  for (size_t i = 0; i < named_base->fields.size(); ++i) {
-    Var var = context.project.var(named_base->fields[i]);
-    ensureInitialValue(context, named_base->fields[i]);
-    var.init = context.project.var(named_base->fields[i]).init;
+  const auto inherit = [&](VarId inherited) {
+    ensureInitialValue(context, inherited);
+    Var var = context.project.var(inherited);
     const VarId id{static_cast<uint32_t>(context.project.vars.size())};
     var.record = record;
     var.decl = {};  // checked where it is written
     context.project.vars.push_back(var);
     named.members.insert(keyOf(context, var.name), entity(id));
-    addField(context, record, id);
+    return id;
+  };
+  for (size_t i = 0; i < named_base->fields.size(); ++i) addField(context, record, inherit(named_base->fields[i]));
+  for (size_t i = 0; i < named_base->bits.size(); ++i) {
+    const VarId id = inherit(named_base->bits[i]);
+    Var& var = context.project.var(id);
+    var.bits_of = named.fields[var.field];
+    named.bits.push_back(id);
+    context.types().edit(record).bits.push_back({var.name, var.field, var.bit});
   }
 }
 

@@ -120,6 +120,7 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
 }
 
 void addField(Context& context, TypeId record, VarId id) {
+  if (context.project.var(id).is_bit) return addBit(context, record, id);
   Var& var = context.project.var(id);
   Field field;
   field.name = var.name;
@@ -149,7 +150,7 @@ namespace {
 //   fails   VAR_INPUT clk : INT R_EDGE; END_VAR        E0333
 void checkEdge(Context& context, const Var& var) {
   if (var.edge == EdgeKind::None || var.type == types::kError) return;
-  const bool block = var.pou && !isFunction(context.project.pou(var.pou).kind);
+  const bool block = var.pou && !isFunction(context.project.pou(var.pou).kind) && !var.is_bit;
   if (block && var.section == SectionKind::Input && context.types().kind(var.type) == TypeKind::Bool) return;
   context.report(Diag::EdgeNotBool, var.loc, {context.names().text(var.name)});
 }
@@ -224,13 +225,18 @@ void ensureVarType(Context& context, VarId id) {
   }
   ++context.scopes.depth;
   TypeId type = types::kError;
-  if (decl.type) type = resolveType(there, decl.type);
+  const bool bit = decl.type && isBit(there, decl.type);
+  if (bit)
+    type = mayBeBit(there, project.var(id), decl.type) ? types::kBool : types::kError;
+  else if (decl.type)
+    type = resolveType(there, decl.type);
   --context.scopes.depth;
   const uint32_t first = firstOfDecl(project, id.index);
   for (uint32_t i = first; i < project.vars.size() && project.vars[i].decl == project.vars[id.index].decl; ++i) {
     Var& var = project.vars[i];
     if (var.type) continue;
     var.type = type;
+    var.is_bit = bit && type != types::kError;
     if (context.types().isOpenArray(type) && var.section != SectionKind::InOut) {
       if (i == first) there.report(Diag::OpenArray, context.tree().loc(decl.type));
       var.type = types::kError;
@@ -429,7 +435,7 @@ void resolvePou(Context& context, PouId id) {
     ensureVarType(there, var_id);
     Var& var = project.var(var_id);
     if (var.storage == Storage::Local) var.field = static_cast<uint32_t>(i);
-    if (var.storage == Storage::Field) addField(there, pou.record, var_id);
+    if (var.storage == Storage::Field && !var.holds_bits) addField(there, pou.record, var_id);
     if (types::TypeTable::isGeneric(context.types().kind(var.type))) pou.generic = true;
     if (var.extensible) pou.extensible = true;
     if (var.edge != EdgeKind::None && var.storage == Storage::Field) edges.push_back(var_id);

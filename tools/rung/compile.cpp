@@ -154,6 +154,7 @@ bool Compilation::check() {
     sema_options.libraries = libraries.files();
     sema_options.library_aliases = libraries.aliases();
     sema_options.project_names = inputs.project_names;
+    sema_options.pool_bytes = inputs.project.pool_bytes;
     sema_options.default_interval_ns = options.default_interval_ns;
     sema_options.with_tests = options.command == Command::Test;
     sema_options.mocks = options.mocks;

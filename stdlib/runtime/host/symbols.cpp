@@ -245,7 +245,7 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
     variable.path += text(field.name);
     variable.type = &module_.types[field.type];
     variable.lastOffset() += field.offset;
-    variable.flags = field.flags;
+    variable.setFlags(field.flags);
     if ((field.flags & RUNG_FIELD_BY_REFERENCE) != 0) variable.hops.push_back(0);
     rest.remove_prefix(length);
     return true;
@@ -296,7 +296,7 @@ void Symbols::expand(const Variable& variable, std::vector<Variable>& to) const 
       part.path += name;
       part.type = &module_.types[field.type];
       part.lastOffset() += field.offset;
-      part.flags = field.flags;
+      part.setFlags(field.flags);
       expand(part, to);
     }
   } else if (type.kind == RUNG_ARRAY) {

@@ -69,8 +69,10 @@ enum rung_field_flags {
   RUNG_FIELD_RETAIN = 4,
   RUNG_FIELD_PERSISTENT = 8,
   RUNG_FIELD_INPUT = 16,
-  RUNG_FIELD_OUTPUT = 32
+  RUNG_FIELD_OUTPUT = 32,
+  RUNG_FIELD_BIT = 0xf00 /* of a BOOL that is one bit of the byte at its offset: the bit's number + 1; else 0 */
 };
+#define RUNG_FIELD_BIT_SHIFT 8
 typedef struct rung_field {
   uint32_t name, type, offset, flags;
 } rung_field;
