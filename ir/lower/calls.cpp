@@ -323,7 +323,13 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
     TypeId pin_type = strip(pin.type);
     Mark mark = here();
     ExprId argument;
-    if (pin.section == SectionKind::Input) {
+    if (types_.isOpenArray(pin_type)) {
+      OpenArray array = open ? noOpenArray(pin_type, loc)
+                             : passOpenArray(binding->value, pin_type,
+                                             pin.section == SectionKind::Input && !callee_is_pure);
+      argument = array.pointer;
+      hidden.insert(hidden.end(), array.bounds.begin(), array.bounds.end());
+    } else if (pin.section == SectionKind::Input) {
       if (open) {
         argument = defaultArgument(pin_id, loc);
       } else if (isAggregate(pin_type)) {
@@ -350,10 +356,6 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
         argument = lowerValue(binding->value);
         if (guard_ && mayFault(argument)) argument = toTemp(argument, loc);
       }
-    } else if (pin.section == SectionKind::InOut && types_.isOpenArray(pin_type)) {
-      OpenArray array = passOpenArray(binding->value, pin_type);
-      argument = array.pointer;
-      hidden.insert(hidden.end(), array.bounds.begin(), array.bounds.end());
     } else if (pin.section == SectionKind::InOut) {
       RUNG_INVARIANT(!open, "sema reports an open VAR_IN_OUT");
       argument = inOutPlace(binding->value, pin_type);
@@ -420,7 +422,7 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
     TypeId type = strip(pin.type);
     Loc at = tree_.loc(binding.value);
     if (types_.isOpenArray(type)) {
-      OpenArray array = passOpenArray(binding.value, type);
+      OpenArray array = passOpenArray(binding.value, type, false);
       assign(field(asBase(instance, pin.pou, at), pin.field, typeOf(array.pointer), at), array.pointer, at);
       for (uint32_t i = 0; i < array.bounds.size(); ++i) {
         const sema::Var& bound = project_.var({pin.bounds.index + i});

@@ -166,7 +166,9 @@ class BodyLowering {
     ExprId pointer;
     std::vector<ExprId> bounds;
   };
-  OpenArray passOpenArray(rung::ExprId argument, TypeId pin_type);
+  // `copies`: the callee must not see what happens to the variable meanwhile.
+  OpenArray passOpenArray(rung::ExprId argument, TypeId pin_type, bool copies);
+  OpenArray noOpenArray(TypeId pin_type, Loc loc);  // of an output that is left open: without elements
 
   // aliases.cpp
   // A place that is named without indices and pointers, so that it is the same whenever it is evaluated.

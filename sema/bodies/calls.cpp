@@ -112,12 +112,22 @@ bool sameInOut(const Context& context, TypeId pin, TypeId actual) {
   return sameType(context, pin, actual);
 }
 
+void checkOpenArgument(Context& context, const Var& pin, ExprId value, TypeId actual, const Purpose& purpose) {
+  if (actual == types::kError || sameInOut(context, pin.type, actual)) return;
+  context.report(Diag::WrongType, context.tree().begin(value),
+                 {context.types().spell(actual), purpose.spell(context), context.types().spell(pin.type)});
+}
+
 void bindOutput(Context& context, const Pou& pou, const Var& pin, Binding& binding, const Argument& argument) {
   binding.is_output = true;
   binding.negated = argument.negated;
   const Purpose purpose{"bound to output", pin.name, pou.name};
   const TypeId place = check(context, binding.value, {}, Access::Write);
   if (place == types::kError || !checkWritable(context, binding.value, purpose)) return;
+  if (context.types().isOpenArray(pin.type)) {
+    checkOpenArgument(context, pin, binding.value, place, purpose);
+    return;
+  }
   if (argument.negated && context.types().plainKind(pin.type) != TypeKind::Bool) {
     context.report(Diag::NegatedPin, argument.pin.loc, {text(context, pin.name), context.types().spell(pin.type)});
     return;
@@ -158,6 +168,11 @@ void bindInput(Context& context, const Pou& pou, const Var& pin, Binding& bindin
     return;
   }
   if (pin.any) return bindAny(context, pou, pin, binding.value);
+  if (context.types().isOpenArray(pin.type)) {
+    const TypeId actual = check(context, binding.value, {}, Access::Read);
+    if (actual) checkOpenArgument(context, pin, binding.value, actual, Purpose{"passed to", pin.name, pou.name});
+    return;
+  }
   checkAs(context, binding.value, pin.type, Purpose{"passed to", pin.name, pou.name});
 }
 

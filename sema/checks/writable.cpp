@@ -18,6 +18,10 @@ bool checkVariable(Context& context, VarId id, Loc loc) {
     return false;
   }
   if (var.section == SectionKind::Input && var.pou == context.pou && !context.library) {
+    if (context.types().isOpenArray(var.type)) {
+      context.report(Diag::OpenInputWritten, loc, {name}).note(var.loc, Note::DeclaredHere);
+      return false;
+    }
     context.report(context.iec() ? Diag::AssignToInput : Diag::InputWritten, loc, {name});
     return !context.iec();
   }

@@ -206,6 +206,13 @@ bool mayHaveInitialValue(Context& context, const Var& var, ExprId init) {
   return false;
 }
 
+// ARRAY[*]: of a call a pin of any direction, of an instance only what is bound anew by each call.
+bool mayBeOpen(const Context& context, const Var& var) {
+  if (var.section == SectionKind::InOut) return true;
+  const bool of_call = var.pou && isFunction(context.project.pou(var.pou).kind);
+  return of_call && (var.section == SectionKind::Input || var.section == SectionKind::Output);
+}
+
 uint32_t firstOfDecl(const Project& project, uint32_t index) {
   while (index > 1 && project.vars[index - 1].decl == project.vars[index].decl) --index;
   return index;
@@ -237,7 +244,7 @@ void ensureVarType(Context& context, VarId id) {
     if (var.type) continue;
     var.type = type;
     var.is_bit = bit && type != types::kError;
-    if (context.types().isOpenArray(type) && var.section != SectionKind::InOut) {
+    if (context.types().isOpenArray(type) && !mayBeOpen(context, var)) {
       if (i == first) there.report(Diag::OpenArray, context.tree().loc(decl.type));
       var.type = types::kError;
     }
