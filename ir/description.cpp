@@ -232,6 +232,21 @@ class Describer {
       if (located.bit != kNoBit) row.bit = static_cast<uint8_t>(located.bit);
       add(name, row, path);
     }
+    for (const AccessPath& access : module_.access_paths) {
+      std::string name, path;
+      if (access.configuration) path.append(module_.names.text(access.configuration)).append(".");
+      if (access.prefix) name.append(module_.names.text(access.prefix)).append(".");
+      name += module_.names.text(access.name);
+      const bool in_image = access.root == AccessPath::Root::Image;
+      const uint32_t block = in_image                                   ? 0
+                             : access.root == AccessPath::Root::Program ? blocks_.program_block[access.index]
+                                                                        : blocks_.list_block[access.index];
+      rung_symbol row = inBlock(access.type, block, access.offset);
+      if (in_image) row.place = static_cast<uint8_t>(RUNG_IN_INPUTS + access.index);
+      if (access.bit != kNoBit) row.bit = static_cast<uint8_t>(access.bit);
+      if (access.read_only) row.flags = RUNG_FIELD_READ_ONLY;
+      add(name, row, path);
+    }
     // The order of the input files shows nowhere: programs stay first within equal names.
     std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     for (const auto& row : rows) out_.symbols.push_back(row.second);

@@ -205,6 +205,26 @@ struct InstancePlace {
   Loc loc;  // in VAR_CONFIG
 };
 
+// A name of VAR_ACCESS and the variable that it means.
+struct AccessPath {
+  enum class Root : uint8_t { Project, List, Instance } root = Root::Project;  // Project: not resolved, or an address
+  uint32_t index = 0;                                                          // of the list or the instance
+  uint64_t offset = 0;                                                         // in its memory
+  int bit = -1;                                                                // of a member of type BIT
+  bool located = false, read_only = true;
+  ImageView image;                     // when located
+  NameId name, prefix, configuration;  // `prefix`: the program instance whose VAR_ACCESS it is
+  TypeId type;
+  Loc loc;
+};
+// PROGRAM p WITH t : Main (block WITH task): an instance of a block that a task of its own runs.
+struct BlockTask {
+  uint32_t instance;  // index into Project::instances
+  VarId block;        // a field of its program
+  uint32_t task;      // index into Project::tasks + 1
+  Loc loc;
+};
+
 // One actual of a call, in the order of the callee's pins, EN and ENO apart.
 struct Binding {
   VarId pin;
@@ -276,6 +296,8 @@ struct Project {
   std::vector<ProgramInstance> instances;
   std::deque<Call> calls;
   std::vector<InstancePlace> instance_places;
+  std::vector<AccessPath> access_paths;
+  std::vector<BlockTask> block_tasks;
   std::vector<ExprId> type_inits;                // by TypeId: the declared initial value of a named type, or none
   std::vector<std::vector<ExprId>> field_inits;  // by TypeId of a record: declared initial value per field, or none
   // Who calls whom, in the order of the calls, with the place of the call: for the recursion rule.

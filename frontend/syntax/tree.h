@@ -472,12 +472,13 @@ struct SectionDecl {
 enum class EdgeKind : uint8_t { None, Rising, Falling };
 struct VarDecl {
   DeclHeader h;
-  Slice<Ident> names;  // empty: an unnamed located variable; VAR_CONFIG: the path; VAR_ACCESS: the name, then the path
+  Slice<Ident>
+      names;  // empty: an unnamed located variable; VAR_CONFIG: the path; VAR_ACCESS: the name, and `init` is the path
   TypeExprId type;
   ExprId init;  // none: the type's default
   EdgeKind edge;
   bool located;
-  DirectAddress address;  // when located
+  DirectAddress address;  // when located; of a member of a structure with a size: its place there
   Loc address_loc;
 };
 
@@ -503,7 +504,8 @@ struct ProgramInstanceDecl {  // PROGRAM name WITH task : type(args)
   Ident task;  // none: no WITH
   Slice<Ident> type;
   Slice<Argument> arguments;
-  uint8_t section_bits;  // PROGRAM RETAIN name
+  Slice<Ident> block_tasks;  // (block WITH task, …): both names, in turn
+  uint8_t section_bits;      // PROGRAM RETAIN name
 };
 
 // ---- the tree -------------------------------------------------------------------------------------------------

@@ -379,10 +379,16 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
     height = std::max(height, height_);
     arguments_.push_back(a);
     if (at(Tok::With) && !panic_) {  // PROGRAM p : Main (block WITH task)
-      slip(Diag::NotSupportedYet, t_, {"a block in a task of its own (`WITH`)"});
+      const ExprId block = a.value;
+      const bool named = block && tree_.kind(block) == ExprKind::Name && !a.pin.name;
+      if (!in_program_instance_ || !named || !isName(peek())) fail(Diag::StrayToken, t_, {describe(t_)});
       arguments_.pop_back();
       advance();
-      if (isName(kind())) advance();
+      if (!panic_) {
+        block_tasks_.push_back({tree_.as<NameExpr>(block).name, a.loc});
+        block_tasks_.push_back(ident(t_));
+        advance();
+      }
     }
     if (!panic_) {
       if (at(Tok::RightParen)) break;

@@ -71,6 +71,8 @@ struct ModuleLowering {
   void addActivation(uint32_t program, const sema::ProgramInstance* instance,
                      std::span<const sema::InstancePlace> places);
   void addLocated();
+  void addAccessPaths();
+  void addBlockTasks();
   std::string pathOf(sema::VarId var);
 
   std::vector<BodyId> body_of_;                          // by PouId
@@ -101,6 +103,9 @@ class BodyLowering {
   // activation.cpp: the code of ProgramInstance::run and setup. `call` is none without connections.
   void lowerActivation(uint32_t program, BodyId code, rung::ExprId call, std::span<const sema::InstancePlace> places);
   void lowerSetup(uint32_t program, std::span<const sema::InstancePlace> places);
+
+  // A call of the block in a field of a program instance.
+  void lowerBlockTask(uint32_t program, sema::VarId block);
 
   // ---- building
   ExprId add(Expr expr);

@@ -29,6 +29,37 @@ bool mayBeBit(Context& context, const Var& var, TypeExprId written) {
   return false;
 }
 
+void addBitAt(Context& context, TypeId record, VarId id, VarId byte, uint8_t bit) {
+  Var& var = context.project.var(id);
+  var.bits_of = byte;
+  var.bit = bit;
+  var.field = context.project.var(byte).field;
+  var.is_bit = true;
+  context.scopes.named(record)->bits.push_back(id);
+  context.types().edit(record).bits.push_back({var.name, var.field, var.bit});
+}
+
+VarId addByteOfBits(Context& context, TypeId record, VarId first) {
+  Project& project = context.project;
+  const Var var = project.var(first);
+  Var byte;
+  byte.name = context.names().intern("__bits_" + spelled(context, var.name));
+  byte.loc = var.loc;
+  byte.type = types::kByte;
+  byte.storage = Storage::Field;
+  byte.retain = var.retain;
+  byte.persistent = var.persistent;
+  byte.pou = var.pou;
+  byte.record = var.record;
+  byte.read = byte.written = true;
+  byte.holds_bits = true;
+  const VarId made{static_cast<uint32_t>(project.vars.size())};
+  project.vars.push_back(byte);
+  if (var.pou) project.pou(var.pou).vars.push_back(made);
+  addField(context, record, made);
+  return made;
+}
+
 void addBit(Context& context, TypeId record, VarId id) {
   Project& project = context.project;
   NamedType& named = *context.scopes.named(record);
@@ -37,31 +68,9 @@ void addBit(Context& context, TypeId record, VarId id) {
   const VarId last = named.bits.empty() || is_union ? VarId{} : named.bits.back();
   if (last && project.var(last).bit < 7 && project.var(last).bits_of == named.fields.back() &&
       project.var(last).retain == var.retain && project.var(last).persistent == var.persistent) {
-    var.bits_of = project.var(last).bits_of;
-    var.bit = static_cast<uint8_t>(project.var(last).bit + 1);
-    var.field = project.var(last).field;
-  } else {
-    Var byte;
-    byte.name = context.names().intern("__bits_" + spelled(context, var.name));
-    byte.loc = var.loc;
-    byte.type = types::kByte;
-    byte.storage = Storage::Field;
-    byte.retain = var.retain;
-    byte.persistent = var.persistent;
-    byte.pou = var.pou;
-    byte.record = var.record;
-    byte.read = byte.written = true;
-    byte.holds_bits = true;
-    const VarId made{static_cast<uint32_t>(project.vars.size())};
-    project.vars.push_back(byte);
-    if (var.pou) project.pou(var.pou).vars.push_back(made);
-    addField(context, record, made);
-    var.bits_of = made;
-    var.bit = 0;
-    var.field = project.var(made).field;
+    return addBitAt(context, record, id, project.var(last).bits_of, static_cast<uint8_t>(project.var(last).bit + 1));
   }
-  named.bits.push_back(id);
-  context.types().edit(record).bits.push_back({var.name, var.field, var.bit});
+  addBitAt(context, record, id, addByteOfBits(context, record, id), 0);
 }
 
 // The byte that a member of type BIT is in, as all its bits are declared; each must have a constant value.

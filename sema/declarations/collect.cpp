@@ -292,10 +292,7 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
       const Loc loc = context.tree().loc(decl);
       const SectionKind section = context.tree().as<SectionDecl>(decl).section;
       if (section == SectionKind::Config) return;  // instance_places.cpp
-      if (section == SectionKind::Access) {
-        context.report(Diag::AccessPaths, loc);
-        return;
-      }
+      if (section == SectionKind::Access) return;  // access_paths.cpp
       const std::string stem = listName(context.project.sources.path(file));
       if (library == kNoLibrary) {
         const ListId list = listNamed(context, stem, file, loc, context.scopes.qualifiers);

@@ -65,7 +65,12 @@ bool isNamedBit(const Context& context, NameId name);
 bool isBit(Context& context, TypeExprId written);
 bool mayBeBit(Context& context, const Var& var, TypeExprId written);
 void addBit(Context& context, TypeId record, VarId id);
+VarId addByteOfBits(Context& context, TypeId record, VarId first);
+void addBitAt(Context& context, TypeId record, VarId id, VarId byte, uint8_t bit);
 uint8_t initialBits(Context& context, TypeId record, VarId byte);
+
+// ---- relative_places.cpp: the fields of a structure whose members have places (AT %B2), with what is between them
+void placeFields(Context& context, TypeId record, std::span<const VarId> members);
 
 // ---- objects.cpp
 // METHODs, ACTIONs and PROPERTYs of a POU: a Pou each.

@@ -305,10 +305,14 @@ void fillRecord(Context& context, TypeId type, TypeExprId id) {
     project.var(var).record = type;
     project.var(var).storage = Storage::Field;
   }
+  bool placed = false;
   for (const VarId var : vars) {
     ensureVarType(context, var);
-    addField(context, type, var);
+    const VarDecl& decl = context.tree().as<VarDecl>(project.var(var).decl);
+    placed = placed || (decl.located && !decl.address.incomplete);
   }
+  if (placed) return placeFields(context, type, vars);
+  for (const VarId var : vars) addField(context, type, var);
 }
 
 // Types written in place, in VAR: a name of their own for generated code.

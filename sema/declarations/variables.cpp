@@ -268,7 +268,7 @@ void ensureVarType(Context& context, VarId id) {
       var.open_address = true;
       var.image.area = decl.address.area;
       var.image.is_bit = type != types::kError && context.types().kind(type) == TypeKind::Bool;
-    } else if (decl.located) {
+    } else if (decl.located && !var.record) {
       if (const auto view = resolveAddress(there, decl.address, decl.address_loc, type)) {
         var.image = *view;
       } else {
@@ -389,6 +389,7 @@ void declarePou(Context& context, PouId id) {
     const SectionDecl& section = tree.as<SectionDecl>(tree.list(decl.sections)[s]);
     // Forbids sections that a POU cannot have. IEC 61131-3 ed. 3 table 14.
     if (section.section == SectionKind::Global && mayHoldGlobals(context, kind)) continue;  // collect.cpp
+    if (section.section == SectionKind::Access && kind == PouKind::Program) continue;       // access_paths.cpp
     const bool misplaced = section.section == SectionKind::Global || section.section == SectionKind::Access ||
                            section.section == SectionKind::Config ||
                            (section.section == SectionKind::Stat && context.iec()) ||

@@ -152,6 +152,7 @@ bool Symbols::findAddress(std::string_view path, Variable& variable, std::string
     bit = byte % 8;  // %IX5 is byte 0, bit 5
     byte /= 8;
   }
+  if (type != &kBoolType) byte = byte < UINT32_MAX ? byte * type->size : byte;  // %QW2 is the bytes 4 and 5
   if (!good || read.ptr != end) {
     error = quoted(path) + " is no address; write `%IX0.0`, `%QB1`, `%MW2`";
     return false;

@@ -70,7 +70,8 @@ enum rung_field_flags {
   RUNG_FIELD_PERSISTENT = 8,
   RUNG_FIELD_INPUT = 16,
   RUNG_FIELD_OUTPUT = 32,
-  RUNG_FIELD_BIT = 0xf00 /* of a BOOL that is one bit of the byte at its offset: the bit's number + 1; else 0 */
+  RUNG_FIELD_READ_ONLY = 64, /* of a VAR_ACCESS: may be looked at, not set */
+  RUNG_FIELD_BIT = 0xf00     /* of a BOOL that is one bit of the byte at its offset: the bit's number + 1; else 0 */
 };
 #define RUNG_FIELD_BIT_SHIFT 8
 typedef struct rung_field {
