@@ -99,6 +99,8 @@ class Describer {
         const ir::ProgramInstance& program = module_.programs[p];
         if (program.task == i + 1 && program.body) code_ += runOf(program, facts_.program_block[p]);
       }
+      for (const ir::BlockTask& block : module_.block_tasks)
+        if (block.task == i + 1) code_ += callOf(block.run);
       code_ += "}\n";
       row(task_rows_, {number(task.name), kTaskKinds[task.kind], number(task.priority), signedNumber(task.interval_ns),
                        signedNumber(task.watchdog_ns), number(task.sensitivity), number(task.trigger),

@@ -86,12 +86,18 @@ class Describer {
       row.element = type(info->base);
     } else if (info->kind == TypeKind::Record) {
       row.first = static_cast<uint32_t>(out_.fields.size());
-      row.count = static_cast<uint32_t>(info->fields.size());
+      row.count = static_cast<uint32_t>(info->fields.size() + info->bits.size());
+      for (uint32_t i = 0; i < info->fields.size(); ++i) row.count -= holdsBits(*info, i) ? 1 : 0;
       out_.fields.resize(row.first + row.count);
-      for (uint32_t i = 0; i < row.count; ++i) {
+      uint32_t next = row.first;
+      const auto add = [&](rung_field made) { out_.fields[next++] = made; };  // type() may have added fields
+      for (uint32_t i = 0; i < info->fields.size(); ++i) {
         const Field& field = info->fields[i];
-        const rung_field made{text(field.name), type(field.type), field.offset, flags(field)};
-        out_.fields[row.first + i] = made;  // type() may have added fields
+        if (!holdsBits(*info, i)) add({text(field.name), type(field.type), field.offset, flags(field)});
+        for (const types::BitMember& bit : info->bits)  // instead of the byte that holds them
+          if (bit.field == i)
+            add({text(bit.name), type(types::kBool), field.offset,
+                 flags(field) | (bit.bit + 1u) << RUNG_FIELD_BIT_SHIFT});
       }
     }
     const TypeKind plain = types_.plainKind(id);
@@ -101,6 +107,10 @@ class Describer {
     row.length = info->length;
     out_.types[index] = row;
     return index;
+  }
+
+  static bool holdsBits(const TypeInfo& record, uint32_t field) {
+    return std::any_of(record.bits.begin(), record.bits.end(), [&](const auto& bit) { return bit.field == field; });
   }
 
   static uint32_t flags(const Field& field) {
@@ -221,6 +231,21 @@ class Describer {
       rung_symbol row = inBlock(located.type, 0, located.byte);
       row.place = static_cast<uint8_t>(RUNG_IN_INPUTS + located.area);
       if (located.bit != kNoBit) row.bit = static_cast<uint8_t>(located.bit);
+      add(name, row, path);
+    }
+    for (const AccessPath& access : module_.access_paths) {
+      std::string name, path;
+      if (access.configuration) path.append(module_.names.text(access.configuration)).append(".");
+      if (access.prefix) name.append(module_.names.text(access.prefix)).append(".");
+      name += module_.names.text(access.name);
+      const bool in_image = access.root == AccessPath::Root::Image;
+      const uint32_t block = in_image                                   ? 0
+                             : access.root == AccessPath::Root::Program ? blocks_.program_block[access.index]
+                                                                        : blocks_.list_block[access.index];
+      rung_symbol row = inBlock(access.type, block, access.offset);
+      if (in_image) row.place = static_cast<uint8_t>(RUNG_IN_INPUTS + access.index);
+      if (access.bit != kNoBit) row.bit = static_cast<uint8_t>(access.bit);
+      if (access.read_only) row.flags = RUNG_FIELD_READ_ONLY;
       add(name, row, path);
     }
     // The order of the input files shows nowhere: programs stay first within equal names.

@@ -257,6 +257,22 @@ struct Located {
   uint32_t owner_program = 0; /* index into programs + 1; 0: a global or unnamed */
 };
 
+// A name of VAR_ACCESS: a symbol that means a part of a list, of a program instance or of the image.
+struct AccessPath {
+  NameId name, prefix, configuration;  // `prefix`: the program instance that declares it
+  TypeId type;
+  enum class Root : uint8_t { Image, List, Program } root = Root::Image;
+  uint32_t index = 0;  // of the list or program; the image: its area
+  uint64_t offset = 0;
+  uint32_t bit = kNoBit;
+  bool read_only = true;
+};
+// A block of a program that a task of its own runs: a function without parameters.
+struct BlockTask {
+  uint32_t task = 0;  // index + 1
+  BodyId run;
+};
+
 // The objects that have a type id, each behind what it extends: the number of a class is its index + 1.
 struct Class {
   TypeId record;
@@ -282,6 +298,8 @@ struct Module {
   std::vector<ProgramInstance> programs;
   std::vector<Task> tasks;
   std::vector<Located> located;
+  std::vector<AccessPath> access_paths;
+  std::vector<BlockTask> block_tasks;
   std::deque<Data> data;
   std::vector<Class> classes;
   BodyId exit;  // a function without parameters that ends all objects (FB_Exit), or none

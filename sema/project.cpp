@@ -91,6 +91,7 @@ void check(Project& project) {
       checkObjectMembers(context, PouId{i});
   checkBodies(context);
   resolveInstancePlaces(context);
+  resolveAccessPaths(context);
   checkAfterBodies(context);
   checkProgramsRun(context);
 }

@@ -76,13 +76,16 @@ struct Var {
   VarId external;      // VAR_EXTERNAL: the global it names
   TypeId record;       // field of a structure or union: its type
   AccessLevel access = AccessLevel::None;
-  CallId constructor;           // of a block whose FB_Init has parameters of its own: what the declaration gives them
+  CallId constructor;  // of a block whose FB_Init has parameters of its own: what the declaration gives them
   uint32_t element_constructors = 0;  // of an array: how many calls from `constructor` on, one for each element
-  TypeId any;                   // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
-  VarId bounds;                 // ARRAY[*]: the first of the hidden variables with its bounds, two a dimension
-  bool hidden_input = false;    // of a function: such a bound, passed behind the pins
-  VarId edge_memory;            // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
-  std::vector<NameId> aliases;  // {alias 'R'}
+  TypeId any;                         // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
+  VarId bounds;                       // ARRAY[*]: the first of the hidden variables with its bounds, two a dimension
+  bool hidden_input = false;          // of a function: such a bound, passed behind the pins
+  VarId bits_of;                      // a member of type BIT: the hidden byte whose `bit` it is; `field` is that byte's
+  uint8_t bit = 0;
+  bool is_bit = false, holds_bits = false;  // is such a member; is such a byte
+  VarId edge_memory;                        // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
+  std::vector<NameId> aliases;              // {alias 'R'}
 };
 
 struct Property {
@@ -206,6 +209,26 @@ struct InstancePlace {
   Loc loc;  // in VAR_CONFIG
 };
 
+// A name of VAR_ACCESS and the variable that it means.
+struct AccessPath {
+  enum class Root : uint8_t { Project, List, Instance } root = Root::Project;  // Project: not resolved, or an address
+  uint32_t index = 0;                                                          // of the list or the instance
+  uint64_t offset = 0;                                                         // in its memory
+  int bit = -1;                                                                // of a member of type BIT
+  bool located = false, read_only = true;
+  ImageView image;                     // when located
+  NameId name, prefix, configuration;  // `prefix`: the program instance whose VAR_ACCESS it is
+  TypeId type;
+  Loc loc;
+};
+// PROGRAM p WITH t : Main (block WITH task): an instance of a block that a task of its own runs.
+struct BlockTask {
+  uint32_t instance;  // index into Project::instances
+  VarId block;        // a field of its program
+  uint32_t task;      // index into Project::tasks + 1
+  Loc loc;
+};
+
 // One actual of a call, in the order of the callee's pins, EN and ENO apart.
 struct Binding {
   VarId pin;
@@ -215,13 +238,14 @@ struct Binding {
 };
 // Attempt: the first binding is a pointer to an object, the second the place that takes it when the object is a `pou`
 // (none: any), and 0 when not; the result is whether it was.
-enum class CallKind : uint8_t { Function, Instance, Program, Operator, Assertion, Method, Attempt };
+enum class CallKind : uint8_t { Function, Instance, Program, Operator, Assertion, Method, Attempt, Delete };
 enum class Assertion : uint8_t { Assert, AssertEq, AssertNear };
 struct Call {
   CallKind kind = CallKind::Function;
-  PouId pou;                      // callee; the instance of a generic function
-  ExprId instance;                // Instance: the FB variable; Method: the object, none: the one at hand
-  bool is_virtual = false;        // Method, Instance: the object may be of a derived type
+  PouId pou;                // callee; the instance of a generic function
+  ExprId instance;          // Instance: the FB variable; Method: the object, none: the one at hand; Delete: pointer
+  PouId owns;               // Delete: tells whether memory is of the pool; `pou` gives it back
+  bool is_virtual = false;  // Method, Instance: the object may be of a derived type
   std::vector<Binding> bindings;  // Operator: operands in order, pin none
   ExprId en;                      // EN := …
   ExprId eno;                     // ENO => …
@@ -255,6 +279,7 @@ struct Options {
   std::span<const LibraryAlias> library_aliases;
   CallConstant call_constant;                // none: calls of functions are no constants
   bool free_subranges = false;               // a subrange takes all values of its base, as in TwinCAT
+  uint32_t pool_bytes = 0;                   // of the pool behind __NEW; 0: as the library has it
   bool with_tests = false;                   // the program is for `rung test`
   std::vector<std::string> mocks;            // … of the tests that name exactly these
   int64_t default_interval_ns = 10'000'000;  // of the task that is made when there is no CONFIGURATION
@@ -279,6 +304,8 @@ struct Project {
   std::vector<ProgramInstance> instances;
   std::deque<Call> calls;
   std::vector<InstancePlace> instance_places;
+  std::vector<AccessPath> access_paths;
+  std::vector<BlockTask> block_tasks;
   std::vector<ExprId> type_inits;                // by TypeId: the declared initial value of a named type, or none
   std::vector<std::vector<ExprId>> field_inits;  // by TypeId of a record: declared initial value per field, or none
   // Who calls whom, in the order of the calls, with the place of the call: for the recursion rule.

@@ -57,6 +57,7 @@ struct NamedType {
   RegionId region;
   NameMap members;            // of records: Var; of enumerations: EnumValue
   std::vector<VarId> fields;  // of records, by field index
+  std::vector<VarId> bits;    // of records: members of type BIT
 };
 
 struct Substitution {  // of an instance of a generic function

@@ -77,6 +77,7 @@ Loc Tree::begin(ExprId id) const {
       case ExprKind::Repeat: id = as<RepeatExpr>(id).count; break;
       case ExprKind::Convert: id = as<ConvertExpr>(id).operand; break;
       case ExprKind::AnyValue: id = as<AnyValueExpr>(id).value; break;
+      case ExprKind::New:
       case ExprKind::AddressOf:
       case ExprKind::Bound:
       case ExprKind::Error:

@@ -146,6 +146,7 @@ struct IndexExpr {  // base[i, j]; h.bits of a character of a text: kWritesChara
   Slice<ExprId> indices;
 };
 constexpr uint8_t kWritesCharacter = 1;  // sema
+constexpr uint8_t kBitMember = 1;        // sema
 struct ThisExpr {
   ExprHeader h;
 };
@@ -156,7 +157,9 @@ struct DerefExpr {
   ExprHeader h;
   ExprId base;
 };
-struct BitAccessExpr {  // width 1: bit, 8, 16, 32: part of a bit string; position in units of width
+// width 1: bit, 8, 16, 32: part of a bit string; position in units of width. h.bits: kBitMember: sema made it, `base`
+// names a member of type BIT and means the byte that holds it.
+struct BitAccessExpr {
   ExprHeader h;
   ExprId base;
   uint32_t position;
@@ -232,10 +235,18 @@ struct BoundExpr {
   ExprId array;
   uint32_t index;  // 0, 1: lower and upper bound of the first dimension, 2, 3: of the second, …
 };
-struct AnyValueExpr {  // h.type: __SYSTEM.AnyType
+struct AnyValueExpr {  // h.type: __SYSTEM.AnyType, or with `facts` __SYSTEM.VAR_INFO
   ExprHeader h;
   ExprId value;
+  ExprId facts;         // a StructInit: all members but the address
   uint32_t type_class;  // __SYSTEM.TYPE_CLASS
+};
+struct NewExpr {  // __NEW(what), __NEW(what, count)
+  ExprHeader h;
+  TypeExprId what;
+  ExprId count;        // none: one
+  CallId constructor;  // sema: the arguments of FB_Init
+  CallId memory;       // sema: a call of __SYSTEM.Allocate, without its arguments
 };
 struct AddressOfExpr {  // h.type: a pointer or reference to the place's type
   ExprHeader h;
@@ -464,12 +475,13 @@ struct SectionDecl {
 enum class EdgeKind : uint8_t { None, Rising, Falling };
 struct VarDecl {
   DeclHeader h;
-  Slice<Ident> names;  // empty: an unnamed located variable; VAR_CONFIG: the path; VAR_ACCESS: the name, then the path
+  Slice<Ident>
+      names;  // empty: an unnamed located variable; VAR_CONFIG: the path; VAR_ACCESS: the name, and `init` is the path
   TypeExprId type;
   ExprId init;  // none: the type's default
   EdgeKind edge;
   bool located;
-  DirectAddress address;  // when located
+  DirectAddress address;  // when located; of a member of a structure with a size: its place there
   Loc address_loc;
 };
 
@@ -495,7 +507,8 @@ struct ProgramInstanceDecl {  // PROGRAM name WITH task : type(args)
   Ident task;  // none: no WITH
   Slice<Ident> type;
   Slice<Argument> arguments;
-  uint8_t section_bits;  // PROGRAM RETAIN name
+  Slice<Ident> block_tasks;  // (block WITH task, …): both names, in turn
+  uint8_t section_bits;      // PROGRAM RETAIN name
 };
 
 // ---- the tree -------------------------------------------------------------------------------------------------

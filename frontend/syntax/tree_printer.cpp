@@ -282,6 +282,10 @@ void Printer::expr(ExprId id, int depth) {
     case ExprKind::Convert: expr(tree_.as<ConvertExpr>(id).operand, depth + 1); break;
     case ExprKind::Bound: expr(tree_.as<BoundExpr>(id).array, depth + 1); break;
     case ExprKind::AnyValue: expr(tree_.as<AnyValueExpr>(id).value, depth + 1); break;
+    case ExprKind::New:
+      typeExpr(tree_.as<NewExpr>(id).what, depth + 1);
+      if (tree_.as<NewExpr>(id).count) expr(tree_.as<NewExpr>(id).count, depth + 1);
+      break;
     case ExprKind::AddressOf: expr(tree_.as<AddressOfExpr>(id).place, depth + 1); break;
   }
   text += ')';

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <charconv>
+
 #include "frontend/text/parser.h"
 #include "frontend/text/recover.h"
 
@@ -381,8 +383,12 @@ DeclId Parser::parseVar(SectionKind section) {
       if (standard_ == Standard::Codesys && textOf(t_).ends_with('*')) {
         if (!address_told_) diagnostics_.report(Diag::OpenAddressInStructure, here(), {textOf(t_)});
         address_told_ = true;
+      } else if (textOf(t_).ends_with('*')) {
+        d.located = true;
+        d.address_loc = here();
+        readAddress(textOf(t_), here(), diagnostics_, d.address, numbers_);
       } else {
-        slip(Diag::NotSupportedYet, t_, {"AT in a structure"});
+        readRelativeAddress(d);
       }
       advance();
     } else if (at(Tok::Address)) {
@@ -420,17 +426,9 @@ DeclId Parser::parseVar(SectionKind section) {
         d.address.path = tree_.addList<uint32_t>(numbers_);
       advance();
     } else {
-      while (isName(kind())) {
-        idents_.push_back(ident(t_));
-        advance();
-        if (at(Tok::LeftBracket)) {
-          while (!at(Tok::RightBracket) && !at(Tok::End) && !at(Tok::Semicolon)) advance();
-          accept(Tok::RightBracket);
-        }
-        if (!accept(Tok::Dot)) break;
-      }
+      parseAccessPath(d);
     }
-    expect(Tok::Colon);
+    if (!panic_) expect(Tok::Colon);
   }
   lost();
   if (idents_.size() > first) d.h.loc = idents_[first].loc;
@@ -444,9 +442,9 @@ DeclId Parser::parseVar(SectionKind section) {
       d.edge = at(Tok::REdge) ? EdgeKind::Rising : EdgeKind::Falling;
       advance();
     }
-    if (!panic_ && section == SectionKind::Access && (at(Tok::ReadOnly) || at(Tok::ReadWrite))) {
-      d.h.bits = at(Tok::ReadOnly) ? 1 : 0;
-      advance();
+    if (section == SectionKind::Access) {
+      d.h.bits = at(Tok::ReadWrite) ? 0 : 1;
+      if (!panic_ && (at(Tok::ReadOnly) || at(Tok::ReadWrite))) advance();
     }
   }
   if (!d.type) d.type = tree_.add<TypeExprId>(ErrorTypeExpr{{TypeExprKind::Error, 0, 0, d.h.loc, {}}});
@@ -498,6 +496,65 @@ void Parser::syncDeclaration(Tok end) {
     if (at(end) || endsDeclarations(kind())) return;
     if (atLineStart() && beginsDeclaration(t_)) return;
   }
+}
+
+// AT %B2, %W1, %X3.0 of a member: its place in the structure, counted in the size that is named.
+void Parser::readRelativeAddress(VarDecl& d) {
+  const std::string_view text = textOf(t_);
+  d.address_loc = here();
+  d.address.size = text.size() > 1 ? static_cast<char>(text[1] & ~0x20) : ' ';
+  numbers_.clear();
+  bool good = std::string_view("XBWDL").find(d.address.size) != std::string_view::npos && text.size() > 2;
+  for (size_t i = 2; good && i < text.size();) {
+    uint32_t number = 0;
+    const auto read = std::from_chars(text.data() + i, text.data() + text.size(), number);
+    good = read.ec == std::errc{} && number < (1u << 24);
+    numbers_.push_back(number);
+    i = static_cast<size_t>(read.ptr - text.data());
+    if (i == text.size()) break;
+    good = good && text[i] == '.' && ++i < text.size();
+  }
+  const bool bit = d.address.size == 'X';
+  good = good && !numbers_.empty() && numbers_.size() <= (bit ? 2u : 1u) && (numbers_.size() < 2 || numbers_[1] < 8);
+  if (!good) {
+    fail(Diag::RelativeAddress, t_, {text});
+    return;
+  }
+  d.located = true;
+  d.address.size_given = true;
+  d.address.path = tree_.addList<uint32_t>(numbers_);
+}
+
+// path = {name "."} (name ["[" expr {"," expr} "]"] {"." …} | address)
+void Parser::parseAccessPath(VarDecl& d) {
+  ExprId path;
+  if (!isName(kind())) fail(Diag::MissingName, t_, {describe(t_)});
+  while (!panic_ && isName(kind())) {
+    const Ident name = ident(t_);
+    ExprHeader header = exprHeader(path ? ExprKind::Member : ExprKind::Name, name.loc);
+    path = path ? tree_.add<ExprId>(MemberExpr{header, path, name.name, {}})
+                : tree_.add<ExprId>(NameExpr{header, name.name, {}});
+    advance();
+    if (at(Tok::LeftBracket)) {
+      advance();
+      const size_t first = exprs_.size();
+      do {
+        exprs_.push_back(parseExpr());
+      } while (!panic_ && accept(Tok::Comma));
+      closeParen(Tok::RightBracket, false);
+      path = tree_.add<ExprId>(IndexExpr{exprHeader(ExprKind::Index, name.loc), path, listFrom(exprs_, first)});
+    }
+    if (panic_ || !accept(Tok::Dot)) break;
+    if (at(Tok::Address)) {  // the resource, then an address
+      d.located = true;
+      d.address_loc = here();
+      if (readAddress(textOf(t_), here(), diagnostics_, d.address, numbers_))
+        d.address.path = tree_.addList<uint32_t>(numbers_);
+      advance();
+      return;
+    }
+  }
+  d.init = path;
 }
 
 // ---- types

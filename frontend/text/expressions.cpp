@@ -248,8 +248,10 @@ ExprId Parser::parsePostfix(ExprId base) {
                                                  static_cast<uint32_t>(value.integer & 63), 1});
           advance();
         } else if (at(Tok::Address)) {
-          // %X3 %B1 %W0 %D0
-          const std::string_view part = textOf(t_);
+          // %X3 %B1 %W0 %D0; the lexer takes the `.7` of `%B1.7` for a part of an address
+          const std::string_view token = textOf(t_);
+          const std::string_view part = token.substr(0, token.find('.'));
+          const std::string_view bit = token.substr(std::min(part.size() + 1, token.size()));
           const char size = part.size() > 2 ? static_cast<char>(part[1] & ~0x20) : '\0';
           const uint32_t width = size == 'X' ? 1 : size == 'B' ? 8 : size == 'W' ? 16 : size == 'D' ? 32 : 0;
           uint32_t position = 0;
@@ -258,9 +260,17 @@ ExprId Parser::parsePostfix(ExprId base) {
             good = good && c >= '0' && c <= '9';
             position = position * 10 + static_cast<uint32_t>(c - '0');
           }
-          if (!good) fail(Diag::AddressForm, t_, {part});
+          good = good && bit.size() <= 2 && bit.find_first_not_of("0123456789") == std::string_view::npos;
+          good = good && token.size() == part.size() + (bit.empty() ? 0 : bit.size() + 1);
+          if (!good) fail(Diag::AddressForm, t_, {token});
           base = tree_.add<ExprId>(BitAccessExpr{exprHeader(ExprKind::BitAccess, at_member), base, good ? position : 0,
                                                  static_cast<uint8_t>(good ? width : 1)});
+          if (good && !bit.empty()) {
+            uint32_t number = 0;
+            for (const char c : bit) number = number * 10 + static_cast<uint32_t>(c - '0');
+            const Loc at_bit = Loc{at_member.offset + static_cast<uint32_t>(part.size()) + 1};
+            base = tree_.add<ExprId>(BitAccessExpr{exprHeader(ExprKind::BitAccess, at_bit), base, number, 1});
+          }
           advance();
         } else {
           if (same_line)
@@ -302,6 +312,12 @@ ExprId Parser::parsePostfix(ExprId base) {
         }
         Loc end;
         height_ = 0;
+        if (isNew(base)) {
+          base = parseNew(base);
+          height = std::max(height, height_);
+          --expr_depth_;
+          break;
+        }
         const Slice<Argument> arguments = parseArguments(end);
         height = std::max(height, height_);
         --expr_depth_;
@@ -310,6 +326,24 @@ ExprId Parser::parsePostfix(ExprId base) {
       }
     }
   }
+}
+
+bool Parser::isNew(ExprId callee) const {
+  return tree_.kind(callee) == ExprKind::Name && sameIdentifier(names_.text(tree_.as<NameExpr>(callee).name), "__NEW");
+}
+
+// new = "__NEW" "(" type ["," expr] ")"
+ExprId Parser::parseNew(ExprId callee) {
+  NewExpr node{};
+  node.h = exprHeader(ExprKind::New, tree_.loc(callee));
+  advance();
+  const bool was_in_variable = in_variable_;
+  in_variable_ = true;  // what stands behind a block's name are arguments of FB_Init
+  node.what = parseType();
+  in_variable_ = was_in_variable;
+  if (!panic_ && accept(Tok::Comma)) node.count = parseExpr();
+  closeParen(Tok::RightParen, false);
+  return tree_.add<ExprId>(node);
 }
 
 // arguments = "(" [argument {"," argument} [","]] ")"
@@ -345,10 +379,16 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
     height = std::max(height, height_);
     arguments_.push_back(a);
     if (at(Tok::With) && !panic_) {  // PROGRAM p : Main (block WITH task)
-      slip(Diag::NotSupportedYet, t_, {"a block in a task of its own (`WITH`)"});
+      const ExprId block = a.value;
+      const bool named = block && tree_.kind(block) == ExprKind::Name && !a.pin.name;
+      if (!in_program_instance_ || !named || !isName(peek())) fail(Diag::StrayToken, t_, {describe(t_)});
       arguments_.pop_back();
       advance();
-      if (isName(kind())) advance();
+      if (!panic_) {
+        block_tasks_.push_back({tree_.as<NameExpr>(block).name, a.loc});
+        block_tasks_.push_back(ident(t_));
+        advance();
+      }
     }
     if (!panic_) {
       if (at(Tok::RightParen)) break;

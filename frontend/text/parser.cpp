@@ -484,7 +484,13 @@ DeclId Parser::parseProgramInstance() {
     if (!panic_) expect(Tok::Colon);
     if (!panic_) parseNamePath(d.type);
     Loc end;
-    if (!panic_ && at(Tok::LeftParen)) d.arguments = parseArguments(end);
+    if (!panic_ && at(Tok::LeftParen)) {
+      in_program_instance_ = true;
+      d.arguments = parseArguments(end);
+      in_program_instance_ = false;
+      d.block_tasks = tree_.addList<Ident>(block_tasks_);
+      block_tasks_.clear();
+    }
   }
   endStatement(nullptr);
   return tree_.add<DeclId>(d);

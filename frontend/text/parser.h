@@ -156,6 +156,10 @@ class Parser {
   ExprId parseExpr(uint32_t least = 1);
   ExprId parseUnary();
   ExprId parsePostfix(ExprId base);
+  void parseAccessPath(VarDecl& d);
+  void readRelativeAddress(VarDecl& d);
+  bool isNew(ExprId callee) const;
+  ExprId parseNew(ExprId callee);
   ExprId parsePrimary();
   ExprId parseTyped();
   ExprId parseNumber(NameId prefix, bool negative, Loc loc);
@@ -191,13 +195,15 @@ class Parser {
   std::vector<Token> tokens_;
   Token* t_ = nullptr;
   bool panic_ = false;
-  bool declared_in_body_ = false;  // said once for a POU
-  bool in_variable_ = false;       // the type of a variable is being read: it may have arguments
-  uint32_t in_property_ = 0;       // its accessors are being read
-  bool in_structure_ = false;      // a STRUCT or UNION is being read
-  bool address_told_ = false;      // said once for a structure
-  bool lost_ = false;              // declarations of the POU or TYPE entry at hand could not be read
-  Tok pou_end_ = Tok::End;         // the END_… of the POU at hand
+  bool declared_in_body_ = false;     // said once for a POU
+  bool in_variable_ = false;          // the type of a variable is being read: it may have arguments
+  uint32_t in_property_ = 0;          // its accessors are being read
+  bool in_program_instance_ = false;  // PROGRAM p : Main (…) of a resource is being read
+  std::vector<Ident> block_tasks_;    // its blocks with tasks of their own, each followed by the task
+  bool in_structure_ = false;         // a STRUCT or UNION is being read
+  bool address_told_ = false;         // said once for a structure
+  bool lost_ = false;                 // declarations of the POU or TYPE entry at hand could not be read
+  Tok pou_end_ = Tok::End;            // the END_… of the POU at hand
   enum class Known : uint8_t { NotYet, Yes, No } pou_closes_ = Known::NotYet;  // whether it has that END_…
   const Token* last_error_ = nullptr;
   const Token* statement_start_ = nullptr;

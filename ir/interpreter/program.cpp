@@ -116,6 +116,8 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
     for (uint32_t p = 0; p < module.programs.size(); ++p) {
       if (module.programs[p].task == i + 1 && module.programs[p].body) runOf(steps, p);
     }
+    for (const BlockTask& block : module.block_tasks)
+      if (block.task == i + 1) steps.push_back({Step::CallOf, block.run, 0});
     of_task.push_back(translator.translateSteps(steps));
   }
   for (const Description::Test& test : description->tests) {

@@ -67,6 +67,39 @@ void ModuleLowering::addActivation(uint32_t program, const sema::ProgramInstance
   }
 }
 
+void ModuleLowering::addBlockTasks() {
+  for (const sema::BlockTask& task : project.block_tasks) {
+    if (program_of_instance_[task.instance] == 0) continue;
+    const uint32_t program = program_of_instance_[task.instance] - 1;
+    const sema::Var& block = project.var(task.block);
+    module.bodies.emplace_back();
+    const BodyId id{static_cast<uint32_t>(module.bodies.size() - 1)};
+    Body& body = module.bodies.back();
+    std::string unique(module.names.text(module.programs[program].name));
+    unique.append("__").append(module.names.text(block.name)).append("__run");
+    if (NameId resource = module.programs[program].resource)
+      unique = std::string(module.names.text(resource)) + "__" + unique;
+    body.name = module.names.intern(unique);
+    body.spelling = block.name;
+    body.kind = BodyKind::Function;
+    body.loc = task.loc;
+    body.file = project.sources.fileOf(body.loc);
+    BodyLowering lowering(*this, body, {});
+    lowering.lowerBlockTask(program, task.block);
+    module.block_tasks.push_back({task.task, id});
+  }
+}
+
+void BodyLowering::lowerBlockTask(uint32_t program, sema::VarId block) {
+  const Loc loc = body_.loc;
+  const sema::Var& var = project_.var(block);
+  const ExprId place = field(asBase(programPlace(program, loc), var.pou, loc), var.field, strip(var.type), loc);
+  const BodyId code = in_.bodyOf(in_.pouOfRecord(strip(var.type)));
+  append({.kind = StmtKind::Call, .loc = loc, .a = code.index, .b = place.index});
+  body_.first = block_.first;
+  finish();
+}
+
 ExprId BodyLowering::programPlace(uint32_t program, Loc loc) {
   return add({.kind = ExprKind::Program, .type = in_.module.programs[program].record, .loc = loc, .a = program});
 }

@@ -90,6 +90,7 @@ bool BodyLowering::isApart(rung::ExprId id, sema::VarId variable) const {
     case rung::ExprKind::Address:
     case rung::ExprKind::AddressOf:
     case rung::ExprKind::Bound:
+    case rung::ExprKind::New:
     case rung::ExprKind::AnyValue:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:

@@ -26,6 +26,7 @@ ExprId BodyLowering::lowerCall(rung::ExprId id, Target* target) {
       case sema::CallKind::Program: lowerBlockCall(call, node, lowerPlace(node.callee)); return {};
       case sema::CallKind::Assertion: lowerAssertion(call, node); return {};
       case sema::CallKind::Attempt: return lowerAttempt(call, loc);
+      case sema::CallKind::Delete: lowerDelete(call, loc); return {};
     }
     return {};
   };
@@ -327,7 +328,13 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
     TypeId pin_type = strip(pin.type);
     Mark mark = here();
     ExprId argument;
-    if (pin.section == SectionKind::Input) {
+    if (types_.isOpenArray(pin_type)) {
+      OpenArray array =
+          open ? noOpenArray(pin_type, loc)
+               : passOpenArray(binding->value, pin_type, pin.section == SectionKind::Input && !callee_is_pure);
+      argument = array.pointer;
+      hidden.insert(hidden.end(), array.bounds.begin(), array.bounds.end());
+    } else if (pin.section == SectionKind::Input) {
       if (open) {
         argument = defaultArgument(pin_id, loc);
       } else if (isAggregate(pin_type)) {
@@ -354,10 +361,6 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
         argument = lowerValue(binding->value);
         if (guard_ && mayFault(argument)) argument = toTemp(argument, loc);
       }
-    } else if (pin.section == SectionKind::InOut && types_.isOpenArray(pin_type)) {
-      OpenArray array = passOpenArray(binding->value, pin_type);
-      argument = array.pointer;
-      hidden.insert(hidden.end(), array.bounds.begin(), array.bounds.end());
     } else if (pin.section == SectionKind::InOut) {
       RUNG_INVARIANT(!open, "sema reports an open VAR_IN_OUT");
       argument = inOutPlace(binding->value, pin_type);
@@ -424,7 +427,7 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
     TypeId type = strip(pin.type);
     Loc at = tree_.loc(binding.value);
     if (types_.isOpenArray(type)) {
-      OpenArray array = passOpenArray(binding.value, type);
+      OpenArray array = passOpenArray(binding.value, type, false);
       assign(field(asBase(instance, pin.pou, at), pin.field, typeOf(array.pointer), at), array.pointer, at);
       for (uint32_t i = 0; i < array.bounds.size(); ++i) {
         const sema::Var& bound = project_.var({pin.bounds.index + i});
@@ -432,7 +435,7 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
       }
       continue;
     }
-    ExprId place = field(asBase(instance, pin.pou, at), pin.field, type, at);
+    ExprId place = pinPlace(instance, pin, at);
     if (pin.section == SectionKind::InOut) {
       ExprId variable = inOutPlace(binding.value, type);
       const Expr& expr = body_.expr(variable);
@@ -465,8 +468,7 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
   for (const sema::Binding& binding : call.bindings) {
     if (!binding.is_output || !binding.value) continue;
     const sema::Var& pin = project_.var(binding.pin);
-    storeOutput(binding.value, field(asBase(instance, pin.pou, loc), pin.field, strip(pin.type), loc), binding.negated,
-                loc);
+    storeOutput(binding.value, pinPlace(instance, pin, loc), binding.negated, loc);
   }
 }
 

@@ -223,7 +223,9 @@ void BodyLowering::construct(ExprId place, TypeId type) {
       return;  // the whole is not made yet
   }
   CallId given;
-  if (const sema::Var* var = constructedVar(place)) {
+  if (at.kind == ExprKind::Deref) {
+    given = given_;
+  } else if (const sema::Var* var = constructedVar(place)) {
     given = var->constructor;
     if (var->element_constructors != 0) given.index += element_;
   }

@@ -62,8 +62,9 @@ struct ModuleLowering {
   TypeTable& types;
   bool partial = false;  // a function alone: see lowerFunction
 
- private:
   void declareRecordsOf(TypeId type);
+
+ private:
   void addRecord(TypeId record);
   void addPrograms();
   void addLists();
@@ -79,20 +80,22 @@ struct ModuleLowering {
   void addActivation(uint32_t program, const sema::ProgramInstance* instance,
                      std::span<const sema::InstancePlace> places);
   void addLocated();
+  void addAccessPaths();
+  void addBlockTasks();
   std::string pathOf(sema::VarId var);
 
-  std::vector<BodyId> body_of_;                          // by PouId
-  std::unordered_map<uint32_t, BodyId> init_of_;         // by record TypeId
-  std::unordered_map<uint32_t, BodyId> exit_of_;         // by record TypeId
-  std::unordered_map<uint32_t, bool> has_exit_;          // by record TypeId
-  std::unordered_set<uint32_t> record_seen_;             // by TypeId
-  std::unordered_map<uint32_t, bool> zero_;              // by TypeId
+  std::vector<BodyId> body_of_;                                 // by PouId
+  std::unordered_map<uint32_t, BodyId> init_of_;                // by record TypeId
+  std::unordered_map<uint32_t, BodyId> exit_of_;                // by record TypeId
+  std::unordered_map<uint32_t, bool> has_exit_;                 // by record TypeId
+  std::unordered_set<uint32_t> record_seen_;                    // by TypeId
+  std::unordered_map<uint32_t, bool> zero_;                     // by TypeId
   std::unordered_map<uint64_t, const sema::Var*> constructed_;  // by record and field
-  std::vector<sema::PouId> pou_of_record_;               // by TypeId
-  std::vector<sema::ListId> list_of_record_;             // by TypeId
-  std::vector<uint32_t> list_index;                      // by ListId
-  std::vector<uint32_t> program_of_instance_;            // by sema instance: index in Module::programs + 1
-  std::unordered_map<uint32_t, uint32_t> instance_of_;   // by PouId: index in Module::programs
+  std::vector<sema::PouId> pou_of_record_;                      // by TypeId
+  std::vector<sema::ListId> list_of_record_;                    // by TypeId
+  std::vector<uint32_t> list_index;                             // by ListId
+  std::vector<uint32_t> program_of_instance_;                   // by sema instance: index in Module::programs + 1
+  std::unordered_map<uint32_t, uint32_t> instance_of_;          // by PouId: index in Module::programs
   std::vector<sema::PouId> to_lower_;
   std::vector<std::pair<sema::PouId, BodyId>> kind_tests_, block_calls_;
 };
@@ -112,6 +115,9 @@ class BodyLowering {
   // activation.cpp: the code of ProgramInstance::run and setup. `call` is none without connections.
   void lowerActivation(uint32_t program, BodyId code, rung::ExprId call, std::span<const sema::InstancePlace> places);
   void lowerSetup(uint32_t program, std::span<const sema::InstancePlace> places);
+
+  // A call of the block in a field of a program instance.
+  void lowerBlockTask(uint32_t program, sema::VarId block);
 
   // ---- building
   ExprId add(Expr expr);
@@ -158,6 +164,9 @@ class BodyLowering {
   ExprId characters(ExprId text, bool writes);
   ExprId varPlace(sema::VarId var, Loc loc);
   ExprId memberPlace(rung::ExprId expr);
+  // What the field of a variable is: a member of type BIT has a byte.
+  TypeId fieldType(const sema::Var& var) const;
+  ExprId pinPlace(ExprId instance, const sema::Var& pin, Loc loc);
   // The same place without operands that a later statement could change: indices and pointers go to temporaries.
   ExprId stable(ExprId place);
   bool mayFault(ExprId expr) const;
@@ -174,7 +183,9 @@ class BodyLowering {
     ExprId pointer;
     std::vector<ExprId> bounds;
   };
-  OpenArray passOpenArray(rung::ExprId argument, TypeId pin_type);
+  // `copies`: the callee must not see what happens to the variable meanwhile.
+  OpenArray passOpenArray(rung::ExprId argument, TypeId pin_type, bool copies);
+  OpenArray noOpenArray(TypeId pin_type, Loc loc);  // of an output that is left open: without elements
 
   // aliases.cpp
   // A place that is named without indices and pointers, so that it is the same whenever it is evaluated.
@@ -194,6 +205,11 @@ class BodyLowering {
   ExprId lowerConvert(rung::ExprId expr);
   ExprId lowerAddressOf(rung::ExprId expr);
   ExprId lowerAnyValue(rung::ExprId expr);
+
+  // dynamic_memory.cpp
+  ExprId lowerNew(rung::ExprId expr);
+  void lowerDelete(const sema::Call& call, Loc loc);
+  ExprId callPool(sema::PouId function, std::initializer_list<ExprId> arguments, Loc loc);
   ExprId convertValue(ExprId value, TypeId to, Loc loc);
   // A position in the open block. `effects` tells whether what came since could change a variable.
   struct Mark {
@@ -323,6 +339,7 @@ class BodyLowering {
   // matters. Checks count only then.
   ExprId guard_;
   uint32_t element_ = 0;  // of an array whose elements have arguments of their own for FB_Init: the one at hand
+  CallId given_;          // the arguments of FB_Init for what __NEW makes
   ExprId logical_;        // the temporary of the last AND or OR that needed one
   uint32_t effects_ = 0;  // statements so far that change more than temporaries
 };

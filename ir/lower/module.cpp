@@ -55,6 +55,7 @@ void ModuleLowering::run() {
     return module.body(a).loc.offset < module.body(b).loc.offset;
   });
   addActivations();
+  addBlockTasks();
   lowerBodies();
   for (List& list : module.lists) list.init = initOf(list.record);
   for (ProgramInstance& instance : module.programs) instance.init = initOf(instance.record);
@@ -65,6 +66,7 @@ void ModuleLowering::run() {
   markFaulting();
   addTasks();
   addLocated();
+  addAccessPaths();
   for (int area = 0; area < 3; ++area) module.image_bytes[area] = project.image_bytes[area];
   setPhaseSubject("", 0);
 }
@@ -350,7 +352,7 @@ BodyId ModuleLowering::initOf(TypeId type) {
       return;
     }
     if (var.storage != sema::Storage::Field && var.storage != sema::Storage::Global) return;
-    if (var.section == SectionKind::InOut) return;
+    if (var.section == SectionKind::InOut || var.is_bit) return;
     if (!var.init && isZero(var.type)) return;
     lowering.storeInitial(lowering.field(lowering.self(var.loc), var.field, var.type, var.loc), var.type, var.init,
                           true);
@@ -470,6 +472,29 @@ void ModuleLowering::addTasks() {
     made.watchdog_ns = task.watchdog_ns;
     made.sensitivity = task.sensitivity;
     module.tasks.push_back(made);
+  }
+}
+
+void ModuleLowering::addAccessPaths() {
+  for (const sema::AccessPath& path : project.access_paths) {
+    AccessPath made;
+    made.name = path.name;
+    made.prefix = path.prefix;
+    made.configuration = path.configuration;
+    made.type = types.resolve(path.type);
+    made.read_only = path.read_only;
+    if (path.located) {
+      made.index = static_cast<uint32_t>(path.image.area);
+      made.offset = path.image.byte;
+      if (path.image.is_bit) made.bit = path.image.bit;
+    } else {
+      const bool of_list = path.root == sema::AccessPath::Root::List;
+      made.root = of_list ? AccessPath::Root::List : AccessPath::Root::Program;
+      made.index = of_list ? listIndex({path.index}) : programOfInstance(path.index);
+      made.offset = path.offset;
+      if (path.bit >= 0) made.bit = static_cast<uint32_t>(path.bit);
+    }
+    module.access_paths.push_back(made);
   }
 }
 

@@ -1,6 +1,6 @@
-// Lowering of ARRAY[*], which a VAR_IN_OUT may be. In memory and in a call it is a pointer to the first element and two
-// numbers for each dimension (sema::Var::bounds). An element is reached through a pointer to one row of elements, long
-// enough for all; its check is a statement in front, because the bounds are no constants.
+// Lowering of ARRAY[*], which a VAR_IN_OUT and any pin of a function may be. In memory and in a call it is a pointer to
+// the first element and two numbers for each dimension (sema::Var::bounds). An element is reached through a pointer to
+// one row of elements, long enough for all; its check is a statement in front, because the bounds are no constants.
 #include "ir/lower/lowering.h"
 
 namespace rung::ir {
@@ -81,7 +81,16 @@ ExprId BodyLowering::openArrayElement(const IndexExpr& node) {
   return add({.kind = ExprKind::Index, .type = element, .loc = loc, .a = base.index, .b = first, .c = 1});
 }
 
-BodyLowering::OpenArray BodyLowering::passOpenArray(rung::ExprId argument, TypeId pin_type) {
+BodyLowering::OpenArray BodyLowering::noOpenArray(TypeId pin_type, Loc loc) {
+  const TypeInfo& pin = types_.info(strip(pin_type));
+  OpenArray passed;
+  passed.pointer = constant(types_.pointer(pin.base), 0, loc);
+  for (uint32_t i = 0; i < 2 * pin.length; ++i)
+    passed.bounds.push_back(constant(types::kDInt, i % 2 == 0 ? 0 : ~uint64_t{0}, loc));
+  return passed;
+}
+
+BodyLowering::OpenArray BodyLowering::passOpenArray(rung::ExprId argument, TypeId pin_type, bool copies) {
   const Loc loc = tree_.loc(argument);
   const TypeInfo& given = types_.info(strip(tree_.expr(argument).type));
   const uint32_t count = 2 * types_.info(strip(pin_type)).length;
@@ -92,8 +101,10 @@ BodyLowering::OpenArray BodyLowering::passOpenArray(rung::ExprId argument, TypeI
     return passed;
   }
   const TypeId pointer = types_.pointer(types_.info(strip(pin_type)).base);
-  passed.pointer =
-      add({.kind = ExprKind::Address, .type = pointer, .loc = loc, .a = stable(lowerPlace(argument)).index});
+  ExprId place = lowerPlace(argument);
+  if (copies) place = argumentPlace(place, typeOf(place), true, loc);
+  place = isPlace(body_.expr(place).kind) ? stable(place) : toTemp(place, loc);
+  passed.pointer = add({.kind = ExprKind::Address, .type = pointer, .loc = loc, .a = place.index});
   for (uint32_t i = 0; i < count; ++i) {
     const types::Dimension& dimension = given.dimensions[i / 2];
     passed.bounds.push_back(

@@ -6,7 +6,7 @@ namespace rung::ir {
 ExprId BodyLowering::varPlace(sema::VarId id, Loc loc) {
   const sema::Var* var = &project_.var(id);
   if (var->external) var = &project_.var(id = var->external);
-  TypeId type = strip(var->type);
+  TypeId type = fieldType(*var);
   switch (var->storage) {
     case sema::Storage::Field: {
       for (const auto& [pin, edge] : edge_locals_)
@@ -54,7 +54,15 @@ ExprId BodyLowering::memberPlace(rung::ExprId id) {
   if (!of_record) return varPlace(var_id, node.h.loc);
   ExprId base = lowerPlace(node.base);
   if (var.pou) base = asBase(base, var.pou, node.h.loc);
-  return field(base, var.field, strip(var.type), node.h.loc);
+  return field(base, var.field, fieldType(var), node.h.loc);
+}
+
+TypeId BodyLowering::fieldType(const sema::Var& var) const { return var.is_bit ? types::kByte : strip(var.type); }
+
+ExprId BodyLowering::pinPlace(ExprId instance, const sema::Var& pin, Loc loc) {
+  const ExprId place = field(asBase(instance, pin.pou, loc), pin.field, fieldType(pin), loc);
+  if (!pin.is_bit) return place;
+  return add({.kind = ExprKind::Bits, .type = types::kBool, .loc = loc, .a = place.index, .b = pin.bit});
 }
 
 // A text as the array of its bytes or words, with the zero at its end where it is only read.
@@ -179,6 +187,7 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
     case rung::ExprKind::StructInit:
     case rung::ExprKind::Convert:
     case rung::ExprKind::Bound:
+    case rung::ExprKind::New:
     case rung::ExprKind::AnyValue:
     case rung::ExprKind::AddressOf: return lowerValue(id);
   }

@@ -69,6 +69,7 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
     case rung::ExprKind::Address:
     case rung::ExprKind::AddressOf:
     case rung::ExprKind::Bound:
+    case rung::ExprKind::New:
     case rung::ExprKind::AnyValue:
     case rung::ExprKind::Call:
     case rung::ExprKind::Range:
@@ -170,6 +171,7 @@ ExprId BodyLowering::lowerValue(rung::ExprId id) {
     case rung::ExprKind::Convert: return lowerConvert(id);
     case rung::ExprKind::AddressOf: return lowerAddressOf(id);
     case rung::ExprKind::AnyValue: return lowerAnyValue(id);
+    case rung::ExprKind::New: return lowerNew(id);
     case rung::ExprKind::Bound: {
       const BoundExpr& node = tree_.as<BoundExpr>(id);
       return openArrayBound(node.array, node.index, node.h.loc);
@@ -221,6 +223,7 @@ bool BodyLowering::callsFunction(rung::ExprId id) const {
     case rung::ExprKind::Member: return callsFunction(tree_.as<MemberExpr>(id).base);
     case rung::ExprKind::Deref: return callsFunction(tree_.as<DerefExpr>(id).base);
     case rung::ExprKind::Bound: return false;
+    case rung::ExprKind::New: return true;
     case rung::ExprKind::AnyValue: return callsFunction(tree_.as<AnyValueExpr>(id).value);
     case rung::ExprKind::AddressOf: return callsFunction(tree_.as<AddressOfExpr>(id).place);
     case rung::ExprKind::BitAccess: return callsFunction(tree_.as<BitAccessExpr>(id).base);
@@ -338,6 +341,14 @@ ExprId BodyLowering::lowerAnyValue(rung::ExprId id) {
   ExprId descriptor = temp(node.h.type, loc);
   const TypeInfo& record = types_.info(strip(node.h.type));
   auto part = [&](uint32_t index) { return field(descriptor, index, record.fields[index].type, loc); };
+  if (node.facts) {  // __VARINFO: the address is the first member
+    storeInitial(descriptor, node.h.type, node.facts, false);
+    const TypeId to = types_.pointer(typeOf(value));
+    types_.layout(to);
+    const ExprId address = add({.kind = ExprKind::Address, .type = to, .loc = loc, .a = value.index});
+    assign(part(0), convert(convert(address, types::kULInt, loc), types::kDWord, loc), loc);
+    return descriptor;
+  }
   const TypeId pointer = strip(record.fields[1].type);
   const uint64_t size = types_.info(typeOf(value)).size;
   assign(part(0), constant(strip(record.fields[0].type), node.type_class, loc), loc);

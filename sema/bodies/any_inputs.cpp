@@ -7,10 +7,7 @@
 
 namespace rung::sema {
 
-namespace {
-
-// Items of __SYSTEM.TYPE_CLASS.
-uint32_t classOf(const Context& context, TypeId type) {
+uint32_t typeClassOf(const Context& context, TypeId type) {
   switch (context.types().kind(type)) {
     case TypeKind::Bool: return 0;
     case TypeKind::Byte:
@@ -71,8 +68,6 @@ uint32_t classOf(const Context& context, TypeId type) {
   return 29;
 }
 
-}  // namespace
-
 void bindAny(Context& context, const Pou& pou, const Var& pin, ExprId& value) {
   TypeId type = check(context, value, {}, Access::Address);
   if (isUntyped(context, type)) type = settle(context, value);
@@ -91,7 +86,7 @@ void bindAny(Context& context, const Pou& pou, const Var& pin, ExprId& value) {
   node.h.loc = loc;
   node.h.type = pin.type;
   node.value = value;
-  node.type_class = classOf(context, type);
+  node.type_class = typeClassOf(context, type);
   value = context.tree().add<ExprId>(node);
 }
 

@@ -144,6 +144,9 @@ CallId addCall(Context& context, Call&& call);
 // The bindings of a call whose pins have types of their own.
 void bindArguments(Context& context, const CallExpr& node, PouId callee, const Arguments& arguments, Call& call);
 
+// The type of a BitAccess whose base was checked. (expressions.cpp)
+TypeId checkBitOf(Context& context, ExprId expr);
+
 // ---- objects.cpp
 // A variable may have the name of THIS or SUPER: then it is meant.
 TypeId checkThisOrSuper(Context& context, ExprId& expr, TypeId expected, Access access);
@@ -184,8 +187,17 @@ ExprId makeDeref(Context& context, ExprId pointer, TypeId target, Loc loc);
 TypeId checkBoundCall(Context& context, ExprId& expr, NameId name);
 
 // ---- any_inputs.cpp
+// The item of __SYSTEM.TYPE_CLASS that a type is.
+uint32_t typeClassOf(const Context& context, TypeId type);
 // The value of an input of type ANY, ANY_NUM …, of a POU in codesys.
 void bindAny(Context& context, const Pou& pou, const Var& pin, ExprId& value);
+
+// ---- dynamic_memory.cpp
+TypeId checkNew(Context& context, ExprId& expr);
+// __DELETE(pointer). None when it is no such call, as of the next.
+TypeId checkDeleteCall(Context& context, ExprId& expr, NameId name, bool as_statement);
+// ---- var_info.cpp: __VARINFO, __POUNAME, __POSITION
+TypeId checkKnownCall(Context& context, ExprId& expr, NameId name);
 
 // ---- operator_calls.cpp
 TypeId checkOperatorCall(Context& context, ExprId& expr, PouId pou, TypeId expected, TypeId forced);

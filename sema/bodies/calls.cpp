@@ -112,12 +112,22 @@ bool sameInOut(const Context& context, TypeId pin, TypeId actual) {
   return sameType(context, pin, actual);
 }
 
+void checkOpenArgument(Context& context, const Var& pin, ExprId value, TypeId actual, const Purpose& purpose) {
+  if (actual == types::kError || sameInOut(context, pin.type, actual)) return;
+  context.report(Diag::WrongType, context.tree().begin(value),
+                 {context.types().spell(actual), purpose.spell(context), context.types().spell(pin.type)});
+}
+
 void bindOutput(Context& context, const Pou& pou, const Var& pin, Binding& binding, const Argument& argument) {
   binding.is_output = true;
   binding.negated = argument.negated;
   const Purpose purpose{"bound to output", pin.name, pou.name};
   const TypeId place = check(context, binding.value, {}, Access::Write);
   if (place == types::kError || !checkWritable(context, binding.value, purpose)) return;
+  if (context.types().isOpenArray(pin.type)) {
+    checkOpenArgument(context, pin, binding.value, place, purpose);
+    return;
+  }
   if (argument.negated && context.types().plainKind(pin.type) != TypeKind::Bool) {
     context.report(Diag::NegatedPin, argument.pin.loc, {text(context, pin.name), context.types().spell(pin.type)});
     return;
@@ -158,6 +168,11 @@ void bindInput(Context& context, const Pou& pou, const Var& pin, Binding& bindin
     return;
   }
   if (pin.any) return bindAny(context, pou, pin, binding.value);
+  if (context.types().isOpenArray(pin.type)) {
+    const TypeId actual = check(context, binding.value, {}, Access::Read);
+    if (actual) checkOpenArgument(context, pin, binding.value, actual, Purpose{"passed to", pin.name, pou.name});
+    return;
+  }
   checkAs(context, binding.value, pin.type, Purpose{"passed to", pin.name, pou.name});
 }
 
@@ -280,7 +295,7 @@ TypeId sizeOf(Context& context, ExprId& expr) {
   return untyped;
 }
 
-TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected) {
+TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (const auto assertion = assertionOf(context.names(), name)) return checkAssertion(context, expr, *assertion);
   if (isNamed(context, name, "SIZEOF") || isNamed(context, name, "XSIZEOF")) return sizeOf(context, expr);
@@ -288,6 +303,8 @@ TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected)
   if (const TypeId type = checkAddressCall(context, expr, name)) return type;
   if (const TypeId type = checkBoundCall(context, expr, name)) return type;
   if (const TypeId type = checkQueryCall(context, expr, name)) return type;
+  if (const TypeId type = checkDeleteCall(context, expr, name, as_statement)) return type;
+  if (const TypeId type = checkKnownCall(context, expr, name)) return type;
   if (sayUnknown(context, name))
     context.report(Diag::UnknownName, node.h.loc, {text(context, name)}).didYouMean(nearestName(context, name));
   context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);
@@ -506,7 +523,7 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
     NameExpr& callee = context.tree().as<NameExpr>(node.callee);
     callee.entity = lookUp(context, callee.name, callee.h.loc);
     switch (callee.entity.what()) {
-      case EntityKind::None: return callUnknown(context, expr, callee.name, expected);
+      case EntityKind::None: return callUnknown(context, expr, callee.name, expected, as_statement);
       case EntityKind::Pou: return callPou(context, expr, PouId{callee.entity.index}, expected, as_statement);
       case EntityKind::Error: return refuse(context, node);
       case EntityKind::Var:

@@ -90,31 +90,9 @@ TypeId checkDeref(Context& context, ExprId& expr) {
 
 TypeId checkBitAccess(Context& context, ExprId& expr, Access access) {
   BitAccessExpr& node = context.tree().as<BitAccessExpr>(expr);
-  const TypeId base = check(context, node.base, {}, access == Access::Write ? Access::ReadWrite : access);
-  if (base == types::kError) return node.h.type = types::kError;
-  const TypeKind kind = context.types().plainKind(base);
-  const bool integer = TypeTable::isInteger(kind);
-  if ((!TypeTable::isBits(kind) && !integer) || (integer && context.iec())) {
-    context.report(Diag::NoBits, node.h.loc, {context.types().spell(base)});
-    return node.h.type = types::kError;
-  }
-  const uint32_t count = TypeTable::bitWidth(kind) / node.width;
-  if (node.position >= count) {
-    if (count == 0) {
-      context.report(Diag::NoBits, node.h.loc, {context.types().spell(base)});
-    } else {
-      context.report(Diag::BitOutOfRange, node.h.loc,
-                     {std::to_string(node.position), context.types().spell(base), std::to_string(count - 1)});
-    }
-    return node.h.type = types::kError;
-  }
-  node.h.writable = context.tree().expr(node.base).writable;
-  switch (node.width) {
-    case 8: return node.h.type = types::kByte;
-    case 16: return node.h.type = types::kWord;
-    case 32: return node.h.type = types::kDWord;
-    default: return node.h.type = types::kBool;
-  }
+  if (node.h.bits == kBitMember) return node.h.type;  // checked before
+  check(context, node.base, {}, access == Access::Write ? Access::ReadWrite : access);
+  return checkBitOf(context, expr);
 }
 
 // %IX0.3, %QW5: a view of the image without a declaration.
@@ -150,6 +128,7 @@ TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) 
     case ExprKind::Unary: return checkUnary(context, expr, expected);
     case ExprKind::Binary: return checkBinary(context, expr, expected);
     case ExprKind::Call: return checkCall(context, expr, expected, false);
+    case ExprKind::New: return checkNew(context, expr);
     case ExprKind::Convert:
     case ExprKind::Bound:
     case ExprKind::AnyValue:
@@ -163,6 +142,35 @@ TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) 
 }
 
 }  // namespace
+
+TypeId checkBitOf(Context& context, ExprId expr) {
+  BitAccessExpr& node = context.tree().as<BitAccessExpr>(expr);
+  const TypeId base = context.tree().expr(node.base).type;
+  if (!base || base == types::kError) return node.h.type = types::kError;
+  const TypeKind kind = context.types().plainKind(base);
+  const bool integer = TypeTable::isInteger(kind);
+  if ((!TypeTable::isBits(kind) && !integer) || (integer && context.iec())) {
+    context.report(Diag::NoBits, node.h.loc, {context.types().spell(base)});
+    return node.h.type = types::kError;
+  }
+  const uint32_t count = TypeTable::bitWidth(kind) / node.width;
+  if (node.position >= count) {
+    if (count == 0) {
+      context.report(Diag::NoBits, node.h.loc, {context.types().spell(base)});
+    } else {
+      context.report(Diag::BitOutOfRange, node.h.loc,
+                     {std::to_string(node.position), context.types().spell(base), std::to_string(count - 1)});
+    }
+    return node.h.type = types::kError;
+  }
+  node.h.writable = context.tree().expr(node.base).writable;
+  switch (node.width) {
+    case 8: return node.h.type = types::kByte;
+    case 16: return node.h.type = types::kWord;
+    case 32: return node.h.type = types::kDWord;
+    default: return node.h.type = types::kBool;
+  }
+}
 
 TypeId check(Context& context, ExprId& expr, TypeId expected, Access access) {
   if (!expr) return types::kError;

@@ -43,6 +43,21 @@ TypeId typeOf(const Context& context, VarId id) {
   return type ? type : types::kError;
 }
 
+// A member of type BIT is a bit of the hidden byte that it names then.
+TypeId useBit(Context& context, ExprId& expr, const Var& var) {
+  context.tree().expr(expr).type = types::kByte;
+  BitAccessExpr bit{};
+  bit.h = context.tree().expr(expr);
+  bit.h.kind = ExprKind::BitAccess;
+  bit.h.bits = kBitMember;
+  bit.h.type = types::kBool;
+  bit.base = expr;
+  bit.position = var.bit;
+  bit.width = 1;
+  expr = context.tree().add<ExprId>(bit);
+  return types::kBool;
+}
+
 TypeId useVar(Context& context, ExprId& expr, VarId id, Access access) {
   markAccess(context, id, access);
   const Var& var = context.project.var(id);
@@ -50,6 +65,7 @@ TypeId useVar(Context& context, ExprId& expr, VarId id, Access access) {
   header.is_constant = var.constant && var.has_value;
   header.writable = !var.constant;
   const TypeId type = typeOf(context, id);
+  if (var.is_bit && !header.is_constant) return useBit(context, expr, var);
   return header.type = type;
 }
 
@@ -229,6 +245,7 @@ Entity entityOf(const Context& context, ExprId expr) {
     case ExprKind::StructInit:
     case ExprKind::Convert:
     case ExprKind::Bound:
+    case ExprKind::New:
     case ExprKind::AnyValue:
     case ExprKind::AddressOf: return {};
   }
@@ -333,6 +350,46 @@ Entity hiddenEnumeration(Context& context, const MemberExpr& node, TypeId base) 
   return lookUpIn(context, type, node.member).what() == EntityKind::EnumValue ? type : Entity{};
 }
 
+// `status.kReady` with a constant kReady is that bit of an integer or bit string; none where it is no such access.
+// codesys.
+//   passes  VAR CONSTANT kReady : INT := 3; END_VAR  status.kReady := TRUE;
+//   fails   VAR ready : INT := 3; END_VAR            status.ready := TRUE;       E0591
+std::optional<TypeId> checkNamedBit(Context& context, ExprId& expr, TypeId base) {
+  MemberExpr& node = context.tree().as<MemberExpr>(expr);
+  const TypeKind kind = context.types().plainKind(base);
+  if (!types::TypeTable::isInteger(kind) && !types::TypeTable::isBits(kind)) return std::nullopt;
+  const Entity found = lookUp(context, node.member);
+  if (found.what() != EntityKind::Var) return std::nullopt;
+  VarId id{found.index};
+  if (context.project.var(id).external) id = context.project.var(id).external;
+  ensureVarType(context, id);
+  const Var& var = context.project.var(id);
+  if (var.type == types::kError) return node.h.type = types::kError;
+  const TypeKind index = context.types().plainKind(var.type);
+  if (!types::TypeTable::isInteger(index) && !types::TypeTable::isBits(index)) return std::nullopt;
+  node.entity = Entity::of(EntityKind::Error, 0);
+  node.h.type = types::kError;
+  if (context.iec()) {
+    context.report(Diag::NamedBitExtension, node.h.loc);
+    return types::kError;
+  }
+  if (var.constant) ensureInitialValue(context, id);
+  markAccess(context, VarId{found.index}, Access::Read);
+  if (!var.constant || !var.has_value) {
+    context.report(Diag::NamedBitNotConstant, node.h.loc, {text(context, node.member)})
+        .note(var.loc, Note::DeclaredHere);
+    return types::kError;
+  }
+  BitAccessExpr bit{};
+  bit.h.kind = ExprKind::BitAccess;
+  bit.h.loc = node.h.loc;
+  bit.base = node.base;
+  bit.position = static_cast<uint32_t>(std::min<uint64_t>(var.value.bits, 0x7fffffff));
+  bit.width = 1;
+  expr = context.tree().add<ExprId>(bit);
+  return checkBitOf(context, expr);
+}
+
 TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   MemberExpr& node = context.tree().as<MemberExpr>(expr);
   TypeId base = checkBase(context, node.base, access);
@@ -357,6 +414,7 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   const TypeId record = context.types().resolve(base);
   const types::TypeInfo& info = context.types().info(record);
   if (info.kind != TypeKind::Record) {
+    if (const auto type = checkNamedBit(context, expr, record)) return *type;
     node.entity = Entity::of(EntityKind::Error, 0);
     if (info.kind == TypeKind::Pointer) {
       context.report(Diag::MemberOfPointer, node.h.loc, {text(context, node.member)});

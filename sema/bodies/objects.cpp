@@ -166,6 +166,7 @@ bool isExact(const Context& context, ExprId instance) {
       case ExprKind::Repeat:
       case ExprKind::StructInit:
       case ExprKind::Bound:
+      case ExprKind::New:
       case ExprKind::AnyValue:
       case ExprKind::AddressOf:
       case ExprKind::Convert: return false;

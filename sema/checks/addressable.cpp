@@ -54,6 +54,7 @@ const char* wrongWith(const Context& context, ExprId place) {
       case ExprKind::StructInit:
       case ExprKind::Convert:
       case ExprKind::Bound:
+      case ExprKind::New:
       case ExprKind::AnyValue:
       case ExprKind::AddressOf: return "a value";
     }
@@ -61,6 +62,8 @@ const char* wrongWith(const Context& context, ExprId place) {
 }
 
 }  // namespace
+
+bool hasMemory(const Context& context, ExprId place) { return wrongWith(context, place) == nullptr; }
 
 bool checkAddressable(Context& context, ExprId place) {
   const char* wrong = wrongWith(context, place);

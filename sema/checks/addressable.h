@@ -7,5 +7,7 @@ namespace rung::sema {
 
 // False after a report.
 bool checkAddressable(Context& context, ExprId place);
+// The same without a report.
+bool hasMemory(const Context& context, ExprId place);
 
 }  // namespace rung::sema

@@ -30,6 +30,7 @@ VarId rootOf(const Context& context, ExprId place) {
       case ExprKind::Deref:
       case ExprKind::Address:
       case ExprKind::Bound:
+      case ExprKind::New:
       case ExprKind::AnyValue:
       case ExprKind::Error:
       case ExprKind::Literal:

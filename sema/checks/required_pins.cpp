@@ -1,4 +1,4 @@
-// Forbids a call that leaves a VAR_IN_OUT or a {required} input open, and a call of a function by position with too few
+// Forbids a call that leaves a VAR_IN_OUT, an ARRAY[*] or a {required} input open, and a call of a function by position with too few
 // arguments. IEC 61131-3 ed. 3, table 40 and 6.6.1.4; syntax manual 5.4.1 (an informal call has the exact number).
 //   passes  mix(level := tank);   LIMIT(0, x, 9)
 //   fails   mix();                LIMIT(0, x)
@@ -16,11 +16,13 @@ bool checkRequiredPins(Context& context, const CallExpr& node, PouId id, const A
   for (size_t i = 0; i < pins.size(); ++i) {
     const bool given = i < arguments.slots.size() && arguments.slots[i] != 0;
     const Var& pin = context.project.var(pins[i]);
+    const bool must = pin.section == SectionKind::InOut || pin.required ||
+                      (pin.section == SectionKind::Input && context.types().isOpenArray(pin.type));
     if (given) {
       const bool open = !context.tree().list(node.arguments)[arguments.slots[i] - 1].value;
-      if (!open || (pin.section != SectionKind::InOut && !pin.required)) continue;
+      if (!open || !must) continue;
     }
-    if (pin.section == SectionKind::InOut || pin.required) {
+    if (must) {
       context.report(Diag::PinNotConnected, node.h.loc, {text(context, pin.name), text(context, pou.name)})
           .note(pin.loc, Note::DeclaredHere);
       good = false;

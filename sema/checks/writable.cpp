@@ -18,6 +18,10 @@ bool checkVariable(Context& context, VarId id, Loc loc) {
     return false;
   }
   if (var.section == SectionKind::Input && var.pou == context.pou && !context.library) {
+    if (context.types().isOpenArray(var.type)) {
+      context.report(Diag::OpenInputWritten, loc, {name}).note(var.loc, Note::DeclaredHere);
+      return false;
+    }
     context.report(context.iec() ? Diag::AssignToInput : Diag::InputWritten, loc, {name});
     return !context.iec();
   }
@@ -82,6 +86,7 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
       case ExprKind::StructInit:
       case ExprKind::Convert:
       case ExprKind::Bound:
+      case ExprKind::New:
       case ExprKind::AnyValue:
       case ExprKind::AddressOf:
         context.report(Diag::NotAPlace, tree.begin(whole), {purpose.spell(context)});

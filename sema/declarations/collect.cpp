@@ -307,10 +307,7 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
       const Loc loc = context.tree().loc(decl);
       const SectionKind section = context.tree().as<SectionDecl>(decl).section;
       if (section == SectionKind::Config) return;  // instance_places.cpp
-      if (section == SectionKind::Access) {
-        context.report(Diag::AccessPaths, loc);
-        return;
-      }
+      if (section == SectionKind::Access) return;  // access_paths.cpp
       const std::string stem = listName(context.project.sources.path(file));
       if (Namespace* const space = namespaceAround(context); space != nullptr) {  // one list for all of its sections
         const ListId list = listNamed(context, spelled(context, space->name), file, loc, context.scopes.qualifiers);

@@ -204,6 +204,49 @@ struct DeclaredTask {
   uint32_t number;
 };
 
+// The number of a task that a resource sees, or 0 with a report.
+uint32_t findTask(Context& context, const Part& part, const Ident& wanted, std::span<const DeclaredTask> tasks) {
+  const NameId key = keyOf(context, wanted.name);
+  uint32_t found = 0;
+  std::vector<std::string_view> names;
+  for (const DeclaredTask& task : tasks) {
+    if (task.resource_key && !(part.resource && keyOf(context, part.resource) == task.resource_key)) continue;
+    if (task.key == key) found = task.number;
+    names.push_back(context.names().text(context.project.tasks[task.number - 1].name));
+  }
+  const std::string_view text = context.names().text(wanted.name);
+  if (found == 0 && !context.tree().lost_names)
+    context.report(Diag::UnknownTask, wanted.loc, {text}).didYouMean(nearest(text, names));
+  return found;
+}
+
+// PROGRAM p WITH t : Main (block WITH task): the task runs the block whatever the program does. IEC 61131-3 ed. 3 table
+// 62, 6b.
+//   fails   PROGRAM p WITH t : Main (level WITH slow) where level : INT       E0891
+void addBlockTasks(Context& context, const Part& part, const ProgramInstanceDecl& decl, uint32_t instance,
+                   std::span<const DeclaredTask> tasks) {
+  Project& project = context.project;
+  const PouId program = project.instances[instance].program;
+  for (uint32_t i = 0; i + 1 < decl.block_tasks.count; i += 2) {
+    const Ident block = context.tree().list(decl.block_tasks)[i], task = context.tree().list(decl.block_tasks)[i + 1];
+    const VarId found = findMember(context, project.pou(program).record, block.name);
+    const TypeId type = found ? context.types().resolve(project.var(found).type) : TypeId{};
+    const NamedType* named = type ? context.scopes.named(type) : nullptr;
+    const PouId pou = named == nullptr ? PouId{} : named->pou;
+    if (!pou || project.pou(pou).kind != PouKind::FunctionBlock) {
+      if (type != types::kError)
+        context.report(Diag::NoBlockOfProgram, block.loc,
+                       {context.names().text(block.name), context.names().text(project.pou(program).name)});
+      continue;
+    }
+    const uint32_t number = findTask(context, part, task, tasks);
+    if (number == 0) continue;
+    project.pou(pou).used = true;
+    project.var(found).read = true;
+    project.block_tasks.push_back({instance, found, number, block.loc});
+  }
+}
+
 // Forbids an instance of what is no program, a task that is not declared, and connections at the instance.
 //   passes  PROGRAM p WITH t : Main;
 //   fails   PROGRAM p WITH tt : Main;                     E0815, did you mean `t`?
@@ -239,18 +282,7 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
     return;
   }
   if (decl.task.name) {
-    const NameId key = keyOf(context, decl.task.name);
-    std::vector<std::string_view> names;
-    for (const DeclaredTask& task : tasks) {
-      if (task.resource_key && !(part.resource && keyOf(context, part.resource) == task.resource_key)) continue;
-      if (task.key == key) instance.task = task.number;
-      names.push_back(context.names().text(project.tasks[task.number - 1].name));
-    }
-    if (instance.task == 0) {
-      const std::string_view text = context.names().text(decl.task.name);
-      if (!context.tree().lost_names)
-        context.report(Diag::UnknownTask, decl.task.loc, {text}).didYouMean(nearest(text, names));
-    }
+    instance.task = findTask(context, part, decl.task, tasks);
   } else {
     context.report(Diag::ProgramWithoutTask, decl.h.loc, {context.names().text(decl.name)});
   }
@@ -276,6 +308,7 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
   }
   const auto index = static_cast<uint32_t>(project.instances.size());
   project.instances.push_back(instance);
+  addBlockTasks(context, part, decl, index, tasks);
   const NameId key = keyOf(context, instance.name);
   if (!context.scopes.pous_and_types.find(key)) {
     context.scopes.qualifiers.insert(key, Entity::of(EntityKind::Program, index));
@@ -345,10 +378,7 @@ void collectConfigurations(Context& context) {
     }
     if (tree.kind(member) != DeclKind::Section) return;
     const SectionDecl& section = tree.as<SectionDecl>(member);
-    if (section.section == SectionKind::Access) {
-      context.report(Diag::AccessPaths, section.h.loc);
-      return;
-    }
+    if (section.section == SectionKind::Access) return;    // access_paths.cpp
     if (section.section == SectionKind::Config) return;    // instance_places.cpp
     if (section.section == SectionKind::External) return;  // resolveConfigurations
     const NameId name = part.resource ? part.resource : part.configuration;

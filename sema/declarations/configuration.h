@@ -12,6 +12,9 @@ namespace rung::sema {
 void collectConfigurations(Context& context);
 void resolveConfigurations(Context& context);
 
+// VAR_ACCESS, when all instances have their places. (access_paths.cpp)
+void resolveAccessPaths(Context& context);
+
 // ---- collect.cpp: global lists, which files, configurations and resources have
 ListId listNamed(Context& context, const std::string& name, FileId file, Loc loc, NameMap& qualifiers);
 void addGlobals(Context& context, ListId list, DeclId section, NameMap& bare);

@@ -273,6 +273,7 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
     case ExprKind::Address:
     case ExprKind::AddressOf:
     case ExprKind::Bound:
+    case ExprKind::New:
     case ExprKind::AnyValue:
     case ExprKind::Range:
     case ExprKind::ArrayInit:

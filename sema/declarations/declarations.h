@@ -94,6 +94,18 @@ void resolveList(Context& context, ListId list);
 // The field of a record that holds a variable.
 void addField(Context& context, TypeId record, VarId id);
 
+// ---- bit_members.cpp
+bool isNamedBit(const Context& context, NameId name);
+bool isBit(Context& context, TypeExprId written);
+bool mayBeBit(Context& context, const Var& var, TypeExprId written);
+void addBit(Context& context, TypeId record, VarId id);
+VarId addByteOfBits(Context& context, TypeId record, VarId first);
+void addBitAt(Context& context, TypeId record, VarId id, VarId byte, uint8_t bit);
+uint8_t initialBits(Context& context, TypeId record, VarId byte);
+
+// ---- relative_places.cpp: the fields of a structure whose members have places (AT %B2), with what is between them
+void placeFields(Context& context, TypeId record, std::span<const VarId> members);
+
 // ---- objects.cpp
 // METHODs, ACTIONs and PROPERTYs of a POU: a Pou each.
 void collectMembers(Context& context, PouId owner);
@@ -131,6 +143,8 @@ std::optional<int64_t> constantBound(Context& context, ExprId& expr);
 void checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string_view what);
 
 // ---- libraries.cpp
+// What the library __SYSTEM, the compiler's own, declares by this name.
+Entity lookUpSystem(Context& context, std::string_view name);
 // The structure __SYSTEM.AnyType.
 TypeId anyType(Context& context);
 void indexLibraries(Context& context);

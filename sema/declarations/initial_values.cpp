@@ -1,6 +1,8 @@
 // Initial values of variables, fields and types: lists for arrays, members for structures and instances, and one
 // constant for what is elementary. In: what is written and the type. Out: the same, checked and converted in place;
 // surplus array elements are cut off and repetition counts are literals.
+#include <algorithm>
+
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {
@@ -77,6 +79,7 @@ struct Initializer {
       case ExprKind::BitAccess:
       case ExprKind::Address:
       case ExprKind::Bound:
+      case ExprKind::New:
       case ExprKind::AnyValue:
       case ExprKind::Range:
       case ExprKind::ArrayInit:
@@ -234,6 +237,18 @@ struct Initializer {
   void record(ExprId& init, TypeId type) {
     if (tree().kind(init) != ExprKind::StructInit) {
       if (likeAnother(init, type)) return;
+      if (tree().kind(init) == ExprKind::Call && !context.iec()) {  // __VARINFO(x)
+        ExprId value = init;
+        if (checkExprAs(context, value, type, std::string("used as ") + std::string(what)) &&
+            tree().kind(value) == ExprKind::AnyValue) {
+          init = value;
+          return;
+        }
+        if (tree().expr(value).type == types::kError) {
+          init = {};
+          return;
+        }
+      }
       context.report(Diag::MembersExpected, tree().begin(init), {context.types().spell(type)});
       init = {};
       return;
@@ -241,6 +256,7 @@ struct Initializer {
     StructInitExpr& node = tree().as<StructInitExpr>(init);
     node.h.type = type;
     NameMap seen;
+    std::vector<std::pair<VarId, uint8_t>> bytes;  // that hold members of type BIT, with what is given for them
     for (uint32_t i = 0; i < node.fields.count; ++i) {
       FieldInit given = tree().list(node.fields)[i];
       const std::string_view name = context.names().text(given.field.name);
@@ -265,9 +281,40 @@ struct Initializer {
       }
       given.field.name = var.name;  // an alias stands for its pin
       if (given.value) value(given.value, var.type);
+      if (var.is_bit && given.value) {
+        setBit(bytes, type, member, given.value);
+        given.value = {};
+      }
       tree().list(node.fields)[i] = given;
     }
     dropEmpty(node);
+    if (bytes.empty()) return;
+    std::vector<FieldInit> fields(tree().list(node.fields).begin(), tree().list(node.fields).end());
+    for (const auto& [byte, bits] : bytes) {
+      const Loc loc = node.h.loc;
+      fields.push_back(
+          {{context.project.var(byte).name, loc}, makeLiteral(context, LiteralKind::Integer, types::kByte, bits, loc)});
+    }
+    node.fields = tree().addList<FieldInit>(fields);
+  }
+
+  // What is given for a member of type BIT, into the byte that holds it.
+  void setBit(std::vector<std::pair<VarId, uint8_t>>& bytes, TypeId type, VarId member, ExprId given) const {
+    const auto bit = requireConstant(context, given, types::kBool);
+    if (!bit) return;
+    const Var& var = context.project.var(member);
+    if (bytes.empty() || bytes.back().first != var.bits_of) {
+      auto at = std::find_if(bytes.begin(), bytes.end(), [&](const auto& byte) { return byte.first == var.bits_of; });
+      if (at == bytes.end()) {
+        const TypeId holder = var.record ? type : context.project.pou(var.pou).record;
+        bytes.emplace_back(var.bits_of, initialBits(context, holder, var.bits_of));
+      } else {
+        std::rotate(at, at + 1, bytes.end());
+      }
+    }
+    uint8_t& bits = bytes.back().second;
+    const auto mask = static_cast<uint8_t>(1u << var.bit);
+    bits = static_cast<uint8_t>(bit->bits != 0 ? bits | mask : bits & ~mask);
   }
 
   // Members whose value was wrong have none any more.

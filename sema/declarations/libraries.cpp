@@ -301,10 +301,13 @@ Entity lookUpLibrary(Context& context, NameId key, uint32_t library) {
   return context.scopes.libraries.namespaces.find(key);  // what a library uses is reached through it: SysFile.SysTypes
 }
 
-TypeId anyType(Context& context) {
+Entity lookUpSystem(Context& context, std::string_view name) {
   const Entity system = context.scopes.libraries.namespaces.find(keyOf(context, context.names().intern("__SYSTEM")));
-  if (!system) return types::kError;
-  const Entity found = lookUpLibrary(context, keyOf(context, context.names().intern("AnyType")), system.index);
+  return system ? lookUpLibrary(context, keyOf(context, context.names().intern(name)), system.index) : Entity{};
+}
+
+TypeId anyType(Context& context) {
+  const Entity found = lookUpSystem(context, "AnyType");
   return found.what() == EntityKind::Type ? TypeId{found.index} : types::kError;
 }
 

@@ -111,6 +111,10 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
   }
   if (found.what() == EntityKind::Error) return types::kError;
   if (found.what() == EntityKind::Pou) checkTestOnly(context, PouId{found.index}, last.loc);
+  if (!found && length == 1 && !context.iec() && isNamedBit(context, last.name)) {
+    context.report(Diag::BitOutside, last.loc);
+    return types::kError;
+  }
   const TypeId type = typeOf(context, found);
   if (type) return context.types().resolve(type) == types::kError ? types::kError : type;
   reportUnknownType(context, last.name, last.loc, found);
@@ -274,16 +278,23 @@ void inheritFields(Context& context, TypeId record, TypeExprId base_expr) {
   }
   resolveNamed(context, base);
   NamedType& named = *context.scopes.named(record);
-  for (size_t i = 0; i < named_base->fields.size(); ++i) {
-    Var var = context.project.var(named_base->fields[i]);
-    ensureInitialValue(context, named_base->fields[i]);
-    var.init = context.project.var(named_base->fields[i]).init;
+  const auto inherit = [&](VarId inherited) {
+    ensureInitialValue(context, inherited);
+    Var var = context.project.var(inherited);
     const VarId id{static_cast<uint32_t>(context.project.vars.size())};
     var.record = record;
     var.decl = {};  // checked where it is written
     context.project.vars.push_back(var);
     named.members.insert(keyOf(context, var.name), entity(id));
-    addField(context, record, id);
+    return id;
+  };
+  for (size_t i = 0; i < named_base->fields.size(); ++i) addField(context, record, inherit(named_base->fields[i]));
+  for (size_t i = 0; i < named_base->bits.size(); ++i) {
+    const VarId id = inherit(named_base->bits[i]);
+    Var& var = context.project.var(id);
+    var.bits_of = named.fields[var.field];
+    named.bits.push_back(id);
+    context.types().edit(record).bits.push_back({var.name, var.field, var.bit});
   }
 }
 
@@ -304,10 +315,14 @@ void fillRecord(Context& context, TypeId type, TypeExprId id) {
     project.var(var).record = type;
     project.var(var).storage = Storage::Field;
   }
+  bool placed = false;
   for (const VarId var : vars) {
     ensureVarType(context, var);
-    addField(context, type, var);
+    const VarDecl& decl = context.tree().as<VarDecl>(project.var(var).decl);
+    placed = placed || (decl.located && !decl.address.incomplete);
   }
+  if (placed) return placeFields(context, type, vars);
+  for (const VarId var : vars) addField(context, type, var);
 }
 
 // Types written in place, in VAR: a name of their own for generated code.

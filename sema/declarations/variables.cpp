@@ -130,6 +130,7 @@ static bool isBase(const Context& context, VarId id) {
 }
 
 void addField(Context& context, TypeId record, VarId id) {
+  if (context.project.var(id).is_bit) return addBit(context, record, id);
   Var& var = context.project.var(id);
   Field field;
   field.name = var.name;
@@ -160,7 +161,7 @@ namespace {
 //   fails   VAR_INPUT clk : INT R_EDGE; END_VAR        E0333
 void checkEdge(Context& context, const Var& var) {
   if (var.edge == EdgeKind::None || var.type == types::kError) return;
-  const bool block = var.pou && !isFunction(context.project.pou(var.pou).kind);
+  const bool block = var.pou && !isFunction(context.project.pou(var.pou).kind) && !var.is_bit;
   if (block && var.section == SectionKind::Input && context.types().kind(var.type) == TypeKind::Bool) return;
   context.report(Diag::EdgeNotBool, var.loc, {context.names().text(var.name)});
 }
@@ -220,6 +221,13 @@ bool mayHaveInitialValue(Context& context, const Var& var, ExprId init) {
   return false;
 }
 
+// ARRAY[*]: of a call a pin of any direction, of an instance only what is bound anew by each call.
+bool mayBeOpen(const Context& context, const Var& var) {
+  if (var.section == SectionKind::InOut) return true;
+  const bool of_call = var.pou && isFunction(context.project.pou(var.pou).kind);
+  return of_call && (var.section == SectionKind::Input || var.section == SectionKind::Output);
+}
+
 uint32_t firstOfDecl(const Project& project, uint32_t index) {
   while (index > 1 && project.vars[index - 1].decl == project.vars[index].decl) --index;
   return index;
@@ -239,14 +247,19 @@ void ensureVarType(Context& context, VarId id) {
   }
   ++context.scopes.depth;
   TypeId type = types::kError;
-  if (decl.type) type = resolveType(there, decl.type);
+  const bool bit = decl.type && isBit(there, decl.type);
+  if (bit)
+    type = mayBeBit(there, project.var(id), decl.type) ? types::kBool : types::kError;
+  else if (decl.type)
+    type = resolveType(there, decl.type);
   --context.scopes.depth;
   const uint32_t first = firstOfDecl(project, id.index);
   for (uint32_t i = first; i < project.vars.size() && project.vars[i].decl == project.vars[id.index].decl; ++i) {
     Var& var = project.vars[i];
     if (var.type) continue;
     var.type = type;
-    if (context.types().isOpenArray(type) && var.section != SectionKind::InOut) {
+    var.is_bit = bit && type != types::kError;
+    if (context.types().isOpenArray(type) && !mayBeOpen(context, var)) {
       if (i == first) there.report(Diag::OpenArray, context.tree().loc(decl.type));
       var.type = types::kError;
     }
@@ -271,7 +284,7 @@ void ensureVarType(Context& context, VarId id) {
       var.open_address = true;
       var.image.area = decl.address.area;
       var.image.is_bit = type != types::kError && context.types().kind(type) == TypeKind::Bool;
-    } else if (decl.located) {
+    } else if (decl.located && !var.record) {
       if (const auto view = resolveAddress(there, decl.address, decl.address_loc, type)) {
         var.image = *view;
       } else {
@@ -394,6 +407,7 @@ void declarePou(Context& context, PouId id) {
     const SectionDecl& section = tree.as<SectionDecl>(tree.list(decl.sections)[s]);
     // Forbids sections that a POU cannot have. IEC 61131-3 ed. 3 table 14.
     if (section.section == SectionKind::Global && mayHoldGlobals(context, kind)) continue;  // collect.cpp
+    if (section.section == SectionKind::Access && kind == PouKind::Program) continue;       // access_paths.cpp
     const bool misplaced = section.section == SectionKind::Global || section.section == SectionKind::Access ||
                            section.section == SectionKind::Config ||
                            (section.section == SectionKind::Stat && context.iec()) ||
@@ -447,7 +461,7 @@ void resolvePou(Context& context, PouId id) {
     ensureVarType(there, var_id);
     Var& var = project.var(var_id);
     if (var.storage == Storage::Local) var.field = static_cast<uint32_t>(i);
-    if (var.storage == Storage::Field) addField(there, pou.record, var_id);
+    if (var.storage == Storage::Field && !var.holds_bits) addField(there, pou.record, var_id);
     if (types::TypeTable::isGeneric(context.types().kind(var.type))) pou.generic = true;
     if (var.extensible) pou.extensible = true;
     if (var.edge != EdgeKind::None && var.storage == Storage::Field) edges.push_back(var_id);

@@ -98,6 +98,12 @@ struct Field {
   uint32_t offset = 0;  // after layout
 };
 
+struct BitMember {  // of type BIT, in a field of its record that is a byte
+  NameId name;
+  uint32_t field;
+  uint8_t bit;
+};
+
 struct Dimension {
   int64_t low = 0, high = -1;
   uint64_t count() const { return static_cast<uint64_t>(high - low) + 1; }
@@ -118,6 +124,7 @@ struct TypeInfo {
   uint32_t align = 1;
   std::vector<Dimension> dimensions;              // Array; empty: ARRAY[*]
   std::vector<Field> fields;                      // Record
+  std::vector<BitMember> bits;                    // Record
   std::vector<std::pair<NameId, int64_t>> items;  // Enum: in order of declaration
 };
 

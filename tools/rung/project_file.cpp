@@ -1,6 +1,8 @@
 // rung.project; see project_file.h.
 #include "tools/rung/project_file.h"
 
+#include <charconv>
+
 namespace rung::tool {
 namespace {
 
@@ -17,7 +19,7 @@ constexpr Schema kSchemas[] = {
     {"axis", true, nullptr},   // the parameters of the axis: their names are checked by the motion library
     {"safe", false, nullptr},  // PATH = VALUE
     {"nc", false, nullptr},
-    {"pool", true, nullptr},
+    {"pool", true, nullptr},  // `new`: bytes
 };
 
 const Schema* findSchema(std::string_view kind) {
@@ -176,6 +178,27 @@ void readProjectSection(const ProjectSection& section, Diagnostics& diagnostics,
   }
 }
 
+// [pool new]: the memory behind __NEW.
+void readPoolSection(const ProjectSection& section, Diagnostics& diagnostics, ProjectFile& project) {
+  constexpr uint64_t kMost = uint64_t{1} << 30;
+  if (section.name != "new") return;
+  for (const ProjectEntry& entry : section.entries) {
+    if (entry.key != "bytes") {
+      diagnostics.report(Diag::ProjectUnknownKey, entry.key_loc, {entry.key, "pool new"})
+          .length(static_cast<uint32_t>(entry.key.size()))
+          .didYouMean("bytes");
+      continue;
+    }
+    uint64_t bytes = 0;
+    const char* const end = entry.value.data() + entry.value.size();
+    const auto read = std::from_chars(entry.value.data(), end, bytes);
+    if (read.ec != std::errc{} || read.ptr != end || bytes < 16 || bytes > kMost)
+      badValue(diagnostics, entry, "it takes a number of bytes from 16 to 1073741824");
+    else
+      project.pool_bytes = static_cast<uint32_t>(bytes);
+  }
+}
+
 // `10ms` and `T#10ms` are the same time.
 std::string duration(const std::string& value) {
   if (value.find('#') != std::string::npos) return value;
@@ -246,7 +269,10 @@ void parseProjectFile(const Sources& sources, FileId file, Diagnostics& diagnost
   project.file = file;
   Reader(sources, file, diagnostics, project).read();
   for (const ProjectSection& section : project.sections)
-    if (section.kind == "project") readProjectSection(section, diagnostics, project);
+    if (section.kind == "project")
+      readProjectSection(section, diagnostics, project);
+    else if (section.kind == "pool" && !section.name.empty())
+      readPoolSection(section, diagnostics, project);
   writeTasks(sources, diagnostics, project);
 }
 

@@ -35,6 +35,7 @@ struct ProjectFile {
   text::Standard standard = text::Standard::Codesys;
   uint8_t checks = 0;
   int level = 1;
+  uint32_t pool_bytes = 0;  // 0: not given
   std::vector<WarningSwitch> warnings;
   std::vector<text::Define> defines;
 

@@ -152,6 +152,7 @@ bool Symbols::findAddress(std::string_view path, Variable& variable, std::string
     bit = byte % 8;  // %IX5 is byte 0, bit 5
     byte /= 8;
   }
+  if (type != &kBoolType) byte = byte < UINT32_MAX ? byte * type->size : byte;  // %QW2 is the bytes 4 and 5
   if (!good || read.ptr != end) {
     error = quoted(path) + " is no address; write `%IX0.0`, `%QB1`, `%MW2`";
     return false;
@@ -186,7 +187,7 @@ bool Symbols::enter(Variable& variable, std::string_view name, std::vector<std::
     variable.path += text(field.name);
     variable.type = &module_.types[field.type];
     variable.lastOffset() += field.offset;
-    variable.flags = field.flags;
+    variable.setFlags(field.flags);
     if ((field.flags & RUNG_FIELD_BY_REFERENCE) != 0) variable.hops.push_back(0);
     return true;
   }
@@ -315,7 +316,7 @@ void Symbols::expand(const Variable& variable, std::vector<Variable>& to) const 
       }
       part.type = &module_.types[field.type];
       part.lastOffset() += field.offset;
-      part.flags = field.flags;
+      part.setFlags(field.flags);
       expand(part, to);
     }
   } else if (type.kind == RUNG_ARRAY) {

@@ -20,6 +20,10 @@ struct Variable {
   uint8_t bit = 255;           // BOOL inside an image or integer: 0..7, else 255
   std::vector<uint32_t> hops;  // each: follow the pointer that stands there, then this far
 
+  void setFlags(uint32_t of_field) {
+    flags = of_field;
+    if ((flags & RUNG_FIELD_BIT) != 0) bit = static_cast<uint8_t>((flags >> RUNG_FIELD_BIT_SHIFT & 15) - 1);
+  }
   // The offset that a further field or element moves.
   uint32_t& lastOffset() { return hops.empty() ? offset : hops.back(); }
   // nullptr when a pointer on the way is null.

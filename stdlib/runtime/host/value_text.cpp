@@ -167,6 +167,7 @@ std::string assignValue(const rung_module& module, const Variable& variable, std
   text = trimmed(text);
   const rung_type& type = *variable.type;
   if ((variable.flags & RUNG_FIELD_CONSTANT) != 0) return "`" + variable.path + "` is constant";
+  if ((variable.flags & RUNG_FIELD_READ_ONLY) != 0) return "`" + variable.path + "` is READ_ONLY";
   if (type.kind == RUNG_ARRAY || type.kind == RUNG_RECORD)
     return "`" + variable.path + "` is " + (type.kind == RUNG_ARRAY ? "an array" : "a structure") +
            "; set its elements one by one";

@@ -122,6 +122,7 @@ class Printer {
     switch (call.kind) {
       case sema::CallKind::Method:
       case sema::CallKind::Instance: expr(call.instance); break;
+      case sema::CallKind::Delete: expr(call.instance); break;
       case sema::CallKind::Assertion: out += "ASSERT"; break;
       case sema::CallKind::Function:
       case sema::CallKind::Program:
@@ -209,6 +210,7 @@ class Printer {
       case ExprKind::Super: out += "SUPER"; return;
       case ExprKind::Error:
       case ExprKind::Bound:
+      case ExprKind::New:
       case ExprKind::AnyValue:
       case ExprKind::Address:
       case ExprKind::Range:

@@ -70,8 +70,11 @@ enum rung_field_flags {
   RUNG_FIELD_PERSISTENT = 8,
   RUNG_FIELD_INPUT = 16,
   RUNG_FIELD_OUTPUT = 32,
-  RUNG_FIELD_BASE = 64 /* what a block extends: its fields are named as if they stood here */
+  RUNG_FIELD_BASE = 64,       /* what a block extends: its fields are named as if they stood here */
+  RUNG_FIELD_READ_ONLY = 128, /* of a VAR_ACCESS: may be looked at, not set */
+  RUNG_FIELD_BIT = 0xf00      /* of a BOOL that is one bit of the byte at its offset: the bit's number + 1; else 0 */
 };
+#define RUNG_FIELD_BIT_SHIFT 8
 typedef struct rung_field {
   uint32_t name, type, offset, flags;
 } rung_field;

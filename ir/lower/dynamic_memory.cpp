@@ -1,0 +1,112 @@
+// Lowering of __NEW and __DELETE. The pool is a list of globals and its functions are ST (stdlib/__system); here stands
+// what needs the type: initial values and FB_Init behind the allocation, FB_Exit in front of the release.
+#include "ir/lower/lowering.h"
+
+namespace rung::ir {
+
+ExprId BodyLowering::callPool(sema::PouId function, std::initializer_list<ExprId> arguments, Loc loc) {
+  const BodyId body = in_.bodyOf(function);
+  const auto first = static_cast<uint32_t>(body_.operands.size());
+  body_.operands.insert(body_.operands.end(), arguments.begin(), arguments.end());
+  const ExprId result = temp(strip(project_.pou(function).result), loc);
+  append({.kind = StmtKind::Call,
+          .loc = loc,
+          .a = body.index,
+          .c = first,
+          .d = static_cast<uint32_t>(arguments.size()),
+          .e = result.index});
+  return result;
+}
+
+ExprId BodyLowering::lowerNew(rung::ExprId id) {
+  const NewExpr node = tree_.as<NewExpr>(id);
+  const Loc loc = node.h.loc;
+  const TypeId pointer_type = strip(node.h.type), declared = types_.info(pointer_type).base, type = strip(declared);
+  in_.declareRecordsOf(type);
+  ExprId count = constant(types::kLInt, 1, loc);
+  if (node.count) {
+    count = temp(types::kLInt, loc);
+    assign(count, lowerValue(node.count), loc);
+  }
+  const ExprId size = constant(types::kLInt, types_.info(type).size, loc);
+  const ExprId memory = callPool(project_.call(node.memory).pou, {count, size}, loc);
+  const ExprId pointer = temp(pointer_type, loc);
+  assign(pointer, convertValue(memory, pointer_type, loc), loc);
+  if (in_.isZero(declared)) return pointer;
+  const ExprId is_there = binary(Op::Ne, types::kBool, pointer, constant(pointer_type, 0, loc), loc);
+  const CallId outer = given_;
+  given_ = node.constructor;
+  const StmtId then = block([&] {
+    if (!node.count) {
+      const ExprId place = add({.kind = ExprKind::Deref, .type = type, .loc = loc, .a = pointer.index});
+      storeInitial(place, declared, {}, true);
+      return;
+    }
+    constexpr uint64_t kMostBytes = uint64_t{1} << 30;
+    const uint64_t bytes = std::max<uint64_t>(1, types_.info(type).size);
+    const types::Dimension all{0, static_cast<int64_t>(kMostBytes / bytes) - 1};
+    const TypeId row = types_.array(type, {&all, 1}), to_row = types_.pointer(row);
+    types_.layout(row);
+    types_.layout(to_row);
+    const ExprId elements = convert(pointer, to_row, loc);
+    const ExprId whole = add({.kind = ExprKind::Deref, .type = row, .loc = loc, .a = elements.index});
+    const ExprId control = temp(types::kLInt, loc);
+    const StmtId body = block([&] {
+      const auto first = static_cast<uint32_t>(body_.operands.size());
+      body_.operands.push_back(control);
+      storeInitial(add({.kind = ExprKind::Index, .type = type, .loc = loc, .a = whole.index, .b = first, .c = 1}),
+                   declared, {}, true);
+    });
+    const ExprId last = binary(Op::Sub, types::kLInt, count, constant(types::kLInt, 1, loc), loc);
+    append({.kind = StmtKind::For,
+            .loc = loc,
+            .a = control.index,
+            .b = constant(types::kLInt, 0, loc).index,
+            .c = last.index,
+            .d = constant(types::kLInt, 1, loc).index,
+            .e = body.index});
+  });
+  given_ = outer;
+  append({.kind = StmtKind::If, .loc = loc, .a = is_there.index, .b = then.index});
+  return pointer;
+}
+
+// What is 0 stays 0. Memory that is not of the pool, or was given back before, is fault[null].
+void BodyLowering::lowerDelete(const sema::Call& call, Loc loc) {
+  const bool is_this = tree_.kind(call.instance) == rung::ExprKind::This;
+  const ExprId place = is_this ? lowerValue(call.instance) : stable(lowerPlace(call.instance));
+  const TypeId pointer_type = typeOf(place), type = strip(types_.info(pointer_type).base);
+  const ExprId pointer = toTemp(place, loc);
+  const TypeId bytes = strip(project_.var(project_.pou(call.pou).vars.front()).type);
+  const auto memory = [&] { return convertValue(pointer, bytes, loc); };
+  const auto require = [&](ExprId good) {
+    if ((in_.options.checks & kCheckNull) == 0) return;
+    const ExprId wrong = unary(Op::Not, types::kBool, good, loc);
+    const ExprId value = convert(pointer, types::kLInt, loc);
+    const StmtId fault = block([&] {
+      append({.kind = StmtKind::Fault, .op = static_cast<uint8_t>(types::Fault::Null), .loc = loc, .a = value.index});
+    });
+    append({.kind = StmtKind::If, .loc = loc, .a = wrong.index, .b = fault.index});
+  };
+  const StmtId then = block([&] {
+    const sema::PouId object = in_.pouOfRecord(type);
+    if (in_.hasExit(type) || (object && project_.pou(object).dispatched)) {
+      const ExprId owned = callPool(call.owns, {memory()}, loc);
+      require(owned);
+      const StmtId ends = block([&] {
+        const ExprId whole = add({.kind = ExprKind::Deref, .type = type, .loc = loc, .a = pointer.index});
+        if (object)
+          callExit(whole, false, loc);
+        else
+          exitElement(whole, type);
+      });
+      if (ends) append({.kind = StmtKind::If, .loc = loc, .a = owned.index, .b = ends.index});
+    }
+    require(callPool(call.pou, {memory()}, loc));
+    if (!is_this) assign(place, constant(pointer_type, 0, loc), loc);
+  });
+  const ExprId is_there = binary(Op::Ne, types::kBool, pointer, constant(pointer_type, 0, loc), loc);
+  append({.kind = StmtKind::If, .loc = loc, .a = is_there.index, .b = then.index});
+}
+
+}  // namespace rung::ir

@@ -1,0 +1,119 @@
+// __NEW and __DELETE: memory from the bounded pool of the program (stdlib/__system/dynamic_memory.st). codesys.
+// In: a NewExpr, a call of __DELETE. Out: the same with the types, the functions of the pool and the arguments of
+// FB_Init resolved; lowering sets the initial values and calls FB_Init and FB_Exit.
+#include "sema/bodies/bodies.h"
+#include "sema/checks/object_members.h"
+#include "sema/checks/writable.h"
+#include "sema/declarations/declarations.h"
+#include "sema/scopes.h"
+
+namespace rung::sema {
+
+namespace {
+
+// A function of the pool; the size that the project declares is set before the pool is laid out.
+CallId poolCall(Context& context, const char* name, Loc loc) {
+  const Entity size = lookUpSystem(context, "POOL_UNITS");
+  const Options& options = context.project.options;
+  if (size.what() == EntityKind::Var && options.pool_bytes != 0) {
+    Var& var = context.project.vars[size.index];
+    ensureInitialValue(context, VarId{size.index});
+    const ExprId init = var.init;
+    if (init && context.tree().kind(init) == ExprKind::Literal) {
+      const uint64_t units = (uint64_t{options.pool_bytes} + 7) / 8;
+      context.tree().as<LiteralExpr>(init).setValue(units);
+      var.value.bits = units;
+    }
+  }
+  const Entity found = lookUpSystem(context, name);
+  if (found.what() != EntityKind::Pou) return {};
+  const PouId pou{found.index};
+  resolvePou(context, pou);
+  noteCall(context, pou, loc);
+  Call call;
+  call.kind = CallKind::Function;
+  call.pou = pou;
+  return addCall(context, std::move(call));
+}
+
+bool mayBeMade(Context& context, TypeId type, TypeExprId what) {
+  const Loc loc = context.tree().loc(what);
+  if (context.types().isOpenArray(type)) {
+    context.report(Diag::OpenArray, loc);
+    return false;
+  }
+  const PouId pou = pouOf(context, type);
+  if (pou && context.project.pou(pou).kind == PouKind::Program) {
+    context.report(Diag::NotNewable, loc, {context.types().spell(type)});
+    return false;
+  }
+  return checkNotAbstract(context, type, loc);
+}
+
+}  // namespace
+
+// Forbids __NEW of what can have no second instance.
+//   passes  p := __NEW(Motor);  p := __NEW(INT, 10);
+//   fails   p := __NEW(Main);                                       E0592
+TypeId checkNew(Context& context, ExprId& expr) {
+  NewExpr& node = context.tree().as<NewExpr>(expr);
+  if (node.h.type) return node.h.type;                    // checked before
+  if (context.iec()) return node.h.type = types::kError;  // the lexer has refused the name
+  TypeId type = resolveType(context, node.what);
+  if (node.count) checkExprAs(context, node.count, types::kLInt, "used as the number of elements");
+  if (type == types::kError || !mayBeMade(context, type, node.what)) return node.h.type = types::kError;
+  if (const PouId pou = pouOf(context, type)) resolvePou(context, pou);
+  if (!ensureLayout(context, type)) {
+    context.report(Diag::TypeTooLarge, context.tree().loc(node.what), {context.types().spell(type)});
+    return node.h.type = types::kError;
+  }
+  node.constructor = checkConstructor(context, node.what);
+  node.memory = poolCall(context, "Allocate", node.h.loc);
+  node.h.type = node.memory.index != 0 ? context.types().pointer(type) : types::kError;
+  context.types().layout(node.h.type);
+  return node.h.type;
+}
+
+// Forbids __DELETE of what is no pointer, and of a pointer that cannot be set to 0.
+//   fails   __DELETE(count) where count : INT                       E0593
+TypeId checkDeleteCall(Context& context, ExprId& expr, NameId name, bool as_statement) {
+  if (!isNamed(context, name, "__DELETE")) return {};
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  const auto fail = [&] { return context.tree().expr(expr).type = types::kError; };
+  if (context.iec()) return fail();  // the lexer has refused the name
+  if (node.arguments.count != 1 || !context.tree().list(node.arguments)[0].value) {
+    context.report(Diag::WrongArgumentCount, node.h.loc,
+                   {text(context, name), "1", std::to_string(node.arguments.count)});
+    checkLooseArguments(context, node);
+    return fail();
+  }
+  ExprId pointer = context.tree().list(node.arguments)[0].value;
+  const TypeId type = check(context, pointer, {}, Access::ReadWrite);
+  if (!type || type == types::kError) return fail();
+  if (context.types().kind(type) != TypeKind::Pointer) {
+    context.report(Diag::DeleteOfValue, context.tree().begin(pointer), {context.types().spell(type)});
+    return fail();
+  }
+  const bool is_this = context.tree().kind(pointer) == ExprKind::This;
+  if (!is_this && !checkWritable(context, pointer, Purpose{"deleted", {}, {}})) return fail();
+  if (!as_statement) {
+    context.report(Diag::NoResult, node.h.loc, {text(context, name)});
+    return fail();
+  }
+  const TypeId target = context.types().info(context.types().resolve(type)).base;
+  if (const PouId pou = pouOf(context, target)) resolvePou(context, pou);
+  if (!ensureLayout(context, target)) return fail();
+  Call call;
+  call.kind = CallKind::Delete;
+  const CallId release = poolCall(context, "Release", node.h.loc);
+  const CallId owns = poolCall(context, "Owns", node.h.loc);
+  if (release.index == 0 || owns.index == 0) return fail();
+  call.pou = context.project.call(release).pou;
+  call.owns = context.project.call(owns).pou;
+  call.instance = pointer;
+  node.call = addCall(context, std::move(call));
+  // A statement without a value: TRUE stands for the type that a call must have.
+  return node.h.type = types::kBool;
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,210 @@
+// __VARINFO(x), __POUNAME() and __POSITION() of codesys: what the compiler knows of a variable and of the place in the
+// program. In: calls. Out: literals, and an AnyValue node with the constant members of __SYSTEM.VAR_INFO.
+#include "sema/bodies/bodies.h"
+#include "sema/checks/addressable.h"
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+namespace {
+
+ExprId makeText(Context& context, std::string_view text, Loc loc) {
+  LiteralExpr node{};
+  node.h.kind = ExprKind::Literal;
+  node.h.op = static_cast<uint8_t>(LiteralKind::String);
+  node.h.loc = loc;
+  node.h.is_constant = 1;
+  node.h.type = context.types().string(static_cast<uint32_t>(std::max<size_t>(text.size(), 1)));
+  const TextId id = context.tree().addText(text);
+  node.low = id.first;
+  node.high = id.length;
+  return context.tree().add<ExprId>(node);
+}
+
+struct Facts {
+  Context& context;
+  Loc loc;
+  TypeId record;
+  std::vector<FieldInit> fields;
+
+  TypeId typeOf(std::string_view name) const {
+    const VarId member = findMember(context, record, context.names().intern(name));
+    return member ? context.project.var(member).type : types::kError;
+  }
+  void add(std::string_view name, int64_t value) {
+    const TypeId type = context.types().plain(typeOf(name));
+    const ExprId literal = makeLiteral(context, LiteralKind::Integer, type, value < 0 ? -value : value, loc);
+    if (value < 0) context.tree().expr(literal).bits = kLiteralNegative;
+    fields.push_back({{context.names().intern(name), loc}, literal});
+  }
+  void add(std::string_view name, std::string_view text) {
+    fields.push_back({{context.names().intern(name), loc}, makeText(context, text, loc)});
+  }
+};
+
+// The text of the `///` line above a declaration.
+std::string commentOf(const Context& context, const Var& var) {
+  if (!var.decl || !context.tree().decl(var.decl).doc) return {};
+  const Loc doc = context.tree().decl(var.decl).doc;
+  const FileId file = context.project.sources.fileOf(doc);
+  std::string_view text = context.project.sources.text(file);
+  text.remove_prefix(doc.offset - context.project.sources.begin(file).offset);
+  text = text.substr(0, text.find_first_of("\r\n"));
+  while (!text.empty() && (text.front() == '/' || text.front() == ' ')) text.remove_prefix(1);
+  return std::string(text);
+}
+
+void addPlace(Facts& facts, ExprId place) {
+  Context& context = facts.context;
+  int64_t bit = -1;
+  if (context.tree().kind(place) == ExprKind::BitAccess) {
+    const BitAccessExpr& access = context.tree().as<BitAccessExpr>(place);
+    if (access.width == 1) bit = access.position;
+    place = access.base;
+  }
+  const Entity entity = entityOf(context, place);
+  int64_t offset = 0, area = -1, bit_address = 0, memory = 5;
+  std::string comment;
+  if (entity.what() == EntityKind::Var) {
+    const Var* var = &context.project.vars[entity.index];
+    if (var->external) var = &context.project.var(var->external);
+    comment = commentOf(context, *var);
+    TypeId holder = var->record;
+    if (var->pou) holder = context.project.pou(var->pou).record;
+    if (var->list) holder = context.project.global_lists[var->list.index].record;
+    const bool in_record = var->storage == Storage::Field || var->storage == Storage::Global;
+    if (in_record && holder && ensureLayout(context, holder))
+      offset = context.types().info(context.types().resolve(holder)).fields[var->field].offset;
+    if (var->storage == Storage::Global) area = 0, memory = 4;
+    if (var->retain) memory = 3;
+    if (var->storage == Storage::Image) {
+      const auto number = static_cast<int64_t>(var->image.area);  // I, Q, M
+      area = number + 1;
+      memory = number == 2 ? 0 : number + 1;
+      offset = var->image.byte;
+      if (var->image.is_bit) bit = var->image.bit;
+      bit_address = offset * 8 + (bit < 0 ? 0 : bit);
+    }
+  }
+  facts.add("ByteOffset", offset);
+  facts.add("Area", area);
+  facts.add("BitNr", bit);
+  facts.add("BitAddress", bit_address);
+  facts.add("MemoryArea", memory);
+  facts.add("Comment", comment);
+}
+
+void addType(Facts& facts, TypeId type, bool is_bit) {
+  Context& context = facts.context;
+  const auto bits = [&](TypeId of) {
+    return static_cast<int64_t>(context.types().info(context.types().resolve(of)).size) * 8;
+  };
+  facts.add("BitSize", is_bit ? 1 : bits(type));
+  facts.add("TypeClass", is_bit ? 1 : typeClassOf(context, type));  // TYPE_BIT
+  facts.add("TypeName", context.types().spell(type));
+  const types::TypeInfo& info = context.types().info(context.types().resolve(type));
+  if (info.kind != TypeKind::Array) return;
+  int64_t count = 1;
+  for (const types::Dimension& dimension : info.dimensions) count *= static_cast<int64_t>(dimension.count());
+  facts.add("NumElements", count);
+  facts.add("BaseTypeClass", typeClassOf(context, info.base));
+  facts.add("ElemBitSize", bits(info.base));
+}
+
+// The byte of the image that holds a located bit; none for other places.
+ExprId byteOfImage(Context& context, ExprId place) {
+  const Entity entity = entityOf(context, place);
+  if (entity.what() != EntityKind::Var) return {};
+  const Var* var = &context.project.vars[entity.index];
+  if (var->external) var = &context.project.var(var->external);
+  if (var->storage != Storage::Image || !var->image.is_bit) return {};
+  AddressExpr byte{};
+  byte.h.kind = ExprKind::Address;
+  byte.h.loc = context.tree().loc(place);
+  byte.h.type = types::kByte;
+  byte.address.area = var->image.area;
+  byte.address.size = 'B';
+  byte.address.size_given = true;
+  const uint32_t path[] = {var->image.byte};
+  byte.address.path = context.tree().addList<uint32_t>(path);
+  return context.tree().add<ExprId>(byte);
+}
+
+TypeId checkVarInfo(Context& context, ExprId& expr, ExprId place) {
+  const Loc loc = context.tree().loc(expr);
+  const TypeId type = check(context, place, {}, Access::Address);
+  const Entity record = lookUpSystem(context, "VAR_INFO");
+  if (!type || type == types::kError || record.what() != EntityKind::Type) return types::kError;
+  const bool is_bit = context.tree().kind(place) == ExprKind::BitAccess;
+  ExprId whole = place;
+  if (is_bit) whole = context.tree().as<BitAccessExpr>(place).base;
+  if (const ExprId byte = byteOfImage(context, place)) whole = byte;
+  if (context.types().isOpenArray(type) || !hasMemory(context, whole)) {
+    context.report(Diag::NotAVariable, context.tree().begin(place));
+    return types::kError;
+  }
+  if (const PouId pou = pouOf(context, type)) resolvePou(context, pou);
+  if (!ensureLayout(context, type)) return types::kError;
+  const Loc begin = context.tree().begin(place);
+  const CallExpr& call = context.tree().as<CallExpr>(expr);
+  const FileId file = context.project.sources.fileOf(begin);
+  std::string_view written = context.project.sources.text(file);
+  const uint32_t base = context.project.sources.begin(file).offset;
+  written = written.substr(begin.offset - base, call.end.offset - begin.offset);
+  while (!written.empty() && (written.back() == ' ' || written.back() == ')')) written.remove_suffix(1);
+
+  Facts facts{context, loc, TypeId{record.index}, {}};
+  addPlace(facts, place);
+  addType(facts, type, is_bit);
+  facts.add("Symbol", written.substr(0, 39));
+  StructInitExpr init{};
+  init.h.kind = ExprKind::StructInit;
+  init.h.loc = loc;
+  init.h.type = facts.record;
+  init.fields = context.tree().addList<FieldInit>(facts.fields);
+  AnyValueExpr node{};
+  node.h.kind = ExprKind::AnyValue;
+  node.h.loc = loc;
+  node.h.type = facts.record;
+  node.value = whole;
+  node.facts = context.tree().add<ExprId>(init);
+  expr = context.tree().add<ExprId>(node);
+  return facts.record;
+}
+
+std::string pouName(const Context& context) {
+  if (!context.pou) return {};
+  const Pou& pou = context.project.pou(context.pou);
+  const std::string own(text(context, pou.name));
+  return pou.owner ? std::string(text(context, context.project.pou(pou.owner).name)) + "." + own : own;
+}
+
+std::string position(const Context& context, Loc loc) {
+  const Place place = context.project.sources.place(loc);
+  const std::string line = "Line " + std::to_string(place.line);
+  return context.body ? line + ", Column " + std::to_string(place.column) + " (Impl)" : line + " (Decl)";
+}
+
+}  // namespace
+
+TypeId checkKnownCall(Context& context, ExprId& expr, NameId name) {
+  const bool info = isNamed(context, name, "__VARINFO"), pou = isNamed(context, name, "__POUNAME"),
+             here = isNamed(context, name, "__POSITION");
+  if ((!info && !pou && !here) || context.iec()) return {};
+  const CallExpr node = context.tree().as<CallExpr>(expr);
+  const uint32_t wanted = info ? 1 : 0;
+  if (node.arguments.count != wanted || (info && !context.tree().list(node.arguments)[0].value)) {
+    context.report(Diag::WrongArgumentCount, node.h.loc,
+                   {text(context, name), std::to_string(wanted), std::to_string(node.arguments.count)});
+    checkLooseArguments(context, node);
+    return context.tree().expr(expr).type = types::kError;
+  }
+  if (info) {
+    const TypeId type = checkVarInfo(context, expr, context.tree().list(node.arguments)[0].value);
+    return context.tree().expr(expr).type = type;
+  }
+  expr = makeText(context, pou ? pouName(context) : position(context, node.h.loc), node.h.loc);
+  return context.tree().expr(expr).type;
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,271 @@
+// VAR_ACCESS: names under which the host finds single variables. In: the sections of configurations and programs, once
+// all instances are known. Out: Project::access_paths, each with the place that it means. IEC 61131-3 ed. 3 table 62,
+// 10 and table 47, 9. Without a direction an access path is READ_ONLY.
+#include "sema/declarations/configuration.h"
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+using types::TypeInfo;
+using types::TypeKind;
+
+namespace {
+
+struct Step {
+  Ident name;
+  ExprId element;  // an IndexExpr; none: no element
+};
+
+struct Resolver {
+  Context context;
+  Project& project;
+  NameMap names;  // what is declared so far, by the whole symbol
+
+  Tree& tree() const { return context.tree(); }
+  std::string_view text(NameId name) const { return context.names().text(name); }
+
+  // `Cpu.p.list[3].value` from left to right.
+  void flatten(ExprId path, std::vector<Step>& to) const {
+    ExprId element;
+    if (tree().kind(path) == ExprKind::Index) {
+      element = path;
+      path = tree().as<IndexExpr>(path).base;
+    }
+    if (tree().kind(path) == ExprKind::Member) {
+      const MemberExpr& node = tree().as<MemberExpr>(path);
+      flatten(node.base, to);
+      to.push_back({{node.member, node.h.loc}, element});
+    } else if (tree().kind(path) == ExprKind::Name) {
+      const NameExpr& node = tree().as<NameExpr>(path);
+      to.push_back({{node.name, node.h.loc}, element});
+    }
+  }
+
+  // The path does not lead to a variable.
+  //   passes  level : Cpu.p.level : INT;       fails   level : Cpu.p.lvl : INT;       E0890
+  bool lost(const Ident& at) {
+    context.report(Diag::AccessPath, at.loc, {text(at.name)});
+    return false;
+  }
+
+  // The bytes in front of a member, that of a base included.
+  uint64_t offsetOf(TypeId record, const Var& member) {
+    uint64_t offset = 0;
+    const NamedType* named = context.scopes.named(context.types().resolve(record));
+    PouId object = named == nullptr ? PouId{} : named->pou;
+    while (member.pou && object && !(object == member.pou)) {
+      const Pou& pou = project.pou(object);
+      offset += context.types().info(pou.record).fields[project.var(pou.base_var).field].offset;
+      object = pou.base;
+      record = project.pou(object).record;
+    }
+    return offset + context.types().info(context.types().resolve(record)).fields[member.field].offset;
+  }
+
+  bool enter(AccessPath& out, TypeId record, VarId id, const Step& step, TypeId& type) {
+    const Var& var = project.var(id);
+    type = var.type;
+    if (type == types::kError) return false;
+    const bool elsewhere =
+        var.section == SectionKind::InOut || context.types().kind(type) == TypeKind::Reference || var.external;
+    if (elsewhere || var.storage == Storage::Local) return lost(step.name);
+    if (var.storage == Storage::Image) {
+      out.located = true;
+      out.image = var.image;
+    } else if (var.storage == Storage::Field) {
+      out.offset += offsetOf(record, var);
+    }
+    if (var.is_bit) out.bit = var.bit;
+    if (var.constant) out.read_only = true;
+    project.var(id).read = true;
+    if (!out.read_only) project.var(id).written = true;
+    return !step.element || enterElement(out, step, type);
+  }
+
+  bool enterElement(AccessPath& out, const Step& step, TypeId& type) {
+    const Slice<ExprId> indices = tree().as<IndexExpr>(step.element).indices;
+    const TypeInfo& info = context.types().info(context.types().resolve(type));
+    if (info.kind != TypeKind::Array || info.dimensions.size() != indices.count) return lost(step.name);
+    uint64_t element = 0;
+    for (uint32_t i = 0; i < indices.count; ++i) {
+      ExprId index = tree().list(indices)[i];
+      const auto value = constantBound(context, index);
+      if (!value) return false;
+      const types::Dimension& dimension = info.dimensions[i];
+      if (*value < dimension.low || *value > dimension.high) return lost(step.name);
+      element = element * dimension.count() + static_cast<uint64_t>(*value - dimension.low);
+    }
+    type = info.base;
+    const uint64_t bytes = element * context.types().info(context.types().resolve(type)).size;
+    if (out.located)
+      out.image.byte += static_cast<uint32_t>(bytes);
+    else
+      out.offset += bytes;
+    return true;
+  }
+
+  // Where the steps lead, from the program `of` or from the whole project.
+  bool follow(std::span<const Step> steps, AccessPath& out, TypeId& type) {
+    size_t next = 0;
+    const auto matches = [&](NameId name) {
+      return next < steps.size() && name && context.names().same(name, steps[next].name.name);
+    };
+    TypeId record;
+    if (out.root == AccessPath::Root::Project) {
+      for (uint32_t i = 0; i < project.instances.size() && !record; ++i) {
+        const ProgramInstance& instance = project.instances[i];
+        next = 0;
+        if (matches(instance.configuration)) ++next;
+        if (matches(instance.resource)) ++next;
+        if (!matches(instance.name) || steps[next].element) continue;
+        ++next;
+        out.root = AccessPath::Root::Instance;
+        out.index = i;
+        record = project.pou(instance.program).record;
+      }
+    } else {
+      const PouId program =
+          out.root == AccessPath::Root::Instance ? project.instances[out.index].program : PouId{out.index};
+      record = project.pou(program).record;
+    }
+    if (!record) {  // a global variable, its resource or configuration in front
+      next = 0;
+      Entity list = context.scopes.qualifiers.find(keyOf(context, steps[0].name.name));
+      for (const ProgramInstance& instance : project.instances)
+        if (next == 0 && matches(instance.configuration)) ++next;
+      for (const ProgramInstance& instance : project.instances)
+        if (next < 2 && next + 1 < steps.size() && matches(instance.resource)) ++next;
+      if (next == 0 && list.what() == EntityKind::GlobalList && steps.size() > 1) next = 1;
+      if (next >= steps.size()) return lost(steps.back().name);
+      const NameId key = keyOf(context, steps[next].name.name);
+      Entity found;
+      if (next > 0) {
+        list = context.scopes.qualifiers.find(keyOf(context, steps[next - 1].name.name));
+        if (list.what() == EntityKind::GlobalList) found = context.scopes.lists[list.index].names.find(key);
+      }
+      if (!found) found = context.scopes.globals.find(key);
+      if (found.what() != EntityKind::Var) return lost(steps[next].name);
+      const Var& var = project.vars[found.index];
+      out.root = AccessPath::Root::List;
+      out.index = var.list.index;
+      if (var.storage == Storage::Global)
+        out.offset = context.types().info(project.global_lists[var.list.index].record).fields[var.field].offset;
+      if (!enter(out, {}, VarId{found.index}, steps[next], type)) return false;
+      record = type;
+      ++next;
+    }
+    for (; next < steps.size(); ++next) {
+      const VarId member = findMember(context, record, steps[next].name.name);
+      if (!member) return lost(steps[next].name);
+      if (!enter(out, record, member, steps[next], type)) return false;
+      record = type;
+    }
+    return static_cast<bool>(type) || lost(steps.back().name);
+  }
+
+  // Forbids a type that is not the variable's, and two access paths of one name.
+  void declare(DeclId id, AccessPath out) {
+    VarDecl& decl = tree().as<VarDecl>(id);
+    if (decl.names.empty() || !decl.type || tree().kind(decl.type) == TypeExprKind::Error) return;
+    const Ident name = tree().list(decl.names)[0];
+    const TypeId declared = resolveType(context, decl.type);
+    if (declared == types::kError) return;
+    out.name = name.name;
+    out.loc = name.loc;
+    out.read_only = decl.h.bits != 0;
+    TypeId type = declared;
+    Ident last = name;
+    if (decl.located) {
+      const auto view = resolveAddress(context, decl.address, decl.address_loc, declared);
+      if (!view) return;
+      out.located = true;
+      out.image = *view;
+    } else {
+      std::vector<Step> steps;
+      if (decl.init) flatten(decl.init, steps);
+      if (steps.empty()) return;  // the parser has told
+      last = steps.back().name;
+      type = {};
+      if (!follow(steps, out, type)) return;
+    }
+    out.type = type;
+    if (context.types().resolve(type) != context.types().resolve(declared)) {
+      context.report(Diag::ExternalType, tree().loc(decl.type),
+                     {text(last.name), context.types().spell(declared), context.types().spell(type)});
+      return;
+    }
+    std::string symbol = spelled(context, out.name);
+    if (out.prefix) symbol = spelled(context, out.prefix) + "." + symbol;
+    const auto index = static_cast<uint32_t>(project.access_paths.size());
+    const NameId key = keyOf(context, context.names().intern(symbol));
+    if (!names.insert(key, Entity::of(EntityKind::Error, index))) {
+      reportTwice(context, out.name, out.loc, project.access_paths[names.find(key).index].loc);
+      return;
+    }
+    project.access_paths.push_back(out);
+  }
+
+  void section(DeclId id, FileId file, NameId configuration) {
+    if (tree().kind(id) != DeclKind::Section) return;
+    const SectionDecl section = tree().as<SectionDecl>(id);
+    if (section.section != SectionKind::Access) return;
+    context.file = file;
+    AccessPath out;
+    out.configuration = configuration;
+    for (uint32_t i = 0; i < section.vars.count; ++i) declare(tree().list(section.vars)[i], out);
+  }
+
+  void configurations() {
+    for (uint32_t u = 0; u < tree().files.size(); ++u) {
+      const FileUnit unit = tree().files[u];
+      for (uint32_t i = 0; i < unit.decls.count; ++i) {
+        const DeclId id = tree().list(unit.decls)[i];
+        section(id, unit.file, {});
+        if (tree().kind(id) != DeclKind::Configuration) continue;
+        const ConfigurationDecl configuration = tree().as<ConfigurationDecl>(id);
+        for (uint32_t m = 0; m < configuration.members.count; ++m) {
+          const DeclId member = tree().list(configuration.members)[m];
+          section(member, unit.file, configuration.name);
+          if (tree().kind(member) != DeclKind::Resource) continue;
+          const Slice<DeclId> inner = tree().as<ResourceDecl>(member).members;
+          for (uint32_t r = 0; r < inner.count; ++r) section(tree().list(inner)[r], unit.file, configuration.name);
+        }
+      }
+    }
+  }
+
+  void programs() {
+    for (uint32_t p = 1; p < project.pous.size(); ++p) {
+      const Pou& pou = project.pous[p];
+      if (pou.kind != PouKind::Program || pou.library || pou.test || !pou.decl) continue;
+      const PouDecl decl = tree().as<PouDecl>(pou.decl);
+      for (uint32_t s = 0; s < decl.sections.count; ++s) {
+        const SectionDecl section = tree().as<SectionDecl>(tree().list(decl.sections)[s]);
+        if (section.section != SectionKind::Access) continue;
+        context.file = pou.file;
+        for (uint32_t i = 0; i < project.instances.size(); ++i) {
+          if (!(project.instances[i].program == PouId{p})) continue;
+          AccessPath out;
+          out.root = AccessPath::Root::Instance;
+          out.index = i;
+          out.prefix = project.instances[i].name;
+          out.configuration = project.instances[i].configuration;
+          const uint32_t errors = project.diagnostics.errorCount();
+          for (uint32_t v = 0; v < section.vars.count; ++v) declare(tree().list(section.vars)[v], out);
+          if (project.diagnostics.errorCount() != errors) break;  // the same would be said of each instance
+        }
+      }
+    }
+  }
+};
+
+}  // namespace
+
+void resolveAccessPaths(Context& context) {
+  Context there = at(context, {}, {}, false);
+  Resolver resolver{.context = there, .project = context.project, .names = {}};
+  resolver.configurations();
+  resolver.programs();
+}
+
+}  // namespace rung::sema
