@@ -79,6 +79,7 @@ struct Var {
   TypeId any;                   // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
   VarId bounds;                 // ARRAY[*]: the first of the hidden variables with its bounds, two a dimension
   bool hidden_input = false;    // of a function: such a bound, passed behind the pins
+  uint32_t temporary = 0;       // of the compiler, without declared type: its number in the body; 0: none
   VarId edge_memory;            // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
   std::vector<NameId> aliases;  // {alias 'R'}
 };
@@ -224,6 +225,10 @@ struct Call {
 
 struct Project;
 
+// Told of each body that a scheduler has made statements of, before they are checked: the moment to print them.
+// The types of the temporaries follow when the project is checked: Project::pous, Var::temporary.
+using Scheduled = std::function<void(Project& project, PouId pou)>;
+
 // One file of a library that is built into the compiler.
 struct LibraryFile {
   const char* library;  // `Standard`
@@ -247,6 +252,7 @@ struct Options {
   std::span<const std::string> project_names;  // qualify what the project itself declares: `TcUnit.FB_TestSuite`
   std::span<const LibraryAlias> library_aliases;
   CallConstant call_constant;                // none: calls of functions are no constants
+  Scheduled scheduled;                       // none: nobody asks
   bool with_tests = false;                   // the program is for `rung test`
   std::vector<std::string> mocks;            // … of the tests that name exactly these
   int64_t default_interval_ns = 10'000'000;  // of the task that is made when there is no CONFIGURATION

@@ -28,7 +28,7 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
   };
   switch (var.section) {
     case SectionKind::Input:
-      if (!context.iec() || program) return true;
+      if (!context.iec() || program || (access == Access::Write && (node.h.bits & kPresetsInput) != 0)) return true;
       return writes ? refuse(Diag::InputWrittenOutside) : access == Access::Qualifier || refuse(Diag::InputReadOutside);
     case SectionKind::Output: return writes ? refuse(Diag::OutputWrittenOutside) : true;
     case SectionKind::InOut: return writes ? refuse(Diag::InOutWrittenOutside) : true;
