@@ -95,7 +95,7 @@ struct ExprHeader {
   uint8_t is_constant : 1;  // sema: value known at compile time
   uint8_t writable : 1;     // sema: a place that may be assigned
   uint8_t op;               // UnaryOp, BinaryOp or LiteralKind
-  uint8_t bits;             // LiteralExpr, MemberExpr, IndexExpr, CallExpr: flags below
+  uint8_t bits;             // LiteralExpr, IndexExpr, CallExpr: flags below
   Loc loc;                  // first token; for Binary the operator, for Member the member name, for Call the callee
   TypeId type;              // sema
 };
@@ -129,8 +129,6 @@ struct TypedNameExpr {
   Ident item;
   Entity entity; /* sema */
 };
-constexpr uint8_t kPresetsInput =
-    1;               // of a member: `ST timer.IN` sets an input for the call that follows (ed. 3 table 69, 2)
 struct MemberExpr {  // h.loc is the member's name
   ExprHeader h;
   ExprId base;

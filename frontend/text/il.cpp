@@ -131,7 +131,10 @@ bool Parser::atIl() const {
   while (isName(t->kind) && t[1].kind == Tok::Colon && !isTypeWord(t[2].kind)) t += 2;
   if (isPlainInstruction(t)) return true;
   if (isName(t->kind) && t[1].kind == Tok::Assign) return false;
-  if (il_file_ && (isName(t->kind) || isInstruction(t))) return true;
+  if (il_file_ && (isName(t->kind) || isInstruction(t))) {
+    while (t->kind != Tok::Semicolon && t->kind != Tok::End && (t[1].flags & kLineStart) == 0) ++t;
+    return t->kind != Tok::Semicolon;
+  }
   // A function that needs no value before it: `MAX(IN1 := a, IN2 := b)`, `ST x` on the next line.
   if (!isName(t->kind)) return false;
   ++t;
@@ -161,6 +164,11 @@ Slice<IlInstruction> Parser::parseIl(bool nested) {
       declared_in_body_ = true;
       parseSection();
       continue;
+    }
+    if (statementInIl()) {
+      il_.resize(first);
+      il_open_.resize(first_open);
+      break;
     }
     parseInstruction();
     endInstruction();
@@ -218,8 +226,18 @@ void Parser::parseInstruction() {
   } else {
     fail(Diag::NotAnInstruction, t_, {describe(t_)});
   }
-  if (panic_ && (i.flags & kIlDeferred) == 0) i.kind = IlKind::Label;  // its label is one all the same
+  if (panic_) mend(i);
   if (i.kind != IlKind::Label || i.label.name) il_.push_back(i);
+}
+
+// What is wrong in it has been said; what follows from it is no second mistake.
+void Parser::mend(IlInstruction& i) {
+  if (i.kind == IlKind::Jump || i.kind == IlKind::Call) i.kind = IlKind::Label;  // its label is one all the same
+  if (i.kind == IlKind::Label || !i.operands.empty() || (i.flags & kIlDeferred) != 0) return;
+  Argument a{};
+  a.loc = i.loc;
+  a.value = errorExpr(i.loc);
+  i.operands = tree_.addList<Argument>({&a, 1});
 }
 
 // Behind an instruction: the end of its line. What stands there is passed over, so that it is said once.
@@ -409,6 +427,17 @@ void Parser::closeIlParen(Tok close) {
   while (!atBlockEnd() && !at(Tok::RightParen) && !(atLineStart() && isInstruction(t_))) advance();
   if (at(Tok::RightParen)) advance();
   panic_ = false;
+}
+
+// Statements among the instructions: one error for the whole body, since nobody knows what they would have done.
+bool Parser::statementInIl() {
+  const Token* t = t_;
+  const bool word = isReserved(t->kind) && wordAt(t->kind, textOf(t)) == nullptr && t[1].kind != Tok::Colon;
+  while (isName(t->kind) && (t[1].kind == Tok::Dot || t[1].kind == Tok::Caret) && isName(t[2].kind)) t += 2;
+  if (!word && !(isName(t->kind) && t[1].kind == Tok::Assign)) return false;
+  slip(Diag::StatementInIl, t_, {textOf(t_)});
+  while (!at(Tok::End) && kind() != pou_end_ && !atTopLevelWord()) advance();
+  return true;
 }
 
 // Instructions among the statements of a body that began in ST: one error for all of them.

@@ -32,7 +32,7 @@ class Scheduler {
   struct Value {
     State state = State::Empty;
     bool constant = false;  // a literal: written again where it is used again, so that it adapts anew
-    bool computed = false;  // not only loaded
+    bool literals = false;  // of literals alone, which are computed exactly
     bool calls = false;
     bool read = false;
     uint16_t height = 1;
@@ -301,7 +301,7 @@ Scheduler::Value Scheduler::valueOf(ExprId operand, Loc loc) const {
   Value value;
   value.state = State::Known;
   value.expr = operand;
-  value.constant = isConstant(operand);
+  value.constant = value.literals = isConstant(operand);
   value.calls = tree_.kind(operand) == ExprKind::Call;
   value.loc = loc;
   return value;
@@ -324,7 +324,7 @@ void Scheduler::spill(Value& value) {
       tree_.add<StmtId>(AssignStmt{stmtHeader(StmtKind::Assign, value.loc), nameExpr(name, value.loc), value.expr}));
   value.expr = {};
   value.temporary = name;
-  value.computed = value.calls = false;
+  value.literals = value.calls = false;
   value.height = 1;
 }
 
@@ -333,8 +333,9 @@ void Scheduler::settleOpen() {
   for (; settled_ < open_.size(); ++settled_) spill(open_[settled_].left);
 }
 
+// A temporary for literals alone would give them a type before their time.
 void Scheduler::limit(Value& value) {
-  if (value.height < kMaxHeight) return;
+  if (value.height < kMaxHeight || value.literals) return;
   settleOpen();
   spill(value);
 }
@@ -371,7 +372,6 @@ Scheduler::Value Scheduler::negated(Value value, Loc loc) {
   result.state = value.state == State::Broken ? State::Broken : State::Known;
   result.temporary = {};
   result.constant = result.read = false;
-  result.computed = true;
   result.loc = loc;
   ++result.height;
   limit(result);
@@ -387,7 +387,7 @@ Scheduler::Value Scheduler::combined(Value left, BinaryOp op, Value right, Loc l
   }
   Value result;
   result.state = left.state == State::Known && right.state == State::Known ? State::Known : State::Broken;
-  result.computed = true;
+  result.literals = left.literals && right.literals;
   result.calls = left.calls || right.calls;
   result.height = static_cast<uint16_t>(std::max(left.height, right.height) + 1);
   result.loc = loc;
@@ -398,13 +398,14 @@ Scheduler::Value Scheduler::combined(Value left, BinaryOp op, Value right, Loc l
   return result;
 }
 
-// The accumulator gets another value. What was computed for nobody is still evaluated: it may call or fault.
+// The accumulator gets another value. What was computed for nobody is still evaluated: it may call or fault, and its
+// names are checked.
 void Scheduler::drop() {
   const Value value = std::exchange(acc_, {});
   if (value.state != State::Known || value.read) return;
   if (value.expr && tree_.kind(value.expr) == ExprKind::Call) return callStatement(value.expr);
   diagnostics_.report(Diag::AccumulatorUnused, value.loc);
-  if (!value.computed) return;
+  if (value.constant) return;
   acc_ = value;
   settleOpen();
   spill(acc_);
@@ -550,7 +551,6 @@ void Scheduler::store(const IlInstruction& i) {
   require(acc_, i);
   const ExprId value = use(i);
   const ExprId target = operand(i, 0).value;
-  if (tree_.kind(target) == ExprKind::Member) tree_.expr(target).bits |= kPresetsInput;
   if (i.kind != IlKind::Store)
     assign(target, value, i.loc, i.kind == IlKind::Set ? AssignOp::Set : AssignOp::Reset);
   else
@@ -593,7 +593,7 @@ void Scheduler::close(const IlInstruction& i) {
 Scheduler::Value Scheduler::called(ExprId callee, std::vector<Argument>& arguments, Loc loc, uint16_t height) {
   Value value;
   value.state = State::Known;
-  value.computed = value.calls = true;
+  value.calls = true;
   value.height = static_cast<uint16_t>(height + 1);
   value.loc = loc;
   CallExpr node{exprHeader(ExprKind::Call, tree_.loc(callee)), callee, {}, loc, {}};

@@ -159,6 +159,7 @@ class Parser {
   bool isInstruction(const Token* t) const;
   bool isPlainInstruction(const Token* t) const;
   void parseInstruction();
+  void mend(IlInstruction& i);
   void endInstruction();
   void parseOperands(IlInstruction& i, const Token* op);
   void parseIlList(IlInstruction& i, const Token* op);
@@ -170,6 +171,7 @@ class Parser {
   void parseNestedIl(uint32_t operand);
   void closeIlParen(Tok close);
   bool instructionInSt();
+  bool statementInIl();
 
   // ---- expressions (expressions.cpp)
   ExprId parseExpr(uint32_t least = 1);

@@ -125,7 +125,7 @@ void checkAssign(Context& context, AssignStmt& node) {
     case AssignOp::Set:
     case AssignOp::Reset: {
       const TypeId type = checkTarget(context, node.target, Access::ReadWrite);
-      checkAs(context, node.value, types::kBool, Purpose{"used as the condition of S= or R=", {}, {}});
+      checkAs(context, node.value, types::kBool, Purpose{"used to set or reset", {}, {}});
       if (type != types::kError && context.types().plainKind(type) != TypeKind::Bool) {
         context.report(Diag::SetNeedsBool, context.tree().loc(node.target), {context.types().spell(type)});
       }
