@@ -5,6 +5,7 @@
 // The last form defers the operator up to a `)` on a line of its own.
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "frontend/text/parser.h"
 
@@ -150,6 +151,7 @@ bool Parser::atIl() const {
 // The instructions up to the end of the body, or of the `(` in which a nested list stands.
 Slice<IlInstruction> Parser::parseIl(bool nested) {
   const size_t first = il_.size(), first_open = il_open_.size();
+  const size_t outside = std::exchange(il_outside_, first_open);
   const bool outer = in_il_;
   in_il_ = true;
   while (!atBlockEnd() && !(nested && at(Tok::RightParen) && il_open_.size() == first_open)) {
@@ -184,6 +186,7 @@ Slice<IlInstruction> Parser::parseIl(bool nested) {
     il_.push_back(close);
   }
   in_il_ = outer;
+  il_outside_ = outside;
   return listFrom(il_, first);
 }
 
@@ -195,7 +198,8 @@ void Parser::parseInstruction() {
     i.label = isName(kind()) ? ident(t_) : Ident{names_.intern(textOf(t_)), here()};
     advance();
     advance();
-    if (atLineStart() || atBlockEnd() || peek() == Tok::Colon) {
+    const bool closes = at(Tok::RightParen) && il_open_.size() == il_outside_;
+    if (atLineStart() || atBlockEnd() || peek() == Tok::Colon || closes) {
       i.loc = i.label.loc;
       il_.push_back(i);
       return;

@@ -1,7 +1,7 @@
 // How it works. The accumulator is an expression that no statement holds yet; LD begins a new one, operators wrap it,
 // ST, JMPC and the like put it into a statement. What must be evaluated before a statement that comes between becomes a
 // temporary: the accumulator where something reads it afterwards, and the values in front of open parentheses.
-// Whether something reads it is known before (Flow), so that most bodies need no temporary at all.
+// Whether something reads it is known before (il_flow.h), so that most bodies need no temporary at all.
 #include "frontend/text/il_schedule.h"
 
 #include <algorithm>
@@ -9,10 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "frontend/text/il_flow.h"
+
 namespace rung::text {
 namespace {
 
-constexpr uint32_t kNone = ~0u;
 // Of one expression; beyond it a temporary cuts the tree, so that no number of instructions is too large.
 constexpr uint16_t kMaxHeight = 200;
 
@@ -45,26 +46,7 @@ class Scheduler {
     Value left;
   };
 
-  // ---- what reads the accumulator
-  // For each instruction: the one that reads the value which stands in the accumulator before it; kNone: none does, and
-  // the number of instructions: the end of a nested list.
-  struct Flow {
-    std::vector<uint32_t> reader;
-    std::vector<bool> reached;                          // the instruction, from the beginning
-    std::vector<uint32_t> jumps;                        // to the label at an instruction
-    std::vector<NameId> temporary;                      // of the label at an instruction
-    std::vector<std::pair<uint32_t, uint32_t>> labels;  // name key, instruction; sorted
-  };
-  enum class Effect : uint8_t { Passes, Reads, Replaces, Leaves, Goes };
-  Effect effectOf(const IlInstruction& i);
-  Flow flowOf(Slice<IlInstruction> list, bool nested);
-  uint32_t labelOf(const Flow& flow, const Ident& target) const;
-  void collectLabels(Flow& flow, Slice<IlInstruction> list);
-  bool isLive(uint32_t instruction) const { return flow_->reader[instruction] != kNone; }
-
-  // ---- questions
-  bool takesAccumulator(const IlInstruction& i);
-  const NameId* inputOperator(const IlInstruction& i);
+  bool isLive(uint32_t instruction) const { return flow_->reader[instruction] != kNoInstruction; }
   Argument operand(const IlInstruction& i, uint32_t index) const { return tree_.list(i.operands)[index]; }
   bool isConstant(ExprId expr) const;
 
@@ -134,9 +116,9 @@ class Scheduler {
   std::vector<DeclId> temporaries_;
   uint32_t next_temporary_ = 1;
   Value acc_;
-  bool falls_ = true;     // the instruction before leads here
-  uint32_t at_ = 0;       // the instruction at hand
-  Flow* flow_ = nullptr;  // of the list at hand
+  bool falls_ = true;       // the instruction before leads here
+  uint32_t at_ = 0;         // the instruction at hand
+  IlFlow* flow_ = nullptr;  // of the list at hand
   size_t first_open_ = 0;
   bool nested_ = false;
   struct EmptyWay {
@@ -146,142 +128,12 @@ class Scheduler {
   std::vector<EmptyWay> empty_ways_;  // to labels whose accumulator is read
 };
 
-// ---- what reads the accumulator
-
-Scheduler::Effect Scheduler::effectOf(const IlInstruction& i) {
-  const bool conditional = (i.flags & kIlConditional) != 0;
-  switch (i.kind) {
-    case IlKind::Label: return Effect::Passes;
-    case IlKind::Load: return inputOperator(i) != nullptr ? Effect::Reads : Effect::Replaces;
-    case IlKind::Store:
-    case IlKind::Set:
-    case IlKind::Reset:
-    case IlKind::Not:
-    case IlKind::Binary:
-    case IlKind::Close: return Effect::Reads;
-    case IlKind::Jump: return conditional ? Effect::Reads : Effect::Goes;
-    case IlKind::Return: return conditional ? Effect::Reads : Effect::Leaves;
-    case IlKind::Call:
-      if (conditional) return Effect::Reads;
-      return shapes_.of(i.callee).has_result ? Effect::Replaces : Effect::Passes;
-    case IlKind::Function:
-      if ((i.flags & kIlFormal) != 0 && shapes_.of(i.callee).kind == ShapeKind::Instance) return Effect::Passes;
-      return takesAccumulator(i) ? Effect::Reads : Effect::Replaces;
-  }
-  return Effect::Passes;
-}
-
-void Scheduler::collectLabels(Flow& flow, Slice<IlInstruction> list) {
-  for (uint32_t k = 0; k < list.count; ++k) {
-    const Ident label = tree_.list(list)[k].label;
-    if (label.name) flow.labels.push_back({names_.key(label.name).index, k});
-  }
-  std::sort(flow.labels.begin(), flow.labels.end());
-  const auto twice = [](const auto& a, const auto& b) { return a.first == b.first; };
-  for (size_t n = 1; n < flow.labels.size(); ++n) {
-    if (!twice(flow.labels[n - 1], flow.labels[n])) continue;
-    const Ident second = tree_.list(list)[flow.labels[n].second].label;
-    diagnostics_.report(Diag::JumpLabelTwice, second.loc, {names_.text(second.name)})
-        .note(tree_.list(list)[flow.labels[n - 1].second].label.loc, Note::DeclaredHere);
-  }
-  flow.labels.erase(std::unique(flow.labels.begin(), flow.labels.end(), twice), flow.labels.end());
-}
-
-uint32_t Scheduler::labelOf(const Flow& flow, const Ident& target) const {
-  const std::pair<uint32_t, uint32_t> wanted{names_.key(target.name).index, 0};
-  const auto found = std::lower_bound(flow.labels.begin(), flow.labels.end(), wanted);
-  return found != flow.labels.end() && found->first == wanted.first ? found->second : kNone;
-}
-
-// Each instruction that neither reads nor replaces the accumulator leads to one other, so that the answers are found by
-// following that chain, each link once.
-Scheduler::Flow Scheduler::flowOf(Slice<IlInstruction> list, bool nested) {
-  constexpr uint32_t kOpen = kNone - 1, kBusy = kNone - 2;
-  Flow flow;
-  collectLabels(flow, list);
-  flow.reader.assign(list.count + 1, kOpen);
-  flow.reached.assign(list.count, nested);
-  flow.jumps.assign(list.count, 0);
-  flow.temporary.assign(list.count, {});
-  flow.reader[list.count] = nested ? list.count : kNone;
-  std::vector<uint32_t> next(list.count), chain{0};
-  while (!chain.empty()) {
-    uint32_t k = chain.back();
-    chain.pop_back();
-    for (; k < list.count && !flow.reached[k]; ++k) {
-      flow.reached[k] = true;
-      const IlInstruction i = tree_.list(list)[k];
-      const uint32_t target = i.kind == IlKind::Jump ? labelOf(flow, i.target) : kNone;
-      if (target != kNone) {
-        ++flow.jumps[target];
-        chain.push_back(target);
-      }
-      if ((i.kind == IlKind::Jump || i.kind == IlKind::Return) && (i.flags & kIlConditional) == 0) break;
-    }
-  }
-  for (uint32_t k = 0; k < list.count; ++k) {
-    const IlInstruction i = tree_.list(list)[k];
-    const uint32_t target = i.kind == IlKind::Jump ? labelOf(flow, i.target) : kNone;
-    switch (effectOf(i)) {
-      case Effect::Reads: flow.reader[k] = k; break;
-      case Effect::Replaces:
-      case Effect::Leaves: flow.reader[k] = kNone; break;
-      case Effect::Passes: next[k] = k + 1; break;
-      case Effect::Goes:
-        if (target == kNone) flow.reader[k] = kNone;
-        next[k] = target;
-        break;
-    }
-  }
-  for (uint32_t k = 0; k < list.count; ++k) {
-    uint32_t end = k;
-    while (flow.reader[end] == kOpen) {
-      flow.reader[end] = kBusy;
-      chain.push_back(end);
-      end = next[end];
-    }
-    const uint32_t answer = flow.reader[end] == kBusy ? kNone : flow.reader[end];
-    for (const uint32_t link : chain) flow.reader[link] = answer;
-    chain.clear();
-  }
-  return flow;
-}
-
-// ---- questions
-
-// Whether the accumulator is the first argument. It is none of f(a, b) where that is all that f takes.
-bool Scheduler::takesAccumulator(const IlInstruction& i) {
-  if ((i.flags & kIlFormal) != 0) return false;
-  const Shape shape = shapes_.of(i.callee);
-  if (shape.kind != ShapeKind::Function && shape.kind != ShapeKind::Method) return true;
-  uint32_t inputs = 0;
-  for (const PinShape& pin : shape.pins) {
-    if (pin.extensible) return true;
-    if (pin.direction != PinDirection::Output) ++inputs;
-  }
-  if (inputs == 0) return false;
-  return (i.flags & kIlInParens) == 0 || i.operands.count < inputs;
-}
-
-// `CU counter`: the input of an instance that a function's name, or LD, S or R, stands for. Null: it is none.
-const NameId* Scheduler::inputOperator(const IlInstruction& i) {
-  if (i.operands.count != 1 || (i.flags & ~kIlInParens) != 0) return nullptr;
-  const NameId* pin = nullptr;
-  if (i.kind == IlKind::Function && tree_.kind(i.callee) == ExprKind::Name)
-    pin = &tree_.as<NameExpr>(i.callee).name;
-  else if (i.kind == IlKind::Load || i.kind == IlKind::Set || i.kind == IlKind::Reset)
-    pin = &i.word;
-  if (pin == nullptr) return nullptr;
-  const Shape shape = shapes_.of(operand(i, 0).value);
-  return shape.kind == ShapeKind::Instance && shape.find(names_, *pin) != nullptr ? pin : nullptr;
-}
+// ---- values
 
 bool Scheduler::isConstant(ExprId expr) const {
   while (tree_.kind(expr) == ExprKind::Unary) expr = tree_.as<UnaryExpr>(expr).operand;
   return tree_.kind(expr) == ExprKind::Literal || tree_.kind(expr) == ExprKind::TypedName;
 }
-
-// ---- values
 
 NameId Scheduler::newTemporary(Loc loc) {
   Ident ident{{}, loc};
@@ -445,8 +297,8 @@ bool Scheduler::allowed(const IlInstruction& i) {
 
 // The accumulator that a list leaves.
 Scheduler::Value Scheduler::runList(Slice<IlInstruction> list, bool nested) {
-  Flow flow = flowOf(list, nested);
-  Flow* const outer_flow = std::exchange(flow_, &flow);
+  IlFlow flow = flowOf(tree_, names_, diagnostics_, shapes_, list, nested);
+  IlFlow* const outer_flow = std::exchange(flow_, &flow);
   const uint32_t outer_at = at_;
   const size_t outer_open = std::exchange(first_open_, open_.size());
   const bool outer_nested = std::exchange(nested_, nested);
@@ -518,7 +370,7 @@ void Scheduler::skip(const IlInstruction& i, bool& told) {
 
 void Scheduler::step(const IlInstruction& i) {
   if (!allowed(i)) return;
-  if (const NameId* pin = inputOperator(i)) {  // the call of the instance with this one input
+  if (const NameId* pin = inputOperator(tree_, names_, shapes_, i)) {  // the call of the instance with this one input
     require(acc_, i);
     Argument argument{{*pin, i.loc}, use(i), false, false, i.loc};
     std::vector<Argument> arguments{argument};
@@ -628,7 +480,7 @@ void Scheduler::function(const IlInstruction& i) {
   const bool block = shape.kind == ShapeKind::Instance && (i.flags & kIlFormal) != 0;
   if (block) {  // timer(IN := a): CAL is left out
     keepOrDrop();
-  } else if (takesAccumulator(i)) {
+  } else if (takesAccumulator(shapes_, i)) {
     const bool listed = (i.flags & kIlInParens) != 0 && acc_.state == State::Empty;
     if (!listed) {
       require(acc_, i);
@@ -676,9 +528,9 @@ void Scheduler::jump(const IlInstruction& i) {
   const bool conditioned = (i.flags & kIlConditional) != 0;
   if (conditioned) require(acc_, i);
   const StmtId statement = tree_.add<StmtId>(JumpStmt{stmtHeader(StmtKind::Jump, i.loc), i.target});
-  const uint32_t target = labelOf(*flow_, i.target);
+  const uint32_t target = flow_->labelOf(names_, i.target);
   NameId temporary;
-  if (target != kNone && isLive(target)) {
+  if (target != kNoInstruction && isLive(target)) {
     if (!flow_->temporary[target]) flow_->temporary[target] = newTemporary(i.loc);
     temporary = flow_->temporary[target];
   }

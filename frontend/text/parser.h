@@ -240,6 +240,7 @@ class Parser {
   std::vector<IlInstruction> il_;
   std::vector<IlNested> il_nested_;
   std::vector<const Token*> il_open_;  // operators whose `(` is open
+  size_t il_outside_ = 0;              // how many of them the list at hand stands in
   uint32_t type_depth_ = 0;
 };
 
