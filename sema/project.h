@@ -81,6 +81,7 @@ struct Var {
   TypeId any;                         // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
   VarId bounds;                       // ARRAY[*]: the first of the hidden variables with its bounds, two a dimension
   bool hidden_input = false;          // of a function: such a bound, passed behind the pins
+  uint32_t temporary = 0;             // of the compiler, without declared type: its number in the body; 0: none
   VarId bits_of;                      // a member of type BIT: the hidden byte whose `bit` it is; `field` is that byte's
   uint8_t bit = 0;
   bool is_bit = false, holds_bits = false;  // is such a member; is such a byte
@@ -254,6 +255,10 @@ struct Call {
 
 struct Project;
 
+// Told of each body that a scheduler has made statements of, before they are checked: the moment to print them.
+// The types of the temporaries follow when the project is checked: Project::pous, Var::temporary.
+using Scheduled = std::function<void(Project& project, PouId pou)>;
+
 // One file of a library that is built into the compiler.
 struct LibraryFile {
   const char* library;  // `Standard`
@@ -280,6 +285,7 @@ struct Options {
   CallConstant call_constant;                // none: calls of functions are no constants
   bool free_subranges = false;               // a subrange takes all values of its base, as in TwinCAT
   uint32_t pool_bytes = 0;                   // of the pool behind __NEW; 0: as the library has it
+  Scheduled scheduled;                       // none: nobody asks
   bool with_tests = false;                   // the program is for `rung test`
   std::vector<std::string> mocks;            // … of the tests that name exactly these
   int64_t default_interval_ns = 10'000'000;  // of the task that is made when there is no CONFIGURATION

@@ -3,7 +3,16 @@
 
 #include <cstdint>
 
+#include "frontend/source/files.h"
+#include "frontend/source/names.h"
+
 namespace rung {
+
+// A name with its place; the element of name lists.
+struct Ident {
+  NameId name;
+  Loc loc;
+};
 
 // One id type per node category; the number is a word offset in the tree's arena. 0: none.
 struct ExprId {

@@ -17,6 +17,7 @@
 #include "frontend/source/invariant.h"
 #include "frontend/source/names.h"
 #include "frontend/syntax/ids.h"
+#include "frontend/syntax/il.h"
 
 namespace rung {
 
@@ -35,12 +36,6 @@ enum class TypeExprKind : uint8_t {
 enum class DeclKind : uint8_t {
 #define RUNG_DECL(kind, word) kind,
 #include "frontend/syntax/nodes.def"
-};
-
-// A name with its place; the element of name lists.
-struct Ident {
-  NameId name;
-  Loc loc;
 };
 
 // Text stored in the tree: strings of literals (decoded) and values of pragmas. WSTRING text is UTF-8 too.
@@ -100,7 +95,7 @@ struct ExprHeader {
   uint8_t is_constant : 1;  // sema: value known at compile time
   uint8_t writable : 1;     // sema: a place that may be assigned
   uint8_t op;               // UnaryOp, BinaryOp or LiteralKind
-  uint8_t bits;             // LiteralExpr: flags below; CallExpr: kBareCall
+  uint8_t bits;             // LiteralExpr, IndexExpr, CallExpr: flags below
   Loc loc;                  // first token; for Binary the operator, for Member the member name, for Call the callee
   TypeId type;              // sema
 };
@@ -283,8 +278,9 @@ struct IfBranch {
   ExprId condition;
   Slice<StmtId> body;
 };
+constexpr uint8_t kConditionalOp = 1;
 struct IfStmt {
-  StmtHeader h;
+  StmtHeader h;  // op: kConditionalOp of what no IF stands for: JMPC
   Slice<IfBranch> branches;
   Slice<StmtId> otherwise;
 };  // IF, ELSIF …; ELSE
@@ -357,7 +353,7 @@ struct NamedTypeExpr {
   Slice<Argument> arguments;  // of FB_Init
   bool has_arguments;
   Slice<ExprId> elements;  // of an array's elements, a CallExpr without callee each
-};  // Lib.Motor   Pump(3, x := 4)   ARRAY[0..1] OF Pump[(3), (4)]
+};                         // Lib.Motor   Pump(3, x := 4)   ARRAY[0..1] OF Pump[(3), (4)]
 struct TextTypeExpr {
   TypeExprHeader h;
   ExprId length;
@@ -423,16 +419,17 @@ struct TypeDecl {
 enum class PouKind : uint8_t { Function, FunctionBlock, Program, Class, Interface, Method, Action };
 enum class AccessLevel : uint8_t { None, Public, Private, Protected, Internal };  // None: as the dialect has it
 enum Modifier : uint8_t { kAbstract = 1, kFinal = 2, kOverride = 4 };
-enum class BodyKind : uint8_t { None, St, Native };
+enum class BodyKind : uint8_t { None, St, Il, Native };
 struct PouDecl {
   DeclHeader h;
   NameId name;
   PouKind pou_kind;
-  BodyKind body_kind;
-  bool closed;        // has its END_…
-  TypeExprId result;  // functions; none: no result
+  BodyKind body_kind;  // Il: St once sema had `il` scheduled, which fills `body`
+  bool closed;         // has its END_…
+  TypeExprId result;   // functions; none: no result
   Slice<DeclId> sections;
   Slice<StmtId> body;
+  Slice<IlInstruction> il;
   AccessLevel access;
   uint8_t modifiers;        // Modifier
   Slice<TypeExprId> bases;  // EXTENDS; several of an INTERFACE
@@ -440,6 +437,7 @@ struct PouDecl {
   Slice<DeclId> members;  // METHOD, ACTION: Pou; Property
   Slice<DeclId> usings;
   Loc begin, end;  // the first pragma before it, else the header keyword; one past END_…: the text of the whole POU
+  Loc body_begin, body_end;  // the text of its statements or instructions
 };
 
 // PROPERTY name : type. Its accessors are methods of its name: the getter has its type as result, the setter has an
@@ -477,8 +475,8 @@ struct VarDecl {
   DeclHeader h;
   Slice<Ident>
       names;  // empty: an unnamed located variable; VAR_CONFIG: the path; VAR_ACCESS: the name, and `init` is the path
-  TypeExprId type;
-  ExprId init;  // none: the type's default
+  TypeExprId type;  // none: a temporary of the compiler, which sema types by what is assigned to it
+  ExprId init;      // none: the type's default
   EdgeKind edge;
   bool located;
   DirectAddress address;  // when located; of a member of a structure with a size: its place there
@@ -621,6 +619,8 @@ class Tree {
   std::vector<EnumItem> enum_items_;
   std::vector<ArrayBound> array_bounds_;
   std::vector<Pragma> pragmas_;
+  std::vector<IlInstruction> il_;
+  std::vector<IlNested> il_nested_;
   std::vector<uint32_t> numbers_;
 
   template <class T>
@@ -653,6 +653,10 @@ std::vector<T>& Tree::storage() {
     return array_bounds_;
   else if constexpr (std::is_same_v<T, Pragma>)
     return pragmas_;
+  else if constexpr (std::is_same_v<T, IlInstruction>)
+    return il_;
+  else if constexpr (std::is_same_v<T, IlNested>)
+    return il_nested_;
   else {
     static_assert(std::is_same_v<T, uint32_t>, "a list element type needs its storage");
     return numbers_;

@@ -76,6 +76,7 @@ class Printer {
     for (StmtId s : tree_.list(list)) stmt(s, depth);
   }
   void stmt(StmtId id, int depth);
+  void instructions(Slice<IlInstruction> list, int depth);
   void typeExpr(TypeExprId id, int depth);
 
   const Tree& tree_;
@@ -398,6 +399,39 @@ void Printer::stmt(StmtId id, int depth) {
   }
 }
 
+// A line each: the label, the operator as written, `(` where it is deferred, its operands.
+void Printer::instructions(Slice<IlInstruction> list, int depth) {
+  for (const IlInstruction& i : tree_.list(list)) {
+    line(depth);
+    if (i.label.name) {
+      name(i.label.name);
+      text += i.kind == IlKind::Label ? ":" : ": ";
+    }
+    if (i.kind == IlKind::Label) continue;
+    if (i.kind == IlKind::Close) {
+      text += ')';
+      continue;
+    }
+    name(i.word);
+    if ((i.flags & kIlDeferred) != 0) text += '(';
+    if (i.target.name) {
+      text += ' ';
+      name(i.target.name);
+    }
+    if (i.callee) {
+      text += ' ';
+      expr(i.callee);
+    }
+    arguments(i.operands, 0);
+    for (const IlNested& nested : tree_.list(i.nested)) {
+      line(depth + 1);
+      text += "operand ";
+      number(nested.operand);
+      instructions(nested.list, depth + 2);
+    }
+  }
+}
+
 void Printer::typeExpr(TypeExprId id, int depth) {
   if (!id) return;
   line(depth);
@@ -524,6 +558,11 @@ void Printer::decl(DeclId id, int depth) {
       if (d.body_kind == BodyKind::Native) {
         line(depth + 1);
         text += "native";
+      }
+      if (d.body_kind == BodyKind::Il) {
+        line(depth + 1);
+        text += "instructions";
+        instructions(d.il, depth + 2);
       }
       if (!d.body.empty()) {
         line(depth + 1);

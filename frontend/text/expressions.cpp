@@ -218,13 +218,15 @@ ExprId Parser::parsePrimary() {
   return errorExpr(start);
 }
 
-// postfix = {"." (name | bit | "%X" bit) | "[" expr {"," expr} "]" | "^" | "(" arguments ")"}
-ExprId Parser::parsePostfix(ExprId base) {
+// postfix = {"." (name | bit | "%X" bit) | "[" expr {"," expr} "]" | "^" | "(" arguments ")"}; without `calls` it ends
+// at a `(`.
+ExprId Parser::parsePostfix(ExprId base, bool calls) {
   uint32_t height = height_;
   for (;; ++height) {
     height_ = height;
     const Tok next = kind();
     if (next != Tok::Dot && next != Tok::LeftParen && next != Tok::LeftBracket && next != Tok::Caret) return base;
+    if (next == Tok::LeftParen && !calls) return base;
     if (height >= kMaxExprHeight) {
       tooDeep("accesses", kMaxChain);
       return base;
@@ -370,6 +372,8 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
       t_ = const_cast<Token*>(pin) + 2;
       if (at(Tok::Comma) || at(Tok::RightParen)) {
         if (standard_ != Standard::Codesys) slip(Diag::EmptyBinding, pin, {textOf(pin)});
+      } else if (atNestedIl()) {
+        parseNestedIl(static_cast<uint32_t>(arguments_.size() - first));
       } else {
         a.value = parseExpr();
       }
@@ -461,6 +465,7 @@ ExprId Parser::parseCompared(ExprId left) {
 
 // Consumes the closing bracket; without it says so and finds the place to go on.
 void Parser::closeParen(Tok close, bool is_arguments) {
+  if (in_il_) return closeIlParen(close);
   if (!panic_) {
     if (accept(close)) return;
     const Tok k = kind();

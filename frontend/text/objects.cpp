@@ -172,9 +172,8 @@ DeclId Parser::parseAccessor(const Ident& property, const PropertyDecl& of) {
     decls_.push_back(section);
   }
   d.sections = listFrom(decls_, first);
-  d.body = parseStatements(0);
+  parseBody(d);
   if (lost_ || declared_in_body_) d.h.bits |= kBrokenDeclarations;
-  d.body_kind = BodyKind::St;
   d.closed = true;
   if (accept(end)) accept(Tok::Semicolon);
   d.end = index() > 0 ? endOf(t_ - 1) : here();

@@ -14,7 +14,10 @@ Parser::Parser(Tree& tree, Names& names, const Sources& sources, FileId file, St
       standard_(standard),
       diagnostics_(diagnostics),
       base_(sources.begin(file).offset),
-      text_(sources.text(file)) {}
+      text_(sources.text(file)) {
+  const std::string_view path = sources.path(file);
+  il_file_ = path.size() > 3 && sameIdentifier(path.substr(path.size() - 3), ".il");
+}
 
 void Parser::read(uint32_t begin, uint32_t end) {
   lex(stream_, names_, sources_, file_, begin, end, standard_, diagnostics_);
@@ -296,7 +299,7 @@ DeclId Parser::parsePou() {
   d.usings = tree_.addList<DeclId>(usings);
   parsePouParts(d);
   if (lost_ || declared_in_body_) d.h.bits |= kBrokenDeclarations;
-  d.body_kind = pragmaNamed(d.h.pragmas, "native") ? BodyKind::Native : BodyKind::St;
+  if (pragmaNamed(d.h.pragmas, "native")) d.body_kind = BodyKind::Native;
   if (accept(end)) {
     d.closed = true;
     d.end = {loc(t_ - 1).offset + lengthOf(t_ - 1)};
@@ -334,12 +337,26 @@ void Parser::parsePouParts(PouDecl& d) {
   }
   d.sections = listFrom(decls_, first);
   while (!is_member && atMember()) parseMember(members);
-  d.body = parseStatements(0);
+  parseBody(d);
   if (!is_member && atMember()) {
     while (atMember()) parseMember(members);
-    if (d.body.empty()) d.body = parseStatements(0);
+    if (d.body.empty() && d.il.empty()) parseBody(d);
   }
   d.members = tree_.addList<DeclId>(members);
+}
+
+// Statements, or instructions: a body has one language.
+void Parser::parseBody(PouDecl& d) {
+  const Token* first = t_;
+  d.body_begin = d.body_end = here();
+  if (atIl()) {
+    d.body_kind = BodyKind::Il;
+    d.il = parseIl(false);
+  } else {
+    d.body_kind = BodyKind::St;
+    d.body = parseStatements(0);
+  }
+  if (t_ != first) d.body_end = endOf(t_ - 1);
 }
 
 // ---- configurations

@@ -1,6 +1,6 @@
 // The parser of Structured Text: recursive descent for declarations and statements, precedence climbing for
 // expressions, over the token array of lexer.h whose blocks recover.h has balanced. Private to frontend/text:
-// parser.cpp (files, POUs, configurations), objects.cpp, declarations.cpp, statements.cpp, expressions.cpp.
+// parser.cpp (files, POUs, configurations), objects.cpp, declarations.cpp, statements.cpp, expressions.cpp, il.cpp.
 //
 // Errors. fail() reports and sets panic_: nothing more is reported until the construct at hand has found its
 // synchronization point (`;`, a keyword, a line that begins a statement). slip() reports a mistake whose meaning is
@@ -70,6 +70,7 @@ class Parser {
   bool atTopLevelWord() const;
   DeclId parsePou();
   void parsePouParts(PouDecl& d);
+  void parseBody(PouDecl& d);
   bool pouCloses();
   DeclId parseConfiguration();
   DeclId parseResource();
@@ -152,10 +153,30 @@ class Parser {
   bool misspelledStart(const Token* first);
   StmtHeader header(StmtKind kind, Loc loc, uint8_t op = 0) const { return {kind, op, 0, loc}; }
 
+  // ---- Instruction List (il.cpp)
+  bool atIl() const;
+  Slice<IlInstruction> parseIl(bool nested);
+  bool isInstruction(const Token* t) const;
+  bool isPlainInstruction(const Token* t) const;
+  void parseInstruction();
+  void mend(IlInstruction& i);
+  void endInstruction();
+  void parseOperands(IlInstruction& i, const Token* op);
+  void parseIlList(IlInstruction& i, const Token* op);
+  ExprId parseIlCallee();
+  void parseIlPins(IlInstruction& i);
+  void parseIlParens(IlInstruction& i, const Token* op);
+  bool listFollows(const Token* first) const;
+  bool atNestedIl() const;
+  void parseNestedIl(uint32_t operand);
+  void closeIlParen(Tok close);
+  bool instructionInSt();
+  bool statementInIl();
+
   // ---- expressions (expressions.cpp)
   ExprId parseExpr(uint32_t least = 1);
   ExprId parseUnary();
-  ExprId parsePostfix(ExprId base);
+  ExprId parsePostfix(ExprId base, bool calls = true);
   void parseAccessPath(VarDecl& d);
   void readRelativeAddress(VarDecl& d);
   bool isNew(ExprId callee) const;
@@ -202,6 +223,9 @@ class Parser {
   std::vector<Ident> block_tasks_;    // its blocks with tasks of their own, each followed by the task
   bool in_structure_ = false;         // a STRUCT or UNION is being read
   bool address_told_ = false;         // said once for a structure
+  bool in_il_ = false;                // instructions are being read
+  bool il_file_ = false;              // the file is called .il
+  bool il_line_told_ = false;         // said once for a file
   bool lost_ = false;                 // declarations of the POU or TYPE entry at hand could not be read
   Tok pou_end_ = Tok::End;            // the END_… of the POU at hand
   enum class Known : uint8_t { NotYet, Yes, No } pou_closes_ = Known::NotYet;  // whether it has that END_…
@@ -219,6 +243,10 @@ class Parser {
   std::vector<CaseBranch> case_branches_;
   std::vector<Ident> idents_;
   std::vector<uint32_t> numbers_;
+  std::vector<IlInstruction> il_;
+  std::vector<IlNested> il_nested_;
+  std::vector<const Token*> il_open_;  // operators whose `(` is open
+  size_t il_outside_ = 0;              // how many of them the list at hand stands in
   uint32_t type_depth_ = 0;
 };
 

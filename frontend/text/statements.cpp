@@ -149,7 +149,7 @@ void Parser::parseStatement() {
       break;
     default: break;
   }
-  if (otherLanguage()) return;
+  if (otherLanguage() || instructionInSt()) return;
   if (isName(kind()) || (isTypeWord(kind()) && peek() == Tok::LeftParen)) return parseExprStatement();
   if (atSection()) {
     if (!declared_in_body_) slip(Diag::DeclarationInBody, t_);
@@ -175,14 +175,12 @@ void Parser::parseStatement() {
   syncStatement();
 }
 
-// A body in IL (`LD x`) or SFC (`INITIAL_STEP s :`): one error for the whole of it.
+// A body in SFC (`INITIAL_STEP s :`): one error for the whole of it.
 bool Parser::otherLanguage() {
   if (!isName(kind()) || (t_[1].flags & kLineStart) != 0) return false;
   const bool chart = is(t_, "INITIAL_STEP") && isName(peek()) && peek(2) == Tok::Colon;
-  const bool load = (is(t_, "LD") || is(t_, "LDN") || is(t_, "CAL")) && isOperand(peek()) && !at(Tok::LeftParen) &&
-                    peek() != Tok::LeftParen;
-  if (!chart && !load) return false;
-  slip(Diag::NotSupportedYet, t_, {chart ? "a body in SFC" : "a body in IL"});
+  if (!chart) return false;
+  slip(Diag::NotSupportedYet, t_, {"a body in SFC"});
   while (!at(Tok::End) && kind() != pou_end_ && !atTopLevelWord()) advance();
   return true;
 }

@@ -44,9 +44,9 @@ FileId readMultiprog(Sources& sources, FileId file, Diagnostics& diagnostics) {
     }
     if (rest.starts_with("(*@KEY@: WORKSHEET") || rest.starts_with("(*@KEY@:WORKSHEET")) {
       const std::string_view language = valueOf(text, p, end, "IEC_LANGUAGE:");
-      if (!language.empty() && language != "ST") {
+      if (!language.empty() && language != "ST" && language != "IL") {
         const std::string_view name = valueOf(text, p, end, "NAME:");
-        const std::string how = (language == "IL" ? "written in " : "drawn in ") + std::string(language);
+        const std::string how = "drawn in " + std::string(language);
         diagnostics.report(Diag::NetworkBody, loc(static_cast<size_t>(language.data() - text.data())), {name, how})
             .length(static_cast<uint32_t>(language.size()));
         p = leaveOut(end, "END_WORKSHEET");

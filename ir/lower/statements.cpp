@@ -9,7 +9,8 @@ void BodyLowering::lowerPou() {
   for (sema::VarId id : pou.vars) {
     const sema::Var& var = project_.var(id);
     if (var.storage != sema::Storage::Local) continue;
-    if (var.section == SectionKind::InOut || var.hidden_input || types_.isOpenArray(var.type)) continue;
+    if (var.section == SectionKind::InOut || var.hidden_input || var.temporary != 0 || types_.isOpenArray(var.type))
+      continue;
     if (var.section == SectionKind::Input) {
       // The caller's variable stays as it is: a body that writes an input by reference writes a copy of its own.
       uint32_t& index = local_of_[var.field];

@@ -46,6 +46,18 @@ struct BodyState {
   uint32_t block = 0;                   // the statement list at hand
   std::vector<uint32_t> block_parents;  // of each statement list of the body; filled only with labels in use
   std::vector<LabelUse> labels, jumps;
+  struct Temporary {  // temporaries.cpp
+    VarId var;
+    TypeId type = {};                    // none: not known yet
+    Loc first = {};                      // the value that gave it
+    std::vector<AssignStmt*> open = {};  // literals that wait for it
+    std::vector<AssignStmt*> assigns = {};
+    bool busy = false;
+  };
+  std::vector<Temporary> temporaries;  // all declared before the first statement is checked
+  Slice<StmtId> statements;
+  bool assigns_known = false;
+  uint32_t looking_ahead = 0;
   uint32_t ways_out = 0;  // EXIT, RETURN and JMP seen so far: a loop without one between its ends never ends
 };
 

@@ -1,6 +1,7 @@
 // Names in expressions: variables, enumeration items, members of records, and what `GVL.x`, `Lib.f`, `Prog.x` mean.
 // In: NameExpr, TypedNameExpr, MemberExpr. Out: their entity and type. Called for every operand of every body.
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/temporaries.h"
 #include "sema/checks/outside_access.h"
 #include "sema/declarations/declarations.h"
 #include "sema/scopes.h"
@@ -295,6 +296,8 @@ TypeId checkName(Context& context, ExprId& expr, TypeId expected, Access access)
       node.entity = Entity::of(EntityKind::Var, result.index);
     }
   }
+  if (node.entity.what() == EntityKind::Var && context.project.vars[node.entity.index].temporary != 0)
+    temporaryType(context, VarId{node.entity.index}, expected);
   return useEntity(context, expr, node.entity, node.h.loc, node.name, access, true);
 }
 

@@ -2,6 +2,7 @@
 // operator functions (ADD, MAX, EQ …), which follow the same rules. Out: types, and conversions of the operands.
 // Design §6: integers keep their own width in every subexpression, so what a result is assigned to does not widen it.
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/temporaries.h"
 #include "sema/checks/division_by_zero.h"
 #include "sema/checks/real_equality.h"
 #include "sema/types/arithmetic.h"
@@ -371,6 +372,11 @@ TypeId checkBinary(Context& context, ExprId& expr, TypeId expected) {
   BinaryExpr& node = context.tree().as<BinaryExpr>(expr);
   const bool comparison = isComparison(node.op());
   const TypeId hint = comparison ? TypeId{} : expected;
+  if (isOpenTemporary(context, node.left)) {  // the literals in it adapt to the other side
+    const TypeId other = check(context, node.right, hint, Access::Read);
+    check(context, node.left, isUntyped(context, other) ? hint : other, Access::Read);
+    return combine(context, expr, expected);
+  }
   const TypeId left = check(context, node.left, hint, Access::Read);
   // The other side of a comparison says which enumeration a bare item belongs to, and T# literals their size.
   const TypeId right = check(context, node.right, comparison && !isUntyped(context, left) ? left : hint, Access::Read);

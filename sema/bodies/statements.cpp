@@ -1,6 +1,9 @@
 // Statements. In: the statement list of a POU. Out: the same tree with every expression checked and converted.
 // Called by checkBody() below, which sema::check() calls for each POU and for each library POU in use.
+#include "frontend/text/il_schedule.h"
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/shapes.h"
+#include "sema/bodies/temporaries.h"
 #include "sema/checks/case_labels.h"
 #include "sema/checks/constant_condition.h"
 #include "sema/checks/dangling_address.h"
@@ -109,6 +112,7 @@ void checkCompoundAssign(Context& context, AssignStmt& node) {
 void checkAssign(Context& context, AssignStmt& node) {
   switch (node.op()) {
     case AssignOp::Assign: {
+      if (checkTemporaryAssign(context, node)) return;
       const TypeId type = checkTarget(context, node.target, Access::Write);
       if (type == types::kError) {
         checkExpr(context, node.value);
@@ -122,7 +126,7 @@ void checkAssign(Context& context, AssignStmt& node) {
     case AssignOp::Set:
     case AssignOp::Reset: {
       const TypeId type = checkTarget(context, node.target, Access::ReadWrite);
-      checkAs(context, node.value, types::kBool, Purpose{"used as the condition of S= or R=", {}, {}});
+      checkAs(context, node.value, types::kBool, Purpose{"used to set or reset", {}, {}});
       if (type != types::kError && context.types().plainKind(type) != TypeKind::Bool) {
         context.report(Diag::SetNeedsBool, context.tree().loc(node.target), {context.types().spell(type)});
       }
@@ -156,7 +160,9 @@ bool checkIf(Context& context, const IfStmt& node) {
   for (uint32_t i = 0; i < node.branches.count; ++i) {
     IfBranch branch = context.tree().list(node.branches)[i];
     checkCondition(context, branch.condition,
-                   i == 0 ? "used as the condition of IF" : "used as the condition of ELSIF");
+                   node.h.op == kConditionalOp ? "used as a condition"
+                   : i == 0                    ? "used as the condition of IF"
+                                               : "used as the condition of ELSIF");
     context.tree().list(node.branches)[i].condition = branch.condition;
     checkConstantCondition(context, branch.condition);
     falls |= checkStatements(context, branch.body);
@@ -393,13 +399,25 @@ bool checkStatements(Context& context, Slice<StmtId> list) {
   return reachable;
 }
 
+// Makes statements of a body in IL, once the declarations of all files are known.
+static void schedule(Context& context, PouDecl& decl) {
+  if (decl.body_kind != BodyKind::Il) return;
+  ProjectShapes shapes(context);
+  const text::IlStatements made =
+      text::scheduleIl(context.tree(), context.names(), context.project.diagnostics, shapes, decl.il, context.iec());
+  decl.body = made.body;
+  decl.body_kind = BodyKind::St;
+  declareTemporaries(context, made.temporaries);
+  if (context.project.options.scheduled) context.project.options.scheduled(context.project, context.pou);
+}
+
 void checkBody(Context& context, PouId id) {
   Pou& pou = context.project.pou(id);
   pou.checked = true;
   if (!pou.decl) return;
   resolvePou(context, id);
-  const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
-  if (decl.body_kind != BodyKind::St || pou.generic) return;
+  PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
+  if (decl.body_kind == BodyKind::Native || pou.generic) return;
   const std::string_view name = text(context, pou.name);
   setPhaseSubject(name.data(), name.size());
   BodyState body;
@@ -410,7 +428,10 @@ void checkBody(Context& context, PouId id) {
                 .body = &body,
                 .library = pou.library,
                 .region = context.region};
+  schedule(inner, decl);
+  body.statements = decl.body;
   checkStatements(inner, decl.body);
+  settleTemporaries(inner);
   checkJumpLabels(inner);
   checkResultAssigned(inner);
 }

@@ -1,6 +1,5 @@
 // Forbids what a block does not show: its locals (codesys: those of a library, and setting them); writing its outputs
-// and in-outs from outside; in iec also reading its inputs, and writing them but in a call. IEC 61131-3 ed. 3, 6.6.3.4;
-// design §6, dialect table.
+// and in-outs from outside; in iec also reading its inputs. IEC 61131-3 ed. 3, 6.6.3.4; design §6, dialect table.
 //   passes  x := timer.Q;   timer.PT := T#5s (codesys);
 //   fails   timer.Q := TRUE;   x := mixer.step (a VAR)
 // Called by names.cpp for each `instance.pin`.
@@ -27,9 +26,9 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
     return false;
   };
   switch (var.section) {
-    case SectionKind::Input:
-      if (!context.iec() || program) return true;
-      return writes ? refuse(Diag::InputWrittenOutside) : access == Access::Qualifier || refuse(Diag::InputReadOutside);
+    case SectionKind::Input:  // set for the call that follows: ed. 3 table 42, 6a, table 69, 2
+      if (!context.iec() || program || access == Access::Write || access == Access::Qualifier) return true;
+      return refuse(Diag::InputReadOutside);
     case SectionKind::Output: return writes ? refuse(Diag::OutputWrittenOutside) : true;
     case SectionKind::InOut: return writes ? refuse(Diag::InOutWrittenOutside) : true;
     case SectionKind::Local:

@@ -1,4 +1,4 @@
-// Unit tests (the GoogleTest programs that CMake lists in unit_tests.list), a fixed share of the differential test and
+// Unit tests (the GoogleTest programs that CMake lists in unit_tests.list), a fixed share of the differential tests and
 // the checks of tools/house.
 #include <cstdlib>
 
@@ -31,20 +31,21 @@ Result runUnit(const Setting& setting, const std::string& name) {
   return result;
 }
 
-// The same 200 programs in each run; more, with other seeds and compilers, by hand.
-Result runDifferential(const Setting& setting) {
+// The same programs in each run; more, with other seeds and compilers, by hand.
+Result runDifferential(const Setting& setting, const std::string& name, std::vector<std::string> options,
+                       unsigned count) {
   Command c;
-  c.arguments = {setting.bin + "/differential", "--count=200", "--ways=suite", "-j2",
-                 "--folder=" + freshFolder(setting)};
+  c.arguments = {setting.bin + "/" + name, "--count=" + std::to_string(count), "--folder=" + freshFolder(setting)};
+  c.arguments.insert(c.arguments.end(), options.begin(), options.end());
   c.folder = setting.root;
   c.merged = true;
   c.seconds = 600;
   const Output output = run(c);
   Result result;
   if (output.exit_code == 0) {
-    result.passed = 200;
+    result.passed = count;
   } else {
-    result.fail("unit/differential", output.out.substr(0, 8000), spelled(c));
+    result.fail("unit/" + name, output.out.substr(0, 8000), spelled(c));
   }
   return result;
 }
@@ -73,7 +74,13 @@ void addUnit(const Setting& setting, std::vector<Job>& jobs) {
     jobs.push_back({"unit/" + name, 5, [&setting, name] { return runUnit(setting, name); }});
   }
   if (isWanted(setting, "unit/differential")) {
-    jobs.push_back({"unit/differential", 10, [&setting] { return runDifferential(setting); }});
+    jobs.push_back({"unit/differential", 10, [&setting] {
+                      return runDifferential(setting, "differential", {"--ways=suite", "-j2"}, 200);
+                    }});
+  }
+  if (isWanted(setting, "unit/il_differential")) {
+    jobs.push_back({"unit/il_differential", 8,
+                    [&setting] { return runDifferential(setting, "il_differential", {"--cycles=2000", "-j2"}, 100); }});
   }
   for (const std::string& script : filesBelow(setting, "tools/house", ".sh")) {
     jobs.push_back({script, 2, [&setting, script] { return runHouse(setting, script); }});

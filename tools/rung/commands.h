@@ -12,6 +12,7 @@ int runEmit(const Options& options);
 int runBuild(const Options& options);
 int runRun(const Options& options);
 int runTest(const Options& options);
+int runConvert(const Options& options);
 int runList(const Options& options);
 int runExplain(const Options& options);
 int runVersion(const Options& options);

@@ -161,6 +161,7 @@ bool Compilation::check() {
     sema_options.with_tests = options.command == Command::Test;
     sema_options.mocks = options.mocks;
     sema_options.pointer_size = options.pointer_size;
+    sema_options.scheduled = scheduled;
     sema_options.call_constant = [](sema::Project& in, sema::PouId function, std::span<const types::Value> values,
                                     const std::function<bool(sema::PouId)>& ready) {
       return ir::interpreter::callConstant(in, function, values, {natives::table, natives::count}, ready);

@@ -58,6 +58,7 @@ class Compilation {
   std::string diagnosticsText();
   int exitCode() const;
 
+  sema::Scheduled scheduled;  // set before check() by `rung convert`
   Options options;
   Sources sources;
   Names names;

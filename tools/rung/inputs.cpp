@@ -82,12 +82,12 @@ vendor::Format formatOf(FileKind kind) {
 
 const char* describe(FileKind kind) {
   switch (kind) {
-    case FileKind::Il: return "Instruction List";
     case FileKind::Xml: return "XML";
     case FileKind::Nct: return "machine-tool ladder";
     case FileKind::Cam: return "a cam table";
     case FileKind::Unknown:
     case FileKind::St:
+    case FileKind::Il:
     case FileKind::TwinCat:
     case FileKind::PlcProject:
     case FileKind::Codesys2:
@@ -352,12 +352,12 @@ class Collector {
     FileKind kind = kindOf(candidate.path, read.text);
     switch (kind) {
       case FileKind::St:
+      case FileKind::Il:
       case FileKind::TwinCat:
       case FileKind::Codesys2:
       case FileKind::Multiprog: break;
       case FileKind::Binary: return fail(Diag::BinaryFile, candidate.path, {candidate.path});
       case FileKind::Unknown: return fail(Diag::UnknownFileKind, candidate.path, {candidate.path});
-      case FileKind::Il:
       case FileKind::Xml:
       case FileKind::Nct:
       case FileKind::Cam:

@@ -17,6 +17,7 @@ int runCommand(const rung::tool::Options& options) {
     case Command::Build: return rung::tool::runBuild(options);
     case Command::Run: return rung::tool::runRun(options);
     case Command::Test: return rung::tool::runTest(options);
+    case Command::Convert: return rung::tool::runConvert(options);
     case Command::List: return rung::tool::runList(options);
     case Command::Explain: return rung::tool::runExplain(options);
     case Command::Version: return rung::tool::runVersion(options);

@@ -13,7 +13,7 @@ namespace {
 constexpr uint32_t bit(Command command) { return 1u << static_cast<uint32_t>(command); }
 constexpr uint32_t kCompile =
     bit(Command::Check) | bit(Command::Emit) | bit(Command::Build) | bit(Command::Run) | bit(Command::Test);
-constexpr uint32_t kReads = kCompile | bit(Command::List);
+constexpr uint32_t kReads = kCompile | bit(Command::List) | bit(Command::Convert);
 constexpr uint32_t kAll = ~0u;
 
 struct CommandRow {
@@ -28,13 +28,14 @@ constexpr CommandRow kCommands[] = {
     {Command::Build, "build", "FILE|DIR ... -o FILE", "emit, compile and link"},
     {Command::Run, "run", "FILE|DIR ...", "simulate, with inputs and traces"},
     {Command::Test, "test", "FILE|DIR ...", "run the POUs marked {test}"},
+    {Command::Convert, "convert", "FILE|DIR ... --to st -o DIR", "any language as Structured Text"},
     {Command::List, "list", "libraries | pous FILE|DIR ... | --signature NAME", "show what there is"},
     {Command::Explain, "explain", "CODE", "the page of a diagnostic, such as E0401"},
     {Command::Version, "version", "", "version of rung"},
 };
 
 // Commands that the documentation of the project announces.
-constexpr std::string_view kLaterCommands[] = {"convert", "graph", "fmt", "cam", "lint", "lsp", "monitor"};
+constexpr std::string_view kLaterCommands[] = {"graph", "fmt", "cam", "lint", "lsp", "monitor"};
 
 enum class Key : uint8_t {
   Output,
@@ -54,6 +55,7 @@ enum class Key : uint8_t {
   DumpAfter,
   TimePhases,
   Emit,
+  To,
   Depfile,
   DepfileTarget,
   ListOutputs,
@@ -82,8 +84,10 @@ struct OptionRow {
   const char* help;  // null: not in the help
 };
 constexpr OptionRow kOptions[] = {
-    {Key::Output, "-o", "PATH", bit(Command::Emit) | bit(Command::Build), "where the output goes"},
+    {Key::Output, "-o", "PATH", bit(Command::Emit) | bit(Command::Build) | bit(Command::Convert),
+     "where the output goes"},
     {Key::Emit, "--emit", "cpp|ir|tree", bit(Command::Emit), "what to write; ir and tree go to stdout (cpp)"},
+    {Key::To, "--to", "st|xml", bit(Command::Convert), "what to write; xml is not in this version"},
     {Key::Depfile, "--depfile", "FILE", bit(Command::Emit), "write the inputs as a make rule"},
     {Key::DepfileTarget, "--depfile-target", "PATH", bit(Command::Emit), "the rule's target (DIR/rung.manifest)"},
     {Key::ListOutputs, "--list-outputs", nullptr, bit(Command::Emit), "print the names of the files, write none"},
@@ -255,6 +259,11 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       error = parseChoice(row.name, value, row.value, choice);
       options.emit = static_cast<EmitKind>(choice);
       return error;
+    case Key::To:
+      error = parseChoice(row.name, value, row.value, choice);
+      options.to_st = choice == 0;
+      if (error.empty() && !options.to_st) error = "`--to=xml` is not in this version of rung; `--to=st` is";
+      return error;
     case Key::Depfile: options.depfile = value; return {};
     case Key::DepfileTarget: options.depfile_target = value; return {};
     case Key::ListOutputs: options.list_outputs = true; return {};
@@ -339,6 +348,7 @@ std::string checkCombination(const Options& options) {
     case Command::Test:
     case Command::Emit:
     case Command::Build:
+    case Command::Convert:
       if (options.inputs.empty()) return "`rung " + name + "` needs files or folders to read";
       break;
     case Command::Explain:
@@ -372,6 +382,8 @@ std::string checkCombination(const Options& options) {
     if (argument == "--trace-calls" && native)
       return std::string("`--trace-calls` needs the interpreter; leave out ") +
              (options.keep ? "`--keep`" : "`--engine=native`");
+  if (options.command == Command::Convert && (options.output.empty() || !options.to_st))
+    return "`rung convert` needs a target and a folder: add `--to st -o DIR`";
   if (options.command == Command::Build && options.output.empty())
     return "`rung build` needs a name for its output: add `-o FILE`";
   return {};

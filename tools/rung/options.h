@@ -13,7 +13,7 @@
 
 namespace rung::tool {
 
-enum class Command : uint8_t { None, Check, Emit, Build, Run, Test, List, Explain, Version, Help };
+enum class Command : uint8_t { None, Check, Emit, Build, Run, Test, Convert, List, Explain, Version, Help };
 inline constexpr uint32_t kCommandCount = static_cast<uint32_t>(Command::Help) + 1;
 
 enum class EmitKind : uint8_t { Cpp, Ir, Tree };
@@ -62,6 +62,9 @@ struct Options {
   std::string depfile, depfile_target;
   bool list_outputs = false;
   uint32_t bundles = 0;
+
+  // convert
+  bool to_st = false;
 
   // build
   BuildKind build = BuildKind::Executable;

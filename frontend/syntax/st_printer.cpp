@@ -1,0 +1,512 @@
+#include "frontend/syntax/st_printer.h"
+
+#include <bit>
+#include <charconv>
+
+#include "frontend/source/invariant.h"
+
+namespace rung {
+namespace {
+
+constexpr int kUnary = 9, kPrimary = 10;
+
+int precedenceOf(BinaryOp op) {
+  switch (op) {
+    case BinaryOp::Or:
+    case BinaryOp::OrElse: return 1;
+    case BinaryOp::Xor: return 2;
+    case BinaryOp::And:
+    case BinaryOp::AndThen: return 3;
+    case BinaryOp::Equal:
+    case BinaryOp::NotEqual: return 4;
+    case BinaryOp::Less:
+    case BinaryOp::LessEqual:
+    case BinaryOp::Greater:
+    case BinaryOp::GreaterEqual: return 5;
+    case BinaryOp::Add:
+    case BinaryOp::Subtract: return 6;
+    case BinaryOp::Multiply:
+    case BinaryOp::Divide:
+    case BinaryOp::Modulo: return 7;
+    case BinaryOp::Power: return 8;
+  }
+  return 0;
+}
+
+class StPrinter {
+ public:
+  StPrinter(const Tree& tree, const Names& names, std::span<const StComment> comments)
+      : tree_(tree), names_(names), comments_(comments) {}
+  std::string text;
+
+  void stmts(Slice<StmtId> list, uint32_t indent) {
+    for (const StmtId id : tree_.list(list)) stmt(id, indent);
+  }
+  void rest(uint32_t indent) { comments({~0u}, indent); }
+
+ private:
+  void line(uint32_t indent) { text.append(indent, ' '); }
+  void name(NameId id) { text += names_.text(id); }
+  void comments(Loc before, uint32_t indent);
+  void stmt(StmtId id, uint32_t indent);
+  void ifStmt(const IfStmt& s, uint32_t indent);
+  void caseStmt(const CaseStmt& s, uint32_t indent);
+  void loops(StmtId id, uint32_t indent);
+  void expr(ExprId id, int least);
+  void operand(ExprId id, int least, bool always);
+  void list(Slice<ExprId> ids);
+  void arguments(Slice<Argument> arguments);
+  void literal(const LiteralExpr& e);
+  void quoted(std::string_view s, char quote);
+  void time(const LiteralExpr& e);
+  void date(int64_t days);
+  void clock(uint64_t ns);
+  void padded(uint64_t n, int width);
+  void address(const DirectAddress& a);
+
+  const Tree& tree_;
+  const Names& names_;
+  std::span<const StComment> comments_;
+};
+
+// ---- literals
+
+void StPrinter::quoted(std::string_view s, char quote) {
+  static const char* const kHex = "0123456789ABCDEF";
+  text += quote;
+  for (const char c : s) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == quote || c == '$') {
+      text += '$';
+      text += c;
+    } else if (byte < 0x20 || byte == 0x7f) {
+      text += quote == '"' ? "$00" : "$";
+      text += kHex[byte >> 4];
+      text += kHex[byte & 15];
+    } else {
+      text += c;
+    }
+  }
+  text += quote;
+}
+
+void StPrinter::padded(uint64_t n, int width) {
+  const std::string digits = std::to_string(n);
+  for (int k = static_cast<int>(digits.size()); k < width; ++k) text += '0';
+  text += digits;
+}
+
+void StPrinter::date(int64_t days) {
+  // Days since 1970-01-01 in the proleptic Gregorian calendar, counted in eras of 400 years from 0000-03-01.
+  const int64_t z = days + 719468;
+  const int64_t era = (z >= 0 ? z : z - 146096) / 146097;
+  const int64_t of_era = z - era * 146097;
+  const int64_t year_of_era = (of_era - of_era / 1460 + of_era / 36524 - of_era / 146096) / 365;
+  const int64_t of_year = of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+  const int64_t month = (5 * of_year + 2) / 153;
+  const int64_t day = of_year - (153 * month + 2) / 5 + 1;
+  padded(static_cast<uint64_t>(year_of_era + era * 400 + (month >= 10 ? 1 : 0)), 4);
+  text += '-';
+  padded(static_cast<uint64_t>(month < 10 ? month + 3 : month - 9), 2);
+  text += '-';
+  padded(static_cast<uint64_t>(day), 2);
+}
+
+void StPrinter::clock(uint64_t ns) {
+  const uint64_t seconds = ns / 1'000'000'000;
+  padded(seconds / 3600, 2);
+  text += ':';
+  padded(seconds / 60 % 60, 2);
+  text += ':';
+  padded(seconds % 60, 2);
+  uint64_t rest = ns % 1'000'000'000;
+  if (rest == 0) return;
+  int digits = 9;
+  for (; rest % 10 == 0; rest /= 10) --digits;
+  text += '.';
+  padded(rest, digits);
+}
+
+void StPrinter::time(const LiteralExpr& e) {
+  constexpr int64_t kDay = 86'400'000'000'000;
+  if ((e.h.bits & kLiteralLong) != 0) text += 'L';
+  const auto value = static_cast<int64_t>(e.value());
+  if (e.literal() == LiteralKind::Date) {
+    text += "D#";
+    return date(value / kDay);
+  }
+  if (e.literal() == LiteralKind::TimeOfDay) {
+    text += "TOD#";
+    return clock(static_cast<uint64_t>(value));
+  }
+  if (e.literal() == LiteralKind::DateTime) {
+    text += "DT#";
+    date(value / kDay);
+    text += '-';
+    return clock(static_cast<uint64_t>(value % kDay));
+  }
+  struct Unit {
+    uint64_t ns;
+    const char* name;
+  };
+  static constexpr Unit kUnits[] = {{86'400'000'000'000, "d"},
+                                    {3'600'000'000'000, "h"},
+                                    {60'000'000'000, "m"},
+                                    {1'000'000'000, "s"},
+                                    {1'000'000, "ms"},
+                                    {1'000, "us"},
+                                    {1, "ns"}};
+  text += "T#";
+  uint64_t rest = e.value();
+  if ((e.h.bits & kLiteralNegative) != 0) {
+    text += '-';
+    rest = -rest;
+  }
+  if (rest == 0) text += "0s";
+  for (const Unit& unit : kUnits) {
+    if (rest < unit.ns) continue;
+    text += std::to_string(rest / unit.ns) + unit.name;
+    rest %= unit.ns;
+  }
+}
+
+void StPrinter::literal(const LiteralExpr& e) {
+  if (e.prefix) {
+    name(e.prefix);
+    text += '#';
+  }
+  switch (e.literal()) {
+    case LiteralKind::Bool: text += e.value() != 0 ? "TRUE" : "FALSE"; return;
+    case LiteralKind::Integer: {
+      if ((e.h.bits & kLiteralNegative) != 0) text += '-';
+      char digits[20];
+      const bool based = (e.h.bits & kLiteralBased) != 0;
+      const auto end = std::to_chars(digits, digits + sizeof digits, e.value(), based ? 16 : 10).ptr;
+      if (based) text += "16#";
+      for (const char* d = digits; d != end; ++d) text += *d >= 'a' ? static_cast<char>(*d - 32) : *d;
+      return;
+    }
+    case LiteralKind::Real: {
+      char digits[40];
+      const auto end = std::to_chars(digits, digits + sizeof digits, std::bit_cast<double>(e.value())).ptr;
+      const std::string_view shown(digits, static_cast<size_t>(end - digits));
+      const size_t exponent = shown.find('e');
+      text += shown.substr(0, exponent);
+      if (shown.find('.') == std::string_view::npos) text += ".0";
+      if (exponent != std::string_view::npos) text.append("E").append(shown.substr(exponent + 1));
+      return;
+    }
+    case LiteralKind::String: return quoted(tree_.text(e.text()), '\'');
+    case LiteralKind::WString: return quoted(tree_.text(e.text()), '"');
+    case LiteralKind::Duration:
+    case LiteralKind::Date:
+    case LiteralKind::TimeOfDay:
+    case LiteralKind::DateTime: return time(e);
+    case LiteralKind::Null: text += "NULL"; return;
+  }
+}
+
+void StPrinter::address(const DirectAddress& a) {
+  text += '%';
+  text += a.area == ImageArea::Input ? 'I' : a.area == ImageArea::Output ? 'Q' : 'M';
+  if (a.size_given) text += a.size;
+  if (a.incomplete) text += '*';
+  bool first = true;
+  for (const uint32_t n : tree_.list(a.path)) {
+    if (!first) text += '.';
+    first = false;
+    text += std::to_string(n);
+  }
+}
+
+// ---- expressions
+
+void StPrinter::list(Slice<ExprId> ids) {
+  bool first = true;
+  for (const ExprId id : tree_.list(ids)) {
+    if (!first) text += ", ";
+    first = false;
+    expr(id, 0);
+  }
+}
+
+void StPrinter::arguments(Slice<Argument> list) {
+  text += '(';
+  bool first = true;
+  for (const Argument& a : tree_.list(list)) {
+    if (!first) text += ", ";
+    first = false;
+    if (a.pin.name) {
+      if (a.negated) text += "NOT ";
+      name(a.pin.name);
+      text += a.is_output ? " => " : " := ";
+    }
+    if (a.value) expr(a.value, 0);
+  }
+  text += ')';
+}
+
+// In parentheses where it binds weaker than `least`, or always.
+void StPrinter::operand(ExprId id, int least, bool always) {
+  if (always) {
+    text += '(';
+    expr(id, 0);
+    text += ')';
+  } else {
+    expr(id, least);
+  }
+}
+
+void StPrinter::expr(ExprId id, int least) {
+  switch (tree_.kind(id)) {
+    case ExprKind::Literal: return literal(tree_.as<LiteralExpr>(id));
+    case ExprKind::Name: return name(tree_.as<NameExpr>(id).name);
+    case ExprKind::TypedName: {
+      const auto& e = tree_.as<TypedNameExpr>(id);
+      name(e.type_name.name);
+      text += '#';
+      return name(e.item.name);
+    }
+    case ExprKind::Member: {
+      const auto& e = tree_.as<MemberExpr>(id);
+      expr(e.base, kPrimary);
+      text += '.';
+      return name(e.member);
+    }
+    case ExprKind::Index: {
+      const auto& e = tree_.as<IndexExpr>(id);
+      expr(e.base, kPrimary);
+      text += '[';
+      list(e.indices);
+      text += ']';
+      return;
+    }
+    case ExprKind::Deref:
+      expr(tree_.as<DerefExpr>(id).base, kPrimary);
+      text += '^';
+      return;
+    case ExprKind::This: text += "THIS"; return;
+    case ExprKind::Super: text += "SUPER"; return;
+    case ExprKind::BitAccess: {
+      const auto& e = tree_.as<BitAccessExpr>(id);
+      expr(e.base, kPrimary);
+      text += e.width == 8 ? ".%B" : e.width == 16 ? ".%W" : e.width == 32 ? ".%D" : ".";
+      text += std::to_string(e.position);
+      return;
+    }
+    case ExprKind::Address: return address(tree_.as<AddressExpr>(id).address);
+    case ExprKind::Unary: {
+      const auto& e = tree_.as<UnaryExpr>(id);
+      if (least > kUnary) return operand(id, 0, true);
+      text += spelling(e.op());
+      if (e.op() == UnaryOp::Not) text += ' ';
+      const ExprKind inner = tree_.kind(e.operand);
+      return operand(e.operand, kPrimary, inner == ExprKind::Binary || inner == ExprKind::Unary);
+    }
+    case ExprKind::Binary: {
+      const auto& e = tree_.as<BinaryExpr>(id);
+      const int own = precedenceOf(e.op());
+      if (own < least) return operand(id, 0, true);
+      // What mixes comparisons, logic and powers reads better with its parentheses.
+      const auto apart = [&](ExprId side, bool right) {
+        if (tree_.kind(side) == ExprKind::Unary) return e.op() == BinaryOp::Power || (right && own > 3);
+        if (tree_.kind(side) != ExprKind::Binary) return false;
+        const BinaryOp op = tree_.as<BinaryExpr>(side).op();
+        return own <= 5 && op != e.op() && precedenceOf(op) <= 5;
+      };
+      operand(e.left, own, apart(e.left, false));
+      text.append(" ").append(spelling(e.op())).append(" ");
+      return operand(e.right, own + 1, apart(e.right, true));
+    }
+    case ExprKind::Call: {
+      const auto& e = tree_.as<CallExpr>(id);
+      expr(e.callee, kPrimary);
+      if ((e.h.bits & kBareCall) == 0) arguments(e.arguments);
+      return;
+    }
+    case ExprKind::Range: {
+      const auto& e = tree_.as<RangeExpr>(id);
+      expr(e.low, 0);
+      text += "..";
+      return expr(e.high, 0);
+    }
+    case ExprKind::Error:
+    case ExprKind::ArrayInit:
+    case ExprKind::Repeat:
+    case ExprKind::StructInit:
+    case ExprKind::Convert:
+    case ExprKind::Bound:
+    case ExprKind::AnyValue:
+    case ExprKind::AddressOf: break;
+  }
+  RUNG_INVARIANT(false, "statements are printed before sema has changed them, and only where they have no errors");
+}
+
+// ---- statements
+
+void StPrinter::comments(Loc before, uint32_t indent) {
+  while (!comments_.empty() && comments_.front().at <= before) {
+    line(indent);
+    text += comments_.front().text;
+    text += '\n';
+    comments_ = comments_.subspan(1);
+  }
+}
+
+void StPrinter::ifStmt(const IfStmt& s, uint32_t indent) {
+  const std::span<const IfBranch> branches = tree_.list(s.branches);
+  const Slice<StmtId> body = branches[0].body;
+  if (s.h.op == kConditionalOp && body.count == 1) {  // IF full THEN JMP done; END_IF
+    text += "IF ";
+    expr(branches[0].condition, 0);
+    text += " THEN ";
+    stmt(tree_.list(body)[0], 0);
+    text.back() = ' ';
+    text += "END_IF\n";
+    return;
+  }
+  for (size_t k = 0; k < branches.size(); ++k) {
+    if (k > 0) line(indent);
+    text += k == 0 ? "IF " : "ELSIF ";
+    expr(branches[k].condition, 0);
+    text += " THEN\n";
+    stmts(branches[k].body, indent + 2);
+  }
+  if (!s.otherwise.empty()) {
+    line(indent);
+    text += "ELSE\n";
+    stmts(s.otherwise, indent + 2);
+  }
+  line(indent);
+  text += "END_IF\n";
+}
+
+void StPrinter::caseStmt(const CaseStmt& s, uint32_t indent) {
+  text += "CASE ";
+  expr(s.selector, 0);
+  text += " OF\n";
+  for (const CaseBranch& branch : tree_.list(s.branches)) {
+    line(indent + 2);
+    list(branch.labels);
+    text += ":\n";
+    stmts(branch.body, indent + 4);
+  }
+  if (s.has_else) {
+    line(indent + 2);
+    text += "ELSE\n";
+    stmts(s.otherwise, indent + 4);
+  }
+  line(indent);
+  text += "END_CASE\n";
+}
+
+void StPrinter::loops(StmtId id, uint32_t indent) {
+  if (tree_.kind(id) == StmtKind::For) {
+    const auto& s = tree_.as<ForStmt>(id);
+    text += "FOR ";
+    expr(s.control, 0);
+    text += " := ";
+    expr(s.from, 0);
+    text += " TO ";
+    expr(s.to, 0);
+    if (s.step) {
+      text += " BY ";
+      expr(s.step, 0);
+    }
+    text += " DO\n";
+    stmts(s.body, indent + 2);
+    line(indent);
+    text += "END_FOR\n";
+  } else if (tree_.kind(id) == StmtKind::While) {
+    const auto& s = tree_.as<WhileStmt>(id);
+    text += "WHILE ";
+    expr(s.condition, 0);
+    text += " DO\n";
+    stmts(s.body, indent + 2);
+    line(indent);
+    text += "END_WHILE\n";
+  } else if (tree_.kind(id) == StmtKind::Repeat) {
+    const auto& s = tree_.as<RepeatStmt>(id);
+    text += "REPEAT\n";
+    stmts(s.body, indent + 2);
+    line(indent);
+    text += "UNTIL ";
+    expr(s.until, 0);
+    text += '\n';
+    line(indent);
+    text += "END_REPEAT\n";
+  } else {
+    const auto& s = tree_.as<TryStmt>(id);
+    text += "__TRY\n";
+    stmts(s.body, indent + 2);
+    if (s.catches) {
+      line(indent);
+      text += "__CATCH";
+      if (s.code) {
+        text += '(';
+        expr(s.code, 0);
+        text += ')';
+      }
+      text += '\n';
+      stmts(s.handler, indent + 2);
+    }
+    if (!s.finally.empty()) {
+      line(indent);
+      text += "__FINALLY\n";
+      stmts(s.finally, indent + 2);
+    }
+    line(indent);
+    text += "__ENDTRY\n";
+  }
+}
+
+void StPrinter::stmt(StmtId id, uint32_t indent) {
+  comments(tree_.loc(id), indent);
+  line(indent);
+  switch (tree_.kind(id)) {
+    case StmtKind::Error:
+    case StmtKind::Empty: text += ";\n"; return;
+    case StmtKind::Assign: {
+      const auto& s = tree_.as<AssignStmt>(id);
+      expr(s.target, 0);
+      text.append(" ").append(spelling(s.op())).append(" ");
+      expr(s.value, 0);
+      text += ";\n";
+      return;
+    }
+    case StmtKind::Call:
+      expr(tree_.as<CallStmt>(id).call, 0);
+      text += ";\n";
+      return;
+    case StmtKind::If: return ifStmt(tree_.as<IfStmt>(id), indent);
+    case StmtKind::Case: return caseStmt(tree_.as<CaseStmt>(id), indent);
+    case StmtKind::For:
+    case StmtKind::While:
+    case StmtKind::Repeat:
+    case StmtKind::Try: return loops(id, indent);
+    case StmtKind::Exit: text += "EXIT;\n"; return;
+    case StmtKind::Continue: text += "CONTINUE;\n"; return;
+    case StmtKind::Return: text += "RETURN;\n"; return;
+    case StmtKind::Jump:
+      text += "JMP ";
+      name(tree_.as<JumpStmt>(id).label.name);
+      text += ";\n";
+      return;
+    case StmtKind::Label:
+      name(tree_.as<LabelStmt>(id).label.name);
+      text += ":\n";
+      return;
+  }
+}
+
+}  // namespace
+
+std::string printSt(const Tree& tree, const Names& names, Slice<StmtId> statements, uint32_t indent,
+                    std::span<const StComment> comments) {
+  StPrinter printer(tree, names, comments);
+  printer.stmts(statements, indent);
+  printer.rest(indent);
+  return std::move(printer.text);
+}
+
+}  // namespace rung

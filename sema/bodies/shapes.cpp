@@ -1,0 +1,145 @@
+#include "sema/bodies/shapes.h"
+
+#include "sema/bodies/bodies.h"
+
+namespace rung::sema {
+
+// What a reference or an alias stands for.
+TypeId ProjectShapes::plainType(TypeId type) const {
+  const types::TypeTable& table = context_.types();
+  type = table.resolve(type);
+  if (table.info(type).kind == TypeKind::Reference) type = table.resolve(table.info(type).base);
+  return type;
+}
+
+ProjectShapes::Place ProjectShapes::placeOf(Entity entity) {
+  Place place{entity, {}};
+  if (entity.what() == EntityKind::Var) place.type = plainType(context_.project.vars[entity.index].type);
+  if (entity.what() == EntityKind::Program) {
+    const PouId program = context_.project.instances[entity.index].program;
+    resolvePou(context_, program);
+    place.type = context_.project.pou(program).record;
+  }
+  return place;
+}
+
+ProjectShapes::Place ProjectShapes::memberOf(const Place& base, NameId member) {
+  const types::TypeTable& table = context_.types();
+  TypeId record = base.type;
+  if (record && table.info(record).kind == TypeKind::Pointer) {  // an interface, THIS
+    if (!interfaceOf(context_, record)) return {};
+    record = table.resolve(table.info(record).base);
+  }
+  if (!record && base.entity.what() == EntityKind::Pou) {
+    resolvePou(context_, PouId{base.entity.index});
+    record = context_.project.pous[base.entity.index].record;
+  }
+  if (!record) return placeOf(lookUpIn(context_, base.entity, member));
+  if (table.info(record).kind != TypeKind::Record) return {};
+  if (const VarId field = findMember(context_, record, member))
+    return placeOf(Entity::of(EntityKind::Var, field.index));
+  const PouId object = pouOf(context_, record);
+  return object ? placeOf(findInObject(context_, object, context_.names().key(member))) : Place{};
+}
+
+ProjectShapes::Place ProjectShapes::placeOf(ExprId path) {
+  const Tree& tree = context_.tree();
+  const types::TypeTable& table = context_.types();
+  switch (tree.kind(path)) {
+    case ExprKind::Name: return placeOf(lookUp(context_, tree.as<NameExpr>(path).name));
+    case ExprKind::Member: {
+      const MemberExpr& node = tree.as<MemberExpr>(path);
+      return memberOf(placeOf(node.base), node.member);
+    }
+    case ExprKind::Index: {
+      const TypeId base = placeOf(tree.as<IndexExpr>(path).base).type;
+      const TypeKind kind = base ? table.info(base).kind : TypeKind::None;
+      if (kind != TypeKind::Array && kind != TypeKind::Pointer) return {};
+      return {{}, plainType(table.info(base).base)};
+    }
+    case ExprKind::Deref: {
+      const TypeId base = placeOf(tree.as<DerefExpr>(path).base).type;
+      if (!base || table.info(base).kind != TypeKind::Pointer) return {{}, base};
+      return {{}, plainType(table.info(base).base)};
+    }
+    case ExprKind::This:
+    case ExprKind::Super: {
+      PouId object = objectOf(context_);
+      if (object && tree.kind(path) == ExprKind::Super) object = context_.project.pou(object).base;
+      return {{}, object ? context_.project.pou(object).record : TypeId{}};
+    }
+    case ExprKind::Error:
+    case ExprKind::Literal:
+    case ExprKind::TypedName:
+    case ExprKind::BitAccess:
+    case ExprKind::Address:
+    case ExprKind::Unary:
+    case ExprKind::Binary:
+    case ExprKind::Call:
+    case ExprKind::Range:
+    case ExprKind::ArrayInit:
+    case ExprKind::Repeat:
+    case ExprKind::StructInit:
+    case ExprKind::Convert:
+    case ExprKind::Bound:
+    case ExprKind::AnyValue:
+    case ExprKind::AddressOf: break;
+  }
+  return {};
+}
+
+Shape ProjectShapes::shapeOf(PouId id, ShapeKind kind) {
+  resolvePou(context_, id);
+  const Pou& pou = context_.project.pou(id);
+  const auto [place, fresh] = pins_.try_emplace(id.index);
+  std::vector<PinShape>& pins = place->second;
+  if (fresh) {
+    for (const VarId var_id : pinsOf(context_, id)) {
+      const Var& var = context_.project.var(var_id);
+      const PinDirection direction = var.section == SectionKind::Output  ? PinDirection::Output
+                                     : var.section == SectionKind::InOut ? PinDirection::InOut
+                                                                         : PinDirection::Input;
+      const bool is_bool = var.type && context_.types().kind(var.type) == TypeKind::Bool;
+      pins.push_back({var.name, var.aliases, direction, is_bool, var.required, var.lazy, var.extensible, var.init});
+    }
+  }
+  return {kind, static_cast<bool>(pou.result), pins};
+}
+
+Shape ProjectShapes::shapeOf(const Place& place) {
+  if (place.entity.what() == EntityKind::Pou) {
+    const PouId id{place.entity.index};
+    switch (context_.project.pou(id).kind) {
+      case PouKind::Function: return shapeOf(id, ShapeKind::Function);
+      case PouKind::Method:
+      case PouKind::Action: return shapeOf(id, ShapeKind::Method);
+      case PouKind::Program: return shapeOf(id, ShapeKind::Program);
+      case PouKind::FunctionBlock:
+      case PouKind::Class:
+      case PouKind::Interface: return {ShapeKind::Other, false, {}};
+    }
+  }
+  if (place.type && place.type != types::kError) {
+    const PouId pou = pouOf(context_, place.type);
+    if (pou && context_.project.pou(pou).kind == PouKind::FunctionBlock) return shapeOf(pou, ShapeKind::Instance);
+    return {ShapeKind::Value, false, {}};
+  }
+  switch (place.entity.what()) {
+    case EntityKind::Var:
+    case EntityKind::EnumValue:
+    case EntityKind::Property: return {ShapeKind::Value, false, {}};
+    case EntityKind::Type:
+    case EntityKind::GlobalList:
+    case EntityKind::Namespace:
+    case EntityKind::Program:
+    case EntityKind::Pou: return {ShapeKind::Other, false, {}};
+    case EntityKind::None:
+    case EntityKind::Error: break;
+  }
+  return {};
+}
+
+Shape ProjectShapes::of(NameId name) { return shapeOf(placeOf(lookUp(context_, name))); }
+Shape ProjectShapes::of(ExprId path) { return shapeOf(placeOf(path)); }
+
+}  // namespace rung::sema

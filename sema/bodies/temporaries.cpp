@@ -1,0 +1,184 @@
+#include "sema/bodies/temporaries.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+namespace {
+
+using Temporary = BodyState::Temporary;
+
+constexpr uint16_t kChecked = 1;        // StmtHeader::spare: the value was looked at before its turn
+constexpr uint32_t kMaxLookAhead = 50;  // temporaries that wait for each other's types
+
+Temporary& stateOf(Context& context, VarId id) {
+  return context.body->temporaries[context.project.var(id).temporary - 1];
+}
+
+VarId temporaryOf(Context& context, ExprId expr) {
+  if (context.body == nullptr || context.body->temporaries.empty()) return {};
+  if (context.tree().kind(expr) != ExprKind::Name) return {};
+  const Entity entity = lookUp(context, context.tree().as<NameExpr>(expr).name);
+  const bool is_one = entity.what() == EntityKind::Var && context.project.vars[entity.index].temporary != 0;
+  return is_one ? VarId{entity.index} : VarId{};
+}
+
+bool isNull(const Context& context, TypeId type) { return context.types().info(type).kind == TypeKind::NullLiteral; }
+
+// What holds every value of this type: a text may get longer than the one that came first.
+TypeId roomFor(Context& context, TypeId type) {
+  types::TypeTable& table = context.types();
+  const types::TypeInfo& info = table.info(table.resolve(type));
+  if (types::TypeTable::isText(info.kind)) {
+    const uint32_t length = std::max(info.length, 255u);
+    type = info.kind == TypeKind::WString ? table.wstring(length) : table.string(length);
+  } else if (info.kind == TypeKind::Subrange) {
+    type = table.plain(type);
+  }
+  ensureLayout(context, type);
+  return type;
+}
+
+bool shares(Context& context, TypeId own, ExprId value) {
+  const types::TypeTable& table = context.types();
+  TypeId type = context.tree().expr(value).type;
+  if (isUntyped(context, type)) return untypedFits(context, value, own);
+  if (isNull(context, type)) return table.kind(own) == TypeKind::Pointer;
+  if (types::TypeTable::isText(table.kind(own))) return table.kind(type) == table.kind(own);
+  if (table.kind(type) == TypeKind::Subrange) type = table.plain(type);
+  return sameType(context, own, type);
+}
+
+// Forbids values of several types in one temporary: two ways to a label of IL that bring different ones (design §3).
+//   passes  LD a (INT)  JMP m … LD 7  m: ST c
+//   fails   LD a (INT)  JMP m … LD b (BOOL)  m: ST c        E0729
+void adaptValue(Context& context, const Temporary& state, AssignStmt& node) {
+  NameExpr& target = context.tree().as<NameExpr>(node.target);
+  target.entity = Entity::of(EntityKind::Var, state.var.index);
+  target.h.type = state.type;
+  const TypeId type = context.tree().expr(node.value).type;
+  if (!type || type == types::kError || state.type == types::kError) return;
+  if (shares(context, state.type, node.value)) {
+    convert(context, node.value, state.type, Purpose{"assigned to", target.name, {}});
+    return;
+  }
+  const TypeId own = isUntyped(context, type) ? defaultType(context, node.value) : type;
+  const std::string line = std::to_string(context.project.sources.lineNumber(state.first));
+  context.report(Diag::TypesMeet, node.h.loc, {context.types().spell(own), context.types().spell(state.type), line})
+      .note(state.first, Note::OtherValue);
+}
+
+void settleType(Context& context, Temporary& state, TypeId type, Loc first) {
+  state.type = type == types::kError ? type : roomFor(context, type);
+  state.first = first;
+  context.project.var(state.var).type = state.type;
+  for (AssignStmt* open : std::exchange(state.open, {})) adaptValue(context, state, *open);
+}
+
+void checkValue(Context& context, Temporary& state, AssignStmt& node) {
+  if (node.h.spare == kChecked) return;
+  node.h.spare = kChecked;
+  TypeId type = check(context, node.value, state.type, Access::Read);
+  if (!type) type = types::kError;
+  if (state.type) return adaptValue(context, state, node);
+  state.open.push_back(&node);
+  if (!isUntyped(context, type) && !isNull(context, type)) settleType(context, state, type, node.h.loc);
+}
+
+// Where the body assigns to its temporaries: asked when a reader comes before a value with a type.
+void collectAssigns(Context& context, Slice<StmtId> list) {
+  for (uint32_t k = 0; k < list.count; ++k) {
+    const StmtId id = context.tree().list(list)[k];
+    if (context.tree().kind(id) == StmtKind::Assign) {
+      AssignStmt& node = context.tree().as<AssignStmt>(id);
+      if (const VarId var = temporaryOf(context, node.target)) stateOf(context, var).assigns.push_back(&node);
+    } else if (context.tree().kind(id) == StmtKind::If) {
+      const IfStmt& node = context.tree().as<IfStmt>(id);
+      for (uint32_t b = 0; b < node.branches.count; ++b)
+        collectAssigns(context, context.tree().list(node.branches)[b].body);
+      collectAssigns(context, node.otherwise);
+    }
+  }
+}
+
+void lookAhead(Context& context, Temporary& state) {
+  BodyState& body = *context.body;
+  if (state.busy || body.looking_ahead >= kMaxLookAhead) return;
+  if (!body.assigns_known) collectAssigns(context, body.statements);
+  body.assigns_known = true;
+  state.busy = true;
+  ++body.looking_ahead;
+  for (size_t k = 0; k < state.assigns.size() && !state.type; ++k) checkValue(context, state, *state.assigns[k]);
+  --body.looking_ahead;
+  state.busy = false;
+}
+
+// Literals alone take the reader's type where they fit it, else the widest of their own.
+TypeId typeOfOpen(Context& context, const Temporary& state, TypeId expected) {
+  bool fits = expected && !isUntyped(context, expected);
+  TypeId widest = types::kInt;
+  for (const AssignStmt* open : state.open) {
+    if (isNull(context, context.tree().expr(open->value).type)) return context.types().pointer(types::kByte);
+    fits = fits && untypedFits(context, open->value, expected);
+    widest = commonNumber(context, widest, defaultType(context, open->value));
+  }
+  return fits ? context.types().plain(expected) : widest;
+}
+
+}  // namespace
+
+void declareTemporaries(Context& context, DeclId section) {
+  if (!section) return;
+  Project& project = context.project;
+  const Slice<DeclId> decls = context.tree().as<SectionDecl>(section).vars;
+  for (uint32_t k = 0; k < decls.count; ++k) {
+    const VarDecl& decl = context.tree().as<VarDecl>(context.tree().list(decls)[k]);
+    const Ident ident = context.tree().list(decl.names)[0];
+    const VarId id{static_cast<uint32_t>(project.vars.size())};
+    Pou& pou = project.pou(context.pou);
+    Var var;
+    var.name = ident.name;
+    var.loc = ident.loc;
+    var.section = SectionKind::Temp;
+    var.storage = Storage::Local;
+    var.read = var.written = true;
+    var.pou = context.pou;
+    var.field = static_cast<uint32_t>(pou.vars.size());
+    context.body->temporaries.push_back({.var = id});
+    var.temporary = static_cast<uint32_t>(context.body->temporaries.size());
+    project.vars.push_back(var);
+    pou.vars.push_back(id);
+    context.scopes.pous[context.pou.index].names.insert(keyOf(context, ident.name), entity(id));
+  }
+}
+
+bool checkTemporaryAssign(Context& context, AssignStmt& node) {
+  const VarId var = temporaryOf(context, node.target);
+  if (!var) return false;
+  checkValue(context, stateOf(context, var), node);
+  return true;
+}
+
+bool isOpenTemporary(Context& context, ExprId expr) {
+  const VarId var = temporaryOf(context, expr);
+  return var && !stateOf(context, var).type;
+}
+
+TypeId temporaryType(Context& context, VarId id, TypeId expected) {
+  Temporary& state = stateOf(context, id);
+  if (!state.type) lookAhead(context, state);
+  if (!state.type) {
+    const Loc first = state.open.empty() ? context.project.var(id).loc : state.open.front()->h.loc;
+    settleType(context, state, typeOfOpen(context, state, expected), first);
+  }
+  return state.type;
+}
+
+void settleTemporaries(Context& context) {
+  for (const Temporary& state : context.body->temporaries) temporaryType(context, state.var, {});
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,21 @@
+// Temporaries of the compiler: variables without declared type that the schedulers of IL and diagrams use. Such a
+// variable has the type of what is assigned to it, which all its values share. Literals adapt to that type, or, where
+// there are only literals, to what the first reader wants.
+#pragma once
+
+#include "sema/bodies/bodies.h"
+
+namespace rung::sema {
+
+// Gives the variables of a scheduler's section their places in the POU at hand.
+void declareTemporaries(Context& context, DeclId section);
+// `temporary := value`. False: the target is something else.
+bool checkTemporaryAssign(Context& context, AssignStmt& node);
+// True for a name whose type its reader may still choose.
+bool isOpenTemporary(Context& context, ExprId expr);
+// The type of a temporary that is read.
+TypeId temporaryType(Context& context, VarId id, TypeId expected);
+// Types those that nothing reads. Called at the end of the body.
+void settleTemporaries(Context& context);
+
+}  // namespace rung::sema

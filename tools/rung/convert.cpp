@@ -1,0 +1,213 @@
+// `rung convert --to st`: the program as Structured Text. What is ST already, and all declarations, stay as they are
+// written; bodies that a scheduler made statements of are printed, comments and all, with the temporaries that they
+// need. Files of other tools become the text that Rung reads in them. Nothing is written when there are errors.
+#include <algorithm>
+#include <filesystem>
+#include <unordered_set>
+
+#include "frontend/syntax/st_printer.h"
+#include "tools/rung/commands.h"
+#include "tools/rung/compile.h"
+
+namespace rung::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Body {
+  sema::PouId pou;
+  Loc begin, end;  // what it replaces
+  std::string text;
+};
+struct Output {
+  std::string path, text;
+};
+
+// Where a comment or text that begins at `p` ends; `p` itself where none begins.
+size_t endOfUnit(std::string_view text, size_t p) {
+  const std::string_view rest = text.substr(p);
+  if (rest.starts_with("//")) return std::min(text.find_first_of("\r\n", p), text.size());
+  if (rest.starts_with("(*") || rest.starts_with("/*")) {
+    const char mark = rest[0];
+    size_t depth = 1, at = p + 2;
+    for (; at < text.size() && depth > 0; ++at) {
+      if (text[at] == mark && text.substr(at + 1).starts_with("*")) {
+        ++depth;
+        ++at;
+      } else if (text[at] == '*' && text.substr(at + 1).starts_with(mark == '(' ? ")" : "/")) {
+        --depth;
+        ++at;
+      }
+    }
+    return at;
+  }
+  if (rest[0] != '\'' && rest[0] != '"') return p;
+  size_t at = p + 1;
+  while (at < text.size() && text[at] != rest[0]) at += text[at] == '$' ? 2 : 1;
+  return std::min(at + 1, text.size());
+}
+
+// The comments of a body, each at the begin of its line, so that it goes in front of the statement of that line.
+std::vector<StComment> commentsOf(std::string_view text, size_t begin, size_t end, uint32_t base) {
+  std::vector<StComment> comments;
+  size_t line = begin;
+  for (size_t p = begin; p < end;) {
+    const size_t next = endOfUnit(text, p);
+    if (next == p) {
+      if (text[p++] == '\n') line = p;
+      continue;
+    }
+    if (text[p] != '\'' && text[p] != '"')
+      comments.push_back({{base + static_cast<uint32_t>(line)}, text.substr(p, next - p)});
+    for (; p < next; ++p)
+      if (text[p] == '\n') line = p + 1;
+  }
+  return comments;
+}
+
+class Converter {
+ public:
+  explicit Converter(Compilation& compilation) : compilation_(compilation), sources_(compilation.sources) {
+    compilation.scheduled = [this](sema::Project&, sema::PouId pou) { print(pou); };
+  }
+
+  std::vector<Output> outputs();
+
+ private:
+  void print(sema::PouId pou);
+  std::string temporaries(const Body& body) const;
+  std::string convert(FileId file) const;
+
+  Compilation& compilation_;
+  const Sources& sources_;
+  std::vector<Body> bodies_;
+};
+
+// Called while sema is at work, before it changes what the scheduler made.
+void Converter::print(sema::PouId id) {
+  const sema::Project& project = *compilation_.project;
+  const sema::Pou& pou = project.pou(id);
+  if (pou.library || pou.generic_of || compilation_.diagnostics.hasErrors()) return;
+  const PouDecl& decl = compilation_.tree.as<PouDecl>(pou.decl);
+  const std::string_view text = sources_.original(pou.file);
+  const uint32_t base = sources_.begin(pou.file).offset;
+  const size_t begin = decl.body_begin.offset - base, end = decl.body_end.offset - base;
+  size_t line = begin;
+  while (line > 0 && (text[line - 1] == ' ' || text[line - 1] == '\t')) --line;
+  const bool own_line = line == 0 || text[line - 1] == '\n';
+  if (!own_line) line = begin;
+  const auto indent = static_cast<uint32_t>(std::min<size_t>(begin - line, 8));
+  const std::vector<StComment> comments = commentsOf(text, begin, end, base);
+  Body body{id, {base + static_cast<uint32_t>(line)}, decl.body_end, own_line ? "" : "\n"};
+  body.text += printSt(compilation_.tree, compilation_.names, decl.body, indent, comments);
+  if (!body.text.empty() && body.text.back() == '\n') body.text.pop_back();  // the source has one behind the body
+  bodies_.push_back(std::move(body));
+}
+
+std::string Converter::temporaries(const Body& body) const {
+  const sema::Project& project = *compilation_.project;
+  const sema::Pou& pou = project.pou(body.pou);
+  std::string lines;
+  for (const sema::VarId id : pou.vars) {
+    const sema::Var& var = project.var(id);
+    if (var.temporary == 0) continue;
+    lines += "  " + std::string(compilation_.names.text(var.name)) + " : " + project.types.spell(var.type) + ";\n";
+  }
+  if (lines.empty()) return {};
+  const bool function = pou.kind == PouKind::Function || pou.kind == PouKind::Method;
+  return std::string(function ? "VAR\n" : "VAR_TEMP\n") + lines + "END_VAR\n";
+}
+
+std::string Converter::convert(FileId file) const {
+  const std::string_view text = sources_.original(file);
+  const uint32_t base = sources_.begin(file).offset;
+  std::string out;
+  size_t done = 0;
+  for (const Body& body : bodies_) {
+    if (sources_.fileOf(body.begin) != file) continue;
+    out += text.substr(done, body.begin.offset - base - done);
+    const bool starts_line = body.text.empty() || body.text[0] != '\n';
+    const std::string declared = temporaries(body);
+    if (!starts_line && !declared.empty()) out += '\n';
+    out += declared;
+    out += starts_line || declared.empty() ? body.text : body.text.substr(1);
+    done = body.end.offset - base;
+  }
+  return out + std::string(text.substr(done));
+}
+
+// rung.project without the list of its sources: the folder has no others.
+std::string projectText(std::string_view text) {
+  std::string out;
+  for (size_t p = 0; p < text.size();) {
+    const size_t end = std::min(text.find('\n', p), text.size() - 1) + 1;
+    const std::string_view line = text.substr(p, end - p);
+    const size_t word = std::min(line.find_first_not_of(" \t"), line.size());
+    const size_t behind = line.find_first_of(" \t=", word);
+    if (line.substr(word, behind - word) != "sources") out += line;
+    p = end;
+  }
+  return out;
+}
+
+std::vector<Output> Converter::outputs() {
+  std::sort(bodies_.begin(), bodies_.end(), [](const Body& a, const Body& b) { return a.begin < b.begin; });
+  std::vector<Output> out;
+  std::unordered_set<std::string> taken;
+  for (const InputFile& input : compilation_.inputs.files)
+    if (fs::path(input.below).extension() == ".st") taken.insert(input.below);
+  for (const InputFile& input : compilation_.inputs.files) {
+    std::string path = input.below;
+    if (fs::path(path).extension() != ".st") {
+      const std::string stem = fs::path(path).replace_extension().generic_string();
+      path = stem + ".st";
+      for (uint32_t n = 2; !taken.insert(path).second; ++n) path = stem + "_" + std::to_string(n) + ".st";
+    }
+    out.push_back({path, convert(input.file)});
+  }
+  if (const ProjectFile& project = compilation_.inputs.project; project.file)
+    out.push_back({"rung.project", projectText(sources_.original(project.file))});
+  return out;
+}
+
+// The folder must be another one than that of the sources, which would be read again with it.
+std::string refusal(const Compilation& compilation) {
+  std::error_code error;
+  const fs::path folder = fs::weakly_canonical(compilation.options.output, error);
+  const fs::path root = fs::weakly_canonical(compilation.inputs.root, error);
+  if (folder != root) return {};
+  return "`-o " + compilation.options.output + "` is the folder of the sources; write into another one";
+}
+
+int writeAll(const std::string& folder, const std::vector<Output>& outputs) {
+  for (const Output& output : outputs) {
+    const fs::path path = fs::path(folder) / output.path;
+    std::error_code error;
+    fs::create_directories(path.parent_path(), error);
+    if (error) return usageError("cannot make the folder `" + path.parent_path().string() + "`: " + error.message());
+    if (const std::string problem = writeFile(path.string(), output.text); !problem.empty()) return usageError(problem);
+  }
+  return kGood;
+}
+
+}  // namespace
+
+int runConvert(const Options& options) {
+  PhaseTimes times;
+  Compilation compilation(options, times);
+  Converter converter(compilation);
+  std::vector<Output> outputs;
+  if (compilation.check()) {
+    times.begin("print");
+    outputs = converter.outputs();
+    times.end();
+  }
+  int exit = compilation.finish();
+  if (exit == kGood)
+    if (const std::string problem = refusal(compilation); !problem.empty()) exit = usageError(problem);
+  if (exit == kGood) exit = writeAll(options.output, outputs);
+  if (options.time_phases) fputs(times.table().c_str(), stderr);
+  return exit;
+}
+
+}  // namespace rung::tool
