@@ -56,6 +56,7 @@ class StPrinter {
   void operand(ExprId id, int least, bool always);
   void list(Slice<ExprId> ids);
   void arguments(Slice<Argument> arguments);
+  void newExpr(const NewExpr& e);
   void literal(const LiteralExpr& e);
   void quoted(std::string_view s, char quote);
   void time(const LiteralExpr& e);
@@ -257,6 +258,28 @@ void StPrinter::operand(ExprId id, int least, bool always) {
   }
 }
 
+// __NEW takes a type by its name, or a text.
+void StPrinter::newExpr(const NewExpr& e) {
+  text += "__NEW(";
+  if (tree_.kind(e.what) == TypeExprKind::Text) {
+    const auto& type = tree_.as<TextTypeExpr>(e.what);
+    text += type.wide ? "WSTRING" : "STRING";
+    if (type.length) operand(type.length, 0, true);
+  } else if (tree_.kind(e.what) == TypeExprKind::Named) {
+    const auto& type = tree_.as<NamedTypeExpr>(e.what);
+    for (uint32_t i = 0; i < type.path.count; ++i) {
+      if (i > 0) text += '.';
+      name(tree_.list(type.path)[i].name);
+    }
+    if (type.has_arguments) arguments(type.arguments);
+  }
+  if (e.count) {
+    text += ", ";
+    expr(e.count, 0);
+  }
+  text += ')';
+}
+
 void StPrinter::expr(ExprId id, int least) {
   switch (tree_.kind(id)) {
     case ExprKind::Literal: return literal(tree_.as<LiteralExpr>(id));
@@ -324,6 +347,7 @@ void StPrinter::expr(ExprId id, int least) {
       if ((e.h.bits & kBareCall) == 0) arguments(e.arguments);
       return;
     }
+    case ExprKind::New: return newExpr(tree_.as<NewExpr>(id));
     case ExprKind::Range: {
       const auto& e = tree_.as<RangeExpr>(id);
       expr(e.low, 0);

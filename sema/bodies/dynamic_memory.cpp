@@ -67,7 +67,8 @@ TypeId checkNew(Context& context, ExprId& expr) {
     context.report(Diag::TypeTooLarge, context.tree().loc(node.what), {context.types().spell(type)});
     return node.h.type = types::kError;
   }
-  node.constructor = checkConstructor(context, node.what);
+  uint32_t elements = 0;
+  node.constructor = checkConstructor(context, node.what, elements);
   node.memory = poolCall(context, "Allocate", node.h.loc);
   node.h.type = node.memory.index != 0 ? context.types().pointer(type) : types::kError;
   context.types().layout(node.h.type);

@@ -16,7 +16,7 @@ ExprId makeLiteral(Context& context, LiteralKind kind, TypeId type, int64_t valu
 }
 
 ExprId makeText(Context& context, std::string_view text, Loc loc) {
-  const TypeId type = context.types().string(static_cast<uint32_t>(text.size()));
+  const TypeId type = context.types().string(static_cast<uint32_t>(text.empty() ? 1 : text.size()));
   const ExprId made = makeLiteral(context, LiteralKind::String, type, 0, loc);
   const TextId id = context.tree().addText(text);
   auto& node = context.tree().as<LiteralExpr>(made);

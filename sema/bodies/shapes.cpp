@@ -71,6 +71,7 @@ ProjectShapes::Place ProjectShapes::placeOf(ExprId path) {
     case ExprKind::Error:
     case ExprKind::Literal:
     case ExprKind::TypedName:
+    case ExprKind::New:
     case ExprKind::BitAccess:
     case ExprKind::Address:
     case ExprKind::Unary:

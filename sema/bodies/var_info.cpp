@@ -8,19 +8,6 @@ namespace rung::sema {
 
 namespace {
 
-ExprId makeText(Context& context, std::string_view text, Loc loc) {
-  LiteralExpr node{};
-  node.h.kind = ExprKind::Literal;
-  node.h.op = static_cast<uint8_t>(LiteralKind::String);
-  node.h.loc = loc;
-  node.h.is_constant = 1;
-  node.h.type = context.types().string(static_cast<uint32_t>(std::max<size_t>(text.size(), 1)));
-  const TextId id = context.tree().addText(text);
-  node.low = id.first;
-  node.high = id.length;
-  return context.tree().add<ExprId>(node);
-}
-
 struct Facts {
   Context& context;
   Loc loc;
