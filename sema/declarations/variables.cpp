@@ -393,7 +393,7 @@ void declarePou(Context& context, PouId id) {
     // Forbids sections that a POU cannot have. IEC 61131-3 ed. 3 table 14.
     if (section.section == SectionKind::Global && mayHoldGlobals(context, kind)) continue;  // collect.cpp
     const bool misplaced = section.section == SectionKind::Global || section.section == SectionKind::Access ||
-                           section.section == SectionKind::Config ||
+                           section.section == SectionKind::Config || kind == PouKind::Interface ||
                            (section.section == SectionKind::Stat && context.iec()) ||
                            (section.section == SectionKind::Inst && kind != PouKind::Method);
     if (misplaced) {
