@@ -48,7 +48,7 @@ TypeId checkTaker(Context& context, ExprId& target) {
     if (context.types().kind(context.tree().expr(reference).type) == TypeKind::Reference) target = reference;
   }
   return checkWritable(context, target, Purpose{"assigned to", {}, {}}) ? context.tree().expr(target).type
-                                                                       : types::kError;
+                                                                        : types::kError;
 }
 
 void refuseTaker(Context& context, ExprId target, TypeId type, std::string_view word, std::string_view wanted) {

@@ -524,7 +524,13 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
     callee.entity = lookUp(context, callee.name, callee.h.loc);
     switch (callee.entity.what()) {
       case EntityKind::None: return callUnknown(context, expr, callee.name, expected, as_statement);
-      case EntityKind::Pou: return callPou(context, expr, PouId{callee.entity.index}, expected, as_statement);
+      case EntityKind::Pou: {
+        const PouId pou{callee.entity.index};
+        const PouId owner = context.project.pou(pou).owner;
+        if (owner && !mayAccess(context, context.project.pou(pou).access, owner, callee.name, callee.h.loc))
+          return refuse(context, node);
+        return callPou(context, expr, pou, expected, as_statement);
+      }
       case EntityKind::Error: return refuse(context, node);
       case EntityKind::Var:
         if (VarId{callee.entity.index} == context.project.pou(context.pou).result_var) {

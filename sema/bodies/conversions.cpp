@@ -85,6 +85,12 @@ static bool pointsAlike(const Context& context, TypeId from, TypeId to) {
 
 namespace {
 
+bool isInterface(const Context& context, const types::TypeInfo& type) {
+  if (type.kind != TypeKind::Pointer) return false;
+  const types::TypeInfo& target = context.types().info(context.types().resolve(type.base));
+  return target.kind == TypeKind::Record && target.record_kind == types::RecordKind::Interface;
+}
+
 // An object where an interface that it implements is wanted, and a pointer to an object where one to its base is.
 bool isObjectFit(const Context& constant, const types::TypeInfo& source, TypeId from, const types::TypeInfo& target) {
   Context context = constant;
@@ -103,7 +109,8 @@ bool isNamedValueOf(const Context& context, TypeId a, TypeId b) {
   const types::TypeTable& table = context.types();
   const types::TypeInfo &left = table.info(table.resolve(a)), &right = table.info(table.resolve(b));
   if (left.named_values == right.named_values) return false;
-  return left.named_values ? table.resolve(left.base) == table.resolve(b) : table.resolve(right.base) == table.resolve(a);
+  return left.named_values ? table.resolve(left.base) == table.resolve(b)
+                           : table.resolve(right.base) == table.resolve(a);
 }
 
 Fit fit(const Context& context, TypeId from, TypeId to) {
@@ -136,10 +143,13 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
   if (target.kind == TypeKind::Pointer) {
     if (source.kind == TypeKind::NullLiteral) return Fit::Same;
     if (isObjectFit(context, source, from, target)) return Fit::Lossless;
+    if (isInterface(context, target) || isInterface(context, source))
+      return sameType(context, from, to) ? Fit::Same : Fit::No;
     if (source.kind == TypeKind::Pointer)
       return pointsAlike(context, source.base, target.base) ? Fit::Same : Fit::Pointer;
   }
   // CODESYS takes a pointer as the number of its first byte, and a number as a pointer.
+  if (isInterface(context, source)) return Fit::No;
   if ((target.kind == TypeKind::Pointer && isWholeKind(a)) || (source.kind == TypeKind::Pointer && isWholeKind(b))) {
     const uint32_t bits = table.pointerSize() * 8;
     if (context.iec()) return Fit::No;
@@ -252,6 +262,12 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
   const TypeId from = context.tree().expr(expr).type;
   if (from == to) return from != types::kError;
   if (!from || from == types::kError || to == types::kError) return false;
+  __int128 number = 1;
+  if (!context.iec() && isUntyped(context, from) && untypedValue(context, expr, number) && number == 0 &&
+      isInterface(context, context.types().info(context.types().resolve(to)))) {  // 0: no object
+    expr = makeLiteral(context, LiteralKind::Null, to, 0, context.tree().loc(expr));
+    return true;
+  }
   if (isUntyped(context, from)) return adapt(context, expr, to, purpose);
   Fit fitness = fit(context, from, to);
   if (fitness == Fit::Lossy && constantFits(context, expr, to)) fitness = Fit::Lossless;
@@ -274,6 +290,9 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
     }
     return true;
   }
+  if (context.types().kind(from) == TypeKind::Record)  // an object as an interface, which may change it
+    if (const Entity object = entityOf(context, expr); object.what() == EntityKind::Var)
+      markAccess(context, VarId{object.index}, Access::Address);
   wrapConvert(context, expr, to);
   return true;
 }

@@ -92,7 +92,12 @@ TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
 TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId name, Access access, bool bare) {
   ExprHeader& header = context.tree().expr(expr);
   switch (entity.what()) {
-    case EntityKind::Var: return useVar(context, expr, VarId{entity.index}, access);
+    case EntityKind::Var: {
+      const Var& var = context.project.vars[entity.index];
+      if (bare && var.access == AccessLevel::Private && var.pou && !mayAccess(context, var.access, var.pou, name, loc))
+        return header.type = types::kError;
+      return useVar(context, expr, VarId{entity.index}, access);
+    }
     case EntityKind::EnumValue: return useEnumValue(context, expr, entity.index, bare);
     case EntityKind::None:
     case EntityKind::Error: return header.type = types::kError;

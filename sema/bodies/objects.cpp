@@ -349,8 +349,7 @@ CallId checkConstructor(Context& context, TypeExprId type, uint32_t& elements) {
   }
   std::vector<Call> calls;
   for (const ExprId list : lists)
-    calls.push_back(
-        constructorCall(context, resolved, method, tree.as<CallExpr>(list).arguments, tree.loc(list)));
+    calls.push_back(constructorCall(context, resolved, method, tree.as<CallExpr>(list).arguments, tree.loc(list)));
   CallId first;
   for (Call& call : calls) {
     const CallId made = addCall(context, std::move(call));

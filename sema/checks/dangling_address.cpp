@@ -63,8 +63,12 @@ bool livesForOneCall(const Context& context, VarId id) {
 void checkDanglingAddress(Context& context, ExprId target, ExprId value) {
   const Tree& tree = context.tree();
   ExprId address = value;
-  while (tree.kind(address) == ExprKind::Convert) address = tree.as<ConvertExpr>(address).operand;
-  if (tree.kind(address) != ExprKind::AddressOf) return;
+  bool of_object = false;  // an object as an interface is its address
+  while (tree.kind(address) == ExprKind::Convert) {
+    address = tree.as<ConvertExpr>(address).operand;
+    of_object = context.types().kind(tree.expr(address).type) == types::TypeKind::Record;
+  }
+  if (tree.kind(address) != ExprKind::AddressOf && !of_object) return;
   const VarId variable = rootOf(context, address);
   if (!livesForOneCall(context, variable)) return;
   const VarId keeper = rootOf(context, target);

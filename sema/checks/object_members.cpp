@@ -36,6 +36,25 @@ std::string_view wordOf(const Pou& member) {
                                                  : "SET of the property";
 }
 
+// Forbids hiding what may be called through the base or the interface.
+//   fails   METHOD PRIVATE Start (PUBLIC in the base)                                    E0363
+void checkAccess(Context& context, PouId method, PouId replaced) {
+  const Pou& pou = context.project.pou(method);
+  const Pou& other = context.project.pou(replaced);
+  const bool hidden = pou.access == AccessLevel::Private || pou.access == AccessLevel::Protected;
+  const bool of_interface = context.project.pou(other.owner).kind == PouKind::Interface;
+  const bool shown = of_interface || other.access == AccessLevel::Public || other.access == AccessLevel::Internal ||
+                     (other.access == AccessLevel::None && !context.iec());
+  const bool narrower =
+      (hidden && shown) || (pou.access == AccessLevel::Private && other.access == AccessLevel::Protected);
+  if (!narrower) return;
+  context
+      .report(Diag::NarrowerAccess, pou.loc,
+              {text(context, pou.name), pou.access == AccessLevel::Private ? "PRIVATE" : "PROTECTED",
+               text(context, context.project.pou(other.owner).name)})
+      .note(other.loc, Note::DeclaredHere);
+}
+
 void checkSignature(Context& context, PouId method, PouId replaced) {
   resolvePou(context, method);
   resolvePou(context, replaced);
@@ -43,6 +62,12 @@ void checkSignature(Context& context, PouId method, PouId replaced) {
   const Pou& pou = context.project.pou(method);
   const Pou& other = context.project.pou(replaced);
   std::string difference;
+  if (pou.accessor == Pou::Accessor::Set) {  // GET has said that the property is of another type
+    for (const PouId member : context.project.pou(pou.owner).members)
+      if (context.project.pou(member).accessor == Pou::Accessor::Get &&
+          context.names().same(context.project.pou(member).name, pou.name))
+        return;
+  }
   const auto spell = [&](TypeId type) { return type ? context.types().spell(type) : std::string("nothing"); };
   if (!pou.result != !other.result || (pou.result && !sameType(context, pou.result, other.result)))
     difference = "its result is `" + spell(other.result) + "`";
@@ -60,6 +85,7 @@ void checkSignature(Context& context, PouId method, PouId replaced) {
       difference = "`" + name + "` is `" + spell(there.type) + "`";
     }
   }
+  if (difference.empty()) checkAccess(context, method, replaced);
   if (difference.empty() || isBroken(context, method) || isBroken(context, replaced)) return;
   context
       .report(Diag::OtherSignature, pou.loc,
@@ -97,6 +123,17 @@ struct Demands {
   }
 };
 
+// Forbids statements in an interface.   fails   INTERFACE i METHOD m x := 1; END_METHOD …        E0364
+void checkPrototypes(Context& context, PouId interface) {
+  for (const PouId member : context.project.pou(interface).members) {
+    const Pou& method = context.project.pou(member);
+    const PouDecl& decl = context.tree().as<PouDecl>(method.decl);
+    if (!decl.body.empty())
+      context.report(Diag::PrototypeWithBody, context.tree().loc(context.tree().list(decl.body)[0]),
+                     {text(context, method.name), text(context, context.project.pou(interface).name)});
+  }
+}
+
 void checkMethod(Context& context, PouId object, PouId id) {
   const Pou& method = context.project.pou(id);
   const Pou& owner = context.project.pou(object);
@@ -129,7 +166,7 @@ void checkMethod(Context& context, PouId object, PouId id) {
 
 void checkObjectMembers(Context& context, PouId object) {
   const Pou& pou = context.project.pou(object);
-  if (pou.kind == PouKind::Interface) return;
+  if (pou.kind == PouKind::Interface) return checkPrototypes(context, object);
   const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
   for (const PouId member : pou.members) checkMethod(context, object, member);
   for (uint32_t i = 0; i < decl.implements.count; ++i) {

@@ -271,9 +271,9 @@ struct Initializer {
         context.report(Diag::MemberSetTwice, given.field.loc, {name});
         continue;
       }
-      const bool settable = var.storage == Storage::Field && var.section != SectionKind::InOut &&
-                            (!var.pou || var.section == SectionKind::Input ||
-                             var.access == AccessLevel::Public || !context.iec());
+      const bool settable =
+          var.storage == Storage::Field && var.section != SectionKind::InOut &&
+          (!var.pou || var.section == SectionKind::Input || var.access == AccessLevel::Public || !context.iec());
       if (!settable) {
         context.report(Diag::MemberNotSettable, given.field.loc, {name, context.types().spell(type)})
             .note(var.loc, Note::DeclaredHere);

@@ -409,7 +409,7 @@ void declarePou(Context& context, PouId id) {
     if (section.section == SectionKind::Global && mayHoldGlobals(context, kind)) continue;  // collect.cpp
     if (section.section == SectionKind::Access && kind == PouKind::Program) continue;       // access_paths.cpp
     const bool misplaced = section.section == SectionKind::Global || section.section == SectionKind::Access ||
-                           section.section == SectionKind::Config ||
+                           section.section == SectionKind::Config || kind == PouKind::Interface ||
                            (section.section == SectionKind::Stat && context.iec()) ||
                            (section.section == SectionKind::Inst && kind != PouKind::Method);
     if (misplaced) {
