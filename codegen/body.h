@@ -80,8 +80,9 @@ class BodyWriter {
     // A text: uses by sized functions; its length lives in a C++ local, and is right where the statements stand.
     uint32_t sized_weight = 0;
     bool measured = false, known = false;
-    bool sliced = false;  // a text that is made by functions marked {slice} where that pays
-    bool slice = false;   // a measured text that is a part of another: its address lives in a C++ local too
+    bool sliced = false;       // a text that is made by functions marked {slice} where that pays
+    bool taken_apart = false;  // a slice made of a slice
+    bool slice = false;        // a measured text that is a part of another: its address lives in a C++ local too
   };
   struct Control {
     Slot slot;

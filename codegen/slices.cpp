@@ -4,6 +4,8 @@
 //   - its length lives in a local (lengths.cpp), and functions marked {slice} (LEFT, RIGHT, MID) make it in a loop;
 //   - every write makes it a part of a literal, of another slice, or of a text that this body never writes;
 //   - every read comes behind a write of it, and is one that takes a length: it has no NUL at its end;
+//   - it is made of a slice, itself or another, at least once: a text is taken apart piece by piece. What is taken of a
+//     still text and not taken apart is moved: that is a store or two, and a single character stays in a register;
 //   - nothing is called that may fault, so that the body is left at its own exits only, or that the host may answer.
 // Since what slices are parts of keeps still, they may be put back in any order. Called by locals.cpp once it is known
 // which lengths live in locals; written by text.cpp and statements.cpp.
@@ -57,6 +59,13 @@ void BodyWriter::chooseSlices() {
   do {
     slices_changed_ = false;
     judgeBlock(body_->first);
+    if (slices_changed_) continue;
+    for (std::vector<Variable>* variables : {&locals_, &fields_}) {
+      for (Variable& of : *variables) {
+        slices_changed_ = slices_changed_ || (of.slice && !of.taken_apart);
+        of.slice = of.slice && of.taken_apart;
+      }
+    }
   } while (slices_changed_);
 }
 
@@ -102,7 +111,12 @@ void BodyWriter::judgeBlock(StmtId first) {
       for (uint32_t i = 0; i < stmt.d; ++i) {
         if (const ExprId operand = body_->operands[stmt.c + i]) judgeRead(operand, is_sized);
       }
-      if (stmt.e != 0) judgeWrite(ExprId{stmt.e}, is_sized && callee.slice && isSliceSource(body_->operands[stmt.c]));
+      if (stmt.e != 0) {
+        const bool makes_slice = is_sized && callee.slice && isSliceSource(body_->operands[stmt.c]);
+        judgeWrite(ExprId{stmt.e}, makes_slice);
+        if (makes_slice && sliceText(body_->operands[stmt.c]) != nullptr)
+          textVariable(ExprId{stmt.e})->taken_apart = true;
+      }
     } else {
       ir::forEachRoot(module_, *body_, stmt, [&](const uint32_t& slot, ir::Use) { judgeRead(ExprId{slot}, false); });
     }

@@ -238,6 +238,26 @@ uint32_t rung_standard_REPLACE__STRING_255_sized(const char* in1, uint32_t lengt
                                                  int32_t l, int32_t p, char* out, uint32_t capacity) {
   return replace<char>({in1, length1}, {in2, length2}, l, p, out, capacity);
 }
+uint32_t rung_text_search(const char* in, uint32_t length, char unit) {
+  if (length > 8) {
+    const void* at = memchr(in, unit, length);
+    return at != nullptr ? static_cast<uint32_t>(static_cast<const char*>(at) - in) : length;
+  }
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+  if (length >= 4) {
+    uint32_t first, last;
+    memcpy(&first, in, 4);
+    memcpy(&last, in + length - 4, 4);
+    const uint64_t found = rung_text_units(first | static_cast<uint64_t>(last) << 8 * (length - 4), unit);
+    const uint32_t at = found != 0 ? static_cast<uint32_t>(__builtin_ctzll(found)) / 8 : length;
+    return at < length ? at : length;  // behind the text are zeros
+  }
+#endif
+  for (uint32_t i = 0; i < length; ++i) {
+    if (in[i] == unit) return i;
+  }
+  return length;
+}
 int16_t rung_text_find(const char* in1, uint32_t length1, const char* in2, uint32_t length2) {
   if (length2 == 0 || length2 > length1) return 0;
   const char* const end = in1 + (length1 - length2) + 1;

@@ -211,30 +211,6 @@ int rung_text_compare(const char* a, const char* b) RUNG_PURE;
 int rung_wtext_compare(const char16_t* a, const char16_t* b) RUNG_PURE;
 uint32_t rung_wtext_length(const char16_t* text) RUNG_PURE;
 static inline uint32_t rung_text_length(const char* text) { return (uint32_t)strlen(text); }
-/* As memmove. Most parts of texts are short, and a call would cost more than the move: loads first, since `to` may be
- * `from` in part. */
-static inline void rung_text_move(char* to, const char* from, uint32_t length) {
-  if (length > 16) {
-    memmove(to, from, length);
-  } else if (length >= 8) {
-    uint64_t first, last;
-    memcpy(&first, from, 8);
-    memcpy(&last, from + length - 8, 8);
-    memcpy(to, &first, 8);
-    memcpy(to + length - 8, &last, 8);
-  } else if (length >= 4) {
-    uint32_t first, last;
-    memcpy(&first, from, 4);
-    memcpy(&last, from + length - 4, 4);
-    memcpy(to, &first, 4);
-    memcpy(to + length - 4, &last, 4);
-  } else if (length != 0) {
-    const char first = from[0], middle = from[length / 2], last = from[length - 1];
-    to[0] = first;
-    to[length / 2] = middle;
-    to[length - 1] = last;
-  }
-}
 /* As rung_text_assign, of a text whose length is known; `to` and `from` are one variable or apart. */
 static inline uint32_t rung_text_put(char* to, uint32_t capacity, const char* from, uint32_t length) {
   if (length > capacity) length = capacity;

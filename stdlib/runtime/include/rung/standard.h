@@ -10,8 +10,16 @@
 
 static inline uint32_t rung_text_limit(uint32_t capacity) { return capacity < 255 ? capacity : 255; }
 
+/* Single characters are the most frequent parts of all: one store for the character and the NUL. */
 static inline uint32_t rung_text_part(char* out, const char* from, uint32_t length) {
-  rung_text_move(out, from, length);
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+  if (length == 1) {
+    const uint16_t ended = (uint8_t)*from;
+    memcpy(out, &ended, 2);
+    return 1;
+  }
+#endif
+  memmove(out, from, length);
   out[length] = 0;
   return length;
 }
@@ -80,16 +88,19 @@ uint32_t rung_standard_DELETE__STRING_255_sized(const char* in, uint32_t length,
                                                 uint32_t capacity);
 uint32_t rung_standard_REPLACE__STRING_255_sized(const char* in1, uint32_t length1, const char* in2, uint32_t length2,
                                                  int32_t l, int32_t p, char* out, uint32_t capacity);
+uint32_t rung_text_search(const char* in, uint32_t length, char unit) RUNG_PURE; /* as rung_text_find_unit */
 int16_t rung_text_find(const char* in1, uint32_t length1, const char* in2, uint32_t length2) RUNG_PURE;
 }
 
-/* What fits is appended in place, without a call where its length is a constant. */
+/* Appends in place where `out` is in1. */
 static inline uint32_t rung_standard_CONCAT__STRING_255_sized(const char* in1, uint32_t length1, const char* in2,
                                                               uint32_t length2, char* out, uint32_t capacity) {
   const uint32_t limit = rung_text_limit(capacity);
-  if (out != in1 || length2 > limit || length1 > limit - length2)
-    return rung_text_join(in1, length1, in2, length2, out, capacity);
-  return length1 + rung_text_part(out + length1, in2, length2);
+  if (out != in1) return rung_text_join(in1, length1, in2, length2, out, capacity);
+  if (capacity > limit && length1 > limit) length1 = limit;
+  const uint32_t room = limit - length1;
+  if (length2 <= room) return length1 + rung_text_part(out + length1, in2, length2); /* a constant length stays one */
+  return limit - room + rung_text_part(out + length1, in2, room);
 }
 
 /* A bit at the top of each byte that is `unit`; the lowest bit set is that of the first one. */
@@ -99,36 +110,27 @@ static inline uint64_t rung_text_units(uint64_t word, char unit) {
   return (word - ones) & ~word & ones << 7;
 }
 
-/* Index of the first `unit`, or `length`. Most texts are short, and what is looked for stands near: the first
- * characters are compared as one word, without a call. */
+/* Index of the first `unit`, or `length`. A set of a few characters, such as the digits, is looked up without a call:
+ * as two words whose bytes are compared at once; so is what stands near in a longer text. */
 static inline uint32_t rung_text_find_unit(const char* in, uint32_t length, char unit) {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-  uint64_t word, found;
-  if (length >= 8) {
-    memcpy(&word, in, 8);
-    found = rung_text_units(word, unit);
-    if (found != 0) return (uint32_t)__builtin_ctzll(found) / 8;
-    if (length <= 16) {
-      memcpy(&word, in + length - 8, 8);
-      found = rung_text_units(word, unit);
-      return found != 0 ? length - 8 + (uint32_t)__builtin_ctzll(found) / 8 : length;
-    }
-  } else if (length >= 4) {
-    uint32_t first, last;
-    memcpy(&first, in, 4);
-    memcpy(&last, in + length - 4, 4);
-    found = rung_text_units(first | (uint64_t)last << 8 * (length - 4), unit); /* behind the text are zeros */
-    const uint32_t at = found != 0 ? (uint32_t)__builtin_ctzll(found) / 8 : length;
-    return at < length ? at : length;
+  if (length >= 8 && length <= 16) {
+    uint64_t first, last;
+    memcpy(&first, in, 8);
+    memcpy(&last, in + length - 8, 8);
+    first = rung_text_units(first, unit);
+    last = rung_text_units(last, unit);
+    if (first != 0) return (uint32_t)__builtin_ctzll(first) / 8;
+    return last != 0 ? length - 8 + (uint32_t)__builtin_ctzll(last) / 8 : length;
+  }
+  if (length > 16) {
+    uint64_t first;
+    memcpy(&first, in, 8);
+    first = rung_text_units(first, unit);
+    if (first != 0) return (uint32_t)__builtin_ctzll(first) / 8;
   }
 #endif
-  if (length < 4) {
-    for (uint32_t i = 0; i < length; ++i)
-      if (in[i] == unit) return i;
-    return length;
-  }
-  const char* at = (const char*)memchr(in, unit, length);
-  return at != nullptr ? (uint32_t)(at - in) : length;
+  return rung_text_search(in, length, unit);
 }
 
 static inline int16_t rung_standard_FIND__STRING_255_sized(const char* in1, uint32_t length1, const char* in2,
