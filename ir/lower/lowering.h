@@ -86,6 +86,7 @@ struct ModuleLowering {
   std::vector<uint32_t> program_of_instance_;            // by sema instance: index in Module::programs + 1
   std::unordered_map<uint32_t, uint32_t> instance_of_;   // by PouId: index in Module::programs
   std::vector<sema::PouId> to_lower_;
+  size_t next_to_lower_ = 0;
 };
 
 // The scalar or text behind a checked constant expression, or none when it is not that simple.
