@@ -98,6 +98,7 @@ struct ModuleLowering {
   std::unordered_map<uint32_t, uint32_t> instance_of_;          // by PouId: index in Module::programs
   std::vector<sema::PouId> to_lower_;
   std::vector<std::pair<sema::PouId, BodyId>> kind_tests_, block_calls_;
+  size_t next_to_lower_ = 0;
 };
 
 // The scalar or text behind a checked constant expression, or none when it is not that simple.

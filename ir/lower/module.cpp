@@ -56,11 +56,17 @@ void ModuleLowering::run() {
   });
   addActivations();
   addBlockTasks();
-  lowerBodies();
-  for (List& list : module.lists) list.init = initOf(list.record);
-  for (ProgramInstance& instance : module.programs) instance.init = initOf(instance.record);
-  for (Record& record : module.records) record.init = initOf(record.type);
+  do {  // an initial value may need a function that nobody else calls
+    lowerBodies();
+    for (List& list : module.lists) list.init = initOf(list.record);
+    for (ProgramInstance& instance : module.programs) instance.init = initOf(instance.record);
+    for (size_t i = 0; i < module.records.size(); ++i) {
+      const BodyId init = initOf(module.records[i].type);
+      module.records[i].init = init;
+    }
+  } while (next_to_lower_ < to_lower_.size());
   addExit();
+  lowerBodies();  // what the ends of objects call
   addClasses();
   addDispatches();
   markFaulting();
@@ -72,14 +78,15 @@ void ModuleLowering::run() {
 }
 
 sema::PouId ModuleLowering::lowerBodies() {
-  for (uint32_t next = 0; next < to_lower_.size(); ++next) {
-    const sema::Pou& pou = project.pou(to_lower_[next]);
+  while (next_to_lower_ < to_lower_.size()) {
+    const sema::PouId id = to_lower_[next_to_lower_++];
+    const sema::Pou& pou = project.pou(id);
     if (pou.native || (pou.owner && (pou.modifiers & kAbstract) != 0)) continue;
-    if (!pou.checked) return to_lower_[next];
+    if (!pou.checked) return id;
     std::string_view name = project.names.text(pou.name);
     setPhaseSubject(name.data(), name.size());
-    Body& body = module.body(body_of_[to_lower_[next].index]);
-    BodyLowering lowering(*this, body, to_lower_[next]);
+    Body& body = module.body(body_of_[id.index]);
+    BodyLowering lowering(*this, body, id);
     lowering.lowerPou();
     lowering.finish();
   }
@@ -477,6 +484,7 @@ void ModuleLowering::addTasks() {
 
 void ModuleLowering::addAccessPaths() {
   for (const sema::AccessPath& path : project.access_paths) {
+    if (path.root == sema::AccessPath::Root::Instance && program_of_instance_[path.index] == 0) continue;
     AccessPath made;
     made.name = path.name;
     made.prefix = path.prefix;

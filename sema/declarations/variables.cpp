@@ -216,6 +216,10 @@ void matchExternal(Context& context, VarId id) {
 // Forbids initial values where none can act. IEC 61131-3 ed. 3, 6.5.1.3; manual 5.3.3.
 //   fails   VAR_EXTERNAL level : REAL := 1.0; END_VAR  E0324
 bool mayHaveInitialValue(Context& context, const Var& var, ExprId init) {
+  if (context.types().isOpenArray(var.type) && var.section != SectionKind::InOut) {
+    context.report(Diag::InitialValueNotAllowed, context.tree().begin(init), {"ARRAY[*]"});
+    return false;
+  }
   if (var.section != SectionKind::External && var.section != SectionKind::InOut) return true;
   context.report(Diag::InitialValueNotAllowed, context.tree().begin(init), {sectionWord(var.section)});
   return false;

@@ -21,7 +21,8 @@ std::string describeFault(const rung_module& module, const rung_fault& fault) {
       break;
     case RUNG_FAULT_NULL:
       word = "null";
-      what = "a pointer, reference or in-out refers to nothing";
+      what = fault.value == 0 ? "a pointer, reference or in-out refers to nothing"
+                              : "__DELETE of memory that __NEW has not given, or that was deleted before";
       break;
     case RUNG_FAULT_CAST:
       word = "cast";

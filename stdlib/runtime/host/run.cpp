@@ -4,7 +4,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <mutex>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "call_trace.h"
 #include "condition.h"
@@ -88,6 +91,8 @@ struct Run {
   Files files;
   std::optional<Retain> retain;
   rung_host host{};
+  std::vector<std::string> told;  // places of violated assertions
+  std::mutex told_mutex;          // tasks in real time are threads
   int64_t cycles = 0;
   int64_t rows_done = 0;
 };
@@ -102,6 +107,19 @@ void onMessage(void* data, uint8_t severity, const char* text) {
 }
 void onCall(void* data, const char* pou, const void* instance) { static_cast<Run*>(data)->calls.called(pou, instance); }
 
+// A violated ASSERT outside of tests is told once for each place; the program goes on.
+void onAssertion(void* data, const rung_assertion* assertion, bool passed, const char* expected, const char* actual) {
+  if (passed) return;
+  Run& run = *static_cast<Run*>(data);
+  const std::string place = std::string(assertion->file) + ':' + std::to_string(assertion->line);
+  const std::lock_guard<std::mutex> lock(run.told_mutex);
+  if (std::find(run.told.begin(), run.told.end(), place) != run.told.end()) return;
+  run.told.push_back(place);
+  std::string message = place + ": assertion failed: expected " + expected + ", got " + actual;
+  if (assertion->text != nullptr) message += std::string(" (") + assertion->text + ')';
+  fprintf(stderr, "%s\n", message.c_str());
+}
+
 int Run::prepare() {
   std::string error;
   if (!schedule.prepare(error)) return refuse(error);
@@ -114,6 +132,7 @@ int Run::prepare() {
   host.wall_clock = options.realtime ? systemClock : virtualClock;
   host.message = onMessage;
   files.serve(host);
+  host.assertion = onAssertion;
   context.host = &host;
   context.host_data = this;
   if (memory.reset() != RUNG_FAULT_NONE) {
