@@ -166,6 +166,7 @@ class BodyWriter {
   void binary(const Expr& expr, Prec context);
   void logical(const char* op, Prec prec, const Expr& expr, Prec context);
   void comparison(const Expr& expr, Prec context);
+  void leftOfEquality(ExprId id);
   void arithmetic(ExprId id, Prec context);  // + - * and negation of integers
   void modular(ExprId id, bool wide, Prec context);
   void plain(ExprId id, Prec context);  // in int, which holds every intermediate value

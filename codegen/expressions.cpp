@@ -230,7 +230,7 @@ void BodyWriter::binary(const Expr& e, Prec context) {
   if (kind == TypeKind::Bool && isBitwise(e.op)) {
     if (e.op == Op::Xor) {
       parenthesis(Prec::Equality, context);
-      value(a, Prec::Sum);
+      leftOfEquality(a);
       out_ += " != ";
       value(b, Prec::Sum);
       closeParenthesis(Prec::Equality, context);
@@ -341,11 +341,17 @@ void BodyWriter::logical(const char* op, Prec own, const Expr& e, Prec context) 
   closeParenthesis(own, context);
 }
 
+// (!a) != b: without the parentheses g++ warns.
+void BodyWriter::leftOfEquality(ExprId id) {
+  const Expr& e = expr(id);
+  value(id, e.kind == ExprKind::Unary && e.op == Op::Not ? Prec::Postfix : Prec::Sum);
+}
+
 void BodyWriter::comparison(const Expr& e, Prec context) {
   const bool is_equality = e.op == Op::Eq || e.op == Op::Ne;
   const Prec own = is_equality ? Prec::Equality : Prec::Relation;
   parenthesis(own, context);
-  value(ExprId{e.a}, Prec::Sum);
+  leftOfEquality(ExprId{e.a});
   out_ += e.op == Op::Eq   ? " == "
           : e.op == Op::Ne ? " != "
           : e.op == Op::Lt ? " < "

@@ -79,8 +79,9 @@ void addUnit(const Setting& setting, std::vector<Job>& jobs) {
                     }});
   }
   if (isWanted(setting, "unit/il_differential")) {
-    jobs.push_back({"unit/il_differential", 8,
-                    [&setting] { return runDifferential(setting, "il_differential", {"--cycles=2000", "-j2"}, 100); }});
+    jobs.push_back({"unit/il_differential", 8, [&setting] {
+                      return runDifferential(setting, "il_differential", {"--cycles=2000", "-j2"}, 100);
+                    }});
   }
   for (const std::string& script : filesBelow(setting, "tools/house", ".sh")) {
     jobs.push_back({script, 2, [&setting, script] { return runHouse(setting, script); }});

@@ -16,7 +16,13 @@ namespace fs = std::filesystem;
 
 struct Body {
   sema::PouId pou;
-  Loc begin, end;  // what it replaces
+  Loc begin, end;    // what it replaces
+  Loc declarations;  // where the temporaries are declared: before the first member or the body
+  bool own_line;
+  std::string text;
+};
+struct Edit {
+  Loc begin, end;
   std::string text;
 };
 struct Output {
@@ -65,6 +71,11 @@ std::vector<StComment> commentsOf(std::string_view text, size_t begin, size_t en
   return comments;
 }
 
+size_t lineOf(std::string_view text, size_t at) {
+  while (at > 0 && text[at - 1] != '\n') --at;
+  return at;
+}
+
 class Converter {
  public:
   explicit Converter(Compilation& compilation) : compilation_(compilation), sources_(compilation.sources) {
@@ -92,13 +103,17 @@ void Converter::print(sema::PouId id) {
   const std::string_view text = sources_.original(pou.file);
   const uint32_t base = sources_.begin(pou.file).offset;
   const size_t begin = decl.body_begin.offset - base, end = decl.body_end.offset - base;
-  size_t line = begin;
-  while (line > 0 && (text[line - 1] == ' ' || text[line - 1] == '\t')) --line;
-  const bool own_line = line == 0 || text[line - 1] == '\n';
-  if (!own_line) line = begin;
-  const auto indent = static_cast<uint32_t>(std::min<size_t>(begin - line, 8));
+  const size_t line = lineOf(text, begin);
+  const bool own_line = text.substr(line, begin - line).find_first_not_of(" \t") == std::string_view::npos;
+  const size_t from = own_line ? line : begin;
+  const auto indent = static_cast<uint32_t>(std::min<size_t>(begin - from, 8));
   const std::vector<StComment> comments = commentsOf(text, begin, end, base);
-  Body body{id, {base + static_cast<uint32_t>(line)}, decl.body_end, own_line ? "" : "\n"};
+  Body body{id, {base + static_cast<uint32_t>(from)}, decl.body_end, {}, own_line, own_line ? "" : "\n"};
+  body.declarations = body.begin;
+  for (const DeclId member : compilation_.tree.list(decl.members)) {
+    const size_t at = lineOf(text, compilation_.tree.loc(member).offset - base);
+    body.declarations = std::min(body.declarations, Loc{base + static_cast<uint32_t>(at)});
+  }
   body.text += printSt(compilation_.tree, compilation_.names, decl.body, indent, comments);
   if (!body.text.empty() && body.text.back() == '\n') body.text.pop_back();  // the source has one behind the body
   bodies_.push_back(std::move(body));
@@ -121,17 +136,24 @@ std::string Converter::temporaries(const Body& body) const {
 std::string Converter::convert(FileId file) const {
   const std::string_view text = sources_.original(file);
   const uint32_t base = sources_.begin(file).offset;
-  std::string out;
-  size_t done = 0;
+  std::vector<Edit> edits;
   for (const Body& body : bodies_) {
     if (sources_.fileOf(body.begin) != file) continue;
-    out += text.substr(done, body.begin.offset - base - done);
-    const bool starts_line = body.text.empty() || body.text[0] != '\n';
-    const std::string declared = temporaries(body);
-    if (!starts_line && !declared.empty()) out += '\n';
-    out += declared;
-    out += starts_line || declared.empty() ? body.text : body.text.substr(1);
-    done = body.end.offset - base;
+    std::string declared = temporaries(body);
+    if (!declared.empty() && body.declarations == body.begin && !body.own_line) {
+      declared.insert(0, 1, '\n');
+      declared.pop_back();
+    }
+    edits.push_back({body.declarations, body.declarations, std::move(declared)});
+    edits.push_back({body.begin, body.end, body.text});
+  }
+  std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.begin < b.begin; });
+  std::string out;
+  size_t done = 0;
+  for (const Edit& edit : edits) {
+    out += text.substr(done, edit.begin.offset - base - done);
+    out += edit.text;
+    done = edit.end.offset - base;
   }
   return out + std::string(text.substr(done));
 }
@@ -151,7 +173,6 @@ std::string projectText(std::string_view text) {
 }
 
 std::vector<Output> Converter::outputs() {
-  std::sort(bodies_.begin(), bodies_.end(), [](const Body& a, const Body& b) { return a.begin < b.begin; });
   std::vector<Output> out;
   std::unordered_set<std::string> taken;
   for (const InputFile& input : compilation_.inputs.files)
