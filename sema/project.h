@@ -75,13 +75,13 @@ struct Var {
   VarId external;      // VAR_EXTERNAL: the global it names
   TypeId record;       // field of a structure or union: its type
   AccessLevel access = AccessLevel::None;
-  CallId constructor;           // of a block whose FB_Init has parameters of its own: what the declaration gives them
+  CallId constructor;  // of a block whose FB_Init has parameters of its own: what the declaration gives them
   uint32_t element_constructors = 0;  // of an array: how many calls from `constructor` on, one for each element
-  TypeId any;                   // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
-  VarId bounds;                 // ARRAY[*]: the first of the hidden variables with its bounds, two a dimension
-  bool hidden_input = false;    // of a function: such a bound, passed behind the pins
-  VarId edge_memory;            // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
-  std::vector<NameId> aliases;  // {alias 'R'}
+  TypeId any;                         // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
+  VarId bounds;                       // ARRAY[*]: the first of the hidden variables with its bounds, two a dimension
+  bool hidden_input = false;          // of a function: such a bound, passed behind the pins
+  VarId edge_memory;                  // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
+  std::vector<NameId> aliases;        // {alias 'R'}
 };
 
 struct Property {

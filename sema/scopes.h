@@ -147,8 +147,8 @@ struct Scopes {
   uint32_t depth = 0;  // of declarations resolved within each other
 
   Libraries libraries;
-  NameMap namespaces;              // NAMESPACEs that stand in no other
-  std::deque<Region> regions{1};   // 0: file level without USING
+  NameMap namespaces;                                       // NAMESPACEs that stand in no other
+  std::deque<Region> regions{1};                            // 0: file level without USING
   std::unordered_map<uint32_t, RegionId> region_of_file;    // by FileId: of files with USING
   std::unordered_map<uint32_t, RegionId> region_of_global;  // by VarId: of globals in a region
   // Pragmas and words that declarations look for, as name keys.

@@ -346,7 +346,7 @@ struct NamedTypeExpr {
   Slice<Argument> arguments;  // of FB_Init
   bool has_arguments;
   Slice<ExprId> elements;  // of an array's elements, a CallExpr without callee each
-};  // Lib.Motor   Pump(3, x := 4)   ARRAY[0..1] OF Pump[(3), (4)]
+};                         // Lib.Motor   Pump(3, x := 4)   ARRAY[0..1] OF Pump[(3), (4)]
 struct TextTypeExpr {
   TypeExprHeader h;
   ExprId length;

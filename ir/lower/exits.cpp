@@ -105,7 +105,8 @@ void BodyLowering::exitElement(ExprId place, TypeId type) {
   const Loc loc = body_.loc;
   if (types_.kind(type) == TypeKind::Array) {
     std::vector<ExprId> indices;
-    forEachElement(place, type, loc, 0, indices, [&](ExprId element) { exitElement(element, typeOf(element)); }, true);
+    forEachElement(
+        place, type, loc, 0, indices, [&](ExprId element) { exitElement(element, typeOf(element)); }, true);
     return;
   }
   append({.kind = StmtKind::Call, .loc = loc, .a = in_.exitOf(type).index, .b = place.index});

@@ -81,18 +81,18 @@ struct ModuleLowering {
   void addLocated();
   std::string pathOf(sema::VarId var);
 
-  std::vector<BodyId> body_of_;                          // by PouId
-  std::unordered_map<uint32_t, BodyId> init_of_;         // by record TypeId
-  std::unordered_map<uint32_t, BodyId> exit_of_;         // by record TypeId
-  std::unordered_map<uint32_t, bool> has_exit_;          // by record TypeId
-  std::unordered_set<uint32_t> record_seen_;             // by TypeId
-  std::unordered_map<uint32_t, bool> zero_;              // by TypeId
+  std::vector<BodyId> body_of_;                                 // by PouId
+  std::unordered_map<uint32_t, BodyId> init_of_;                // by record TypeId
+  std::unordered_map<uint32_t, BodyId> exit_of_;                // by record TypeId
+  std::unordered_map<uint32_t, bool> has_exit_;                 // by record TypeId
+  std::unordered_set<uint32_t> record_seen_;                    // by TypeId
+  std::unordered_map<uint32_t, bool> zero_;                     // by TypeId
   std::unordered_map<uint64_t, const sema::Var*> constructed_;  // by record and field
-  std::vector<sema::PouId> pou_of_record_;               // by TypeId
-  std::vector<sema::ListId> list_of_record_;             // by TypeId
-  std::vector<uint32_t> list_index;                      // by ListId
-  std::vector<uint32_t> program_of_instance_;            // by sema instance: index in Module::programs + 1
-  std::unordered_map<uint32_t, uint32_t> instance_of_;   // by PouId: index in Module::programs
+  std::vector<sema::PouId> pou_of_record_;                      // by TypeId
+  std::vector<sema::ListId> list_of_record_;                    // by TypeId
+  std::vector<uint32_t> list_index;                             // by ListId
+  std::vector<uint32_t> program_of_instance_;                   // by sema instance: index in Module::programs + 1
+  std::unordered_map<uint32_t, uint32_t> instance_of_;          // by PouId: index in Module::programs
   std::vector<sema::PouId> to_lower_;
   std::vector<std::pair<sema::PouId, BodyId>> kind_tests_, block_calls_;
 };

@@ -1,6 +1,6 @@
 // Lowering of what only objects need: class numbers, dispatch tables, tests of what an object is, constructors.
-// In: the objects of a checked project. Out: Module::classes and dispatches, and small functions that stand for the body
-// of a block in a table, or tell what a type id means.
+// In: the objects of a checked project. Out: Module::classes and dispatches, and small functions that stand for the
+// body of a block in a table, or tell what a type id means.
 #include <algorithm>
 
 #include "ir/lower/lowering.h"
@@ -192,8 +192,9 @@ void ModuleLowering::fillKindTests() {
       if (!holds(c)) continue;
       const size_t first = c;
       while (holds(c + 1)) ++c;
-      const ExprId run = first == c ? compare(Op::Eq, c)
-                                    : lowering.binary(Op::And, types::kBool, compare(Op::Ge, first), compare(Op::Le, c), loc);
+      const ExprId run = first == c
+                             ? compare(Op::Eq, c)
+                             : lowering.binary(Op::And, types::kBool, compare(Op::Ge, first), compare(Op::Le, c), loc);
       is = is ? lowering.binary(Op::Or, types::kBool, is, run, loc) : run;
     }
     lowering.assign(lowering.local(1, loc), is ? is : lowering.constantBool(false, loc), loc);
@@ -226,8 +227,8 @@ ExprId BodyLowering::checkedDowncast(ExprId pointer, sema::PouId given, sema::Po
   const ExprId is_set = binary(Op::Ne, types::kBool, pointer, constant(typeOf(pointer), 0, loc), loc);
   const StmtId test = block([&] {
     const ExprId is_other = unary(Op::Not, types::kBool, isKindOf(pointer, given, wanted, loc), loc);
-    const StmtId fault = block(
-        [&] { append({.kind = StmtKind::Fault, .op = static_cast<uint8_t>(types::Fault::Cast), .loc = loc}); });
+    const StmtId fault =
+        block([&] { append({.kind = StmtKind::Fault, .op = static_cast<uint8_t>(types::Fault::Cast), .loc = loc}); });
     append({.kind = StmtKind::If, .loc = loc, .a = is_other.index, .b = fault.index});
   });
   append({.kind = StmtKind::If, .loc = loc, .a = is_set.index, .b = test.index});

@@ -147,7 +147,7 @@ void BodyLowering::lowerAssign(const AssignStmt& stmt) {
       return;
     }
     case AssignOp::Attempt: break;  // sema made a call of it
-    case AssignOp::Reference: {  // sema made the value an address
+    case AssignOp::Reference: {     // sema made the value an address
       ExprId value = lowerValue(stmt.value);
       ExprId target = lowerAfter({&value}, [&] { return lowerPlace(stmt.target); });
       assign(target, value, loc);

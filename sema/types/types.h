@@ -108,8 +108,8 @@ struct TypeInfo {
   RecordKind record_kind = RecordKind::Struct;
   bool laid_out = false;
   bool named_values = false;  // enumerations with a base type: its values have names, others have none
-  bool strict = false;  // enumerations: TYPE#item only ({attribute 'strict'}, edition 3 strict form)
-  NameId name;          // named types
+  bool strict = false;        // enumerations: TYPE#item only ({attribute 'strict'}, edition 3 strict form)
+  NameId name;                // named types
   TypeId base;          // Enum, Subrange: the integer type; Alias, Array (element), Pointer, Reference: the target
   uint32_t length = 0;  // String, WString: capacity in characters; Array without `dimensions`: how many are open
   int64_t low = 0, high = 0;  // Subrange: bounds in the base type's bits

@@ -123,6 +123,7 @@ class Printer {
       case sema::CallKind::Method:
       case sema::CallKind::Instance: expr(call.instance); break;
       case sema::CallKind::Assertion: out += "ASSERT"; break;
+      case sema::CallKind::Attempt: out += "?="; break;
       case sema::CallKind::Function:
       case sema::CallKind::Program:
       case sema::CallKind::Operator:
