@@ -302,7 +302,7 @@ struct Module {
   std::vector<BlockTask> block_tasks;
   std::deque<Data> data;
   std::vector<Class> classes;
-  BodyId exit;  // a function without parameters that ends all objects (FB_Exit), or none
+  BodyId exit;                       // a function without parameters that ends all objects (FB_Exit), or none
   std::vector<Dispatch> dispatches;  // sorted by method
   std::vector<BodyId> tests;         // Block or Function bodies marked {test}; a Block's instance is in `programs`
   uint32_t image_bytes[3] = {0, 0, 0};

@@ -348,7 +348,7 @@ ExprId Reader::primary(TypeId wanted) {
     const TypeId of = type();
     return failed_ ? ExprId{} : afterType(of);
   }
-  for (const char* word : {"true", "false", "inf", "nan", "null", "zero"})
+  for (const char* word : {"true", "false", "inf", "nan", "null", "zero", "class"})
     if (isWord(word)) return literal(wanted);
   const Loc loc = b.loc;
   if (accept("data")) {

@@ -76,9 +76,9 @@ int64_t Reader::integer() {
 // ---- items
 
 static bool isItemWord(std::string_view word) {
-  for (const char* item :
-       {"enum",    "subrange", "struct", "union", "block",    "program", "globals", "image",    "data", "interface",
-        "classes", "dispatch", "list",   "task",  "instance", "located", "test",    "exit", "function", "body", "init"})
+  for (const char* item : {"enum",     "subrange", "struct",    "union",   "block",    "program", "globals",
+                           "image",    "data",     "interface", "classes", "dispatch", "list",    "task",
+                           "instance", "located",  "test",      "exit",    "function", "body",    "init"})
     if (word == item) return true;
   return false;
 }

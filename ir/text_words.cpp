@@ -18,14 +18,14 @@ constexpr TypeWord kTypeWords[] = {
     {"dt", TypeKind::DateTime}, {"ldt", TypeKind::LDateTime}, {"char", TypeKind::Char},
     {"wchar", TypeKind::WChar},
 };
-constexpr const char* kReserved[] = {"address",   "array",  "assert", "assert_eq",  "assert_near", "bind",    "break",
-                                     "call",      "case",   "catch",  "continue",   "convert",     "data",    "else",
-                                     "evaluate",  "false",  "fault",  "finally",    "for",         "if",      "in",
-                                     "inf",       "init",   "inout",  "jump",       "label",       "loop",    "nan",
-                                     "next",      "null",   "of",     "on",         "out",         "pointer", "ref",
-                                     "reference", "result", "return", "select",     "self",        "string",  "switch",
-                                     "temp",      "to",     "true",   "try",        "value",       "var",     "wstring",
-                                     "zero",      "by",     "retain", "persistent", "constant",    "text",    "shows"};
+constexpr const char* kReserved[] = {
+    "address", "array",    "assert",  "assert_eq", "assert_near", "bind",     "break",   "call",       "case",
+    "catch",   "continue", "convert", "data",      "else",        "evaluate", "false",   "fault",      "finally",
+    "for",     "if",       "in",      "inf",       "init",        "inout",    "jump",    "label",      "loop",
+    "nan",     "next",     "null",    "of",        "on",          "out",      "pointer", "ref",        "reference",
+    "result",  "return",   "select",  "self",      "string",      "switch",   "temp",    "to",         "true",
+    "try",     "value",    "var",     "wstring",   "zero",        "by",       "retain",  "persistent", "constant",
+    "text",    "shows",    "class",   "base"};
 constexpr CheckWord kCheckWords[] = {
     {"div", kCheckDiv},           {"index", kCheckIndex},     {"null", kCheckNull},        {"cast", kCheckCast},
     {"subrange", kCheckSubrange}, {"convert", kCheckConvert}, {"overflow", kCheckOverflow}};

@@ -19,8 +19,8 @@ constexpr std::array<uint8_t, 256> makeClasses() {
   for (int i = 'a'; i <= 'z'; ++i) c[static_cast<size_t>(i)] = c[static_cast<size_t>(i - 32)] = kLetter;
   c['_'] = kLetter;
   for (int i = '0'; i <= '9'; ++i) c[static_cast<size_t>(i)] = kDigit;
-  for (char p :
-       {';', ':', ',', '.', '(', ')', '[', ']', '^', '#', '=', '+', '-', '*', '/', '<', '>', '&', '!', '|', '%', '{', '?'})
+  for (char p : {';', ':', ',', '.', '(', ')', '[', ']', '^', '#', '=', '+',
+                 '-', '*', '/', '<', '>', '&', '!', '|', '%', '{', '?'})
     c[static_cast<unsigned char>(p)] = kPunct;
   c['\''] = c['"'] = kQuote;
   return c;

@@ -1,5 +1,6 @@
-// Forbids a call that leaves a VAR_IN_OUT, an ARRAY[*] or a {required} input open, and a call of a function by position with too few
-// arguments. IEC 61131-3 ed. 3, table 40 and 6.6.1.4; syntax manual 5.4.1 (an informal call has the exact number).
+// Forbids a call that leaves a VAR_IN_OUT, an ARRAY[*] or a {required} input open, and a call of a function by position
+// with too few arguments. IEC 61131-3 ed. 3, table 40 and 6.6.1.4; syntax manual 5.4.1 (an informal call has the exact
+// number).
 //   passes  mix(level := tank);   LIMIT(0, x, 9)
 //   fails   mix();                LIMIT(0, x)
 // Called for every resolved call of any language.

@@ -253,7 +253,13 @@ Entity findNamespace(Context& context, NameId name) {
   return context.scopes.libraries.namespaces.find(key);
 }
 
-Entity lookUpNamespace(Context& context, uint32_t space, NameId key) { return findInSpace(context, space, key, false); }
+Entity lookUpNamespace(Context& context, uint32_t space, NameId key) {
+  if (const Entity found = findInSpace(context, space, key, false)) return found;
+  // Its variables that are `qualified_only` are in its list alone.
+  const Entity list = context.scopes.qualifiers.find(keyOf(context, spaceAt(context, space).name));
+  if (space <= context.scopes.libraries.project || list.what() != EntityKind::GlobalList) return {};
+  return context.scopes.lists[list.index].names.find(key);
+}
 
 Entity lookUpQualified(Context& context, Slice<Ident> path) {
   const Entity wrong = Entity::of(EntityKind::Error, 0);

@@ -125,6 +125,7 @@ class Printer {
       case sema::CallKind::Delete: expr(call.instance); break;
       case sema::CallKind::Attempt: out += "?="; break;
       case sema::CallKind::Assertion: out += "ASSERT"; break;
+      case sema::CallKind::Attempt: out += "?="; break;
       case sema::CallKind::Function:
       case sema::CallKind::Program:
       case sema::CallKind::Operator:
