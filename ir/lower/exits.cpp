@@ -39,6 +39,8 @@ BodyId ModuleLowering::exitOf(TypeId record) {
 BodyId ModuleLowering::exitCallOf(sema::PouId object) {
   const TypeId record = project.pou(object).record;
   if (const BodyId body = exitOf(record)) return body;
+  const auto known = exit_of_.find(record.index);  // the empty one of an object that only others extend with FB_Exit
+  if (known != exit_of_.end()) return known->second;
   const BodyId made = addHelper(project.pou(object).unique_name, object, "~");
   exit_of_[record.index] = made;
   module.body(made).self = record;

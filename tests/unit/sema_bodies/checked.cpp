@@ -123,7 +123,6 @@ class Printer {
       case sema::CallKind::Method:
       case sema::CallKind::Instance: expr(call.instance); break;
       case sema::CallKind::Delete: expr(call.instance); break;
-      case sema::CallKind::Attempt: out += "?="; break;
       case sema::CallKind::Assertion: out += "ASSERT"; break;
       case sema::CallKind::Attempt: out += "?="; break;
       case sema::CallKind::Function:
