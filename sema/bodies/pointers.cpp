@@ -25,6 +25,12 @@ TypeId checkAddress(Context& context, ExprId& expr, ExprId place) {
   if (!type || type == types::kError) return types::kError;
   const ExprKind kind = context.tree().kind(place);
   if (kind == ExprKind::This || kind == ExprKind::Super) type = throughObject(context, place, type);
+  if (kind == ExprKind::BitAccess && (context.tree().expr(place).bits & kBitMember) != 0) {
+    // TwinCAT gives the byte that holds a BIT.
+    context.report(Diag::AddressOfBitMember, context.tree().begin(place));
+    place = context.tree().as<BitAccessExpr>(place).base;
+    type = types::kByte;
+  }
   if (!checkAddressable(context, place)) return types::kError;
   expr = addressOf(context, place, context.types().pointer(type), loc);
   return context.tree().expr(expr).type;
