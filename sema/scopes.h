@@ -133,7 +133,7 @@ struct Scopes {
   // Pragmas and words that declarations look for, as name keys.
   struct Words {
     NameId attribute_qualified_only, attribute_strict, test, test_only, replaces, mock, alias, required, lazy,
-        extensible, prefix, sized, pure, native, op, std;
+        extensible, prefix, sized, pure, native, op, std, no_final_scan;
   } words;
 
   NamedType* named(TypeId type) {

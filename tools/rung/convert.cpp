@@ -18,6 +18,8 @@ struct Body {
   sema::PouId pou;
   Loc begin, end;  // what it replaces
   std::string text;
+  std::string sections = {};      // of a chart: its variables
+  std::vector<DeclId> actions = {};  // … and the actions that stand in it
 };
 struct Output {
   std::string path, text;
@@ -75,8 +77,11 @@ class Converter {
 
  private:
   void print(sema::PouId pou);
+  void printChart(sema::PouId id, const PouDecl& decl);
   std::string temporaries(const Body& body) const;
   std::string convert(FileId file) const;
+  std::string convert(Loc begin, Loc end) const;
+  std::string action(DeclId id) const;
 
   Compilation& compilation_;
   const Sources& sources_;
@@ -89,6 +94,7 @@ void Converter::print(sema::PouId id) {
   const sema::Pou& pou = project.pou(id);
   if (pou.library || pou.generic_of || compilation_.diagnostics.hasErrors()) return;
   const PouDecl& decl = compilation_.tree.as<PouDecl>(pou.decl);
+  if (decl.chart_body) return printChart(id, decl);
   const std::string_view text = sources_.original(pou.file);
   const uint32_t base = sources_.begin(pou.file).offset;
   const size_t begin = decl.body_begin.offset - base, end = decl.body_end.offset - base;
@@ -102,6 +108,35 @@ void Converter::print(sema::PouId id) {
   body.text += printSt(compilation_.tree, compilation_.names, decl.body, indent, comments);
   if (!body.text.empty() && body.text.back() == '\n') body.text.pop_back();  // the source has one behind the body
   bodies_.push_back(std::move(body));
+}
+
+// The text that the chart became; its actions stand between the variables and the statements.
+void Converter::printChart(sema::PouId id, const PouDecl& decl) {
+  Body body{id, decl.body_begin, decl.body_end, std::string(sources_.original(decl.chart_body))};
+  body.sections = sources_.original(decl.chart_sections);
+  for (const DeclId member : compilation_.tree.list(decl.members)) {
+    if (compilation_.tree.kind(member) != DeclKind::Pou) continue;
+    const PouDecl& action = compilation_.tree.as<PouDecl>(member);
+    if (decl.body_begin <= action.begin && action.begin < decl.body_end) body.actions.push_back(member);
+  }
+  if (body.text.ends_with('\n')) body.text.pop_back();
+  bodies_.push_back(std::move(body));
+}
+
+// One that the parser made of a transition has a body only: instructions, statements, or the expression to assign.
+std::string Converter::action(DeclId id) const {
+  const Tree& tree = compilation_.tree;
+  const PouDecl& decl = tree.as<PouDecl>(id);
+  if (decl.begin != decl.body_begin) return convert(decl.begin, decl.end) + "\n";
+  std::string text = "ACTION " + std::string(compilation_.names.text(decl.name)) + ":\n";
+  const std::string body = convert(decl.body_begin, decl.body_end);
+  const StmtId first = decl.body.empty() ? StmtId{} : tree.list(decl.body)[0];
+  if (first && tree.loc(first) == decl.body_begin && tree.kind(first) == StmtKind::Assign)
+    text += std::string(compilation_.names.text(tree.as<NameExpr>(tree.as<AssignStmt>(first).target).name)) +
+            " := " + body + ";";
+  else
+    text += body;
+  return text + "\nEND_ACTION\n";
 }
 
 std::string Converter::temporaries(const Body& body) const {
@@ -119,13 +154,26 @@ std::string Converter::temporaries(const Body& body) const {
 }
 
 std::string Converter::convert(FileId file) const {
-  const std::string_view text = sources_.original(file);
+  const Loc begin = sources_.begin(file);
+  return convert(begin, {begin.offset + static_cast<uint32_t>(sources_.original(file).size())});
+}
+
+// The text of a part of a file, its bodies converted.
+std::string Converter::convert(Loc begin, Loc end) const {
+  const FileId file = sources_.fileOf(begin);
+  const std::string_view text = sources_.original(file).substr(0, end.offset - sources_.begin(file).offset);
   const uint32_t base = sources_.begin(file).offset;
   std::string out;
-  size_t done = 0;
+  size_t done = begin.offset - base;
   for (const Body& body : bodies_) {
-    if (sources_.fileOf(body.begin) != file) continue;
+    if (body.begin.offset < base + done || end < body.end) continue;
     out += text.substr(done, body.begin.offset - base - done);
+    if (!body.sections.empty()) {
+      while (out.ends_with(' ')) out.pop_back();
+      if (!out.empty() && !out.ends_with('\n')) out += '\n';
+      out += body.sections;
+      for (const DeclId member : body.actions) out += action(member);
+    }
     const bool starts_line = body.text.empty() || body.text[0] != '\n';
     const std::string declared = temporaries(body);
     if (!starts_line && !declared.empty()) out += '\n';

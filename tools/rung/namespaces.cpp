@@ -12,6 +12,7 @@ struct Namespace {
 constexpr Namespace kNamespaces[] = {{"standard", "Standard"},
                                      {"util", "Util"},
                                      {"ibaselibrary", "IBaseLibrary"},
+                                     {"iecsfc", "IecSfc"},
                                      {"tc2_system", "Tc2_System"},
                                      {"tc2_utilities", "Tc2_Utilities"}};
 
