@@ -1,6 +1,6 @@
-// A Sequential Function Chart as the parser leaves it: steps and transitions in the order of the text, which is the order
-// in which they are judged. Actions are members of the POU. The chart becomes statements when sema is about to check
-// the body (frontend/text/sfc_schedule.h). IEC 61131-3 ed. 3, 6.7; TM/TP manual 5.5.
+// A Sequential Function Chart as the parser leaves it: steps and transitions in the order of the text, which is the
+// order in which they are judged. Actions are members of the POU. The chart becomes statements when sema is about to
+// check the body (frontend/text/sfc_schedule.h). IEC 61131-3 ed. 3, 6.7; TM/TP manual 5.5.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // The parser of Structured Text: recursive descent for declarations and statements, precedence climbing for
 // expressions, over the token array of lexer.h whose blocks recover.h has balanced. Private to frontend/text:
-// parser.cpp (files, POUs, configurations), objects.cpp, declarations.cpp, statements.cpp, expressions.cpp, il.cpp, sfc.cpp.
+// parser.cpp (files, POUs, configurations), objects.cpp, declarations.cpp, statements.cpp, expressions.cpp, il.cpp,
+// sfc.cpp.
 //
 // Errors. fail() reports and sets panic_: nothing more is reported until the construct at hand has found its
 // synchronization point (`;`, a keyword, a line that begins a statement). slip() reports a mistake whose meaning is

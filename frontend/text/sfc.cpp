@@ -48,7 +48,7 @@ void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members) {
     if (accept(Tok::Semicolon)) continue;
     if (d.pou_kind != PouKind::Action && d.pou_kind != PouKind::Method && atMember()) {
       parseMember(members);
-    } else if (atSfc()) {
+    } else if (atSfc() || (isName(kind()) && is(t_, "STEP"))) {
       if (is(t_, "TRANSITION"))
         parseTransition(transitions, members);
       else

@@ -66,7 +66,8 @@ void Checker::checkInitial() {
   for (const SfcStep& step : steps_) {
     if (!step.initial) continue;
     if (first != nullptr) {
-      report(Diag::SfcSeveralInitial, step.name.loc, {text(step.name.name)}).note(first->name.loc, Note::AlsoDeclaredHere);
+      report(Diag::SfcSeveralInitial, step.name.loc, {text(step.name.name)})
+          .note(first->name.loc, Note::AlsoDeclaredHere);
       return;
     }
     first = &step;
@@ -216,8 +217,7 @@ void Checker::checkRegions() {
   std::vector<std::vector<uint32_t>> leaving(steps_.size());
   std::vector<uint32_t> work;
   for (uint32_t i = 0; i < transitions.size(); ++i)
-    for (const Ident& step : charts_.tree.list(transitions[i].from))
-      leaving[index_.of(step.name)].push_back(i);
+    for (const Ident& step : charts_.tree.list(transitions[i].from)) leaving[index_.of(step.name)].push_back(i);
   for (uint32_t s = 0; s < steps_.size(); ++s)
     if (steps_[s].initial) work.push_back(s);
   while (!work.empty()) {
@@ -226,8 +226,7 @@ void Checker::checkRegions() {
     for (const uint32_t i : leaving[step]) {
       const SfcTransition& t = transitions[i];
       bool ready = !fired[i];
-      for (const Ident& from : charts_.tree.list(t.from))
-        ready = ready && !regions_[index_.of(from.name)].empty();
+      for (const Ident& from : charts_.tree.list(t.from)) ready = ready && !regions_[index_.of(from.name)].empty();
       if (!ready) continue;
       fired[i] = true;
       std::vector<uint32_t> fresh;
@@ -239,6 +238,7 @@ void Checker::checkRegions() {
       work.insert(work.end(), fresh.rbegin(), fresh.rend());
     }
   }
+  if (charts_.diagnostics.hasErrors()) return;  // ways may have been lost
   for (size_t i = 0; i < steps_.size(); ++i)
     if (regions_[i].empty())
       charts_.diagnostics.report(Diag::SfcUnreachable, steps_[i].name.loc, {text(steps_[i].name.name)});

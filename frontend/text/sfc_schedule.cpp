@@ -88,8 +88,8 @@ class Writer {
   FileId finish() {
     const FileId file = charts_.sources.fileOf(place_);
     if (segments_.empty()) segments_.push_back({0, place_, false});
-    const FileId made = charts_.sources.addAssembled(std::string(charts_.sources.path(file)), std::move(text_),
-                                                     std::move(segments_));
+    const FileId made =
+        charts_.sources.addAssembled(std::string(charts_.sources.path(file)), std::move(text_), std::move(segments_));
     if (made) charts_.sources.showAs(made, std::string(charts_.sources.shown(file)));
     return made;
   }
@@ -228,10 +228,17 @@ class Scheduler {
   }
   std::string stepWord(const char* set, uint32_t step) const { return word(set, chart_.steps_.size(), step); }
   // All words of a set.
-  void forWords(uint32_t depth, size_t count, const std::function<void(const std::string& index, uint32_t depth)>& body);
+  void forWords(uint32_t depth, size_t count,
+                const std::function<void(const std::string& index, uint32_t depth)>& body);
   // Visits the set bits of a set: `wanted` says which have a branch.
   void scan(uint32_t depth, const char* set, size_t count, const std::function<bool(uint32_t)>& wanted,
-            const Branch& branch);
+            const std::function<std::string_view(uint32_t)>& name, const Branch& branch);
+  std::function<std::string_view(uint32_t)> stepNames() const {
+    return [this](uint32_t i) { return chart_.name(i); };
+  }
+  std::function<std::string_view(uint32_t)> actionNames() const {
+    return [this](uint32_t i) { return chart_.text(chart_.actions_[i].name); };
+  }
   bool callsAction(const Ident& action) const { return shapes_.of(action.name).kind != ShapeKind::Value; }
   void run(uint32_t depth, const SfcStep& step, SfcQualifier when);
   void flags();
@@ -265,7 +272,7 @@ void Scheduler::forWords(uint32_t depth, size_t count,
 }
 
 void Scheduler::scan(uint32_t depth, const char* set, size_t count, const std::function<bool(uint32_t)>& wanted,
-                     const Branch& branch) {
+                     const std::function<std::string_view(uint32_t)>& name, const Branch& branch) {
   uint32_t first = 0;
   while (first < count && !wanted(first)) ++first;
   if (first == count) return;
@@ -276,7 +283,7 @@ void Scheduler::scan(uint32_t depth, const char* set, size_t count, const std::f
     out_.line(inner + 1, "CASE ", index.empty() ? "" : "sfc_word * 64 + ", "SFCTakeBit(sfc_set) OF");
     for (uint32_t i = first; i < count; ++i) {
       if (!wanted(i)) continue;
-      out_.line(inner + 2, std::to_string(i), ":");
+      out_.line(inner + 2, std::to_string(i), ":  // ", name(i));
       branch(i, inner + 3);
     }
     out_.at(chart_.pou_.body_begin);
@@ -357,7 +364,7 @@ void Scheduler::flags() {
     for (const char* name : {"SFCErrorStep", "SFCErrorPOU", "SFCErrorAnalyzation"})
       if (const Ident* text = chart_.flag(name)) out_.line(1, *text, " := '';");
     scan(
-        1, "sfc_steps", chart_.steps_.size(), [](uint32_t) { return true; },
+        1, "sfc_steps", chart_.steps_.size(), [](uint32_t) { return true; }, stepNames(),
         [&](uint32_t i, uint32_t depth) {
           out_.line(depth, chart_.name(i), "._t := sfc_now;");
           out_.line(depth, chart_.name(i), ".t := T#0s;");
@@ -385,13 +392,13 @@ void Scheduler::evolve() {
   out_.at(chart_.pou_.body_begin);
   out_.line(0, "IF sfc_fired THEN");
   out_.line(1, "sfc_fired := FALSE;");
-  scan(1, "sfc_left", count, all, [&](uint32_t i, uint32_t depth) {
+  scan(1, "sfc_left", count, all, stepNames(), [&](uint32_t i, uint32_t depth) {
     const SfcStep& step = chart_.steps_[i];
     out_.at(step.name.loc);
     out_.line(depth, step.name, ".x := FALSE;");
     run(depth, step, SfcQualifier::Exit);
   });
-  scan(1, "sfc_entered", count, all, [&](uint32_t i, uint32_t depth) {
+  scan(1, "sfc_entered", count, all, stepNames(), [&](uint32_t i, uint32_t depth) {
     const SfcStep& step = chart_.steps_[i];
     out_.at(step.name.loc);
     out_.line(depth, step.name, ".x := TRUE;");
@@ -462,30 +469,33 @@ void Scheduler::activeStep(uint32_t i, uint32_t depth) {
 
 void Scheduler::actions() {
   const size_t count = chart_.actions_.size();
-  scan(0, "sfc_actions", count, [](uint32_t) { return true; }, [&](uint32_t i, uint32_t depth) {
-    const Ident& action = chart_.actions_[i];
-    const std::string set = word("sfc_actions", count, i);
-    out_.at(action.loc);
-    out_.line(depth, "_", action, "();");
-    if (callsAction(action)) {
-      out_.line(depth, "IF _", action, ".x AND NOT _", action, "._x THEN");
-      out_.line(depth + 1, action, "();");
-      out_.line(depth, "END_IF");
-    } else {
-      out_.line(depth, action, " := _", action, "._x;");
-    }
-    out_.line(depth, "IF NOT _", action, ".busy THEN");
-    out_.line(depth + 1, set, " := ", set, " AND NOT ", maskOf(i), ";");
-    out_.line(depth, "END_IF");
-  });
-  scan(0, "sfc_actions", count, [&](uint32_t i) { return callsAction(chart_.actions_[i]); },
-       [&](uint32_t i, uint32_t depth) {
-         const Ident& action = chart_.actions_[i];
-         out_.at(action.loc);
-         out_.line(depth, "IF _", action, "._x THEN");
-         out_.line(depth + 1, action, "();");
-         out_.line(depth, "END_IF");
-       });
+  scan(
+      0, "sfc_actions", count, [](uint32_t) { return true; }, actionNames(),
+      [&](uint32_t i, uint32_t depth) {
+        const Ident& action = chart_.actions_[i];
+        const std::string set = word("sfc_actions", count, i);
+        out_.at(action.loc);
+        out_.line(depth, "_", action, "();");
+        if (callsAction(action)) {
+          out_.line(depth, "IF _", action, ".x AND NOT _", action, "._x THEN");
+          out_.line(depth + 1, action, "();");
+          out_.line(depth, "END_IF");
+        } else {
+          out_.line(depth, action, " := _", action, "._x;");
+        }
+        out_.line(depth, "IF NOT _", action, ".busy THEN");
+        out_.line(depth + 1, set, " := ", set, " AND NOT ", maskOf(i), ";");
+        out_.line(depth, "END_IF");
+      });
+  scan(
+      0, "sfc_actions", count, [&](uint32_t i) { return callsAction(chart_.actions_[i]); }, actionNames(),
+      [&](uint32_t i, uint32_t depth) {
+        const Ident& action = chart_.actions_[i];
+        out_.at(action.loc);
+        out_.line(depth, "IF _", action, "._x THEN");
+        out_.line(depth + 1, action, "();");
+        out_.line(depth, "END_IF");
+      });
 }
 
 // `TRANSITION t FROM a TO b;` has the condition of `TRANSITION t := …`, or is named like a variable.
@@ -607,27 +617,28 @@ void Scheduler::transitions() {
     const std::span<const Ident> from = tree_.list(t.from);
     for (size_t i = 1; i < from.size(); ++i) joined[chart_.index_.of(from[i].name)] = true;
   }
-  scan(0, "sfc_steps", chart_.steps_.size(), [&](uint32_t i) { return !ways[i].empty(); },
-       [&](uint32_t i, uint32_t depth) {
-         const SfcStep& step = chart_.steps_[i];
-         const bool guarded = step.min.value || joined[i];
-         out_.at(step.name.loc);
-         if (guarded) {
-           out_.put(std::string(2 * depth, ' ') + "IF ");
-           if (joined[i]) {
-             out_.put(step.name);
-             out_.put(step.min.value ? "._x AND " : "._x");
-           }
-           if (step.min.value) {
-             out_.put(step.name);
-             out_.put(".t >= ");
-             out_.put(step.min);
-           }
-           out_.put(" THEN\n");
-         }
-         chain(ways[i], 0, depth + (guarded ? 1 : 0));
-         if (guarded) out_.line(depth, "END_IF");
-       });
+  scan(
+      0, "sfc_steps", chart_.steps_.size(), [&](uint32_t i) { return !ways[i].empty(); }, stepNames(),
+      [&](uint32_t i, uint32_t depth) {
+        const SfcStep& step = chart_.steps_[i];
+        const bool guarded = step.min.value || joined[i];
+        out_.at(step.name.loc);
+        if (guarded) {
+          out_.put(std::string(2 * depth, ' ') + "IF ");
+          if (joined[i]) {
+            out_.put(step.name);
+            out_.put(step.min.value ? "._x AND " : "._x");
+          }
+          if (step.min.value) {
+            out_.put(step.name);
+            out_.put(".t >= ");
+            out_.put(step.min);
+          }
+          out_.put(" THEN\n");
+        }
+        chain(ways[i], 0, depth + (guarded ? 1 : 0));
+        if (guarded) out_.line(depth, "END_IF");
+      });
   if (const Ident* flag = chart_.flag("SFCTrans")) {
     out_.at(flag->loc);
     out_.line(0, *flag, " := sfc_fired;");
@@ -637,8 +648,9 @@ void Scheduler::transitions() {
 void Scheduler::run() {
   flags();
   evolve();
-  scan(0, "sfc_steps", chart_.steps_.size(), [](uint32_t) { return true; },
-       [&](uint32_t i, uint32_t depth) { activeStep(i, depth); });
+  scan(
+      0, "sfc_steps", chart_.steps_.size(), [](uint32_t) { return true; }, stepNames(),
+      [&](uint32_t i, uint32_t depth) { activeStep(i, depth); });
   actions();
   transitions();
 }
@@ -651,21 +663,35 @@ void declareSfc(const Charts& charts, PouDecl& pou, bool final_scan) {
   writeSections(chart, out, final_scan);
   pou.chart_sections = out.finish();
   std::vector<DeclId> sections(charts.tree.list(pou.sections).begin(), charts.tree.list(pou.sections).end());
-  const Slice<DeclId> made = parseSections(charts.tree, charts.names, charts.sources, pou.chart_sections,
-                                           charts.standard, charts.diagnostics);
+  const Slice<DeclId> made =
+      parseSections(charts.tree, charts.names, charts.sources, pou.chart_sections, charts.standard, charts.diagnostics);
   for (const DeclId section : charts.tree.list(made)) sections.push_back(section);
   pou.sections = charts.tree.addList<DeclId>(sections);
 }
 
+// False: sema has said that a name is declared twice.
+static bool namesDiffer(const Charts& charts, const PouDecl& pou) {
+  std::vector<uint32_t> keys;
+  for (const DeclId section : charts.tree.list(pou.sections))
+    for (const DeclId var : charts.tree.list(charts.tree.as<SectionDecl>(section).vars))
+      for (const Ident& name : charts.tree.list(charts.tree.as<VarDecl>(var).names))
+        keys.push_back(charts.names.key(name.name).index);
+  for (const DeclId member : charts.tree.list(pou.members))
+    if (charts.tree.kind(member) == DeclKind::Pou)
+      keys.push_back(charts.names.key(charts.tree.as<PouDecl>(member).name).index);
+  std::sort(keys.begin(), keys.end());
+  return std::adjacent_find(keys.begin(), keys.end()) == keys.end();
+}
+
 bool scheduleSfc(const Charts& charts, Shapes& shapes, PouDecl& pou) {
-  if (!checkSfc(charts, shapes, pou)) return false;
+  if (!checkSfc(charts, shapes, pou) || !namesDiffer(charts, pou)) return false;
   const Chart chart(charts, pou);
   Writer out(charts, pou.body_begin);
   Scheduler(chart, shapes, out).run();
   out.at(pou.body_begin);
   pou.chart_body = out.finish();
-  pou.body = parseStatements(charts.tree, charts.names, charts.sources, pou.chart_body, charts.standard,
-                             charts.diagnostics);
+  pou.body =
+      parseStatements(charts.tree, charts.names, charts.sources, pou.chart_body, charts.standard, charts.diagnostics);
   return true;
 }
 

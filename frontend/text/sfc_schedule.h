@@ -3,8 +3,8 @@
 // in its PouDecl, the text of both for `rung convert`. Called by sema: the sections when it collects the POU, the
 // statements when the body is about to be checked.
 //
-// The state. Each step is an SFCStepType of its name, each action an SFCActionControl of its name behind `_`, each named
-// condition a BOOL. Words of 64 steps say which are active (sfc_steps), which were left and which entered by the
+// The state. Each step is an SFCStepType of its name, each action an SFCActionControl of its name behind `_`, each
+// named condition a BOOL. Words of 64 steps say which are active (sfc_steps), which were left and which entered by the
 // transitions of the last cycle (sfc_left, sfc_entered): a cycle visits set bits only. Words of 64 actions say whose
 // control blocks have something to do (sfc_actions).
 #pragma once

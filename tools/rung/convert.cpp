@@ -18,7 +18,7 @@ struct Body {
   sema::PouId pou;
   Loc begin, end;  // what it replaces
   std::string text;
-  std::string sections = {};      // of a chart: its variables
+  std::string sections = {};         // of a chart: its variables
   std::vector<DeclId> actions = {};  // … and the actions that stand in it
 };
 struct Output {
@@ -129,7 +129,9 @@ std::string Converter::action(DeclId id) const {
   const PouDecl& decl = tree.as<PouDecl>(id);
   if (decl.begin != decl.body_begin) return convert(decl.begin, decl.end) + "\n";
   std::string text = "ACTION " + std::string(compilation_.names.text(decl.name)) + ":\n";
-  const std::string body = convert(decl.body_begin, decl.body_end);
+  std::string body = convert(decl.body_begin, decl.body_end);
+  for (const Body& converted : bodies_)
+    if (compilation_.project->pou(converted.pou).decl == id) body = temporaries(converted) + converted.text;
   const StmtId first = decl.body.empty() ? StmtId{} : tree.list(decl.body)[0];
   if (first && tree.loc(first) == decl.body_begin && tree.kind(first) == StmtKind::Assign)
     text += std::string(compilation_.names.text(tree.as<NameExpr>(tree.as<AssignStmt>(first).target).name)) +
