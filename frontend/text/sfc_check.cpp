@@ -55,24 +55,46 @@ class Checker {
   std::vector<Region> regions_;  // by step; empty: not reached
   std::vector<Split> splits_;
   std::vector<Branch> branches_;
+  uint32_t networks_ = 0;  // the first branches are whole networks
 };
 
-// Forbids a chart without exactly one initial step. IEC 61131-3 ed. 3, 6.7.2.
+// Forbids a network of steps with several initial ones, and a chart without any. A POU may hold several networks that
+// no transition connects: they run side by side. IEC 61131-3 ed. 3, 6.7.2; the GRAVEL example of annex F.
 //   passes  INITIAL_STEP a: END_STEP  STEP b: END_STEP
-//   fails   STEP a: END_STEP                           E0730
-//   fails   INITIAL_STEP a: …  INITIAL_STEP b: …       E0731
+//   fails   STEP a: END_STEP                                      E0730
+//   fails   INITIAL_STEP a: …  INITIAL_STEP b: …  FROM a TO b     E0731
 void Checker::checkInitial() {
-  const SfcStep* first = nullptr;
-  for (const SfcStep& step : steps_) {
-    if (!step.initial) continue;
-    if (first != nullptr) {
-      report(Diag::SfcSeveralInitial, step.name.loc, {text(step.name.name)})
-          .note(first->name.loc, Note::AlsoDeclaredHere);
-      return;
-    }
-    first = &step;
+  std::vector<uint32_t> network(steps_.size());  // a step of the same network, or itself
+  for (uint32_t i = 0; i < network.size(); ++i) network[i] = i;
+  const auto root = [&](uint32_t i) {
+    while (network[i] != i) i = network[i] = network[network[i]];
+    return i;
+  };
+  for (const SfcTransition& t : charts_.tree.list(pou_.transitions)) {
+    uint32_t first = static_cast<uint32_t>(steps_.size());
+    for (const Slice<Ident> list : {t.from, t.to})
+      for (const Ident& step : charts_.tree.list(list)) {
+        const uint32_t own = index_.of(step.name);
+        if (own == steps_.size()) continue;
+        if (first == steps_.size()) first = own;
+        network[root(own)] = root(first);
+      }
   }
-  if (first == nullptr)
+  std::vector<uint32_t> initial(steps_.size(), static_cast<uint32_t>(steps_.size()));  // by root
+  bool any = false;
+  for (uint32_t i = 0; i < steps_.size(); ++i) {
+    if (!steps_[i].initial) continue;
+    any = true;
+    uint32_t& first = initial[root(i)];
+    if (first == steps_.size()) {
+      first = i;
+      continue;
+    }
+    report(Diag::SfcSeveralInitial, steps_[i].name.loc, {text(steps_[i].name.name)})
+        .note(steps_[first].name.loc, Note::AlsoDeclaredHere);
+    return;
+  }
+  if (!any)
     report(Diag::SfcNoInitial, steps_.empty() ? pou_.body_begin : steps_[0].name.loc,
            {text(pou_.name), steps_.empty() ? "Start" : text(steps_[0].name.name)});
 }
@@ -108,7 +130,7 @@ void Checker::checkActions() {
 void Checker::ancestors(uint32_t branch, std::vector<uint32_t>& out) const {
   if (std::find(out.begin(), out.end(), branch) != out.end()) return;
   out.push_back(branch);
-  if (branch == 0) return;
+  if (branch < networks_) return;
   for (const uint32_t parent : splits_[branches_[branch].split].parent) ancestors(parent, out);
 }
 
@@ -119,7 +141,8 @@ bool Checker::concurrent(uint32_t a, uint32_t b) const {
   ancestors(b, of_b);
   for (const uint32_t x : of_a)
     for (const uint32_t y : of_b)
-      if (x != 0 && y != 0 && branches_[x].split == branches_[y].split && branches_[x].index != branches_[y].index)
+      if (x >= networks_ && y >= networks_ && branches_[x].split == branches_[y].split &&
+          branches_[x].index != branches_[y].index)
         return true;
   return false;
 }
@@ -129,7 +152,7 @@ void Checker::reduce(Region& region) const {
   for (bool again = true; again;) {
     again = false;
     for (const uint32_t branch : region) {
-      if (branch == 0) continue;
+      if (branch < networks_) continue;
       const Split& split = splits_[branches_[branch].split];
       const auto holds = [&](uint32_t b) { return std::binary_search(region.begin(), region.end(), b); };
       bool all = true;
@@ -209,9 +232,11 @@ bool Checker::fire(const SfcTransition& t) {
 
 void Checker::checkRegions() {
   regions_.resize(steps_.size());
-  branches_.push_back({});  // the chart as a whole
-  for (size_t i = 0; i < steps_.size(); ++i)
-    if (steps_[i].initial) regions_[i] = {0};
+  for (size_t i = 0; i < steps_.size(); ++i) {
+    if (!steps_[i].initial) continue;
+    branches_.push_back({});
+    regions_[i] = {networks_++};
+  }
   const std::span<const SfcTransition> transitions = charts_.tree.list(pou_.transitions);
   std::vector<bool> fired(transitions.size());
   std::vector<std::vector<uint32_t>> leaving(steps_.size());

@@ -50,12 +50,14 @@ const char* wordOf(SfcQualifier q) {
 }
 bool isControlled(SfcQualifier q) { return q < SfcQualifier::Entry; }
 
-std::string maskOf(uint32_t index) {
+std::string literalOf(uint64_t word) {
   static const char* const kHex = "0123456789ABCDEF";
-  std::string mask(1, kHex[1u << (index % 4)]);
-  mask.append(index % kWord / 4, '0');
-  return "LWORD#16#" + mask;
+  std::string digits;
+  do digits.insert(digits.begin(), kHex[word & 15]);
+  while ((word >>= 4) != 0);
+  return "LWORD#16#" + digits;
 }
+std::string maskOf(uint32_t index) { return literalOf(uint64_t{1} << (index % kWord)); }
 
 // A text in ST of which each byte knows its place in the chart.
 class Writer {
@@ -111,6 +113,7 @@ class Chart {
   uint32_t words(size_t count) const { return static_cast<uint32_t>((count + kWord - 1) / kWord); }
   uint32_t actionOf(NameId name) const;
   const Ident* flag(std::string_view word) const;  // a variable of the POU that charts give a meaning
+  std::string initialSteps() const;                // the words of their set
   bool keepsCondition(const SfcTransition& t) const { return t.body || (t.name.name && t.condition.value); }
 
   const Charts& charts_;
@@ -158,6 +161,17 @@ uint32_t Chart::actionOf(NameId name) const {
       ->second;
 }
 
+std::string Chart::initialSteps() const {
+  std::string list;
+  for (uint32_t first = 0; first < steps_.size(); first += kWord) {
+    uint64_t word = 0;
+    for (uint32_t i = first; i < steps_.size() && i < first + kWord; ++i)
+      if (steps_[i].initial) word |= uint64_t{1} << (i % kWord);
+    list += (list.empty() ? "" : ", ") + literalOf(word);
+  }
+  return list;
+}
+
 const Ident* Chart::flag(std::string_view word) const {
   const Tree& tree = charts_.tree;
   for (const DeclId section : tree.list(pou_.sections))
@@ -175,15 +189,14 @@ void writeSections(const Chart& chart, Writer& out, bool final_scan) {
     if (words <= 1)
       out.line(1, name, " : LWORD", initial.empty() ? "" : " := ", initial, ";");
     else
-      out.line(1, name, " : ARRAY[0..", std::to_string(words - 1), "] OF LWORD;");
+      out.line(1, name, " : ARRAY[0..", std::to_string(words - 1), "] OF LWORD", initial.empty() ? "" : " := [",
+               initial, initial.empty() ? ";" : "];");
   };
   out.line(0, "VAR");
-  uint32_t initial = 0;
   for (uint32_t i = 0; i < chart.steps_.size(); ++i) {
     const SfcStep& step = chart.steps_[i];
     out.at(step.name.loc);
     out.line(1, step.name, " : SFCStepType;");
-    if (step.initial && !chart.steps_[initial].initial) initial = i;
   }
   for (const Ident& action : chart.actions_) {
     out.at(action.loc);
@@ -198,9 +211,8 @@ void writeSections(const Chart& chart, Writer& out, bool final_scan) {
   out.at(chart.pou_.body_begin);
   set("sfc_steps", chart.steps_.size(), "");
   set("sfc_left", chart.steps_.size(), "");
-  set("sfc_entered", chart.steps_.size(), maskOf(initial));
+  set("sfc_entered", chart.steps_.size(), chart.initialSteps());
   if (!chart.actions_.empty()) set("sfc_actions", chart.actions_.size(), "");
-  if (chart.words(chart.steps_.size()) > 1) out.line(1, "sfc_begun : BOOL;");
   out.line(1, "sfc_fired : BOOL := TRUE;");
   if (chart.flag("SFCTipMode") != nullptr) out.line(1, "sfc_tip, sfc_tip_before : BOOL;");
   out.line(0, "END_VAR");
@@ -325,7 +337,8 @@ void Scheduler::reset(uint32_t depth) {
     forWords(depth, chart_.actions_.size(),
              [&](const std::string& index, uint32_t inner) { out_.line(inner, "sfc_actions", index, " := LWORD#0;"); });
   for (uint32_t i = 0; i < chart_.steps_.size(); ++i)
-    if (chart_.steps_[i].initial) out_.line(depth, stepWord("sfc_entered", i), " := ", maskOf(i), ";");
+    if (chart_.steps_[i].initial)
+      out_.line(depth, stepWord("sfc_entered", i), " := ", stepWord("sfc_entered", i), " OR ", maskOf(i), ";");
   out_.line(depth, "sfc_fired := TRUE;");
   for (const char* name : {"SFCError", "SFCTrans"})
     if (const Ident* flag = chart_.flag(name)) out_.line(depth, *flag, " := FALSE;");
@@ -334,14 +347,6 @@ void Scheduler::reset(uint32_t depth) {
 }
 
 void Scheduler::flags() {
-  if (chart_.words(chart_.steps_.size()) > 1) {  // the initial value of the array
-    uint32_t initial = 0;
-    while (!chart_.steps_[initial].initial) ++initial;
-    out_.line(0, "IF NOT sfc_begun THEN");
-    out_.line(1, "sfc_begun := TRUE;");
-    out_.line(1, stepWord("sfc_entered", initial), " := ", maskOf(initial), ";");
-    out_.line(0, "END_IF");
-  }
   if (const Ident* flag = chart_.flag("SFCInit")) {
     out_.at(flag->loc);
     out_.line(0, "IF ", *flag, " THEN");
