@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "frontend/text/sfc_schedule.h"
 #include "sema/project.h"
 
 namespace rung::sema {
@@ -37,6 +38,9 @@ struct Context {
   }
   bool iec() const { return !library && project.options.standard != text::Standard::Codesys; }
 };
+
+// What the scheduler of charts works with.
+text::Charts chartsOf(const Context& context);
 
 // ---- declarations (declarations/)
 

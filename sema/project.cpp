@@ -29,6 +29,12 @@ Project::Project(Sources& the_sources, Names& the_names, Diagnostics& the_diagno
   properties.emplace_back();
 }
 
+text::Charts chartsOf(const Context& context) {
+  Project& project = context.project;
+  const text::Standard standard = context.library ? text::Standard::Codesys : project.options.standard;
+  return {project.tree, project.names, project.sources, project.diagnostics, standard};
+}
+
 bool ensureBody(Context& context, PouId id) {
   Project& project = context.project;
   if (project.pou(id).checking) return false;

@@ -147,7 +147,7 @@ Loc Sources::written(Loc loc) const {
   const auto after = std::upper_bound(segments.begin() + 1, segments.end(), at,
                                       [](uint32_t offset, const Segment& segment) { return offset < segment.at; });
   const Segment& segment = *(after - 1);
-  return {segment.from.offset + (segment.verbatim ? at - segment.at : 0)};
+  return written({segment.from.offset + (segment.verbatim ? at - segment.at : 0)});  // which may be assembled, too
 }
 
 const std::vector<uint32_t>& Sources::lineStarts(const File& file) const {

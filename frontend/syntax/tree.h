@@ -18,6 +18,7 @@
 #include "frontend/source/names.h"
 #include "frontend/syntax/ids.h"
 #include "frontend/syntax/il.h"
+#include "frontend/syntax/sfc.h"
 
 namespace rung {
 
@@ -419,17 +420,20 @@ struct TypeDecl {
 enum class PouKind : uint8_t { Function, FunctionBlock, Program, Class, Interface, Method, Action };
 enum class AccessLevel : uint8_t { None, Public, Private, Protected, Internal };  // None: as the dialect has it
 enum Modifier : uint8_t { kAbstract = 1, kFinal = 2, kOverride = 4 };
-enum class BodyKind : uint8_t { None, St, Il, Native };
+enum class BodyKind : uint8_t { None, St, Il, Sfc, Native };
 struct PouDecl {
   DeclHeader h;
   NameId name;
   PouKind pou_kind;
-  BodyKind body_kind;  // Il: St once sema had `il` scheduled, which fills `body`
+  BodyKind body_kind;  // Il and Sfc: St once sema had `il` or the chart scheduled, which fills `body`
   bool closed;         // has its END_…
   TypeExprId result;   // functions; none: no result
   Slice<DeclId> sections;
   Slice<StmtId> body;
   Slice<IlInstruction> il;
+  Slice<SfcStep> steps;  // the chart of a body in SFC
+  Slice<SfcTransition> transitions;
+  FileId chart_sections, chart_body;  // sema: the text that the chart became
   AccessLevel access;
   uint8_t modifiers;        // Modifier
   Slice<TypeExprId> bases;  // EXTENDS; several of an INTERFACE
@@ -621,6 +625,9 @@ class Tree {
   std::vector<Pragma> pragmas_;
   std::vector<IlInstruction> il_;
   std::vector<IlNested> il_nested_;
+  std::vector<SfcStep> sfc_steps_;
+  std::vector<SfcTransition> sfc_transitions_;
+  std::vector<SfcAssociation> sfc_associations_;
   std::vector<uint32_t> numbers_;
 
   template <class T>
@@ -657,6 +664,12 @@ std::vector<T>& Tree::storage() {
     return il_;
   else if constexpr (std::is_same_v<T, IlNested>)
     return il_nested_;
+  else if constexpr (std::is_same_v<T, SfcStep>)
+    return sfc_steps_;
+  else if constexpr (std::is_same_v<T, SfcTransition>)
+    return sfc_transitions_;
+  else if constexpr (std::is_same_v<T, SfcAssociation>)
+    return sfc_associations_;
   else {
     static_assert(std::is_same_v<T, uint32_t>, "a list element type needs its storage");
     return numbers_;

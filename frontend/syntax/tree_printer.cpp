@@ -77,6 +77,8 @@ class Printer {
   }
   void stmt(StmtId id, int depth);
   void instructions(Slice<IlInstruction> list, int depth);
+  void chart(const PouDecl& d, int depth);
+  void idents(const char* before, Slice<Ident> list);
   void typeExpr(TypeExprId id, int depth);
 
   const Tree& tree_;
@@ -564,6 +566,11 @@ void Printer::decl(DeclId id, int depth) {
         text += "instructions";
         instructions(d.il, depth + 2);
       }
+      if (d.body_kind == BodyKind::Sfc) {
+        line(depth + 1);
+        text += "chart";
+        chart(d, depth + 2);
+      }
       if (!d.body.empty()) {
         line(depth + 1);
         text += "body";
@@ -664,6 +671,52 @@ void Printer::decl(DeclId id, int depth) {
       arguments(d.arguments, 0);
       break;
     }
+  }
+}
+
+void Printer::idents(const char* before, Slice<Ident> list) {
+  text += before;
+  for (const Ident& ident : tree_.list(list)) {
+    text += ' ';
+    text += names_.text(ident.name);
+  }
+}
+
+void Printer::chart(const PouDecl& d, int depth) {
+  static const char* const kQualifiers[] = {"n",  "r",  "s",  "l",  "d",     "p",      "p0",
+                                            "p1", "sd", "ds", "sl", "entry", "active", "exit"};
+  for (const SfcStep& step : tree_.list(d.steps)) {
+    line(depth);
+    text += step.initial ? "initial_step " : "step ";
+    text += names_.text(step.name.name);
+    for (const SfcExpr* limit : {&step.min, &step.max}) {
+      if (!limit->value) continue;
+      text += limit == &step.min ? " min " : " max ";
+      expr(limit->value);
+    }
+    for (const SfcAssociation& a : tree_.list(step.actions)) {
+      line(depth + 1);
+      text += kQualifiers[static_cast<size_t>(a.qualifier)];
+      text += ' ';
+      text += names_.text(a.action.name);
+      if (!a.time.value) continue;
+      text += ' ';
+      expr(a.time.value);
+    }
+  }
+  for (const SfcTransition& t : tree_.list(d.transitions)) {
+    line(depth);
+    text += "transition";
+    if (t.name.name) {
+      text += ' ';
+      text += names_.text(t.name.name);
+    }
+    if (t.has_priority) text += " priority " + std::to_string(t.priority);
+    idents(" from", t.from);
+    idents(" to", t.to);
+    if (!t.condition.value) continue;
+    text += ' ';
+    expr(t.condition.value);
   }
 }
 

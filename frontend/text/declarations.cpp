@@ -27,6 +27,8 @@ bool endsDeclarations(Tok k) {
     case static_cast<int>(Tok::EndGet):
     case static_cast<int>(Tok::EndSet):
     case static_cast<int>(Tok::EndAction):
+    case static_cast<int>(Tok::EndStep):
+    case static_cast<int>(Tok::EndTransition):
     case static_cast<int>(Tok::EndInterface):
     case static_cast<int>(Tok::EndClass):
     case static_cast<int>(Tok::EndNamespace):

@@ -19,6 +19,12 @@ FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file
 Slice<DeclId> parseDeclarations(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Standard standard,
                                 Diagnostics& diagnostics);
 
+// Parse the sections, and the statements, that a scheduler wrote as text: `file` holds nothing else.
+Slice<DeclId> parseSections(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+                            Diagnostics& diagnostics);
+Slice<StmtId> parseStatements(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+                              Diagnostics& diagnostics);
+
 // Parses `text` of `file` as a lone expression (for --set, --stop-on and --inputs cells); none when it is not one.
 ExprId parseExpression(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
                        Diagnostics& diagnostics);

@@ -160,6 +160,14 @@ ExprId Parser::parseLoneExpression() {
   return panic_ ? ExprId{} : e;
 }
 
+Slice<DeclId> Parser::parseLoneSections() {
+  std::vector<DeclId> sections;
+  while (atSection()) sections.push_back(parseSection());
+  return tree_.addList<DeclId>(sections);
+}
+
+Slice<StmtId> Parser::parseLoneStatements() { return parseStatements(0); }
+
 bool Parser::atTopLevelWord() const {
   const Tok k = kind();
   return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program || k == Tok::Type ||
@@ -337,10 +345,13 @@ void Parser::parsePouParts(PouDecl& d) {
   }
   d.sections = listFrom(decls_, first);
   while (!is_member && atMember()) parseMember(members);
-  parseBody(d);
+  if (atSfc())
+    parseSfc(d, members);
+  else
+    parseBody(d);
   if (!is_member && atMember()) {
     while (atMember()) parseMember(members);
-    if (d.body.empty() && d.il.empty()) parseBody(d);
+    if (d.body.empty() && d.il.empty() && d.body_kind != BodyKind::Sfc) parseBody(d);
   }
   d.members = tree_.addList<DeclId>(members);
 }
@@ -531,6 +542,20 @@ Slice<DeclId> parseDeclarations(Tree& tree, Names& names, const Sources& sources
   Parser parser(tree, names, sources, file, standard, diagnostics);
   parser.read(begin.offset - base, end.offset - base);
   return parser.parseDecls();
+}
+
+Slice<DeclId> parseSections(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+                            Diagnostics& diagnostics) {
+  Parser parser(tree, names, sources, file, standard, diagnostics);
+  parser.read(0, static_cast<uint32_t>(sources.text(file).size()));
+  return parser.parseLoneSections();
+}
+
+Slice<StmtId> parseStatements(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+                              Diagnostics& diagnostics) {
+  Parser parser(tree, names, sources, file, standard, diagnostics);
+  parser.read(0, static_cast<uint32_t>(sources.text(file).size()));
+  return parser.parseLoneStatements();
 }
 
 ExprId parseExpression(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,

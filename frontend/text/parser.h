@@ -1,6 +1,7 @@
 // The parser of Structured Text: recursive descent for declarations and statements, precedence climbing for
 // expressions, over the token array of lexer.h whose blocks recover.h has balanced. Private to frontend/text:
-// parser.cpp (files, POUs, configurations), objects.cpp, declarations.cpp, statements.cpp, expressions.cpp, il.cpp.
+// parser.cpp (files, POUs, configurations), objects.cpp, declarations.cpp, statements.cpp, expressions.cpp, il.cpp,
+// sfc.cpp.
 //
 // Errors. fail() reports and sets panic_: nothing more is reported until the construct at hand has found its
 // synchronization point (`;`, a keyword, a line that begins a statement). slip() reports a mistake whose meaning is
@@ -25,6 +26,8 @@ class Parser {
   void read(uint32_t begin, uint32_t end);
   Slice<DeclId> parseDecls();
   ExprId parseLoneExpression();
+  Slice<DeclId> parseLoneSections();
+  Slice<StmtId> parseLoneStatements();
 
  private:
   // ---- tokens
@@ -138,7 +141,7 @@ class Parser {
   void parseWhile();
   void parseRepeat();
   void parseTry();
-  bool otherLanguage();
+  bool chartInSt();
   void parseExprStatement();
   void parseChain(ExprId target, ExprId value, Token* value_start, const Token* op);
   bool atCaseLabel() const;
@@ -172,6 +175,18 @@ class Parser {
   void closeIlParen(Tok close);
   bool instructionInSt();
   bool statementInIl();
+
+  // ---- Sequential Function Chart (sfc.cpp)
+  bool atSfc() const;
+  void parseSfc(PouDecl& d, std::vector<DeclId>& members);
+  void parseStep(std::vector<SfcStep>& out);
+  void parseStepTimes(SfcStep& step);
+  bool parseAssociation(std::vector<SfcAssociation>& out);
+  bool parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId>& members);
+  bool parseSteps(Slice<Ident>& out);
+  SfcExpr parseSfcExpr();
+  void parseCondition(SfcTransition& t, std::vector<DeclId>& members);
+  void syncChart(Tok end);
 
   // ---- expressions (expressions.cpp)
   ExprId parseExpr(uint32_t least = 1);

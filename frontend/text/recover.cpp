@@ -113,7 +113,10 @@ class Balancer {
       return true;
     if (isName(tokens_[n].kind) && tokens_[n + 1].kind == Tok::With) return true;
     if (!in_configuration_) return false;
-    // An instance ends with `;` on its line, a POU's header does not.
+    // An instance ends with `;` on its line or has arguments, a POU's header does not.
+    if (isName(tokens_[n].kind) && tokens_[n + 1].kind == Tok::Colon && isName(tokens_[n + 2].kind) &&
+        tokens_[n + 3].kind == Tok::LeftParen)
+      return true;
     for (uint32_t k = n; k < count_ && k < n + 40 && !atLineStart(k) && !isVarWord(tokens_[k].kind); ++k)
       if (tokens_[k].kind == Tok::Semicolon) return true;
     return false;

@@ -27,6 +27,8 @@ bool isEndWord(Tok k) {
     case static_cast<int>(Tok::EndGet):
     case static_cast<int>(Tok::EndSet):
     case static_cast<int>(Tok::EndAction):
+    case static_cast<int>(Tok::EndStep):
+    case static_cast<int>(Tok::EndTransition):
     case static_cast<int>(Tok::EndInterface):
     case static_cast<int>(Tok::EndClass):
     case static_cast<int>(Tok::EndNamespace):
@@ -149,7 +151,7 @@ void Parser::parseStatement() {
       break;
     default: break;
   }
-  if (otherLanguage() || instructionInSt()) return;
+  if (chartInSt() || instructionInSt()) return;
   if (isName(kind()) || (isTypeWord(kind()) && peek() == Tok::LeftParen)) return parseExprStatement();
   if (atSection()) {
     if (!declared_in_body_) slip(Diag::DeclarationInBody, t_);
@@ -175,12 +177,10 @@ void Parser::parseStatement() {
   syncStatement();
 }
 
-// A body in SFC (`INITIAL_STEP s :`): one error for the whole of it.
-bool Parser::otherLanguage() {
-  if (!isName(kind()) || (t_[1].flags & kLineStart) != 0) return false;
-  const bool chart = is(t_, "INITIAL_STEP") && isName(peek()) && peek(2) == Tok::Colon;
-  if (!chart) return false;
-  slip(Diag::NotSupportedYet, t_, {"a body in SFC"});
+// Steps among the statements of a body that began in ST: one error for all of them.
+bool Parser::chartInSt() {
+  if (!atSfc()) return false;
+  slip(Diag::SfcNotInChart, t_, {describe(t_)});
   while (!at(Tok::End) && kind() != pou_end_ && !atTopLevelWord()) advance();
   return true;
 }

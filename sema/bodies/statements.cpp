@@ -1,6 +1,7 @@
 // Statements. In: the statement list of a POU. Out: the same tree with every expression checked and converted.
 // Called by checkBody() below, which sema::check() calls for each POU and for each library POU in use.
 #include "frontend/text/il_schedule.h"
+#include "frontend/text/sfc_schedule.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/shapes.h"
 #include "sema/bodies/temporaries.h"
@@ -399,10 +400,16 @@ bool checkStatements(Context& context, Slice<StmtId> list) {
   return reachable;
 }
 
-// Makes statements of a body in IL, once the declarations of all files are known.
+// Makes statements of a body in IL or SFC, once the declarations of all files are known.
 static void schedule(Context& context, PouDecl& decl) {
-  if (decl.body_kind != BodyKind::Il) return;
+  if (decl.body_kind != BodyKind::Il && decl.body_kind != BodyKind::Sfc) return;
   ProjectShapes shapes(context);
+  if (decl.body_kind == BodyKind::Sfc) {
+    decl.body_kind = BodyKind::St;
+    if (!text::scheduleSfc(chartsOf(context), shapes, decl)) return;
+    if (context.project.options.scheduled) context.project.options.scheduled(context.project, context.pou);
+    return;
+  }
   const text::IlStatements made =
       text::scheduleIl(context.tree(), context.names(), context.project.diagnostics, shapes, decl.il, context.iec());
   decl.body = made.body;

@@ -30,6 +30,7 @@ void initWords(Context& context) {
   words.native = word("native");
   words.op = word("operator");
   words.std = word("std");
+  words.no_final_scan = word("no_final_scan");
 }
 
 const Pragma* findPragma(const Context& context, const DeclHeader& header, NameId key) {
@@ -138,6 +139,11 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
     named.file = file;
     named.library = library != kNoLibrary;
     named.region = context.region;
+  }
+  if (decl.body_kind == BodyKind::Sfc) {
+    PouDecl& chart = context.tree().as<PouDecl>(id);
+    const bool final_scan = !context.iec() && findPragma(context, decl.h, words.no_final_scan) == nullptr;
+    text::declareSfc(chartsOf(context), chart, final_scan);
   }
   if (library == kNoLibrary) {
     declare(context, space != nullptr ? space->names : scopes.pous_and_types, pou.name, pou.loc, entity(pou_id));

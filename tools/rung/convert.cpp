@@ -20,10 +20,13 @@ struct Body {
   Loc declarations;  // where the temporaries are declared: before the first member or the body
   bool own_line;
   std::string text;
+  std::string sections = {};         // of a chart: its variables
+  std::vector<DeclId> actions = {};  // … and the actions that stand in it
 };
 struct Edit {
   Loc begin, end;
   std::string text;
+  bool begins_line = false;
 };
 struct Output {
   std::string path, text;
@@ -86,8 +89,11 @@ class Converter {
 
  private:
   void print(sema::PouId pou);
+  void printChart(sema::PouId id, const PouDecl& decl);
   std::string temporaries(const Body& body) const;
   std::string convert(FileId file) const;
+  std::string convert(Loc begin, Loc end) const;
+  std::string action(DeclId id) const;
 
   Compilation& compilation_;
   const Sources& sources_;
@@ -100,6 +106,7 @@ void Converter::print(sema::PouId id) {
   const sema::Pou& pou = project.pou(id);
   if (pou.library || pou.generic_of || compilation_.diagnostics.hasErrors()) return;
   const PouDecl& decl = compilation_.tree.as<PouDecl>(pou.decl);
+  if (decl.chart_body) return printChart(id, decl);
   const std::string_view text = sources_.original(pou.file);
   const uint32_t base = sources_.begin(pou.file).offset;
   const size_t begin = decl.body_begin.offset - base, end = decl.body_end.offset - base;
@@ -119,6 +126,37 @@ void Converter::print(sema::PouId id) {
   bodies_.push_back(std::move(body));
 }
 
+// The text that the chart became; its actions stand between the variables and the statements.
+void Converter::printChart(sema::PouId id, const PouDecl& decl) {
+  Body body{id, decl.body_begin, decl.body_end, decl.body_begin, true, std::string(sources_.original(decl.chart_body))};
+  body.sections = sources_.original(decl.chart_sections);
+  for (const DeclId member : compilation_.tree.list(decl.members)) {
+    if (compilation_.tree.kind(member) != DeclKind::Pou) continue;
+    const PouDecl& action = compilation_.tree.as<PouDecl>(member);
+    if (decl.body_begin <= action.begin && action.begin < decl.body_end) body.actions.push_back(member);
+  }
+  if (body.text.ends_with('\n')) body.text.pop_back();
+  bodies_.push_back(std::move(body));
+}
+
+// One that the parser made of a transition has a body only: instructions, statements, or the expression to assign.
+std::string Converter::action(DeclId id) const {
+  const Tree& tree = compilation_.tree;
+  const PouDecl& decl = tree.as<PouDecl>(id);
+  if (decl.begin != decl.body_begin) return convert(decl.begin, decl.end) + "\n";
+  std::string text = "ACTION " + std::string(compilation_.names.text(decl.name)) + ":\n";
+  std::string body = convert(decl.body_begin, decl.body_end);
+  for (const Body& converted : bodies_)
+    if (compilation_.project->pou(converted.pou).decl == id) body = temporaries(converted) + converted.text;
+  const StmtId first = decl.body.empty() ? StmtId{} : tree.list(decl.body)[0];
+  if (first && tree.loc(first) == decl.body_begin && tree.kind(first) == StmtKind::Assign)
+    text += std::string(compilation_.names.text(tree.as<NameExpr>(tree.as<AssignStmt>(first).target).name)) +
+            " := " + body + ";";
+  else
+    text += body;
+  return text + "\nEND_ACTION\n";
+}
+
 std::string Converter::temporaries(const Body& body) const {
   const sema::Project& project = *compilation_.project;
   const sema::Pou& pou = project.pou(body.pou);
@@ -134,24 +172,47 @@ std::string Converter::temporaries(const Body& body) const {
 }
 
 std::string Converter::convert(FileId file) const {
-  const std::string_view text = sources_.original(file);
+  const Loc begin = sources_.begin(file);
+  return convert(begin, {begin.offset + static_cast<uint32_t>(sources_.original(file).size())});
+}
+
+// The text of a part of a file, its bodies converted.
+std::string Converter::convert(Loc begin, Loc end) const {
+  const FileId file = sources_.fileOf(begin);
+  const std::string_view text = sources_.original(file).substr(0, end.offset - sources_.begin(file).offset);
   const uint32_t base = sources_.begin(file).offset;
+  std::vector<const Body*> bodies;
+  for (const Body& body : bodies_)
+    if (!(body.begin < begin) && !(end < body.end)) bodies.push_back(&body);
+  std::stable_sort(bodies.begin(), bodies.end(), [](const Body* a, const Body* b) { return a->begin < b->begin; });
   std::vector<Edit> edits;
-  for (const Body& body : bodies_) {
-    if (sources_.fileOf(body.begin) != file) continue;
-    std::string declared = temporaries(body);
-    if (!declared.empty() && body.declarations == body.begin && !body.own_line) {
+  Loc done_to = begin;
+  for (const Body* body : bodies) {
+    if (body->begin < done_to) continue;  // of an action in a chart, converted with it
+    done_to = body->end;
+    std::string declared = temporaries(*body);
+    if (!body->sections.empty()) {
+      std::string chart = body->sections;
+      for (const DeclId member : body->actions) chart += action(member);
+      edits.push_back({body->begin, body->end, chart + declared + body->text, true});
+      continue;
+    }
+    if (!declared.empty() && body->declarations == body->begin && !body->own_line) {
       declared.insert(0, 1, '\n');
       declared.pop_back();
     }
-    edits.push_back({body.declarations, body.declarations, std::move(declared)});
-    edits.push_back({body.begin, body.end, body.text});
+    edits.push_back({body->declarations, body->declarations, std::move(declared)});
+    edits.push_back({body->begin, body->end, body->text});
   }
   std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.begin < b.begin; });
   std::string out;
-  size_t done = 0;
+  size_t done = begin.offset - base;
   for (const Edit& edit : edits) {
     out += text.substr(done, edit.begin.offset - base - done);
+    if (edit.begins_line) {
+      while (out.ends_with(' ')) out.pop_back();
+      if (!out.empty() && !out.ends_with('\n')) out += '\n';
+    }
     out += edit.text;
     done = edit.end.offset - base;
   }

@@ -9,10 +9,16 @@ struct Namespace {
   std::string_view folder;
   const char* name;
 };
-constexpr Namespace kNamespaces[] = {
-    {"standard", "Standard"},           {"util", "Util"},
-    {"ibaselibrary", "IBaseLibrary"},   {"tc2_system", "Tc2_System"},
-    {"tc2_utilities", "Tc2_Utilities"}, {"twincat_systeminfovarlist", "TwinCAT_SystemInfoVarList"}};
+constexpr Namespace kNamespaces[] = {{"standard", "Standard"},
+                                     {"util", "Util"},
+                                     {"iecsfc", "IecSfc"},
+                                     {"cmperrors", "CmpErrors"},
+                                     {"sysdir", "SysDir"},
+                                     {"sysfile", "SysFile"},
+                                     {"systypes", "SysTypes"},
+                                     {"tc2_system", "Tc2_System"},
+                                     {"tc2_utilities", "Tc2_Utilities"},
+                                     {"twincat_systeminfovarlist", "TwinCAT_SystemInfoVarList"}};
 
 constexpr NamespaceAlias kAliases[] = {
     {"Tc2_Standard", "Standard"}, {"Tc3_Standard", "Standard"}, {"IBaseLibrary", "__system"}};

@@ -1,0 +1,299 @@
+// Bodies in Sequential Function Chart as text. IEC 61131-3 ed. 2 annex B.1.6, ed. 3 table 54 to 61.
+//   chart      = {step | transition | ACTION … END_ACTION}
+//   step       = (INITIAL_STEP | STEP) name ["(" TMIN ":=" e "," TMAX ":=" e ")"] ":" {association ";"} END_STEP
+//   transition = TRANSITION [name] ["(" PRIORITY ":=" n ")"] [FROM steps TO steps] condition END_TRANSITION
+// The hidden part of a transition with a body, or whose condition several transitions use, is an action of its own.
+#include "frontend/text/parser.h"
+
+namespace rung::text {
+namespace {
+
+struct Qualifier {
+  std::string_view word;
+  SfcQualifier qualifier;
+};
+constexpr Qualifier kQualifiers[] = {{"N", SfcQualifier::N},   {"R", SfcQualifier::R},   {"R0", SfcQualifier::R},
+                                     {"S", SfcQualifier::S},   {"S0", SfcQualifier::S},  {"L", SfcQualifier::L},
+                                     {"D", SfcQualifier::D},   {"P", SfcQualifier::P},   {"P0", SfcQualifier::P0},
+                                     {"P1", SfcQualifier::P1}, {"SD", SfcQualifier::SD}, {"DS", SfcQualifier::DS},
+                                     {"SL", SfcQualifier::SL}};
+
+}  // namespace
+
+// `INITIAL_STEP a`, `STEP a:`, `TRANSITION FROM`, which no statement begins with. STEP is a name elsewhere.
+bool Parser::atSfc() const {
+  if (!isName(kind()) || (t_[1].flags & kLineStart) != 0) return false;
+  if (!isName(peek()) && !nameReserved(t_ + 1) && peek() != Tok::LeftParen) return false;
+  if (is(t_, "STEP")) return peek(2) == Tok::Colon || (peek() != Tok::LeftParen && peek(2) == Tok::LeftParen);
+  if (is(t_, "INITIAL_STEP")) return peek() != Tok::LeftParen;
+  return is(t_, "TRANSITION") && (peek() != Tok::LeftParen || is(t_ + 2, "PRIORITY"));
+}
+
+void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members) {
+  const Token* first = t_;
+  d.body_begin = here();
+  d.body_kind = BodyKind::Sfc;
+  if (d.pou_kind != PouKind::FunctionBlock && d.pou_kind != PouKind::Program) {
+    const char* what = d.pou_kind == PouKind::Function ? "a function"
+                       : d.pou_kind == PouKind::Method ? "a method"
+                       : d.pou_kind == PouKind::Action ? "an action"
+                                                       : "a class";
+    slip(Diag::SfcInFunction, t_, {what});
+    d.body_kind = BodyKind::None;
+  }
+  std::vector<SfcStep> steps;
+  std::vector<SfcTransition> transitions;
+  for (;;) {
+    panic_ = false;
+    if (accept(Tok::Semicolon)) continue;
+    if (d.pou_kind != PouKind::Action && d.pou_kind != PouKind::Method && atMember()) {
+      parseMember(members);
+    } else if (atSfc() || (isName(kind()) && is(t_, "STEP"))) {
+      if (is(t_, "TRANSITION"))
+        parseTransition(transitions, members);
+      else
+        parseStep(steps);
+    } else if (at(Tok::EndStep) || at(Tok::EndTransition)) {
+      slip(Diag::StrayEnd, t_, {textOf(t_)});
+      advance();
+    } else if (atBlockEnd()) {
+      break;
+    } else {
+      slip(Diag::SfcNotInChart, t_, {describe(t_)});
+      do advance();
+      while (!atSfc() && !atMember() && !atBlockEnd());
+    }
+  }
+  if (t_ != first) d.body_end = endOf(t_ - 1);
+  if (d.body_kind != BodyKind::Sfc) return;
+  d.steps = tree_.addList<SfcStep>(steps);
+  d.transitions = tree_.addList<SfcTransition>(transitions);
+}
+
+// Behind a mistake: the END_… of the element, or where the next one begins.
+void Parser::syncChart(Tok end) {
+  const Token* open = t_;
+  panic_ = false;
+  while (!at(end) && !atSfc() && !(atMember() && t_ != open) && !atBlockEnd()) advance();
+}
+
+void Parser::parseStep(std::vector<SfcStep>& out) {
+  const Token* open = t_;
+  SfcStep step{};
+  step.initial = is(t_, "INITIAL_STEP");
+  advance();
+  std::vector<SfcAssociation> actions;
+  if (parseName(step.name)) {
+    if (at(Tok::LeftParen)) parseStepTimes(step);
+    if (!panic_) expect(Tok::Colon);
+    while (!panic_ && !at(Tok::EndStep) && !atBlockEnd() && !atSfc())
+      if (!accept(Tok::Semicolon) && !parseAssociation(actions)) syncStatement();
+  }
+  if (panic_) syncChart(Tok::EndStep);
+  if (!accept(Tok::EndStep)) {
+    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    missing(Diag::MissingEnd, {"END_STEP", textOf(open), line});
+  }
+  if (!step.name.name) return;
+  step.actions = tree_.addList<SfcAssociation>(actions);
+  out.push_back(step);
+}
+
+// "(" TMIN ":=" expression ["," TMAX ":=" expression] ")"
+void Parser::parseStepTimes(SfcStep& step) {
+  advance();
+  do {
+    const bool least = is(t_, "TMIN");
+    if (!least && !is(t_, "TMAX")) {
+      fail(Diag::WrongWord, t_, {textOf(t_), "TMIN` or `TMAX"});
+      return;
+    }
+    advance();
+    expect(Tok::Assign);
+    (least ? step.min : step.max) = parseSfcExpr();
+  } while (!panic_ && accept(Tok::Comma));
+  if (!panic_) expect(Tok::RightParen);
+}
+
+SfcExpr Parser::parseSfcExpr() {
+  SfcExpr e{{}, here(), {}};
+  e.value = parseExpr();
+  e.end = t_ == tokens_.data() ? here() : endOf(t_ - 1);
+  return e;
+}
+
+// [{entry} | {active} | {exit}] name ["(" [qualifier ["," time]] {"," indicator} ")"]
+bool Parser::parseAssociation(std::vector<SfcAssociation>& out) {
+  const Token* first = t_;
+  SfcAssociation a{};
+  a.loc = here();
+  const Slice<Pragma> pragmas = takePragmas();
+  if (!parseName(a.action)) return false;
+  bool timed = false;
+  if (accept(Tok::LeftParen)) {
+    if (isName(kind()) && !at(Tok::RightParen)) {
+      const Qualifier* found = nullptr;
+      for (const Qualifier& row : kQualifiers)
+        if (is(t_, row.word)) found = &row;
+      a.loc = here();
+      if (found == nullptr) {
+        slip(Diag::SfcQualifier, t_, {textOf(t_)});
+      } else {
+        a.qualifier = found->qualifier;
+        a.word = nameOf(t_);
+      }
+      advance();
+      if (takesTime(a.qualifier)) {
+        if (accept(Tok::Comma)) {
+          a.time = parseSfcExpr();
+          timed = true;
+        } else {
+          diagnostics_.report(Diag::SfcTimeMissing, a.loc, {found->word, textOf(first)});
+        }
+      }
+      while (!panic_ && accept(Tok::Comma)) {  // variables that show what became of the action: they do nothing
+        if (found != nullptr && !timed && !isName(kind())) {
+          slip(Diag::SfcTimeSurplus, t_, {found->word});
+          parseExpr();
+          continue;
+        }
+        Ident indicator;
+        if (!parseName(indicator)) return false;
+      }
+    }
+    if (!panic_) expect(Tok::RightParen);
+  }
+  if (pragmaNamed(pragmas, "entry")) a.qualifier = SfcQualifier::Entry;
+  if (pragmaNamed(pragmas, "active")) a.qualifier = SfcQualifier::Active;
+  if (pragmaNamed(pragmas, "exit")) a.qualifier = SfcQualifier::Exit;
+  if (panic_) return false;
+  out.push_back(a);
+  if (!accept(Tok::Semicolon)) missing(Diag::MissingSemicolon, {describe(t_ - 1)});
+  return true;
+}
+
+// step | "(" step {"," step} ")"
+bool Parser::parseSteps(Slice<Ident>& out) {
+  std::vector<Ident> steps;
+  const bool several = accept(Tok::LeftParen);
+  do {
+    Ident step;
+    if (!parseName(step)) return false;
+    steps.push_back(step);
+  } while (several && accept(Tok::Comma));
+  if (several && !accept(Tok::RightParen)) {
+    fail(Diag::WrongWord, t_, {textOf(t_), ")"});
+    return false;
+  }
+  out = tree_.addList<Ident>(steps);
+  return true;
+}
+
+bool Parser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId>& members) {
+  const Token* open = t_;
+  SfcTransition t{};
+  t.loc = here();
+  advance();
+  if (isName(kind()) && !is(t_, "FROM")) {
+    t.name = ident(t_);
+    t.loc = here();
+    advance();
+  }
+  if (at(Tok::LeftParen)) {
+    advance();
+    if (is(t_, "PRIORITY")) advance();
+    expect(Tok::Assign);
+    if (at(Tok::Number)) {
+      const ExprId number = parseExpr();
+      if (tree_.kind(number) == ExprKind::Literal) t.priority = tree_.as<LiteralExpr>(number).low;
+      t.has_priority = true;
+      expect(Tok::RightParen);
+    } else {
+      fail(Diag::WrongWord, t_, {textOf(t_), "a number"});
+    }
+  }
+  if (!panic_ && isName(kind()) && is(t_, "FROM")) {
+    advance();
+    if (parseSteps(t.from)) {
+      if (is(t_, "TO"))
+        advance();
+      else
+        fail(Diag::WrongWord, t_, {textOf(t_), "TO"});
+      if (!panic_) parseSteps(t.to);
+    }
+  }
+  if (!panic_) parseCondition(t, members);
+  const bool good = !panic_;
+  if (panic_) syncChart(Tok::EndTransition);
+  if (!accept(Tok::EndTransition)) {
+    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    missing(Diag::MissingEnd, {"END_TRANSITION", "TRANSITION", line});
+  }
+  if (good) out.push_back(t);
+  return good;
+}
+
+// ":=" expression [";"] | ":" statements | ":" instructions | nothing: that of the transition or variable of its name
+void Parser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
+  const Token* first = t_;
+  PouDecl d{};
+  d.h = {DeclKind::Pou, 0, 0, t.loc, {}, {}};
+  d.pou_kind = PouKind::Action;
+  d.closed = true;
+  if (t.name.name) {
+    t.target = t.name;
+  } else {  // of an IL body
+    t.target = {names_.intern("Transition_" + std::to_string(sources_.place(t.loc).line)), t.loc};
+  }
+  const auto target = [&] {
+    return tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, t.target.loc), t.target.name, {}});
+  };
+  if (accept(Tok::Assign)) {
+    t.condition = parseSfcExpr();
+    if (panic_) return;
+    if (!accept(Tok::Semicolon)) missing(Diag::MissingSemicolon, {describe(t_ - 1)});
+    if (!t.from.empty()) return;
+    AssignStmt assign{header(StmtKind::Assign, t.condition.begin, static_cast<uint8_t>(AssignOp::Assign)), {}, {}};
+    assign.target = target();
+    assign.value = t.condition.value;
+    const StmtId id = tree_.add<StmtId>(assign);
+    d.body = tree_.addList<StmtId>({&id, 1});
+    d.body_kind = BodyKind::St;
+    d.body_begin = t.condition.begin;
+    d.body_end = t.condition.end;
+  } else if (accept(Tok::Colon)) {
+    const Tok pou_end = pou_end_;
+    parseBody(d);
+    pou_end_ = pou_end;
+    if (panic_) return;
+    if (d.body_kind == BodyKind::Il) {
+      std::vector<IlInstruction> list(tree_.list(d.il).begin(), tree_.list(d.il).end());
+      IlInstruction store{};
+      store.kind = IlKind::Store;
+      store.word = names_.intern("ST");
+      store.loc = t.target.loc;
+      const Argument operand{{}, target(), false, false, t.target.loc};
+      store.operands = tree_.addList<Argument>({&operand, 1});
+      list.push_back(store);
+      d.il = tree_.addList<IlInstruction>(list);
+    } else if (!t.name.name || d.body.empty()) {
+      slip(Diag::SfcNoCondition, first);
+      panic_ = true;
+      return;
+    }
+  } else {
+    accept(Tok::Semicolon);
+    if (!t.name.name || t.from.empty()) {
+      diagnostics_.report(Diag::SfcNoCondition, t.loc);
+      panic_ = true;
+    }
+    return;
+  }
+  d.name = names_.intern(std::string(names_.text(t.target.name)) + "_condition");
+  d.begin = d.body_begin;
+  d.end = d.body_end;
+  t.body = tree_.add<DeclId>(d);
+  members.push_back(t.body);
+}
+
+}  // namespace rung::text

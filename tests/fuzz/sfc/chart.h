@@ -1,0 +1,44 @@
+// A generated chart, its text, and what it does by a simple evaluator that knows nothing of the compiler: it visits all
+// steps, transitions and actions in each cycle, as section 5.9.8 of the syntax manual and tables 59 and 60 say.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rung::sfc_differential {
+
+enum Qualifier { kN, kR, kS, kL, kD, kP, kP0, kP1, kSD, kDS, kSL, kQualifiers };
+struct Association {
+  int action, qualifier;
+};
+struct Step {
+  std::vector<Association> associations;
+  int entry = -1, active = -1, exit = -1;  // actions
+  int least_ms = 0;
+};
+struct Transition {
+  std::vector<int> from, to;
+  uint32_t modulus, value;  // fires when random / 65536 MOD modulus = value
+  int priority = 0;         // 0: none
+};
+constexpr int kVariables = 6, kActions = 12;  // the first are BOOL variables
+struct Chart {
+  std::vector<Step> steps;  // the first is the initial one
+  std::vector<Transition> transitions;
+  int times_ms[kActions];  // of all associations of an action
+  bool final_scan = true;
+};
+
+Chart generate(uint64_t seed);
+std::string textOf(const Chart& chart, const std::string& name);
+
+// What can be seen after a cycle.
+struct Seen {
+  std::vector<bool> active;  // steps
+  bool variables[kVariables];
+  uint32_t order;  // of the actions that ran, as a checksum
+};
+std::vector<Seen> evaluate(const Chart& chart, const std::vector<uint32_t>& randoms, int cycle_ms);
+
+}  // namespace rung::sfc_differential

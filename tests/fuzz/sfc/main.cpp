@@ -1,0 +1,175 @@
+// Generated charts against the evaluator: `rung run` must show the same active steps, variables and order of actions in
+// each cycle.
+//   sfc_differential [--first=SEED] [--count=N] [--cycles=N] [--engine=interp|native] [--rung=PATH] [--folder=PATH]
+//   sfc_differential --print=SEED
+// Charts go in batches of 10, one program each. With --converted the ST that `rung convert` makes of them runs too.
+// Called by tests/runner with few seeds and by hand with many.
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/fuzz/sfc/chart.h"
+#include "tests/runner/process.h"
+
+namespace rung::sfc_differential {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr uint64_t kBatch = 10;
+
+struct Options {
+  uint64_t first = 0, count = 200, cycles = 300;
+  std::string rung, folder, engine = "interp";
+  bool converted = false;
+};
+
+uint32_t next(uint32_t random) { return random * 1664525u + 1013904223u; }
+
+std::vector<std::string> cells(const std::string& line) {
+  std::vector<std::string> out;
+  std::stringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) out.push_back(cell);
+  return out;
+}
+
+// The first thing that differs, or nothing.
+std::string compare(const std::string& trace, uint64_t first, const std::vector<Chart>& charts, uint64_t cycles) {
+  std::stringstream lines(trace);
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> header = cells(line);
+  const auto column = [&](const std::string& name) {
+    return static_cast<size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+  };
+  std::vector<std::vector<std::string>> rows;
+  while (std::getline(lines, line)) rows.push_back(cells(line));
+  if (rows.size() != cycles) return "the trace has " + std::to_string(rows.size()) + " rows";
+  std::vector<uint32_t> randoms;
+  uint32_t random = static_cast<uint32_t>(first);
+  for (uint64_t i = 0; i < cycles; ++i) randoms.push_back(random = next(random));
+  for (size_t k = 0; k < charts.size(); ++k) {
+    const std::string block = "Main.c" + std::to_string(k) + ".";
+    const std::vector<Seen> expected = evaluate(charts[k], randoms, 10);
+    for (uint64_t i = 0; i < cycles; ++i) {
+      const auto differs = [&](const std::string& name, const std::string& value) -> std::string {
+        const size_t at = column(block + name);
+        const std::string got = at < rows[i].size() ? rows[i][at] : "nothing";
+        if (got == value) return {};
+        return "seed " + std::to_string(first + k) + ", cycle " + std::to_string(i) + ": " + name + " is " + got +
+               ", expected " + value;
+      };
+      for (size_t s = 0; s < charts[k].steps.size(); ++s)
+        if (const std::string d = differs("s" + std::to_string(s) + ".x", expected[i].active[s] ? "TRUE" : "FALSE");
+            !d.empty())
+          return d;
+      for (int v = 0; v < kVariables; ++v)
+        if (const std::string d = differs("v" + std::to_string(v), expected[i].variables[v] ? "TRUE" : "FALSE");
+            !d.empty())
+          return d;
+      if (const std::string d = differs("order", std::to_string(expected[i].order)); !d.empty()) return d;
+    }
+  }
+  return {};
+}
+
+std::string runBatch(const Options& options, uint64_t first, uint64_t count) {
+  std::vector<Chart> charts;
+  std::string text, vars, calls, watch;
+  for (uint64_t k = 0; k < count; ++k) {
+    charts.push_back(generate(first + k));
+    const std::string n = std::to_string(k);
+    text += textOf(charts.back(), "Chart" + n);
+    vars += " c" + n + " : Chart" + n + ";";
+    calls += "c" + n + "(random := random);\n";
+    watch += (watch.empty() ? "" : ",");
+    for (size_t s = 0; s < charts.back().steps.size(); ++s) watch += "Main.c" + n + ".s" + std::to_string(s) + ".x,";
+    for (int v = 0; v < kVariables; ++v) watch += "Main.c" + n + ".v" + std::to_string(v) + ",";
+    watch += "Main.c" + n + ".order";
+  }
+  text += "PROGRAM Main\nVAR random : UDINT := " + std::to_string(static_cast<uint32_t>(first)) + ";" + vars +
+          " END_VAR\nrandom := random * 1664525 + 1013904223;\n" + calls + "END_PROGRAM\n";
+  const fs::path folder = fs::path(options.folder) / std::to_string(first);
+  fs::create_directories(folder);
+  fs::path source = folder / "charts.st";
+  std::ofstream(source) << text;
+  tests::Command c;
+  c.folder = folder;
+  c.seconds = 300;
+  if (options.converted) {
+    fs::remove_all(folder / "st");
+    c.arguments = {options.rung, "convert", "--to", "st", "-o", (folder / "st").string(), source.string()};
+    const tests::Output output = tests::run(c);
+    if (output.exit_code != 0) return "seed " + std::to_string(first) + ": convert: " + output.err.substr(0, 2000);
+    source = folder / "st" / "charts.st";
+  }
+  c.arguments = {options.rung,
+                 "run",
+                 "--engine=" + options.engine,
+                 "--cycles=" + std::to_string(options.cycles),
+                 "--trace=-",
+                 "--watch=" + watch,
+                 source.string()};
+  const tests::Output output = tests::run(c);
+  if (output.exit_code != 0) return "seed " + std::to_string(first) + ": " + output.err.substr(0, 2000);
+  return compare(output.out, first, charts, options.cycles);
+}
+
+int run(const Options& options) {
+  uint64_t bad = 0;
+  for (uint64_t k = 0; k < options.count; k += kBatch) {
+    const std::string difference = runBatch(options, options.first + k, std::min(kBatch, options.count - k));
+    if (difference.empty()) continue;
+    ++bad;
+    printf("%s\n", difference.c_str());
+  }
+  printf("%llu charts, %llu batches differ\n", static_cast<unsigned long long>(options.count),
+         static_cast<unsigned long long>(bad));
+  return bad == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace rung::sfc_differential
+
+int main(int argc, char** argv) {
+  using namespace rung::sfc_differential;
+  Options options;
+  const fs::path self = fs::canonical("/proc/self/exe");
+  options.rung = (self.parent_path() / "rung").string();
+  options.folder = (fs::temp_directory_path() / ("sfc_differential_" + std::to_string(getpid()))).string();
+  bool keep = false;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const size_t equal = std::min(argument.find('='), argument.size());
+    const std::string name = argument.substr(0, equal), value = argument.substr(std::min(equal + 1, argument.size()));
+    if (name == "--first") {
+      options.first = strtoull(value.c_str(), nullptr, 10);
+    } else if (name == "--count") {
+      options.count = strtoull(value.c_str(), nullptr, 10);
+    } else if (name == "--cycles") {
+      options.cycles = strtoull(value.c_str(), nullptr, 10);
+    } else if (name == "--engine") {
+      options.engine = value;
+    } else if (name == "--rung") {
+      options.rung = value;
+    } else if (name == "--folder") {
+      options.folder = value;
+      keep = true;
+    } else if (name == "--converted") {
+      options.converted = true;
+    } else if (name == "--print") {
+      fputs(textOf(generate(strtoull(value.c_str(), nullptr, 10)), "Chart").c_str(), stdout);
+      return 0;
+    } else {
+      fprintf(stderr, "unknown option %s\n", argument.c_str());
+      return 2;
+    }
+  }
+  const int result = run(options);
+  if (!keep) fs::remove_all(options.folder);
+  return result;
+}
