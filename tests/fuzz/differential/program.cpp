@@ -184,7 +184,7 @@ Node Generator::program() {
                          : Stmt{"v_" + lowered(kTypes[type].name) + " := ULINT_TO_" + name + "(" + value + ");\n"});
   }
   Node noise = Stmt{std::string(inputs.size(), kChild), std::move(inputs)};
-  Node body = statements(3, 6 + below(7));
+  Node body = statements(3, (codesys() ? 14 : 6) + below(7));
   Node results = Fixed{"\1\1\1\1\1",
                        {Stmt{"g_dint := " + prefix_ + "_g_dint;\n"}, Stmt{"g_real := " + prefix_ + "_g_real;\n"},
                         Stmt{"g_string := " + prefix_ + "_g_string;\n"},

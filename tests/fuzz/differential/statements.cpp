@@ -194,8 +194,8 @@ Node Generator::statement(int depth) {
   if (depth > 0 && loops_ < 2 && chance(12)) return loop(depth - 1);
   if (depth > 0 && chance(15)) return choice(depth - 1);
   if (codesys() && loops_ == 0 && cases_ == 0 && depth > 0 && chance(8)) return jump(depth - 1);
-  if (body_ == Body::Program && codesys() && loops_ < 2 && chance(20)) return objectStatement();
-  if (body_ == Body::Program && codesys() && chance(12)) return pointerStatement();
+  if (body_ == Body::Program && codesys() && loops_ < 2 && chance(35)) return objectStatement();
+  if (body_ == Body::Program && codesys() && chance(30)) return pointerStatement();
   if (body_ == Body::Program && chance(18)) return blockCall();
   if (chance(7)) return guardedCall();
   return assignment();
