@@ -183,6 +183,7 @@ class Generator {
   std::vector<std::vector<int>> blocks_;  // input types
   std::vector<Method> methods_;           // M0, M1, M2 of every block with a base; empty: not made, or not yet
   int method_ = -1;                       // in a method: its number, which those it calls are below
+  bool chained_ = false;                  // O2 extends O1, else O0 as O1 does
   int start_ = 0;                         // type of the input of these blocks
   std::vector<Place> places_;
   int loops_ = 0;   // around the statement

@@ -20,10 +20,23 @@ struct Receiver {
   bool is_block;  // its inputs, body and action can be reached, too
 };
 
-constexpr Receiver kReceivers[] = {{"o0", 3, true},       {"o1", 3, true},      {"o2", 3, true},
-                                   {"po^", 3, true},      {"ro", 3, true},      {"po1^", 3, true},
-                                   {"any0", 1, false},    {"any1", 2, false},   {"itfs[\1]", 1, false},
-                                   {"objs[\1]", 3, true}, {"pos[\1]^", 3, true}};
+constexpr Receiver kReceivers[] = {{"o0", 3, true},
+                                   {"o1", 3, true},
+                                   {"o2", 3, true},
+                                   {"po^", 3, true},
+                                   {"ro", 3, true},
+                                   {"po1^", 3, true},
+                                   {"any0", 1, false},
+                                   {"any1", 2, false},
+                                   {"itfs[\1]", 1, false},
+                                   {"objs[\1]", 3, true},
+                                   {"pos[\1]^", 3, true},
+                                   {"o0.Me()", 3, true},
+                                   {"po^.Me()", 3, true},
+                                   {"any1.Self()", 1, false},
+                                   {"ro.Self()", 1, false},
+                                   {"cell.block", 3, true},
+                                   {"cells[\1].block", 3, true}};
 constexpr int kReceiverCount = sizeof kReceivers / sizeof kReceivers[0];
 
 // Puts `end` behind the names of the body's variables: a block may not have those of its base again.
@@ -141,7 +154,7 @@ Node Generator::makeMethod(int number, const std::string& base) {
 
 Node Generator::makeClass(int number) {
   const std::string self = prefix_ + "_" + kClasses[number];
-  const int parent = number == 0 ? -1 : number == 2 && chance(40) ? 0 : number - 1;
+  const int parent = number == 0 ? -1 : number == 2 && !chained_ ? 0 : number - 1;
   const std::string base = parent < 0 ? "" : prefix_ + "_" + kClasses[parent];
   std::string head = "FUNCTION_BLOCK " + self;
   if (parent >= 0) head += " EXTENDS " + base;
@@ -200,6 +213,16 @@ Node Generator::makeClass(int number) {
            std::string(parent >= 0 && chance(40) ? " := 5" : "") + "; END_VAR\ncount := count * 3 + first" +
            (chance(50) ? " + THIS^.Level" : "") + ";\nEND_METHOD\n"});
   if (number == 0) {
+    const std::string calls = chance(50) ? "count := count + 1;\n" : "";
+    add(Stmt{"METHOD Me : REFERENCE TO " + self + "\n" + calls + "Me REF= THIS^;\nEND_METHOD\n"});
+    add(Stmt{"METHOD Self : " + prefix_ + "_I0\n" + calls + "Self := THIS^;\nEND_METHOD\n"});
+    add(Stmt{"METHOD At : POINTER TO DINT\n" + calls + "At := ADR(count);\nEND_METHOD\n"});
+    add(Stmt{"METHOD Add : DINT\nVAR_INPUT more : DINT; END_VAR\nVAR_IN_OUT sum : DINT; pair : " + prefix_ +
+             "_Pair; END_VAR\n" +
+             "sum := sum + more;\ncount := count - sum;\npair.count := pair.count + count;\nAdd := sum + "
+             "pair.count;\nEND_METHOD\n"});
+    add(Stmt{"METHOD FB_Exit : BOOL\nVAR_INPUT bInCopyCode : BOOL; END_VAR\n" + prefix_ + "_g_dint := " + prefix_ +
+             "_g_dint + count;\nEND_METHOD\n"});
     add(Stmt{"ACTION Act\ncount := count * 5 + out0;\nimage.%B1 := DINT_TO_BYTE(count);\nEND_ACTION\n"});
   } else if (chance(40)) {
     add(Stmt{"ACTION Act\nSUPER^.Act();\nTHIS^.Level := out0;\nEND_ACTION\n"});
@@ -211,6 +234,7 @@ Node Generator::makeClass(int number) {
 void Generator::makeObjects(std::vector<Node>& parts) {
   if (!codesys()) return;
   start_ = anyType();
+  chained_ = chance(60);
   std::vector<Method> methods;
   for (int i = 0; i < kMethodCount; ++i) {
     Method method;
@@ -230,15 +254,23 @@ void Generator::makeObjects(std::vector<Node>& parts) {
     return text + "END_METHOD\n";
   };
   parts.push_back(Fixed{"INTERFACE " + prefix_ + "_I0\n" + signature(0) +
-                        "PROPERTY Level : DINT\nGET\nEND_GET\nSET\nEND_SET\nEND_PROPERTY\nEND_INTERFACE\nINTERFACE " +
-                        prefix_ + "_I1 EXTENDS " + prefix_ + "_I0\n" + signature(1) + "END_INTERFACE\n"});
+                        "PROPERTY Level : DINT\nGET\nEND_GET\nSET\nEND_SET\nEND_PROPERTY\nMETHOD Self : " + prefix_ +
+                        "_I0\nEND_METHOD\nEND_INTERFACE\nINTERFACE " + prefix_ + "_I1 EXTENDS " + prefix_ + "_I0\n" +
+                        signature(1) + "END_INTERFACE\n"});
   for (int i = 0; i < kClassCount; ++i) parts.push_back(makeClass(i));
+  parts.push_back(Stmt{"TYPE " + prefix_ +
+                       "_Bits : STRUCT a : BIT; b : BIT := TRUE; n : INT := -1; c, d, e, f, g, h, i, k, l, m : BIT; "
+                       "END_STRUCT END_TYPE\nTYPE " +
+                       prefix_ + "_Cell : STRUCT block : " + prefix_ + "_O1(12); bits : " + prefix_ +
+                       "_Bits; END_STRUCT END_TYPE\n"});
   own_inputs_.clear();
   method_ = -1;
   const std::string o0 = prefix_ + "_O0";
   parts.push_back(Stmt{"FUNCTION " + prefix_ + "_Run : DINT\nVAR_IN_OUT o : " + o0 +
                        "; END_VAR\nVAR_INPUT p : POINTER TO " + o0 + "; r : REFERENCE TO " + o0 + "; i : " + prefix_ +
-                       "_I0; END_VAR\n" + (chance(50) ? "o();\n" : "r.Act();\n") +
+                       "_I0; END_VAR\nVAR mine : " + prefix_ + "_O1(9); other : " + prefix_ +
+                       "_I0; END_VAR\nmine(count := p^.count);\nother := mine;\n" + prefix_ + "_Run := other.Level;\n" +
+                       (chance(50) ? "o();\n" : "r.Act();\n") +
                        (chance(50) ? "p^(out0 => " + prefix_ + "_Run);\n" : "") + "i.Level := r.count + o.Level;\n" +
                        prefix_ + "_Run := " + prefix_ + "_Run + p^.count * i.Level;\nEND_FUNCTION\n\n"});
   parts.push_back(
@@ -269,13 +301,34 @@ Node Generator::bindObject() {
     case 4:
       return Stmt{"itfs[\1] := " + pick({"any0", "any1", "o0", "o1", "o2", "objs[1]"}) + ";\n", {subscript(0, 2, 1)}};
     case 5: return Stmt{"pos[\1] := " + pick({"po", "po1", "ADR(o0)", "ADR(ro)"}) + ";\n", {subscript(0, 2, 1)}};
-    default: return Stmt{"po1 := ADR(" + pick({"o1", "o2", "objs[2]"}) + ");\n"};
+    default: return Stmt{"po1 := ADR(" + pick({"o1", chained_ ? "o2" : "o1", "objs[2]"}) + ");\n"};
   }
 }
 
 Node Generator::objectStatement() {
   std::vector<Node> parts;
-  switch (below(13)) {
+  switch (below(17)) {
+    case 12:
+      return Stmt{pick({"v_dint", "target", "pm^"}) + " := " + pick({"o0", "ro", "po1^", "objs[0]", "cell.block"}) +
+                      ".Add(more := \1, sum := " +
+                      pick({"target", "v_dint", "pm^", "rd", "numbers[2]", "pair.count", "o0.count", "cell.block.count",
+                            "objs[0].count"}) +
+                      ", pair := " + pick({"pair", "table[1]", "pp^", "rp"}) + ");\n",
+                  {expr(kDint, 2)}};
+    case 13:
+      return Stmt{pick({"objs[1] := objs[2];\n", "objs[0] := objs[1];\n", "cells[1] := cell;\n", "cell := cells[0];\n",
+                        "cell.block := o1;\n", "cells[2].bits := cell.bits;\n"})};
+    case 14: {
+      const std::string text = receiver(0, true, parts);
+      parts.push_back(expr(kDint, 2));
+      return Stmt{text + "At()^ := \1;\n", std::move(parts)};
+    }
+    case 15: {
+      const std::string text = pick({"cell.", "cells[\1]."}) + "bits." + pick({"a", "b", "c", "f", "h", "i", "m"});
+      if (text.find(kChild) != std::string::npos) parts.push_back(subscript(0, 2, 1));
+      parts.push_back(expr(kBool, 2));
+      return Stmt{text + " := \1;\n", std::move(parts)};
+    }
     case 0:
     case 1: {
       // Counted children must stand in the text: a subscript that nothing needs is left out.
@@ -355,7 +408,18 @@ Node Generator::objectStatement() {
 
 Node Generator::pointerStatement() {
   const std::string at = std::to_string(below(5)), value = pick({"v_dint", "target", "numbers[1]", "pm^", "pn[2]"});
-  switch (below(14)) {
+  switch (below(18)) {
+    case 14: return Stmt{"pt[\1].count := \1;\n", {subscript(-1, 4, 1), expr(kDint, 2)}};
+    case 15: {
+      const int wide = below(3);
+      const char* text[] = {"words[\1].%X7 := \1;\n", "words[\1].%B1 := \1;\n", "words[\1].12 := \1;\n"};
+      return Stmt{text[wide], {subscript(0, 2, 1), expr(wide == 1 ? kByte : kBool, 2)}};
+    }
+    case 16: return Stmt{"halves[\1].%W1.%B0 := \1;\n", {subscript(0, 1, 1), expr(kByte, 2)}};
+    case 17:
+      return Stmt{pick({"numbers[1]", "pm^", "others[0]", "pn[1]", "target", "rd"}) + "." + std::to_string(below(32)) +
+                      " := \1;\n",
+                  {expr(kBool, 2)}};
     case 0: return Stmt{"pm := ADR(numbers[\1]);\n", {subscript(0, 4, 1)}};
     case 1: return Stmt{"pm := pn + SIZEOF(DINT) * \1;\n", {subscript(-1, 3, 1)}};
     case 2: return Stmt{"pn[\1] := \1;\n", {subscript(-1, 3, 1), expr(kDint, 2)}};
@@ -393,13 +457,16 @@ std::string Generator::led(int type) {
   const std::string self = pick({"o0.", "o1.", "o2.", "po^.", "ro.", "po1^.", "objs[1].", "pos[2]^."});
   if (type == kDint) {
     return chance(40) ? self + "count"
-                      : pick({"pn^", "pm^", "pn[-1]", "pn[3]", "rd", "pp^.count", "rp.count", "numbers[2]", "target"});
+                      : pick({"pn^", "pm^", "pn[-1]", "pn[3]", "rd", "pt[-1].count", "pt[3].count", "o0.At()^",
+                              "po1^.At()^", "pp^.count", "rp.count", "numbers[2]", "target"});
   }
   if (type == kWord) return chance(50) ? self + "image" : pick({"pw^", "pw[1]", "words[1]"});
   if (type == kByte) return pick({"pb^", "pb[3]", "pb[1]"});
   if (type == kDword) return pick({"seen", "halves[0]", "halves[1]"});
   if (type == kLword) return "pl^";
   if (type == kInt) return self + "list[" + std::to_string(below(3)) + "]";
+  if (type == kBool && chance(40))
+    return pick({"cell.bits.", "cells[1].bits.", "cells[0].bits."}) + pick({"a", "b", "c", "d", "g", "h", "m"});
   if (type == kBool) return self + pick({"flag", "low"});
   if (type == kReal) return pick({"pp^.share", "rp.share"});
   if (type == kString) return pick({"pp^.title", "rp.title"});
@@ -425,6 +492,9 @@ const std::vector<Generator::Place>& Generator::places() {
              {"ro", "REFERENCE TO " + o + "0", "ro REF= objs[2];\n"},
              {"any0", prefix_ + "_I0", "any0 := o0;\n"},
              {"any1", prefix_ + "_I1", "any1 := o1;\n"},
+             {"cell", prefix_ + "_Cell", ""},
+             {"cells", "ARRAY[0..2] OF " + prefix_ + "_Cell", ""},
+             {"pt", "POINTER TO " + pair, "pt := ADR(table[0]);\n"},
              {"anyz", prefix_ + "_I1", ""},
              {"itfs", "ARRAY[0..2] OF " + prefix_ + "_I0", "itfs[0] := o0;\nitfs[1] := o1;\nitfs[2] := any0;\n"},
              {"heap", "POINTER TO " + o + "0", ""},
