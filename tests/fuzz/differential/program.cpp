@@ -190,28 +190,25 @@ Node Generator::program() {
                         Stmt{"g_string := " + prefix_ + "_g_string;\n"},
                         Stmt{"at_dword := " + prefix_ + "_at_dword;\n"}, Stmt{"at_int := " + prefix_ + "_at_int;\n"}}};
   std::string used = body.print() + results.print();
-  // What a binding uses is bound itself, so the last of places() come first.
-  std::vector<Node> bindings;
-  if (codesys()) {
-    const std::vector<Place>& all = places();
-    for (bool more_used = true; more_used;) {
-      more_used = false;
-      for (const Place& place : all) {
-        if (place.binding.empty() || !uses(used, place.name) || uses(used, "bound_" + place.name)) continue;
-        used += place.binding + " bound_" + place.name + " ";
-        more_used = true;
-      }
-    }
-    for (const Place& place : all) {
-      if (uses(used, "bound_" + place.name)) bindings.push_back(Stmt{place.binding});
+  // What a binding uses may need one itself.
+  const std::vector<Place>& all = places();
+  std::vector<bool> is_bound(all.size());
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (size_t i = 0; i < all.size(); ++i) {
+      if (is_bound[i] || all[i].binding.empty() || !uses(used, all[i].name)) continue;
+      is_bound[i] = grows = true;
+      used += all[i].binding;
     }
   }
-  const bool once = chance(60);
-  Node bind = bindings.empty() ? Node(Stmt{""})
-                               : Node(Fixed{(once ? "IF NOT bound THEN\nbound := TRUE;\n" : "") +
-                                                std::string(bindings.size(), kChild) + (once ? "END_IF\n" : ""),
-                                            bindings});
-  if (once && !bindings.empty()) used += " bound ";
+  std::vector<Node> bindings;
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (is_bound[i]) bindings.push_back(Stmt{all[i].binding});
+  }
+  std::string binding(bindings.size(), kChild);
+  if (chance(60)) binding = "IF NOT bound THEN\nbound := TRUE;\n" + binding + "END_IF\n";
+  Node bind = Fixed{bindings.empty() ? "" : binding, std::move(bindings)};
+  used += bind.text;
   Node vars = declarations({&noise, &body, &bind});
 
   std::string more = "VAR\n";
@@ -249,9 +246,7 @@ Node Generator::program() {
   line("at_dword", "DWORD");
   line("at_int", "INT");
   line("bound", "BOOL");
-  if (codesys()) {
-    for (const Place& place : places()) line(place.name, place.type);
-  }
+  for (const Place& place : all) line(place.name, place.type);
   lines.push_back(Stmt{"noise : ULINT := " + std::to_string(1 + random() % 2147483645) + ";\n"});
   Node extra = Fixed{more + "\1END_VAR\n", std::move(lines)};
   const std::string guard = "IF differential_only <> " + std::to_string(index_) +

@@ -20,7 +20,9 @@ Node Generator::assignment() {
   }
   if (codesys() && chance(3)) {
     const std::string first = writable(type), second = writable(type);
-    return Stmt{first + " := " + second + " := \1;\n", {expr(type, 2)}};
+    if ((first + second).find('(') == std::string::npos) {  // a chain takes no call
+      return Stmt{first + " := " + second + " := \1;\n", {expr(type, 2)}};
+    }
   }
   if (codesys() && chance(4)) {
     const int number = 1 + below(14);
