@@ -67,6 +67,9 @@ std::string Generator::readable(int type) {
 // A variable of the type. Every body may use the same local ones; declarations() finds which it does.
 std::string Generator::writable(int type) {
   const std::string name = lowered(kTypes[type].name);
+  if (chance(25)) {
+    if (const std::string place = led(type); !place.empty()) return place;
+  }
   if (body_ == Body::Program) {
     if (type == kDint && chance(25))
       return chance(50) ? "pair.count" : "table[" + std::to_string(below(6) - 1) + "].count";
@@ -87,12 +90,28 @@ std::string Generator::writable(int type) {
 // A bit, byte, word or double word of a variable; empty where the type is none of them.
 std::string Generator::part(int type) {
   if (dialect_ == Dialect::Iec2 || (type != kBool && (type < kByte || type > kDword))) return "";
-  const int whole = (type == kBool ? kByte : type + 1) + below(type == kBool ? 4 : kLword - type);
-  const int bits = 8 << (whole - kByte);
+  int whole = (type == kBool ? kByte : type + 1) + below(type == kBool ? 4 : kLword - type);
+  int bits = 8 << (whole - kByte);
   const int wide = type == kBool ? 1 : 8 << (type - kByte);
-  const std::string place = std::to_string(below(bits / wide));
+  std::string name = "v_" + lowered(kTypes[whole].name);
+  if (codesys() && chance(40)) {
+    const std::string place = led(whole);
+    if (!place.empty()) name = place;
+  } else if (whole != kLword && chance(15)) {
+    name = prefix_ + "_at_" + lowered(kTypes[whole].name);
+  } else if (codesys() && chance(20)) {
+    name = "v_" + lowered(kTypes[whole - kByte + kSint].name);
+  }
+  name += ".";
   const char* letter[] = {"B", "W", "D"};
-  const std::string name = "v_" + lowered(kTypes[whole].name) + ".";
+  // A part of a part: the last decides.
+  if (codesys() && whole - 1 > (type == kBool ? kByte - 1 : type) && chance(25)) {
+    --whole;
+    bits /= 2;
+    name += std::string("%") + letter[whole - kByte] + std::to_string(below(2)) + ".";
+  }
+  const std::string place = std::to_string(below(bits / wide));
+  if (type == kBool && codesys() && chance(20)) return name + prefix_ + "_k5";
   if (type == kBool) return name + (codesys() && chance(50) ? "" : "%X") + place;
   return name + "%" + letter[type - kByte] + place;
 }
@@ -108,6 +127,12 @@ Node Generator::expr(int type, int depth) {
   if (depth <= 0 || chance(15)) return leaf(type);
   if (chance(14)) return conversion(type, depth - 1);
   if (chance(10)) return call(type, depth - 1);
+  if (Node method; chance(15) && methodOf(type, depth - 1, method)) return method;
+  if (type == kDint && body_ == Body::Program && codesys() && loops_ < 2 && chance(8)) {
+    std::vector<Node> parts;
+    const std::string object = receiver(0, false, parts);
+    return Expr{type, object + "Level", std::move(parts)};
+  }
   if (chance(6)) {
     return Expr{type, "SEL(\1, \1, \1)", {expr(kBool, depth - 1), expr(type, depth - 1), expr(type, depth - 1)}};
   }

@@ -1,5 +1,5 @@
 // What generates a program from a seed: types, random numbers, and the parts that make expressions, statements and
-// POUs. Private to this folder: expressions.cpp, statements.cpp, program.cpp.
+// POUs. Private to this folder: expressions.cpp, statements.cpp, objects.cpp, program.cpp.
 #pragma once
 
 #include <initializer_list>
@@ -105,6 +105,7 @@ class Generator {
   }
   int anyInteger() { return 1 + below(8); }
   bool codesys() const { return dialect_ == Dialect::Codesys; }
+  bool inObject() const { return body_ == Body::Class || body_ == Body::Method; }
   bool bitArithmetic() const { return codesys(); }
 
   Node expr(int type, int depth);
@@ -135,10 +136,33 @@ class Generator {
   Node blockCall();
   Node guardedCall();
 
+  Node methodCall(const std::string& receiver, int number, std::vector<Node> before, int depth);
+  bool methodOf(int type, int depth, Node& result);
+  std::string receiver(int number, bool is_block, std::vector<Node>& parts);
+  std::string instance(bool second);
+  std::string led(int type);
+  Node bindObject();
+  Node objectStatement();
+  Node pointerStatement();
+  Node pointerQuestion();
+
+  struct Place {
+    std::string name, type, binding;
+  };
+  const std::vector<Place>& places();
+
+  Node makeMethod(int number, const std::string& base);
+  Node makeClass(int number);
+  void makeObjects(std::vector<Node>& parts);
   Node makeFunction(int number);
   Node makeBlock(int number);
   Node makeAccess();
   Node declarations(std::initializer_list<const Node*> users);
+
+  struct Method {
+    int result = 0;
+    std::vector<int> inputs;
+  };
 
   struct Function {
     std::string name;
@@ -151,15 +175,20 @@ class Generator {
   std::string prefix_;
   Faults faults_;
   Dialect dialect_;
-  enum class Body : uint8_t { Function, Block, Program } body_ = Body::Program;
+  enum class Body : uint8_t { Function, Block, Class, Method, Program } body_ = Body::Program;
   std::string own_;  // name of the function whose body this is
   int own_result_ = 0;
   std::vector<int> own_inputs_;  // types of in0, in1, …
   std::vector<Function> functions_;
   std::vector<std::vector<int>> blocks_;  // input types
-  int loops_ = 0;                         // around the statement
-  int cases_ = 0;                         // around it, in which a label would be one of the CASE
-  int labels_ = 0;                        // of the body so far
+  std::vector<Method> methods_;           // M0, M1, M2 of every block with a base; empty: not made, or not yet
+  int method_ = -1;                       // in a method: its number, which those it calls are below
+  bool chained_ = false;                  // O2 extends O1, else O0 as O1 does
+  int start_ = 0;                         // type of the input of these blocks
+  std::vector<Place> places_;
+  int loops_ = 0;   // around the statement
+  int cases_ = 0;   // around it, in which a label would be one of the CASE
+  int labels_ = 0;  // of the body so far
 };
 
 }  // namespace rung::differential

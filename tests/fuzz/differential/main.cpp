@@ -1,12 +1,12 @@
 // Differential testing: generated programs must behave alike however they are run.
-//   differential [--first=SEED] [--count=N] [--ways=interp|native|all|turns|suite] [-j N] [--rung=PATH] [--folder=PATH]
-//   differential --print=SEED
+//   differential [--first=SEED] [--count=N] [--ways=interp|native|all|turns|one|suite] [-j N] [--rung=PATH]
+//   [--folder=PATH] differential --print=SEED
 // The judge is the interpreter at -O0: slow and plain. Each other way must give its exit code, its fault and its trace
 // of all variables, with checks and without. `turns` compiles each batch in three of the twelve native ways, another
-// three for the next; `suite` compiles one batch in two. What differs is made small and printed; the exit code is
-// then 1. Seeds go in batches of 25, one dialect each: one run of the C++ compiler serves a batch, and the last of
-// each, which may fault, run alone in the same module. Called by tests/runner with few seeds and by hand with many:
-// SIGINT and SIGTERM give the summary so far.
+// three for the next; `one` in one, and interprets nothing; `suite` compiles one batch in two. What differs is made
+// small and printed; the exit code is then 1. Seeds go in batches of 25, one dialect each: one run of the C++ compiler
+// serves a batch, and the last of each, which may fault, run alone in the same module. Called by tests/runner with few
+// seeds and by hand with many: SIGINT and SIGTERM give the summary so far.
 #include <signal.h>
 #include <unistd.h>
 
@@ -304,14 +304,15 @@ unsigned Worker::compareBatch(uint64_t first, uint64_t count) {
   unsigned found = 0;
   const char* on = isRangeBatch(first) ? "all" : "default";
   const std::string& ways = options_.ways;
-  if (ways != "native") {
+  if (ways != "native" && ways != "one") {
     for (const char* checks : {on, "none"}) {
       for (const Way& way : kInterpreted) found += compare(first, count, way, checks);
     }
   }
-  if (ways == "native" || ways == "all" || ways == "turns") {
+  if (ways == "native" || ways == "all" || ways == "turns" || ways == "one") {
     for (uint64_t i = 0; i < 2 * kNativeCount; ++i) {
       if (ways == "turns" && i % 4 != (first / kBatch + first / kBatch / 4) % 4) continue;
+      if (ways == "one" && i != (first / kBatch * 5 + first / kBatch / 12) % (2 * kNativeCount)) continue;
       found += compare(first, count, kNative[i % kNativeCount], i / kNativeCount == 0 ? on : "none");
     }
   }

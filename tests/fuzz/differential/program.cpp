@@ -28,8 +28,8 @@ bool uses(const std::string& text, const std::string& name) {
 Node Generator::declarations(std::initializer_list<const Node*> users) {
   std::string used;
   for (const Node* user : users) used += user->print();
-  std::string sections[4];
-  std::vector<Node> parts[4];
+  std::string sections[5];
+  std::vector<Node> parts[5];
   const auto add = [&](int section, Node line) {
     parts[section].push_back(std::move(line));
     sections[section] += kChild;
@@ -40,7 +40,8 @@ Node Generator::declarations(std::initializer_list<const Node*> users) {
       Node init = Expr{type, literal(type)};
       const int where = below(100);
       // A temporary starts anew in each call; what is static is shared by all calls and instances.
-      const int section = where < 12 ? 1 : where < 20 && codesys() && body_ != Body::Program ? 2 : 0;
+      const bool kept = where < 20 && codesys() && body_ != Body::Program;
+      const int section = where < 12 ? 1 : kept ? 2 : where < 30 && body_ == Body::Method ? 4 : 0;
       if (uses(used, name)) add(section, Stmt{name + " : " + kTypes[type].name + " := \1;\n", {std::move(init)}});
     }
     const std::string name = "c_" + lowered(kTypes[type].name);
@@ -55,10 +56,10 @@ Node Generator::declarations(std::initializer_list<const Node*> users) {
     if (uses(used, name)) add(0, Stmt{name + " : INT;\n"});
   }
   labels_ = 0;
-  const char* heads[] = {"VAR\n", "VAR_TEMP\n", "VAR_STAT\n", "VAR CONSTANT\n"};
+  const char* heads[] = {"VAR\n", "VAR_TEMP\n", "VAR_STAT\n", "VAR CONSTANT\n", "VAR_INST\n"};
   std::string text;
   std::vector<Node> all;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 5; ++i) {
     if (parts[i].empty()) continue;
     text += kChild;
     all.push_back(Stmt{heads[i] + sections[i] + "END_VAR\n", std::move(parts[i])});
@@ -161,10 +162,12 @@ Node Generator::program() {
   global("_at_bool AT %MX" + std::to_string(base) + ".3 : BOOL");
   global("_at_int AT %QW" + std::to_string(index_) + " : INT");
   parts.push_back(Fixed{globals + "END_VAR\n", std::move(global_lines)});
+  if (codesys()) parts.push_back(Stmt{"VAR_GLOBAL CONSTANT " + prefix_ + "_k5 : INT := 5; END_VAR\n"});
   for (int i = 0, n = 1 + below(2); i < n; ++i) parts.push_back(makeFunction(i));
   parts.push_back(makeAccess());
   const int blocks = 1 + below(2);
   for (int i = 0; i < blocks; ++i) parts.push_back(makeBlock(i));
+  makeObjects(parts);
   body_ = Body::Program;
   own_inputs_.clear();
 
@@ -181,14 +184,33 @@ Node Generator::program() {
                          : Stmt{"v_" + lowered(kTypes[type].name) + " := ULINT_TO_" + name + "(" + value + ");\n"});
   }
   Node noise = Stmt{std::string(inputs.size(), kChild), std::move(inputs)};
-  Node body = statements(3, 6 + below(7));
+  Node body = statements(3, (codesys() ? 14 : 6) + below(7));
   Node results = Fixed{"\1\1\1\1\1",
                        {Stmt{"g_dint := " + prefix_ + "_g_dint;\n"}, Stmt{"g_real := " + prefix_ + "_g_real;\n"},
                         Stmt{"g_string := " + prefix_ + "_g_string;\n"},
                         Stmt{"at_dword := " + prefix_ + "_at_dword;\n"}, Stmt{"at_int := " + prefix_ + "_at_int;\n"}}};
-  Node vars = declarations({&noise, &body});
+  std::string used = body.print() + results.print();
+  // What a binding uses may need one itself.
+  const std::vector<Place>& all = places();
+  std::vector<bool> is_bound(all.size());
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (size_t i = 0; i < all.size(); ++i) {
+      if (is_bound[i] || all[i].binding.empty() || !uses(used, all[i].name)) continue;
+      is_bound[i] = grows = true;
+      used += all[i].binding;
+    }
+  }
+  std::vector<Node> bindings;
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (is_bound[i]) bindings.push_back(Stmt{all[i].binding});
+  }
+  std::string binding(bindings.size(), kChild);
+  if (chance(60)) binding = "IF NOT bound THEN\nbound := TRUE;\n" + binding + "END_IF\n";
+  Node bind = Fixed{bindings.empty() ? "" : binding, std::move(bindings)};
+  used += bind.text;
+  Node vars = declarations({&noise, &body, &bind});
 
-  const std::string used = body.print() + results.print();
   std::string more = "VAR\n";
   std::vector<Node> lines;
   const auto line = [&](const std::string& name, const std::string& type) {
@@ -223,13 +245,15 @@ Node Generator::program() {
   line("g_string", "STRING");
   line("at_dword", "DWORD");
   line("at_int", "INT");
+  line("bound", "BOOL");
+  for (const Place& place : all) line(place.name, place.type);
   lines.push_back(Stmt{"noise : ULINT := " + std::to_string(1 + random() % 2147483645) + ";\n"});
   Node extra = Fixed{more + "\1END_VAR\n", std::move(lines)};
   const std::string guard = "IF differential_only <> " + std::to_string(index_) +
                             (faults_ == Faults::None ? " AND differential_only >= 0" : "") + " THEN RETURN; END_IF\n";
-  parts.push_back(
-      Fixed{"PROGRAM " + prefix_ + "\n\1\1\1\1\1\1END_PROGRAM\n\n",
-            {std::move(vars), std::move(extra), Stmt{guard}, std::move(noise), std::move(body), std::move(results)}});
+  parts.push_back(Fixed{"PROGRAM " + prefix_ + "\n\1\1\1\1\1\1\1END_PROGRAM\n\n",
+                        {std::move(vars), std::move(extra), Stmt{guard}, std::move(bind), std::move(noise),
+                         std::move(body), std::move(results)}});
   std::string text(parts.size(), kChild);
   return Fixed{std::move(text), std::move(parts)};
 }

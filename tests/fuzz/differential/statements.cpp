@@ -20,7 +20,9 @@ Node Generator::assignment() {
   }
   if (codesys() && chance(3)) {
     const std::string first = writable(type), second = writable(type);
-    return Stmt{first + " := " + second + " := \1;\n", {expr(type, 2)}};
+    if ((first + second).find('(') == std::string::npos) {  // a chain takes no call
+      return Stmt{first + " := " + second + " := \1;\n", {expr(type, 2)}};
+    }
   }
   if (codesys() && chance(4)) {
     const int number = 1 + below(14);
@@ -38,7 +40,7 @@ Node Generator::assignment() {
   if (body_ == Body::Program && chance(4)) {
     return Stmt{"colour := SEL(\1, other_colour, " + prefix_ + "_Colour#Blue);\n", {expr(kBool, 2)}};
   }
-  if (body_ == Body::Function && chance(25)) return Stmt{own_ + " := \1;\n", {expr(own_result_, 3)}};
+  if ((body_ == Body::Function || inObject()) && chance(25)) return Stmt{own_ + " := \1;\n", {expr(own_result_, 3)}};
   return Stmt{writable(type) + " := \1;\n", {expr(type, 3)}};
 }
 
@@ -194,6 +196,8 @@ Node Generator::statement(int depth) {
   if (depth > 0 && loops_ < 2 && chance(12)) return loop(depth - 1);
   if (depth > 0 && chance(15)) return choice(depth - 1);
   if (codesys() && loops_ == 0 && cases_ == 0 && depth > 0 && chance(8)) return jump(depth - 1);
+  if (body_ == Body::Program && codesys() && loops_ < 2 && chance(35)) return objectStatement();
+  if (body_ == Body::Program && codesys() && chance(30)) return pointerStatement();
   if (body_ == Body::Program && chance(18)) return blockCall();
   if (chance(7)) return guardedCall();
   return assignment();
