@@ -196,8 +196,10 @@ TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access acces
       if (const auto type = checkObjectMember(context, expr, pouOf(context, record), access)) return *type;
     }
   }
+  const bool is_unknown_type = qualifier.what() == EntityKind::Type &&
+                               context.types().resolve(TypeId{qualifier.index}) == types::kError;  // reported there
   if (!found) {
-    if (!record || sayUnknownMember(context, record, node.member))
+    if (!is_unknown_type && (!record || sayUnknownMember(context, record, node.member)))
       context
           .report(Diag::UnknownMember, node.h.loc,
                   {text(context, nameOf(context, node.base)), text(context, node.member)})

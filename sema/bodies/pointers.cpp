@@ -77,7 +77,8 @@ TypeId checkIsValid(Context& context, ExprId& expr, ExprId operand) {
   if (const Entity entity = entityOf(context, operand); entity.what() == EntityKind::Var) {
     // A VAR_IN_OUT of a block refers to nothing before it is bound; one of a function always refers to something.
     const Var& var = context.project.vars[entity.index];
-    if (var.section == SectionKind::InOut && context.tree().kind(operand) == ExprKind::Name) {
+    const ExprKind kind = context.tree().kind(operand);
+    if (var.section == SectionKind::InOut && (kind == ExprKind::Name || kind == ExprKind::Member)) {
       if (var.storage == Storage::Local) {
         expr = makeLiteral(context, LiteralKind::Bool, types::kBool, 1, loc);
         return types::kBool;
