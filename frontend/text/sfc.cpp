@@ -31,6 +31,7 @@ bool Parser::atSfc() const {
 
 void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members) {
   const Token* first = t_;
+  const uint32_t errors = diagnostics_.errorCount();
   d.body_begin = here();
   d.body_kind = BodyKind::Sfc;
   if (d.pou_kind != PouKind::FunctionBlock && d.pou_kind != PouKind::Program) {
@@ -65,7 +66,15 @@ void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members) {
     }
   }
   if (t_ != first) d.body_end = endOf(t_ - 1);
-  if (d.body_kind != BodyKind::Sfc) return;
+  if (diagnostics_.errorCount() != errors) {  // its rules are checked when all of it could be read
+    d.body_kind = BodyKind::None;
+    lost_ = true;
+    std::erase_if(members, [&](DeclId member) {  // made of transitions, whose variables are lost
+      return tree_.kind(member) == DeclKind::Pou &&
+             tree_.as<PouDecl>(member).begin == tree_.as<PouDecl>(member).body_begin;
+    });
+    return;
+  }
   d.steps = tree_.addList<SfcStep>(steps);
   d.transitions = tree_.addList<SfcTransition>(transitions);
 }
@@ -87,7 +96,11 @@ void Parser::parseStep(std::vector<SfcStep>& out) {
     if (at(Tok::LeftParen)) parseStepTimes(step);
     if (!panic_) expect(Tok::Colon);
     while (!panic_ && !at(Tok::EndStep) && !atBlockEnd() && !atSfc())
-      if (!accept(Tok::Semicolon) && !parseAssociation(actions)) syncStatement();
+      if (!accept(Tok::Semicolon) && !parseAssociation(actions)) {
+        const Token* before = t_;
+        syncStatement();
+        if (t_ == before && !at(Tok::EndStep)) advance();
+      }
   }
   if (panic_) syncChart(Tok::EndStep);
   if (!accept(Tok::EndStep)) {
@@ -221,6 +234,8 @@ bool Parser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId
         fail(Diag::WrongWord, t_, {textOf(t_), "TO"});
       if (!panic_) parseSteps(t.to);
     }
+  } else if (!panic_ && !at(Tok::Assign) && !at(Tok::Colon) && !at(Tok::Semicolon) && !at(Tok::EndTransition)) {
+    fail(Diag::WrongWord, t_, {textOf(t_), "FROM"});
   }
   if (!panic_) parseCondition(t, members);
   const bool good = !panic_;

@@ -28,6 +28,7 @@ uint32_t StepIndex::of(NameId name) const {
 namespace {
 
 constexpr uint32_t kWord = 64;  // bits of a set's word
+constexpr size_t kTextLength = 80;
 
 const char* wordOf(SfcQualifier q) {
   switch (q) {
@@ -444,6 +445,10 @@ void Scheduler::timeLimit(const SfcStep& step, uint32_t depth) {
         if (c == '\'' || c == '$') blocking += '$';
         blocking += c == '\n' || c == '\r' || c == '\t' ? ' ' : c;
       }
+    }
+    if (blocking.size() > kTextLength) {  // what a STRING holds
+      blocking.resize(kTextLength);
+      while (blocking.ends_with('$')) blocking.pop_back();
     }
     out_.line(depth + 1, *flag, " := '", blocking, "';");
   }

@@ -169,7 +169,8 @@ VarId findPin(Context& context, PouId pou, NameId name) {
 
 bool isBroken(const Context& context, PouId id) {
   const DeclId decl = id ? context.project.pou(id).decl : DeclId{};
-  return decl && (context.tree().decl(decl).bits & kBrokenDeclarations) != 0;
+  if (decl && (context.tree().decl(decl).bits & kBrokenDeclarations) != 0) return true;
+  return id && isBroken(context, context.project.pou(id).owner);
 }
 
 namespace {

@@ -3,6 +3,7 @@
 // need. Files of other tools become the text that Rung reads in them. Nothing is written when there are errors.
 #include <algorithm>
 #include <filesystem>
+#include <span>
 #include <unordered_set>
 
 #include "frontend/syntax/st_printer.h"
@@ -90,6 +91,8 @@ class Converter {
  private:
   void print(sema::PouId pou);
   void printChart(sema::PouId id, const PouDecl& decl);
+  std::vector<StComment> chartComments(const PouDecl& decl) const;
+  std::string withComments(FileId made, std::span<const StComment> comments) const;
   std::string temporaries(const Body& body) const;
   std::string convert(FileId file) const;
   std::string convert(Loc begin, Loc end) const;
@@ -126,9 +129,59 @@ void Converter::print(sema::PouId id) {
   bodies_.push_back(std::move(body));
 }
 
+// Those that stand in no action and in no condition: what is quoted brings its own.
+std::vector<StComment> Converter::chartComments(const PouDecl& decl) const {
+  const FileId file = sources_.fileOf(decl.body_begin);
+  const std::string_view text = sources_.original(file);
+  const uint32_t base = sources_.begin(file).offset;
+  std::vector<std::pair<Loc, Loc>> quoted;
+  for (const DeclId member : compilation_.tree.list(decl.members)) {
+    if (compilation_.tree.kind(member) != DeclKind::Pou) continue;
+    const PouDecl& action = compilation_.tree.as<PouDecl>(member);
+    quoted.push_back({action.begin, action.end});
+  }
+  for (const SfcTransition& t : compilation_.tree.list(decl.transitions))
+    quoted.push_back({t.condition.begin, t.condition.end});
+  std::vector<StComment> comments = commentsOf(text, decl.body_begin.offset - base, decl.body_end.offset - base, base);
+  std::erase_if(comments, [&](const StComment& comment) {
+    const Loc at{base + static_cast<uint32_t>(comment.text.data() - text.data())};
+    return std::any_of(quoted.begin(), quoted.end(), [&](const auto& q) { return q.first <= at && at < q.second; });
+  });
+  return comments;
+}
+
+// Each comment in front of the first line that was made of what stands at or behind it; of a step that is where its
+// active cycles begin.
+std::string Converter::withComments(FileId made, std::span<const StComment> comments) const {
+  const std::string_view text = sources_.original(made);
+  std::vector<std::pair<Loc, size_t>> lines;  // where each line comes from
+  const size_t first = std::min(text.find("sfc_set := sfc_steps"), text.size());
+  for (size_t p = first; p < text.size(); p = std::min(text.find('\n', p), text.size() - 1) + 1)
+    lines.push_back({sources_.written({sources_.begin(made).offset + static_cast<uint32_t>(p)}), p});
+  std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::pair<size_t, std::string_view>> places;
+  for (const StComment& comment : comments) {
+    const auto line =
+        std::lower_bound(lines.begin(), lines.end(), comment.at, [](const auto& a, Loc at) { return a.first < at; });
+    places.push_back({line == lines.end() ? text.size() : line->second, comment.text});
+  }
+  std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::string out;
+  size_t done = 0;
+  for (const auto& [place, comment] : places) {
+    out += text.substr(done, place - done);
+    done = place;
+    out.append(std::min(text.find_first_not_of(' ', place), text.size()) - place, ' ');
+    out += comment;
+    out += '\n';
+  }
+  return out + std::string(text.substr(done));
+}
+
 // The text that the chart became; its actions stand between the variables and the statements.
 void Converter::printChart(sema::PouId id, const PouDecl& decl) {
-  Body body{id, decl.body_begin, decl.body_end, decl.body_begin, true, std::string(sources_.original(decl.chart_body))};
+  Body body{
+      id, decl.body_begin, decl.body_end, decl.body_begin, true, withComments(decl.chart_body, chartComments(decl))};
   body.sections = sources_.original(decl.chart_sections);
   for (const DeclId member : compilation_.tree.list(decl.members)) {
     if (compilation_.tree.kind(member) != DeclKind::Pou) continue;

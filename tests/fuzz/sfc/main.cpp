@@ -2,7 +2,7 @@
 // each cycle.
 //   sfc_differential [--first=SEED] [--count=N] [--cycles=N] [--engine=interp|native] [--rung=PATH] [--folder=PATH]
 //   sfc_differential --print=SEED
-// Charts go in batches of 10, one program each. With --converted the ST that `rung convert` makes of them runs too.
+// Charts go in batches of 10, one program each, which runs as it is and as the ST that `rung convert` makes of it.
 // Called by tests/runner with few seeds and by hand with many.
 #include <unistd.h>
 
@@ -25,7 +25,6 @@ constexpr uint64_t kBatch = 10;
 struct Options {
   uint64_t first = 0, count = 200, cycles = 300;
   std::string rung, folder, engine = "interp";
-  bool converted = false;
 };
 
 uint32_t next(uint32_t random) { return random * 1664525u + 1013904223u; }
@@ -95,28 +94,33 @@ std::string runBatch(const Options& options, uint64_t first, uint64_t count) {
           " END_VAR\nrandom := random * 1664525 + 1013904223;\n" + calls + "END_PROGRAM\n";
   const fs::path folder = fs::path(options.folder) / std::to_string(first);
   fs::create_directories(folder);
-  fs::path source = folder / "charts.st";
+  const fs::path source = folder / "charts.st";
   std::ofstream(source) << text;
+  const auto runOnce = [&](const fs::path& program) -> std::string {
+    tests::Command c;
+    c.folder = folder;
+    c.seconds = 300;
+    c.arguments = {options.rung,
+                   "run",
+                   "--engine=" + options.engine,
+                   "--cycles=" + std::to_string(options.cycles),
+                   "--trace=-",
+                   "--watch=" + watch,
+                   program.string()};
+    const tests::Output output = tests::run(c);
+    if (output.exit_code != 0) return "seed " + std::to_string(first) + ": " + output.err.substr(0, 2000);
+    return compare(output.out, first, charts, options.cycles);
+  };
+  if (const std::string difference = runOnce(source); !difference.empty()) return difference;
   tests::Command c;
   c.folder = folder;
   c.seconds = 300;
-  if (options.converted) {
-    fs::remove_all(folder / "st");
-    c.arguments = {options.rung, "convert", "--to", "st", "-o", (folder / "st").string(), source.string()};
-    const tests::Output output = tests::run(c);
-    if (output.exit_code != 0) return "seed " + std::to_string(first) + ": convert: " + output.err.substr(0, 2000);
-    source = folder / "st" / "charts.st";
-  }
-  c.arguments = {options.rung,
-                 "run",
-                 "--engine=" + options.engine,
-                 "--cycles=" + std::to_string(options.cycles),
-                 "--trace=-",
-                 "--watch=" + watch,
-                 source.string()};
+  fs::remove_all(folder / "st");
+  c.arguments = {options.rung, "convert", "--to", "st", "-o", (folder / "st").string(), source.string()};
   const tests::Output output = tests::run(c);
-  if (output.exit_code != 0) return "seed " + std::to_string(first) + ": " + output.err.substr(0, 2000);
-  return compare(output.out, first, charts, options.cycles);
+  if (output.exit_code != 0) return "seed " + std::to_string(first) + ": convert: " + output.err.substr(0, 2000);
+  const std::string difference = runOnce(folder / "st" / "charts.st");
+  return difference.empty() ? difference : "converted, " + difference;
 }
 
 int run(const Options& options) {
@@ -159,8 +163,6 @@ int main(int argc, char** argv) {
     } else if (name == "--folder") {
       options.folder = value;
       keep = true;
-    } else if (name == "--converted") {
-      options.converted = true;
     } else if (name == "--print") {
       fputs(textOf(generate(strtoull(value.c_str(), nullptr, 10)), "Chart").c_str(), stdout);
       return 0;
