@@ -5,6 +5,7 @@
 
 #include "codegen/body.h"
 #include "codegen/classes.h"
+#include "codegen/cpp_bodies.h"
 #include "codegen/facts.h"
 #include "codegen/group.h"
 #include "codegen/module.h"
@@ -138,6 +139,15 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
       inlined.push_back(id);
     }
   }
+  std::vector<CppFile> cpp_files;
+  for (const ir::CppBody& cpp : module.cpp_bodies) {
+    const CppFile& made = cpp_files.emplace_back(writeCppBody(module, facts, cpp));
+    for (ir::BodyId id : made.group.inlined) {
+      if (is_listed[id.index] != 0) continue;
+      is_listed[id.index] = 1;
+      inlined.push_back(id);
+    }
+  }
   std::vector<Group> headers;
   for (size_t i = 0; i < inlined.size(); ++i) {
     Group& header = headers.emplace_back();
@@ -153,10 +163,18 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   RecordPlaces records(module, facts, name_space);
   for (const Group& group : groups) records.need(group.records, false);
   for (const Group& header : headers) records.need(header.records, true);
+  for (const CppFile& file : cpp_files) records.need(file.group.records, false);
   std::vector<OutputFile> files;
   files.reserve(groups.size() + headers.size() + 3);
   for (const Group& group : groups)
     files.push_back({group.stem + ".cpp", sourceOf(module, group, records, name_space)});
+  for (const CppFile& file : cpp_files) {
+    std::string front = "// The body of " + std::string(module.names.text(module.body(file.group.bodies[0]).spelling)) +
+                        ", which is in C++.\n#define RUNG_GENERATED\n#include \"rung/cpp.h\"\n" + file.front;
+    front += "#line 1 \"" + file.group.stem + ".cpp\"\n";
+    files.push_back(
+        {file.group.stem + ".cpp", around(module, file.group, records, name_space, std::move(front)), true});
+  }
   for (size_t i = 0; i < headers.size(); ++i) {
     files.push_back({inlineFile(module, inlined[i]),
                      around(module, headers[i], records, name_space, "#pragma once\n\n#include \"rung/code.h\"\n")});

@@ -25,7 +25,7 @@ std::vector<Group> makeGroups(const ir::Module& module, const Facts& facts) {
   rows.reserve(module.bodies.size());
   for (uint32_t i = 1; i < module.bodies.size(); ++i) {
     const ir::Body& body = module.bodies[i];
-    if (body.native || body.abstract || facts.is_inlined[i] != 0 || facts.is_zeroing[i] != 0) continue;
+    if (body.native || body.cpp != 0 || body.abstract || facts.is_inlined[i] != 0 || facts.is_zeroing[i] != 0) continue;
     Row row{std::string(module.names.text(body.name)), static_cast<uint32_t>(body.kind), ir::BodyId{i}};
     for (char& c : row.key) {
       if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
@@ -61,7 +61,8 @@ namespace {
 constexpr size_t kHotStmts = 16, kHotExprs = 100;
 
 bool isSmallLeaf(const ir::Body& body) {
-  if (body.native || body.has_labels || body.stmts.size() > kHotStmts || body.exprs.size() > kHotExprs) return false;
+  if (body.native || body.cpp != 0 || body.has_labels || body.stmts.size() > kHotStmts || body.exprs.size() > kHotExprs)
+    return false;
   return std::none_of(body.stmts.begin(), body.stmts.end(), [](const ir::Stmt& stmt) {
     return stmt.kind == ir::StmtKind::Call || stmt.kind == ir::StmtKind::Loop || stmt.kind == ir::StmtKind::For ||
            stmt.kind == ir::StmtKind::Try;

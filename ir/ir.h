@@ -178,6 +178,7 @@ struct Body {
   bool library = false;
   bool has_labels = false;  // analyses are conservative
   bool test = false;
+  uint32_t cpp = 0;      // no code: a body in C++, its number in Module::cpp_bodies + 1; 0: none
   bool counted = false;  // written for the product, not for its tests: coverage counts it
   NameId library_name;   // native: which library's C function
   TypeId self;           // Block, Init; Function: of a method, the object's record
@@ -285,6 +286,26 @@ struct Dispatch {
   std::vector<BodyId> bodies;
 };
 
+// A body in C++: its text, and what that may name beside the POU's own variables (Body::locals, fields of the record).
+struct CppBody {
+  struct Global {  // VAR_EXTERNAL
+    NameId name;
+    uint32_t list, field;
+    bool constant;
+  };
+  struct Constant {  // VAR CONSTANT; in `initial` what a variable of the function begins with
+    NameId name;
+    TypeId type;
+    uint64_t bits;  // of a text its NameId
+  };
+  BodyId body;
+  std::string_view text;  // between {C++} and {END_C++}; the sources hold it
+  Loc loc;                // where it begins
+  std::vector<Global> globals;
+  std::vector<Constant> constants, initial;
+  std::vector<BodyId> functions;  // those it may call
+};
+
 struct Module {
   Module(types::TypeTable& types, Names& names, const Sources& sources)
       : types(types), names(names), sources(sources) {}
@@ -304,7 +325,8 @@ struct Module {
   std::vector<Class> classes;
   BodyId exit;                       // a function without parameters that ends all objects (FB_Exit), or none
   std::vector<Dispatch> dispatches;  // sorted by method
-  std::vector<BodyId> tests;         // Block or Function bodies marked {test}; a Block's instance is in `programs`
+  std::vector<CppBody> cpp_bodies;
+  std::vector<BodyId> tests;  // Block or Function bodies marked {test}; a Block's instance is in `programs`
   uint32_t image_bytes[3] = {0, 0, 0};
 
   Body& body(BodyId id) { return bodies[id.index]; }

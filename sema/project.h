@@ -108,15 +108,17 @@ struct Pou {
   std::vector<VarId> pins;  // the inputs, in-outs and outputs among them; filled by bodies/ at the first call
   bool pins_ready = false;
   bool library = false, native = false, pure = false, test = false;
-  bool test_only = false;   // {test_only}, {replaces …}: only tests use it
-  bool left_out = false;    // a test, or only for tests, and not part of this program: checked, not lowered
-  bool extensible = false;  // has an {extensible} pin
-  bool sized = false;       // {sized}: has a second native form that takes and gives lengths of texts
-  bool slice = false;       // {slice}: and a third that only tells which part of the first input the result is
-  bool prefix = false;      // {prefix}: the first n characters of the result follow from the first n of the first input
-  bool checked = false;     // its body was checked (library bodies: when used)
-  bool checking = false;    // it is at hand
-  bool broken = false;      // it has errors
+  bool test_only = false;        // {test_only}, {replaces …}: only tests use it
+  bool left_out = false;         // a test, or only for tests, and not part of this program: checked, not lowered
+  bool cpp = false;              // its body is in C++
+  std::vector<PouId> cpp_calls;  // functions that such a body names
+  bool extensible = false;       // has an {extensible} pin
+  bool sized = false;            // {sized}: has a second native form that takes and gives lengths of texts
+  bool slice = false;            // {slice}: and a third that only tells which part of the first input the result is
+  bool prefix = false;    // {prefix}: the first n characters of the result follow from the first n of the first input
+  bool checked = false;   // its body was checked (library bodies: when used)
+  bool checking = false;  // it is at hand
+  bool broken = false;    // it has errors
   bool used = false;
   bool may_fault = false;
   types::Op op = types::Op::Add;

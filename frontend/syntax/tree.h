@@ -420,7 +420,7 @@ struct TypeDecl {
 enum class PouKind : uint8_t { Function, FunctionBlock, Program, Class, Interface, Method, Action };
 enum class AccessLevel : uint8_t { None, Public, Private, Protected, Internal };  // None: as the dialect has it
 enum Modifier : uint8_t { kAbstract = 1, kFinal = 2, kOverride = 4 };
-enum class BodyKind : uint8_t { None, St, Il, Sfc, Native };
+enum class BodyKind : uint8_t { None, St, Il, Sfc, Cpp, Native };
 struct PouDecl {
   DeclHeader h;
   NameId name;
@@ -441,7 +441,7 @@ struct PouDecl {
   Slice<DeclId> members;  // METHOD, ACTION: Pou; Property
   Slice<DeclId> usings;
   Loc begin, end;  // the first pragma before it, else the header keyword; one past END_…: the text of the whole POU
-  Loc body_begin, body_end;  // the text of its statements or instructions
+  Loc body_begin, body_end;  // the text of its statements or instructions; Cpp: with {C++} and {END_C++}
 };
 
 // PROPERTY name : type. Its accessors are methods of its name: the getter has its type as result, the setter has an

@@ -561,6 +561,10 @@ void Printer::decl(DeclId id, int depth) {
         line(depth + 1);
         text += "native";
       }
+      if (d.body_kind == BodyKind::Cpp) {
+        line(depth + 1);
+        text += "cpp";
+      }
       if (d.body_kind == BodyKind::Il) {
         line(depth + 1);
         text += "instructions";

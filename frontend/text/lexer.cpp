@@ -212,6 +212,8 @@ class Lexer {
   const char* blockComment(const char* p, bool slash);
   const char* lineComment(const char* p);
   const char* pragma(const char* p);
+  bool atCppBody(const char* p) const { return end_ - p > 5 && sameIdentifier({p, 5}, "{C++}"); }
+  const char* cppBody(const char* p);
   const char* stray(const char* p);
   const char* prefixed(const char* begin, const char* p, Prefix prefix);
   void message(const char* begin, const char* end);
@@ -278,7 +280,7 @@ void Lexer::run(uint32_t begin, uint32_t end) {
         p = blockComment(p, *p == '/');
         continue;
       }
-      if (*p == '{') {
+      if (*p == '{' && !atCppBody(p)) {
         p = pragma(p);
         continue;
       }
@@ -287,7 +289,7 @@ void Lexer::run(uint32_t begin, uint32_t end) {
     switch (cls) {
       case kLetter: p = word(p); break;
       case kDigit: p = number(p); break;
-      case kPunct: p = punct(p); break;
+      case kPunct: p = *p == '{' ? cppBody(p) : punct(p); break;
       case kQuote: p = quoted(p); break;
       case kStray:
       case kNul: p = stray(p); break;
@@ -515,35 +517,37 @@ const char* Lexer::blockComment(const char* begin, bool slash) {
   return end_;
 }
 
-// { … }: strings inside may hold braces. {C++} runs to {END_C++}.
+// {C++} … {END_C++}
+const char* Lexer::cppBody(const char* begin) {
+  const char* p = begin + 5;
+  while (p < end_ && !(*p == '{' && end_ - p >= 9 && sameIdentifier({p, 9}, "{END_C++}"))) ++p;
+  if (p == end_) {
+    diagnostics_.report(Diag::UnterminatedPragma, loc(begin), {"{END_C++}"}).length(5);
+    return end_;
+  }
+  p += 9;
+  push(Tok::CppBody, begin, static_cast<uint32_t>(p - begin));
+  return p;
+}
+
+// { … }: strings inside may hold braces.
 const char* Lexer::pragma(const char* begin) {
   const char* p = begin + 1;
-  if (end_ - begin > 5 && sameIdentifier({begin + 1, 3}, "C++") && begin[4] == '}') {
-    for (; p < end_; ++p)
-      if (*p == '{' && end_ - p >= 9 && sameIdentifier({p, 9}, "{END_C++}")) break;
-    if (p >= end_) {
-      diagnostics_.report(Diag::UnterminatedPragma, loc(begin), {"{END_C++}"}).length(5);
-      return end_;
+  while (p < end_ && *p != '}') {
+    if (*p == '\'' || *p == '"') {
+      const char* q = p + 1;
+      while (q < end_ && *q != *p && *q != '\n') ++q;
+      if (q < end_ && *q == *p) p = q;
     }
-    diagnostics_.report(Diag::NotSupportedYet, loc(begin), {"a body in C++"}).length(5);
-    p += 8;
-  } else {
-    while (p < end_ && *p != '}') {
-      if (*p == '\'' || *p == '"') {
-        const char* q = p + 1;
-        while (q < end_ && *q != *p && *q != '\n') ++q;
-        if (q < end_ && *q == *p) p = q;
-      }
-      ++p;
-    }
-    if (p >= end_) {
-      diagnostics_.report(Diag::UnterminatedPragma, loc(begin), {"}"}).length(1);
-      p = begin;
-      while (p < end_ && *p != '\n') ++p;
-      return p;
-    }
-    message(begin + 1, p);
+    ++p;
   }
+  if (p >= end_) {
+    diagnostics_.report(Diag::UnterminatedPragma, loc(begin), {"}"}).length(1);
+    p = begin;
+    while (p < end_ && *p != '\n') ++p;
+    return p;
+  }
+  message(begin + 1, p);
   out_.pragmas.push_back({0, at(begin), at(p) + 1});
   ++pending_pragmas_;
   return p + 1;

@@ -351,16 +351,20 @@ void Parser::parsePouParts(PouDecl& d) {
     parseBody(d);
   if (!is_member && atMember()) {
     while (atMember()) parseMember(members);
-    if (d.body.empty() && d.il.empty() && d.body_kind != BodyKind::Sfc) parseBody(d);
+    const bool has_body =
+        !d.body.empty() || !d.il.empty() || d.body_kind == BodyKind::Sfc || d.body_kind == BodyKind::Cpp;
+    if (!has_body) parseBody(d);
   }
   d.members = tree_.addList<DeclId>(members);
 }
 
-// Statements, or instructions: a body has one language.
+// Statements, instructions or {C++}: a body has one language.
 void Parser::parseBody(PouDecl& d) {
   const Token* first = t_;
   d.body_begin = d.body_end = here();
-  if (atIl()) {
+  if (accept(Tok::CppBody)) {
+    d.body_kind = BodyKind::Cpp;
+  } else if (atIl()) {
     d.body_kind = BodyKind::Il;
     d.il = parseIl(false);
   } else {

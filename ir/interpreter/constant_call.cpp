@@ -13,7 +13,7 @@ constexpr int64_t kBudget = 1'000'000;  // turns of loops and calls
 // Nothing but its own variables; their types are known by now.
 bool isClosed(Module& module, const Body& body) {
   if (body.native) return body.pure;
-  if (body.kind != BodyKind::Function) return false;
+  if (body.kind != BodyKind::Function || body.cpp != 0) return false;
   for (const Expr& e : body.exprs) {
     if (e.kind == ExprKind::Global || e.kind == ExprKind::Program || e.kind == ExprKind::Image ||
         e.kind == ExprKind::Self || e.kind == ExprKind::Deref || e.kind == ExprKind::Address) {

@@ -139,6 +139,10 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
   link(module, code);
   for (const Code::Entry& body : code.bodies) stack_size = std::max(stack_size, kStack + 2 * size_t{body.frame});
   if (!code.missing.empty()) refusal = "the native function `" + code.missing + "` is not part of rung";
+  if (!module.cpp_bodies.empty()) {
+    const Body& body = module.body(module.cpp_bodies.front().body);
+    refusal = "`" + std::string(module.names.text(body.spelling)) + "` has a body in C++";
+  }
 }
 
 void Program::Parts::describe() {

@@ -29,7 +29,8 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  // Why it cannot be interpreted: `the native function NAME is not part of rung`; empty: it can.
+  // Why it cannot be interpreted: `the native function NAME is not part of rung`, `NAME has a body in
+  // C++`; empty: it can.
   const std::string& refusal() const;
   const rung_module& description() const;
   const std::deque<Counter>& counters() const;

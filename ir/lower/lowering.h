@@ -25,6 +25,7 @@ struct ModuleLowering {
   void run();
   // Bodies that were asked for, and those that they ask for. Stops at one whose POU is not checked, and gives that.
   sema::PouId lowerBodies();
+  void lowerCpp(sema::PouId id);
   // Lists and instances as they are known while the project is being checked, without their memory and code.
   void addNames();
   // The body of a POU's code; declares its parameters when first asked for.

@@ -83,6 +83,10 @@ sema::PouId ModuleLowering::lowerBodies() {
     const sema::Pou& pou = project.pou(id);
     if (pou.native || (pou.owner && (pou.modifiers & kAbstract) != 0)) continue;
     if (!pou.checked) return id;
+    if (pou.cpp) {
+      lowerCpp(id);
+      continue;
+    }
     std::string_view name = project.names.text(pou.name);
     setPhaseSubject(name.data(), name.size());
     Body& body = module.body(body_of_[id.index]);
@@ -172,6 +176,7 @@ void ModuleLowering::markFaulting() {
   std::vector<uint32_t> faulting;
   for (uint32_t i = 1; i < module.bodies.size(); ++i) {
     Body& body = module.bodies[i];
+    body.may_fault = body.may_fault || body.cpp != 0;  // what it calls may
     for (const Expr& expr : body.exprs) body.may_fault = body.may_fault || expr.checks != 0;
     for (const Stmt& stmt : body.stmts) {
       if (stmt.kind == StmtKind::Fault) body.may_fault = true;

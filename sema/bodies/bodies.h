@@ -64,6 +64,11 @@ struct BodyState {
 // ---- expressions.cpp
 TypeId check(Context& context, ExprId& expr, TypeId expected, Access access);
 
+// ---- cpp_bodies.cpp
+// A body in C++, whose text is g++'s: its variables can be reached from there, and the functions that it names are
+// used.
+void checkCppBody(Context& context, const PouDecl& decl);
+
 // ---- names.cpp
 TypeId checkName(Context& context, ExprId& expr, TypeId expected, Access access);
 TypeId checkTypedName(Context& context, ExprId& expr);

@@ -435,6 +435,7 @@ void checkBody(Context& context, PouId id) {
                 .body = &body,
                 .library = pou.library,
                 .region = context.region};
+  if (decl.body_kind == BodyKind::Cpp) return checkCppBody(inner, decl);
   schedule(inner, decl);
   body.statements = decl.body;
   checkStatements(inner, decl.body);

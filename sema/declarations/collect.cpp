@@ -108,6 +108,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.decl = id;
   pou.file = file;
   pou.native = decl.body_kind == BodyKind::Native || findPragma(context, decl.h, words.native) != nullptr;
+  pou.cpp = decl.body_kind == BodyKind::Cpp;
   pou.pure = findPragma(context, decl.h, words.pure) != nullptr;
   pou.prefix = findPragma(context, decl.h, words.prefix) != nullptr;
   pou.sized = findPragma(context, decl.h, words.sized) != nullptr;

@@ -32,6 +32,8 @@ int runBuild(const Options& options) {
     exit = result.exit;
     if (exit == kInternal)
       printInternalError(result.message.c_str());
+    else if (exit == kInputErrors)
+      fprintf(stderr, "%s\n", result.message.c_str());
     else if (exit != kGood)
       usageError(result.message);
   }

@@ -14,6 +14,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "frontend/source/diagnostics.h"
 #include "frontend/source/files.h"
 #include "tools/rung/compile.h"
 #include "tools/rung/installation.h"
@@ -96,6 +97,7 @@ void addHeaders(Hash& hash, const std::string& folder) {
 struct Unit {
   std::string source;  // path below the work folder
   std::string key, object;
+  const OutputFile* user_file = nullptr;  // holds a body in C++ that the user wrote
 };
 
 class Builder {
@@ -280,11 +282,11 @@ class Builder {
       for (const OutputFile& file : part.files) {
         if (!file.path.ends_with(".cpp")) continue;
         const std::string& hash = closure(part, files, file);
-        if (request_.batches == 0) {
+        if (request_.batches == 0 || file.has_user_text) {
           Hash key;
           key.add(tool_key_);
           key.add(hash);
-          units_.push_back({prefix + file.path, key.hex(), {}});
+          units_.push_back({prefix + file.path, key.hex(), {}, file.has_user_text ? &file : nullptr});
           continue;
         }
         Hash name;
@@ -344,7 +346,7 @@ class Builder {
       process.log = work_ + "/" + std::to_string(i) + ".log";
       processes.push_back(std::move(process));
     }
-    if (!run(processes, "compiling")) return false;
+    if (!run(processes, "compiling", &missing)) return false;
     for (size_t i = 0; i < missing.size(); i++)
       if (!cache_.put(objectPart(i), missing[i]->object))
         return fail(kUsage, "cannot write in the cache folder `" + cache_.folder() + "`: " + strerror(errno));
@@ -388,7 +390,38 @@ class Builder {
     return header;
   }
 
-  bool run(std::vector<Process>& processes, const char* label) {
+  // What g++ says of a body that the user wrote, at its own lines; of what it says elsewhere the first lines.
+  static std::string refusalOf(const OutputFile& file, const std::string& log, const std::string& first) {
+    std::string message;
+    for (size_t at = 0; at < log.size();) {
+      const size_t end = std::min(log.find('\n', at), log.size());
+      const std::string_view line = std::string_view(log).substr(at, end - at);
+      at = end + 1;
+      for (const std::string_view word : {": error: ", ": fatal error: "}) {
+        const size_t said = line.find(word);
+        if (said == std::string_view::npos) continue;
+        const std::string_view place = line.substr(0, said);
+        const std::string path(place.substr(0, place.find(':')));
+        if (file.content.find(" \"" + path + "\"\n") == std::string::npos) continue;
+        message.append(place)
+            .append(": error[")
+            .append(diagInfo(Diag::CppRefused).code)
+            .append("]: the C++ compiler says: ");
+        message.append(line.substr(said + word.size())).append("\n");
+      }
+    }
+    if (message.empty()) {
+      message.append("error[")
+          .append(diagInfo(Diag::CppRefused).code)
+          .append("]: the C++ compiler refuses a body in C++:\n");
+      message += first;
+    }
+    message.pop_back();
+    return message;
+  }
+
+  // `units`: what the processes compile, one each.
+  bool run(std::vector<Process>& processes, const char* label, const std::vector<Unit*>* units = nullptr) {
     uint32_t jobs = request_.jobs != 0 ? request_.jobs : processorCount();
     const Process* failed = runAll(processes, jobs, label);
     if (failed == nullptr) return true;
@@ -409,6 +442,9 @@ class Builder {
                                "cannot execute", "Cannot allocate memory", "Killed signal", "Disk quota"})
       if (log.text.find(phrase) != std::string::npos || failed->exit_code > 128)
         return fail(kUsage, "`" + failed->arguments[0] + "` failed while " + label + ":\n" + first);
+    if (const Unit* unit = units == nullptr ? nullptr : (*units)[static_cast<size_t>(failed - processes.data())];
+        unit != nullptr && unit->user_file != nullptr)
+      return fail(kInputErrors, refusalOf(*unit->user_file, log.text, first));
     return fail(kInternal, "`" + failed->arguments[0] + "` refused generated code while " + label +
                                "; the files are in " + work_ + "\n" + first);
   }

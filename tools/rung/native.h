@@ -27,7 +27,7 @@ struct NativeRequest {
 };
 
 struct NativeResult {
-  int exit = kGood;     // kGood, kUsage or kInternal
+  int exit = kGood;     // kGood, kUsage, kInternal, or kInputErrors: g++ refused a body that the user wrote in C++
   std::string message;  // what went wrong
   std::string path;     // the shared object
 };

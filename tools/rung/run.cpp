@@ -52,6 +52,7 @@ int runRun(const Options& options) {
     NativeResult result = makeShared(cache, request);
     if (result.exit == kInternal) printInternalError(result.message.c_str());
     if (result.exit == kUsage) usageError(result.message);
+    if (result.exit == kInputErrors) fprintf(stderr, "%s\n", result.message.c_str());
     if (result.exit != kGood) return result.exit;
     error = library.open(result.path);
     module = error.empty() ? library.find(compilation.options.moduleName(), error) : nullptr;

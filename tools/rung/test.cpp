@@ -152,6 +152,7 @@ class Tester {
       NativeResult result = makeShared(cache, request_);
       if (result.exit == kInternal) printInternalError(result.message.c_str());
       if (result.exit == kUsage) usageError(result.message);
+      if (result.exit == kInputErrors) fprintf(stderr, "%s\n", result.message.c_str());
       if (result.exit != kGood) return result.exit;
       std::string error = library.open(result.path);
       if (!error.empty()) {

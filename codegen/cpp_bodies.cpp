@@ -1,0 +1,600 @@
+// Bodies in C++: see cpp_bodies.h. The facade has
+//   a scalar, text, array or structure    a reference to its memory, as the type of rung/cpp.h or a view made here
+//   an enumeration                        struct COLOR with its items in upper case: COLOR::RED
+//   a block                               an object with references to its pins, values for its in-outs, and Body()
+//   a function that the text names        an object of its name in upper case, called with or without EN and ENO
+//   the result of a function              a variable of the function's name in upper case
+// Inputs are const inside, outputs are const outside (syntax manual 5.8.6).
+#include "codegen/cpp_bodies.h"
+
+#include <algorithm>
+
+#include "codegen/body.h"
+#include "codegen/names.h"
+#include "codegen/types.h"
+#include "ir/builder.h"
+
+namespace rung::codegen {
+
+using ir::Local;
+using ir::LocalKind;
+using types::Field;
+using types::FieldRole;
+using types::RecordKind;
+using types::TypeInfo;
+using types::TypeKind;
+using types::TypeTable;
+
+namespace {
+
+constexpr uint64_t kMostBlocks = 256;  // of an array: each has an object
+
+std::string upper(std::string_view name) {
+  std::string out(name.substr(name.rfind('.') + 1));
+  for (char& c : out) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return out;
+}
+
+// A name as the user wrote it; words of C++ and common macros get a `_` behind them.
+std::string spelled(std::string_view name) {
+  static constexpr std::string_view kTaken[] = {"alignas",
+                                                "alignof",
+                                                "and",
+                                                "and_eq",
+                                                "asm",
+                                                "assert",
+                                                "auto",
+                                                "bitand",
+                                                "bitor",
+                                                "bool",
+                                                "break",
+                                                "case",
+                                                "catch",
+                                                "char",
+                                                "char16_t",
+                                                "char32_t",
+                                                "class",
+                                                "compl",
+                                                "const",
+                                                "const_cast",
+                                                "constexpr",
+                                                "continue",
+                                                "decltype",
+                                                "default",
+                                                "delete",
+                                                "do",
+                                                "double",
+                                                "dynamic_cast",
+                                                "else",
+                                                "enum",
+                                                "EOF",
+                                                "errno",
+                                                "explicit",
+                                                "export",
+                                                "extern",
+                                                "false",
+                                                "float",
+                                                "for",
+                                                "friend",
+                                                "goto",
+                                                "if",
+                                                "inline",
+                                                "int",
+                                                "linux",
+                                                "long",
+                                                "mutable",
+                                                "namespace",
+                                                "new",
+                                                "noexcept",
+                                                "not",
+                                                "not_eq",
+                                                "NULL",
+                                                "nullptr",
+                                                "operator",
+                                                "or",
+                                                "or_eq",
+                                                "private",
+                                                "protected",
+                                                "public",
+                                                "register",
+                                                "reinterpret_cast",
+                                                "return",
+                                                "short",
+                                                "signed",
+                                                "sizeof",
+                                                "static",
+                                                "static_assert",
+                                                "static_cast",
+                                                "stderr",
+                                                "stdin",
+                                                "stdout",
+                                                "struct",
+                                                "switch",
+                                                "template",
+                                                "this",
+                                                "thread_local",
+                                                "throw",
+                                                "true",
+                                                "try",
+                                                "typedef",
+                                                "typeid",
+                                                "typename",
+                                                "union",
+                                                "unix",
+                                                "unsigned",
+                                                "using",
+                                                "virtual",
+                                                "void",
+                                                "volatile",
+                                                "wchar_t",
+                                                "while",
+                                                "xor",
+                                                "xor_eq"};
+  std::string out(name);
+  if (std::find(std::begin(kTaken), std::end(kTaken), name) != std::end(kTaken)) out += '_';
+  return out;
+}
+
+std::string mangled(std::string_view name) {
+  std::string out;
+  appendMangled(out, name);
+  return out;
+}
+
+class Writer {
+ public:
+  Writer(const ir::Module& module, const Facts& facts, const ir::CppBody& cpp)
+      : module_(module), types_(module.types), facts_(facts), cpp_(cpp), body_(module.body(cpp.body)) {}
+
+  CppFile write() {
+    Group& group = file_.group;
+    group.stem = "cpp_" + fileStem(text(body_.name));
+    group.bodies.push_back(cpp_.body);
+    if (body_.self) need(body_.self);
+    for (const Local& local : body_.locals) need(local.type);
+    splitText();
+    for (const ir::BodyId function : cpp_.functions) declareFunction(function);
+    const std::string variables = this->variables();
+    group.code += "\nnamespace {\n\nusing namespace rung::cpp;\n" + times() + definitions_ + "\n}  // namespace\n\n// ";
+    group.code += text(body_.spelling);
+    group.code += '\n';
+    BodyWriter::appendSignature(group.code, module_, body_);
+    group.code += " {\n  [[maybe_unused]] rung_context* const rung_ctx_ = ctx;\n" + names_ + "  {\n" + variables +
+                  "    [&]() -> void {\n" + text_ + "\n    }();\n" + ending_ + "  }\n}\n";
+    return std::move(file_);
+  }
+
+ private:
+  std::string_view text(NameId name) const { return module_.names.text(name); }
+  const TypeInfo& info(TypeId type) const { return types_.info(types_.resolve(type)); }
+  bool isText(TypeId type) const { return TypeTable::isText(types_.plainKind(type)); }
+  bool isBlock(TypeId type) const {
+    return types_.kind(type) == TypeKind::Record && (info(type).record_kind == RecordKind::FunctionBlock);
+  }
+
+  // A record whose definition the file needs.
+  void need(TypeId type) {
+    type = elementOf(types_, type);
+    std::vector<TypeId>& records = file_.group.records;
+    if (types_.kind(type) == TypeKind::Record && std::find(records.begin(), records.end(), type) == records.end())
+      records.push_back(type);
+  }
+
+  // The text with its lines kept; #include lines go to the front of the file.
+  void splitText() {
+    const Place place = module_.sources.place(cpp_.loc);
+    std::string path;
+    appendQuoted(path, module_.sources.path(body_.file));
+    auto lineMark = [&](std::string& out, uint32_t line) {
+      out += "#line ";
+      appendUnsigned(out, line);
+      out += ' ' + path + '\n';
+    };
+    uint32_t line = place.line;
+    for (size_t at = 0; at <= cpp_.text.size(); ++line) {
+      const size_t end = std::min(cpp_.text.find('\n', at), cpp_.text.size());
+      std::string_view row = cpp_.text.substr(at, end - at);
+      at = end + 1;
+      if (line == place.line) {
+        lineMark(text_, line);
+        text_.append(place.column - 1, ' ');
+      } else {
+        text_ += '\n';
+      }
+      const size_t begin = row.find_first_not_of(" \t");
+      if (begin != std::string_view::npos && row.substr(begin, 8) == "#include") {
+        lineMark(file_.front, line);
+        file_.front += std::string(row) + '\n';
+        continue;
+      }
+      text_ += row;
+    }
+  }
+
+  // ---- types
+
+  // The type that the body sees; empty: it cannot be seen.
+  std::string view(TypeId type) {
+    type = types_.resolve(type);
+    const TypeInfo& of = types_.info(type);
+    if (of.kind == TypeKind::Enum && of.name) return named(type);
+    if (isText(type)) {
+      const TypeId plain = types_.resolve(type);
+      std::string out = types_.plainKind(plain) == TypeKind::WString ? "WideText<" : "Text<";
+      appendUnsigned(out, info(plain).length);
+      return out + ">";
+    }
+    if (of.kind == TypeKind::Array) {
+      const std::string element = isBlock(elementOf(types_, type)) ? "" : view(of.base);
+      if (element.empty()) return {};
+      std::string out = "Array<" + element;
+      for (const types::Dimension& dimension : of.dimensions) {
+        out += '[';
+        appendUnsigned(out, dimension.count());
+        out += ']';
+      }
+      return out + ">";
+    }
+    if (of.kind == TypeKind::Record) return of.record_kind == RecordKind::Struct ? named(type) : "";
+    if (of.kind == TypeKind::Pointer || of.kind == TypeKind::Reference) return "void*";
+    return typeKindName(types_, type) + 5;  // RUNG_INT
+  }
+
+  // The name of a type that is defined here, with its definition.
+  std::string named(TypeId type) {
+    for (const auto& [known, name] : named_) {
+      if (known == type) return name;
+    }
+    std::string name = spelled(upper(text(info(type).name)));
+    for (size_t i = 0; i < named_.size(); ++i) {
+      if (named_[i].second == name) name += '_', i = 0;
+    }
+    named_.push_back({type, name});
+    std::string definition = info(type).kind == TypeKind::Enum ? enumeration(type, name)
+                             : isBlock(type)                   ? block(type, name)
+                                                               : structure(type, name);
+    definitions_ += '\n' + definition;
+    return name;
+  }
+
+  std::string enumeration(TypeId type, const std::string& name) {
+    const std::string scalar = scalarType(types_, type);
+    std::string out = "struct RUNG_MAY_ALIAS " + name + " {\n  enum Value : " + scalar + " {";
+    const char* separator = " ";
+    for (const auto& [item, value] : info(type).items) {
+      std::string item_name = spelled(upper(text(item)));
+      if (item_name == name) item_name += '_';
+      out += separator + item_name + " = ";
+      appendConstant(out, types_, type, static_cast<uint64_t>(value));
+      separator = ", ";
+    }
+    return out + " };\n  Value value;\n  " + name + "() = default;\n  constexpr " + name +
+           "(Value of) : value(of) {}\n  constexpr operator Value() const { return value; }\n};\n";
+  }
+
+  std::string structure(TypeId type, const std::string& name) {
+    const TypeInfo& of = info(type);
+    std::string fields;
+    for (size_t i = 0; i < of.fields.size(); ++i) {
+      const Field& field = of.fields[i];
+      const std::string seen = view(field.type);
+      const std::string_view field_name = text(field.name);
+      const bool is_plain =
+          !seen.empty() && !field_name.empty() && mangled(field_name) == std::string(field_name) + "_";
+      fields += "  alignas(";
+      appendUnsigned(fields, info(field.type).align);
+      fields += ") ";
+      if (is_plain) {
+        fields += seen + ' ' + spelled(field_name) + ";\n";
+      } else {
+        fields += "unsigned char rung_hidden";
+        appendUnsigned(fields, i);
+        fields += "_[";
+        appendUnsigned(fields, info(field.type).size);
+        fields += "];\n";
+      }
+    }
+    std::string out = "struct RUNG_MAY_ALIAS " + name + " {\n" + fields + "};\nstatic_assert(sizeof(" + name + ") == ";
+    appendUnsigned(out, of.size);
+    return out + ", \"layout\");\n";
+  }
+
+  // Inputs and outputs are references, in-outs values that Body() lends to the block.
+  std::string block(TypeId type, const std::string& name) {
+    need(type);
+    const std::string memory = recordName(types_, type);
+    std::string members, init, lend, take_back;
+    for (const Field& field : info(type).fields) {
+      const bool is_pin =
+          field.role == FieldRole::Input || field.role == FieldRole::Output || field.role == FieldRole::InOut;
+      const std::string seen = is_pin ? view(field.type) : "";
+      if (seen.empty()) continue;
+      const std::string pin = spelled(text(field.name)), place = "rung_self_." + mangled(text(field.name));
+      if (field.role == FieldRole::InOut) {
+        members += "  " + seen + ' ' + pin + "{};\n";
+        lend += "    const auto rung_before_" + pin + " = " + place + ";\n    " + place +
+                " = reinterpret_cast<decltype(" + place + ")>(&" + pin + ");\n";
+        take_back += "    " + place + " = rung_before_" + pin + ";\n";
+        continue;
+      }
+      members += std::string("  ") + (field.role == FieldRole::Output ? "const " : "") + seen + "& " + pin + ";\n";
+      init += ", " + pin + "(rung::cpp::view<" + seen + ">(" + place + "))";
+    }
+    std::string call;
+    for (const ir::Record& record : module_.records) {
+      if (types_.resolve(record.type) != type || !record.body) continue;
+      const ir::Body& body = module_.body(record.body);
+      if (body.native) {
+        file_.group.callees.push_back(record.body);
+        call = ir::nativeName(module_, body) + "(rung_ctx_, &rung_self_)";
+      } else {
+        appendFunctionName(call, module_, body);
+        call += "(rung_self_, rung_ctx_)";
+      }
+    }
+    return "class " + name + " {\n  rung_context* const rung_ctx_;\n  " + memory + "& rung_self_;\n\n public:\n" +
+           members + "  " + name + "(rung_context* ctx, " + memory + "& self) : rung_ctx_(ctx), rung_self_(self)" +
+           init + " {}\n  " + name + "(const " + name + "&) = delete;\n  void Body() {\n" + lend + "    " + call +
+           ";\n" + take_back + "  }\n};\n";
+  }
+
+  // ---- functions
+
+  void declareFunction(ir::BodyId id) {
+    const ir::Body& function = module_.body(id);
+    std::string parameters, arguments, names;
+    std::string before, result;
+    bool good = true;
+    uint32_t count = 0;
+    for (const Local& local : function.locals) {
+      if (local.kind != LocalKind::Input && local.kind != LocalKind::Output && local.kind != LocalKind::InOut) continue;
+      const std::string seen = view(local.type);
+      good = good && !seen.empty() && !isBlock(local.type);
+      need(local.type);
+      std::string name = "rung_p";
+      appendUnsigned(name, count++);
+      parameters += (parameters.empty() ? "" : ", ");
+      names += ", " + name;
+      if (local.kind == LocalKind::Input) {
+        parameters += (local.by_reference ? "const " + seen + "& " : seen + ' ') + name;
+        arguments += ", " + (local.by_reference ? pointer(local.type, "&" + name, true)
+                                                : "rung::cpp::bits<" + std::string(scalarType(types_, local.type)) +
+                                                      ">(" + name + ")");
+      } else {
+        parameters += seen + "* " + name;
+        arguments += ", " + pointer(local.type, name, false);
+      }
+    }
+    const std::string seen = function.result ? view(function.result) : "void";
+    if (!good || seen.empty()) return;
+    if (facts_.is_inlined[id.index] != 0) {
+      file_.group.inlined.push_back(id);
+    } else {
+      file_.group.callees.push_back(id);
+    }
+    std::string call;
+    if (function.native) {
+      call = ir::nativeName(module_, function);
+    } else {
+      appendFunctionName(call, module_, function);
+    }
+    call += "(rung_ctx_" + arguments;
+    std::string code;
+    if (!function.result) {
+      code = call + ");";
+    } else if (!ir::isAggregate(types_, function.result)) {
+      code = "return rung::cpp::bits<" + seen + ">(" + call + "));";
+    } else {
+      need(function.result);
+      code = seen + " rung_result; " + call + ", " + pointer(function.result, "&rung_result", false);
+      if (function.native && isText(function.result)) {
+        code += ", ";
+        appendUnsigned(code, info(function.result).length);
+      }
+      code += "); return rung_result;";
+    }
+    const std::string name = spelled(upper(text(function.spelling))), type = "rung_function_" + name;
+    definitions_ += "\nstruct " + type + " {\n  rung_context* rung_ctx_;\n  " + seen + " operator()(" + parameters +
+                    ") const { " + code + " }\n  " + seen + " operator()(bool rung_en, BOOL* rung_eno" +
+                    (parameters.empty() ? "" : ", " + parameters) +
+                    ") const {\n    if (rung_eno != nullptr) *rung_eno = rung_en;\n    ";
+    definitions_ += function.result
+                        ? "return rung_en ? (*this)(" + names.substr(names.empty() ? 0 : 2) + ") : " + seen + "{};"
+                        : "if (rung_en) (*this)(" + names.substr(names.empty() ? 0 : 2) + ");";
+    definitions_ += "\n  }\n};\n";
+    functions_ += "    const " + type + ' ' + name + "{rung_ctx_};\n";
+  }
+
+  // An address of a view as the parameter type that the function has for it.
+  std::string pointer(TypeId type, const std::string& address, bool constant) {
+    std::string to;
+    appendPointer(to, types_, type, "", constant);
+    return "reinterpret_cast<" + to + ">(" + address + ")";
+  }
+
+  // ---- variables
+
+  static std::string quotedBits(const std::string& type, const std::string& value) {
+    return "rung::cpp::bits<" + type + ">(" + value + ")";
+  }
+
+  std::string constant(TypeId type, uint64_t bits) {
+    const std::string seen = view(type);
+    std::string value;
+    if (isText(type)) {
+      const std::string_view of = text(NameId{static_cast<uint32_t>(bits)});
+      if (types_.plainKind(type) == TypeKind::WString) {
+        appendQuotedWide(value, of);
+      } else {
+        appendQuoted(value, of);
+      }
+      return seen + "(" + value + ")";
+    }
+    appendConstant(value, types_, type, bits);
+    return quotedBits(seen, std::string(scalarType(types_, type)) + "(" + value + ")");
+  }
+
+  // What a variable of a call begins with.
+  std::string initial(NameId name, TypeId type) {
+    for (const ir::CppBody::Constant& known : cpp_.initial) {
+      if (known.name == name) return constant(type, known.bits);
+    }
+    const TypeInfo& of = info(type);
+    if (of.kind == TypeKind::Enum && !of.items.empty())
+      return constant(type, static_cast<uint64_t>(of.items[0].second));
+    if (of.kind == TypeKind::Subrange) return constant(type, static_cast<uint64_t>(of.initial));
+    return view(type) + "{}";
+  }
+
+  // A name for a place in memory: a reference, or the object of a block or the objects of an array of them.
+  std::string variable(std::string_view name, TypeId type, const std::string& place, bool constant) {
+    type = types_.resolve(type);
+    const std::string called = spelled(name);
+    const TypeId element = elementOf(types_, type);
+    if (!isBlock(element)) {
+      const std::string seen = view(type);
+      if (seen.empty()) return {};
+      return std::string("    ") + (constant ? "const " : "") + seen + "& " + called + " = rung::cpp::view<" + seen +
+             ">(" + place + ");\n";
+    }
+    const std::string object = named(element);
+    if (element == type) return "    " + object + ' ' + called + "(rung_ctx_, " + place + ");\n";
+    std::vector<std::string> places = {place};
+    std::string shape;
+    for (TypeId at = type; types_.kind(at) == TypeKind::Array; at = types_.resolve(info(at).base)) {
+      if (at != type) return {};  // an array of arrays of blocks
+      for (const types::Dimension& dimension : info(at).dimensions) {
+        if (dimension.count() * places.size() > kMostBlocks) return {};
+        std::vector<std::string> next;
+        shape += '[' + std::to_string(dimension.count()) + ']';
+        for (const std::string& one : places) {
+          for (uint64_t i = 0; i < dimension.count(); ++i) next.push_back(one + '[' + std::to_string(i) + ']');
+        }
+        places = std::move(next);
+      }
+    }
+    std::string list;
+    for (const std::string& one : places) list += (list.empty() ? "" : ", ") + object + "(rung_ctx_, " + one + ")";
+    return "    struct {\n      " + object + " table" + shape + ";\n    } " + called + " = {" + list + "};\n";
+  }
+
+  std::string variables() {
+    std::string out;
+    for (const ir::CppBody::Global& global : cpp_.globals) {
+      const ir::List& list = module_.lists[global.list];
+      need(list.record);
+      const Field& field = info(list.record).fields[global.field];
+      std::string block = "(*static_cast<" + recordName(types_, list.record) + "*>(rung_ctx_->blocks[";
+      appendUnsigned(block, facts_.list_block[global.list]);
+      out += variable(text(global.name), field.type, block + "]))." + mangled(text(field.name)), global.constant);
+    }
+    for (const ir::CppBody::Constant& known : cpp_.constants)
+      out += "    const " + view(known.type) + ' ' + spelled(text(known.name)) + " = " +
+             constant(known.type, known.bits) + ";\n";
+    if (body_.self) {
+      names_ += "  auto& rung_self_ = self;\n";
+      for (const Field& field : info(body_.self).fields) {
+        if (mangled(text(field.name)) != std::string(text(field.name)) + "_") continue;
+        const std::string place = "rung_self_." + mangled(text(field.name));
+        const bool is_const = field.role == FieldRole::Input || field.constant;
+        if (field.by_reference && isText(field.type)) {
+          out += "    " + view(field.type) + "& " + spelled(text(field.name)) + " = *reinterpret_cast<" +
+                 view(field.type) + "*>(" + place + ");\n";
+        } else {
+          out += variable(text(field.name), field.type, field.by_reference ? "(*" + place + ")" : place, is_const);
+        }
+      }
+    }
+    uint32_t count = 0;
+    for (const Local& local : body_.locals) {
+      const std::string name = spelled(text(local.name)), seen = view(local.type);
+      std::string passed = "rung_p";
+      appendUnsigned(passed, count++);
+      passed += '_';
+      switch (local.kind) {
+        case LocalKind::Temp: break;
+        case LocalKind::Variable:
+          out += "    " + seen + ' ' + name + " = " + initial(local.name, local.type) + ";\n";
+          break;
+        case LocalKind::Input:
+          names_ += "  auto&& " + passed + " = " + mangled(text(local.name)) + ";\n";
+          if (isText(local.type)) {
+            out += "    const " + seen + ' ' + name + "(" + passed + ");\n";
+          } else if (local.by_reference) {
+            out += "    const " + seen + "& " + name + " = *reinterpret_cast<const " + seen + "*>(" + passed + ");\n";
+          } else {
+            out += "    const " + seen + ' ' + name + " = " + quotedBits(seen, passed) + ";\n";
+          }
+          break;
+        case LocalKind::Output:
+        case LocalKind::InOut:
+          names_ += "  auto&& " + passed + " = " + mangled(text(local.name)) + ";\n";
+          if (isBlock(local.type)) {
+            out += variable(text(local.name), local.type, "(*" + passed + ")", false);
+            break;
+          }
+          out += "    " + seen + "& " + name + " = *reinterpret_cast<" + seen + "*>(" + passed + ");\n";
+          if (local.kind == LocalKind::Output) out += "    " + name + " = " + initial(local.name, local.type) + ";\n";
+          break;
+        case LocalKind::Result: {
+          const std::string result = spelled(upper(text(body_.spelling)));
+          out += "    " + seen + ' ' + result + " = " + initial({}, local.type) + ";\n";
+          if (local.by_reference) {
+            names_ += "  auto&& " + passed + " = " + mangled(text(local.name)) + ";\n";
+            ending_ += "    memcpy(static_cast<void*>(" + passed + "), &" + result + ", sizeof " + result + ");\n";
+          } else {
+            ending_ += "    return " + quotedBits(scalarType(types_, local.type), result) + ";\n";
+          }
+          break;
+        }
+      }
+    }
+    return out + functions_;
+  }
+
+  // The types of time, whose C++ types depend on the dialect, and what makes their values. The parts stand from the
+  // least to the most; of TIME a sign comes first.
+  std::string times() const {
+    std::string out = "constexpr bool TRUE = true, FALSE = false;\n";
+    const std::pair<TypeKind, const char*> kinds[] = {{TypeKind::Time, "TIME"},
+                                                      {TypeKind::LTime, "LTIME"},
+                                                      {TypeKind::Date, "DATE"},
+                                                      {TypeKind::LDate, "LDATE"},
+                                                      {TypeKind::TimeOfDay, "TOD"},
+                                                      {TypeKind::LTimeOfDay, "LTOD"},
+                                                      {TypeKind::TimeOfDay, "TIME_OF_DAY"},
+                                                      {TypeKind::DateTime, "DT"},
+                                                      {TypeKind::LDateTime, "LDT"},
+                                                      {TypeKind::DateTime, "DATE_AND_TIME"}};
+    for (const auto& [kind, name] : kinds)
+      out += std::string("using ") + name + " = " + scalarType(types_, types::idOf(kind)) + ";\n";
+    return out +
+           "[[maybe_unused]] inline TIME TIME_CPP(int sign, double ms, double s, double min, double h, double days) {\n"
+           "  const double span = ms + s * 1e3 + min * 6e4 + h * 36e5 + days * 864e5;\n"
+           "  return rung::cpp::time<TIME>(sign < 0 ? -span : span);\n}\n"
+           "[[maybe_unused]] inline TOD TOD_CPP(double s, double min, double h) {\n"
+           "  return rung::cpp::time<TOD>(s * 1e3 + min * 6e4 + h * 36e5);\n}\n"
+           "[[maybe_unused]] inline DATE DATE_CPP(int day, int month, int year) {\n"
+           "  return rung::cpp::time<DATE>(static_cast<double>(rung::cpp::days(day, month, year)) * 86400);\n}\n"
+           "[[maybe_unused]] inline DT DT_CPP(double s, double min, double h, int day, int month, int year) {\n"
+           "  return rung::cpp::time<DT>(s + min * 60 + h * 3600 +\n"
+           "                             static_cast<double>(rung::cpp::days(day, month, year)) * 86400);\n}\n";
+  }
+
+  const ir::Module& module_;
+  const TypeTable& types_;
+  const Facts& facts_;
+  const ir::CppBody& cpp_;
+  const ir::Body& body_;
+  CppFile file_;
+  std::vector<std::pair<TypeId, std::string>> named_;
+  std::string definitions_, functions_, names_, text_, ending_;
+};
+
+}  // namespace
+
+CppFile writeCppBody(const ir::Module& module, const Facts& facts, const ir::CppBody& cpp) {
+  return Writer(module, facts, cpp).write();
+}
+
+}  // namespace rung::codegen

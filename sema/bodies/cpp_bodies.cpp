@@ -1,0 +1,88 @@
+// Bodies in C++: what rung can say about them before g++ reads them. The text stays as it is; a word in upper case that
+// names a function is a use of it (syntax manual 5.8.5). Variables that the generated facade (codegen/cpp_bodies.cpp)
+// has no form for are refused here.
+//   passes  VAR n : INT; END_VAR {C++} n = 1; {END_C++}
+//   fails   VAR n AT %QW0 : INT; END_VAR {C++} n = 1; {END_C++}          E0741
+// Called by checkBody().
+#include <algorithm>
+
+#include "sema/bodies/bodies.h"
+
+namespace rung::sema {
+
+namespace {
+
+// Why the facade has no form for a variable; null: it has.
+const char* whyNot(Context& context, const Var& var) {
+  const types::TypeTable& types = context.types();
+  if (var.storage == Storage::Image) return "located";
+  const TypeId type = types.resolve(var.type);
+  if (types.isOpenArray(type)) return "an array of open length";
+  TypeId element = type;
+  while (types.kind(element) == TypeKind::Array) element = types.resolve(types.info(element).base);
+  const bool is_record = types.kind(element) == TypeKind::Record;
+  if (is_record && types.info(element).record_kind == types::RecordKind::Union) return "a union";
+  if (is_record && types.info(element).record_kind == types::RecordKind::Interface) return "an interface";
+  if (var.storage == Storage::Constant && !types::TypeTable::isScalar(types.plainKind(type)) &&
+      !types::TypeTable::isText(types.plainKind(type)))
+    return "a constant that is no single value";
+  const bool is_pin =
+      var.section == SectionKind::Input || var.section == SectionKind::Output || var.section == SectionKind::InOut;
+  if (var.storage != Storage::Local || is_pin) return nullptr;
+  if (is_record) return "a structure that lives for one call";
+  if (var.init && (types.kind(type) == TypeKind::Array || !context.tree().expr(var.init).is_constant))
+    return "one of a call and begins with more than a constant";
+  return nullptr;
+}
+
+bool isWordChar(char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
+bool isLower(char c) { return c >= 'a' && c <= 'z'; }
+
+void noteFunctions(Context& context, std::string_view text, Loc loc) {
+  for (size_t i = 0; i < text.size();) {
+    const size_t begin = i;
+    while (i < text.size() && (isWordChar(text[i]) || isLower(text[i]))) ++i;
+    if (i == begin) {
+      ++i;
+      continue;
+    }
+    const std::string_view word = text.substr(begin, i - begin);
+    if (!(word[0] >= 'A' && word[0] <= 'Z')) continue;
+    if (std::any_of(word.begin(), word.end(), isLower)) continue;
+    const Entity found = lookUp(context, context.names().intern(word));
+    if (found.what() != EntityKind::Pou || found.index == context.pou.index) continue;
+    const PouId function{found.index};
+    const Pou& callee = context.project.pou(function);
+    if (callee.kind != PouKind::Function || callee.generic || callee.operator_kind != Pou::Operator::None) continue;
+    std::vector<PouId>& calls = context.project.pou(context.pou).cpp_calls;
+    if (std::find(calls.begin(), calls.end(), function) != calls.end()) continue;
+    calls.push_back(function);
+    resolvePou(context, function);
+    noteCall(context, function, Loc{loc.offset + static_cast<uint32_t>(begin)});
+  }
+}
+
+}  // namespace
+
+void checkCppBody(Context& context, const PouDecl& decl) {
+  const Pou& pou = context.project.pou(context.pou);
+  if (pou.owner || pou.base || !pou.members.empty() || !pou.interfaces.empty()) {
+    const char* what = pou.owner ? "a method or action in C++" : "a body in C++ beside methods, actions or EXTENDS";
+    context.report(Diag::NotSupportedYet, decl.body_begin, {what}).length(5);
+    return;
+  }
+  for (const VarId id : pou.vars) {
+    const Var* var = &context.project.var(id);
+    const Var& named = *var;
+    if (var->external) var = &context.project.var(var->external);
+    if (!named.name || !var->type || context.types().kind(var->type) == TypeKind::Error) continue;
+    if (const char* why = whyNot(context, *var))
+      context.report(Diag::CppVariable, named.loc, {text(context, named.name), why});
+  }
+  const std::string_view text = context.project.sources.text(pou.file);
+  const uint32_t base = context.project.sources.begin(pou.file).offset;
+  const Loc begin{decl.body_begin.offset + 5};
+  noteFunctions(context, text.substr(begin.offset - base, decl.body_end.offset - 9 - begin.offset), begin);
+}
+
+}  // namespace rung::sema

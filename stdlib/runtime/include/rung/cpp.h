@@ -1,0 +1,141 @@
+/* What a body in C++ sees of IEC types (syntax manual 5.8). In: nothing but the standard library. Out: the elementary
+ * types by their names, texts with c_str() and size(), arrays with `table`, and views of the program's memory as those.
+ * Included by the file that rung makes for such a body (codegen/cpp_bodies.cpp), which adds the times, the structures,
+ * the enumerations and the blocks of the program. All of it lies in place: no type here owns memory. */
+#ifndef RUNG_CPP_H
+#define RUNG_CPP_H
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <string>
+
+#include "rung/code.h"
+
+namespace rung {
+namespace cpp {
+
+/* One byte, TRUE when it is not 0. */
+struct RUNG_MAY_ALIAS BOOL {
+  uint8_t byte;
+  BOOL() = default;
+  constexpr BOOL(bool value) : byte(value ? 1 : 0) {}
+  constexpr operator bool() const { return byte != 0; }
+  BOOL& operator&=(bool other) { return *this = *this && other; }
+  BOOL& operator|=(bool other) { return *this = *this || other; }
+  BOOL& operator^=(bool other) { return *this = static_cast<bool>(*this) != other; }
+};
+
+typedef uint8_t BYTE;
+typedef uint16_t WORD;
+typedef uint32_t DWORD;
+typedef uint64_t LWORD;
+typedef int8_t SINT;
+typedef int16_t INT;
+typedef int32_t DINT;
+typedef int64_t LINT;
+typedef uint8_t USINT;
+typedef uint16_t UINT;
+typedef uint32_t UDINT;
+typedef uint64_t ULINT;
+typedef float REAL;
+typedef double LREAL;
+typedef uint8_t CHAR;
+typedef uint16_t WCHAR;
+
+/* STRING[N], WSTRING[N]: characters and a NUL; what does not fit is cut. */
+template <class Char, uint32_t N>
+struct RUNG_MAY_ALIAS BasicText {
+  Char characters[N + 1];
+  BasicText() { characters[0] = 0; }
+  BasicText(const Char* text) { assign(text, std::char_traits<Char>::length(text)); }
+  BasicText(const std::basic_string<Char>& text) { assign(text.data(), text.size()); }
+  template <uint32_t M>
+  BasicText(const BasicText<Char, M>& text) {
+    assign(text.c_str(), text.size());
+  }
+  const Char* c_str() const { return characters; }
+  size_t size() const {
+    size_t length = 0;
+    while (length < N && characters[length] != 0) ++length;
+    return length;
+  }
+  operator std::basic_string<Char>() const { return {characters, size()}; }
+  Char& operator[](size_t at) { return characters[at]; }
+  const Char& operator[](size_t at) const { return characters[at]; }
+  BasicText& operator+=(const std::basic_string<Char>& more) {
+    return *this = static_cast<std::basic_string<Char>>(*this) + more;
+  }
+  friend bool operator==(const BasicText& a, const std::basic_string<Char>& b) { return b.compare(a.c_str()) == 0; }
+  friend bool operator!=(const BasicText& a, const std::basic_string<Char>& b) { return !(a == b); }
+  friend bool operator==(const BasicText& a, const Char* b) { return a == std::basic_string<Char>(b); }
+  friend bool operator!=(const BasicText& a, const Char* b) { return !(a == b); }
+  friend bool operator==(const BasicText& a, const BasicText& b) { return a == b.c_str(); }
+  friend bool operator!=(const BasicText& a, const BasicText& b) { return !(a == b); }
+  friend std::basic_string<Char> operator+(const BasicText& a, const std::basic_string<Char>& b) {
+    return static_cast<std::basic_string<Char>>(a) + b;
+  }
+  friend std::basic_string<Char> operator+(const std::basic_string<Char>& a, const BasicText& b) {
+    return a + b.c_str();
+  }
+
+ private:
+  void assign(const Char* text, size_t length) {  // `text` may lie in *this
+    if (length > N) length = N;
+    memmove(characters, text, length * sizeof(Char));
+    characters[length] = 0;
+  }
+};
+template <uint32_t N>
+using Text = BasicText<char, N>;
+template <uint32_t N>
+using WideText = BasicText<char16_t, N>;
+typedef Text<255> STRING;
+typedef WideText<255> WSTRING;
+
+/* ARRAY: `x.table[i - low]`; Table is a C array type. */
+template <class Table>
+struct RUNG_MAY_ALIAS Array {
+  Table table;
+};
+
+/* Memory of generated code as the type that a body in C++ has for it, and the other way about. */
+template <class To, class From>
+To& view(From& memory) {
+  static_assert(sizeof(To) == sizeof(From), "a view has the size of what it shows");
+  return reinterpret_cast<To&>(memory);
+}
+template <class To, class From>
+const To& view(const From& memory) {
+  static_assert(sizeof(To) == sizeof(From), "a view has the size of what it shows");
+  return reinterpret_cast<const To&>(memory);
+}
+template <class To, class From>
+To bits(const From& value) {
+  static_assert(sizeof(To) == sizeof(From), "a copy has the size of what it copies");
+  To copy;
+  memcpy(static_cast<void*>(&copy), &value, sizeof copy);
+  return copy;
+}
+
+/* Milliseconds or seconds into a type of time, whose range they do not leave. */
+template <class Time>
+Time time(double units) {
+  const double low = static_cast<Time>(-1) < static_cast<Time>(0) ? -2147483648.0 : 0.0;
+  const double high = low < 0 ? 2147483647.0 : 4294967295.0;
+  return static_cast<Time>(units < low ? low : units > high ? high : units < 0 ? units - 0.5 : units + 0.5);
+}
+/* Days from 1970-01-01 to a day of the calendar. */
+inline int64_t days(int day, int month, int year) {
+  const int64_t y = month <= 2 ? year - 1 : year, era = (y >= 0 ? y : y - 399) / 400, of_era = y - era * 400;
+  const int64_t of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
+  return era * 146097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719468;
+}
+
+}  // namespace cpp
+}  // namespace rung
+
+#endif
