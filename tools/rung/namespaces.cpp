@@ -9,12 +9,9 @@ struct Namespace {
   std::string_view folder;
   const char* name;
 };
-constexpr Namespace kNamespaces[] = {{"standard", "Standard"},
-                                     {"util", "Util"},
-                                     {"ibaselibrary", "IBaseLibrary"},
-                                     {"iecsfc", "IecSfc"},
-                                     {"tc2_system", "Tc2_System"},
-                                     {"tc2_utilities", "Tc2_Utilities"}};
+constexpr Namespace kNamespaces[] = {{"standard", "Standard"},         {"util", "Util"},
+                                     {"ibaselibrary", "IBaseLibrary"}, {"iecsfc", "IecSfc"},
+                                     {"tc2_system", "Tc2_System"},     {"tc2_utilities", "Tc2_Utilities"}};
 
 constexpr NamespaceAlias kAliases[] = {{"Tc2_Standard", "Standard"}, {"Tc3_Standard", "Standard"}};
 
