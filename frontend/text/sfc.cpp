@@ -83,7 +83,9 @@ void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members) {
 void Parser::syncChart(Tok end) {
   const Token* open = t_;
   panic_ = false;
-  while (!at(end) && !atSfc() && !(atMember() && t_ != open) && !atBlockEnd()) advance();
+  while (!at(end) && !atSfc() && !(atMember() && t_ != open) && !at(Tok::EndStep) && !at(Tok::EndTransition) &&
+         !at(Tok::End) && kind() != pou_end_)
+    advance();
 }
 
 void Parser::parseStep(std::vector<SfcStep>& out) {
