@@ -133,6 +133,7 @@ class Generator {
   Node loop(int depth);
   Node choice(int depth);
   Node jump(int depth);
+  Node attempt(int depth);
   Node blockCall();
   Node guardedCall();
 

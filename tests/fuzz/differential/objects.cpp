@@ -407,7 +407,6 @@ Node Generator::objectStatement() {
 }
 
 Node Generator::pointerStatement() {
-  const std::string at = std::to_string(below(5)), value = pick({"v_dint", "target", "numbers[1]", "pm^", "pn[2]"});
   switch (below(18)) {
     case 14: return Stmt{"pt[\1].count := \1;\n", {subscript(-1, 4, 1), expr(kDint, 2)}};
     case 15: {
@@ -435,7 +434,11 @@ Node Generator::pointerStatement() {
                   ");\n"};
     case 10: return Stmt{pick({"rz REF= target;\n", "rz REF= 0;\n", "rz REF= pm^;\n", "rz REF= rd;\n"})};
     case 11:
-      if (faults_ == Faults::Index && chance(15)) return Stmt{"rz := " + value + ";\n"};
+      if (faults_ == Faults::Index && chance(25)) {
+        const char* empty[] = {"rz := 1;\n", "v_dint := anyz.Level;\n", "heap^();\n", "po1 := po;\n",
+                               "po1 ?= po;\npo1^.Act();\n"};
+        return Stmt{empty[below(5)]};
+      }
       return Stmt{"IF __ISVALIDREF(rz) THEN rz := rz + \1; END_IF\n", {expr(kDint, 2)}};
     case 12: return Stmt{"pb[\1] := \1;\n", {subscript(0, 3, 1), expr(kByte, 2)}};
     default: return Stmt{"pw[\1] := \1;\n", {subscript(0, 1, 1), expr(kWord, 2)}};
