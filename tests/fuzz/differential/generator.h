@@ -126,6 +126,7 @@ class Generator {
   Node variable(int type);
   Node divisor(int type, int depth);
   Node subscript(int first, int last, int depth);
+  Node offset(int first, int last, int depth);
 
   Node statement(int depth);
   Node statements(int depth, int count);

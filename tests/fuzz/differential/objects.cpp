@@ -408,7 +408,7 @@ Node Generator::objectStatement() {
 
 Node Generator::pointerStatement() {
   switch (below(18)) {
-    case 14: return Stmt{"pt[\1].count := \1;\n", {subscript(-1, 4, 1), expr(kDint, 2)}};
+    case 14: return Stmt{"pt[\1].count := \1;\n", {offset(-1, 4, 1), expr(kDint, 2)}};
     case 15: {
       const int wide = below(3);
       const char* text[] = {"words[\1].%X7 := \1;\n", "words[\1].%B1 := \1;\n", "words[\1].12 := \1;\n"};
@@ -420,8 +420,8 @@ Node Generator::pointerStatement() {
                       " := \1;\n",
                   {expr(kBool, 2)}};
     case 0: return Stmt{"pm := ADR(numbers[\1]);\n", {subscript(0, 4, 1)}};
-    case 1: return Stmt{"pm := pn + SIZEOF(DINT) * \1;\n", {subscript(-1, 3, 1)}};
-    case 2: return Stmt{"pn[\1] := \1;\n", {subscript(-1, 3, 1), expr(kDint, 2)}};
+    case 1: return Stmt{"pm := pn + SIZEOF(DINT) * \1;\n", {offset(-1, 3, 1)}};
+    case 2: return Stmt{"pn[\1] := \1;\n", {offset(-1, 3, 1), expr(kDint, 2)}};
     case 3: return Stmt{"pm^ := \1;\n", {expr(kDint, 2)}};
     case 4:
       return Stmt{"rd REF= " + pick({"target", "pair.count", "o1.count", "numbers[3]", "pm^", "rp.count"}) + ";\n"};
@@ -440,8 +440,8 @@ Node Generator::pointerStatement() {
         return Stmt{empty[below(5)]};
       }
       return Stmt{"IF __ISVALIDREF(rz) THEN rz := rz + \1; END_IF\n", {expr(kDint, 2)}};
-    case 12: return Stmt{"pb[\1] := \1;\n", {subscript(0, 3, 1), expr(kByte, 2)}};
-    default: return Stmt{"pw[\1] := \1;\n", {subscript(0, 1, 1), expr(kWord, 2)}};
+    case 12: return Stmt{"pb[\1] := \1;\n", {offset(0, 3, 1), expr(kByte, 2)}};
+    default: return Stmt{"pw[\1] := \1;\n", {offset(0, 1, 1), expr(kWord, 2)}};
   }
 }
 
