@@ -323,7 +323,8 @@ ExprId BodyLowering::lowerAddressOf(rung::ExprId id) {
   const TypeId type = strip(node.h.type);
   if (isOpenArray(types_, tree_.expr(node.place).type))
     return convertValue(openArrayPointer(node.place, node.h.loc), type, node.h.loc);
-  if (tree_.kind(node.place) == rung::ExprKind::Deref)
+  // ADR(p^) is p, also where p leads nowhere; what p[i] is made of is a place that will be used.
+  if (tree_.kind(node.place) == rung::ExprKind::Deref && node.h.writable == 0)
     return convertValue(lowerValue(tree_.as<DerefExpr>(node.place).base), type, node.h.loc);
   const ExprId place = lowerPlace(node.place);
   if (body_.expr(place).kind == ExprKind::Field) body_.expr(place).checks = 0;  // an in-out that is not bound: null

@@ -181,7 +181,9 @@ TypeId checkPointerIndex(Context& context, ExprId& expr) {
   if (given != types::kLInt) wrapConvert(context, index, types::kLInt);
   const uint64_t size = context.types().info(context.types().resolve(target)).size;
   const ExprId width = makeLiteral(context, LiteralKind::Integer, types::kLInt, size, loc);
-  ExprId sum = pointer;
+  // The address of what the pointer itself leads to: a pointer to nothing is found before the offset hides it.
+  ExprId sum = addressOf(context, makeDeref(context, pointer, target, loc), type, loc);
+  context.tree().as<AddressOfExpr>(sum).h.writable = 1;
   toNumber(context, sum);
   sum = makeBinary(context, BinaryOp::Add, sum,
                    makeBinary(context, BinaryOp::Multiply, index, width, types::kLInt, loc), types::kLInt, loc);

@@ -246,6 +246,12 @@ Node Generator::subscript(int first, int last, int depth) {
     node.type = -1;
     return node;
   }
+  return offset(first, last, depth);
+}
+
+// Always within: nothing checks what a pointer leads to.
+Node Generator::offset(int first, int last, int depth) {
+  const std::string low = std::to_string(first), high = std::to_string(last);
   Node node = Expr{kInt, "LIMIT(" + low + ", \1, " + high + ")", {expr(kInt, depth)}};
   node.simple = low;
   node.type = -1;

@@ -126,6 +126,7 @@ class Generator {
   Node variable(int type);
   Node divisor(int type, int depth);
   Node subscript(int first, int last, int depth);
+  Node offset(int first, int last, int depth);
 
   Node statement(int depth);
   Node statements(int depth, int count);
@@ -133,6 +134,7 @@ class Generator {
   Node loop(int depth);
   Node choice(int depth);
   Node jump(int depth);
+  Node attempt(int depth);
   Node blockCall();
   Node guardedCall();
 

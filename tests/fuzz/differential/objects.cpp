@@ -407,9 +407,8 @@ Node Generator::objectStatement() {
 }
 
 Node Generator::pointerStatement() {
-  const std::string at = std::to_string(below(5)), value = pick({"v_dint", "target", "numbers[1]", "pm^", "pn[2]"});
   switch (below(18)) {
-    case 14: return Stmt{"pt[\1].count := \1;\n", {subscript(-1, 4, 1), expr(kDint, 2)}};
+    case 14: return Stmt{"pt[\1].count := \1;\n", {offset(-1, 4, 1), expr(kDint, 2)}};
     case 15: {
       const int wide = below(3);
       const char* text[] = {"words[\1].%X7 := \1;\n", "words[\1].%B1 := \1;\n", "words[\1].12 := \1;\n"};
@@ -421,8 +420,8 @@ Node Generator::pointerStatement() {
                       " := \1;\n",
                   {expr(kBool, 2)}};
     case 0: return Stmt{"pm := ADR(numbers[\1]);\n", {subscript(0, 4, 1)}};
-    case 1: return Stmt{"pm := pn + SIZEOF(DINT) * \1;\n", {subscript(-1, 3, 1)}};
-    case 2: return Stmt{"pn[\1] := \1;\n", {subscript(-1, 3, 1), expr(kDint, 2)}};
+    case 1: return Stmt{"pm := pn + SIZEOF(DINT) * \1;\n", {offset(-1, 3, 1)}};
+    case 2: return Stmt{"pn[\1] := \1;\n", {offset(-1, 3, 1), expr(kDint, 2)}};
     case 3: return Stmt{"pm^ := \1;\n", {expr(kDint, 2)}};
     case 4:
       return Stmt{"rd REF= " + pick({"target", "pair.count", "o1.count", "numbers[3]", "pm^", "rp.count"}) + ";\n"};
@@ -435,10 +434,14 @@ Node Generator::pointerStatement() {
                   ");\n"};
     case 10: return Stmt{pick({"rz REF= target;\n", "rz REF= 0;\n", "rz REF= pm^;\n", "rz REF= rd;\n"})};
     case 11:
-      if (faults_ == Faults::Index && chance(15)) return Stmt{"rz := " + value + ";\n"};
+      if (faults_ == Faults::Index && chance(25)) {
+        const char* empty[] = {"rz := 1;\n", "v_dint := anyz.Level;\n", "heap^();\n", "po1 := po;\n",
+                               "po1 ?= po;\npo1^.Act();\n"};
+        return Stmt{empty[below(5)]};
+      }
       return Stmt{"IF __ISVALIDREF(rz) THEN rz := rz + \1; END_IF\n", {expr(kDint, 2)}};
-    case 12: return Stmt{"pb[\1] := \1;\n", {subscript(0, 3, 1), expr(kByte, 2)}};
-    default: return Stmt{"pw[\1] := \1;\n", {subscript(0, 1, 1), expr(kWord, 2)}};
+    case 12: return Stmt{"pb[\1] := \1;\n", {offset(0, 3, 1), expr(kByte, 2)}};
+    default: return Stmt{"pw[\1] := \1;\n", {offset(0, 1, 1), expr(kWord, 2)}};
   }
 }
 

@@ -187,6 +187,20 @@ Node Generator::guardedCall() {
               std::move(arguments)};
 }
 
+// What was written before the fault stays written.
+Node Generator::attempt(int depth) {
+  ++cases_;
+  const int type = anyInteger();
+  std::vector<Node> parts{statements(depth, 1 + below(3)), expr(type, 1), variable(type), statements(depth, 1)};
+  std::string text = "__TRY\n\1" + writable(type) + " := \1 / \1;\n__CATCH\n\1";
+  if (chance(40)) {
+    text += "__FINALLY\n\1";
+    parts.push_back(statements(depth, 1));
+  }
+  --cases_;
+  return Stmt{text + "__ENDTRY\n", std::move(parts)};
+}
+
 Node Generator::statement(int depth) {
   if (loops_ > 0 && chance(7)) {
     return Stmt{"IF \1 THEN " + pick({"EXIT", dialect_ == Dialect::Iec2 ? "EXIT" : "CONTINUE"}) + "; END_IF\n",
@@ -195,6 +209,7 @@ Node Generator::statement(int depth) {
   if (body_ != Body::Program && chance(4)) return Stmt{"IF \1 THEN RETURN; END_IF\n", {expr(kBool, 2)}};
   if (depth > 0 && loops_ < 2 && chance(12)) return loop(depth - 1);
   if (depth > 0 && chance(15)) return choice(depth - 1);
+  if (codesys() && depth > 0 && chance(4)) return attempt(depth - 1);
   if (codesys() && loops_ == 0 && cases_ == 0 && depth > 0 && chance(8)) return jump(depth - 1);
   if (body_ == Body::Program && codesys() && loops_ < 2 && chance(35)) return objectStatement();
   if (body_ == Body::Program && codesys() && chance(30)) return pointerStatement();
