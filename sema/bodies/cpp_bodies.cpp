@@ -2,7 +2,7 @@
 // names a function is a use of it (syntax manual 5.8.5). Variables that the generated facade (codegen/cpp_bodies.cpp)
 // has no form for are refused here.
 //   passes  VAR n : INT; END_VAR {C++} n = 1; {END_C++}
-//   fails   VAR n AT %QW0 : INT; END_VAR {C++} n = 1; {END_C++}          E0741
+//   fails   VAR n AT %QW0 : INT; END_VAR {C++} n = 1; {END_C++}          E0751
 // Called by checkBody().
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 //   // covers: tm-tp-library:SR    rows of the manuals' catalogues; codesys:NAME where no manual lists it
 // A file without `// expect:` lines is run by `rung test`, many files in one process, each a project of its own, once
 // for each way (interpreted and compiled, -O0 and -O1); every {test} POU counts. A file with them is checked like a
-// golden file.
+// golden file. A file with a body in C++ is only compiled.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -23,6 +23,7 @@ constexpr size_t kMaxFeatures = 6;
 
 struct File {
   std::string path, features, covers;
+  bool is_native = false;  // holds a body in C++, which nobody interprets
 };
 
 struct TestCase {
@@ -162,6 +163,7 @@ void addConformance(const Setting& setting, std::vector<Job>& jobs) {
   for (const std::string& path : filesBelow(setting, "tests/conformance", ".st")) {
     const std::vector<std::string> lines = splitLines(readText(setting.root + "/" + path));
     File file{path, valueOf(lines, "features"), valueOf(lines, "covers")};
+    file.is_native = std::find(lines.begin(), lines.end(), "{C++}") != lines.end();
     if (const std::string problem = headProblem(lines, file); !problem.empty()) {
       jobs.push_back({path, 0, [path, problem] {
                         Result result;
@@ -179,8 +181,11 @@ void addConformance(const Setting& setting, std::vector<Job>& jobs) {
       by_options[valueOf(lines, "args")].push_back(std::move(file));
     }
   }
-  for (const auto& [options, files] : by_options) {
+  for (const auto& [options, all] : by_options) {
     for (const std::string& way : setting.ways) {
+      std::vector<File> files = all;
+      if (way.find("--engine=interp") != std::string::npos)
+        std::erase_if(files, [](const File& file) { return file.is_native; });
       const size_t batches = (files.size() + kBatch - 1) / kBatch;
       for (size_t i = 0; i < batches; ++i) {
         std::vector<File> batch;  // every n-th file: equal work in each
