@@ -176,8 +176,7 @@ ExprId BodyLowering::convert(ExprId operand, TypeId to, Loc loc) {
   bool integer_result = !TypeTable::isReal(to_kind) && TypeTable::isScalar(to_kind);
   // A long time or date as a short one is scaled: its number says nothing of whether it fits.
   const bool is_scaled = !TypeTable::isInteger(to_kind) && !TypeTable::isBits(to_kind) && to_kind != from_kind;
-  if (TypeTable::isScalar(from_kind) && integer_result && !is_scaled &&
-      !types::isLossless(types_, typeOf(operand), to))
+  if (TypeTable::isScalar(from_kind) && integer_result && !is_scaled && !types::isLossless(types_, typeOf(operand), to))
     checks |= in_.options.checks & kCheckConvert;
   return add({.kind = ExprKind::Convert, .checks = checks, .type = to, .loc = loc, .a = operand.index});
 }
