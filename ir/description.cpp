@@ -13,14 +13,6 @@ using types::TypeTable;
 
 namespace {
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-std::string folded(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = lower(c);
-  return result;
-}
-
 class Describer {
  public:
   Describer(const Module& module, const MemoryBlocks& blocks, Description& out)
@@ -193,7 +185,7 @@ class Describer {
     const auto add = [&](std::string_view name, rung_symbol row, std::string_view path) {
       row.name = text(name);
       row.path = text(path);
-      rows.push_back({folded(name), row});
+      rows.push_back({foldedIdentifier(name), row});
     };
     const auto inBlock = [&](TypeId type_id, uint32_t block, uint64_t offset) {
       rung_symbol row{};
@@ -340,9 +332,9 @@ MemoryBlocks::MemoryBlocks(const Module& module) {
   };
   std::vector<Row> rows;
   for (uint32_t i = 0; i < module.lists.size(); ++i)
-    rows.push_back({folded(module.names.text(module.lists[i].name)), false, i});
+    rows.push_back({foldedIdentifier(module.names.text(module.lists[i].name)), false, i});
   for (uint32_t i = 0; i < module.programs.size(); ++i)
-    rows.push_back({folded(module.names.text(module.programs[i].name)), true, i});
+    rows.push_back({foldedIdentifier(module.names.text(module.programs[i].name)), true, i});
   std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
     return a.key != b.key ? a.key < b.key : a.is_program < b.is_program;
   });

@@ -57,6 +57,12 @@ bool sameIdentifier(std::string_view a, std::string_view b) {
   return true;
 }
 
+std::string foldedIdentifier(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = folded(c);
+  return result;
+}
+
 Names::Names() : entries_(1), buckets_(1024) { entries_.reserve(1024); }
 
 NameId Names::intern(std::string_view spelling) {

@@ -53,5 +53,7 @@ class Names {
 
 // True when the two texts are the same IEC identifier (ASCII case folded).
 bool sameIdentifier(std::string_view a, std::string_view b);
+// The text in small letters: equal for equal identifiers, and so the order of names that the dialects mean.
+std::string foldedIdentifier(std::string_view text);
 
 }  // namespace rung

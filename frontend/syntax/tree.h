@@ -141,8 +141,9 @@ struct IndexExpr {  // base[i, j]; h.bits of a character of a text: kWritesChara
   ExprId base;
   Slice<ExprId> indices;
 };
-constexpr uint8_t kWritesCharacter = 1;  // sema
-constexpr uint8_t kBitMember = 1;        // sema
+constexpr uint8_t kWritesCharacter = 1;    // sema
+constexpr uint8_t kBitMember = 1;          // sema
+constexpr uint8_t kMustLeadSomewhere = 1;  // sema
 struct ThisExpr {
   ExprHeader h;
 };
@@ -244,7 +245,9 @@ struct NewExpr {  // __NEW(what), __NEW(what, count)
   CallId constructor;  // sema: the arguments of FB_Init
   CallId memory;       // sema: a call of __SYSTEM.Allocate, without its arguments
 };
-struct AddressOfExpr {  // h.type: a pointer or reference to the place's type
+// h.type: a pointer or reference to the place's type. h.bits: kMustLeadSomewhere: of p^ for p[i], where an empty p is a
+// fault though nothing is read there.
+struct AddressOfExpr {
   ExprHeader h;
   ExprId place;
 };

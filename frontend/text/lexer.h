@@ -32,6 +32,8 @@ inline bool isObjectWord(Tok kind) {
   return kind == Tok::Method || kind == Tok::Property || kind == Tok::Action || kind == Tok::Interface ||
          kind == Tok::Class || kind == Tok::Namespace;
 }
+// END_… of what is declared, a block of variables or a POU or its part, and the end of the text; not of statements.
+bool endsPart(Tok kind);
 inline bool isReserved(Tok kind) { return kind >= Tok::And && kind <= Tok::EndResource; }
 // The fixed spelling of an operator or word; what a message calls the others ("a number").
 const char* spelling(Tok kind);

@@ -1,7 +1,7 @@
 // The parser of Structured Text: recursive descent for declarations and statements, precedence climbing for
 // expressions, over the token array of lexer.h whose blocks recover.h has balanced. Private to frontend/text:
-// parser.cpp (files, POUs, configurations), objects.cpp, declarations.cpp, statements.cpp, expressions.cpp, il.cpp,
-// sfc.cpp.
+// parser.cpp (files, POUs, configurations), objects.cpp, declarations.cpp, types.cpp, initial_values.cpp,
+// statements.cpp, expressions.cpp, il.cpp, sfc.cpp.
 //
 // Errors. fail() reports and sets panic_: nothing more is reported until the construct at hand has found its
 // synchronization point (`;`, a keyword, a line that begins a statement). slip() reports a mistake whose meaning is
@@ -270,5 +270,8 @@ constexpr uint32_t kMaxChain = 2000;  // operators in a row: a left-deep tree
 constexpr uint32_t kMaxExprHeight = kMaxChain + 1;
 constexpr uint32_t kMaxStmtDepth = 2000;
 constexpr uint32_t kMaxTypeDepth = 200;
+
+// Words behind which no further variable or type of the block at hand is found (declarations.cpp).
+bool endsDeclarations(Tok kind);
 
 }  // namespace rung::text

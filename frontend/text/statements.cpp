@@ -6,35 +6,8 @@ namespace rung::text {
 namespace {
 
 bool isEndWord(Tok k) {
-  switch (static_cast<int>(k)) {
-    case static_cast<int>(Tok::EndIf):
-    case static_cast<int>(Tok::EndCase):
-    case static_cast<int>(Tok::EndFor):
-    case static_cast<int>(Tok::EndWhile):
-    case static_cast<int>(Tok::EndRepeat):
-    case static_cast<int>(Tok::EndTry):
-    case static_cast<int>(Tok::EndType):
-    case static_cast<int>(Tok::EndStruct):
-    case static_cast<int>(Tok::EndUnion):
-    case static_cast<int>(Tok::EndVar):
-    case static_cast<int>(Tok::EndFunction):
-    case static_cast<int>(Tok::EndFunctionBlock):
-    case static_cast<int>(Tok::EndProgram):
-    case static_cast<int>(Tok::EndConfiguration):
-    case static_cast<int>(Tok::EndResource):
-    case static_cast<int>(Tok::EndMethod):
-    case static_cast<int>(Tok::EndProperty):
-    case static_cast<int>(Tok::EndGet):
-    case static_cast<int>(Tok::EndSet):
-    case static_cast<int>(Tok::EndAction):
-    case static_cast<int>(Tok::EndStep):
-    case static_cast<int>(Tok::EndTransition):
-    case static_cast<int>(Tok::EndInterface):
-    case static_cast<int>(Tok::EndClass):
-    case static_cast<int>(Tok::EndNamespace):
-    case static_cast<int>(Tok::End): return true;
-    default: return false;
-  }
+  return k == Tok::EndIf || k == Tok::EndCase || k == Tok::EndFor || k == Tok::EndWhile || k == Tok::EndRepeat ||
+         k == Tok::EndTry || endsPart(k);
 }
 bool isPouWord(Tok k) {
   return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program || k == Tok::Type ||

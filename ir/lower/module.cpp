@@ -6,17 +6,6 @@
 
 namespace rung::ir {
 
-namespace {
-
-std::string folded(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return result;
-}
-
-}  // namespace
-
 void lower(const sema::Project& project, const LowerOptions& options, Module& module) {
   setPhase("lowering");
   ModuleLowering(project, options, module).run();
@@ -401,7 +390,8 @@ BodyId ModuleLowering::initOf(TypeId type) {
 void ModuleLowering::addLists() {
   std::vector<std::pair<std::string, uint32_t>> order;
   for (uint32_t i = 1; i < project.global_lists.size(); ++i)
-    if (project.global_lists[i].record) order.push_back({folded(project.names.text(project.global_lists[i].name)), i});
+    if (project.global_lists[i].record)
+      order.push_back({foldedIdentifier(project.names.text(project.global_lists[i].name)), i});
   std::sort(order.begin(), order.end());
   for (const auto& [name, index] : order) {
     const sema::GlobalList& list = project.global_lists[index];

@@ -7,17 +7,6 @@
 
 namespace rung::ir {
 
-namespace {
-
-std::string folded(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return result;
-}
-
-}  // namespace
-
 sema::PouId ModuleLowering::objectOf(sema::PouId pou) const {
   const sema::Pou& of = project.pou(pou);
   return of.owner ? of.owner : of.kind == PouKind::Function ? sema::PouId{} : pou;
@@ -42,7 +31,7 @@ void ModuleLowering::addClasses() {
   for (const Record& record : module.records)
     if (sema::PouId pou = pou_of_record_[record.type.index])
       if (project.pou(pou).dispatched && project.pou(pou).kind != PouKind::Interface)
-        order.push_back({folded(project.names.text(project.pou(pou).unique_name)), pou});
+        order.push_back({foldedIdentifier(project.names.text(project.pou(pou).unique_name)), pou});
   std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<uint32_t> number_of(types.count());
   auto baseOf = [&](sema::PouId pou) {

@@ -324,7 +324,7 @@ ExprId BodyLowering::lowerAddressOf(rung::ExprId id) {
   if (isOpenArray(types_, tree_.expr(node.place).type))
     return convertValue(openArrayPointer(node.place, node.h.loc), type, node.h.loc);
   // ADR(p^) is p, also where p leads nowhere; what p[i] is made of is a place that will be used.
-  if (tree_.kind(node.place) == rung::ExprKind::Deref && node.h.writable == 0)
+  if (tree_.kind(node.place) == rung::ExprKind::Deref && (node.h.bits & kMustLeadSomewhere) == 0)
     return convertValue(lowerValue(tree_.as<DerefExpr>(node.place).base), type, node.h.loc);
   const ExprId place = lowerPlace(node.place);
   if (body_.expr(place).kind == ExprKind::Field) body_.expr(place).checks = 0;  // an in-out that is not bound: null

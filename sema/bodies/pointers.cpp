@@ -183,7 +183,7 @@ TypeId checkPointerIndex(Context& context, ExprId& expr) {
   const ExprId width = makeLiteral(context, LiteralKind::Integer, types::kLInt, size, loc);
   // The address of what the pointer itself leads to: a pointer to nothing is found before the offset hides it.
   ExprId sum = addressOf(context, makeDeref(context, pointer, target, loc), type, loc);
-  context.tree().as<AddressOfExpr>(sum).h.writable = 1;
+  context.tree().as<AddressOfExpr>(sum).h.bits = kMustLeadSomewhere;
   toNumber(context, sum);
   sum = makeBinary(context, BinaryOp::Add, sum,
                    makeBinary(context, BinaryOp::Multiply, index, width, types::kLInt, loc), types::kLInt, loc);

@@ -50,23 +50,6 @@ Result runDifferential(const Setting& setting, const std::string& name, std::vec
   return result;
 }
 
-// A few generated charts against the evaluator; 200 by hand.
-Result runCharts(const Setting& setting) {
-  Command c;
-  c.arguments = {setting.bin + "/sfc_differential", "--count=20", "--folder=" + freshFolder(setting)};
-  c.folder = setting.root;
-  c.merged = true;
-  c.seconds = 600;
-  const Output output = run(c);
-  Result result;
-  if (output.exit_code == 0) {
-    result.passed = 20;
-  } else {
-    result.fail("unit/sfc_differential", output.out.substr(0, 8000), spelled(c));
-  }
-  return result;
-}
-
 Result runHouse(const Setting& setting, const std::string& script) {
   Command c;
   c.arguments = {setting.root + "/" + script};
@@ -101,7 +84,8 @@ void addUnit(const Setting& setting, std::vector<Job>& jobs) {
                     }});
   }
   if (isWanted(setting, "unit/sfc_differential"))
-    jobs.push_back({"unit/sfc_differential", 5, [&setting] { return runCharts(setting); }});
+    jobs.push_back(
+        {"unit/sfc_differential", 5, [&setting] { return runDifferential(setting, "sfc_differential", {}, 20); }});
   for (const std::string& script : filesBelow(setting, "tools/house", ".sh")) {
     jobs.push_back({script, 2, [&setting, script] { return runHouse(setting, script); }});
   }

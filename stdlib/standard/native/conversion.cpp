@@ -36,21 +36,20 @@ uint32_t textOfInteger(T value, char* out, uint32_t capacity) {
 }
 
 // TIME is signed where the module says so; the C type is unsigned in any dialect.
-// As text. In codesys LTIME has no sign, which its 64 bits do not tell.
-const char* longTimeText(const rung_context* ctx, int64_t value, char (&text)[64]) {
-  bool is_signed = true;
-  for (uint32_t i = 0; ctx->module != nullptr && i < ctx->module->type_count; ++i)
-    if (ctx->module->types[i].kind == RUNG_LTIME) is_signed = ctx->module->types[i].is_signed != 0;
-  rung_spell(RUNG_LTIME, is_signed, &value, text, sizeof text - 1);
-  return text;
+// Whether the module's dialect gives TIME or LTIME a sign, which the bits do not tell.
+bool isSigned(const rung_context* ctx, rung_type_kind kind, bool unknown) {
+  if (ctx->module == nullptr) return unknown;
+  for (uint32_t i = 0; i < ctx->module->type_count; ++i)
+    if (ctx->module->types[i].kind == kind) return ctx->module->types[i].is_signed != 0;
+  return unknown;
 }
 
+const char* longTimeText(const rung_context* ctx, int64_t value, char (&text)[64]) {
+  rung_spell(RUNG_LTIME, isSigned(ctx, RUNG_LTIME, true), &value, text, sizeof text - 1);
+  return text;
+}
 uint64_t timeBits(const rung_context* ctx, uint32_t value) {
-  if (ctx->module == nullptr) return value;
-  for (uint32_t i = 0; i < ctx->module->type_count; ++i)
-    if (ctx->module->types[i].kind == RUNG_TIME)
-      return ctx->module->types[i].is_signed != 0 ? bitsOf(static_cast<int32_t>(value)) : value;
-  return value;
+  return isSigned(ctx, RUNG_TIME, false) ? bitsOf(static_cast<int32_t>(value)) : value;
 }
 
 uint64_t fromBcd(uint64_t bcd) {

@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "tests/fuzz/differential/program.h"
+#include "tests/fuzz/generated/options.h"
 
 namespace rung::differential {
 
@@ -86,13 +87,7 @@ class Generator {
   Node program();
 
  private:
-  // splitmix64: the same numbers with every C++ library.
-  uint64_t random() {
-    uint64_t z = (state_ += 0x9E3779B97F4A7C15u);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-  }
+  uint64_t random() { return generated::nextRandom(state_); }
   int below(int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); }
   bool chance(int percent) { return below(100) < percent; }
   std::string pick(std::initializer_list<const char*> words) {

@@ -24,6 +24,7 @@
 
 #include "tests/fuzz/differential/program.h"
 #include "tests/fuzz/differential/shrink.h"
+#include "tests/fuzz/generated/options.h"
 #include "tests/runner/process.h"
 
 namespace rung::differential {
@@ -31,11 +32,7 @@ namespace {
 
 constexpr uint64_t kBatch = 25;
 
-struct Options {
-  uint64_t first = 0, count = 200;
-  std::string ways = "interp", rung, folder;
-  unsigned jobs = 1;
-};
+using generated::Options;
 
 struct Way {
   const char* compiler;  // null: interpreted
@@ -366,41 +363,14 @@ int runAll(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace rung::differential;
-  namespace fs = std::filesystem;
-  std::error_code error;
   Options options;
-  options.rung = (fs::read_symlink("/proc/self/exe", error).parent_path() / "rung").string();
-  options.folder = (fs::temp_directory_path(error) / ("differential." + std::to_string(getpid()))).string();
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    std::string name = word.substr(0, word.find('='));
-    std::string value = word.substr(std::min(name.size() + 1, word.size()));
-    if (word.compare(0, 2, "-j") == 0) {
-      name = "-j";
-      value = word.size() > 2 || i + 1 == argc ? word.substr(2) : argv[++i];
-    }
-    const uint64_t number = std::strtoull(value.c_str(), nullptr, 10);
-    if (name == "--print") {
-      const unsigned index = static_cast<unsigned>(number % kBatch);
-      std::fputs(generate(number, index, faultsOf(number), dialectOf(number)).print().c_str(), stdout);
-      return 0;
-    }
-    if (name == "--first") {
-      options.first = number / kBatch * kBatch;
-    } else if (name == "--count") {
-      options.count = number;
-    } else if (name == "--ways") {
-      options.ways = value;
-    } else if (name == "--rung") {
-      options.rung = value;
-    } else if (name == "--folder") {
-      options.folder = value;
-    } else if (name == "-j") {
-      options.jobs = std::clamp(static_cast<unsigned>(number), 1u, 64u);
-    } else {
-      std::fprintf(stderr, "differential: there is no option %s\n", word.c_str());
-      return 2;
-    }
+  if (!rung::generated::readOptions(argc, argv, "differential", "--ways -j", options)) return 2;
+  if (options.has_print) {
+    const unsigned index = static_cast<unsigned>(options.print % kBatch);
+    const uint64_t seed = options.print;
+    std::fputs(generate(seed, index, faultsOf(seed), dialectOf(seed)).print().c_str(), stdout);
+    return 0;
   }
+  options.first = options.first / kBatch * kBatch;
   return runAll(options);
 }

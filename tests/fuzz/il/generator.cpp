@@ -2,6 +2,8 @@
 
 #include <initializer_list>
 
+#include "tests/fuzz/generated/options.h"
+
 namespace rung::il_differential {
 namespace {
 
@@ -20,13 +22,7 @@ class Generator {
   Twins block();
 
  private:
-  // splitmix64: the same numbers with every C++ library.
-  uint64_t random() {
-    uint64_t z = (state_ += 0x9E3779B97F4A7C15u);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-  }
+  uint64_t random() { return generated::nextRandom(state_); }
   unsigned below(unsigned n) { return static_cast<unsigned>(random() % n); }
   bool chance(unsigned percent) { return below(100) < percent; }
   std::string pick(std::initializer_list<const char*> words) {

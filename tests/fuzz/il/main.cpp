@@ -5,16 +5,15 @@
 // Blocks go in batches of 25, one program each: its trace has a checksum of all outputs per block and cycle. A batch
 // that differs is run block by block, and the seeds that differ are printed. Called by tests/runner with few seeds and
 // by hand with many.
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
+#include "tests/fuzz/generated/options.h"
 #include "tests/fuzz/il/generator.h"
 #include "tests/runner/process.h"
 
@@ -23,11 +22,7 @@ namespace {
 
 constexpr uint64_t kBatch = 25;
 
-struct Options {
-  uint64_t first = 0, count = 200, cycles = 10000;
-  std::string rung, folder;
-  unsigned jobs = 1;
-};
+using generated::Options;
 
 const char* const kDeclarations =
     R"(TYPE Memory : STRUCT flag : BOOL; count : DINT; small : INT; level : REAL; END_STRUCT END_TYPE
@@ -138,41 +133,11 @@ int runAll(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace rung::il_differential;
-  namespace fs = std::filesystem;
-  std::error_code error;
   Options options;
-  options.rung = (fs::read_symlink("/proc/self/exe", error).parent_path() / "rung").string();
-  options.folder = (fs::temp_directory_path(error) / ("il_differential." + std::to_string(getpid()))).string();
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    std::string name = word.substr(0, word.find('='));
-    std::string value = word.substr(std::min(name.size() + 1, word.size()));
-    if (word.compare(0, 2, "-j") == 0) {
-      name = "-j";
-      value = word.size() > 2 || i + 1 == argc ? word.substr(2) : argv[++i];
-    }
-    const uint64_t number = std::strtoull(value.c_str(), nullptr, 10);
-    if (name == "--print") {
-      const Twins twins = generate(number, 0);
-      std::printf("%s\n%s", twins.st.c_str(), twins.il.c_str());
-      return 0;
-    }
-    if (name == "--first") {
-      options.first = number;
-    } else if (name == "--count") {
-      options.count = number;
-    } else if (name == "--cycles") {
-      options.cycles = number;
-    } else if (name == "--rung") {
-      options.rung = value;
-    } else if (name == "--folder") {
-      options.folder = value;
-    } else if (name == "-j") {
-      options.jobs = std::clamp(static_cast<unsigned>(number), 1u, 64u);
-    } else {
-      std::fprintf(stderr, "il_differential: there is no option %s\n", word.c_str());
-      return 2;
-    }
-  }
-  return runAll(options);
+  options.cycles = 10000;
+  if (!rung::generated::readOptions(argc, argv, "il_differential", "--cycles -j", options)) return 2;
+  if (!options.has_print) return runAll(options);
+  const Twins twins = generate(options.print, 0);
+  std::printf("%s\n%s", twins.st.c_str(), twins.il.c_str());
+  return 0;
 }

@@ -4,7 +4,6 @@
 //   sfc_differential --print=SEED
 // Charts go in batches of 10, one program each, which runs as it is and as the ST that `rung convert` makes of it.
 // Called by tests/runner with few seeds and by hand with many.
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -13,6 +12,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/fuzz/generated/options.h"
 #include "tests/fuzz/sfc/chart.h"
 #include "tests/runner/process.h"
 
@@ -22,10 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr uint64_t kBatch = 10;
 
-struct Options {
-  uint64_t first = 0, count = 200, cycles = 300;
-  std::string rung, folder, engine = "interp";
-};
+using generated::Options;
 
 uint32_t next(uint32_t random) { return random * 1664525u + 1013904223u; }
 
@@ -142,36 +139,13 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   using namespace rung::sfc_differential;
   Options options;
-  const fs::path self = fs::canonical("/proc/self/exe");
-  options.rung = (self.parent_path() / "rung").string();
-  options.folder = (fs::temp_directory_path() / ("sfc_differential_" + std::to_string(getpid()))).string();
-  bool keep = false;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    const size_t equal = std::min(argument.find('='), argument.size());
-    const std::string name = argument.substr(0, equal), value = argument.substr(std::min(equal + 1, argument.size()));
-    if (name == "--first") {
-      options.first = strtoull(value.c_str(), nullptr, 10);
-    } else if (name == "--count") {
-      options.count = strtoull(value.c_str(), nullptr, 10);
-    } else if (name == "--cycles") {
-      options.cycles = strtoull(value.c_str(), nullptr, 10);
-    } else if (name == "--engine") {
-      options.engine = value;
-    } else if (name == "--rung") {
-      options.rung = value;
-    } else if (name == "--folder") {
-      options.folder = value;
-      keep = true;
-    } else if (name == "--print") {
-      fputs(textOf(generate(strtoull(value.c_str(), nullptr, 10)), "Chart").c_str(), stdout);
-      return 0;
-    } else {
-      fprintf(stderr, "unknown option %s\n", argument.c_str());
-      return 2;
-    }
+  options.cycles = 300;
+  if (!rung::generated::readOptions(argc, argv, "sfc_differential", "--cycles --engine", options)) return 2;
+  if (options.has_print) {
+    fputs(textOf(generate(options.print), "Chart").c_str(), stdout);
+    return 0;
   }
   const int result = run(options);
-  if (!keep) fs::remove_all(options.folder);
+  if (!options.keeps_folder) fs::remove_all(options.folder);
   return result;
 }
