@@ -6,6 +6,7 @@
 #include <span>
 
 #include "frontend/source/names.h"
+#include "frontend/syntax/diagram.h"
 #include "frontend/syntax/ids.h"
 
 namespace rung {
@@ -16,10 +17,10 @@ enum class ShapeKind : uint8_t {
   Instance,  // of a function block
   Function,
   Method,  // or an action
+  Block,   // a type of function blocks; its pins are those of its instances
   Program,
   Other,  // a type, a list of globals, a library
 };
-enum class PinDirection : uint8_t { Input, Output, InOut };
 struct PinShape {
   NameId name;
   std::span<const NameId> aliases;

@@ -16,6 +16,7 @@
 #include "frontend/source/files.h"
 #include "frontend/source/invariant.h"
 #include "frontend/source/names.h"
+#include "frontend/syntax/diagram.h"
 #include "frontend/syntax/ids.h"
 #include "frontend/syntax/il.h"
 #include "frontend/syntax/sfc.h"
@@ -423,17 +424,18 @@ struct TypeDecl {
 enum class PouKind : uint8_t { Function, FunctionBlock, Program, Class, Interface, Method, Action };
 enum class AccessLevel : uint8_t { None, Public, Private, Protected, Internal };  // None: as the dialect has it
 enum Modifier : uint8_t { kAbstract = 1, kFinal = 2, kOverride = 4 };
-enum class BodyKind : uint8_t { None, St, Il, Sfc, Cpp, Native };
+enum class BodyKind : uint8_t { None, St, Il, Sfc, Network, Cpp, Native };
 struct PouDecl {
   DeclHeader h;
   NameId name;
   PouKind pou_kind;
-  BodyKind body_kind;  // Il and Sfc: St once sema had `il` or the chart scheduled, which fills `body`
+  BodyKind body_kind;  // Il, Sfc and Network: St once sema had them scheduled, which fills `body`
   bool closed;         // has its END_…
   TypeExprId result;   // functions; none: no result
   Slice<DeclId> sections;
   Slice<StmtId> body;
   Slice<IlInstruction> il;
+  Diagram diagram;       // of a body of networks
   Slice<SfcStep> steps;  // the chart of a body in SFC
   Slice<SfcTransition> transitions;
   FileId chart_sections, chart_body;  // sema: the text that the chart became
@@ -477,7 +479,6 @@ struct SectionDecl {
   Slice<DeclId> vars;
 };
 
-enum class EdgeKind : uint8_t { None, Rising, Falling };
 struct VarDecl {
   DeclHeader h;
   Slice<Ident>
@@ -631,6 +632,10 @@ class Tree {
   std::vector<SfcStep> sfc_steps_;
   std::vector<SfcTransition> sfc_transitions_;
   std::vector<SfcAssociation> sfc_associations_;
+  std::vector<DiagramWire> diagram_wires_;
+  std::vector<DiagramPin> diagram_pins_;
+  std::vector<DiagramElement> diagram_elements_;
+  std::vector<DiagramNetwork> diagram_networks_;
   std::vector<uint32_t> numbers_;
 
   template <class T>
@@ -673,6 +678,14 @@ std::vector<T>& Tree::storage() {
     return sfc_transitions_;
   else if constexpr (std::is_same_v<T, SfcAssociation>)
     return sfc_associations_;
+  else if constexpr (std::is_same_v<T, DiagramWire>)
+    return diagram_wires_;
+  else if constexpr (std::is_same_v<T, DiagramPin>)
+    return diagram_pins_;
+  else if constexpr (std::is_same_v<T, DiagramElement>)
+    return diagram_elements_;
+  else if constexpr (std::is_same_v<T, DiagramNetwork>)
+    return diagram_networks_;
   else {
     static_assert(std::is_same_v<T, uint32_t>, "a list element type needs its storage");
     return numbers_;

@@ -1,5 +1,6 @@
 #include "frontend/text/lexer.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <string>
@@ -530,6 +531,16 @@ const char* Lexer::cppBody(const char* begin) {
   return p;
 }
 
+// {network}, {network CFC}, {end_network}: the marks around a body of networks. End: another pragma.
+Tok networkMark(std::string_view text) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  const size_t length = static_cast<size_t>(std::find_if(text.begin(), text.end(), blank) - text.begin());
+  const std::string_view word = text.substr(0, length);
+  if (sameIdentifier(word, "network")) return Tok::Network;
+  return sameIdentifier(word, "end_network") ? Tok::EndNetwork : Tok::End;
+}
+
 // { … }: strings inside may hold braces.
 const char* Lexer::pragma(const char* begin) {
   const char* p = begin + 1;
@@ -546,6 +557,10 @@ const char* Lexer::pragma(const char* begin) {
     p = begin;
     while (p < end_ && *p != '\n') ++p;
     return p;
+  }
+  if (const Tok network = networkMark({begin + 1, static_cast<size_t>(p - begin - 1)}); network != Tok::End) {
+    push(network, begin, static_cast<uint32_t>(p + 1 - begin));
+    return p + 1;
   }
   message(begin + 1, p);
   out_.pragmas.push_back({0, at(begin), at(p) + 1});

@@ -352,7 +352,8 @@ void Parser::parsePouParts(PouDecl& d) {
   if (!is_member && atMember()) {
     while (atMember()) parseMember(members);
     const bool has_body =
-        !d.body.empty() || !d.il.empty() || d.body_kind == BodyKind::Sfc || d.body_kind == BodyKind::Cpp;
+        !d.body.empty() || !d.il.empty() || d.body_kind == BodyKind::Sfc || d.body_kind == BodyKind::Network ||
+        d.body_kind == BodyKind::Cpp;
     if (!has_body) parseBody(d);
   }
   d.members = tree_.addList<DeclId>(members);
@@ -364,6 +365,8 @@ void Parser::parseBody(PouDecl& d) {
   d.body_begin = d.body_end = here();
   if (accept(Tok::CppBody)) {
     d.body_kind = BodyKind::Cpp;
+  } else if (at(Tok::Network)) {
+    parseNetworks(d);
   } else if (atIl()) {
     d.body_kind = BodyKind::Il;
     d.il = parseIl(false);

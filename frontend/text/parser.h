@@ -1,7 +1,7 @@
 // The parser of Structured Text: recursive descent for declarations and statements, precedence climbing for
 // expressions, over the token array of lexer.h whose blocks recover.h has balanced. Private to frontend/text:
 // parser.cpp (files, POUs, configurations), objects.cpp, declarations.cpp, types.cpp, initial_values.cpp,
-// statements.cpp, expressions.cpp, il.cpp, sfc.cpp.
+// statements.cpp, expressions.cpp, il.cpp, sfc.cpp, network.cpp.
 //
 // Errors. fail() reports and sets panic_: nothing more is reported until the construct at hand has found its
 // synchronization point (`;`, a keyword, a line that begins a statement). slip() reports a mistake whose meaning is
@@ -176,6 +176,19 @@ class Parser {
   bool instructionInSt();
   bool statementInIl();
 
+  // ---- networks (network.cpp)
+  void parseNetworks(PouDecl& d);
+  void parseElement(std::vector<DiagramElement>& out, uint32_t network);
+  void parsePins(std::vector<DiagramPin>& out);
+  void parseWires(DiagramPin& pin);
+  ExprId parseElementPath(Ident& name);
+  template <class Marked>
+  bool takeMark(Marked& out);
+  bool takeWord(Ident& out);
+  bool takeNumber(uint64_t& out);
+  bool takePlace(int32_t& out);
+  void connectWires(const std::vector<DiagramElement>& elements, uint32_t first_wire);
+
   // ---- Sequential Function Chart (sfc.cpp)
   bool atSfc() const;
   void parseSfc(PouDecl& d, std::vector<DeclId>& members);
@@ -262,6 +275,8 @@ class Parser {
   std::vector<IlNested> il_nested_;
   std::vector<const Token*> il_open_;  // operators whose `(` is open
   size_t il_outside_ = 0;              // how many of them the list at hand stands in
+  std::vector<DiagramWire> wires_;
+  std::vector<uint64_t> wire_numbers_;  // of the body's wires: where they come from
   uint32_t type_depth_ = 0;
 };
 

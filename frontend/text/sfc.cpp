@@ -293,7 +293,7 @@ void Parser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
       store.operands = tree_.addList<Argument>({&operand, 1});
       list.push_back(store);
       d.il = tree_.addList<IlInstruction>(list);
-    } else if (!t.name.name || d.body.empty()) {
+    } else if (!t.name.name || (d.body.empty() && d.body_kind != BodyKind::Network)) {
       slip(Diag::SfcNoCondition, first);
       panic_ = true;
       return;

@@ -115,7 +115,7 @@ Shape ProjectShapes::shapeOf(const Place& place) {
       case PouKind::Method:
       case PouKind::Action: return shapeOf(id, ShapeKind::Method);
       case PouKind::Program: return shapeOf(id, ShapeKind::Program);
-      case PouKind::FunctionBlock:
+      case PouKind::FunctionBlock: return {ShapeKind::Block, false, {}};
       case PouKind::Class:
       case PouKind::Interface: return {ShapeKind::Other, false, {}};
     }

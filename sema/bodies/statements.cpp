@@ -1,5 +1,6 @@
 // Statements. In: the statement list of a POU. Out: the same tree with every expression checked and converted.
 // Called by checkBody() below, which sema::check() calls for each POU and for each library POU in use.
+#include "frontend/diagram/schedule.h"
 #include "frontend/text/il_schedule.h"
 #include "frontend/text/sfc_schedule.h"
 #include "sema/bodies/bodies.h"
@@ -402,8 +403,17 @@ bool checkStatements(Context& context, Slice<StmtId> list) {
 
 // Makes statements of a body in IL or SFC, once the declarations of all files are known.
 static void schedule(Context& context, PouDecl& decl) {
-  if (decl.body_kind != BodyKind::Il && decl.body_kind != BodyKind::Sfc) return;
+  if (decl.body_kind != BodyKind::Il && decl.body_kind != BodyKind::Sfc && decl.body_kind != BodyKind::Network) return;
   ProjectShapes shapes(context);
+  if (decl.body_kind == BodyKind::Network) {
+    const diagram::Statements made =
+        diagram::scheduleNetworks(context.tree(), context.names(), context.project.diagnostics, shapes, decl);
+    decl.body = made.body;
+    decl.body_kind = BodyKind::St;
+    declareTemporaries(context, made.temporaries);
+    if (context.project.options.scheduled) context.project.options.scheduled(context.project, context.pou);
+    return;
+  }
   if (decl.body_kind == BodyKind::Sfc) {
     decl.body_kind = BodyKind::St;
     if (!text::scheduleSfc(chartsOf(context), shapes, decl)) return;

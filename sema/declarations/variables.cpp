@@ -1,4 +1,6 @@
 // Variables of POUs and global lists: their names first, then types and storage, then initial values; each on demand.
+#include "frontend/diagram/schedule.h"
+#include "sema/bodies/shapes.h"
 #include "sema/checks/object_members.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
@@ -389,12 +391,40 @@ static void declareInstanceVars(Context& context, DeclId decl, const SectionDecl
   }
 }
 
+// The variables that networks of the POU and of its actions need without anybody having written them.
+static void declareHidden(Context& context, PouId id) {
+  Tree& tree = context.tree();
+  PouDecl& decl = tree.as<PouDecl>(context.project.pou(id).decl);
+  if (decl.pou_kind == PouKind::Action || decl.pou_kind == PouKind::Interface) return;
+  std::vector<DeclId> added;
+  Context there = atPou(context, id);
+  ProjectShapes shapes(there);
+  const auto declare = [&](PouDecl& of, std::string_view prefix) {
+    if (of.body_kind != BodyKind::Network) return;
+    const SectionKind kind = decl.pou_kind == PouKind::Method ? SectionKind::Inst : SectionKind::Local;
+    const DeclId section = diagram::declareNetworks(tree, context.names(), shapes, of, kind, prefix);
+    if (section) added.push_back(section);
+  };
+  declare(decl, {});
+  for (uint32_t m = 0; m < decl.members.count; ++m) {
+    const DeclId member = tree.list(decl.members)[m];
+    if (tree.kind(member) != DeclKind::Pou) continue;
+    PouDecl& action = tree.as<PouDecl>(member);
+    if (action.pou_kind == PouKind::Action) declare(action, spelled(context, action.name) + "_");
+  }
+  if (added.empty()) return;
+  std::vector<DeclId> sections(tree.list(decl.sections).begin(), tree.list(decl.sections).end());
+  sections.insert(sections.end(), added.begin(), added.end());
+  decl.sections = tree.addList<DeclId>(sections);
+}
+
 void declarePou(Context& context, PouId id) {
   PouScope& scope = context.scopes.pous[id.index];
   if (scope.declared) return;
   scope.declared = true;
   Project& project = context.project;
   Tree& tree = context.tree();
+  declareHidden(context, id);
   const PouDecl& decl = tree.as<PouDecl>(project.pou(id).decl);
   Context there = atPou(context, id);
   const PouKind kind = decl.pou_kind;

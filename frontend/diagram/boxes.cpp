@@ -1,0 +1,307 @@
+// Boxes: operators become expressions, everything else calls. A function that one wire reads stands where it is read; a
+// function block is called in its turn and its outputs are read from the instance.
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <utility>
+
+#include "frontend/diagram/scheduler.h"
+
+namespace rung::diagram {
+namespace {
+
+constexpr uint16_t kMaxHeight = 100;
+
+enum class Form : uint8_t { Chain, Pair, Invert, Move };  // a op b op c …, a op b, NOT a, a
+struct Operator {
+  std::string_view name;
+  Form form;
+  BinaryOp op;
+};
+constexpr Operator kOperators[] = {{"AND", Form::Chain, BinaryOp::And},        {"OR", Form::Chain, BinaryOp::Or},
+                                   {"XOR", Form::Chain, BinaryOp::Xor},        {"ADD", Form::Chain, BinaryOp::Add},
+                                   {"MUL", Form::Chain, BinaryOp::Multiply},   {"SUB", Form::Pair, BinaryOp::Subtract},
+                                   {"DIV", Form::Pair, BinaryOp::Divide},      {"MOD", Form::Pair, BinaryOp::Modulo},
+                                   {"GT", Form::Pair, BinaryOp::Greater},      {"GE", Form::Pair, BinaryOp::GreaterEqual},
+                                   {"EQ", Form::Pair, BinaryOp::Equal},        {"LE", Form::Pair, BinaryOp::LessEqual},
+                                   {"LT", Form::Pair, BinaryOp::Less},         {"NE", Form::Pair, BinaryOp::NotEqual},
+                                   {"NOT", Form::Invert, BinaryOp::Or},        {"MOVE", Form::Move, BinaryOp::Or}};
+
+const Operator* operatorNamed(std::string_view name) {
+  const auto* found = std::find_if(std::begin(kOperators), std::end(kOperators),
+                                   [&](const Operator& op) { return sameIdentifier(op.name, name); });
+  return found == std::end(kOperators) ? nullptr : found;
+}
+
+bool isControl(const Names& names, NameId pin) {
+  return sameIdentifier(names.text(pin), "EN") || sameIdentifier(names.text(pin), "ENO");
+}
+
+}  // namespace
+
+struct Scheduler::Call {
+  Shape shape;
+  ExprId callee;
+  const Operator* op = nullptr;
+  std::vector<Argument> arguments;
+  DiagramPin en{};
+  bool has_en = false;
+};
+
+bool Scheduler::isOperator(const DiagramElement& e) const {
+  return e.kind == ElementKind::Box && !e.operand && e.path && tree_.kind(e.path) == ExprKind::Name &&
+         operatorNamed(names_.text(e.name.name)) != nullptr;
+}
+
+// The output that a wire without a pin's name means: the result of a function.
+uint32_t Scheduler::resultOf(uint32_t element, const Shape& shape) const {
+  for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
+    const NameId pin = graph_.sources[s].pin.name;
+    if (pin && isControl(names_, pin)) continue;
+    const PinShape* known = pin ? shape.find(names_, pin) : nullptr;
+    if (known == nullptr || known->direction == PinDirection::Input) return s;
+  }
+  return kNone;
+}
+
+// Pins that repeat are called IN3, IN4, …
+bool Scheduler::hasPin(const Shape& shape, const Ident& pin) const {
+  if (shape.find(names_, pin.name) != nullptr) return true;
+  const std::string_view name = names_.text(pin.name);
+  if (name.empty() || std::isdigit(static_cast<unsigned char>(name.back())) == 0) return false;
+  return std::any_of(shape.pins.begin(), shape.pins.end(), [](const PinShape& known) { return known.extensible; });
+}
+
+//   fails   a pin that the block does not have        E1004
+bool Scheduler::fillArguments(uint32_t element, Call& call) {
+  const DiagramElement e = graph_.elements[element];
+  const bool known = call.shape.kind != ShapeKind::Unknown && call.op == nullptr;
+  bool named = known;
+  if (named && call.shape.kind == ShapeKind::Function) {  // some editors have names of their own for all of them
+    bool any = false, all_unknown = true;
+    for (const DiagramPin& pin : tree_.list(e.pins)) {
+      if (pin.direction == PinDirection::Output || isControl(names_, pin.name.name)) continue;
+      any = true;
+      all_unknown = all_unknown && !hasPin(call.shape, pin.name);
+    }
+    named = !(any && all_unknown && !call.shape.pins.empty());
+  }
+  bool good = true;
+  for (uint32_t p = 0; p < e.pins.count; ++p) {
+    const DiagramPin pin = tree_.list(e.pins)[p];
+    if (pin.direction == PinDirection::Output || pin.wires.empty()) continue;
+    if (isControl(names_, pin.name.name) && call.shape.find(names_, pin.name.name) == nullptr) {
+      call.en = pin;
+      call.has_en = true;
+      continue;
+    }
+    if (named && !hasPin(call.shape, pin.name)) {
+      std::string_view near;
+      std::vector<std::string_view> candidates;
+      for (const PinShape& candidate : call.shape.pins)
+        if (candidate.direction != PinDirection::Output) candidates.push_back(names_.text(candidate.name));
+      near = nearest(names_.text(pin.name.name), candidates);
+      report(Diag::NoSuchPin, pin.name.loc, element,
+             {names_.text(e.name.name), "input", names_.text(pin.name.name)})
+          .didYouMean(near);
+      good = false;
+      continue;
+    }
+    const ExprId value = valueOf(e, pin);
+    const Loc loc = pin.name.loc;
+    call.arguments.push_back({named ? pin.name : Ident{{}, loc}, value, false, false, loc});
+  }
+  return good;
+}
+
+// The value of an output of a box that was settled, or that keeps the value of the last cycle.
+//   fails   an output that the block does not have                                     E1004
+//   fails   an operator or function that is read before its turn                       E1013
+ExprId Scheduler::readBox(uint32_t source) {
+  const Source s = graph_.sources[source];
+  const DiagramElement& e = graph_.elements[s.element];
+  const Loc loc = s.pin.loc ? s.pin.loc : e.loc;
+  ExprId value;
+  if (keepsState(s.element)) {
+    const ExprId instance = e.operand ? clone(tree_, e.operand) : nameExpr(e.hidden, e.loc);
+    const Shape shape = e.operand ? shapes_.of(e.operand) : shapes_.of(e.hidden);
+    NameId pin = s.pin.name;
+    if (shape.kind == ShapeKind::Instance) {
+      const PinShape* known = pin ? shape.find(names_, pin) : nullptr;
+      if (!pin) {  // the first output
+        for (const PinShape& candidate : shape.pins)
+          if (known == nullptr && candidate.direction == PinDirection::Output) known = &candidate;
+        if (known != nullptr) pin = known->name;
+      }
+      if (known == nullptr) {
+        std::vector<std::string_view> candidates;
+        for (const PinShape& candidate : shape.pins) candidates.push_back(names_.text(candidate.name));
+        report(Diag::NoSuchPin, loc, s.element, {names_.text(e.name.name), "output", names_.text(pin)})
+            .didYouMean(nearest(names_.text(pin), candidates));
+        return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
+      }
+      if (known->direction == PinDirection::InOut) {  // what is wired to it
+        const DiagramPin* wired = pinNamed(e, names_.text(known->name), PinDirection::InOut);
+        if (wired == nullptr) wired = pinNamed(e, names_.text(known->name), PinDirection::Input);
+        if (wired != nullptr && !wired->wires.empty()) {
+          const DiagramPin copy = *wired;
+          return read(graph_.sourceOf(copy, 0));
+        }
+      }
+    }
+    value = memberExpr(instance, pin, loc);
+  } else {
+    report(Diag::ReadBeforeTurn, loc, s.element, {describe(tree_, names_, e)});
+    return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
+  }
+  const DiagramPin* out = s.pin.name ? pinNamed(e, names_.text(s.pin.name), PinDirection::Output) : nullptr;
+  return out != nullptr && out->negated ? inverted(value, loc) : value;
+}
+
+// The variable that alone takes the value of a box, or kNone.
+uint32_t Scheduler::soleTarget(uint32_t source) const {
+  if (source == kNone || graph_.sources[source].uses != 1) return kNone;
+  const uint32_t user = graph_.sources[source].user;
+  const DiagramElement& e = graph_.elements[user];
+  const bool plain = e.kind == ElementKind::Output && !e.negated && e.edge == EdgeKind::None &&
+                     e.storage == PinStorage::None && phase_[user] != Phase::Settled;
+  if (!plain || (e.order != 0 && graph_.elements[graph_.sources[source].element].order == 0)) return kNone;
+  const DiagramPin* pin = firstInput(e);
+  return pin->wires.count == 1 && !pin->negated && pin->edge == EdgeKind::None ? user : kNone;
+}
+
+// Gives `value`, which the box computes, to whoever reads it: at once, or as a part of the reader's expression.
+void Scheduler::giveResult(uint32_t element, uint32_t result, ExprId value) {
+  Source& s = graph_.sources[result];
+  const DiagramElement& e = graph_.elements[element];
+  if (const DiagramPin* out = s.pin.name ? pinNamed(e, names_.text(s.pin.name), PinDirection::Output) : nullptr;
+      out != nullptr && out->negated)
+    value = inverted(value, e.loc);
+  s.pending = value;
+  s.height = heightOf(e);
+  const bool in_turn = e.order == 0 || (turn_[s.user] != kNone && turn_[s.user] == turn_[element] + 1);
+  if (s.uses == 1 && in_turn && s.height < kMaxHeight) {
+    if (hasCall(tree_, value)) calls_open_.push_back(result);
+    return;
+  }
+  keep(result, wireName(element));
+}
+
+//   fails   an input that nothing leads to        E1007
+void Scheduler::settleOperator(uint32_t element, Call& call) {
+  const DiagramElement e = graph_.elements[element];
+  const size_t least = call.op->form == Form::Chain || call.op->form == Form::Pair ? 2 : 1;
+  const bool fits = call.op->form == Form::Chain ? call.arguments.size() >= 2 : call.arguments.size() == least;
+  bool open = false;
+  for (const DiagramPin& pin : tree_.list(e.pins)) {
+    if (pin.direction == PinDirection::Output || !pin.wires.empty() || isControl(names_, pin.name.name)) continue;
+    if (!open) report(Diag::NotWired, pin.name.loc, element, {"`" + std::string(names_.text(pin.name.name)) + "` of " + describe(tree_, names_, e)});
+    open = true;
+  }
+  if (open) return;
+  if (!fits) {
+    report(Diag::NotWired, e.loc, element, {"all inputs of " + describe(tree_, names_, e)});
+    return;
+  }
+  ExprId value = call.arguments[0].value;
+  if (call.op->form == Form::Invert) value = inverted(value, e.loc);
+  for (size_t k = 1; k < call.arguments.size(); ++k) value = binary(call.op->op, value, call.arguments[k].value, e.loc);
+
+  const uint32_t eno = graph_.find(element, names_.intern("ENO"));
+  const uint32_t result = resultOf(element, {});
+  if (!call.has_en) {
+    if (eno != kNone) {
+      graph_.sources[eno].pending = trueExpr(e.loc);
+      keep(eno, wireName(element) + "_ENO");
+    }
+    if (result != kNone) return giveResult(element, result, value);
+    const NameId unread = newTemporary(wireName(element), e.loc);
+    return assign(nameExpr(unread, e.loc), value, e.loc);
+  }
+  ExprId condition = valueOf(e, call.en);
+  if (eno != kNone) {
+    graph_.sources[eno].pending = condition;
+    keep(eno, wireName(element) + "_ENO");
+    condition = read(eno);
+  }
+  ExprId target;
+  if (const uint32_t user = soleTarget(result); user != kNone) {
+    target = operandOf(user);
+    assigned_[user] = true;
+  } else {
+    const NameId name = newTemporary(wireName(element), e.loc);
+    if (result != kNone) graph_.sources[result].temporary = name;
+    target = nameExpr(name, e.loc);
+  }
+  conditional(condition, e.loc,
+              tree_.add<StmtId>(AssignStmt{
+                  stmtHeader(StmtKind::Assign, e.loc, static_cast<uint8_t>(AssignOp::Assign)), target, value}));
+}
+
+// The call of an instance, or of what has no result.
+void Scheduler::settleCall(uint32_t element, Call& call) {
+  const DiagramElement e = graph_.elements[element];
+  const uint32_t eno = graph_.find(element, names_.intern("ENO"));
+  if (call.has_en) {
+    const Loc loc = call.en.name.loc;
+    call.arguments.insert(call.arguments.begin(), {call.en.name, valueOf(e, call.en), false, false, loc});
+  }
+  if (eno != kNone && graph_.sources[eno].uses > 0) {
+    const NameId name = newTemporary(wireName(element) + "_ENO", e.loc);
+    graph_.sources[eno].temporary = name;
+    const Ident pin = graph_.sources[eno].pin;
+    call.arguments.push_back({pin, nameExpr(name, pin.loc), true, false, pin.loc});
+  }
+  const bool function = call.shape.kind == ShapeKind::Function || call.shape.kind == ShapeKind::Method ||
+                        call.shape.kind == ShapeKind::Unknown;
+  uint32_t result = kNone;
+  bool outputs = eno != kNone;
+  if (function) {
+    result = call.shape.kind == ShapeKind::Unknown || call.shape.has_result ? resultOf(element, call.shape) : kNone;
+    for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
+      if (s == result || s == eno) continue;
+      Source& source = graph_.sources[s];
+      source.temporary = newTemporary(wireName(element) + "_" + std::string(names_.text(source.pin.name)), e.loc);
+      call.arguments.push_back({source.pin, nameExpr(source.temporary, source.pin.loc), true, false, source.pin.loc});
+      outputs = true;
+    }
+  }
+  const ExprId value = callExpr(call.callee, call.arguments, tree_.loc(call.callee));
+  if (result == kNone) {
+    emit(tree_.add<StmtId>(CallStmt{stmtHeader(StmtKind::Call, e.loc), value}));
+    return;
+  }
+  if (call.has_en || outputs) {
+    // Where EN is FALSE, the target keeps its value.
+    if (const uint32_t user = soleTarget(result); call.has_en && user != kNone) {
+      assigned_[user] = true;
+      return assign(operandOf(user), value, e.loc);
+    }
+    graph_.sources[result].pending = value;
+    return keep(result, wireName(element));
+  }
+  giveResult(element, result, value);
+}
+
+void Scheduler::settleBox(uint32_t element) {
+  const DiagramElement e = graph_.elements[element];
+  Call call;
+  if (!e.path && !e.operand) return;
+  if (isOperator(e)) {
+    call.op = operatorNamed(names_.text(e.name.name));
+    if (fillArguments(element, call)) settleOperator(element, call);
+    return;
+  }
+  if (e.operand) {
+    call.shape = shapes_.of(e.operand);
+  } else if (e.hidden) {
+    call.shape = shapes_.of(e.hidden);
+  } else {
+    call.shape = shapes_.of(e.path);
+  }
+  if (!fillArguments(element, call)) return;
+  call.callee = e.operand ? operandOf(element) : e.hidden ? nameExpr(e.hidden, e.loc) : e.path;
+  settleCall(element, call);
+}
+
+}  // namespace rung::diagram

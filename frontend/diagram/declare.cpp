@@ -1,0 +1,118 @@
+// The variables that networks need without anybody having declared them.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "frontend/diagram/schedule.h"
+
+namespace rung::diagram {
+namespace {
+
+class Declarer {
+ public:
+  Declarer(Tree& tree, Names& names, Shapes& shapes, const PouDecl& pou, std::string_view prefix)
+      : tree_(tree), names_(names), shapes_(shapes), prefix_(prefix) {
+    for (uint32_t s = 0; s < pou.sections.count; ++s) {
+      const Slice<DeclId> vars = tree_.as<SectionDecl>(tree_.list(pou.sections)[s]).vars;
+      for (uint32_t v = 0; v < vars.count; ++v)
+        for (const Ident& name : tree_.list(tree_.as<VarDecl>(tree_.list(vars)[v]).names))
+          taken_.push_back(names_.key(name.name).index);
+    }
+    std::sort(taken_.begin(), taken_.end());
+  }
+
+  void run(Slice<DiagramElement> elements) {
+    for (uint32_t k = 0; k < elements.count; ++k) {
+      const DiagramElement e = tree_.list(elements)[k];
+      if (const NameId hidden = ofElement(e)) tree_.list(elements)[k].hidden = hidden;
+      for (uint32_t p = 0; p < e.pins.count; ++p) {
+        const DiagramPin pin = tree_.list(e.pins)[p];
+        if (pin.edge == EdgeKind::None) continue;
+        const std::string base = sensor(pin.edge) + number(e) + "_" + std::string(names_.text(pin.name.name));
+        const NameId hidden = declare(base, sensorType(pin.edge, pin.name.loc), pin.name.loc);
+        tree_.list(e.pins)[p].hidden = hidden;
+      }
+    }
+  }
+
+  const std::vector<DeclId>& vars() const { return vars_; }
+
+ private:
+  static std::string sensor(EdgeKind edge) { return edge == EdgeKind::Rising ? "R_TRIG_" : "F_TRIG_"; }
+  static std::string number(const DiagramElement& e) { return std::to_string(e.number); }
+
+  NameId ofElement(const DiagramElement& e) {
+    if (e.edge != EdgeKind::None) return declare(sensor(e.edge) + number(e), sensorType(e.edge, e.loc), e.loc);
+    const bool composes = e.kind == ElementKind::Compose;
+    const bool nameless = e.kind == ElementKind::Box && !e.operand && e.path;
+    if (!composes && !(nameless && shapes_.of(e.path).kind == ShapeKind::Block)) return {};
+    return declare(std::string(names_.text(e.name.name)) + "_" + number(e), typeOf(e.path), e.name.loc);
+  }
+
+  TypeExprId sensorType(EdgeKind edge, Loc loc) {
+    const Ident name{names_.intern(edge == EdgeKind::Rising ? "R_TRIG" : "F_TRIG"), loc};
+    return named({&name, 1}, loc);
+  }
+  // The path of a box as a type.
+  TypeExprId typeOf(ExprId path) {
+    std::vector<Ident> idents;
+    const Loc loc = tree_.loc(path);
+    for (; tree_.kind(path) == ExprKind::Member; path = tree_.as<MemberExpr>(path).base)
+      idents.push_back({tree_.as<MemberExpr>(path).member, tree_.loc(path)});
+    idents.push_back({tree_.as<NameExpr>(path).name, tree_.loc(path)});
+    std::reverse(idents.begin(), idents.end());
+    return named(idents, loc);
+  }
+  TypeExprId named(std::span<const Ident> path, Loc loc) {
+    NamedTypeExpr type{};
+    type.h = {TypeExprKind::Named, 0, 0, loc, {}};
+    type.path = tree_.addList<Ident>(path);
+    return tree_.add<TypeExprId>(type);
+  }
+  NameId declare(const std::string& base, TypeExprId type, Loc loc) {
+    std::string spelling = std::string(prefix_) + base;
+    NameId name = names_.intern(spelling);
+    while (std::binary_search(taken_.begin(), taken_.end(), names_.key(name).index))
+      name = names_.intern(spelling += "x");
+    const Ident ident{name, loc};
+    VarDecl decl{{DeclKind::Var, 0, 0, loc, {}, {}}, {}, type, {}, EdgeKind::None, false, {}, {}};
+    decl.names = tree_.addList<Ident>({&ident, 1});
+    vars_.push_back(tree_.add<DeclId>(decl));
+    return name;
+  }
+
+  Tree& tree_;
+  Names& names_;
+  Shapes& shapes_;
+  std::string_view prefix_;
+  std::vector<uint32_t> taken_;  // keys of the POU's own names, sorted
+  std::vector<DeclId> vars_;
+};
+
+}  // namespace
+
+DeclId declareNetworks(Tree& tree, Names& names, Shapes& shapes, const PouDecl& pou, SectionKind kind,
+                       std::string_view prefix) {
+  Declarer declarer(tree, names, shapes, pou, prefix);
+  declarer.run(pou.diagram.elements);
+  if (declarer.vars().empty()) return {};
+  const Loc loc = tree.loc(declarer.vars().front());
+  SectionDecl section{{DeclKind::Section, 0, 0, loc, {}, {}}, kind, AccessLevel::None, {}};
+  section.vars = tree.addList<DeclId>(declarer.vars());
+  return tree.add<DeclId>(section);
+}
+
+std::string describe(const Tree& tree, const Names& names, const DiagramElement& element) {
+  static const char* const kWords[] = {"rail",      "right rail",   "contact", "coil",  "box",    "input",
+                                       "output",    "in-out",       "connector", "continuation", "jump", "label",
+                                       "return",    "execute box",  "composer", "selector", "comment"};
+  std::string text = kWords[static_cast<size_t>(element.kind)];
+  ExprId named = element.operand;
+  if (element.name.name)
+    text += " `" + std::string(names.text(element.name.name)) + "`";
+  else if (named && tree.kind(named) == ExprKind::Name)
+    text += " `" + std::string(names.text(tree.as<NameExpr>(named).name)) + "`";
+  return text + ", number " + std::to_string(element.number);
+}
+
+}  // namespace rung::diagram

@@ -1,0 +1,230 @@
+// What the wires of a body connect, and in which order its elements are asked to do their work.
+#include <algorithm>
+#include <numeric>
+#include <compare>
+#include <utility>
+
+#include "frontend/diagram/graph.h"
+
+namespace rung::diagram {
+namespace {
+
+bool isLink(ElementKind kind) { return kind == ElementKind::Connector || kind == ElementKind::Continuation; }
+bool isRail(ElementKind kind) { return kind == ElementKind::Rail || kind == ElementKind::RightRail; }
+
+// Does something when nobody reads it.
+bool acts(const DiagramElement& e) {
+  switch (e.kind) {
+    case ElementKind::Coil:
+    case ElementKind::Box:
+    case ElementKind::Output:
+    case ElementKind::Jump:
+    case ElementKind::Label:
+    case ElementKind::Return:
+    case ElementKind::Execute: return true;
+    case ElementKind::InOut: return !e.pins.empty();
+    case ElementKind::Rail:
+    case ElementKind::RightRail:
+    case ElementKind::Contact:
+    case ElementKind::Input:
+    case ElementKind::Connector:
+    case ElementKind::Continuation:
+    case ElementKind::Compose:
+    case ElementKind::Select:
+    case ElementKind::Comment: break;
+  }
+  return false;
+}
+
+}  // namespace
+
+// Where the wire into a connector comes from; kNone: nowhere, or it leads in a circle.
+uint32_t Graph::followed(uint32_t element) const {
+  for (size_t steps = 0; steps <= elements.size(); ++steps) {
+    if (element == kNone || !isLink(elements[element].kind)) return element;
+    const DiagramElement& e = elements[element];
+    if (e.kind == ElementKind::Continuation) {
+      element = e.network;  // connect() put the connector there
+      continue;
+    }
+    if (e.pins.empty()) return kNone;
+    const DiagramPin pin = tree_->list(e.pins)[0];
+    if (pin.wires.count != 1) return kNone;
+    element = tree_->list(pin.wires)[0].from;
+  }
+  return kNone;
+}
+
+uint32_t Graph::find(uint32_t element, NameId pin) const {
+  for (uint32_t s = first_source[element]; s != kNone; s = sources[s].next)
+    if (names_->same(sources[s].pin.name, pin)) return s;
+  return kNone;
+}
+
+uint32_t Graph::sourceAt(uint32_t element, const Ident& pin) {
+  const ElementKind kind = elements[element].kind;
+  const bool has_pins = kind == ElementKind::Box || kind == ElementKind::Execute || kind == ElementKind::Select;
+  const Ident named = has_pins ? pin : Ident{{}, pin.loc};
+  if (const uint32_t known = find(element, named.name); known != kNone) return known;
+  Source source{};
+  source.element = element;
+  source.pin = named;
+  source.next = first_source[element];
+  first_source[element] = static_cast<uint32_t>(sources.size());
+  sources.push_back(source);
+  return first_source[element];
+}
+
+//   fails   a continuation without its connector        E1008
+//   fails   two connectors of one name                  E1009
+//   fails   a circle of connectors                      E1006
+bool Graph::connect() {
+  const uint32_t errors = diagnostics_->errorCount();
+  std::vector<std::pair<uint32_t, uint32_t>> connectors;  // name key, element
+  for (uint32_t k = 0; k < elements.size(); ++k) {
+    const DiagramElement& e = elements[k];
+    if (e.kind == ElementKind::Connector && e.name.name) connectors.emplace_back(names_->key(e.name.name).index, k);
+  }
+  std::sort(connectors.begin(), connectors.end());
+  for (size_t k = 1; k < connectors.size(); ++k) {
+    if (connectors[k].first != connectors[k - 1].first) continue;
+    const Ident& name = elements[connectors[k].second].name;
+    diagnostics_->report(Diag::ConnectorTwice, name.loc, {names_->text(name.name)})
+        .note(elements[connectors[k - 1].second].name.loc, Note::DeclaredHere);
+  }
+  for (DiagramElement& e : elements) {
+    if (e.kind != ElementKind::Continuation) continue;
+    const auto found = std::lower_bound(connectors.begin(), connectors.end(),
+                                        std::pair{e.name.name ? names_->key(e.name.name).index : 0u, 0u});
+    const bool known = e.name.name && found != connectors.end() && found->first == names_->key(e.name.name).index;
+    if (!known) diagnostics_->report(Diag::NoConnector, e.loc, {names_->text(e.name.name)});
+    e.network = known ? found->second : kNone;
+  }
+  first_source.assign(elements.size(), kNone);
+  first_wire_ = kNone;
+  uint32_t end = 0;
+  for (const DiagramElement& e : elements)
+    for (const DiagramPin& pin : tree_->list(e.pins)) {
+      if (pin.wires.empty()) continue;
+      first_wire_ = std::min(first_wire_, pin.wires.first);
+      end = std::max(end, pin.wires.first + pin.wires.count);
+    }
+  source_of_wire_.assign(first_wire_ == kNone ? 0 : end - first_wire_, kNone);
+  for (uint32_t k = 0; k < elements.size(); ++k) {
+    if (isLink(elements[k].kind)) continue;
+    const bool ends = elements[k].kind == ElementKind::RightRail;
+    for (const DiagramPin& pin : tree_->list(elements[k].pins))
+      for (uint32_t w = 0; w < pin.wires.count; ++w) {
+        const DiagramWire wire = tree_->list(pin.wires)[w];
+        const uint32_t from = followed(wire.from);
+        if (from == kNone) {
+          diagnostics_->report(isLink(elements[wire.from].kind) && elements[wire.from].pins.empty()
+                                   ? Diag::NotWired
+                                   : Diag::WireLoop,
+                               elements[wire.from].loc, {nameOf(elements[wire.from])});
+          continue;
+        }
+        // The pin of a wire through connectors is that of the wire into the first of them.
+        Ident name = wire.pin;
+        for (uint32_t at = wire.from; isLink(elements[at].kind);) {
+          const uint32_t link = elements[at].kind == ElementKind::Continuation ? elements[at].network : at;
+          const DiagramWire inner = tree_->list(tree_->list(elements[link].pins)[0].wires)[0];
+          name = inner.pin;
+          at = inner.from;
+        }
+        const uint32_t source = sourceAt(from, name);
+        source_of_wire_[pin.wires.first + w - first_wire_] = source;
+        if (ends) continue;
+        ++sources[source].uses;
+        sources[source].user = k;
+      }
+  }
+  return diagnostics_->errorCount() == errors;
+}
+
+// Elements are of one network when wires connect them, power rails apart, or when the file says so.
+void Graph::separate() {
+  std::vector<uint32_t> parent(elements.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](uint32_t k) {
+    while (parent[k] != k) k = parent[k] = parent[parent[k]];
+    return k;
+  };
+  const auto join = [&](uint32_t a, uint32_t b) { parent[root(std::max(a, b))] = root(std::min(a, b)); };
+  std::vector<std::pair<uint32_t, uint32_t>> said;  // network of the file, element
+  for (uint32_t k = 0; k < elements.size(); ++k) {
+    const DiagramElement& e = elements[k];
+    if (isRail(e.kind) || isLink(e.kind)) continue;
+    if (e.network != 0) said.emplace_back(e.network, k);
+    for (const DiagramPin& pin : tree_->list(e.pins))
+      for (uint32_t w = 0; w < pin.wires.count; ++w) {
+        const uint32_t from = sources[sourceOf(pin, w)].element;
+        if (!isRail(elements[from].kind)) join(k, from);
+      }
+  }
+  std::sort(said.begin(), said.end());
+  for (size_t k = 1; k < said.size(); ++k)
+    if (said[k].first == said[k - 1].first) join(said[k].second, said[k - 1].second);
+  network.resize(elements.size());
+  for (uint32_t k = 0; k < elements.size(); ++k) network[k] = root(k);
+}
+
+void Graph::sortRoots() {
+  bool placed = false;
+  const DiagramElement* first = nullptr;
+  for (const DiagramElement& e : elements) {
+    if (!e.placed || isRail(e.kind) || e.kind == ElementKind::Comment) continue;
+    if (first == nullptr) first = &e;
+    placed = placed || e.x != first->x || e.y != first->y;
+    ordered = ordered || e.order != 0;
+  }
+  for (const DiagramElement& e : elements) ordered = ordered || e.order != 0;
+
+  struct Key {
+    uint32_t said;  // the file's number of the network
+    int32_t y, x;
+    uint32_t at;
+    auto operator<=>(const Key&) const = default;
+  };
+  const auto keyOf = [&](uint32_t k) {
+    const DiagramElement& e = elements[k];
+    const bool has_place = placed && e.placed;
+    return Key{e.kind == ElementKind::Continuation ? 0 : e.network, has_place ? e.y : 0, has_place ? e.x : 0, k};
+  };
+  std::vector<Key> network_key(elements.size(), Key{UINT32_MAX, INT32_MAX, INT32_MAX, UINT32_MAX});
+  for (uint32_t k = 0; k < elements.size(); ++k) {
+    if (isRail(elements[k].kind) || elements[k].kind == ElementKind::Comment || isLink(elements[k].kind)) continue;
+    network_key[network[k]] = std::min(network_key[network[k]], keyOf(k));
+  }
+  struct Root {
+    uint32_t order;
+    Key network;
+    Key own;
+  };
+  std::vector<Root> sorted;
+  for (uint32_t k = 0; k < elements.size(); ++k) {
+    if (!acts(elements[k])) continue;
+    const uint32_t order = elements[k].order;
+    sorted.push_back({order != 0 ? order : UINT32_MAX, network_key[network[k]], keyOf(k)});
+  }
+  std::sort(sorted.begin(), sorted.end(), [](const Root& a, const Root& b) {
+    if (a.order != b.order) return a.order < b.order;
+    if (a.network != b.network) return a.network < b.network;
+    return a.own < b.own;
+  });
+  roots.clear();
+  for (const Root& root : sorted) roots.push_back(root.own.at);
+}
+
+bool Graph::build(Tree& tree, Names& names, Diagnostics& diagnostics, const Diagram& diagram) {
+  tree_ = &tree;
+  names_ = &names;
+  diagnostics_ = &diagnostics;
+  elements.assign(tree.list(diagram.elements).begin(), tree.list(diagram.elements).end());
+  if (!connect()) return false;
+  separate();
+  sortRoots();
+  return true;
+}
+
+}  // namespace rung::diagram

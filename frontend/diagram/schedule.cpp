@@ -1,0 +1,486 @@
+#include "frontend/diagram/schedule.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "frontend/diagram/scheduler.h"
+
+namespace rung::diagram {
+namespace {
+
+// Of one expression; beyond it a temporary cuts the tree.
+constexpr uint16_t kMaxHeight = 100;
+// From so many wires on, their OR is a balanced tree.
+constexpr uint32_t kManyWires = 32;
+
+}  // namespace
+
+// ---- nodes
+
+ExprId Scheduler::inverted(ExprId operand, Loc loc) {
+  return tree_.add<ExprId>(
+      UnaryExpr{exprHeader(ExprKind::Unary, loc, static_cast<uint8_t>(UnaryOp::Not)), operand});
+}
+
+ExprId Scheduler::trueExpr(Loc loc) {
+  const LiteralExpr node{exprHeader(ExprKind::Literal, loc, static_cast<uint8_t>(LiteralKind::Bool)), {}, 1, 0};
+  return tree_.add<ExprId>(node);
+}
+
+ExprId Scheduler::callExpr(ExprId callee, std::span<const Argument> arguments, Loc loc) {
+  CallExpr node{exprHeader(ExprKind::Call, loc), callee, {}, loc, {}};
+  node.arguments = tree_.addList<Argument>(arguments);
+  return tree_.add<ExprId>(node);
+}
+
+//   fails   an edge in a function        E1012
+ExprId Scheduler::sensed(NameId sensor, ExprId value, Loc loc) {
+  if (function_ != nullptr) {
+    diagnostics_.report(Diag::EdgeInFunction, loc, {function_});
+    return value;
+  }
+  const Argument clk{{names_.intern("CLK"), loc}, value, false, false, loc};
+  emit(tree_.add<StmtId>(
+      CallStmt{stmtHeader(StmtKind::Call, loc), callExpr(nameExpr(sensor, loc), {&clk, 1}, loc)}));
+  return memberExpr(nameExpr(sensor, loc), names_.intern("Q"), loc);
+}
+
+// What calls something and waits for its reader is evaluated before another statement.
+void Scheduler::emit(StmtId statement) {
+  for (const uint32_t source : std::exchange(calls_open_, {}))
+    if (graph_.sources[source].pending) keep(source, wireName(graph_.sources[source].element));
+  out_.push_back(statement);
+}
+
+void Scheduler::conditional(ExprId condition, Loc loc, StmtId statement) {
+  const IfBranch branch{condition, tree_.addList<StmtId>({&statement, 1})};
+  IfStmt node{stmtHeader(StmtKind::If, loc, kConditionalOp), {}, {}};
+  node.branches = tree_.addList<IfBranch>({&branch, 1});
+  emit(tree_.add<StmtId>(node));
+}
+
+NameId Scheduler::newTemporary(const std::string& base, Loc loc) {
+  Ident ident{names_.intern(base), loc};
+  for (int k = 2; shapes_.of(ident.name).kind != ShapeKind::Unknown; ++k)
+    ident.name = names_.intern(base + "_" + std::to_string(k));
+  VarDecl decl{{DeclKind::Var, 0, 0, loc, {}, {}}, {}, {}, {}, EdgeKind::None, false, {}, {}};
+  decl.names = tree_.addList<Ident>({&ident, 1});
+  temporaries_.push_back(tree_.add<DeclId>(decl));
+  return ident.name;
+}
+
+std::string Scheduler::wireName(uint32_t element) const {
+  const DiagramElement& e = graph_.elements[element];
+  const std::string number = std::to_string(e.number);
+  if (e.kind == ElementKind::Box && e.name.name) return std::string(names_.text(e.name.name)) + "_" + number;
+  return "wire_" + number;
+}
+
+// The value of a source is evaluated now, into a temporary.
+void Scheduler::keep(uint32_t source, const std::string& base) {
+  const Loc loc = graph_.elements[graph_.sources[source].element].loc;
+  const NameId name = newTemporary(base, loc);
+  const ExprId value = std::exchange(graph_.sources[source].pending, {});
+  graph_.sources[source].temporary = name;
+  graph_.sources[source].height = 1;
+  assign(nameExpr(name, loc), value, loc);
+}
+
+Report Scheduler::report(Diag diag, Loc loc, uint32_t element, std::initializer_list<std::string_view> args) {
+  Report made = diagnostics_.report(diag, loc, args);
+  made.element(describe(tree_, names_, graph_.elements[element]));
+  return made;
+}
+
+// ---- wires
+
+const DiagramPin* Scheduler::firstInput(const DiagramElement& e) const {
+  return e.pins.empty() ? nullptr : &tree_.list(e.pins)[0];
+}
+
+const DiagramPin* Scheduler::pinNamed(const DiagramElement& e, std::string_view name, PinDirection direction) const {
+  for (const DiagramPin& pin : tree_.list(e.pins))
+    if (pin.direction == direction && sameIdentifier(names_.text(pin.name.name), name)) return &pin;
+  return nullptr;
+}
+
+bool Scheduler::isTrue(const DiagramPin& pin) const {
+  for (uint32_t w = 0; w < pin.wires.count; ++w) {
+    const uint32_t source = graph_.sourceOf(pin, w);
+    if (graph_.elements[graph_.sources[source].element].kind == ElementKind::Rail) return true;
+  }
+  return false;
+}
+
+uint16_t Scheduler::heightOf(const DiagramElement& e) const {
+  uint32_t height = 1;
+  for (const DiagramPin& pin : tree_.list(e.pins)) {
+    const uint32_t joints = std::min(pin.wires.count, kManyWires);
+    for (uint32_t w = 0; w < pin.wires.count; ++w)
+      height = std::max<uint32_t>(height, graph_.sources[graph_.sourceOf(pin, w)].height + joints + 1);
+  }
+  return static_cast<uint16_t>(std::min<uint32_t>(height, UINT16_MAX));
+}
+
+ExprId Scheduler::joined(const DiagramPin& pin, uint32_t first, uint32_t count) {
+  if (count > kManyWires) {
+    const ExprId left = joined(pin, first, count / 2);
+    return binary(BinaryOp::Or, left, joined(pin, first + count / 2, count - count / 2), pin.name.loc);
+  }
+  ExprId value = read(graph_.sourceOf(pin, first));
+  for (uint32_t w = 1; w < count; ++w) {
+    const Loc loc = tree_.list(pin.wires)[first + w].loc;
+    value = binary(BinaryOp::Or, value, read(graph_.sourceOf(pin, first + w)), loc);
+  }
+  return value;
+}
+
+//   fails   two wires into one pin, neither from a contact, a coil or a rail                                   E1005
+ExprId Scheduler::valueOf(const DiagramElement& e, const DiagramPin& pin) {
+  if (pin.wires.empty()) return {};
+  ExprId value;
+  if (isTrue(pin)) {
+    value = trueExpr(e.loc);
+  } else {
+    if (pin.wires.count > 1 && language_ != NetworkLanguage::Ladder) {
+      bool ladder = false;
+      for (uint32_t w = 0; w < pin.wires.count; ++w) {
+        const ElementKind from = graph_.elements[graph_.sources[graph_.sourceOf(pin, w)].element].kind;
+        ladder = ladder || from == ElementKind::Contact || from == ElementKind::Coil;
+      }
+      if (!ladder) {
+        const Loc loc = tree_.list(pin.wires)[1].loc;
+        std::string where = describe(tree_, names_, e);
+        if (pin.name.name) where = "pin `" + std::string(names_.text(pin.name.name)) + "` of " + where;
+        diagnostics_.report(Diag::WiresMeet, loc, {std::to_string(pin.wires.count), where});
+      }
+    }
+    value = joined(pin, 0, pin.wires.count);
+  }
+  if (pin.edge != EdgeKind::None) value = sensed(pin.hidden, value, e.loc);
+  return pin.negated ? inverted(value, e.loc) : value;
+}
+
+// What an element reads or writes, as written; a copy from the second time on.
+ExprId Scheduler::operandOf(uint32_t element) {
+  const ExprId operand = graph_.elements[element].operand;
+  if (operand_taken_[element]) return clone(tree_, operand);
+  operand_taken_[element] = true;
+  return operand;
+}
+
+ExprId Scheduler::read(uint32_t source) {
+  Source& s = graph_.sources[source];
+  const DiagramElement& e = graph_.elements[s.element];
+  if (s.temporary) return nameExpr(s.temporary, e.loc);
+  if (s.pending) return std::exchange(s.pending, {});
+  switch (e.kind) {
+    case ElementKind::Rail: return trueExpr(e.loc);
+    case ElementKind::Input:
+    case ElementKind::InOut: {
+      const ExprId value = operandOf(s.element);
+      return e.negated && e.kind == ElementKind::Input ? inverted(value, e.loc) : value;
+    }
+    case ElementKind::Contact: {
+      ExprId value = operandOf(s.element);
+      if (e.negated) value = inverted(value, e.loc);
+      const DiagramPin* pin = firstInput(e);
+      if (pin == nullptr || pin->wires.empty() || isTrue(*pin)) return value;
+      const DiagramPin copy = *pin;
+      const ExprId left = valueOf(e, copy);
+      return binary(BinaryOp::And, left, value, e.loc);
+    }
+    case ElementKind::Box:
+    case ElementKind::Execute: return readBox(source);
+    case ElementKind::Compose: return nameExpr(e.hidden, e.loc);
+    case ElementKind::Coil:
+    case ElementKind::Output:
+    case ElementKind::Select:
+    case ElementKind::RightRail:
+    case ElementKind::Connector:
+    case ElementKind::Continuation:
+    case ElementKind::Jump:
+    case ElementKind::Label:
+    case ElementKind::Return:
+    case ElementKind::Comment: break;
+  }
+  // Its value is not there yet: only where its turn comes later.
+  report(Diag::ReadBeforeTurn, e.loc, s.element, {describe(tree_, names_, e)});
+  return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, e.loc)});
+}
+
+// ---- the walk
+
+bool Scheduler::keepsState(uint32_t element) const {
+  const DiagramElement& e = graph_.elements[element];
+  return e.kind == ElementKind::Box && (e.operand || e.hidden);
+}
+
+// The next element that a wire of the frame's element comes from, or kNone.
+uint32_t Scheduler::nextInput(Frame& frame) const {
+  const DiagramElement& e = graph_.elements[frame.element];
+  while (frame.pin < e.pins.count) {
+    const DiagramPin& pin = tree_.list(e.pins)[frame.pin];
+    if (frame.wire < pin.wires.count) return graph_.sources[graph_.sourceOf(pin, frame.wire++)].element;
+    ++frame.pin;
+    frame.wire = 0;
+  }
+  return kNone;
+}
+
+// Settles `root` after all that it reads. kNone, or a box to begin with because the wires lead from it to itself.
+uint32_t Scheduler::walk(uint32_t root) {
+  stack_.clear();
+  stack_.push_back({root, 0, 0});
+  phase_[root] = Phase::Busy;
+  while (!stack_.empty()) {
+    const uint32_t next = nextInput(stack_.back());
+    if (next == kNone) {
+      const uint32_t done = stack_.back().element;
+      stack_.pop_back();
+      phase_[done] = Phase::Settled;
+      settle(done);
+      continue;
+    }
+    if (phase_[next] == Phase::Settled || graph_.elements[next].order != 0) continue;
+    if (phase_[next] == Phase::New) {
+      phase_[next] = Phase::Busy;
+      stack_.push_back({next, 0, 0});
+      continue;
+    }
+    if (keepsState(next)) continue;  // its value of the last cycle
+    uint32_t begin = kNone;
+    for (size_t k = stack_.size(); k > 0 && stack_[k - 1].element != next; --k)
+      if (keepsState(stack_[k - 1].element)) begin = stack_[k - 1].element;
+    for (const Frame& frame : stack_) phase_[frame.element] = Phase::New;
+    if (begin == kNone) {
+      report(Diag::WireLoop, graph_.elements[next].loc, next, {});
+      phase_[next] = Phase::Settled;
+      const DiagramElement& e = graph_.elements[next];
+      for (uint32_t s = graph_.first_source[next]; s != kNone; s = graph_.sources[s].next)
+        graph_.sources[s].temporary = newTemporary("wire_" + std::to_string(e.number), e.loc);
+      return next == root ? kNone : root;
+    }
+    return begin;
+  }
+  return kNone;
+}
+
+void Scheduler::visit(uint32_t root) {
+  while (phase_[root] == Phase::New) {
+    for (uint32_t first = root; first != kNone;) first = walk(first);
+  }
+}
+
+void Scheduler::settle(uint32_t element) {
+  switch (graph_.elements[element].kind) {
+    case ElementKind::Contact: return settleContact(element);
+    case ElementKind::Coil:
+    case ElementKind::Output:
+    case ElementKind::InOut: return settleAssignment(element);
+    case ElementKind::Box: return settleBox(element);
+    case ElementKind::Execute: return settleExecute(element);
+    case ElementKind::Jump:
+    case ElementKind::Label:
+    case ElementKind::Return: return settleJump(element);
+    case ElementKind::Compose:
+    case ElementKind::Select: return settleComposer(element);
+    case ElementKind::Input: {
+      const uint32_t source = graph_.first_source[element];
+      const DiagramElement& e = graph_.elements[element];
+      if (source == kNone || graph_.sources[source].uses < 2 || !hasCall(tree_, e.operand)) return;
+      graph_.sources[source].pending = read(source);
+      keep(source, wireName(element));
+      return;
+    }
+    case ElementKind::Rail:
+    case ElementKind::RightRail:
+    case ElementKind::Connector:
+    case ElementKind::Continuation:
+    case ElementKind::Comment: return;
+  }
+}
+
+// Whether a contact may be written again wherever its wire is read: nothing in its network changes its variable.
+bool Scheduler::readable(uint32_t element) {
+  const DiagramElement& e = graph_.elements[element];
+  const DiagramPin* pin = firstInput(e);
+  if (e.edge != EdgeKind::None || (pin != nullptr && !isTrue(*pin))) return false;
+  if (tree_.kind(e.operand) != ExprKind::Name || network_calls_[graph_.network[element]]) return false;
+  const std::pair key{graph_.network[element], names_.key(tree_.as<NameExpr>(e.operand).name).index};
+  return !std::binary_search(written_.begin(), written_.end(), key);
+}
+
+//   fails   a contact that nothing leads to        E1007
+void Scheduler::settleContact(uint32_t element) {
+  const DiagramElement e = graph_.elements[element];
+  const DiagramPin* pin = firstInput(e);
+  if (pin == nullptr || pin->wires.empty()) report(Diag::NotWired, e.loc, element, {describe(tree_, names_, e)});
+  const uint32_t source = graph_.first_source[element];
+  if (e.edge != EdgeKind::None) {
+    ExprId value = operandOf(element);
+    if (e.negated) value = inverted(value, e.loc);
+    value = sensed(e.hidden, value, e.loc);
+    if (source == kNone) return;
+    if (pin != nullptr && !pin->wires.empty() && !isTrue(*pin)) {
+      const DiagramPin copy = *pin;
+      const ExprId left = valueOf(e, copy);
+      value = binary(BinaryOp::And, left, value, e.loc);
+    }
+    graph_.sources[source].pending = value;
+  }
+  if (source == kNone) return;
+  Source& s = graph_.sources[source];
+  s.height = heightOf(e);
+  if ((s.uses < 2 || readable(element)) && s.height < kMaxHeight) return;
+  if (!s.pending) s.pending = read(source);
+  if (s.uses > 0) keep(source, wireName(element));
+}
+
+void Scheduler::assignTo(const DiagramElement& e, ExprId value) {
+  const auto element = static_cast<uint32_t>(&e - graph_.elements.data());
+  if (e.edge != EdgeKind::None) value = sensed(e.hidden, value, e.loc);
+  if (e.negated) value = inverted(value, e.loc);
+  const ExprId target = operandOf(element);
+  const AssignOp op = e.storage == PinStorage::Set     ? AssignOp::Set
+                      : e.storage == PinStorage::Reset ? AssignOp::Reset
+                                                       : AssignOp::Assign;
+  assign(target, value, e.loc, op);
+}
+
+//   fails   a coil or a variable that nothing leads to        E1007
+void Scheduler::settleAssignment(uint32_t element) {
+  if (assigned_[element]) return;
+  const DiagramElement& e = graph_.elements[element];
+  const DiagramPin* pin = firstInput(e);
+  if (pin == nullptr || pin->wires.empty()) {
+    if (e.kind == ElementKind::InOut) return;
+    report(Diag::NotWired, e.loc, element, {describe(tree_, names_, e)});
+    return;
+  }
+  const DiagramPin copy = *pin;
+  const uint32_t own = graph_.first_source[element];
+  ExprId value = valueOf(e, copy);
+  if (own != kNone && graph_.sources[own].uses > 0 && e.kind != ElementKind::InOut) {  // the wire goes on behind it
+    graph_.sources[own].pending = value;
+    keep(own, wireName(element));
+    value = read(own);
+  }
+  // A set or negated output of a box means the variable behind it.
+  if (copy.wires.count == 1) {
+    const Source& s = graph_.sources[graph_.sourceOf(copy, 0)];
+    const DiagramElement& from = graph_.elements[s.element];
+    if (from.kind == ElementKind::Box && s.pin.name) {
+      const DiagramPin* out = pinNamed(from, names_.text(s.pin.name), PinDirection::Output);
+      if (out != nullptr && out->storage != PinStorage::None && e.storage == PinStorage::None) {
+        const AssignOp op = out->storage == PinStorage::Set ? AssignOp::Set : AssignOp::Reset;
+        return assign(operandOf(element), value, e.loc, op);
+      }
+    }
+  }
+  assignTo(graph_.elements[element], value);
+}
+
+// A composer fills its structure; a selector reads the members of what it is given.
+void Scheduler::settleComposer(uint32_t element) {
+  const DiagramElement e = graph_.elements[element];
+  for (uint32_t p = 0; p < e.pins.count; ++p) {
+    const DiagramPin pin = tree_.list(e.pins)[p];
+    if (pin.direction == PinDirection::Output || pin.wires.empty()) continue;
+    const ExprId value = valueOf(e, pin);
+    if (e.kind == ElementKind::Compose) {
+      if (e.hidden) assign(memberExpr(nameExpr(e.hidden, e.loc), pin.name.name, pin.name.loc), value, pin.name.loc);
+      continue;
+    }
+    for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
+      const Ident member = graph_.sources[s].pin;
+      graph_.sources[s].pending = memberExpr(clone(tree_, value), member.name, member.loc);
+      keep(s, wireName(element) + "_" + std::string(names_.text(member.name)));
+    }
+    return;
+  }
+  if (e.kind == ElementKind::Select) report(Diag::NotWired, e.loc, element, {describe(tree_, names_, e)});
+}
+
+void Scheduler::settleExecute(uint32_t element) {
+  const DiagramElement e = graph_.elements[element];
+  const DiagramPin* en = pinNamed(e, "EN", PinDirection::Input);
+  ExprId condition;
+  if (en != nullptr && !en->wires.empty()) {
+    const DiagramPin copy = *en;
+    condition = valueOf(e, copy);
+  } else if (en == nullptr && !e.pins.empty() && tree_.list(e.pins)[0].direction == PinDirection::Input) {
+    const DiagramPin copy = tree_.list(e.pins)[0];
+    condition = valueOf(e, copy);
+  }
+  const uint32_t eno = graph_.first_source[element];
+  if (eno != kNone) {
+    graph_.sources[eno].pending = condition ? condition : trueExpr(e.loc);
+    keep(eno, wireName(element));
+    if (condition) condition = read(eno);
+  }
+  if (!condition) {
+    for (uint32_t k = 0; k < e.body.count; ++k) emit(tree_.list(e.body)[k]);
+    return;
+  }
+  const IfBranch branch{condition, e.body};
+  IfStmt node{stmtHeader(StmtKind::If, e.loc, kConditionalOp), {}, {}};
+  node.branches = tree_.addList<IfBranch>({&branch, 1});
+  emit(tree_.add<StmtId>(node));
+}
+
+void Scheduler::settleJump(uint32_t element) {
+  const DiagramElement e = graph_.elements[element];
+  if (e.kind == ElementKind::Label) {
+    emit(tree_.add<StmtId>(LabelStmt{stmtHeader(StmtKind::Label, e.name.loc), e.name}));
+    return;
+  }
+  const StmtId leave = e.kind == ElementKind::Jump
+                           ? tree_.add<StmtId>(JumpStmt{stmtHeader(StmtKind::Jump, e.name.loc), e.name})
+                           : tree_.add<StmtId>(ReturnStmt{stmtHeader(StmtKind::Return, e.loc)});
+  const DiagramPin* pin = firstInput(e);
+  if (pin == nullptr || pin->wires.empty() || (isTrue(*pin) && !e.negated)) return emit(leave);
+  const DiagramPin copy = *pin;
+  const ExprId condition = valueOf(e, copy);
+  conditional(e.negated ? inverted(condition, e.loc) : condition, e.loc, leave);
+}
+
+Statements Scheduler::run(const PouDecl& pou) {
+  const Diagram& diagram = pou.diagram;
+  language_ = diagram.language;
+  if (pou.pou_kind == PouKind::Function) function_ = "a function";
+  if (!graph_.build(tree_, names_, diagnostics_, diagram)) return {};
+  const size_t count = graph_.elements.size();
+  phase_.assign(count, Phase::New);
+  operand_taken_.assign(count, false);
+  assigned_.assign(count, false);
+  network_calls_.assign(count, false);
+  turn_.assign(count, kNone);
+  for (uint32_t k = 0; k < graph_.roots.size(); ++k) turn_[graph_.roots[k]] = k;
+  for (uint32_t k = 0; k < count; ++k) {
+    const DiagramElement& e = graph_.elements[k];
+    if ((e.kind == ElementKind::Box && !isOperator(e)) || e.kind == ElementKind::Execute) network_calls_[graph_.network[k]] = true;
+    const bool writes = e.kind == ElementKind::Coil || e.kind == ElementKind::Output || e.kind == ElementKind::InOut;
+    if (!writes) continue;
+    if (tree_.kind(e.operand) == ExprKind::Name)
+      written_.emplace_back(graph_.network[k], names_.key(tree_.as<NameExpr>(e.operand).name).index);
+    else
+      network_calls_[graph_.network[k]] = true;  // another view of the same memory, maybe
+  }
+  std::sort(written_.begin(), written_.end());
+  for (const uint32_t root : graph_.roots) visit(root);
+  Statements result{tree_.addList<StmtId>(out_), {}};
+  if (!temporaries_.empty()) {
+    const Loc loc = tree_.loc(temporaries_.front());
+    SectionDecl section{{DeclKind::Section, 0, 0, loc, {}, {}}, SectionKind::Temp, AccessLevel::None, {}};
+    section.vars = tree_.addList<DeclId>(temporaries_);
+    result.temporaries = tree_.add<DeclId>(section);
+  }
+  return result;
+}
+
+Statements scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Shapes& shapes, const PouDecl& pou) {
+  return Scheduler(tree, names, diagnostics, shapes).run(pou);
+}
+
+}  // namespace rung::diagram

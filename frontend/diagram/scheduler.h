@@ -1,0 +1,116 @@
+// The work of scheduleNetworks(). Private to frontend/diagram: schedule.cpp (wires, contacts, coils, jumps), boxes.cpp.
+//
+// How it works. Elements that act are visited in the order of the graph; what their wires come from is settled before,
+// by a walk with a stack of its own. To settle an element is to do its work, or to decide that whoever reads its wire
+// writes it as part of an expression. Expressions are built when all that they read is settled, so that no statement
+// slips into the middle of one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "frontend/diagram/graph.h"
+#include "frontend/syntax/clone.h"
+
+namespace rung::diagram {
+
+class Scheduler {
+ public:
+  Scheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Shapes& shapes)
+      : tree_(tree), names_(names), diagnostics_(diagnostics), shapes_(shapes) {}
+
+  Statements run(const PouDecl& pou);
+
+ private:
+  enum class Phase : uint8_t { New, Busy, Settled };
+  struct Frame {
+    uint32_t element, pin, wire;
+  };
+
+  // ---- the walk
+  void visit(uint32_t root);
+  uint32_t walk(uint32_t root);
+  uint32_t nextInput(Frame& frame) const;
+  void settle(uint32_t element);
+  bool keepsState(uint32_t element) const;
+
+  // ---- elements
+  void settleContact(uint32_t element);
+  void settleAssignment(uint32_t element);
+  void settleComposer(uint32_t element);
+  void settleExecute(uint32_t element);
+  void settleJump(uint32_t element);
+  void assignTo(const DiagramElement& e, ExprId value);
+  ExprId operandOf(uint32_t element);
+  bool readable(uint32_t element);
+
+  // ---- boxes (boxes.cpp)
+  struct Call;
+  void settleBox(uint32_t element);
+  bool isOperator(const DiagramElement& e) const;
+  void settleOperator(uint32_t element, Call& call);
+  void settleCall(uint32_t element, Call& call);
+  void giveResult(uint32_t element, uint32_t result, ExprId value);
+  uint32_t soleTarget(uint32_t source) const;
+  bool fillArguments(uint32_t element, Call& call);
+  bool hasPin(const Shape& shape, const Ident& pin) const;
+  uint32_t resultOf(uint32_t element, const Shape& shape) const;
+  ExprId readBox(uint32_t source);
+
+  // ---- wires
+  // The value of a pin; none: nothing is wired to it. `loc`: of what reads it.
+  ExprId valueOf(const DiagramElement& e, const DiagramPin& pin);
+  ExprId read(uint32_t source);
+  bool isTrue(const DiagramPin& pin) const;
+  uint16_t heightOf(const DiagramElement& e) const;
+  ExprId joined(const DiagramPin& pin, uint32_t first, uint32_t count);
+  const DiagramPin* pinNamed(const DiagramElement& e, std::string_view name, PinDirection direction) const;
+  const DiagramPin* firstInput(const DiagramElement& e) const;
+
+  // ---- nodes
+  ExprHeader exprHeader(ExprKind kind, Loc loc, uint8_t op = 0) const { return {kind, 0, 0, 0, op, 0, loc, {}}; }
+  StmtHeader stmtHeader(StmtKind kind, Loc loc, uint8_t op = 0) const { return {kind, op, 0, loc}; }
+  ExprId nameExpr(NameId name, Loc loc) {
+    return tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, loc), name, {}});
+  }
+  ExprId memberExpr(ExprId base, NameId member, Loc loc) {
+    return tree_.add<ExprId>(MemberExpr{exprHeader(ExprKind::Member, loc), base, member, {}});
+  }
+  ExprId inverted(ExprId operand, Loc loc);
+  ExprId binary(BinaryOp op, ExprId left, ExprId right, Loc loc) {
+    return tree_.add<ExprId>(BinaryExpr{exprHeader(ExprKind::Binary, loc, static_cast<uint8_t>(op)), left, right});
+  }
+  ExprId trueExpr(Loc loc);
+  ExprId callExpr(ExprId callee, std::span<const Argument> arguments, Loc loc);
+  // The edge of `value` as `sensor` senses it, which is called here.
+  ExprId sensed(NameId sensor, ExprId value, Loc loc);
+  void emit(StmtId statement);
+  void assign(ExprId target, ExprId value, Loc loc, AssignOp op = AssignOp::Assign) {
+    emit(tree_.add<StmtId>(AssignStmt{stmtHeader(StmtKind::Assign, loc, static_cast<uint8_t>(op)), target, value}));
+  }
+  void conditional(ExprId condition, Loc loc, StmtId statement);
+  NameId newTemporary(const std::string& base, Loc loc);
+  void keep(uint32_t source, const std::string& base);  // pending -> temporary
+  std::string wireName(uint32_t element) const;
+  Report report(Diag diag, Loc loc, uint32_t element, std::initializer_list<std::string_view> args);
+
+  Tree& tree_;
+  Names& names_;
+  Diagnostics& diagnostics_;
+  Shapes& shapes_;
+  NetworkLanguage language_ = NetworkLanguage::Ladder;
+  const char* function_ = nullptr;  // what keeps no state: the body is one's
+  Graph graph_;
+  std::vector<Phase> phase_;
+  std::vector<bool> operand_taken_;
+  std::vector<bool> assigned_;        // variables that a box with EN writes by itself
+  std::vector<uint32_t> turn_;        // of an element with a turn: its place among the roots
+  std::vector<uint32_t> calls_open_;  // sources whose pending value calls something
+  std::vector<std::pair<uint32_t, uint32_t>> written_;  // network, key of a name that it writes; sorted
+  std::vector<bool> network_calls_;                     // by the network's first element
+  std::vector<Frame> stack_;
+  std::vector<StmtId> out_;
+  std::vector<DeclId> temporaries_;
+};
+
+}  // namespace rung::diagram

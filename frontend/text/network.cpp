@@ -1,0 +1,296 @@
+// The notation of networks: what the readers of LD, FBD and CFC write between {network} and {end_network}, so that
+// expressions, places and errors come from one parser. docs/networks.md shows it whole.
+//   body    = "{network" [LD | FBD | CFC] "}" {NETWORK number [title] ";" | element ";"} "{end_network}"
+//   element = word number {name | "(" e ")" | NOT | RISING | FALLING | SET | RESET | ORDER n | AT x, y [, w, h]
+//                          | ":=" wires | pins | statements}
+//   pins    = "[" pin {"," pin} "]"
+//   pin     = name {NOT | RISING | FALLING | SET | RESET} (":=" [wires] ["=>"] | "=>")
+//   wires   = number ["(" pin ")"] {OR number ["(" pin ")"]}
+//   statements = "{network ST}" statements "{end_network}"
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "frontend/text/parser.h"
+
+namespace rung::text {
+namespace {
+
+struct Word {
+  std::string_view word;
+  ElementKind kind;
+};
+constexpr Word kWords[] = {{"rail", ElementKind::Rail},
+                           {"right_rail", ElementKind::RightRail},
+                           {"contact", ElementKind::Contact},
+                           {"coil", ElementKind::Coil},
+                           {"box", ElementKind::Box},
+                           {"input", ElementKind::Input},
+                           {"output", ElementKind::Output},
+                           {"inout", ElementKind::InOut},
+                           {"connector", ElementKind::Connector},
+                           {"continuation", ElementKind::Continuation},
+                           {"jump", ElementKind::Jump},
+                           {"label", ElementKind::Label},
+                           {"return", ElementKind::Return},
+                           {"execute", ElementKind::Execute},
+                           {"compose", ElementKind::Compose},
+                           {"select", ElementKind::Select},
+                           {"comment", ElementKind::Comment}};
+
+// What the element stands for must be written in it.
+bool needsOperand(ElementKind kind) {
+  return kind == ElementKind::Contact || kind == ElementKind::Coil || kind == ElementKind::Input ||
+         kind == ElementKind::Output || kind == ElementKind::InOut;
+}
+
+}  // namespace
+
+// Reads a word of any kind as a name: pins and boxes are called AND, MOD, DO.
+bool Parser::takeWord(Ident& out) {
+  const bool word = isName(kind()) || nameReserved(t_);
+  if (!word) {
+    fail(Diag::MissingName, t_, {describe(t_)});
+    return false;
+  }
+  out = {isName(kind()) ? nameOf(t_) : names_.intern(textOf(t_)), here()};
+  advance();
+  return true;
+}
+
+bool Parser::takeNumber(uint64_t& out) {
+  const std::string_view digits = at(Tok::Number) ? textOf(t_) : std::string_view{};
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out);
+  if (digits.empty() || error != std::errc{} || end != digits.data() + digits.size()) {
+    fail(Diag::ElementNumber, t_, {describe(t_)});
+    return false;
+  }
+  advance();
+  return true;
+}
+
+bool Parser::takePlace(int32_t& out) {
+  const bool minus = accept(Tok::Minus);
+  uint64_t value = 0;
+  if (!takeNumber(value)) return false;
+  const auto limited = static_cast<int32_t>(std::min<uint64_t>(value, 1u << 30));
+  out = minus ? -limited : limited;
+  return true;
+}
+
+// NOT, RISING, FALLING, SET, RESET
+template <class Marked>
+bool Parser::takeMark(Marked& out) {
+  if (at(Tok::Not)) {
+    out.negated = !out.negated;
+  } else if (is(t_, "RISING")) {
+    out.edge = EdgeKind::Rising;
+  } else if (is(t_, "FALLING")) {
+    out.edge = EdgeKind::Falling;
+  } else if (is(t_, "SET")) {
+    out.storage = PinStorage::Set;
+  } else if (is(t_, "RESET")) {
+    out.storage = PinStorage::Reset;
+  } else {
+    return false;
+  }
+  advance();
+  return true;
+}
+
+void Parser::parseWires(DiagramPin& pin) {
+  const size_t first = wires_.size();
+  do {
+    DiagramWire wire{kNoElement, {}, here()};
+    uint64_t number = 0;
+    if (!takeNumber(number)) break;
+    if (accept(Tok::LeftParen)) {
+      if (!takeWord(wire.pin)) break;
+      if (!expect(Tok::RightParen)) break;
+    }
+    wires_.push_back(wire);
+    wire_numbers_.push_back(number);
+  } while (accept(Tok::Or));
+  pin.wires = listFrom(wires_, first);
+}
+
+void Parser::parsePins(std::vector<DiagramPin>& out) {
+  while (!panic_ && !at(Tok::RightBracket)) {
+    DiagramPin pin{};
+    if (!takeWord(pin.name)) return;
+    while (takeMark(pin)) {
+    }
+    if (accept(Tok::Arrow)) {
+      pin.direction = PinDirection::Output;
+    } else {
+      if (!expect(Tok::Assign)) return;
+      if (at(Tok::Number)) parseWires(pin);
+      if (!panic_ && accept(Tok::Arrow)) pin.direction = PinDirection::InOut;
+    }
+    out.push_back(pin);
+    if (!accept(Tok::Comma)) break;
+  }
+  if (!panic_) expect(Tok::RightBracket);
+}
+
+// A path or a name: what a box calls, the label of a jump.
+ExprId Parser::parseElementPath(Ident& name) {
+  if (!takeWord(name)) return {};
+  ExprId path = tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, name.loc), name.name, {}});
+  while (accept(Tok::Dot)) {
+    Ident member;
+    if (!takeWord(member)) return {};
+    path = tree_.add<ExprId>(MemberExpr{exprHeader(ExprKind::Member, member.loc), path, member.name, {}});
+  }
+  return path;
+}
+
+void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
+  const Token* word = t_;
+  const auto* known =
+      std::find_if(std::begin(kWords), std::end(kWords), [&](const Word& w) { return is(word, w.word); });
+  if (known == std::end(kWords)) {
+    fail(Diag::NoElement, t_, {textOf(t_)});
+    return;
+  }
+  advance();
+  DiagramElement e{};
+  e.kind = known->kind;
+  e.network = network;
+  e.loc = here();
+  if (!takeNumber(e.number)) return;
+  const Token* named = t_;
+  std::vector<DiagramPin> pins;
+  while (!panic_ && !at(Tok::Semicolon)) {
+    if (takeMark(e)) continue;
+    if (is(t_, "ORDER") && peek() == Tok::Number) {
+      advance();
+      uint64_t order = 0;
+      if (takeNumber(order)) e.order = static_cast<uint32_t>(std::min<uint64_t>(order, UINT32_MAX));
+    } else if (is(t_, "AT") && (peek() == Tok::Number || peek() == Tok::Minus)) {
+      advance();
+      int32_t* const places[] = {&e.x, &e.y, &e.width, &e.height};
+      for (int32_t* const place : places)
+        if (!takePlace(*place) || !accept(Tok::Comma)) break;
+      e.placed = true;
+    } else if (at(Tok::LeftParen)) {
+      advance();
+      if (at(Tok::RightParen)) {
+        advance();
+        continue;
+      }
+      e.operand = parseExpr();
+      if (!panic_) expect(Tok::RightParen);
+    } else if (accept(Tok::Assign)) {
+      DiagramPin pin{};
+      parseWires(pin);
+      pins.push_back(pin);
+    } else if (accept(Tok::LeftBracket)) {
+      parsePins(pins);
+    } else if (at(Tok::Network)) {
+      advance();
+      ++stmt_depth_;
+      e.body = parseStatements(0);
+      --stmt_depth_;
+      panic_ = false;
+      expect(Tok::EndNetwork);
+    } else if (at(Tok::Text)) {
+      const TextId text = tree_.addText(textOf(t_).substr(1, lengthOf(t_) - 2));
+      e.text = text.first;
+      e.text_length = text.length;
+      advance();
+    } else {
+      e.path = parseElementPath(e.name);
+    }
+  }
+  e.end = here();
+  if (panic_) return;
+  if (needsOperand(e.kind) && !e.operand) {
+    fail(Diag::ElementUnnamed, named - 1, {known->word});
+    return;
+  }
+  e.pins = tree_.addList<DiagramPin>(pins);
+  out.push_back(e);
+}
+
+// Wires lead to numbers; from here on to elements.
+//   fails   output 5 (y) := 3;  without an element 3                             E1001
+//   fails   two elements 3                                                       E1002
+void Parser::connectWires(const std::vector<DiagramElement>& elements, uint32_t first_wire) {
+  std::vector<std::pair<uint64_t, uint32_t>> numbers;
+  numbers.reserve(elements.size());
+  for (uint32_t k = 0; k < elements.size(); ++k) numbers.emplace_back(elements[k].number, k);
+  std::sort(numbers.begin(), numbers.end());
+  for (size_t k = 1; k < numbers.size(); ++k) {
+    if (numbers[k].first != numbers[k - 1].first) continue;
+    diagnostics_.report(Diag::ElementTwice, elements[numbers[k].second].loc, {std::to_string(numbers[k].first)})
+        .note(elements[numbers[k - 1].second].loc, Note::DeclaredHere);
+  }
+  const Slice<DiagramWire> all{first_wire, static_cast<uint32_t>(wire_numbers_.size())};
+  for (uint32_t k = 0; k < all.count; ++k) {
+    DiagramWire& wire = tree_.list(all)[k];
+    const auto found = std::lower_bound(numbers.begin(), numbers.end(), std::pair{wire_numbers_[k], 0u});
+    if (found != numbers.end() && found->first == wire_numbers_[k])
+      wire.from = found->second;
+    else
+      diagnostics_.report(Diag::WireFromNothing, wire.loc, {std::to_string(wire_numbers_[k])});
+  }
+  wire_numbers_.clear();
+}
+
+void Parser::parseNetworks(PouDecl& d) {
+  const Token* open = t_;
+  const std::string_view mark = textOf(t_);
+  d.body_kind = BodyKind::Network;
+  d.diagram.language = mark.find("CFC") != std::string_view::npos   ? NetworkLanguage::Continuous
+                       : mark.find("FBD") != std::string_view::npos ? NetworkLanguage::Blocks
+                                                                    : NetworkLanguage::Ladder;
+  advance();
+  const uint32_t errors = diagnostics_.errorCount();
+  const uint32_t first_wire = tree_.addList<DiagramWire>({}).first;
+  std::vector<DiagramElement> elements;
+  std::vector<DiagramNetwork> networks;
+  uint32_t network = 0;
+  while (!at(Tok::EndNetwork) && !at(Tok::End) && !atBlockEnd()) {
+    panic_ = false;
+    if (is(t_, "NETWORK")) {
+      advance();
+      DiagramNetwork n{};
+      n.loc = here();
+      uint64_t number = 0;
+      if (takeNumber(number)) {
+        n.number = static_cast<uint32_t>(std::min<uint64_t>(number, UINT32_MAX));
+        if (at(Tok::Text)) {
+          const TextId title = tree_.addText(textOf(t_).substr(1, lengthOf(t_) - 2));
+          n.title = title.first;
+          n.title_length = title.length;
+          advance();
+        }
+        networks.push_back(n);
+        network = static_cast<uint32_t>(networks.size());
+      }
+    } else {
+      parseElement(elements, network);
+    }
+    if (!panic_) expect(Tok::Semicolon);
+    if (panic_) {
+      while (!at(Tok::Semicolon) && !at(Tok::EndNetwork) && !at(Tok::End) && !endsPart(kind())) advance();
+      accept(Tok::Semicolon);
+    }
+  }
+  panic_ = false;
+  if (!accept(Tok::EndNetwork)) {
+    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    missing(Diag::MissingEnd, {"{end_network}", "{network}", line});
+  }
+  if (diagnostics_.errorCount() == errors) connectWires(elements, first_wire);
+  wire_numbers_.clear();
+  if (diagnostics_.errorCount() != errors) {  // what could not be read would seem to be missing
+    d.body_kind = BodyKind::None;
+    return;
+  }
+  d.diagram.networks = tree_.addList<DiagramNetwork>(networks);
+  d.diagram.elements = tree_.addList<DiagramElement>(elements);
+}
+
+}  // namespace rung::text
