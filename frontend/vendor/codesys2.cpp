@@ -4,9 +4,9 @@
 // `_FBD_BODY` and the like. Whatever else is exported (visualisations, the PLC's configuration, lists of libraries) is
 // passed over; a word that no export has is left to the parser, which says so.
 #include "frontend/source/names.h"
-#include "frontend/vendor/assembly.h"
 #include "frontend/vendor/readers.h"
 #include "frontend/vendor/words.h"
+#include "frontend/xml/assembly.h"
 
 namespace rung::vendor {
 namespace {
@@ -56,7 +56,7 @@ class Codesys2Reader {
     return true;
   }
 
-  Assembly& program() { return program_; }
+  xml::Assembly& program() { return program_; }
 
  private:
   Loc loc(size_t at) const { return {base_ + static_cast<uint32_t>(at)}; }
@@ -99,7 +99,7 @@ class Codesys2Reader {
   Diagnostics& diagnostics_;
   std::string_view text_;
   uint32_t base_;
-  Assembly program_;
+  xml::Assembly program_;
   size_t kept_ = 0;  // everything before is taken over or left out
   bool changed_ = false;
 };

@@ -2,9 +2,9 @@
 // begin with `(*@`; between them a description is bare text, and each worksheet says in which language it is written.
 #include <algorithm>
 
-#include "frontend/vendor/assembly.h"
 #include "frontend/vendor/readers.h"
 #include "frontend/vendor/words.h"
+#include "frontend/xml/assembly.h"
 
 namespace rung::vendor {
 namespace {
@@ -25,7 +25,7 @@ FileId readMultiprog(Sources& sources, FileId file, Diagnostics& diagnostics) {
   const std::string_view text = sources.text(file);
   const uint32_t base = sources.begin(file).offset;
   const auto loc = [&](size_t at) { return Loc{base + static_cast<uint32_t>(at)}; };
-  Assembly program(sources);
+  xml::Assembly program(sources);
   size_t kept = 0;  // everything before is taken over or left out
   // Leaves out what stands before the comment that holds `closing`.
   const auto leaveOut = [&](size_t begin, std::string_view closing) {

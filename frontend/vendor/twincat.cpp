@@ -3,10 +3,10 @@
 // declares counts nevertheless.
 #include <string>
 
-#include "frontend/vendor/assembly.h"
 #include "frontend/vendor/readers.h"
 #include "frontend/vendor/vendor.h"
 #include "frontend/vendor/words.h"
+#include "frontend/xml/assembly.h"
 
 namespace rung::vendor {
 namespace {
@@ -28,7 +28,7 @@ class TwinCatReader {
   TwinCatReader(const Sources& sources, const xml::Document& document, Diagnostics& diagnostics)
       : sources_(sources), document_(document), diagnostics_(diagnostics), program_(sources) {}
 
-  Assembly& run() {
+  xml::Assembly& run() {
     for (const xml::Element* e = document_.firstChild(document_.elements[0]); e != nullptr; e = document_.next(*e)) {
       if (e->name == "POU" || e->name == "Itf") {
         readPou(*e);
@@ -152,7 +152,7 @@ class TwinCatReader {
   const Sources& sources_;
   const xml::Document& document_;
   Diagnostics& diagnostics_;
-  Assembly program_;
+  xml::Assembly program_;
 };
 
 }  // namespace

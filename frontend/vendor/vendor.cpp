@@ -1,9 +1,9 @@
 // Telling the formats apart; see vendor.h.
 #include "frontend/vendor/vendor.h"
 
-#include "frontend/vendor/assembly.h"
 #include "frontend/vendor/readers.h"
 #include "frontend/vendor/words.h"
+#include "frontend/xml/assembly.h"
 
 namespace rung::vendor {
 namespace {
@@ -85,7 +85,7 @@ std::string pairName(std::string_view path) {
 }
 
 FileId joinPair(Sources& sources, FileId declaration, FileId body) {
-  Assembly program(sources);
+  xml::Assembly program(sources);
   const auto whole = [&](FileId file) {
     const Loc begin = sources.begin(file);
     program.add(begin, {begin.offset + static_cast<uint32_t>(sources.text(file).size())});

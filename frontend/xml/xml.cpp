@@ -1,8 +1,11 @@
 // The reader of XML files; see xml.h. One loop over the text and no recursion, so depth costs no stack.
 #include "frontend/xml/xml.h"
 
+#include <algorithm>
 #include <cstring>
 #include <string>
+
+#include "frontend/source/names.h"
 
 namespace rung::xml {
 namespace {
@@ -85,7 +88,11 @@ class Reader {
   }
 
   bool readMarkup();
-  bool readDocumentType();
+  bool skipComment();
+  bool readInstruction();
+  bool checkEncoding(std::string_view declaration);
+  bool checkTwice();
+  bool checkCharacters(size_t begin, size_t end);
   bool readStart();
   bool readAttributes();
   bool readEnd();
@@ -105,7 +112,8 @@ class Reader {
   size_t p_ = 0;
   uint32_t open_ = kNone;  // the innermost open element
   uint32_t depth_ = 0;
-  std::vector<uint32_t> last_child_;  // by depth
+  std::vector<uint32_t> last_child_;               // by depth
+  std::vector<std::string_view> attribute_names_;  // of the tag at hand, with prefixes
 };
 
 bool Reader::run() {
@@ -124,8 +132,8 @@ bool Reader::run() {
 }
 
 bool Reader::readMarkup() {
-  if (at("<!--")) return skipTo("-->", "this comment has no `-->`");
-  if (at("<?")) return skipTo("?>", "this instruction has no `?>`");
+  if (at("<!--")) return skipComment();
+  if (at("<?")) return readInstruction();
   if (at("<![CDATA[")) {
     if (open_ == kNone) return broken(p_, "text stands outside of the root element");
     const size_t begin = p_ + 9;
@@ -133,30 +141,48 @@ bool Reader::readMarkup() {
     addRun(begin, p_ - 3);
     return true;
   }
-  if (at("<!DOCTYPE")) return readDocumentType();
+  if (at("<!DOCTYPE")) return broken(p_, "a document type, which Rung does not read; remove it");
   if (at("</")) return readEnd();
   return readStart();
 }
 
-// <!DOCTYPE name [ … ]>: its declarations are not read, the entities among them stay unknown.
-bool Reader::readDocumentType() {
+// <!-- … -->, without `--` inside.
+bool Reader::skipComment() {
   const size_t begin = p_;
-  uint32_t brackets = 0;
-  for (; p_ < text_.size(); ++p_) {
-    const char c = text_[p_];
-    if (c == '[') ++brackets;
-    if (c == ']' && brackets > 0) --brackets;
-    if (c == '"' || c == '\'') {
-      const size_t close = text_.find(c, p_ + 1);
-      if (close == std::string_view::npos) break;
-      p_ = close;
-    }
-    if (c == '>' && brackets == 0) {
-      ++p_;
-      return true;
-    }
-  }
-  return broken(begin, "this DOCTYPE has no `>`");
+  const size_t dashes = text_.find("--", begin + 4);
+  if (text_.find("-->", begin + 4) == std::string_view::npos) return broken(begin, "this comment has no `-->`");
+  if (text_[dashes + 2] != '>') return broken(dashes, "`--` cannot stand in a comment");
+  p_ = dashes + 3;
+  return true;
+}
+
+// <?target … ?>; of `<?xml version="1.0" encoding="utf-8"?>` the encoding counts.
+bool Reader::readInstruction() {
+  const size_t begin = p_;
+  p_ += 2;
+  const std::string_view target = name();
+  if (target.empty()) return broken(begin, "a name must follow `<?`");
+  if (!skipTo("?>", "this instruction has no `?>`")) return false;
+  if (target.size() != 3 || !sameIdentifier(target, "xml")) return true;
+  if (begin != 0) return broken(begin, "the XML declaration must stand at the very beginning");
+  return checkEncoding(text_.substr(0, p_));
+}
+
+// UTF-16 was decoded when the file was read; Latin-1 stands in comments and strings at most, which the lexer judges.
+bool Reader::checkEncoding(std::string_view declaration) {
+  const size_t word = declaration.find("encoding");
+  if (word == std::string_view::npos) return true;
+  const size_t open = declaration.find_first_of("\"'", word);
+  const size_t close = open == std::string_view::npos ? open : declaration.find(declaration[open], open + 1);
+  if (close == std::string_view::npos) return broken(word, "`encoding` needs a value in quotes");
+  const std::string_view encoding = declaration.substr(open + 1, close - open - 1);
+  for (const std::string_view known : {"utf-8", "utf8", "utf-16", "utf-16le", "utf-16be", "us-ascii", "ascii",
+                                       "iso-8859-1", "iso-8859-15", "windows-1250", "windows-1252"})
+    if (sameIdentifier(encoding, known)) return true;
+  for (const char c : text_)
+    if (static_cast<unsigned char>(c) >= 0x80)
+      return broken(open + 1, "this encoding is not read; save the file as UTF-8");
+  return true;
 }
 
 bool Reader::readStart() {
@@ -191,7 +217,7 @@ bool Reader::readStart() {
   last_child_[depth_] = index;
   open_ = index;
   ++depth_;
-  if (!readAttributes()) return false;
+  if (!readAttributes() || !checkTwice()) return false;
   if (text_[p_] == '/') {
     close(p_);
     p_ += 2;
@@ -201,8 +227,30 @@ bool Reader::readStart() {
   return true;
 }
 
+// Forbids an attribute that stands twice in a tag.
+bool Reader::checkTwice() {
+  if (attribute_names_.size() < 2) return true;
+  std::sort(attribute_names_.begin(), attribute_names_.end());
+  for (size_t i = 1; i < attribute_names_.size(); ++i)
+    if (attribute_names_[i] == attribute_names_[i - 1])
+      return broken(static_cast<size_t>(attribute_names_[i].data() - text_.data()),
+                    "this attribute stands twice in its tag");
+  return true;
+}
+
+// Forbids control characters, and `]]>` outside of CDATA.
+bool Reader::checkCharacters(size_t begin, size_t end) {
+  for (size_t i = begin; i < end; ++i) {
+    const auto c = static_cast<unsigned char>(text_[i]);
+    if (c < 0x20 && !isBlank(text_[i])) return broken(i, "a control character cannot stand in XML");
+    if (c == ']' && text_.substr(i, 3) == "]]>") return broken(i, "`]]>` ends no CDATA section here; write `]]&gt;`");
+  }
+  return true;
+}
+
 // Leaves p_ at the `>` or `/>`.
 bool Reader::readAttributes() {
+  attribute_names_.clear();
   for (;;) {
     const size_t before = p_;
     skipBlanks();
@@ -223,6 +271,7 @@ bool Reader::readAttributes() {
     if (const size_t open = text_.substr(begin, end - begin).find('<'); open != std::string_view::npos)
       return broken(begin + open, "`<` cannot stand in a value; write `&lt;`, or close the quote before it");
     if (!checkEntities(begin, end)) return false;
+    attribute_names_.push_back(full);
     out_.attributes.push_back({withoutPrefix(full), text_.substr(begin, end - begin), loc(begin)});
     ++out_.elements[open_].attribute_count;
     p_ = end + 1;
@@ -288,6 +337,7 @@ bool Reader::readText() {
     return p_ >= end || broken(p_, out_.elements.empty() ? "text stands before the root element"
                                                          : "text stands behind the root element");
   }
+  if (!checkCharacters(begin, end)) return false;
   size_t plain = begin;
   for (size_t i = begin; i < end;) {
     const void* ampersand = memchr(text_.data() + i, '&', end - i);
@@ -314,20 +364,24 @@ const Attribute* Document::attribute(const Element& element, std::string_view na
   return nullptr;
 }
 
-std::string Document::value(const Element& element, std::string_view name) const {
-  const Attribute* found = attribute(element, name);
-  if (found == nullptr) return {};
+std::string Document::decoded(const Attribute& attribute) const {
+  const std::string_view raw = attribute.raw;
   std::string out;
-  for (size_t i = 0; i < found->raw.size();) {
-    if (found->raw[i] != '&') {
-      out += found->raw[i++];
+  for (size_t i = 0; i < raw.size();) {
+    if (raw[i] != '&') {
+      out += raw[i++];
       continue;
     }
-    const size_t end = found->raw.find(';', i);  // read() has seen to it
-    appendUtf8(out, characterOf(found->raw.substr(i + 1, end - i - 1)));
+    const size_t end = raw.find(';', i);  // read() has seen to it
+    appendUtf8(out, characterOf(raw.substr(i + 1, end - i - 1)));
     i = end + 1;
   }
   return out;
+}
+
+std::string Document::value(const Element& element, std::string_view name) const {
+  const Attribute* found = attribute(element, name);
+  return found == nullptr ? std::string() : decoded(*found);
 }
 
 const Element* Document::child(const Element& element, std::string_view name) const {

@@ -1,7 +1,8 @@
 // The reader of XML files. In: one source text (UTF-8). Out: its elements, attributes and runs of text, all with their
 // places, in flat lists; or one error at the place where the text stops being XML. Names lose their namespace prefix,
-// comments and processing instructions are passed over, and no entity is known but the five of XML and the numbered
-// ones, so nothing expands. Called by the readers of vendor files.
+// comments and processing instructions are passed over. A document type is refused and no entity is known but the five
+// of XML and the numbered ones, so nothing expands and nothing else is opened. Cost: one pass, and memory for what the
+// file holds. Called by the readers of vendor files and of PLCopen XML.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +46,8 @@ struct Document {
   std::vector<Run> runs;
 
   const Attribute* attribute(const Element& element, std::string_view name) const;
-  // Its value, decoded; empty where there is none.
+  std::string decoded(const Attribute& attribute) const;
+  // The value of an attribute of this name, decoded; empty where there is none.
   std::string value(const Element& element, std::string_view name) const;
   // The first child of this name, or null.
   const Element* child(const Element& element, std::string_view name) const;

@@ -78,10 +78,22 @@ TEST_F(XmlTest, TextIsDecodedAndKeepsItsPlaces) {
   EXPECT_EQ(at(document.runs[7].loc), "3:30");  // end
 }
 
-TEST_F(XmlTest, DocumentTypeIsPassedOver) {
-  EXPECT_TRUE(parse("<!DOCTYPE a [ <!ENTITY x \"]>\"> ]><a/>"));
-  EXPECT_EQ(error("<!DOCTYPE a [ <!ENTITY x 'y'> ]><a>&x;</a>"),
-            "1:36 `&x;` is no character that XML knows; write `&amp;` for `&`");
+// A billion laughs and a file of somebody else: refused before anything is read.
+TEST_F(XmlTest, DocumentTypeIsRefused) {
+  const std::string refused = " the XML is broken here: a document type, which Rung does not read; remove it";
+  EXPECT_EQ(error("<?xml version='1.0'?>\n<!DOCTYPE a [ <!ENTITY x 'y'> <!ENTITY z '&x;&x;'> ]><a>&z;</a>"),
+            "2:1" + refused);
+  EXPECT_EQ(error("<!DOCTYPE a SYSTEM 'file:///etc/passwd'><a/>"), "1:1" + refused);
+  EXPECT_EQ(error("<a>&z;</a>"), "1:4 `&z;` is no character that XML knows; write `&amp;` for `&`");
+}
+
+TEST_F(XmlTest, Encodings) {
+  EXPECT_TRUE(parse("<?xml version=\"1.0\" encoding=\"UTF-8\"?><a>\xc3\xa4</a>"));
+  EXPECT_TRUE(parse("<?xml version='1.0' encoding='Shift_JIS'?><a>plain</a>"));
+  EXPECT_EQ(error("<?xml version='1.0' encoding='Shift_JIS'?><a>\x83\x5c</a>"),
+            "1:31 the XML is broken here: this encoding is not read; save the file as UTF-8");
+  EXPECT_EQ(error("\n<?xml version='1.0'?><a/>"),
+            "2:1 the XML is broken here: the XML declaration must stand at the very beginning");
 }
 
 TEST_F(XmlTest, EachMistakeHasOneErrorAtItsPlace) {
@@ -103,6 +115,11 @@ TEST_F(XmlTest, EachMistakeHasOneErrorAtItsPlace) {
   EXPECT_EQ(error("<a =1>"), "1:4 the XML is broken here: an attribute, `>` or `/>` is needed");
   EXPECT_EQ(error("<a"), "1:3 the XML is broken here: the file ends inside a tag");
   EXPECT_EQ(error("<a></a x>"), "1:8 the XML is broken here: `>` must close an end tag");
+  EXPECT_EQ(error("<a><!-- a -- b --></a>"), "1:11 the XML is broken here: `--` cannot stand in a comment");
+  EXPECT_EQ(error("<a x='1' t:x='1' x='2'/>"), "1:18 the XML is broken here: this attribute stands twice in its tag");
+  EXPECT_EQ(error("<a>\x01</a>"), "1:4 the XML is broken here: a control character cannot stand in XML");
+  EXPECT_EQ(error("<a>]]></a>"), "1:4 the XML is broken here: `]]>` ends no CDATA section here; write `]]&gt;`");
+  EXPECT_EQ(error("<a><? b?></a>"), "1:4 the XML is broken here: a name must follow `<?`");
   EXPECT_EQ(error("<a><!-- </a>"), "1:4 the XML is broken here: this comment has no `-->`");
   EXPECT_EQ(error("<a><![CDATA[ ]]</a>"), "1:4 the XML is broken here: this CDATA section has no `]]>`");
   EXPECT_EQ(error("<![CDATA[x]]>"), "1:1 the XML is broken here: text stands outside of the root element");
@@ -124,7 +141,7 @@ TEST_F(XmlTest, DepthIsLimitedAndCostsNoStack) {
 
 TEST_F(XmlTest, EveryTruncationIsAnError) {
   const std::string whole =
-      "<?xml version=\"1.0\"?><!DOCTYPE a [<!ENTITY b 'c'>]><a one='&lt;' two=\"2\"><!-- c "
+      "<?xml version=\"1.0\" encoding='utf-8'?><a one='&lt;' two=\"2\"><!-- c "
       "--><b><![CDATA[x]]>&#65;t</b><c/></a>";
   ASSERT_TRUE(parse(whole));
   for (size_t n = 0; n < whole.size(); ++n) EXPECT_NE(error(whole.substr(0, n)), "none") << n;

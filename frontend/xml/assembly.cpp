@@ -1,7 +1,7 @@
 // A text from parts of files; see assembly.h.
-#include "frontend/vendor/assembly.h"
+#include "frontend/xml/assembly.h"
 
-namespace rung::vendor {
+namespace rung::xml {
 
 void Assembly::segment(Loc from, bool verbatim) {
   segments_.push_back({static_cast<uint32_t>(text_.size()), from, verbatim});
@@ -14,9 +14,14 @@ void Assembly::add(Loc begin, Loc end) {
   end_ = end;
 }
 
-void Assembly::add(const xml::Document& document, const xml::Element& element) {
-  for (uint32_t i = element.first_run; i < element.end_run; ++i) {
-    const xml::Run& run = document.runs[i];
+void Assembly::add(const Document& document, const Element& element) {
+  addRuns(document, element.first_run, element.end_run);
+  if (element.first_run == element.end_run) end_ = element.end;
+}
+
+void Assembly::addRuns(const Document& document, uint32_t first, uint32_t last) {
+  for (uint32_t i = first; i < last; ++i) {
+    const Run& run = document.runs[i];
     const Loc end{run.loc.offset + run.length};
     if (run.character == 0) {
       add(run.loc, end);
@@ -26,7 +31,14 @@ void Assembly::add(const xml::Document& document, const xml::Element& element) {
       replace(run.loc, end, character);
     }
   }
-  if (element.first_run == element.end_run) end_ = element.end;
+}
+
+void Assembly::add(const Document& document, const Attribute& attribute) {
+  const Loc end{attribute.loc.offset + static_cast<uint32_t>(attribute.raw.size())};
+  if (attribute.raw.find('&') == std::string_view::npos)
+    add(attribute.loc, end);
+  else
+    replace(attribute.loc, end, document.decoded(attribute));
 }
 
 void Assembly::word(std::string_view text) {
@@ -49,4 +61,4 @@ FileId Assembly::finish(Sources& sources, FileId file) {
   return made;
 }
 
-}  // namespace rung::vendor
+}  // namespace rung::xml

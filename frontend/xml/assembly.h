@@ -1,4 +1,6 @@
-// A text in the making from parts of files, which remembers where each part stands. Used by the readers of this folder.
+// A text in the making from parts of files, which remembers where each part stands. In: places of files, texts of XML
+// elements, words that the files leave out. Out: an assembled text of Sources. Used by frontend/vendor and
+// frontend/plcopen.
 #pragma once
 
 #include <string>
@@ -8,7 +10,7 @@
 #include "frontend/source/files.h"
 #include "frontend/xml/xml.h"
 
-namespace rung::vendor {
+namespace rung::xml {
 
 class Assembly {
  public:
@@ -17,11 +19,17 @@ class Assembly {
   // Bytes [begin, end) of a file, as they stand.
   void add(Loc begin, Loc end);
   // The text of an XML element, decoded.
-  void add(const xml::Document& document, const xml::Element& element);
+  void add(const Document& document, const Element& element);
+  // Runs [first, end) of the document's text, decoded.
+  void addRuns(const Document& document, uint32_t first, uint32_t end);
+  // The value of an attribute, decoded.
+  void add(const Document& document, const Attribute& attribute);
   // A word that the file leaves out. Where it is to blame, the place is the end of the part before.
   void word(std::string_view text);
   // What stands for bytes [begin, end) of a file.
   void replace(Loc begin, Loc end, std::string_view text);
+  // A word that the file leaves out, for which what stands at `place` is to blame.
+  void put(Loc place, std::string_view text) { replace(place, place, text); }
 
   bool empty() const { return text_.empty(); }
   const std::string& text() const { return text_; }
@@ -37,4 +45,4 @@ class Assembly {
   Loc end_;  // of the last part, in its file
 };
 
-}  // namespace rung::vendor
+}  // namespace rung::xml
