@@ -18,14 +18,14 @@ struct Operator {
   Form form;
   BinaryOp op;
 };
-constexpr Operator kOperators[] = {{"AND", Form::Chain, BinaryOp::And},        {"OR", Form::Chain, BinaryOp::Or},
-                                   {"XOR", Form::Chain, BinaryOp::Xor},        {"ADD", Form::Chain, BinaryOp::Add},
-                                   {"MUL", Form::Chain, BinaryOp::Multiply},   {"SUB", Form::Pair, BinaryOp::Subtract},
-                                   {"DIV", Form::Pair, BinaryOp::Divide},      {"MOD", Form::Pair, BinaryOp::Modulo},
-                                   {"GT", Form::Pair, BinaryOp::Greater},      {"GE", Form::Pair, BinaryOp::GreaterEqual},
-                                   {"EQ", Form::Pair, BinaryOp::Equal},        {"LE", Form::Pair, BinaryOp::LessEqual},
-                                   {"LT", Form::Pair, BinaryOp::Less},         {"NE", Form::Pair, BinaryOp::NotEqual},
-                                   {"NOT", Form::Invert, BinaryOp::Or},        {"MOVE", Form::Move, BinaryOp::Or}};
+constexpr Operator kOperators[] = {{"AND", Form::Chain, BinaryOp::And},      {"OR", Form::Chain, BinaryOp::Or},
+                                   {"XOR", Form::Chain, BinaryOp::Xor},      {"ADD", Form::Chain, BinaryOp::Add},
+                                   {"MUL", Form::Chain, BinaryOp::Multiply}, {"SUB", Form::Pair, BinaryOp::Subtract},
+                                   {"DIV", Form::Pair, BinaryOp::Divide},    {"MOD", Form::Pair, BinaryOp::Modulo},
+                                   {"GT", Form::Pair, BinaryOp::Greater},    {"GE", Form::Pair, BinaryOp::GreaterEqual},
+                                   {"EQ", Form::Pair, BinaryOp::Equal},      {"LE", Form::Pair, BinaryOp::LessEqual},
+                                   {"LT", Form::Pair, BinaryOp::Less},       {"NE", Form::Pair, BinaryOp::NotEqual},
+                                   {"NOT", Form::Invert, BinaryOp::Or},      {"MOVE", Form::Move, BinaryOp::Or}};
 
 const Operator* operatorNamed(std::string_view name) {
   const auto* found = std::find_if(std::begin(kOperators), std::end(kOperators),
@@ -101,8 +101,8 @@ bool Scheduler::fillArguments(uint32_t element, Call& call) {
       for (const PinShape& candidate : call.shape.pins)
         if (candidate.direction != PinDirection::Output) candidates.push_back(names_.text(candidate.name));
       near = nearest(names_.text(pin.name.name), candidates);
-      report(Diag::NoSuchPin, pin.name.loc, element,
-             {names_.text(e.name.name), "input", names_.text(pin.name.name)})
+      diagnostics_
+          .report(Diag::NoSuchPin, pin.name.loc, {names_.text(e.name.name), "input", names_.text(pin.name.name)})
           .didYouMean(near);
       good = false;
       continue;
@@ -136,7 +136,7 @@ ExprId Scheduler::readBox(uint32_t source) {
       if (known == nullptr) {
         std::vector<std::string_view> candidates;
         for (const PinShape& candidate : shape.pins) candidates.push_back(names_.text(candidate.name));
-        report(Diag::NoSuchPin, loc, s.element, {names_.text(e.name.name), "output", names_.text(pin)})
+        diagnostics_.report(Diag::NoSuchPin, loc, {names_.text(e.name.name), "output", names_.text(pin)})
             .didYouMean(nearest(names_.text(pin), candidates));
         return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
       }
@@ -151,7 +151,7 @@ ExprId Scheduler::readBox(uint32_t source) {
     }
     value = memberExpr(instance, pin, loc);
   } else {
-    report(Diag::ReadBeforeTurn, loc, s.element, {describe(tree_, names_, e)});
+    diagnostics_.report(Diag::ReadBeforeTurn, loc, {describe(tree_, names_, e)});
     return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
   }
   const DiagramPin* out = s.pin.name ? pinNamed(e, names_.text(s.pin.name), PinDirection::Output) : nullptr;
@@ -195,12 +195,14 @@ void Scheduler::settleOperator(uint32_t element, Call& call) {
   bool open = false;
   for (const DiagramPin& pin : tree_.list(e.pins)) {
     if (pin.direction == PinDirection::Output || !pin.wires.empty() || isControl(names_, pin.name.name)) continue;
-    if (!open) report(Diag::NotWired, pin.name.loc, element, {"`" + std::string(names_.text(pin.name.name)) + "` of " + describe(tree_, names_, e)});
+    if (!open)
+      diagnostics_.report(Diag::NotWired, pin.name.loc,
+                          {"`" + std::string(names_.text(pin.name.name)) + "` of " + describe(tree_, names_, e)});
     open = true;
   }
   if (open) return;
   if (!fits) {
-    report(Diag::NotWired, e.loc, element, {"all inputs of " + describe(tree_, names_, e)});
+    diagnostics_.report(Diag::NotWired, e.loc, {"all inputs of " + describe(tree_, names_, e)});
     return;
   }
   ExprId value = call.arguments[0].value;
@@ -234,8 +236,8 @@ void Scheduler::settleOperator(uint32_t element, Call& call) {
     target = nameExpr(name, e.loc);
   }
   conditional(condition, e.loc,
-              tree_.add<StmtId>(AssignStmt{
-                  stmtHeader(StmtKind::Assign, e.loc, static_cast<uint8_t>(AssignOp::Assign)), target, value}));
+              tree_.add<StmtId>(AssignStmt{stmtHeader(StmtKind::Assign, e.loc, static_cast<uint8_t>(AssignOp::Assign)),
+                                           target, value}));
 }
 
 // The call of an instance, or of what has no result.

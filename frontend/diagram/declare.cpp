@@ -97,22 +97,9 @@ DeclId declareNetworks(Tree& tree, Names& names, Shapes& shapes, const PouDecl& 
   declarer.run(pou.diagram.elements);
   if (declarer.vars().empty()) return {};
   const Loc loc = tree.loc(declarer.vars().front());
-  SectionDecl section{{DeclKind::Section, 0, 0, loc, {}, {}}, kind, AccessLevel::None, {}};
+  SectionDecl section{{DeclKind::Section, kHidden, 0, loc, {}, {}}, kind, AccessLevel::None, {}};
   section.vars = tree.addList<DeclId>(declarer.vars());
   return tree.add<DeclId>(section);
-}
-
-std::string describe(const Tree& tree, const Names& names, const DiagramElement& element) {
-  static const char* const kWords[] = {"rail",      "right rail",   "contact", "coil",  "box",    "input",
-                                       "output",    "in-out",       "connector", "continuation", "jump", "label",
-                                       "return",    "execute box",  "composer", "selector", "comment"};
-  std::string text = kWords[static_cast<size_t>(element.kind)];
-  ExprId named = element.operand;
-  if (element.name.name)
-    text += " `" + std::string(names.text(element.name.name)) + "`";
-  else if (named && tree.kind(named) == ExprKind::Name)
-    text += " `" + std::string(names.text(tree.as<NameExpr>(named).name)) + "`";
-  return text + ", number " + std::to_string(element.number);
 }
 
 }  // namespace rung::diagram

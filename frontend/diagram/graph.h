@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "frontend/diagram/elements.h"
 #include "frontend/diagram/schedule.h"
 
 namespace rung::diagram {
@@ -35,7 +36,9 @@ class Graph {
   std::vector<uint32_t> roots;         // elements that do something, in the order in which they are asked to
   bool ordered = false;                // elements have turns of their own
 
-  uint32_t sourceOf(const DiagramPin& pin, uint32_t wire) const { return source_of_wire_[pin.wires.first + wire - first_wire_]; }
+  uint32_t sourceOf(const DiagramPin& pin, uint32_t wire) const {
+    return source_of_wire_[pin.wires.first + wire - first_wire_];
+  }
   uint32_t find(uint32_t element, NameId pin) const;  // a source, or kNone: nobody reads it
 
  private:

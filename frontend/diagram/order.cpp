@@ -1,7 +1,7 @@
 // What the wires of a body connect, and in which order its elements are asked to do their work.
 #include <algorithm>
-#include <numeric>
 #include <compare>
+#include <numeric>
 #include <utility>
 
 #include "frontend/diagram/graph.h"
@@ -118,10 +118,10 @@ bool Graph::connect() {
         const DiagramWire wire = tree_->list(pin.wires)[w];
         const uint32_t from = followed(wire.from);
         if (from == kNone) {
-          diagnostics_->report(isLink(elements[wire.from].kind) && elements[wire.from].pins.empty()
-                                   ? Diag::NotWired
-                                   : Diag::WireLoop,
-                               elements[wire.from].loc, {nameOf(elements[wire.from])});
+          if (elements[wire.from].kind == ElementKind::Continuation) continue;  // reported
+          diagnostics_->report(
+              isLink(elements[wire.from].kind) && elements[wire.from].pins.empty() ? Diag::NotWired : Diag::WireLoop,
+              elements[wire.from].loc, {nameOf(elements[wire.from])});
           continue;
         }
         // The pin of a wire through connectors is that of the wire into the first of them.

@@ -18,8 +18,7 @@ constexpr uint32_t kManyWires = 32;
 // ---- nodes
 
 ExprId Scheduler::inverted(ExprId operand, Loc loc) {
-  return tree_.add<ExprId>(
-      UnaryExpr{exprHeader(ExprKind::Unary, loc, static_cast<uint8_t>(UnaryOp::Not)), operand});
+  return tree_.add<ExprId>(UnaryExpr{exprHeader(ExprKind::Unary, loc, static_cast<uint8_t>(UnaryOp::Not)), operand});
 }
 
 ExprId Scheduler::trueExpr(Loc loc) {
@@ -40,8 +39,7 @@ ExprId Scheduler::sensed(NameId sensor, ExprId value, Loc loc) {
     return value;
   }
   const Argument clk{{names_.intern("CLK"), loc}, value, false, false, loc};
-  emit(tree_.add<StmtId>(
-      CallStmt{stmtHeader(StmtKind::Call, loc), callExpr(nameExpr(sensor, loc), {&clk, 1}, loc)}));
+  emit(tree_.add<StmtId>(CallStmt{stmtHeader(StmtKind::Call, loc), callExpr(nameExpr(sensor, loc), {&clk, 1}, loc)}));
   return memberExpr(nameExpr(sensor, loc), names_.intern("Q"), loc);
 }
 
@@ -84,12 +82,6 @@ void Scheduler::keep(uint32_t source, const std::string& base) {
   graph_.sources[source].temporary = name;
   graph_.sources[source].height = 1;
   assign(nameExpr(name, loc), value, loc);
-}
-
-Report Scheduler::report(Diag diag, Loc loc, uint32_t element, std::initializer_list<std::string_view> args) {
-  Report made = diagnostics_.report(diag, loc, args);
-  made.element(describe(tree_, names_, graph_.elements[element]));
-  return made;
 }
 
 // ---- wires
@@ -205,7 +197,7 @@ ExprId Scheduler::read(uint32_t source) {
     case ElementKind::Comment: break;
   }
   // Its value is not there yet: only where its turn comes later.
-  report(Diag::ReadBeforeTurn, e.loc, s.element, {describe(tree_, names_, e)});
+  diagnostics_.report(Diag::ReadBeforeTurn, e.loc, {describe(tree_, names_, e)});
   return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, e.loc)});
 }
 
@@ -254,7 +246,7 @@ uint32_t Scheduler::walk(uint32_t root) {
       if (keepsState(stack_[k - 1].element)) begin = stack_[k - 1].element;
     for (const Frame& frame : stack_) phase_[frame.element] = Phase::New;
     if (begin == kNone) {
-      report(Diag::WireLoop, graph_.elements[next].loc, next, {});
+      diagnostics_.report(Diag::WireLoop, graph_.elements[next].loc);
       phase_[next] = Phase::Settled;
       const DiagramElement& e = graph_.elements[next];
       for (uint32_t s = graph_.first_source[next]; s != kNone; s = graph_.sources[s].next)
@@ -315,7 +307,7 @@ bool Scheduler::readable(uint32_t element) {
 void Scheduler::settleContact(uint32_t element) {
   const DiagramElement e = graph_.elements[element];
   const DiagramPin* pin = firstInput(e);
-  if (pin == nullptr || pin->wires.empty()) report(Diag::NotWired, e.loc, element, {describe(tree_, names_, e)});
+  if (pin == nullptr || pin->wires.empty()) diagnostics_.report(Diag::NotWired, e.loc, {describe(tree_, names_, e)});
   const uint32_t source = graph_.first_source[element];
   if (e.edge != EdgeKind::None) {
     ExprId value = operandOf(element);
@@ -355,7 +347,7 @@ void Scheduler::settleAssignment(uint32_t element) {
   const DiagramPin* pin = firstInput(e);
   if (pin == nullptr || pin->wires.empty()) {
     if (e.kind == ElementKind::InOut) return;
-    report(Diag::NotWired, e.loc, element, {describe(tree_, names_, e)});
+    diagnostics_.report(Diag::NotWired, e.loc, {describe(tree_, names_, e)});
     return;
   }
   const DiagramPin copy = *pin;
@@ -399,7 +391,7 @@ void Scheduler::settleComposer(uint32_t element) {
     }
     return;
   }
-  if (e.kind == ElementKind::Select) report(Diag::NotWired, e.loc, element, {describe(tree_, names_, e)});
+  if (e.kind == ElementKind::Select) diagnostics_.report(Diag::NotWired, e.loc, {describe(tree_, names_, e)});
 }
 
 void Scheduler::settleExecute(uint32_t element) {
@@ -459,7 +451,8 @@ Statements Scheduler::run(const PouDecl& pou) {
   for (uint32_t k = 0; k < graph_.roots.size(); ++k) turn_[graph_.roots[k]] = k;
   for (uint32_t k = 0; k < count; ++k) {
     const DiagramElement& e = graph_.elements[k];
-    if ((e.kind == ElementKind::Box && !isOperator(e)) || e.kind == ElementKind::Execute) network_calls_[graph_.network[k]] = true;
+    if ((e.kind == ElementKind::Box && !isOperator(e)) || e.kind == ElementKind::Execute)
+      network_calls_[graph_.network[k]] = true;
     const bool writes = e.kind == ElementKind::Coil || e.kind == ElementKind::Output || e.kind == ElementKind::InOut;
     if (!writes) continue;
     if (tree_.kind(e.operand) == ExprKind::Name)

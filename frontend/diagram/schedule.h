@@ -8,8 +8,6 @@
 // coil, a variable or a box comes before it. What a box gives back to an earlier one is its value of the last cycle.
 #pragma once
 
-#include <functional>
-
 #include "frontend/source/diagnostics.h"
 #include "frontend/syntax/shapes.h"
 #include "frontend/syntax/tree.h"
@@ -27,8 +25,5 @@ Statements scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, 
 // the body is an action and they join the variables of its owner.
 DeclId declareNetworks(Tree& tree, Names& names, Shapes& shapes, const PouDecl& pou, SectionKind kind,
                        std::string_view prefix);
-
-// "contact `start` (12)"
-std::string describe(const Tree& tree, const Names& names, const DiagramElement& element);
 
 }  // namespace rung::diagram

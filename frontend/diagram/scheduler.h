@@ -92,7 +92,6 @@ class Scheduler {
   NameId newTemporary(const std::string& base, Loc loc);
   void keep(uint32_t source, const std::string& base);  // pending -> temporary
   std::string wireName(uint32_t element) const;
-  Report report(Diag diag, Loc loc, uint32_t element, std::initializer_list<std::string_view> args);
 
   Tree& tree_;
   Names& names_;
@@ -103,9 +102,9 @@ class Scheduler {
   Graph graph_;
   std::vector<Phase> phase_;
   std::vector<bool> operand_taken_;
-  std::vector<bool> assigned_;        // variables that a box with EN writes by itself
-  std::vector<uint32_t> turn_;        // of an element with a turn: its place among the roots
-  std::vector<uint32_t> calls_open_;  // sources whose pending value calls something
+  std::vector<bool> assigned_;                          // variables that a box with EN writes by itself
+  std::vector<uint32_t> turn_;                          // of an element with a turn: its place among the roots
+  std::vector<uint32_t> calls_open_;                    // sources whose pending value calls something
   std::vector<std::pair<uint32_t, uint32_t>> written_;  // network, key of a name that it writes; sorted
   std::vector<bool> network_calls_;                     // by the network's first element
   std::vector<Frame> stack_;

@@ -108,6 +108,11 @@ uint64_t lineKey(const Sources& sources, Loc loc) {
 
 }  // namespace
 
+void Diagnostics::nameElements(const std::function<std::string(Loc)>& at) {
+  for (Diagnostic& diagnostic : list_)
+    if (diagnostic.loc && diagnostic.element.empty()) diagnostic.element = at(diagnostic.loc);
+}
+
 void Diagnostics::closeLines() {
   closed_lines_.clear();
   for (const Diagnostic& diagnostic : list_)

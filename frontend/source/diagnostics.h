@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -93,6 +94,8 @@ class Diagnostics {
   // True once max_errors is reached: parsers and checkers may stop early.
   bool full() const { return error_count_ >= max_errors; }
   const std::vector<Diagnostic>& all() const { return list_; }
+  // Says of each diagnostic in which element of a diagram its place is, by what `at` says of the place.
+  void nameElements(const std::function<std::string(Loc)>& at);
   // By file, then place; equal places keep the order of reporting. Whole-file diagnostics first.
   void sort();
 

@@ -471,7 +471,8 @@ struct UsingDecl {
 };
 
 enum class SectionKind : uint8_t { Local, Input, Output, InOut, Temp, External, Global, Stat, Inst, Access, Config };
-enum SectionBits : uint8_t { kConstant = 1, kRetain = 2, kPersistent = 4, kNonRetain = 8 };
+// kHidden: of variables that a scheduler needs and nobody wrote.
+enum SectionBits : uint8_t { kConstant = 1, kRetain = 2, kPersistent = 4, kNonRetain = 8, kHidden = 16 };
 struct SectionDecl {
   DeclHeader h; /* bits: SectionBits */
   SectionKind section;

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <ctime>
 
+#include "frontend/diagram/elements.h"
 #include "frontend/source/invariant.h"
 #include "frontend/source/render.h"
 #include "frontend/text/parse.h"
@@ -250,6 +251,10 @@ int Compilation::exitCode() const {
 
 std::string Compilation::diagnosticsText() {
   if (diagnostics.all().empty() && options.format == DiagnosticFormat::Text) return {};
+  if (!diagnostics.all().empty()) {
+    const diagram::ElementPlaces elements(tree, names);
+    if (!elements.empty()) diagnostics.nameElements([&](Loc loc) { return elements.at(loc); });
+  }
   diagnostics.sort();
   RenderOptions render_options;
   render_options.format = options.format;

@@ -94,6 +94,7 @@ class Converter {
   std::vector<StComment> chartComments(const PouDecl& decl) const;
   std::string withComments(FileId made, std::span<const StComment> comments) const;
   std::string temporaries(const Body& body) const;
+  void printHidden(sema::PouId id);
   std::string convert(FileId file) const;
   std::string convert(Loc begin, Loc end) const;
   std::string action(DeclId id) const;
@@ -101,6 +102,7 @@ class Converter {
   Compilation& compilation_;
   const Sources& sources_;
   std::vector<Body> bodies_;
+  std::vector<Edit> hidden_;  // the variables that networks need
 };
 
 // Called while sema is at work, before it changes what the scheduler made.
@@ -109,6 +111,7 @@ void Converter::print(sema::PouId id) {
   const sema::Pou& pou = project.pou(id);
   if (pou.library || pou.generic_of || compilation_.diagnostics.hasErrors()) return;
   const PouDecl& decl = compilation_.tree.as<PouDecl>(pou.decl);
+  printHidden(pou.kind == PouKind::Action ? pou.owner : id);
   if (decl.chart_body) return printChart(id, decl);
   const std::string_view text = sources_.original(pou.file);
   const uint32_t base = sources_.begin(pou.file).offset;
@@ -127,6 +130,32 @@ void Converter::print(sema::PouId id) {
   body.text += printSt(compilation_.tree, compilation_.names, decl.body, indent, comments);
   if (!body.text.empty() && body.text.back() == '\n') body.text.pop_back();  // the source has one behind the body
   bodies_.push_back(std::move(body));
+}
+
+// Declares what the networks of a POU and of its actions need, before the first of its members or its body.
+void Converter::printHidden(sema::PouId id) {
+  const Tree& tree = compilation_.tree;
+  const PouDecl& decl = tree.as<PouDecl>(compilation_.project->pou(id).decl);
+  std::string lines;
+  for (const DeclId s : tree.list(decl.sections)) {
+    const SectionDecl& section = tree.as<SectionDecl>(s);
+    if ((section.h.bits & kHidden) == 0) continue;
+    for (const DeclId v : tree.list(section.vars)) {
+      const VarDecl& var = tree.as<VarDecl>(v);
+      std::string type;
+      for (const Ident& part : tree.list(tree.as<NamedTypeExpr>(var.type).path))
+        type += (type.empty() ? "" : ".") + std::string(compilation_.names.text(part.name));
+      lines += "  " + std::string(compilation_.names.text(tree.list(var.names)[0].name)) + " : " + type + ";\n";
+    }
+  }
+  if (lines.empty()) return;
+  const std::string_view text = sources_.original(sources_.fileOf(decl.begin));
+  const uint32_t base = sources_.begin(sources_.fileOf(decl.begin)).offset;
+  size_t at = lineOf(text, decl.body_begin.offset - base);
+  for (const DeclId member : tree.list(decl.members)) at = std::min(at, lineOf(text, tree.loc(member).offset - base));
+  const Loc place{base + static_cast<uint32_t>(at)};
+  if (std::any_of(hidden_.begin(), hidden_.end(), [&](const Edit& edit) { return edit.begin == place; })) return;
+  hidden_.push_back({place, place, (decl.pou_kind == PouKind::Method ? "VAR_INST\n" : "VAR\n") + lines + "END_VAR\n"});
 }
 
 // Those that stand in no action and in no condition: what is quoted brings its own.
@@ -239,6 +268,8 @@ std::string Converter::convert(Loc begin, Loc end) const {
     if (!(body.begin < begin) && !(end < body.end)) bodies.push_back(&body);
   std::stable_sort(bodies.begin(), bodies.end(), [](const Body* a, const Body* b) { return a->begin < b->begin; });
   std::vector<Edit> edits;
+  for (const Edit& edit : hidden_)
+    if (!(edit.begin < begin) && edit.begin < end) edits.push_back(edit);
   Loc done_to = begin;
   for (const Body* body : bodies) {
     if (body->begin < done_to) continue;  // of an action in a chart, converted with it

@@ -1,0 +1,497 @@
+// Networks; see networks.h. What is written is the notation of frontend/text/network.cpp: elements keep their localId
+// as number, so that the parser resolves wires and says what is wrong with them, at their place in the XML.
+#include "frontend/plcopen/networks.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "frontend/source/names.h"
+
+namespace rung::plcopen {
+namespace {
+
+// Numbers for elements without a localId, beyond those that editors give.
+constexpr uint64_t kOwnNumbers = 9'000'000'000'000'000'000u;
+// CODESYS numbers the elements of network n from n times this on.
+constexpr uint64_t kNumbersPerNetwork = 10'000'000'000u;
+
+bool isNameChar(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+// A name or a path of names.
+bool isPath(std::string_view text) {
+  bool at_begin = true;
+  for (const char c : text) {
+    if (c == '.' && !at_begin) {
+      at_begin = true;
+    } else if (isNameChar(c) && !(at_begin && c >= '0' && c <= '9')) {
+      at_begin = false;
+    } else {
+      return false;
+    }
+  }
+  return !at_begin;
+}
+bool isName(std::string_view text) { return isPath(text) && text.find('.') == std::string_view::npos; }
+
+class Writer {
+ public:
+  Writer(const Sources& sources, const xml::Document& document, Diagnostics& diagnostics, xml::Assembly& out)
+      : sources_(sources), document_(document), diagnostics_(diagnostics), out_(out) {}
+
+  void writeBody(const Diagram& diagram);
+  void writeCondition(const Diagram& diagram);
+
+ private:
+  using Element = xml::Element;
+
+  void collect(const Element& body);
+  void writeElement(const Element& e);
+  void writeNetworkOf(const Element& e);
+  void writeBox(const Element& e);
+  void writeBoxName(const Element& e);
+  void writePins(const Element& e);
+  void writePin(const Element& pin, std::string_view fallback, bool input, bool output);
+  void writeWires(const Element& point);
+  void writeInput(const Element& e);
+  void writeOperand(const Element& e);
+  void writeMarks(const Element& e, std::string_view negated = "negated");
+  void writeOrder(const Element& e);
+  void writePlace(const Element& e);
+  void writeNumber(const Element& e);
+  void writeText(const Element& e, const Element* content);
+  void writeReference(const Element& e, std::string_view attribute);
+
+  std::string value(const Element& e, std::string_view name) const { return document_.value(e, name); }
+  bool isSet(const Element& e, std::string_view name) const {
+    const std::string text = value(e, name);
+    return sameIdentifier(text, "true") || text == "1";
+  }
+  uint64_t numberOf(const Element& e) const;
+  bool negatedByVendor(const Element& e) const;
+  const Element* data(const Element& e, std::string_view kind) const;
+  std::string onlyOutput(const Element& box) const;
+  bool hasOutput(const Element& box, std::string_view pin) const;
+
+  const Sources& sources_;
+  const xml::Document& document_;
+  Diagnostics& diagnostics_;
+  xml::Assembly& out_;
+  std::unordered_map<uint64_t, const Element*> by_number_;
+  std::vector<const Element*> elements_;
+  uint64_t network_ = 0;  // of CODESYS, by the numbers of elements
+  uint64_t next_own_ = kOwnNumbers;
+  bool counts_from_zero_ = false;  // executionOrderId 0 is a turn
+};
+
+bool isElement(std::string_view name) {
+  static constexpr std::string_view kNames[] = {
+      "leftPowerRail", "rightPowerRail", "contact", "coil",  "block",  "inVariable", "outVariable",  "inOutVariable",
+      "connector",     "continuation",   "jump",    "label", "return", "comment",    "vendorElement"};
+  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
+uint64_t Writer::numberOf(const Element& e) const {
+  const std::string text = value(e, "localId");
+  uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc{} && end == text.data() + text.size() ? number : UINT64_MAX;
+}
+
+// The content of the first addData of this kind.
+const xml::Element* Writer::data(const Element& e, std::string_view kind) const {
+  for (const Element* all = document_.firstChild(e); all != nullptr; all = document_.next(*all)) {
+    if (all->name != "addData") continue;
+    for (const Element* d = document_.firstChild(*all); d != nullptr; d = document_.next(*d)) {
+      const std::string name = value(*d, "name");
+      if (name.size() > kind.size() && name.ends_with(kind) && name[name.size() - kind.size() - 1] == '/')
+        return document_.firstChild(*d);
+    }
+  }
+  return nullptr;
+}
+
+// Bachmann keeps the negation of jumps and returns in addData.
+bool Writer::negatedByVendor(const Element& e) const {
+  const Element* negated = data(e, "negated");
+  return negated != nullptr && isSet(*negated, "value");
+}
+
+void Writer::collect(const Element& body) {
+  std::vector<uint64_t> turns;
+  for (const Element* e = document_.firstChild(body); e != nullptr; e = document_.next(*e)) {
+    if (!isElement(e->name)) continue;
+    elements_.push_back(e);
+    by_number_.emplace(numberOf(*e), e);
+    const bool acts = e->name == "block" || e->name == "outVariable" || e->name == "jump" || e->name == "return" ||
+                      e->name == "label";
+    uint64_t turn = 0;
+    const std::string order = value(*e, "executionOrderId");
+    if (acts && std::from_chars(order.data(), order.data() + order.size(), turn).ec == std::errc{})
+      turns.push_back(turn);
+  }
+  // Editors that number every element begin with 0; in others 0 means none.
+  std::sort(turns.begin(), turns.end());
+  counts_from_zero_ = turns.size() > 1 && turns[0] == 0;
+  for (size_t k = 1; k < turns.size(); ++k) counts_from_zero_ = counts_from_zero_ && turns[k] > turns[k - 1];
+}
+
+bool Writer::hasOutput(const Element& box, std::string_view pin) const {
+  for (const char* list : {"outputVariables", "inOutVariables"}) {
+    const Element* pins = document_.child(box, list);
+    for (const Element* p = pins == nullptr ? nullptr : document_.firstChild(*pins); p != nullptr;
+         p = document_.next(*p))
+      if (sameIdentifier(value(*p, "formalParameter"), pin)) return true;
+  }
+  return false;
+}
+
+// The one output of a box beside ENO, or nothing.
+std::string Writer::onlyOutput(const Element& box) const {
+  const Element* pins = document_.child(box, "outputVariables");
+  std::string only;
+  int count = 0;
+  for (const Element* p = pins == nullptr ? nullptr : document_.firstChild(*pins); p != nullptr;
+       p = document_.next(*p)) {
+    const std::string name = value(*p, "formalParameter");
+    if (sameIdentifier(name, "ENO")) continue;
+    only = name;
+    ++count;
+  }
+  return count == 1 ? only : std::string();
+}
+
+void Writer::writeNumber(const Element& e) {
+  const xml::Attribute* number = document_.attribute(e, "localId");
+  if (number != nullptr && numberOf(e) != UINT64_MAX)
+    out_.add(document_, *number);
+  else
+    out_.put(e.loc, std::to_string(next_own_++));
+}
+
+// What a wire into `point` comes from: number(pin) OR number(pin).
+void Writer::writeWires(const Element& point) {
+  bool first = true;
+  for (const Element* c = document_.firstChild(point); c != nullptr; c = document_.next(*c)) {
+    if (c->name != "connection") continue;
+    const xml::Attribute* from = document_.attribute(*c, "refLocalId");
+    if (from == nullptr) continue;
+    if (!first) out_.word(" OR ");
+    first = false;
+    out_.add(document_, *from);
+    uint64_t number = 0;
+    const std::string text = value(*c, "refLocalId");
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    const auto found = by_number_.find(number);
+    if (found == by_number_.end() || (found->second->name != "block" && found->second->name != "vendorElement"))
+      continue;
+    const xml::Attribute* pin = document_.attribute(*c, "formalParameter");
+    const std::string name = pin == nullptr ? std::string() : value(*c, "formalParameter");
+    if (isName(name) && hasOutput(*found->second, name)) {
+      out_.word("(");
+      out_.add(document_, *pin);
+      out_.word(")");
+    } else if (const std::string only = onlyOutput(*found->second); isName(only)) {
+      out_.word("(" + only + ")");
+    } else if (isName(name)) {  // which the parser or the scheduler refuses at its place
+      out_.word("(");
+      out_.add(document_, *pin);
+      out_.word(")");
+    }
+  }
+}
+
+void Writer::writeInput(const Element& e) {
+  const Element* point = document_.child(e, "connectionPointIn");
+  if (point == nullptr || document_.child(*point, "connection") == nullptr) return;
+  out_.word(" := ");
+  writeWires(*point);
+}
+
+void Writer::writeMarks(const Element& e, std::string_view negated) {
+  if (isSet(e, negated)) out_.word(" NOT");
+  const std::string edge = value(e, "edge"), storage = value(e, "storage");
+  if (edge == "rising" || edge == "falling") out_.word(edge == "rising" ? " RISING" : " FALLING");
+  if (storage == "set" || storage == "reset") out_.word(storage == "set" ? " SET" : " RESET");
+}
+
+void Writer::writeOrder(const Element& e) {
+  const xml::Attribute* order = document_.attribute(e, "executionOrderId");
+  uint64_t turn = 0;
+  const std::string text = value(e, "executionOrderId");
+  if (order == nullptr || std::from_chars(text.data(), text.data() + text.size(), turn).ec != std::errc{}) return;
+  if (counts_from_zero_) ++turn;
+  if (turn != 0) out_.put(order->loc, " ORDER " + std::to_string(turn));
+}
+
+void Writer::writePlace(const Element& e) {
+  const Element* position = document_.child(e, "position");
+  if (position == nullptr) return;
+  const auto number = [&](const Element& from, std::string_view name) {
+    const std::string text = value(from, name);
+    double v = 0;
+    if (std::from_chars(text.data(), text.data() + text.size(), v).ec != std::errc{} || !std::isfinite(v)) v = 0;
+    return std::to_string(std::lround(std::clamp(v, -1e9, 1e9)));
+  };
+  const std::string size = number(e, "width") + ", " + number(e, "height");
+  out_.put(position->loc, " AT " + number(*position, "x") + ", " + number(*position, "y") +
+                              (size == "0, 0" ? std::string() : ", " + size));
+}
+
+// ( expression )
+void Writer::writeOperand(const Element& e) {
+  const Element* text = document_.child(e, "expression");
+  if (text == nullptr) text = document_.child(e, "variable");
+  out_.word(" (");
+  if (text != nullptr) out_.add(document_, *text);
+  out_.word(")");
+}
+
+// A string of the notation: comments and titles.
+void Writer::writeText(const Element& e, const Element* content) {
+  if (content == nullptr) return;
+  std::string text = " '";
+  for (const char c : document_.text(*content, sources_)) {
+    if (c == '\'' || c == '$' || c == '\\') text += '$';
+    text += c == '\n' || c == '\r' || c == '\t' ? ' ' : c;
+  }
+  out_.put(e.loc, text + "'");
+}
+
+// A name that stands in an attribute: of a label, a connector.
+void Writer::writeReference(const Element& e, std::string_view attribute) {
+  const xml::Attribute* name = document_.attribute(e, attribute);
+  if (name == nullptr || value(e, attribute).empty()) return;
+  out_.word(" ");
+  if (isName(value(e, attribute))) {
+    out_.add(document_, *name);
+    return;
+  }
+  // Connectors are called as their author likes: in the notation by a name that stands for it.
+  std::string made = "n";
+  for (const char c : value(e, attribute)) {
+    if (isNameChar(c))
+      made += c;
+    else
+      made += std::to_string(static_cast<unsigned char>(c)) + "x";
+  }
+  out_.put(name->loc, made);
+}
+
+void Writer::writePin(const Element& pin, std::string_view fallback, bool input, bool output) {
+  const xml::Attribute* name = document_.attribute(pin, "formalParameter");
+  if (name != nullptr && isName(value(pin, "formalParameter")))
+    out_.add(document_, *name);
+  else
+    out_.put(pin.loc, fallback);
+  writeMarks(pin);
+  if (input) {
+    out_.word(" := ");
+    if (const Element* point = document_.child(pin, "connectionPointIn")) writeWires(*point);
+  }
+  if (output) out_.word(" =>");
+}
+
+void Writer::writePins(const Element& e) {
+  struct List {
+    const char* name;
+    bool input, output;
+  };
+  out_.word(" [");
+  bool first = true;
+  for (const List list : {List{"inputVariables", true, false}, List{"inOutVariables", true, true},
+                          List{"outputVariables", false, true}}) {
+    const Element* pins = document_.child(e, list.name);
+    int count = 0;
+    for (const Element* p = pins == nullptr ? nullptr : document_.firstChild(*pins); p != nullptr;
+         p = document_.next(*p)) {
+      if (p->name != "variable") continue;
+      if (!first) out_.word(", ");
+      first = false;
+      ++count;
+      writePin(*p, (list.input ? "IN" : "OUT") + (count == 1 && !list.input ? std::string() : std::to_string(count)),
+               list.input, list.output);
+    }
+  }
+  out_.word("]");
+}
+
+// What the box calls, and its instance. A method is called by way of its instance.
+void Writer::writeBoxName(const Element& e) {
+  const xml::Attribute* type = document_.attribute(e, "typeName");
+  const xml::Attribute* instance = document_.attribute(e, "instanceName");
+  const std::string type_name = value(e, "typeName"), instance_name = value(e, "instanceName");
+  std::string call_type;
+  for (const char* kind : {"fbdcalltype", "cfccalltype", "ldcalltype"})
+    if (const Element* call = data(e, kind)) call_type = document_.text(*call, sources_);
+  const bool member = call_type == "method" || call_type == "action";
+  if (member && !instance_name.empty() && isPath(instance_name) && isPath(type_name)) {
+    out_.word(" ");
+    const size_t dot = type_name.rfind('.');
+    out_.put(type->loc, instance_name + "." + type_name.substr(dot == std::string::npos ? 0 : dot + 1));
+    return;
+  }
+  if (type != nullptr && !type_name.empty()) {
+    out_.word(" ");
+    out_.add(document_, *type);
+  }
+  if (!instance_name.empty()) {
+    out_.word(" (");
+    out_.add(document_, *instance);
+    out_.word(")");
+  }
+}
+
+void Writer::writeBox(const Element& e) {
+  const Element* st = data(e, "stcode");
+  const bool execute = sameIdentifier(value(e, "typeName"), "EXECUTE") && st != nullptr;
+  out_.word(execute ? "execute " : "box ");
+  writeNumber(e);
+  if (!execute) writeBoxName(e);
+  writeOrder(e);
+  writePlace(e);
+  writePins(e);
+  if (!execute) return;
+  out_.word(" {network ST}\n");
+  out_.add(document_, *st);
+  out_.word("\n{end_network}");
+}
+
+// A title begins a network, and so does another ten thousand million of CODESYS' numbers.
+void Writer::writeNetworkOf(const Element& e) {
+  const uint64_t number = numberOf(e);
+  if (number == UINT64_MAX || number < kNumbersPerNetwork) return;
+  const uint64_t network = number / kNumbersPerNetwork;
+  if (network == network_ || network > UINT32_MAX) return;
+  network_ = network;
+  out_.put(e.loc, "NETWORK " + std::to_string(network) + ";\n");
+}
+
+void Writer::writeElement(const Element& e) {
+  const std::string_view kind = e.name;
+  if (kind == "vendorElement") {
+    const Element* type = data(e, "fbdelementtype");
+    if (type == nullptr) type = data(e, "cfcelementtype");
+    const std::string what = type == nullptr ? std::string() : document_.text(*type, sources_);
+    if (what != "composer" && what != "selector") return;
+    out_.word(what == "composer" ? "compose " : "select ");
+    writeNumber(e);
+    out_.word(" ");
+    if (const Element* name = document_.child(e, "alternativeText")) out_.add(document_, *name);
+    writeOrder(e);
+    writePlace(e);
+    writePins(e);
+    out_.word(";\n");
+    return;
+  }
+  writeNetworkOf(e);
+  if (kind == "block") {
+    writeBox(e);
+    out_.word(";\n");
+    return;
+  }
+  static constexpr std::pair<std::string_view, std::string_view> kWords[] = {{"leftPowerRail", "rail "},
+                                                                             {"rightPowerRail", "right_rail "},
+                                                                             {"contact", "contact "},
+                                                                             {"coil", "coil "},
+                                                                             {"inVariable", "input "},
+                                                                             {"outVariable", "output "},
+                                                                             {"inOutVariable", "inout "},
+                                                                             {"connector", "connector "},
+                                                                             {"continuation", "continuation "},
+                                                                             {"jump", "jump "},
+                                                                             {"label", "label "},
+                                                                             {"return", "return "},
+                                                                             {"comment", "comment "}};
+  for (const auto& [name, word] : kWords)
+    if (kind == name) out_.word(word);
+  writeNumber(e);
+  if (kind == "comment") {
+    writeText(e, document_.child(e, "content"));
+  } else if (kind == "jump" || kind == "label") {
+    writeReference(e, "label");
+    if (kind == "jump" && (isSet(e, "negated") || negatedByVendor(e))) out_.word(" NOT");
+  } else if (kind == "return") {
+    if (isSet(e, "negated") || negatedByVendor(e)) out_.word(" NOT");
+  } else if (kind == "connector" || kind == "continuation") {
+    writeReference(e, "name");
+  } else if (kind == "contact" || kind == "coil" || kind == "inVariable" || kind == "outVariable") {
+    writeOperand(e);
+    writeMarks(e);
+  } else if (kind == "inOutVariable") {
+    writeOperand(e);
+    writeMarks(e, "negatedIn");
+  }
+  if (kind != "inVariable") writeOrder(e);
+  writePlace(e);
+  if (kind == "rightPowerRail") {  // ends wires, whose turns it does not change
+    out_.word(";\n");
+    return;
+  }
+  if (kind != "leftPowerRail" && kind != "inVariable" && kind != "comment" && kind != "continuation") writeInput(e);
+  out_.word(";\n");
+}
+
+void Writer::writeBody(const Diagram& diagram) {
+  collect(diagram.body);
+  const char* word = diagram.language == NetworkLanguage::Ld    ? "LD"
+                     : diagram.language == NetworkLanguage::Fbd ? "FBD"
+                                                                : "CFC";
+  out_.put(diagram.body.loc, std::string("{network ") + word + "}\n");
+  for (const Element* e : elements_) writeElement(*e);
+  out_.put(diagram.body.end, "{end_network}\n");
+}
+
+// Only what leads to the condition, in the order of the file.
+void Writer::writeCondition(const Diagram& diagram) {
+  collect(diagram.body);
+  std::vector<uint64_t> wanted;
+  const auto want = [&](const Element& point) {
+    for (const Element* c = document_.firstChild(point); c != nullptr; c = document_.next(*c)) {
+      const std::string text = value(*c, "refLocalId");
+      uint64_t number = 0;
+      if (c->name == "connection" && std::from_chars(text.data(), text.data() + text.size(), number).ec == std::errc{})
+        wanted.push_back(number);
+    }
+  };
+  want(*diagram.condition);
+  std::unordered_map<uint64_t, bool> seen;
+  std::vector<const Element*> used;
+  for (size_t k = 0; k < wanted.size(); ++k) {
+    const auto found = by_number_.find(wanted[k]);
+    if (found == by_number_.end() || !seen.emplace(wanted[k], true).second) continue;
+    used.push_back(found->second);
+    const Element& e = *found->second;
+    if (const Element* point = document_.child(e, "connectionPointIn")) want(*point);
+    for (const char* list : {"inputVariables", "inOutVariables"}) {
+      const Element* pins = document_.child(e, list);
+      for (const Element* p = pins == nullptr ? nullptr : document_.firstChild(*pins); p != nullptr;
+           p = document_.next(*p))
+        if (const Element* point = document_.child(*p, "connectionPointIn")) want(*point);
+    }
+  }
+  std::sort(used.begin(), used.end());
+  out_.put(diagram.condition->loc, "{network LD}\n");
+  for (const Element* e : used) writeElement(*e);
+  out_.put(diagram.condition->loc, "output " + std::to_string(kOwnNumbers - 1) + " (" + diagram.target + ") := ");
+  writeWires(*diagram.condition);
+  out_.put(diagram.condition->end, ";\n{end_network}\n");
+}
+
+}  // namespace
+
+bool writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram,
+                   Diagnostics& diagnostics, xml::Assembly& out) {
+  Writer writer(sources, document, diagnostics, out);
+  if (diagram.condition != nullptr)
+    writer.writeCondition(diagram);
+  else
+    writer.writeBody(diagram);
+  return true;
+}
+
+}  // namespace rung::plcopen
