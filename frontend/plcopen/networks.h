@@ -1,0 +1,27 @@
+// Bodies drawn in LD, FBD and CFC, and conditions of charts drawn in the same way. In: the element that holds the
+// diagram. Out: {network} … {end_network}, where statements stand. Called by pous.cpp and sfc.cpp.
+#pragma once
+
+#include <string>
+
+#include "frontend/source/diagnostics.h"
+#include "frontend/xml/assembly.h"
+
+namespace rung::plcopen {
+
+enum class NetworkLanguage : uint8_t { Ld, Fbd, Cfc };
+
+struct Diagram {
+  const xml::Element& body;  // the <LD>, <FBD> or <CFC>; the <SFC> around a condition
+  NetworkLanguage language;
+  std::string name;  // what messages call it: Pump.Start
+  // Of a condition: the <connectionPointIn> whose wires are to be assigned to `target`. Null: the whole body.
+  const xml::Element* condition = nullptr;
+  std::string target = {};
+};
+
+// False: an error has been reported, and nothing was written.
+bool writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram,
+                   Diagnostics& diagnostics, xml::Assembly& out);
+
+}  // namespace rung::plcopen
