@@ -152,10 +152,13 @@ struct Scopes {
   std::deque<Region> regions{1};                            // 0: file level without USING
   std::unordered_map<uint32_t, RegionId> region_of_file;    // by FileId: of files with USING
   std::unordered_map<uint32_t, RegionId> region_of_global;  // by VarId: of globals in a region
+  // The list of globals that the last {list 'name'} opened, and its file.
+  std::string open_list;
+  FileId open_list_file;
   // Pragmas and words that declarations look for, as name keys.
   struct Words {
     NameId attribute_qualified_only, attribute_strict, attribute_instance_path, test, test_only, replaces, mock, alias,
-        required, lazy, extensible, prefix, sized, slice, pure, native, op, std, no_final_scan;
+        required, lazy, extensible, prefix, sized, slice, pure, native, op, std, no_final_scan, list;
   } words;
 
   NamedType* named(TypeId type) {

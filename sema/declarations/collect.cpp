@@ -31,6 +31,7 @@ void initWords(Context& context) {
   words.op = word("operator");
   words.std = word("std");
   words.no_final_scan = word("no_final_scan");
+  words.list = word("list");
 }
 
 const Pragma* findPragma(const Context& context, const DeclHeader& header, NameId key) {
@@ -227,6 +228,18 @@ std::string listName(std::string_view path) {
   return name;
 }
 
+// {list 'Plant'} names the list to which this section and those behind it in the file belong: in PLCopen XML, one file
+// holds many. Otherwise a list has the name of its file.
+std::string listOfSection(Context& context, const SectionDecl& section, FileId file) {
+  Scopes& scopes = context.scopes;
+  if (const Pragma* pragma = findPragma(context, section.h, scopes.words.list)) {
+    scopes.open_list_file = file;
+    scopes.open_list = context.tree().text(pragma->value);
+  }
+  const bool is_named = scopes.open_list_file == file && !scopes.open_list.empty();
+  return is_named ? scopes.open_list : listName(context.project.sources.path(file));
+}
+
 }  // namespace
 
 // The list of this name, made when there is none yet.
@@ -321,7 +334,8 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
         return addGlobals(context, list, decl, space->globals);
       }
       if (library == kNoLibrary) {
-        const ListId list = listNamed(context, stem, file, loc, context.scopes.qualifiers);
+        const std::string name = listOfSection(context, context.tree().as<SectionDecl>(decl), file);
+        const ListId list = listNamed(context, name, file, loc, context.scopes.qualifiers);
         return addGlobals(context, list, decl, context.scopes.globals);
       }
       Namespace& from = context.scopes.libraries.list[library];

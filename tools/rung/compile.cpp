@@ -99,9 +99,9 @@ bool Compilation::read() {
     times_.lines += static_cast<uint64_t>(std::count(text.begin(), text.end(), '\n'));
     times_.bytes += text.size();
   }
-  noteLibraries();
   const bool good = usage_error_.empty() && !inputs.io_error && !diagnostics.hasErrors();
   if (good) readPrograms(sources, diagnostics, inputs);
+  noteLibraries();
   times_.end();
   return good;
 }

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "frontend/plcopen/plcopen.h"
 #include "frontend/source/names.h"
 
 namespace rung::tool {
@@ -82,7 +83,7 @@ vendor::Format formatOf(FileKind kind) {
 
 const char* describe(FileKind kind) {
   switch (kind) {
-    case FileKind::Xml: return "XML";
+    case FileKind::Xml: return "XML of another kind than PLCopen's";
     case FileKind::Nct: return "machine-tool ladder";
     case FileKind::Cam: return "a cam table";
     case FileKind::Unknown:
@@ -90,6 +91,7 @@ const char* describe(FileKind kind) {
     case FileKind::Il:
     case FileKind::TwinCat:
     case FileKind::PlcProject:
+    case FileKind::Plcopen:
     case FileKind::Codesys2:
     case FileKind::Multiprog:
     case FileKind::Project:
@@ -354,6 +356,7 @@ class Collector {
       case FileKind::St:
       case FileKind::Il:
       case FileKind::TwinCat:
+      case FileKind::Plcopen:
       case FileKind::Codesys2:
       case FileKind::Multiprog: break;
       case FileKind::Binary: return fail(Diag::BinaryFile, candidate.path, {candidate.path});
@@ -425,6 +428,8 @@ FileKind kindOf(std::string_view path, std::string_view text) {
   }
   std::string_view start = text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
   size_t first = start.find_first_not_of(" \t\r\n");
+  if (first != std::string_view::npos && start.substr(first).starts_with("<") && plcopen::isPlcopen(start))
+    return FileKind::Plcopen;
   if (first != std::string_view::npos && start.substr(first).starts_with("<") && by_name != FileKind::St)
     return FileKind::Xml;
   if (by_name == FileKind::Unknown && startsDeclaration(text)) return FileKind::St;
@@ -441,12 +446,18 @@ void readInputs(const Options& options, Sources& sources, Diagnostics& diagnosti
 
 void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
   joinPairs(sources, inputs.files);
+  std::vector<plcopen::Library> xml_libraries;
   for (InputFile& input : inputs.files) {
     const vendor::Format format = formatOf(input.kind);
-    if (format == vendor::Format::None) continue;
-    input.file = vendor::readProgram(sources, input.file, format, diagnostics);
+    if (input.kind == FileKind::Plcopen)
+      input.file = plcopen::readProject(sources, input.file, diagnostics, xml_libraries);
+    else if (format != vendor::Format::None)
+      input.file = vendor::readProgram(sources, input.file, format, diagnostics);
+    else
+      continue;
     if (!input.file) inputs.unread = true;
   }
+  for (plcopen::Library& library : xml_libraries) inputs.libraries.push_back({std::move(library.name), library.loc});
   std::erase_if(inputs.files, [](const InputFile& input) { return !input.file; });
 }
 

@@ -23,6 +23,7 @@ enum class FileKind : uint8_t {
   Cam,
   TwinCat,
   PlcProject,
+  Plcopen,
   Codesys2,
   Multiprog,
   Project,
@@ -45,7 +46,7 @@ struct Inputs {
   std::vector<InputFile> files;   // the ones to compile, sorted by `below`
   std::vector<std::string> read;  // every file and folder looked at, for depfiles
   ProjectFile project;
-  std::vector<vendor::ProjectEntry> libraries;  // that the .plcproj files among them ask for
+  std::vector<vendor::ProjectEntry> libraries;  // that .plcproj and .xml files among them ask for
   std::vector<std::string> project_names;       // of these files: `TcUnit.FB_TestSuite` names what the project declares
   bool unread = false;                          // a vendor's file could not be understood: what it declares is missing
   bool io_error = false;                        // something could not be read: exit 2

@@ -1,0 +1,259 @@
+// The graph of a chart: elements, wires, and the steps before and behind each transition; see chart.h. Memory and time
+// are linear in the chart, but for transitions behind many steps.
+#include "frontend/plcopen/chart.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "frontend/source/names.h"
+
+namespace rung::plcopen {
+namespace {
+
+constexpr std::pair<std::string_view, NodeKind> kKinds[] = {
+    {"step", NodeKind::Step},
+    {"macroStep", NodeKind::MacroStep},
+    {"transition", NodeKind::Transition},
+    {"jumpStep", NodeKind::Jump},
+    {"selectionDivergence", NodeKind::SelectionDivergence},
+    {"selectionConvergence", NodeKind::SelectionConvergence},
+    {"simultaneousDivergence", NodeKind::SimultaneousDivergence},
+    {"simultaneousConvergence", NodeKind::SimultaneousConvergence},
+    {"actionBlock", NodeKind::ActionBlock},
+    {"connector", NodeKind::Connector},
+    {"continuation", NodeKind::Continuation},
+    {"inVariable", NodeKind::Input},
+    {"contact", NodeKind::Contact},
+    {"leftPowerRail", NodeKind::Rail}};
+
+constexpr size_t kMaxWays = 4096;     // of one element
+constexpr uint32_t kMaxWires = 1000;  // behind each other
+
+}  // namespace
+
+std::string Chart::nameOf(uint32_t node) const {
+  const ChartNode& n = nodes_[node];
+  std::string name = document_.value(*n.element, n.kind == NodeKind::Jump ? "targetName" : "name");
+  if (name.empty()) name = "localId " + std::string(raw(*n.element, "localId"));
+  return std::string(n.element->name) + " `" + name + "`";
+}
+
+// Forbids a localId that stands twice in a chart. TC6 2.01.
+//   fails   <step localId="1" …/> <step localId="1" …/>          E1060
+void Chart::readNodes() {
+  for (const xml::Element* e = document_.firstChild(chart_); e != nullptr; e = document_.next(*e)) {
+    NodeKind kind = NodeKind::Other;
+    for (const auto& [name, of] : kKinds)
+      if (e->name == name) kind = of;
+    const auto index = static_cast<uint32_t>(nodes_.size());
+    nodes_.push_back({e, kind, 0, 0});
+    const bool is_step = kind == NodeKind::Step || kind == NodeKind::Jump;
+    if (is_step && !checkName(import_, *e, kind == NodeKind::Step ? "name" : "targetName")) good_ = false;
+    if (kind == NodeKind::MacroStep) report(Diag::ChartMacroStep, e->loc, {document_.value(*e, "name")});
+    const xml::Attribute* id = document_.attribute(*e, "localId");
+    if (id == nullptr) continue;
+    const auto [known, fresh] = by_id_.emplace(id->raw, index);
+    if (!fresh)
+      report(Diag::ChartIdTwice, id->loc, {id->raw})
+          .length(static_cast<uint32_t>(id->raw.size()))
+          .note(nodes_[known->second].element->loc, Note::AlsoDeclaredHere);
+  }
+  behind_.resize(nodes_.size());
+  ways_.resize(nodes_.size());
+  targets_.resize(nodes_.size());
+  action_blocks_.resize(nodes_.size());
+  for (uint32_t i = 0; i < nodes_.size(); ++i) {
+    nodes_[i].first_wire = static_cast<uint32_t>(wires_.size());
+    for (const ChartWire& wire : wiresOf(*nodes_[i].element)) {
+      wires_.push_back(wire);
+      behind_[wire.from].push_back(i);
+    }
+    nodes_[i].end_wire = static_cast<uint32_t>(wires_.size());
+  }
+  joinConnectors();
+}
+
+// The wires into an element, or into the condition of a transition. Forbids those that lead to nothing. TC6 2.01.
+//   fails   <connection refLocalId="99"/>          E1061
+std::vector<ChartWire> Chart::wiresOf(const xml::Element& holder) {
+  std::vector<ChartWire> out;
+  const auto add = [&](const xml::Element& connection) {
+    const xml::Attribute* id = document_.attribute(connection, "refLocalId");
+    if (id == nullptr) {
+      good_ = checkName(import_, connection, "refLocalId") && good_;
+      return;
+    }
+    const auto found = by_id_.find(id->raw);
+    if (found != by_id_.end()) {
+      out.push_back({found->second, id->loc});
+      return;
+    }
+    report(Diag::ChartWireNowhere, id->loc, {id->raw}).length(static_cast<uint32_t>(id->raw.size()));
+  };
+  for (const xml::Element* e = document_.firstChild(holder); e != nullptr; e = document_.next(*e)) {
+    if (e->name == "connection") add(*e);  // TC6 1.01: in a condition
+    if (e->name != "connectionPointIn") continue;
+    for (const xml::Element* c = document_.firstChild(*e); c != nullptr; c = document_.next(*c))
+      if (c->name == "connection") add(*c);
+  }
+  return out;
+}
+
+// A continuation goes on with what is wired to the connector of its name.
+void Chart::joinConnectors() {
+  std::unordered_map<std::string_view, uint32_t> connectors;
+  for (uint32_t i = 0; i < nodes_.size(); ++i)
+    if (nodes_[i].kind == NodeKind::Connector) connectors.emplace(raw(*nodes_[i].element, "name"), i);
+  for (uint32_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].kind != NodeKind::Continuation) continue;
+    const auto from = connectors.find(raw(*nodes_[i].element, "name"));
+    if (from == connectors.end()) continue;
+    nodes_[i].first_wire = nodes_[from->second].first_wire;
+    nodes_[i].end_wire = nodes_[from->second].end_wire;
+    behind_[from->second].push_back(i);
+  }
+}
+
+void Chart::connectActionBlocks() {
+  for (uint32_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].kind != NodeKind::ActionBlock) continue;
+    bool found = false;
+    for (uint32_t w = nodes_[i].first_wire; w < nodes_[i].end_wire; ++w) {
+      if (nodes_[wires_[w].from].kind != NodeKind::Step) continue;
+      action_blocks_[wires_[w].from].push_back(i);
+      found = true;
+    }
+    if (!found && good_) report(Diag::ChartNoStepBefore, nodes_[i].element->loc, {nameOf(i)});
+  }
+}
+
+// One set of steps for each way that leads to the node.
+void Chart::addWays(Ways& ways, uint32_t node, uint32_t depth) {
+  for (uint32_t w = nodes_[node].first_wire; w < nodes_[node].end_wire; ++w) {
+    const uint32_t from = wires_[w].from;
+    if (nodes_[from].kind == NodeKind::Transition || nodes_[from].kind == NodeKind::Jump) {
+      report(Diag::ChartNoStepBetween, wires_[w].loc, {nameOf(from), nameOf(node)});
+      continue;
+    }
+    const Ways& inner = before(from, depth + 1);
+    ways.never = ways.never || inner.never;
+    ways.sets.insert(ways.sets.end(), inner.sets.begin(), inner.sets.end());
+  }
+}
+
+// One set from each input, in all combinations; mostly there is one. A branch that ends with a jump never comes to the
+// convergence that editors draw behind it all the same.
+void Chart::addUnited(Ways& ways, uint32_t node, uint32_t depth) {
+  ways.sets.push_back({});
+  for (uint32_t w = nodes_[node].first_wire; w < nodes_[node].end_wire; ++w) {
+    const uint32_t from = wires_[w].from;
+    if (nodes_[from].kind == NodeKind::Jump) {
+      if (!ways.never)
+        import_.diagnostics.report(Diag::ChartNeverUnites, nodes_[from].element->loc, {nameOf(from), nameOf(node)});
+      ways.never = true;
+      continue;
+    }
+    if (nodes_[from].kind == NodeKind::Transition) {
+      report(Diag::ChartNoStepBetween, wires_[w].loc, {nameOf(from), nameOf(node)});
+      continue;
+    }
+    const Ways& inner = before(from, depth + 1);
+    ways.never = ways.never || inner.never;
+    std::vector<Steps> united;
+    for (const Steps& a : ways.sets) {
+      for (const Steps& b : inner.sets) {
+        if (united.size() == kMaxWays) break;
+        united.push_back(a);
+        united.back().insert(united.back().end(), b.begin(), b.end());
+      }
+    }
+    ways.sets = std::move(united);
+  }
+}
+
+const Chart::Ways& Chart::before(uint32_t node, uint32_t depth) {
+  Ways& ways = ways_[node];
+  if (ways.state == Ways::State::Known) return ways;
+  if (ways.state == Ways::State::Busy || depth == kMaxWires) {
+    ways.state = Ways::State::Known;
+    report(Diag::ChartCycle, nodes_[node].element->loc, {nameOf(node)});
+    return ways;
+  }
+  ways.state = Ways::State::Busy;
+  switch (nodes_[node].kind) {
+    case NodeKind::Step:
+    case NodeKind::MacroStep: ways.sets.push_back({node}); break;
+    case NodeKind::SelectionDivergence:
+    case NodeKind::SelectionConvergence:
+    case NodeKind::Connector:
+    case NodeKind::Continuation: addWays(ways, node, depth); break;
+    case NodeKind::SimultaneousConvergence: addUnited(ways, node, depth); break;
+    case NodeKind::SimultaneousDivergence:
+    case NodeKind::Transition:
+    case NodeKind::Jump:
+    case NodeKind::ActionBlock:
+    case NodeKind::Input:
+    case NodeKind::Contact:
+    case NodeKind::Rail:
+    case NodeKind::Other:
+      report(Diag::ChartNoStepBetween, nodes_[node].element->loc, {nameOf(node), "a transition"});
+      break;
+  }
+  if (ways.sets.size() > kMaxWays) ways.sets.resize(kMaxWays);
+  ways.state = Ways::State::Known;
+  return ways;
+}
+
+// The steps and jumps that begin when a transition fires whose wire comes out of `node`.
+void Chart::after(uint32_t node, std::vector<uint32_t>& out, uint32_t depth) {
+  if (depth == kMaxWires) {
+    report(Diag::ChartCycle, nodes_[node].element->loc, {nameOf(node)});
+    return;
+  }
+  bool any = false;
+  for (const uint32_t next : behind_[node]) {
+    if (nodes_[next].kind == NodeKind::Other || nodes_[next].kind == NodeKind::ActionBlock) continue;
+    if (any && nodes_[node].kind != NodeKind::SimultaneousDivergence) {
+      report(Diag::ChartSplits, nodes_[next].element->loc, {nameOf(node), nameOf(next)});
+      return;
+    }
+    any = true;
+    switch (nodes_[next].kind) {
+      case NodeKind::Step:
+      case NodeKind::MacroStep:
+      case NodeKind::Jump: out.push_back(next); break;
+      case NodeKind::SelectionConvergence:
+      case NodeKind::SimultaneousDivergence:
+      case NodeKind::Connector:
+      case NodeKind::Continuation: after(next, out, depth + 1); break;
+      case NodeKind::Transition:
+      case NodeKind::SelectionDivergence:
+      case NodeKind::SimultaneousConvergence:
+      case NodeKind::ActionBlock:
+      case NodeKind::Input:
+      case NodeKind::Contact:
+      case NodeKind::Rail:
+      case NodeKind::Other:
+        report(Diag::ChartNoStepBetween, nodes_[next].element->loc, {nameOf(node), nameOf(next)});
+        break;
+    }
+    if (!good_) return;
+  }
+  if (!any) report(Diag::ChartLeadsNowhere, nodes_[node].element->loc, {nameOf(node)});
+}
+
+// Forbids a transition without a step before or behind it. IEC 61131-3 ed. 3, 6.7.3.
+//   fails   <transition localId="3"> without connectionPointIn          E1062
+void Chart::connectTransition(uint32_t node) {
+  Ways& ways = ways_[node];
+  const uint32_t errors = import_.diagnostics.errorCount();
+  addWays(ways, node, 0);
+  if (ways.never) ways.sets.clear();
+  if (import_.diagnostics.errorCount() != errors || ways.never) return;
+  if (ways.sets.empty())
+    report(Diag::ChartNoStepBefore, nodes_[node].element->loc, {nameOf(node)});
+  else
+    after(node, targets_[node], 0);
+}
+
+}  // namespace rung::plcopen

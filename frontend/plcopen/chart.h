@@ -1,0 +1,135 @@
+// A chart of the XML: its elements and wires, and how they become textual SFC. Private to chart.cpp (the graph),
+// sfc.cpp (steps and actions), conditions.cpp (transitions).
+//
+// The elements are wired from below: each names what stands before it. A transition's steps are found by following
+// wires through divergences and convergences; the branches of a divergence are those who name it, in the order of the
+// file, which is the order in which they are judged. TC6 2.01; TM/TP manual 5.5; IEC 61131-3 ed. 3, 6.7.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "frontend/plcopen/import.h"
+
+namespace rung::plcopen {
+
+enum class NodeKind : uint8_t {
+  Step,
+  MacroStep,
+  Transition,
+  Jump,
+  SelectionDivergence,
+  SelectionConvergence,
+  SimultaneousDivergence,
+  SimultaneousConvergence,
+  ActionBlock,
+  Connector,
+  Continuation,
+  Input,  // inVariable
+  Contact,
+  Rail,   // leftPowerRail
+  Other,  // comments, and what only networks know
+};
+
+struct ChartWire {
+  uint32_t from;  // node
+  Loc loc;
+};
+struct ChartNode {
+  const xml::Element* element;
+  NodeKind kind;
+  uint32_t first_wire, end_wire;  // its inputs, in Chart::wires_
+};
+
+class Chart {
+ public:
+  Chart(Import& import, const xml::Element& chart, const xml::Element& pou, const std::string& name)
+      : import_(import), document_(import.document), chart_(chart), pou_(pou), name_(name) {}
+
+  void write();
+
+ private:
+  using Steps = std::vector<uint32_t>;  // nodes
+  // What must be active before an element can begin: all steps of one of the sets.
+  struct Ways {
+    enum class State : uint8_t { Unknown, Busy, Known } state = State::Unknown;
+    bool never = false;  // behind a branch that ends with a jump
+    std::vector<Steps> sets;
+  };
+  // A condition that more than an expression makes, or that has a name: a TRANSITION without FROM.
+  struct Definition {
+    std::string name;
+    const xml::Element* element;  // <transition> with bodies, <inline>, or the <condition> with wires
+  };
+  // What a transition waits for: one of these.
+  struct Condition {
+    const xml::Element* text = nullptr;  // an <ST>, of which [begin, end) of the decoded text counts
+    size_t begin = 0, end = 0;
+    const xml::Attribute* variable = nullptr;
+    std::vector<uint32_t> wires;  // from nodes that are an expression
+    std::string definition;
+    bool negated = false;
+  };
+
+  Report report(Diag diag, Loc loc, std::initializer_list<std::string_view> args) {
+    good_ = false;
+    return import_.diagnostics.report(diag, loc, args);
+  }
+  std::string_view raw(const xml::Element& element, std::string_view attribute) const {
+    const xml::Attribute* found = document_.attribute(element, attribute);
+    return found == nullptr ? std::string_view{} : found->raw;
+  }
+
+  // ---- the graph (chart.cpp)
+  std::string nameOf(uint32_t node) const;  // as messages call it
+  void readNodes();
+  std::vector<ChartWire> wiresOf(const xml::Element& holder);
+  void joinConnectors();
+  void connectActionBlocks();
+  void connectTransition(uint32_t node);
+  const Ways& before(uint32_t node, uint32_t depth);
+  void addWays(Ways& ways, uint32_t node, uint32_t depth);
+  void addUnited(Ways& ways, uint32_t node, uint32_t depth);
+  void after(uint32_t node, std::vector<uint32_t>& out, uint32_t depth);
+
+  // ---- steps (sfc.cpp)
+  void writeStep(uint32_t node);
+  void writeStepActions(uint32_t node);
+  void writeAction(const xml::Element& action);
+  void writeTime(const xml::Element& action, std::string_view qualifier);
+  const xml::Element* ownAttribute(const xml::Element& element, std::string_view guid) const;
+
+  // ---- transitions (conditions.cpp)
+  void writeTransition(uint32_t node);
+  void writeSteps(const std::vector<uint32_t>& steps);
+  bool readCondition(uint32_t node, Condition& out);
+  bool readBody(const xml::Element& inline_body, const std::string& name, Condition& out);
+  void define(const std::string& name, const xml::Element& element);
+  void writeExpression(const Condition& condition);
+  bool isExpression(uint32_t node, uint32_t depth, uint32_t& budget) const;
+  void writeWires(const std::vector<uint32_t>& from);
+  void writeOperand(uint32_t node);
+  std::vector<uint32_t> sourcesOf(uint32_t node) const;
+  const xml::Element* namedTransition(std::string_view name) const;
+  void writeDefinition(const Definition& definition);
+
+  Import& import_;
+  const xml::Document& document_;
+  const xml::Element& chart_;
+  const xml::Element& pou_;
+  const std::string& name_;
+  bool good_ = true;
+  std::vector<ChartNode> nodes_;
+  std::vector<ChartWire> wires_;
+  std::unordered_map<std::string_view, uint32_t> by_id_;
+  std::vector<std::vector<uint32_t>> behind_;         // by node: those that name it, in the order of the file
+  std::vector<Ways> ways_;                            // by node
+  std::vector<std::vector<uint32_t>> targets_;        // by node, of transitions
+  std::vector<std::vector<uint32_t>> action_blocks_;  // by node, of steps
+  std::vector<Definition> definitions_;
+  std::unordered_map<std::string, std::string> own_actions_;  // by variable
+};
+
+}  // namespace rung::plcopen

@@ -1,0 +1,239 @@
+// Telling TC6 files from other XML, and the project as a whole; see plcopen.h.
+#include "frontend/plcopen/plcopen.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "frontend/plcopen/import.h"
+#include "frontend/source/names.h"
+
+namespace rung::plcopen {
+namespace {
+
+bool endsName(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '>' || c == '/'; }
+
+// What a project consists of, beside configurations.
+enum class Part : uint8_t { None, DataType, Pou, Interface, Globals };
+
+class ProjectReader {
+ public:
+  ProjectReader(Import& import, std::vector<Library>& libraries) : import_(import), libraries_(libraries) {}
+
+  void run();
+
+ private:
+  Part partOf(const xml::Element& element) const;
+  const xml::Element* parentOf(const xml::Element& element) const {
+    return element.parent == xml::kNone ? nullptr : &import_.document.elements[element.parent];
+  }
+  const xml::Element* resourceOf(const xml::Element& element) const;
+  void findInitialisers();
+  void leaveOutApplications();
+  void addLibraries(const xml::Element& libraries);
+  void noteExtensions();
+  bool holdsProgram(const xml::Element& configuration) const;
+
+  Import& import_;
+  std::vector<Library>& libraries_;
+};
+
+Part ProjectReader::partOf(const xml::Element& element) const {
+  const xml::Element* parent = parentOf(element);
+  if (element.name == "pou") {
+    const bool is_pou = import_.document.attribute(element, "pouType") != nullptr ||
+                        import_.document.child(element, "interface") != nullptr ||
+                        import_.document.child(element, "body") != nullptr;
+    return is_pou ? Part::Pou : Part::None;
+  }
+  if (element.name == "dataType")
+    return import_.document.child(element, "baseType") != nullptr || plainText(import_, element) != nullptr
+               ? Part::DataType
+               : Part::None;
+  if (element.name == "Interface") return parent != nullptr && parent->name == "data" ? Part::Interface : Part::None;
+  if (element.name != "globalVars" || parent == nullptr) return Part::None;
+  if (parent->name == "interface" || parent->name == "MixedAttrsVarList") return Part::None;
+  const bool in_configuration = parent->name == "resource" || parent->name == "configuration";
+  return in_configuration && !hasName(import_, element) ? Part::None : Part::Globals;
+}
+
+const xml::Element* ProjectReader::resourceOf(const xml::Element& element) const {
+  const xml::Element* e = parentOf(element);
+  while (e != nullptr && e->name != "resource") e = parentOf(*e);
+  return e;
+}
+
+void ProjectReader::findInitialisers() {
+  for (const xml::Element& pou : import_.document.elements) {
+    if (pou.name != "pou") continue;
+    forEachData(import_, pou, "method", [&](const xml::Element& data) {
+      const xml::Element* method = import_.document.firstChild(data);
+      if (method != nullptr && sameIdentifier(import_.document.value(*method, "name"), "FB_Init"))
+        import_.initialisers.emplace_back(upper(import_.document.value(pou, "name")), method);
+    });
+  }
+  std::sort(import_.initialisers.begin(), import_.initialisers.end());
+}
+
+// A project of CODESYS may hold applications for several devices, each with a PLC_PRG of its own: the first one counts,
+// and those that repeat a name of it are left out.
+void ProjectReader::leaveOutApplications() {
+  std::unordered_map<std::string, const xml::Element*> resource_of_name;
+  for (const xml::Element& element : import_.document.elements) {
+    const Part part = partOf(element);
+    if (part == Part::None) continue;
+    const xml::Element* resource = resourceOf(element);
+    if (resource == nullptr || import_.isLeftOut(*resource)) continue;
+    const std::string name = upper(import_.document.value(element, "name"));
+    const auto [known, fresh] = resource_of_name.emplace(name, resource);
+    if (fresh || known->second == resource) continue;
+    import_.left_out.insert(resource);
+    const xml::Attribute* called = import_.document.attribute(*resource, "name");
+    import_.diagnostics
+        .report(Diag::XmlSecondApplication, called == nullptr ? resource->loc : called->loc,
+                {import_.document.value(*resource, "name"), import_.document.value(*known->second, "name"),
+                 import_.document.value(element, "name")})
+        .length(called == nullptr ? 0 : static_cast<uint32_t>(called->raw.size()));
+  }
+}
+
+bool ProjectReader::holdsProgram(const xml::Element& configuration) const {
+  for (const xml::Element* e = import_.document.firstChild(configuration); e != nullptr; e = import_.document.next(*e))
+    if ((e->name == "resource" && !import_.isLeftOut(*e)) || e->name == "globalVars" || e->name == "accessVars" ||
+        e->name == "configVars")
+      return true;
+  return false;
+}
+
+// <Library Name="#Standard" …/>, <Library Name="Util, 3.5.17.0 (System)" …/>. What a library of the system brings along
+// is no concern of the project.
+void ProjectReader::addLibraries(const xml::Element& libraries) {
+  for (const xml::Element* e = import_.document.firstChild(libraries); e != nullptr; e = import_.document.next(*e)) {
+    const xml::Attribute* name = e->name == "Library" ? import_.document.attribute(*e, "Name") : nullptr;
+    if (name == nullptr || isTrue(import_, *e, "SystemLibrary")) continue;
+    std::string title = import_.document.decoded(*name);
+    title = title.substr(0, title.find(','));
+    Loc loc = name->loc;
+    if (title.starts_with("#")) {
+      title.erase(0, 1);
+      ++loc.offset;
+    }
+    while (!title.empty() && title.back() == ' ') title.pop_back();
+    const bool seen = std::any_of(libraries_.begin(), libraries_.end(),
+                                  [&](const Library& library) { return sameIdentifier(library.name, title); });
+    if (!title.empty() && !seen) libraries_.push_back({std::move(title), loc});
+  }
+}
+
+// Mentions each kind of extension that is not read, once. Those that may be discarded are none of Rung's concern.
+void ProjectReader::noteExtensions() {
+  static constexpr std::string_view kKnown[] = {"method",
+                                                "property",
+                                                "interfaceasplaintext",
+                                                "plcopenxml",
+                                                "attributes",
+                                                "inputassignments",
+                                                "pouinheritance",
+                                                "datatypeinheritance",
+                                                "accessmodifiers",
+                                                "interface",
+                                                "globalvars",
+                                                "mixedattrsvarlist",
+                                                "pou",
+                                                "datatype",
+                                                "tasksettings",
+                                                "libraries",
+                                                "cfc",
+                                                "sfcsettings",
+                                                "element",
+                                                "objectid",
+                                                "projectstructure",
+                                                "projectinformation",
+                                                "buildproperties",
+                                                "application",
+                                                "Device",
+                                                "enumvaluedocumentation",
+                                                "cfccalltype",
+                                                "fbdcalltype",
+                                                "cfcelementtype",
+                                                "fbdelementtype",
+                                                "stcode",
+                                                "ldbranchid",
+                                                "inputparamtypes",
+                                                "outputparamtypes",
+                                                "implementationattributes",
+                                                "configurations",
+                                                "ExplicitConnector",
+                                                "negated"};
+  std::vector<std::string_view> noted;
+  for (const xml::Element& element : import_.document.elements) {
+    const xml::Element* parent = element.name == "data" ? parentOf(element) : nullptr;
+    const xml::Attribute* name =
+        parent == nullptr || parent->name != "addData" ? nullptr : import_.document.attribute(element, "name");
+    if (name == nullptr || import_.document.value(element, "handleUnknown") == "discard") continue;
+    const std::string_view kind = kindOfData(import_, element);
+    if (std::find(std::begin(kKnown), std::end(kKnown), kind) != std::end(kKnown)) continue;
+    if (std::find(noted.begin(), noted.end(), name->raw) != noted.end() || noted.size() == 100) continue;
+    noted.push_back(name->raw);
+    import_.diagnostics.report(Diag::XmlExtension, name->loc, {import_.document.decoded(*name)})
+        .length(static_cast<uint32_t>(name->raw.size()));
+  }
+}
+
+void ProjectReader::run() {
+  const xml::Attribute* space = import_.document.attribute(import_.document.elements[0], "xmlns");
+  import_.bare_texts = space != nullptr && space->raw.ends_with("0201");
+  findInitialisers();
+  leaveOutApplications();
+  for (const xml::Element& element : import_.document.elements) {
+    const Part part = partOf(element);
+    if (element.name == "Libraries") addLibraries(element);
+    if (part == Part::None) continue;
+    if (!import_.left_out.empty()) {
+      const xml::Element* resource = resourceOf(element);
+      if (resource != nullptr && import_.isLeftOut(*resource)) continue;
+    }
+    switch (part) {
+      case Part::None: break;
+      case Part::DataType: writeDataType(import_, element); break;
+      case Part::Pou: writePou(import_, element); break;
+      case Part::Interface: writeInterface(import_, element); break;
+      case Part::Globals: writeGlobals(import_, element); break;
+    }
+  }
+  for (const xml::Element& element : import_.document.elements)
+    if (element.name == "configuration" && holdsProgram(element)) writeConfiguration(import_, element);
+  noteExtensions();
+}
+
+}  // namespace
+
+bool isPlcopen(std::string_view text) {
+  for (size_t p = text.find('<'); p != std::string_view::npos; p = text.find('<', p)) {
+    if (text.substr(p, 4) == "<!--") {
+      p = text.find("-->", p);
+    } else if (text.substr(p, 2) == "<?" || text.substr(p, 2) == "<!") {
+      p = text.find('>', p);
+    } else {
+      const size_t close = std::min(text.find('>', p), text.size());
+      const std::string_view tag = text.substr(p + 1, close - p - 1);
+      size_t end = 0;
+      while (end < tag.size() && !endsName(tag[end])) ++end;
+      std::string_view root = tag.substr(0, end);
+      if (const size_t colon = root.find(':'); colon != std::string_view::npos) root.remove_prefix(colon + 1);
+      return (root == "project" || root == "pou") && tag.find("www.plcopen.org/xml/tc6") != std::string_view::npos;
+    }
+    if (p == std::string_view::npos) break;
+  }
+  return false;
+}
+
+FileId readProject(Sources& sources, FileId file, Diagnostics& diagnostics, std::vector<Library>& libraries) {
+  xml::Document document;
+  if (!xml::read(sources, file, diagnostics, document)) return {};
+  xml::Assembly program(sources);
+  Import import{sources, document, diagnostics, program};
+  ProjectReader(import, libraries).run();
+  return program.finish(sources, file);
+}
+
+}  // namespace rung::plcopen

@@ -1,0 +1,173 @@
+// Charts as textual SFC: their steps and actions; see chart.h and import.h.
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "frontend/plcopen/chart.h"
+#include "frontend/source/names.h"
+
+namespace rung::plcopen {
+namespace {
+
+// Attributes of steps and actions in the addData of CODESYS, by the beginning of their GUID.
+constexpr std::string_view kEntryAction = "a6b08bd8", kActiveAction = "700a583f", kExitAction = "a2621e18",
+                           kDuration = "7d894980";
+
+bool isTimed(std::string_view qualifier) {
+  for (const std::string_view word : {"L", "D", "SD", "DS", "SL"})
+    if (sameIdentifier(word, qualifier)) return true;
+  return false;
+}
+
+bool isName(std::string_view text) { return !isBlank(text) && identifierOf(text) == text; }
+
+}  // namespace
+
+const xml::Element* Chart::ownAttribute(const xml::Element& element, std::string_view guid) const {
+  const xml::Element* attributes = dataOf(import_, element, "element");
+  for (const xml::Element* e = attributes == nullptr ? nullptr : document_.firstChild(*attributes); e != nullptr;
+       e = document_.next(*e))
+    if (raw(*e, "guid").starts_with(guid) && !isBlank(document_.text(*e, import_.sources))) return e;
+  return nullptr;
+}
+
+// `, T#5s`; some write `5s`.
+void Chart::writeTime(const xml::Element& action, std::string_view qualifier) {
+  if (!isTimed(qualifier)) return;
+  const xml::Attribute* duration = document_.attribute(action, "duration");
+  const bool given = duration != nullptr && !isBlank(duration->raw);
+  const xml::Element* own = given ? nullptr : ownAttribute(action, kDuration);
+  if (!given && own == nullptr) return;  // reported by the parser
+  const std::string time = given ? document_.decoded(*duration) : textOf(import_, *own);
+  import_.out.put(given ? duration->loc : own->loc, time[0] >= '0' && time[0] <= '9' ? ", T#" : ", ");
+  if (given)
+    import_.out.add(document_, *duration);
+  else
+    import_.out.add(document_, *own);
+}
+
+// open(L, T#5s, busy); an action whose body stands here, or a variable that no name alone names, gets an ACTION.
+void Chart::writeAction(const xml::Element& action) {
+  const xml::Element* reference = document_.child(action, "reference");
+  const xml::Element* inline_body = document_.child(action, "inline");
+  if (reference == nullptr && inline_body == nullptr) return;  // drawn, and not filled in yet
+  if (reference != nullptr && !checkName(import_, *reference)) return;
+  const xml::Attribute* name = reference == nullptr ? nullptr : document_.attribute(*reference, "name");
+  if (name != nullptr && isName(name->raw)) {
+    import_.out.add(document_, *name);
+    if (import_.isStepName(name->raw)) import_.out.word(kActionSuffix);
+  } else {
+    std::string& own =
+        own_actions_[name != nullptr ? upper(document_.decoded(*name)) : std::to_string(action.loc.offset)];
+    if (own.empty()) {
+      own = "sfc_action_" + std::to_string(++import_.own_action_count);
+      import_.own_actions.push_back({own, inline_body, name});
+    }
+    import_.out.put(action.loc, own);
+  }
+  const xml::Attribute* qualifier = document_.attribute(action, "qualifier");
+  import_.out.word("(");
+  if (qualifier == nullptr || isBlank(qualifier->raw)) {
+    import_.out.word("N");
+  } else {
+    import_.out.add(document_, *qualifier);
+    writeTime(action, qualifier->raw);
+  }
+  const xml::Attribute* indicator = document_.attribute(action, "indicator");
+  if (indicator != nullptr && isName(indicator->raw)) {
+    import_.out.put(indicator->loc, ", ");
+    import_.out.add(document_, *indicator);
+  }
+  import_.out.word(");\n");
+}
+
+void Chart::writeStepActions(uint32_t node) {
+  static constexpr std::pair<std::string_view, std::string_view> kOwn[] = {
+      {kEntryAction, "{entry} "}, {kActiveAction, "{active} "}, {kExitAction, "{exit} "}};
+  for (const auto& [guid, pragma] : kOwn) {
+    const xml::Element* found = ownAttribute(*nodes_[node].element, guid);
+    if (found == nullptr) continue;
+    import_.out.put(found->loc, pragma);
+    import_.out.add(document_, *found);
+    if (import_.isStepName(textOf(import_, *found))) import_.out.word(kActionSuffix);
+    import_.out.word(";\n");
+  }
+  for (const uint32_t block : action_blocks_[node])
+    for (const xml::Element* e = document_.firstChild(*nodes_[block].element); e != nullptr; e = document_.next(*e))
+      if (e->name == "action") writeAction(*e);
+}
+
+// STEP name: actions END_STEP
+void Chart::writeStep(uint32_t node) {
+  const xml::Element& step = *nodes_[node].element;
+  import_.out.put(step.loc, isTrue(import_, step, "initialStep") ? "INITIAL_STEP " : "STEP ");
+  writeName(import_, step);
+  import_.out.word(":\n");
+  writeStepActions(node);
+  import_.out.put(step.end, "END_STEP\n");
+}
+
+// A chart with a mistake in its graph is not written at all: what follows from it needs no messages.
+void Chart::write() {
+  readNodes();
+  connectActionBlocks();
+  for (uint32_t i = 0; i < nodes_.size() && good_; ++i)
+    if (nodes_[i].kind == NodeKind::Transition) connectTransition(i);
+  if (!good_) return;
+  for (uint32_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].kind == NodeKind::Step) writeStep(i);
+    if (nodes_[i].kind == NodeKind::Transition) writeTransition(i);
+  }
+  for (size_t i = 0; i < definitions_.size(); ++i) writeDefinition(definitions_[i]);
+}
+
+void writeChart(Import& import, const xml::Element& chart, const xml::Element& pou, const std::string& name) {
+  Chart(import, chart, pou, name).write();
+}
+
+// ACTION sfc_action_1: … END_ACTION for what a chart could not say in a step.
+void writeOwnActions(Import& import, const xml::Element& pou, const std::string& name) {
+  while (!import.own_actions.empty()) {
+    const OwnAction action = import.own_actions.back();
+    import.own_actions.pop_back();
+    const Loc loc = action.body != nullptr ? action.body->loc : action.variable->loc;
+    import.out.put(loc, "ACTION " + action.name + " :\n");
+    if (action.body != nullptr) {
+      writeBody(import, *action.body, pou, name + "." + action.name);
+    } else {
+      import.out.add(import.document, *action.variable);
+      import.out.word(" := _" + action.name + ".x;\n");
+    }
+    import.out.word("END_ACTION\n");
+  }
+}
+
+// <SFCInit Declare="true" Use="true"/>, or <Init …/>. The chart reads and writes the variables that are declared.
+void writeFlags(Import& import, const xml::Element& owner) {
+  static constexpr std::pair<std::string_view, std::string_view> kFlags[] = {
+      {"Init", "VAR_INPUT SFCInit : BOOL"},
+      {"Reset", "VAR_INPUT SFCReset : BOOL"},
+      {"QuitError", "VAR_INPUT SFCQuitError : BOOL"},
+      {"Pause", "VAR_INPUT SFCPause : BOOL"},
+      {"Tip", "VAR_INPUT SFCTip : BOOL"},
+      {"TipMode", "VAR_INPUT SFCTipMode : BOOL"},
+      {"EnableLimit", "VAR_INPUT SFCEnableLimit : BOOL"},
+      {"Error", "VAR_OUTPUT SFCError : BOOL"},
+      {"Trans", "VAR_OUTPUT SFCTrans : BOOL"},
+      {"ErrorStep", "VAR_OUTPUT SFCErrorStep : STRING"},
+      {"ErrorPOU", "VAR_OUTPUT SFCErrorPOU : STRING"},
+      {"CurrentStep", "VAR_OUTPUT SFCCurrentStep : STRING"},
+      {"ErrorAnalyzation", "VAR_OUTPUT SFCErrorAnalyzation : STRING"}};
+  const xml::Element* settings = dataOf(import, owner, "sfcsettings");
+  const xml::Element* flags = settings == nullptr ? nullptr : import.document.child(*settings, "Flags");
+  for (const xml::Element* e = flags == nullptr ? nullptr : import.document.firstChild(*flags); e != nullptr;
+       e = import.document.next(*e)) {
+    if (!isTrue(import, *e, "Use")) continue;
+    const std::string_view name = e->name.starts_with("SFC") ? e->name.substr(3) : e->name;
+    for (const auto& [flag, declaration] : kFlags)
+      if (name == flag && !declares(import, owner, "SFC" + std::string(flag)))
+        import.out.put(e->loc, std::string(declaration) + "; END_VAR\n");
+  }
+}
+
+}  // namespace rung::plcopen
