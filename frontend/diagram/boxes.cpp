@@ -75,8 +75,10 @@ bool Scheduler::hasPin(const Shape& shape, const Ident& pin) const {
 //   fails   a pin that the block does not have        E1004
 bool Scheduler::fillArguments(uint32_t element, Call& call) {
   const DiagramElement e = graph_.elements[element];
-  const bool known = call.shape.kind != ShapeKind::Unknown && call.op == nullptr;
-  bool named = known;
+  const ShapeKind kind = call.shape.kind;
+  const bool known = kind == ShapeKind::Instance || kind == ShapeKind::Function || kind == ShapeKind::Method ||
+                     kind == ShapeKind::Program;
+  bool named = known || e.operand || e.hidden;
   if (named && call.shape.kind == ShapeKind::Function) {  // some editors have names of their own for all of them
     bool any = false, all_unknown = true;
     for (const DiagramPin& pin : tree_.list(e.pins)) {
@@ -95,7 +97,7 @@ bool Scheduler::fillArguments(uint32_t element, Call& call) {
       call.has_en = true;
       continue;
     }
-    if (named && !hasPin(call.shape, pin.name)) {
+    if (known && named && !hasPin(call.shape, pin.name)) {
       std::string_view near;
       std::vector<std::string_view> candidates;
       for (const PinShape& candidate : call.shape.pins)
@@ -122,7 +124,8 @@ ExprId Scheduler::readBox(uint32_t source) {
   const DiagramElement& e = graph_.elements[s.element];
   const Loc loc = s.pin.loc ? s.pin.loc : e.loc;
   ExprId value;
-  if (keepsState(s.element)) {
+  if (e.stored) return nameExpr(e.stored, loc);
+  if (keepsState(e)) {
     const ExprId instance = e.operand ? clone(tree_, e.operand) : nameExpr(e.hidden, e.loc);
     const Shape shape = e.operand ? shapes_.of(e.operand) : shapes_.of(e.hidden);
     NameId pin = s.pin.name;
@@ -177,6 +180,10 @@ void Scheduler::giveResult(uint32_t element, uint32_t result, ExprId value) {
   if (const DiagramPin* out = s.pin.name ? pinNamed(e, names_.text(s.pin.name), PinDirection::Output) : nullptr;
       out != nullptr && out->negated)
     value = inverted(value, e.loc);
+  if (e.stored) {
+    s.temporary = e.stored;
+    return assign(nameExpr(e.stored, e.loc), value, e.loc);
+  }
   s.pending = value;
   s.height = heightOf(e);
   const bool in_turn = e.order == 0 || (turn_[s.user] != kNone && turn_[s.user] == turn_[element] + 1);

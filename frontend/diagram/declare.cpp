@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "frontend/diagram/feedback.h"
 #include "frontend/diagram/schedule.h"
 
 namespace rung::diagram {
@@ -32,6 +33,19 @@ class Declarer {
         const NameId hidden = declare(base, sensorType(pin.edge, pin.name.loc), pin.name.loc);
         tree_.list(e.pins)[p].hidden = hidden;
       }
+    }
+  }
+
+  // Those that keep what is read before its turn. After run(), which tells blocks from functions.
+  void keepValues(Diagnostics& diagnostics, const PouDecl& pou) {
+    Graph graph;
+    if (!graph.build(tree_, names_, diagnostics, pou.diagram)) return;
+    for (const uint32_t k : readBeforeTurn(tree_, graph)) {
+      const DiagramElement e = graph.elements[k];
+      const TypeExprId type = typeOfBox(tree_, names_, pou, graph, k);
+      if (!type) continue;
+      const NameId name = declare(std::string(names_.text(e.name.name)) + "_" + number(e), type, e.loc);
+      tree_.list(pou.diagram.elements)[k].stored = name;
     }
   }
 
@@ -91,10 +105,11 @@ class Declarer {
 
 }  // namespace
 
-DeclId declareNetworks(Tree& tree, Names& names, Shapes& shapes, const PouDecl& pou, SectionKind kind,
-                       std::string_view prefix) {
+DeclId declareNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Shapes& shapes, const PouDecl& pou,
+                       SectionKind kind, std::string_view prefix) {
   Declarer declarer(tree, names, shapes, pou, prefix);
   declarer.run(pou.diagram.elements);
+  declarer.keepValues(diagnostics, pou);
   if (declarer.vars().empty()) return {};
   const Loc loc = tree.loc(declarer.vars().front());
   SectionDecl section{{DeclKind::Section, kHidden, 0, loc, {}, {}}, kind, AccessLevel::None, {}};

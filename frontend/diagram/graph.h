@@ -24,6 +24,9 @@ struct Source {
   uint16_t height = 1;
 };
 
+// A box whose outputs can be read before it was called: they have the values of the last cycle.
+bool keepsState(const DiagramElement& e);
+
 class Graph {
  public:
   // False: an error was reported.

@@ -38,6 +38,8 @@ bool acts(const DiagramElement& e) {
 
 }  // namespace
 
+bool keepsState(const DiagramElement& e) { return e.kind == ElementKind::Box && (e.operand || e.hidden || e.stored); }
+
 // Where the wire into a connector comes from; kNone: nowhere, or it leads in a circle.
 uint32_t Graph::followed(uint32_t element) const {
   for (size_t steps = 0; steps <= elements.size(); ++steps) {
@@ -79,7 +81,7 @@ uint32_t Graph::sourceAt(uint32_t element, const Ident& pin) {
 //   fails   two connectors of one name                  E1009
 //   fails   a circle of connectors                      E1006
 bool Graph::connect() {
-  const uint32_t errors = diagnostics_->errorCount();
+  bool good = true;  // a second report of the same mistake is not counted
   std::vector<std::pair<uint32_t, uint32_t>> connectors;  // name key, element
   for (uint32_t k = 0; k < elements.size(); ++k) {
     const DiagramElement& e = elements[k];
@@ -88,6 +90,7 @@ bool Graph::connect() {
   std::sort(connectors.begin(), connectors.end());
   for (size_t k = 1; k < connectors.size(); ++k) {
     if (connectors[k].first != connectors[k - 1].first) continue;
+    good = false;
     const Ident& name = elements[connectors[k].second].name;
     diagnostics_->report(Diag::ConnectorTwice, name.loc, {names_->text(name.name)})
         .note(elements[connectors[k - 1].second].name.loc, Note::DeclaredHere);
@@ -99,6 +102,7 @@ bool Graph::connect() {
     const bool known = e.name.name && found != connectors.end() && found->first == names_->key(e.name.name).index;
     if (!known) diagnostics_->report(Diag::NoConnector, e.loc, {names_->text(e.name.name)});
     e.network = known ? found->second : kNone;
+    good = good && known;
   }
   first_source.assign(elements.size(), kNone);
   first_wire_ = kNone;
@@ -118,6 +122,7 @@ bool Graph::connect() {
         const DiagramWire wire = tree_->list(pin.wires)[w];
         const uint32_t from = followed(wire.from);
         if (from == kNone) {
+          good = false;
           if (elements[wire.from].kind == ElementKind::Continuation) continue;  // reported
           diagnostics_->report(
               isLink(elements[wire.from].kind) && elements[wire.from].pins.empty() ? Diag::NotWired : Diag::WireLoop,
@@ -139,7 +144,7 @@ bool Graph::connect() {
         sources[source].user = k;
       }
   }
-  return diagnostics_->errorCount() == errors;
+  return good;
 }
 
 // Elements are of one network when wires connect them, power rails apart, or when the file says so.

@@ -203,11 +203,6 @@ ExprId Scheduler::read(uint32_t source) {
 
 // ---- the walk
 
-bool Scheduler::keepsState(uint32_t element) const {
-  const DiagramElement& e = graph_.elements[element];
-  return e.kind == ElementKind::Box && (e.operand || e.hidden);
-}
-
 // The next element that a wire of the frame's element comes from, or kNone.
 uint32_t Scheduler::nextInput(Frame& frame) const {
   const DiagramElement& e = graph_.elements[frame.element];
@@ -240,10 +235,10 @@ uint32_t Scheduler::walk(uint32_t root) {
       stack_.push_back({next, 0, 0});
       continue;
     }
-    if (keepsState(next)) continue;  // its value of the last cycle
+    if (keepsState(graph_.elements[next])) continue;  // its value of the last cycle
     uint32_t begin = kNone;
     for (size_t k = stack_.size(); k > 0 && stack_[k - 1].element != next; --k)
-      if (keepsState(stack_[k - 1].element)) begin = stack_[k - 1].element;
+      if (keepsState(graph_.elements[stack_[k - 1].element])) begin = stack_[k - 1].element;
     for (const Frame& frame : stack_) phase_[frame.element] = Phase::New;
     if (begin == kNone) {
       diagnostics_.report(Diag::WireLoop, graph_.elements[next].loc);

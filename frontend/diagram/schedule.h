@@ -23,7 +23,7 @@ Statements scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, 
 // The variables that a body of networks needs and nobody wrote, as a section of `kind`: instances that sense edges,
 // those of blocks without a name, structures that are composed. None: it needs none. `prefix`: of their names, where
 // the body is an action and they join the variables of its owner.
-DeclId declareNetworks(Tree& tree, Names& names, Shapes& shapes, const PouDecl& pou, SectionKind kind,
-                       std::string_view prefix);
+DeclId declareNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Shapes& shapes, const PouDecl& pou,
+                       SectionKind kind, std::string_view prefix);
 
 }  // namespace rung::diagram

@@ -32,7 +32,6 @@ class Scheduler {
   uint32_t walk(uint32_t root);
   uint32_t nextInput(Frame& frame) const;
   void settle(uint32_t element);
-  bool keepsState(uint32_t element) const;
 
   // ---- elements
   void settleContact(uint32_t element);

@@ -60,6 +60,7 @@ struct DiagramElement {
   uint32_t order;    // its turn in the body; 0: wires and places tell
   Ident name;
   NameId hidden;  // declareNetworks(): the instance that senses its edge; of a box or structure: what it works on
+  NameId stored;  // declareNetworks(): of a function that is read before its turn: what keeps its value
   ExprId path;
   ExprId operand;
   Slice<DiagramPin> pins;  // inputs, in-outs and outputs as the file orders them

@@ -1,7 +1,7 @@
 // The notation of networks: what the readers of LD, FBD and CFC write between {network} and {end_network}, so that
 // expressions, places and errors come from one parser. docs/networks.md shows it whole.
 //   body    = "{network" [LD | FBD | CFC] "}" {NETWORK number [title] ";" | element ";"} "{end_network}"
-//   element = word number {name | "(" e ")" | NOT | RISING | FALLING | SET | RESET | ORDER n | AT x, y [, w, h]
+//   element = word number [name] {"(" e ")" | NOT | RISING | FALLING | SET | RESET | ORDER n | AT x, y [, w, h]
 //                          | ":=" wires | pins | statements}
 //   pins    = "[" pin {"," pin} "]"
 //   pin     = name {NOT | RISING | FALLING | SET | RESET} (":=" [wires] ["=>"] | "=>")
@@ -42,6 +42,13 @@ constexpr Word kWords[] = {{"rail", ElementKind::Rail},
 bool needsOperand(ElementKind kind) {
   return kind == ElementKind::Contact || kind == ElementKind::Coil || kind == ElementKind::Input ||
          kind == ElementKind::Output || kind == ElementKind::InOut;
+}
+
+// Its name stands behind the number, whatever the word.
+bool isNamed(ElementKind kind) {
+  return kind == ElementKind::Box || kind == ElementKind::Jump || kind == ElementKind::Label ||
+         kind == ElementKind::Connector || kind == ElementKind::Continuation || kind == ElementKind::Compose ||
+         kind == ElementKind::Select;
 }
 
 }  // namespace
@@ -161,6 +168,9 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
   if (!takeNumber(e.number)) return;
   const Token* named = t_;
   std::vector<DiagramPin> pins;
+  const bool attribute = is(t_, "AT") || is(t_, "ORDER");
+  if (isNamed(e.kind) && (isName(kind()) || nameReserved(t_)) && !(attribute && peek() == Tok::Number))
+    e.path = parseElementPath(e.name);
   while (!panic_ && !at(Tok::Semicolon)) {
     if (takeMark(e)) continue;
     if (is(t_, "ORDER") && peek() == Tok::Number) {
@@ -200,13 +210,15 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
       e.text_length = text.length;
       advance();
     } else {
-      e.path = parseElementPath(e.name);
+      fail(Diag::NoPartOfElement, t_, {describe(t_), known->word});
     }
   }
   e.end = here();
   if (panic_) return;
-  if (needsOperand(e.kind) && !e.operand) {
-    fail(Diag::ElementUnnamed, named - 1, {known->word});
+  const bool open =
+      (e.kind == ElementKind::Box || e.kind == ElementKind::Jump || e.kind == ElementKind::Label) && !e.name.name;
+  if (open || (needsOperand(e.kind) && !e.operand)) {
+    fail(Diag::ElementUnnamed, named - 1, {known->word, open ? "name" : "variable"});
     return;
   }
   e.pins = tree_.addList<DiagramPin>(pins);

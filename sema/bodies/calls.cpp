@@ -122,7 +122,7 @@ void bindOutput(Context& context, const Pou& pou, const Var& pin, Binding& bindi
   binding.is_output = true;
   binding.negated = argument.negated;
   const Purpose purpose{"bound to output", pin.name, pou.name};
-  const TypeId place = check(context, binding.value, {}, Access::Write);
+  const TypeId place = check(context, binding.value, pin.type, Access::Write);  // which temporaries take
   if (place == types::kError || !checkWritable(context, binding.value, purpose)) return;
   if (context.types().isOpenArray(pin.type)) {
     checkOpenArgument(context, pin, binding.value, place, purpose);
@@ -479,7 +479,7 @@ void bindControlPins(Context& context, const CallExpr& node, const Arguments& ar
   if (arguments.eno != 0) {
     ExprId eno = context.tree().list(node.arguments)[arguments.eno - 1].value;
     if (eno) {
-      const TypeId type = check(context, eno, {}, Access::Write);
+      const TypeId type = check(context, eno, types::kBool, Access::Write);
       const Purpose purpose{"bound to output `ENO`", {}, {}};
       if (type != types::kError && checkWritable(context, eno, purpose)) {
         reportFit(context, fit(context, types::kBool, type), eno, types::kBool, type,

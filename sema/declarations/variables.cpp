@@ -402,7 +402,8 @@ static void declareHidden(Context& context, PouId id) {
   const auto declare = [&](PouDecl& of, std::string_view prefix) {
     if (of.body_kind != BodyKind::Network) return;
     const SectionKind kind = decl.pou_kind == PouKind::Method ? SectionKind::Inst : SectionKind::Local;
-    const DeclId section = diagram::declareNetworks(tree, context.names(), shapes, of, kind, prefix);
+    const DeclId section =
+        diagram::declareNetworks(tree, context.names(), context.project.diagnostics, shapes, of, kind, prefix);
     if (section) added.push_back(section);
   };
   declare(decl, {});
