@@ -104,7 +104,7 @@ bool Scheduler::fillArguments(uint32_t element, Call& call) {
         if (candidate.direction != PinDirection::Output) candidates.push_back(names_.text(candidate.name));
       near = nearest(names_.text(pin.name.name), candidates);
       diagnostics_
-          .report(Diag::NoSuchPin, pin.name.loc, {names_.text(e.name.name), "input", names_.text(pin.name.name)})
+          .report(Diag::NoSuchPin, pin.name.loc, {describe(tree_, names_, e), "input", names_.text(pin.name.name)})
           .didYouMean(near);
       good = false;
       continue;
@@ -125,6 +125,7 @@ ExprId Scheduler::readBox(uint32_t source) {
   const Loc loc = s.pin.loc ? s.pin.loc : e.loc;
   ExprId value;
   if (e.stored) return nameExpr(e.stored, loc);
+  if (failed_[s.element]) return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
   if (keepsState(e)) {
     const ExprId instance = e.operand ? clone(tree_, e.operand) : nameExpr(e.hidden, e.loc);
     const Shape shape = e.operand ? shapes_.of(e.operand) : shapes_.of(e.hidden);
@@ -139,7 +140,7 @@ ExprId Scheduler::readBox(uint32_t source) {
       if (known == nullptr) {
         std::vector<std::string_view> candidates;
         for (const PinShape& candidate : shape.pins) candidates.push_back(names_.text(candidate.name));
-        diagnostics_.report(Diag::NoSuchPin, loc, {names_.text(e.name.name), "output", names_.text(pin)})
+        diagnostics_.report(Diag::NoSuchPin, loc, {describe(tree_, names_, e), "output", names_.text(pin)})
             .didYouMean(nearest(names_.text(pin), candidates));
         return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
       }
@@ -207,6 +208,7 @@ void Scheduler::settleOperator(uint32_t element, Call& call) {
                           {"`" + std::string(names_.text(pin.name.name)) + "` of " + describe(tree_, names_, e)});
     open = true;
   }
+  failed_[element] = open || !fits;
   if (open) return;
   if (!fits) {
     diagnostics_.report(Diag::NotWired, e.loc, {"all inputs of " + describe(tree_, names_, e)});
@@ -308,7 +310,10 @@ void Scheduler::settleBox(uint32_t element) {
   } else {
     call.shape = shapes_.of(e.path);
   }
-  if (!fillArguments(element, call)) return;
+  if (!fillArguments(element, call)) {
+    failed_[element] = true;
+    return;
+  }
   call.callee = e.operand ? operandOf(element) : e.hidden ? nameExpr(e.hidden, e.loc) : e.path;
   settleCall(element, call);
 }

@@ -50,6 +50,8 @@ class Graph {
   bool connect();
   void separate();
   void sortRoots();
+  void checkTurns();
+  void leaveOut(const Diagram& diagram);
   std::string nameOf(const DiagramElement& e) const { return describe(*tree_, *names_, e); }
 
   Tree* tree_ = nullptr;

@@ -81,7 +81,7 @@ uint32_t Graph::sourceAt(uint32_t element, const Ident& pin) {
 //   fails   two connectors of one name                  E1009
 //   fails   a circle of connectors                      E1006
 bool Graph::connect() {
-  bool good = true;  // a second report of the same mistake is not counted
+  bool good = true;                                       // a second report of the same mistake is not counted
   std::vector<std::pair<uint32_t, uint32_t>> connectors;  // name key, element
   for (uint32_t k = 0; k < elements.size(); ++k) {
     const DiagramElement& e = elements[k];
@@ -221,14 +221,37 @@ void Graph::sortRoots() {
   for (const Root& root : sorted) roots.push_back(root.own.at);
 }
 
+// Forbids a turn that two elements have. TM/TP manual 5.6.
+//   fails   two outputs with ORDER 3        E1017
+void Graph::checkTurns() {
+  for (size_t k = 1; k < roots.size(); ++k) {
+    const DiagramElement& before = elements[roots[k - 1]];
+    const DiagramElement& e = elements[roots[k]];
+    if (e.order == 0 || e.order != before.order) continue;
+    diagnostics_->report(Diag::TurnTwice, e.loc, {std::to_string(e.order)}).note(before.loc, Note::DeclaredHere);
+  }
+}
+
+// What stands in a disabled network has no part in anything.
+void Graph::leaveOut(const Diagram& diagram) {
+  for (DiagramElement& e : elements) {
+    if (e.network == 0 || e.network > diagram.networks.count) continue;
+    if (!tree_->list(diagram.networks)[e.network - 1].disabled) continue;
+    e.kind = ElementKind::Comment;
+    e.pins = {};
+  }
+}
+
 bool Graph::build(Tree& tree, Names& names, Diagnostics& diagnostics, const Diagram& diagram) {
   tree_ = &tree;
   names_ = &names;
   diagnostics_ = &diagnostics;
   elements.assign(tree.list(diagram.elements).begin(), tree.list(diagram.elements).end());
+  leaveOut(diagram);
   if (!connect()) return false;
   separate();
   sortRoots();
+  checkTurns();
   return true;
 }
 

@@ -432,15 +432,56 @@ void Scheduler::settleJump(uint32_t element) {
   conditional(e.negated ? inverted(condition, e.loc) : condition, e.loc, leave);
 }
 
+// Warns of two coils of one variable: the first has no effect. TM/TP manual 5.3.4.5.
+//   passes  a set and a reset coil; coils that a jump keeps apart
+//   warns   two coils (q)        W1016
+void Scheduler::checkCoils() {
+  std::vector<std::pair<uint32_t, uint32_t>> coils;  // key of the name, element
+  for (const uint32_t k : graph_.roots) {
+    const DiagramElement& e = graph_.elements[k];
+    if (e.kind == ElementKind::Jump || e.kind == ElementKind::Return) return;
+    if (e.kind == ElementKind::Coil && e.storage == PinStorage::None && tree_.kind(e.operand) == ExprKind::Name)
+      coils.emplace_back(names_.key(tree_.as<NameExpr>(e.operand).name).index, k);
+  }
+  std::stable_sort(coils.begin(), coils.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (size_t k = 1; k < coils.size(); ++k) {
+    if (coils[k].first != coils[k - 1].first) continue;
+    const DiagramElement& e = graph_.elements[coils[k].second];
+    diagnostics_.report(Diag::CoilTwice, tree_.loc(e.operand), {names_.text(tree_.as<NameExpr>(e.operand).name)})
+        .note(tree_.loc(graph_.elements[coils[k - 1].second].operand), Note::OtherCoil);
+  }
+}
+
+// Warns of a holding coil of a variable that nothing holds. TM/TP manual 5.3.4.
+//   warns   coil HOLDING (q) with q declared in VAR        W1015
+void Scheduler::checkHolding(const PouDecl& pou) {
+  for (const DiagramElement& e : graph_.elements) {
+    if (!e.holding || tree_.kind(e.operand) != ExprKind::Name) continue;
+    const NameId name = tree_.as<NameExpr>(e.operand).name;
+    for (const DeclId s : tree_.list(pou.sections)) {
+      const SectionDecl& section = tree_.as<SectionDecl>(s);
+      if ((section.h.bits & (kRetain | kPersistent)) != 0 || section.section == SectionKind::External) continue;
+      for (const DeclId v : tree_.list(section.vars))
+        for (const Ident& declared : tree_.list(tree_.as<VarDecl>(v).names))
+          if (names_.same(declared.name, name))
+            diagnostics_.report(Diag::CoilNotRetained, tree_.loc(e.operand), {names_.text(name)})
+                .note(declared.loc, Note::DeclaredHere);
+    }
+  }
+}
+
 Statements Scheduler::run(const PouDecl& pou) {
   const Diagram& diagram = pou.diagram;
   language_ = diagram.language;
   if (pou.pou_kind == PouKind::Function) function_ = "a function";
   if (!graph_.build(tree_, names_, diagnostics_, diagram)) return {};
+  checkCoils();
+  checkHolding(pou);
   const size_t count = graph_.elements.size();
   phase_.assign(count, Phase::New);
   operand_taken_.assign(count, false);
   assigned_.assign(count, false);
+  failed_.assign(count, false);
   network_calls_.assign(count, false);
   turn_.assign(count, kNone);
   for (uint32_t k = 0; k < graph_.roots.size(); ++k) turn_[graph_.roots[k]] = k;

@@ -27,6 +27,9 @@ class Scheduler {
     uint32_t element, pin, wire;
   };
 
+  void checkCoils();
+  void checkHolding(const PouDecl& pou);
+
   // ---- the walk
   void visit(uint32_t root);
   uint32_t walk(uint32_t root);
@@ -101,6 +104,7 @@ class Scheduler {
   Graph graph_;
   std::vector<Phase> phase_;
   std::vector<bool> operand_taken_;
+  std::vector<bool> failed_;                            // boxes with a reported mistake: who reads them says nothing
   std::vector<bool> assigned_;                          // variables that a box with EN writes by itself
   std::vector<uint32_t> turn_;                          // of an element with a turn: its place among the roots
   std::vector<uint32_t> calls_open_;                    // sources whose pending value calls something

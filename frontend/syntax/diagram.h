@@ -69,12 +69,14 @@ struct DiagramElement {
   uint64_t number;             // localId
   Loc loc, end;                // the number; one past the element's text
   int32_t x, y, width, height;
-  bool placed;  // x and y are given
+  bool placed;   // x and y are given
+  bool holding;  // a coil of a variable that is kept: M, SM, RM of the TM/TP manual
 };
 struct DiagramNetwork {
   uint32_t number;
   uint32_t title, title_length;  // TextId
   Loc loc;
+  bool disabled;  // nothing in it runs
 };
 // Of one body. The elements' indices in wires count from the first of them.
 struct Diagram {

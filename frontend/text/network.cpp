@@ -1,7 +1,8 @@
 // The notation of networks: what the readers of LD, FBD and CFC write between {network} and {end_network}, so that
 // expressions, places and errors come from one parser. docs/networks.md shows it whole.
-//   body    = "{network" [LD | FBD | CFC] "}" {NETWORK number [title] ";" | element ";"} "{end_network}"
-//   element = word number [name] {"(" e ")" | NOT | RISING | FALLING | SET | RESET | ORDER n | AT x, y [, w, h]
+//   body    = "{network" [LD | FBD | CFC] "}" {NETWORK number [DISABLED] [title] ";" | element ";"} "{end_network}"
+//   element = word number [name] {"(" e ")" | NOT | RISING | FALLING | SET | RESET | HOLDING
+//                          | ORDER n | AT x, y [, w, h]
 //                          | ":=" wires | pins | statements}
 //   pins    = "[" pin {"," pin} "]"
 //   pin     = name {NOT | RISING | FALLING | SET | RESET} (":=" [wires] ["=>"] | "=>")
@@ -173,6 +174,11 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
     e.path = parseElementPath(e.name);
   while (!panic_ && !at(Tok::Semicolon)) {
     if (takeMark(e)) continue;
+    if (e.kind == ElementKind::Coil && is(t_, "HOLDING")) {
+      e.holding = true;
+      advance();
+      continue;
+    }
     if (is(t_, "ORDER") && peek() == Tok::Number) {
       advance();
       uint64_t order = 0;
@@ -272,6 +278,10 @@ void Parser::parseNetworks(PouDecl& d) {
       uint64_t number = 0;
       if (takeNumber(number)) {
         n.number = static_cast<uint32_t>(std::min<uint64_t>(number, UINT32_MAX));
+        if (is(t_, "DISABLED")) {
+          n.disabled = true;
+          advance();
+        }
         if (at(Tok::Text)) {
           const TextId title = tree_.addText(textOf(t_).substr(1, lengthOf(t_) - 2));
           n.title = title.first;
