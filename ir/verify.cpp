@@ -481,7 +481,7 @@ void Verifier::callStmt(const Stmt& s) {
       s.b != 0 && place(s.b, 22))
     require(typeOf(s.b) == types_.resolve(callee.self), 22, [&] { return "a call on " + spell(typeOf(s.b)); });
   callOperands(callee, s.c, s.d, 22, false);
-  if (s.op == kVirtual) {
+  if ((s.op & kVirtual) != 0) {
     found_fault_ = true;
     require(callee.kind == BodyKind::Function && callee.self && hasDispatch(BodyId{s.a}), 31,
             "a virtual call of what has no dispatch");

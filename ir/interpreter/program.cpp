@@ -1,7 +1,9 @@
 // A module that the interpreter runs: see program.h.
 #include "ir/interpreter/program.h"
 
+#include <ucontext.h>
 #include <algorithm>
+#include <cstring>
 
 #include "frontend/source/invariant.h"
 #include "ir/description.h"
@@ -19,6 +21,7 @@ struct Stack {
   size_t size = 0;
 };
 thread_local Stack stack;
+thread_local const Machine* running = nullptr;
 
 }  // namespace
 
@@ -32,6 +35,7 @@ struct Program::Parts {
   Code::Entry init, exit;
   std::vector<Code::Entry> of_task, of_test, of_test_init;
   size_t stack_size = kStack;
+  rung_site* spare_site = nullptr;  // the last row of code.sites: siteOfCrash
 
   static const Parts& of(const rung_context* ctx) { return *reinterpret_cast<const Parts*>(ctx->module); }
 
@@ -44,7 +48,29 @@ struct Program::Parts {
     machine.ctx = ctx;
     uint8_t* const begin = stack.memory.get();
     machine.limit = begin + stack.size;
+    running = &machine;
     execute(code.insns.data() + entry.at, begin, nullptr, &machine);
+  }
+
+  bool isInsn(uintptr_t address) const {
+    const uintptr_t distance = address - reinterpret_cast<uintptr_t>(code.insns.data());
+    return distance % sizeof(Insn) == 0 && distance / sizeof(Insn) < code.insns.size();
+  }
+
+  // The place of the statement to which an instruction belongs, as the last site.
+  uint32_t siteOf(uintptr_t insn) const {
+    if (!isInsn(insn)) return RUNG_NONE;
+    const uintptr_t index = (insn - reinterpret_cast<uintptr_t>(code.insns.data())) / sizeof(Insn);
+    auto mark = std::upper_bound(code.marks.begin(), code.marks.end(), index,
+                                 [](uintptr_t at, const Code::Mark& it) { return at < it.insn; });
+    if (mark == code.marks.begin()) return RUNG_NONE;
+    --mark;
+    rung_site& site = *spare_site;
+    site.pou = mark->pou;
+    site.file = mark->file;
+    site.line = mark->line;
+    site.column = mark->column;
+    return static_cast<uint32_t>(spare_site - code.sites.data());
   }
 
   static void runInit(rung_context* ctx) { of(ctx).run(ctx, of(ctx).init); }
@@ -154,7 +180,7 @@ void Program::Parts::describe() {
     tests.back().init = runTestInit;
     tests.back().run = runTest;
   }
-  if (code.sites.empty()) code.sites.emplace_back();
+  spare_site = &code.sites.emplace_back();
   is.abi = RUNG_MODULE_ABI;
   is.pointer_size = sizeof(void*);
   is.name = name.c_str();
@@ -194,6 +220,20 @@ Program::Program(const Module& module, const ProgramOptions& options) : parts_(s
 }
 
 Program::~Program() = default;
+
+// The instruction at work is in some register, its successor perhaps in another; a native function's was noted.
+uint32_t Program::siteOfCrash(const rung_context* ctx, const void* details) {
+  if (running == nullptr || running->ctx != ctx) return RUNG_NONE;
+  const Parts& parts = Parts::of(ctx);
+  constexpr size_t kRegisters = 23;
+  uintptr_t registers[kRegisters];
+  memcpy(registers, &static_cast<const ucontext_t*>(details)->uc_mcontext, sizeof registers);
+  uintptr_t at = UINTPTR_MAX;
+  for (const uintptr_t value : registers)
+    if (parts.isInsn(value)) at = std::min(at, value);
+  return parts.siteOf(at != UINTPTR_MAX ? at : reinterpret_cast<uintptr_t>(running->ip));
+}
+
 const std::string& Program::refusal() const { return parts_->refusal; }
 const rung_module& Program::description() const { return parts_->is; }
 const std::deque<Counter>& Program::counters() const { return parts_->code.counters; }

@@ -119,8 +119,11 @@ void BodyLowering::callExit(ExprId place, bool exact, Loc loc) {
   const bool is_virtual = object && !exact && project_.pou(object).dispatched;
   const BodyId end = is_virtual ? in_.exitCallOf(object) : in_.exitOf(typeOf(place));
   if (!end) return;
-  append(
-      {.kind = StmtKind::Call, .op = is_virtual ? kVirtual : uint8_t{0}, .loc = loc, .a = end.index, .b = place.index});
+  append({.kind = StmtKind::Call,
+          .op = is_virtual ? in_.virtualCall() : uint8_t{0},
+          .loc = loc,
+          .a = end.index,
+          .b = place.index});
 }
 
 }  // namespace rung::ir

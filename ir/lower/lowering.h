@@ -46,6 +46,7 @@ struct ModuleLowering {
   bool hasExit(TypeId type);
   BodyId exitOf(TypeId record);
   BodyId exitCallOf(sema::PouId object);
+  uint8_t virtualCall() const { return (options.checks & kCheckCast) != 0 ? kVirtual | kChecked : kVirtual; }
   // The variable whose declaration gives arguments to FB_Init, in a field of a record; or null.
   const sema::Var* constructedVar(TypeId record, uint32_t field) const;
   // The record of the object that a POU's code runs on; none in functions.

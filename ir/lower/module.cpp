@@ -171,7 +171,7 @@ void ModuleLowering::markFaulting() {
       if (stmt.kind == StmtKind::Fault) body.may_fault = true;
       if (stmt.kind != StmtKind::Call) continue;
       callers[stmt.a].push_back(i);
-      body.may_fault = body.may_fault || stmt.op == kVirtual;
+      body.may_fault = body.may_fault || (stmt.op & kVirtual) != 0;
     }
     if (body.may_fault) faulting.push_back(i);
   }

@@ -81,7 +81,7 @@ void ModuleLowering::addDispatches() {
   std::vector<bool> called(module.bodies.size());
   for (uint32_t i = 1; i < module.bodies.size(); ++i)
     for (const Stmt& stmt : module.bodies[i].stmts)
-      if (stmt.kind == StmtKind::Call && stmt.op == kVirtual) called[stmt.a] = true;
+      if (stmt.kind == StmtKind::Call && (stmt.op & kVirtual) != 0) called[stmt.a] = true;
   const std::vector<std::pair<sema::PouId, BodyId>> block_calls = block_calls_;  // more are made below
   for (uint32_t i = 1; i < called.size(); ++i) {
     if (!called[i]) continue;

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "crashes.h"
 #include "faults.h"
 #include "junit.h"
 #include "memory.h"
@@ -73,12 +74,12 @@ void runCase(const rung_module& module, const rung_test& test, Memory& memory, C
   if (faulted(memory.reset())) return;
   context.entry = &test;
   context.task = 1;
-  if (test.init != nullptr && faulted(rung_guarded(&context, test.init))) return;
+  if (test.init != nullptr && faulted(guarded(&context, test.init))) return;
   const bool has_done = test.done_block != RUNG_NONE;
   for (int64_t cycle = 0; cycle < kMostCycles; ++cycle) {
     if (cycle > 0) context.now_ns += kCycleNs;  // the test may have moved it: TEST_ADVANCE
     context.activation = static_cast<uint32_t>(cycle) + 1;
-    if (faulted(rung_guarded(&context, test.run))) return;
+    if (faulted(guarded(&context, test.run))) return;
     if (!has_done || memory.block(test.done_block)[test.done_offset] != 0) return;
     onCycle();
   }

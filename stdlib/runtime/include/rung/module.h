@@ -143,8 +143,11 @@ typedef enum rung_fault_kind {
   RUNG_FAULT_SUBRANGE,
   RUNG_FAULT_CONVERT,
   RUNG_FAULT_OVERFLOW,
-  RUNG_FAULT_STACK /* calls nest too deep; of interpreted modules */
+  RUNG_FAULT_STACK /* calls nest too deep; noticed in interpreted modules, and by the bundled host */
 } rung_fault_kind;
+/* rung_fault.value of two faults that are told apart from others of their kind. */
+#define RUNG_NO_SUCH_METHOD 1 /* CAST: a call of what is no object with that method */
+#define RUNG_BAD_ADDRESS (-1) /* NULL: memory that the program may not touch; of the bundled host */
 /* Where a check stands: a table of the module, indexed by the number that the code passes. */
 typedef struct rung_site {
   uint32_t pou, file; /* offsets in text */
