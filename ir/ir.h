@@ -234,6 +234,9 @@ struct ProgramInstance {
   // Functions without parameters, or none. `run` is what the task calls instead of `body`: it also copies connected
   // variables and open addresses. `setup` is called after all `init`: initial values of VAR_CONFIG.
   BodyId run = {}, setup = {};
+  // Of a test, whose instance begins and ends with its run, not with the module; `exit` is as Module::exit, or none.
+  bool is_test = false;
+  BodyId exit = {};
 };
 
 enum class TaskKind : uint8_t { Cyclic, Freewheeling, Event, Status, External };

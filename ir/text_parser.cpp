@@ -268,6 +268,7 @@ void Reader::instance() {
     else
       made.task = found->second + 1;
   }
+  made.is_test = accept("test");
   if (accept("resource")) made.resource = name();
   if (accept("configuration")) made.configuration = name();
   auto function = [&] {
@@ -279,6 +280,7 @@ void Reader::instance() {
   };
   if (accept("run")) made.run = function();
   if (accept("setup")) made.setup = function();
+  if (accept("exit")) made.exit = function();
   if (failed_) return;
   program_by_name_[made.name.index] = static_cast<uint32_t>(module_.programs.size());
   module_.programs.push_back(made);

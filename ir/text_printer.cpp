@@ -288,6 +288,7 @@ void Printer::items() {
       put(" task ");
       name(module_.tasks[instance.task - 1].name);
     }
+    if (instance.is_test) put(" test");
     if (instance.resource) {
       put(" resource ");
       name(instance.resource);
@@ -303,6 +304,10 @@ void Printer::items() {
     if (instance.setup) {
       put(" setup @");
       name(module_.body(instance.setup).name);
+    }
+    if (instance.exit) {
+      put(" exit @");
+      name(module_.body(instance.exit).name);
     }
     put("\n");
   }

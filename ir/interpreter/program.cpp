@@ -33,7 +33,7 @@ struct Program::Parts {
   std::vector<rung_task> tasks;
   std::vector<rung_test> tests;
   Code::Entry init, exit;
-  std::vector<Code::Entry> of_task, of_test, of_test_init;
+  std::vector<Code::Entry> of_task, of_test, of_test_init, of_test_exit;
   size_t stack_size = kStack;
   rung_site* spare_site = nullptr;  // the last row of code.sites: siteOfCrash
 
@@ -83,6 +83,7 @@ struct Program::Parts {
     return static_cast<size_t>(static_cast<const rung_test*>(ctx->entry) - of(ctx).tests.data());
   }
   static void runTestInit(rung_context* ctx) { of(ctx).run(ctx, of(ctx).of_test_init[testOf(ctx)]); }
+  static void runTestExit(rung_context* ctx) { of(ctx).run(ctx, of(ctx).of_test_exit[testOf(ctx)]); }
   static void runTest(rung_context* ctx) { of(ctx).run(ctx, of(ctx).of_test[testOf(ctx)]); }
 
   void translate(const Module& module, const MemoryBlocks& blocks, const ProgramOptions& options);
@@ -125,9 +126,11 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
   std::sort(order.begin(), order.end(),
             [&](uint32_t a, uint32_t b) { return blocks.program_block[a] < blocks.program_block[b]; });
   for (uint32_t p : order) {
+    if (module.programs[p].is_test) continue;
     if (module.programs[p].init) steps.push_back({Step::CallOn, module.programs[p].init, blocks.program_block[p]});
   }
   for (uint32_t p : order) {
+    if (module.programs[p].is_test) continue;
     if (module.programs[p].setup) steps.push_back({Step::CallOf, module.programs[p].setup, 0});
   }
   init = translator.translateSteps(steps);
@@ -148,7 +151,7 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
   }
   for (const Description::Test& test : description->tests) {
     steps.clear();
-    std::vector<Step> first;
+    std::vector<Step> first, last;
     if (test.program == RUNG_NONE) {
       steps.push_back({Step::CallOf, test.body, 0});
     } else {
@@ -158,9 +161,11 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
       first.push_back({Step::Clear, {}, block});
       if (program.init) first.push_back({Step::CallOn, program.init, block});
       if (program.setup) first.push_back({Step::CallOf, program.setup, 0});
+      if (program.exit) last.push_back({Step::CallOf, program.exit, 0});
     }
     of_test.push_back(translator.translateSteps(steps));
     of_test_init.push_back(translator.translateSteps(first));
+    of_test_exit.push_back(translator.translateSteps(last));
   }
   link(module, code);
   for (const Code::Entry& body : code.bodies) stack_size = std::max(stack_size, kStack + 2 * size_t{body.frame});
@@ -179,6 +184,7 @@ void Program::Parts::describe() {
     tests.push_back(test.row);
     tests.back().init = runTestInit;
     tests.back().run = runTest;
+    tests.back().exit = runTestExit;
   }
   spare_site = &code.sites.emplace_back();
   is.abi = RUNG_MODULE_ABI;

@@ -74,6 +74,7 @@ struct ModuleLowering {
   void addClasses();
   void fillKindTests();
   BodyId addHelper(NameId name, sema::PouId object, const char* suffix);
+  BodyId endsOf(NameId name, const char* suffix, std::span<const uint32_t> lists, std::span<const uint32_t> programs);
   void addExit();
   void addDispatches();
   sema::PouId implementation(sema::PouId object, sema::PouId method) const;

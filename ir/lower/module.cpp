@@ -448,6 +448,7 @@ uint32_t ModuleLowering::instanceOf(sema::PouId program) {
   module.programs.push_back(made);
   BodyId body = bodyOf(program);
   module.programs[index].body = body;
+  module.programs[index].is_test = pou.test;
   return index;
 }
 

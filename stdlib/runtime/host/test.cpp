@@ -64,16 +64,9 @@ void onAssertion(void* data, const rung_assertion* assertion, bool passed, const
   test.fail(TestResult::Failed, message);
 }
 
-void runCase(const rung_module& module, const rung_test& test, Memory& memory, Case& result,
-             const std::function<void()>& onCycle) {
+void runCycles(const rung_module& module, const rung_test& test, Memory& memory, Case& result,
+               const std::function<bool(uint8_t)>& faulted, const std::function<void()>& onCycle) {
   rung_context& context = memory.context();
-  const auto faulted = [&](uint8_t kind) {
-    if (kind != RUNG_FAULT_NONE) result.fail(TestResult::Broken, describeFault(module, context.fault));
-    return kind != RUNG_FAULT_NONE;
-  };
-  if (faulted(memory.reset())) return;
-  context.entry = &test;
-  context.task = 1;
   if (test.init != nullptr && faulted(guarded(&context, test.init))) return;
   const bool has_done = test.done_block != RUNG_NONE;
   for (int64_t cycle = 0; cycle < kMostCycles; ++cycle) {
@@ -85,6 +78,22 @@ void runCase(const rung_module& module, const rung_test& test, Memory& memory, C
   }
   result.fail(TestResult::Failed, std::string(module.text + test.file) + ':' + std::to_string(test.line) +
                                       ": `done` is still FALSE after " + std::to_string(kMostCycles) + " cycles");
+}
+
+// The memory as a program finds it, the test, and the ends of all objects (FB_Exit), after a fault too.
+void runCase(const rung_module& module, const rung_test& test, Memory& memory, Case& result,
+             const std::function<void()>& onCycle) {
+  rung_context& context = memory.context();
+  const auto faulted = [&](uint8_t kind) {
+    if (kind != RUNG_FAULT_NONE) result.fail(TestResult::Broken, describeFault(module, context.fault));
+    return kind != RUNG_FAULT_NONE;
+  };
+  if (faulted(memory.reset())) return;
+  context.entry = &test;
+  context.task = 1;
+  runCycles(module, test, memory, result, faulted, onCycle);
+  if (test.exit != nullptr) faulted(guarded(&context, test.exit));
+  faulted(memory.end());
 }
 
 }  // namespace

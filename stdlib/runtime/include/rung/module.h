@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-#define RUNG_MODULE_ABI 2u
+#define RUNG_MODULE_ABI 3u
 #define RUNG_NONE 0xffffffffu
 
 typedef struct rung_context rung_context;
@@ -131,6 +131,7 @@ typedef struct rung_test {
   uint32_t done_block, done_offset; /* RUNG_NONE: runs once */
   void (*init)(rung_context*);
   void (*run)(rung_context*);
+  void (*exit)(rung_context*); /* ends the objects of the test (FB_Exit), in front of rung_module::exit; or null */
 } rung_test;
 
 /* ---- faults */
