@@ -4,6 +4,7 @@
 
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/overloads.h"
 
 namespace rung::sema {
 
@@ -86,7 +87,10 @@ void declare(Context& context, NameMap& names, NameId name, Loc loc, Entity decl
   const NameId key = keyOf(context, name);
   Entity first;
   if (&names == &context.scopes.pous_and_types) first = context.scopes.namespaces.find(key);
-  if (!first && !names.insert(key, declared)) first = names.find(key);
+  if (!first && !names.insert(key, declared)) {
+    first = names.find(key);
+    if (declared.what() == EntityKind::Pou && addOverload(context, first, PouId{declared.index})) return;
+  }
   if (first) reportTwice(context, name, loc, locOf(context, first));
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/overloads.h"
 
 namespace rung::sema {
 
@@ -104,6 +105,7 @@ void declareMembers(Context& context, PouId object) {
   const auto declare = [&](NameId name, Loc loc, Entity declared) {
     if (!name || names.insert(keyOf(context, name), declared)) return;
     const Entity first = names.find(keyOf(context, name));
+    if (declared.what() == EntityKind::Pou && addOverload(context, first, PouId{declared.index})) return;
     const Loc known = first.what() == EntityKind::Var        ? project.vars[first.index].loc
                       : first.what() == EntityKind::Property ? project.properties[first.index].loc
                       : first.what() == EntityKind::Pou      ? project.pous[first.index].loc
