@@ -177,6 +177,7 @@ void Reader::recordFields(TypeId type_id) {
     field.name = name();
     expect(":");
     field.type = type();
+    if (!failed_ && accept("at")) field.place = static_cast<uint32_t>(integer());
     if (failed_) return;
     types_.edit(type_id).fields.push_back(field);
   }

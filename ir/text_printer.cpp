@@ -157,6 +157,10 @@ void Printer::record(TypeId id, const Record* listed) {
     name(field.name);
     put(": ");
     type(field.type);
+    if (field.place != 0 && info.record_kind == RecordKind::Union) {
+      put(" at ");
+      number(field.place);
+    }
   }
   put(first ? "}\n" : " }\n");
 }

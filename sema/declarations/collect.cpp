@@ -189,10 +189,7 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   switch (tree.kind(decl.type)) {
     case TypeExprKind::Enum: type = table.addEnum(name, types::kInt); break;
     case TypeExprKind::Subrange: type = table.addSubrange(name, types::kInt, 0, 0); break;
-    case TypeExprKind::Struct:
-      type =
-          table.addRecord(tree.as<StructTypeExpr>(decl.type).is_union ? RecordKind::Union : RecordKind::Struct, name);
-      break;
+    case TypeExprKind::Struct: type = addStructure(context, decl.type, name); break;
     case TypeExprKind::Error:
     case TypeExprKind::Named:
     case TypeExprKind::Text:
