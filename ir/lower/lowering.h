@@ -165,7 +165,7 @@ class BodyLowering {
 
   // places.cpp
   ExprId lowerPlace(rung::ExprId expr);
-  ExprId characters(ExprId text, bool writes);
+  ExprId characters(ExprId text, TypeId unit, bool writes);
   ExprId varPlace(sema::VarId var, Loc loc);
   ExprId memberPlace(rung::ExprId expr);
   // What the field of a variable is: a member of type BIT has a byte.
