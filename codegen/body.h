@@ -146,6 +146,8 @@ class BodyWriter {
   void tryStatement(const Stmt& stmt);
   void assertStatement(const Stmt& stmt);
   void guarded(const std::string& frame, const std::string& fault, StmtId first);
+  std::string indexOfMethod(const Stmt& stmt);
+  void classCheck(const Stmt& stmt);
   void faultStatement(const Stmt& stmt);
   void leave();
   bool endsInJump(StmtId first) const;

@@ -13,7 +13,8 @@ std::string declareDispatch(const ir::Module& module, ir::BodyId method) {
   std::string out = "typedef ";
   BodyWriter::appendSignature(out, module, module.body(method), call);
   out += ";\nextern " + call + "* const " + methodName(module, method, "table") + "[];\n";
-  return out += "extern const uint32_t " + methodName(module, method, "first") + ";\n";
+  out += "extern const uint32_t " + methodName(module, method, "first") + ";\n";
+  return out += "extern const uint32_t " + methodName(module, method, "count") + ";\n";
 }
 
 std::string classesText(const ir::Module& module, std::string_view name_space) {
@@ -27,6 +28,8 @@ std::string classesText(const ir::Module& module, std::string_view name_space) {
     tables += declareDispatch(module, dispatch.method);
     tables += "extern const uint32_t " + methodName(module, dispatch.method, "first") + " = " +
               std::to_string(dispatch.first) + ";\n";
+    tables += "extern const uint32_t " + methodName(module, dispatch.method, "count") + " = " +
+              std::to_string(dispatch.bodies.size()) + ";\n";
     tables += methodName(module, dispatch.method, "call") + "* const " + methodName(module, dispatch.method, "table") +
               "[] = {";
     for (ir::BodyId body : dispatch.bodies) {

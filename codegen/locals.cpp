@@ -106,7 +106,8 @@ void BodyWriter::scanBlock(StmtId first, uint32_t weight) {
       has_calls_ = true;
       const Body& callee = module_.body(ir::BodyId{stmt.a});
       if (!callee.pure && !callee.library) has_foreign_calls_ = true;
-      if (callee.may_fault || stmt.op == ir::kVirtual || (callee.native && !callee.pure)) has_leaving_calls_ = true;
+      if (callee.may_fault || (stmt.op & ir::kVirtual) != 0 || (callee.native && !callee.pure))
+        has_leaving_calls_ = true;
       if (callee.slice) noteSlice(stmt, weight);
       noteSizedCall(callee, stmt.c, stmt.d, weight);
       if (Variable* of = stmt.e != 0 && isSized(callee) ? textVariable(ExprId{stmt.e}) : nullptr)

@@ -113,7 +113,7 @@ class Describer {
     for (const ir::Description::Test& test : is_.tests) {
       const ir::Body& body = module_.body(test.body);
       const std::string name = "test" + number(count++);
-      std::string init = "nullptr";
+      std::string init = "nullptr", exit = "nullptr";
       std::string run = "static void " + name + "(rung_context* ctx) {\n";
       if (body.kind == ir::BodyKind::Function) {
         declare(test.body);
@@ -128,10 +128,14 @@ class Describer {
         if (hasCode(program.init)) code_ += callOn(program.init, program.record, block);
         if (program.setup) code_ += callOf(program.setup);
         code_ += "}\n";
+        if (program.exit) {
+          exit = name + "_exit";
+          code_ += "static void " + exit + "(rung_context* ctx) {\n" + callOf(program.exit) + "}\n";
+        }
       }
       code_ += run + "}\n";
       row(test_rows_, {number(test.row.name), number(test.row.file), number(test.row.line),
-                       unsignedOrNone(test.row.done_block), number(test.row.done_offset), init, name});
+                       unsignedOrNone(test.row.done_block), number(test.row.done_offset), init, name, exit});
     }
   }
 
@@ -205,10 +209,10 @@ class Describer {
               [&](uint32_t a, uint32_t b) { return facts_.program_block[a] < facts_.program_block[b]; });
     for (uint32_t i : order) {
       const ir::ProgramInstance& program = module_.programs[i];
-      if (hasCode(program.init)) init += callOn(program.init, program.record, facts_.program_block[i]);
+      if (!program.is_test && hasCode(program.init)) init += callOn(program.init, program.record, facts_.program_block[i]);
     }
     for (uint32_t i : order) {
-      if (module_.programs[i].setup) init += callOf(module_.programs[i].setup);
+      if (!module_.programs[i].is_test && module_.programs[i].setup) init += callOf(module_.programs[i].setup);
     }
     init += "}\n";
     if (module_.exit) init += "static void exit(rung_context* ctx) {\n" + callOf(module_.exit) + "}\n";

@@ -348,10 +348,11 @@ void BodyWriter::callStatement(const Stmt& stmt) {
   }
   if (stmt.e != 0) prepare(ExprId{stmt.e});
   const bool is_sized = stmt.b == 0 && isSizedCall(callee, stmt.c, stmt.d, ExprId{stmt.e});
-  const bool is_virtual = stmt.op == ir::kVirtual;
+  const bool is_virtual = (stmt.op & ir::kVirtual) != 0;
   if (is_virtual) {
     if (std::find(group_.virtuals.begin(), group_.virtuals.end(), callee_id) == group_.virtuals.end())
       group_.virtuals.push_back(callee_id);
+    if ((stmt.op & ir::kChecked) != 0) classCheck(stmt);
   } else if ((callee.kind == ir::BodyKind::Function || callee.native) && !is_sized) {
     call(callee_id);
   }
@@ -456,9 +457,7 @@ void BodyWriter::callStatement(const Stmt& stmt) {
       }
     } else {
       if (is_virtual) {
-        out_ += methodName(module_, callee_id, "table") + "[rung_class_of(&";
-        place(ExprId{stmt.b});
-        out_ += ") - " + methodName(module_, callee_id, "first") + "]";
+        out_ += methodName(module_, callee_id, "table") + '[' + indexOfMethod(stmt) + ']';
       } else {
         appendFunctionName(out_, module_, callee);
       }
@@ -515,6 +514,22 @@ void BodyWriter::callStatement(const Stmt& stmt) {
 }
 
 // ---- faults and tests
+
+// The row of a dispatch table that the object's class has.
+std::string BodyWriter::indexOfMethod(const Stmt& stmt) {
+  return "rung_class_of(&" + captured([&] { place(ExprId{stmt.b}); }) + ") - " +
+         methodName(module_, ir::BodyId{stmt.a}, "first");
+}
+
+// In front of a virtual call: what a pointer was bound to by mistake has a number of no class, or of an unrelated one.
+void BodyWriter::classCheck(const Stmt& stmt) {
+  const ir::BodyId method{stmt.a};
+  const std::string index = indexOfMethod(stmt);
+  beginCheck();
+  out_ += index + " >= " + methodName(module_, method, "count") + " || " + methodName(module_, method, "table") + '[' +
+          index + "] == nullptr";
+  endCheck(stmt.loc, types::Fault::Cast, "RUNG_NO_SUCH_METHOD");
+}
 
 void BodyWriter::faultStatement(const Stmt& stmt) {
   if (stmt.a != 0) prepare(ExprId{stmt.a});

@@ -309,13 +309,21 @@ void appendRecordDefinition(std::string& out, const TypeTable& types, TypeId typ
     field_name.clear();
     appendMangled(field_name, types.names().text(field.name));
     out += "  ";
+    const bool is_placed = info.record_kind == RecordKind::Union && field.place != 0;
+    if (is_placed) {  // STRUCT OVERLAP: behind a gap
+      out += "struct { uint8_t gap";
+      appendUnsigned(out, static_cast<uint64_t>(&field - info.fields.data()));
+      out += '[';
+      appendUnsigned(out, field.place);
+      out += "]; ";
+    }
     if (field.by_reference) {
       appendPointer(out, types, field.type, field_name);
     } else {
       if (isEightBytes(types, field.type)) out += "alignas(8) ";
       appendDeclaration(out, types, field.type, field_name);
     }
-    out += ";\n";
+    out += is_placed ? "; };\n" : ";\n";
   }
   out += "};\n";
 }

@@ -96,7 +96,7 @@ enum class StmtKind : uint8_t {
            // none
   Call,    // a: BodyId, b: self place or none, (c, d): operands, one per parameter: the value, or the place for a
            // by-reference parameter (none: a discarded output), e: place for the result or none.
-           // op: kVirtual: the body that Module::dispatches gives for the class of the object at b
+           // op: kVirtual: the body that Module::dispatches gives for the class of the object at b; kChecked with it
   If,      // a: condition, b: then block, c: else block (a block is its first statement, linked by `next`)
   Switch,  // a: selector, (b, c): slice of Body::cases, d: else block
   Loop,    // a: body block, b: block run before each next turn (by `continue` too). Endless but for break
@@ -114,7 +114,8 @@ enum class StmtKind : uint8_t {
   Evaluate,  // a: expression, evaluated for its checks only
 };
 
-inline constexpr uint8_t kVirtual = 1;
+// Of a call. kChecked: fault[cast] when the object is of no class that has the method, in front of the call.
+inline constexpr uint8_t kVirtual = 1, kChecked = 2;
 
 enum class Assertion : uint8_t { Assert, AssertEq, AssertNear };  // in the order of sema::Assertion
 
@@ -233,6 +234,9 @@ struct ProgramInstance {
   // Functions without parameters, or none. `run` is what the task calls instead of `body`: it also copies connected
   // variables and open addresses. `setup` is called after all `init`: initial values of VAR_CONFIG.
   BodyId run = {}, setup = {};
+  // Of a test, whose instance begins and ends with its run, not with the module; `exit` is as Module::exit, or none.
+  bool is_test = false;
+  BodyId exit = {};
 };
 
 enum class TaskKind : uint8_t { Cyclic, Freewheeling, Event, Status, External };

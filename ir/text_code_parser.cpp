@@ -183,6 +183,7 @@ void Reader::callStmt(ExprId result) {
   Builder& b = *builder_;
   const Loc loc = b.loc;
   const bool is_init = accept("init"), is_virtual = !is_init && accept("virtual");
+  const bool is_checked = is_virtual && accept("checked");
   const Loc name_loc = token().loc;
   const std::string text = sigilName();
   if (failed_) return;
@@ -196,7 +197,7 @@ void Reader::callStmt(ExprId result) {
   b.loc = loc;
   if (failed_) return;
   const StmtId made = b.callStmt(callee, self, given, result);
-  if (is_virtual) b.body.stmt(made).op = kVirtual;
+  if (is_virtual) b.body.stmt(made).op = is_checked ? kVirtual | kChecked : kVirtual;
 }
 
 std::vector<ExprId> Reader::operands(const Body& callee) {

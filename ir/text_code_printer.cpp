@@ -68,7 +68,10 @@ void Printer::stmt(const Stmt& s) {
         expr(ExprId{s.e}, {});
         put(" = ");
       }
-      put(callee.kind == BodyKind::Init ? "call init @" : s.op == kVirtual ? "call virtual @" : "call @");
+      put(callee.kind == BodyKind::Init ? "call init @"
+          : (s.op & kVirtual) == 0      ? "call @"
+          : (s.op & kChecked) != 0      ? "call virtual checked @"
+                                        : "call virtual @");
       name(callee.name);
       if (callee.kind == BodyKind::Function || s.d != 0) calleeOperands(callee, s.c, s.d);
       if (s.b != 0) {

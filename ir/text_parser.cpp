@@ -177,6 +177,7 @@ void Reader::recordFields(TypeId type_id) {
     field.name = name();
     expect(":");
     field.type = type();
+    if (!failed_ && accept("at")) field.place = static_cast<uint32_t>(integer());
     if (failed_) return;
     types_.edit(type_id).fields.push_back(field);
   }
@@ -268,6 +269,7 @@ void Reader::instance() {
     else
       made.task = found->second + 1;
   }
+  made.is_test = accept("test");
   if (accept("resource")) made.resource = name();
   if (accept("configuration")) made.configuration = name();
   auto function = [&] {
@@ -279,6 +281,7 @@ void Reader::instance() {
   };
   if (accept("run")) made.run = function();
   if (accept("setup")) made.setup = function();
+  if (accept("exit")) made.exit = function();
   if (failed_) return;
   program_by_name_[made.name.index] = static_cast<uint32_t>(module_.programs.size());
   module_.programs.push_back(made);

@@ -157,6 +157,10 @@ void Printer::record(TypeId id, const Record* listed) {
     name(field.name);
     put(": ");
     type(field.type);
+    if (field.place != 0 && info.record_kind == RecordKind::Union) {
+      put(" at ");
+      number(field.place);
+    }
   }
   put(first ? "}\n" : " }\n");
 }
@@ -288,6 +292,7 @@ void Printer::items() {
       put(" task ");
       name(module_.tasks[instance.task - 1].name);
     }
+    if (instance.is_test) put(" test");
     if (instance.resource) {
       put(" resource ");
       name(instance.resource);
@@ -303,6 +308,10 @@ void Printer::items() {
     if (instance.setup) {
       put(" setup @");
       name(module_.body(instance.setup).name);
+    }
+    if (instance.exit) {
+      put(" exit @");
+      name(module_.body(instance.exit).name);
     }
     put("\n");
   }

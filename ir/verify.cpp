@@ -174,7 +174,7 @@ void Verifier::checkModule() {
     require(isBodyOf(program.init, BodyKind::Init, program.record), 2, "a program whose init is none of its record");
     require(isBodyOf(program.body, BodyKind::Block, program.record), 2, "a program whose body is none of its record");
     require(program.task <= module_.tasks.size(), 2, "a program in a task that does not exist");
-    for (BodyId function : {program.run, program.setup, module_.exit}) {
+    for (BodyId function : {program.run, program.setup, program.exit, module_.exit}) {
       require(!function || (function.index < module_.bodies.size() &&
                             module_.body(function).kind == BodyKind::Function && !module_.body(function).result &&
                             std::none_of(module_.body(function).locals.begin(), module_.body(function).locals.end(),
@@ -481,7 +481,7 @@ void Verifier::callStmt(const Stmt& s) {
       s.b != 0 && place(s.b, 22))
     require(typeOf(s.b) == types_.resolve(callee.self), 22, [&] { return "a call on " + spell(typeOf(s.b)); });
   callOperands(callee, s.c, s.d, 22, false);
-  if (s.op == kVirtual) {
+  if ((s.op & kVirtual) != 0) {
     found_fault_ = true;
     require(callee.kind == BodyKind::Function && callee.self && hasDispatch(BodyId{s.a}), 31,
             "a virtual call of what has no dispatch");

@@ -9,6 +9,7 @@
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/instance_places.h"
+#include "sema/declarations/overloads.h"
 
 namespace rung::sema {
 
@@ -92,9 +93,11 @@ void check(Project& project) {
   settleDeclarations(context);
   resolveConfigurations(context);
   checkMocks(context);
-  for (uint32_t i = 1; i < project.pous.size(); ++i)
+  for (uint32_t i = 1; i < project.pous.size(); ++i) {
+    if (project.pous[i].overloads.index == i) checkOverloads(context, PouId{i});
     if (project.pous[i].decl && !project.pous[i].owner && !project.pous[i].library)
       checkObjectMembers(context, PouId{i});
+  }
   checkBodies(context);
   resolveInstancePlaces(context);
   resolveAccessPaths(context);

@@ -145,9 +145,10 @@ struct Pou {
   std::vector<PouId> interfaces;  // IMPLEMENTS; EXTENDS of an interface
   std::vector<PouId> members;     // methods, actions and accessors, in order
   std::vector<uint32_t> properties;
-  VarId base_var;   // the hidden field that holds the base
-  VarId id_var;     // the hidden type id, where this object is the first of its line to have one
-  PouId overrides;  // of a method: the one of the nearest base that it replaces
+  VarId base_var;       // the hidden field that holds the base
+  VarId id_var;         // the hidden type id, where this object is the first of its line to have one
+  PouId overloads;      // of functions and methods of one name: the first of them
+  PouId next_overload;  // the next, in order of declaration
   AccessLevel access = AccessLevel::None;
   uint8_t modifiers = 0;                                                       // Modifier
   enum class Accessor : uint8_t { None, Get, Set } accessor = Accessor::None;  // of a property
@@ -342,6 +343,11 @@ struct Project {
 // Afterwards each expression of a checked body has its type, implicit conversions are ConvertExpr nodes, untyped
 // literals have their context's type, and project.pous lists user POUs and the library POUs in use.
 void check(Project& project);
+
+// Functions or methods whose parameters have the same types, one by one; and the method of an object itself that has
+// the name of another and, where the name is overloaded, its parameters.
+bool sameParameters(const Project& project, PouId a, PouId b);
+PouId methodLike(const Project& project, PouId object, PouId like);
 
 // The value of a checked literal, in its type; and the operator of the arithmetic kernel that an infix one is.
 types::Value valueOf(const Project& project, const LiteralExpr& literal);

@@ -391,6 +391,7 @@ struct StructTypeExpr {
   Slice<DeclId> fields;
   TypeExprId base;
   bool is_union;
+  bool overlaps;  // STRUCT OVERLAP: members with places may share memory
 };  // fields: VarDecl
 enum class PointerForm : uint8_t { Pointer, Reference, RefTo };
 struct PointerTypeExpr {

@@ -498,6 +498,7 @@ void Printer::typeExpr(TypeExprId id, int depth) {
     case TypeExprKind::Struct: {
       const auto& t = tree_.as<StructTypeExpr>(id);
       if (t.is_union) text += " union";
+      if (t.overlaps) text += " overlap";
       if (t.base) {
         line(depth + 1);
         text += "extends";

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "frontend/source/invariant.h"
+#include "frontend/source/nested_comments.h"
 
 namespace rung::text {
 namespace {
@@ -226,6 +227,7 @@ class Lexer {
   TokenStream& out_;
   Names& names_;
   Standard standard_;
+  bool nests_ = true;  // of CODESYS 2.3: comments nest in the object at hand
   Diagnostics& diagnostics_;
   uint32_t base_;
   std::string_view text_;
@@ -491,20 +493,23 @@ const char* Lexer::lineComment(const char* p) {
 const char* Lexer::blockComment(const char* begin, bool slash) {
   const char open = slash ? '/' : '(', close = slash ? '/' : ')';
   const char* p = begin + 2;
-  const bool nests = standard_ != Standard::Iec2;
+  const bool nests = standard_ != Standard::Iec2 && nests_;
   bool told = false;
   uint32_t depth = 1;
   for (; p < end_; ++p) {
     if (*p == '*' && p[1] == close) {
       p += 2;
-      if (--depth == 0) return p;
+      if (--depth == 0) {
+        if (const char* const said = nestingOf({begin, static_cast<size_t>(p - begin)})) nests_ = *said == 'Y';
+        return p;
+      }
       --p;
     } else if (*p == open && p[1] == '*') {
       // `(*)` and `/*/` close in edition 2, where they cannot open another one.
       if (nests) {
         ++depth;
         ++p;
-      } else if (p[2] != close) {
+      } else if (nests_ && p[2] != close) {
         if (!told) diagnostics_.report(Diag::NestedComment, loc(p), {std::string_view(p, 2)}).length(2);
         told = true;
         ++depth;  // most likely it is closed as well

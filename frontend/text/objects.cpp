@@ -56,18 +56,36 @@ bool Parser::acceptAccess(AccessLevel& access) {
 
 // {PUBLIC | PRIVATE | PROTECTED | INTERNAL | ABSTRACT | FINAL | OVERRIDE} before a name, or (of accessors) at the end
 // of the line.
+// Forbids words that contradict each other: two accesses, and ABSTRACT FINAL, of which nothing could ever be made.
+//   fails   FUNCTION_BLOCK ABSTRACT FINAL Pump                                         E0345
 void Parser::parseModifiers(AccessLevel& access, uint8_t& modifiers, bool before_name) {
+  const Token* access_word = nullptr;
+  const Token* final_word = nullptr;  // FINAL or ABSTRACT
   while (at(Tok::Ident) && !atLineStart()) {
     const bool name_follows =
         isName(peek()) && (t_[1].flags & kLineStart) == 0 && peek() != Tok::Extends && peek() != Tok::Implements;
     if (before_name && !name_follows) return;
+    const Token* const word = t_;
+    const Token** earlier = nullptr;
     const uint8_t modifier = modifierOf(textOf(t_));
-    if (modifier != 0) {
-      modifiers = static_cast<uint8_t>(modifiers | modifier);
+    if ((modifiers & modifier) != 0) {
+      diagnostics_.report(Diag::WordTwice, loc(word), {textOf(word)});
       advance();
-    } else if (!acceptAccess(access)) {
+    } else if (modifier != 0) {
+      modifiers = static_cast<uint8_t>(modifiers | modifier);
+      if ((modifier & (kAbstract | kFinal)) != 0) earlier = &final_word;
+      advance();
+    } else if (acceptAccess(access)) {
+      earlier = &access_word;
+    } else {
       return;
     }
+    if (earlier == nullptr) continue;
+    if (*earlier != nullptr && sameIdentifier(textOf(*earlier), textOf(word)))
+      diagnostics_.report(Diag::WordTwice, loc(word), {textOf(word)});
+    else if (*earlier != nullptr)
+      diagnostics_.report(Diag::WordsContradict, loc(word), {textOf(word), textOf(*earlier)});
+    *earlier = word;
   }
 }
 

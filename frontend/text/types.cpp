@@ -219,10 +219,10 @@ bool Parser::rangeFollows() const {
   return false;
 }
 
-// STRUCT [EXTENDS type] {variable} END_STRUCT, UNION {variable} END_UNION
+// STRUCT [EXTENDS type] [OVERLAP] {variable} END_STRUCT, UNION {variable} END_UNION
 TypeExprId Parser::parseStruct() {
   const Token* open = t_;
-  StructTypeExpr d{{TypeExprKind::Struct, 0, 0, here(), {}}, {}, {}, at(Tok::Union)};
+  StructTypeExpr d{{TypeExprKind::Struct, 0, 0, here(), {}}, {}, {}, at(Tok::Union), false};
   const Tok end = d.is_union ? Tok::EndUnion : Tok::EndStruct;
   advance();
   if (at(Tok::Extends) && isName(peek())) {
@@ -230,7 +230,7 @@ TypeExprId Parser::parseStruct() {
     d.base = parseNamedType();
   }
   if (at(Tok::Ident) && is(t_, "OVERLAP") && isName(peek())) {
-    slip(Diag::NotSupportedYet, t_, {"`OVERLAP`"});
+    d.overlaps = true;
     advance();
   }
   const size_t first = decls_.size();

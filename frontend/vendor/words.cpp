@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "frontend/source/names.h"
+#include "frontend/source/nested_comments.h"
 
 namespace rung::vendor {
 namespace {
@@ -26,11 +27,11 @@ size_t endOfPragma(std::string_view text, size_t at) {
 
 }  // namespace
 
-size_t endOfComment(std::string_view text, size_t at) {
+size_t endOfComment(std::string_view text, size_t at, bool nests) {
   const char open = text[at], close = open == '(' ? ')' : '/';
   uint32_t depth = 0;
   for (size_t i = at; i + 1 < text.size(); ++i) {
-    if (text[i] == open && text[i + 1] == '*') {
+    if (text[i] == open && text[i + 1] == '*' && (nests || depth == 0)) {
       ++depth;
       ++i;
     } else if (text[i] == '*' && text[i + 1] == close) {
@@ -54,7 +55,9 @@ bool Words::next() {
     } else if (c == '/' && after == '/') {
       p_ = std::min(text_.find('\n', p_), end);
     } else if ((c == '(' || c == '/') && after == '*') {
-      p_ = std::min(endOfComment(text_, p_), end);
+      const size_t begin = p_;
+      p_ = std::min(endOfComment(text_, p_, nests_), end);
+      if (const char* const said = nestingOf(text_.substr(begin, p_ - begin))) nests_ = *said == 'Y';
     } else if (c == '{') {
       p_ = std::min(endOfPragma(text_, p_), end);
     } else if (c == '\'' || c == '"') {

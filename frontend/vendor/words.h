@@ -29,10 +29,11 @@ class Words {
   size_t first_on_line_ = 0;  // one past the begin of the last word that began a line
   bool line_start_ = true;
   bool passed_other_ = false;
+  bool nests_ = true;  // (* @NESTEDCOMMENTS := 'No' *) of CODESYS 2.3 was not passed
 };
 
-// One past the comment that begins at `at`; the end of the text where it is not closed. Comments nest.
-size_t endOfComment(std::string_view text, size_t at);
+// One past the comment that begins at `at`; the end of the text where it is not closed.
+size_t endOfComment(std::string_view text, size_t at, bool nests = true);
 
 std::string upper(std::string_view text);
 

@@ -119,7 +119,8 @@ void BodyTranslator::emitVirtualCall(BodyId method, const Address& self, uint32_
   size_t i = 0;
   while (i < module_.dispatches.size() && module_.dispatches[i].method != method) ++i;
   RUNG_INVARIANT(i < code_.dispatches.size(), "a virtual call has its dispatch");
-  code_.virtual_calls.push_back({module_.dispatches[i].first, site, code_.dispatches[i].data()});
+  const auto count = static_cast<uint32_t>(code_.dispatches[i].size());
+  code_.virtual_calls.push_back({module_.dispatches[i].first, count, site, code_.dispatches[i].data()});
   const uint32_t insn = emit(callVirtualHandler(), {0, true}, pointerTo(self), {}, 0,
                              reinterpret_cast<int64_t>(&code_.virtual_calls.back()));
   code_.insns[insn].d = insn;
@@ -221,7 +222,7 @@ void BodyTranslator::callStatement(const Stmt& stmt) {
     native_slots_ = std::max(native_slots_, slotsOf(callee, passed.size()));
     if (has_self_slot) pointerInto(self, {0, true});
     emit(nativeHandler(), {0, true}, {}, {}, 0, reinterpret_cast<int64_t>(findNative(callee)));
-  } else if (stmt.op == kVirtual) {
+  } else if ((stmt.op & kVirtual) != 0) {
     emitVirtualCall(id, self, site(stmt.loc));
   } else {
     emitCall(id, stmt.b != 0 ? &self : nullptr, site(stmt.loc));

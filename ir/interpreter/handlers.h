@@ -79,10 +79,10 @@ Handler callOnPointerHandler();  // slot b
 // On the object at (slot b), its method by type id; imm: const VirtualCall*; d: the instruction's own number.
 Handler callVirtualHandler();
 struct VirtualEntry {
-  uint32_t at = 0, frame = 0;  // as Code::Entry
+  uint32_t at = 0, frame = 0;  // as Code::Entry; a frame of 0: no method
 };
 struct VirtualCall {
-  uint32_t first = 0;  // class
+  uint32_t first = 0, count = 0;  // classes; fault[cast] for others
   uint32_t site = 0;
   const VirtualEntry* entries = nullptr;
 };

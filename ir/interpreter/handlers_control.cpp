@@ -31,7 +31,10 @@ void callOnPointer(RUNG_HANDLER_PARAMETERS) {
 void callVirtual(RUNG_HANDLER_PARAMETERS) {
   const VirtualCall& call = *reinterpret_cast<const VirtualCall*>(ip->imm);
   uint8_t* const object = load<uint8_t*>(fp + ip->b);
-  const VirtualEntry entry = call.entries[load<uint32_t>(object) - call.first];
+  const uint32_t number = load<uint32_t>(object), index = number - call.first;
+  if (RUNG_UNLIKELY(index >= call.count || call.entries[index].frame == 0))
+    fail(m, RUNG_FAULT_CAST, call.site, RUNG_NO_SUCH_METHOD);
+  const VirtualEntry entry = call.entries[index];
   uint8_t* const frame = fp + ip->a;
   if (RUNG_UNLIKELY(m->limit - frame < static_cast<ptrdiff_t>(entry.frame))) fail(m, RUNG_FAULT_STACK, call.site, 0);
   *reinterpret_cast<Linkage*>(frame) = {ip + 1, fp, self};
@@ -44,6 +47,7 @@ void giveBack(RUNG_HANDLER_PARAMETERS) {
 void halt(RUNG_HANDLER_PARAMETERS) { m->ip = nullptr; }
 
 void native(RUNG_HANDLER_PARAMETERS) {
+  m->ip = ip;  // for siteOfCrash
   reinterpret_cast<NativeThunk>(ip->imm)(m->ctx, reinterpret_cast<uint64_t*>(fp + ip->a));
   RUNG_NEXT;
 }

@@ -1,7 +1,9 @@
 // A module that the interpreter runs: see program.h.
 #include "ir/interpreter/program.h"
 
+#include <ucontext.h>
 #include <algorithm>
+#include <cstring>
 
 #include "frontend/source/invariant.h"
 #include "ir/description.h"
@@ -19,6 +21,7 @@ struct Stack {
   size_t size = 0;
 };
 thread_local Stack stack;
+thread_local const Machine* running = nullptr;
 
 }  // namespace
 
@@ -30,8 +33,9 @@ struct Program::Parts {
   std::vector<rung_task> tasks;
   std::vector<rung_test> tests;
   Code::Entry init, exit;
-  std::vector<Code::Entry> of_task, of_test, of_test_init;
+  std::vector<Code::Entry> of_task, of_test, of_test_init, of_test_exit;
   size_t stack_size = kStack;
+  rung_site* spare_site = nullptr;  // the last row of code.sites: siteOfCrash
 
   static const Parts& of(const rung_context* ctx) { return *reinterpret_cast<const Parts*>(ctx->module); }
 
@@ -44,7 +48,29 @@ struct Program::Parts {
     machine.ctx = ctx;
     uint8_t* const begin = stack.memory.get();
     machine.limit = begin + stack.size;
+    running = &machine;
     execute(code.insns.data() + entry.at, begin, nullptr, &machine);
+  }
+
+  bool isInsn(uintptr_t address) const {
+    const uintptr_t distance = address - reinterpret_cast<uintptr_t>(code.insns.data());
+    return distance % sizeof(Insn) == 0 && distance / sizeof(Insn) < code.insns.size();
+  }
+
+  // The place of the statement to which an instruction belongs, as the last site.
+  uint32_t siteOf(uintptr_t insn) const {
+    if (!isInsn(insn)) return RUNG_NONE;
+    const uintptr_t index = (insn - reinterpret_cast<uintptr_t>(code.insns.data())) / sizeof(Insn);
+    auto mark = std::upper_bound(code.marks.begin(), code.marks.end(), index,
+                                 [](uintptr_t at, const Code::Mark& it) { return at < it.insn; });
+    if (mark == code.marks.begin()) return RUNG_NONE;
+    --mark;
+    rung_site& site = *spare_site;
+    site.pou = mark->pou;
+    site.file = mark->file;
+    site.line = mark->line;
+    site.column = mark->column;
+    return static_cast<uint32_t>(spare_site - code.sites.data());
   }
 
   static void runInit(rung_context* ctx) { of(ctx).run(ctx, of(ctx).init); }
@@ -57,6 +83,7 @@ struct Program::Parts {
     return static_cast<size_t>(static_cast<const rung_test*>(ctx->entry) - of(ctx).tests.data());
   }
   static void runTestInit(rung_context* ctx) { of(ctx).run(ctx, of(ctx).of_test_init[testOf(ctx)]); }
+  static void runTestExit(rung_context* ctx) { of(ctx).run(ctx, of(ctx).of_test_exit[testOf(ctx)]); }
   static void runTest(rung_context* ctx) { of(ctx).run(ctx, of(ctx).of_test[testOf(ctx)]); }
 
   void translate(const Module& module, const MemoryBlocks& blocks, const ProgramOptions& options);
@@ -99,9 +126,11 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
   std::sort(order.begin(), order.end(),
             [&](uint32_t a, uint32_t b) { return blocks.program_block[a] < blocks.program_block[b]; });
   for (uint32_t p : order) {
+    if (module.programs[p].is_test) continue;
     if (module.programs[p].init) steps.push_back({Step::CallOn, module.programs[p].init, blocks.program_block[p]});
   }
   for (uint32_t p : order) {
+    if (module.programs[p].is_test) continue;
     if (module.programs[p].setup) steps.push_back({Step::CallOf, module.programs[p].setup, 0});
   }
   init = translator.translateSteps(steps);
@@ -122,7 +151,7 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
   }
   for (const Description::Test& test : description->tests) {
     steps.clear();
-    std::vector<Step> first;
+    std::vector<Step> first, last;
     if (test.program == RUNG_NONE) {
       steps.push_back({Step::CallOf, test.body, 0});
     } else {
@@ -132,9 +161,11 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
       first.push_back({Step::Clear, {}, block});
       if (program.init) first.push_back({Step::CallOn, program.init, block});
       if (program.setup) first.push_back({Step::CallOf, program.setup, 0});
+      if (program.exit) last.push_back({Step::CallOf, program.exit, 0});
     }
     of_test.push_back(translator.translateSteps(steps));
     of_test_init.push_back(translator.translateSteps(first));
+    of_test_exit.push_back(translator.translateSteps(last));
   }
   link(module, code);
   for (const Code::Entry& body : code.bodies) stack_size = std::max(stack_size, kStack + 2 * size_t{body.frame});
@@ -153,8 +184,9 @@ void Program::Parts::describe() {
     tests.push_back(test.row);
     tests.back().init = runTestInit;
     tests.back().run = runTest;
+    tests.back().exit = runTestExit;
   }
-  if (code.sites.empty()) code.sites.emplace_back();
+  spare_site = &code.sites.emplace_back();
   is.abi = RUNG_MODULE_ABI;
   is.pointer_size = sizeof(void*);
   is.name = name.c_str();
@@ -194,6 +226,20 @@ Program::Program(const Module& module, const ProgramOptions& options) : parts_(s
 }
 
 Program::~Program() = default;
+
+// The instruction at work is in some register, its successor perhaps in another; a native function's was noted.
+uint32_t Program::siteOfCrash(const rung_context* ctx, const void* details) {
+  if (running == nullptr || running->ctx != ctx) return RUNG_NONE;
+  const Parts& parts = Parts::of(ctx);
+  constexpr size_t kRegisters = 23;
+  uintptr_t registers[kRegisters];
+  memcpy(registers, &static_cast<const ucontext_t*>(details)->uc_mcontext, sizeof registers);
+  uintptr_t at = UINTPTR_MAX;
+  for (const uintptr_t value : registers)
+    if (parts.isInsn(value)) at = std::min(at, value);
+  return parts.siteOf(at != UINTPTR_MAX ? at : reinterpret_cast<uintptr_t>(running->ip));
+}
+
 const std::string& Program::refusal() const { return parts_->refusal; }
 const rung_module& Program::description() const { return parts_->is; }
 const std::deque<Counter>& Program::counters() const { return parts_->code.counters; }

@@ -35,6 +35,9 @@ class Program {
   const rung_module& description() const;
   const std::deque<Counter>& counters() const;
 
+  // For a signal while this thread runs a program: the site at which it stands, or RUNG_NONE. `details`: ucontext_t.
+  static uint32_t siteOfCrash(const rung_context* ctx, const void* details);
+
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;

@@ -35,7 +35,17 @@ void BodyTranslator::count(Loc loc, const char* function) {
   emit(countHandler(), {}, {}, {}, 0, reinterpret_cast<int64_t>(&code_.counters.back().count));
 }
 
+void BodyTranslator::mark(Loc loc) {
+  if (!loc || (!code_.marks.empty() && marked_ == loc)) return;
+  marked_ = loc;
+  const SourcePlace at = sourcePlace(module_, *body_, loc);
+  const NameId pou = body_->spelling ? body_->spelling : body_->name;
+  code_.marks.push_back({static_cast<uint32_t>(code_.insns.size()), pool_.add(module_.names.text(pou)),
+                         pool_.add(at.path), at.line, at.column});
+}
+
 void BodyTranslator::statement(const Stmt& stmt) {
+  mark(stmt.loc);
   if (stmt.kind != StmtKind::Label) count(stmt.loc, nullptr);
   switch (stmt.kind) {
     case StmtKind::None: return;

@@ -23,6 +23,11 @@ struct Code {
   std::vector<Insn> insns;
   std::vector<Entry> bodies;  // by BodyId
   std::vector<rung_site> sites;
+  // Where each statement begins, for what happens without a check: the instruction, and its place. Sorted.
+  struct Mark {
+    uint32_t insn, pou, file, line, column;  // texts as in rung_site
+  };
+  std::vector<Mark> marks;
   // What instructions point to; deques keep it in place.
   std::deque<std::string> texts;
   std::deque<std::u16string> wide_texts;
@@ -177,6 +182,7 @@ class BodyTranslator {
   void noteLabels(StmtId first, uint32_t depth);
 
   void count(Loc loc, const char* function);
+  void mark(Loc loc);
 
   // ---- calls.cpp
   void traceCall(BodyId callee, const Address* self);
@@ -217,6 +223,7 @@ class BodyTranslator {
   const TranslateOptions& options_;
   Code& code_;
 
+  Loc marked_;  // the last one of code_.marks
   const Body* body_ = nullptr;
   std::vector<uint32_t> local_offset_;
   Ref result_slot_;

@@ -399,7 +399,7 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
 
   if (result_type && !result) result = temp(result_type, loc);
   append({.kind = StmtKind::Call,
-          .op = call.is_virtual ? kVirtual : uint8_t{0},
+          .op = call.is_virtual ? in_.virtualCall() : uint8_t{0},
           .loc = loc,
           .a = callee_id.index,
           .b = object.index,
@@ -457,7 +457,7 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
   } else {
     const BodyId callee = call.is_virtual ? in_.blockCallOf(call.pou) : in_.bodyOf(call.pou);
     append({.kind = StmtKind::Call,
-            .op = call.is_virtual ? kVirtual : uint8_t{0},
+            .op = call.is_virtual ? in_.virtualCall() : uint8_t{0},
             .loc = loc,
             .a = callee.index,
             .b = instance.index});

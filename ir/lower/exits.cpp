@@ -47,30 +47,48 @@ BodyId ModuleLowering::exitCallOf(sema::PouId object) {
   return made;
 }
 
-void ModuleLowering::addExit() {
-  bool needed = false;
-  for (const List& list : module.lists) needed = needed || hasExit(list.record);
-  for (const ProgramInstance& program : module.programs) needed = needed || hasExit(program.record);
-  if (!needed) return;
-  module.exit = addHelper(module.names.intern("FB_Exit"), {}, "~");
-  std::vector<BodyId> ends;
-  for (const List& list : module.lists) ends.push_back(exitOf(list.record));
-  for (const ProgramInstance& program : module.programs) ends.push_back(exitOf(program.record));
-  Body& body = module.body(module.exit);
+// A function without parameters that ends the objects of such lists and programs, the last first; none when there are
+// none.
+BodyId ModuleLowering::endsOf(NameId name, const char* suffix, std::span<const uint32_t> lists,
+                              std::span<const uint32_t> programs) {
+  struct End {
+    ExprKind kind;
+    uint32_t index;
+    TypeId record;
+  };
+  std::vector<End> ends;
+  for (const uint32_t list : lists)
+    if (hasExit(module.lists[list].record)) ends.push_back({ExprKind::Global, list, module.lists[list].record});
+  for (const uint32_t p : programs)
+    if (hasExit(module.programs[p].record)) ends.push_back({ExprKind::Program, p, module.programs[p].record});
+  if (ends.empty()) return {};
+  const BodyId made = addHelper(name, {}, suffix);
+  std::vector<BodyId> bodies;  // before the lowering begins: they make bodies
+  for (const End& end : ends) bodies.push_back(exitOf(end.record));
+  Body& body = module.body(made);
   BodyLowering lowering(*this, body, {});
   for (size_t i = ends.size(); i-- > 0;) {
-    if (!ends[i]) continue;
-    const auto index = static_cast<uint32_t>(i);
-    const bool is_list = i < module.lists.size();
-    const uint32_t number = is_list ? index : index - static_cast<uint32_t>(module.lists.size());
-    const ExprId place = lowering.add({.kind = is_list ? ExprKind::Global : ExprKind::Program,
-                                       .type = is_list ? module.lists[number].record : module.programs[number].record,
-                                       .loc = body.loc,
-                                       .a = number});
-    lowering.append({.kind = StmtKind::Call, .loc = body.loc, .a = ends[i].index, .b = place.index});
+    const ExprId place =
+        lowering.add({.kind = ends[i].kind, .type = ends[i].record, .loc = body.loc, .a = ends[i].index});
+    lowering.append({.kind = StmtKind::Call, .loc = body.loc, .a = bodies[i].index, .b = place.index});
   }
   body.first = lowering.block_.first;
   lowering.finish();
+  return made;
+}
+
+void ModuleLowering::addExit() {
+  std::vector<uint32_t> lists, programs;
+  for (uint32_t i = 0; i < module.lists.size(); ++i) lists.push_back(i);
+  for (uint32_t i = 0; i < module.programs.size(); ++i) {
+    if (!module.programs[i].is_test) {
+      programs.push_back(i);
+      continue;
+    }
+    const BodyId end = endsOf(module.programs[i].name, "~test", {}, {&i, 1});
+    module.programs[i].exit = end;
+  }
+  module.exit = endsOf(module.names.intern("FB_Exit"), "~", lists, programs);
 }
 
 void BodyLowering::lowerExit(ExprId place, TypeId record) {
@@ -119,8 +137,11 @@ void BodyLowering::callExit(ExprId place, bool exact, Loc loc) {
   const bool is_virtual = object && !exact && project_.pou(object).dispatched;
   const BodyId end = is_virtual ? in_.exitCallOf(object) : in_.exitOf(typeOf(place));
   if (!end) return;
-  append(
-      {.kind = StmtKind::Call, .op = is_virtual ? kVirtual : uint8_t{0}, .loc = loc, .a = end.index, .b = place.index});
+  append({.kind = StmtKind::Call,
+          .op = is_virtual ? in_.virtualCall() : uint8_t{0},
+          .loc = loc,
+          .a = end.index,
+          .b = place.index});
 }
 
 }  // namespace rung::ir

@@ -46,6 +46,7 @@ struct ModuleLowering {
   bool hasExit(TypeId type);
   BodyId exitOf(TypeId record);
   BodyId exitCallOf(sema::PouId object);
+  uint8_t virtualCall() const { return (options.checks & kCheckCast) != 0 ? kVirtual | kChecked : kVirtual; }
   // The variable whose declaration gives arguments to FB_Init, in a field of a record; or null.
   const sema::Var* constructedVar(TypeId record, uint32_t field) const;
   // The record of the object that a POU's code runs on; none in functions.
@@ -73,6 +74,7 @@ struct ModuleLowering {
   void addClasses();
   void fillKindTests();
   BodyId addHelper(NameId name, sema::PouId object, const char* suffix);
+  BodyId endsOf(NameId name, const char* suffix, std::span<const uint32_t> lists, std::span<const uint32_t> programs);
   void addExit();
   void addDispatches();
   sema::PouId implementation(sema::PouId object, sema::PouId method) const;
@@ -163,7 +165,7 @@ class BodyLowering {
 
   // places.cpp
   ExprId lowerPlace(rung::ExprId expr);
-  ExprId characters(ExprId text, bool writes);
+  ExprId characters(ExprId text, TypeId unit, bool writes);
   ExprId varPlace(sema::VarId var, Loc loc);
   ExprId memberPlace(rung::ExprId expr);
   // What the field of a variable is: a member of type BIT has a byte.

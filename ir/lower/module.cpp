@@ -171,7 +171,7 @@ void ModuleLowering::markFaulting() {
       if (stmt.kind == StmtKind::Fault) body.may_fault = true;
       if (stmt.kind != StmtKind::Call) continue;
       callers[stmt.a].push_back(i);
-      body.may_fault = body.may_fault || stmt.op == kVirtual;
+      body.may_fault = body.may_fault || (stmt.op & kVirtual) != 0;
     }
     if (body.may_fault) faulting.push_back(i);
   }
@@ -257,7 +257,7 @@ bool ModuleLowering::isZero(TypeId declared) {
           if (has_inits && i < project.field_inits[declared.index].size() && project.field_inits[declared.index][i])
             return false;
           if (!isZero(info.fields[i].type)) return false;
-          if (info.record_kind == types::RecordKind::Union) break;
+          if (info.record_kind == types::RecordKind::Union && !info.overlaps) break;
         }
         return true;
       }
@@ -371,15 +371,17 @@ BodyId ModuleLowering::initOf(TypeId type) {
   } else if (list)
     for (sema::VarId var : project.global_lists[list.index].vars) storeVar(var);
   else
-    for (uint32_t i = 0; i < info.fields.size(); ++i) {
-      rung::ExprId init;
-      if (type.index < project.field_inits.size() && i < project.field_inits[type.index].size())
-        init = project.field_inits[type.index][i];
-      if (init || !isZero(info.fields[i].type))
-        lowering.storeInitial(lowering.field(lowering.self(loc), i, info.fields[i].type, loc), info.fields[i].type,
-                              init, true);
-      if (info.record_kind == types::RecordKind::Union) break;
-    }
+    for (const bool written : {false, true})  // of members that overlap, values that are written win
+      for (uint32_t i = 0; i < info.fields.size(); ++i) {
+        rung::ExprId init;
+        if (type.index < project.field_inits.size() && i < project.field_inits[type.index].size())
+          init = project.field_inits[type.index][i];
+        if (info.overlaps ? init ? written : !written && !isZero(info.fields[i].type)
+                          : !written && (init || !isZero(info.fields[i].type)))
+          lowering.storeInitial(lowering.field(lowering.self(loc), i, info.fields[i].type, loc), info.fields[i].type,
+                                init, !info.overlaps);
+        if (info.record_kind == types::RecordKind::Union && !info.overlaps) break;
+      }
   body.first = lowering.block_.first;
   lowering.finish();
   return id;
@@ -448,6 +450,7 @@ uint32_t ModuleLowering::instanceOf(sema::PouId program) {
   module.programs.push_back(made);
   BodyId body = bodyOf(program);
   module.programs[index].body = body;
+  module.programs[index].is_test = pou.test;
   return index;
 }
 

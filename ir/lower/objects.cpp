@@ -63,14 +63,9 @@ void ModuleLowering::addClasses() {
 
 // The method of an object that answers to a call of `method`; none when it has none, or an abstract one.
 sema::PouId ModuleLowering::implementation(sema::PouId object, sema::PouId method) const {
-  const sema::Pou& wanted = project.pou(method);
   for (sema::PouId at = object; at; at = project.pou(at).base)
-    for (sema::PouId candidate : project.pou(at).members) {
-      const sema::Pou& have = project.pou(candidate);
-      if (have.kind != PouKind::Method || have.accessor != wanted.accessor) continue;
-      if (!project.names.same(have.name, wanted.name)) continue;
-      return (have.modifiers & kAbstract) != 0 ? sema::PouId{} : candidate;
-    }
+    if (const sema::PouId found = methodLike(project, at, method))
+      return (project.pou(found).modifiers & kAbstract) != 0 ? sema::PouId{} : found;
   return {};
 }
 
@@ -81,7 +76,7 @@ void ModuleLowering::addDispatches() {
   std::vector<bool> called(module.bodies.size());
   for (uint32_t i = 1; i < module.bodies.size(); ++i)
     for (const Stmt& stmt : module.bodies[i].stmts)
-      if (stmt.kind == StmtKind::Call && stmt.op == kVirtual) called[stmt.a] = true;
+      if (stmt.kind == StmtKind::Call && (stmt.op & kVirtual) != 0) called[stmt.a] = true;
   const std::vector<std::pair<sema::PouId, BodyId>> block_calls = block_calls_;  // more are made below
   for (uint32_t i = 1; i < called.size(); ++i) {
     if (!called[i]) continue;

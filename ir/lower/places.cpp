@@ -65,12 +65,13 @@ ExprId BodyLowering::pinPlace(ExprId instance, const sema::Var& pin, Loc loc) {
   return add({.kind = ExprKind::Bits, .type = types::kBool, .loc = loc, .a = place.index, .b = pin.bit});
 }
 
-// A text as the array of its bytes or words, with the zero at its end where it is only read.
-ExprId BodyLowering::characters(ExprId text, bool writes) {
+// A text as the array of its bytes or words, with the zero at its end where it is only read; or of its characters,
+// which count from 1.
+ExprId BodyLowering::characters(ExprId text, TypeId unit, bool writes) {
   const Expr place = body_.expr(text);
   const types::TypeInfo& info = types_.info(types_.resolve(place.type));
-  const types::Dimension range{0, int64_t{info.length} - (writes ? 1 : 0)};
-  const TypeId unit = types::idOf(info.kind == TypeKind::WString ? TypeKind::Word : TypeKind::Byte);
+  const bool from_one = types_.kind(unit) == TypeKind::Char || types_.kind(unit) == TypeKind::WChar;
+  const types::Dimension range{from_one ? 1 : 0, int64_t{info.length} - (writes && !from_one ? 1 : 0)};
   if (!isPlace(place.kind)) text = toTemp(text, place.loc);
   const TypeId array = types_.array(unit, {&range, 1});
   const TypeId pointer = types_.pointer(array);
@@ -114,7 +115,7 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
       if (isOpenArray(types_, tree_.expr(node.base).type)) return openArrayElement(node);
       ExprId base = lowerPlace(node.base);
       if (TypeTable::isText(types_.kind(body_.expr(base).type)))
-        base = characters(base, (node.h.bits & kWritesCharacter) != 0);
+        base = characters(base, strip(node.h.type), (node.h.bits & kWritesCharacter) != 0);
       std::vector<ExprId> indices;
       for (rung::ExprId index : tree_.list(node.indices)) {
         Mark mark = here();

@@ -151,6 +151,7 @@ struct Arguments {
   uint32_t en = 0, eno = 0;  // index + 1
   uint32_t positional = 0;   // how many have no name
   bool good = true;
+  bool checked = false;  // but for literals: chooseOverload
 };
 Arguments matchArguments(Context& context, const CallExpr& node, PouId pou);
 void bindControlPins(Context& context, const CallExpr& node, const Arguments& arguments, Call& call);
@@ -160,6 +161,12 @@ void noteCall(Context& context, PouId callee, Loc loc);
 CallId addCall(Context& context, Call&& call);
 // The bindings of a call whose pins have types of their own.
 void bindArguments(Context& context, const CallExpr& node, PouId callee, const Arguments& arguments, Call& call);
+
+// ---- overloads.cpp
+// The function or method of one name that a call means; none after a report. `checked`: its arguments were, but for
+// literals.
+bool isOverloaded(const Context& context, PouId called);
+PouId chooseOverload(Context& context, const CallExpr& node, PouId called, bool& checked);
 
 // The type of a BitAccess whose base was checked. (expressions.cpp)
 TypeId checkBitOf(Context& context, ExprId expr);

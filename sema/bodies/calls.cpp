@@ -118,11 +118,19 @@ void checkOpenArgument(Context& context, const Var& pin, ExprId value, TypeId ac
                  {context.types().spell(actual), purpose.spell(context), context.types().spell(pin.type)});
 }
 
-void bindOutput(Context& context, const Pou& pou, const Var& pin, Binding& binding, const Argument& argument) {
+// The type of an argument, which the choice of an overload may have checked already; a literal depends on the pin.
+TypeId checkArgument(Context& context, ExprId& value, TypeId expected, Access access, bool checked) {
+  const bool is_done = checked && context.tree().kind(value) != ExprKind::Literal;
+  return is_done ? context.tree().expr(value).type : check(context, value, expected, access);
+}
+
+void bindOutput(Context& context, const Pou& pou, const Var& pin, Binding& binding, const Argument& argument,
+                bool checked) {
   binding.is_output = true;
   binding.negated = argument.negated;
   const Purpose purpose{"bound to output", pin.name, pou.name};
-  const TypeId place = check(context, binding.value, pin.type, Access::Write);  // which temporaries take
+  const TypeId place =
+      checkArgument(context, binding.value, pin.type, Access::Write, checked);  // temporaries take its type
   if (place == types::kError || !checkWritable(context, binding.value, purpose)) return;
   if (context.types().isOpenArray(pin.type)) {
     checkOpenArgument(context, pin, binding.value, place, purpose);
@@ -137,9 +145,9 @@ void bindOutput(Context& context, const Pou& pou, const Var& pin, Binding& bindi
             Purpose{"copied from output", pin.name, pou.name});
 }
 
-void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& binding) {
+void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& binding, bool checked) {
   const Purpose purpose{"bound to in-out", pin.name, pou.name};
-  const TypeId actual = check(context, binding.value, pin.type, Access::ReadWrite);
+  const TypeId actual = checkArgument(context, binding.value, pin.type, Access::ReadWrite, checked);
   if (actual == types::kError || pin.type == types::kError) return;
   if (isUntyped(context, actual)) settle(context, binding.value);
   if (pin.constant && !context.types().isOpenArray(pin.type)) {  // VAR_IN_OUT CONSTANT takes any value of the type
@@ -161,7 +169,7 @@ void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& bindin
   }
 }
 
-void bindInput(Context& context, const Pou& pou, const Var& pin, Binding& binding) {
+void bindInput(Context& context, const Pou& pou, const Var& pin, Binding& binding, bool checked) {
   const types::TypeInfo& wanted = context.types().info(context.types().resolve(pin.type));
   if (wanted.kind == TypeKind::Reference) {
     bindReference(context, binding.value, pin.type);
@@ -169,22 +177,28 @@ void bindInput(Context& context, const Pou& pou, const Var& pin, Binding& bindin
   }
   if (pin.any) return bindAny(context, pou, pin, binding.value);
   if (context.types().isOpenArray(pin.type)) {
-    const TypeId actual = check(context, binding.value, {}, Access::Read);
+    const TypeId actual = checkArgument(context, binding.value, {}, Access::Read, checked);
     if (actual) checkOpenArgument(context, pin, binding.value, actual, Purpose{"passed to", pin.name, pou.name});
     return;
   }
-  checkAs(context, binding.value, pin.type, Purpose{"passed to", pin.name, pou.name});
+  const Purpose purpose{"passed to", pin.name, pou.name};
+  if (binding.value && checkArgument(context, binding.value, pin.type, Access::Read, checked) != types::kError)
+    convert(context, binding.value, pin.type, purpose);
 }
 
 TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
+  bool checked = false;
+  if (isOverloaded(context, pou)) pou = chooseOverload(context, node, pou, checked);
+  if (!pou) return node.h.type = types::kError;
   resolvePou(context, pou);
   const Pou& callee = context.project.pou(pou);
   noteCall(context, pou, node.h.loc);
   checkTestOnly(context, pou, node.h.loc);
   if (callee.operator_kind != Pou::Operator::None) return checkOperatorCall(context, expr, pou, expected, {});
   if (callee.generic || callee.extensible) return checkGenericCall(context, expr, pou, expected, {});
-  const Arguments arguments = matchArguments(context, node, pou);
+  Arguments arguments = matchArguments(context, node, pou);
+  arguments.checked = checked;
   Call call;
   call.kind = CallKind::Function;
   call.pou = pou;
@@ -327,8 +341,8 @@ void bindArguments(Context& context, const CallExpr& node, PouId callee, const A
     binding.value = argument.value;
     const Var& pin = context.project.var(pins[i]);
     switch (pin.section) {
-      case SectionKind::Output: bindOutput(context, pou, pin, binding, argument); break;
-      case SectionKind::InOut: bindInOut(context, pou, pin, binding); break;
+      case SectionKind::Output: bindOutput(context, pou, pin, binding, argument, arguments.checked); break;
+      case SectionKind::InOut: bindInOut(context, pou, pin, binding, arguments.checked); break;
       case SectionKind::Input:
       case SectionKind::Local:
       case SectionKind::Temp:
@@ -337,7 +351,7 @@ void bindArguments(Context& context, const CallExpr& node, PouId callee, const A
       case SectionKind::Stat:
       case SectionKind::Inst:
       case SectionKind::Access:
-      case SectionKind::Config: bindInput(context, pou, pin, binding); break;
+      case SectionKind::Config: bindInput(context, pou, pin, binding, arguments.checked); break;
     }
     context.tree().list(node.arguments)[index].value = binding.value;
     call.bindings.push_back(binding);

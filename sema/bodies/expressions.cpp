@@ -25,18 +25,21 @@ TypeId checkIndexValue(Context& context, ExprId& index) {
   return types::kError;
 }
 
-// s[i], an extension of codesys: the bytes of a STRING and the words of a WSTRING, from 0. The zero behind the last
-// one that fits can be read, so that a loop finds the end of a full text; written it would be no end any more.
+// s[i]: in codesys the bytes of a STRING and the words of a WSTRING, from 0. The zero behind the last one that fits can
+// be read, so that a loop finds the end of a full text; written it would be no end any more. In edition 3 characters,
+// CHAR and WCHAR, from 1 (6.4.2.2).
 TypeId checkCharacter(Context& context, IndexExpr& node, TypeId text_type, Access access) {
   const types::TypeInfo& info = context.types().info(context.types().resolve(text_type));
   const bool reads = access == Access::Read || access == Access::Qualifier;
-  const types::Dimension characters{0, int64_t{info.length} - (reads ? 0 : 1)};
+  const bool from_one = context.iec();
+  const types::Dimension characters{from_one ? 1 : 0, int64_t{info.length} - (reads || from_one ? 0 : 1)};
   ExprId& index = context.tree().list(node.indices)[0];
   const TypeId type = checkIndexValue(context, index);
   if (type == types::kError) return type;
   checkConstantIndex(context, index, &characters, text_type);
   if (!reads) node.h.bits |= kWritesCharacter;
   node.h.writable = context.tree().expr(node.base).writable;
+  if (from_one) return types::idOf(info.kind == TypeKind::WString ? TypeKind::WChar : TypeKind::Char);
   return types::idOf(info.kind == TypeKind::WString ? TypeKind::Word : TypeKind::Byte);
 }
 
@@ -46,7 +49,8 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   const uint32_t count = node.indices.count;
   const types::TypeInfo* info = &context.types().info(context.types().resolve(base));
   if (info->kind == TypeKind::Pointer && count == 1) return checkPointerIndex(context, expr);
-  if (TypeTable::isText(info->kind) && count == 1 && !context.iec()) {
+  const bool edition2 = context.iec() && context.project.options.standard == text::Standard::Iec2;
+  if (TypeTable::isText(info->kind) && count == 1 && !edition2) {
     return node.h.type = checkCharacter(context, node, base, access);
   }
   const bool array = info->kind == TypeKind::Array;

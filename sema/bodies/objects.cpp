@@ -361,13 +361,17 @@ CallId checkConstructor(Context& context, TypeExprId type, uint32_t& elements) {
 
 TypeId callMethod(Context& context, ExprId& expr, PouId id, ExprId instance, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
+  bool checked = false;
+  if (isOverloaded(context, id)) id = chooseOverload(context, node, id, checked);
+  if (!id) return node.h.type = types::kError;
   resolvePou(context, id);
   noteCall(context, id, node.h.loc);
   // An action has the pins of its block (codesys): they are set before it runs and copied after.
   const bool is_action = context.project.pou(id).kind == PouKind::Action;
   const PouId has_pins = is_action ? context.project.pou(id).owner : id;
   resolvePou(context, has_pins);
-  const Arguments arguments = matchArguments(context, node, has_pins);
+  Arguments arguments = matchArguments(context, node, has_pins);
+  arguments.checked = checked;
   const CallId made = addMethodCall(context, id, instance, {});
   Call call = context.project.call(made);
   bindControlPins(context, node, arguments, call);

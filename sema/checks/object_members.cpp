@@ -15,18 +15,13 @@ namespace rung::sema {
 
 namespace {
 
-PouId methodOf(const Context& context, PouId object, const Pou& like) {
-  for (const PouId member : context.project.pou(object).members) {
-    const Pou& pou = context.project.pou(member);
-    if (pou.kind == PouKind::Method && pou.accessor == like.accessor && context.names().same(pou.name, like.name))
-      return member;
+PouId inherited(Context& context, PouId object, PouId like) {
+  resolvePou(context, like);
+  for (PouId at = object; at; at = context.project.pou(at).base) {
+    if (context.project.pou(like).overloads)
+      for (const PouId member : context.project.pou(at).members) resolvePou(context, member);
+    if (const PouId found = methodLike(context.project, at, like)) return found;
   }
-  return {};
-}
-
-PouId inherited(const Context& context, PouId object, const Pou& like) {
-  for (PouId at = object; at; at = context.project.pou(at).base)
-    if (const PouId found = methodOf(context, at, like)) return found;
   return {};
 }
 
@@ -108,7 +103,7 @@ struct Demands {
 
   void demand(PouId method) {
     const Pou& wanted = context.project.pou(method);
-    const PouId found = inherited(context, object, wanted);
+    const PouId found = inherited(context, object, method);
     if (found && found != method) {
       if (context.project.pou(found).owner == object) checkSignature(context, found, method);
       return;
@@ -142,7 +137,7 @@ void checkMethod(Context& context, PouId object, PouId id) {
     context.report(Diag::AbstractInConcrete, method.loc, {text(context, method.name), text(context, owner.name)});
     return;
   }
-  const PouId replaced = owner.base ? inherited(context, owner.base, method) : PouId{};
+  const PouId replaced = owner.base ? inherited(context, owner.base, id) : PouId{};
   if (!replaced || context.project.pou(replaced).access == AccessLevel::Private) {
     if ((method.modifiers & kOverride) != 0)
       context.report(Diag::OverridesNothing, method.loc, {text(context, method.name)});
@@ -180,8 +175,7 @@ void checkObjectMembers(Context& context, PouId object) {
   for (PouId at = pou.base; at; at = context.project.pou(at).base) {
     Demands demands{context, object, base_loc, {}};
     for (const PouId method : context.project.pou(at).members)
-      if ((context.project.pou(method).modifiers & kAbstract) != 0 &&
-          inherited(context, object, context.project.pou(method)) == method)
+      if ((context.project.pou(method).modifiers & kAbstract) != 0 && inherited(context, object, method) == method)
         demands.demand(method);
   }
   for (const VarId id : pou.vars) {

@@ -4,6 +4,7 @@
 
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/overloads.h"
 
 namespace rung::sema {
 
@@ -87,7 +88,10 @@ void declare(Context& context, NameMap& names, NameId name, Loc loc, Entity decl
   const NameId key = keyOf(context, name);
   Entity first;
   if (&names == &context.scopes.pous_and_types) first = context.scopes.namespaces.find(key);
-  if (!first && !names.insert(key, declared)) first = names.find(key);
+  if (!first && !names.insert(key, declared)) {
+    first = names.find(key);
+    if (declared.what() == EntityKind::Pou && addOverload(context, first, PouId{declared.index})) return;
+  }
   if (first) reportTwice(context, name, loc, locOf(context, first));
 }
 
@@ -186,10 +190,7 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   switch (tree.kind(decl.type)) {
     case TypeExprKind::Enum: type = table.addEnum(name, types::kInt); break;
     case TypeExprKind::Subrange: type = table.addSubrange(name, types::kInt, 0, 0); break;
-    case TypeExprKind::Struct:
-      type =
-          table.addRecord(tree.as<StructTypeExpr>(decl.type).is_union ? RecordKind::Union : RecordKind::Struct, name);
-      break;
+    case TypeExprKind::Struct: type = addStructure(context, decl.type, name); break;
     case TypeExprKind::Error:
     case TypeExprKind::Named:
     case TypeExprKind::Text:

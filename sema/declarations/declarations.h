@@ -93,6 +93,8 @@ void declarePou(Context& context, PouId pou);
 void resolveList(Context& context, ListId list);
 // The field of a record that holds a variable.
 void addField(Context& context, TypeId record, VarId id);
+// The record type of a STRUCT or UNION, without its members. (types.cpp)
+TypeId addStructure(Context& context, TypeExprId written, NameId name);
 
 // ---- bit_members.cpp
 bool isNamedBit(const Context& context, NameId name);

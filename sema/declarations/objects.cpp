@@ -5,7 +5,10 @@
 // methods and its body are found (`dispatched`): one with methods, interfaces or ABSTRACT, and one that the project
 // extends. A derived object holds its base as its first field; where the base has no type id and the derived one
 // has, the id comes first.
+#include <algorithm>
+
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/overloads.h"
 
 namespace rung::sema {
 
@@ -102,6 +105,7 @@ void declareMembers(Context& context, PouId object) {
   const auto declare = [&](NameId name, Loc loc, Entity declared) {
     if (!name || names.insert(keyOf(context, name), declared)) return;
     const Entity first = names.find(keyOf(context, name));
+    if (declared.what() == EntityKind::Pou && addOverload(context, first, PouId{declared.index})) return;
     const Loc known = first.what() == EntityKind::Var        ? project.vars[first.index].loc
                       : first.what() == EntityKind::Property ? project.properties[first.index].loc
                       : first.what() == EntityKind::Pou      ? project.pous[first.index].loc
@@ -137,6 +141,19 @@ void decideDispatch(Context& context, PouId id) {
 
 }  // namespace
 
+namespace {
+
+// Forbids an interface that is named twice in one list.
+//   passes  IMPLEMENTS IRun, IStop      fails   IMPLEMENTS IRun, IRun                                       E0346
+void addInterface(Context& there, Pou& pou, PouId interface, Loc loc) {
+  if (std::find(pou.interfaces.begin(), pou.interfaces.end(), interface) == pou.interfaces.end())
+    pou.interfaces.push_back(interface);
+  else
+    there.report(Diag::InterfaceTwice, loc, {there.names().text(there.project.pou(interface).name)});
+}
+
+}  // namespace
+
 // Forbids EXTENDS of what is no block, class or interface, of a FINAL one, and of itself; IMPLEMENTS of what is no
 // interface. IEC 61131-3 ed. 3, 6.6.5.5, 6.6.6.5.
 //   fails   FUNCTION_BLOCK a EXTENDS b … FUNCTION_BLOCK b EXTENDS a …                 E0342
@@ -157,7 +174,7 @@ void resolveHeader(Context& context, PouId id) {
     if (project.pou(base).header == Pou::Header::Busy) {
       there.report(Diag::ExtendsItself, context.tree().loc(written), {context.names().text(project.pou(id).name)});
     } else if (is_interface) {
-      project.pou(id).interfaces.push_back(base);
+      addInterface(there, project.pou(id), base, context.tree().loc(written));
     } else if (project.pou(id).base) {
       there.report(Diag::SeveralBases, context.tree().loc(written), {context.names().text(project.pou(id).name)});
     } else if ((project.pou(base).modifiers & kFinal) != 0) {
@@ -169,9 +186,10 @@ void resolveHeader(Context& context, PouId id) {
     }
   }
   for (uint32_t i = 0; i < decl.implements.count; ++i) {
-    if (const PouId interface = objectNamed(there, context.tree().list(decl.implements)[i], true)) {
+    const TypeExprId written = context.tree().list(decl.implements)[i];
+    if (const PouId interface = objectNamed(there, written, true)) {
       resolveHeader(context, interface);
-      project.pou(id).interfaces.push_back(interface);
+      addInterface(there, project.pou(id), interface, context.tree().loc(written));
     }
   }
   project.pou(id).header = Pou::Header::Done;

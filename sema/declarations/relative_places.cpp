@@ -1,6 +1,7 @@
 // Structures whose members have places of their own, AT %B2: the members in the order of their places, with hidden
 // fields for what is between them, so that the natural layout is the one that is written. In: the members, resolved.
-// Out: the fields of the record. IEC 61131-3 ed. 3 table 11, 8. A BOOL at %X3.0 is a bit.
+// Out: the fields of the record. IEC 61131-3 ed. 3 table 11, 8 and 9. A BOOL at %X3.0 is a bit. With OVERLAP the record
+// is a union whose members have places, in the order in which they are written.
 #include <algorithm>
 
 #include "sema/declarations/declarations.h"
@@ -45,6 +46,11 @@ void addGap(Context& context, TypeId record, uint64_t bytes, Loc loc) {
   addField(context, record, made);
 }
 
+void placeLast(Context& context, TypeId record, uint64_t byte) {
+  if (context.types().info(record).overlaps)
+    context.types().edit(record).fields.back().place = static_cast<uint32_t>(byte);
+}
+
 }  // namespace
 
 // Forbids places that overlap (without the word OVERLAP), that the type cannot have, and a bit of anything but a BOOL.
@@ -56,8 +62,11 @@ void placeFields(Context& context, TypeId record, std::span<const VarId> members
   for (const VarId id : members) list.push_back(placeOf(context, id));
   for (size_t i = 1; i < list.size(); ++i)  // without a place: behind the one before
     if (!list[i].given) list[i].byte = list[i - 1].byte;
-  std::stable_sort(list.begin(), list.end(),
-                   [](const Placed& a, const Placed& b) { return a.byte != b.byte ? a.byte < b.byte : a.bit < b.bit; });
+  const bool overlaps = context.types().info(record).overlaps;
+  if (!overlaps)
+    std::stable_sort(list.begin(), list.end(), [](const Placed& a, const Placed& b) {
+      return a.byte != b.byte ? a.byte < b.byte : a.bit < b.bit;
+    });
   uint64_t end = 0;
   for (const types::Field& field : context.types().info(record).fields) {  // inherited ones
     if (!ensureLayout(context, field.type)) return;
@@ -82,9 +91,10 @@ void placeFields(Context& context, TypeId record, std::span<const VarId> members
       addField(context, record, item.var);
       continue;
     }
-    const bool same_byte = item.bit >= 0 && bits && bits_at == item.byte;
+    const bool same_byte =
+        item.bit >= 0 && bits && bits_at == item.byte && (!overlaps || (bits_used >> item.bit & 1) == 0);
     const uint64_t at = item.given ? item.byte : (end + info.align - 1) / info.align * info.align;
-    if (same_byte ? (bits_used >> item.bit & 1) != 0 : at < end) {
+    if (!overlaps && (same_byte ? (bits_used >> item.bit & 1) != 0 : at < end)) {
       Report report = context.report(Diag::PlaceOverlaps, decl.located ? decl.address_loc : loc, {name});
       if (last) report.note(context.project.var(last).loc, Note::AlsoDeclaredHere);
       addField(context, record, item.var);
@@ -96,15 +106,17 @@ void placeFields(Context& context, TypeId record, std::span<const VarId> members
       addField(context, record, item.var);
       continue;
     }
-    if (!same_byte && at > end) addGap(context, record, at - end, loc);
+    if (!overlaps && !same_byte && at > end) addGap(context, record, at - end, loc);
     last = item.var;
     if (item.bit < 0) {
       addField(context, record, item.var);
+      placeLast(context, record, at);
       end = at + info.size;
       continue;
     }
     if (!same_byte) {
       bits = addByteOfBits(context, record, item.var);
+      placeLast(context, record, item.byte);
       bits_at = item.byte;
       bits_used = 0;
       end = item.byte + 1;

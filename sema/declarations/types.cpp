@@ -288,7 +288,11 @@ void inheritFields(Context& context, TypeId record, TypeExprId base_expr) {
     named.members.insert(keyOf(context, var.name), entity(id));
     return id;
   };
-  for (size_t i = 0; i < named_base->fields.size(); ++i) addField(context, record, inherit(named_base->fields[i]));
+  const bool is_laid_out = ensureLayout(context, base);
+  for (size_t i = 0; i < named_base->fields.size(); ++i) {
+    addField(context, record, inherit(named_base->fields[i]));
+    if (is_laid_out) context.types().edit(record).fields.back().place = info.fields[i].offset;
+  }
   for (size_t i = 0; i < named_base->bits.size(); ++i) {
     const VarId id = inherit(named_base->bits[i]);
     Var& var = context.project.var(id);
@@ -297,6 +301,18 @@ void inheritFields(Context& context, TypeId record, TypeExprId base_expr) {
     context.types().edit(record).bits.push_back({var.name, var.field, var.bit});
   }
 }
+
+}  // namespace
+
+TypeId addStructure(Context& context, TypeExprId written, NameId name) {
+  const StructTypeExpr& expr = context.tree().as<StructTypeExpr>(written);
+  const bool shares = expr.is_union || expr.overlaps;
+  const TypeId type = context.types().addRecord(shares ? RecordKind::Union : RecordKind::Struct, name);
+  context.types().edit(type).overlaps = expr.overlaps;
+  return type;
+}
+
+namespace {
 
 void fillRecord(Context& context, TypeId type, TypeExprId id) {
   const StructTypeExpr& expr = context.tree().as<StructTypeExpr>(id);
@@ -321,7 +337,7 @@ void fillRecord(Context& context, TypeId type, TypeExprId id) {
     const VarDecl& decl = context.tree().as<VarDecl>(project.var(var).decl);
     placed = placed || (decl.located && !decl.address.incomplete);
   }
-  if (placed) return placeFields(context, type, vars);
+  if (placed || expr.overlaps) return placeFields(context, type, vars);
   for (const VarId var : vars) addField(context, type, var);
 }
 
@@ -367,9 +383,7 @@ TypeId resolveWritten(Context& context, TypeExprId id) {
       return type;
     }
     case TypeExprKind::Struct: {
-      const bool is_union = tree.as<StructTypeExpr>(id).is_union;
-      const TypeId type =
-          table.addRecord(is_union ? RecordKind::Union : RecordKind::Struct, nameInPlace(context, tree.loc(id)));
+      const TypeId type = addStructure(context, id, nameInPlace(context, tree.loc(id)));
       addInPlace(context, type, id);
       return type;
     }

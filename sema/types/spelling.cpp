@@ -179,7 +179,8 @@ std::string TypeTable::spell(TypeId id) const {
     }
     return text + (info.items.size() > 4 ? ", ...)" : ")");
   }
-  if (info.kind == TypeKind::Record) return info.record_kind == RecordKind::Union ? "UNION" : "STRUCT";
+  if (info.kind == TypeKind::Record)
+    return info.record_kind == RecordKind::Union && !info.overlaps ? "UNION" : "STRUCT";
   if (info.kind == TypeKind::IntegerLiteral) return "integer literal";
   if (info.kind == TypeKind::RealLiteral) return "real literal";
   if (info.kind == TypeKind::NullLiteral) return "NULL";

@@ -86,6 +86,7 @@ inline constexpr TypeId kError = idOf(TypeKind::Error), kBool = idOf(TypeKind::B
                         kLReal = idOf(TypeKind::LReal), kTime = idOf(TypeKind::Time), kLTime = idOf(TypeKind::LTime);
 
 // Interface: what a variable of an INTERFACE type points to: the type id with which every object of a class begins.
+// Union: all members at Field::place, which is 0 but for STRUCT OVERLAP.
 enum class RecordKind : uint8_t { Struct, Union, FunctionBlock, Program, GlobalList, Interface };
 
 enum class FieldRole : uint8_t { Member, Local, Input, Output, InOut, Base };  // Base: what a block extends
@@ -95,6 +96,7 @@ struct Field {
   FieldRole role = FieldRole::Member;
   bool by_reference = false;  // VAR_IN_OUT: the memory holds a pointer to the variable
   bool retain = false, persistent = false, constant = false;
+  uint32_t place = 0;   // of a union of members with places of their own
   uint32_t offset = 0;  // after layout
 };
 
@@ -113,6 +115,7 @@ struct TypeInfo {
   TypeKind kind = TypeKind::None;
   RecordKind record_kind = RecordKind::Struct;
   bool laid_out = false;
+  bool overlaps = false;      // STRUCT OVERLAP: a union whose members all have their initial values, in order
   bool named_values = false;  // enumerations with a base type: its values have names, others have none
   bool strict = false;        // enumerations: TYPE#item only ({attribute 'strict'}, edition 3 strict form)
   NameId name;                // named types

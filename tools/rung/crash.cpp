@@ -9,6 +9,8 @@
 #include <string>
 
 #include "frontend/source/invariant.h"
+#include "ir/interpreter/program.h"
+#include "rung/host.h"
 #include "tools/rung/installation.h"
 #include "tools/rung/options.h"
 
@@ -37,7 +39,8 @@ void put(const char* text) {
 }
 
 // Only calls that are safe in a signal handler.
-void handle(int number) {
+void handle(int number, siginfo_t* info, void* details) {
+  if (program_runs) host::raiseCrash(number, info, details);  // does not return when the program did it
   if (program_runs && !program_checked) {
     put("rung: the program crashed with ");
     put(signalName(number));
@@ -75,9 +78,11 @@ void installCrashHandler(const char* const* command_words, int count) {
   stack.ss_sp = alternate_stack;
   stack.ss_size = sizeof alternate_stack;
   sigaltstack(&stack, nullptr);
+  host::setFindSite(ir::interpreter::Program::siteOfCrash);
   struct sigaction action = {};
-  action.sa_handler = handle;
-  action.sa_flags = SA_ONSTACK | static_cast<int>(SA_RESETHAND);
+  action.sa_sigaction = handle;
+  action.sa_flags =
+      SA_SIGINFO | SA_ONSTACK | SA_NODEFER;  // faults of the program leave the handler, and may come again
   for (int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(number, &action, nullptr);
 }
 

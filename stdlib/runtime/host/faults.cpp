@@ -22,11 +22,14 @@ std::string describeFault(const rung_module& module, const rung_fault& fault) {
     case RUNG_FAULT_NULL:
       word = "null";
       what = fault.value == 0 ? "a pointer, reference or in-out refers to nothing"
-                              : "__DELETE of memory that __NEW has not given, or that was deleted before";
+             : fault.value == RUNG_BAD_ADDRESS
+                 ? "a pointer or reference leads to memory that the program may not touch"
+                 : "__DELETE of memory that __NEW has not given, or that was deleted before";
       break;
     case RUNG_FAULT_CAST:
       word = "cast";
-      what = "the object is not of the type that the cast names";
+      what = fault.value == RUNG_NO_SUCH_METHOD ? "what the pointer leads to is no object that can be called here"
+                                                : "the object is not of the type that the cast names";
       break;
     case RUNG_FAULT_SUBRANGE:
       word = "subrange";
@@ -49,6 +52,8 @@ std::string describeFault(const rung_module& module, const rung_fault& fault) {
   if (known) text = std::string(module.text + site.file) + ':' + std::to_string(site.line) + ": ";
   text += "fault[" + word + "]: " + what;
   if (known && module.text[site.pou] != 0) text += std::string(" in `") + (module.text + site.pou) + '`';
+  if (!known && (fault.value == RUNG_BAD_ADDRESS || fault.kind == RUNG_FAULT_STACK))
+    text += ", in compiled code; `rung run --engine=interp` tells the line";
   return text;
 }
 

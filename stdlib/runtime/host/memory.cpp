@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "crashes.h"
+
 namespace rung::host {
 namespace {
 
@@ -32,9 +34,7 @@ Memory::Memory(const rung_module& module) : module_(module) {
   context_.module = &module;
 }
 
-uint8_t Memory::end() {
-  return module_.exit == nullptr ? uint8_t{RUNG_FAULT_NONE} : rung_guarded(&context_, module_.exit);
-}
+uint8_t Memory::end() { return module_.exit == nullptr ? uint8_t{RUNG_FAULT_NONE} : guarded(&context_, module_.exit); }
 
 uint8_t Memory::reset() {
   for (uint32_t i = 0; i < module_.block_count; ++i) memset(blocks_[i], 0, module_.blocks[i].size);
@@ -42,7 +42,7 @@ uint8_t Memory::reset() {
   context_.now_ns = 0;
   context_.task = context_.activation = 0;
   context_.fault = {};
-  return module_.init == nullptr ? uint8_t{RUNG_FAULT_NONE} : rung_guarded(&context_, module_.init);
+  return module_.init == nullptr ? uint8_t{RUNG_FAULT_NONE} : guarded(&context_, module_.init);
 }
 
 void Memory::makeOutputsSafe() { memset(images_[RUNG_IN_OUTPUTS - RUNG_IN_INPUTS], 0, module_.image_bytes[1]); }

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdio>
 
+#include "crashes.h"
 #include "rung/host.h"
 #include "rung/values.h"
 #include "symbols.h"
@@ -117,6 +118,7 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
 
 int applicationMain(const rung_module& module, int argc, char** argv) {
   signal(SIGXFSZ, SIG_IGN);  // a limit for files is an error of the write, as a full disk is
+  catchCrashes();
   RunOptions options;
   std::vector<std::string> rest;
   const std::string wrong =

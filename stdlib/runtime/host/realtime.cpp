@@ -11,6 +11,7 @@
 #include <mutex>
 #include <thread>
 
+#include "crashes.h"
 namespace rung::host {
 namespace {
 
@@ -63,7 +64,7 @@ bool activate(Shared& shared, Worker& worker, int64_t now_ns) {
   worker.context.now_ns = now_ns;
   worker.context.entry = worker.item->task;
   ++worker.context.activation;
-  const uint8_t fault = rung_guarded(&worker.context, worker.item->task->run);
+  const uint8_t fault = guarded(&worker.context, worker.item->task->run);
   worker.running_since.store(0);
   const int64_t took = monotonicNs() - begin;
   worker.longest_run_ns = std::max(worker.longest_run_ns, took);

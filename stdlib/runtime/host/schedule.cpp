@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "crashes.h"
+
 namespace rung::host {
 
 bool readBool(const Variable& variable) {
@@ -75,7 +77,7 @@ uint8_t Schedule::run(int64_t row, rung_context& context) {
     context.entry = item.task;
     context.task = activation.item + 1;
     context.activation = ++item.activations;
-    const uint8_t fault = rung_guarded(&context, item.task->run);
+    const uint8_t fault = guarded(&context, item.task->run);
     if (fault != RUNG_FAULT_NONE) return fault;
   }
   return RUNG_FAULT_NONE;

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "crashes.h"
 #include "faults.h"
 #include "junit.h"
 #include "memory.h"
@@ -63,6 +64,23 @@ void onAssertion(void* data, const rung_assertion* assertion, bool passed, const
   test.fail(TestResult::Failed, message);
 }
 
+void runCycles(const rung_module& module, const rung_test& test, Memory& memory, Case& result,
+               const std::function<bool(uint8_t)>& faulted, const std::function<void()>& onCycle) {
+  rung_context& context = memory.context();
+  if (test.init != nullptr && faulted(guarded(&context, test.init))) return;
+  const bool has_done = test.done_block != RUNG_NONE;
+  for (int64_t cycle = 0; cycle < kMostCycles; ++cycle) {
+    if (cycle > 0) context.now_ns += kCycleNs;  // the test may have moved it: TEST_ADVANCE
+    context.activation = static_cast<uint32_t>(cycle) + 1;
+    if (faulted(guarded(&context, test.run))) return;
+    if (!has_done || memory.block(test.done_block)[test.done_offset] != 0) return;
+    onCycle();
+  }
+  result.fail(TestResult::Failed, std::string(module.text + test.file) + ':' + std::to_string(test.line) +
+                                      ": `done` is still FALSE after " + std::to_string(kMostCycles) + " cycles");
+}
+
+// The memory as a program finds it, the test, and the ends of all objects (FB_Exit), after a fault too.
 void runCase(const rung_module& module, const rung_test& test, Memory& memory, Case& result,
              const std::function<void()>& onCycle) {
   rung_context& context = memory.context();
@@ -73,17 +91,9 @@ void runCase(const rung_module& module, const rung_test& test, Memory& memory, C
   if (faulted(memory.reset())) return;
   context.entry = &test;
   context.task = 1;
-  if (test.init != nullptr && faulted(rung_guarded(&context, test.init))) return;
-  const bool has_done = test.done_block != RUNG_NONE;
-  for (int64_t cycle = 0; cycle < kMostCycles; ++cycle) {
-    if (cycle > 0) context.now_ns += kCycleNs;  // the test may have moved it: TEST_ADVANCE
-    context.activation = static_cast<uint32_t>(cycle) + 1;
-    if (faulted(rung_guarded(&context, test.run))) return;
-    if (!has_done || memory.block(test.done_block)[test.done_offset] != 0) return;
-    onCycle();
-  }
-  result.fail(TestResult::Failed, std::string(module.text + test.file) + ':' + std::to_string(test.line) +
-                                      ": `done` is still FALSE after " + std::to_string(kMostCycles) + " cycles");
+  runCycles(module, test, memory, result, faulted, onCycle);
+  if (test.exit != nullptr) faulted(guarded(&context, test.exit));
+  faulted(memory.end());
 }
 
 }  // namespace

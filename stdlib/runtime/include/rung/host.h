@@ -4,6 +4,7 @@
 // build`.
 #pragma once
 
+#include <csignal>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,6 +66,13 @@ int reportTests(const TestResults& results, const TestOptions& options);
 
 // main() of an executable made by `rung build`: the options of `rung run` on its own command line.
 int applicationMain(const rung_module& module, int argc, char** argv);
+
+// For a handler of SIGSEGV and SIGBUS: does not return when the program's code accessed memory that it may not, or
+// nested calls too deep; that is a fault of the program then. `details`: ucontext_t. applicationMain has a handler.
+void raiseCrash(int number, const siginfo_t* info, const void* details);
+// Finds the site at which interpreted code stands, or RUNG_NONE; compiled code tells none.
+using FindSite = uint32_t (*)(const rung_context* ctx, const void* details);
+void setFindSite(FindSite find);
 
 // Parses the run options from arguments; unknown ones stay in `rest`. Empty result: good, else what is wrong.
 std::string parseRunOptions(const std::vector<std::string>& arguments, RunOptions& options,

@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-#define RUNG_MODULE_ABI 2u
+#define RUNG_MODULE_ABI 3u
 #define RUNG_NONE 0xffffffffu
 
 typedef struct rung_context rung_context;
@@ -131,6 +131,7 @@ typedef struct rung_test {
   uint32_t done_block, done_offset; /* RUNG_NONE: runs once */
   void (*init)(rung_context*);
   void (*run)(rung_context*);
+  void (*exit)(rung_context*); /* ends the objects of the test (FB_Exit), in front of rung_module::exit; or null */
 } rung_test;
 
 /* ---- faults */
@@ -143,8 +144,11 @@ typedef enum rung_fault_kind {
   RUNG_FAULT_SUBRANGE,
   RUNG_FAULT_CONVERT,
   RUNG_FAULT_OVERFLOW,
-  RUNG_FAULT_STACK /* calls nest too deep; of interpreted modules */
+  RUNG_FAULT_STACK /* calls nest too deep; noticed in interpreted modules, and by the bundled host */
 } rung_fault_kind;
+/* rung_fault.value of two faults that are told apart from others of their kind. */
+#define RUNG_NO_SUCH_METHOD 1 /* CAST: a call of what is no object with that method */
+#define RUNG_BAD_ADDRESS (-1) /* NULL: memory that the program may not touch; of the bundled host */
 /* Where a check stands: a table of the module, indexed by the number that the code passes. */
 typedef struct rung_site {
   uint32_t pou, file; /* offsets in text */

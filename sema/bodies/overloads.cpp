@@ -1,0 +1,223 @@
+// Which of several functions or methods of one name a call means. In: the call, its arguments not checked. Out: the one
+// that takes the arguments best; its arguments are checked then (Arguments::checked), except literals, which depend on
+// the pin. Edition 3.
+//
+// What takes each argument at least as well as every other, and one of them better, is meant: the same type before an
+// implicit conversion. Where nothing decides, fewer open inputs do.
+#include <algorithm>
+
+#include "sema/bodies/bodies.h"
+#include "sema/declarations/overloads.h"
+
+namespace rung::sema {
+
+namespace {
+
+using types::TypeTable;
+
+// How well a pin takes an argument: smaller is better.
+constexpr int kExact = 0, kLiteral = 1, kConverted = 2, kNever = 9;
+
+struct Candidate {
+  PouId pou;
+  std::vector<VarId> pin_of;  // by argument; none: EN, ENO
+  std::vector<int> ranks;     // likewise
+  size_t open_inputs = 0;
+};
+
+// Replaced by what extends, or declared twice, which was said.
+bool isKnown(const Context& context, std::span<const Candidate> known, PouId pou) {
+  return std::any_of(known.begin(), known.end(),
+                     [&](const Candidate& candidate) { return sameParameters(context.project, candidate.pou, pou); });
+}
+
+// The methods of the same name that the bases have, but for those that are replaced.
+void addInherited(Context& context, PouId method, std::vector<Candidate>& out) {
+  const PouId owner = context.project.pou(method).owner;
+  for (PouId at = owner ? context.project.pou(owner).base : PouId{}; at; at = context.project.pou(at).base)
+    for (const PouId member : context.project.pou(at).members) {
+      const Pou& pou = context.project.pou(member);
+      if (pou.kind != PouKind::Method || pou.accessor != Pou::Accessor::None ||
+          !context.names().same(pou.name, context.project.pou(method).name))
+        continue;
+      resolvePou(context, member);
+      if (!isKnown(context, out, member)) out.push_back({member, {}, {}, 0});
+    }
+}
+
+// Whether names and number of the arguments fit.
+bool match(Context& context, const CallExpr& node, Candidate& candidate) {
+  const std::span<const VarId> pins = pinsOf(context, candidate.pou);
+  std::vector<bool> taken(pins.size());
+  const auto isOutput = [&](size_t i) { return context.project.var(pins[i]).section == SectionKind::Output; };
+  size_t input = 0, output = 0;
+  for (uint32_t i = 0; i < node.arguments.count; ++i) {
+    const Argument argument = context.tree().list(node.arguments)[i];
+    size_t slot = 0;
+    if (argument.pin.name) {
+      while (slot < pins.size() && !context.names().same(context.project.var(pins[slot]).name, argument.pin.name))
+        ++slot;
+      if (slot == pins.size()) {
+        const bool control = isNamed(context, argument.pin.name, argument.is_output ? "ENO" : "EN");
+        if (!control) return false;
+        candidate.pin_of.push_back({});
+        continue;
+      }
+      if (isOutput(slot) != argument.is_output) return false;
+    } else {
+      while (input < pins.size() && (isOutput(input) || taken[input])) ++input;
+      while (input >= pins.size() && output < pins.size() && (!isOutput(output) || taken[output])) ++output;
+      slot = input < pins.size() ? input : output;
+      if (slot >= pins.size()) return false;
+    }
+    if (taken[slot]) return false;
+    taken[slot] = true;
+    candidate.pin_of.push_back(pins[slot]);
+  }
+  for (size_t i = 0; i < pins.size(); ++i) {
+    if (taken[i] || isOutput(i)) continue;
+    if (context.project.var(pins[i]).section == SectionKind::InOut) return false;
+    ++candidate.open_inputs;
+  }
+  return true;
+}
+
+int rankOf(Context& context, const Var& pin, ExprId value) {
+  const TypeId actual = context.tree().expr(value).type;
+  const TypeId wanted = context.types().resolve(pin.type);
+  const types::TypeInfo& info = context.types().info(wanted);
+  if (!actual || actual == types::kError || wanted == types::kError) return kExact;
+  if (isUntyped(context, actual)) {
+    if (pin.section != SectionKind::Input || !untypedFits(context, value, wanted)) return kNever;
+    if (defaultType(context, value) == wanted) return kExact;
+    const bool is_integer = context.types().info(actual).kind == TypeKind::IntegerLiteral;
+    return TypeTable::isReal(info.kind) == is_integer || info.kind == TypeKind::Bool ? kConverted : kLiteral;
+  }
+  const types::TypeInfo& given = context.types().info(context.types().resolve(actual));
+  const bool is_text = TypeTable::isText(info.kind);
+  if (is_text && given.kind == info.kind) return kExact;
+  if (context.tree().kind(value) == ExprKind::Literal && TypeTable::isText(given.kind) && given.length == 1 &&
+      info.kind == (given.kind == TypeKind::String ? TypeKind::Char : TypeKind::WChar))
+    return kLiteral;
+  if (context.types().isOpenArray(wanted) && given.kind == TypeKind::Array) {
+    const size_t dimensions = given.dimensions.empty() ? given.length : given.dimensions.size();
+    return dimensions == info.length && sameType(context, info.base, given.base) ? kConverted : kNever;
+  }
+  if (pin.section == SectionKind::InOut) return sameType(context, wanted, actual) ? kExact : kNever;
+  const Fit fits = pin.section == SectionKind::Output ? fit(context, wanted, actual) : fit(context, actual, wanted);
+  return fits == Fit::Same ? kExact : fits == Fit::Lossless ? kConverted : kNever;
+}
+
+// Each argument once, with the access that the pins ask for.
+void checkArguments(Context& context, const CallExpr& node, std::span<const Candidate> candidates) {
+  for (uint32_t i = 0; i < node.arguments.count; ++i) {
+    const Argument argument = context.tree().list(node.arguments)[i];
+    if (!argument.value) continue;
+    Access access = argument.is_output ? Access::Write : Access::Read;
+    for (const Candidate& candidate : candidates) {
+      if (!candidate.pin_of[i]) continue;
+      const SectionKind section = context.project.var(candidate.pin_of[i]).section;
+      if (section == SectionKind::Output) access = Access::Write;
+      if (section == SectionKind::InOut) access = Access::ReadWrite;
+    }
+    ExprId value = argument.value;
+    check(context, value, {}, access);
+    context.tree().list(node.arguments)[i].value = value;
+  }
+}
+
+bool isBetter(const Candidate& one, const Candidate& other) {
+  bool better = false;
+  for (size_t i = 0; i < one.ranks.size(); ++i) {
+    if (one.ranks[i] > other.ranks[i]) return false;
+    better = better || one.ranks[i] < other.ranks[i];
+  }
+  return better || one.open_inputs < other.open_inputs;
+}
+
+// `f(INT, REAL)`, `f(STRING[80])`
+std::string signatures(Context& context, std::span<const Candidate> candidates) {
+  std::string out;
+  constexpr size_t kMost = 6;
+  for (size_t i = 0; i < candidates.size() && i < kMost; ++i) {
+    out += i == 0 ? "`" : i + 1 == candidates.size() ? " or `" : ", `";
+    out += text(context, context.project.pou(candidates[i].pou).name);
+    out += '(';
+    bool first = true;
+    for (const VarId pin : pinsOf(context, candidates[i].pou)) {
+      const Var& var = context.project.var(pin);
+      out += first ? "" : ", ";
+      first = false;
+      out += (var.section == SectionKind::Output ? "=> " : "") + context.types().spell(var.type);
+    }
+    out += ")`";
+  }
+  return candidates.size() > kMost ? out + ", ..." : out;
+}
+
+}  // namespace
+
+// A method may replace one of several of its name in a base, which does not hide the others.
+bool isOverloaded(const Context& context, PouId called) {
+  const Pou& pou = context.project.pou(called);
+  if (pou.overloads || pou.kind != PouKind::Method || pou.accessor != Pou::Accessor::None)
+    return static_cast<bool>(pou.overloads);
+  for (PouId at = context.project.pou(pou.owner).base; at; at = context.project.pou(at).base)
+    for (const PouId member : context.project.pou(at).members)
+      if (context.project.pou(member).overloads && context.names().same(context.project.pou(member).name, pou.name))
+        return true;
+  return false;
+}
+
+// Forbids a call that no overload takes, or that several take equally well.
+//   fails   f(TRUE) where f takes INT or REAL                                          E0627
+//   fails   f(SINT#1) where f takes INT or DINT                                        E0628
+PouId chooseOverload(Context& context, const CallExpr& node, PouId called, bool& checked) {
+  std::vector<Candidate> all;
+  const PouId head = context.project.pou(called).overloads;
+  for (PouId id = head ? head : called; id; id = context.project.pou(id).next_overload) {
+    resolvePou(context, id);
+    if (!isKnown(context, all, id)) all.push_back({id, {}, {}, 0});
+  }
+  addInherited(context, called, all);
+  std::vector<Candidate> fitting;
+  for (Candidate& candidate : all)
+    if (match(context, node, candidate)) fitting.push_back(candidate);
+  if (fitting.size() == 1) return fitting[0].pou;
+  const auto name = text(context, context.project.pou(called).name);
+  if (fitting.empty()) {
+    context.report(Diag::NoOverload, node.h.loc, {name, signatures(context, all)});
+    checkLooseArguments(context, node);
+    return {};
+  }
+  checkArguments(context, node, fitting);
+  checked = true;
+  bool broken = false;
+  std::vector<Candidate> able;
+  for (Candidate& candidate : fitting) {
+    bool can = true;
+    for (uint32_t i = 0; i < node.arguments.count; ++i) {
+      const ExprId value = context.tree().list(node.arguments)[i].value;
+      int rank = kExact;
+      if (value && candidate.pin_of[i]) rank = rankOf(context, context.project.var(candidate.pin_of[i]), value);
+      broken = broken || (value && context.tree().expr(value).type == types::kError);
+      can = can && rank != kNever;
+      candidate.ranks.push_back(rank);
+    }
+    if (can) able.push_back(candidate);
+  }
+  for (const Candidate& candidate : able) {
+    const bool best = std::all_of(able.begin(), able.end(), [&](const Candidate& other) {
+      return other.pou == candidate.pou || isBetter(candidate, other);
+    });
+    if (best) return candidate.pou;
+  }
+  if (broken) return {};
+  if (able.empty())
+    context.report(Diag::NoOverload, node.h.loc, {name, signatures(context, fitting)});
+  else
+    context.report(Diag::SeveralOverloads, node.h.loc, {name, signatures(context, able)});
+  return {};
+}
+
+}  // namespace rung::sema

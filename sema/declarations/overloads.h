@@ -1,0 +1,12 @@
+// Functions and methods of one name: see overloads.cpp. Called where declarations are collected and checked.
+#pragma once
+
+#include "sema/context.h"
+
+namespace rung::sema {
+
+// Joins what is declared under a name that is in use; false: it is declared twice.
+bool addOverload(Context& context, Entity first, PouId added);
+void checkOverloads(Context& context, PouId head);
+
+}  // namespace rung::sema

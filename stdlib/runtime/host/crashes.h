@@ -1,0 +1,16 @@
+// Memory that the program may not touch: a pointer that it computed leads nowhere, or calls of compiled code nest too
+// deep. The signal becomes a fault like any other (rung/module.h), so outputs get safe values and __TRY sees it.
+// In: the activation, the signal. Out: RUNG_FAULT_NULL with RUNG_BAD_ADDRESS, or RUNG_FAULT_STACK.
+#pragma once
+
+#include "rung/host.h"
+
+namespace rung::host {
+
+// rung_guarded, with such signals as faults where catchCrashes was called.
+uint8_t guarded(rung_context* ctx, void (*run)(rung_context*));
+
+// Handles the signals from now on; an application calls it once. The tool has a handler of its own: raiseCrash.
+void catchCrashes();
+
+}  // namespace rung::host
