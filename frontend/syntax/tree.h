@@ -434,8 +434,8 @@ struct PouDecl {
   Slice<DeclId> sections;
   Slice<StmtId> body;
   Slice<IlInstruction> il;
-  Slice<SfcStep> steps;  // the chart of a body in SFC
-  Slice<SfcTransition> transitions;
+  Slice<SfcStep> steps;               // the chart of a body in SFC
+  Slice<SfcTransition> transitions;   // in other bodies: conditions that the charts of its actions use
   FileId chart_sections, chart_body;  // sema: the text that the chart became
   AccessLevel access;
   uint8_t modifiers;        // Modifier

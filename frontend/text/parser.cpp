@@ -338,15 +338,16 @@ DeclId Parser::parsePou() {
 void Parser::parsePouParts(PouDecl& d) {
   const bool is_member = d.pou_kind == PouKind::Method || d.pou_kind == PouKind::Action;
   std::vector<DeclId> members;
+  std::vector<SfcTransition> transitions;
   const size_t first = decls_.size();
   while (atSection() && (!at(Tok::VarGlobal) || pouCloses())) {
     const DeclId section = parseSection();
     decls_.push_back(section);
   }
   d.sections = listFrom(decls_, first);
-  while (!is_member && atMember()) parseMember(members);
+  parseMembersOf(d, members, transitions);
   if (atSfc())
-    parseSfc(d, members);
+    parseSfc(d, members, transitions);
   else
     parseBody(d);
   if (!is_member && atMember()) {
@@ -355,6 +356,7 @@ void Parser::parsePouParts(PouDecl& d) {
         !d.body.empty() || !d.il.empty() || d.body_kind == BodyKind::Sfc || d.body_kind == BodyKind::Cpp;
     if (!has_body) parseBody(d);
   }
+  d.transitions = tree_.addList<SfcTransition>(transitions);
   d.members = tree_.addList<DeclId>(members);
 }
 

@@ -177,8 +177,23 @@ class Parser {
   bool statementInIl();
 
   // ---- Sequential Function Chart (sfc.cpp)
+  struct SfcMacro {
+    Ident name, entry, exit;
+    uint32_t first_step;  // of those inside, which ends with `end_step`
+    uint32_t end_step;
+    uint32_t errors;  // before it
+    const Token* open;
+  };
   bool atSfc() const;
-  void parseSfc(PouDecl& d, std::vector<DeclId>& members);
+  bool atMacroEnd() const { return is(t_, "END_MACRO_STEP"); }
+  bool atCondition() const;
+  bool atOwnAction() const;
+  void parseMembersOf(const PouDecl& d, std::vector<DeclId>& members, std::vector<SfcTransition>& conditions);
+  void parseSfc(PouDecl& d, std::vector<DeclId>& members, std::vector<SfcTransition>& transitions);
+  void openMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& open, size_t steps);
+  void closeMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& open, std::span<const SfcStep> steps);
+  void inlineMacros(std::span<const SfcMacro> macros, std::span<const SfcStep> steps,
+                    std::vector<SfcTransition>& transitions);
   void parseStep(std::vector<SfcStep>& out);
   void parseStepTimes(SfcStep& step);
   bool parseAssociation(std::vector<SfcAssociation>& out);
