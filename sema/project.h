@@ -254,6 +254,7 @@ struct Call {
   std::vector<Binding> bindings;  // Operator: operands in order, pin none
   ExprId en;                      // EN := …
   ExprId eno;                     // ENO => …
+  bool eno_is_pin = false;        // … and one of `bindings`: the callee has an output of that name
   Assertion assertion = Assertion::Assert;
 };
 

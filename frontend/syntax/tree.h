@@ -430,6 +430,7 @@ struct PouDecl {
   PouKind pou_kind;
   BodyKind body_kind;  // Il and Sfc: St once sema had `il` or the chart scheduled, which fills `body`
   bool closed;         // has its END_…
+  bool uses_eno;       // ENO is an operand in its body
   TypeExprId result;   // functions; none: no result
   Slice<DeclId> sections;
   Slice<StmtId> body;

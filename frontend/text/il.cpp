@@ -110,6 +110,8 @@ bool Parser::isPlainInstruction(const Token* t) const {
     case IlKind::Load:
     case IlKind::Call: return operand || (alone && next->kind != Tok::Assign);
     case IlKind::Store:
+      if (next->kind == Tok::Question) return true;
+      [[fallthrough]];
     case IlKind::Set:
     case IlKind::Reset:
     case IlKind::Binary: return operand;
@@ -219,9 +221,10 @@ void Parser::parseInstruction() {
       word = &kAmpersandN;
       advance();
     }
+    const bool attempt = word->kind == IlKind::Store && accept(Tok::Question);
     i.kind = word->kind;
     i.op = word->op;
-    i.flags = word->flags;
+    i.flags = attempt ? uint8_t{kIlAttempt} : word->flags;
     parseOperands(i, op);
   } else if (isName(kind())) {
     i.kind = IlKind::Function;

@@ -405,6 +405,8 @@ void Scheduler::store(const IlInstruction& i) {
   const ExprId target = operand(i, 0).value;
   if (i.kind != IlKind::Store)
     assign(target, value, i.loc, i.kind == IlKind::Set ? AssignOp::Set : AssignOp::Reset);
+  else if ((i.flags & kIlAttempt) != 0)
+    assign(target, value, i.loc, AssignOp::Attempt);
   else
     assign(target, (i.flags & kIlNegated) != 0 ? unary(UnaryOp::Not, value, i.loc) : value, i.loc);
 }

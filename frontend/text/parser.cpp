@@ -15,6 +15,7 @@ Parser::Parser(Tree& tree, Names& names, const Sources& sources, FileId file, St
       diagnostics_(diagnostics),
       base_(sources.begin(file).offset),
       text_(sources.text(file)) {
+  eno_ = names.intern("ENO");
   const std::string_view path = sources.path(file);
   il_file_ = path.size() > 3 && sameIdentifier(path.substr(path.size() - 3), ".il");
 }
@@ -299,7 +300,7 @@ DeclId Parser::parsePou() {
     slip(Diag::StrayToken, t_, {describe(t_)});
     advance();
   }
-  declared_in_body_ = lost_ = false;
+  declared_in_body_ = lost_ = eno_used_ = false;
   pou_end_ = end;
   pou_closes_ = Known::NotYet;
   while (at(Tok::Using)) parseUsing(usings);
@@ -307,6 +308,7 @@ DeclId Parser::parsePou() {
   d.usings = tree_.addList<DeclId>(usings);
   parsePouParts(d);
   if (lost_ || declared_in_body_) d.h.bits |= kBrokenDeclarations;
+  d.uses_eno = eno_used_;
   if (pragmaNamed(d.h.pragmas, "native")) d.body_kind = BodyKind::Native;
   if (accept(end)) {
     d.closed = true;

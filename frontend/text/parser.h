@@ -256,8 +256,10 @@ class Parser {
   bool in_il_ = false;                // instructions are being read
   bool il_file_ = false;              // the file is called .il
   bool il_line_told_ = false;         // said once for a file
-  bool lost_ = false;                 // declarations of the POU or TYPE entry at hand could not be read
-  Tok pou_end_ = Tok::End;            // the END_… of the POU at hand
+  NameId eno_;
+  bool eno_used_ = false;   // ENO is an operand in the POU at hand
+  bool lost_ = false;       // declarations of the POU or TYPE entry at hand could not be read
+  Tok pou_end_ = Tok::End;  // the END_… of the POU at hand
   enum class Known : uint8_t { NotYet, Yes, No } pou_closes_ = Known::NotYet;  // whether it has that END_…
   const Token* last_error_ = nullptr;
   const Token* statement_start_ = nullptr;

@@ -326,14 +326,24 @@ void Parser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
     pou_end_ = pou_end;
     if (panic_) return;
     if (d.body_kind == BodyKind::Il) {
-      std::vector<IlInstruction> list(tree_.list(d.il).begin(), tree_.list(d.il).end());
       IlInstruction store{};
       store.kind = IlKind::Store;
       store.word = names_.intern("ST");
       store.loc = t.target.loc;
       const Argument operand{{}, target(), false, false, t.target.loc};
       store.operands = tree_.addList<Argument>({&operand, 1});
-      list.push_back(store);
+      std::vector<IlInstruction> list;
+      for (const IlInstruction& i : tree_.list(d.il)) {  // the value at each RET, and at the end
+        IlInstruction next = i;
+        if (i.kind == IlKind::Return) {
+          IlInstruction before = store;
+          std::swap(before.label, next.label);
+          list.push_back(before);
+        }
+        list.push_back(next);
+      }
+      if (list.empty() || list.back().kind != IlKind::Return || (list.back().flags & kIlConditional) != 0)
+        list.push_back(store);
       d.il = tree_.addList<IlInstruction>(list);
     } else if (d.body_kind == BodyKind::St && (!t.name.name || d.body.empty())) {
       slip(Diag::SfcNoCondition, first);

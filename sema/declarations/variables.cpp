@@ -390,6 +390,24 @@ static void declareInstanceVars(Context& context, DeclId decl, const SectionDecl
   }
 }
 
+// ENO in the body of a function is an output that nobody declares; TRUE until the body says otherwise.
+// IEC 61131-3 ed. 2, 2.5.1.2 and the function WEIGH of its annex F.
+static void declareEno(Context& context, PouId id) {
+  Project& project = context.project;
+  const NameId name = context.names().intern("ENO");
+  const VarId made{static_cast<uint32_t>(project.vars.size())};
+  if (!context.scopes.pous[id.index].names.insert(keyOf(context, name), entity(made))) return;
+  Var var;
+  var.name = name;
+  var.loc = project.pou(id).loc;
+  var.type = types::kBool;
+  var.section = SectionKind::Output;
+  var.pou = id;
+  var.init = makeLiteral(context, LiteralKind::Bool, types::kBool, 1, var.loc);
+  project.vars.push_back(var);
+  project.pou(id).vars.push_back(made);
+}
+
 void declarePou(Context& context, PouId id) {
   PouScope& scope = context.scopes.pous[id.index];
   if (scope.declared) return;
@@ -442,6 +460,7 @@ void declarePou(Context& context, PouId id) {
     for (size_t i = first_var; of_chart && i < project.vars.size(); ++i) project.vars[i].of_chart = true;
   }
   declareMembers(context, id);
+  if (kind == PouKind::Function && decl.uses_eno) declareEno(context, id);
   if (project.pou(id).result_var) {
     // The name is the result inside the body, unless a pin has it (reported by nobody: the pin hides it).
     scope.names.insert(keyOf(context, decl.name), entity(project.pou(id).result_var));
