@@ -483,7 +483,9 @@ void Scheduler::function(const IlInstruction& i) {
   if (block) {  // timer(IN := a): CAL is left out
     keepOrDrop();
   } else if (takesAccumulator(shapes_, i)) {
-    const bool listed = (i.flags & kIlInParens) != 0 && acc_.state == State::Empty;
+    // Of a name that is not declared nothing more is said.
+    const bool listed =
+        acc_.state == State::Empty && ((i.flags & kIlInParens) != 0 || shape.kind == ShapeKind::Unknown);
     if (!listed) {
       require(acc_, i);
       height = acc_.height;

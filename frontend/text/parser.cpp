@@ -327,6 +327,10 @@ DeclId Parser::parsePou() {
       // An END_… of something else, which block repair would have removed.
       slip(Diag::StrayEnd, t_, {textOf(t_)});
       advance();
+      if (d.pou_kind != PouKind::Method && d.pou_kind != PouKind::Action) {  // its rest is no text of the file's level
+        while (!at(end) && !at(Tok::End) && (atMember() || !atTopLevelWord())) advance();
+        accept(end);
+      }
     } else if (standard_ != Standard::Codesys) {
       const std::string line = std::to_string(sources_.place(loc(open)).line);
       missing(Diag::MissingEnd, {spelling(end), spelling(word), line});

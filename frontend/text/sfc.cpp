@@ -107,9 +107,8 @@ void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members, std::vector<SfcT
     inlineMacros(macros, steps, transitions);
   }
   if (t_ != first) d.body_end = endOf(t_ - 1);
-  if (diagnostics_.errorCount() != errors) {  // its rules are checked when all of it could be read
-    d.body_kind = BodyKind::None;
-    lost_ = true;
+  if (diagnostics_.errorCount() != errors) lost_ = true;  // its rules are checked when all of it could be read
+  if (d.body_kind == BodyKind::None) {
     transitions.clear();
     std::erase_if(members, [&](DeclId member) {  // made of transitions, whose variables are lost
       return tree_.kind(member) == DeclKind::Pou &&

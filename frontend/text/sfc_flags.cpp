@@ -130,6 +130,17 @@ void Scheduler::clearTable(uint32_t depth) {
   out_.line(depth, "END_FOR");
 }
 
+template <class Condition>
+void Scheduler::analyseLeaf(const Condition& condition, std::string_view text, bool wanted, uint32_t depth) {
+  const Ident& table = *chart_.flag(SfcFlag::ErrorAnalyzationTable);
+  out_.line(depth, "IF sfc_row <= UPPER_BOUND(", table, ", 1) AND ", wanted ? "NOT " : "", "(", condition);
+  out_.line(depth, ") THEN");  // on a line of its own: the condition may end with a comment
+  out_.line(depth + 1, table, "[sfc_row].name := '", quoted(text), "';");
+  out_.line(depth + 1, table, "[sfc_row].value := ", wanted ? "FALSE;" : "TRUE;");
+  out_.line(depth + 1, "sfc_row := sfc_row + 1;");
+  out_.line(depth, "END_IF");
+}
+
 // A row for each part of a condition that keeps it from being `wanted`: of AND those that are FALSE, of OR all where
 // none is TRUE, behind NOT the other way round.
 void Scheduler::analyse(const SfcExpr& e, bool wanted, uint32_t depth) {
@@ -140,7 +151,8 @@ void Scheduler::analyse(const SfcExpr& e, bool wanted, uint32_t depth) {
   }
   const BinaryOp op = kind == ExprKind::Binary ? tree_.as<BinaryExpr>(e.value).op() : BinaryOp::Xor;
   const bool all = op == BinaryOp::And || op == BinaryOp::AndThen;
-  if (!all && op != BinaryOp::Or && op != BinaryOp::OrElse) return analyseLeaf(part(e), wanted, depth);
+  if (!all && op != BinaryOp::Or && op != BinaryOp::OrElse)
+    return analyseLeaf(part(e), out_.textOf(part(e)), wanted, depth);
   const BinaryExpr& node = tree_.as<BinaryExpr>(e.value);
   const bool each = all == wanted;  // one part is enough to block
   if (!each) {
@@ -152,18 +164,8 @@ void Scheduler::analyse(const SfcExpr& e, bool wanted, uint32_t depth) {
   if (!each) out_.line(depth, "END_IF");
 }
 
-void Scheduler::analyseLeaf(std::string_view condition, bool wanted, uint32_t depth) {
-  const Ident& table = *chart_.flag(SfcFlag::ErrorAnalyzationTable);
-  out_.line(depth, "IF sfc_row <= UPPER_BOUND(", table, ", 1) AND ", wanted ? "NOT " : "", "(", condition);
-  out_.line(depth, ") THEN");  // on a line of its own: the condition may end with a comment
-  out_.line(depth + 1, table, "[sfc_row].name := '", quoted(condition), "';");
-  out_.line(depth + 1, table, "[sfc_row].value := ", wanted ? "FALSE;" : "TRUE;");
-  out_.line(depth + 1, "sfc_row := sfc_row + 1;");
-  out_.line(depth, "END_IF");
-}
-
 // The text of a part of a condition: without the blanks and the parentheses of others behind it.
-std::string_view Scheduler::part(const SfcExpr& e) const {
+SfcExpr Scheduler::part(const SfcExpr& e) const {
   std::string_view text = out_.textOf(e);
   size_t depth = 0;
   for (size_t i = 0; i < text.size(); ++i) {
@@ -177,7 +179,7 @@ std::string_view Scheduler::part(const SfcExpr& e) const {
     }
   }
   const size_t last = text.find_last_not_of(" \t\r\n");
-  return text.substr(0, last + 1);
+  return {e.value, e.begin, {e.begin.offset + static_cast<uint32_t>(last + 1)}};
 }
 
 void Scheduler::timeLimit(const SfcStep& step, uint32_t depth) {
@@ -210,7 +212,8 @@ void Scheduler::timeLimit(const SfcStep& step, uint32_t depth) {
       if (own.condition.value && !chart_.keepsCondition(own))
         analyse(own.condition, true, depth + 1);
       else
-        analyseLeaf(chart_.text(t->name.name ? t->name.name : own.target.name), true, depth + 1);
+        analyseLeaf(t->name.name ? t->name : own.target, chart_.text(t->name.name ? t->name.name : own.target.name),
+                    true, depth + 1);
     }
     out_.at(step.max.begin);
   }

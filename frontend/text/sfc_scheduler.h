@@ -43,8 +43,9 @@ class Scheduler {
   std::vector<const SfcTransition*> leaving(const SfcStep& step) const;
   void clearTable(uint32_t depth);
   void analyse(const SfcExpr& e, bool wanted, uint32_t depth);
-  void analyseLeaf(std::string_view condition, bool wanted, uint32_t depth);
-  std::string_view part(const SfcExpr& e) const;
+  template <class Condition>
+  void analyseLeaf(const Condition& condition, std::string_view text, bool wanted, uint32_t depth);
+  SfcExpr part(const SfcExpr& e) const;
   void actions();
   void transitions();
   void chain(const std::vector<uint32_t>& ways, size_t at, uint32_t depth);

@@ -406,6 +406,7 @@ static void schedule(Context& context, PouDecl& decl) {
   ProjectShapes shapes(context);
   if (decl.body_kind == BodyKind::Sfc) {
     decl.body_kind = BodyKind::St;
+    if ((decl.h.bits & kBrokenDeclarations) != 0) return;
     if (!text::scheduleSfc(chartsOf(context), shapes, decl, chartPlaceOf(context, context.pou))) return;
     if (context.project.options.scheduled) context.project.options.scheduled(context.project, context.pou);
     return;
