@@ -48,6 +48,7 @@ PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accesso
   member.decl = id;
   member.file = owner.file;
   member.native = decl.body_kind == BodyKind::Native;
+  member.cpp = decl.body_kind == BodyKind::Cpp;
   member.library = owner.library;
   member.used = owner.library;
   member.library_name = owner.library_name;
