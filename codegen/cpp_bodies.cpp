@@ -1,9 +1,13 @@
 // Bodies in C++: see cpp_bodies.h. The facade has
 //   a scalar, text, array or structure    a reference to its memory, as the type of rung/cpp.h or a view made here
 //   an enumeration                        struct COLOR with its items in upper case: COLOR::RED
-//   a block                               an object with references to its pins, values for its in-outs, and Body()
+//   a block                               an object with references to its pins, values for its in-outs, Body(), and
+//   its
+//                                         methods and actions by their names
+//   a structure with blocks inside        an object with references to its members
 //   a function that the text names        an object of its name in upper case, called with or without EN and ENO
-//   the result of a function              a variable of the function's name in upper case
+//   an own method or action               the same, by its own name
+//   the result of a function              a variable of the function's name in upper case; of a method, of its own name
 // Inputs are const inside, outputs are const outside (syntax manual 5.8.6).
 #include "codegen/cpp_bodies.h"
 
@@ -159,8 +163,8 @@ class Writer {
     group.code += text(body_.spelling);
     group.code += '\n';
     BodyWriter::appendSignature(group.code, module_, body_);
-    group.code += " {\n  [[maybe_unused]] rung_context* const rung_ctx_ = ctx;\n" + names_ + "  {\n" + variables +
-                  "    [&]() -> void {\n" + text_ + "\n    }();\n" + ending_ + "  }\n}\n";
+    group.code += " {\n  [[maybe_unused]] rung_context* const rung_ctx_ = ctx;\n" + names_ + "  {\n" + fields_ +
+                  "  {\n" + variables + "    [&]() -> void {\n" + text_ + "\n    }();\n" + ending_ + "  }\n  }\n}\n";
     return std::move(file_);
   }
 
@@ -170,6 +174,15 @@ class Writer {
   bool isText(TypeId type) const { return TypeTable::isText(types_.plainKind(type)); }
   bool isBlock(TypeId type) const {
     return types_.kind(type) == TypeKind::Record && (info(type).record_kind == RecordKind::FunctionBlock);
+  }
+
+  // What an object stands for that knows its context: a block, and a structure with blocks inside.
+  bool holdsBlock(TypeId type) const {
+    type = elementOf(types_, type);
+    if (types_.kind(type) != TypeKind::Record || isBlock(type)) return isBlock(type);
+    const std::vector<Field>& fields = info(type).fields;
+    return info(type).record_kind == RecordKind::Struct &&
+           std::any_of(fields.begin(), fields.end(), [&](const Field& field) { return holdsBlock(field.type); });
   }
 
   // A record whose definition the file needs.
@@ -225,7 +238,7 @@ class Writer {
       return out + ">";
     }
     if (of.kind == TypeKind::Array) {
-      const std::string element = isBlock(elementOf(types_, type)) ? "" : view(of.base);
+      const std::string element = holdsBlock(type) ? "" : view(of.base);
       if (element.empty()) return {};
       std::string out = "Array<" + element;
       for (const types::Dimension& dimension : of.dimensions) {
@@ -235,7 +248,8 @@ class Writer {
       }
       return out + ">";
     }
-    if (of.kind == TypeKind::Record) return of.record_kind == RecordKind::Struct ? named(type) : "";
+    if (of.kind == TypeKind::Record)
+      return of.record_kind == RecordKind::Struct && !holdsBlock(type) ? named(type) : "";
     if (of.kind == TypeKind::Pointer || of.kind == TypeKind::Reference) return "void*";
     return typeKindName(types_, type) + 5;  // RUNG_INT
   }
@@ -251,7 +265,7 @@ class Writer {
     }
     named_.push_back({type, name});
     std::string definition = info(type).kind == TypeKind::Enum ? enumeration(type, name)
-                             : isBlock(type)                   ? block(type, name)
+                             : holdsBlock(type)                ? object(type, name)
                                                                : structure(type, name);
     definitions_ += '\n' + definition;
     return name;
@@ -299,17 +313,78 @@ class Writer {
     return out + ", \"layout\");\n";
   }
 
-  // Inputs and outputs are references, in-outs values that Body() lends to the block.
-  std::string block(TypeId type, const std::string& name) {
+  // The fields of a block and of those that it extends, each with its place.
+  void fieldsOf(TypeId type, const std::string& place, std::vector<std::pair<const Field*, std::string>>& out) const {
+    for (const Field& field : info(type).fields) {
+      const std::string own = place + '.' + mangled(text(field.name));
+      if (field.role == FieldRole::Base)
+        fieldsOf(types_.resolve(field.type), own, out);
+      else
+        out.push_back({&field, own});
+    }
+  }
+
+  // The objects of a place, one for each element of an array: `OBJECT name` or `struct { OBJECT table[2][3]; } name`,
+  // and what begins it. Empty: too many.
+  struct Objects {
+    std::string declaration, begin;
+  };
+  Objects objectsOf(const std::string& name, TypeId type, const std::string& place) {
+    const TypeId element = elementOf(types_, type);
+    const std::string object = named(element);
+    if (element == type) return {object + ' ' + name, "(rung_ctx_, " + place + ")"};
+    std::vector<std::string> places = {place};
+    std::string shape;
+    for (TypeId at = type; types_.kind(at) == TypeKind::Array; at = types_.resolve(info(at).base)) {
+      if (at != type) return {};  // an array of arrays of blocks
+      for (const types::Dimension& dimension : info(at).dimensions) {
+        if (dimension.count() * places.size() > kMostBlocks) return {};
+        std::vector<std::string> next;
+        shape += '[' + std::to_string(dimension.count()) + ']';
+        for (const std::string& one : places) {
+          for (uint64_t i = 0; i < dimension.count(); ++i) next.push_back(one + '[' + std::to_string(i) + ']');
+        }
+        places = std::move(next);
+      }
+    }
+    std::string list;
+    for (const std::string& one : places) list += (list.empty() ? "" : ", ") + object + "(rung_ctx_, " + one + ")";
+    return {"struct {\n      " + object + " table" + shape + ";\n    } " + name, "{{" + list + "}}"};
+  }
+
+  // Inputs and outputs are references, in-outs values that Body() lends to the block. Blocks inside are objects again;
+  // an in-out that is one is the address of such an object.
+  std::string object(TypeId type, const std::string& name) {
     need(type);
     const std::string memory = recordName(types_, type);
     std::string members, init, lend, take_back;
-    for (const Field& field : info(type).fields) {
+    std::vector<std::pair<const Field*, std::string>> fields;
+    fieldsOf(type, "rung_self_", fields);
+    for (const auto& [known, place] : fields) {
+      const Field& field = *known;
       const bool is_pin =
           field.role == FieldRole::Input || field.role == FieldRole::Output || field.role == FieldRole::InOut;
-      const std::string seen = is_pin ? view(field.type) : "";
+      const bool is_member = field.role == FieldRole::Member && !isBlock(type);
+      if (!is_pin && !is_member) continue;
+      const std::string pin = spelled(text(field.name));
+      const TypeId field_type = types_.resolve(field.type);
+      if (holdsBlock(field_type)) {
+        if (field.role == FieldRole::InOut) {
+          if (!isBlock(field_type)) continue;
+          members += "  " + named(field_type) + "* " + pin + " = nullptr;\n";
+          lend += "    const auto rung_before_" + pin + " = " + place + ";\n    if (" + pin + " != nullptr) " + place +
+                  " = &" + pin + "->rung_self_;\n";
+          take_back += "    " + place + " = rung_before_" + pin + ";\n";
+          continue;
+        }
+        const Objects objects = objectsOf(pin, field_type, place);
+        if (objects.declaration.empty()) continue;
+        members += "  " + objects.declaration + ";\n";
+        init += ", " + pin + objects.begin;
+        continue;
+      }
+      const std::string seen = view(field.type);
       if (seen.empty()) continue;
-      const std::string pin = spelled(text(field.name)), place = "rung_self_." + mangled(text(field.name));
       if (field.role == FieldRole::InOut) {
         members += "  " + seen + ' ' + pin + "{};\n";
         lend += "    const auto rung_before_" + pin + " = " + place + ";\n    " + place +
@@ -320,6 +395,13 @@ class Writer {
       members += std::string("  ") + (field.role == FieldRole::Output ? "const " : "") + seen + "& " + pin + ";\n";
       init += ", " + pin + "(rung::cpp::view<" + seen + ">(" + place + "))";
     }
+    const std::string body = isBlock(type) ? bodyOf(type, lend, take_back) + methodsOf(type) : "";
+    return "class " + name + " {\n public:\n  rung_context* const rung_ctx_;\n  " + memory + "& rung_self_;\n" +
+           members + "  " + name + "(rung_context* ctx, " + memory + "& self) : rung_ctx_(ctx), rung_self_(self)" +
+           init + " {}\n  " + name + "(const " + name + "&) = delete;\n" + body + "};\n";
+  }
+
+  std::string bodyOf(TypeId type, const std::string& lend, const std::string& take_back) {
     std::string call;
     for (const ir::Record& record : module_.records) {
       if (types_.resolve(record.type) != type || !record.body) continue;
@@ -332,41 +414,85 @@ class Writer {
         call += "(rung_self_, rung_ctx_)";
       }
     }
-    return "class " + name + " {\n  rung_context* const rung_ctx_;\n  " + memory + "& rung_self_;\n\n public:\n" +
-           members + "  " + name + "(rung_context* ctx, " + memory + "& self) : rung_ctx_(ctx), rung_self_(self)" +
-           init + " {}\n  " + name + "(const " + name + "&) = delete;\n  void Body() {\n" + lend + "    " + call +
-           ";\n" + take_back + "  }\n};\n";
+    return "  void Body() {\n" + lend + "    " + call + ";\n" + take_back + "  }\n";
+  }
+
+  // The methods and actions of a block and of those that it extends, by the names that they are declared with.
+  std::string methodsOf(TypeId type) {
+    std::string out;
+    std::vector<std::string> taken;
+    for (std::string place = "rung_self_"; type;) {
+      for (uint32_t i = 1; i < module_.bodies.size(); ++i) {
+        const ir::Body& method = module_.bodies[i];
+        if (!isMethod(method) || method.abstract || types_.resolve(method.self) != type || i == cpp_.body.index)
+          continue;
+        const std::string name = ownName(method);
+        const Call call = callOf({i}, place);
+        const std::string key = name + '(' + call.parameters;
+        if (!call.good || std::find(taken.begin(), taken.end(), key) != taken.end()) continue;
+        taken.push_back(key);
+        out += "  " + call.result + ' ' + name + "(" + call.parameters + ") { " + call.code + " }\n";
+      }
+      const std::vector<Field>& fields = info(type).fields;
+      const auto base =
+          std::find_if(fields.begin(), fields.end(), [](const Field& field) { return field.role == FieldRole::Base; });
+      if (base == fields.end()) break;
+      place += '.' + mangled(text(base->name));
+      type = types_.resolve(base->type);
+    }
+    return out;
   }
 
   // ---- functions
 
-  void declareFunction(ir::BodyId id) {
+  // As declared: methods and actions are members like pins.
+  std::string ownName(const ir::Body& method) const {
+    const std::string_view name = text(method.spelling);
+    return spelled(name.substr(name.rfind('.') + 1));
+  }
+
+  // The way from a block to the one that it extends.
+  std::string placeOf(const std::string& place, TypeId from, TypeId to) const {
+    from = types_.resolve(from);
+    if (from == types_.resolve(to)) return place;
+    for (const Field& field : info(from).fields)
+      if (field.role == FieldRole::Base) return placeOf(place + '.' + mangled(text(field.name)), field.type, to);
+    return place;
+  }
+
+  // A function or method as the facade calls it; `self`: the place of its object.
+  struct Call {
+    bool good = false;
+    std::string parameters, names, result, code;
+  };
+  Call callOf(ir::BodyId id, const std::string& self) {
     const ir::Body& function = module_.body(id);
-    std::string parameters, arguments, names;
-    std::string before, result;
+    Call made;
+    std::string arguments;
     bool good = true;
     uint32_t count = 0;
     for (const Local& local : function.locals) {
       if (local.kind != LocalKind::Input && local.kind != LocalKind::Output && local.kind != LocalKind::InOut) continue;
       const std::string seen = view(local.type);
-      good = good && !seen.empty() && !isBlock(local.type);
+      good = good && !seen.empty() && !holdsBlock(local.type);
       need(local.type);
       std::string name = "rung_p";
       appendUnsigned(name, count++);
-      parameters += (parameters.empty() ? "" : ", ");
-      names += ", " + name;
+      made.parameters += (made.parameters.empty() ? "" : ", ");
+      made.names += (made.names.empty() ? "" : ", ") + name;
       if (local.kind == LocalKind::Input) {
-        parameters += (local.by_reference ? "const " + seen + "& " : seen + ' ') + name;
+        made.parameters += (local.by_reference ? "const " + seen + "& " : seen + ' ') + name;
         arguments += ", " + (local.by_reference ? pointer(local.type, "&" + name, true)
                                                 : "rung::cpp::bits<" + std::string(scalarType(types_, local.type)) +
                                                       ">(" + name + ")");
       } else {
-        parameters += seen + "* " + name;
+        made.parameters += seen + "* " + name;
         arguments += ", " + pointer(local.type, name, false);
       }
     }
-    const std::string seen = function.result ? view(function.result) : "void";
-    if (!good || seen.empty()) return;
+    made.result = function.result ? view(function.result) : "void";
+    if (!good || made.result.empty()) return made;
+    made.good = true;
     if (facts_.is_inlined[id.index] != 0) {
       file_.group.inlined.push_back(id);
     } else {
@@ -378,31 +504,48 @@ class Writer {
     } else {
       appendFunctionName(call, module_, function);
     }
-    call += "(rung_ctx_" + arguments;
-    std::string code;
+    call += self.empty() ? "(rung_ctx_" : isMethod(function) ? "(&" + self + ", rung_ctx_" : "(" + self + ", rung_ctx_";
+    call += arguments;
     if (!function.result) {
-      code = call + ");";
+      made.code = call + ");";
     } else if (!ir::isAggregate(types_, function.result)) {
-      code = "return rung::cpp::bits<" + seen + ">(" + call + "));";
+      made.code = "return rung::cpp::bits<" + made.result + ">(" + call + "));";
     } else {
       need(function.result);
-      code = seen + " rung_result; " + call + ", " + pointer(function.result, "&rung_result", false);
+      made.code = made.result + " rung_result; " + call + ", " + pointer(function.result, "&rung_result", false);
       if (function.native && isText(function.result)) {
-        code += ", ";
-        appendUnsigned(code, info(function.result).length);
+        made.code += ", ";
+        appendUnsigned(made.code, info(function.result).length);
       }
-      code += "); return rung_result;";
+      made.code += "); return rung_result;";
     }
-    const std::string name = spelled(upper(text(function.spelling))), type = "rung_function_" + name;
-    definitions_ += "\nstruct " + type + " {\n  rung_context* rung_ctx_;\n  " + seen + " operator()(" + parameters +
-                    ") const { " + code + " }\n  " + seen + " operator()(bool rung_en, BOOL* rung_eno" +
-                    (parameters.empty() ? "" : ", " + parameters) +
-                    ") const {\n    if (rung_eno != nullptr) *rung_eno = rung_en;\n    ";
-    definitions_ += function.result
-                        ? "return rung_en ? (*this)(" + names.substr(names.empty() ? 0 : 2) + ") : " + seen + "{};"
-                        : "if (rung_en) (*this)(" + names.substr(names.empty() ? 0 : 2) + ");";
-    definitions_ += "\n  }\n};\n";
-    functions_ += "    const " + type + ' ' + name + "{rung_ctx_};\n";
+    return made;
+  }
+
+  void declareFunction(ir::BodyId id) {
+    const ir::Body& function = module_.body(id);
+    const Call call = callOf(id, function.self ? "rung_self_" : "");
+    if (!call.good) return;
+    const std::string name = function.self ? ownName(function) : spelled(upper(text(function.spelling)));
+    const std::string type = "rung_function_" + name;
+    std::string self;
+    if (function.self) {
+      need(function.self);
+      self = recordName(types_, types_.resolve(function.self)) + "& rung_self_;\n  ";
+    }
+    definitions_ += "\nstruct " + type + " {\n  rung_context* rung_ctx_;\n  " + self + call.result + " operator()(" +
+                    call.parameters + ") const { " + call.code + " }\n";
+    if (!function.self) {
+      definitions_ += "  " + call.result + " operator()(bool rung_en, BOOL* rung_eno" +
+                      (call.parameters.empty() ? "" : ", " + call.parameters) +
+                      ") const {\n    if (rung_eno != nullptr) *rung_eno = rung_en;\n    ";
+      definitions_ += function.result ? "return rung_en ? (*this)(" + call.names + ") : " + call.result + "{};"
+                                      : "if (rung_en) (*this)(" + call.names + ");";
+      definitions_ += "\n  }\n";
+    }
+    definitions_ += "};\n";
+    functions_ += "    const " + type + ' ' + name + "{rung_ctx_" +
+                  (function.self ? ", " + placeOf("rung_self_", body_.self, function.self) : "") + "};\n";
   }
 
   // An address of a view as the parameter type that the function has for it.
@@ -450,32 +593,14 @@ class Writer {
   std::string variable(std::string_view name, TypeId type, const std::string& place, bool constant) {
     type = types_.resolve(type);
     const std::string called = spelled(name);
-    const TypeId element = elementOf(types_, type);
-    if (!isBlock(element)) {
+    if (!holdsBlock(type)) {
       const std::string seen = view(type);
       if (seen.empty()) return {};
       return std::string("    ") + (constant ? "const " : "") + seen + "& " + called + " = rung::cpp::view<" + seen +
              ">(" + place + ");\n";
     }
-    const std::string object = named(element);
-    if (element == type) return "    " + object + ' ' + called + "(rung_ctx_, " + place + ");\n";
-    std::vector<std::string> places = {place};
-    std::string shape;
-    for (TypeId at = type; types_.kind(at) == TypeKind::Array; at = types_.resolve(info(at).base)) {
-      if (at != type) return {};  // an array of arrays of blocks
-      for (const types::Dimension& dimension : info(at).dimensions) {
-        if (dimension.count() * places.size() > kMostBlocks) return {};
-        std::vector<std::string> next;
-        shape += '[' + std::to_string(dimension.count()) + ']';
-        for (const std::string& one : places) {
-          for (uint64_t i = 0; i < dimension.count(); ++i) next.push_back(one + '[' + std::to_string(i) + ']');
-        }
-        places = std::move(next);
-      }
-    }
-    std::string list;
-    for (const std::string& one : places) list += (list.empty() ? "" : ", ") + object + "(rung_ctx_, " + one + ")";
-    return "    struct {\n      " + object + " table" + shape + ";\n    } " + called + " = {" + list + "};\n";
+    const Objects objects = objectsOf(called, type, place);
+    return objects.declaration.empty() ? "" : "    " + objects.declaration + objects.begin + ";\n";
   }
 
   std::string variables() {
@@ -492,16 +617,28 @@ class Writer {
       out += "    const " + view(known.type) + ' ' + spelled(text(known.name)) + " = " +
              constant(known.type, known.bits) + ";\n";
     if (body_.self) {
-      names_ += "  auto& rung_self_ = self;\n";
-      for (const Field& field : info(body_.self).fields) {
-        if (mangled(text(field.name)) != std::string(text(field.name)) + "_") continue;
-        const std::string place = "rung_self_." + mangled(text(field.name));
+      if (isMethod(body_)) {
+        const std::string memory = recordName(types_, types_.resolve(body_.self));
+        names_ += "  auto& rung_self_ = *static_cast<" + memory + "*>(object);\n";
+      } else {
+        names_ += "  auto& rung_self_ = self;\n";
+      }
+      const std::string instance = isMethod(body_) ? ownName(body_) + "__" : "";  // VAR_INST
+      std::vector<std::pair<const Field*, std::string>> fields;
+      fieldsOf(types_.resolve(body_.self), "rung_self_", fields);
+      for (const auto& [known, place] : fields) {
+        const Field& field = *known;
+        const std::string_view name = text(field.name);
+        if (mangled(name) != std::string(name) + "_" || name.starts_with("__")) continue;
         const bool is_const = field.role == FieldRole::Input || field.constant;
+        const bool own = !instance.empty() && name.starts_with(instance);
+        const std::string_view called = own ? name.substr(instance.size()) : name;
         if (field.by_reference && isText(field.type)) {
-          out += "    " + view(field.type) + "& " + spelled(text(field.name)) + " = *reinterpret_cast<" +
-                 view(field.type) + "*>(" + place + ");\n";
+          fields_ += "    " + view(field.type) + "& " + spelled(called) + " = *reinterpret_cast<" + view(field.type) +
+                     "*>(" + place + ");\n";
         } else {
-          out += variable(text(field.name), field.type, field.by_reference ? "(*" + place + ")" : place, is_const);
+          (own ? out : fields_) +=
+              variable(called, field.type, field.by_reference ? "(*" + place + ")" : place, is_const);
         }
       }
     }
@@ -529,7 +666,7 @@ class Writer {
         case LocalKind::Output:
         case LocalKind::InOut:
           names_ += "  auto&& " + passed + " = " + mangled(text(local.name)) + ";\n";
-          if (isBlock(local.type)) {
+          if (holdsBlock(local.type)) {
             out += variable(text(local.name), local.type, "(*" + passed + ")", false);
             break;
           }
@@ -537,7 +674,7 @@ class Writer {
           if (local.kind == LocalKind::Output) out += "    " + name + " = " + initial(local.name, local.type) + ";\n";
           break;
         case LocalKind::Result: {
-          const std::string result = spelled(upper(text(body_.spelling)));
+          const std::string result = body_.self ? ownName(body_) : spelled(upper(text(body_.spelling)));
           out += "    " + seen + ' ' + result + " = " + initial({}, local.type) + ";\n";
           if (local.by_reference) {
             names_ += "  auto&& " + passed + " = " + mangled(text(local.name)) + ";\n";
@@ -549,7 +686,7 @@ class Writer {
         }
       }
     }
-    return out + functions_;
+    return functions_ + out;
   }
 
   // The types of time, whose C++ types depend on the dialect, and what makes their values. The parts stand from the
@@ -588,7 +725,7 @@ class Writer {
   const ir::Body& body_;
   CppFile file_;
   std::vector<std::pair<TypeId, std::string>> named_;
-  std::string definitions_, functions_, names_, text_, ending_;
+  std::string definitions_, functions_, names_, fields_, text_, ending_;
 };
 
 }  // namespace

@@ -41,6 +41,7 @@ struct Context {
 
 // What the scheduler of charts works with.
 text::Charts chartsOf(const Context& context);
+text::ChartPlace chartPlaceOf(const Context& context, PouId pou);
 
 // ---- declarations (declarations/)
 

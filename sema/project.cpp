@@ -36,6 +36,19 @@ text::Charts chartsOf(const Context& context) {
   return {project.tree, project.names, project.sources, project.diagnostics, standard};
 }
 
+text::ChartPlace chartPlaceOf(const Context& context, PouId pou) {
+  text::ChartPlace place;
+  place.final_scan = !context.iec();
+  for (PouId at = pou; at;) {
+    const Pou& of = context.project.pou(at);
+    const PouDecl& decl = context.tree().as<PouDecl>(of.decl);
+    if (at != pou) place.around.push_back(&decl);
+    if (findPragma(context, decl.h, context.scopes.words.no_final_scan) != nullptr) place.final_scan = false;
+    at = of.chart ? of.chart : of.owner;
+  }
+  return place;
+}
+
 bool ensureBody(Context& context, PouId id) {
   Project& project = context.project;
   if (project.pou(id).checking) return false;

@@ -80,6 +80,7 @@ struct Var {
   uint32_t element_constructors = 0;  // of an array: how many calls from `constructor` on, one for each element
   TypeId any;                         // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
   VarId bounds;                       // ARRAY[*]: the first of the hidden variables with its bounds, two a dimension
+  bool of_chart = false;              // a step or what else a chart keeps
   bool hidden_input = false;          // of a function: such a bound, passed behind the pins
   uint32_t temporary = 0;             // of the compiler, without declared type: its number in the body; 0: none
   VarId bits_of;                      // a member of type BIT: the hidden byte whose `bit` it is; `field` is that byte's
@@ -141,6 +142,7 @@ struct Pou {
       unique_name;  // unique over the project; equals name unless it is an instance of a generic function or a member
   // ---- objects: FUNCTION_BLOCK, CLASS, INTERFACE, and their METHODs and ACTIONs (declarations/objects.cpp)
   PouId owner;                    // of a method or action
+  PouId chart;                    // the action or method whose chart this action belongs to
   PouId base;                     // EXTENDS
   std::vector<PouId> interfaces;  // IMPLEMENTS; EXTENDS of an interface
   std::vector<PouId> members;     // methods, actions and accessors, in order
@@ -253,6 +255,7 @@ struct Call {
   std::vector<Binding> bindings;  // Operator: operands in order, pin none
   ExprId en;                      // EN := …
   ExprId eno;                     // ENO => …
+  bool eno_is_pin = false;        // … and one of `bindings`: the callee has an output of that name
   Assertion assertion = Assertion::Assert;
 };
 

@@ -125,7 +125,7 @@ Report Diagnostics::report(Diag diag, Loc loc, std::initializer_list<std::string
   if (!closed_lines_.empty() && loc &&
       std::binary_search(closed_lines_.begin(), closed_lines_.end(), lineKey(sources_, loc)))
     return Report(nullptr);
-  if (!enabled(diag) || !firstAt(diag, loc)) return Report(nullptr);
+  if (!enabled(diag) || !firstAt(diag, sources_.written(loc))) return Report(nullptr);
   const DiagInfo& info = diagInfo(diag);
   Severity severity = info.severity;
   if (severity == Severity::Warning && warnings_are_errors) severity = Severity::Error;

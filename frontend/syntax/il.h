@@ -32,6 +32,7 @@ enum IlFlags : uint8_t {
   kIlDeferred = 4,     // OP( : up to its `)`
   kIlFormal = 8,       // the list names pins, or is empty: CAL t(IN := a), LIMIT(MN := 1)
   kIlInParens = 16,    // the list stands in parentheses
+  kIlAttempt = 32,     // ST?
 };
 struct IlInstruction {
   IlKind kind;

@@ -1,6 +1,7 @@
 // A Sequential Function Chart as the parser leaves it: steps and transitions in the order of the text, which is the
-// order in which they are judged. Actions are members of the POU. The chart becomes statements when sema is about to
-// check the body (frontend/text/sfc_schedule.h). IEC 61131-3 ed. 3, 6.7; TM/TP manual 5.5.
+// order in which they are judged. Actions are members of the POU. A MACRO_STEP leaves only its steps and transitions.
+// The chart becomes statements when sema is about to check the body (frontend/text/sfc_schedule.h). IEC 61131-3 ed.
+// 3, 6.7; TM/TP manual 5.5.
 #pragma once
 
 #include <cstdint>
@@ -43,6 +44,7 @@ struct SfcTransition {
   SfcExpr condition;      // := expression
   DeclId body;            // an action that assigns the condition to `target`; none: see `condition`
   Ident target;
+  Loc begin, end;  // the text from TRANSITION to END_TRANSITION
 };
 
 }  // namespace rung

@@ -392,7 +392,7 @@ struct StructTypeExpr {
   TypeExprId base;
   bool is_union;
   bool overlaps;  // STRUCT OVERLAP: members with places may share memory
-};  // fields: VarDecl
+};                // fields: VarDecl
 enum class PointerForm : uint8_t { Pointer, Reference, RefTo };
 struct PointerTypeExpr {
   TypeExprHeader h;
@@ -432,13 +432,14 @@ struct PouDecl {
   PouKind pou_kind;
   BodyKind body_kind;  // Il, Sfc and Network: St once sema had them scheduled, which fills `body`
   bool closed;         // has its END_…
+  bool uses_eno;       // ENO is an operand in its body
   TypeExprId result;   // functions; none: no result
   Slice<DeclId> sections;
   Slice<StmtId> body;
   Slice<IlInstruction> il;
-  Diagram diagram;       // of a body of networks
-  Slice<SfcStep> steps;  // the chart of a body in SFC
-  Slice<SfcTransition> transitions;
+  Diagram diagram;                    // of a body of networks
+  Slice<SfcStep> steps;               // the chart of a body in SFC
+  Slice<SfcTransition> transitions;   // in other bodies: conditions that the charts of its actions use
   FileId chart_sections, chart_body;  // sema: the text that the chart became
   AccessLevel access;
   uint8_t modifiers;        // Modifier

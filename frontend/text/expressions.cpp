@@ -189,6 +189,7 @@ ExprId Parser::parsePrimary() {
       return parsePostfix(is_this ? tree_.add<ExprId>(ThisExpr{exprHeader(ExprKind::This, start)})
                                   : tree_.add<ExprId>(SuperExpr{exprHeader(ExprKind::Super, start)}));
     }
+    if (names_.same(nameOf(t_), eno_)) eno_used_ = true;
     const ExprId name = tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, start), nameOf(t_), {}});
     advance();
     const Tok next = kind();

@@ -91,6 +91,13 @@ const Word* wordAt(Tok kind, std::string_view text) {
 
 }  // namespace
 
+bool beginsIl(Tok kind, std::string_view text, const Token& next) {
+  if (!isName(kind) || (next.flags & kLineStart) != 0) return false;
+  const Word* word = findWord(text);
+  return word != nullptr && (isName(next.kind) || next.kind == Tok::Number || next.kind == Tok::True ||
+                             next.kind == Tok::False || next.kind == Tok::Address);
+}
+
 // What begins an instruction, by the word alone.
 bool Parser::isInstruction(const Token* t) const {
   if (t->kind == Tok::RightParen) return true;
@@ -110,6 +117,8 @@ bool Parser::isPlainInstruction(const Token* t) const {
     case IlKind::Load:
     case IlKind::Call: return operand || (alone && next->kind != Tok::Assign);
     case IlKind::Store:
+      if (next->kind == Tok::Question) return true;
+      [[fallthrough]];
     case IlKind::Set:
     case IlKind::Reset:
     case IlKind::Binary: return operand;
@@ -132,6 +141,13 @@ bool Parser::atIl() const {
   while (isName(t->kind) && t[1].kind == Tok::Colon && !isTypeWord(t[2].kind)) t += 2;
   if (isPlainInstruction(t)) return true;
   if (isName(t->kind) && t[1].kind == Tok::Assign) return false;
+  // A first line that is wrong makes no statements of the others.
+  const auto ends = [](Tok k) {
+    return k == Tok::End || k == Tok::Semicolon || k == Tok::EndTransition || k == Tok::EndStep ||
+           (isReserved(k) && !isInfix(k) && k != Tok::Not && k != Tok::Jmp && k != Tok::True && k != Tok::False);
+  };
+  for (const Token* line = t; line - t < 200 && !ends(line->kind); ++line)
+    if ((line->flags & kLineStart) != 0 && line != t && beginsIl(line->kind, textOf(line), line[1])) return true;
   if (il_file_ && (isName(t->kind) || isInstruction(t))) {
     while (t->kind != Tok::Semicolon && t->kind != Tok::End && (t[1].flags & kLineStart) == 0) ++t;
     return t->kind != Tok::Semicolon;
@@ -180,10 +196,14 @@ Slice<IlInstruction> Parser::parseIl(bool nested) {
     const Token* open = il_open_.back();
     il_open_.pop_back();
     slip(Diag::IlParenOpen, open, {textOf(open)});
-    IlInstruction close{};
-    close.kind = IlKind::Close;
-    close.loc = loc(open);
-    il_.push_back(close);
+    for (size_t k = il_.size(); k-- > first;) {
+      IlInstruction& deferred = il_[k];
+      if ((deferred.flags & kIlDeferred) == 0 || deferred.loc != loc(open)) continue;
+      deferred.flags &= static_cast<uint8_t>(~kIlDeferred);
+      const Argument nothing{{}, errorExpr(deferred.loc), false, false, deferred.loc};
+      deferred.operands = tree_.addList<Argument>({&nothing, 1});
+      break;
+    }
   }
   in_il_ = outer;
   il_outside_ = outside;
@@ -219,9 +239,10 @@ void Parser::parseInstruction() {
       word = &kAmpersandN;
       advance();
     }
+    const bool attempt = word->kind == IlKind::Store && accept(Tok::Question);
     i.kind = word->kind;
     i.op = word->op;
-    i.flags = word->flags;
+    i.flags = attempt ? uint8_t{kIlAttempt} : word->flags;
     parseOperands(i, op);
   } else if (isName(kind())) {
     i.kind = IlKind::Function;
@@ -229,6 +250,7 @@ void Parser::parseInstruction() {
     parseOperands(i, op);
   } else {
     fail(Diag::NotAnInstruction, t_, {describe(t_)});
+    i.kind = IlKind::Load;  // of what nobody knows
   }
   if (panic_) mend(i);
   if (i.kind != IlKind::Label || i.label.name) il_.push_back(i);
@@ -259,7 +281,25 @@ void Parser::endInstruction() {
   }
   if (!panic_) return;
   panic_ = false;
-  while (!atBlockEnd() && !atLineStart()) advance();
+  size_t open = 0;
+  const Token* last = t_;
+  for (; !atBlockEnd() && !atLineStart(); advance()) {
+    if (at(Tok::LeftParen)) ++open;
+    if (at(Tok::RightParen) && open > 0) --open;
+    last = t_;
+  }
+  for (; open > 0; --open) {  // its `)` may follow
+    IlInstruction defer{};
+    defer.kind = IlKind::Binary;
+    defer.op = BinaryOp::And;
+    defer.flags = kIlDeferred;
+    defer.loc = loc(last);
+    defer.word = names_.intern("(");
+    const Argument nothing{{}, errorExpr(defer.loc), false, false, defer.loc};
+    defer.operands = tree_.addList<Argument>({&nothing, 1});
+    il_.push_back(defer);
+    il_open_.push_back(last);
+  }
 }
 
 void Parser::parseOperands(IlInstruction& i, const Token* op) {

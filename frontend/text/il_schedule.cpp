@@ -405,6 +405,8 @@ void Scheduler::store(const IlInstruction& i) {
   const ExprId target = operand(i, 0).value;
   if (i.kind != IlKind::Store)
     assign(target, value, i.loc, i.kind == IlKind::Set ? AssignOp::Set : AssignOp::Reset);
+  else if ((i.flags & kIlAttempt) != 0)
+    assign(target, value, i.loc, AssignOp::Attempt);
   else
     assign(target, (i.flags & kIlNegated) != 0 ? unary(UnaryOp::Not, value, i.loc) : value, i.loc);
 }
@@ -481,7 +483,9 @@ void Scheduler::function(const IlInstruction& i) {
   if (block) {  // timer(IN := a): CAL is left out
     keepOrDrop();
   } else if (takesAccumulator(shapes_, i)) {
-    const bool listed = (i.flags & kIlInParens) != 0 && acc_.state == State::Empty;
+    // Of a name that is not declared nothing more is said.
+    const bool listed =
+        acc_.state == State::Empty && ((i.flags & kIlInParens) != 0 || shape.kind == ShapeKind::Unknown);
     if (!listed) {
       require(acc_, i);
       height = acc_.height;

@@ -216,6 +216,10 @@ class Lexer {
   const char* pragma(const char* p);
   bool atCppBody(const char* p) const { return end_ - p > 5 && sameIdentifier({p, 5}, "{C++}"); }
   const char* cppBody(const char* p);
+  // `ST?` of Instruction List, in one word.
+  bool behindSt(const char* p) const {
+    return at(p) >= 2 && sameIdentifier({p - 2, 2}, "ST") && (at(p) == 2 || !kWordChar[static_cast<Byte>(p[-3])]);
+  }
   const char* stray(const char* p);
   const char* prefixed(const char* begin, const char* p, Prefix prefix);
   void message(const char* begin, const char* end);
@@ -465,7 +469,7 @@ const char* Lexer::punct(const char* p) {
     case '<': return p[1] == '>' ? two(Tok::NotEqual) : p[1] == '=' ? two(Tok::LessEqual) : one(Tok::Less);
     case '>': return p[1] == '=' ? two(Tok::GreaterEqual) : one(Tok::Greater);
     case '&': return p[1] == '&' ? two(Tok::AmpersandTwice) : one(Tok::Ampersand);
-    case '?': return p[1] == '=' ? two(Tok::TryAssign) : stray(p);
+    case '?': return p[1] == '=' ? two(Tok::TryAssign) : behindSt(p) ? one(Tok::Question) : stray(p);
     case '!': return p[1] == '=' ? two(Tok::BangEqual) : one(Tok::Bang);
     case '|': return p[1] == '|' ? two(Tok::BarTwice) : one(Tok::Bar);
     case '%': {

@@ -78,6 +78,10 @@ struct TokenStream {
 void lex(TokenStream& out, Names& names, const Sources& sources, FileId file, uint32_t begin, uint32_t end,
          Standard standard, Diagnostics& diagnostics);
 
+// Whether a line begins with an instruction of IL that no statement or declaration begins with: a word such as LD or
+// JMP, and an operand behind it (il.cpp).
+bool beginsIl(Tok kind, std::string_view text, const Token& next);
+
 // Makes names of the object words that begin no declaration (objects.cpp).
 void settleObjectWords(TokenStream& stream);
 

@@ -15,6 +15,7 @@ Parser::Parser(Tree& tree, Names& names, const Sources& sources, FileId file, St
       diagnostics_(diagnostics),
       base_(sources.begin(file).offset),
       text_(sources.text(file)) {
+  eno_ = names.intern("ENO");
   const std::string_view path = sources.path(file);
   il_file_ = path.size() > 3 && sameIdentifier(path.substr(path.size() - 3), ".il");
 }
@@ -299,7 +300,7 @@ DeclId Parser::parsePou() {
     slip(Diag::StrayToken, t_, {describe(t_)});
     advance();
   }
-  declared_in_body_ = lost_ = false;
+  declared_in_body_ = lost_ = eno_used_ = false;
   pou_end_ = end;
   pou_closes_ = Known::NotYet;
   while (at(Tok::Using)) parseUsing(usings);
@@ -307,6 +308,7 @@ DeclId Parser::parsePou() {
   d.usings = tree_.addList<DeclId>(usings);
   parsePouParts(d);
   if (lost_ || declared_in_body_) d.h.bits |= kBrokenDeclarations;
+  d.uses_eno = eno_used_;
   if (pragmaNamed(d.h.pragmas, "native")) d.body_kind = BodyKind::Native;
   if (accept(end)) {
     d.closed = true;
@@ -325,6 +327,10 @@ DeclId Parser::parsePou() {
       // An END_… of something else, which block repair would have removed.
       slip(Diag::StrayEnd, t_, {textOf(t_)});
       advance();
+      if (d.pou_kind != PouKind::Method && d.pou_kind != PouKind::Action) {  // its rest is no text of the file's level
+        while (!at(end) && !at(Tok::End) && (atMember() || !atTopLevelWord())) advance();
+        accept(end);
+      }
     } else if (standard_ != Standard::Codesys) {
       const std::string line = std::to_string(sources_.place(loc(open)).line);
       missing(Diag::MissingEnd, {spelling(end), spelling(word), line});
@@ -338,15 +344,16 @@ DeclId Parser::parsePou() {
 void Parser::parsePouParts(PouDecl& d) {
   const bool is_member = d.pou_kind == PouKind::Method || d.pou_kind == PouKind::Action;
   std::vector<DeclId> members;
+  std::vector<SfcTransition> transitions;
   const size_t first = decls_.size();
   while (atSection() && (!at(Tok::VarGlobal) || pouCloses())) {
     const DeclId section = parseSection();
     decls_.push_back(section);
   }
   d.sections = listFrom(decls_, first);
-  while (!is_member && atMember()) parseMember(members);
+  parseMembersOf(d, members, transitions);
   if (atSfc())
-    parseSfc(d, members);
+    parseSfc(d, members, transitions);
   else
     parseBody(d);
   if (!is_member && atMember()) {
@@ -356,6 +363,7 @@ void Parser::parsePouParts(PouDecl& d) {
         d.body_kind == BodyKind::Cpp;
     if (!has_body) parseBody(d);
   }
+  d.transitions = tree_.addList<SfcTransition>(transitions);
   d.members = tree_.addList<DeclId>(members);
 }
 

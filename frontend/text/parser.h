@@ -190,8 +190,23 @@ class Parser {
   void connectWires(const std::vector<DiagramElement>& elements, uint32_t first_wire);
 
   // ---- Sequential Function Chart (sfc.cpp)
+  struct SfcMacro {
+    Ident name, entry, exit;
+    uint32_t first_step;  // of those inside, which ends with `end_step`
+    uint32_t end_step;
+    uint32_t errors;  // before it
+    const Token* open;
+  };
   bool atSfc() const;
-  void parseSfc(PouDecl& d, std::vector<DeclId>& members);
+  bool atMacroEnd() const { return is(t_, "END_MACRO_STEP"); }
+  bool atCondition() const;
+  bool atOwnAction() const;
+  void parseMembersOf(const PouDecl& d, std::vector<DeclId>& members, std::vector<SfcTransition>& conditions);
+  void parseSfc(PouDecl& d, std::vector<DeclId>& members, std::vector<SfcTransition>& transitions);
+  void openMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& open, size_t steps);
+  void closeMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& open, std::span<const SfcStep> steps);
+  void inlineMacros(std::span<const SfcMacro> macros, std::span<const SfcStep> steps,
+                    std::vector<SfcTransition>& transitions);
   void parseStep(std::vector<SfcStep>& out);
   void parseStepTimes(SfcStep& step);
   bool parseAssociation(std::vector<SfcAssociation>& out);
@@ -254,8 +269,10 @@ class Parser {
   bool in_il_ = false;                // instructions are being read
   bool il_file_ = false;              // the file is called .il
   bool il_line_told_ = false;         // said once for a file
-  bool lost_ = false;                 // declarations of the POU or TYPE entry at hand could not be read
-  Tok pou_end_ = Tok::End;            // the END_… of the POU at hand
+  NameId eno_;
+  bool eno_used_ = false;   // ENO is an operand in the POU at hand
+  bool lost_ = false;       // declarations of the POU or TYPE entry at hand could not be read
+  Tok pou_end_ = Tok::End;  // the END_… of the POU at hand
   enum class Known : uint8_t { NotYet, Yes, No } pou_closes_ = Known::NotYet;  // whether it has that END_…
   const Token* last_error_ = nullptr;
   const Token* statement_start_ = nullptr;

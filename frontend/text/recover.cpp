@@ -49,6 +49,7 @@ bool isPouCloser(Tok k) {
   return k == Tok::EndFunction || k == Tok::EndFunctionBlock || k == Tok::EndProgram || k == Tok::EndInterface ||
          k == Tok::EndClass || k == Tok::EndMethod || k == Tok::EndProperty || k == Tok::EndAction;
 }
+bool isMemberCloser(Tok k) { return k == Tok::EndMethod || k == Tok::EndProperty || k == Tok::EndAction; }
 bool isStatementOpener(Tok k) {
   return k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat;
 }
@@ -169,6 +170,11 @@ class Balancer {
   void close(uint32_t i, Tok closer);
   void stray(uint32_t i, Tok closer);
   void leftOutermost(uint32_t i, Tok closer);
+  bool comesBehind(uint32_t i, Tok closer) const {
+    while (++i < region_end_)
+      if (tokens_[i].kind == closer) return true;
+    return false;
+  }
   bool insideExpression(uint32_t i) const;
   void spoil(uint32_t i);
   void missingOpener(uint32_t at, Tok word);
@@ -312,10 +318,10 @@ void Balancer::visit(uint32_t i) {
                                                  tokens_[i + 1].kind == Tok::Comma || tokens_[i + 1].kind == Tok::At);
       bool suspicious = false;
       if (isVarWord(top.kind) || top.kind == Tok::Type) {
-        suspicious =
-            (isVarWord(top.kind) && !names_something && (isName(k) || isStatementOpener(k)) &&
-             (tokens_[i + 1].kind == Tok::Assign || tokens_[i + 1].kind == Tok::LeftParen || isStatementOpener(k) ||
-              tokens_[i + 1].kind == Tok::Dot || tokens_[i + 1].kind == Tok::LeftBracket));
+        suspicious = (isVarWord(top.kind) && !names_something && (isName(k) || isStatementOpener(k)) &&
+                      (tokens_[i + 1].kind == Tok::Assign || tokens_[i + 1].kind == Tok::LeftParen ||
+                       isStatementOpener(k) || tokens_[i + 1].kind == Tok::Dot ||
+                       tokens_[i + 1].kind == Tok::LeftBracket || beginsIl(k, textOf(i), tokens_[i + 1])));
       } else if (line_column_ <= top.column) {
         const bool middle = ((k == Tok::Else || k == Tok::Elsif || k == Tok::Elseif) &&
                              (top.kind == Tok::If || (k == Tok::Else && top.kind == Tok::Case))) ||
@@ -458,6 +464,10 @@ void Balancer::close(uint32_t i, Tok closer) {
       }
     }
   }
+  // END_ACTION without ACTION is no other word for the END_… of its block, which still comes.
+  if (found == 0 && isMemberCloser(closer) && !stack_.empty() && isPouOpener(stack_.back().kind) &&
+      !isMember(stack_.back().kind) && comesBehind(i, closerOf(stack_.back().kind)))
+    return stray(i, closer);
   const bool top_matches = !stack_.empty() && found == stack_.size();
   if (!top_matches && !stack_.empty() && !(isPouOpener(stack_.back().kind) && !isPouCloser(closer))) {
     Open& top = stack_.back();

@@ -1,5 +1,5 @@
 // Bodies in Sequential Function Chart as text. IEC 61131-3 ed. 2 annex B.1.6, ed. 3 table 54 to 61.
-//   chart      = {step | transition | ACTION … END_ACTION}
+//   chart      = {step | transition | macro (sfc_macros.cpp) | ACTION … END_ACTION}
 //   step       = (INITIAL_STEP | STEP) name ["(" TMIN ":=" e "," TMAX ":=" e ")"] ":" {association ";"} END_STEP
 //   transition = TRANSITION [name] ["(" PRIORITY ":=" n ")"] [FROM steps TO steps] condition END_TRANSITION
 // The hidden part of a transition with a body, or whose condition several transitions use, is an action of its own.
@@ -24,37 +24,72 @@ constexpr Qualifier kQualifiers[] = {{"N", SfcQualifier::N},   {"R", SfcQualifie
 bool Parser::atSfc() const {
   if (!isName(kind()) || (t_[1].flags & kLineStart) != 0) return false;
   if (!isName(peek()) && !nameReserved(t_ + 1) && peek() != Tok::LeftParen) return false;
-  if (is(t_, "STEP")) return peek(2) == Tok::Colon || (peek() != Tok::LeftParen && peek(2) == Tok::LeftParen);
+  if (is(t_, "STEP") || is(t_, "MACRO_STEP"))
+    return peek(2) == Tok::Colon || (peek() != Tok::LeftParen && peek(2) == Tok::LeftParen);
   if (is(t_, "INITIAL_STEP")) return peek() != Tok::LeftParen;
   return is(t_, "TRANSITION") && (peek() != Tok::LeftParen || is(t_ + 2, "PRIORITY"));
 }
 
-void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members) {
+// `TRANSITION name :=` and `TRANSITION name :`, a condition for transitions of its name in all charts of the block.
+bool Parser::atCondition() const {
+  return isName(kind()) && is(t_, "TRANSITION") && isName(peek()) && (peek(2) == Tok::Assign || peek(2) == Tok::Colon);
+}
+
+// An ACTION in the chart of an action or method, which has its END_… still before it. Without END_ACTION, as codesys
+// allows, it is the next one of the block.
+bool Parser::atOwnAction() const {
+  if (!at(Tok::Action)) return false;
+  uint32_t depth = 0;
+  for (const Token* t = t_;; ++t) {
+    if (t->kind == Tok::End || t->kind == Tok::EndFunctionBlock || t->kind == Tok::EndProgram) return false;
+    if (t->kind == Tok::Action || t->kind == Tok::Method || t->kind == Tok::Property) ++depth;
+    if (t->kind != Tok::EndAction && t->kind != Tok::EndMethod && t->kind != Tok::EndProperty) continue;
+    if (depth == 0) return t->kind == pou_end_;
+    --depth;
+  }
+}
+
+// Members and shared conditions, before the body.
+void Parser::parseMembersOf(const PouDecl& d, std::vector<DeclId>& members, std::vector<SfcTransition>& conditions) {
+  const bool is_member = d.pou_kind == PouKind::Method || d.pou_kind == PouKind::Action;
+  while (is_member ? atOwnAction() : atMember() || atCondition()) {
+    if (atCondition())
+      parseTransition(conditions, members);
+    else
+      parseMember(members);
+    panic_ = false;
+  }
+}
+
+void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members, std::vector<SfcTransition>& transitions) {
   const Token* first = t_;
   const uint32_t errors = diagnostics_.errorCount();
+  const bool is_member = d.pou_kind == PouKind::Method || d.pou_kind == PouKind::Action;
   d.body_begin = here();
   d.body_kind = BodyKind::Sfc;
-  if (d.pou_kind != PouKind::FunctionBlock && d.pou_kind != PouKind::Program) {
-    const char* what = d.pou_kind == PouKind::Function ? "a function"
-                       : d.pou_kind == PouKind::Method ? "a method"
-                       : d.pou_kind == PouKind::Action ? "an action"
-                                                       : "a class";
-    slip(Diag::SfcInFunction, t_, {what});
+  if (d.pou_kind == PouKind::Function || d.pou_kind == PouKind::Class) {
+    slip(Diag::SfcInFunction, t_, {d.pou_kind == PouKind::Function ? "a function" : "a class"});
     d.body_kind = BodyKind::None;
   }
   std::vector<SfcStep> steps;
-  std::vector<SfcTransition> transitions;
+  std::vector<SfcMacro> macros;
+  std::vector<uint32_t> open;  // macros
   for (;;) {
     panic_ = false;
     if (accept(Tok::Semicolon)) continue;
-    if (d.pou_kind != PouKind::Action && d.pou_kind != PouKind::Method && atMember()) {
+    if (is_member ? atOwnAction() : atMember()) {
       parseMember(members);
     } else if (atSfc() || (isName(kind()) && is(t_, "STEP"))) {
       if (is(t_, "TRANSITION"))
         parseTransition(transitions, members);
+      else if (is(t_, "MACRO_STEP"))
+        openMacro(macros, open, steps.size());
       else
         parseStep(steps);
-    } else if (at(Tok::EndStep) || at(Tok::EndTransition)) {
+    } else if (!open.empty() && atMacroEnd()) {
+      advance();
+      closeMacro(macros, open, steps);
+    } else if (at(Tok::EndStep) || at(Tok::EndTransition) || atMacroEnd()) {
       slip(Diag::StrayEnd, t_, {textOf(t_)});
       advance();
     } else if (atBlockEnd()) {
@@ -62,13 +97,19 @@ void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members) {
     } else {
       slip(Diag::SfcNotInChart, t_, {describe(t_)});
       do advance();
-      while (!atSfc() && !atMember() && !atBlockEnd());
+      while (!atSfc() && !atMember() && !atBlockEnd() && !atMacroEnd());
     }
   }
+  if (!open.empty()) {
+    const std::string line = std::to_string(sources_.place(loc(macros[open.back()].open)).line);
+    missing(Diag::MissingEnd, {"END_MACRO_STEP", "MACRO_STEP", line});
+  } else if (diagnostics_.errorCount() == errors) {
+    inlineMacros(macros, steps, transitions);
+  }
   if (t_ != first) d.body_end = endOf(t_ - 1);
-  if (diagnostics_.errorCount() != errors) {  // its rules are checked when all of it could be read
-    d.body_kind = BodyKind::None;
-    lost_ = true;
+  if (diagnostics_.errorCount() != errors) lost_ = true;  // its rules are checked when all of it could be read
+  if (d.body_kind == BodyKind::None) {
+    transitions.clear();
     std::erase_if(members, [&](DeclId member) {  // made of transitions, whose variables are lost
       return tree_.kind(member) == DeclKind::Pou &&
              tree_.as<PouDecl>(member).begin == tree_.as<PouDecl>(member).body_begin;
@@ -76,15 +117,14 @@ void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members) {
     return;
   }
   d.steps = tree_.addList<SfcStep>(steps);
-  d.transitions = tree_.addList<SfcTransition>(transitions);
 }
 
 // Behind a mistake: the END_… of the element, or where the next one begins.
 void Parser::syncChart(Tok end) {
   const Token* open = t_;
   panic_ = false;
-  while (!at(end) && !atSfc() && !(atMember() && t_ != open) && !at(Tok::EndStep) && !at(Tok::EndTransition) &&
-         !at(Tok::End) && kind() != pou_end_)
+  while (!at(end) && !atSfc() && !atMacroEnd() && !(atMember() && t_ != open) && !at(Tok::EndStep) &&
+         !at(Tok::EndTransition) && !at(Tok::End) && kind() != pou_end_)
     advance();
 }
 
@@ -97,7 +137,7 @@ void Parser::parseStep(std::vector<SfcStep>& out) {
   if (parseName(step.name)) {
     if (at(Tok::LeftParen)) parseStepTimes(step);
     if (!panic_) expect(Tok::Colon);
-    while (!panic_ && !at(Tok::EndStep) && !atBlockEnd() && !atSfc())
+    while (!panic_ && !at(Tok::EndStep) && !atBlockEnd() && !atSfc() && !atMacroEnd())
       if (!accept(Tok::Semicolon) && !parseAssociation(actions)) {
         const Token* before = t_;
         syncStatement();
@@ -207,7 +247,7 @@ bool Parser::parseSteps(Slice<Ident>& out) {
 bool Parser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId>& members) {
   const Token* open = t_;
   SfcTransition t{};
-  t.loc = here();
+  t.loc = t.begin = here();
   advance();
   if (isName(kind()) && !is(t_, "FROM")) {
     t.name = ident(t_);
@@ -246,6 +286,7 @@ bool Parser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId
     const std::string line = std::to_string(sources_.place(loc(open)).line);
     missing(Diag::MissingEnd, {"END_TRANSITION", "TRANSITION", line});
   }
+  t.end = endOf(t_ - 1);
   if (good) out.push_back(t);
   return good;
 }
@@ -259,7 +300,7 @@ void Parser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
   d.closed = true;
   if (t.name.name) {
     t.target = t.name;
-  } else {  // of an IL body
+  } else {  // of a body in IL, or of networks
     t.target = {names_.intern("Transition_" + std::to_string(sources_.place(t.loc).line)), t.loc};
   }
   const auto target = [&] {
@@ -284,16 +325,26 @@ void Parser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
     pou_end_ = pou_end;
     if (panic_) return;
     if (d.body_kind == BodyKind::Il) {
-      std::vector<IlInstruction> list(tree_.list(d.il).begin(), tree_.list(d.il).end());
       IlInstruction store{};
       store.kind = IlKind::Store;
       store.word = names_.intern("ST");
       store.loc = t.target.loc;
       const Argument operand{{}, target(), false, false, t.target.loc};
       store.operands = tree_.addList<Argument>({&operand, 1});
-      list.push_back(store);
+      std::vector<IlInstruction> list;
+      for (const IlInstruction& i : tree_.list(d.il)) {  // the value at each RET, and at the end
+        IlInstruction next = i;
+        if (i.kind == IlKind::Return) {
+          IlInstruction before = store;
+          std::swap(before.label, next.label);
+          list.push_back(before);
+        }
+        list.push_back(next);
+      }
+      if (list.empty() || list.back().kind != IlKind::Return || (list.back().flags & kIlConditional) != 0)
+        list.push_back(store);
       d.il = tree_.addList<IlInstruction>(list);
-    } else if (!t.name.name || (d.body.empty() && d.body_kind != BodyKind::Network)) {
+    } else if (d.body_kind == BodyKind::St && (!t.name.name || d.body.empty())) {
       slip(Diag::SfcNoCondition, first);
       panic_ = true;
       return;

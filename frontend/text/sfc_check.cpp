@@ -14,8 +14,13 @@ using Region = std::vector<uint32_t>;  // branches, sorted
 
 class Checker {
  public:
-  Checker(const Charts& charts, Shapes& shapes, const PouDecl& pou)
-      : charts_(charts), shapes_(shapes), pou_(pou), steps_(charts.tree.list(pou.steps)), index_(charts, pou) {}
+  Checker(const Charts& charts, Shapes& shapes, const PouDecl& pou, const ChartPlace& place)
+      : charts_(charts),
+        shapes_(shapes),
+        pou_(pou),
+        place_(place),
+        steps_(charts.tree.list(pou.steps)),
+        index_(charts, pou) {}
 
   bool run();
 
@@ -49,6 +54,7 @@ class Checker {
   const Charts& charts_;
   Shapes& shapes_;
   const PouDecl& pou_;
+  const ChartPlace& place_;
   std::span<const SfcStep> steps_;
   StepIndex index_;
   bool good_ = true;
@@ -118,9 +124,12 @@ void Checker::checkActions() {
       const ShapeKind kind = shapes_.of(a.action.name).kind;
       if (kind == ShapeKind::Method || kind == ShapeKind::Value || kind == ShapeKind::Instance) continue;
       std::vector<std::string_view> candidates;
-      for (const DeclId member : charts_.tree.list(pou_.members))
-        if (charts_.tree.kind(member) == DeclKind::Pou)
-          candidates.push_back(text(charts_.tree.as<PouDecl>(member).name));
+      std::vector<const PouDecl*> seen = {&pou_};
+      seen.insert(seen.end(), place_.around.begin(), place_.around.end());
+      for (const PouDecl* pou : seen)
+        for (const DeclId member : charts_.tree.list(pou->members))
+          if (charts_.tree.kind(member) == DeclKind::Pou)
+            candidates.push_back(text(charts_.tree.as<PouDecl>(member).name));
       report(Diag::SfcUnknownAction, a.action.loc, {text(a.action.name)})
           .didYouMean(nearest(text(a.action.name), candidates));
     }
@@ -287,6 +296,8 @@ bool Checker::run() {
 
 }  // namespace
 
-bool checkSfc(const Charts& charts, Shapes& shapes, const PouDecl& pou) { return Checker(charts, shapes, pou).run(); }
+bool checkSfc(const Charts& charts, Shapes& shapes, const PouDecl& pou, const ChartPlace& place) {
+  return Checker(charts, shapes, pou, place).run();
+}
 
 }  // namespace rung::text

@@ -8,272 +8,10 @@
 #include "frontend/text/sfc_schedule.h"
 
 #include <algorithm>
-#include <functional>
-#include <string>
+
+#include "frontend/text/sfc_scheduler.h"
 
 namespace rung::text {
-
-StepIndex::StepIndex(const Charts& charts, const PouDecl& pou) : names_(charts.names), count_(pou.steps.count) {
-  const std::span<const SfcStep> steps = charts.tree.list(pou.steps);
-  for (uint32_t i = 0; i < steps.size(); ++i) by_name_.push_back({names_.key(steps[i].name.name).index, i});
-  std::sort(by_name_.begin(), by_name_.end());
-}
-
-uint32_t StepIndex::of(NameId name) const {
-  const uint32_t key = names_.key(name).index;
-  const auto found = std::lower_bound(by_name_.begin(), by_name_.end(), std::pair<uint32_t, uint32_t>{key, 0});
-  return found != by_name_.end() && found->first == key ? found->second : count_;
-}
-
-namespace {
-
-constexpr uint32_t kWord = 64;  // bits of a set's word
-constexpr size_t kTextLength = 80;
-
-const char* wordOf(SfcQualifier q) {
-  switch (q) {
-    case SfcQualifier::N: return "N";
-    case SfcQualifier::R: return "R";
-    case SfcQualifier::S: return "S";
-    case SfcQualifier::L: return "L";
-    case SfcQualifier::D: return "D";
-    case SfcQualifier::P: return "P";
-    case SfcQualifier::P0: return "P0";
-    case SfcQualifier::P1: return "P1";
-    case SfcQualifier::SD: return "SD";
-    case SfcQualifier::DS: return "DS";
-    case SfcQualifier::SL: return "SL";
-    case SfcQualifier::Entry:
-    case SfcQualifier::Active:
-    case SfcQualifier::Exit: break;
-  }
-  return "";
-}
-bool isControlled(SfcQualifier q) { return q < SfcQualifier::Entry; }
-
-std::string literalOf(uint64_t word) {
-  static const char* const kHex = "0123456789ABCDEF";
-  std::string digits;
-  do digits.insert(digits.begin(), kHex[word & 15]);
-  while ((word >>= 4) != 0);
-  return "LWORD#16#" + digits;
-}
-std::string maskOf(uint32_t index) { return literalOf(uint64_t{1} << (index % kWord)); }
-
-// A text in ST of which each byte knows its place in the chart.
-class Writer {
- public:
-  Writer(const Charts& charts, Loc place) : charts_(charts), place_(place) {}
-
-  void at(Loc place) { place_ = place; }
-  template <class... Parts>
-  void line(uint32_t depth, const Parts&... parts) {
-    if (depth > 0) put(std::string(2 * depth, ' '));
-    (put(parts), ...);
-    put("\n");
-  }
-  void put(std::string_view text) {
-    if (segments_.empty() || segments_.back().verbatim || segments_.back().from != place_)
-      segments_.push_back({static_cast<uint32_t>(text_.size()), place_, false});
-    text_ += text;
-  }
-  void put(const Ident& name) { put(charts_.names.text(name.name)); }
-  void put(const SfcExpr& quoted) {
-    segments_.push_back({static_cast<uint32_t>(text_.size()), quoted.begin, true});
-    text_ += textOf(quoted);
-  }
-  std::string_view textOf(const SfcExpr& e) const {
-    const FileId file = charts_.sources.fileOf(e.begin);
-    return charts_.sources.text(file).substr(e.begin.offset - charts_.sources.begin(file).offset,
-                                             e.end.offset - e.begin.offset);
-  }
-  bool empty() const { return text_.empty(); }
-  FileId finish() {
-    const FileId file = charts_.sources.fileOf(place_);
-    if (segments_.empty()) segments_.push_back({0, place_, false});
-    const FileId made =
-        charts_.sources.addAssembled(std::string(charts_.sources.path(file)), std::move(text_), std::move(segments_));
-    if (made) charts_.sources.showAs(made, std::string(charts_.sources.shown(file)));
-    return made;
-  }
-
- private:
-  const Charts& charts_;
-  Loc place_;
-  std::string text_;
-  std::vector<Segment> segments_;
-};
-
-// What both parts of the schedule know of a chart.
-class Chart {
- public:
-  Chart(const Charts& charts, const PouDecl& pou);
-
-  std::string_view text(NameId name) const { return charts_.names.text(name); }
-  std::string_view name(uint32_t step) const { return text(steps_[step].name.name); }
-  uint32_t words(size_t count) const { return static_cast<uint32_t>((count + kWord - 1) / kWord); }
-  uint32_t actionOf(NameId name) const;
-  const Ident* flag(std::string_view word) const;  // a variable of the POU that charts give a meaning
-  std::string initialSteps() const;                // the words of their set
-  bool keepsCondition(const SfcTransition& t) const { return t.body || (t.name.name && t.condition.value); }
-
-  const Charts& charts_;
-  const PouDecl& pou_;
-  std::span<const SfcStep> steps_;
-  std::span<const SfcTransition> transitions_;
-  StepIndex index_;
-  std::vector<Ident> actions_;  // with control blocks, in the order of their first association
-  std::vector<std::pair<uint32_t, uint32_t>> action_by_name_;
-};
-
-Chart::Chart(const Charts& charts, const PouDecl& pou)
-    : charts_(charts),
-      pou_(pou),
-      steps_(charts.tree.list(pou.steps)),
-      transitions_(charts.tree.list(pou.transitions)),
-      index_(charts, pou) {
-  for (const SfcStep& step : steps_)
-    for (const SfcAssociation& a : charts_.tree.list(step.actions))
-      if (isControlled(a.qualifier)) {
-        action_by_name_.push_back(
-            {charts_.names.key(a.action.name).index, static_cast<uint32_t>(action_by_name_.size())});
-        actions_.push_back(a.action);
-      }
-  // The first association of each name remains.
-  std::sort(action_by_name_.begin(), action_by_name_.end());
-  std::vector<bool> kept(actions_.size());
-  for (size_t i = 0; i < action_by_name_.size(); ++i)
-    kept[action_by_name_[i].second] = i == 0 || action_by_name_[i].first != action_by_name_[i - 1].first;
-  std::vector<Ident> actions;
-  std::vector<std::pair<uint32_t, uint32_t>> by_name;
-  for (size_t i = 0; i < actions_.size(); ++i) {
-    if (!kept[i]) continue;
-    by_name.push_back({charts_.names.key(actions_[i].name).index, static_cast<uint32_t>(actions.size())});
-    actions.push_back(actions_[i]);
-  }
-  std::sort(by_name.begin(), by_name.end());
-  actions_ = std::move(actions);
-  action_by_name_ = std::move(by_name);
-}
-
-uint32_t Chart::actionOf(NameId name) const {
-  const uint32_t key = charts_.names.key(name).index;
-  return std::lower_bound(action_by_name_.begin(), action_by_name_.end(), std::pair<uint32_t, uint32_t>{key, 0})
-      ->second;
-}
-
-std::string Chart::initialSteps() const {
-  std::string list;
-  for (uint32_t first = 0; first < steps_.size(); first += kWord) {
-    uint64_t word = 0;
-    for (uint32_t i = first; i < steps_.size() && i < first + kWord; ++i)
-      if (steps_[i].initial) word |= uint64_t{1} << (i % kWord);
-    list += (list.empty() ? "" : ", ") + literalOf(word);
-  }
-  return list;
-}
-
-const Ident* Chart::flag(std::string_view word) const {
-  const Tree& tree = charts_.tree;
-  for (const DeclId section : tree.list(pou_.sections))
-    for (const DeclId var : tree.list(tree.as<SectionDecl>(section).vars))
-      for (const Ident& name : tree.list(tree.as<VarDecl>(var).names))
-        if (sameIdentifier(text(name.name), word)) return &name;
-  return nullptr;
-}
-
-// ---- the variables
-
-void writeSections(const Chart& chart, Writer& out, bool final_scan) {
-  const auto set = [&](const char* name, size_t count, std::string_view initial) {
-    const uint32_t words = chart.words(count);
-    if (words <= 1)
-      out.line(1, name, " : LWORD", initial.empty() ? "" : " := ", initial, ";");
-    else
-      out.line(1, name, " : ARRAY[0..", std::to_string(words - 1), "] OF LWORD", initial.empty() ? "" : " := [",
-               initial, initial.empty() ? ";" : "];");
-  };
-  out.line(0, "VAR");
-  for (uint32_t i = 0; i < chart.steps_.size(); ++i) {
-    const SfcStep& step = chart.steps_[i];
-    out.at(step.name.loc);
-    out.line(1, step.name, " : SFCStepType;");
-  }
-  for (const Ident& action : chart.actions_) {
-    out.at(action.loc);
-    out.line(1, "_", action, " : SFCActionControl", final_scan ? ";" : " := (final_scan := FALSE);");
-  }
-  for (size_t i = 0; i < chart.transitions_.size(); ++i) {
-    const SfcTransition& t = chart.transitions_[i];
-    if (!chart.keepsCondition(t)) continue;
-    out.at(t.target.loc);
-    out.line(1, t.target, " : BOOL;");
-  }
-  out.at(chart.pou_.body_begin);
-  set("sfc_steps", chart.steps_.size(), "");
-  set("sfc_left", chart.steps_.size(), "");
-  set("sfc_entered", chart.steps_.size(), chart.initialSteps());
-  if (!chart.actions_.empty()) set("sfc_actions", chart.actions_.size(), "");
-  out.line(1, "sfc_fired : BOOL := TRUE;");
-  if (chart.flag("SFCTipMode") != nullptr) out.line(1, "sfc_tip, sfc_tip_before : BOOL;");
-  out.line(0, "END_VAR");
-  out.line(0, "VAR_TEMP");
-  out.line(1, "sfc_now : TIME;");
-  out.line(1, "sfc_set : LWORD;");
-  if (chart.words(chart.steps_.size()) > 1 || chart.words(chart.actions_.size()) > 1) out.line(1, "sfc_word : INT;");
-  out.line(0, "END_VAR");
-}
-
-// ---- the statements
-
-class Scheduler {
- public:
-  Scheduler(const Chart& chart, Shapes& shapes, Writer& out)
-      : chart_(chart), charts_(chart.charts_), tree_(chart.charts_.tree), shapes_(shapes), out_(out) {}
-
-  void run();
-
- private:
-  using Branch = std::function<void(uint32_t index, uint32_t depth)>;
-
-  std::string word(const char* set, size_t count, uint32_t index) const {
-    return chart_.words(count) <= 1 ? set : std::string(set) + "[" + std::to_string(index / kWord) + "]";
-  }
-  std::string stepWord(const char* set, uint32_t step) const { return word(set, chart_.steps_.size(), step); }
-  // All words of a set.
-  void forWords(uint32_t depth, size_t count,
-                const std::function<void(const std::string& index, uint32_t depth)>& body);
-  // Visits the set bits of a set: `wanted` says which have a branch.
-  void scan(uint32_t depth, const char* set, size_t count, const std::function<bool(uint32_t)>& wanted,
-            const std::function<std::string_view(uint32_t)>& name, const Branch& branch);
-  std::function<std::string_view(uint32_t)> stepNames() const {
-    return [this](uint32_t i) { return chart_.name(i); };
-  }
-  std::function<std::string_view(uint32_t)> actionNames() const {
-    return [this](uint32_t i) { return chart_.text(chart_.actions_[i].name); };
-  }
-  bool callsAction(const Ident& action) const { return shapes_.of(action.name).kind != ShapeKind::Value; }
-  void run(uint32_t depth, const SfcStep& step, SfcQualifier when);
-  void flags();
-  void reset(uint32_t depth);
-  void evolve();
-  void activeStep(uint32_t step, uint32_t depth);
-  void timeLimit(const SfcStep& step, uint32_t depth);
-  void actions();
-  void transitions();
-  void chain(const std::vector<uint32_t>& ways, size_t at, uint32_t depth);
-  void condition(uint32_t way);
-  void prepare(uint32_t way, uint32_t depth);
-  void fire(uint32_t way, uint32_t depth);
-  const SfcTransition& conditionOf(const SfcTransition& t) const;
-  std::vector<std::vector<uint32_t>> waysBySteps() const;
-
-  const Chart& chart_;
-  const Charts& charts_;
-  const Tree& tree_;
-  Shapes& shapes_;
-  Writer& out_;
-};
 
 void Scheduler::forWords(uint32_t depth, size_t count,
                          const std::function<void(const std::string& index, uint32_t depth)>& body) {
@@ -314,83 +52,6 @@ void Scheduler::run(uint32_t depth, const SfcStep& step, SfcQualifier when) {
   }
 }
 
-// As before the first cycle.
-void Scheduler::reset(uint32_t depth) {
-  for (const SfcStep& step : chart_.steps_) {
-    out_.at(step.name.loc);
-    out_.line(depth, step.name, ".x := ", step.initial ? "TRUE;" : "FALSE;");
-    out_.line(depth, step.name, "._x := ", step.initial ? "TRUE;" : "FALSE;");
-    out_.line(depth, step.name, ".t := T#0s;");
-  }
-  for (const Ident& action : chart_.actions_) {
-    out_.at(action.loc);
-    out_.line(depth, "_", action, ".clear := TRUE;");
-    out_.line(depth, "_", action, "();");
-    if (!callsAction(action)) out_.line(depth, action, " := FALSE;");
-  }
-  out_.at(chart_.pou_.body_begin);
-  forWords(depth, chart_.steps_.size(), [&](const std::string& index, uint32_t inner) {
-    out_.line(inner, "sfc_steps", index, " := LWORD#0;");
-    out_.line(inner, "sfc_left", index, " := LWORD#0;");
-    out_.line(inner, "sfc_entered", index, " := LWORD#0;");
-  });
-  if (!chart_.actions_.empty())
-    forWords(depth, chart_.actions_.size(),
-             [&](const std::string& index, uint32_t inner) { out_.line(inner, "sfc_actions", index, " := LWORD#0;"); });
-  for (uint32_t i = 0; i < chart_.steps_.size(); ++i)
-    if (chart_.steps_[i].initial)
-      out_.line(depth, stepWord("sfc_entered", i), " := ", stepWord("sfc_entered", i), " OR ", maskOf(i), ";");
-  out_.line(depth, "sfc_fired := TRUE;");
-  for (const char* name : {"SFCError", "SFCTrans"})
-    if (const Ident* flag = chart_.flag(name)) out_.line(depth, *flag, " := FALSE;");
-  for (const char* name : {"SFCErrorStep", "SFCErrorPOU", "SFCErrorAnalyzation"})
-    if (const Ident* flag = chart_.flag(name)) out_.line(depth, *flag, " := '';");
-}
-
-void Scheduler::flags() {
-  if (const Ident* flag = chart_.flag("SFCInit")) {
-    out_.at(flag->loc);
-    out_.line(0, "IF ", *flag, " THEN");
-    reset(1);
-    out_.line(1, "RETURN;");
-    out_.line(0, "END_IF");
-  }
-  if (const Ident* flag = chart_.flag("SFCReset")) {
-    out_.at(flag->loc);
-    out_.line(0, "IF ", *flag, " THEN");
-    reset(1);
-    out_.line(0, "END_IF");
-  }
-  out_.at(chart_.pou_.body_begin);
-  out_.line(0, "sfc_now := TASK_TIME();");
-  if (const Ident* flag = chart_.flag("SFCQuitError")) {
-    out_.at(flag->loc);
-    out_.line(0, "IF ", *flag, " THEN");
-    if (const Ident* error = chart_.flag("SFCError")) out_.line(1, *error, " := FALSE;");
-    for (const char* name : {"SFCErrorStep", "SFCErrorPOU", "SFCErrorAnalyzation"})
-      if (const Ident* text = chart_.flag(name)) out_.line(1, *text, " := '';");
-    scan(
-        1, "sfc_steps", chart_.steps_.size(), [](uint32_t) { return true; }, stepNames(),
-        [&](uint32_t i, uint32_t depth) {
-          out_.line(depth, chart_.name(i), "._t := sfc_now;");
-          out_.line(depth, chart_.name(i), ".t := T#0s;");
-        });
-    out_.line(1, "RETURN;");
-    out_.line(0, "END_IF");
-  }
-  if (const Ident* flag = chart_.flag("SFCPause")) {
-    out_.at(flag->loc);
-    out_.line(0, "IF ", *flag, " THEN");
-    out_.line(1, "RETURN;");
-    out_.line(0, "END_IF");
-  }
-  if (chart_.flag("SFCTipMode") != nullptr) {
-    const Ident* tip = chart_.flag("SFCTip");
-    out_.line(0, "sfc_tip := ", tip != nullptr ? chart_.text(tip->name) : "FALSE", " AND NOT sfc_tip_before;");
-    out_.line(0, "sfc_tip_before := ", tip != nullptr ? chart_.text(tip->name) : "FALSE", ";");
-  }
-}
-
 // What the transitions of the last cycle decided.
 void Scheduler::evolve() {
   const size_t count = chart_.steps_.size();
@@ -422,46 +83,13 @@ void Scheduler::evolve() {
   out_.line(0, "END_IF");
 }
 
-void Scheduler::timeLimit(const SfcStep& step, uint32_t depth) {
-  const Ident* error = chart_.flag("SFCError");
-  const Ident* enabled = chart_.flag("SFCEnableLimit");
-  if (!step.max.value || error == nullptr) return;
-  out_.at(step.max.begin);
-  out_.line(depth, "IF ", step.name, ".t > ", step.max, " AND NOT ", *error, enabled != nullptr ? " AND " : "",
-            enabled != nullptr ? chart_.text(enabled->name) : "", " THEN");
-  out_.line(depth + 1, *error, " := TRUE;");
-  if (const Ident* flag = chart_.flag("SFCErrorStep")) out_.line(depth + 1, *flag, " := '", step.name, "';");
-  if (const Ident* flag = chart_.flag("SFCErrorPOU"))
-    out_.line(depth + 1, *flag, " := '", chart_.text(chart_.pou_.name), "';");
-  if (const Ident* flag = chart_.flag("SFCErrorAnalyzation")) {
-    std::string blocking;
-    for (const SfcTransition& t : chart_.transitions_) {
-      const std::span<const Ident> from = tree_.list(t.from);
-      if (std::none_of(from.begin(), from.end(),
-                       [&](const Ident& s) { return charts_.names.same(s.name, step.name.name); }))
-        continue;
-      if (!blocking.empty()) blocking += " | ";
-      for (const char c : t.condition.value && !t.name.name ? out_.textOf(t.condition) : chart_.text(t.name.name)) {
-        if (c == '\'' || c == '$') blocking += '$';
-        blocking += c == '\n' || c == '\r' || c == '\t' ? ' ' : c;
-      }
-    }
-    if (blocking.size() > kTextLength) {  // what a STRING holds
-      blocking.resize(kTextLength);
-      while (blocking.ends_with('$')) blocking.pop_back();
-    }
-    out_.line(depth + 1, *flag, " := '", blocking, "';");
-  }
-  out_.line(depth, "END_IF");
-}
-
 void Scheduler::activeStep(uint32_t i, uint32_t depth) {
   const SfcStep& step = chart_.steps_[i];
   out_.at(step.name.loc);
   out_.line(depth, step.name, ".t := sfc_now - ", step.name, "._t;");
   timeLimit(step, depth);
   out_.at(step.name.loc);
-  if (const Ident* flag = chart_.flag("SFCCurrentStep")) out_.line(depth, *flag, " := '", step.name, "';");
+  if (const Ident* flag = chart_.flag(SfcFlag::CurrentStep)) out_.line(depth, *flag, " := '", step.name, "';");
   run(depth, step, SfcQualifier::Active);
   for (const SfcAssociation& a : tree_.list(step.actions)) {
     if (!isControlled(a.qualifier)) continue;
@@ -485,7 +113,7 @@ void Scheduler::actions() {
         const Ident& action = chart_.actions_[i];
         const std::string set = word("sfc_actions", count, i);
         out_.at(action.loc);
-        out_.line(depth, "_", action, "();");
+        out_.line(depth, "_", action, "(now := sfc_now);");
         if (callsAction(action)) {
           out_.line(depth, "IF _", action, ".x AND NOT _", action, "._x THEN");
           out_.line(depth + 1, action, "();");
@@ -508,11 +136,14 @@ void Scheduler::actions() {
       });
 }
 
-// `TRANSITION t FROM a TO b;` has the condition of `TRANSITION t := …`, or is named like a variable.
+// `TRANSITION t FROM a TO b;` has the condition of `TRANSITION t := …`, here or around, or is named like a variable.
 const SfcTransition& Scheduler::conditionOf(const SfcTransition& t) const {
   if (t.body || t.condition.value) return t;
   for (const SfcTransition& other : chart_.transitions_)
     if (other.body && charts_.names.same(other.name.name, t.name.name)) return other;
+  for (const PouDecl* pou : chart_.place_.around)
+    for (const SfcTransition& other : tree_.list(pou->transitions))
+      if (other.body && charts_.names.same(other.name.name, t.name.name)) return other;
   return t;
 }
 
@@ -529,7 +160,7 @@ void Scheduler::condition(uint32_t way) {
   const SfcTransition& own = chart_.transitions_[way];
   const SfcTransition& t = conditionOf(own);
   const std::span<const Ident> from = tree_.list(own.from);
-  const bool tips = chart_.flag("SFCTipMode") != nullptr;
+  const bool tips = chart_.flag(SfcFlag::TipMode) != nullptr;
   out_.at(own.loc);
   std::string before;
   for (size_t i = 1; i < from.size(); ++i) {
@@ -549,7 +180,7 @@ void Scheduler::condition(uint32_t way) {
   }
   if (tips) {
     out_.put("SEL(");
-    out_.put(*chart_.flag("SFCTipMode"));
+    out_.put(*chart_.flag(SfcFlag::TipMode));
     out_.put(", ");
   }
   if (!quoted) {
@@ -577,7 +208,7 @@ void Scheduler::fire(uint32_t way, uint32_t depth) {
     out_.line(depth, stepWord("sfc_entered", i), " := ", stepWord("sfc_entered", i), " OR ", maskOf(i), ";");
   }
   out_.line(depth, "sfc_fired := TRUE;");
-  if (chart_.flag("SFCTipMode") != nullptr) out_.line(depth, "sfc_tip := FALSE;");
+  if (chart_.flag(SfcFlag::TipMode) != nullptr) out_.line(depth, "sfc_tip := FALSE;");
 }
 
 // The first way whose condition is TRUE.
@@ -649,7 +280,7 @@ void Scheduler::transitions() {
         chain(ways[i], 0, depth + (guarded ? 1 : 0));
         if (guarded) out_.line(depth, "END_IF");
       });
-  if (const Ident* flag = chart_.flag("SFCTrans")) {
+  if (const Ident* flag = chart_.flag(SfcFlag::Trans)) {
     out_.at(flag->loc);
     out_.line(0, *flag, " := sfc_fired;");
   }
@@ -663,20 +294,6 @@ void Scheduler::run() {
       [&](uint32_t i, uint32_t depth) { activeStep(i, depth); });
   actions();
   transitions();
-}
-
-}  // namespace
-
-void declareSfc(const Charts& charts, PouDecl& pou, bool final_scan) {
-  const Chart chart(charts, pou);
-  Writer out(charts, pou.body_begin);
-  writeSections(chart, out, final_scan);
-  pou.chart_sections = out.finish();
-  std::vector<DeclId> sections(charts.tree.list(pou.sections).begin(), charts.tree.list(pou.sections).end());
-  const Slice<DeclId> made =
-      parseSections(charts.tree, charts.names, charts.sources, pou.chart_sections, charts.standard, charts.diagnostics);
-  for (const DeclId section : charts.tree.list(made)) sections.push_back(section);
-  pou.sections = charts.tree.addList<DeclId>(sections);
 }
 
 // False: sema has said that a name is declared twice.
@@ -693,9 +310,10 @@ static bool namesDiffer(const Charts& charts, const PouDecl& pou) {
   return std::adjacent_find(keys.begin(), keys.end()) == keys.end();
 }
 
-bool scheduleSfc(const Charts& charts, Shapes& shapes, PouDecl& pou) {
-  if (!checkSfc(charts, shapes, pou) || !namesDiffer(charts, pou)) return false;
-  const Chart chart(charts, pou);
+bool scheduleSfc(const Charts& charts, Shapes& shapes, PouDecl& pou, const ChartPlace& place) {
+  if (!checkSfc(charts, shapes, pou, place) || !namesDiffer(charts, pou)) return false;
+  Chart chart(charts, pou, place);
+  chart.findFlags(shapes);
   Writer out(charts, pou.body_begin);
   Scheduler(chart, shapes, out).run();
   out.at(pou.body_begin);

@@ -27,12 +27,20 @@ struct Charts {
   Standard standard;
 };
 
-// Appends the sections of the chart's variables to those of the POU. `final_scan`: actions run once more when they end.
-void declareSfc(const Charts& charts, PouDecl& pou, bool final_scan);
+// Where a chart stands.
+struct ChartPlace {
+  bool final_scan = true;  // actions run once more when they end
+  // Of a chart in an action or method: the charts of actions around it, then the block; else empty.
+  std::vector<const PouDecl*> around;
+};
+
+// Appends the sections of the chart's variables to those of the POU. Of a POU without a chart those of its conditions,
+// which charts of its actions use.
+void declareSfc(const Charts& charts, PouDecl& pou, const ChartPlace& place);
 // Fills the POU's statements. False: the chart is wrong, which was reported.
-bool scheduleSfc(const Charts& charts, Shapes& shapes, PouDecl& pou);
+bool scheduleSfc(const Charts& charts, Shapes& shapes, PouDecl& pou, const ChartPlace& place);
 // The rules for charts as a whole (sfc_check.cpp).
-bool checkSfc(const Charts& charts, Shapes& shapes, const PouDecl& pou);
+bool checkSfc(const Charts& charts, Shapes& shapes, const PouDecl& pou, const ChartPlace& place);
 
 // The steps of a chart by name.
 class StepIndex {

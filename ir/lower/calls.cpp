@@ -63,7 +63,12 @@ ExprId BodyLowering::lowerCall(rung::ExprId id, Target* target) {
     });
   }
   append({.kind = StmtKind::If, .loc = loc, .a = eno.index, .b = body.index});
-  if (call.eno) storeOutput(call.eno, eno, false, loc);
+  if (call.eno && call.eno_is_pin) {  // the callee has set it, where it ran
+    const StmtId none = block([&] { storeOutput(call.eno, constantBool(false, loc), false, loc); });
+    append({.kind = StmtKind::If, .loc = loc, .a = unary(Op::Not, types::kBool, eno, loc).index, .b = none.index});
+  } else if (call.eno) {
+    storeOutput(call.eno, eno, false, loc);
+  }
   if (has_result && target) target->stored = true;
   return result;
 }

@@ -204,6 +204,12 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
   call.pou = pou;
   bindControlPins(context, node, arguments, call);
   bindArguments(context, node, pou, arguments, call);
+  for (const Binding& binding : call.bindings) {
+    if (!binding.value || !binding.is_output || !isNamed(context, context.project.var(binding.pin).name, "ENO"))
+      continue;
+    call.eno = binding.value;
+    call.eno_is_pin = true;
+  }
   if (arguments.good) checkRequiredPins(context, node, pou, arguments);
   node.call = addCall(context, std::move(call));
   if (!callee.result && !as_statement) {

@@ -38,6 +38,28 @@ const char* whyNot(Context& context, const Var& var) {
 bool isWordChar(char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
 bool isLower(char c) { return c >= 'a' && c <= 'z'; }
 
+bool noteUse(Context& context, PouId callee, Loc loc) {
+  std::vector<PouId>& calls = context.project.pou(context.pou).cpp_calls;
+  if (std::find(calls.begin(), calls.end(), callee) != calls.end()) return false;
+  calls.push_back(callee);
+  resolvePou(context, callee);
+  noteCall(context, callee, loc);
+  return true;
+}
+
+// A method or action of the object at hand, spelled as it is declared.
+bool noteMember(Context& context, std::string_view word, Loc loc) {
+  const PouId object = objectOf(context);
+  const NameId name = context.names().find(word);
+  if (!object || !name) return false;
+  const Entity found = findInObject(context, object, name);
+  if (found.what() != EntityKind::Pou || found.index == context.pou.index) return false;
+  const PouId member{found.index};
+  if (text(context, context.project.pou(member).name) != word) return false;
+  if ((context.project.pou(member).modifiers & kAbstract) == 0) noteUse(context, member, loc);
+  return true;
+}
+
 void noteFunctions(Context& context, std::string_view text, Loc loc) {
   for (size_t i = 0; i < text.size();) {
     const size_t begin = i;
@@ -47,6 +69,7 @@ void noteFunctions(Context& context, std::string_view text, Loc loc) {
       continue;
     }
     const std::string_view word = text.substr(begin, i - begin);
+    if (noteMember(context, word, Loc{loc.offset + static_cast<uint32_t>(begin)})) continue;
     if (!(word[0] >= 'A' && word[0] <= 'Z')) continue;
     if (std::any_of(word.begin(), word.end(), isLower)) continue;
     const Entity found = lookUp(context, context.names().intern(word));
@@ -54,11 +77,7 @@ void noteFunctions(Context& context, std::string_view text, Loc loc) {
     const PouId function{found.index};
     const Pou& callee = context.project.pou(function);
     if (callee.kind != PouKind::Function || callee.generic || callee.operator_kind != Pou::Operator::None) continue;
-    std::vector<PouId>& calls = context.project.pou(context.pou).cpp_calls;
-    if (std::find(calls.begin(), calls.end(), function) != calls.end()) continue;
-    calls.push_back(function);
-    resolvePou(context, function);
-    noteCall(context, function, Loc{loc.offset + static_cast<uint32_t>(begin)});
+    noteUse(context, function, Loc{loc.offset + static_cast<uint32_t>(begin)});
   }
 }
 
@@ -66,11 +85,6 @@ void noteFunctions(Context& context, std::string_view text, Loc loc) {
 
 void checkCppBody(Context& context, const PouDecl& decl) {
   const Pou& pou = context.project.pou(context.pou);
-  if (pou.owner || pou.base || !pou.members.empty() || !pou.interfaces.empty()) {
-    const char* what = pou.owner ? "a method or action in C++" : "a body in C++ beside methods, actions or EXTENDS";
-    context.report(Diag::NotSupportedYet, decl.body_begin, {what}).length(5);
-    return;
-  }
   for (const VarId id : pou.vars) {
     const Var* var = &context.project.var(id);
     const Var& named = *var;

@@ -416,7 +416,8 @@ static void schedule(Context& context, PouDecl& decl) {
   }
   if (decl.body_kind == BodyKind::Sfc) {
     decl.body_kind = BodyKind::St;
-    if (!text::scheduleSfc(chartsOf(context), shapes, decl)) return;
+    if ((decl.h.bits & kBrokenDeclarations) != 0) return;
+    if (!text::scheduleSfc(chartsOf(context), shapes, decl, chartPlaceOf(context, context.pou))) return;
     if (context.project.options.scheduled) context.project.options.scheduled(context.project, context.pou);
     return;
   }

@@ -180,7 +180,7 @@ void checkObjectMembers(Context& context, PouId object) {
   }
   for (const VarId id : pou.vars) {
     const Var& var = context.project.var(id);
-    if (!var.decl || !var.name) continue;
+    if (!var.decl || !var.name || var.of_chart) continue;  // of two charts, each has its own
     const Entity first = findInObject(context, pou.base, var.name);
     if (first.what() == EntityKind::Var) reportTwice(context, var.name, var.loc, context.project.vars[first.index].loc);
   }

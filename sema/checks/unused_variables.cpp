@@ -28,7 +28,8 @@ void checkUnusedVariables(Context& context) {
     if (decl.body_kind != BodyKind::St || decl.body.empty()) continue;
     for (const VarId id : pou.vars) {
       const Var& var = context.project.var(id);
-      if (!var.name || var.temporary != 0 || var.storage == Storage::Image || var.open_address || var.constant)
+      if (!var.name || var.temporary != 0 || var.storage == Storage::Image || var.open_address || var.constant ||
+          var.of_chart)
         continue;
       const bool local =
           var.section == SectionKind::Local || var.section == SectionKind::Temp || var.section == SectionKind::Stat;

@@ -1,5 +1,5 @@
 // Forbids a target that is no variable: a literal, a result, an enumeration item; a constant; a VAR_INPUT inside its
-// own POU (codesys: warning); the control variable of a FOR around it (codesys: warning).
+// own POU (codesys: warning); the control variable of a FOR around it (codesys: warning); what a chart keeps.
 // IEC 61131-3 ed. 3, 6.5.2.2 and 7.3.3.4.2; design §6, dialect table.
 //   passes  level := 5;  motors[2].speed := 1.0;
 //   fails   5 := level;  limit := 3 (VAR CONSTANT);  FOR i := 1 TO 3 DO i := 2; END_FOR
@@ -35,6 +35,20 @@ bool checkVariable(Context& context, VarId id, Loc loc) {
   return true;
 }
 
+// Forbids writing what a chart keeps of its steps and actions, everywhere but in the text that the chart became.
+// IEC 61131-3 ed. 3, 6.7.2; TM/TP manual 5.5.2.5.
+//   fails   INITIAL_STEP a: END_STEP …  ACTION b: a.x := TRUE; END_ACTION        E0746
+bool checkOfChart(Context& context, VarId id, Loc loc, std::string_view member) {
+  const Var& var = context.project.var(id);
+  if (!var.of_chart || !var.type || context.types().kind(var.type) != types::TypeKind::Record) return true;
+  const PouDecl& own = context.tree().as<PouDecl>(context.project.pou(context.pou).decl);
+  if (own.chart_body && context.project.sources.fileOf(loc) == own.chart_body) return true;
+  std::string what(text(context, var.name));
+  if (!member.empty()) what += "." + std::string(member);
+  context.report(Diag::StepWritten, loc, {what});
+  return false;
+}
+
 }  // namespace
 
 bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
@@ -44,7 +58,10 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
     switch (tree.kind(expr)) {
       case ExprKind::Name: {
         const NameExpr& node = tree.as<NameExpr>(expr);
-        if (node.entity.what() == EntityKind::Var) return checkVariable(context, VarId{node.entity.index}, node.h.loc);
+        if (node.entity.what() == EntityKind::Var) {
+          const VarId var{node.entity.index};
+          return checkOfChart(context, var, node.h.loc, {}) && checkVariable(context, var, node.h.loc);
+        }
         context.report(Diag::NotAPlace, node.h.loc, {purpose.spell(context)});
         return false;
       }
@@ -55,6 +72,12 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
           return false;
         }
         const VarId var{node.entity.index};
+        const Entity of = tree.kind(node.base) == ExprKind::Name     ? tree.as<NameExpr>(node.base).entity
+                          : tree.kind(node.base) == ExprKind::Member ? tree.as<MemberExpr>(node.base).entity
+                                                                     : Entity{};
+        if (of.what() == EntityKind::Var &&
+            !checkOfChart(context, VarId{of.index}, node.h.loc, text(context, node.member)))
+          return false;
         if (isWhole(context, node)) return checkVariable(context, var, node.h.loc);
         if (context.project.var(var).constant) {
           context.report(Diag::AssignToConstant, node.h.loc, {text(context, node.member)})

@@ -146,11 +146,8 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
     named.library = library != kNoLibrary;
     named.region = context.region;
   }
-  if (decl.body_kind == BodyKind::Sfc) {
-    PouDecl& chart = context.tree().as<PouDecl>(id);
-    const bool final_scan = !context.iec() && findPragma(context, decl.h, words.no_final_scan) == nullptr;
-    text::declareSfc(chartsOf(context), chart, final_scan);
-  }
+  if (decl.body_kind == BodyKind::Sfc || !decl.transitions.empty())
+    text::declareSfc(chartsOf(context), context.tree().as<PouDecl>(id), chartPlaceOf(context, pou_id));
   if (library == kNoLibrary) {
     declare(context, space != nullptr ? space->names : scopes.pous_and_types, pou.name, pou.loc, entity(pou_id));
     collectMembers(context, pou_id);

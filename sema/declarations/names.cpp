@@ -82,6 +82,11 @@ Entity findName(Context& context, NameId key, Loc loc) {
   if (context.pou) {
     if (const Entity found = scopes.pous[context.pou.index].names.find(key)) return found;
     const Pou& pou = context.project.pou(context.pou);
+    for (PouId chart = pou.chart; chart; chart = context.project.pou(chart).chart) {
+      const Entity found = scopes.pous[chart.index].names.find(key);
+      const bool local = found.what() == EntityKind::Var && context.project.vars[found.index].pou == chart;
+      if (found && !local) return found;
+    }
     if (const PouId object = objectOf(context); object && (pou.owner || pou.base)) {
       if (const Entity found = findInObject(context, object, key)) return found;
     }

@@ -32,7 +32,7 @@ NameId uniqueName(Context& context, const Pou& owner, std::string name) {
   }
 }
 
-PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accessor) {
+PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accessor, PouId chart = {}) {
   Project& project = context.project;
   const PouDecl& decl = context.tree().as<PouDecl>(id);
   const PouId member_id{static_cast<uint32_t>(project.pous.size())};
@@ -41,6 +41,7 @@ PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accesso
   Pou& member = project.pous.back();
   Pou& owner = project.pou(owner_id);
   Context there = atPou(context, owner_id);
+  member.chart = chart;
   context.scopes.pous.back().region = regionOfPou(there, decl);
   member.name = decl.name;
   member.loc = decl.h.loc;
@@ -48,6 +49,7 @@ PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accesso
   member.decl = id;
   member.file = owner.file;
   member.native = decl.body_kind == BodyKind::Native;
+  member.cpp = decl.body_kind == BodyKind::Cpp;
   member.library = owner.library;
   member.used = owner.library;
   member.library_name = owner.library_name;
@@ -57,7 +59,37 @@ PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accesso
   member.unique_name = uniqueName(context, owner, spelled(context, decl.name) + accessor);
   if (owner.kind == PouKind::Interface) member.modifiers |= kAbstract;
   owner.members.push_back(member_id);
+  if (decl.body_kind == BodyKind::Sfc)
+    text::declareSfc(chartsOf(there), context.tree().as<PouDecl>(id), chartPlaceOf(there, member_id));
+  for (uint32_t i = 0; i < decl.members.count; ++i)
+    addMember(context, owner_id, context.tree().list(decl.members)[i], "", member_id);
   return member_id;
+}
+
+// A variable of an action's chart has its bare name in the whole block, as in CODESYS, where nothing else has it.
+void shareChartVars(Context& context, PouId object) {
+  Project& project = context.project;
+  NameMap& names = context.scopes.pous[object.index].names;
+  NameMap seen, twice;
+  std::vector<std::pair<NameId, VarId>> shared;
+  for (const PouId member : project.pou(object).members) {
+    if (project.pou(member).kind != PouKind::Action) continue;
+    context.scopes.pous[member.index].names.forEach([&](NameId key, Entity found) {
+      if (found.what() != EntityKind::Var || project.vars[found.index].pou != object) return;
+      if (seen.insert(key, found))
+        shared.push_back({key, VarId{found.index}});
+      else
+        twice.insert(key, found);
+    });
+  }
+  std::sort(shared.begin(), shared.end(), [](const auto& a, const auto& b) { return a.second.index < b.second.index; });
+  for (const auto& [key, var] : shared) {
+    if (twice.find(key)) continue;
+    if (const PouId base = project.pou(object).base; base && findInObject(context, base, key)) continue;
+    if (!names.insert(key, entity(var))) continue;
+    for (const Ident& name : context.tree().list(context.tree().as<VarDecl>(project.var(var).decl).names))
+      if (keyOf(context, name.name) == key) project.var(var).name = name.name;
+  }
 }
 
 // The object that a name of EXTENDS or IMPLEMENTS means; reports what is none.
@@ -117,10 +149,13 @@ void declareMembers(Context& context, PouId object) {
     declare(of.name, of.loc, Entity::of(EntityKind::Property, property));
   }
   for (const PouId member : project.pou(object).members) {
-    if (project.pou(member).accessor == Pou::Accessor::None)
+    if (const PouId chart = project.pou(member).chart)
+      context.scopes.pous[chart.index].names.insert(keyOf(context, project.pou(member).name), entity(member));
+    else if (project.pou(member).accessor == Pou::Accessor::None)
       declare(project.pou(member).name, project.pou(member).loc, entity(member));
     declarePou(context, member);  // its VAR_INST are variables of the object
   }
+  shareChartVars(context, object);
 }
 
 namespace {

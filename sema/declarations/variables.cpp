@@ -376,7 +376,8 @@ void ensureInitialValue(Context& context, VarId id) {
   }
 }
 
-// VAR_INST of a method: a variable of the object, which only this method sees.
+// VAR_INST of a method: a variable of the object, which only this method sees; of an action, where charts put theirs,
+// see shareChartVars.
 static void declareInstanceVars(Context& context, DeclId decl, const SectionDecl& section, PouId method) {
   Project& project = context.project;
   const PouId owner = project.pou(method).owner;
@@ -419,6 +420,24 @@ static void declareHidden(Context& context, PouId id) {
   decl.sections = tree.addList<DeclId>(sections);
 }
 
+// ENO in the body of a function is an output that nobody declares; TRUE until the body says otherwise.
+// IEC 61131-3 ed. 2, 2.5.1.2 and the function WEIGH of its annex F.
+static void declareEno(Context& context, PouId id) {
+  Project& project = context.project;
+  const NameId name = context.names().intern("ENO");
+  const VarId made{static_cast<uint32_t>(project.vars.size())};
+  if (!context.scopes.pous[id.index].names.insert(keyOf(context, name), entity(made))) return;
+  Var var;
+  var.name = name;
+  var.loc = project.pou(id).loc;
+  var.type = types::kBool;
+  var.section = SectionKind::Output;
+  var.pou = id;
+  var.init = makeLiteral(context, LiteralKind::Bool, types::kBool, 1, var.loc);
+  project.vars.push_back(var);
+  project.pou(id).vars.push_back(made);
+}
+
 void declarePou(Context& context, PouId id) {
   PouScope& scope = context.scopes.pous[id.index];
   if (scope.declared) return;
@@ -429,6 +448,7 @@ void declarePou(Context& context, PouId id) {
   const PouDecl& decl = tree.as<PouDecl>(project.pou(id).decl);
   Context there = atPou(context, id);
   const PouKind kind = decl.pou_kind;
+  const bool is_member = kind == PouKind::Method || kind == PouKind::Action;
   if (decl.result) {
     Var var;
     var.name = decl.name;
@@ -446,11 +466,13 @@ void declarePou(Context& context, PouId id) {
     const bool misplaced = section.section == SectionKind::Global || section.section == SectionKind::Access ||
                            section.section == SectionKind::Config || kind == PouKind::Interface ||
                            (section.section == SectionKind::Stat && context.iec()) ||
-                           (section.section == SectionKind::Inst && kind != PouKind::Method);
+                           (section.section == SectionKind::Inst && !is_member);
     if (misplaced) {
       there.report(Diag::SectionNotAllowed, section.h.loc, {sectionWord(section.section), kindWord(kind)});
       if (section.section != SectionKind::Global && section.section != SectionKind::Stat) continue;
     }
+    const bool of_chart = decl.chart_sections && project.sources.fileOf(section.h.loc) == decl.chart_sections;
+    const size_t first_var = project.vars.size();
     for (uint32_t i = 0; i < section.vars.count; ++i) {
       const DeclId var = tree.list(section.vars)[i];
       if (section.section == SectionKind::Stat) {
@@ -460,14 +482,16 @@ void declarePou(Context& context, PouId id) {
         declareVars(there, var, section, id, list, &scope.names, project.global_lists[list.index].vars);
         continue;
       }
-      if (section.section == SectionKind::Inst && kind == PouKind::Method) {
+      if (section.section == SectionKind::Inst && is_member) {
         declareInstanceVars(there, var, section, id);
         continue;
       }
       declareVars(there, var, section, id, {}, &scope.names, project.pou(id).vars);
     }
+    for (size_t i = first_var; of_chart && i < project.vars.size(); ++i) project.vars[i].of_chart = true;
   }
   declareMembers(context, id);
+  if (kind == PouKind::Function && decl.uses_eno) declareEno(context, id);
   if (project.pou(id).result_var) {
     // The name is the result inside the body, unless a pin has it (reported by nobody: the pin hides it).
     scope.names.insert(keyOf(context, decl.name), entity(project.pou(id).result_var));

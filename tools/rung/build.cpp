@@ -20,7 +20,8 @@ int runBuild(const Options& options) {
   NativeRequest request;
   request.parts.resize(1);
   const bool good = compilation.emit(false, request.parts[0].files);
-  int exit = compilation.finish();
+  const bool later = good && compilation.hasCppBodies();
+  int exit = later ? compilation.exitCode() : compilation.finish();
   if (good && exit == kGood) {
     times.begin("c++");
     Cache cache;
@@ -30,10 +31,10 @@ int runBuild(const Options& options) {
     NativeResult result = makeOutput(cache, request, options.build, compilation.options.moduleName(), options.output);
     times.end();
     exit = result.exit;
-    if (exit == kInternal)
+    if (later)
+      exit = compilation.finish(result);
+    else if (exit == kInternal)
       printInternalError(result.message.c_str());
-    else if (exit == kInputErrors)
-      fprintf(stderr, "%s\n", result.message.c_str());
     else if (exit != kGood)
       usageError(result.message);
   }

@@ -249,7 +249,9 @@ int Compilation::exitCode() const {
   return diagnostics.hasErrors() ? kInputErrors : kGood;
 }
 
-std::string Compilation::diagnosticsText() {
+std::string Compilation::diagnosticsText() { return textOf(diagnostics); }
+
+std::string Compilation::textOf(Diagnostics& diagnostics) const {
   if (diagnostics.all().empty() && options.format == DiagnosticFormat::Text) return {};
   if (!diagnostics.all().empty()) {
     const diagram::ElementPlaces elements(tree, names);
@@ -269,6 +271,42 @@ int Compilation::finish() {
   fwrite(text.data(), 1, text.size(), stderr);
   if (!internal_error_.empty()) printInternalError(internal_error_.c_str());
   return exitCode();
+}
+
+// The compiler does not find the user's file, so that its columns count bytes.
+static Loc placeIn(const Sources& sources, FileId file, const Refusal& refusal) {
+  const std::string_view line = sources.line(file, refusal.line);
+  if (line.data() == nullptr) return sources.begin(file);
+  const size_t at = std::min<size_t>(refusal.column == 0 ? 0 : refusal.column - 1, line.size());
+  return {sources.begin(file).offset + static_cast<uint32_t>(line.data() - sources.original(file).data() + at)};
+}
+
+bool Compilation::addRefusals(const NativeResult& native, Diagnostics& to) const {
+  bool any = false;
+  for (const Refusal& refusal : native.refusals) {
+    for (uint32_t i = 1; i <= sources.fileCount(); ++i) {
+      if (sources.path({i}) != refusal.path) continue;
+      to.report(Diag::CppRefused, placeIn(sources, {i}, refusal), {refusal.message});
+      any = true;
+      break;
+    }
+  }
+  return any;
+}
+
+int Compilation::finish(const NativeResult& native) {
+  if (native.exit == kInputErrors && !addRefusals(native, diagnostics)) fprintf(stderr, "%s\n", native.message.c_str());
+  const int exit = finish();
+  if (native.exit == kInternal) printInternalError(native.message.c_str());
+  if (native.exit == kUsage) usageError(native.message);
+  return exit != kGood ? exit : native.exit;
+}
+
+bool Compilation::printRefusals(const NativeResult& native) const {
+  Diagnostics own(sources);
+  if (!addRefusals(native, own)) return false;
+  fputs(textOf(own).c_str(), stderr);
+  return true;
 }
 
 std::string checkDumpName(const std::string& name) {

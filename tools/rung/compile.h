@@ -15,6 +15,7 @@
 #include "sema/project.h"
 #include "tools/rung/inputs.h"
 #include "tools/rung/libraries.h"
+#include "tools/rung/native.h"
 #include "tools/rung/options.h"
 
 namespace rung::tool {
@@ -54,6 +55,11 @@ class Compilation {
 
   // Prints the diagnostics to stderr and gives the exit code: 0, 1, 2 or 70.
   int finish();
+  // The same behind the C++ compiler, which may have refused bodies in C++.
+  bool hasCppBodies() const { return module && !module->cpp_bodies.empty(); }
+  int finish(const NativeResult& native);
+  // Only what it refused, where that is in these files.
+  bool printRefusals(const NativeResult& native) const;
   // The same as text, for `rung test --separate`.
   std::string diagnosticsText();
   int exitCode() const;
@@ -71,6 +77,8 @@ class Compilation {
 
  private:
   void noteLibraries();
+  bool addRefusals(const NativeResult& native, Diagnostics& to) const;
+  std::string textOf(Diagnostics& diagnostics) const;
   void dump(const std::string& text) const;
   bool verified(const char* after);
 

@@ -91,6 +91,7 @@ class Converter {
  private:
   void print(sema::PouId pou);
   void printChart(sema::PouId id, const PouDecl& decl);
+  void printConditions(const PouDecl& decl);
   std::vector<StComment> chartComments(const PouDecl& decl) const;
   std::string withComments(FileId made, std::span<const StComment> comments) const;
   std::string temporaries(const Body& body) const;
@@ -102,7 +103,8 @@ class Converter {
   Compilation& compilation_;
   const Sources& sources_;
   std::vector<Body> bodies_;
-  std::vector<Edit> hidden_;  // the variables that networks need
+  std::vector<Edit> hidden_;                      // the variables that networks need
+  std::unordered_set<uint32_t> conditions_done_;  // POUs, by their place
 };
 
 // Called while sema is at work, before it changes what the scheduler made.
@@ -219,6 +221,26 @@ void Converter::printChart(sema::PouId id, const PouDecl& decl) {
   }
   if (body.text.ends_with('\n')) body.text.pop_back();
   bodies_.push_back(std::move(body));
+  if (const sema::PouId owner = compilation_.project->pou(id).owner)
+    printConditions(compilation_.tree.as<PouDecl>(compilation_.project->pou(owner).decl));
+}
+
+// Conditions beside the actions of a POU without a chart of its own: a variable and an action each.
+void Converter::printConditions(const PouDecl& decl) {
+  if (decl.transitions.empty() || !decl.steps.empty() || !conditions_done_.insert(decl.begin.offset).second) return;
+  Body variables{{}, decl.body_begin, {}, {}, true, {}};
+  for (const DeclId member : compilation_.tree.list(decl.members))
+    if (compilation_.tree.kind(member) == DeclKind::Pou)
+      variables.begin = std::min(variables.begin, compilation_.tree.as<PouDecl>(member).begin);
+  for (const SfcTransition& t : compilation_.tree.list(decl.transitions)) {
+    variables.begin = std::min(variables.begin, t.begin);
+    Body body{{}, t.begin, t.end, t.begin, true, {}};
+    body.actions.push_back(t.body);
+    bodies_.push_back(std::move(body));
+  }
+  variables.end = variables.declarations = variables.begin;
+  variables.text = sources_.original(decl.chart_sections);
+  bodies_.push_back(std::move(variables));
 }
 
 // One that the parser made of a transition has a body only: instructions, statements, or the expression to assign.
@@ -266,7 +288,9 @@ std::string Converter::convert(Loc begin, Loc end) const {
   std::vector<const Body*> bodies;
   for (const Body& body : bodies_)
     if (!(body.begin < begin) && !(end < body.end)) bodies.push_back(&body);
-  std::stable_sort(bodies.begin(), bodies.end(), [](const Body* a, const Body* b) { return a->begin < b->begin; });
+  std::stable_sort(bodies.begin(), bodies.end(), [](const Body* a, const Body* b) {
+    return a->begin != b->begin ? a->begin < b->begin : a->end < b->end;
+  });
   std::vector<Edit> edits;
   for (const Edit& edit : hidden_)
     if (!(edit.begin < begin) && edit.begin < end) edits.push_back(edit);
@@ -275,7 +299,7 @@ std::string Converter::convert(Loc begin, Loc end) const {
     if (body->begin < done_to) continue;  // of an action in a chart, converted with it
     done_to = body->end;
     std::string declared = temporaries(*body);
-    if (!body->sections.empty()) {
+    if (!body->sections.empty() || !body->actions.empty()) {
       std::string chart = body->sections;
       for (const DeclId member : body->actions) chart += action(member);
       edits.push_back({body->begin, body->end, chart + declared + body->text, true});

@@ -390,9 +390,9 @@ class Builder {
     return header;
   }
 
-  // What g++ says of a body that the user wrote, at its own lines; of what it says elsewhere the first lines.
-  static std::string refusalOf(const OutputFile& file, const std::string& log, const std::string& first) {
-    std::string message;
+  // What g++ says of a body that the user wrote, at its own lines.
+  static std::vector<Refusal> refusalsOf(const OutputFile& file, const std::string& log) {
+    std::vector<Refusal> refusals;
     for (size_t at = 0; at < log.size();) {
       const size_t end = std::min(log.find('\n', at), log.size());
       const std::string_view line = std::string_view(log).substr(at, end - at);
@@ -400,24 +400,18 @@ class Builder {
       for (const std::string_view word : {": error: ", ": fatal error: "}) {
         const size_t said = line.find(word);
         if (said == std::string_view::npos) continue;
-        const std::string_view place = line.substr(0, said);
-        const std::string path(place.substr(0, place.find(':')));
+        const std::string place(line.substr(0, said));  // path:line:column
+        const size_t column = place.rfind(':');
+        const size_t row = column == std::string::npos || column == 0 ? column : place.rfind(':', column - 1);
+        if (row == std::string::npos) continue;
+        const std::string path = place.substr(0, row);
         if (file.content.find(" \"" + path + "\"\n") == std::string::npos) continue;
-        message.append(place)
-            .append(": error[")
-            .append(diagInfo(Diag::CppRefused).code)
-            .append("]: the C++ compiler says: ");
-        message.append(line.substr(said + word.size())).append("\n");
+        refusals.push_back({path, static_cast<uint32_t>(strtoul(place.c_str() + row + 1, nullptr, 10)),
+                            static_cast<uint32_t>(strtoul(place.c_str() + column + 1, nullptr, 10)),
+                            std::string(line.substr(said + word.size()))});
       }
     }
-    if (message.empty()) {
-      message.append("error[")
-          .append(diagInfo(Diag::CppRefused).code)
-          .append("]: the C++ compiler refuses a body in C++:\n");
-      message += first;
-    }
-    message.pop_back();
-    return message;
+    return refusals;
   }
 
   // `units`: what the processes compile, one each.
@@ -443,8 +437,12 @@ class Builder {
       if (log.text.find(phrase) != std::string::npos || failed->exit_code > 128)
         return fail(kUsage, "`" + failed->arguments[0] + "` failed while " + label + ":\n" + first);
     if (const Unit* unit = units == nullptr ? nullptr : (*units)[static_cast<size_t>(failed - processes.data())];
-        unit != nullptr && unit->user_file != nullptr)
-      return fail(kInputErrors, refusalOf(*unit->user_file, log.text, first));
+        unit != nullptr && unit->user_file != nullptr) {
+      result_.refusals = refusalsOf(*unit->user_file, log.text);
+      first.pop_back();
+      return fail(kInputErrors, "error[" + std::string(diagInfo(Diag::CppRefused).code) +
+                                    "]: the C++ compiler refuses a body in C++:\n" + first);
+    }
     return fail(kInternal, "`" + failed->arguments[0] + "` refused generated code while " + label +
                                "; the files are in " + work_ + "\n" + first);
   }

@@ -26,10 +26,18 @@ struct NativeRequest {
   bool keep = false;  // keep the generated files and say where
 };
 
+// What g++ says of a body that the user wrote in C++, at its own place: the path as diagnostics print it.
+struct Refusal {
+  std::string path;
+  uint32_t line, column;
+  std::string message;
+};
+
 struct NativeResult {
   int exit = kGood;     // kGood, kUsage, kInternal, or kInputErrors: g++ refused a body that the user wrote in C++
   std::string message;  // what went wrong
-  std::string path;     // the shared object
+  std::vector<Refusal> refusals;  // kInputErrors: empty where g++ names no place in the body, see `message`
+  std::string path;               // the shared object
 };
 
 // Compiles and links to a shared object in the cache, or finds it there.

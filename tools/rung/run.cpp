@@ -30,7 +30,8 @@ int runRun(const Options& options) {
   std::string why;
   bool good = compilation.translate(false, program, why);
   if (good && !program) good = compilation.emit(false, request.parts[0].files);
-  int exit = compilation.finish();
+  const bool later = good && compilation.hasCppBodies() && compilation.exitCode() == kGood;
+  int exit = later ? kGood : compilation.finish();
   if (!good || exit != kGood) {
     if (options.time_phases) fputs(times.table().c_str(), stderr);
     return exit;
@@ -50,9 +51,12 @@ int runRun(const Options& options) {
     request.jobs = options.jobs;
     request.keep = options.keep;
     NativeResult result = makeShared(cache, request);
-    if (result.exit == kInternal) printInternalError(result.message.c_str());
-    if (result.exit == kUsage) usageError(result.message);
-    if (result.exit == kInputErrors) fprintf(stderr, "%s\n", result.message.c_str());
+    if (later) {
+      compilation.finish(result);
+    } else {
+      if (result.exit == kInternal) printInternalError(result.message.c_str());
+      if (result.exit == kUsage) usageError(result.message);
+    }
     if (result.exit != kGood) return result.exit;
     error = library.open(result.path);
     module = error.empty() ? library.find(compilation.options.moduleName(), error) : nullptr;

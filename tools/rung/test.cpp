@@ -81,7 +81,8 @@ class Tester {
         one.level = 0;
         one.level_given = true;
       }
-      Compilation compilation(one, times_);
+      auto owned = std::make_unique<Compilation>(one, times_);
+      Compilation& compilation = *owned;
       Module module;
       NativePart part;
       module.good = makeModule(compilation, module, part);
@@ -108,6 +109,7 @@ class Tester {
       if (file != nullptr || i > 0) part.folder = module.name;
       if (module.good && !module.program) request_.parts.push_back(std::move(part));
       modules_.push_back(std::move(module));
+      if (compilation.hasCppBodies()) with_cpp_.push_back(std::move(owned));
     }
     return kGood;
   }
@@ -152,7 +154,7 @@ class Tester {
       NativeResult result = makeShared(cache, request_);
       if (result.exit == kInternal) printInternalError(result.message.c_str());
       if (result.exit == kUsage) usageError(result.message);
-      if (result.exit == kInputErrors) fprintf(stderr, "%s\n", result.message.c_str());
+      if (result.exit == kInputErrors) refuse(result);
       if (result.exit != kGood) return result.exit;
       std::string error = library.open(result.path);
       if (!error.empty()) {
@@ -175,6 +177,13 @@ class Tester {
     const int exit = host::reportTests(results, test_options_);
     const std::string error = options_.lcov.empty() ? "" : writeFile(options_.lcov, coverage_.lcov());
     return error.empty() ? exit : usageError(error);
+  }
+
+  // What g++ said of a body, with the text of its file; the other messages were printed before.
+  void refuse(const NativeResult& result) const {
+    for (const std::unique_ptr<Compilation>& compilation : with_cpp_)
+      if (compilation->printRefusals(result)) return;
+    fprintf(stderr, "%s\n", result.message.c_str());
   }
 
   int runModule(const Module& module, const ModuleLibrary& library, host::TestResults& results) {
@@ -208,6 +217,7 @@ class Tester {
   PhaseTimes times_;
   NativeRequest request_;
   std::vector<Module> modules_;
+  std::vector<std::unique_ptr<Compilation>> with_cpp_;  // those with bodies in C++
   Coverage coverage_;
   bool checked_ = true;
   std::string why_;  // an error of use

@@ -1,0 +1,114 @@
+// What both parts of the scheduler of charts share (see sfc_schedule.h): the chart with its actions and flags, and the
+// writer of the text that it becomes. Private to frontend/text: sfc_declare.cpp, sfc_schedule.cpp, sfc_flags.cpp.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "frontend/text/sfc_schedule.h"
+
+namespace rung::text {
+
+constexpr uint32_t kWord = 64;  // bits of a set's word
+
+const char* wordOf(SfcQualifier q);
+inline bool isControlled(SfcQualifier q) { return q < SfcQualifier::Entry; }
+
+std::string literalOf(uint64_t word);
+inline std::string maskOf(uint32_t index) { return literalOf(uint64_t{1} << (index % kWord)); }
+
+// A text in ST of which each byte knows its place in the chart.
+class Writer {
+ public:
+  Writer(const Charts& charts, Loc place) : charts_(charts), place_(place) {}
+
+  void at(Loc place) { place_ = place; }
+  template <class... Parts>
+  void line(uint32_t depth, const Parts&... parts) {
+    if (depth > 0) put(std::string(2 * depth, ' '));
+    (put(parts), ...);
+    put("\n");
+  }
+  void put(std::string_view text) {
+    if (segments_.empty() || segments_.back().verbatim || segments_.back().from != place_)
+      segments_.push_back({static_cast<uint32_t>(text_.size()), place_, false});
+    text_ += text;
+  }
+  void put(const Ident& name) { put(charts_.names.text(name.name)); }
+  void put(const SfcExpr& quoted) {
+    segments_.push_back({static_cast<uint32_t>(text_.size()), quoted.begin, true});
+    text_ += textOf(quoted);
+  }
+  std::string_view textOf(const SfcExpr& e) const {
+    const FileId file = charts_.sources.fileOf(e.begin);
+    return charts_.sources.text(file).substr(e.begin.offset - charts_.sources.begin(file).offset,
+                                             e.end.offset - e.begin.offset);
+  }
+  bool empty() const { return text_.empty(); }
+  FileId finish() {
+    const FileId file = charts_.sources.fileOf(place_);
+    if (segments_.empty()) segments_.push_back({0, place_, false});
+    const FileId made =
+        charts_.sources.addAssembled(std::string(charts_.sources.path(file)), std::move(text_), std::move(segments_));
+    if (made) charts_.sources.showAs(made, std::string(charts_.sources.shown(file)));
+    return made;
+  }
+
+ private:
+  const Charts& charts_;
+  Loc place_;
+  std::string text_;
+  std::vector<Segment> segments_;
+};
+
+// The flags of a chart: variables of these names have a meaning where they are declared. TM/TP manual 5.5.2.5.
+enum class SfcFlag : uint8_t {
+  Init,
+  Reset,
+  Error,
+  EnableLimit,
+  ErrorStep,
+  ErrorPou,
+  ErrorAnalyzation,
+  ErrorAnalyzationTable,
+  QuitError,
+  Pause,
+  Trans,
+  CurrentStep,
+  TipMode,
+  Tip
+};
+constexpr size_t kSfcFlags = 14;
+const char* wordOf(SfcFlag flag);
+
+// What both parts of the schedule know of a chart.
+class Chart {
+ public:
+  Chart(const Charts& charts, const PouDecl& pou, const ChartPlace& place);
+
+  std::string_view text(NameId name) const { return charts_.names.text(name); }
+  std::string_view name(uint32_t step) const { return text(steps_[step].name.name); }
+  uint32_t words(size_t count) const { return static_cast<uint32_t>((count + kWord - 1) / kWord); }
+  uint32_t actionOf(NameId name) const;
+  // Looks for the flags among the variables that the chart sees; before, there are none.
+  void findFlags(Shapes& shapes);
+  const Ident* flag(SfcFlag word) const {
+    const std::optional<Ident>& found = flags_[static_cast<size_t>(word)];
+    return found ? &*found : nullptr;
+  }
+  std::string initialSteps() const;  // the words of their set
+  bool keepsCondition(const SfcTransition& t) const { return t.body || (t.name.name && t.condition.value); }
+
+  const Charts& charts_;
+  const PouDecl& pou_;
+  const ChartPlace& place_;
+  std::span<const SfcStep> steps_;
+  std::span<const SfcTransition> transitions_;
+  StepIndex index_;
+  std::vector<Ident> actions_;  // with control blocks, in the order of their first association
+  std::vector<std::pair<uint32_t, uint32_t>> action_by_name_;
+  std::optional<Ident> flags_[kSfcFlags];
+};
+
+}  // namespace rung::text

@@ -1,0 +1,65 @@
+// Writes the statements of a chart; see sfc_schedule.h. Private to frontend/text: sfc_schedule.cpp has the cycle,
+// sfc_flags.cpp the flags and the limits of steps.
+#pragma once
+
+#include "frontend/text/sfc_chart.h"
+
+namespace rung::text {
+
+class Scheduler {
+ public:
+  Scheduler(const Chart& chart, Shapes& shapes, Writer& out)
+      : chart_(chart), charts_(chart.charts_), tree_(chart.charts_.tree), shapes_(shapes), out_(out) {}
+
+  void run();
+
+ private:
+  using Branch = std::function<void(uint32_t index, uint32_t depth)>;
+
+  std::string word(const char* set, size_t count, uint32_t index) const {
+    return chart_.words(count) <= 1 ? set : std::string(set) + "[" + std::to_string(index / kWord) + "]";
+  }
+  std::string stepWord(const char* set, uint32_t step) const { return word(set, chart_.steps_.size(), step); }
+  // All words of a set.
+  void forWords(uint32_t depth, size_t count,
+                const std::function<void(const std::string& index, uint32_t depth)>& body);
+  // Visits the set bits of a set: `wanted` says which have a branch.
+  void scan(uint32_t depth, const char* set, size_t count, const std::function<bool(uint32_t)>& wanted,
+            const std::function<std::string_view(uint32_t)>& name, const Branch& branch);
+  std::function<std::string_view(uint32_t)> stepNames() const {
+    return [this](uint32_t i) { return chart_.name(i); };
+  }
+  std::function<std::string_view(uint32_t)> actionNames() const {
+    return [this](uint32_t i) { return chart_.text(chart_.actions_[i].name); };
+  }
+  bool callsAction(const Ident& action) const { return shapes_.of(action.name).kind != ShapeKind::Value; }
+  void run(uint32_t depth, const SfcStep& step, SfcQualifier when);
+  void flags();
+  void reset(uint32_t depth);
+  void evolve();
+  void activeStep(uint32_t step, uint32_t depth);
+  void timeLimit(const SfcStep& step, uint32_t depth);
+  static std::string quoted(std::string_view text);
+  std::vector<const SfcTransition*> leaving(const SfcStep& step) const;
+  void clearTable(uint32_t depth);
+  void analyse(const SfcExpr& e, bool wanted, uint32_t depth);
+  template <class Condition>
+  void analyseLeaf(const Condition& condition, std::string_view text, bool wanted, uint32_t depth);
+  SfcExpr part(const SfcExpr& e) const;
+  void actions();
+  void transitions();
+  void chain(const std::vector<uint32_t>& ways, size_t at, uint32_t depth);
+  void condition(uint32_t way);
+  void prepare(uint32_t way, uint32_t depth);
+  void fire(uint32_t way, uint32_t depth);
+  const SfcTransition& conditionOf(const SfcTransition& t) const;
+  std::vector<std::vector<uint32_t>> waysBySteps() const;
+
+  const Chart& chart_;
+  const Charts& charts_;
+  const Tree& tree_;
+  Shapes& shapes_;
+  Writer& out_;
+};
+
+}  // namespace rung::text
