@@ -14,7 +14,8 @@ AssertionTexts assertionTexts(const Module& module, const Body& body, const Stmt
   AssertionTexts out;
   out.place = sourcePlace(module, body, stmt.loc);
   if (!body.origin.path && stmt.loc) {
-    out.source = module.sources.line(module.sources.fileOf(stmt.loc), out.place.line);
+    const Place written = module.sources.place(stmt.loc);
+    out.source = module.sources.line(written.file, written.line);
   }
   if (stmt.d != 0) out.text = module.names.text(NameId{stmt.d});
   if (stmt.e != 0) out.shown = module.names.text(NameId{stmt.e});

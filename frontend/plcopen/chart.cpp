@@ -26,8 +26,8 @@ constexpr std::pair<std::string_view, NodeKind> kKinds[] = {
     {"contact", NodeKind::Contact},
     {"leftPowerRail", NodeKind::Rail}};
 
-constexpr size_t kMaxWays = 4096;     // of one element
-constexpr uint32_t kMaxWires = 1000;  // behind each other
+constexpr size_t kMaxSteps = 4'000'000;  // in the ways to all elements of a chart
+constexpr uint32_t kMaxWires = 1000;     // behind each other
 
 }  // namespace
 
@@ -59,18 +59,65 @@ void Chart::readNodes() {
           .note(nodes_[known->second].element->loc, Note::AlsoDeclaredHere);
   }
   behind_.resize(nodes_.size());
-  ways_.resize(nodes_.size());
-  targets_.resize(nodes_.size());
-  action_blocks_.resize(nodes_.size());
   for (uint32_t i = 0; i < nodes_.size(); ++i) {
     nodes_[i].first_wire = static_cast<uint32_t>(wires_.size());
     for (const ChartWire& wire : wiresOf(*nodes_[i].element)) {
       wires_.push_back(wire);
-      behind_[wire.from].push_back(i);
+      std::vector<uint32_t>& behind = behind_[wire.from];
+      if (behind.empty() || behind.back() != i) behind.push_back(i);
     }
     nodes_[i].end_wire = static_cast<uint32_t>(wires_.size());
   }
   joinConnectors();
+  addWaitingSteps();
+  findLabels();
+  ways_.resize(nodes_.size());
+  targets_.resize(nodes_.size());
+  passed_.resize(nodes_.size(), UINT32_MAX);
+  action_blocks_.resize(nodes_.size());
+}
+
+// A branch may end with a transition right above the double line: then it waits there for the others. Syntax manual
+// 5.9.8.
+void Chart::addWaitingSteps() {
+  const auto count = static_cast<uint32_t>(nodes_.size());
+  for (uint32_t i = 0; i < count; ++i) {
+    if (nodes_[i].kind != NodeKind::SimultaneousConvergence) continue;
+    for (uint32_t w = nodes_[i].first_wire; w < nodes_[i].end_wire; ++w) {
+      const uint32_t from = wires_[w].from;
+      if (nodes_[from].kind != NodeKind::Transition && nodes_[from].kind != NodeKind::SelectionConvergence) continue;
+      const auto wait = static_cast<uint32_t>(nodes_.size());
+      nodes_.push_back({nodes_[from].element, NodeKind::Wait, 0, 0});
+      behind_.push_back({i});
+      *std::find(behind_[from].begin(), behind_[from].end(), i) = wait;
+      wires_[w].from = wait;
+    }
+  }
+}
+
+// Jumps may lead to a parallel branch by its name.
+void Chart::findLabels() {
+  constexpr std::string_view kName = "38391c6d";
+  for (uint32_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].kind != NodeKind::SimultaneousDivergence) continue;
+    const xml::Element* own = ownAttribute(*nodes_[i].element, kName);
+    const std::string name = own != nullptr ? textOf(import_, *own) : document_.value(*nodes_[i].element, "name");
+    if (!name.empty()) labels_.emplace(upper(name), i);
+  }
+}
+
+// Forbids a step behind a step. IEC 61131-3 ed. 3, 6.7.5; syntax manual 5.9.6.
+//   fails   <step localId="2"> with a wire from <step localId="1">          E1057
+void Chart::checkOrder() {
+  for (uint32_t i = 0; i < nodes_.size(); ++i) {
+    const NodeKind kind = nodes_[i].kind;
+    if (kind != NodeKind::Step && kind != NodeKind::Jump && kind != NodeKind::SimultaneousDivergence) continue;
+    for (uint32_t w = nodes_[i].first_wire; w < nodes_[i].end_wire; ++w) {
+      const NodeKind from = nodes_[wires_[w].from].kind;
+      if (from == NodeKind::Step || from == NodeKind::SimultaneousConvergence || from == NodeKind::SelectionDivergence)
+        report(Diag::ChartNoTransitionBetween, wires_[w].loc, {nameOf(wires_[w].from), nameOf(i)});
+    }
+  }
 }
 
 // The wires into an element, or into the condition of a transition. Forbids those that lead to nothing. TC6 2.01.
@@ -127,6 +174,16 @@ void Chart::connectActionBlocks() {
   }
 }
 
+// Wires may meet and part again without end: there is a limit to what is followed.
+bool Chart::spend(uint32_t node, size_t steps) {
+  spent_ += steps + 1;
+  if (spent_ <= kMaxSteps) return true;
+  if (good_)
+    report(Diag::XmlTooLarge, nodes_[node].element->loc, {std::to_string(kMaxSteps), "ways through one chart"});
+  good_ = false;
+  return false;
+}
+
 // One set of steps for each way that leads to the node.
 void Chart::addWays(Ways& ways, uint32_t node, uint32_t depth) {
   for (uint32_t w = nodes_[node].first_wire; w < nodes_[node].end_wire; ++w) {
@@ -137,7 +194,10 @@ void Chart::addWays(Ways& ways, uint32_t node, uint32_t depth) {
     }
     const Ways& inner = before(from, depth + 1);
     ways.never = ways.never || inner.never;
-    ways.sets.insert(ways.sets.end(), inner.sets.begin(), inner.sets.end());
+    for (const Steps& steps : inner.sets) {
+      if (!spend(node, steps.size())) return;
+      ways.sets.push_back(steps);
+    }
   }
 }
 
@@ -162,7 +222,7 @@ void Chart::addUnited(Ways& ways, uint32_t node, uint32_t depth) {
     std::vector<Steps> united;
     for (const Steps& a : ways.sets) {
       for (const Steps& b : inner.sets) {
-        if (united.size() == kMaxWays) break;
+        if (!spend(node, a.size() + b.size())) return;
         united.push_back(a);
         united.back().insert(united.back().end(), b.begin(), b.end());
       }
@@ -182,6 +242,7 @@ const Chart::Ways& Chart::before(uint32_t node, uint32_t depth) {
   ways.state = Ways::State::Busy;
   switch (nodes_[node].kind) {
     case NodeKind::Step:
+    case NodeKind::Wait:
     case NodeKind::MacroStep: ways.sets.push_back({node}); break;
     case NodeKind::SelectionDivergence:
     case NodeKind::SelectionConvergence:
@@ -199,17 +260,18 @@ const Chart::Ways& Chart::before(uint32_t node, uint32_t depth) {
       report(Diag::ChartNoStepBetween, nodes_[node].element->loc, {nameOf(node), "a transition"});
       break;
   }
-  if (ways.sets.size() > kMaxWays) ways.sets.resize(kMaxWays);
   ways.state = Ways::State::Known;
   return ways;
 }
 
-// The steps and jumps that begin when a transition fires whose wire comes out of `node`.
-void Chart::after(uint32_t node, std::vector<uint32_t>& out, uint32_t depth) {
-  if (depth == kMaxWires) {
+// The steps and jumps that begin when the transition fires, of which a wire comes out of `node`.
+void Chart::after(uint32_t node, uint32_t transition, uint32_t depth) {
+  if (depth == kMaxWires || passed_[node] == transition) {
     report(Diag::ChartCycle, nodes_[node].element->loc, {nameOf(node)});
     return;
   }
+  passed_[node] = transition;
+  std::vector<uint32_t>& out = targets_[transition];
   bool any = false;
   for (const uint32_t next : behind_[node]) {
     if (nodes_[next].kind == NodeKind::Other || nodes_[next].kind == NodeKind::ActionBlock) continue;
@@ -220,12 +282,20 @@ void Chart::after(uint32_t node, std::vector<uint32_t>& out, uint32_t depth) {
     any = true;
     switch (nodes_[next].kind) {
       case NodeKind::Step:
-      case NodeKind::MacroStep:
-      case NodeKind::Jump: out.push_back(next); break;
+      case NodeKind::Wait:
+      case NodeKind::MacroStep: out.push_back(next); break;
+      case NodeKind::Jump: {
+        const auto label = labels_.find(upper(document_.value(*nodes_[next].element, "targetName")));
+        if (label != labels_.end() && !import_.isStepName(label->first))
+          after(label->second, transition, depth + 1);
+        else
+          out.push_back(next);
+        break;
+      }
       case NodeKind::SelectionConvergence:
       case NodeKind::SimultaneousDivergence:
       case NodeKind::Connector:
-      case NodeKind::Continuation: after(next, out, depth + 1); break;
+      case NodeKind::Continuation: after(next, transition, depth + 1); break;
       case NodeKind::Transition:
       case NodeKind::SelectionDivergence:
       case NodeKind::SimultaneousConvergence:
@@ -253,7 +323,7 @@ void Chart::connectTransition(uint32_t node) {
   if (ways.sets.empty())
     report(Diag::ChartNoStepBefore, nodes_[node].element->loc, {nameOf(node)});
   else
-    after(node, targets_[node], 0);
+    after(node, node, 0);
 }
 
 }  // namespace rung::plcopen

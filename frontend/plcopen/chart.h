@@ -17,6 +17,7 @@ namespace rung::plcopen {
 
 enum class NodeKind : uint8_t {
   Step,
+  Wait,  // where a branch waits that ends with a transition: a step that the file leaves out
   MacroStep,
   Transition,
   Jump,
@@ -87,15 +88,20 @@ class Chart {
   void readNodes();
   std::vector<ChartWire> wiresOf(const xml::Element& holder);
   void joinConnectors();
+  void addWaitingSteps();
+  void findLabels();
+  void checkOrder();
   void connectActionBlocks();
   void connectTransition(uint32_t node);
   const Ways& before(uint32_t node, uint32_t depth);
   void addWays(Ways& ways, uint32_t node, uint32_t depth);
   void addUnited(Ways& ways, uint32_t node, uint32_t depth);
-  void after(uint32_t node, std::vector<uint32_t>& out, uint32_t depth);
+  void after(uint32_t node, uint32_t transition, uint32_t depth);
+  bool spend(uint32_t node, size_t steps);
 
   // ---- steps (sfc.cpp)
   void writeStep(uint32_t node);
+  void writeStepName(uint32_t node);
   void writeStepActions(uint32_t node);
   void writeAction(const xml::Element& action);
   void writeTime(const xml::Element& action, std::string_view qualifier);
@@ -121,12 +127,15 @@ class Chart {
   const xml::Element& pou_;
   const std::string& name_;
   bool good_ = true;
+  size_t spent_ = 0;  // steps in all Ways
   std::vector<ChartNode> nodes_;
   std::vector<ChartWire> wires_;
   std::unordered_map<std::string_view, uint32_t> by_id_;
+  std::unordered_map<std::string, uint32_t> labels_;  // of parallel branches, in upper case
   std::vector<std::vector<uint32_t>> behind_;         // by node: those that name it, in the order of the file
   std::vector<Ways> ways_;                            // by node
   std::vector<std::vector<uint32_t>> targets_;        // by node, of transitions
+  std::vector<uint32_t> passed_;                      // by node: the last transition whose wires went through it
   std::vector<std::vector<uint32_t>> action_blocks_;  // by node, of steps
   std::vector<Definition> definitions_;
   std::unordered_map<std::string, std::string> own_actions_;  // by variable

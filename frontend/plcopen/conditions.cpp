@@ -254,7 +254,7 @@ void Chart::writeSteps(const std::vector<uint32_t>& steps) {
   if (steps.size() > 1) import_.out.word("(");
   for (size_t i = 0; i < steps.size(); ++i) {
     if (i > 0) import_.out.word(", ");
-    writeName(import_, *nodes_[steps[i]].element, nodes_[steps[i]].kind == NodeKind::Jump ? "targetName" : "name");
+    writeStepName(steps[i]);
   }
   if (steps.size() > 1) import_.out.word(")");
 }

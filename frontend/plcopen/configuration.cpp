@@ -172,17 +172,20 @@ class TaskWriter {
   bool any_ = false;
 };
 
-// PROGRAM name [WITH task] : type;
+// PROGRAM name [WITH task] : type; In TC6 1.01 the attribute is `type`, and CODESYS gives a name alone.
 void writeProgram(Import& import, const xml::Element& instance, const xml::Element* task) {
-  if (!hasName(import, instance, "typeName") && !checkName(import, instance)) return;
+  std::string_view type = "name";
+  for (const std::string_view attribute : {"type", "typeName"})
+    if (hasName(import, instance, attribute)) type = attribute;
+  if (!checkName(import, instance, type)) return;
   import.out.put(instance.loc, "PROGRAM ");
-  writeIdentifier(import, instance, identifierOf(import.document.value(instance, "typeName")));
+  writeIdentifier(import, instance, identifierOf(import.document.value(instance, type)));
   if (task != nullptr) {
     import.out.word(" WITH ");
     writeName(import, *task);
   }
   import.out.word(" : ");
-  writeName(import, instance, hasName(import, instance, "typeName") ? "typeName" : "name");
+  writeName(import, instance, type);
   import.out.word(";\n");
 }
 

@@ -26,26 +26,30 @@ struct OwnAction {
 // Of an action with the name of a step: in the text, members of a block have one name space.
 constexpr std::string_view kActionSuffix = "_action";
 
+std::string upper(std::string_view name);
+
 struct Import {
   const Sources& sources;
   const xml::Document& document;
   Diagnostics& diagnostics;
   xml::Assembly& out;
-  bool bare_texts = false;  // TC6 2.01, in which Beremiz keeps texts without quotes
+  bool bare_texts = false;  // TC6 1.01 and 2.01, in which Beremiz keeps texts without quotes
   // FB_Init of the blocks that declare it, by the block's name in upper case, sorted.
   std::vector<std::pair<std::string, const xml::Element*>> initialisers = {};
   std::unordered_set<const xml::Element*> left_out = {};  // resources that repeat the names of an earlier one
 
-  // Of the POU at hand: the steps of its charts in upper case, and what its charts cannot say in a step.
-  std::unordered_set<std::string> step_names = {};
+  // Of the POU at hand: the steps of its charts and the actions with the name of one, in upper case, and what its
+  // charts cannot say in a step.
+  std::unordered_set<std::string> step_names = {}, renamed_actions = {};
   std::vector<OwnAction> own_actions = {};
   uint32_t own_action_count = 0;
 
-  bool isStepName(std::string_view name) const;
+  bool isStepName(std::string_view name) const { return step_names.count(upper(name)) != 0; }
+  bool isRenamed(std::string_view action) const {
+    return !renamed_actions.empty() && renamed_actions.count(upper(action)) != 0;
+  }
   bool isLeftOut(const xml::Element& resource) const { return left_out.count(&resource) != 0; }
 };
-
-std::string upper(std::string_view name);
 
 // ---- text.cpp: reading and writing names, values and texts
 

@@ -181,7 +181,7 @@ void ProjectReader::noteExtensions() {
 
 void ProjectReader::run() {
   const xml::Attribute* space = import_.document.attribute(import_.document.elements[0], "xmlns");
-  import_.bare_texts = space != nullptr && space->raw.ends_with("0201");
+  import_.bare_texts = space == nullptr || !space->raw.ends_with("0200");
   findInitialisers();
   leaveOutApplications();
   for (const xml::Element& element : import_.document.elements) {

@@ -141,7 +141,7 @@ void writeActions(Import& import, const xml::Element& pou) {
     if (e->name != "action" || !checkName(import, *e)) continue;
     import.out.put(e->loc, "ACTION ");
     writeName(import, *e);
-    if (import.isStepName(nameOf(import, *e))) import.out.word(kActionSuffix);
+    if (import.isRenamed(nameOf(import, *e))) import.out.word(kActionSuffix);
     import.out.word(" :\n");
     writeBodies(import, *e, pou, nameOf(import, pou) + "." + nameOf(import, *e));
     import.out.put(e->end, "END_ACTION\n");
@@ -158,6 +158,7 @@ const xml::Element* cfcOf(const Import& import, const xml::Element& body) {
 // The steps of all charts of a POU.
 void findSteps(Import& import, const xml::Element& pou) {
   import.step_names.clear();
+  import.renamed_actions.clear();
   const auto find = [&](const xml::Element& owner) {
     const xml::Element* body = import.document.child(owner, "body");
     const xml::Element* chart = body == nullptr ? nullptr : import.document.child(*body, "SFC");
@@ -170,6 +171,9 @@ void findSteps(Import& import, const xml::Element& pou) {
   for (const xml::Element* e = actions == nullptr ? nullptr : import.document.firstChild(*actions); e != nullptr;
        e = import.document.next(*e))
     find(*e);
+  for (const xml::Element* e = actions == nullptr ? nullptr : import.document.firstChild(*actions); e != nullptr;
+       e = import.document.next(*e))
+    if (import.isStepName(nameOf(import, *e))) import.renamed_actions.insert(upper(nameOf(import, *e)));
 }
 
 }  // namespace

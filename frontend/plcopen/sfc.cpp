@@ -55,7 +55,7 @@ void Chart::writeAction(const xml::Element& action) {
   const xml::Attribute* name = reference == nullptr ? nullptr : document_.attribute(*reference, "name");
   if (name != nullptr && isName(name->raw)) {
     import_.out.add(document_, *name);
-    if (import_.isStepName(name->raw)) import_.out.word(kActionSuffix);
+    if (import_.isRenamed(name->raw)) import_.out.word(kActionSuffix);
   } else {
     std::string& own =
         own_actions_[name != nullptr ? upper(document_.decoded(*name)) : std::to_string(action.loc.offset)];
@@ -89,7 +89,7 @@ void Chart::writeStepActions(uint32_t node) {
     if (found == nullptr) continue;
     import_.out.put(found->loc, pragma);
     import_.out.add(document_, *found);
-    if (import_.isStepName(textOf(import_, *found))) import_.out.word(kActionSuffix);
+    if (import_.isRenamed(textOf(import_, *found))) import_.out.word(kActionSuffix);
     import_.out.word(";\n");
   }
   for (const uint32_t block : action_blocks_[node])
@@ -100,22 +100,32 @@ void Chart::writeStepActions(uint32_t node) {
 // STEP name: actions END_STEP
 void Chart::writeStep(uint32_t node) {
   const xml::Element& step = *nodes_[node].element;
-  import_.out.put(step.loc, isTrue(import_, step, "initialStep") ? "INITIAL_STEP " : "STEP ");
-  writeName(import_, step);
+  const bool is_initial = nodes_[node].kind == NodeKind::Step && isTrue(import_, step, "initialStep");
+  import_.out.put(step.loc, is_initial ? "INITIAL_STEP " : "STEP ");
+  writeStepName(node);
   import_.out.word(":\n");
-  writeStepActions(node);
+  if (nodes_[node].kind == NodeKind::Step) writeStepActions(node);
   import_.out.put(step.end, "END_STEP\n");
+}
+
+void Chart::writeStepName(uint32_t node) {
+  const xml::Element& element = *nodes_[node].element;
+  if (nodes_[node].kind == NodeKind::Wait)
+    import_.out.put(element.loc, "sfc_wait_" + std::to_string(node));
+  else
+    writeName(import_, element, nodes_[node].kind == NodeKind::Jump ? "targetName" : "name");
 }
 
 // A chart with a mistake in its graph is not written at all: what follows from it needs no messages.
 void Chart::write() {
   readNodes();
   connectActionBlocks();
+  checkOrder();
   for (uint32_t i = 0; i < nodes_.size() && good_; ++i)
     if (nodes_[i].kind == NodeKind::Transition) connectTransition(i);
   if (!good_) return;
   for (uint32_t i = 0; i < nodes_.size(); ++i) {
-    if (nodes_[i].kind == NodeKind::Step) writeStep(i);
+    if (nodes_[i].kind == NodeKind::Step || nodes_[i].kind == NodeKind::Wait) writeStep(i);
     if (nodes_[i].kind == NodeKind::Transition) writeTransition(i);
   }
   for (size_t i = 0; i < definitions_.size(); ++i) writeDefinition(definitions_[i]);
@@ -136,7 +146,7 @@ void writeOwnActions(Import& import, const xml::Element& pou, const std::string&
       writeBody(import, *action.body, pou, name + "." + action.name);
     } else {
       import.out.add(import.document, *action.variable);
-      import.out.word(" := _" + action.name + ".x;\n");
+      import.out.word(" := _" + action.name + "._x;\n");
     }
     import.out.word("END_ACTION\n");
   }

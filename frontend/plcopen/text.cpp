@@ -104,10 +104,6 @@ void writeAttributes(Import& import, const xml::Element& element) {
   }
 }
 
-bool Import::isStepName(std::string_view name) const {
-  return !step_names.empty() && step_names.count(upper(name)) != 0;
-}
-
 std::string upper(std::string_view name) {
   std::string out(name);
   for (char& c : out)

@@ -580,9 +580,9 @@ const char* Lexer::pragma(const char* begin) {
 // What is nearly the name of a pragma that does something was most likely meant to be it; all others are passed over.
 void Lexer::checkPragma(std::string_view word, const char* rest, const char* end) {
   static const std::vector<std::string_view> kPragmas = {
-      "attribute", "test", "info",     "warning",  "error",     "text",   "define", "undefine", "IF",
-      "ELSIF",     "ELSE", "END_IF",   "region",   "endregion", "native", "alias",  "required", "extensible",
-      "lazy",      "pure", "operator", "replaces", "std",       "sized",  "list",  "entry",  "active",   "exit"};
+      "attribute", "test",     "info",   "warning",   "error",  "text",  "define",   "undefine",   "IF",   "ELSIF",
+      "ELSE",      "END_IF",   "region", "endregion", "native", "alias", "required", "extensible", "lazy", "pure",
+      "operator",  "replaces", "std",    "sized",     "list",   "entry", "active",   "exit"};
   static const std::vector<std::string_view> kAttributes = {"qualified_only", "strict", "test", "no_final_scan"};
   const std::vector<std::string_view>* known = &kPragmas;
   if (sameIdentifier(word, "attribute")) {

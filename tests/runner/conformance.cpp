@@ -1,5 +1,5 @@
 // Conformance tests, tests/conformance/**.st: what the language promises, feature by feature. Line 1 says what is
-// shown;
+// shown; projects in **.xml say it in comments such as <!-- features: 54/2a -->
 //   // features: 43/1a 43/1b      rows of the standard's tables, at most six
 //   // covers: tm-tp-library:SR    rows of the manuals' catalogues; codesys:NAME where no manual lists it
 // A file without `// expect:` lines is run by `rung test`, many files in one process, each a project of its own, once
@@ -160,7 +160,10 @@ std::string headProblem(const std::vector<std::string>& lines, const File& file)
 
 void addConformance(const Setting& setting, std::vector<Job>& jobs) {
   std::map<std::string, std::vector<File>> by_options;
-  for (const std::string& path : filesBelow(setting, "tests/conformance", ".st")) {
+  std::vector<std::string> paths = filesBelow(setting, "tests/conformance", ".st");
+  const std::vector<std::string> projects = filesBelow(setting, "tests/conformance", ".xml");
+  paths.insert(paths.end(), projects.begin(), projects.end());
+  for (const std::string& path : paths) {
     const std::vector<std::string> lines = splitLines(readText(setting.root + "/" + path));
     File file{path, valueOf(lines, "features"), valueOf(lines, "covers")};
     file.is_native = std::find(lines.begin(), lines.end(), "{C++}") != lines.end();

@@ -3,6 +3,7 @@
 //   ```st mended [options]    on such a page: no error, and not that code
 //   ```st run [options]       `rung run` ends well; an ```output block after it is what it prints
 //   ```st check [options]     no error
+//   ```xml wrong, mended      the same for a project in XML
 //   ```ir wrong, mended       the same for IR text, which ir_golden reads; its comments begin with `; `
 //   ```st name.st             a file for the console blocks of the same page (any language, any ending)
 //   ```console                a session (console.h), in a folder that looks like the project's root;
@@ -71,7 +72,8 @@ class Page {
       const Block* after = i + 1 < blocks.size() && blocks[i + 1].language == "output" ? &blocks[i + 1] : nullptr;
       if (block.language == "console") {
         runConsole(block);
-      } else if (block.language == "st" && (block.kind == "wrong" || block.kind == "mended" || block.kind == "check")) {
+      } else if ((block.language == "st" || block.language == "xml") &&
+                 (block.kind == "wrong" || block.kind == "mended" || block.kind == "check")) {
         runCheck(block);
       } else if (block.language == "ir" && (block.kind == "wrong" || block.kind == "mended")) {
         runIr(block);
@@ -100,8 +102,9 @@ class Page {
   Command commandFor(const Block& block, const char* verb) {
     Command c;
     c.folder = freshFolder(setting_);
-    writeText(c.folder + "/example.st", textOf(block));
-    c.arguments = {setting_.rung, verb, "example.st"};
+    const std::string name = "example." + block.language;
+    writeText(c.folder + "/" + name, textOf(block));
+    c.arguments = {setting_.rung, verb, name};
     c.arguments.insert(c.arguments.end(), block.options.begin(), block.options.end());
     return c;
   }
