@@ -358,9 +358,8 @@ void Parser::parsePouParts(PouDecl& d) {
     parseBody(d);
   if (!is_member && atMember()) {
     while (atMember()) parseMember(members);
-    const bool has_body =
-        !d.body.empty() || !d.il.empty() || d.body_kind == BodyKind::Sfc || d.body_kind == BodyKind::Network ||
-        d.body_kind == BodyKind::Cpp;
+    const bool has_body = !d.body.empty() || !d.il.empty() || d.body_kind == BodyKind::Sfc ||
+                          d.body_kind == BodyKind::Network || d.body_kind == BodyKind::Cpp;
     if (!has_body) parseBody(d);
   }
   d.transitions = tree_.addList<SfcTransition>(transitions);

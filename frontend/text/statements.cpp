@@ -23,8 +23,8 @@ bool isAssign(Tok k) { return k == Tok::Assign || (k >= Tok::PlusAssign && k <= 
 
 bool Parser::atBlockEnd() {
   const Tok k = kind();
-  return isEndWord(k) || isPouWord(k) || k == Tok::EndNetwork || (k == Tok::VarGlobal && stmt_depth_ == 0 && !pouCloses()) ||
-         (in_property_ > 0 && atAccessor());
+  return isEndWord(k) || isPouWord(k) || k == Tok::EndNetwork ||
+         (k == Tok::VarGlobal && stmt_depth_ == 0 && !pouCloses()) || (in_property_ > 0 && atAccessor());
 }
 
 bool Parser::startsStatement(const Token* t) const {
