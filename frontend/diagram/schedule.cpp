@@ -335,14 +335,14 @@ void Scheduler::assignTo(const DiagramElement& e, ExprId value) {
   assign(target, value, e.loc, op);
 }
 
-//   fails   a coil or a variable that nothing leads to        E1007
+//   warns   a coil or a variable that nothing leads to        W1018
 void Scheduler::settleAssignment(uint32_t element) {
   if (assigned_[element]) return;
   const DiagramElement& e = graph_.elements[element];
   const DiagramPin* pin = firstInput(e);
   if (pin == nullptr || pin->wires.empty()) {
     if (e.kind == ElementKind::InOut) return;
-    diagnostics_.report(Diag::NotWired, e.loc, {describe(tree_, names_, e)});
+    diagnostics_.report(Diag::NotWiredIdle, e.loc, {describe(tree_, names_, e)});
     return;
   }
   const DiagramPin copy = *pin;

@@ -50,6 +50,7 @@ void writeModifiers(Import& import, const xml::Element& owner) {
 // EXTENDS a IMPLEMENTS b, c
 void writeInheritance(Import& import, const xml::Element& owner, std::string_view kind) {
   const xml::Element* inheritance = dataOfEither(import, owner, kind);
+  if (inheritance == nullptr) inheritance = import.document.child(owner, "Inheritance");  // of an interface
   if (inheritance == nullptr) return;
   for (const auto& [name, word] : {std::pair{"Extends", "EXTENDS"}, std::pair{"Implements", "IMPLEMENTS"}}) {
     bool first = true;
