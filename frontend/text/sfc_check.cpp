@@ -287,7 +287,7 @@ bool Checker::run() {
     // Forbids a transition to the step that it leaves, in codesys. TM/TP manual 5.5.2.4.
     if (charts_.standard == Standard::Codesys && from.size() == 1 && to.size() == 1 &&
         charts_.names.same(from[0].name, to[0].name))
-      report(Diag::SfcSameStep, to[0].loc, {text(to[0].name)});
+      charts_.diagnostics.report(Diag::SfcSameStep, to[0].loc, {text(to[0].name)});
   }
   checkActions();
   if (good_) checkRegions();
