@@ -58,6 +58,7 @@ uint32_t Scheduler::resultOf(uint32_t element, const Shape& shape) const {
   for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
     const NameId pin = graph_.sources[s].pin.name;
     if (pin && isControl(names_, pin)) continue;
+    if (pin && pinNamed(graph_.elements[element], names_.text(pin), PinDirection::InOut) != nullptr) continue;
     const PinShape* known = pin ? shape.find(names_, pin) : nullptr;
     if (known == nullptr || known->direction == PinDirection::Input) return s;
   }
@@ -123,6 +124,9 @@ ExprId Scheduler::readBox(uint32_t source) {
   const Source s = graph_.sources[source];
   const DiagramElement& e = graph_.elements[s.element];
   const Loc loc = s.pin.loc ? s.pin.loc : e.loc;
+  if (const DiagramPin* wired = s.pin.name ? pinNamed(e, names_.text(s.pin.name), PinDirection::InOut) : nullptr;
+      wired != nullptr && !wired->wires.empty())  // what is wired to an in-out goes on behind it
+    return read(graph_.sourceOf(*wired, 0));
   ExprId value;
   if (e.stored) return nameExpr(e.stored, loc);
   if (failed_[s.element]) return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
@@ -143,14 +147,6 @@ ExprId Scheduler::readBox(uint32_t source) {
         diagnostics_.report(Diag::NoSuchPin, loc, {describe(tree_, names_, e), "output", names_.text(pin)})
             .didYouMean(nearest(names_.text(pin), candidates));
         return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
-      }
-      if (known->direction == PinDirection::InOut) {  // what is wired to it
-        const DiagramPin* wired = pinNamed(e, names_.text(known->name), PinDirection::InOut);
-        if (wired == nullptr) wired = pinNamed(e, names_.text(known->name), PinDirection::Input);
-        if (wired != nullptr && !wired->wires.empty()) {
-          const DiagramPin copy = *wired;
-          return read(graph_.sourceOf(copy, 0));
-        }
       }
     }
     value = memberExpr(instance, pin, loc);
@@ -271,8 +267,11 @@ void Scheduler::settleCall(uint32_t element, Call& call) {
     result = call.shape.kind == ShapeKind::Unknown || call.shape.has_result ? resultOf(element, call.shape) : kNone;
     for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
       if (s == result || s == eno) continue;
+      if (pinNamed(e, names_.text(graph_.sources[s].pin.name), PinDirection::InOut) != nullptr) continue;
       Source& source = graph_.sources[s];
       source.temporary = newTemporary(wireName(element) + "_" + std::string(names_.text(source.pin.name)), e.loc);
+      const DiagramPin* out = pinNamed(e, names_.text(source.pin.name), PinDirection::Output);
+      source.inverted = out != nullptr && out->negated;
       call.arguments.push_back({source.pin, nameExpr(source.temporary, source.pin.loc), true, false, source.pin.loc});
       outputs = true;
     }

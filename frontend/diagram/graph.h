@@ -19,8 +19,9 @@ struct Source {
   uint32_t uses = 0;
   uint32_t user = kNone;  // the last element that reads it
   // The scheduler's:
-  NameId temporary;  // holds the value
-  ExprId pending;    // … or this expression is it, read once
+  NameId temporary;       // holds the value
+  bool inverted = false;  // … negated
+  ExprId pending;         // … or this expression is it, read once
   uint16_t height = 1;
 };
 
@@ -45,7 +46,9 @@ class Graph {
   uint32_t find(uint32_t element, NameId pin) const;  // a source, or kNone: nobody reads it
 
  private:
+  bool isLink(uint32_t element) const;
   uint32_t followed(uint32_t element) const;
+  void reportLink(uint32_t element);
   uint32_t sourceAt(uint32_t element, const Ident& pin);
   bool connect();
   void separate();

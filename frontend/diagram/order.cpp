@@ -9,7 +9,6 @@
 namespace rung::diagram {
 namespace {
 
-bool isLink(ElementKind kind) { return kind == ElementKind::Connector || kind == ElementKind::Continuation; }
 bool isRail(ElementKind kind) { return kind == ElementKind::Rail || kind == ElementKind::RightRail; }
 
 // Does something when nobody reads it.
@@ -40,10 +39,17 @@ bool acts(const DiagramElement& e) {
 
 bool keepsState(const DiagramElement& e) { return e.kind == ElementKind::Box && (e.operand || e.hidden || e.stored); }
 
+// A wire leads through it. A connector that joins several is an element of its own.
+bool Graph::isLink(uint32_t element) const {
+  const DiagramElement& e = elements[element];
+  if (e.kind == ElementKind::Continuation) return true;
+  return e.kind == ElementKind::Connector && (e.pins.empty() || tree_->list(e.pins)[0].wires.count < 2);
+}
+
 // Where the wire into a connector comes from; kNone: nowhere, or it leads in a circle.
 uint32_t Graph::followed(uint32_t element) const {
   for (size_t steps = 0; steps <= elements.size(); ++steps) {
-    if (element == kNone || !isLink(elements[element].kind)) return element;
+    if (element == kNone || !isLink(element)) return element;
     const DiagramElement& e = elements[element];
     if (e.kind == ElementKind::Continuation) {
       element = e.network;  // connect() put the connector there
@@ -51,7 +57,7 @@ uint32_t Graph::followed(uint32_t element) const {
     }
     if (e.pins.empty()) return kNone;
     const DiagramPin pin = tree_->list(e.pins)[0];
-    if (pin.wires.count != 1) return kNone;
+    if (pin.wires.empty()) return kNone;
     element = tree_->list(pin.wires)[0].from;
   }
   return kNone;
@@ -77,9 +83,28 @@ uint32_t Graph::sourceAt(uint32_t element, const Ident& pin) {
   return first_source[element];
 }
 
+// Says why no wire leads through a connector or continuation.
+//   fails   a connector that nothing leads to        E1007
+//   fails   a circle of connectors                   E1006
+void Graph::reportLink(uint32_t element) {
+  for (size_t steps = 0; steps <= elements.size(); ++steps) {
+    const DiagramElement& e = elements[element];
+    if (e.kind == ElementKind::Continuation) {
+      if (e.network == kNone) return;  // reported: it has no connector
+      element = e.network;
+      continue;
+    }
+    if (e.pins.empty() || tree_->list(e.pins)[0].wires.empty()) {
+      diagnostics_->report(Diag::NotWired, e.loc, {nameOf(e)});
+      return;
+    }
+    element = tree_->list(tree_->list(e.pins)[0].wires)[0].from;
+  }
+  diagnostics_->report(Diag::WireLoop, elements[element].loc);
+}
+
 //   fails   a continuation without its connector        E1008
 //   fails   two connectors of one name                  E1009
-//   fails   a circle of connectors                      E1006
 bool Graph::connect() {
   bool good = true;                                       // a second report of the same mistake is not counted
   std::vector<std::pair<uint32_t, uint32_t>> connectors;  // name key, element
@@ -115,7 +140,7 @@ bool Graph::connect() {
     }
   source_of_wire_.assign(first_wire_ == kNone ? 0 : end - first_wire_, kNone);
   for (uint32_t k = 0; k < elements.size(); ++k) {
-    if (isLink(elements[k].kind)) continue;
+    if (isLink(k)) continue;
     const bool ends = elements[k].kind == ElementKind::RightRail;
     for (const DiagramPin& pin : tree_->list(elements[k].pins))
       for (uint32_t w = 0; w < pin.wires.count; ++w) {
@@ -123,15 +148,12 @@ bool Graph::connect() {
         const uint32_t from = followed(wire.from);
         if (from == kNone) {
           good = false;
-          if (elements[wire.from].kind == ElementKind::Continuation) continue;  // reported
-          diagnostics_->report(
-              isLink(elements[wire.from].kind) && elements[wire.from].pins.empty() ? Diag::NotWired : Diag::WireLoop,
-              elements[wire.from].loc, {nameOf(elements[wire.from])});
+          reportLink(wire.from);
           continue;
         }
         // The pin of a wire through connectors is that of the wire into the first of them.
         Ident name = wire.pin;
-        for (uint32_t at = wire.from; isLink(elements[at].kind);) {
+        for (uint32_t at = wire.from; isLink(at);) {
           const uint32_t link = elements[at].kind == ElementKind::Continuation ? elements[at].network : at;
           const DiagramWire inner = tree_->list(tree_->list(elements[link].pins)[0].wires)[0];
           name = inner.pin;
@@ -159,7 +181,7 @@ void Graph::separate() {
   std::vector<std::pair<uint32_t, uint32_t>> said;  // network of the file, element
   for (uint32_t k = 0; k < elements.size(); ++k) {
     const DiagramElement& e = elements[k];
-    if (isRail(e.kind) || isLink(e.kind)) continue;
+    if (isRail(e.kind) || isLink(k)) continue;
     if (e.network != 0) said.emplace_back(e.network, k);
     for (const DiagramPin& pin : tree_->list(e.pins))
       for (uint32_t w = 0; w < pin.wires.count; ++w) {
@@ -198,7 +220,7 @@ void Graph::sortRoots() {
   };
   std::vector<Key> network_key(elements.size(), Key{UINT32_MAX, INT32_MAX, INT32_MAX, UINT32_MAX});
   for (uint32_t k = 0; k < elements.size(); ++k) {
-    if (isRail(elements[k].kind) || elements[k].kind == ElementKind::Comment || isLink(elements[k].kind)) continue;
+    if (isRail(elements[k].kind) || elements[k].kind == ElementKind::Comment || isLink(k)) continue;
     network_key[network[k]] = std::min(network_key[network[k]], keyOf(k));
   }
   struct Root {

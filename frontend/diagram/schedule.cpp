@@ -164,7 +164,10 @@ ExprId Scheduler::operandOf(uint32_t element) {
 ExprId Scheduler::read(uint32_t source) {
   Source& s = graph_.sources[source];
   const DiagramElement& e = graph_.elements[s.element];
-  if (s.temporary) return nameExpr(s.temporary, e.loc);
+  if (s.temporary) {
+    const ExprId value = nameExpr(s.temporary, e.loc);
+    return s.inverted ? inverted(value, e.loc) : value;
+  }
   if (s.pending) return std::exchange(s.pending, {});
   switch (e.kind) {
     case ElementKind::Rail: return trueExpr(e.loc);
@@ -185,11 +188,14 @@ ExprId Scheduler::read(uint32_t source) {
     case ElementKind::Box:
     case ElementKind::Execute: return readBox(source);
     case ElementKind::Compose: return nameExpr(e.hidden, e.loc);
+    case ElementKind::Connector: {
+      const DiagramPin pin = *firstInput(e);
+      return valueOf(e, pin);
+    }
     case ElementKind::Coil:
     case ElementKind::Output:
     case ElementKind::Select:
     case ElementKind::RightRail:
-    case ElementKind::Connector:
     case ElementKind::Continuation:
     case ElementKind::Jump:
     case ElementKind::Label:
@@ -262,6 +268,7 @@ void Scheduler::visit(uint32_t root) {
 void Scheduler::settle(uint32_t element) {
   switch (graph_.elements[element].kind) {
     case ElementKind::Contact: return settleContact(element);
+    case ElementKind::Connector: return settleConnector(element);
     case ElementKind::Coil:
     case ElementKind::Output:
     case ElementKind::InOut: return settleAssignment(element);
@@ -282,7 +289,6 @@ void Scheduler::settle(uint32_t element) {
     }
     case ElementKind::Rail:
     case ElementKind::RightRail:
-    case ElementKind::Connector:
     case ElementKind::Continuation:
     case ElementKind::Comment: return;
   }
@@ -322,6 +328,17 @@ void Scheduler::settleContact(uint32_t element) {
   if ((s.uses < 2 || readable(element)) && s.height < kMaxHeight) return;
   if (!s.pending) s.pending = read(source);
   if (s.uses > 0) keep(source, wireName(element));
+}
+
+// Of wires that are joined.
+void Scheduler::settleConnector(uint32_t element) {
+  const uint32_t source = graph_.first_source[element];
+  if (source == kNone) return;
+  Source& s = graph_.sources[source];
+  s.height = heightOf(graph_.elements[element]);
+  if (s.uses < 2 && s.height < kMaxHeight) return;
+  s.pending = read(source);
+  keep(source, wireName(element));
 }
 
 void Scheduler::assignTo(const DiagramElement& e, ExprId value) {

@@ -38,6 +38,7 @@ class Scheduler {
 
   // ---- elements
   void settleContact(uint32_t element);
+  void settleConnector(uint32_t element);
   void settleAssignment(uint32_t element);
   void settleComposer(uint32_t element);
   void settleExecute(uint32_t element);
