@@ -77,6 +77,9 @@ class Printer {
   }
   void stmt(StmtId id, int depth);
   void instructions(Slice<IlInstruction> list, int depth);
+  void element(const Diagram& diagram, const DiagramElement& e, int depth);
+  template <class Marked>
+  void marks(const Marked& marked);
   void chart(const PouDecl& d, int depth);
   void idents(const char* before, Slice<Ident> list);
   void typeExpr(TypeExprId id, int depth);
@@ -576,6 +579,12 @@ void Printer::decl(DeclId id, int depth) {
         text += "chart";
         chart(d, depth + 2);
       }
+      if (d.body_kind == BodyKind::Network) {
+        static const char* const kLanguages[] = {"networks ld", "networks fbd", "networks cfc"};
+        line(depth + 1);
+        text += kLanguages[static_cast<size_t>(d.diagram.language)];
+        for (const DiagramElement& e : tree_.list(d.diagram.elements)) element(d.diagram, e, depth + 2);
+      }
       if (!d.body.empty()) {
         line(depth + 1);
         text += "body";
@@ -723,6 +732,46 @@ void Printer::chart(const PouDecl& d, int depth) {
     text += ' ';
     expr(t.condition.value);
   }
+}
+
+template <class Marked>
+void Printer::marks(const Marked& marked) {
+  if (marked.negated) text += " not";
+  if (marked.edge != EdgeKind::None) text += marked.edge == EdgeKind::Rising ? " rising" : " falling";
+  if (marked.storage != PinStorage::None) text += marked.storage == PinStorage::Set ? " set" : " reset";
+}
+
+// A wire is the number of the element that it comes from.
+void Printer::element(const Diagram& diagram, const DiagramElement& e, int depth) {
+  static const char* const kWords[] = {"rail",   "right_rail", "contact",   "coil",         "box",    "input",
+                                       "output", "inout",      "connector", "continuation", "jump",   "label",
+                                       "return", "execute",    "compose",   "select",       "comment"};
+  line(depth);
+  text += kWords[static_cast<size_t>(e.kind)];
+  text += ' ' + std::to_string(e.number);
+  if (e.network != 0) text += " network " + std::to_string(tree_.list(diagram.networks)[e.network - 1].number);
+  if (e.order != 0) text += " order " + std::to_string(e.order);
+  for (const ExprId part : {e.path, e.operand}) {
+    if (!part) continue;
+    text += ' ';
+    expr(part);
+  }
+  marks(e);
+  for (const DiagramPin& pin : tree_.list(e.pins)) {
+    static const char* const kDirections[] = {"in", "out", "in_out"};
+    line(depth + 1);
+    text += kDirections[static_cast<size_t>(pin.direction)];
+    if (pin.name.name) {
+      text += ' ';
+      name(pin.name.name);
+    }
+    marks(pin);
+    for (const DiagramWire& wire : tree_.list(pin.wires)) {
+      text += " from " + std::to_string(tree_.list(diagram.elements)[wire.from].number);
+      if (wire.pin.name) text += '.' + std::string(names_.text(wire.pin.name));
+    }
+  }
+  if (!e.body.empty()) stmts(e.body, depth + 1);
 }
 
 }  // namespace
