@@ -325,7 +325,10 @@ DeclId Parser::parsePou() {
     const bool outer_ends = (d.pou_kind == PouKind::Method || d.pou_kind == PouKind::Action) && isReserved(kind());
     if (!atTopLevelWord() && !at(Tok::End) && !outer_ends) {
       // An END_… of something else, which block repair would have removed.
-      slip(Diag::StrayEnd, t_, {textOf(t_)});
+      if (d.body_kind == BodyKind::Cpp)
+        slip(Diag::BehindCpp, t_, {describe(t_)});
+      else
+        slip(Diag::StrayEnd, t_, {textOf(t_)});
       advance();
       if (d.pou_kind != PouKind::Method && d.pou_kind != PouKind::Action) {  // its rest is no text of the file's level
         while (!at(end) && !at(Tok::End) && (atMember() || !atTopLevelWord())) advance();

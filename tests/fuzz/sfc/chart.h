@@ -23,8 +23,13 @@ struct Transition {
   int priority = 0;         // 0: none
 };
 constexpr int kVariables = 6, kActions = 12;  // the first are BOOL variables
+struct Macro {                                // the steps from `begin` to before `end`, and what stands inside of them
+  int begin, end, entry, exit;
+};
 struct Chart {
   std::vector<Step> steps;  // the first is the initial one
+  std::vector<Macro> macros;
+  std::vector<Chart> nested;  // none, or the body of the last action
   std::vector<Transition> transitions;
   int times_ms[kActions];  // of all associations of an action
   bool final_scan = true;
@@ -32,12 +37,16 @@ struct Chart {
 
 Chart generate(uint64_t seed);
 std::string textOf(const Chart& chart, const std::string& name);
+// The name of a step of the nested chart where the trace shows it: its own where the block has no other step of it.
+std::string nestedStep(const Chart& chart, size_t step);
 
 // What can be seen after a cycle.
 struct Seen {
   std::vector<bool> active;  // steps
   bool variables[kVariables];
   uint32_t order;  // of the actions that ran, as a checksum
+  std::vector<bool> nested_active;
+  std::vector<bool> nested_variables;
 };
 std::vector<Seen> evaluate(const Chart& chart, const std::vector<uint32_t>& randoms, int cycle_ms);
 

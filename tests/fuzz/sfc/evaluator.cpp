@@ -1,5 +1,6 @@
 // The judge of charts: slow and plain. See chart.h.
 #include <algorithm>
+#include <memory>
 
 #include "tests/fuzz/sfc/chart.h"
 
@@ -14,7 +15,8 @@ struct Control {  // of one action; times in ms, -1: not running
 
 class Evaluator {
  public:
-  Evaluator(const Chart& chart) : chart_(chart), steps_(chart.steps.size()) {
+  Evaluator(const Chart& chart, Evaluator* outer = nullptr) : chart_(chart), outer_(outer), steps_(chart.steps.size()) {
+    if (!chart.nested.empty()) nested_ = std::make_unique<Evaluator>(chart.nested[0], this);
     steps_[0].enters = true;
     for (const Step& step : chart.steps)
       for (const Association& a : step.associations)
@@ -30,7 +32,13 @@ class Evaluator {
     int since = 0;
   };
   void run(int action) {
-    if (action >= kVariables) order_ = order_ * 31 + static_cast<uint32_t>(action);
+    if (action < kVariables) return;
+    if (nested_ && action == kActions - 1) {
+      nested_->cycle(random_, now_);
+      return;
+    }
+    uint32_t& order = outer_ != nullptr ? outer_->order_ : order_;
+    order = order * 31 + static_cast<uint32_t>(action) + (outer_ != nullptr ? 100 : 0);
   }
   // Whether the action is active, and whether it has its final scan.
   std::pair<bool, bool> control(int action, int now);
@@ -38,6 +46,10 @@ class Evaluator {
   void judge(uint32_t random, int now);
 
   const Chart& chart_;
+  Evaluator* const outer_;
+  std::unique_ptr<Evaluator> nested_;
+  uint32_t random_ = 0;
+  int now_ = 0;
   std::vector<State> steps_;
   std::vector<int> order_of_actions_;
   Control controls_[kActions];
@@ -113,6 +125,8 @@ void Evaluator::judge(uint32_t random, int now) {
 }
 
 Seen Evaluator::cycle(uint32_t random, int now) {
+  random_ = random;
+  now_ = now;
   for (size_t s = 0; s < steps_.size(); ++s) {
     if (!steps_[s].leaves) continue;
     steps_[s].active = false;
@@ -140,6 +154,10 @@ Seen Evaluator::cycle(uint32_t random, int now) {
   for (const State& state : steps_) seen.active.push_back(state.active);
   std::copy(std::begin(variables_), std::end(variables_), std::begin(seen.variables));
   seen.order = order_;
+  if (nested_) {
+    for (const State& state : nested_->steps_) seen.nested_active.push_back(state.active);
+    seen.nested_variables.assign(std::begin(nested_->variables_), std::end(nested_->variables_));
+  }
   return seen;
 }
 

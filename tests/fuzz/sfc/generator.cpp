@@ -10,7 +10,7 @@ namespace {
 class Generator {
  public:
   explicit Generator(uint64_t seed) : random_(seed * 7919 + 17) {}
-  Chart run();
+  Chart run(bool may_nest);
 
  private:
   int upTo(int n) { return static_cast<int>(random_() % static_cast<uint64_t>(n)); }  // 0 to n - 1
@@ -70,6 +70,14 @@ int Generator::sequence(int last, int depth, std::vector<int>& region) {
       }
       last = addStep();
       connect(ends, {last});
+    } else if (kind == 3) {
+      const size_t macro = chart_.macros.size();
+      chart_.macros.push_back({static_cast<int>(chart_.steps.size()), 0, 0, 0});
+      const int first = addStep();
+      connect({last}, {first});
+      region.push_back(first);
+      last = sequence(first, depth - 1, region);
+      chart_.macros[macro] = {first, static_cast<int>(chart_.steps.size()), first, last};
     } else {
       const int next = addStep();
       connect({last}, {next});
@@ -80,7 +88,7 @@ int Generator::sequence(int last, int depth, std::vector<int>& region) {
   return last;
 }
 
-Chart Generator::run() {
+Chart Generator::run(bool may_nest) {
   for (int& time : chart_.times_ms) time = 10 * upTo(7);
   chart_.final_scan = chance(50);
   const int first = addStep();
@@ -93,27 +101,43 @@ Chart Generator::run() {
     for (Transition& t : chart_.transitions)
       if (t.from[0] == static_cast<int>(s) && chance(70)) t.priority = priority--;
   }
+  if (may_nest && chance(40)) {
+    Generator inner(random_());
+    chart_.nested.push_back(inner.run(false));
+    chart_.nested[0].final_scan = chart_.final_scan;
+  }
   return chart_;
 }
 
-}  // namespace
+// A way may name the macro instead of its entry or exit; `key` decides.
+std::string stepName(const Chart& chart, int step, bool to, size_t key) {
+  for (size_t m = 0; m < chart.macros.size(); ++m)
+    if ((to ? chart.macros[m].entry : chart.macros[m].exit) == step && (key + m) % 3 != 0)
+      return "m" + std::to_string(m);
+  return "s" + std::to_string(step);
+}
 
-Chart generate(uint64_t seed) { return Generator(seed).run(); }
-
-std::string textOf(const Chart& chart, const std::string& name) {
+// The nested chart has the same names for its steps and actions, and variables of its own.
+std::string bodyOf(const Chart& chart, bool nested) {
   static const char* const kWords[] = {"N", "R", "S", "L", "D", "P", "P0", "P1", "SD", "DS", "SL"};
-  const auto action = [](int i) { return (i < kVariables ? "v" : "a") + std::to_string(i); };
-  const auto list = [](const std::vector<int>& steps) {
+  const char* const variable = nested ? "w" : "v";
+  const auto action = [&](int i) { return (i < kVariables ? variable : "a") + std::to_string(i); };
+  size_t key = 0;
+  const auto list = [&](const std::vector<int>& steps, bool to) {
     std::string text;
-    for (const int s : steps) text += (text.empty() ? "s" : ", s") + std::to_string(s);
+    for (const int s : steps) text += (text.empty() ? "" : ", ") + stepName(chart, s, to, key++);
     return steps.size() == 1 ? text : "(" + text + ")";
   };
-  std::string text = chart.final_scan ? "" : "{attribute 'no_final_scan'}\n";
-  text += "FUNCTION_BLOCK " + name + "\nVAR_INPUT random : UDINT; END_VAR\nVAR_OUTPUT order : UDINT;";
-  for (int i = 0; i < kVariables; ++i) text += " " + action(i) + " : BOOL := FALSE;";
-  text += " END_VAR\n";
+  std::string text;
   for (size_t s = 0; s < chart.steps.size(); ++s) {
     const Step& step = chart.steps[s];
+    for (size_t m = 0; m < chart.macros.size(); ++m) {
+      const Macro& macro = chart.macros[m];
+      if (macro.begin != static_cast<int>(s)) continue;
+      text += "MACRO_STEP m" + std::to_string(m);
+      if (macro.exit != macro.end - 1) text += " (EXIT := s" + std::to_string(macro.exit) + ")";
+      text += ":\n";
+    }
     text += (s == 0 ? "INITIAL_STEP s" : "STEP s") + std::to_string(s);
     if (step.least_ms > 0) text += " (TMIN := T#" + std::to_string(step.least_ms) + "ms)";
     text += ":";
@@ -127,16 +151,42 @@ std::string textOf(const Chart& chart, const std::string& name) {
     if (step.active >= 0) text += " {active} " + action(step.active) + ";";
     if (step.exit >= 0) text += " {exit} " + action(step.exit) + ";";
     text += " END_STEP\n";
+    for (const Macro& macro : chart.macros)
+      if (macro.end == static_cast<int>(s) + 1) text += "END_MACRO_STEP\n";
   }
   for (const Transition& t : chart.transitions) {
     text += "TRANSITION ";
     if (t.priority > 0) text += "(PRIORITY := " + std::to_string(t.priority) + ") ";
-    text += "FROM " + list(t.from) + " TO " + list(t.to) + " := random / 65536 MOD " + std::to_string(t.modulus) +
-            " = " + std::to_string(t.value) + "; END_TRANSITION\n";
+    text += "FROM " + list(t.from, false) + " TO " + list(t.to, true) + " := random / 65536 MOD " +
+            std::to_string(t.modulus) + " = " + std::to_string(t.value) + "; END_TRANSITION\n";
   }
-  for (int i = kVariables; i < kActions; ++i)
-    text += "ACTION " + action(i) + ": order := order * 31 + " + std::to_string(i) + "; END_ACTION\n";
-  return text + "END_FUNCTION_BLOCK\n";
+  for (int i = kVariables; i < kActions; ++i) {
+    const bool chart_in_it = i == kActions - 1 && !chart.nested.empty();
+    text += "ACTION " + action(i) + ": ";
+    text += chart_in_it ? "\n" + bodyOf(chart.nested[0], true)
+                        : "order := order * 31 + " + std::to_string(i + (nested ? 100 : 0)) + ";";
+    text += " END_ACTION\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+Chart generate(uint64_t seed) { return Generator(seed).run(true); }
+
+std::string nestedStep(const Chart& chart, size_t step) {
+  const std::string name = "s" + std::to_string(step);
+  return step < chart.steps.size() ? "a" + std::to_string(kActions - 1) + "__" + name : name;
+}
+
+std::string textOf(const Chart& chart, const std::string& name) {
+  std::string text = chart.final_scan ? "" : "{attribute 'no_final_scan'}\n";
+  text += "FUNCTION_BLOCK " + name + "\nVAR_INPUT random : UDINT; END_VAR\nVAR_OUTPUT order : UDINT;";
+  for (int i = 0; i < kVariables; ++i) {
+    text += " v" + std::to_string(i) + " : BOOL := FALSE;";
+    if (!chart.nested.empty()) text += " w" + std::to_string(i) + " : BOOL := FALSE;";
+  }
+  return text + " END_VAR\n" + bodyOf(chart, false) + "END_FUNCTION_BLOCK\n";
 }
 
 }  // namespace rung::sfc_differential

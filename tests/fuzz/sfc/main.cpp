@@ -67,6 +67,15 @@ std::string compare(const std::string& trace, uint64_t first, const std::vector<
         if (const std::string d = differs("v" + std::to_string(v), expected[i].variables[v] ? "TRUE" : "FALSE");
             !d.empty())
           return d;
+      for (size_t s = 0; s < expected[i].nested_active.size(); ++s)
+        if (const std::string d =
+                differs(nestedStep(charts[k], s) + ".x", expected[i].nested_active[s] ? "TRUE" : "FALSE");
+            !d.empty())
+          return d;
+      for (size_t v = 0; v < expected[i].nested_variables.size(); ++v)
+        if (const std::string d = differs("w" + std::to_string(v), expected[i].nested_variables[v] ? "TRUE" : "FALSE");
+            !d.empty())
+          return d;
       if (const std::string d = differs("order", std::to_string(expected[i].order)); !d.empty()) return d;
     }
   }
@@ -85,6 +94,11 @@ std::string runBatch(const Options& options, uint64_t first, uint64_t count) {
     watch += (watch.empty() ? "" : ",");
     for (size_t s = 0; s < charts.back().steps.size(); ++s) watch += "Main.c" + n + ".s" + std::to_string(s) + ".x,";
     for (int v = 0; v < kVariables; ++v) watch += "Main.c" + n + ".v" + std::to_string(v) + ",";
+    if (!charts.back().nested.empty()) {
+      for (size_t s = 0; s < charts.back().nested[0].steps.size(); ++s)
+        watch += "Main.c" + n + "." + nestedStep(charts.back(), s) + ".x,";
+      for (int v = 0; v < kVariables; ++v) watch += "Main.c" + n + ".w" + std::to_string(v) + ",";
+    }
     watch += "Main.c" + n + ".order";
   }
   text += "PROGRAM Main\nVAR random : UDINT := " + std::to_string(static_cast<uint32_t>(first)) + ";" + vars +

@@ -138,4 +138,6 @@ inline int64_t days(int day, int month, int year) {
 }  // namespace cpp
 }  // namespace rung
 
+#include "rung/cpp_functions.h"
+
 #endif
