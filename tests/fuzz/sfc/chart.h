@@ -33,6 +33,11 @@ struct Chart {
 Chart generate(uint64_t seed);
 std::string textOf(const Chart& chart, const std::string& name);
 
+// The chart without what PLCopen XML has no words for: least times and numbered priorities.
+Chart withoutTextForms(Chart chart);
+// The chart as a <pou>, drawn in one of many ways.
+std::string xmlOf(const Chart& chart, const std::string& name, uint64_t seed);
+
 // What can be seen after a cycle.
 struct Seen {
   std::vector<bool> active;  // steps
