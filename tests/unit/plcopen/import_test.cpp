@@ -146,6 +146,20 @@ TEST(Plcopen, ChartsWithoutEndAreRefused) {
   EXPECT_EQ(reading.diagnostics.all()[0].message, "more than 1000000 ways through one chart");
 }
 
+// Found by the spoiler: a variable has no inputs, whatever is wired to it.
+TEST(Plcopen, VariableWiredToItself) {
+  const Reading reading(project(
+      "<pou name='P' pouType='program'><body><SFC><step localId='1' name='A' initialStep='true'/><inVariable "
+      "localId='2'>"
+      "<connectionPointIn><connection refLocalId='2'/></connectionPointIn><expression>x</expression></inVariable>"
+      "<transition localId='3'><connectionPointIn><connection refLocalId='1'/></connectionPointIn><condition>"
+      "<connectionPointIn><connection refLocalId='2'/></connectionPointIn></condition></transition>"
+      "<jumpStep localId='4' targetName='A'><connectionPointIn><connection "
+      "refLocalId='3'/></connectionPointIn></jumpStep>"
+      "</SFC></body></pou>"));
+  EXPECT_NE(reading.text().find("TRANSITION FROM A TO A := (x)"), std::string::npos) << reading.text();
+}
+
 TEST(Plcopen, TypesWithoutEndAreRefused) {
   std::string type;
   for (int i = 0; i < 300; ++i) type += "<pointer><baseType>";
