@@ -26,7 +26,7 @@ constexpr std::pair<std::string_view, NodeKind> kKinds[] = {
     {"contact", NodeKind::Contact},
     {"leftPowerRail", NodeKind::Rail}};
 
-constexpr size_t kMaxSteps = 4'000'000;  // in the ways to all elements of a chart
+constexpr size_t kMaxSteps = 1'000'000;  // in the ways to all elements of a chart
 constexpr uint32_t kMaxWires = 1000;     // behind each other
 
 }  // namespace

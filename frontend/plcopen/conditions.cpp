@@ -191,6 +191,7 @@ bool Chart::readCondition(uint32_t node, Condition& out) {
 
 std::vector<uint32_t> Chart::sourcesOf(uint32_t node) const {
   std::vector<uint32_t> out;
+  if (nodes_[node].kind == NodeKind::Input) return out;  // its wires, if it has any, mean nothing
   for (uint32_t w = nodes_[node].first_wire; w < nodes_[node].end_wire; ++w) out.push_back(wires_[w].from);
   return out;
 }

@@ -40,6 +40,11 @@ std::string textOf(const Chart& chart, const std::string& name);
 // The name of a step of the nested chart where the trace shows it: its own where the block has no other step of it.
 std::string nestedStep(const Chart& chart, size_t step);
 
+// The chart without what PLCopen XML has no words for: least times and numbered priorities.
+Chart withoutTextForms(Chart chart);
+// The chart as a <pou>, drawn in one of many ways.
+std::string xmlOf(const Chart& chart, const std::string& name, uint64_t seed);
+
 // What can be seen after a cycle.
 struct Seen {
   std::vector<bool> active;  // steps

@@ -2,8 +2,8 @@
 // each cycle.
 //   sfc_differential [--first=SEED] [--count=N] [--cycles=N] [--engine=interp|native] [--rung=PATH] [--folder=PATH]
 //   sfc_differential --print=SEED
-// Charts go in batches of 10, one program each, which runs as it is and as the ST that `rung convert` makes of it.
-// Called by tests/runner with few seeds and by hand with many.
+// Charts go in batches of 10, one program each, which runs as it is, as the ST that `rung convert` makes of it, and
+// drawn as PLCopen XML. Called by tests/runner with few seeds and by hand with many.
 
 #include <algorithm>
 #include <cstdio>
@@ -83,12 +83,14 @@ std::string compare(const std::string& trace, uint64_t first, const std::vector<
 }
 
 std::string runBatch(const Options& options, uint64_t first, uint64_t count) {
-  std::vector<Chart> charts;
-  std::string text, vars, calls, watch;
+  std::vector<Chart> charts, drawn;
+  std::string text, xml, vars, calls, watch;
   for (uint64_t k = 0; k < count; ++k) {
     charts.push_back(generate(first + k));
     const std::string n = std::to_string(k);
     text += textOf(charts.back(), "Chart" + n);
+    drawn.push_back(withoutTextForms(charts.back()));
+    xml += xmlOf(drawn.back(), "Chart" + n, first + k);
     vars += " c" + n + " : Chart" + n + ";";
     calls += "c" + n + "(random := random);\n";
     watch += (watch.empty() ? "" : ",");
@@ -101,13 +103,14 @@ std::string runBatch(const Options& options, uint64_t first, uint64_t count) {
     }
     watch += "Main.c" + n + ".order";
   }
-  text += "PROGRAM Main\nVAR random : UDINT := " + std::to_string(static_cast<uint32_t>(first)) + ";" + vars +
-          " END_VAR\nrandom := random * 1664525 + 1013904223;\n" + calls + "END_PROGRAM\n";
+  const std::string main = "PROGRAM Main\nVAR random : UDINT := " + std::to_string(static_cast<uint32_t>(first)) + ";" +
+                           vars + " END_VAR\nrandom := random * 1664525 + 1013904223;\n" + calls + "END_PROGRAM\n";
+  text += main;
   const fs::path folder = fs::path(options.folder) / std::to_string(first);
   fs::create_directories(folder);
   const fs::path source = folder / "charts.st";
   std::ofstream(source) << text;
-  const auto runOnce = [&](const fs::path& program) -> std::string {
+  const auto runOnce = [&](const fs::path& program, const std::vector<Chart>& expected) -> std::string {
     tests::Command c;
     c.folder = folder;
     c.seconds = 300;
@@ -120,9 +123,9 @@ std::string runBatch(const Options& options, uint64_t first, uint64_t count) {
                    program.string()};
     const tests::Output output = tests::run(c);
     if (output.exit_code != 0) return "seed " + std::to_string(first) + ": " + output.err.substr(0, 2000);
-    return compare(output.out, first, charts, options.cycles);
+    return compare(output.out, first, expected, options.cycles);
   };
-  if (const std::string difference = runOnce(source); !difference.empty()) return difference;
+  if (const std::string difference = runOnce(source, charts); !difference.empty()) return difference;
   tests::Command c;
   c.folder = folder;
   c.seconds = 300;
@@ -130,8 +133,15 @@ std::string runBatch(const Options& options, uint64_t first, uint64_t count) {
   c.arguments = {options.rung, "convert", "--to", "st", "-o", (folder / "st").string(), source.string()};
   const tests::Output output = tests::run(c);
   if (output.exit_code != 0) return "seed " + std::to_string(first) + ": convert: " + output.err.substr(0, 2000);
-  const std::string difference = runOnce(folder / "st" / "charts.st");
-  return difference.empty() ? difference : "converted, " + difference;
+  if (const std::string difference = runOnce(folder / "st" / "charts.st", charts); !difference.empty())
+    return "converted, " + difference;
+  const fs::path project = folder / "xml";
+  fs::create_directories(project);
+  std::ofstream(project / "main.st") << main;
+  std::ofstream(project / "charts.xml") << "<project xmlns=\"http://www.plcopen.org/xml/tc6_0200\"><types><pous>\n"
+                                        << xml << "</pous></types></project>\n";
+  const std::string difference = runOnce(project, drawn);
+  return difference.empty() ? difference : "drawn, " + difference;
 }
 
 int run(const Options& options) {
@@ -157,6 +167,7 @@ int main(int argc, char** argv) {
   if (!rung::generated::readOptions(argc, argv, "sfc_differential", "--cycles --engine", options)) return 2;
   if (options.has_print) {
     fputs(textOf(generate(options.print), "Chart").c_str(), stdout);
+    fputs(xmlOf(withoutTextForms(generate(options.print)), "Chart", options.print).c_str(), stdout);
     return 0;
   }
   const int result = run(options);
