@@ -263,10 +263,9 @@ void Arranger::setRails(int32_t left, int32_t right) {
       top = std::min(top, y);
       bottom = std::max(bottom, y);
     }
-    if (top > bottom) continue;
-    item.origin = {gives ? left : right, top - kGap};
-    item.terminals[0].length = bottom - top + 2 * kGap;
+    item.terminals[0].length = top > bottom ? 0 : bottom - top + 2 * kGap;
     item.area = {0, 0, 0, item.terminals[0].length};
+    item.origin = top > bottom ? Point{} : Point{gives ? left : right, top - kGap};
   }
 }
 

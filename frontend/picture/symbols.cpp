@@ -342,15 +342,16 @@ Item measure(const Body& body, uint32_t element, std::span<const NameId> unliste
 }
 
 void drawItem(Svg& svg, const Body& body, const Item& item) {
+  if (!item.terminals.empty() && item.terminals[0].length > 0) {
+    const Point top = item.origin + item.terminals[0].at;
+    return svg.line(top, {top.x, top.y + item.terminals[0].length}, "t");
+  }
+  if (item.element == kNone) return;
   const DiagramElement& e = body.elements[item.element];
   svg.open("e" + std::to_string(e.number));
   switch (e.kind) {
     case ElementKind::Rail:
-    case ElementKind::RightRail: {
-      const Point top = item.origin + item.terminals[0].at;
-      svg.line(top, {top.x, top.y + item.terminals[0].length}, "t");
-      break;
-    }
+    case ElementKind::RightRail: break;
     case ElementKind::Contact:
     case ElementKind::Coil: drawContact(svg, body, e, item); break;
     case ElementKind::Input:
