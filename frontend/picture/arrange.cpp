@@ -1,9 +1,9 @@
 // The automatic layout of networks: columns by data flow, from left to right; rows so that what leads to an element's
-// first pin stands in its row. Variables that only one pin uses stand at that pin. In ladder diagrams coils stand at the
-// right rail, and each contact at the left one has a row of its own.
-// Labels and comments have lines of their own, in the order of the file.
-// Elements are placed in the order in which a walk from the last elements back along the wires leaves them: whatever
-// leads to an element is placed before it, so all of it can still be moved down when the element needs room.
+// first pin stands in its row. Variables that only one pin uses stand at that pin. In ladder diagrams coils stand at
+// the right rail, and each contact at the left one has a row of its own. Labels and comments have lines of their own,
+// in the order of the file. Elements are placed in the order in which a walk from the last elements back along the
+// wires leaves them: whatever leads to an element is placed before it, so all of it can still be moved down when the
+// element needs room.
 #include <algorithm>
 
 #include "frontend/picture/network_plan.h"
@@ -27,8 +27,8 @@ class Arranger {
     uint32_t host = kNone;  // where it is attached
     uint32_t column = 0;
     uint32_t first = 0, turn = 0;  // in `order_`: where what leads to it begins, and where it stands
-    bool joins = false;  // of a walk's root: something that leads to it was found by an earlier walk
-    Rect cluster;        // with what is attached
+    bool joins = false;            // of a walk's root: something that leads to it was found by an earlier walk
+    Rect cluster;                  // with what is attached
     enum class State : uint8_t { New, Open, Done } state = State::New;
   };
   const DiagramElement& element(uint32_t item) const { return body_.elements[plan_.items[item].element]; }
@@ -242,7 +242,8 @@ void Arranger::setAttached() {
     const uint32_t from = link.from.item, to = link.to.item;
     if (nodes_[from].host == to) {
       const Point end = plan_.place(link.to);
-      plan_.items[from].origin = {end.x - kGrid - plan_.terminal(link.from).at.x, end.y - plan_.terminal(link.from).at.y};
+      plan_.items[from].origin = {end.x - kGrid - plan_.terminal(link.from).at.x,
+                                  end.y - plan_.terminal(link.from).at.y};
     } else if (nodes_[to].host == from) {
       const Point end = plan_.place(link.from);
       plan_.items[to].origin = {end.x + kGrid - plan_.terminal(link.to).at.x, end.y - plan_.terminal(link.to).at.y};
@@ -305,7 +306,8 @@ void Arranger::run() {
   for (uint32_t k = 0; k < order_.size(); ++k) {
     if (k == 0 || k == ends[tree]) {
       if (k > 0) ++tree;
-      if (apart[tree] || standsAlone(order_[k - 1])) std::fill(skyline_.begin(), skyline_.end(), *std::max_element(skyline_.begin(), skyline_.end()));
+      if (apart[tree] || standsAlone(order_[k - 1]))
+        std::fill(skyline_.begin(), skyline_.end(), *std::max_element(skyline_.begin(), skyline_.end()));
     }
     place(order_[k]);
   }

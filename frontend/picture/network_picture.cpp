@@ -61,7 +61,8 @@ bool Planner::wiresStayInside(std::span<const uint32_t> network_of) const {
     if (isRail(body_.elements[k].kind)) continue;
     for (const DiagramPin& pin : body_.tree.list(body_.elements[k].pins))
       for (const DiagramWire& wire : body_.tree.list(pin.wires))
-        if (wire.from != kNoElement && !isRail(body_.elements[wire.from].kind) && network_of[wire.from] != network_of[k])
+        if (wire.from != kNoElement && !isRail(body_.elements[wire.from].kind) &&
+            network_of[wire.from] != network_of[k])
           return false;
   }
   return true;
@@ -193,7 +194,8 @@ std::vector<Plan> planNetworks(const Body& body) {
   }
   std::vector<Plan> plans;
   for (const std::vector<uint32_t>& network : elements) {
-    const bool rails = std::all_of(network.begin(), network.end(), [&](uint32_t k) { return isRail(body.elements[k].kind); });
+    const bool rails =
+        std::all_of(network.begin(), network.end(), [&](uint32_t k) { return isRail(body.elements[k].kind); });
     plans.push_back(rails ? Plan{} : planner.plan(network));
   }
   return plans;

@@ -85,7 +85,8 @@ bool takePlaces(const Body& body, Plan& plan) {
     if (isRail(e.kind)) item.area.width = 0;
     // A line through the middle of an element stays one; boxes are placed by their upper edge.
     const int64_t middle = isBox(e.kind) || isRail(e.kind) ? 0 : unit == kCell ? kGrid : e.height / 2;
-    const int64_t centre = e.kind == ElementKind::Contact || e.kind == ElementKind::Coil ? int64_t{e.width} * unit / 2 : 0;
+    const int64_t centre =
+        e.kind == ElementKind::Contact || e.kind == ElementKind::Coil ? int64_t{e.width} * unit / 2 : 0;
     const auto onGrid = [](int64_t n) { return (n >= 0 ? n + kGrid / 2 : n - kGrid / 2) / kGrid * kGrid; };
     x.wanted.push_back(onGrid(int64_t{e.x} * unit + centre));
     y.wanted.push_back(onGrid(int64_t{e.y} * unit + middle));

@@ -10,8 +10,8 @@
 namespace rung::picture {
 namespace {
 
-constexpr int32_t kMargin = 12;           // cells around the elements
-constexpr size_t kMostCells = 24'000'000; // beyond them wires go straight, through what stands in their way
+constexpr int32_t kMargin = 12;            // cells around the elements
+constexpr size_t kMostCells = 24'000'000;  // beyond them wires go straight, through what stands in their way
 constexpr uint32_t kCorner = 4, kCrossing = 6, kTouch = 60, kShared = 400, kThrough = 5000;
 constexpr uint32_t kRight = 0, kDown = 1, kLeft = 2, kUp = 3;
 
@@ -22,7 +22,7 @@ bool before(const End& a, const End& b) { return a.item != b.item ? a.item < b.i
 // The links by one of their ends, and what stands at the other.
 class Sides {
  public:
-  Sides(const std::vector<Link>& links, End Link::* near, End Link::* far) : links_(links), near_(near), far_(far) {
+  Sides(const std::vector<Link>& links, End Link::*near, End Link::*far) : links_(links), near_(near), far_(far) {
     for (uint32_t k = 0; k < links.size(); ++k) sorted_.push_back(k);
     std::stable_sort(sorted_.begin(), sorted_.end(),
                      [&](uint32_t a, uint32_t b) { return before(links[a].*near, links[b].*near); });
@@ -44,8 +44,8 @@ class Sides {
 
  private:
   const std::vector<Link>& links_;
-  End Link::* near_;
-  End Link::* far_;
+  End Link::*near_;
+  End Link::*far_;
   std::vector<uint32_t> sorted_;
 };
 
@@ -99,7 +99,8 @@ class Router {
     return static_cast<size_t>((p.y - top_) / kGrid) * columns_ + static_cast<size_t>((p.x - left_) / kGrid);
   }
   Point placeOf(size_t cell) const {
-    return {left_ + static_cast<int32_t>(cell % columns_) * kGrid, top_ + static_cast<int32_t>(cell / columns_) * kGrid};
+    return {left_ + static_cast<int32_t>(cell % columns_) * kGrid,
+            top_ + static_cast<int32_t>(cell / columns_) * kGrid};
   }
   size_t next(size_t cell, uint32_t direction) const {
     return direction == kRight  ? cell + 1
@@ -130,8 +131,8 @@ class Router {
   int32_t left_ = 0, top_ = 0;
   size_t columns_ = 0, rows_ = 0;
   std::vector<Cell> cells_;
-  std::vector<Step> steps_;         // four of each cell
-  std::vector<uint32_t> tree_;      // the stamp of the tree that a cell was added to
+  std::vector<Step> steps_;     // four of each cell
+  std::vector<uint32_t> tree_;  // the stamp of the tree that a cell was added to
   uint32_t stamp_ = 0, search_ = 0;
   Window tree_box_;
 };
@@ -395,7 +396,9 @@ void Router::run() {
   std::sort(ends.begin(), ends.end(), before);
   for (Net& net : plan_.nets)
     for (const End& end : net.targets)
-      if (std::upper_bound(ends.begin(), ends.end(), end, before) - std::lower_bound(ends.begin(), ends.end(), end, before) > 1 &&
+      if (std::upper_bound(ends.begin(), ends.end(), end, before) -
+                  std::lower_bound(ends.begin(), ends.end(), end, before) >
+              1 &&
           plan_.terminal(end).length == 0)
         net.dots.push_back(outside(end));
   setBounds();

@@ -77,6 +77,32 @@ int32_t textWidth(std::string_view text) {
   return (cells * kCharacterTenths + 9) / 10;
 }
 
+std::vector<std::string> linesOf(std::string_view text) {
+  std::vector<std::string> lines;
+  for (size_t p = 0; p < text.size();) {
+    const size_t end = std::min(text.find('\n', p), text.size());
+    lines.emplace_back(text.substr(p, end - p));
+    if (!lines.back().empty() && lines.back().back() == '\r') lines.back().pop_back();
+    p = end + 1;
+  }
+  return lines;
+}
+
+std::vector<std::string> wrapped(std::string_view text, size_t most) {
+  std::vector<std::string> lines;
+  for (std::string line : linesOf(text)) {
+    while (line.size() > most) {
+      size_t cut = line.rfind(' ', most);
+      if (cut == std::string::npos || cut == 0) cut = line.find(' ', most);
+      if (cut == std::string::npos) break;
+      lines.push_back(line.substr(0, cut));
+      line.erase(0, cut + 1);
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
 void Svg::path(std::string_view data, std::string_view kind) {
   body_.append("<path").append(classOf(kind)).append(" d=\"").append(data).append("\"/>\n");
 }

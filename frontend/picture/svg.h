@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rung::picture {
 
@@ -29,6 +30,10 @@ inline int32_t roundUp(int32_t n) { return (n + kGrid - 1) / kGrid * kGrid; }
 
 // In pixels; characters of East Asian scripts are two wide.
 int32_t textWidth(std::string_view text);
+
+std::vector<std::string> linesOf(std::string_view text);
+// At blanks, so that no line is longer than `most` where a blank allows it.
+std::vector<std::string> wrapped(std::string_view text, size_t most);
 
 enum class Anchor : uint8_t { Start, Middle, End };
 

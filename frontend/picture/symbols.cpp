@@ -8,11 +8,11 @@
 namespace rung::picture {
 namespace {
 
-constexpr int32_t kPitch = 20;       // from pin to pin
-constexpr int32_t kFirstPin = 30;    // below the upper edge of a box
-constexpr int32_t kStub = 10;        // the line of a pin, in which its circle stands
-constexpr int32_t kSymbol = 40;      // the width of a contact or coil
-constexpr size_t kCommentWidth = 60; // characters
+constexpr int32_t kPitch = 20;        // from pin to pin
+constexpr int32_t kFirstPin = 30;     // below the upper edge of a box
+constexpr int32_t kStub = 10;         // the line of a pin, in which its circle stands
+constexpr int32_t kSymbol = 40;       // the width of a contact or coil
+constexpr size_t kCommentWidth = 60;  // characters
 
 std::string operandText(const Body& body, const DiagramElement& e) {
   if (e.operand) return printSt(body.tree, body.names, e.operand);
@@ -24,33 +24,6 @@ std::string titleOf(const Body& body, const DiagramElement& e) {
   if (e.kind == ElementKind::Execute) return "EXECUTE";
   if (e.path) return printSt(body.tree, body.names, e.path);
   return std::string(body.names.text(e.name.name));
-}
-
-std::vector<std::string> linesOf(std::string_view text) {
-  std::vector<std::string> lines;
-  for (size_t p = 0; p < text.size();) {
-    const size_t end = std::min(text.find('\n', p), text.size());
-    lines.emplace_back(text.substr(p, end - p));
-    if (!lines.back().empty() && lines.back().back() == '\r') lines.back().pop_back();
-    p = end + 1;
-  }
-  return lines;
-}
-
-// At blanks, so that no line is longer than `most` where a blank allows it.
-std::vector<std::string> wrapped(std::string_view text, size_t most) {
-  std::vector<std::string> lines;
-  for (std::string line : linesOf(text)) {
-    while (line.size() > most) {
-      size_t cut = line.rfind(' ', most);
-      if (cut == std::string::npos || cut == 0) cut = line.find(' ', most);
-      if (cut == std::string::npos) break;
-      lines.push_back(line.substr(0, cut));
-      line.erase(0, cut + 1);
-    }
-    lines.push_back(std::move(line));
-  }
-  return lines;
 }
 
 std::vector<std::string> textOf(const Body& body, const DiagramElement& e) {
@@ -118,13 +91,14 @@ void measureBox(const Body& body, const DiagramElement& e, std::span<const NameI
     width = std::max(width, widthOf(text) + 20);
     height += static_cast<int32_t>(text.size()) * kLine + 6;
   }
+  if (e.kind == ElementKind::Compose || e.kind == ElementKind::Select) width = std::max(width, 80);
   if (e.placed && e.width < 1000) width = std::max(width, e.width);
   item.frame = {0, 0, roundUp(width), roundUp(height)};
   item.area = {-kStub, 0, item.frame.width + 2 * kStub, item.frame.height};
   const std::string instance = operandText(body, e);
   const bool named = e.operand || e.kind == ElementKind::Compose || e.kind == ElementKind::Select;
   if (named || e.order != 0) {
-    const int32_t above = roundUp(textWidth(instance) + (e.order != 0 ? 50 : 0));
+    const int32_t above = roundUp(textWidth(instance) + (e.order != 0 ? 70 : 0));
     const int32_t wider = std::max(0, above - item.area.width);
     item.area.x -= roundUp(wider / 2);
     item.area.width += 2 * roundUp(wider / 2);
@@ -180,8 +154,8 @@ void drawBox(Svg& svg, const Body& body, const DiagramElement& e, const Item& it
   svg.rect(frame, "w");
   svg.text({middle, frame.y + 14}, Anchor::Middle, titleOf(body, e), "b");
   if (e.operand) svg.text({middle, frame.y - 6}, Anchor::Middle, operandText(body, e));
-  if (e.kind == ElementKind::Compose) svg.text({middle, frame.y - 6}, Anchor::Middle, "compose", "s g");
-  if (e.kind == ElementKind::Select) svg.text({middle, frame.y - 6}, Anchor::Middle, "select", "s g");
+  if (e.kind == ElementKind::Compose) svg.text({frame.x, frame.y - 4}, Anchor::Start, "compose", "s g");
+  if (e.kind == ElementKind::Select) svg.text({frame.x, frame.y - 4}, Anchor::Start, "select", "s g");
   int32_t below = frame.y + 20;
   for (const Terminal& t : item.terminals) {
     const Point end = item.origin + t.at;
@@ -190,14 +164,18 @@ void drawBox(Svg& svg, const Body& body, const DiagramElement& e, const Item& it
     svg.line(end, border);
     const DiagramPin* pin = pinOf(body, e, t);
     const int32_t inset = pin != nullptr && pin->edge != EdgeKind::None ? 12 : 4;
-    svg.text({border.x + (left ? inset : -inset), end.y + 4}, left ? Anchor::Start : Anchor::End, body.names.text(t.name));
+    svg.text({border.x + (left ? inset : -inset), end.y + 4}, left ? Anchor::Start : Anchor::End,
+             body.names.text(t.name));
     if (pin != nullptr) drawModifiers(svg, *pin, border, left);
     below = std::max(below, end.y + kGrid);
   }
   if (e.kind == ElementKind::Execute)
-    for (const std::string& line : textOf(body, e))
-      svg.text({frame.x + 10, below += kLine}, Anchor::Start, line);
-  drawOrder(svg, e, {frame.right(), frame.y});
+    for (const std::string& line : textOf(body, e)) {
+      const size_t blanks = std::min(line.find_first_not_of(' '), line.size());  // not every viewer keeps them
+      svg.text({frame.x + 10 + textWidth(line.substr(0, blanks)), below += kLine}, Anchor::Start, line.substr(blanks));
+    }
+  const int32_t behind_name = e.operand ? middle + textWidth(operandText(body, e)) / 2 + 30 : 0;
+  drawOrder(svg, e, {std::max(frame.right(), behind_name), frame.y});
 }
 
 void drawContact(Svg& svg, const Body& body, const DiagramElement& e, const Item& item) {
@@ -311,9 +289,10 @@ Item measure(const Body& body, uint32_t element, std::span<const NameId> unliste
       const bool boxed = body.diagram.language == NetworkLanguage::Continuous;
       const int32_t text = e.kind == ElementKind::Return ? textWidth("RETURN") : name;
       const int32_t width = roundUp(text + (form ? 24 : boxed ? 16 : 8));
-      const bool reads = e.kind == ElementKind::Input || e.kind == ElementKind::Continuation || e.kind == ElementKind::Label;
-      const bool gives = e.kind != ElementKind::Output && e.kind != ElementKind::Jump && e.kind != ElementKind::Return &&
-                         e.kind != ElementKind::Label;
+      const bool reads =
+          e.kind == ElementKind::Input || e.kind == ElementKind::Continuation || e.kind == ElementKind::Label;
+      const bool gives = e.kind != ElementKind::Output && e.kind != ElementKind::Jump &&
+                         e.kind != ElementKind::Return && e.kind != ElementKind::Label;
       item.frame = {0, -kGrid, width, 2 * kGrid};
       item.area = item.frame;
       if (marked) {

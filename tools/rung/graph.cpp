@@ -42,8 +42,8 @@ void Grapher::visitPou(const PouDecl& pou, const std::string& name) {
   add(pou, name);
   for (const DeclId member : tree_.list(pou.members)) {
     const auto transitions = tree_.list(pou.transitions);
-    const auto made = std::find_if(transitions.begin(), transitions.end(),
-                                   [&](const SfcTransition& t) { return t.body == member; });
+    const auto made =
+        std::find_if(transitions.begin(), transitions.end(), [&](const SfcTransition& t) { return t.body == member; });
     if (made == transitions.end())
       visit(member, name + ".");
     else
