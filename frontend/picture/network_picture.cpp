@@ -16,6 +16,10 @@ bool isBox(ElementKind kind) {
          kind == ElementKind::Select;
 }
 
+// CODESYS puts a connector without a name into each wire.
+bool isJoint(const DiagramElement& e) { return e.kind == ElementKind::Connector && !e.name.name; }
+constexpr uint32_t kMostJoints = 100;  // in one wire: they may stand in a circle
+
 class Planner {
  public:
   explicit Planner(const Body& body) : body_(body) { findUnlisted(); }
@@ -28,6 +32,7 @@ class Planner {
   Plan items(std::span<const uint32_t> elements, bool one_rail);
   void addLinks(Plan& plan);
   void addRightRail(Plan& plan);
+  void addLinks(Plan& plan, const DiagramWire& wire, const End& to, uint32_t depth);
   uint32_t outputOf(const Item& item, NameId pin) const;
   uint32_t inputOf(const Item& item, uint32_t pin) const;
 
@@ -96,6 +101,7 @@ Plan Planner::items(std::span<const uint32_t> elements, bool one_rail) {
   std::fill(item_of_.begin(), item_of_.end(), kNone);
   for (const uint32_t k : elements) {
     const ElementKind kind = body_.elements[k].kind;
+    if (isJoint(body_.elements[k])) continue;
     uint32_t* const rail = !one_rail || !isRail(kind) ? nullptr : &rails[kind == ElementKind::RightRail];
     if (rail != nullptr && *rail != kNone) {
       item_of_[k] = *rail;
@@ -108,18 +114,29 @@ Plan Planner::items(std::span<const uint32_t> elements, bool one_rail) {
   return plan;
 }
 
+// Through connectors that are joints only.
+void Planner::addLinks(Plan& plan, const DiagramWire& wire, const End& to, uint32_t depth) {
+  if (wire.from == kNoElement || depth == kMostJoints) return;
+  if (isJoint(body_.elements[wire.from])) {
+    for (const DiagramPin& pin : body_.tree.list(body_.elements[wire.from].pins))
+      for (const DiagramWire& before : body_.tree.list(pin.wires)) addLinks(plan, before, to, depth + 1);
+    return;
+  }
+  const uint32_t from = item_of_[wire.from];
+  if (from == kNone) return;
+  const End end{from, outputOf(plan.items[from], wire.pin.name)};
+  if (end.terminal != kNone) plan.links.push_back({end, to});
+}
+
 void Planner::addLinks(Plan& plan) {
   for (uint32_t k = 0; k < body_.elements.size(); ++k) {
     const uint32_t to = item_of_[k];
     if (to == kNone) continue;
     const std::span<const DiagramPin> pins = body_.tree.list(body_.elements[k].pins);
     for (uint32_t p = 0; p < pins.size(); ++p) {
-      for (const DiagramWire& wire : body_.tree.list(pins[p].wires)) {
-        const uint32_t from = wire.from == kNoElement ? kNone : item_of_[wire.from];
-        if (from == kNone) continue;
-        const Link link{{from, outputOf(plan.items[from], wire.pin.name)}, {to, inputOf(plan.items[to], p)}};
-        if (link.from.terminal != kNone && link.to.terminal != kNone) plan.links.push_back(link);
-      }
+      const End end{to, inputOf(plan.items[to], p)};
+      if (end.terminal == kNone) continue;
+      for (const DiagramWire& wire : body_.tree.list(pins[p].wires)) addLinks(plan, wire, end, 0);
     }
   }
 }

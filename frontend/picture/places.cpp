@@ -42,8 +42,9 @@ struct Axis {
   std::vector<int32_t> before, behind;
 };
 
-template <class Meets>
-std::vector<int32_t> spread(const Axis& axis, Meets meets) {
+// `gap`: between two elements that could overlap; negative: they could not.
+template <class Gap>
+std::vector<int32_t> spread(const Axis& axis, Gap gap) {
   const size_t count = axis.wanted.size();
   std::vector<uint32_t> order(count);
   for (uint32_t k = 0; k < count; ++k) order[k] = k;
@@ -59,8 +60,8 @@ std::vector<int32_t> spread(const Axis& axis, Meets meets) {
     }
     for (size_t k = first; k < last; ++k)
       for (size_t other = 0; other < first; ++other)
-        if (meets(order[k], order[other]))
-          now = std::max<int64_t>(now, at[order[other]] + axis.behind[order[other]] + kGap + axis.before[order[k]]);
+        if (const int32_t free = gap(order[k], order[other]); free >= 0)
+          now = std::max<int64_t>(now, at[order[other]] + axis.behind[order[other]] + free + axis.before[order[k]]);
     now = (now + kGrid - 1) / kGrid * kGrid;
     for (size_t k = first; k < last; ++k) at[order[k]] = static_cast<int32_t>(now);
     first = last;
@@ -98,21 +99,24 @@ bool takePlaces(const Body& body, Plan& plan) {
     guess[k] = item.area.at({static_cast<int32_t>(std::clamp(x.wanted[k], -limit, limit)), 0});
   }
   const auto rail = [&](uint32_t k) { return isRail(body.elements[plan.items[k].element].kind); };
-  const std::vector<int32_t> ys = spread(y, [&](uint32_t a, uint32_t b) {
-    return !rail(a) && !rail(b) && guess[a].x < guess[b].right() + kGap && guess[b].x < guess[a].right() + kGap;
-  });
-  const auto touch = [&](uint32_t a, uint32_t b) {
+  // Variables stand as close as the pins that they lead to.
+  const auto gapY = [&](uint32_t a, uint32_t b) {
+    if (rail(a) || rail(b) || guess[a].x >= guess[b].right() + kGap || guess[b].x >= guess[a].right() + kGap) return -1;
+    return plan.items[a].area.height <= kGap && plan.items[b].area.height <= kGap ? 0 : kGap;
+  };
+  const std::vector<int32_t> ys = spread(y, gapY);
+  const auto gapX = [&](uint32_t a, uint32_t b) {
     const int32_t above = std::max(ys[a] - y.before[a], ys[b] - y.before[b]);
     const int32_t below = std::min(ys[a] + y.behind[a], ys[b] + y.behind[b]);
-    return rail(a) || rail(b) || above < below + kGap;
+    return rail(a) || rail(b) || above < below ? kGap : -1;
   };
-  const std::vector<int32_t> xs = spread(x, touch);
+  const std::vector<int32_t> xs = spread(x, gapX);
   for (uint32_t k = 0; k < count; ++k) plan.items[k].origin = {xs[k], ys[k]};
   for (uint32_t k = 0; k < count; ++k) {
     if (!rail(k)) continue;
     Item& item = plan.items[k];
     const DiagramElement& e = body.elements[item.element];
-    int32_t top = item.origin.y, bottom = top + std::clamp(e.height, 40, 100'000) * 1;
+    int32_t top = item.origin.y, bottom = top + std::clamp(e.height, 40, 100'000);
     for (const Link& link : plan.links) {
       if (link.from.item != k && link.to.item != k) continue;
       const int32_t row = plan.place(link.from.item == k ? link.to : link.from).y;

@@ -113,6 +113,7 @@ class Router {
     if (direction == kDown) return cells_[cell].down;
     return direction == kLeft ? cells_[cell - 1].across : cells_[cell - columns_].down;
   }
+  void keepPinsFree();
   const End* railOf(const Net& net) const;
   bool isConnected(const Net& net, const End& end) const;
   bool leadStraight(uint32_t net, const End& from, const End& to);
@@ -162,6 +163,14 @@ const End* Router::railOf(const Net& net) const {
     for (const End& end : *ends)
       if (plan_.terminal(end).length > 0) return &end;
   return nullptr;
+}
+
+// No wire turns or runs where that of a pin begins.
+void Router::keepPinsFree() {
+  for (uint32_t k = 0; k < plan_.nets.size(); ++k)
+    for (const std::vector<End>* ends : {&plan_.nets[k].sources, &plan_.nets[k].targets})
+      for (const End& end : *ends)
+        if (plan_.terminal(end).length == 0) cells_[indexOf(outside(end))].corner = k;
 }
 
 // The first cell of a wire outside of its element.
@@ -385,6 +394,7 @@ void Router::run() {
   const auto nets = static_cast<uint32_t>(plan_.nets.size());
   if (nets > 0 && setGrid()) {
     ++stamp_;
+    keepPinsFree();
     for (uint32_t k = 0; k < nets; ++k) leadRows(k);
     for (uint32_t k = 0; k < nets; ++k) lead(k);
     for (uint32_t k = 0; k < nets; ++k) setDots(k);

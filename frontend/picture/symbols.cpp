@@ -80,11 +80,14 @@ int32_t labelWidth(const Body& body, const DiagramElement& e, const Terminal& t)
 
 void measureBox(const Body& body, const DiagramElement& e, std::span<const NameId> unlisted_outputs, Item& item) {
   const Rows rows = rowsOf(body, e, unlisted_outputs);
-  int32_t left = 0, right = 0;
-  for (const Terminal& t : rows.left) left = std::max(left, labelWidth(body, e, t));
-  for (const Terminal& t : rows.right) right = std::max(right, labelWidth(body, e, t));
-  int32_t width = std::max(left + right + (left > 0 && right > 0 ? 30 : 16), textWidth(titleOf(body, e)) + 16);
-  const auto pins = static_cast<int32_t>(std::max(rows.left.size(), rows.right.size()));
+  const size_t count = std::max(rows.left.size(), rows.right.size());
+  int32_t width = textWidth(titleOf(body, e)) + 16;
+  for (size_t k = 0; k < count; ++k) {
+    const int32_t left = k < rows.left.size() ? labelWidth(body, e, rows.left[k]) : 0;
+    const int32_t right = k < rows.right.size() ? labelWidth(body, e, rows.right[k]) : 0;
+    width = std::max(width, left + right + (left > 0 && right > 0 ? 30 : 16));
+  }
+  const auto pins = static_cast<int32_t>(count);
   int32_t height = std::max(kFirstPin + pins * kPitch - kGrid, 40);
   if (e.kind == ElementKind::Execute) {
     const std::vector<std::string> text = textOf(body, e);
