@@ -43,6 +43,7 @@ class StPrinter {
     for (const StmtId id : tree_.list(list)) stmt(id, indent);
   }
   void rest(uint32_t indent) { comments({~0u}, indent); }
+  void expr(ExprId id, int least);
 
  private:
   void line(uint32_t indent) { text.append(indent, ' '); }
@@ -52,7 +53,6 @@ class StPrinter {
   void ifStmt(const IfStmt& s, uint32_t indent);
   void caseStmt(const CaseStmt& s, uint32_t indent);
   void loops(StmtId id, uint32_t indent);
-  void expr(ExprId id, int least);
   void operand(ExprId id, int least, bool always);
   void list(Slice<ExprId> ids);
   void arguments(Slice<Argument> arguments);
@@ -530,6 +530,12 @@ std::string printSt(const Tree& tree, const Names& names, Slice<StmtId> statemen
   StPrinter printer(tree, names, comments);
   printer.stmts(statements, indent);
   printer.rest(indent);
+  return std::move(printer.text);
+}
+
+std::string printSt(const Tree& tree, const Names& names, ExprId expr) {
+  StPrinter printer(tree, names, {});
+  printer.expr(expr, 0);
   return std::move(printer.text);
 }
 

@@ -13,6 +13,7 @@ int runBuild(const Options& options);
 int runRun(const Options& options);
 int runTest(const Options& options);
 int runConvert(const Options& options);
+int runGraph(const Options& options);
 int runList(const Options& options);
 int runExplain(const Options& options);
 int runVersion(const Options& options);

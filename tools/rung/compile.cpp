@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
 
 #include "frontend/diagram/elements.h"
 #include "frontend/source/invariant.h"
@@ -336,6 +337,17 @@ std::string writeFile(const std::string& path, const std::string& text) {
   std::string error = "cannot write `" + path + "`: " + strerror(errno);
   unlink(part.c_str());
   return error;
+}
+
+int writeFiles(const std::string& folder, const std::vector<OutputText>& files) {
+  for (const OutputText& file : files) {
+    const std::filesystem::path path = std::filesystem::path(folder) / file.path;
+    std::error_code error;
+    std::filesystem::create_directories(path.parent_path(), error);
+    if (error) return usageError("cannot make the folder `" + path.parent_path().string() + "`: " + error.message());
+    if (const std::string problem = writeFile(path.string(), file.text); !problem.empty()) return usageError(problem);
+  }
+  return kGood;
 }
 
 std::string printOut(const std::string& text) {

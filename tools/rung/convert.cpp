@@ -29,9 +29,6 @@ struct Edit {
   std::string text;
   bool begins_line = false;
 };
-struct Output {
-  std::string path, text;
-};
 
 // Where a comment or text that begins at `p` ends; `p` itself where none begins.
 size_t endOfUnit(std::string_view text, size_t p) {
@@ -86,7 +83,7 @@ class Converter {
     compilation.scheduled = [this](sema::Project&, sema::PouId pou) { print(pou); };
   }
 
-  std::vector<Output> outputs();
+  std::vector<OutputText> outputs();
 
  private:
   void print(sema::PouId pou);
@@ -341,8 +338,8 @@ std::string projectText(std::string_view text) {
   return out;
 }
 
-std::vector<Output> Converter::outputs() {
-  std::vector<Output> out;
+std::vector<OutputText> Converter::outputs() {
+  std::vector<OutputText> out;
   std::unordered_set<std::string> taken;
   for (const InputFile& input : compilation_.inputs.files)
     if (fs::path(input.below).extension() == ".st") taken.insert(input.below);
@@ -369,24 +366,13 @@ std::string refusal(const Compilation& compilation) {
   return "`-o " + compilation.options.output + "` is the folder of the sources; write into another one";
 }
 
-int writeAll(const std::string& folder, const std::vector<Output>& outputs) {
-  for (const Output& output : outputs) {
-    const fs::path path = fs::path(folder) / output.path;
-    std::error_code error;
-    fs::create_directories(path.parent_path(), error);
-    if (error) return usageError("cannot make the folder `" + path.parent_path().string() + "`: " + error.message());
-    if (const std::string problem = writeFile(path.string(), output.text); !problem.empty()) return usageError(problem);
-  }
-  return kGood;
-}
-
 }  // namespace
 
 int runConvert(const Options& options) {
   PhaseTimes times;
   Compilation compilation(options, times);
   Converter converter(compilation);
-  std::vector<Output> outputs;
+  std::vector<OutputText> outputs;
   if (compilation.check()) {
     times.begin("print");
     outputs = converter.outputs();
@@ -395,7 +381,7 @@ int runConvert(const Options& options) {
   int exit = compilation.finish();
   if (exit == kGood)
     if (const std::string problem = refusal(compilation); !problem.empty()) exit = usageError(problem);
-  if (exit == kGood) exit = writeAll(options.output, outputs);
+  if (exit == kGood) exit = writeFiles(options.output, outputs);
   if (options.time_phases) fputs(times.table().c_str(), stderr);
   return exit;
 }

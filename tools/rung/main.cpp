@@ -18,6 +18,7 @@ int runCommand(const rung::tool::Options& options) {
     case Command::Run: return rung::tool::runRun(options);
     case Command::Test: return rung::tool::runTest(options);
     case Command::Convert: return rung::tool::runConvert(options);
+    case Command::Graph: return rung::tool::runGraph(options);
     case Command::List: return rung::tool::runList(options);
     case Command::Explain: return rung::tool::runExplain(options);
     case Command::Version: return rung::tool::runVersion(options);

@@ -13,7 +13,7 @@ namespace {
 constexpr uint32_t bit(Command command) { return 1u << static_cast<uint32_t>(command); }
 constexpr uint32_t kCompile =
     bit(Command::Check) | bit(Command::Emit) | bit(Command::Build) | bit(Command::Run) | bit(Command::Test);
-constexpr uint32_t kReads = kCompile | bit(Command::List) | bit(Command::Convert);
+constexpr uint32_t kReads = kCompile | bit(Command::List) | bit(Command::Convert) | bit(Command::Graph);
 constexpr uint32_t kAll = ~0u;
 
 struct CommandRow {
@@ -29,13 +29,14 @@ constexpr CommandRow kCommands[] = {
     {Command::Run, "run", "FILE|DIR ...", "simulate, with inputs and traces"},
     {Command::Test, "test", "FILE|DIR ...", "run the POUs marked {test}"},
     {Command::Convert, "convert", "FILE|DIR ... --to st -o DIR", "any language as Structured Text"},
+    {Command::Graph, "graph", "FILE|DIR ... -o DIR", "draw LD, FBD, CFC and SFC as SVG pictures"},
     {Command::List, "list", "libraries | pous FILE|DIR ... | --signature NAME", "show what there is"},
     {Command::Explain, "explain", "CODE", "the page of a diagnostic, such as E0401"},
     {Command::Version, "version", "", "version of rung"},
 };
 
 // Commands that the documentation of the project announces.
-constexpr std::string_view kLaterCommands[] = {"graph", "fmt", "cam", "lint", "lsp", "monitor"};
+constexpr std::string_view kLaterCommands[] = {"fmt", "cam", "lint", "lsp", "monitor"};
 
 enum class Key : uint8_t {
   Output,
@@ -84,7 +85,7 @@ struct OptionRow {
   const char* help;  // null: not in the help
 };
 constexpr OptionRow kOptions[] = {
-    {Key::Output, "-o", "PATH", bit(Command::Emit) | bit(Command::Build) | bit(Command::Convert),
+    {Key::Output, "-o", "PATH", bit(Command::Emit) | bit(Command::Build) | bit(Command::Convert) | bit(Command::Graph),
      "where the output goes"},
     {Key::Emit, "--emit", "cpp|ir|tree", bit(Command::Emit), "what to write; ir and tree go to stdout (cpp)"},
     {Key::To, "--to", "st|xml", bit(Command::Convert), "what to write; xml is not in this version"},
@@ -349,6 +350,7 @@ std::string checkCombination(const Options& options) {
     case Command::Emit:
     case Command::Build:
     case Command::Convert:
+    case Command::Graph:
       if (options.inputs.empty()) return "`rung " + name + "` needs files or folders to read";
       break;
     case Command::Explain:
@@ -384,6 +386,8 @@ std::string checkCombination(const Options& options) {
              (options.keep ? "`--keep`" : "`--engine=native`");
   if (options.command == Command::Convert && (options.output.empty() || !options.to_st))
     return "`rung convert` needs a target and a folder: add `--to st -o DIR`";
+  if (options.command == Command::Graph && options.output.empty())
+    return "`rung graph` needs a folder for the pictures: add `-o DIR`";
   if (options.command == Command::Build && options.output.empty())
     return "`rung build` needs a name for its output: add `-o FILE`";
   return {};

@@ -13,7 +13,7 @@
 
 namespace rung::tool {
 
-enum class Command : uint8_t { None, Check, Emit, Build, Run, Test, Convert, List, Explain, Version, Help };
+enum class Command : uint8_t { None, Check, Emit, Build, Run, Test, Convert, Graph, List, Explain, Version, Help };
 inline constexpr uint32_t kCommandCount = static_cast<uint32_t>(Command::Help) + 1;
 
 enum class EmitKind : uint8_t { Cpp, Ir, Tree };

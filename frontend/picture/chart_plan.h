@@ -1,0 +1,46 @@
+// The plan of a chart: where its steps, transitions, lines and jumps stand. In: steps and transitions as the parser
+// leaves them. chart_plan.cpp finds the branches and lays them out, chart_picture.cpp measures and draws.
+// Private to frontend/picture.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frontend/picture/svg.h"
+#include "frontend/syntax/tree.h"
+
+namespace rung::picture {
+
+constexpr int32_t kDouble = 4;  // between the lines of a simultaneous divergence
+
+struct ChartNode {
+  bool step;
+  uint32_t index;  // in the steps or transitions of the POU
+  Rect area;       // around the point where the wire comes in from above; it leaves at `below`
+  int32_t below = 0;
+  Point origin;
+};
+struct ChartLine {
+  Point from, to;
+  bool doubled = false;
+};
+struct ChartJump {
+  Point at;  // where its line begins
+  NameId step;
+};
+struct ChartPlan {
+  std::vector<ChartNode> nodes;  // steps, then transitions that lead somewhere
+  std::vector<ChartLine> lines;
+  std::vector<ChartJump> jumps;
+  Rect bounds;
+};
+
+constexpr int32_t kJumpHeight = 40;
+
+// `nodes` are measured; the rest is filled.
+void planChart(const Tree& tree, const Names& names, const PouDecl& pou, ChartPlan& plan);
+// Steps and transitions with their sizes.
+ChartPlan measureChart(const Tree& tree, const Names& names, const PouDecl& pou);
+
+}  // namespace rung::picture

@@ -1,0 +1,248 @@
+// A body of networks as a picture: each network is planned by itself, and stands below the one before it, behind a
+// strip with its number and under its title.
+#include <algorithm>
+
+#include "frontend/picture/network_plan.h"
+#include "frontend/picture/picture.h"
+
+namespace rung::picture {
+namespace {
+
+constexpr int32_t kStrip = 40, kHeader = 30, kEdge = 20;
+
+bool isRail(ElementKind kind) { return kind == ElementKind::Rail || kind == ElementKind::RightRail; }
+bool isBox(ElementKind kind) {
+  return kind == ElementKind::Box || kind == ElementKind::Execute || kind == ElementKind::Compose ||
+         kind == ElementKind::Select;
+}
+
+// CODESYS puts a connector without a name into each wire.
+bool isJoint(const DiagramElement& e) { return e.kind == ElementKind::Connector && !e.name.name; }
+constexpr uint32_t kMostJoints = 100;  // in one wire: they may stand in a circle
+
+class Planner {
+ public:
+  explicit Planner(const Body& body) : body_(body) { findUnlisted(); }
+  // `elements`: of one network; their rails join by themselves.
+  Plan plan(std::span<const uint32_t> elements);
+  bool wiresStayInside(std::span<const uint32_t> network_of) const;
+
+ private:
+  void findUnlisted();
+  Plan items(std::span<const uint32_t> elements, bool one_rail);
+  void addLinks(Plan& plan);
+  void addRightRail(Plan& plan);
+  void addLinks(Plan& plan, const DiagramWire& wire, const End& to, uint32_t depth);
+  uint32_t outputOf(const Item& item, NameId pin) const;
+  uint32_t inputOf(const Item& item, uint32_t pin) const;
+
+  const Body& body_;
+  std::vector<std::vector<NameId>> unlisted_;
+  std::vector<uint32_t> item_of_;  // of each element, in the plan that is being made
+};
+
+// Outputs of boxes that wires name and the file does not list.
+void Planner::findUnlisted() {
+  unlisted_.resize(body_.elements.size());
+  item_of_.assign(body_.elements.size(), kNone);
+  for (const DiagramElement& e : body_.elements) {
+    for (const DiagramPin& pin : body_.tree.list(e.pins)) {
+      for (const DiagramWire& wire : body_.tree.list(pin.wires)) {
+        if (wire.from == kNoElement || !isBox(body_.elements[wire.from].kind)) continue;
+        std::vector<NameId>& known = unlisted_[wire.from];
+        bool listed = false;
+        for (const DiagramPin& output : body_.tree.list(body_.elements[wire.from].pins))
+          listed = listed || (output.direction == PinDirection::Output &&
+                              (!wire.pin.name || body_.names.same(output.name.name, wire.pin.name)));
+        for (const NameId name : known) listed = listed || !wire.pin.name || body_.names.same(name, wire.pin.name);
+        if (!listed) known.push_back(wire.pin.name);
+      }
+    }
+  }
+}
+
+bool Planner::wiresStayInside(std::span<const uint32_t> network_of) const {
+  for (uint32_t k = 0; k < body_.elements.size(); ++k) {
+    if (isRail(body_.elements[k].kind)) continue;
+    for (const DiagramPin& pin : body_.tree.list(body_.elements[k].pins))
+      for (const DiagramWire& wire : body_.tree.list(pin.wires))
+        if (wire.from != kNoElement && !isRail(body_.elements[wire.from].kind) &&
+            network_of[wire.from] != network_of[k])
+          return false;
+  }
+  return true;
+}
+
+uint32_t Planner::outputOf(const Item& item, NameId pin) const {
+  uint32_t first = kNone;
+  for (uint32_t k = 0; k < item.terminals.size(); ++k) {
+    const Terminal& t = item.terminals[k];
+    if (!t.output) continue;
+    if (!pin || !t.name || body_.names.same(t.name, pin)) return k;
+    if (first == kNone) first = k;
+  }
+  return first;
+}
+
+uint32_t Planner::inputOf(const Item& item, uint32_t pin) const {
+  uint32_t first = kNone;
+  for (uint32_t k = 0; k < item.terminals.size(); ++k) {
+    const Terminal& t = item.terminals[k];
+    if (t.output) continue;
+    if (t.pin == pin) return k;
+    if (first == kNone) first = k;
+  }
+  return first;
+}
+
+Plan Planner::items(std::span<const uint32_t> elements, bool one_rail) {
+  Plan plan;
+  uint32_t rails[2] = {kNone, kNone};
+  std::fill(item_of_.begin(), item_of_.end(), kNone);
+  for (const uint32_t k : elements) {
+    const ElementKind kind = body_.elements[k].kind;
+    if (isJoint(body_.elements[k])) continue;
+    uint32_t* const rail = !one_rail || !isRail(kind) ? nullptr : &rails[kind == ElementKind::RightRail];
+    if (rail != nullptr && *rail != kNone) {
+      item_of_[k] = *rail;
+      continue;
+    }
+    item_of_[k] = static_cast<uint32_t>(plan.items.size());
+    if (rail != nullptr) *rail = item_of_[k];
+    plan.items.push_back(measure(body_, k, unlisted_[k]));
+  }
+  return plan;
+}
+
+// Through connectors that are joints only.
+void Planner::addLinks(Plan& plan, const DiagramWire& wire, const End& to, uint32_t depth) {
+  if (wire.from == kNoElement || depth == kMostJoints) return;
+  if (isJoint(body_.elements[wire.from])) {
+    for (const DiagramPin& pin : body_.tree.list(body_.elements[wire.from].pins))
+      for (const DiagramWire& before : body_.tree.list(pin.wires)) addLinks(plan, before, to, depth + 1);
+    return;
+  }
+  const uint32_t from = item_of_[wire.from];
+  if (from == kNone) return;
+  const End end{from, outputOf(plan.items[from], wire.pin.name)};
+  if (end.terminal != kNone) plan.links.push_back({end, to});
+}
+
+void Planner::addLinks(Plan& plan) {
+  for (uint32_t k = 0; k < body_.elements.size(); ++k) {
+    const uint32_t to = item_of_[k];
+    if (to == kNone) continue;
+    const std::span<const DiagramPin> pins = body_.tree.list(body_.elements[k].pins);
+    for (uint32_t p = 0; p < pins.size(); ++p) {
+      const End end{to, inputOf(plan.items[to], p)};
+      if (end.terminal == kNone) continue;
+      for (const DiagramWire& wire : body_.tree.list(pins[p].wires)) addLinks(plan, wire, end, 0);
+    }
+  }
+}
+
+// Coils of a ladder diagram end at the right rail, whether the file draws it or not.
+void Planner::addRightRail(Plan& plan) {
+  std::vector<bool> used(plan.items.size());
+  for (const Link& link : plan.links) used[link.from.item] = true;
+  uint32_t rail = kNone;
+  for (uint32_t k = 0; k < plan.items.size(); ++k)
+    if (body_.elements[plan.items[k].element].kind == ElementKind::RightRail) rail = k;
+  const auto items = static_cast<uint32_t>(plan.items.size());
+  for (uint32_t k = 0; k < items; ++k) {
+    if (used[k] || body_.elements[plan.items[k].element].kind != ElementKind::Coil) continue;
+    if (rail == kNone) {
+      rail = items;
+      plan.items.push_back({kNone, {0, 0, 0, 40}, {}, {}, {{{0, 0}, false, kNone, {}, 40}}});
+    }
+    plan.links.push_back({{k, outputOf(plan.items[k], {})}, {rail, 0}});
+  }
+}
+
+Plan Planner::plan(std::span<const uint32_t> elements) {
+  Plan placed = items(elements, false);
+  addLinks(placed);
+  if (takePlaces(body_, placed)) {
+    leadWires(placed);
+    return placed;
+  }
+  Plan free = items(elements, true);
+  addLinks(free);
+  if (body_.diagram.language == NetworkLanguage::Ladder) addRightRail(free);
+  arrange(body_, free);
+  leadWires(free);
+  return free;
+}
+
+void moveBy(Plan& plan, Point by) {
+  for (Item& item : plan.items) item.origin = item.origin + by;
+  for (Net& net : plan.nets) {
+    for (std::vector<Point>& line : net.lines)
+      for (Point& p : line) p = p + by;
+    for (Point& p : net.dots) p = p + by;
+  }
+  plan.bounds = plan.bounds.at(by);
+}
+
+void drawPlan(Svg& svg, const Body& body, const Plan& plan) {
+  for (const Net& net : plan.nets) {
+    for (const std::vector<Point>& line : net.lines) svg.path(route(line.data(), line.size()));
+    for (const Point p : net.dots) svg.circle(p, 2, "d");
+  }
+  for (const Item& item : plan.items) drawItem(svg, body, item);
+}
+
+}  // namespace
+
+std::vector<Plan> planNetworks(const Body& body) {
+  const auto networks = static_cast<uint32_t>(body.diagram.networks.count);
+  std::vector<uint32_t> network_of(body.elements.size());
+  for (uint32_t k = 0; k < network_of.size(); ++k)
+    network_of[k] = body.elements[k].network <= networks ? body.elements[k].network : 0;
+  Planner planner(body);
+  if (!planner.wiresStayInside(network_of)) std::fill(network_of.begin(), network_of.end(), 0);
+  std::vector<std::vector<uint32_t>> elements(networks + 1);
+  for (uint32_t k = 0; k < network_of.size(); ++k) {
+    if (!isRail(body.elements[k].kind)) {
+      elements[network_of[k]].push_back(k);
+      continue;
+    }
+    for (std::vector<uint32_t>& network : elements) network.push_back(k);  // a rail stands in each network
+  }
+  std::vector<Plan> plans;
+  for (const std::vector<uint32_t>& network : elements) {
+    const bool rails =
+        std::all_of(network.begin(), network.end(), [&](uint32_t k) { return isRail(body.elements[k].kind); });
+    plans.push_back(rails ? Plan{} : planner.plan(network));
+  }
+  return plans;
+}
+
+std::string drawNetworks(const Tree& tree, const Names& names, const Diagram& diagram, std::string_view name) {
+  const Body body{tree, names, diagram, tree.list(diagram.elements)};
+  std::vector<Plan> plans = planNetworks(body);
+  const int32_t left = diagram.networks.empty() ? kEdge : kStrip + kEdge;
+  int32_t y = 0, right = 0;
+  Svg svg;
+  for (uint32_t k = 0; k < plans.size(); ++k) {
+    Plan& plan = plans[k];
+    if (k == 0 && plan.items.empty()) continue;
+    const int32_t top = y;
+    if (k > 0) y += kHeader;
+    moveBy(plan, {left - plan.bounds.x, y + kEdge - plan.bounds.y});
+    y = roundUp(plan.bounds.bottom() + kEdge);
+    right = std::max(right, plan.bounds.right());
+    if (k > 0) {
+      const DiagramNetwork& network = tree.list(diagram.networks)[k - 1];
+      const std::string_view title = body.text(network.title, network.title_length);
+      svg.rect({0, top, kStrip, y - top}, "n");
+      svg.text({kStrip / 2, top + 20}, Anchor::Middle, std::to_string(network.number), "b");
+      svg.text({left, top + 20}, Anchor::Start, title, "b");
+      right = std::max(right, left + textWidth(title));
+    }
+    drawPlan(svg, body, plan);
+  }
+  return svg.finish(name, right + kEdge, std::max(y, 2 * kEdge));
+}
+
+}  // namespace rung::picture

@@ -1,0 +1,145 @@
+// The places of the file. Its unit is that of its editor: pixels, or cells as high as a pin. Names and boxes may be
+// larger here than there, so rows and columns move apart where elements would overlap; what stood in one row or column
+// still does, and what stood left of or above another element, too.
+#include <algorithm>
+
+#include "frontend/picture/network_plan.h"
+
+namespace rung::picture {
+namespace {
+
+constexpr int32_t kGap = 20;
+constexpr int32_t kWidest = 300;  // between a column and the next, where nothing stands in between
+constexpr int32_t kCell = 20;     // pixels of an editor's cell
+
+bool isRail(ElementKind kind) { return kind == ElementKind::Rail || kind == ElementKind::RightRail; }
+bool isBox(ElementKind kind) {
+  return kind == ElementKind::Box || kind == ElementKind::Execute || kind == ElementKind::Compose ||
+         kind == ElementKind::Select || kind == ElementKind::Comment;
+}
+
+// Editors that count cells leave a cell or two between an element and the next, those that count pixels many more.
+int32_t unitOf(const Body& body, const Plan& plan) {
+  int32_t highest = 0;
+  std::vector<int32_t> rows;
+  for (const Item& item : plan.items) {
+    const DiagramElement& e = body.elements[item.element];
+    if (isRail(e.kind)) continue;
+    highest = std::max(highest, e.height);
+    rows.push_back(e.y);
+  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  int32_t least = INT32_MAX;
+  for (size_t k = 1; k < rows.size(); ++k) least = std::min(least, rows[k] - rows[k - 1]);
+  return highest <= 12 && rows.size() > 1 && least <= 4 ? kCell : 1;
+}
+
+// Moves what lies behind others in one direction: `at` are the places by rising order, `size` what each takes before
+// and behind its place, `meets` whether two elements could overlap.
+struct Axis {
+  std::vector<int64_t> wanted;  // of each item
+  std::vector<int32_t> before, behind;
+};
+
+// `gap`: between two elements that could overlap; negative: they could not.
+template <class Gap>
+std::vector<int32_t> spread(const Axis& axis, Gap gap) {
+  const size_t count = axis.wanted.size();
+  std::vector<uint32_t> order(count);
+  for (uint32_t k = 0; k < count; ++k) order[k] = k;
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return axis.wanted[a] < axis.wanted[b]; });
+  std::vector<int32_t> at(count);
+  int64_t now = 0;
+  for (size_t first = 0; first < count;) {
+    size_t last = first;
+    while (last < count && axis.wanted[order[last]] == axis.wanted[order[first]]) ++last;
+    if (first > 0) {
+      const int64_t step = axis.wanted[order[first]] - axis.wanted[order[first - 1]];
+      now += std::min<int64_t>(step, kWidest);
+    }
+    for (size_t k = first; k < last; ++k)
+      for (size_t other = 0; other < first; ++other)
+        if (const int32_t free = gap(order[k], order[other]); free >= 0)
+          now = std::max<int64_t>(now, at[order[other]] + axis.behind[order[other]] + free + axis.before[order[k]]);
+    now = (now + kGrid - 1) / kGrid * kGrid;
+    for (size_t k = first; k < last; ++k) at[order[k]] = static_cast<int32_t>(now);
+    first = last;
+  }
+  return at;
+}
+
+}  // namespace
+
+bool takePlaces(const Body& body, Plan& plan) {
+  const size_t count = plan.items.size();
+  for (const Item& item : plan.items) {
+    const DiagramElement& e = body.elements[item.element];
+    if (!e.placed && e.kind != ElementKind::Comment) return false;
+  }
+  const int32_t unit = unitOf(body, plan);
+  Axis x, y;
+  std::vector<Rect> guess(count);
+  for (size_t k = 0; k < count; ++k) {
+    Item& item = plan.items[k];
+    const DiagramElement& e = body.elements[item.element];
+    if (isRail(e.kind)) item.area.width = 0;
+    // A line through the middle of an element stays one; boxes are placed by their upper edge.
+    const int64_t middle = isBox(e.kind) || isRail(e.kind) ? 0 : unit == kCell ? kGrid : e.height / 2;
+    const int64_t centre =
+        e.kind == ElementKind::Contact || e.kind == ElementKind::Coil ? int64_t{e.width} * unit / 2 : 0;
+    const auto onGrid = [](int64_t n) { return (n >= 0 ? n + kGrid / 2 : n - kGrid / 2) / kGrid * kGrid; };
+    x.wanted.push_back(onGrid(int64_t{e.x} * unit + centre));
+    y.wanted.push_back(onGrid(int64_t{e.y} * unit + middle));
+    x.before.push_back(-item.area.x);
+    x.behind.push_back(item.area.right());
+    y.before.push_back(-item.area.y);
+    y.behind.push_back(item.area.bottom());
+    const int64_t limit = 1 << 29;
+    guess[k] = item.area.at({static_cast<int32_t>(std::clamp(x.wanted[k], -limit, limit)), 0});
+  }
+  const auto rail = [&](uint32_t k) { return isRail(body.elements[plan.items[k].element].kind); };
+  // Variables stand as close as the pins that they lead to.
+  const auto gapY = [&](uint32_t a, uint32_t b) {
+    if (rail(a) || rail(b) || guess[a].x >= guess[b].right() + kGap || guess[b].x >= guess[a].right() + kGap) return -1;
+    return plan.items[a].area.height <= kGap && plan.items[b].area.height <= kGap ? 0 : kGap;
+  };
+  const std::vector<int32_t> ys = spread(y, gapY);
+  const auto gapX = [&](uint32_t a, uint32_t b) {
+    const int32_t above = std::max(ys[a] - y.before[a], ys[b] - y.before[b]);
+    const int32_t below = std::min(ys[a] + y.behind[a], ys[b] + y.behind[b]);
+    return rail(a) || rail(b) || above < below ? kGap : -1;
+  };
+  const std::vector<int32_t> xs = spread(x, gapX);
+  for (uint32_t k = 0; k < count; ++k) plan.items[k].origin = {xs[k], ys[k]};
+  for (uint32_t k = 0; k < count; ++k) {
+    if (!rail(k)) continue;
+    Item& item = plan.items[k];
+    const DiagramElement& e = body.elements[item.element];
+    int32_t top = item.origin.y, bottom = top + std::clamp(e.height, 40, 100'000);
+    for (const Link& link : plan.links) {
+      if (link.from.item != k && link.to.item != k) continue;
+      const int32_t row = plan.place(link.from.item == k ? link.to : link.from).y;
+      top = std::min(top, row - kGrid);
+      bottom = std::max(bottom, row + kGrid);
+    }
+    item.origin.y = top;
+    item.terminals[0].length = (bottom - top + kGrid - 1) / kGrid * kGrid;
+    item.area = {0, 0, 0, item.terminals[0].length};
+  }
+  std::vector<uint32_t> order(count);
+  for (uint32_t k = 0; k < count; ++k) order[k] = k;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](uint32_t a, uint32_t b) { return plan.items[a].place().y < plan.items[b].place().y; });
+  for (size_t k = 0; k < count; ++k) {
+    const Rect mine = plan.items[order[k]].place();
+    for (size_t other = k + 1; other < count; ++other) {
+      const Rect theirs = plan.items[order[other]].place();
+      if (theirs.y >= mine.bottom()) break;
+      if (mine.overlaps(theirs)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace rung::picture
