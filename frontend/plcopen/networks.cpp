@@ -38,10 +38,20 @@ bool isPath(std::string_view text) {
 }
 bool isName(std::string_view text) { return isPath(text) && text.find('.') == std::string_view::npos; }
 
+// As a text of the notation, on one line.
+std::string quoted(std::string_view text) {
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'' || c == '$') out += '$';
+    out += c == '\n' || c == '\r' || c == '\t' ? ' ' : c;
+  }
+  return out + "'";
+}
+
 class Writer {
  public:
-  Writer(const Sources& sources, const xml::Document& document, Diagnostics& diagnostics, xml::Assembly& out)
-      : sources_(sources), document_(document), diagnostics_(diagnostics), out_(out) {}
+  Writer(const Sources& sources, const xml::Document& document, xml::Assembly& out)
+      : sources_(sources), document_(document), out_(out) {}
 
   void writeBody(const Diagram& diagram);
   void writeCondition(const Diagram& diagram);
@@ -79,7 +89,6 @@ class Writer {
 
   const Sources& sources_;
   const xml::Document& document_;
-  Diagnostics& diagnostics_;
   xml::Assembly& out_;
   std::unordered_map<uint64_t, const Element*> by_number_;
   std::vector<const Element*> elements_;
@@ -254,12 +263,7 @@ void Writer::writeOperand(const Element& e) {
 // A string of the notation: comments and titles.
 void Writer::writeText(const Element& e, const Element* content) {
   if (content == nullptr) return;
-  std::string text = " '";
-  for (const char c : document_.text(*content, sources_)) {
-    if (c == '\'' || c == '$' || c == '\\') text += '$';
-    text += c == '\n' || c == '\r' || c == '\t' ? ' ' : c;
-  }
-  out_.put(e.loc, text + "'");
+  out_.put(e.loc, " " + quoted(document_.text(*content, sources_)));
 }
 
 // A name that stands in an attribute: of a label, a connector.
@@ -271,7 +275,11 @@ void Writer::writeReference(const Element& e, std::string_view attribute) {
     out_.add(document_, *name);
     return;
   }
-  // Connectors are called as their author likes: in the notation by a name that stands for it.
+  if (attribute == "name") {  // of a connector, which is called as its author likes
+    out_.put(name->loc, quoted(value(e, attribute)));
+    return;
+  }
+  // Of a label: a name that stands for it.
   std::string made = "n";
   for (const char c : value(e, attribute)) {
     if (isNameChar(c))
@@ -485,8 +493,8 @@ void Writer::writeCondition(const Diagram& diagram) {
 }  // namespace
 
 bool writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram,
-                   Diagnostics& diagnostics, xml::Assembly& out) {
-  Writer writer(sources, document, diagnostics, out);
+                   Diagnostics&, xml::Assembly& out) {
+  Writer writer(sources, document, out);
   if (diagram.condition != nullptr)
     writer.writeCondition(diagram);
   else

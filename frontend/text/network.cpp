@@ -1,7 +1,7 @@
 // The notation of networks: what the readers of LD, FBD and CFC write between {network} and {end_network}, so that
 // expressions, places and errors come from one parser. docs/networks.md shows it whole.
 //   body    = "{network" [LD | FBD | CFC] "}" {NETWORK number [DISABLED] [title] ";" | element ";"} "{end_network}"
-//   element = word number [name] {"(" e ")" | NOT | RISING | FALLING | SET | RESET | HOLDING
+//   element = word number [name | text] {"(" e ")" | NOT | RISING | FALLING | SET | RESET | HOLDING
 //                          | ORDER n | AT x, y [, w, h]
 //                          | ":=" wires | pins | statements}
 //   pins    = "[" pin {"," pin} "]"
@@ -50,6 +50,16 @@ bool isNamed(ElementKind kind) {
   return kind == ElementKind::Box || kind == ElementKind::Jump || kind == ElementKind::Label ||
          kind == ElementKind::Connector || kind == ElementKind::Continuation || kind == ElementKind::Compose ||
          kind == ElementKind::Select;
+}
+
+// What stands between quotes: `$` makes the next character plain.
+std::string plainText(std::string_view quoted) {
+  std::string out;
+  for (size_t k = 1; k + 1 < quoted.size(); ++k) {
+    if (quoted[k] == '$' && k + 2 < quoted.size()) ++k;
+    out += quoted[k];
+  }
+  return out;
 }
 
 }  // namespace
@@ -172,6 +182,10 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
   const bool attribute = is(t_, "AT") || is(t_, "ORDER");
   if (isNamed(e.kind) && (isName(kind()) || nameReserved(t_)) && !(attribute && peek() == Tok::Number))
     e.path = parseElementPath(e.name);
+  if ((e.kind == ElementKind::Connector || e.kind == ElementKind::Continuation) && at(Tok::Text)) {
+    e.name = {names_.intern(plainText(textOf(t_))), here()};  // connectors are called as their author likes
+    advance();
+  }
   while (!panic_ && !at(Tok::Semicolon)) {
     if (takeMark(e)) continue;
     if (e.kind == ElementKind::Coil && is(t_, "HOLDING")) {
@@ -211,7 +225,7 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
       panic_ = false;
       expect(Tok::EndNetwork);
     } else if (at(Tok::Text)) {
-      const TextId text = tree_.addText(textOf(t_).substr(1, lengthOf(t_) - 2));
+      const TextId text = tree_.addText(plainText(textOf(t_)));
       e.text = text.first;
       e.text_length = text.length;
       advance();
@@ -283,7 +297,7 @@ void Parser::parseNetworks(PouDecl& d) {
           advance();
         }
         if (at(Tok::Text)) {
-          const TextId title = tree_.addText(textOf(t_).substr(1, lengthOf(t_) - 2));
+          const TextId title = tree_.addText(plainText(textOf(t_)));
           n.title = title.first;
           n.title_length = title.length;
           advance();
