@@ -85,7 +85,7 @@ int Generator::leaf(Type type, bool literals) {
       n.text = chance(5) ? pick({"TRUE", "FALSE"})
                          : pick({"a", "b", "c", "d", "p", "q", "r", "s", "mem.flag", "bits[1]", "w.3", "t0.Q"});
       break;
-    case Type::Int: n.text = pick({"k", "u", "v", "mem.small", "sel"}); break;
+    case Type::Int: n.text = pick({"k", "u", "v", "mem.small", "which"}); break;
     case Type::Dint: n.text = pick({"i", "j", "m", "n", "list[1]", "list[2]"}); break;
     case Type::Real: n.text = pick({"x", "y", "z"}); break;
     case Type::Time: n.text = pick({"T#20ms", "T#30ms", "T#55ms"}); break;
@@ -158,7 +158,7 @@ int Generator::function(Type type, int depth) {
       name = "MUX";
       Node k;
       k.type = Type::Int;
-      k.text = "sel";
+      k.text = "which";
       put("K", add(k));
       put("IN0", expr(type, depth - 1));
       put("IN1", expr(type, depth - 1));
@@ -308,7 +308,7 @@ void Generator::block() {
   const int self = static_cast<int>(logic_.actions.size());
   for (const Pins& pin : in) {
     if (in.size() > 1 && pin.type != Type::Time && chance(15)) continue;  // keeps its value
-    int node = expr(pin.type, 2);
+    int node = pin.type == Type::Time ? leaf(pin.type, false) : expr(pin.type, 2);
     if (pin.type == Type::Bool && chance(20)) {
       const int last = make(NodeKind::Last, Type::Bool, out.back().name, {});
       logic_.nodes[static_cast<size_t>(last)].action = self;
@@ -352,7 +352,7 @@ void Generator::split() {
   Action a{};
   a.kind = ActionKind::Split;
   a.type = "Split";
-  a.arguments = {{"number", expr(Type::Dint, 2), {}}, {"by", expr(Type::Int, 1), {}}};
+  a.arguments = {{"number", expr(Type::Dint, 2), {}}, {"unit", expr(Type::Int, 1), {}}};
   const int number = act(a);
   pin(number, Type::Dint, "");
   pin(number, Type::Int, "rest");

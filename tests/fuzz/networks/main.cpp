@@ -48,9 +48,9 @@ VAR_INPUT first : BOOL; one, two : INT; END_VAR
 IF first THEN Blend := one; ELSE Blend := two - one; END_IF
 END_FUNCTION
 FUNCTION Split : DINT
-VAR_INPUT number : DINT; by : INT; END_VAR
+VAR_INPUT number : DINT; unit : INT; END_VAR
 VAR_OUTPUT rest : INT; odd : BOOL; END_VAR
-IF by > 0 THEN Split := number / by; rest := DINT_TO_INT(number MOD by); END_IF
+IF unit > 0 THEN Split := number / unit; rest := DINT_TO_INT(number MOD unit); END_IF
 odd := number.0;
 END_FUNCTION
 FUNCTION Mix : DWORD
@@ -98,7 +98,7 @@ std::vector<File> project(uint64_t first, uint64_t count, std::string& watch) {
       calls +=
           b + "(a := state.31, b := state.30, c := state.29 AND state.28, d := state.27 OR state.26, " +
           "i := UDINT_TO_DINT(state / 65536) - 32768, j := UDINT_TO_DINT(state), k := UDINT_TO_INT(state / 8388608), " +
-          "sel := UDINT_TO_INT(state / 65536 MOD 3), x := UDINT_TO_REAL(state / 1048576) / 16.0);\n";
+          "which := UDINT_TO_INT(state / 65536 MOD 3), x := UDINT_TO_REAL(state / 1048576) / 16.0);\n";
       calls += sum + " := Mix(" + sum;
       for (const char* output : {"p", "q", "r", "s", "u", "v", "m", "n", "y", "z"}) calls += ", " + b + "." + output;
       calls += ");\n";

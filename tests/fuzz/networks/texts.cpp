@@ -278,7 +278,7 @@ const char* typeName(Type type) {
 }
 
 std::string declarations(const Logic& logic) {
-  return "VAR_INPUT a, b, c, d : BOOL; i, j : DINT; k, sel : INT; x : REAL; END_VAR\n"
+  return "VAR_INPUT a, b, c, d : BOOL; i, j : DINT; k, which : INT; x : REAL; END_VAR\n"
          "VAR_OUTPUT p, q, r, s : BOOL; u, v : INT; m, n : DINT; y, z : REAL; END_VAR\n"
          "VAR mem : Memory; bits : ARRAY[0..2] OF BOOL; list : ARRAY[1..2] OF DINT; w : WORD; t0 : TON; " +
          logic.variables + "END_VAR\n";

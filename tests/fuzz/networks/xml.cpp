@@ -66,6 +66,7 @@ void Writer::number() {
     by_number_[e.number] = &e;
     if (vendor() && drawing_.language != Language::Ordered && drawing_.language != Language::Flow)
       ids_[e.number] = e.kind == "rail" ? 0 : e.network * 10000000000u + ++counts[e.network];
+    if (vendor() && e.kind == "rail") ids_[e.number] = 0;
     if (editor_ == Editor::Turns) ids_[e.number] = e.number * 4294967311u + 7;
     if (e.turn == 1 && e.kind != "coil" && vendor()) first_turn_ = 0;
   }
@@ -80,7 +81,7 @@ std::string Writer::head(const std::string& kind, const Element& e, const std::s
   std::string text = "<" + kind + " localId=\"" + std::to_string(id(e.number)) + "\"" + more;
   if (e.turn != 0 && e.kind != "input")
     text += " executionOrderId=\"" + std::to_string(e.turn + first_turn_ - 1) + "\"";
-  if (editor_ == Editor::Pixels && e.kind == "box") text += " width=\"60\" height=\"40\" executionOrderId=\"0\"";
+  if (editor_ == Editor::Pixels && e.kind == "box" && e.turn == 0) text += " width=\"60\" height=\"40\" executionOrderId=\"0\"";
   if (editor_ == Editor::Pixels && e.kind == "contact") text += " width=\"21\" height=\"15\"";
   return text + ">" + place(e);
 }
@@ -88,8 +89,10 @@ std::string Writer::head(const std::string& kind, const Element& e, const std::s
 // Operators have no names for their pins in CODESYS.
 std::string Writer::pinName(const Element& e, const Pin& pin, size_t at) const {
   const bool control = pin.name == "EN" || pin.name == "ENO";
-  const bool named = !e.operand.empty() || e.kind != "box" || e.name == "R_TRIG" || e.name == "F_TRIG" ||
-                     e.name == "Blend" || e.name == "Split" || e.name == "SEL" || e.name == "LIMIT" || e.name == "MUX";
+  static constexpr const char* kOperators[] = {"AND", "OR", "XOR", "NOT", "ADD", "SUB", "MUL", "DIV", "MOD",
+                                               "GT",  "GE", "LT",  "LE",  "EQ",  "NE",  "MAX", "MIN"};
+  const bool named =
+      std::none_of(std::begin(kOperators), std::end(kOperators), [&](const char* op) { return e.name == op; });
   if (vendor() && !control && !named) return pin.output ? "Out1" : "In" + std::to_string(at);
   if (editor_ == Editor::Plain && pin.output && pin.name == "OUT" && e.name != "Split") return "";
   return pin.name;
