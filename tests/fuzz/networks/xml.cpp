@@ -81,7 +81,8 @@ std::string Writer::head(const std::string& kind, const Element& e, const std::s
   std::string text = "<" + kind + " localId=\"" + std::to_string(id(e.number)) + "\"" + more;
   if (e.turn != 0 && e.kind != "input")
     text += " executionOrderId=\"" + std::to_string(e.turn + first_turn_ - 1) + "\"";
-  if (editor_ == Editor::Pixels && e.kind == "box" && e.turn == 0) text += " width=\"60\" height=\"40\" executionOrderId=\"0\"";
+  if (editor_ == Editor::Pixels && e.kind == "box" && e.turn == 0)
+    text += " width=\"60\" height=\"40\" executionOrderId=\"0\"";
   if (editor_ == Editor::Pixels && e.kind == "contact") text += " width=\"21\" height=\"15\"";
   return text + ">" + place(e);
 }
