@@ -53,6 +53,18 @@ bool Scheduler::isOperator(const DiagramElement& e) const {
          operatorNamed(names_.text(e.name.name)) != nullptr;
 }
 
+// The pin that a wire comes from; without a name the only one beside ENO.
+const DiagramPin* Scheduler::outputNamed(const DiagramElement& e, const Ident& pin) const {
+  if (pin.name) return pinNamed(e, names_.text(pin.name), PinDirection::Output);
+  const DiagramPin* only = nullptr;
+  for (const DiagramPin& candidate : tree_.list(e.pins)) {
+    if (candidate.direction != PinDirection::Output || isControl(names_, candidate.name.name)) continue;
+    if (only != nullptr) return nullptr;
+    only = &candidate;
+  }
+  return only;
+}
+
 // The output that a wire without a pin's name means: the result of a function.
 uint32_t Scheduler::resultOf(uint32_t element, const Shape& shape) const {
   for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
@@ -154,7 +166,7 @@ ExprId Scheduler::readBox(uint32_t source) {
     diagnostics_.report(Diag::ReadBeforeTurn, loc, {describe(tree_, names_, e)});
     return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
   }
-  const DiagramPin* out = s.pin.name ? pinNamed(e, names_.text(s.pin.name), PinDirection::Output) : nullptr;
+  const DiagramPin* out = outputNamed(e, s.pin);
   return out != nullptr && out->negated ? inverted(value, loc) : value;
 }
 
@@ -174,9 +186,7 @@ uint32_t Scheduler::soleTarget(uint32_t source) const {
 void Scheduler::giveResult(uint32_t element, uint32_t result, ExprId value) {
   Source& s = graph_.sources[result];
   const DiagramElement& e = graph_.elements[element];
-  if (const DiagramPin* out = s.pin.name ? pinNamed(e, names_.text(s.pin.name), PinDirection::Output) : nullptr;
-      out != nullptr && out->negated)
-    value = inverted(value, e.loc);
+  if (const DiagramPin* out = outputNamed(e, s.pin); out != nullptr && out->negated) value = inverted(value, e.loc);
   if (e.stored) {
     s.temporary = e.stored;
     return assign(nameExpr(e.stored, e.loc), value, e.loc);

@@ -40,9 +40,10 @@ class Declarer {
   void keepValues(Diagnostics& diagnostics, const PouDecl& pou) {
     Graph graph;
     if (!graph.build(tree_, names_, diagnostics, pou.diagram)) return;
+    BoxTypes types(tree_, names_, shapes_, pou, graph);
     for (const uint32_t k : readBeforeTurn(tree_, graph)) {
       const DiagramElement e = graph.elements[k];
-      const TypeExprId type = typeOfBox(tree_, names_, pou, graph, k);
+      const TypeExprId type = types.of(k);
       if (!type) continue;
       const NameId name = declare(std::string(names_.text(e.name.name)) + "_" + number(e), type, e.loc);
       tree_.list(pou.diagram.elements)[k].stored = name;

@@ -1,12 +1,9 @@
 #include "frontend/diagram/feedback.h"
 
 #include <algorithm>
-#include <string>
 
 namespace rung::diagram {
 namespace {
-
-constexpr uint32_t kMaxDepth = 100;
 
 bool isFunction(const DiagramElement& e) { return e.kind == ElementKind::Box && !keepsState(e); }
 
@@ -89,90 +86,8 @@ class Search {
   std::vector<uint32_t> found_;
 };
 
-class Types {
- public:
-  Types(Tree& tree, Names& names, const PouDecl& pou, const Graph& graph)
-      : tree_(tree), names_(names), pou_(pou), graph_(graph) {}
-
-  TypeExprId ofBox(uint32_t element, uint32_t depth) {
-    if (depth > kMaxDepth) return {};
-    const DiagramElement& e = graph_.elements[element];
-    if (!isFunction(e)) return {};
-    const std::string_view name = names_.text(e.name.name);
-    for (const char* comparison : {"GT", "GE", "EQ", "LE", "LT", "NE"})
-      if (sameIdentifier(name, comparison)) return named("BOOL", e.loc);
-    std::string upper(name);
-    for (char& c : upper) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 32 : c);
-    if (const size_t to = upper.rfind("TO_"); to == 0 || (to != std::string::npos && upper[to - 1] == '_'))
-      return named(upper.substr(to + 3), e.loc);
-    for (const char* same : {"AND", "OR",    "XOR", "NOT", "ADD", "SUB", "MUL", "DIV", "MOD", "MOVE", "SEL",
-                             "MUX", "LIMIT", "MAX", "MIN", "ABS", "SHL", "SHR", "ROL", "ROR", "EXPT"})
-      if (sameIdentifier(name, same)) return ofOperands(e, element, upper, depth);
-    return {};
-  }
-
- private:
-  // The type that the inputs share; where they tell nothing, that of the variable that takes the value.
-  TypeExprId ofOperands(const DiagramElement& e, uint32_t element, const std::string& name, uint32_t depth) {
-    bool first = true;
-    for (const DiagramPin& pin : tree_.list(e.pins)) {
-      const bool control = sameIdentifier(names_.text(pin.name.name), "EN");
-      if (pin.direction == PinDirection::Output || control) continue;
-      const bool selects = first && (name == "SEL" || name == "MUX");
-      first = false;
-      if (selects || pin.wires.empty()) continue;
-      const TypeExprId type = ofSource(graph_.sourceOf(pin, 0), depth + 1);
-      if (type) return type;
-    }
-    for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
-      if (graph_.sources[s].user == kNone) continue;
-      const DiagramElement& user = graph_.elements[graph_.sources[s].user];
-      if (user.kind == ElementKind::Output && user.operand) return ofVariable(user.operand);
-      if (user.kind == ElementKind::Coil) return named("BOOL", e.loc);
-    }
-    return {};
-  }
-
-  TypeExprId ofSource(uint32_t source, uint32_t depth) {
-    const uint32_t element = graph_.sources[source].element;
-    const DiagramElement& e = graph_.elements[element];
-    if (e.kind == ElementKind::Contact || e.kind == ElementKind::Rail) return named("BOOL", e.loc);
-    if (e.kind == ElementKind::Input || e.kind == ElementKind::InOut) return ofVariable(e.operand);
-    return ofBox(element, depth);
-  }
-
-  TypeExprId ofVariable(ExprId expr) {
-    if (tree_.kind(expr) != ExprKind::Name) return {};
-    const NameId name = tree_.as<NameExpr>(expr).name;
-    for (const DeclId s : tree_.list(pou_.sections))
-      for (const DeclId v : tree_.list(tree_.as<SectionDecl>(s).vars)) {
-        const VarDecl& var = tree_.as<VarDecl>(v);
-        for (const Ident& declared : tree_.list(var.names))
-          if (names_.same(declared.name, name)) return var.type;
-      }
-    return {};
-  }
-
-  TypeExprId named(std::string_view type, Loc loc) {
-    const Ident ident{names_.intern(type), loc};
-    NamedTypeExpr node{};
-    node.h = {TypeExprKind::Named, 0, 0, loc, {}};
-    node.path = tree_.addList<Ident>({&ident, 1});
-    return tree_.add<TypeExprId>(node);
-  }
-
-  Tree& tree_;
-  Names& names_;
-  const PouDecl& pou_;
-  const Graph& graph_;
-};
-
 }  // namespace
 
 std::vector<uint32_t> readBeforeTurn(const Tree& tree, const Graph& graph) { return Search(tree, graph).run(); }
-
-TypeExprId typeOfBox(Tree& tree, Names& names, const PouDecl& pou, const Graph& graph, uint32_t box) {
-  return Types(tree, names, pou, graph).ofBox(box, 0);
-}
 
 }  // namespace rung::diagram

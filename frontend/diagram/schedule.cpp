@@ -374,8 +374,8 @@ void Scheduler::settleAssignment(uint32_t element) {
   if (copy.wires.count == 1) {
     const Source& s = graph_.sources[graph_.sourceOf(copy, 0)];
     const DiagramElement& from = graph_.elements[s.element];
-    if (from.kind == ElementKind::Box && s.pin.name) {
-      const DiagramPin* out = pinNamed(from, names_.text(s.pin.name), PinDirection::Output);
+    if (from.kind == ElementKind::Box) {
+      const DiagramPin* out = outputNamed(from, s.pin);
       if (out != nullptr && out->storage != PinStorage::None && e.storage == PinStorage::None) {
         const AssignOp op = out->storage == PinStorage::Set ? AssignOp::Set : AssignOp::Reset;
         return assign(operandOf(element), value, e.loc, op);

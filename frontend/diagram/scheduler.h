@@ -57,6 +57,7 @@ class Scheduler {
   uint32_t soleTarget(uint32_t source) const;
   bool fillArguments(uint32_t element, Call& call);
   bool hasPin(const Shape& shape, const Ident& pin) const;
+  const DiagramPin* outputNamed(const DiagramElement& e, const Ident& pin) const;
   uint32_t resultOf(uint32_t element, const Shape& shape) const;
   ExprId readBox(uint32_t source);
 

@@ -86,6 +86,10 @@ void addUnit(const Setting& setting, std::vector<Job>& jobs) {
   if (isWanted(setting, "unit/sfc_differential"))
     jobs.push_back(
         {"unit/sfc_differential", 5, [&setting] { return runDifferential(setting, "sfc_differential", {}, 20); }});
+  if (isWanted(setting, "unit/network_differential"))
+    jobs.push_back({"unit/network_differential", 5, [&setting] {
+                      return runDifferential(setting, "network_differential", {"--cycles=200", "-j2"}, 40);
+                    }});
   for (const std::string& script : filesBelow(setting, "tools/house", ".sh")) {
     jobs.push_back({script, 2, [&setting, script] { return runHouse(setting, script); }});
   }

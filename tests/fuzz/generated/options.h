@@ -1,5 +1,6 @@
-// The command line that the tools of generated programs share: differential, il_differential, sfc_differential. In: the
-// words. Out: Options, with rung beside the tool and a folder of its own where none is given.
+// The command line that the tools of generated programs share: differential, il_differential, sfc_differential,
+// network_differential. In: the words. Out: Options, with rung beside the tool and a folder of its own where none is
+// given.
 #pragma once
 
 #include <cstdint>
