@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "frontend/plcopen/import.h"
@@ -118,7 +119,7 @@ class Chart {
   void writeWires(const std::vector<uint32_t>& from);
   void writeOperand(uint32_t node);
   std::vector<uint32_t> sourcesOf(uint32_t node) const;
-  const xml::Element* namedTransition(std::string_view name) const;
+  const xml::Element* namedTransition(std::string_view name);
   void writeDefinition(const Definition& definition);
 
   Import& import_;
@@ -137,7 +138,9 @@ class Chart {
   std::vector<std::vector<uint32_t>> targets_;        // by node, of transitions
   std::vector<uint32_t> passed_;                      // by node: the last transition whose wires went through it
   std::vector<std::vector<uint32_t>> action_blocks_;  // by node, of steps
+  std::unordered_map<std::string, const xml::Element*> named_;  // transitions of the POU, in upper case
   std::vector<Definition> definitions_;
+  std::unordered_set<const xml::Element*> defined_;
   std::unordered_map<std::string, std::string> own_actions_;  // by variable
 };
 

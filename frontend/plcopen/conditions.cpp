@@ -121,18 +121,21 @@ const xml::Element* bodyOf(const Import& import, const xml::Element& element) {
 
 }  // namespace
 
-const xml::Element* Chart::namedTransition(std::string_view name) const {
-  const xml::Element* list = document_.child(pou_, "transitions");
-  for (const xml::Element* e = list == nullptr ? nullptr : document_.firstChild(*list); e != nullptr;
-       e = document_.next(*e))
-    if (e->name == "transition" && sameIdentifier(document_.value(*e, "name"), name)) return e;
-  return nullptr;
+// The transition of the POU with this name.
+const xml::Element* Chart::namedTransition(std::string_view name) {
+  if (named_.empty()) {
+    const xml::Element* list = document_.child(pou_, "transitions");
+    for (const xml::Element* e = list == nullptr ? nullptr : document_.firstChild(*list); e != nullptr;
+         e = document_.next(*e))
+      if (e->name == "transition") named_.emplace(upper(document_.value(*e, "name")), e);
+    named_.emplace("", nullptr);
+  }
+  const auto found = named_.find(upper(name));
+  return found == named_.end() ? nullptr : found->second;
 }
 
 void Chart::define(const std::string& name, const xml::Element& element) {
-  for (const Definition& known : definitions_)
-    if (known.element == &element) return;
-  definitions_.push_back({name, &element});
+  if (defined_.insert(&element).second) definitions_.push_back({name, &element});
 }
 
 // What stands in <inline>. False: nothing does, which was reported.
@@ -156,7 +159,7 @@ bool Chart::readBody(const xml::Element& inline_body, const std::string& name, C
 //   fails   <condition><inline><ST/></inline></condition>          E1066
 bool Chart::readCondition(uint32_t node, Condition& out) {
   const xml::Element& transition = *nodes_[node].element;
-  const std::string own = "sfc_condition_" + identifierOf("n" + std::to_string(node));
+  const std::string own = "sfc_condition_" + std::to_string(node);
   const xml::Element* condition = document_.child(transition, "condition");
   if (condition == nullptr) {
     report(Diag::ChartNoCondition, transition.loc, {});
@@ -289,7 +292,7 @@ void Chart::writeTransition(uint32_t node) {
 void Chart::writeDefinition(const Definition& definition) {
   const xml::Element& e = *definition.element;
   import_.out.put(e.loc, "TRANSITION " + definition.name);
-  const std::string of = name_ + "." + definition.name;
+  const std::string of = e.name == "transition" ? name_ + "." + definition.name : name_;
   const xml::Element* body = bodyOf(import_, e);
   const xml::Element* language = body == nullptr ? nullptr : languageOf(import_, *body);
   size_t begin = 0, end = 0;
@@ -304,7 +307,14 @@ void Chart::writeDefinition(const Definition& definition) {
     import_.out.word(" := FALSE;\n");
   } else if (language->name != "ST") {
     import_.out.word(" :\n");
-    if (!writeBody(import_, *body, pou_, of)) import_.out.word(definition.name + " := FALSE;\n");
+    const bool is_ladder = language->name == "LD";
+    const bool good = is_ladder || language->name == "FBD"
+                          ? writeNetworks(import_.sources, document_,
+                                          {*language, is_ladder ? NetworkLanguage::Ld : NetworkLanguage::Fbd, of,
+                                           nullptr, definition.name},
+                                          import_.diagnostics, import_.out)
+                          : writeBody(import_, *body, pou_, of);
+    if (!good) import_.out.word(definition.name + " := FALSE;\n");
   } else {
     const std::string text = document_.text(*language, import_.sources);
     switch (formOf(text, begin, end)) {

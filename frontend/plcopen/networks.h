@@ -15,7 +15,8 @@ struct Diagram {
   const xml::Element& body;  // the <LD>, <FBD> or <CFC>; the <SFC> around a condition
   NetworkLanguage language;
   std::string name;  // what messages call it: Pump.Start
-  // Of a condition: the <connectionPointIn> whose wires are to be assigned to `target`. Null: the whole body.
+  // Of the condition of a transition: the variable that it assigns. Where a <connectionPointIn> is given, what is wired
+  // to it; otherwise the body does, by a coil or variable of the name or, in an <inline>, whatever name its result has.
   const xml::Element* condition = nullptr;
   std::string target = {};
 };

@@ -137,9 +137,8 @@ void writeChart(Import& import, const xml::Element& chart, const xml::Element& p
 
 // ACTION sfc_action_1: … END_ACTION for what a chart could not say in a step.
 void writeOwnActions(Import& import, const xml::Element& pou, const std::string& name) {
-  while (!import.own_actions.empty()) {
-    const OwnAction action = import.own_actions.back();
-    import.own_actions.pop_back();
+  for (size_t i = 0; i < import.own_actions.size(); ++i) {  // a chart in an action adds its own
+    const OwnAction action = import.own_actions[i];
     const Loc loc = action.body != nullptr ? action.body->loc : action.variable->loc;
     import.out.put(loc, "ACTION " + action.name + " :\n");
     if (action.body != nullptr) {
@@ -150,6 +149,7 @@ void writeOwnActions(Import& import, const xml::Element& pou, const std::string&
     }
     import.out.word("END_ACTION\n");
   }
+  import.own_actions.clear();
 }
 
 // <SFCInit Declare="true" Use="true"/>, or <Init …/>. The chart reads and writes the variables that are declared.

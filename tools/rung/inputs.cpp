@@ -36,8 +36,8 @@ constexpr Extension kExtensions[] = {
     {".decl", FileKind::St},       {".impl", FileKind::St},       {".exp", FileKind::Codesys2},
     {".tcpou", FileKind::TwinCat}, {".tcdut", FileKind::TwinCat}, {".tcgvl", FileKind::TwinCat},
     {".tcio", FileKind::TwinCat},  {".tctto", FileKind::TwinCat}, {".plcproj", FileKind::PlcProject},
-    {".il", FileKind::Il},         {".xml", FileKind::Xml},       {".nct", FileKind::Nct},
-    {".cam", FileKind::Cam}};
+    {".il", FileKind::Il},         {".xml", FileKind::Xml},       {".cfc", FileKind::Xml},
+    {".nct", FileKind::Nct},       {".cam", FileKind::Cam}};
 
 FileKind kindOfExtension(std::string_view path) {
   if (path == "rung.project" || path.ends_with("/rung.project")) return FileKind::Project;
