@@ -193,7 +193,7 @@ void ChartArranger::addBranches(uint32_t node, Block& block, bool side_by_side_o
   const bool several = edges.size() > 1;
   const bool doubled = several && node != root_ && !plan_.nodes[node].step;
   const int32_t begin = node == root_ ? 0 : plan_.nodes[node].below;
-  const int32_t bar = begin + (side_by_side_only ? 0 : kStretch);
+  const int32_t bar = side_by_side_only ? 0 : plan_.nodes[node].area.bottom() + kStretch;
   const int32_t top = side_by_side_only || !several ? bar : bar + (doubled ? kDouble : 0) + kStretch;
   std::vector<int32_t> at(edges.size());
   int32_t x = 0;

@@ -1,0 +1,190 @@
+// Pictures of networks, for the drawings of many random programs: nothing overlaps, wires lead from pin to pin and
+// around elements, and every name can be read.
+#include "frontend/picture/network_plan.h"
+#include "frontend/picture/picture.h"
+#include "tests/unit/picture/drawn.h"
+
+namespace rung::picture {
+namespace {
+
+// Elements that are wired to those before them, and now and then to one behind: a circle.
+std::string randomNetworks(uint32_t seed, const char* language, bool placed) {
+  Numbers random(seed);
+  std::string out = "PROGRAM p\n{network " + std::string(language) + "}\n";
+  const bool ladder = std::string_view(language) == "LD";
+  std::vector<uint32_t> bits, values;  // elements that give something
+  const uint32_t count = 2 + random.below(24);
+  if (ladder) {
+    out += placed ? "rail 1 AT 0, 0, 3, 100;\n" : "rail 1;\n";
+    bits.push_back(1);
+  }
+  const auto place = [&](uint32_t k) {
+    if (!placed) return std::string();
+    return " AT " + std::to_string(20 + k * 37 % 400) + ", " + std::to_string(k * 53 % 300) + ", 21, 15";
+  };
+  const auto wires = [&](std::vector<uint32_t>& from, uint32_t most) {
+    std::string text;
+    for (uint32_t n = 1 + random.below(most); n > 0; --n)
+      text += (text.empty() ? "" : " OR ") +
+              std::to_string(
+                  from[from.size() - 1 - random.below(std::min<uint32_t>(6, static_cast<uint32_t>(from.size())))]);
+    return text;
+  };
+  for (uint32_t k = 2; k < count + 2; ++k) {
+    const std::string n = std::to_string(k), at = place(k);
+    switch (random.below(ladder ? 8 : 5)) {
+      case 0:
+      case 1:
+        out += "input " + n + " (value_" + n + ")" + at + ";\n";
+        values.push_back(k);
+        break;
+      case 2:
+      case 3: {
+        if (values.empty()) continue;
+        const bool enabled = !bits.empty() && random.below(3) == 0;
+        out += "box " + n + (random.below(2) == 0 ? " ADD" : " Block (instance_" + n + ")") + at + " [" +
+               (enabled ? "EN := " + wires(bits, 2) + ", " : "") + "IN1 NOT := " + wires(values, 1) +
+               ", IN2 := " + (random.below(8) == 0 ? n : wires(values, 1)) + ", OUT =>, second_output =>];\n";
+        values.push_back(k);
+        break;
+      }
+      case 4:
+        if (values.empty()) continue;
+        out += "output " + n + " (result_" + n + ")" + at + " := " + wires(values, 1) + ";\n";
+        break;
+      case 5: out += "coil " + n + " (coil_" + n + ")" + at + " := " + wires(bits, 2) + ";\n"; break;
+      default:
+        out += "contact " + n + " (contact_" + n + ")" + at + " := " + wires(bits, 3) + ";\n";
+        bits.push_back(k);
+        break;
+    }
+  }
+  return out + "{end_network}\nEND_PROGRAM\n";
+}
+
+void checkPlan(const Plan& plan, const std::string& source) {
+  std::vector<Segment> others;
+  for (size_t i = 0; i < plan.items.size(); ++i)
+    for (size_t k = 0; k < i; ++k)
+      EXPECT_FALSE(plan.items[i].place().overlaps(plan.items[k].place())) << i << " and " << k << "\n" << source;
+  for (const Net& net : plan.nets) {
+    std::vector<Segment> lines;
+    for (const std::vector<Point>& line : net.lines)
+      for (size_t k = 1; k < line.size(); ++k) lines.push_back({line[k - 1], line[k]});
+    for (const Segment& line : lines) {
+      EXPECT_TRUE(line.a.x == line.b.x || line.a.y == line.b.y);
+      for (const Item& item : plan.items)
+        EXPECT_FALSE(line.cuts(item.place())) << "a wire through element " << item.element << "\n" << source;
+    }
+    std::vector<End> ends = net.sources;
+    ends.insert(ends.end(), net.targets.begin(), net.targets.end());
+    for (const End& end : ends)  // a rail connects what ends at it
+      if (const int32_t length = plan.terminal(end).length; length > 0) {
+        const Point p = plan.place(end);
+        lines.push_back({p, {p.x, p.y + length}});
+      }
+    Connected all(lines);
+    const size_t group = all.groupAt(plan.place(ends[0]));
+    EXPECT_NE(all.none(), group);
+    for (const End& end : ends) EXPECT_EQ(group, all.groupAt(plan.place(end))) << "a pin without its wire\n" << source;
+  }
+}
+
+TEST(Networks, random_networks_are_readable) {
+  for (const char* language : {"LD", "FBD", "CFC"}) {
+    for (uint32_t seed = 0; seed < 30; ++seed) {
+      for (const bool placed : {false, true}) {
+        const std::string source = randomNetworks(seed, language, placed);
+        const Drawn drawn(source);
+        const Diagram& diagram = drawn.pou->diagram;
+        for (const Plan& plan : planNetworks({drawn.tree, drawn.names, diagram, drawn.tree.list(diagram.elements)}))
+          checkPlan(plan, source);
+        const std::string svg = drawNetworks(drawn.tree, drawn.names, diagram, "p");
+        for (const char* word : {"value_", "result_", "coil_", "contact_", "instance_"})
+          for (size_t at = source.find(word); at != std::string::npos; at = source.find(word, at + 1)) {
+            const std::string name = source.substr(at, source.find(')', at) - at);
+            EXPECT_NE(std::string::npos, svg.find(">" + name + "<")) << name << "\n" << source;
+          }
+        EXPECT_EQ(svg, drawNetworks(drawn.tree, drawn.names, diagram, "p"));
+        if (HasFailure()) return;
+      }
+    }
+  }
+}
+
+// In the plan of one network: where the element with this number stands.
+Point placeOf(const Drawn& drawn, const Plan& plan, uint64_t number) {
+  for (const Item& item : plan.items)
+    if (item.element != kNone && drawn.tree.list(drawn.pou->diagram.elements)[item.element].number == number)
+      return item.origin;
+  return {};
+}
+std::vector<Plan> plansOf(const Drawn& drawn) {
+  return planNetworks({drawn.tree, drawn.names, drawn.pou->diagram, drawn.tree.list(drawn.pou->diagram.elements)});
+}
+
+TEST(Networks, a_rung_stands_in_one_row_and_its_branch_below) {
+  const Drawn drawn(
+      "PROGRAM p\n{network LD}\nrail 1; contact 2 (a) := 1; contact 3 (b) := 1; contact 4 (c) := 2 OR 3;\n"
+      "coil 5 (d) := 4;\n{end_network}\nEND_PROGRAM\n");
+  const Plan plan = plansOf(drawn)[0];
+  const Point a = placeOf(drawn, plan, 2), b = placeOf(drawn, plan, 3), c = placeOf(drawn, plan, 4),
+              d = placeOf(drawn, plan, 5);
+  EXPECT_EQ(a.y, c.y);
+  EXPECT_EQ(a.y, d.y);
+  EXPECT_EQ(a.x, b.x);
+  EXPECT_GT(b.y, a.y);
+  EXPECT_LT(a.x, c.x);
+  EXPECT_LT(c.x, d.x);
+  // The OR is one net with one joint: a straight line, and one corner from b.
+  for (const Net& net : plan.nets)
+    if (net.sources.size() == 2) {
+      ASSERT_EQ(2u, net.lines.size());
+      EXPECT_EQ(2u, net.lines[0].size());
+      EXPECT_EQ(3u, net.lines[1].size());
+      EXPECT_EQ(1u, net.dots.size());
+    }
+}
+
+TEST(Networks, places_of_the_file_are_kept_and_moved_apart_only_where_names_need_it) {
+  const std::string begin = "PROGRAM p\n{network FBD}\n", end = "{end_network}\nEND_PROGRAM\n";
+  const Drawn wide(begin + "input 1 (a) AT 10, 40, 40, 20; output 2 (b) AT 300, 40, 40, 20 := 1;\n" + end);
+  const Plan plan = plansOf(wide)[0];
+  EXPECT_EQ(290, placeOf(wide, plan, 2).x - placeOf(wide, plan, 1).x);
+  EXPECT_EQ(placeOf(wide, plan, 2).y, placeOf(wide, plan, 1).y);
+  const Drawn narrow(
+      begin + "input 1 (a_name_that_needs_more_room) AT 10, 40, 40, 20; output 2 (b) AT 60, 40, 40, 20 := 1;\n" + end);
+  const Plan moved = plansOf(narrow)[0];
+  EXPECT_GT(placeOf(narrow, moved, 2).x - placeOf(narrow, moved, 1).x, 50);
+  // CODESYS writes 0, 0 everywhere.
+  const Drawn zero(begin +
+                   "input 1 (a) AT 0, 0; input 3 (c) AT 0, 0; box 2 ADD AT 0, 0 [IN1 := 1, IN2 := 3, OUT =>];\n" + end);
+  const Plan laid_out = plansOf(zero)[0];
+  EXPECT_LT(placeOf(zero, laid_out, 1).x, placeOf(zero, laid_out, 2).x);
+  // Cells of a CFC editor are as high as a pin.
+  const Drawn cells(
+      "PROGRAM p\n{network CFC}\ninput 1 (a) AT 2, 3; input 2 (b) AT 2, 4;\n"
+      "box 3 ADD AT 12, 2 [IN1 := 1, IN2 := 2, OUT =>];\n" +
+      end);
+  const Plan cell_plan = plansOf(cells)[0];
+  EXPECT_EQ(20, placeOf(cells, cell_plan, 2).y - placeOf(cells, cell_plan, 1).y);
+  for (const Net& net : cell_plan.nets) EXPECT_EQ(2u, net.lines[0].size()) << "straight into its pin";
+}
+
+TEST(Networks, a_joint_in_a_circle_and_a_wire_of_a_box_to_itself_end) {
+  const Drawn drawn(
+      "PROGRAM p\n{network CFC}\nconnector 1 := 2; connector 2 := 1;\n"
+      "box 3 ADD [IN1 := 1, IN2 := 3(OUT), OUT =>];\n{end_network}\nEND_PROGRAM\n");
+  EXPECT_EQ(1u, plansOf(drawn)[0].nets.size());
+}
+
+TEST(Svg, text_is_escaped_and_what_xml_cannot_hold_becomes_a_question_mark) {
+  Svg svg;
+  svg.text({1, 2}, Anchor::Start, "a<b & c>d \x01 \xff \xc3\xa4");
+  EXPECT_NE(std::string::npos, svg.finish("<t>", 10, 10).find(">a&lt;b &amp; c&gt;d ? ? \xc3\xa4</text>"));
+  EXPECT_NE(std::string::npos, svg.finish("<t>", 10, 10).find("<title>&lt;t&gt;</title>"));
+  EXPECT_EQ(2 * textWidth("ab"), textWidth("\xe6\xbc\xa2\xe5\xad\x97"));  // two characters, each two wide
+}
+
+}  // namespace
+}  // namespace rung::picture
