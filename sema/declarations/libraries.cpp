@@ -113,7 +113,8 @@ void scanItems(Scanner& scan, std::vector<std::string_view>& names) {
   }
 }
 
-void scanTypes(Scanner& scan, std::vector<std::string_view>& names) {
+// `items`: those of enumerations are names of their own.
+void scanTypes(Scanner& scan, bool items, std::vector<std::string_view>& names) {
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
     if (kind != Kind::Word) continue;
     if (scan.is("END_TYPE")) return;
@@ -122,7 +123,8 @@ void scanTypes(Scanner& scan, std::vector<std::string_view>& names) {
     kind = scan.next();
     while (kind == Kind::Pragma) kind = scan.next();
     if (kind == Kind::Mark && scan.isMark('(')) {
-      scanItems(scan, names);
+      std::vector<std::string_view> qualified;
+      scanItems(scan, items ? names : qualified);
       skipToMark(scan, ';');
     } else if (kind == Kind::Word && scan.is("STRUCT")) {
       skipTo(scan, "END_STRUCT");
@@ -162,7 +164,7 @@ uint8_t standardsOf(std::string_view pragma) {
 std::vector<IndexedBlock> indexLibrary(std::string_view text) {
   std::vector<IndexedBlock> blocks;
   Scanner scan(text);
-  bool has_pragma = false;
+  bool has_pragma = false, qualified_only = false;
   IndexedBlock block;
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
     if (kind == Kind::Pragma) {
@@ -171,6 +173,7 @@ std::vector<IndexedBlock> indexLibrary(std::string_view text) {
       std::string_view pragma = scan.token().substr(1);
       while (!pragma.empty() && pragma[0] == ' ') pragma.remove_prefix(1);
       if (pragma.starts_with("std ")) block.standards = standardsOf(pragma);
+      qualified_only = qualified_only || pragma.find("'qualified_only'") != std::string_view::npos;
       continue;
     }
     if (kind != Kind::Word) continue;
@@ -186,7 +189,7 @@ std::vector<IndexedBlock> indexLibrary(std::string_view text) {
       block.names.push_back(scan.token());
       skipTo(scan, end);
     } else if (scan.is("TYPE")) {
-      scanTypes(scan, block.names);
+      scanTypes(scan, !qualified_only, block.names);
     } else if (scan.is("VAR_GLOBAL")) {
       scanGlobals(scan, block.names);
     } else {
@@ -195,7 +198,7 @@ std::vector<IndexedBlock> indexLibrary(std::string_view text) {
     block.end = scan.end();
     blocks.push_back(std::move(block));
     block = {};
-    has_pragma = false;
+    has_pragma = qualified_only = false;
   }
   return blocks;
 }
