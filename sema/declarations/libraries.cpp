@@ -113,7 +113,8 @@ void scanItems(Scanner& scan, std::vector<std::string_view>& names) {
   }
 }
 
-void scanTypes(Scanner& scan, std::vector<std::string_view>& names) {
+// `bare`: items of enumerations have names of their own.
+void scanTypes(Scanner& scan, std::vector<std::string_view>& names, bool bare) {
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
     if (kind != Kind::Word) continue;
     if (scan.is("END_TYPE")) return;
@@ -122,7 +123,9 @@ void scanTypes(Scanner& scan, std::vector<std::string_view>& names) {
     kind = scan.next();
     while (kind == Kind::Pragma) kind = scan.next();
     if (kind == Kind::Mark && scan.isMark('(')) {
-      scanItems(scan, names);
+      std::vector<std::string_view> items;
+      scanItems(scan, items);
+      if (bare) names.insert(names.end(), items.begin(), items.end());
       skipToMark(scan, ';');
     } else if (kind == Kind::Word && scan.is("STRUCT")) {
       skipTo(scan, "END_STRUCT");
@@ -162,7 +165,7 @@ uint8_t standardsOf(std::string_view pragma) {
 std::vector<IndexedBlock> indexLibrary(std::string_view text) {
   std::vector<IndexedBlock> blocks;
   Scanner scan(text);
-  bool has_pragma = false;
+  bool has_pragma = false, bare = true;
   IndexedBlock block;
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
     if (kind == Kind::Pragma) {
@@ -171,6 +174,9 @@ std::vector<IndexedBlock> indexLibrary(std::string_view text) {
       std::string_view pragma = scan.token().substr(1);
       while (!pragma.empty() && pragma[0] == ' ') pragma.remove_prefix(1);
       if (pragma.starts_with("std ")) block.standards = standardsOf(pragma);
+      if (pragma.find("'qualified_only'") != std::string_view::npos ||
+          pragma.find("'strict'") != std::string_view::npos)
+        bare = false;
       continue;
     }
     if (kind != Kind::Word) continue;
@@ -186,7 +192,7 @@ std::vector<IndexedBlock> indexLibrary(std::string_view text) {
       block.names.push_back(scan.token());
       skipTo(scan, end);
     } else if (scan.is("TYPE")) {
-      scanTypes(scan, block.names);
+      scanTypes(scan, block.names, bare);
     } else if (scan.is("VAR_GLOBAL")) {
       scanGlobals(scan, block.names);
     } else {
@@ -196,6 +202,7 @@ std::vector<IndexedBlock> indexLibrary(std::string_view text) {
     blocks.push_back(std::move(block));
     block = {};
     has_pragma = false;
+    bare = true;
   }
   return blocks;
 }
