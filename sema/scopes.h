@@ -137,7 +137,13 @@ struct Scopes {
   std::deque<ListScope> lists{1};
   NameMap member_names;  // unique names of methods and actions; a set
   NameMap instances;     // of generic functions, by unique name
-  NameMap mocks;         // in use: from what each replaces
+  struct Mock {          // in use
+    NameId key;          // of what it replaces, without its namespace
+    PouId mock;
+    PouId original = {};  // none: not looked for yet
+    bool busy = false;
+  };
+  std::vector<Mock> mocks;
 
   // Everything declared, in order; settle() resolves from these marks on.
   std::vector<TypeId> declared_types;

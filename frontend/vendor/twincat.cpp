@@ -1,4 +1,4 @@
-// TwinCAT 3: .TcPOU, .TcDUT, .TcGVL, .TcIO and .TcTTO. An object of the project is an element with a <Declaration> in
+// TwinCAT 3: .TcPOU, .TcDUT, .TcTLEO, .TcGVL, .TcIO and .TcTTO. An object of the project is an element with a <Declaration> in
 // ST; POUs have an <Implementation> and members besides. Bodies that are drawn are named in an error; what such a POU
 // declares counts nevertheless.
 #include <string>
@@ -32,7 +32,7 @@ class TwinCatReader {
     for (const xml::Element* e = document_.firstChild(document_.elements[0]); e != nullptr; e = document_.next(*e)) {
       if (e->name == "POU" || e->name == "Itf") {
         readPou(*e);
-      } else if (e->name == "DUT" || e->name == "GVL") {
+      } else if (e->name == "DUT" || e->name == "GVL" || e->name == "EnumerationTextList") {
         part(*e, "Declaration");
       } else if (e->name == "Task") {
         readTask(*e);

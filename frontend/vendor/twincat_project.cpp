@@ -32,7 +32,7 @@ std::string pathOf(std::string_view text) {
 bool holdsProgram(std::string_view path) {
   const size_t dot = path.rfind('.');
   if (dot == std::string_view::npos) return false;
-  for (const std::string_view extension : {"TcPOU", "TcDUT", "TcGVL", "TcIO", "TcTTO"})
+  for (const std::string_view extension : {"TcPOU", "TcDUT", "TcGVL", "TcIO", "TcTTO", "TcTLEO"})
     if (sameIdentifier(path.substr(dot + 1), extension)) return true;
   return false;
 }

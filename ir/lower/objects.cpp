@@ -16,7 +16,9 @@ std::vector<sema::PouId> ModuleLowering::lifeMethodsOf(sema::PouId object, std::
   std::vector<sema::PouId> out;
   for (sema::PouId at = object; at; at = project.pou(at).base)
     for (sema::PouId member : project.pou(at).members)
-      if (sameIdentifier(project.names.text(project.pou(member).name), name)) out.insert(out.begin(), member);
+      if (sameIdentifier(project.names.text(project.pou(member).name), name) &&
+          (project.pou(member).modifiers & kAbstract) == 0)
+        out.insert(out.begin(), member);
   return out;
 }
 

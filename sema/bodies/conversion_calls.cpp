@@ -144,6 +144,10 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
     }
     if (from == types::kError) return node.h.type = types::kError;
   }
+  if (!context.iec() && context.types().kind(from) == TypeKind::Pointer) {  // the number of its first byte
+    from = types::idOf(context.types().pointerSize() == 8 ? TypeKind::ULInt : TypeKind::UDInt);
+    wrapConvert(context, value, from);
+  }
   const TypeKind source = context.types().plainKind(from), target = context.types().plainKind(rule.to);
   const bool text_source = TypeTable::isText(source) || source == TypeKind::Char || source == TypeKind::WChar;
   const bool text_target = TypeTable::isText(target) || target == TypeKind::Char || target == TypeKind::WChar;

@@ -140,7 +140,13 @@ GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, 
       out.good &= checked ? convert(context, value, forced, purpose) : checkAs(context, value, forced, purpose);
     } else if (!checked) {
       const TypeId hint = declared == pou.result ? expected : TypeId{};
-      out.good &= check(context, value, hint, Access::Read) != types::kError;
+      const TypeId type = check(context, value, hint, Access::Read);
+      out.good &= type != types::kError;
+      // codesys: a pointer as the number of its first byte, where anything elementary is converted
+      if (!context.iec() && context.types().kind(type) == TypeKind::Pointer &&
+          context.types().info(declared).kind == TypeKind::AnyElementary && !result_is_generic)
+        wrapConvert(context, value,
+                    types::idOf(context.types().pointerSize() == 8 ? TypeKind::ULInt : TypeKind::UDInt));
     }
     context.tree().list(node.arguments)[index].value = value;
     out.values[i] = value;

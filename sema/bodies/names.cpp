@@ -80,7 +80,7 @@ TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
     if (context.scopes.named(item.type)->resolved == State::Busy) header.type = info.base;
     return header.type;
   }
-  if (bare && info.name && (context.iec() || info.strict)) {
+  if (bare && info.name && (context.iec() || info.qualified)) {
     context.report(context.iec() ? Diag::BareEnumItem : Diag::StrictEnumItem, header.loc,
                    {text(context, item.name), text(context, context.types().info(item.type).name)});
     return header.type = types::kError;

@@ -34,7 +34,9 @@ void chooseTests(Context& context) {
       pou.left_out = !options.with_tests || pou.mocks != chosen;
     } else if (pou.replaces && std::count(chosen.begin(), chosen.end(), keyOf(context, pou.name)) != 0) {
       pou.test_only = false;  // the program uses it now
-      context.scopes.mocks.insert(keyOf(context, pou.replaces), entity(PouId{i}));
+      const std::string_view dotted = context.names().text(pou.replaces);
+      const NameId last = context.names().intern(dotted.substr(dotted.rfind('.') + 1));
+      context.scopes.mocks.push_back({.key = keyOf(context, last), .mock = PouId{i}});
     } else {
       pou.left_out = pou.replaces || (pou.test_only && !options.with_tests);
     }
@@ -109,7 +111,7 @@ bool canBeReplaced(const Pou& original, const Pou& mock) {
 }
 
 void checkReplaced(Context& context, PouId id, const Pragma& pragma) {
-  const Entity found = lookUp(context, context.project.pou(id).replaces);
+  const Entity found = findDotted(context, context.project.pou(id).replaces);
   const Pou& mock = context.project.pou(id);
   std::string_view wanted = context.names().text(mock.replaces);
   if (wanted.empty()) wanted = "...";
@@ -141,7 +143,7 @@ void checkMocks(Context& context) {
     if (pou.library) continue;
     Context there = atPou(context, PouId{i});
     there.pou = {};
-    std::vector<std::pair<NameId, PouId>> replaced;
+    std::vector<std::pair<uint32_t, PouId>> replaced;  // originals and their mocks
     for (const Pragma& pragma : context.tree().list(context.tree().decl(pou.decl).pragmas)) {
       const NameId key = keyOf(context, pragma.name);
       if (key == words.replaces) checkReplaced(there, PouId{i}, pragma);
@@ -163,13 +165,17 @@ void checkMocks(Context& context) {
       }
       taken[found.index] = true;
       const Pou& mock = project.pous[found.index];
+      Context at_mock = atPou(context, PouId{found.index});
+      at_mock.pou = {};
+      const Entity original = findDotted(at_mock, mock.replaces);
+      if (original.what() != EntityKind::Pou) continue;  // reported at the mock
       for (const auto& [other, by] : replaced) {
-        if (other != keyOf(context, mock.replaces)) continue;
+        if (other != original.index) continue;
         reportPragma(context, Diag::TwoMocks, pragma,
                      {context.names().text(project.pou(by).name), context.names().text(mock.name),
                       context.names().text(mock.replaces)});
       }
-      replaced.push_back({keyOf(context, mock.replaces), PouId{found.index}});
+      replaced.push_back({original.index, PouId{found.index}});
     }
   }
   if (project.diagnostics.hasErrors()) return;

@@ -203,11 +203,12 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   named.region = context.region;
   declare(context, names, decl.name, decl.h.loc, entity(type));
   if (tree.kind(decl.type) == TypeExprKind::Enum) {
-    const bool strict = findPragma(context, decl.h, scopes.words.attribute_strict) != nullptr ||
-                        findPragma(context, decl.h, scopes.words.attribute_qualified_only) != nullptr;
+    const bool strict = findPragma(context, decl.h, scopes.words.attribute_strict) != nullptr;
+    const bool qualified = strict || findPragma(context, decl.h, scopes.words.attribute_qualified_only) != nullptr;
     table.edit(type).strict = strict;
+    table.edit(type).qualified = qualified;
     NameMap* bare = library != kNoLibrary ? &names : space != nullptr ? &space->items : &scopes.items;
-    declareItems(context, type, decl.type, strict ? nullptr : bare, library == kNoLibrary);
+    declareItems(context, type, decl.type, qualified ? nullptr : bare, library == kNoLibrary);
   }
 }
 

@@ -78,7 +78,10 @@ inline bool isFunction(PouKind kind) {
 
 // ---- names.cpp
 // The mock that stands for what this name means elsewhere: in all of the project but the mock itself.
-Entity mockInUse(const Context& context, NameId key);
+// What was found under a name, or the mock that stands for it in this program. (names.cpp)
+Entity orMock(Context& context, NameId key, Entity found);
+// What a name means, perhaps not yet resolved; with its namespaces, or without. (names.cpp)
+Entity findDotted(Context& context, NameId dotted);
 
 // ---- variables.cpp
 // VAR_GLOBAL in a PROGRAM: the standard has it, codesys has not.

@@ -113,8 +113,8 @@ void scanItems(Scanner& scan, std::vector<std::string_view>& names) {
   }
 }
 
-// `items`: those of enumerations are names of their own.
-void scanTypes(Scanner& scan, bool items, std::vector<std::string_view>& names) {
+// `bare`: items of enumerations have names of their own.
+void scanTypes(Scanner& scan, std::vector<std::string_view>& names, bool bare) {
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
     if (kind != Kind::Word) continue;
     if (scan.is("END_TYPE")) return;
@@ -123,8 +123,9 @@ void scanTypes(Scanner& scan, bool items, std::vector<std::string_view>& names) 
     kind = scan.next();
     while (kind == Kind::Pragma) kind = scan.next();
     if (kind == Kind::Mark && scan.isMark('(')) {
-      std::vector<std::string_view> qualified;
-      scanItems(scan, items ? names : qualified);
+      std::vector<std::string_view> items;
+      scanItems(scan, items);
+      if (bare) names.insert(names.end(), items.begin(), items.end());
       skipToMark(scan, ';');
     } else if (kind == Kind::Word && scan.is("STRUCT")) {
       skipTo(scan, "END_STRUCT");
@@ -164,7 +165,7 @@ uint8_t standardsOf(std::string_view pragma) {
 std::vector<IndexedBlock> indexLibrary(std::string_view text) {
   std::vector<IndexedBlock> blocks;
   Scanner scan(text);
-  bool has_pragma = false, qualified_only = false;
+  bool has_pragma = false, bare = true;
   IndexedBlock block;
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
     if (kind == Kind::Pragma) {
@@ -173,7 +174,9 @@ std::vector<IndexedBlock> indexLibrary(std::string_view text) {
       std::string_view pragma = scan.token().substr(1);
       while (!pragma.empty() && pragma[0] == ' ') pragma.remove_prefix(1);
       if (pragma.starts_with("std ")) block.standards = standardsOf(pragma);
-      qualified_only = qualified_only || pragma.find("'qualified_only'") != std::string_view::npos;
+      if (pragma.find("'qualified_only'") != std::string_view::npos ||
+          pragma.find("'strict'") != std::string_view::npos)
+        bare = false;
       continue;
     }
     if (kind != Kind::Word) continue;
@@ -189,7 +192,7 @@ std::vector<IndexedBlock> indexLibrary(std::string_view text) {
       block.names.push_back(scan.token());
       skipTo(scan, end);
     } else if (scan.is("TYPE")) {
-      scanTypes(scan, !qualified_only, block.names);
+      scanTypes(scan, block.names, bare);
     } else if (scan.is("VAR_GLOBAL")) {
       scanGlobals(scan, block.names);
     } else {
@@ -198,7 +201,8 @@ std::vector<IndexedBlock> indexLibrary(std::string_view text) {
     block.end = scan.end();
     blocks.push_back(std::move(block));
     block = {};
-    has_pragma = qualified_only = false;
+    has_pragma = false;
+    bare = true;
   }
   return blocks;
 }

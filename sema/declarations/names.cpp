@@ -27,12 +27,6 @@ bool NameMap::insert(NameId key, Entity entity) {
   }
 }
 
-Entity mockInUse(const Context& context, NameId key) {
-  if (context.library) return {};
-  const Entity mock = context.scopes.mocks.find(key);
-  return mock.index == context.pou.index ? Entity{} : mock;
-}
-
 namespace {
 
 // What is found must be usable at once: its type resolved, its value known when it is constant.
@@ -74,6 +68,24 @@ Entity findOwnItem(Context& context, NameId key) {
   return known ? found : Entity{};
 }
 
+// Of the project, its namespaces and the libraries.
+Entity findDeclared(Context& context, NameId key, Loc loc) {
+  Scopes& scopes = context.scopes;
+  if (context.region)
+    if (const Entity found = lookUpAround(context, key, loc, false)) return found;
+  if (const Entity found = scopes.pous_and_types.find(key)) return found;
+  if (const Entity found = scopes.globals.find(key)) return found;
+  if (const Entity found = scopes.items.find(key)) return found;
+  if (const Entity found = scopes.namespaces.find(key)) return found;
+  if (const Entity found = scopes.qualifiers.find(key)) return found;
+  if (context.region)
+    if (const Entity found = lookUpOpened(context, key, loc, false)) return found;
+  if (!context.library) {
+    if (const Entity found = lookUpLibrary(context, key)) return found;
+  }
+  return scopes.libraries.namespaces.find(key);
+}
+
 Entity findName(Context& context, NameId key, Loc loc) {
   Scopes& scopes = context.scopes;
   if (context.items_of) {
@@ -94,23 +106,45 @@ Entity findName(Context& context, NameId key, Loc loc) {
   if (context.library) {  // a library is never captured by names of the project
     if (const Entity found = lookUpLibrary(context, key)) return found;
   }
-  if (const Entity mock = mockInUse(context, key)) return mock;
-  if (context.region)
-    if (const Entity found = lookUpAround(context, key, loc, false)) return found;
-  if (const Entity found = scopes.pous_and_types.find(key)) return found;
-  if (const Entity found = scopes.globals.find(key)) return found;
-  if (const Entity found = scopes.items.find(key)) return found;
-  if (const Entity found = scopes.namespaces.find(key)) return found;
-  if (const Entity found = scopes.qualifiers.find(key)) return found;
-  if (context.region)
-    if (const Entity found = lookUpOpened(context, key, loc, false)) return found;
-  if (!context.library) {
-    if (const Entity found = lookUpLibrary(context, key)) return found;
-  }
-  return scopes.libraries.namespaces.find(key);
+  return orMock(context, key, findDeclared(context, key, loc));
 }
 
 }  // namespace
+
+Entity orMock(Context& context, NameId key, Entity found) {
+  if (context.library || found.what() != EntityKind::Pou) return found;
+  for (size_t i = 0; i < context.scopes.mocks.size(); ++i) {
+    if (context.scopes.mocks[i].key != key || context.scopes.mocks[i].busy) continue;
+    const PouId mock = context.scopes.mocks[i].mock;
+    if (mock == context.pou) continue;  // what it replaces may be used by itself
+    if (!context.scopes.mocks[i].original) {
+      context.scopes.mocks[i].busy = true;
+      Context there = atPou(context, mock);
+      there.pou = {};
+      const Entity original = findDotted(there, context.project.pou(mock).replaces);
+      context.scopes.mocks[i].busy = false;
+      if (original.what() == EntityKind::Pou) context.scopes.mocks[i].original = PouId{original.index};
+    }
+    if (context.scopes.mocks[i].original.index == found.index) return entity(mock);
+  }
+  return found;
+}
+
+Entity findDotted(Context& context, NameId dotted) {
+  const std::string name(context.names().text(dotted));
+  Entity found;
+  for (size_t at = 0; at <= name.size();) {
+    const size_t end = std::min(name.find('.', at), name.size());
+    const NameId part = context.names().intern(std::string_view(name).substr(at, end - at));
+    if (at != 0)
+      found = found.what() == EntityKind::Namespace ? lookUpNamespace(context, found.index, keyOf(context, part))
+                                                    : Entity{};
+    else
+      found = end < name.size() ? findNamespace(context, part) : findName(context, keyOf(context, part), {});
+    at = end + 1;
+  }
+  return found;
+}
 
 Entity lookUp(Context& context, NameId name, Loc loc) {
   return ready(context, findName(context, keyOf(context, name), loc));
@@ -127,8 +161,7 @@ Entity lookUpIn(Context& context, Entity qualifier, NameId name) {
   switch (qualifier.what()) {
     case EntityKind::GlobalList: return ready(context, scopes.lists[qualifier.index].names.find(key));
     case EntityKind::Namespace: {
-      const Entity mock = mockInUse(context, key);
-      return ready(context, mock ? mock : lookUpNamespace(context, qualifier.index, key));
+      return ready(context, orMock(context, key, lookUpNamespace(context, qualifier.index, key)));
     }
     case EntityKind::Type: {
       resolveNamed(context, TypeId{qualifier.index});

@@ -284,8 +284,8 @@ Entity lookUpQualified(Context& context, Slice<Ident> path) {
     }
     if (!checkVisible(context, found, context.tree().list(path)[i - 1].loc)) return wrong;
     const NameId key = keyOf(context, part.name);
-    const Entity mock = last ? mockInUse(context, key) : Entity{};
-    found = mock ? mock : findInSpace(context, found.index, key, false);
+    found = findInSpace(context, found.index, key, false);
+    if (last) found = orMock(context, key, found);
     if (!checkVisible(context, found, part.loc)) return wrong;
   }
   return found;

@@ -63,18 +63,21 @@ void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
 
 // A type or block by name: of the namespaces around, of the project, then of libraries (a library's own names first for
 // its texts).
-Entity findType(Context& context, NameId name, Loc loc) {
-  const NameId key = keyOf(context, name);
+Entity findDeclaredType(Context& context, NameId key, Loc loc) {
   if (context.library) {
     if (const Entity found = lookUpLibrary(context, key)) return found;
   }
-  if (const Entity mock = mockInUse(context, key)) return mock;
   if (context.region)
     if (const Entity found = lookUpAround(context, key, loc, true)) return found;
   if (const Entity found = context.scopes.pous_and_types.find(key)) return found;
   if (context.region)
     if (const Entity found = lookUpOpened(context, key, loc, true)) return found;
   return context.library ? Entity{} : lookUpLibrary(context, key);
+}
+
+Entity findType(Context& context, NameId name, Loc loc) {
+  const NameId key = keyOf(context, name);
+  return orMock(context, key, findDeclaredType(context, key, loc));
 }
 
 TypeId typeOf(Context& context, Entity found) {

@@ -117,7 +117,8 @@ struct TypeInfo {
   bool laid_out = false;
   bool overlaps = false;      // STRUCT OVERLAP: a union whose members all have their initial values, in order
   bool named_values = false;  // enumerations with a base type: its values have names, others have none
-  bool strict = false;        // enumerations: TYPE#item only ({attribute 'strict'}, edition 3 strict form)
+  bool strict = false;        // enumerations: no numbers for items ({attribute 'strict'})
+  bool qualified = false;     // enumerations: TYPE#item only ({attribute 'strict'} or 'qualified_only')
   NameId name;                // named types
   TypeId base;          // Enum, Subrange: the integer type; Alias, Array (element), Pointer, Reference: the target
   uint32_t length = 0;  // String, WString: capacity in characters; Array without `dimensions`: how many are open

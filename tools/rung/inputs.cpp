@@ -31,13 +31,24 @@ struct Extension {
   const char* extension;
   FileKind kind;
 };
-constexpr Extension kExtensions[] = {
-    {".st", FileKind::St},         {".iecst", FileKind::St},      {".pou", FileKind::St},
-    {".decl", FileKind::St},       {".impl", FileKind::St},       {".exp", FileKind::Codesys2},
-    {".tcpou", FileKind::TwinCat}, {".tcdut", FileKind::TwinCat}, {".tcgvl", FileKind::TwinCat},
-    {".tcio", FileKind::TwinCat},  {".tctto", FileKind::TwinCat}, {".plcproj", FileKind::PlcProject},
-    {".il", FileKind::Il},         {".xml", FileKind::Xml},       {".cfc", FileKind::Xml},
-    {".nct", FileKind::Nct},       {".cam", FileKind::Cam}};
+constexpr Extension kExtensions[] = {{".st", FileKind::St},
+                                     {".iecst", FileKind::St},
+                                     {".pou", FileKind::St},
+                                     {".decl", FileKind::St},
+                                     {".impl", FileKind::St},
+                                     {".exp", FileKind::Codesys2},
+                                     {".tcpou", FileKind::TwinCat},
+                                     {".tcdut", FileKind::TwinCat},
+                                     {".tcgvl", FileKind::TwinCat},
+                                     {".tcio", FileKind::TwinCat},
+                                     {".tctleo", FileKind::TwinCat},
+                                     {".tctto", FileKind::TwinCat},
+                                     {".plcproj", FileKind::PlcProject},
+                                     {".il", FileKind::Il},
+                                     {".xml", FileKind::Xml},
+                                     {".cfc", FileKind::Xml},
+                                     {".nct", FileKind::Nct},
+                                     {".cam", FileKind::Cam}};
 
 FileKind kindOfExtension(std::string_view path) {
   if (path == "rung.project" || path.ends_with("/rung.project")) return FileKind::Project;
@@ -107,6 +118,8 @@ class Collector {
 
   void collect() {
     for (const std::string& word : options_.inputs) addInput(word);
+    for (const std::string& library : options_.library_paths)
+      if (kindOfExtension(library) == FileKind::PlcProject) addPlcProject(library, true);
     if (inputs_.io_error) return;
     findRoot();
     for (Candidate& candidate : candidates_)
@@ -186,8 +199,16 @@ class Collector {
     candidates_.push_back({absolute(path), path, {}, true});
   }
 
-  // What the project file of TwinCAT lists, relative to its folder.
-  void addPlcProject(const std::string& path) {
+  // A PROGRAM of a library is for trying it.
+  static bool holdsProgram(const std::string& path) {
+    if (!hasExtension(path, ".tcpou")) return false;
+    const std::string text = readFile(path).text;
+    const size_t begin = text.find("<![CDATA[");
+    return begin != std::string::npos && vendor::firstWord(std::string_view(text).substr(begin + 9)) == "PROGRAM";
+  }
+
+  // What the project file of TwinCAT lists, relative to its folder. Of a library tasks and programs do not count.
+  void addPlcProject(const std::string& path, bool is_library = false) {
     ReadResult read = readFile(path);
     if (!read.error.empty()) return fail(Diag::CannotRead, path, {path, read.error});
     inputs_.read.push_back(path);
@@ -200,6 +221,7 @@ class Collector {
     inputs_.project_names.push_back(path.substr(folder.size(), path.rfind('.') - folder.size()));
     for (const vendor::ProjectEntry& entry : project.files) {
       const std::string listed = sameFile(folder, entry.name);
+      if (is_library && (hasExtension(entry.name, ".tctto") || holdsProgram(listed))) continue;
       struct stat info;
       if (stat(listed.c_str(), &info) == 0) {
         candidates_.push_back({absolute(listed), listed, {}, true});

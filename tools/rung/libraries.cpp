@@ -24,7 +24,10 @@ std::string LibrarySet::load(const Options& options) {
   }
   for (const NamespaceAlias& row : namespaceAliases()) aliases_.push_back({row.alias, row.name});
   for (const std::string& folder : options.library_paths)
-    if (std::string error = addFolder(folder, true); !error.empty()) return error;
+    if (folder.ends_with(".plcproj"))
+      continue;  // read with the inputs
+    else if (std::string error = addFolder(folder, true); !error.empty())
+      return error;
   return {};
 }
 
