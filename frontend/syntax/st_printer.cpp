@@ -380,7 +380,9 @@ void StPrinter::comments(Loc before, uint32_t indent) {
 void StPrinter::ifStmt(const IfStmt& s, uint32_t indent) {
   const std::span<const IfBranch> branches = tree_.list(s.branches);
   const Slice<StmtId> body = branches[0].body;
-  if (s.h.op == kConditionalOp && body.count == 1) {  // IF full THEN JMP done; END_IF
+  const StmtKind first = body.empty() ? StmtKind::Empty : tree_.kind(tree_.list(body)[0]);
+  const bool leaves = first == StmtKind::Jump || first == StmtKind::Call || first == StmtKind::Return;
+  if (s.h.op == kConditionalOp && body.count == 1 && leaves && s.otherwise.empty()) {  // IF full THEN JMP done; END_IF
     text += "IF ";
     expr(branches[0].condition, 0);
     text += " THEN ";

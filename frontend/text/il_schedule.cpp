@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "frontend/text/il_flow.h"
+#include "frontend/text/il_structure.h"
 
 namespace rung::text {
 namespace {
@@ -584,6 +585,7 @@ void Scheduler::leave(const IlInstruction& i) {
 
 IlStatements Scheduler::run(Slice<IlInstruction> list) {
   runList(list, false);
+  structureJumps(tree_, names_, out_);
   IlStatements result{tree_.addList<StmtId>(out_), {}};
   if (!temporaries_.empty()) {
     const Loc loc = tree_.loc(temporaries_.front());
