@@ -27,27 +27,31 @@ const xml::Element* initialiserOf(const Import& import, std::string_view block) 
   return found == import.initialisers.end() || found->first != name ? nullptr : found->second;
 }
 
-// ` : Block(port := 1) := (speed := 2)`: arguments of FB_Init, and values of variables.
-void writeBlock(Import& import, const xml::Element& type, const xml::Element& assignments) {
+// `(5, port := 1)`: arguments of FB_Init by place or name. `(speed := 2)`: values of variables, which other exports
+// keep as an initial value. False: there are none of the kind.
+bool writeAssignments(Import& import, const xml::Element& type, const xml::Element& assignments, bool arguments) {
   const xml::Element* derived = import.document.child(type, "derived");
   const xml::Element* initialiser =
       derived == nullptr ? nullptr : initialiserOf(import, import.document.value(*derived, "name"));
-  for (const bool arguments : {true, false}) {
-    bool first = true;
-    for (const xml::Element* e = import.document.firstChild(assignments); e != nullptr; e = import.document.next(*e)) {
-      const xml::Element* name = import.document.child(*e, "Name");
-      const xml::Element* value = import.document.child(*e, "Value");
-      if (name == nullptr || value == nullptr) continue;
-      const bool is_argument = initialiser != nullptr && declares(import, *initialiser, textOf(import, *name));
-      if (is_argument != arguments) continue;
-      import.out.word(!first ? ", " : arguments ? "(" : " := (");
-      first = false;
+  bool any = false;
+  for (const xml::Element* e = import.document.firstChild(assignments); e != nullptr; e = import.document.next(*e)) {
+    const xml::Element* name = import.document.child(*e, "Name");
+    const xml::Element* value = import.document.child(*e, "Value");
+    if (value == nullptr) continue;
+    if (name != nullptr && isBlank(import.document.text(*name, import.sources))) name = nullptr;
+    const bool is_argument =
+        name == nullptr || (initialiser != nullptr && declares(import, *initialiser, textOf(import, *name)));
+    if (is_argument != arguments) continue;
+    import.out.word(any ? ", " : arguments ? "(" : " := (");
+    any = true;
+    if (name != nullptr) {
       import.out.add(import.document, *name);
       import.out.word(" := ");
-      import.out.add(import.document, *value);
     }
-    if (!first) import.out.word(")");
+    import.out.add(import.document, *value);
   }
+  if (any) import.out.word(")");
+  return any;
 }
 
 void writeVariable(Import& import, const xml::Element& variable, uint32_t depth) {
@@ -63,9 +67,8 @@ void writeVariable(Import& import, const xml::Element& variable, uint32_t depth)
   writeType(import, variable, depth);
   const xml::Element* type = import.document.child(variable, "type");
   const xml::Element* assignments = dataOf(import, variable, "inputassignments");
-  if (assignments != nullptr && type != nullptr)
-    writeBlock(import, *type, *assignments);
-  else
+  if (assignments != nullptr && type != nullptr) writeAssignments(import, *type, *assignments, true);
+  if (assignments == nullptr || type == nullptr || !writeAssignments(import, *type, *assignments, false))
     writeInitialValue(import, variable, type);
   import.out.word(";\n");
 }
