@@ -1,5 +1,6 @@
 // What the parts of the import share, and how they write into the text. Private to frontend/plcopen: plcopen.cpp (the
-// project), types.cpp, declarations.cpp, pous.cpp, configuration.cpp, sfc.cpp, networks.h.
+// project), types.cpp, declarations.cpp, pous.cpp, configuration.cpp, sfc.cpp, networks.h. Names and texts of the XML
+// (text.cpp) serve frontend/iec10 as well.
 #pragma once
 
 #include <string>

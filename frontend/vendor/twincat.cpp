@@ -1,8 +1,9 @@
 // TwinCAT 3: .TcPOU, .TcDUT, .TcTLEO, .TcGVL, .TcIO and .TcTTO. An object of the project is an element with a <Declaration> in
-// ST; POUs have an <Implementation> and members besides. Bodies that are drawn are named in an error; what such a POU
-// declares counts nevertheless.
+// ST; POUs have an <Implementation> and members besides. Bodies that are drawn are object archives (archive.h); those
+// of a kind that is not read are named in an error, and what such a POU declares counts nevertheless.
 #include <string>
 
+#include "frontend/vendor/archive.h"
 #include "frontend/vendor/readers.h"
 #include "frontend/vendor/vendor.h"
 #include "frontend/vendor/words.h"
@@ -15,10 +16,8 @@ constexpr uint64_t kLowestPriority = 31;  // of Rung's tasks; TwinCAT counts fur
 
 // What TwinCAT calls the languages of bodies.
 const char* languageOf(std::string_view element) {
-  if (element == "NWL" || element == "FBD" || element == "LD" || element == "LADDER")
-    return "drawn in networks (FBD or LD)";
-  if (element == "CFC") return "drawn in CFC";
-  if (element == "SFC") return "drawn in SFC";
+  if (element == "FBD" || element == "LD" || element == "LADDER") return "drawn in networks (FBD or LD)";
+  if (element == "StateChart" || element == "UML") return "a state chart";
   if (element == "IL") return "written in IL";
   return nullptr;
 }
@@ -26,7 +25,11 @@ const char* languageOf(std::string_view element) {
 class TwinCatReader {
  public:
   TwinCatReader(const Sources& sources, const xml::Document& document, Diagnostics& diagnostics)
-      : sources_(sources), document_(document), diagnostics_(diagnostics), program_(sources) {}
+      : document_(document),
+        sources_(sources),
+        archive_(sources, document),
+        diagnostics_(diagnostics),
+        program_(sources) {}
 
   xml::Assembly& run() {
     for (const xml::Element* e = document_.firstChild(document_.elements[0]); e != nullptr; e = document_.next(*e)) {
@@ -54,11 +57,15 @@ class TwinCatReader {
     const xml::Element* declaration = document_.child(pou, "Declaration");
     if (declaration == nullptr) return;
     const std::string name = document_.value(pou, "Name");
+    const xml::Element* body = document_.child(pou, "Implementation");
+    chart_ = body == nullptr ? nullptr : document_.child(*body, "SFC");
     part(pou, "Declaration");
+    if (chart_ != nullptr) writeSfcFlags(archive_, pou, program_);
     for (const xml::Element* e = document_.firstChild(pou); e != nullptr; e = document_.next(*e)) {
       if (e->name == "Method") readMethod(*e, name);
       if (e->name == "Property") readProperty(*e, name);
       if (e->name == "Action") readAction(*e, name);
+      if (e->name == "Transition") readTransition(*e, name);
     }
     readBody(pou, name);
     closeWith(endWordOf(firstWord(document_.text(*declaration, sources_))));
@@ -89,9 +96,21 @@ class TwinCatReader {
     if (name == nullptr) return;
     program_.word("ACTION ");
     program_.add(name->loc, {name->loc.offset + static_cast<uint32_t>(name->raw.size())});
+    if (chart_ != nullptr && hasStep(archive_, *chart_, document_.decoded(*name))) program_.word(kActionSuffix);
     program_.word(" :\n");
     readBody(action, owner + "." + document_.value(action, "Name"));
     closeWith("END_ACTION");
+  }
+
+  // TRANSITION name : body END_TRANSITION; the body assigns to the name.
+  void readTransition(const xml::Element& transition, const std::string& owner) {
+    const xml::Attribute* name = document_.attribute(transition, "Name");
+    if (name == nullptr) return;
+    program_.word("TRANSITION ");
+    program_.add(name->loc, {name->loc.offset + static_cast<uint32_t>(name->raw.size())});
+    program_.word(" :\n");
+    readBody(transition, owner + "." + document_.value(transition, "Name"));
+    closeWith("END_TRANSITION");
   }
 
   void readBody(const xml::Element& owner, const std::string& name) {
@@ -101,6 +120,12 @@ class TwinCatReader {
       if (e->name == "ST") {
         program_.add(document_, *e);
         program_.word("\n");
+      } else if (e->name == "NWL") {
+        writeNwl(archive_, *e, name, diagnostics_, program_);
+      } else if (e->name == "CFC") {
+        writeCfc(archive_, *e, name, diagnostics_, program_);
+      } else if (e->name == "SFC") {
+        writeSfc(archive_, *e, name, diagnostics_, program_);
       } else if (const char* language = languageOf(e->name)) {
         diagnostics_.report(Diag::NetworkBody, e->loc, {name, language});
       }
@@ -149,10 +174,12 @@ class TwinCatReader {
     return value < kLowestPriority ? value : kLowestPriority;
   }
 
-  const Sources& sources_;
   const xml::Document& document_;
+  const Sources& sources_;
+  Archive archive_;
   Diagnostics& diagnostics_;
   xml::Assembly program_;
+  const xml::Element* chart_ = nullptr;  // the <SFC> of the POU at hand
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "frontend/iec10/iec10.h"
 #include "frontend/plcopen/plcopen.h"
 #include "frontend/source/names.h"
 
@@ -94,7 +95,7 @@ vendor::Format formatOf(FileKind kind) {
 
 const char* describe(FileKind kind) {
   switch (kind) {
-    case FileKind::Xml: return "XML of another kind than PLCopen's";
+    case FileKind::Xml: return "XML of another kind than PLCopen's and IEC 61131-10";
     case FileKind::Nct: return "machine-tool ladder";
     case FileKind::Cam: return "a cam table";
     case FileKind::Unknown:
@@ -103,6 +104,7 @@ const char* describe(FileKind kind) {
     case FileKind::TwinCat:
     case FileKind::PlcProject:
     case FileKind::Plcopen:
+    case FileKind::Iec10:
     case FileKind::Codesys2:
     case FileKind::Multiprog:
     case FileKind::Project:
@@ -379,6 +381,7 @@ class Collector {
       case FileKind::Il:
       case FileKind::TwinCat:
       case FileKind::Plcopen:
+      case FileKind::Iec10:
       case FileKind::Codesys2:
       case FileKind::Multiprog: break;
       case FileKind::Binary: return fail(Diag::BinaryFile, candidate.path, {candidate.path});
@@ -452,6 +455,8 @@ FileKind kindOf(std::string_view path, std::string_view text) {
   size_t first = start.find_first_not_of(" \t\r\n");
   if (first != std::string_view::npos && start.substr(first).starts_with("<") && plcopen::isPlcopen(start))
     return FileKind::Plcopen;
+  if (first != std::string_view::npos && start.substr(first).starts_with("<") && iec10::isIec10(start))
+    return FileKind::Iec10;
   if (first != std::string_view::npos && start.substr(first).starts_with("<") && by_name != FileKind::St)
     return FileKind::Xml;
   if (by_name == FileKind::Unknown && startsDeclaration(text)) return FileKind::St;
@@ -473,6 +478,8 @@ void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
     const vendor::Format format = formatOf(input.kind);
     if (input.kind == FileKind::Plcopen)
       input.file = plcopen::readProject(sources, input.file, diagnostics, xml_libraries);
+    else if (input.kind == FileKind::Iec10)
+      input.file = iec10::readProject(sources, input.file, diagnostics);
     else if (format != vendor::Format::None)
       input.file = vendor::readProgram(sources, input.file, format, diagnostics);
     else

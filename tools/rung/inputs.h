@@ -24,6 +24,7 @@ enum class FileKind : uint8_t {
   TwinCat,
   PlcProject,
   Plcopen,
+  Iec10,
   Codesys2,
   Multiprog,
   Project,

@@ -1,0 +1,409 @@
+// Bodies: ST and IL as they stand, LD and FBD in the notation of networks (frontend/text/network.cpp). Wires lead from
+// the ids of output points, which count in each network anew; elements get numbers of their own.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "frontend/iec10/parts.h"
+#include "frontend/source/names.h"
+
+namespace rung::iec10 {
+namespace {
+
+using Element = xml::Element;
+using plcopen::isTrue;
+
+bool isName(std::string_view text) { return !text.empty() && plcopen::identifierOf(text) == text; }
+
+// The names of objects and what the notation calls them.
+constexpr std::pair<std::string_view, std::string_view> kWords[] = {{"LeftPowerRail", "rail"},
+                                                                    {"RightPowerRail", "right_rail"},
+                                                                    {"Contact", "contact"},
+                                                                    {"Coil", "coil"},
+                                                                    {"Block", "box"},
+                                                                    {"DataSource", "input"},
+                                                                    {"DataSink", "output"},
+                                                                    {"Jump", "jump"},
+                                                                    {"CfcJump", "jump"},
+                                                                    {"CfcLabel", "label"},
+                                                                    {"Return", "return"},
+                                                                    {"Connector", "connector"},
+                                                                    {"Continuation", "continuation"},
+                                                                    {"Comment", "comment"}};
+
+// Of a pin that the file does not name: IN1, IN2, OUT, OUT2.
+std::string otherName(std::string_view kind, size_t count) {
+  return std::string(kind) + (kind == "OUT" && count == 1 ? "" : std::to_string(count));
+}
+
+class Networks {
+ public:
+  Networks(Import& import, const std::string& name) : import_(import), document_(import.document), name_(name) {}
+
+  void write(const std::vector<const Element*>& contents);
+
+ private:
+  struct Source {
+    uint64_t element;
+    const xml::Attribute* pin;  // null: `other` is its name
+    std::string other;          // empty: the element has one output
+  };
+
+  std::vector<const Element*> childrenOf(const Element& owner, std::initializer_list<std::string_view> names) const;
+  bool collect(const Element& network);
+  void addOutput(const Element& owner, const Source& source);
+  bool checkWires(const Element& owner);
+  void writeNetwork(const Element& network);
+  void writeObject(const Element& e, std::string_view word, uint64_t number);
+  void writeBox(const Element& e);
+  void writePin(const Element& pin, std::string_view other, bool input, bool output);
+  void writeWires(const Element& point);
+  void writeInput(const Element& e);
+  void writeMarks(const Element& e);
+  void writePlace(const Element& e);
+  void writeOrder(const Element& e);
+  void writeReference(const Element& e, std::string_view attribute);
+  const Element* data(const Element& e, std::string_view name) const;
+  std::string_view wordOf(const Element& e) const {
+    const std::string type = typeOf(import_, e);
+    for (const auto& [name, word] : kWords)
+      if (type == name) return word;
+    return {};
+  }
+
+  Import& import_;
+  const xml::Document& document_;
+  const std::string& name_;
+  uint64_t last_element_ = 0, last_network_ = 0;
+  uint64_t first_turn_ = 1, turns_end_ = 1;          // of the network at hand
+  std::unordered_map<std::string, Source> sources_;  // by id, of the network at hand
+  std::vector<std::pair<const Element*, uint64_t>> objects_;
+};
+
+std::vector<const Element*> Networks::childrenOf(const Element& owner,
+                                                 std::initializer_list<std::string_view> names) const {
+  std::vector<const Element*> out;
+  for (const Element* e = document_.firstChild(owner); e != nullptr; e = document_.next(*e))
+    if (std::find(names.begin(), names.end(), e->name) != names.end()) out.push_back(e);
+  return out;
+}
+
+// An element of this name in the AddData of `e`.
+const Element* Networks::data(const Element& e, std::string_view name) const {
+  for (const Element* all : childrenOf(e, {"AddData"}))
+    for (const Element* one : childrenOf(*all, {"Data"}))
+      for (const Element* found = document_.firstChild(*one); found != nullptr; found = document_.next(*found))
+        if (found->name == name) return found;
+  return nullptr;
+}
+
+void Networks::addOutput(const Element& owner, const Source& source) {
+  for (const Element* point : childrenOf(owner, {"ConnectionPointOut"}))
+    sources_[document_.value(*point, "connectionPointOutId")] = source;
+}
+
+// Forbids a wire from a point that the network does not have. IEC 61131-10, Connection.
+//   fails   <Connection refConnectionPointOutId="7"/>          E1001
+bool Networks::checkWires(const Element& owner) {
+  bool good = true;
+  for (const Element* e = document_.firstChild(owner); e != nullptr; e = document_.next(*e)) {
+    if (e->name != "Connection" && e->name != "FeedbackConnection") {
+      good = checkWires(*e) && good;
+      continue;
+    }
+    const xml::Attribute* from = document_.attribute(*e, "refConnectionPointOutId");
+    const std::string id = document_.value(*e, "refConnectionPointOutId");
+    if (from != nullptr && sources_.count(id) != 0) continue;
+    import_.diagnostics.report(Diag::WireFromNothing, from == nullptr ? e->loc : from->loc,
+                               {"with the connectionPointOutId " + id});
+    good = false;
+  }
+  return good;
+}
+
+// Numbers the objects of a network and finds their outputs.
+//   fails   <FbdObject xsi:type="Unknown"/>          E1087
+bool Networks::collect(const Element& network) {
+  sources_.clear();
+  objects_.clear();
+  bool good = true;
+  for (const Element* e : childrenOf(network, {"LdObject", "FbdObject", "CommonObject"})) {
+    const std::string type = typeOf(import_, *e);
+    if (type == "Unconnected") continue;
+    if (wordOf(*e).empty()) {
+      const xml::Attribute* said = document_.attribute(*e, "type");
+      import_.diagnostics.report(Diag::ArchiveObject, said == nullptr ? e->loc : said->loc,
+                                 {type.empty() ? e->name : type, "FBD or LD", name_});
+      good = false;
+      continue;
+    }
+    const uint64_t number = ++last_element_;
+    objects_.emplace_back(e, number);
+    addOutput(*e, {number, nullptr, {}});
+    for (const auto& [lists, own] : {std::pair{"InOutVariables", "IN"}, std::pair{"OutputVariables", "OUT"}})
+      for (const Element* list : childrenOf(*e, {lists})) {
+        size_t count = 0;
+        for (const Element* pin = document_.firstChild(*list); pin != nullptr; pin = document_.next(*pin)) {
+          const xml::Attribute* name = document_.attribute(*pin, "parameterName");
+          const bool named = name != nullptr && isName(name->raw);
+          addOutput(*pin, {number, named ? name : nullptr, otherName(own, ++count)});
+        }
+      }
+    if (const Element* control = data(*e, "ExecutionControl"))
+      if (const Element* eno = document_.child(*control, "Eno"))
+        for (const Element* point : childrenOf(*eno, {"ConnectionPointOut"}))
+          sources_[document_.value(*point, "connectionPointOutId")] = {number, nullptr, "ENO"};
+  }
+  return checkWires(network) && good;
+}
+
+void Networks::writeWires(const Element& point) {
+  bool first = true;
+  for (const Element* c : childrenOf(point, {"Connection", "FeedbackConnection"})) {
+    const xml::Attribute* from = document_.attribute(*c, "refConnectionPointOutId");
+    const Source source = sources_[document_.value(*c, "refConnectionPointOutId")];
+    if (!first) import_.out.word(" OR ");
+    first = false;
+    import_.out.put(from->loc, std::to_string(source.element));
+    if (source.pin == nullptr && source.other.empty()) continue;
+    import_.out.word("(");
+    if (source.pin != nullptr)
+      import_.out.add(document_, *source.pin);
+    else
+      import_.out.word(source.other);
+    import_.out.word(")");
+  }
+}
+
+void Networks::writeInput(const Element& e) {
+  std::vector<const Element*> points = childrenOf(e, {"ConnectionPointIn"});
+  std::erase_if(points, [&](const Element* p) { return childrenOf(*p, {"Connection", "FeedbackConnection"}).empty(); });
+  bool first = true;
+  for (const Element* point : points) {
+    import_.out.word(first ? " := " : " OR ");
+    first = false;
+    writeWires(*point);
+  }
+}
+
+void Networks::writeMarks(const Element& e) {
+  bool negated = isTrue(import_, e, "negated");
+  if (const Element* own = data(e, "Negation"))
+    negated = negated || isTrue(import_, *own, "inNegated") || isTrue(import_, *own, "outNegated");
+  if (const Element* own = data(e, "negated")) negated = negated || isTrue(import_, *own, "value");
+  if (negated) import_.out.word(" NOT");
+  const std::string edge = document_.value(e, "edge");
+  if (sameIdentifier(edge, "rising") || sameIdentifier(edge, "falling"))
+    import_.out.word(sameIdentifier(edge, "rising") ? " RISING" : " FALLING");
+  std::string latch = document_.value(e, "latch");
+  if (const Element* own = data(e, "StorageMode")) latch = document_.value(*own, "mode");
+  if (sameIdentifier(latch, "set") || sameIdentifier(latch, "reset"))
+    import_.out.word(sameIdentifier(latch, "set") ? " SET" : " RESET");
+}
+
+// Bachmann counts turns from 0 in each network.
+void Networks::writeOrder(const Element& e) {
+  const Element* priority = data(e, "EvaluationPriority");
+  const xml::Attribute* turn = priority == nullptr ? nullptr : document_.attribute(*priority, "priorityInNetwork");
+  uint32_t number = 0;
+  if (turn == nullptr) return;
+  const auto [end, error] = std::from_chars(turn->raw.data(), turn->raw.data() + turn->raw.size(), number);
+  if (error != std::errc{} || number > 1'000'000'000) return;
+  turns_end_ = std::max(turns_end_, first_turn_ + number + 1);
+  import_.out.put(turn->loc, " ORDER " + std::to_string(first_turn_ + number));
+}
+
+void Networks::writePlace(const Element& e) {
+  const Element* position = document_.child(e, "RelPosition");
+  if (position == nullptr) return;
+  const auto number = [&](const Element& from, std::string_view name) {
+    const std::string text = document_.value(from, name);
+    double v = 0;
+    if (std::from_chars(text.data(), text.data() + text.size(), v).ec != std::errc{} || !std::isfinite(v)) v = 0;
+    return std::to_string(std::lround(std::clamp(v, -1e9, 1e9)));
+  };
+  std::string place = " AT " + number(*position, "x") + ", " + number(*position, "y");
+  if (const Element* size = document_.child(e, "Size")) place += ", " + number(*size, "x") + ", " + number(*size, "y");
+  import_.out.put(position->loc, place);
+}
+
+// Connectors are called as their author likes: in the notation by a name that stands for it.
+void Networks::writeReference(const Element& e, std::string_view attribute) {
+  const xml::Attribute* name = document_.attribute(e, attribute);
+  if (name == nullptr || name->raw.empty()) return;
+  import_.out.word(" ");
+  if (isName(name->raw)) return import_.out.add(document_, *name);
+  std::string made = "n";
+  for (const char c : name->raw) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    made += plain ? std::string(1, c) : std::to_string(static_cast<unsigned char>(c)) + "x";
+  }
+  import_.out.put(name->loc, made);
+}
+
+void Networks::writePin(const Element& pin, std::string_view other, bool input, bool output) {
+  const xml::Attribute* name = document_.attribute(pin, "parameterName");
+  if (name != nullptr && isName(name->raw))
+    import_.out.add(document_, *name);
+  else
+    import_.out.put(pin.loc, other);
+  writeMarks(pin);
+  if (input) {
+    import_.out.word(" := ");
+    for (const Element* point : childrenOf(pin, {"ConnectionPointIn"})) writeWires(*point);
+  }
+  if (output) import_.out.word(" =>");
+}
+
+void Networks::writeBox(const Element& e) {
+  if (const xml::Attribute* type = document_.attribute(e, "typeName"); type != nullptr && !type->raw.empty()) {
+    import_.out.word(" ");
+    import_.out.add(document_, *type);
+  }
+  const xml::Attribute* instance = document_.attribute(e, "instanceName");
+  if (instance != nullptr && !instance->raw.empty()) {
+    import_.out.word(" (");
+    import_.out.add(document_, *instance);
+    import_.out.word(")");
+  }
+  writeOrder(e);
+  writePlace(e);
+  import_.out.word(" [");
+  bool first = true;
+  const auto separate = [&] {
+    if (!first) import_.out.word(", ");
+    first = false;
+  };
+  if (const Element* control = data(e, "ExecutionControl")) {
+    if (const Element* en = document_.child(*control, "En")) {
+      separate();
+      writePin(*en, "EN", true, false);
+    }
+    if (const Element* eno = document_.child(*control, "Eno")) {
+      separate();
+      writePin(*eno, "ENO", false, true);
+    }
+  }
+  for (const auto& [lists, pins] :
+       {std::pair{"InputVariables", "InputVariable"}, std::pair{"InOutVariables", "InOutVariable"},
+        std::pair{"OutputVariables", "OutputVariable"}}) {
+    const std::string_view kind = pins;
+    size_t count = 0;
+    for (const Element* list : childrenOf(e, {lists}))
+      for (const Element* pin : childrenOf(*list, {pins})) {
+        separate();
+        ++count;
+        const std::string other = otherName(kind == "OutputVariable" ? "OUT" : "IN", count);
+        writePin(*pin, other, kind != "OutputVariable", kind != "InputVariable");
+      }
+  }
+  import_.out.word("]");
+}
+
+void Networks::writeObject(const Element& e, std::string_view word, uint64_t number) {
+  import_.out.put(e.loc, std::string(word) + " " + std::to_string(number));
+  if (word == "box") {
+    writeBox(e);
+  } else if (word == "comment") {
+    const Element* content = document_.child(e, "Content");
+    std::string text = content == nullptr ? std::string() : plcopen::textOf(import_, *content), quoted;
+    for (const char c : text) {
+      if (c == '\'' || c == '$') quoted += '$';
+      quoted += c == '\n' || c == '\r' || c == '\t' ? ' ' : c;
+    }
+    import_.out.put(e.loc, " '" + quoted + "'");
+  } else {
+    if (word == "jump") writeReference(e, document_.attribute(e, "targetLabel") ? "targetLabel" : "targetNetworkLabel");
+    if (word == "label" || word == "connector" || word == "continuation") writeReference(e, "label");
+    const bool variable = word == "contact" || word == "coil" || word == "input" || word == "output";
+    if (variable) {
+      const xml::Attribute* operand =
+          document_.attribute(e, word == "contact" || word == "coil" ? "operand" : "identifier");
+      import_.out.word(" (");
+      if (operand != nullptr) import_.out.add(document_, *operand);
+      import_.out.word(")");
+    }
+    if (variable || word == "jump" || word == "return") writeMarks(e);
+    if (word != "input") writeOrder(e);
+    writePlace(e);
+    if (word != "rail" && word != "input" && word != "continuation" && word != "label") writeInput(e);
+  }
+  import_.out.word(";\n");
+}
+
+void Networks::writeNetwork(const Element& network) {
+  first_turn_ = turns_end_;
+  if (!collect(network)) return;
+  import_.out.put(network.loc, "NETWORK " + std::to_string(++last_network_) + ";\n");
+  if (plcopen::hasName(import_, network, "label")) {
+    import_.out.put(network.loc, "label " + std::to_string(++last_element_));
+    writeReference(network, "label");
+    import_.out.word(";\n");
+  }
+  for (const auto& [e, number] : objects_) writeObject(*e, wordOf(*e), number);
+}
+
+uint64_t orderOf(const Import& import, const Element& element) {
+  const std::string text = import.document.value(element, "evaluationOrder");
+  uint64_t order = 0;
+  std::from_chars(text.data(), text.data() + text.size(), order);
+  return order;
+}
+
+// Networks of all sections in one, ST between them as a box of statements.
+void Networks::write(const std::vector<const Element*>& contents) {
+  const bool ladder =
+      std::none_of(contents.begin(), contents.end(), [&](const Element* e) { return typeOf(import_, *e) == "FBD"; });
+  import_.out.put(contents[0]->loc, ladder ? "{network LD}\n" : "{network FBD}\n");
+  for (const Element* content : contents) {
+    if (const Element* text = document_.child(*content, "ST")) {
+      import_.out.put(text->loc, "NETWORK " + std::to_string(++last_network_) + ";\nexecute " +
+                                     std::to_string(++last_element_) + " {network ST}\n");
+      plcopen::writeText(import_, *text);
+      import_.out.put(text->end, "\n{end_network};\n");
+      continue;
+    }
+    std::vector<const Element*> networks = childrenOf(*content, {"Rung", "Network"});
+    std::stable_sort(networks.begin(), networks.end(),
+                     [&](const Element* a, const Element* b) { return orderOf(import_, *a) < orderOf(import_, *b); });
+    for (const Element* network : networks) writeNetwork(*network);
+  }
+  import_.out.put(contents.back()->end, "{end_network}\n");
+}
+
+}  // namespace
+
+// Forbids bodies in languages that have no reader.
+//   fails   <BodyContent xsi:type="SFC">          E1054
+void writeMainBody(Import& import, const xml::Element& body, const std::string& name) {
+  std::vector<const Element*> contents;
+  bool drawn = false;
+  for (const Element* e = import.document.firstChild(body); e != nullptr; e = import.document.next(*e)) {
+    if (e->name != "BodyContent") continue;
+    const std::string type = typeOf(import, *e);
+    const bool text = type == "ST" || type == "IL";
+    const bool networks = type == "LD" || type == "FBD" || type == "LdSection";
+    if (!text && !networks) {
+      const xml::Attribute* said = import.document.attribute(*e, "type");
+      import.diagnostics.report(Diag::XmlBodyLanguage, said == nullptr ? e->loc : said->loc, {name, type});
+      return;
+    }
+    drawn = drawn || networks;
+    contents.push_back(e);
+  }
+  std::stable_sort(contents.begin(), contents.end(),
+                   [&](const Element* a, const Element* b) { return orderOf(import, *a) < orderOf(import, *b); });
+  if (drawn) return Networks(import, name).write(contents);
+  for (const Element* content : contents)
+    for (const std::string_view language : {"ST", "IL"})
+      if (const Element* text = import.document.child(*content, language)) {
+        import.out.put(text->loc, "");
+        plcopen::writeText(import, *text);
+        import.out.word("\n");
+      }
+}
+
+}  // namespace rung::iec10
