@@ -104,6 +104,7 @@ void check(Project& project) {
   collectConfigurations(context);
   resolveHeaders(context);
   settleDeclarations(context);
+  markOverloads(context);
   resolveConfigurations(context);
   checkMocks(context);
   for (uint32_t i = 1; i < project.pous.size(); ++i) {

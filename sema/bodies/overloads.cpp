@@ -157,16 +157,8 @@ std::string signatures(Context& context, std::span<const Candidate> candidates) 
 
 }  // namespace
 
-// A method may replace one of several of its name in a base, which does not hide the others.
 bool isOverloaded(const Context& context, PouId called) {
-  const Pou& pou = context.project.pou(called);
-  if (pou.overloads || pou.kind != PouKind::Method || pou.accessor != Pou::Accessor::None)
-    return static_cast<bool>(pou.overloads);
-  for (PouId at = context.project.pou(pou.owner).base; at; at = context.project.pou(at).base)
-    for (const PouId member : context.project.pou(at).members)
-      if (context.project.pou(member).overloads && context.names().same(context.project.pou(member).name, pou.name))
-        return true;
-  return false;
+  return static_cast<bool>(context.project.pou(called).overloads);
 }
 
 // Forbids a call that no overload takes, or that several take equally well.

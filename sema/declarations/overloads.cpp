@@ -63,6 +63,22 @@ bool addOverload(Context& context, Entity first, PouId added) {
   return true;
 }
 
+void markOverloads(Context& context) {
+  Project& project = context.project;
+  if (project.options.standard != text::Standard::Iec3) return;
+  const auto isOverloadedIn = [&](PouId object, const Pou& like) {
+    for (const PouId member : project.pou(object).members)
+      if (project.pou(member).overloads && project.names.same(project.pou(member).name, like.name)) return true;
+    return false;
+  };
+  for (uint32_t i = 1; i < project.pous.size(); ++i) {
+    Pou& pou = project.pous[i];
+    if (pou.kind != PouKind::Method || pou.overloads || pou.accessor != Pou::Accessor::None) continue;
+    for (PouId at = project.pou(pou.owner).base; at && !pou.overloads; at = project.pou(at).base)
+      if (isOverloadedIn(at, pou)) pou.overloads = PouId{i};
+  }
+}
+
 // Forbids overloads that no call could tell apart. IEC 61131-3 ed. 3, 6.1.2.
 //   passes  FUNCTION f VAR_INPUT x : INT; …     FUNCTION f VAR_INPUT x : REAL; …
 //   fails   FUNCTION f VAR_INPUT x : INT; …     FUNCTION f VAR_INPUT y : INT; …           E0301

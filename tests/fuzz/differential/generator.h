@@ -1,5 +1,5 @@
 // What generates a program from a seed: types, random numbers, and the parts that make expressions, statements and
-// POUs. Private to this folder: expressions.cpp, statements.cpp, objects.cpp, program.cpp.
+// POUs. Private to this folder: expressions.cpp, statements.cpp, objects.cpp, classes.cpp, program.cpp.
 #pragma once
 
 #include <initializer_list>
@@ -147,6 +147,11 @@ class Generator {
     std::string name, type, binding;
   };
   const std::vector<Place>& places();
+
+  // classes.cpp: edition 3
+  void makeClasses(std::vector<Node>& parts);
+  Node classStatement();
+  std::vector<Place> classPlaces() const;
 
   Node makeMethod(int number, const std::string& base);
   Node makeClass(int number);

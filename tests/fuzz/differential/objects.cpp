@@ -483,6 +483,7 @@ Node Generator::pointerQuestion() {
 
 // The variables of a program that the above uses, and what binds them in its first cycle or in each.
 const std::vector<Generator::Place>& Generator::places() {
+  if (places_.empty() && dialect_ == Dialect::Iec3) places_ = classPlaces();
   if (!places_.empty() || !codesys()) return places_;
   const std::string o = prefix_ + "_O", pair = prefix_ + "_Pair";
   places_ = {{"o0", o + "0(1)", ""},

@@ -168,6 +168,7 @@ Node Generator::program() {
   const int blocks = 1 + below(2);
   for (int i = 0; i < blocks; ++i) parts.push_back(makeBlock(i));
   makeObjects(parts);
+  makeClasses(parts);
   body_ = Body::Program;
   own_inputs_.clear();
 

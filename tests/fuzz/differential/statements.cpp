@@ -213,6 +213,7 @@ Node Generator::statement(int depth) {
   if (codesys() && loops_ == 0 && cases_ == 0 && depth > 0 && chance(8)) return jump(depth - 1);
   if (body_ == Body::Program && codesys() && loops_ < 2 && chance(35)) return objectStatement();
   if (body_ == Body::Program && codesys() && chance(30)) return pointerStatement();
+  if (body_ == Body::Program && dialect_ == Dialect::Iec3 && loops_ < 2 && chance(30)) return classStatement();
   if (body_ == Body::Program && chance(18)) return blockCall();
   if (chance(7)) return guardedCall();
   return assignment();
