@@ -14,6 +14,7 @@
 #include <algorithm>
 
 #include "codegen/body.h"
+#include "codegen/cpp_names.h"
 #include "codegen/names.h"
 #include "codegen/types.h"
 #include "ir/builder.h"
@@ -32,112 +33,6 @@ using types::TypeTable;
 namespace {
 
 constexpr uint64_t kMostBlocks = 256;  // of an array: each has an object
-
-std::string upper(std::string_view name) {
-  std::string out(name.substr(name.rfind('.') + 1));
-  for (char& c : out) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  return out;
-}
-
-// A name as the user wrote it; words of C++ and common macros get a `_` behind them.
-std::string spelled(std::string_view name) {
-  static constexpr std::string_view kTaken[] = {"alignas",
-                                                "alignof",
-                                                "and",
-                                                "and_eq",
-                                                "asm",
-                                                "assert",
-                                                "auto",
-                                                "bitand",
-                                                "bitor",
-                                                "bool",
-                                                "break",
-                                                "case",
-                                                "catch",
-                                                "char",
-                                                "char16_t",
-                                                "char32_t",
-                                                "class",
-                                                "compl",
-                                                "const",
-                                                "const_cast",
-                                                "constexpr",
-                                                "continue",
-                                                "decltype",
-                                                "default",
-                                                "delete",
-                                                "do",
-                                                "double",
-                                                "dynamic_cast",
-                                                "else",
-                                                "enum",
-                                                "EOF",
-                                                "errno",
-                                                "explicit",
-                                                "export",
-                                                "extern",
-                                                "false",
-                                                "float",
-                                                "for",
-                                                "friend",
-                                                "goto",
-                                                "if",
-                                                "inline",
-                                                "int",
-                                                "linux",
-                                                "long",
-                                                "mutable",
-                                                "namespace",
-                                                "new",
-                                                "noexcept",
-                                                "not",
-                                                "not_eq",
-                                                "NULL",
-                                                "nullptr",
-                                                "operator",
-                                                "or",
-                                                "or_eq",
-                                                "private",
-                                                "protected",
-                                                "public",
-                                                "register",
-                                                "reinterpret_cast",
-                                                "return",
-                                                "short",
-                                                "signed",
-                                                "sizeof",
-                                                "static",
-                                                "static_assert",
-                                                "static_cast",
-                                                "stderr",
-                                                "stdin",
-                                                "stdout",
-                                                "struct",
-                                                "switch",
-                                                "template",
-                                                "this",
-                                                "thread_local",
-                                                "throw",
-                                                "true",
-                                                "try",
-                                                "typedef",
-                                                "typeid",
-                                                "typename",
-                                                "union",
-                                                "unix",
-                                                "unsigned",
-                                                "using",
-                                                "virtual",
-                                                "void",
-                                                "volatile",
-                                                "wchar_t",
-                                                "while",
-                                                "xor",
-                                                "xor_eq"};
-  std::string out(name);
-  if (std::find(std::begin(kTaken), std::end(kTaken), name) != std::end(kTaken)) out += '_';
-  return out;
-}
 
 std::string mangled(std::string_view name) {
   std::string out;
@@ -259,7 +154,7 @@ class Writer {
     for (const auto& [known, name] : named_) {
       if (known == type) return name;
     }
-    std::string name = spelled(upper(text(info(type).name)));
+    std::string name = cppSpelled(cppUpper(text(info(type).name)));
     for (size_t i = 0; i < named_.size(); ++i) {
       if (named_[i].second == name) name += '_', i = 0;
     }
@@ -276,7 +171,7 @@ class Writer {
     std::string out = "struct RUNG_MAY_ALIAS " + name + " {\n  enum Value : " + scalar + " {";
     const char* separator = " ";
     for (const auto& [item, value] : info(type).items) {
-      std::string item_name = spelled(upper(text(item)));
+      std::string item_name = cppSpelled(cppUpper(text(item)));
       if (item_name == name) item_name += '_';
       out += separator + item_name + " = ";
       appendConstant(out, types_, type, static_cast<uint64_t>(value));
@@ -299,7 +194,7 @@ class Writer {
       appendUnsigned(fields, info(field.type).align);
       fields += ") ";
       if (is_plain) {
-        fields += seen + ' ' + spelled(field_name) + ";\n";
+        fields += seen + ' ' + cppSpelled(field_name) + ";\n";
       } else {
         fields += "unsigned char rung_hidden";
         appendUnsigned(fields, i);
@@ -366,7 +261,7 @@ class Writer {
           field.role == FieldRole::Input || field.role == FieldRole::Output || field.role == FieldRole::InOut;
       const bool is_member = field.role == FieldRole::Member && !isBlock(type);
       if (!is_pin && !is_member) continue;
-      const std::string pin = spelled(text(field.name));
+      const std::string pin = cppSpelled(text(field.name));
       const TypeId field_type = types_.resolve(field.type);
       if (holdsBlock(field_type)) {
         if (field.role == FieldRole::InOut) {
@@ -448,7 +343,7 @@ class Writer {
   // As declared: methods and actions are members like pins.
   std::string ownName(const ir::Body& method) const {
     const std::string_view name = text(method.spelling);
-    return spelled(name.substr(name.rfind('.') + 1));
+    return cppSpelled(name.substr(name.rfind('.') + 1));
   }
 
   // The way from a block to the one that it extends.
@@ -526,7 +421,7 @@ class Writer {
     const ir::Body& function = module_.body(id);
     const Call call = callOf(id, function.self ? "rung_self_" : "");
     if (!call.good) return;
-    const std::string name = function.self ? ownName(function) : spelled(upper(text(function.spelling)));
+    const std::string name = function.self ? ownName(function) : cppSpelled(cppUpper(text(function.spelling)));
     const std::string type = "rung_function_" + name;
     std::string self;
     if (function.self) {
@@ -592,7 +487,7 @@ class Writer {
   // A name for a place in memory: a reference, or the object of a block or the objects of an array of them.
   std::string variable(std::string_view name, TypeId type, const std::string& place, bool constant) {
     type = types_.resolve(type);
-    const std::string called = spelled(name);
+    const std::string called = cppSpelled(name);
     if (!holdsBlock(type)) {
       const std::string seen = view(type);
       if (seen.empty()) return {};
@@ -614,7 +509,7 @@ class Writer {
       out += variable(text(global.name), field.type, block + "]))." + mangled(text(field.name)), global.constant);
     }
     for (const ir::CppBody::Constant& known : cpp_.constants)
-      out += "    const " + view(known.type) + ' ' + spelled(text(known.name)) + " = " +
+      out += "    const " + view(known.type) + ' ' + cppSpelled(text(known.name)) + " = " +
              constant(known.type, known.bits) + ";\n";
     if (body_.self) {
       if (isMethod(body_)) {
@@ -634,8 +529,8 @@ class Writer {
         const bool own = !instance.empty() && name.starts_with(instance);
         const std::string_view called = own ? name.substr(instance.size()) : name;
         if (field.by_reference && isText(field.type)) {
-          fields_ += "    " + view(field.type) + "& " + spelled(called) + " = *reinterpret_cast<" + view(field.type) +
-                     "*>(" + place + ");\n";
+          fields_ += "    " + view(field.type) + "& " + cppSpelled(called) + " = *reinterpret_cast<" +
+                     view(field.type) + "*>(" + place + ");\n";
         } else {
           (own ? out : fields_) +=
               variable(called, field.type, field.by_reference ? "(*" + place + ")" : place, is_const);
@@ -644,7 +539,7 @@ class Writer {
     }
     uint32_t count = 0;
     for (const Local& local : body_.locals) {
-      const std::string name = spelled(text(local.name)), seen = view(local.type);
+      const std::string name = cppSpelled(text(local.name)), seen = view(local.type);
       std::string passed = "rung_p";
       appendUnsigned(passed, count++);
       passed += '_';
@@ -674,7 +569,7 @@ class Writer {
           if (local.kind == LocalKind::Output) out += "    " + name + " = " + initial(local.name, local.type) + ";\n";
           break;
         case LocalKind::Result: {
-          const std::string result = body_.self ? ownName(body_) : spelled(upper(text(body_.spelling)));
+          const std::string result = body_.self ? ownName(body_) : cppSpelled(cppUpper(text(body_.spelling)));
           out += "    " + seen + ' ' + result + " = " + initial({}, local.type) + ";\n";
           if (local.by_reference) {
             names_ += "  auto&& " + passed + " = " + mangled(text(local.name)) + ";\n";

@@ -60,7 +60,8 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
         const NameExpr& node = tree.as<NameExpr>(expr);
         if (node.entity.what() == EntityKind::Var) {
           const VarId var{node.entity.index};
-          return checkOfChart(context, var, node.h.loc, {}) && checkVariable(context, var, node.h.loc);
+          const bool passed = purpose.words != "assigned to";  // a whole step may be lent to an in-out
+          return (passed || checkOfChart(context, var, node.h.loc, {})) && checkVariable(context, var, node.h.loc);
         }
         context.report(Diag::NotAPlace, node.h.loc, {purpose.spell(context)});
         return false;
