@@ -29,6 +29,7 @@ struct Context {
   TypeId items_of = {};       // an enumeration whose declaration is at hand: its items need no qualifier
   bool library = false;       // a library's text is at hand: read as codesys, names of the project do not count
   RegionId region = {};       // the namespaces around the place at hand
+  ListId list = {};           // a list of globals whose declarations are at hand: its variables need no qualifier
 
   Tree& tree() const { return project.tree; }
   types::TypeTable& types() const { return project.types; }

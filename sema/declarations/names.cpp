@@ -103,6 +103,8 @@ Entity findName(Context& context, NameId key, Loc loc) {
       if (const Entity found = findInObject(context, object, key)) return found;
     }
   }
+  if (context.list)
+    if (const Entity found = scopes.lists[context.list.index].names.find(key)) return found;
   if (context.library) {  // a library is never captured by names of the project
     if (const Entity found = lookUpLibrary(context, key)) return found;
   }

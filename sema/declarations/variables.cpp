@@ -68,8 +68,10 @@ Context contextOf(Context& context, VarId id) {
   if (var.list) list = context.scopes.named(context.project.global_lists[var.list.index].record);
   const auto& regions = context.scopes.region_of_global;
   const auto region = regions.find(id.index);
-  return at(context, {}, context.project.sources.fileOf(var.loc), list != nullptr && list->library,
-            region == regions.end() ? RegionId{} : region->second);
+  Context there = at(context, {}, context.project.sources.fileOf(var.loc), list != nullptr && list->library,
+                     region == regions.end() ? RegionId{} : region->second);
+  there.list = var.list;
+  return there;
 }
 
 }  // namespace
