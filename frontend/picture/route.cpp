@@ -10,8 +10,8 @@
 namespace rung::picture {
 namespace {
 
-constexpr int32_t kMargin = 12;            // cells around the elements
-constexpr size_t kMostCells = 24'000'000;  // beyond them wires go straight, through what stands in their way
+constexpr int32_t kMargin = 12;           // cells around the elements
+constexpr size_t kMostCells = 8'000'000;  // beyond them wires go straight, through what stands in their way
 constexpr uint32_t kCorner = 4, kCrossing = 6, kTouch = 60, kShared = 400, kThrough = 5000;
 constexpr uint32_t kCarefulSteps = 3'000'000;
 constexpr uint32_t kMostSteps = 15'000'000;  // of all searches: beyond them, too
