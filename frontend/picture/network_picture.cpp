@@ -18,7 +18,7 @@ bool isBox(ElementKind kind) {
 
 // CODESYS puts a connector without a name into each wire.
 bool isJoint(const DiagramElement& e) { return e.kind == ElementKind::Connector && !e.name.name; }
-constexpr uint32_t kMostJoints = 100;  // in one wire: they may stand in a circle
+constexpr uint32_t kMostJoints = 1000;  // on the ways to one pin: they may stand in a circle
 
 class Planner {
  public:
@@ -32,7 +32,7 @@ class Planner {
   Plan items(std::span<const uint32_t> elements, bool one_rail);
   void addLinks(Plan& plan);
   void addRightRail(Plan& plan);
-  void addLinks(Plan& plan, const DiagramWire& wire, const End& to, uint32_t depth);
+  void addLinks(Plan& plan, const DiagramWire& wire, const End& to, uint32_t& joints);
   uint32_t outputOf(const Item& item, NameId pin) const;
   uint32_t inputOf(const Item& item, uint32_t pin) const;
 
@@ -115,11 +115,12 @@ Plan Planner::items(std::span<const uint32_t> elements, bool one_rail) {
 }
 
 // Through connectors that are joints only.
-void Planner::addLinks(Plan& plan, const DiagramWire& wire, const End& to, uint32_t depth) {
-  if (wire.from == kNoElement || depth == kMostJoints) return;
+void Planner::addLinks(Plan& plan, const DiagramWire& wire, const End& to, uint32_t& joints) {
+  if (wire.from == kNoElement) return;
   if (isJoint(body_.elements[wire.from])) {
+    if (++joints > kMostJoints) return;
     for (const DiagramPin& pin : body_.tree.list(body_.elements[wire.from].pins))
-      for (const DiagramWire& before : body_.tree.list(pin.wires)) addLinks(plan, before, to, depth + 1);
+      for (const DiagramWire& before : body_.tree.list(pin.wires)) addLinks(plan, before, to, joints);
     return;
   }
   const uint32_t from = item_of_[wire.from];
@@ -136,7 +137,8 @@ void Planner::addLinks(Plan& plan) {
     for (uint32_t p = 0; p < pins.size(); ++p) {
       const End end{to, inputOf(plan.items[to], p)};
       if (end.terminal == kNone) continue;
-      for (const DiagramWire& wire : body_.tree.list(pins[p].wires)) addLinks(plan, wire, end, 0);
+      uint32_t joints = 0;
+      for (const DiagramWire& wire : body_.tree.list(pins[p].wires)) addLinks(plan, wire, end, joints);
     }
   }
 }

@@ -9,8 +9,9 @@ namespace rung::picture {
 namespace {
 
 constexpr int32_t kGap = 20;
-constexpr int32_t kWidest = 300;  // between a column and the next, where nothing stands in between
-constexpr int32_t kCell = 20;     // pixels of an editor's cell
+constexpr int32_t kWidest = 300;        // between a column and the next, where nothing stands in between
+constexpr size_t kMostPlaced = 20'000;  // each is compared with each
+constexpr int32_t kCell = 20;           // pixels of an editor's cell
 
 bool isRail(ElementKind kind) { return kind == ElementKind::Rail || kind == ElementKind::RightRail; }
 bool isBox(ElementKind kind) {
@@ -35,13 +36,13 @@ int32_t unitOf(const Body& body, const Plan& plan) {
   return highest <= 12 && rows.size() > 1 && least <= 4 ? kCell : 1;
 }
 
-// Moves what lies behind others in one direction: `at` are the places by rising order, `size` what each takes before
-// and behind its place, `meets` whether two elements could overlap.
+// Of each item in one direction: its place in the file, and what it takes before and behind it.
 struct Axis {
-  std::vector<int64_t> wanted;  // of each item
+  std::vector<int64_t> wanted;
   std::vector<int32_t> before, behind;
 };
 
+// Places by the order of the file, moved on where an item would come too near to one before it.
 // `gap`: between two elements that could overlap; negative: they could not.
 template <class Gap>
 std::vector<int32_t> spread(const Axis& axis, Gap gap) {
@@ -73,6 +74,7 @@ std::vector<int32_t> spread(const Axis& axis, Gap gap) {
 
 bool takePlaces(const Body& body, Plan& plan) {
   const size_t count = plan.items.size();
+  if (count > kMostPlaced) return false;
   for (const Item& item : plan.items) {
     const DiagramElement& e = body.elements[item.element];
     if (!e.placed && e.kind != ElementKind::Comment) return false;
