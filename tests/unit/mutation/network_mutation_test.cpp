@@ -233,17 +233,20 @@ TEST(NetworkMutation, cost_grows_with_the_size) {
 
 TEST(NetworkMutation, depth_is_limited) {
   const size_t depth = 5000;
-  std::string parens, nested;
+  std::string parens, nested, closed;
   for (size_t k = 0; k < depth; ++k) {
     parens += "(";
     nested += "IF a THEN ";
+    closed += "END_IF ";
   }
   const std::string head = "FUNCTION_BLOCK F VAR a : BOOL; END_VAR\n{network LD}\nrail 0;\n",
                     tail = "\n{end_network}\nEND_FUNCTION_BLOCK\n";
   EXPECT_EQ(errorsIn(head + "contact 1 (" + parens + "a" + std::string(depth, ')') + ") := 0; coil 2 (a) := 1;" + tail,
                      false),
             1u);
-  EXPECT_EQ(errorsIn(head + "execute 1 [] {network ST} " + nested + "a := TRUE; {end_network};" + tail, false), 1u);
+  EXPECT_EQ(
+      errorsIn(head + "execute 1 [] {network ST} " + nested + "a := TRUE; " + closed + "{end_network};" + tail, false),
+      1u);
   std::string boxes;
   for (size_t k = 0; k < depth; ++k) boxes += "execute 1 [] {network ST} ";
   EXPECT_GE(errorsIn(head + boxes + tail, false), 1u);
