@@ -10,14 +10,17 @@ bool isFunction(const DiagramElement& e) { return e.kind == ElementKind::Box && 
 class Search {
  public:
   Search(const Tree& tree, const Graph& graph)
-      : tree_(tree), graph_(graph), phase_(graph.elements.size(), Phase::New), turn_(graph.elements.size(), 0) {
+      : tree_(tree),
+        graph_(graph),
+        phase_(graph.elements.size(), Phase::New),
+        turn_(graph.elements.size(), 0),
+        is_found_(graph.elements.size(), false) {
     for (uint32_t k = 0; k < graph.roots.size(); ++k) turn_[graph.roots[k]] = k + 1;
   }
 
   std::vector<uint32_t> run() {
     for (const uint32_t root : graph_.roots) walk(root);
     std::sort(found_.begin(), found_.end());
-    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
     return found_;
   }
 
@@ -27,9 +30,11 @@ class Search {
     uint32_t element, pin, wire;
   };
 
-  bool isKept(uint32_t element) const {
-    return keepsState(graph_.elements[element]) || std::find(found_.begin(), found_.end(), element) != found_.end();
+  void find(uint32_t element) {
+    if (!is_found_[element]) found_.push_back(element);
+    is_found_[element] = true;
   }
+  bool isKept(uint32_t element) const { return keepsState(graph_.elements[element]) || is_found_[element]; }
 
   uint32_t next(Frame& frame) const {
     const DiagramElement& e = graph_.elements[frame.element];
@@ -55,7 +60,7 @@ class Search {
       }
       const DiagramElement& e = graph_.elements[from];
       if (e.order != 0) {  // who reads it has its turn at the root's
-        if (isFunction(e) && turn_[from] >= turn_[root]) found_.push_back(from);
+        if (isFunction(e) && turn_[from] >= turn_[root]) find(from);
         continue;
       }
       if (phase_[from] == Phase::New) {
@@ -76,7 +81,7 @@ class Search {
       if (isFunction(graph_.elements[element])) box = element;
       if (element == first) break;
     }
-    if (box != kNone) found_.push_back(box);
+    if (box != kNone) find(box);
   }
 
   const Tree& tree_;
@@ -84,6 +89,7 @@ class Search {
   std::vector<Phase> phase_;
   std::vector<uint32_t> turn_;
   std::vector<uint32_t> found_;
+  std::vector<bool> is_found_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "frontend/diagram/elements.h"
@@ -47,8 +48,14 @@ class Graph {
 
  private:
   bool isLink(uint32_t element) const;
-  uint32_t followed(uint32_t element) const;
-  void reportLink(uint32_t element);
+  struct End {
+    uint32_t element;  // kNone: what is wrong was reported
+    Ident pin;
+  };
+  End endOf(uint32_t link);
+  uint64_t keyOf(uint32_t element, NameId pin) const {
+    return (static_cast<uint64_t>(element) << 32) | (pin ? names_->key(pin).index : 0);
+  }
   uint32_t sourceAt(uint32_t element, const Ident& pin);
   bool connect();
   void separate();
@@ -60,6 +67,8 @@ class Graph {
   Tree* tree_ = nullptr;
   Names* names_ = nullptr;
   Diagnostics* diagnostics_ = nullptr;
+  std::vector<End> ends_;  // of connectors and continuations
+  std::unordered_map<uint64_t, uint32_t> by_pin_;
   std::vector<uint32_t> source_of_wire_;
   uint32_t first_wire_ = 0;
 };

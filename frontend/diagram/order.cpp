@@ -9,6 +9,9 @@
 namespace rung::diagram {
 namespace {
 
+// Of one element; beyond them a table finds the pin.
+constexpr uint32_t kFewSources = 8;
+
 bool isRail(ElementKind kind) { return kind == ElementKind::Rail || kind == ElementKind::RightRail; }
 
 // Does something when nobody reads it.
@@ -46,26 +49,46 @@ bool Graph::isLink(uint32_t element) const {
   return e.kind == ElementKind::Connector && (e.pins.empty() || tree_->list(e.pins)[0].wires.count < 2);
 }
 
-// Where the wire into a connector comes from; kNone: nowhere, or it leads in a circle.
-uint32_t Graph::followed(uint32_t element) const {
-  for (size_t steps = 0; steps <= elements.size(); ++steps) {
-    if (element == kNone || !isLink(element)) return element;
-    const DiagramElement& e = elements[element];
-    if (e.kind == ElementKind::Continuation) {
-      element = e.network;  // connect() put the connector there
-      continue;
+// Where the wire into a connector comes from. Each is followed once, whoever refers to it.
+//   fails   a connector that nothing leads to        E1007
+//   fails   a circle of connectors                   E1006
+Graph::End Graph::endOf(uint32_t link) {
+  constexpr uint32_t kOpen = kNone - 1, kWalked = kNone - 2;
+  if (ends_.empty()) ends_.resize(elements.size(), {kOpen, {}});
+  std::vector<uint32_t> path;
+  End end{link, {}};
+  while (end.element != kNone && isLink(end.element)) {
+    const uint32_t at = end.element;
+    const DiagramElement& e = elements[at];
+    if (ends_[at].element == kWalked) diagnostics_->report(Diag::WireLoop, e.loc);
+    if (ends_[at].element != kOpen) {
+      end = ends_[at].element == kWalked ? End{kNone, {}} : ends_[at];
+      break;
     }
-    if (e.pins.empty()) return kNone;
-    const DiagramPin pin = tree_->list(e.pins)[0];
-    if (pin.wires.empty()) return kNone;
-    element = tree_->list(pin.wires)[0].from;
+    ends_[at].element = kWalked;
+    path.push_back(at);
+    if (e.kind == ElementKind::Continuation) {
+      end.element = e.network;  // connect() put the connector there, or reported that there is none
+    } else if (e.pins.empty() || tree_->list(e.pins)[0].wires.empty()) {
+      diagnostics_->report(Diag::NotWired, e.loc, {nameOf(e)});
+      end.element = kNone;
+    } else {
+      const DiagramWire wire = tree_->list(tree_->list(e.pins)[0].wires)[0];
+      end = {wire.from, wire.pin};
+    }
   }
-  return kNone;
+  for (const uint32_t at : path) ends_[at] = end;
+  return end;
 }
 
 uint32_t Graph::find(uint32_t element, NameId pin) const {
-  for (uint32_t s = first_source[element]; s != kNone; s = sources[s].next)
+  uint32_t steps = 0;
+  for (uint32_t s = first_source[element]; s != kNone; s = sources[s].next) {
     if (names_->same(sources[s].pin.name, pin)) return s;
+    if (++steps < kFewSources) continue;
+    const auto known = by_pin_.find(keyOf(element, pin));
+    return known == by_pin_.end() ? kNone : known->second;
+  }
   return kNone;
 }
 
@@ -79,28 +102,9 @@ uint32_t Graph::sourceAt(uint32_t element, const Ident& pin) {
   source.pin = named;
   source.next = first_source[element];
   first_source[element] = static_cast<uint32_t>(sources.size());
+  by_pin_.emplace(keyOf(element, named.name), first_source[element]);
   sources.push_back(source);
   return first_source[element];
-}
-
-// Says why no wire leads through a connector or continuation.
-//   fails   a connector that nothing leads to        E1007
-//   fails   a circle of connectors                   E1006
-void Graph::reportLink(uint32_t element) {
-  for (size_t steps = 0; steps <= elements.size(); ++steps) {
-    const DiagramElement& e = elements[element];
-    if (e.kind == ElementKind::Continuation) {
-      if (e.network == kNone) return;  // reported: it has no connector
-      element = e.network;
-      continue;
-    }
-    if (e.pins.empty() || tree_->list(e.pins)[0].wires.empty()) {
-      diagnostics_->report(Diag::NotWired, e.loc, {nameOf(e)});
-      return;
-    }
-    element = tree_->list(tree_->list(e.pins)[0].wires)[0].from;
-  }
-  diagnostics_->report(Diag::WireLoop, elements[element].loc);
 }
 
 //   fails   a continuation without its connector        E1008
@@ -145,21 +149,13 @@ bool Graph::connect() {
     for (const DiagramPin& pin : tree_->list(elements[k].pins))
       for (uint32_t w = 0; w < pin.wires.count; ++w) {
         const DiagramWire wire = tree_->list(pin.wires)[w];
-        const uint32_t from = followed(wire.from);
-        if (from == kNone) {
+        // The pin of a wire through connectors is that of the wire into the first of them.
+        const End origin = isLink(wire.from) ? endOf(wire.from) : End{wire.from, wire.pin};
+        if (origin.element == kNone) {
           good = false;
-          reportLink(wire.from);
           continue;
         }
-        // The pin of a wire through connectors is that of the wire into the first of them.
-        Ident name = wire.pin;
-        for (uint32_t at = wire.from; isLink(at);) {
-          const uint32_t link = elements[at].kind == ElementKind::Continuation ? elements[at].network : at;
-          const DiagramWire inner = tree_->list(tree_->list(elements[link].pins)[0].wires)[0];
-          name = inner.pin;
-          at = inner.from;
-        }
-        const uint32_t source = sourceAt(from, name);
+        const uint32_t source = sourceAt(origin.element, origin.pin);
         source_of_wire_[pin.wires.first + w - first_wire_] = source;
         if (ends) continue;
         ++sources[source].uses;

@@ -186,7 +186,7 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
     e.name = {names_.intern(plainText(textOf(t_))), here()};  // connectors are called as their author likes
     advance();
   }
-  while (!panic_ && !at(Tok::Semicolon)) {
+  while (!panic_ && !at(Tok::Semicolon) && !at(Tok::End)) {
     if (takeMark(e)) continue;
     if (e.kind == ElementKind::Coil && is(t_, "HOLDING")) {
       e.holding = true;
@@ -315,7 +315,8 @@ void Parser::parseNetworks(PouDecl& d) {
     }
   }
   panic_ = false;
-  if (!accept(Tok::EndNetwork)) {
+  const bool cut_off = at(Tok::End) && diagnostics_.errorCount() != errors;  // which was reported
+  if (!accept(Tok::EndNetwork) && !cut_off) {
     const std::string line = std::to_string(sources_.place(loc(open)).line);
     missing(Diag::MissingEnd, {"{end_network}", "{network}", line});
   }

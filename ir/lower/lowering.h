@@ -302,6 +302,7 @@ class BodyLowering {
   void lowerRepeat(const RepeatStmt& stmt);
   void lowerTry(const TryStmt& stmt);
   uint32_t labelNumber(NameId label);
+  std::unordered_map<uint32_t, uint32_t> label_numbers_;  // by the key of the name
 
   // activation.cpp
   ExprId programPlace(uint32_t program, Loc loc);

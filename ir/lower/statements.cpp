@@ -88,10 +88,10 @@ void BodyLowering::lowerStatement(rung::StmtId id) {
 
 uint32_t BodyLowering::labelNumber(NameId label) {
   body_.has_labels = true;
-  for (uint32_t i = 0; i < body_.labels.size(); ++i)
-    if (project_.names.same(body_.labels[i], label)) return i;
-  body_.labels.push_back(label);
-  return static_cast<uint32_t>(body_.labels.size() - 1);
+  const auto next = static_cast<uint32_t>(body_.labels.size());
+  const auto [known, is_new] = label_numbers_.emplace(project_.names.key(label).index, next);
+  if (is_new) body_.labels.push_back(label);
+  return known->second;
 }
 
 void BodyLowering::lowerAssign(const AssignStmt& stmt) {

@@ -241,8 +241,8 @@ Wires Drawer::fresh(int number) {
       return both;
     }
   }
-  if (n.kind == NodeKind::Not && node(n.operands[0]).kind == NodeKind::Leaf && node(n.operands[0]).uses < 2 &&
-      chance(40))
+  if (n.kind == NodeKind::Not && !n.shared() && node(n.operands[0]).kind == NodeKind::Leaf &&
+      node(n.operands[0]).uses < 2 && chance(40))
     return {{input(node(n.operands[0]).text, true), ""}};
   if (n.kind == NodeKind::Not && chance(30)) {  // a negated output of the box
     const Node& inner = node(n.operands[0]);
