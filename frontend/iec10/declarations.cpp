@@ -189,6 +189,7 @@ void writeTypeRef(Import& import, const xml::Element& holder, uint32_t depth) {
   if (const xml::Element* spec = import.document.child(holder, "InstantlyDefinedType"))
     return writeSpec(import, *spec, depth);
   import.diagnostics.report(Diag::XmlNoType, holder.loc, {holder.name});
+  import.out.put(holder.loc, "INT");
 }
 
 void writeTypeDecl(Import& import, const xml::Element& declaration) {

@@ -34,6 +34,8 @@ class Archive {
   std::string text(const xml::Element& owner, std::string_view name) const;
   bool isTrue(const xml::Element& owner, std::string_view name) const;
   uint64_t number(const xml::Element& owner, std::string_view name) const;  // 82 for 82L; 0 where there is none
+  // Where the text begins.
+  Loc placeOf(const xml::Element& value) const;
   // Writes the text as it stands in the file.
   void write(const xml::Element& value, xml::Assembly& out) const;
   // Writes it as a string of the notation of networks: ` 'text'`; nothing where it is empty.

@@ -133,7 +133,7 @@ bool CfcReader::checkConnection(const Element& connection) {
   const uint64_t id = archive_.number(connection, "SourcePinId");
   if (pins_.count(id) != 0) return true;
   const Element* source = archive_.member(connection, "SourcePinId");
-  diagnostics_.report(Diag::WireFromNothing, source == nullptr ? connection.loc : source->loc,
+  diagnostics_.report(Diag::WireFromNothing, source == nullptr ? connection.loc : archive_.placeOf(*source),
                       {"with the pin " + std::to_string(id)});
   return false;
 }

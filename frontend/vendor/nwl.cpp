@@ -55,7 +55,7 @@ class NetworkReader {
   Wires rail(Loc loc);
   Wires boxOf(std::string_view type, const std::vector<Wires>& inputs, Loc loc);
   Wires plain(const Wires& wires, Loc loc) { return wires.flags == 0 ? wires : boxOf("MOVE", {wires}, loc); }
-  void assign(const Element& target, uint64_t flags, const Wires& wires);
+  void assign(const Element& target, uint64_t flags, const Wires& wires, bool of_box = false);
   void writeWires(const Wires& wires);
   void writeInstance(const Element& tree);
   uint64_t begin(std::string_view word, Loc loc) {
@@ -100,7 +100,7 @@ class NetworkReader {
 bool NetworkReader::checkOperand(const Element* operand, bool returns) {
   const Element* text = operand == nullptr ? nullptr : archive_.member(*operand, "Operand");
   if (text == nullptr || returns || archive_.text(*text) != kMissing) return true;
-  diagnostics_.report(Diag::ArchiveOpen, text->loc);
+  diagnostics_.report(Diag::ArchiveOpen, archive_.placeOf(*text)).length(kMissing.size());
   return false;
 }
 
@@ -120,7 +120,7 @@ bool NetworkReader::checkTree(const Element& tree) {
   } else if (type == "BoxTreeBox") {
     const Element* called = archive_.member(tree, "BoxType");
     if (called != nullptr && archive_.text(*called) == kMissing) {
-      diagnostics_.report(Diag::ArchiveOpen, called->loc);
+      diagnostics_.report(Diag::ArchiveOpen, archive_.placeOf(*called)).length(kMissing.size());
       return false;
     }
     good = checkOperand(archive_.member(tree, "Instance"));
@@ -263,14 +263,14 @@ Wires NetworkReader::operand(const Element& tree) {
 }
 
 // A coil or an output; a jump or a return, which are coils to the editor.
-void NetworkReader::assign(const Element& target, uint64_t flags, const Wires& wires) {
+void NetworkReader::assign(const Element& target, uint64_t flags, const Wires& wires, bool of_box) {
   const Element* text = archive_.member(target, "Operand");
   if (Archive::isNothing(target) || text == nullptr) return;
   const std::string spelling = archive_.text(*text);
   const bool jump = (flags & kJump) != 0, leaves = (flags & kReturn) != 0;
   if (spelling.empty() && !leaves) return;
   const bool stores = (flags & kSet) != 0;
-  const bool coil = ladder_ && sameIdentifier(archive_.text(target, "Type"), "BOOL");
+  const bool coil = ladder_ && !of_box && sameIdentifier(archive_.text(target, "Type"), "BOOL");
   begin(jump ? "jump" : leaves ? "return" : coil ? "coil" : "output", text->loc);
   if (!leaves) {
     out_.word(jump ? " " : " (");
@@ -378,7 +378,7 @@ Wires NetworkReader::box(const Element& tree) {
   out_.word(";\n");
   for (size_t k = 0; k < targets.size(); ++k)
     if (!Archive::isNothing(*targets[k]))
-      assign(*targets[k], flagsOf(*targets[k]), {{{number, named(results, k), targets[k]->loc}}, 0});
+      assign(*targets[k], flagsOf(*targets[k]), {{{number, named(results, k), targets[k]->loc}}, 0}, true);
   return {{{number, named(results, main), tree.loc}}, flagsOf(tree) & (kNegation | kRising | kFalling)};
 }
 

@@ -119,7 +119,7 @@ std::string ChartReader::before(const Front& front) const {
 
 Loc ChartReader::locOf(const Element& element) const {
   const Element* name = attributeOf(archive_, element, kName);
-  return name == nullptr ? element.loc : name->loc;
+  return name == nullptr ? element.loc : archive_.placeOf(*name);
 }
 
 // Forbids a step behind a step.

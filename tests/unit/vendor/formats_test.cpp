@@ -70,13 +70,14 @@ TEST(TwinCat, InterfaceTypeAndGlobals) {
 }
 
 TEST(TwinCat, DrawnBodiesAreNamedAndDeclarationsCount) {
-  const Reading reading("P.TcPOU",
-                        "<TcPlcObject><POU Name='P'><Declaration>PROGRAM P</Declaration>\n"
-                        "<Implementation><NWL><XmlArchive>x := 1;</XmlArchive></NWL></Implementation>\n"
-                        "<Action Name='A'><Implementation>\n<CFC/></Implementation></Action></POU></TcPlcObject>");
+  const Reading reading(
+      "P.TcPOU",
+      "<TcPlcObject><POU Name='P'><Declaration>PROGRAM P</Declaration>\n"
+      "<Implementation><LADDER><XmlArchive>x := 1;</XmlArchive></LADDER></Implementation>\n"
+      "<Action Name='A'><Implementation>\n<StateChart/></Implementation></Action></POU></TcPlcObject>");
   EXPECT_EQ(reading.text(), "PROGRAM P\nACTION A :\nEND_ACTION\nEND_PROGRAM\n");
   EXPECT_EQ(reading.errors(),
-            "4:2 the body of `P.A` is drawn in CFC, which this version of Rung does not read\n"
+            "4:2 the body of `P.A` is a state chart, which this version of Rung does not read\n"
             "2:18 the body of `P` is drawn in networks (FBD or LD), which this version of Rung does not read\n");
 }
 

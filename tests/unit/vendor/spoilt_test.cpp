@@ -31,6 +31,28 @@ VAR_INPUT a : ARRAY[1..3] OF INT; END_VAR]]></Declaration><Implementation><ST>IF
     "(*@KEY@: WORKSHEET\nNAME: F\nIEC_LANGUAGE: ST\n*)\nF := x;\n(*@KEY@: END_WORKSHEET *)\n(*@KEY@: "
     "WORKSHEET\nIEC_LANGUAGE: FBD\n*)\n"
     "'(*@KEY@: END_WORKSHEET *)\nEND_FUNCTION\n",
+    R"(<TcPlcObject><POU Name="P"><Declaration>PROGRAM P VAR a, b : BOOL; t : TON; END_VAR</Declaration><Implementation><NWL><XmlArchive><Data>
+<o t="NWLImplementationObject"><v n="DefaultViewMode">"Ld"</v><l2 n="NetworkList" cet="Network"><o><v n="Title">"it's"</v><v n="Label">"l"</v>
+<l2 n="NetworkItems"><o t="BoxTreeDemux"><v n="VarId">1</v><o n="Input" t="BoxTreeBox"><v n="BoxType">"AND"</v><o n="OutputItems"><l2 n="OutputItems"><n/></l2></o>
+<l2 n="InputItems" cet="BoxTreeOperand"><o><o n="Operand"><v n="Operand">"a"</v><v n="Type">"BOOL"</v></o></o><o><o n="Operand"><v n="Operand">"b"</v><v n="Type">"BOOL"</v>
+<o n="Flags"><v n="Flags">17</v></o></o></o></l2><v n="CallType">And</v></o></o><o t="BoxTreeAssign"><o n="RValue" t="BoxTreeParallel"><o n="Input" t="BoxTreeDemux"><v n="VarId">1</v></o>
+<l2 n="Trees" cet="BoxTreeOperand"><o><o n="Operand"><v n="Operand">"b &lt; a"</v></o></o><o/></l2></o><o n="OutputItems"><l2 n="OutputItems"><o><v n="Operand">"l"</v><o n="Flags"><v n="Flags">4</v></o></o></l2></o></o>
+<o t="BoxTreeBox"><v n="BoxType">"TON"</v><o n="Instance"><v n="Operand">"t"</v></o><l2 n="InputItems"><o t="BoxTreeTerminator"/><n/></l2><o n="InputParam"><l2 n="Names"><v>IN</v></l2></o>
+<o n="OutputParam"><l2 n="Names"><v>Q</v></l2></o></o></l2></o></l2></o></Data></XmlArchive></NWL></Implementation></POU></TcPlcObject>)",
+    R"(<TcPlcObject><POU Name="P"><Declaration>PROGRAM P VAR a, b : BOOL; t : TON; END_VAR</Declaration><Implementation><CFC><XmlArchive><Data>
+<o t="CFCImplementationObject"><o n="Items"><l2 n="InnerList"><o t="CFCInputElement"><o n="Output"><v n="Id">1L</v></o><o n="Text"><v n="Text">"a"</v></o><v n="Bounds">"1, 2, 3, 4"</v></o>
+<o t="CFCBoxElement"><o n="Inputs"><l2 n="InnerList" cet="CFCInOutPin"><o><v n="Id">2L</v><v n="Negated">true</v></o></l2></o><o n="Outputs"><l2 n="InnerList"><o><v n="Id">3L</v></o></l2></o>
+<o n="Texts"><l2 n="InnerList"><o><v n="Text">"IN"</v></o><o><v n="Text">"TON"</v></o><o><v n="Text">"t"</v></o></l2></o><v n="KindOfCall">FunctionBlock</v></o>
+<o t="CFCSourceConnectionMark"><o n="Input"><v n="Id">5L</v></o><o n="Text"><v n="Text">"a b"</v></o></o><o t="CFCSinkConnectionMark"><o n="Output"><v n="Id">6L</v></o><o n="Text"><v n="Text">"a b"</v></o></o>
+<o t="CFCOutputElement"><o n="Input"><v n="Id">4L</v><v n="SetReset">Set</v></o><o n="Text"><v n="Text">"b"</v></o></o><o t="CFCConnection"><v n="SourcePinId">1L</v><v n="DestPinId">2L</v></o>
+<o t="CFCConnection"><v n="SourcePinId">6L</v><v n="DestPinId">4L</v></o><o t="CFCConnection"><v n="SourcePinId">3L</v><v n="DestPinId">5L</v></o></l2></o></o></Data></XmlArchive></CFC></Implementation></POU></TcPlcObject>)",
+    R"(<TcPlcObject><POU Name="P"><Declaration>PROGRAM P VAR a, b : BOOL; END_VAR</Declaration><Implementation><SFC><XmlArchive><Data><o t="SFCImplementationObject">
+<o n="Root"><o n="ElementList"><l2 n="InnerList"><o t="SFCStep"><l2 n="Attributes"><o><v n="AttributeId">{38391c6d}</v><o n="Value"><v n="Value">"S"</v></o></o><o><v n="AttributeId">{6844a48e}</v><o n="Value"><v n="Value">"TRUE"</v></o></o></l2></o>
+<o t="SFCTransition"><l2 n="Attributes"><o><v n="AttributeId">{38391c6d}</v><o n="Value"><v n="Value">"a"</v></o></o></l2></o><o t="SFCBranch"><o n="ElementList"><l2 n="InnerList" cet="SFCSegment">
+<o><o n="ElementList"><l2 n="InnerList"><o t="SFCStep"><l2 n="Attributes"><o><v n="AttributeId">{38391c6d}</v><o n="Value"><v n="Value">"L"</v></o></o></l2></o></l2></o></o>
+<o><o n="ElementList"><l2 n="InnerList"><o t="SFCStep"><l2 n="Attributes"><o><v n="AttributeId">{38391c6d}</v><o n="Value"><v n="Value">"R"</v></o></o></l2></o></l2></o></o></l2></o>
+<l2 n="Attributes"><o><v n="AttributeId">{23bdaa98}</v><o n="Value"><v n="Value">"TRUE"</v></o></o></l2></o><o t="SFCTransition"><l2 n="Attributes"><o><v n="AttributeId">{38391c6d}</v><o n="Value"><v n="Value">"b"</v></o></o></l2></o>
+<o t="SFCJump"><l2 n="Attributes"><o><v n="AttributeId">{38391c6d}</v><o n="Value"><v n="Value">"S"</v></o></o></l2></o></l2></o></o></o></Data></XmlArchive></SFC></Implementation></POU></TcPlcObject>)",
 };
 
 void readAndParse(const std::string& text) {
