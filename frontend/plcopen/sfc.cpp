@@ -102,6 +102,17 @@ void Chart::writeStep(uint32_t node) {
   const xml::Element& step = *nodes_[node].element;
   import_.out.put(step.loc, isTrue(import_, step, "initialStep") ? "INITIAL_STEP " : "STEP ");
   writeName(import_, step);
+  // Of Rung's own export: no other editor keeps them.
+  if (const xml::Element* times = dataOf(import_, step, "extension")) {
+    const char* before = " (";
+    for (const auto& [attribute, word] : {std::pair{"min", "TMIN := "}, std::pair{"max", "TMAX := "}}) {
+      if (!hasName(import_, *times, attribute)) continue;
+      import_.out.put(times->loc, before + std::string(word));
+      import_.out.add(document_, *document_.attribute(*times, attribute));
+      before = ", ";
+    }
+    if (before[0] == ',') import_.out.word(")");
+  }
   import_.out.word(":\n");
   writeStepActions(node);
   import_.out.put(step.end, "END_STEP\n");

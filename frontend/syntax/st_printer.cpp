@@ -43,6 +43,7 @@ class StPrinter {
     for (const StmtId id : tree_.list(list)) stmt(id, indent);
   }
   void rest(uint32_t indent) { comments({~0u}, indent); }
+  void value(ExprId id) { expr(id, 0); }
 
  private:
   void line(uint32_t indent) { text.append(indent, ' '); }
@@ -354,10 +355,33 @@ void StPrinter::expr(ExprId id, int least) {
       text += "..";
       return expr(e.high, 0);
     }
-    case ExprKind::Error:
     case ExprKind::ArrayInit:
-    case ExprKind::Repeat:
-    case ExprKind::StructInit:
+      text += '[';
+      list(tree_.as<ArrayInitExpr>(id).elements);
+      text += ']';
+      return;
+    case ExprKind::Repeat: {
+      const auto& e = tree_.as<RepeatExpr>(id);
+      expr(e.count, kPrimary);
+      text += '(';
+      list(e.elements);
+      text += ')';
+      return;
+    }
+    case ExprKind::StructInit: {
+      bool first = true;
+      text += '(';
+      for (const FieldInit& field : tree_.list(tree_.as<StructInitExpr>(id).fields)) {
+        if (!first) text += ", ";
+        first = false;
+        name(field.field.name);
+        text += " := ";
+        expr(field.value, 0);
+      }
+      text += ')';
+      return;
+    }
+    case ExprKind::Error:
     case ExprKind::Convert:
     case ExprKind::Bound:
     case ExprKind::AnyValue:
@@ -530,6 +554,12 @@ std::string printSt(const Tree& tree, const Names& names, Slice<StmtId> statemen
   StPrinter printer(tree, names, comments);
   printer.stmts(statements, indent);
   printer.rest(indent);
+  return std::move(printer.text);
+}
+
+std::string printSt(const Tree& tree, const Names& names, ExprId expression) {
+  StPrinter printer(tree, names, {});
+  printer.value(expression);
   return std::move(printer.text);
 }
 

@@ -19,4 +19,7 @@ struct StComment {
 std::string printSt(const Tree& tree, const Names& names, Slice<StmtId> statements, uint32_t indent,
                     std::span<const StComment> comments);
 
+// An expression or an initial value.
+std::string printSt(const Tree& tree, const Names& names, ExprId expression);
+
 }  // namespace rung
