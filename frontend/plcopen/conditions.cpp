@@ -271,7 +271,17 @@ void Chart::writeTransition(uint32_t node) {
   const std::string inverse = condition.definition + "_not";
   for (const Steps& from : ways_[node].sets) {
     import_.out.put(transition.loc, "TRANSITION ");
-    if (!condition.definition.empty()) import_.out.word((condition.negated ? inverse : condition.definition) + " ");
+    if (!condition.definition.empty()) {
+      import_.out.word((condition.negated ? inverse : condition.definition) + " ");
+    } else if (const xml::Element* named = dataOf(import_, transition, "extension")) {  // of Rung's own export
+      writeName(import_, *named);
+      import_.out.word(" ");
+    }
+    if (hasName(import_, transition, "priority") && raw(transition, "priority") != "0") {
+      import_.out.word("(PRIORITY := ");
+      writeName(import_, transition, "priority");
+      import_.out.word(") ");
+    }
     import_.out.put(transition.loc, "FROM ");
     writeSteps(from);
     import_.out.put(transition.loc, " TO ");

@@ -246,6 +246,12 @@ void writeResource(Import& import, const xml::Element& resource) {
 }  // namespace
 
 void writeConfiguration(Import& import, const xml::Element& configuration) {
+  if (const xml::Element* plain = plainText(import, configuration)) {
+    import.out.put(plain->loc, "");
+    writeText(import, *plain);
+    import.out.word("\n");
+    return;
+  }
   import.out.put(configuration.loc, "CONFIGURATION ");
   writeIdentifier(import, configuration, "Configuration");
   import.out.word("\n");

@@ -430,6 +430,8 @@ void Writer::writeElement(const Element& e) {
   } else if (kind == "contact" || kind == "coil" || kind == "inVariable" || kind == "outVariable") {
     writeOperand(e);
     writeMarks(e);
+    const Element* own = kind == "coil" ? data(e, "extension") : nullptr;  // of Rung's own export
+    if (own != nullptr && isSet(*own, "holding")) out_.word(" HOLDING");
   } else if (kind == "inOutVariable") {
     writeOperand(e);
     writeMarks(e, "negatedIn");

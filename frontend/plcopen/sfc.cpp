@@ -103,6 +103,17 @@ void Chart::writeStep(uint32_t node) {
   const bool is_initial = nodes_[node].kind == NodeKind::Step && isTrue(import_, step, "initialStep");
   import_.out.put(step.loc, is_initial ? "INITIAL_STEP " : "STEP ");
   writeStepName(node);
+  // Of Rung's own export: no other editor keeps them.
+  if (const xml::Element* times = dataOf(import_, step, "extension")) {
+    const char* before = " (";
+    for (const auto& [attribute, word] : {std::pair{"min", "TMIN := "}, std::pair{"max", "TMAX := "}}) {
+      if (!hasName(import_, *times, attribute)) continue;
+      import_.out.put(times->loc, before + std::string(word));
+      import_.out.add(document_, *document_.attribute(*times, attribute));
+      before = ", ";
+    }
+    if (before[0] == ',') import_.out.word(")");
+  }
   import_.out.word(":\n");
   if (nodes_[node].kind == NodeKind::Step) writeStepActions(node);
   import_.out.put(step.end, "END_STEP\n");

@@ -113,4 +113,18 @@ std::string_view Names::store(std::string_view spelling) {
   return {block.data() + start, spelling.size()};
 }
 
+std::string listNameOf(std::string_view path) {
+  const size_t slash = path.find_last_of("/\\");
+  if (slash != std::string_view::npos) path.remove_prefix(slash + 1);
+  const size_t dot = path.find_last_of('.');
+  if (dot != std::string_view::npos && dot > 0) path = path.substr(0, dot);
+  std::string name;
+  for (const char c : path) {
+    const bool good = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    name += good ? c : '_';
+  }
+  if (name.empty() || (name[0] >= '0' && name[0] <= '9')) name = "globals_" + name;
+  return name;
+}
+
 }  // namespace rung

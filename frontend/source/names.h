@@ -55,5 +55,7 @@ class Names {
 bool sameIdentifier(std::string_view a, std::string_view b);
 // The text in small letters: equal for equal identifiers, and so the order of names that the dialects mean.
 std::string foldedIdentifier(std::string_view text);
+// The name of the global list that a file is: the stem of its path, as an identifier.
+std::string listNameOf(std::string_view path);
 
 }  // namespace rung

@@ -354,10 +354,33 @@ void StPrinter::expr(ExprId id, int least) {
       text += "..";
       return expr(e.high, 0);
     }
-    case ExprKind::Error:
     case ExprKind::ArrayInit:
-    case ExprKind::Repeat:
-    case ExprKind::StructInit:
+      text += '[';
+      list(tree_.as<ArrayInitExpr>(id).elements);
+      text += ']';
+      return;
+    case ExprKind::Repeat: {
+      const auto& e = tree_.as<RepeatExpr>(id);
+      expr(e.count, kPrimary);
+      text += '(';
+      list(e.elements);
+      text += ')';
+      return;
+    }
+    case ExprKind::StructInit: {
+      bool first = true;
+      text += '(';
+      for (const FieldInit& field : tree_.list(tree_.as<StructInitExpr>(id).fields)) {
+        if (!first) text += ", ";
+        first = false;
+        name(field.field.name);
+        text += " := ";
+        expr(field.value, 0);
+      }
+      text += ')';
+      return;
+    }
+    case ExprKind::Error:
     case ExprKind::Convert:
     case ExprKind::Bound:
     case ExprKind::AnyValue:

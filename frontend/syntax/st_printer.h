@@ -18,7 +18,7 @@ struct StComment {
 // A line per statement, each indented by `indent` blanks and ended by a line break.
 std::string printSt(const Tree& tree, const Names& names, Slice<StmtId> statements, uint32_t indent,
                     std::span<const StComment> comments);
-// One expression, as `rung graph` writes it to an element.
+// One expression or initial value.
 std::string printSt(const Tree& tree, const Names& names, ExprId expr);
 
 }  // namespace rung

@@ -212,21 +212,6 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   }
 }
 
-// The name of a global list: the stem of its file, as an identifier.
-std::string listName(std::string_view path) {
-  const size_t slash = path.find_last_of("/\\");
-  if (slash != std::string_view::npos) path.remove_prefix(slash + 1);
-  const size_t dot = path.find_last_of('.');
-  if (dot != std::string_view::npos && dot > 0) path = path.substr(0, dot);
-  std::string name;
-  for (const char c : path) {
-    const bool good = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    name += good ? c : '_';
-  }
-  if (name.empty() || (name[0] >= '0' && name[0] <= '9')) name = "globals_" + name;
-  return name;
-}
-
 // {list 'Plant'} names the list to which this section and those behind it in the file belong: in PLCopen XML, one file
 // holds many. Otherwise a list has the name of its file.
 std::string listOfSection(Context& context, const SectionDecl& section, FileId file) {
@@ -236,7 +221,7 @@ std::string listOfSection(Context& context, const SectionDecl& section, FileId f
     scopes.open_list = context.tree().text(pragma->value);
   }
   const bool is_named = scopes.open_list_file == file && !scopes.open_list.empty();
-  return is_named ? scopes.open_list : listName(context.project.sources.path(file));
+  return is_named ? scopes.open_list : listNameOf(context.project.sources.path(file));
 }
 
 }  // namespace
@@ -327,7 +312,7 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
       const SectionKind section = context.tree().as<SectionDecl>(decl).section;
       if (section == SectionKind::Config) return;  // instance_places.cpp
       if (section == SectionKind::Access) return;  // access_paths.cpp
-      const std::string stem = listName(context.project.sources.path(file));
+      const std::string stem = listNameOf(context.project.sources.path(file));
       if (Namespace* const space = namespaceAround(context); space != nullptr) {  // one list for all of its sections
         const ListId list = listNamed(context, spelled(context, space->name), file, loc, context.scopes.qualifiers);
         return addGlobals(context, list, decl, space->globals);

@@ -148,6 +148,7 @@ bool Compilation::parse() {
 
 bool Compilation::check() {
   if (!parse()) return false;
+  if (parsed && !diagnostics.hasErrors()) parsed();
   times_.begin("check");
   // Errors of the parser do not keep the rest from being checked: one run shows as much as it can.
   if (!diagnostics.full()) {

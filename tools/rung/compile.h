@@ -3,6 +3,7 @@
 // run. Called by the commands, one Compilation for each project.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -64,7 +65,8 @@ class Compilation {
   std::string diagnosticsText();
   int exitCode() const;
 
-  sema::Scheduled scheduled;  // set before check() by `rung convert`
+  sema::Scheduled scheduled;     // set before check() by `rung convert`
+  std::function<void()> parsed;  // likewise: called while the tree is as the parser leaves it, and has no errors
   Options options;
   Sources sources;
   Names names;

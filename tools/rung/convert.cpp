@@ -1,11 +1,14 @@
-// `rung convert --to st`: the program as Structured Text. What is ST already, and all declarations, stay as they are
+// `rung convert`: the program as Structured Text. What is ST already, and all declarations, stay as they are
 // written; bodies that a scheduler made statements of are printed, comments and all, with the temporaries that they
-// need. Files of other tools become the text that Rung reads in them. Nothing is written when there are errors.
+// need. Files of other tools become the text that Rung reads in them. `--to xml`: all of it as one PLCopen XML file.
+// Nothing is written when there are errors.
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <unordered_set>
 
+#include "frontend/plcopen/export.h"
 #include "frontend/syntax/st_printer.h"
 #include "tools/rung/commands.h"
 #include "tools/rung/compile.h"
@@ -352,9 +355,25 @@ std::vector<OutputText> Converter::outputs() {
     }
     out.push_back({path, convert(input.file)});
   }
-  if (const ProjectFile& project = compilation_.inputs.project; project.file)
-    out.push_back({"rung.project", projectText(sources_.original(project.file))});
   return out;
+}
+
+// The project as one file, named like the folder, or the only file, that it was.
+std::string projectName(const Compilation& compilation) {
+  const std::vector<InputFile>& files = compilation.inputs.files;
+  const fs::path path =
+      files.size() == 1 ? fs::path(files[0].below).stem() : fs::path(compilation.inputs.root).filename();
+  return path.empty() ? "project" : path.generic_string();
+}
+
+std::string projectXml(Compilation& compilation) {
+  std::vector<FileUnit> units;  // what rung.project configures stays there
+  for (const FileUnit& unit : compilation.tree.files)
+    if (std::any_of(compilation.inputs.files.begin(), compilation.inputs.files.end(),
+                    [&](const InputFile& input) { return input.file == unit.file; }))
+      units.push_back(unit);
+  return plcopen::writeProject({compilation.tree, compilation.names, compilation.sources, units},
+                               projectName(compilation), compilation.diagnostics);
 }
 
 // The folder must be another one than that of the sources, which would be read again with it.
@@ -371,11 +390,17 @@ std::string refusal(const Compilation& compilation) {
 int runConvert(const Options& options) {
   PhaseTimes times;
   Compilation compilation(options, times);
-  Converter converter(compilation);
+  std::optional<Converter> converter;
   std::vector<OutputText> outputs;
+  if (options.to == ConvertTo::St)
+    converter.emplace(compilation);
+  else
+    compilation.parsed = [&] { outputs.push_back({projectName(compilation) + ".xml", projectXml(compilation)}); };
   if (compilation.check()) {
     times.begin("print");
-    outputs = converter.outputs();
+    if (converter) outputs = converter->outputs();
+    if (const ProjectFile& project = compilation.inputs.project; project.file)
+      outputs.push_back({"rung.project", projectText(compilation.sources.original(project.file))});
     times.end();
   }
   int exit = compilation.finish();

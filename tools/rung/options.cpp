@@ -28,7 +28,7 @@ constexpr CommandRow kCommands[] = {
     {Command::Build, "build", "FILE|DIR ... -o FILE", "emit, compile and link"},
     {Command::Run, "run", "FILE|DIR ...", "simulate, with inputs and traces"},
     {Command::Test, "test", "FILE|DIR ...", "run the POUs marked {test}"},
-    {Command::Convert, "convert", "FILE|DIR ... --to st -o DIR", "any language as Structured Text"},
+    {Command::Convert, "convert", "FILE|DIR ... --to st|xml -o DIR", "any language as ST, or a project as PLCopen XML"},
     {Command::Graph, "graph", "FILE|DIR ... -o DIR", "draw LD, FBD, CFC and SFC as SVG pictures"},
     {Command::List, "list", "libraries | pous FILE|DIR ... | --signature NAME", "show what there is"},
     {Command::Explain, "explain", "CODE", "the page of a diagnostic, such as E0401"},
@@ -88,7 +88,7 @@ constexpr OptionRow kOptions[] = {
     {Key::Output, "-o", "PATH", bit(Command::Emit) | bit(Command::Build) | bit(Command::Convert) | bit(Command::Graph),
      "where the output goes"},
     {Key::Emit, "--emit", "cpp|ir|tree", bit(Command::Emit), "what to write; ir and tree go to stdout (cpp)"},
-    {Key::To, "--to", "st|xml", bit(Command::Convert), "what to write; xml is not in this version"},
+    {Key::To, "--to", "st|xml", bit(Command::Convert), "Structured Text, or one PLCopen XML file"},
     {Key::Depfile, "--depfile", "FILE", bit(Command::Emit), "write the inputs as a make rule"},
     {Key::DepfileTarget, "--depfile-target", "PATH", bit(Command::Emit), "the rule's target (DIR/rung.manifest)"},
     {Key::ListOutputs, "--list-outputs", nullptr, bit(Command::Emit), "print the names of the files, write none"},
@@ -262,8 +262,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       return error;
     case Key::To:
       error = parseChoice(row.name, value, row.value, choice);
-      options.to_st = choice == 0;
-      if (error.empty() && !options.to_st) error = "`--to=xml` is not in this version of rung; `--to=st` is";
+      options.to = choice == 0 ? ConvertTo::St : ConvertTo::Xml;
       return error;
     case Key::Depfile: options.depfile = value; return {};
     case Key::DepfileTarget: options.depfile_target = value; return {};
@@ -384,8 +383,8 @@ std::string checkCombination(const Options& options) {
     if (argument == "--trace-calls" && native)
       return std::string("`--trace-calls` needs the interpreter; leave out ") +
              (options.keep ? "`--keep`" : "`--engine=native`");
-  if (options.command == Command::Convert && (options.output.empty() || !options.to_st))
-    return "`rung convert` needs a target and a folder: add `--to st -o DIR`";
+  if (options.command == Command::Convert && (options.output.empty() || options.to == ConvertTo::None))
+    return "`rung convert` needs a target and a folder: add `--to st -o DIR` or `--to xml -o DIR`";
   if (options.command == Command::Graph && options.output.empty())
     return "`rung graph` needs a folder for the pictures: add `-o DIR`";
   if (options.command == Command::Build && options.output.empty())

@@ -17,6 +17,7 @@ enum class Command : uint8_t { None, Check, Emit, Build, Run, Test, Convert, Gra
 inline constexpr uint32_t kCommandCount = static_cast<uint32_t>(Command::Help) + 1;
 
 enum class EmitKind : uint8_t { Cpp, Ir, Tree };
+enum class ConvertTo : uint8_t { None, St, Xml };
 enum class BuildKind : uint8_t { Executable, Shared, Static };
 // What runs a program: instructions over its memory, at once, or compiled C++.
 enum class Engine : uint8_t { Auto, Native, Interpreter };  // Auto: the interpreter where it can
@@ -64,7 +65,7 @@ struct Options {
   uint32_t bundles = 0;
 
   // convert
-  bool to_st = false;
+  ConvertTo to = ConvertTo::None;
 
   // build
   BuildKind build = BuildKind::Executable;

@@ -1,0 +1,468 @@
+// The project as a whole, its POUs and their members as TC6; see export.h and exporter.h.
+#include "frontend/plcopen/export.h"
+
+#include <algorithm>
+#include <deque>
+
+#include "frontend/plcopen/exporter.h"
+#include "frontend/syntax/st_printer.h"
+
+namespace rung::plcopen {
+
+void Export::openData(std::string_view name, std::string_view unknown) {
+  xml.open("data").attribute("name", name).attribute("handleUnknown", unknown);
+}
+
+void Export::openVendorData(std::string_view kind) {
+  openData("http://www.3s-software.com/plcopenxml/" + std::string(kind));
+}
+
+void AddData::openOwn() {
+  begin();
+  to_.openData("urn:rung/extension", "discard");
+}
+
+namespace {
+
+std::string_view accessWord(AccessLevel level) {
+  switch (level) {
+    case AccessLevel::None: break;
+    case AccessLevel::Public: return "Public";
+    case AccessLevel::Private: return "Private";
+    case AccessLevel::Protected: return "Protected";
+    case AccessLevel::Internal: return "Internal";
+  }
+  return {};
+}
+
+class PouExport {
+ public:
+  PouExport(Export& to, const PouDecl& pou) : to_(to), pou_(pou), source_(*to.source) {}
+
+  void run();        // <pou>
+  void interface();  // <Interface>
+
+ private:
+  void interfaceOf(const PouDecl& pou);
+  void inheritance(AddData& data);
+  void modifiers(AccessLevel access, uint8_t modifiers, AddData& data);
+  void members(AddData& data);
+  void method(const PouDecl& method);
+  void property(const PropertyDecl& property);
+  void accessor(DeclId accessor, std::string_view element, const PropertyDecl& of);
+  void actions();
+  std::string header(const PouDecl& pou) const;
+  std::string words(const PouDecl& pou) const;
+  size_t endOfHeader(const PouDecl& pou) const;
+  size_t beginOf(DeclId member) const;
+  std::string sections(const PouDecl& pou) const;
+  bool isOwnAction(DeclId member) const;
+
+  Export& to_;
+  const PouDecl& pou_;
+  const SourceText& source_;
+};
+
+// One that the parser made of a transition has a body only.
+bool PouExport::isOwnAction(DeclId member) const {
+  if (to_.tree.kind(member) != DeclKind::Pou) return false;
+  const auto& action = to_.tree.as<PouDecl>(member);
+  return action.pou_kind == PouKind::Action &&
+         !(action.begin == action.body_begin && !action.h.pragmas.count && action.end == action.body_end);
+}
+
+size_t PouExport::beginOf(DeclId member) const {
+  if (to_.tree.kind(member) == DeclKind::Pou) return source_.at(to_.tree.as<PouDecl>(member).begin);
+  const auto& property = to_.tree.as<PropertyDecl>(member);
+  size_t begin = source_.wordBefore(source_.at(property.h.loc), "PROPERTY");
+  for (const Pragma& pragma : to_.tree.list(property.h.pragmas)) begin = std::min(begin, source_.at(pragma.loc));
+  return begin;
+}
+
+// Behind the last section; without sections, where the members or the body begin.
+size_t PouExport::endOfHeader(const PouDecl& pou) const {
+  size_t last = 0;
+  for (const DeclId section : to_.tree.list(pou.sections))
+    if (to_.tree.loc(section) != pou_.h.loc) last = std::max(last, source_.at(to_.tree.loc(section)));
+  if (last != 0) return source_.endOfWord(last, "END_VAR");
+  size_t end = source_.commentsBefore(source_.at(pou.body_begin), true);
+  for (const DeclId member : to_.tree.list(pou.members))
+    end = std::min(end, source_.commentsBefore(beginOf(member), true));
+  return std::max(end, source_.at(pou.h.loc));
+}
+
+// The declaration as it stands, with what stands above it.
+std::string PouExport::header(const PouDecl& pou) const {
+  const size_t begin = source_.at(pou.begin);
+  std::string_view text = source_.cut(source_.commentsBefore(begin), endOfHeader(pou));
+  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
+  return std::string(text);
+}
+
+std::string PouExport::words(const PouDecl& pou) const {
+  const size_t begin = source_.at(pou.begin);
+  return source_.comments(source_.commentsBefore(begin), begin);
+}
+
+std::string PouExport::sections(const PouDecl& pou) const {
+  std::string text;
+  for (const DeclId id : to_.tree.list(pou.sections)) {
+    const auto& section = to_.tree.as<SectionDecl>(id);
+    size_t begin = source_.at(section.h.loc);
+    if (!source_.wordFollows(begin, "VAR")) continue;  // the value that SET is given
+    const size_t end = source_.endOfWord(begin, "END_VAR");
+    for (const Pragma& pragma : to_.tree.list(section.h.pragmas)) begin = std::min(begin, source_.at(pragma.loc));
+    text.append(source_.cut(begin, end)).append("\n");
+  }
+  return text;
+}
+
+// <interface>, without what the structure has no word for.
+void PouExport::interfaceOf(const PouDecl& pou) {
+  to_.xml.open("interface");
+  if (pou.result && to_.tree.kind(pou.result) != TypeExprKind::Error && to_.tree.loc(pou.result)) {
+    to_.xml.open("returnType");
+    exportType(to_, pou.result);
+    to_.xml.close();
+  }
+  for (const DeclId id : to_.tree.list(pou.sections)) {
+    const auto& section = to_.tree.as<SectionDecl>(id);
+    if (!source_.wordFollows(source_.at(section.h.loc), "VAR")) continue;
+    if (section.section == SectionKind::Stat || section.section == SectionKind::Inst) to_.says_all = false;
+    if (section.section == SectionKind::Access || section.section == SectionKind::Config) {
+      to_.says_all = false;
+      continue;
+    }
+    exportSection(to_, id, sectionElement(section.section));
+    {
+      AddData data(to_);
+      exportAttributes(to_, section.h.pragmas, data);
+    }
+    to_.xml.close();
+  }
+  to_.xml.close();
+}
+
+void PouExport::modifiers(AccessLevel access, uint8_t bits, AddData& data) {
+  const std::string_view word = accessWord(access);
+  if (word.empty() && bits == 0) return;
+  data.open("accessmodifiers");
+  to_.xml.open("AccessModifiers");
+  if (!word.empty()) to_.xml.attribute(word, "true");
+  if ((bits & kFinal) != 0) to_.xml.attribute("Final", "true");
+  if ((bits & kAbstract) != 0) to_.xml.attribute("Abstract", "true");
+  if ((bits & kOverride) != 0) to_.xml.attribute("Override", "true");
+  to_.xml.close();
+  data.close();
+}
+
+void PouExport::inheritance(AddData& data) {
+  if (pou_.bases.empty() && pou_.implements.empty()) return;
+  data.open("pouinheritance");
+  to_.xml.open("Inheritance");
+  for (const auto& [list, element] : {std::pair{pou_.bases, "Extends"}, std::pair{pou_.implements, "Implements"}}) {
+    for (const TypeExprId id : to_.tree.list(list)) {
+      std::string name;
+      for (const Ident& part : to_.tree.list(to_.tree.as<NamedTypeExpr>(id).path))
+        name += (name.empty() ? "" : ".") + std::string(to_.text(part.name));
+      to_.xml.element(element, name);
+    }
+  }
+  to_.xml.close();
+  data.close();
+}
+
+void PouExport::method(const PouDecl& method) {
+  to_.says_all = method.usings.empty();
+  to_.xml.open("Method").attribute("name", to_.text(method.name));
+  interfaceOf(method);
+  if (pou_.pou_kind != PouKind::Interface) exportBody(to_, method);
+  {
+    AddData data(to_);
+    exportAttributes(to_, method.h.pragmas, data);
+    modifiers(method.access, method.modifiers, data);
+    if (!to_.says_all) exportPlainText(to_, header(method), data);
+  }
+  to_.documentation(words(method));
+  to_.xml.close();
+}
+
+void PouExport::accessor(DeclId id, std::string_view element, const PropertyDecl& of) {
+  if (!id) return;
+  const auto& accessor = to_.tree.as<PouDecl>(id);
+  to_.says_all = true;
+  to_.xml.open(element);
+  to_.xml.open("interface");
+  for (const DeclId s : to_.tree.list(accessor.sections)) {
+    const auto& section = to_.tree.as<SectionDecl>(s);
+    if (!source_.wordFollows(source_.at(section.h.loc), "VAR")) continue;
+    if (section.section == SectionKind::Stat || section.section == SectionKind::Inst) to_.says_all = false;
+    exportSection(to_, s, sectionElement(section.section));
+    to_.xml.close();
+  }
+  to_.xml.close();
+  if (pou_.pou_kind != PouKind::Interface) exportBody(to_, accessor);
+  {
+    AddData data(to_);
+    if (accessor.access != of.access || accessor.modifiers != of.modifiers)
+      modifiers(accessor.access, accessor.modifiers, data);
+    if (!to_.says_all) exportPlainText(to_, sections(accessor), data);
+  }
+  to_.xml.close();
+}
+
+void PouExport::property(const PropertyDecl& property) {
+  to_.says_all = true;
+  const size_t name = source_.at(property.h.loc);
+  to_.xml.open("Property").attribute("name", to_.text(property.name));
+  to_.xml.open("interface").open("returnType");
+  exportType(to_, property.type);
+  to_.xml.close();
+  to_.xml.close();
+  const bool says_all = to_.says_all;
+  accessor(property.get, "GetAccessor", property);
+  accessor(property.set, "SetAccessor", property);
+  {
+    AddData data(to_);
+    exportAttributes(to_, property.h.pragmas, data);
+    modifiers(property.access, property.modifiers, data);
+    if (!says_all) {
+      size_t end = source_.endOfWord(name, "END_PROPERTY");
+      end = source_.wordBefore(end, "END_PROPERTY");
+      for (const DeclId id : {property.get, property.set})
+        if (id) end = std::min(end, source_.at(to_.tree.as<PouDecl>(id).begin));
+      const size_t begin = source_.wordBefore(name, "PROPERTY");
+      exportPlainText(to_, source_.cut(begin, end), data);
+    }
+  }
+  const size_t begin = source_.wordBefore(name, "PROPERTY");
+  to_.documentation(source_.comments(source_.commentsBefore(begin), begin));
+  to_.xml.close();
+}
+
+void PouExport::members(AddData& data) {
+  for (const DeclId member : to_.tree.list(pou_.members)) {
+    if (to_.tree.kind(member) == DeclKind::Property) {
+      data.open("property");
+      property(to_.tree.as<PropertyDecl>(member));
+      data.close();
+    } else if (to_.tree.as<PouDecl>(member).pou_kind == PouKind::Method) {
+      data.open("method");
+      method(to_.tree.as<PouDecl>(member));
+      data.close();
+    }
+  }
+}
+
+void PouExport::actions() {
+  bool any = false;
+  for (const DeclId member : to_.tree.list(pou_.members)) {
+    if (!isOwnAction(member)) continue;
+    const auto& action = to_.tree.as<PouDecl>(member);
+    if (!any) to_.xml.open("actions");
+    any = true;
+    to_.xml.open("action").attribute("name", to_.text(action.name));
+    exportBody(to_, action);
+    to_.documentation(words(action));
+    to_.xml.close();
+  }
+  if (any) to_.xml.close();
+}
+
+void PouExport::run() {
+  to_.says_all = pou_.usings.empty();
+  to_.xml.open("pou").attribute("name", to_.text(pou_.name));
+  to_.xml.attribute("pouType", pou_.pou_kind == PouKind::Function  ? "function"
+                               : pou_.pou_kind == PouKind::Program ? "program"
+                                                                   : "functionBlock");
+  interfaceOf(pou_);
+  const bool says_all = to_.says_all;
+  actions();
+  exportTransitions(to_, pou_);
+  exportBody(to_, pou_);
+  {
+    AddData data(to_);
+    to_.says_all = says_all;
+    exportAttributes(to_, pou_.h.pragmas, data);
+    const bool attributes_say_all = to_.says_all;
+    inheritance(data);
+    modifiers(pou_.access, pou_.modifiers, data);
+    members(data);
+    if (!attributes_say_all) exportPlainText(to_, header(pou_), data);
+  }
+  to_.documentation(words(pou_));
+  to_.xml.close();
+}
+
+void PouExport::interface() {
+  to_.says_all = pou_.usings.empty();
+  to_.xml.open("Interface").attribute("name", to_.text(pou_.name));
+  {
+    AddData data(to_);
+    exportAttributes(to_, pou_.h.pragmas, data);
+    const bool says_all = to_.says_all;
+    inheritance(data);
+    modifiers(pou_.access, pou_.modifiers, data);
+    members(data);
+    if (!says_all) exportPlainText(to_, header(pou_), data);
+  }
+  to_.documentation(words(pou_));
+  to_.xml.close();
+}
+
+// What a file declares, of one kind after the other.
+class ProjectExport {
+ public:
+  ProjectExport(Export& to, std::span<const FileUnit> files) : to_(to), files_(files) {
+    for (const FileUnit& unit : files) texts_.emplace_back(to.sources, unit.file);
+  }
+  void run(const std::string& project);
+
+ private:
+  template <class Visit>
+  void forEach(DeclKind kind, Visit visit) {
+    for (size_t i = 0; i < texts_.size(); ++i) {
+      const FileUnit& unit = files_[i];
+      to_.source = &texts_[i];
+      for (const DeclId id : to_.tree.list(unit.decls))
+        if (to_.tree.kind(id) == kind) visit(id, unit.file);
+    }
+  }
+  void checkTexts();
+  void headers(const std::string& project);
+  void globals(AddData& data);
+
+  Export& to_;
+  std::span<const FileUnit> files_;
+  std::deque<SourceText> texts_;
+};
+
+// Forbids what XML cannot hold: bytes that are no UTF-8, and control characters. XML 1.0, 2.2.
+void ProjectExport::checkTexts() {
+  for (const FileUnit& unit : files_) {
+    const std::string_view text = to_.sources.text(unit.file);
+    size_t bad = std::min(findInvalidUtf8(text), text.size());
+    for (size_t p = 0; p < bad; ++p)
+      if (static_cast<unsigned char>(text[p]) < ' ' && text[p] != '\t' && text[p] != '\n' && text[p] != '\r') bad = p;
+    if (bad == text.size()) continue;
+    to_.diagnostics.report(Diag::XmlCannotHold, {to_.sources.begin(unit.file).offset + static_cast<uint32_t>(bad)})
+        .length(1);
+  }
+}
+
+void ProjectExport::headers(const std::string& project) {
+  // No time of day: equal programs give equal files.
+  to_.xml.open("fileHeader")
+      .attribute("companyName", "")
+      .attribute("productName", "Rung")
+      .attribute("productVersion", "1")
+      .attribute("creationDateTime", "2000-01-01T00:00:00")
+      .close();
+  to_.xml.open("contentHeader").attribute("name", project).open("coordinateInfo");
+  for (const std::string_view language : {"fbd", "ld", "sfc"}) {
+    to_.xml.open(language).open("scaling").attribute("x", "1").attribute("y", "1").close();
+    to_.xml.close();
+  }
+  to_.xml.close();
+  to_.xml.close();
+}
+
+void ProjectExport::globals(AddData& data) {
+  FileId file;
+  std::string list;  // {list 'name'} counts for the sections behind it, too
+  forEach(DeclKind::Section, [&](DeclId id, FileId of) {
+    const auto& section = to_.tree.as<SectionDecl>(id);
+    if (file != of) list = listNameOf(to_.sources.path(of));
+    file = of;
+    for (const Pragma& pragma : to_.tree.list(section.h.pragmas))
+      if (sameIdentifier(to_.text(pragma.name), "list") && pragma.value.length != 0) list = to_.tree.text(pragma.value);
+    to_.says_all = section.section == SectionKind::Global;
+    data.open("globalvars");
+    size_t begin = to_.source->at(section.h.loc);
+    const size_t end = to_.source->endOfWord(begin, "END_VAR");
+    if (to_.says_all) {
+      exportSection(to_, id, "globalVars", list);
+    } else {
+      to_.xml.open("globalVars").attribute("name", list);
+    }
+    {
+      AddData inner(to_);
+      exportAttributes(to_, section.h.pragmas, inner);
+      for (const Pragma& pragma : to_.tree.list(section.h.pragmas))
+        if (to_.text(pragma.name) != "list") begin = std::min(begin, to_.source->at(pragma.loc));
+      if (!to_.says_all) exportPlainText(to_, to_.source->cut(begin, end), inner);
+    }
+    to_.documentation(to_.source->comments(to_.source->commentsBefore(begin), begin));
+    to_.xml.close();
+    data.close();
+  });
+}
+
+// Forbids what TC6 has no element for.
+//   fails   NAMESPACE Plant … END_NAMESPACE          E1095
+void ProjectExport::run(const std::string& project) {
+  checkTexts();
+  forEach(DeclKind::Namespace, [&](DeclId id, FileId) { to_.cannotSay(to_.tree.loc(id), "namespaces"); });
+  forEach(DeclKind::Using, [&](DeclId id, FileId) { to_.cannotSay(to_.tree.loc(id), "USING for a whole file"); });
+  if (to_.diagnostics.hasErrors()) return;
+  to_.xml.open("project")
+      .attribute("xmlns", "http://www.plcopen.org/xml/tc6_0201")
+      .attribute("xmlns:xhtml", "http://www.w3.org/1999/xhtml");
+  headers(project);
+  to_.xml.open("types").open("dataTypes");
+  forEach(DeclKind::Type, [&](DeclId id, FileId) { exportDataType(to_, id); });
+  to_.xml.close();
+  to_.xml.open("pous");
+  forEach(DeclKind::Pou, [&](DeclId id, FileId) {
+    const auto& pou = to_.tree.as<PouDecl>(id);
+    if (pou.pou_kind == PouKind::Class)
+      to_.cannotSay(pou.h.loc, "classes");
+    else if (pou.pou_kind != PouKind::Interface)
+      PouExport(to_, pou).run();
+  });
+  to_.xml.close();
+  to_.xml.close();
+  to_.xml.open("instances").open("configurations");
+  forEach(DeclKind::Configuration, [&](DeclId id, FileId) { exportConfiguration(to_, id); });
+  to_.xml.close();
+  to_.xml.close();
+  {
+    AddData data(to_);
+    globals(data);
+    forEach(DeclKind::Pou, [&](DeclId id, FileId) {
+      const auto& pou = to_.tree.as<PouDecl>(id);
+      if (pou.pou_kind != PouKind::Interface) return;
+      data.open("interface");
+      PouExport(to_, pou).interface();
+      data.close();
+    });
+  }
+  to_.xml.close();
+}
+
+}  // namespace
+
+void exportBody(Export& to, const PouDecl& pou, std::string_view element) {
+  const SourceText& source = *to.source;
+  to.xml.open(element);
+  if (element == "inline") to.xml.attribute("name", "");
+  if (pou.body_kind == BodyKind::Network) {
+    exportNetworks(to, pou.diagram);
+  } else if (pou.body_kind == BodyKind::Sfc) {
+    exportChart(to, pou);
+  } else {
+    size_t begin = source.at(pou.body_begin), end = source.at(pou.body_end);
+    if (pou.closed || begin != end) begin = source.commentsBefore(begin, true);
+    end = source.endWithComments(end);
+    to.xml.formatted(pou.body_kind == BodyKind::Il ? "IL" : "ST", source.cut(begin, end));
+  }
+  to.xml.close();
+}
+
+std::string writeProject(const Program& program, const std::string& project, Diagnostics& diagnostics) {
+  Export to{program.tree, program.names, program.sources, diagnostics};
+  ProjectExport(to, program.files).run(project);
+  return to.xml.out();
+}
+
+}  // namespace rung::plcopen

@@ -1,0 +1,88 @@
+// What the parts of the export share. Private to frontend/plcopen: export.cpp (the project and its POUs),
+// export_types.cpp, export_configuration.cpp, export_chart.cpp, export_networks.cpp.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "frontend/plcopen/source_text.h"
+#include "frontend/source/diagnostics.h"
+#include "frontend/syntax/tree.h"
+#include "frontend/xml/writer.h"
+
+namespace rung::plcopen {
+
+struct Export {
+  const Tree& tree;
+  const Names& names;
+  const Sources& sources;
+  Diagnostics& diagnostics;
+  xml::Writer xml = {};
+  const SourceText* source = nullptr;  // of the file at hand
+  bool says_all = true;                // false: the declaration at hand is to stand as text, too
+
+  std::string_view text(NameId name) const { return names.text(name); }
+  std::string printed(ExprId expr) const { return printExpr(expr); }
+  std::string printExpr(ExprId expr) const;
+  void cannotSay(Loc loc, std::string_view what) { diagnostics.report(Diag::XmlCannotSay, loc, {what}); }
+  // <data name="…" handleUnknown="…">, closed by its caller.
+  void openData(std::string_view name, std::string_view unknown = "implementation");
+  void openVendorData(std::string_view kind);  // of the 3S family
+  void documentation(const std::string& words) {
+    if (!words.empty()) xml.formatted("documentation", words);
+  }
+};
+
+// An <addData> that is there only when something stands in it.
+class AddData {
+ public:
+  explicit AddData(Export& to) : to_(to) {}
+  ~AddData() {
+    if (open_) to_.xml.close();
+  }
+  void open(std::string_view kind) {
+    begin();
+    to_.openVendorData(kind);
+  }
+  void openOwn();  // Rung's own: what no other editor knows
+  void close() { to_.xml.close(); }
+
+ private:
+  void begin() {
+    if (!open_) to_.xml.open("addData");
+    open_ = true;
+  }
+  Export& to_;
+  bool open_ = false;
+};
+
+// ---- export_types.cpp
+
+// What stands in <type>, <baseType> …
+void exportType(Export& to, TypeExprId type);
+// <initialValue>; `type` as declared.
+void exportInitialValue(Export& to, ExprId value, TypeExprId type);
+// The <variable> elements of a list, and of a structure.
+void exportVariables(Export& to, Slice<DeclId> vars);
+// <localVars constant="true"> … with its variables; `name`: of a list of globals.
+void exportSection(Export& to, DeclId section, std::string_view element, std::string_view name = {});
+void exportDataType(Export& to, DeclId type);
+// {attribute 'name' := 'value'}
+void exportAttributes(Export& to, Slice<Pragma> pragmas, AddData& data);
+// The declaration as text.
+void exportPlainText(Export& to, std::string_view text, AddData& data);
+// <localVars> …: of a kind that the structure has no list for, the nearest.
+std::string_view sectionElement(SectionKind kind);
+
+// ---- export.cpp
+
+// <body>, or <inline name="">: its statements, instructions, chart or networks.
+void exportBody(Export& to, const PouDecl& pou, std::string_view element = "body");
+
+void exportConfiguration(Export& to, DeclId configuration);
+void exportChart(Export& to, const PouDecl& pou);
+// The <transitions> of a chart that have bodies of their own.
+void exportTransitions(Export& to, const PouDecl& pou);
+void exportNetworks(Export& to, const Diagram& diagram);  // <LD>, <FBD>, or <ST> and <addData> with a <CFC>
+
+}  // namespace rung::plcopen
