@@ -25,14 +25,14 @@ bool acts(const DiagramElement& e) {
     case ElementKind::Return:
     case ElementKind::Execute: return true;
     case ElementKind::InOut: return !e.pins.empty();
+    case ElementKind::Compose:
+    case ElementKind::Select: return e.order != 0;
     case ElementKind::Rail:
     case ElementKind::RightRail:
     case ElementKind::Contact:
     case ElementKind::Input:
     case ElementKind::Connector:
     case ElementKind::Continuation:
-    case ElementKind::Compose:
-    case ElementKind::Select:
     case ElementKind::Comment: break;
   }
   return false;
