@@ -209,7 +209,8 @@ class Describer {
               [&](uint32_t a, uint32_t b) { return facts_.program_block[a] < facts_.program_block[b]; });
     for (uint32_t i : order) {
       const ir::ProgramInstance& program = module_.programs[i];
-      if (!program.is_test && hasCode(program.init)) init += callOn(program.init, program.record, facts_.program_block[i]);
+      if (!program.is_test && hasCode(program.init))
+        init += callOn(program.init, program.record, facts_.program_block[i]);
     }
     for (uint32_t i : order) {
       if (!module_.programs[i].is_test && module_.programs[i].setup) init += callOf(module_.programs[i].setup);

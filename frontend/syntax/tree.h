@@ -391,7 +391,7 @@ struct StructTypeExpr {
   TypeExprId base;
   bool is_union;
   bool overlaps;  // STRUCT OVERLAP: members with places may share memory
-};  // fields: VarDecl
+};                // fields: VarDecl
 enum class PointerForm : uint8_t { Pointer, Reference, RefTo };
 struct PointerTypeExpr {
   TypeExprHeader h;

@@ -1,6 +1,6 @@
-// TwinCAT 3: .TcPOU, .TcDUT, .TcTLEO, .TcGVL, .TcIO and .TcTTO. An object of the project is an element with a <Declaration> in
-// ST; POUs have an <Implementation> and members besides. Bodies that are drawn are named in an error; what such a POU
-// declares counts nevertheless.
+// TwinCAT 3: .TcPOU, .TcDUT, .TcTLEO, .TcGVL, .TcIO and .TcTTO. An object of the project is an element with a
+// <Declaration> in ST; POUs have an <Implementation> and members besides. Bodies that are drawn are named in an error;
+// what such a POU declares counts nevertheless.
 #include <string>
 
 #include "frontend/vendor/assembly.h"
