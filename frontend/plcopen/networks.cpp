@@ -494,8 +494,8 @@ void Writer::writeCondition(const Diagram& diagram) {
 
 }  // namespace
 
-bool writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram,
-                   Diagnostics&, xml::Assembly& out) {
+bool writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram, Diagnostics&,
+                   xml::Assembly& out) {
   Writer writer(sources, document, out);
   if (diagram.condition != nullptr)
     writer.writeCondition(diagram);

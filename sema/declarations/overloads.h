@@ -7,7 +7,8 @@ namespace rung::sema {
 
 // Joins what is declared under a name that is in use; false: it is declared twice.
 bool addOverload(Context& context, Entity first, PouId added);
-// A method alone in its class that replaces one of several in a base is an overload, too. Once all members are declared.
+// A method alone in its class that replaces one of several in a base is an overload, too. Once all members are
+// declared.
 void markOverloads(Context& context);
 void checkOverloads(Context& context, PouId head);
 
