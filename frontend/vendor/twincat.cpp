@@ -1,12 +1,7 @@
 // TwinCAT 3: .TcPOU, .TcDUT, .TcTLEO, .TcGVL, .TcIO and .TcTTO. An object of the project is an element with a
-<<<<<<< HEAD
 // <Declaration> in ST; POUs have an <Implementation> and members besides. Bodies that are drawn are object archives
 // (archive.h); those of a kind that is not read are named in an error, and what such a POU declares counts
 // nevertheless.
-=======
-// <Declaration> in ST; POUs have an <Implementation> and members besides. Bodies that are drawn are named in an error;
-// what such a POU declares counts nevertheless.
->>>>>>> lang
 #include <string>
 
 #include "frontend/vendor/archive.h"
