@@ -77,9 +77,10 @@ void ConfigurationExport::task(const TaskDecl& task, std::span<const DeclId> mem
   to_.xml.open("task").attribute("name", to_.text(task.name));
   if (single) to_.xml.attribute("single", to_.printed(single));
   if (interval) time("interval", interval);
+  // The schema wants a priority; 1 is that of a task that names none.
   const bool is_number = priority && to_.tree.kind(priority) == ExprKind::Literal;
   if (priority && !is_number) to_.says_all = false;
-  to_.xml.attribute("priority", is_number ? to_.printed(priority) : "0");
+  to_.xml.attribute("priority", is_number ? to_.printed(priority) : "1");
   bool any = false;
   for (const DeclId id : members) {
     if (to_.tree.kind(id) != DeclKind::ProgramInstance) continue;

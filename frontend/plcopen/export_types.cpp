@@ -271,6 +271,8 @@ void exportDataType(Export& to, DeclId id) {
   const auto& decl = to.tree.as<TypeDecl>(id);
   const SourceText& source = *to.source;
   to.says_all = (decl.h.bits & kInternal) == 0;
+  for (const std::string_view word : {"PUBLIC", "INTERNAL", "ABSTRACT", "FINAL"})  // words before names, behind TYPE
+    if (sameIdentifier(to.text(decl.name), word)) to.says_all = false;
   to.xml.open("dataType").attribute("name", to.text(decl.name));
   exportHeld(to, "baseType", decl.type);
   if (decl.init) exportInitialValue(to, decl.init, decl.type);

@@ -1,24 +1,30 @@
 #!/bin/sh
 # Writes each program as PLCopen XML, checks the file by the rules of the schema, and compares the IR of the program with
 # that of the file: places, and the order of declarations, may differ.
-#   roundtrip.sh FILE|FOLDER...       --std=… is taken from a line `// args:` of the file
+# --std=… is taken from a line `// args:` of a file. Tests become programs, since a product has none of them.
+#   roundtrip.sh FILE|FOLDER...
 here=$(dirname "$0")
 out=$(mktemp -d)
 ir() {
-  rung emit --emit=ir "$@" 2>"$out/errors" | sed -E 's/"[^"]*":[0-9]+//g; s/Transition_[0-9]+|sfc_condition_n[0-9]+/Transition/g' |
+  rung emit --emit=ir "$@" 2>"$out/errors" | sed -E 's/"[^"]*":[0-9]+//g; s/Transition_[0-9]+|sfc_condition_n[0-9]+/Transition/g; s/^dispatch .*/\n&\n/' |
     awk 'BEGIN { RS = ""; ORS = "\n\n" } { gsub(/\n/, "\r"); print }' | sort | tr '\r' '\n' | sed '/^$/d; s/ *$//'
 }
 count=0
 for program; do
   args=$(sed -nE 's/^\/\/ args: //p' "$program" 2>/dev/null)
-  rm -rf "$out/xml"
+  rm -rf "$out/xml" "$out/p"
+  cp -r "$program" "$out/p" 2>/dev/null
+  if [ -f "$program" ]; then
+    rm -f "$out/p" && mkdir "$out/p"
+    sed "s/{test}//; s/{attribute 'test'}//" "$program" >"$out/p/$(basename "$program")"
+  fi
   # shellcheck disable=SC2086
-  if ! rung convert "$program" --to xml -o "$out/xml" $args >"$out/errors" 2>&1; then
+  if ! rung convert "$out/p" --to xml -o "$out/xml" $args >"$out/errors" 2>&1; then
     echo "$program: not written: $(grep -m1 'error' "$out/errors")"
     continue
   fi
   python3 "$here/tc6.py" "$out"/xml/*.xml
-  ir "$program" $args >"$out/before"
+  ir "$out/p" $args >"$out/before"
   ir "$out/xml" $args >"$out/after"
   if cmp -s "$out/before" "$out/after"; then
     count=$((count + 1))
