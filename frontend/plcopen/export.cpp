@@ -442,7 +442,10 @@ void ProjectExport::run(const std::string& project) {
 
 }  // namespace
 
+//   fails   an ACTION inside of an ACTION whose body is a chart          E1095
 void exportBody(Export& to, const PouDecl& pou, std::string_view element) {
+  const bool inside = pou.pou_kind == PouKind::Action || pou.pou_kind == PouKind::Method;
+  if (inside && !pou.members.empty()) to.cannotSay(pou.h.loc, "actions and conditions inside of an action or method");
   const SourceText& source = *to.source;
   to.xml.open(element);
   if (element == "inline") to.xml.attribute("name", "");

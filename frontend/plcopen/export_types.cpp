@@ -170,7 +170,7 @@ void exportType(Export& to, TypeExprId id) {
     }
     case TypeExprKind::Struct: {
       const auto& type = to.tree.as<StructTypeExpr>(id);
-      if (type.is_union) to.says_all = false;
+      if (type.is_union || type.overlaps) to.says_all = false;
       to.xml.open("struct");
       exportVariables(to, type.fields);
       to.xml.close();

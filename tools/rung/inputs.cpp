@@ -95,7 +95,7 @@ vendor::Format formatOf(FileKind kind) {
 
 const char* describe(FileKind kind) {
   switch (kind) {
-    case FileKind::Xml: return "XML of another kind than PLCopen's and IEC 61131-10";
+    case FileKind::Xml: return "XML of another kind than PLCopen's or that of IEC 61131-10";
     case FileKind::Nct: return "machine-tool ladder";
     case FileKind::Cam: return "a cam table";
     case FileKind::Unknown:

@@ -171,6 +171,8 @@ std::string Printer::print(const std::string& name) {
 Chart withoutTextForms(Chart chart) {
   for (Step& step : chart.steps) step.least_ms = 0;
   for (Transition& t : chart.transitions) t.priority = 0;
+  chart.macros.clear();
+  chart.nested.clear();
   return chart;
 }
 

@@ -6,7 +6,7 @@
 here=$(dirname "$0")
 out=$(mktemp -d)
 ir() {
-  rung emit --emit=ir "$@" 2>"$out/errors" | sed -E 's/"[^"]*":[0-9]+//g; s/Transition_[0-9]+|sfc_condition_n[0-9]+/Transition/g; s/^dispatch .*/\n&\n/' |
+  rung emit --emit=ir "$@" 2>"$out/errors" | sed -E 's/"[^"]*":[0-9]+//g; s/Transition(_[0-9]+)?|sfc_condition_n?[0-9]+/Transition/g; s/^dispatch .*/\n&\n/' |
     awk 'BEGIN { RS = ""; ORS = "\n\n" } { gsub(/\n/, "\r"); print }' | sort | tr '\r' '\n' | sed '/^$/d; s/ *$//'
 }
 count=0
