@@ -82,9 +82,27 @@ std::string compare(const std::string& trace, uint64_t first, const std::vector<
   return {};
 }
 
+// What compare() reads, in its order.
+std::string watchOf(const std::vector<Chart>& charts) {
+  std::string watch;
+  for (size_t k = 0; k < charts.size(); ++k) {
+    const Chart& chart = charts[k];
+    const std::string instance = "Main.c" + std::to_string(k) + ".";
+    watch += watch.empty() ? "" : ",";
+    for (size_t s = 0; s < chart.steps.size(); ++s) watch += instance + "s" + std::to_string(s) + ".x,";
+    for (int v = 0; v < kVariables; ++v) watch += instance + "v" + std::to_string(v) + ",";
+    if (!chart.nested.empty()) {
+      for (size_t s = 0; s < chart.nested[0].steps.size(); ++s) watch += instance + nestedStep(chart, s) + ".x,";
+      for (int v = 0; v < kVariables; ++v) watch += instance + "w" + std::to_string(v) + ",";
+    }
+    watch += instance + "order";
+  }
+  return watch;
+}
+
 std::string runBatch(const Options& options, uint64_t first, uint64_t count) {
   std::vector<Chart> charts, drawn;
-  std::string text, xml, vars, calls, watch;
+  std::string text, xml, vars, calls;
   for (uint64_t k = 0; k < count; ++k) {
     charts.push_back(generate(first + k));
     const std::string n = std::to_string(k);
@@ -93,15 +111,6 @@ std::string runBatch(const Options& options, uint64_t first, uint64_t count) {
     xml += xmlOf(drawn.back(), "Chart" + n, first + k);
     vars += " c" + n + " : Chart" + n + ";";
     calls += "c" + n + "(random := random);\n";
-    watch += (watch.empty() ? "" : ",");
-    for (size_t s = 0; s < charts.back().steps.size(); ++s) watch += "Main.c" + n + ".s" + std::to_string(s) + ".x,";
-    for (int v = 0; v < kVariables; ++v) watch += "Main.c" + n + ".v" + std::to_string(v) + ",";
-    if (!charts.back().nested.empty()) {
-      for (size_t s = 0; s < charts.back().nested[0].steps.size(); ++s)
-        watch += "Main.c" + n + "." + nestedStep(charts.back(), s) + ".x,";
-      for (int v = 0; v < kVariables; ++v) watch += "Main.c" + n + ".w" + std::to_string(v) + ",";
-    }
-    watch += "Main.c" + n + ".order";
   }
   const std::string main = "PROGRAM Main\nVAR random : UDINT := " + std::to_string(static_cast<uint32_t>(first)) + ";" +
                            vars + " END_VAR\nrandom := random * 1664525 + 1013904223;\n" + calls + "END_PROGRAM\n";
@@ -119,7 +128,7 @@ std::string runBatch(const Options& options, uint64_t first, uint64_t count) {
                    "--engine=" + options.engine,
                    "--cycles=" + std::to_string(options.cycles),
                    "--trace=-",
-                   "--watch=" + watch,
+                   "--watch=" + watchOf(expected),
                    program.string()};
     const tests::Output output = tests::run(c);
     if (output.exit_code != 0) return "seed " + std::to_string(first) + ": " + output.err.substr(0, 2000);
