@@ -10,8 +10,6 @@
 namespace rung::diagram {
 namespace {
 
-constexpr uint16_t kMaxHeight = 100;
-
 enum class Form : uint8_t { Chain, Pair, Invert, Move };  // a op b op c …, a op b, NOT a, a
 struct Operator {
   std::string_view name;

@@ -8,8 +8,6 @@
 namespace rung::diagram {
 namespace {
 
-// Of one expression; beyond it a temporary cuts the tree.
-constexpr uint16_t kMaxHeight = 100;
 // From so many wires on, their OR is a balanced tree.
 constexpr uint32_t kManyWires = 32;
 

@@ -14,6 +14,9 @@
 
 namespace rung::diagram {
 
+// Of one expression; beyond it a temporary cuts the tree.
+constexpr uint16_t kMaxHeight = 100;
+
 class Scheduler {
  public:
   Scheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Shapes& shapes)

@@ -224,18 +224,7 @@ void ProjectReader::run() {
 }  // namespace
 
 bool isIec10(std::string_view text) {
-  for (size_t p = text.find('<'); p != std::string_view::npos; p = text.find('<', p)) {
-    if (text.substr(p, 4) == "<!--") {
-      p = text.find("-->", p);
-    } else if (text.substr(p, 2) == "<?" || text.substr(p, 2) == "<!") {
-      p = text.find('>', p);
-    } else {
-      const size_t close = std::min(text.find('>', p), text.size());
-      return text.substr(p, close - p).find("www.iec.ch/public/TC65SC65BWG7TF10") != std::string_view::npos;
-    }
-    if (p == std::string_view::npos) break;
-  }
-  return false;
+  return xml::rootTag(text).find("www.iec.ch/public/TC65SC65BWG7TF10") != std::string_view::npos;
 }
 
 FileId readProject(Sources& sources, FileId file, Diagnostics& diagnostics) {

@@ -309,22 +309,14 @@ void Chart::writeDefinition(const Definition& definition) {
   if (e.name == "condition") {
     import_.out.word(" :\n");
     const xml::Element* wires = document_.child(e, "connectionPointIn");
-    const Diagram diagram{chart_, NetworkLanguage::Ld, name_, wires == nullptr ? &e : wires, definition.name};
-    if (!writeNetworks(import_.sources, document_, diagram, import_.diagnostics, import_.out))
-      import_.out.word(definition.name + " := FALSE;\n");
+    const Diagram diagram{chart_, NetworkLanguage::Ladder, wires == nullptr ? &e : wires, definition.name};
+    writeNetworks(import_.sources, document_, diagram, import_.out);
   } else if (language == nullptr) {
     report(Diag::ChartNoCondition, e.loc, {});
     import_.out.word(" := FALSE;\n");
   } else if (language->name != "ST") {
     import_.out.word(" :\n");
-    const bool is_ladder = language->name == "LD";
-    const bool good = is_ladder || language->name == "FBD"
-                          ? writeNetworks(import_.sources, document_,
-                                          {*language, is_ladder ? NetworkLanguage::Ld : NetworkLanguage::Fbd, of,
-                                           nullptr, definition.name},
-                                          import_.diagnostics, import_.out)
-                          : writeBody(import_, *body, pou_, of);
-    if (!good) import_.out.word(definition.name + " := FALSE;\n");
+    if (!writeBody(import_, *body, pou_, of)) import_.out.word(definition.name + " := FALSE;\n");
   } else {
     const std::string text = document_.text(*language, import_.sources);
     switch (formOf(text, begin, end)) {

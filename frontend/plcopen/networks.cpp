@@ -448,9 +448,9 @@ void Writer::writeElement(const Element& e) {
 
 void Writer::writeBody(const Diagram& diagram) {
   collect(diagram.body);
-  const char* word = diagram.language == NetworkLanguage::Ld    ? "LD"
-                     : diagram.language == NetworkLanguage::Fbd ? "FBD"
-                                                                : "CFC";
+  const char* word = diagram.language == NetworkLanguage::Ladder   ? "LD"
+                     : diagram.language == NetworkLanguage::Blocks ? "FBD"
+                                                                   : "CFC";
   out_.put(diagram.body.loc, std::string("{network ") + word + "}\n");
   for (const Element* e : elements_) writeElement(*e);
   out_.put(diagram.body.end, "{end_network}\n");
@@ -494,14 +494,12 @@ void Writer::writeCondition(const Diagram& diagram) {
 
 }  // namespace
 
-bool writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram, Diagnostics&,
-                   xml::Assembly& out) {
+void writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram, xml::Assembly& out) {
   Writer writer(sources, document, out);
   if (diagram.condition != nullptr)
     writer.writeCondition(diagram);
   else
     writer.writeBody(diagram);
-  return true;
 }
 
 }  // namespace rung::plcopen

@@ -4,25 +4,20 @@
 
 #include <string>
 
-#include "frontend/source/diagnostics.h"
+#include "frontend/syntax/diagram.h"
 #include "frontend/xml/assembly.h"
 
 namespace rung::plcopen {
 
-enum class NetworkLanguage : uint8_t { Ld, Fbd, Cfc };
-
 struct Diagram {
   const xml::Element& body;  // the <LD>, <FBD> or <CFC>; the <SFC> around a condition
   NetworkLanguage language;
-  std::string name;  // what messages call it: Pump.Start
   // Of the condition of a transition: the variable that it assigns. Where a <connectionPointIn> is given, what is wired
   // to it; otherwise the body does, by a coil or variable of the name or, in an <inline>, whatever name its result has.
   const xml::Element* condition = nullptr;
   std::string target = {};
 };
 
-// False: an error has been reported, and nothing was written.
-bool writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram,
-                   Diagnostics& diagnostics, xml::Assembly& out);
+void writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram, xml::Assembly& out);
 
 }  // namespace rung::plcopen

@@ -208,23 +208,14 @@ void ProjectReader::run() {
 }  // namespace
 
 bool isPlcopen(std::string_view text) {
-  for (size_t p = text.find('<'); p != std::string_view::npos; p = text.find('<', p)) {
-    if (text.substr(p, 4) == "<!--") {
-      p = text.find("-->", p);
-    } else if (text.substr(p, 2) == "<?" || text.substr(p, 2) == "<!") {
-      p = text.find('>', p);
-    } else {
-      const size_t close = std::min(text.find('>', p), text.size());
-      const std::string_view tag = text.substr(p + 1, close - p - 1);
-      size_t end = 0;
-      while (end < tag.size() && !endsName(tag[end])) ++end;
-      std::string_view root = tag.substr(0, end);
-      if (const size_t colon = root.find(':'); colon != std::string_view::npos) root.remove_prefix(colon + 1);
-      return (root == "project" || root == "pou") && tag.find("www.plcopen.org/xml/tc6") != std::string_view::npos;
-    }
-    if (p == std::string_view::npos) break;
-  }
-  return false;
+  std::string_view tag = xml::rootTag(text);
+  if (tag.empty()) return false;
+  tag.remove_prefix(1);
+  size_t end = 0;
+  while (end < tag.size() && !endsName(tag[end])) ++end;
+  std::string_view root = tag.substr(0, end);
+  if (const size_t colon = root.find(':'); colon != std::string_view::npos) root.remove_prefix(colon + 1);
+  return (root == "project" || root == "pou") && tag.find("www.plcopen.org/xml/tc6") != std::string_view::npos;
 }
 
 FileId readProject(Sources& sources, FileId file, Diagnostics& diagnostics, std::vector<Library>& libraries) {

@@ -181,9 +181,12 @@ void findSteps(Import& import, const xml::Element& pou) {
 
 bool writeBody(Import& import, const xml::Element& body, const xml::Element& pou, const std::string& name) {
   const auto networks = [&](const xml::Element& diagram, NetworkLanguage language) {
-    return writeNetworks(import.sources, import.document, {diagram, language, name}, import.diagnostics, import.out);
+    writeNetworks(import.sources, import.document, {diagram, language}, import.out);
   };
-  if (const xml::Element* cfc = cfcOf(import, body)) return networks(*cfc, NetworkLanguage::Cfc);
+  if (const xml::Element* cfc = cfcOf(import, body)) {
+    networks(*cfc, NetworkLanguage::Continuous);
+    return true;
+  }
   bool good = true;
   for (const xml::Element* e = import.document.firstChild(body); e != nullptr; e = import.document.next(*e)) {
     if (e->name == "ST" || e->name == "IL") {
@@ -191,11 +194,11 @@ bool writeBody(Import& import, const xml::Element& body, const xml::Element& pou
       writeText(import, *e);
       import.out.word("\n");
     } else if (e->name == "LD") {
-      good = networks(*e, NetworkLanguage::Ld) && good;
+      networks(*e, NetworkLanguage::Ladder);
     } else if (e->name == "FBD") {
-      good = networks(*e, NetworkLanguage::Fbd) && good;
+      networks(*e, NetworkLanguage::Blocks);
     } else if (e->name == "CFC") {
-      good = networks(*e, NetworkLanguage::Cfc) && good;
+      networks(*e, NetworkLanguage::Continuous);
     } else if (e->name == "SFC") {
       writeChart(import, *e, pou, name);
     } else if (e->name != "addData" && e->name != "documentation") {

@@ -408,4 +408,18 @@ bool read(const Sources& sources, FileId file, Diagnostics& diagnostics, Documen
   return Reader(sources, file, diagnostics, out).run();
 }
 
+std::string_view rootTag(std::string_view text) {
+  for (size_t p = text.find('<'); p != std::string_view::npos; p = text.find('<', p)) {
+    if (text.substr(p, 4) == "<!--") {
+      p = text.find("-->", p);
+    } else if (text.substr(p, 2) == "<?" || text.substr(p, 2) == "<!") {
+      p = text.find('>', p);
+    } else {
+      return text.substr(p, std::min(text.find('>', p), text.size()) - p);
+    }
+    if (p == std::string_view::npos) break;
+  }
+  return {};
+}
+
 }  // namespace rung::xml

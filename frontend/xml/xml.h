@@ -59,6 +59,9 @@ struct Document {
   const Element* at(uint32_t index) const { return index == kNone ? nullptr : &elements[index]; }
 };
 
+// The tag of the root element of a text that may be XML, from its `<` on and without its `>`; empty: it has none.
+std::string_view rootTag(std::string_view text);
+
 // False: an error has been reported, and the document holds what stands before it.
 [[nodiscard]] bool read(const Sources& sources, FileId file, Diagnostics& diagnostics, Document& out);
 

@@ -403,29 +403,24 @@ bool checkStatements(Context& context, Slice<StmtId> list) {
 
 // Makes statements of a body in IL or SFC, once the declarations of all files are known.
 static void schedule(Context& context, PouDecl& decl) {
-  if (decl.body_kind != BodyKind::Il && decl.body_kind != BodyKind::Sfc && decl.body_kind != BodyKind::Network) return;
+  const BodyKind kind = decl.body_kind;
+  if (kind != BodyKind::Il && kind != BodyKind::Sfc && kind != BodyKind::Network) return;
   ProjectShapes shapes(context);
-  if (decl.body_kind == BodyKind::Network) {
-    const diagram::Statements made =
-        diagram::scheduleNetworks(context.tree(), context.names(), context.project.diagnostics, shapes, decl);
+  Tree& tree = context.tree();
+  Diagnostics& diagnostics = context.project.diagnostics;
+  decl.body_kind = BodyKind::St;
+  const auto take = [&](const auto& made) {
     decl.body = made.body;
-    decl.body_kind = BodyKind::St;
     declareTemporaries(context, made.temporaries);
-    if (context.project.options.scheduled) context.project.options.scheduled(context.project, context.pou);
-    return;
-  }
-  if (decl.body_kind == BodyKind::Sfc) {
-    decl.body_kind = BodyKind::St;
+  };
+  if (kind == BodyKind::Network) {
+    take(diagram::scheduleNetworks(tree, context.names(), diagnostics, shapes, decl));
+  } else if (kind == BodyKind::Il) {
+    take(text::scheduleIl(tree, context.names(), diagnostics, shapes, decl.il, context.iec()));
+  } else {
     if ((decl.h.bits & kBrokenDeclarations) != 0) return;
     if (!text::scheduleSfc(chartsOf(context), shapes, decl, chartPlaceOf(context, context.pou))) return;
-    if (context.project.options.scheduled) context.project.options.scheduled(context.project, context.pou);
-    return;
   }
-  const text::IlStatements made =
-      text::scheduleIl(context.tree(), context.names(), context.project.diagnostics, shapes, decl.il, context.iec());
-  decl.body = made.body;
-  decl.body_kind = BodyKind::St;
-  declareTemporaries(context, made.temporaries);
   if (context.project.options.scheduled) context.project.options.scheduled(context.project, context.pou);
 }
 

@@ -3,8 +3,13 @@
 // given.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cstdint>
+#include <cstdio>
 #include <string>
+#include <thread>
+#include <vector>
 
 namespace rung::generated {
 
@@ -21,6 +26,26 @@ struct Options {
 // `taken`: the names that this tool has beside --first, --count, --rung, --folder and --print. False: an unknown word,
 // told on stderr.
 bool readOptions(int argc, char** argv, const char* tool, const char* taken, Options& options);
+
+// Gives all seeds in batches to `options.jobs` workers, each made by `makeWorker(folder)`, whose compare(first, count)
+// tells how many differ. The sum of what they tell.
+template <class MakeWorker>
+unsigned runJobs(const Options& options, uint64_t batch, MakeWorker makeWorker) {
+  std::atomic<uint64_t> next{options.first};
+  std::atomic<unsigned> differ{0};
+  const uint64_t end = options.first + options.count;
+  const auto work = [&](unsigned job) {
+    auto worker = makeWorker(options.folder + "/" + std::to_string(job));
+    for (uint64_t first = next.fetch_add(batch); first < end; first = next.fetch_add(batch)) {
+      differ += worker.compare(first, std::min(batch, end - first));
+      std::fflush(stdout);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (unsigned k = 0; k < options.jobs; ++k) threads.emplace_back(work, k);
+  for (std::thread& thread : threads) thread.join();
+  return differ.load();
+}
 
 // splitmix64: the same numbers with every C++ library.
 inline uint64_t nextRandom(uint64_t& state) {

@@ -7,11 +7,9 @@
 // by hand with many.
 
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <thread>
 
 #include "tests/fuzz/generated/options.h"
 #include "tests/fuzz/il/generator.h"
@@ -109,22 +107,11 @@ class Worker {
 };
 
 int runAll(const Options& options) {
-  std::atomic<uint64_t> next{options.first};
-  std::atomic<unsigned> differ{0};
-  const auto work = [&](unsigned job) {
-    Worker worker(options, options.folder + "/" + std::to_string(job));
-    for (uint64_t first = next.fetch_add(kBatch); first < options.first + options.count;
-         first = next.fetch_add(kBatch)) {
-      differ += worker.compare(first, std::min(kBatch, options.first + options.count - first));
-      std::fflush(stdout);
-    }
-  };
-  std::vector<std::thread> threads;
-  for (unsigned k = 0; k < options.jobs; ++k) threads.emplace_back(work, k);
-  for (std::thread& thread : threads) thread.join();
+  const unsigned differ =
+      generated::runJobs(options, kBatch, [&](const std::string& folder) { return Worker(options, folder); });
   std::error_code error;
   std::filesystem::remove_all(options.folder, error);
-  std::printf("%llu blocks, %u differ\n", static_cast<unsigned long long>(options.count), differ.load());
+  std::printf("%llu blocks, %u differ\n", static_cast<unsigned long long>(options.count), differ);
   return differ == 0 ? 0 : 1;
 }
 

@@ -6,12 +6,10 @@
 // that differs is run block by block. Called by tests/runner with few seeds and by hand with many.
 
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <thread>
 
 #include "tests/fuzz/generated/options.h"
 #include "tests/fuzz/networks/drawing.h"
@@ -188,22 +186,11 @@ class Worker {
 };
 
 int runAll(const Options& options) {
-  std::atomic<uint64_t> next{options.first};
-  std::atomic<unsigned> differ{0};
-  const auto work = [&](unsigned job) {
-    Worker worker(options, options.folder + "/" + std::to_string(job));
-    for (uint64_t first = next.fetch_add(kBatch); first < options.first + options.count;
-         first = next.fetch_add(kBatch)) {
-      differ += worker.compare(first, std::min(kBatch, options.first + options.count - first));
-      std::fflush(stdout);
-    }
-  };
-  std::vector<std::thread> threads;
-  for (unsigned k = 0; k < options.jobs; ++k) threads.emplace_back(work, k);
-  for (std::thread& thread : threads) thread.join();
+  const unsigned differ =
+      generated::runJobs(options, kBatch, [&](const std::string& folder) { return Worker(options, folder); });
   if (!options.keeps_folder) fs::remove_all(options.folder);
   std::printf("%llu blocks in %zu forms, %u differ\n", static_cast<unsigned long long>(options.count),
-              std::size(kForms), differ.load());
+              std::size(kForms), differ);
   return differ == 0 ? 0 : 1;
 }
 
