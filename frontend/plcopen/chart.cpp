@@ -47,9 +47,8 @@ void Chart::readNodes() {
       if (e->name == name) kind = of;
     const auto index = static_cast<uint32_t>(nodes_.size());
     nodes_.push_back({e, kind, 0, 0});
-    const bool is_step = kind == NodeKind::Step || kind == NodeKind::Jump;
-    if (is_step && !checkName(import_, *e, kind == NodeKind::Step ? "name" : "targetName")) good_ = false;
-    if (kind == NodeKind::MacroStep) report(Diag::ChartMacroStep, e->loc, {document_.value(*e, "name")});
+    const bool is_step = kind == NodeKind::Step || kind == NodeKind::MacroStep || kind == NodeKind::Jump;
+    if (is_step && !checkName(import_, *e, kind == NodeKind::Jump ? "targetName" : "name")) good_ = false;
     const xml::Attribute* id = document_.attribute(*e, "localId");
     if (id == nullptr) continue;
     const auto [known, fresh] = by_id_.emplace(id->raw, index);
@@ -111,10 +110,13 @@ void Chart::findLabels() {
 void Chart::checkOrder() {
   for (uint32_t i = 0; i < nodes_.size(); ++i) {
     const NodeKind kind = nodes_[i].kind;
-    if (kind != NodeKind::Step && kind != NodeKind::Jump && kind != NodeKind::SimultaneousDivergence) continue;
+    if (kind != NodeKind::Step && kind != NodeKind::MacroStep && kind != NodeKind::Jump &&
+        kind != NodeKind::SimultaneousDivergence)
+      continue;
     for (uint32_t w = nodes_[i].first_wire; w < nodes_[i].end_wire; ++w) {
       const NodeKind from = nodes_[wires_[w].from].kind;
-      if (from == NodeKind::Step || from == NodeKind::SimultaneousConvergence || from == NodeKind::SelectionDivergence)
+      if (from == NodeKind::Step || from == NodeKind::MacroStep || from == NodeKind::SimultaneousConvergence ||
+          from == NodeKind::SelectionDivergence)
         report(Diag::ChartNoTransitionBetween, wires_[w].loc, {nameOf(wires_[w].from), nameOf(i)});
     }
   }
@@ -324,6 +326,16 @@ void Chart::connectTransition(uint32_t node) {
     report(Diag::ChartNoStepBefore, nodes_[node].element->loc, {nameOf(node)});
   else
     after(node, node, 0);
+}
+
+void Chart::connect() {
+  readNodes();
+  connectActionBlocks();
+  checkOrder();
+  for (uint32_t i = 0; i < nodes_.size() && good_; ++i)
+    if (nodes_[i].kind == NodeKind::Transition) connectTransition(i);
+  for (uint32_t i = 0; i < nodes_.size() && good_; ++i)
+    if (nodes_[i].kind == NodeKind::MacroStep) connectMacro(i);
 }
 
 }  // namespace rung::plcopen

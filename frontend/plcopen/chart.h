@@ -1,11 +1,12 @@
 // A chart of the XML: its elements and wires, and how they become textual SFC. Private to chart.cpp (the graph),
-// sfc.cpp (steps and actions), conditions.cpp (transitions).
+// sfc.cpp (steps and actions), macros.cpp (macro steps), conditions.cpp (transitions).
 //
 // The elements are wired from below: each names what stands before it. A transition's steps are found by following
 // wires through divergences and convergences; the branches of a divergence are those who name it, in the order of the
 // file, which is the order in which they are judged. TC6 2.01; TM/TP manual 5.5; IEC 61131-3 ed. 3, 6.7.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -53,6 +54,16 @@ class Chart {
   void write();
 
  private:
+  // The chart of a macro step.
+  Chart(Chart& outer, const xml::Element& chart, uint32_t node)
+      : import_(outer.import_),
+        document_(outer.document_),
+        chart_(chart),
+        pou_(outer.pou_),
+        name_(outer.name_),
+        outer_(&outer),
+        own_prefix_(outer.own_prefix_ + std::to_string(node) + "_") {}
+
   using Steps = std::vector<uint32_t>;  // nodes
   // What must be active before an element can begin: all steps of one of the sets.
   struct Ways {
@@ -64,6 +75,12 @@ class Chart {
   struct Definition {
     std::string name;
     const xml::Element* element;  // <transition> with bodies, <inline>, or the <condition> with wires
+  };
+  struct Macro {
+    uint32_t node;
+    std::unique_ptr<Chart> chart;
+    // Nodes of its chart; UINT32_MAX: nothing leads to the macro, or nothing stands behind it.
+    uint32_t entry = UINT32_MAX, exit = UINT32_MAX;
   };
   // What a transition waits for: one of these.
   struct Condition {
@@ -99,6 +116,13 @@ class Chart {
   void addUnited(Ways& ways, uint32_t node, uint32_t depth);
   void after(uint32_t node, uint32_t transition, uint32_t depth);
   bool spend(uint32_t node, size_t steps);
+  void connect();
+  void writeElements();
+
+  // ---- macro steps (macros.cpp)
+  void connectMacro(uint32_t node);
+  void findEnd(Macro& macro, bool entry);
+  void writeMacro(const Macro& macro);
 
   // ---- steps (sfc.cpp)
   void writeStep(uint32_t node);
@@ -127,6 +151,8 @@ class Chart {
   const xml::Element& chart_;
   const xml::Element& pou_;
   const std::string& name_;
+  Chart* outer_ = nullptr;  // of a macro step's chart
+  std::string own_prefix_;  // in the names of steps and conditions that have none: macro steps share the chart's names
   bool good_ = true;
   size_t spent_ = 0;  // steps in all Ways
   std::vector<ChartNode> nodes_;
@@ -140,6 +166,7 @@ class Chart {
   std::vector<std::vector<uint32_t>> action_blocks_;  // by node, of steps
   std::unordered_map<std::string, const xml::Element*> named_;  // transitions of the POU, in upper case
   std::vector<Definition> definitions_;
+  std::vector<Macro> macros_;
   std::unordered_set<const xml::Element*> defined_;
   std::unordered_map<std::string, std::string> own_actions_;  // by variable
 };

@@ -135,7 +135,9 @@ const xml::Element* Chart::namedTransition(std::string_view name) {
 }
 
 void Chart::define(const std::string& name, const xml::Element& element) {
-  if (defined_.insert(&element).second) definitions_.push_back({name, &element});
+  Chart* whole = this;  // a transition that a macro step names, too, is defined once
+  while (whole->outer_ != nullptr) whole = whole->outer_;
+  if (whole->defined_.insert(&element).second) definitions_.push_back({name, &element});
 }
 
 // What stands in <inline>. False: nothing does, which was reported.
@@ -159,7 +161,7 @@ bool Chart::readBody(const xml::Element& inline_body, const std::string& name, C
 //   fails   <condition><inline><ST/></inline></condition>          E1066
 bool Chart::readCondition(uint32_t node, Condition& out) {
   const xml::Element& transition = *nodes_[node].element;
-  const std::string own = "sfc_condition_" + std::to_string(node);
+  const std::string own = "sfc_condition_" + own_prefix_ + std::to_string(node);
   const xml::Element* condition = document_.child(transition, "condition");
   if (condition == nullptr) {
     report(Diag::ChartNoCondition, transition.loc, {});

@@ -160,18 +160,20 @@ const xml::Element* cfcOf(const Import& import, const xml::Element& body) {
 void findSteps(Import& import, const xml::Element& pou) {
   import.step_names.clear();
   import.renamed_actions.clear();
-  const auto find = [&](const xml::Element& owner) {
+  const auto find = [&](auto& self, const xml::Element& owner) -> void {
     const xml::Element* body = import.document.child(owner, "body");
     const xml::Element* chart = body == nullptr ? nullptr : import.document.child(*body, "SFC");
     for (const xml::Element* e = chart == nullptr ? nullptr : import.document.firstChild(*chart); e != nullptr;
-         e = import.document.next(*e))
+         e = import.document.next(*e)) {
       if (e->name == "step") import.step_names.insert(upper(nameOf(import, *e)));
+      if (e->name == "macroStep") self(self, *e);
+    }
   };
-  find(pou);
+  find(find, pou);
   const xml::Element* actions = import.document.child(pou, "actions");
   for (const xml::Element* e = actions == nullptr ? nullptr : import.document.firstChild(*actions); e != nullptr;
        e = import.document.next(*e))
-    find(*e);
+    find(find, *e);
   for (const xml::Element* e = actions == nullptr ? nullptr : import.document.firstChild(*actions); e != nullptr;
        e = import.document.next(*e))
     if (import.isStepName(nameOf(import, *e))) import.renamed_actions.insert(upper(nameOf(import, *e)));

@@ -122,21 +122,22 @@ void Chart::writeStep(uint32_t node) {
 void Chart::writeStepName(uint32_t node) {
   const xml::Element& element = *nodes_[node].element;
   if (nodes_[node].kind == NodeKind::Wait)
-    import_.out.put(element.loc, "sfc_wait_" + std::to_string(node));
+    import_.out.put(element.loc, "sfc_wait_" + own_prefix_ + std::to_string(node));
   else
     writeName(import_, element, nodes_[node].kind == NodeKind::Jump ? "targetName" : "name");
 }
 
 // A chart with a mistake in its graph is not written at all: what follows from it needs no messages.
 void Chart::write() {
-  readNodes();
-  connectActionBlocks();
-  checkOrder();
-  for (uint32_t i = 0; i < nodes_.size() && good_; ++i)
-    if (nodes_[i].kind == NodeKind::Transition) connectTransition(i);
-  if (!good_) return;
+  connect();
+  if (good_) writeElements();
+}
+
+void Chart::writeElements() {
+  auto macro = macros_.begin();
   for (uint32_t i = 0; i < nodes_.size(); ++i) {
     if (nodes_[i].kind == NodeKind::Step || nodes_[i].kind == NodeKind::Wait) writeStep(i);
+    if (nodes_[i].kind == NodeKind::MacroStep) writeMacro(*macro++);
     if (nodes_[i].kind == NodeKind::Transition) writeTransition(i);
   }
   for (size_t i = 0; i < definitions_.size(); ++i) writeDefinition(definitions_[i]);
