@@ -66,7 +66,7 @@ class Search {
       if (phase_[from] == Phase::New) {
         phase_[from] = Phase::Busy;
         stack.push_back({from, 0, 0});
-      } else if (phase_[from] == Phase::Busy) {
+      } else if (phase_[from] == Phase::Busy && !isKept(from)) {
         breakCircle(stack, from);
       }
     }

@@ -219,48 +219,55 @@ uint32_t Scheduler::nextInput(Frame& frame) const {
   return kNone;
 }
 
-// Settles `root` after all that it reads. kNone, or a box to begin with because the wires lead from it to itself.
-uint32_t Scheduler::walk(uint32_t root) {
-  stack_.clear();
-  stack_.push_back({root, 0, 0});
-  phase_[root] = Phase::Busy;
-  while (!stack_.empty()) {
-    const uint32_t next = nextInput(stack_.back());
-    if (next == kNone) {
-      const uint32_t done = stack_.back().element;
-      stack_.pop_back();
-      phase_[done] = Phase::Settled;
-      settle(done);
-      continue;
+// Settles `root` after all that it reads.
+void Scheduler::visit(uint32_t root) {
+  while (phase_[root] == Phase::New) {  // again when a box in a circle with it had to begin
+    push(root, false);
+    while (!stack_.empty()) {
+      const uint32_t next = nextInput(stack_.back());
+      if (next == kNone) {
+        const uint32_t done = stack_.back().element;
+        stack_.pop_back();
+        phase_[done] = Phase::Settled;
+        settle(done);
+      } else if (phase_[next] == Phase::New && graph_.elements[next].order == 0) {
+        push(next, false);
+      } else if (phase_[next] == Phase::Busy && graph_.elements[next].order == 0 &&
+                 !keepsState(graph_.elements[next])) {  // else its value of the last cycle is read
+        breakCircle(next);
+      }
     }
-    if (phase_[next] == Phase::Settled || graph_.elements[next].order != 0) continue;
-    if (phase_[next] == Phase::New) {
-      phase_[next] = Phase::Busy;
-      stack_.push_back({next, 0, 0});
-      continue;
-    }
-    if (keepsState(graph_.elements[next])) continue;  // its value of the last cycle
-    uint32_t begin = kNone;
-    for (size_t k = stack_.size(); k > 0 && stack_[k - 1].element != next; --k)
-      if (keepsState(graph_.elements[stack_[k - 1].element])) begin = stack_[k - 1].element;
-    for (const Frame& frame : stack_) phase_[frame.element] = Phase::New;
-    if (begin == kNone) {
-      diagnostics_.report(Diag::WireLoop, graph_.elements[next].loc);
-      phase_[next] = Phase::Settled;
-      const DiagramElement& e = graph_.elements[next];
-      for (uint32_t s = graph_.first_source[next]; s != kNone; s = graph_.sources[s].next)
-        graph_.sources[s].temporary = newTemporary("wire_" + std::to_string(e.number), e.loc);
-      return next == root ? kNone : root;
-    }
-    return begin;
   }
-  return kNone;
 }
 
-void Scheduler::visit(uint32_t root) {
-  while (phase_[root] == Phase::New) {
-    for (uint32_t first = root; first != kNone;) first = walk(first);
+void Scheduler::push(uint32_t element, bool begins) {
+  phase_[element] = Phase::Busy;
+  stack_.push_back({element, 0, 0, begins});
+}
+
+// The wires lead from `first` to itself, over the elements above it on the stack. A box that keeps a value begins: the
+// one that already had to, or the last before `first`. What stands above `first` is taken up again behind it.
+//   fails   a circle without such a box        E1006
+void Scheduler::breakCircle(uint32_t first) {
+  uint32_t keeper = kNone, begun = kNone;
+  for (;;) {
+    const Frame frame = stack_.back();
+    stack_.pop_back();
+    phase_[frame.element] = Phase::New;
+    if (frame.element == first) break;
+    if (keepsState(graph_.elements[frame.element])) keeper = frame.element;
+    if (frame.begins) begun = frame.element;
   }
+  const uint32_t begin = begun != kNone ? begun : keeper;
+  if (begin != kNone) {
+    if (!stack_.empty()) --stack_.back().wire;  // of `first`, which comes next
+    return push(begin, true);
+  }
+  const DiagramElement& e = graph_.elements[first];
+  diagnostics_.report(Diag::WireLoop, e.loc);
+  phase_[first] = Phase::Settled;
+  for (uint32_t s = graph_.first_source[first]; s != kNone; s = graph_.sources[s].next)
+    graph_.sources[s].temporary = newTemporary("wire_" + std::to_string(e.number), e.loc);
 }
 
 void Scheduler::settle(uint32_t element) {

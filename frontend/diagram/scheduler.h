@@ -28,6 +28,7 @@ class Scheduler {
   enum class Phase : uint8_t { New, Busy, Settled };
   struct Frame {
     uint32_t element, pin, wire;
+    bool begins;  // out of turn, because wires lead from it to itself
   };
 
   void checkCoils();
@@ -35,7 +36,8 @@ class Scheduler {
 
   // ---- the walk
   void visit(uint32_t root);
-  uint32_t walk(uint32_t root);
+  void push(uint32_t element, bool begins);
+  void breakCircle(uint32_t first);
   uint32_t nextInput(Frame& frame) const;
   void settle(uint32_t element);
 
