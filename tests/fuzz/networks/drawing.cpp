@@ -103,15 +103,17 @@ uint64_t Drawer::input(const std::string& text, bool negated) {
 bool Drawer::contactable(int number) const {
   const Node& n = node(number);
   if (n.type != Type::Bool) return false;
-  if (n.kind == NodeKind::Leaf) return n.uses < 2;
+  const auto isLeaf = [&](int leaf) {  // a shared one has a wire, which makes one network of those who read it
+    return node(leaf).kind == NodeKind::Leaf && node(leaf).uses < 2;
+  };
+  if (n.kind == NodeKind::Leaf) return isLeaf(number);
   if (n.shared()) return false;
   switch (n.kind) {
     case NodeKind::Not:
-    case NodeKind::Edge: return node(n.operands[0]).kind == NodeKind::Leaf;
+    case NodeKind::Edge: return isLeaf(n.operands[0]);
     case NodeKind::Operator:
       if (n.text == "AND" || n.text == "OR") return contactable(n.operands[0]) && contactable(n.operands[1]);
-      return n.text != "XOR" && node(n.operands[0]).kind == NodeKind::Leaf &&
-             node(n.operands[1]).kind == NodeKind::Leaf;
+      return n.text != "XOR" && isLeaf(n.operands[0]) && isLeaf(n.operands[1]);
     case NodeKind::Leaf:
     case NodeKind::Function:
     case NodeKind::Pin:
