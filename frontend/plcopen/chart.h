@@ -127,6 +127,7 @@ class Chart {
   // ---- steps (sfc.cpp)
   void writeStep(uint32_t node);
   void writeStepName(uint32_t node);
+  void writeStepTimes(const xml::Element& step);
   void writeStepActions(uint32_t node);
   void writeAction(const xml::Element& action);
   void writeTime(const xml::Element& action, std::string_view qualifier);

@@ -11,7 +11,7 @@ namespace {
 
 // Attributes of steps and actions in the addData of CODESYS, by the beginning of their GUID.
 constexpr std::string_view kEntryAction = "a6b08bd8", kActiveAction = "700a583f", kExitAction = "a2621e18",
-                           kDuration = "7d894980";
+                           kMinimum = "cacf1a68", kMaximum = "b693554c";
 
 bool isTimed(std::string_view qualifier) {
   for (const std::string_view word : {"L", "D", "SD", "DS", "SL"})
@@ -35,15 +35,10 @@ const xml::Element* Chart::ownAttribute(const xml::Element& element, std::string
 void Chart::writeTime(const xml::Element& action, std::string_view qualifier) {
   if (!isTimed(qualifier)) return;
   const xml::Attribute* duration = document_.attribute(action, "duration");
-  const bool given = duration != nullptr && !isBlank(duration->raw);
-  const xml::Element* own = given ? nullptr : ownAttribute(action, kDuration);
-  if (!given && own == nullptr) return;  // reported by the parser
-  const std::string time = given ? document_.decoded(*duration) : textOf(import_, *own);
-  import_.out.put(given ? duration->loc : own->loc, time[0] >= '0' && time[0] <= '9' ? ", T#" : ", ");
-  if (given)
-    import_.out.add(document_, *duration);
-  else
-    import_.out.add(document_, *own);
+  if (duration == nullptr || isBlank(duration->raw)) return;  // reported by the parser
+  const std::string time = document_.decoded(*duration);
+  import_.out.put(duration->loc, time[0] >= '0' && time[0] <= '9' ? ", T#" : ", ");
+  import_.out.add(document_, *duration);
 }
 
 // open(L, T#5s, busy); an action whose body stands here, or a variable that no name alone names, gets an ACTION.
@@ -97,23 +92,35 @@ void Chart::writeStepActions(uint32_t node) {
       if (e->name == "action") writeAction(*e);
 }
 
+// (TMIN := T#1s, TMAX := limit): of CODESYS and of Rung's own export.
+void Chart::writeStepTimes(const xml::Element& step) {
+  const xml::Element* exported = dataOf(import_, step, "extension");
+  const char* before = " (";
+  struct Time {
+    const char* attribute;
+    std::string_view guid;
+    const char* word;
+  };
+  for (const auto& [attribute, guid, word] : {Time{"min", kMinimum, "TMIN := "}, Time{"max", kMaximum, "TMAX := "}}) {
+    const xml::Element* own = ownAttribute(step, guid);
+    if (own == nullptr && (exported == nullptr || !hasName(import_, *exported, attribute))) continue;
+    import_.out.put(own == nullptr ? exported->loc : own->loc, before + std::string(word));
+    if (own == nullptr)
+      import_.out.add(document_, *document_.attribute(*exported, attribute));
+    else
+      import_.out.add(document_, *own);
+    before = ", ";
+  }
+  if (before[0] == ',') import_.out.word(")");
+}
+
 // STEP name: actions END_STEP
 void Chart::writeStep(uint32_t node) {
   const xml::Element& step = *nodes_[node].element;
   const bool is_initial = nodes_[node].kind == NodeKind::Step && isTrue(import_, step, "initialStep");
   import_.out.put(step.loc, is_initial ? "INITIAL_STEP " : "STEP ");
   writeStepName(node);
-  // Of Rung's own export: no other editor keeps them.
-  if (const xml::Element* times = dataOf(import_, step, "extension")) {
-    const char* before = " (";
-    for (const auto& [attribute, word] : {std::pair{"min", "TMIN := "}, std::pair{"max", "TMAX := "}}) {
-      if (!hasName(import_, *times, attribute)) continue;
-      import_.out.put(times->loc, before + std::string(word));
-      import_.out.add(document_, *document_.attribute(*times, attribute));
-      before = ", ";
-    }
-    if (before[0] == ',') import_.out.word(")");
-  }
+  writeStepTimes(step);
   import_.out.word(":\n");
   if (nodes_[node].kind == NodeKind::Step) writeStepActions(node);
   import_.out.put(step.end, "END_STEP\n");

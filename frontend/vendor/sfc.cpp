@@ -14,7 +14,8 @@ namespace {
 
 // What the attributes of elements are about, by the beginning of their GUID.
 constexpr std::string_view kName = "{38391c6d", kInitial = "{6844a48e", kMain = "{700a583f", kEntry = "{a6b08bd8",
-                           kExit = "{a2621e18", kParallel = "{23bdaa98", kQualifier = "{e174fc0d";
+                           kExit = "{a2621e18", kParallel = "{23bdaa98", kQualifier = "{e174fc0d",
+                           kMinimum = "{cacf1a68", kMaximum = "{b693554c";
 constexpr size_t kMaxWays = 10'000;  // sets of steps before one transition
 
 using Element = xml::Element;
@@ -212,11 +213,19 @@ void ChartReader::writeAction(const Element& name) {
   if (isStep(archive_.text(name))) out_.word(kActionSuffix);
 }
 
-// STEP name: {entry} a; {active} b; {exit} c; d(N); END_STEP
+// STEP name (TMIN := t, TMAX := u): {entry} a; {active} b; {exit} c; d(N); END_STEP
 void ChartReader::writeStep(const Element& element) {
   out_.put(element.loc, isSet(archive_, element, kInitial) ? "INITIAL_STEP " : "STEP ");
   archive_.write(*attributeOf(archive_, element, kName), out_);
-  out_.word(":\n");
+  const char* before = " (";
+  for (const auto& [guid, word] : {std::pair{kMinimum, "TMIN := "}, std::pair{kMaximum, "TMAX := "}}) {
+    const Element* time = attributeOf(archive_, element, guid);
+    if (time == nullptr) continue;
+    out_.put(time->loc, before + std::string(word));
+    archive_.write(*time, out_);
+    before = ", ";
+  }
+  out_.word(before[0] == ',' ? "):\n" : ":\n");
   static constexpr std::pair<std::string_view, std::string_view> kOwn[] = {
       {kEntry, "{entry} "}, {kMain, "{active} "}, {kExit, "{exit} "}};
   for (const auto& [guid, pragma] : kOwn) {
