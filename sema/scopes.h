@@ -87,6 +87,7 @@ struct LibraryBlock {
   uint32_t file = 0;  // index into Options::libraries
   uint32_t begin = 0, end = 0;
   bool loaded = false;
+  bool qualified = false;  // found by way of its namespace only
 };
 struct LibraryName {
   NameId name;  // as the library spells it

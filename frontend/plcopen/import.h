@@ -35,6 +35,8 @@ struct Import {
   Diagnostics& diagnostics;
   xml::Assembly& out;
   bool bare_texts = false;  // TC6 1.01 and 2.01, in which Beremiz keeps texts without quotes
+  // Names of the library Beremiz that this file uses and does not declare; none in files of other tools.
+  std::vector<std::string_view> beremiz_names = {};
   // FB_Init of the blocks that declare it, by the block's name in upper case, sorted.
   std::vector<std::pair<std::string, const xml::Element*>> initialisers = {};
   std::unordered_set<const xml::Element*> left_out = {};  // resources that repeat the names of an earlier one
@@ -49,6 +51,8 @@ struct Import {
   bool isRenamed(std::string_view action) const {
     return !renamed_actions.empty() && renamed_actions.count(upper(action)) != 0;
   }
+  // "Beremiz." where a type's name means its library.
+  const char* libraryOf(std::string_view type) const;
   bool isLeftOut(const xml::Element& resource) const { return left_out.count(&resource) != 0; }
 };
 

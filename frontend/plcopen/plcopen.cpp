@@ -27,6 +27,7 @@ class ProjectReader {
     return element.parent == xml::kNone ? nullptr : &import_.document.elements[element.parent];
   }
   const xml::Element* resourceOf(const xml::Element& element) const;
+  void findBeremizNames();
   void findInitialisers();
   void leaveOutApplications();
   void addLibraries(const xml::Element& libraries);
@@ -60,6 +61,20 @@ const xml::Element* ProjectReader::resourceOf(const xml::Element& element) const
   const xml::Element* e = parentOf(element);
   while (e != nullptr && e->name != "resource") e = parentOf(*e);
   return e;
+}
+
+// Beremiz and OpenPLC write TC6 1.01 and 2.01, CODESYS and TwinCAT 2.0.
+void ProjectReader::findBeremizNames() {
+  static constexpr std::string_view kNames[] = {"DERIVATIVE", "HYSTERESIS", "INTEGRAL", "LOGGER",
+                                                "LOGLEVEL",   "PID",        "RAMP"};
+  if (!import_.bare_texts) return;
+  std::vector<std::string_view>& names = import_.beremiz_names;
+  names.assign(std::begin(kNames), std::end(kNames));
+  for (const xml::Element& e : import_.document.elements) {
+    const bool is_rung = e.name == "fileHeader" && import_.document.value(e, "productName") == "Rung";
+    if (is_rung) return names.clear();
+    if (e.name == "pou" || e.name == "dataType") std::erase(names, upper(import_.document.value(e, "name")));
+  }
 }
 
 void ProjectReader::findInitialisers() {
@@ -182,6 +197,7 @@ void ProjectReader::noteExtensions() {
 void ProjectReader::run() {
   const xml::Attribute* space = import_.document.attribute(import_.document.elements[0], "xmlns");
   import_.bare_texts = space == nullptr || !space->raw.ends_with("0200");
+  findBeremizNames();
   findInitialisers();
   leaveOutApplications();
   for (const xml::Element& element : import_.document.elements) {

@@ -111,6 +111,12 @@ std::string upper(std::string_view name) {
   return out;
 }
 
+const char* Import::libraryOf(std::string_view type) const {
+  for (const std::string_view block : beremiz_names)
+    if (sameIdentifier(block, type)) return "Beremiz.";
+  return "";
+}
+
 std::string identifierOf(std::string_view name) {
   std::string out;
   for (const char c : name) {

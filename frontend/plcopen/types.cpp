@@ -143,6 +143,7 @@ void writeType(Import& import, const xml::Element& holder, uint32_t depth) {
   if (type->name == "subrangeSigned" || type->name == "subrangeUnsigned") return writeSubrange(import, *type, depth);
   if (sameIdentifier(type->name, "string") || sameIdentifier(type->name, "wstring")) return writeString(import, *type);
   if (type->name == "derived") {
+    import.out.word(import.libraryOf(import.document.value(*type, "name")));
     if (!writeName(import, *type)) import.out.word("INT");
   } else if (type->name == "struct" || type->name == "union") {
     import.out.put(type->loc, type->name == "struct" ? "STRUCT\n" : "UNION\n");

@@ -173,7 +173,12 @@ std::vector<IndexedBlock> indexLibrary(std::string_view text) {
       has_pragma = true;
       std::string_view pragma = scan.token().substr(1);
       while (!pragma.empty() && pragma[0] == ' ') pragma.remove_prefix(1);
-      if (pragma.starts_with("std ")) block.standards = standardsOf(pragma);
+      if (pragma.starts_with("std ")) {
+        const uint8_t standards = standardsOf(pragma);
+        const bool qualified = pragma.find("else qualified") != std::string_view::npos;
+        block.standards = qualified ? kAllStandards : standards;
+        block.qualified = qualified ? kAllStandards & ~standards : 0;
+      }
       if (pragma.find("'qualified_only'") != std::string_view::npos ||
           pragma.find("'strict'") != std::string_view::npos)
         bare = false;
@@ -226,7 +231,7 @@ void indexLibraries(Context& context) {
     for (const IndexedBlock& block : indexLibrary(files[f].text)) {
       if ((block.standards >> standard & 1u) == 0) continue;
       const auto number = static_cast<uint32_t>(libraries.blocks.size());
-      libraries.blocks.push_back({f, block.begin, block.end, false});
+      libraries.blocks.push_back({f, block.begin, block.end, false, (block.qualified >> standard & 1u) != 0});
       for (const std::string_view text : block.names) {
         const NameId spelling = context.names().intern(text);
         const NameId declared = keyOf(context, spelling);
@@ -292,7 +297,7 @@ static Entity findInLibraries(Context& context, NameId key, uint32_t library) {
   for (uint32_t n = first.index; n != 0; n = libraries.names[n].next) {
     LibraryBlock& block = libraries.blocks[libraries.names[n].block];
     const uint32_t from = libraries.library_of_file[block.file];
-    if (library != kNoLibrary && from != library) continue;
+    if (library == kNoLibrary ? block.qualified : from != library) continue;
     if (!block.loaded) {
       load(context, block);
       settleDeclarations(context);

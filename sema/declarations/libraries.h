@@ -11,12 +11,15 @@
 
 namespace rung::sema {
 
+constexpr uint8_t kAllStandards = 7;
+
 // A POU, a TYPE block or a VAR_GLOBAL block, from the pragmas before it to the end of its END_… word.
 struct IndexedBlock {
   uint32_t begin = 0, end = 0;
   std::vector<std::string_view> names;  // the POU; the types and enumeration items; the variables
-  // {std 'iec2 iec3'}: the dialects that have it; bit number: text::Standard.
-  uint8_t standards = 7;
+  // {std 'iec2 iec3'}: the dialects that have it; bit number: text::Standard. {std 'iec2, else qualified'}: the others
+  // have it by its full name.
+  uint8_t standards = kAllStandards, qualified = 0;
 };
 std::vector<IndexedBlock> indexLibrary(std::string_view text);
 
