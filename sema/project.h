@@ -144,6 +144,7 @@ struct Pou {
   PouId owner;                    // of a method or action
   PouId chart;                    // the action or method whose chart this action belongs to
   PouId base;                     // EXTENDS
+  uint32_t base_depth = 0;        // bases of bases
   std::vector<PouId> interfaces;  // IMPLEMENTS; EXTENDS of an interface
   std::vector<PouId> members;     // methods, actions and accessors, in order
   std::vector<uint32_t> properties;

@@ -52,6 +52,7 @@ struct NamedType {
   FileId file;
   State resolved = State::New;
   State cut = State::New;  // looked at by the search for types that contain themselves
+  uint32_t depth = 0;      // of what records hold, when `cut` is Done
   bool library = false;
   bool internal = false;  // INTERNAL of a type; that of a POU is its access
   RegionId region;

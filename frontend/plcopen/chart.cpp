@@ -86,10 +86,13 @@ void Chart::addWaitingSteps() {
       const uint32_t from = wires_[w].from;
       if (nodes_[from].kind != NodeKind::Transition && nodes_[from].kind != NodeKind::SelectionConvergence) continue;
       const auto wait = static_cast<uint32_t>(nodes_.size());
+      const auto behind = std::find(behind_[from].begin(), behind_[from].end(), i);
+      if (behind == behind_[from].end()) continue;  // wired twice
+      *behind = wait;
       nodes_.push_back({nodes_[from].element, NodeKind::Wait, 0, 0});
       behind_.push_back({i});
-      *std::find(behind_[from].begin(), behind_[from].end(), i) = wait;
-      wires_[w].from = wait;
+      for (uint32_t same = w; same < nodes_[i].end_wire; ++same)
+        if (wires_[same].from == from) wires_[same].from = wait;
     }
   }
 }

@@ -9,6 +9,8 @@
 namespace rung::sema {
 
 inline constexpr uint32_t kMaxDeclarationDepth = 500;
+inline constexpr uint32_t kMaxTypeDepth =
+    1000;  // structures and blocks inside each other, arrays of arrays, bases of bases
 
 // The same project seen from another place.
 inline Context at(Context& context, PouId pou, FileId file, bool library, RegionId region = {}) {
@@ -133,6 +135,7 @@ inline constexpr uint64_t kMaxImageBytes = uint64_t{1} << 24;
 
 // ---- types.cpp
 void resolveNamed(Context& context, TypeId type);
+void reportTooDeep(Context& context, Loc loc, const char* what);
 TypeId lookUpType(Context& context, NameId name, Loc loc = {});
 
 // ---- settle.cpp

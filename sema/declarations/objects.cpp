@@ -204,7 +204,20 @@ void resolveHeader(Context& context, PouId id) {
     const TypeExprId written = context.tree().list(decl.bases)[i];
     const PouId base = objectNamed(there, written, is_interface);
     if (!base) continue;
+    if (context.scopes.depth > kMaxDeclarationDepth) {
+      there.report(Diag::DeclarationsTooDeep, context.tree().loc(written),
+                   {context.names().text(project.pou(id).name)});
+      continue;
+    }
+    ++context.scopes.depth;
     resolveHeader(context, base);
+    --context.scopes.depth;
+    const uint32_t depth = project.pou(base).base_depth + 1;
+    if (depth > kMaxTypeDepth) {
+      reportTooDeep(there, context.tree().loc(written), "bases");
+      continue;
+    }
+    project.pou(id).base_depth = std::max(project.pou(id).base_depth, depth);
     const std::string_view name = context.names().text(project.pou(base).name);
     if (project.pou(base).header == Pou::Header::Busy) {
       there.report(Diag::ExtendsItself, context.tree().loc(written), {context.names().text(project.pou(id).name)});

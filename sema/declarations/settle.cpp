@@ -1,5 +1,7 @@
 // Settles what was declared: resolves types, POUs and lists, cuts types that contain themselves, lays everything out
 // and checks initial values. Runs after collecting the files, and again whenever a library declaration was read.
+#include <algorithm>
+
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {
@@ -9,9 +11,10 @@ using types::TypeKind;
 
 namespace {
 
-// The record that is stored in place in a value of this type; none behind pointers.
-TypeId heldRecord(const Context& context, TypeId type) {
-  for (;;) {
+// The record that is stored in place in a value of this type; none behind pointers. `depth` grows by the arrays and
+// other names around it.
+TypeId heldRecord(const Context& context, TypeId type, uint32_t& depth) {
+  for (;; ++depth) {
     const TypeInfo& info = context.types().info(type);
     if (info.kind == TypeKind::Record) return type;
     if (info.kind != TypeKind::Alias && info.kind != TypeKind::Array) return {};
@@ -21,7 +24,7 @@ TypeId heldRecord(const Context& context, TypeId type) {
 
 struct CycleSearch {
   Context& context;
-  // An explicit stack: blocks may be nested deeper than the machine's stack likes.
+  // An explicit stack: how deep blocks are nested is known at its end.
   struct Step {
     TypeId record;
     uint32_t field;
@@ -62,16 +65,26 @@ struct CycleSearch {
       const uint32_t index = top.field++;
       types::Field& field = info.fields[index];
       if (field.by_reference) continue;
-      const TypeId held = heldRecord(context, field.type);
+      uint32_t depth = 1;
+      const TypeId held = heldRecord(context, field.type, depth);
       NamedType* inner = held ? context.scopes.named(held) : nullptr;
-      if (inner == nullptr || inner->cut == State::Done) continue;
-      if (inner->cut == State::Busy) {
-        report(held, index);
-        field.type = types::kError;
-        context.project.var(named.fields[index]).type = types::kError;
+      if (inner == nullptr) continue;
+      if (inner->cut == State::New) {
+        --top.field;  // again, when its own depth is known
+        enter(held);
         continue;
       }
-      enter(held);
+      depth += inner->depth;
+      if (inner->cut == State::Busy) {
+        report(held, index);
+      } else if (depth > kMaxTypeDepth) {
+        reportTooDeep(context, context.project.var(named.fields[index]).loc, "structures and blocks");
+      } else {
+        named.depth = std::max(named.depth, depth);
+        continue;
+      }
+      field.type = types::kError;
+      context.project.var(named.fields[index]).type = types::kError;
     }
   }
 
@@ -84,7 +97,8 @@ struct CycleSearch {
 
 // Resolves a type and all that it holds, with a stack of its own.
 void resolveHeld(Context& context, TypeId type) {
-  const TypeId record = heldRecord(context, type);
+  uint32_t depth = 0;
+  const TypeId record = heldRecord(context, type, depth);
   NamedType* named = record ? context.scopes.named(record) : nullptr;
   if (named == nullptr || named->cut != State::New) return;
   CycleSearch search{context, {}};

@@ -402,6 +402,12 @@ TypeId resolveWritten(Context& context, TypeExprId id) {
 
 }  // namespace
 
+// Forbids types that are nested so deep that a walk over them would exhaust the stack.
+//   fails   1001 structures inside each other          E0220
+void reportTooDeep(Context& context, Loc loc, const char* what) {
+  context.report(Diag::TooDeep, loc, {what, std::to_string(kMaxTypeDepth)});
+}
+
 TypeId lookUpType(Context& context, NameId name, Loc loc) {
   if (const TypeId elementary = context.types().elementary(name)) return elementary;
   return typeOf(context, findType(context, name, loc));
@@ -460,10 +466,16 @@ void resolveNamed(Context& context, TypeId type) {
     case TypeExprKind::Text:
     case TypeExprKind::Array:
     case TypeExprKind::Pointer: {
-      const TypeId target = closedType(there, named->type);
+      TypeId target = closedType(there, named->type);
       TypeId step = target;  // an alias that leads back here was reported
       while (step != type && context.types().info(step).kind == TypeKind::Alias) step = context.types().info(step).base;
-      context.types().edit(type).base = step == type ? types::kError : target;
+      uint32_t depth = 0;
+      for (TypeId inner = target; depth <= kMaxTypeDepth; inner = context.types().info(inner).base, ++depth) {
+        const TypeKind kind = context.types().info(inner).kind;
+        if (inner == type || (kind != TypeKind::Alias && kind != TypeKind::Array)) break;
+      }
+      if (depth > kMaxTypeDepth) reportTooDeep(there, context.tree().loc(named->type), "arrays and names of types");
+      context.types().edit(type).base = step == type || depth > kMaxTypeDepth ? types::kError : target;
       break;
     }
   }
