@@ -42,7 +42,7 @@ struct BodyState {
     uint32_t block;
   };
   std::vector<LoopControl> loop_controls;
-  uint32_t stmt_depth = 0;
+  uint32_t stmt_depth = 0, elsif_depth = 0;
   uint32_t block = 0;                   // the statement list at hand
   std::vector<uint32_t> block_parents;  // of each statement list of the body; filled only with labels in use
   std::vector<LabelUse> labels, jumps;
@@ -256,5 +256,6 @@ std::optional<int64_t> constantInteger(Context& context, ExprId expr);
 // Above the limits of the parser, which speaks first; they bound the trees of schedulers.
 constexpr uint32_t kMaxExprDepth = 2100;
 constexpr uint32_t kMaxStmtDepth = 2100;
+constexpr uint32_t kMaxElsifDepth = 20'000;  // each ELSIF stands in the ELSE of the branch before it
 
 }  // namespace rung::sema

@@ -159,8 +159,13 @@ void checkCallStatement(Context& context, StmtId id) {
 
 bool checkIf(Context& context, const IfStmt& node) {
   bool falls = false;
+  const uint32_t elsifs_around = context.body->elsif_depth;
   for (uint32_t i = 0; i < node.branches.count; ++i) {
     IfBranch branch = context.tree().list(node.branches)[i];
+    if (i > 0 && ++context.body->elsif_depth > kMaxElsifDepth) {
+      context.report(Diag::StatementsTooDeep, context.tree().begin(branch.condition), {std::to_string(kMaxElsifDepth)});
+      break;
+    }
     checkCondition(context, branch.condition,
                    node.h.op == kConditionalOp ? "used as a condition"
                    : i == 0                    ? "used as the condition of IF"
@@ -170,6 +175,7 @@ bool checkIf(Context& context, const IfStmt& node) {
     falls |= checkStatements(context, branch.body);
   }
   const bool otherwise = checkStatements(context, node.otherwise);
+  context.body->elsif_depth = elsifs_around;
   return falls || otherwise;
 }
 
