@@ -103,6 +103,7 @@ class Chart {
   // ---- steps (sfc.cpp)
   void writeStep(uint32_t node);
   void writeStepName(uint32_t node);
+  void writePlace(const xml::Element& element);
   void writeStepActions(uint32_t node);
   void writeAction(const xml::Element& action);
   void writeTime(const xml::Element& action, std::string_view qualifier);

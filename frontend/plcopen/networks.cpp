@@ -238,17 +238,7 @@ void Writer::writeOrder(const Element& e) {
 }
 
 void Writer::writePlace(const Element& e) {
-  const Element* position = document_.child(e, "position");
-  if (position == nullptr) return;
-  const auto number = [&](const Element& from, std::string_view name) {
-    const std::string text = value(from, name);
-    double v = 0;
-    if (std::from_chars(text.data(), text.data() + text.size(), v).ec != std::errc{} || !std::isfinite(v)) v = 0;
-    return std::to_string(std::lround(std::clamp(v, -1e9, 1e9)));
-  };
-  const std::string size = number(e, "width") + ", " + number(e, "height");
-  out_.put(position->loc, " AT " + number(*position, "x") + ", " + number(*position, "y") +
-                              (size == "0, 0" ? std::string() : ", " + size));
+  if (const std::string place = placeOf(document_, e); !place.empty()) out_.put(e.loc, place);
 }
 
 // ( expression )
@@ -493,6 +483,20 @@ void Writer::writeCondition(const Diagram& diagram) {
 }
 
 }  // namespace
+
+std::string placeOf(const xml::Document& document, const xml::Element& e) {
+  const xml::Element* position = document.child(e, "position");
+  if (position == nullptr) return {};
+  const auto number = [&](const xml::Element& from, std::string_view name) {
+    const std::string text = document.value(from, name);
+    double v = 0;
+    if (std::from_chars(text.data(), text.data() + text.size(), v).ec != std::errc{} || !std::isfinite(v)) v = 0;
+    return std::to_string(std::lround(std::clamp(v, -1e9, 1e9)));
+  };
+  const std::string size = number(e, "width") + ", " + number(e, "height");
+  return " AT " + number(*position, "x") + ", " + number(*position, "y") +
+         (size == "0, 0" ? std::string() : ", " + size);
+}
 
 void writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram, xml::Assembly& out) {
   Writer writer(sources, document, out);

@@ -18,6 +18,9 @@ struct Diagram {
   std::string target = {};
 };
 
+// ` AT 100, 40, 60, 30`; empty where the element has no place.
+std::string placeOf(const xml::Document& document, const xml::Element& element);
+
 void writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram, xml::Assembly& out);
 
 }  // namespace rung::plcopen

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "frontend/plcopen/chart.h"
+#include "frontend/plcopen/networks.h"
 #include "frontend/source/names.h"
 
 namespace rung::plcopen {
@@ -78,6 +79,14 @@ void Chart::writeAction(const xml::Element& action) {
     import_.out.put(indicator->loc, ", ");
     import_.out.add(document_, *indicator);
   }
+  // Of Rung's own export: elsewhere an action has one.
+  const xml::Element* own = dataOf(import_, action, "extension");
+  for (const xml::Element* e = own == nullptr ? nullptr : document_.firstChild(*own); e != nullptr;
+       e = document_.next(*e)) {
+    if (e->name != "indicator" || !hasName(import_, *e)) continue;
+    import_.out.put(e->loc, ", ");
+    writeName(import_, *e);
+  }
   import_.out.word(");\n");
 }
 
@@ -103,6 +112,7 @@ void Chart::writeStep(uint32_t node) {
   const bool is_initial = nodes_[node].kind == NodeKind::Step && isTrue(import_, step, "initialStep");
   import_.out.put(step.loc, is_initial ? "INITIAL_STEP " : "STEP ");
   writeStepName(node);
+  if (nodes_[node].kind == NodeKind::Step) writePlace(step);
   // Of Rung's own export: no other editor keeps them.
   if (const xml::Element* times = dataOf(import_, step, "extension")) {
     const char* before = " (";
@@ -117,6 +127,10 @@ void Chart::writeStep(uint32_t node) {
   import_.out.word(":\n");
   if (nodes_[node].kind == NodeKind::Step) writeStepActions(node);
   import_.out.put(step.end, "END_STEP\n");
+}
+
+void Chart::writePlace(const xml::Element& element) {
+  if (const std::string place = placeOf(document_, element); !place.empty()) import_.out.put(element.loc, place);
 }
 
 void Chart::writeStepName(uint32_t node) {
