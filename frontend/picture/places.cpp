@@ -36,6 +36,43 @@ int32_t unitOf(const Body& body, const Plan& plan) {
   return highest <= 12 && rows.size() > 1 && least <= 4 ? kCell : 1;
 }
 
+// Pins stand closer or farther here than in the file, so that a variable beside its pin would get a wire with a corner:
+// it moves to the row of the pin, if that is near and free.
+void snapToPins(const Body& body, Plan& plan) {
+  constexpr int32_t kNear = 30;
+  std::vector<uint32_t> uses(plan.items.size());
+  for (const Link& link : plan.links) {
+    ++uses[link.from.item];
+    ++uses[link.to.item];
+  }
+  const auto moves = [&](uint32_t item) {
+    const ElementKind kind = body.elements[plan.items[item].element].kind;
+    return uses[item] == 1 && (kind == ElementKind::Input || kind == ElementKind::Output ||
+                               kind == ElementKind::Connector || kind == ElementKind::Continuation);
+  };
+  std::vector<const Link*> near;
+  for (const Link& link : plan.links)
+    if (moves(link.from.item) != moves(link.to.item)) near.push_back(&link);
+  if (near.size() * plan.items.size() > 20'000'000) return;
+  const auto pinRow = [&](const Link* link) { return plan.place(moves(link->from.item) ? link->to : link->from).y; };
+  std::stable_sort(near.begin(), near.end(), [&](const Link* a, const Link* b) { return pinRow(a) < pinRow(b); });
+  for (const bool upwards : {true, false})  // who moves up makes room from the top on, who moves down from the bottom
+    for (size_t k = 0; k < near.size(); ++k) {
+      const Link& link = *near[upwards ? k : near.size() - 1 - k];
+      const bool reads = moves(link.from.item);
+      Item& item = plan.items[reads ? link.from.item : link.to.item];
+      const int32_t by = plan.place(reads ? link.to : link.from).y - plan.place(reads ? link.from : link.to).y;
+      if (by == 0 || (by < 0) != upwards || std::abs(by) > kNear) continue;
+      Rect place = item.place();
+      place.y += by;
+      const bool free = std::none_of(plan.items.begin(), plan.items.end(), [&](const Item& other) {
+        return &other != &item &&
+               other.place().overlaps({place.x - kGrid, place.y, place.width + 2 * kGrid, place.height});
+      });
+      if (free) item.origin.y += by;
+    }
+}
+
 }  // namespace
 
 bool takePlaces(const Body& body, Plan& plan) {
@@ -95,6 +132,7 @@ bool takePlaces(const Body& body, Plan& plan) {
     item.terminals[0].length = (bottom - top + kGrid - 1) / kGrid * kGrid;
     item.area = {0, 0, 0, item.terminals[0].length};
   }
+  snapToPins(body, plan);
   std::vector<uint32_t> order(count);
   for (uint32_t k = 0; k < count; ++k) order[k] = k;
   std::stable_sort(order.begin(), order.end(),
