@@ -33,7 +33,11 @@ class ChartExport {
     bool jumps;
   };
 
-  uint32_t indexOf(const Ident& step) const { return index_.at(to_.names.key(step.name).index); }
+  // Of a step that there is; sema reports the others.
+  uint32_t indexOf(const Ident& step) const {
+    const auto found = index_.find(to_.names.key(step.name).index);
+    return found == index_.end() ? 0 : found->second;
+  }
   void plan();
   std::string_view text(const SfcExpr& e) const {
     return to_.source->cut(to_.source->at(e.begin), to_.source->at(e.end));
@@ -339,7 +343,6 @@ void ChartExport::run() {
 void exportChart(Export& to, const PouDecl& pou) { ChartExport(to, pou).run(); }
 
 void exportTransitions(Export& to, const PouDecl& pou) {
-  if (pou.body_kind != BodyKind::Sfc) return;
   bool any = false;
   for (const SfcTransition& t : to.tree.list(pou.transitions)) {
     if (!t.body || !t.name.name) continue;

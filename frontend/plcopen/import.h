@@ -54,6 +54,9 @@ struct Import {
 
 // ---- text.cpp: reading and writing names, values and texts
 
+// The <text> of Rung's own addData, which says all of `owner`; null: there is none.
+const xml::Element* ownTextOf(const Import& import, const xml::Element& owner);
+
 // The content of the first addData of `owner` whose name ends with this kind: "method" of
 // http://www.3s-software.com/plcopenxml/method. Null: there is none.
 const xml::Element* dataOf(const Import& import, const xml::Element& owner, std::string_view kind);

@@ -133,6 +133,7 @@ bool Writer::negatedByVendor(const Element& e) const {
 void Writer::collect(const Element& body) {
   std::vector<uint64_t> turns;
   for (const Element* e = document_.firstChild(body); e != nullptr; e = document_.next(*e)) {
+    if (e->name == "step") by_number_.emplace(numberOf(*e), e);
     if (!isElement(e->name)) continue;
     elements_.push_back(e);
     by_number_.emplace(numberOf(*e), e);
@@ -318,6 +319,13 @@ void Writer::writePins(const Element& e) {
   out_.word("]");
 }
 
+// TON and TOF by their symbols, T---0 and 0---T. IEC 61131-3 ed. 3 table 46, 2d and 3d.
+std::string_view timerOf(std::string_view symbol) {
+  if (symbol.size() < 3 || symbol.find_first_not_of('-', 1) != symbol.size() - 1) return {};
+  if (symbol.front() == 'T' && symbol.back() == '0') return "TON";
+  return symbol.front() == '0' && symbol.back() == 'T' ? "TOF" : std::string_view{};
+}
+
 // What the box calls, and its instance. A method is called by way of its instance.
 void Writer::writeBoxName(const Element& e) {
   const xml::Attribute* type = document_.attribute(e, "typeName");
@@ -333,7 +341,10 @@ void Writer::writeBoxName(const Element& e) {
     out_.put(type->loc, instance_name + "." + type_name.substr(dot == std::string::npos ? 0 : dot + 1));
     return;
   }
-  if (type != nullptr && !type_name.empty()) {
+  if (const std::string_view timer = timerOf(type_name); !timer.empty()) {
+    out_.word(" ");
+    out_.put(type->loc, timer);
+  } else if (type != nullptr && !type_name.empty()) {
     out_.word(" ");
     out_.add(document_, *type);
   }
@@ -387,6 +398,14 @@ void Writer::writeElement(const Element& e) {
     return;
   }
   writeNetworkOf(e);
+  if (kind == "step") {
+    out_.word("input ");
+    writeNumber(e);
+    out_.word(" (");
+    if (const xml::Attribute* name = document_.attribute(e, "name")) out_.add(document_, *name);
+    out_.word(".X);\n");
+    return;
+  }
   if (kind == "block") {
     writeBox(e);
     out_.word(";\n");
@@ -458,7 +477,8 @@ void Writer::writeCondition(const Diagram& diagram) {
         wanted.push_back(number);
     }
   };
-  want(*diagram.condition);
+  if (diagram.condition != nullptr) want(*diagram.condition);
+  for (const Element* end : diagram.ends) wanted.push_back(numberOf(*end));
   std::unordered_map<uint64_t, bool> seen;
   std::vector<const Element*> used;
   for (size_t k = 0; k < wanted.size(); ++k) {
@@ -466,6 +486,7 @@ void Writer::writeCondition(const Diagram& diagram) {
     if (found == by_number_.end() || !seen.emplace(wanted[k], true).second) continue;
     used.push_back(found->second);
     const Element& e = *found->second;
+    if (e.name == "step") continue;
     if (const Element* point = document_.child(e, "connectionPointIn")) want(*point);
     for (const char* list : {"inputVariables", "inOutVariables"}) {
       const Element* pins = document_.child(e, list);
@@ -475,8 +496,9 @@ void Writer::writeCondition(const Diagram& diagram) {
     }
   }
   std::sort(used.begin(), used.end());
-  out_.put(diagram.condition->loc, "{network LD}\n");
+  out_.put((diagram.condition != nullptr ? diagram.condition : diagram.ends[0])->loc, "{network LD}\n");
   for (const Element* e : used) writeElement(*e);
+  if (diagram.condition == nullptr) return out_.word("{end_network}\n");
   out_.put(diagram.condition->loc, "output " + std::to_string(kOwnNumbers - 1) + " (" + diagram.target + ") := ");
   writeWires(*diagram.condition);
   out_.put(diagram.condition->end, ";\n{end_network}\n");
@@ -500,7 +522,7 @@ std::string placeOf(const xml::Document& document, const xml::Element& e) {
 
 void writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram, xml::Assembly& out) {
   Writer writer(sources, document, out);
-  if (diagram.condition != nullptr)
+  if (diagram.condition != nullptr || !diagram.ends.empty())
     writer.writeCondition(diagram);
   else
     writer.writeBody(diagram);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "frontend/syntax/diagram.h"
 #include "frontend/xml/assembly.h"
@@ -16,6 +17,8 @@ struct Diagram {
   // to it; otherwise the body does, by a coil or variable of the name or, in an <inline>, whatever name its result has.
   const xml::Element* condition = nullptr;
   std::string target = {};
+  // Of a chart: these coils and variables with all that leads to them; steps give their flags.
+  std::vector<const xml::Element*> ends = {};
 };
 
 // ` AT 100, 40, 60, 30`; empty where the element has no place.

@@ -154,6 +154,25 @@ void Chart::write() {
     if (nodes_[i].kind == NodeKind::Transition) writeTransition(i);
   }
   for (size_t i = 0; i < definitions_.size(); ++i) writeDefinition(definitions_[i]);
+  writeStepFlags();
+}
+
+// Coils and variables that are wired to steps, in the chart: a step of its own that never ends does what they say,
+// behind all others. IEC 61131-3 ed. 3 table 54, 3b.
+void Chart::writeStepFlags() {
+  std::vector<const xml::Element*> ends;
+  for (const ChartNode& node : nodes_) {
+    const bool writes = node.element->name == "coil" || node.element->name == "outVariable";
+    if (writes && node.first_wire != node.end_wire) ends.push_back(node.element);
+  }
+  if (ends.empty()) return;
+  const std::string number = std::to_string(++import_.own_action_count);
+  import_.out.put(ends[0]->loc, "INITIAL_STEP sfc_flags_" + number + ": sfc_action_" + number +
+                                    "(N); END_STEP\nACTION sfc_action_" + number + ":\n");
+  Diagram diagram{chart_, NetworkLanguage::Ladder};
+  diagram.ends = ends;
+  writeNetworks(import_.sources, document_, diagram, import_.out);
+  import_.out.put(ends[0]->loc, "END_ACTION\n");
 }
 
 void writeChart(Import& import, const xml::Element& chart, const xml::Element& pou, const std::string& name) {
