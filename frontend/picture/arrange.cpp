@@ -47,7 +47,6 @@ class Arranger {
   uint32_t alignedLink(uint32_t item) const;
   void setX();
   void setAttached();
-  void setRails(int32_t left, int32_t right);
 
   const Body& body_;
   Plan& plan_;
@@ -234,7 +233,7 @@ void Arranger::setX() {
   for (const uint32_t item : order_)
     plan_.items[item].origin.x = standsAlone(item) ? (ladder() ? kGap : 0) : at[nodes_[item].column];
   setAttached();
-  setRails(0, x);
+  fitRails(plan_, 0, x);
 }
 
 void Arranger::setAttached() {
@@ -248,25 +247,6 @@ void Arranger::setAttached() {
       const Point end = plan_.place(link.from);
       plan_.items[to].origin = {end.x + kGrid - plan_.terminal(link.to).at.x, end.y - plan_.terminal(link.to).at.y};
     }
-  }
-}
-
-// From above the first wire to below the last.
-void Arranger::setRails(int32_t left, int32_t right) {
-  for (uint32_t k = 0; k < plan_.items.size(); ++k) {
-    Item& item = plan_.items[k];
-    if (item.terminals.empty() || item.terminals[0].length == 0) continue;
-    const bool gives = item.terminals[0].output;
-    int32_t top = INT32_MAX, bottom = INT32_MIN;
-    for (const Link& link : plan_.links) {
-      if ((gives ? link.from.item : link.to.item) != k) continue;
-      const int32_t y = plan_.place(gives ? link.to : link.from).y;
-      top = std::min(top, y);
-      bottom = std::max(bottom, y);
-    }
-    item.terminals[0].length = top > bottom ? 0 : bottom - top + 2 * kGap;
-    item.area = {0, 0, 0, item.terminals[0].length};
-    item.origin = top > bottom ? Point{} : Point{gives ? left : right, top - kGap};
   }
 }
 

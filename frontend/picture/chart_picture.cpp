@@ -13,13 +13,13 @@ constexpr int32_t kRow = 20, kToActions = 20, kEdge = 20, kBar = 12;
 constexpr size_t kConditionWidth = 48;
 
 struct Action {
-  std::string qualifier, name;
+  std::string qualifier, name, indicator;
 };
 struct StepText {
   std::string name, times;
   std::vector<Action> actions;
-  int32_t width, height;                // of its box
-  int32_t qualifier_width, name_width;  // of the columns of its actions
+  int32_t width, height;                                 // of its box
+  int32_t qualifier_width, name_width, indicator_width;  // of the columns of its actions; the last one may be none
 };
 
 const char* defaultWord(SfcQualifier q) {
@@ -61,13 +61,18 @@ class ChartText {
 
 StepText ChartText::step(uint32_t index) const {
   const SfcStep& s = tree_.list(pou_.steps)[index];
-  StepText text{std::string(names_.text(s.name.name)), {}, {}, 0, 0, 0, 0};
+  StepText text{std::string(names_.text(s.name.name)), {}, {}, 0, 0, 0, 0, 0};
   if (s.min.value) text.times += "min " + exprText(s.min.value);
   if (s.max.value) text.times += (text.times.empty() ? "max " : ", max ") + exprText(s.max.value);
   for (const SfcAssociation& a : tree_.list(s.actions)) {
     Action action{std::string(a.word ? names_.text(a.word) : defaultWord(a.qualifier)),
-                  std::string(names_.text(a.action.name))};
+                  std::string(names_.text(a.action.name)),
+                  {}};
     if (a.time.value) action.qualifier += " " + exprText(a.time.value);
+    for (const Ident& indicator : tree_.list(a.indicators))
+      action.indicator += (action.indicator.empty() ? "" : ", ") + std::string(names_.text(indicator.name));
+    if (!action.indicator.empty())
+      text.indicator_width = std::max(text.indicator_width, textWidth(action.indicator) + 12);
     text.qualifier_width = std::max(text.qualifier_width, textWidth(action.qualifier) + 12);
     text.name_width = std::max(text.name_width, textWidth(action.name) + 12);
     text.actions.push_back(std::move(action));
@@ -123,6 +128,10 @@ void drawStep(Svg& svg, const ChartText& texts, const SfcStep& step, const Chart
     svg.rect({middle, y, text.name_width, kRow}, "w");
     svg.text({x + text.qualifier_width / 2, y + 14}, Anchor::Middle, action.qualifier);
     svg.text({middle + 6, y + 14}, Anchor::Start, action.name);
+    if (text.indicator_width > 0) {
+      svg.rect({middle + text.name_width, y, text.indicator_width, kRow}, "w");
+      svg.text({middle + text.name_width + 6, y + 14}, Anchor::Start, action.indicator);
+    }
     y += kRow;
   }
 }
@@ -160,7 +169,7 @@ ChartPlan measureChart(const Tree& tree, const Names& names, const PouDecl& pou)
     const StepText text = texts.step(k);
     ChartNode node{true, k, {-text.width / 2, 0, text.width, text.height}, text.height, {}};
     if (!text.actions.empty()) {
-      node.area.width += kToActions + text.qualifier_width + text.name_width;
+      node.area.width += kToActions + text.qualifier_width + text.name_width + text.indicator_width;
       node.area.height = std::max(text.height, 5 + static_cast<int32_t>(text.actions.size()) * kRow);
     }
     plan.nodes.push_back(node);

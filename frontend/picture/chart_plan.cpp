@@ -11,9 +11,8 @@
 namespace rung::picture {
 namespace {
 
-constexpr uint32_t kNone = UINT32_MAX;
-constexpr int32_t kGap = 30;      // between branches
-constexpr int32_t kStretch = 15;  // of vertical line between a node and the next
+constexpr uint32_t kNone = kNoNode;
+constexpr int32_t kGap = 30;  // between branches
 
 struct Open {  // a line that leads on to a node below
   Point at;
@@ -35,12 +34,7 @@ class ChartArranger {
   void run();
 
  private:
-  struct Edge {
-    uint32_t to;  // kNone: of a step that there is not
-    NameId name;  // of the step, for a jump
-    bool back = false;
-  };
-  void readEdges();
+  using Edge = ChartEdge;
   void findOrder();
   void findDominators();
   uint32_t common(uint32_t a, uint32_t b) const;
@@ -69,33 +63,6 @@ class ChartArranger {
   std::vector<std::vector<uint32_t>> below_;
   std::vector<Block> blocks_;
 };
-
-void ChartArranger::readEdges() {
-  const auto steps = tree_.list(pou_.steps);
-  const auto transitions = tree_.list(pou_.transitions);
-  std::unordered_map<uint32_t, uint32_t> step_of;  // by the name's key
-  for (uint32_t k = 0; k < steps.size(); ++k) step_of.emplace(names_.key(steps[k].name.name).index, k);
-  root_ = static_cast<uint32_t>(plan_.nodes.size());
-  out_.resize(root_ + 1);
-  for (uint32_t k = static_cast<uint32_t>(steps.size()); k < root_; ++k) {
-    const SfcTransition& t = transitions[plan_.nodes[k].index];
-    for (const Ident& from : tree_.list(t.from))
-      if (const auto found = step_of.find(names_.key(from.name).index); found != step_of.end())
-        out_[found->second].push_back({k, {}});
-    for (const Ident& to : tree_.list(t.to)) {
-      const auto found = step_of.find(names_.key(to.name).index);
-      out_[k].push_back({found == step_of.end() ? kNone : found->second, to.name});
-    }
-  }
-  for (uint32_t k = 0; k < steps.size(); ++k)  // those with a priority stand left of the others
-    std::stable_sort(out_[k].begin(), out_[k].end(), [&](const Edge& a, const Edge& b) {
-      const auto weight = [&](const Edge& e) {
-        const SfcTransition& t = transitions[plan_.nodes[e.to].index];
-        return t.has_priority ? t.priority : UINT32_MAX;
-      };
-      return weight(a) < weight(b);
-    });
-}
 
 // A walk from the initial steps; whatever leads to a node that the walk has not left leads back.
 void ChartArranger::findOrder() {
@@ -327,7 +294,9 @@ void ChartArranger::placeAll() {
 }
 
 void ChartArranger::run() {
-  readEdges();
+  root_ = static_cast<uint32_t>(plan_.nodes.size());
+  out_ = edgesOf(tree_, names_, pou_, plan_);
+  out_.emplace_back();
   findOrder();
   findDominators();
   blocks_.resize(order_.size());
@@ -337,8 +306,36 @@ void ChartArranger::run() {
 
 }  // namespace
 
+std::vector<std::vector<ChartEdge>> edgesOf(const Tree& tree, const Names& names, const PouDecl& pou,
+                                            const ChartPlan& plan) {
+  const auto steps = tree.list(pou.steps);
+  const auto transitions = tree.list(pou.transitions);
+  std::unordered_map<uint32_t, uint32_t> step_of;  // by the name's key
+  for (uint32_t k = 0; k < steps.size(); ++k) step_of.emplace(names.key(steps[k].name.name).index, k);
+  std::vector<std::vector<ChartEdge>> out(plan.nodes.size());
+  for (uint32_t k = static_cast<uint32_t>(steps.size()); k < plan.nodes.size(); ++k) {
+    const SfcTransition& t = transitions[plan.nodes[k].index];
+    for (const Ident& from : tree.list(t.from))
+      if (const auto found = step_of.find(names.key(from.name).index); found != step_of.end())
+        out[found->second].push_back({k, {}});
+    for (const Ident& to : tree.list(t.to)) {
+      const auto found = step_of.find(names.key(to.name).index);
+      out[k].push_back({found == step_of.end() ? kNoNode : found->second, to.name});
+    }
+  }
+  for (uint32_t k = 0; k < steps.size(); ++k)  // those with a priority stand left of the others
+    std::stable_sort(out[k].begin(), out[k].end(), [&](const ChartEdge& a, const ChartEdge& b) {
+      const auto weight = [&](const ChartEdge& e) {
+        const SfcTransition& t = transitions[plan.nodes[e.to].index];
+        return t.has_priority ? t.priority : UINT32_MAX;
+      };
+      return weight(a) < weight(b);
+    });
+  return out;
+}
+
 void planChart(const Tree& tree, const Names& names, const PouDecl& pou, ChartPlan& plan) {
-  ChartArranger(tree, names, pou, plan).run();
+  if (!takeChartPlaces(tree, names, pou, plan)) ChartArranger(tree, names, pou, plan).run();
 }
 
 }  // namespace rung::picture

@@ -1,5 +1,6 @@
 // The plan of a chart: where its steps, transitions, lines and jumps stand. In: steps and transitions as the parser
-// leaves them. chart_plan.cpp finds the branches and lays them out, chart_picture.cpp measures and draws.
+// leaves them. chart_places.cpp takes the places of the file; chart_plan.cpp finds the branches and lays them out;
+// chart_picture.cpp measures and draws.
 // Private to frontend/picture.
 #pragma once
 
@@ -37,7 +38,20 @@ struct ChartPlan {
 };
 
 constexpr int32_t kJumpHeight = 40;
+constexpr int32_t kStretch = 15;  // of vertical line between a node and the next
 
+struct ChartEdge {
+  uint32_t to;  // kNoNode: a step that there is not
+  NameId name;  // of the step, for a jump
+  bool back = false;
+};
+constexpr uint32_t kNoNode = UINT32_MAX;
+// What follows each node, in the order in which it is judged.
+std::vector<std::vector<ChartEdge>> edgesOf(const Tree& tree, const Names& names, const PouDecl& pou,
+                                            const ChartPlan& plan);
+
+// Takes the places of the file, where it has them and lines can be led between them.
+bool takeChartPlaces(const Tree& tree, const Names& names, const PouDecl& pou, ChartPlan& plan);
 // `nodes` are measured; the rest is filled.
 void planChart(const Tree& tree, const Names& names, const PouDecl& pou, ChartPlan& plan);
 // Steps and transitions with their sizes.

@@ -8,7 +8,8 @@
 namespace rung::picture {
 namespace {
 
-constexpr int32_t kStrip = 40, kHeader = 30, kEdge = 20;
+constexpr int32_t kStrip = 40, kHeader = 30, kEdge = 20, kBetweenBands = 30;
+constexpr int32_t kLeastPage = 300;  // an element and the marks beside it
 
 bool isRail(ElementKind kind) { return kind == ElementKind::Rail || kind == ElementKind::RightRail; }
 bool isBox(ElementKind kind) {
@@ -23,9 +24,10 @@ constexpr uint32_t kMostJoints = 1000;  // on the ways to one pin: they may stan
 class Planner {
  public:
   explicit Planner(const Body& body) : body_(body) { findUnlisted(); }
-  // `elements`: of one network; their rails join by themselves.
-  Plan plan(std::span<const uint32_t> elements);
+  // `elements`: of one network; their rails join by themselves. Without wires: the bands of the network.
+  std::vector<Plan> plan(std::span<const uint32_t> elements, int32_t page);
   bool wiresStayInside(std::span<const uint32_t> network_of) const;
+  bool placed() const { return placed_; }  // the last one: where the file has it
 
  private:
   void findUnlisted();
@@ -35,10 +37,12 @@ class Planner {
   void addLinks(Plan& plan, const DiagramWire& wire, const End& to, uint32_t& joints);
   uint32_t outputOf(const Item& item, NameId pin) const;
   uint32_t inputOf(const Item& item, uint32_t pin) const;
+  bool ladder() const { return body_.diagram.language == NetworkLanguage::Ladder; }
 
   const Body& body_;
   std::vector<std::vector<NameId>> unlisted_;
   std::vector<uint32_t> item_of_;  // of each element, in the plan that is being made
+  bool placed_ = false;
 };
 
 // Outputs of boxes that wires name and the file does not list.
@@ -161,19 +165,38 @@ void Planner::addRightRail(Plan& plan) {
   }
 }
 
-Plan Planner::plan(std::span<const uint32_t> elements) {
+void addTo(std::vector<Plan>& all, std::vector<Plan> more) {
+  for (Plan& plan : more) all.push_back(std::move(plan));
+}
+
+std::vector<Plan> Planner::plan(std::span<const uint32_t> elements, int32_t page) {
+  std::vector<Plan> bands;
+  uint32_t marks = 0;
   Plan placed = items(elements, false);
   addLinks(placed);
-  if (takePlaces(body_, placed)) {
-    leadWires(placed);
-    return placed;
+  placed_ = takePlaces(body_, placed);
+  if (placed_) {
+    // A CFC is a plane, not a line of text: it keeps its places.
+    if (body_.diagram.language == NetworkLanguage::Continuous || placesOf(placed).width <= page)
+      bands.push_back(std::move(placed));
+    else
+      for (Plan& rows : splitByRows(placed)) addTo(bands, wrap(body_, std::move(rows), page, marks));
+    return bands;
   }
   Plan free = items(elements, true);
   addLinks(free);
-  if (body_.diagram.language == NetworkLanguage::Ladder) addRightRail(free);
-  arrange(body_, free);
-  leadWires(free);
-  return free;
+  if (ladder()) addRightRail(free);
+  Plan whole = free;
+  arrange(body_, whole);
+  if (placesOf(whole).width <= page) {
+    bands.push_back(std::move(whole));
+    return bands;
+  }
+  for (Plan& part : splitByWires(free)) {
+    arrange(body_, part);
+    addTo(bands, wrap(body_, std::move(part), page, marks));
+  }
+  return bands;
 }
 
 void moveBy(Plan& plan, Point by) {
@@ -194,9 +217,57 @@ void drawPlan(Svg& svg, const Body& body, const Plan& plan) {
   for (const Item& item : plan.items) drawItem(svg, body, item);
 }
 
+// The right rails of all networks stand below each other, with the coils at them.
+void alignRightRails(std::vector<std::vector<Plan>>& networks, const Body& body) {
+  int32_t right = 0;
+  const auto rightRail = [&](const Item& item) {
+    return !item.terminals.empty() && item.terminals[0].length > 0 && !item.terminals[0].output;
+  };
+  for (const std::vector<Plan>& bands : networks)
+    for (const Plan& plan : bands)
+      for (const Item& item : plan.items)
+        if (rightRail(item) || item.mark != 0) right = std::max(right, item.place().right());
+  for (std::vector<Plan>& bands : networks)
+    for (Plan& plan : bands) {
+      const auto rail = std::find_if(plan.items.begin(), plan.items.end(), rightRail);
+      if (rail == plan.items.end()) continue;
+      const int32_t by = right - rail->origin.x;
+      rail->origin.x = right;
+      const auto index = static_cast<uint32_t>(rail - plan.items.begin());
+      for (const Link& link : plan.links) {
+        Item& item = plan.items[link.from.item];
+        if (link.to.item == index && item.element != kNone && body.elements[item.element].kind == ElementKind::Coil)
+          item.origin.x += by;
+      }
+    }
+}
+
+// The bands of a network below each other, with their wires.
+Plan stacked(std::vector<Plan>& bands) {
+  Plan all;
+  for (Plan& plan : bands) {
+    leadWires(plan);
+    if (all.items.empty()) {
+      all = std::move(plan);
+      continue;
+    }
+    // What begins with a mark or a rail begins where the first band does.
+    moveBy(plan, {all.bounds.x - plan.bounds.x, all.bounds.bottom() + kBetweenBands - plan.bounds.y});
+    const auto first = static_cast<uint32_t>(all.items.size());
+    for (Net& net : plan.nets) {
+      for (std::vector<End>* ends : {&net.sources, &net.targets})
+        for (End& end : *ends) end.item += first;
+      all.nets.push_back(std::move(net));
+    }
+    for (Item& item : plan.items) all.items.push_back(std::move(item));
+    all.bounds.include(plan.bounds);
+  }
+  return all;
+}
+
 }  // namespace
 
-std::vector<Plan> planNetworks(const Body& body) {
+std::vector<Plan> planNetworks(const Body& body, int32_t page) {
   const auto networks = static_cast<uint32_t>(body.diagram.networks.count);
   std::vector<uint32_t> network_of(body.elements.size());
   for (uint32_t k = 0; k < network_of.size(); ++k)
@@ -211,19 +282,25 @@ std::vector<Plan> planNetworks(const Body& body) {
     }
     for (std::vector<uint32_t>& network : elements) network.push_back(k);  // a rail stands in each network
   }
-  std::vector<Plan> plans;
+  std::vector<std::vector<Plan>> bands;
+  bool laid_out = body.diagram.language == NetworkLanguage::Ladder;
   for (const std::vector<uint32_t>& network : elements) {
     const bool rails =
         std::all_of(network.begin(), network.end(), [&](uint32_t k) { return isRail(body.elements[k].kind); });
-    plans.push_back(rails ? Plan{} : planner.plan(network));
+    bands.push_back(rails ? std::vector<Plan>() : planner.plan(network, page == 0 ? INT32_MAX : page));
+    laid_out = laid_out && (rails || !planner.placed());
   }
+  if (laid_out) alignRightRails(bands, body);
+  std::vector<Plan> plans;
+  for (std::vector<Plan>& network : bands) plans.push_back(stacked(network));
   return plans;
 }
 
-std::string drawNetworks(const Tree& tree, const Names& names, const Diagram& diagram, std::string_view name) {
+std::string drawNetworks(const Tree& tree, const Names& names, const Diagram& diagram, std::string_view name,
+                         int32_t page) {
   const Body body{tree, names, diagram, tree.list(diagram.elements)};
-  std::vector<Plan> plans = planNetworks(body);
   const int32_t left = diagram.networks.empty() ? kEdge : kStrip + kEdge;
+  std::vector<Plan> plans = planNetworks(body, page == 0 ? 0 : std::max(page - left - kEdge, kLeastPage));
   int32_t y = 0, right = 0;
   Svg svg;
   for (uint32_t k = 0; k < plans.size(); ++k) {
@@ -236,13 +313,17 @@ std::string drawNetworks(const Tree& tree, const Names& names, const Diagram& di
     right = std::max(right, plan.bounds.right());
     if (k > 0) {
       const DiagramNetwork& network = tree.list(diagram.networks)[k - 1];
-      const std::string_view title = body.text(network.title, network.title_length);
+      std::string title(body.text(network.title, network.title_length));
+      if (network.disabled) title += title.empty() ? "(disabled)" : " (disabled)";
       svg.rect({0, top, kStrip, y - top}, "n");
       svg.text({kStrip / 2, top + 20}, Anchor::Middle, std::to_string(network.number), "b");
-      svg.text({left, top + 20}, Anchor::Start, title, "b");
+      svg.text({left, top + 20}, Anchor::Start, title, network.disabled ? "g" : "b");
       right = std::max(right, left + textWidth(title));
+      if (network.disabled) svg.line({kStrip / 2 - 12, top + 16}, {kStrip / 2 + 12, top + 16});
+      if (network.disabled) svg.openFaded();
     }
     drawPlan(svg, body, plan);
+    if (k > 0 && tree.list(diagram.networks)[k - 1].disabled) svg.close();
   }
   return svg.finish(name, right + kEdge, std::max(y, 2 * kEdge));
 }

@@ -1,6 +1,7 @@
 // The plan of a picture of networks: elements with their sizes, places and pins, and the wires between them. In: the
 // elements of a body as the parser leaves them. symbols.cpp measures and draws elements, arrange.cpp and places.cpp
-// give them places, route.cpp leads the wires; network_picture.cpp does all of it in turn. Private to frontend/picture.
+// give them places, wrap.cpp cuts what is too wide, route.cpp leads the wires; network_picture.cpp does all of it in
+// turn. Private to frontend/picture.
 #pragma once
 
 #include <span>
@@ -38,6 +39,7 @@ struct Item {
   Rect frame;        // of what is drawn as a box
   Point origin;
   std::vector<Terminal> terminals;
+  uint32_t mark = 0;  // where a wire goes on in another band: the number; no element
 
   Rect place() const { return area.at(origin); }
 };
@@ -79,10 +81,22 @@ void arrange(const Body& body, Plan& plan);
 // Gives the places of the file, stretched where names need it. False: it has none, or two elements share one.
 bool takePlaces(const Body& body, Plan& plan);
 
+// Cuts what is wider than `page` into bands; `marks` counts the numbers at their ends.
+std::vector<Plan> wrap(const Body& body, Plan plan, int32_t page, uint32_t& marks);
+// What no wires connect, each by itself: before it has places, and of what stands above each other.
+std::vector<Plan> splitByWires(const Plan& plan);
+std::vector<Plan> splitByRows(const Plan& plan);
+// Rails go from above their first wire to below the last.
+void fitRails(Plan& plan, int32_t left, int32_t right);
+Rect placesOf(const Plan& plan);
+
+// What the links connect.
+void makeNets(Plan& plan);
 // Makes nets of the links and leads them around the elements; `bounds` becomes what elements and wires take.
 void leadWires(Plan& plan);
 
 // One for each network behind what stands in none, each in coordinates of its own; empty where nothing does.
-std::vector<Plan> planNetworks(const Body& body);
+// `page`: as wide as networks may be; 0: as wide as they are.
+std::vector<Plan> planNetworks(const Body& body, int32_t page = 0);
 
 }  // namespace rung::picture

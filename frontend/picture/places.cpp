@@ -4,12 +4,12 @@
 #include <algorithm>
 
 #include "frontend/picture/network_plan.h"
+#include "frontend/picture/spread.h"
 
 namespace rung::picture {
 namespace {
 
 constexpr int32_t kGap = 20;
-constexpr int32_t kWidest = 300;        // between a column and the next, where nothing stands in between
 constexpr size_t kMostPlaced = 20'000;  // each is compared with each
 constexpr int32_t kCell = 20;           // pixels of an editor's cell
 
@@ -36,38 +36,41 @@ int32_t unitOf(const Body& body, const Plan& plan) {
   return highest <= 12 && rows.size() > 1 && least <= 4 ? kCell : 1;
 }
 
-// Of each item in one direction: its place in the file, and what it takes before and behind it.
-struct Axis {
-  std::vector<int64_t> wanted;
-  std::vector<int32_t> before, behind;
-};
-
-// Places by the order of the file, moved on where an item would come too near to one before it.
-// `gap`: between two elements that could overlap; negative: they could not.
-template <class Gap>
-std::vector<int32_t> spread(const Axis& axis, Gap gap) {
-  const size_t count = axis.wanted.size();
-  std::vector<uint32_t> order(count);
-  for (uint32_t k = 0; k < count; ++k) order[k] = k;
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return axis.wanted[a] < axis.wanted[b]; });
-  std::vector<int32_t> at(count);
-  int64_t now = 0;
-  for (size_t first = 0; first < count;) {
-    size_t last = first;
-    while (last < count && axis.wanted[order[last]] == axis.wanted[order[first]]) ++last;
-    if (first > 0) {
-      const int64_t step = axis.wanted[order[first]] - axis.wanted[order[first - 1]];
-      now += std::min<int64_t>(step, kWidest);
-    }
-    for (size_t k = first; k < last; ++k)
-      for (size_t other = 0; other < first; ++other)
-        if (const int32_t free = gap(order[k], order[other]); free >= 0)
-          now = std::max<int64_t>(now, at[order[other]] + axis.behind[order[other]] + free + axis.before[order[k]]);
-    now = (now + kGrid - 1) / kGrid * kGrid;
-    for (size_t k = first; k < last; ++k) at[order[k]] = static_cast<int32_t>(now);
-    first = last;
+// Pins stand closer or farther here than in the file, so that a variable beside its pin would get a wire with a corner:
+// it moves to the row of the pin, if that is near and free.
+void snapToPins(const Body& body, Plan& plan) {
+  constexpr int32_t kNear = 30;
+  std::vector<uint32_t> uses(plan.items.size());
+  for (const Link& link : plan.links) {
+    ++uses[link.from.item];
+    ++uses[link.to.item];
   }
-  return at;
+  const auto moves = [&](uint32_t item) {
+    const ElementKind kind = body.elements[plan.items[item].element].kind;
+    return uses[item] == 1 && (kind == ElementKind::Input || kind == ElementKind::Output ||
+                               kind == ElementKind::Connector || kind == ElementKind::Continuation);
+  };
+  std::vector<const Link*> near;
+  for (const Link& link : plan.links)
+    if (moves(link.from.item) != moves(link.to.item)) near.push_back(&link);
+  if (near.size() * plan.items.size() > 20'000'000) return;
+  const auto pinRow = [&](const Link* link) { return plan.place(moves(link->from.item) ? link->to : link->from).y; };
+  std::stable_sort(near.begin(), near.end(), [&](const Link* a, const Link* b) { return pinRow(a) < pinRow(b); });
+  for (const bool upwards : {true, false})  // who moves up makes room from the top on, who moves down from the bottom
+    for (size_t k = 0; k < near.size(); ++k) {
+      const Link& link = *near[upwards ? k : near.size() - 1 - k];
+      const bool reads = moves(link.from.item);
+      Item& item = plan.items[reads ? link.from.item : link.to.item];
+      const int32_t by = plan.place(reads ? link.to : link.from).y - plan.place(reads ? link.from : link.to).y;
+      if (by == 0 || (by < 0) != upwards || std::abs(by) > kNear) continue;
+      Rect place = item.place();
+      place.y += by;
+      const bool free = std::none_of(plan.items.begin(), plan.items.end(), [&](const Item& other) {
+        return &other != &item &&
+               other.place().overlaps({place.x - kGrid, place.y, place.width + 2 * kGrid, place.height});
+      });
+      if (free) item.origin.y += by;
+    }
 }
 
 }  // namespace
@@ -129,6 +132,7 @@ bool takePlaces(const Body& body, Plan& plan) {
     item.terminals[0].length = (bottom - top + kGrid - 1) / kGrid * kGrid;
     item.area = {0, 0, 0, item.terminals[0].length};
   }
+  snapToPins(body, plan);
   std::vector<uint32_t> order(count);
   for (uint32_t k = 0; k < count; ++k) order[k] = k;
   std::stable_sort(order.begin(), order.end(),

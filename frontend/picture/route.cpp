@@ -51,24 +51,6 @@ class Sides {
   std::vector<uint32_t> sorted_;
 };
 
-void makeNets(Plan& plan) {
-  const Sides froms(plan.links, &Link::from, &Link::to), tos(plan.links, &Link::to, &Link::from);
-  const auto isRail = [&](const End& end) { return plan.terminal(end).length > 0; };
-  std::vector<bool> done(plan.links.size());
-  for (uint32_t k = 0; k < plan.links.size(); ++k) {
-    if (done[k]) continue;
-    Net net{{plan.links[k].from}, froms.endsOf(plan.links[k].from), {}, {}};
-    const std::vector<End> together = tos.endsOf(net.targets[0]);
-    bool one = together.size() > 1 && !isRail(net.targets[0]);
-    for (const End& to : net.targets) one = one && tos.endsOf(to) == together;
-    for (const End& from : together) one = one && !isRail(from) && froms.endsOf(from) == net.targets;
-    if (one) net.sources = together;
-    for (const End& from : net.sources)
-      for (const uint32_t link : froms.linksOf(from)) done[link] = true;
-    plan.nets.push_back(std::move(net));
-  }
-}
-
 // ---- ways
 
 struct Window {  // in pixels, both corners included
@@ -425,6 +407,24 @@ void Router::run() {
 }
 
 }  // namespace
+
+void makeNets(Plan& plan) {
+  const Sides froms(plan.links, &Link::from, &Link::to), tos(plan.links, &Link::to, &Link::from);
+  const auto isRail = [&](const End& end) { return plan.terminal(end).length > 0; };
+  std::vector<bool> done(plan.links.size());
+  for (uint32_t k = 0; k < plan.links.size(); ++k) {
+    if (done[k]) continue;
+    Net net{{plan.links[k].from}, froms.endsOf(plan.links[k].from), {}, {}};
+    const std::vector<End> together = tos.endsOf(net.targets[0]);
+    bool one = together.size() > 1 && !isRail(net.targets[0]);
+    for (const End& to : net.targets) one = one && tos.endsOf(to) == together;
+    for (const End& from : together) one = one && !isRail(from) && froms.endsOf(from) == net.targets;
+    if (one) net.sources = together;
+    for (const End& from : net.sources)
+      for (const uint32_t link : froms.linksOf(from)) done[link] = true;
+    plan.nets.push_back(std::move(net));
+  }
+}
 
 void leadWires(Plan& plan) {
   makeNets(plan);

@@ -16,7 +16,8 @@ constexpr std::string_view kStyle =
     "path,rect,circle{fill:none;stroke:#000}"
     ".b{font-weight:bold}.s{font-size:9px}.g{fill:#666}.m{text-anchor:middle}.e{text-anchor:end}"
     ".w{fill:#fff}.d{fill:#000;stroke:none}.t{stroke-width:3}.k{stroke-width:2}.x{fill:#f6f6f6}"
-    ".n{fill:#e4e8ee;stroke:none}.o{fill:#dff0d8;stroke:#3c763d}.c{fill:#fffbe0;stroke:#b8a860}.r{stroke:#aaa}";
+    ".n{fill:#e4e8ee;stroke:none}.o{fill:#dff0d8;stroke:#3c763d}.c{fill:#fffbe0;stroke:#b8a860}.r{stroke:#aaa}.z{"
+    "opacity:.4}";
 
 // The byte length of the character at `p`; 0: no UTF-8 begins there.
 size_t characterAt(std::string_view text, size_t p, uint32_t& c) {
@@ -131,6 +132,7 @@ void Svg::text(Point base, Anchor anchor, std::string_view text, std::string_vie
 }
 
 void Svg::open(std::string_view id) { body_.append("<g id=\"").append(id).append("\">\n"); }
+void Svg::openFaded() { body_ += "<g class=\"z\">\n"; }
 void Svg::close() { body_ += "</g>\n"; }
 
 std::string Svg::finish(std::string_view title, int32_t width, int32_t height) const {

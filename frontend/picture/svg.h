@@ -46,6 +46,7 @@ class Svg {
   void circle(Point centre, int32_t radius, std::string_view kind = {});
   void text(Point base, Anchor anchor, std::string_view text, std::string_view kind = {});
   void open(std::string_view id);  // a group of what belongs together
+  void openFaded();                // a group that counts for nothing
   void close();
 
   std::string finish(std::string_view title, int32_t width, int32_t height) const;

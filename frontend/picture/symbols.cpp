@@ -259,6 +259,17 @@ void drawComment(Svg& svg, const Body& body, const DiagramElement& e, const Item
   for (const std::string& line : textOf(body, e)) svg.text({frame.x + 6, y += kLine}, Anchor::Start, line);
 }
 
+// A connector as in ed. 3, 8.1.3, with a number for its name.
+void drawMark(Svg& svg, const Item& item) {
+  const Rect f = item.frame.at(item.origin);
+  const auto n = [](int32_t k) { return std::to_string(k); };
+  const int32_t tip = f.right() - 8;
+  svg.path("M" + n(f.x) + " " + n(f.y + 2) + "H" + n(tip) + "L" + n(f.right()) + " " + n(item.origin.y) + "L" + n(tip) +
+               " " + n(f.bottom() - 2) + "H" + n(f.x) + "Z",
+           "o");
+  svg.text({f.x + (f.width - 8) / 2 + 1, item.origin.y + 4}, Anchor::Middle, std::to_string(item.mark));
+}
+
 }  // namespace
 
 Item measure(const Body& body, uint32_t element, std::span<const NameId> unlisted_outputs) {
@@ -324,6 +335,7 @@ Item measure(const Body& body, uint32_t element, std::span<const NameId> unliste
 }
 
 void drawItem(Svg& svg, const Body& body, const Item& item) {
+  if (item.mark != 0) return drawMark(svg, item);
   if (!item.terminals.empty() && item.terminals[0].length > 0) {
     const Point top = item.origin + item.terminals[0].at;
     return svg.line(top, {top.x, top.y + item.terminals[0].length}, "t");

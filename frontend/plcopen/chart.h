@@ -128,6 +128,8 @@ class Chart {
   void writeStep(uint32_t node);
   void writeStepName(uint32_t node);
   void writeStepTimes(const xml::Element& step);
+  void writePlace(const xml::Element& element);
+  void writeStepFlags();
   void writeStepActions(uint32_t node);
   void writeAction(const xml::Element& action);
   void writeTime(const xml::Element& action, std::string_view qualifier);

@@ -1,6 +1,10 @@
 // Configurations, resources and tasks as ST; see import.h.
+#include <algorithm>
 #include <charconv>
 #include <optional>
+#include <string>
+#include <unordered_set>
+#include <vector>
 
 #include "frontend/plcopen/import.h"
 #include "frontend/source/names.h"
@@ -172,8 +176,60 @@ class TaskWriter {
   bool any_ = false;
 };
 
+// The blocks of a program that run in tasks of their own: instances that are called `program.block`.
+class BlocksInTasks {
+ public:
+  BlocksInTasks(const Import& import, const xml::Element& resource) {
+    std::unordered_set<std::string> programs;
+    for (const bool blocks : {false, true})
+      forEach(import, resource, [&](const xml::Element& instance, const xml::Element* task) {
+        const std::string name = import.document.value(instance, "name");
+        const size_t dot = name.find('.');
+        if (dot == std::string::npos)
+          programs.insert(upper(name));
+        else if (blocks && task != nullptr && programs.count(upper(name.substr(0, dot))) != 0)
+          all_.push_back({&instance, task, upper(name.substr(0, dot)), name.substr(dot + 1)});
+      });
+  }
+  bool has(const xml::Element& instance) const {
+    return std::any_of(all_.begin(), all_.end(), [&](const Block& b) { return b.instance == &instance; });
+  }
+  // (u WITH slow)
+  void write(Import& import, const xml::Element& program) const {
+    const std::string name = upper(import.document.value(program, "name"));
+    bool any = false;
+    for (const Block& block : all_) {
+      if (block.program != name) continue;
+      import.out.put(block.instance->loc, any ? ", " : "(");
+      import.out.put(block.instance->loc, block.path + " WITH ");
+      writeName(import, *block.task);
+      any = true;
+    }
+    if (any) import.out.word(")");
+  }
+  // Visits the <pouInstance> elements of a resource and its tasks.
+  template <class Visit>
+  static void forEach(const Import& import, const xml::Element& resource, Visit visit) {
+    const xml::Document& document = import.document;
+    for (const xml::Element* e = document.firstChild(resource); e != nullptr; e = document.next(*e)) {
+      if (e->name == "pouInstance") visit(*e, nullptr);
+      if (e->name != "task" || !hasName(import, *e)) continue;
+      for (const xml::Element* p = document.firstChild(*e); p != nullptr; p = document.next(*p))
+        if (p->name == "pouInstance") visit(*p, e);
+    }
+  }
+
+ private:
+  struct Block {
+    const xml::Element* instance;
+    const xml::Element* task;
+    std::string program, path;
+  };
+  std::vector<Block> all_;
+};
+
 // PROGRAM name [WITH task] : type; In TC6 1.01 the attribute is `type`, and CODESYS gives a name alone.
-void writeProgram(Import& import, const xml::Element& instance, const xml::Element* task) {
+void writeProgram(Import& import, const xml::Element& instance, const xml::Element* task, const BlocksInTasks& blocks) {
   std::string_view type = "name";
   for (const std::string_view attribute : {"type", "typeName"})
     if (hasName(import, instance, attribute)) type = attribute;
@@ -186,6 +242,7 @@ void writeProgram(Import& import, const xml::Element& instance, const xml::Eleme
   }
   import.out.word(" : ");
   writeName(import, instance, type);
+  blocks.write(import, instance);
   import.out.word(";\n");
 }
 
@@ -234,12 +291,10 @@ void writeResource(Import& import, const xml::Element& resource) {
     writePart(import, *e);
     if (e->name == "task" && hasPrograms(import, *e) && checkName(import, *e)) TaskWriter(import, *e).write();
   }
-  for (const xml::Element* e = import.document.firstChild(resource); e != nullptr; e = import.document.next(*e)) {
-    if (e->name == "pouInstance") writeProgram(import, *e, nullptr);
-    if (e->name != "task" || !hasName(import, *e)) continue;
-    for (const xml::Element* p = import.document.firstChild(*e); p != nullptr; p = import.document.next(*p))
-      if (p->name == "pouInstance") writeProgram(import, *p, e);
-  }
+  const BlocksInTasks blocks(import, resource);
+  BlocksInTasks::forEach(import, resource, [&](const xml::Element& instance, const xml::Element* task) {
+    if (!blocks.has(instance)) writeProgram(import, instance, task, blocks);
+  });
   import.out.put(resource.end, "END_RESOURCE\n");
 }
 

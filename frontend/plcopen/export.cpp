@@ -22,6 +22,12 @@ void AddData::openOwn() {
   to_.openData("urn:rung/extension", "discard");
 }
 
+void exportOwnText(Export& to, std::string_view text, AddData& data) {
+  data.openOwn();
+  to.xml.formatted("text", text);
+  data.close();
+}
+
 namespace {
 
 std::string_view accessWord(AccessLevel level) {
@@ -57,6 +63,8 @@ class PouExport {
   size_t beginOf(DeclId member) const;
   std::string sections(const PouDecl& pou) const;
   bool isOwnAction(DeclId member) const;
+  static bool hasOwnText(const PouDecl& pou) { return !pou.members.empty(); }
+  void ownText(const PouDecl& pou);
 
   Export& to_;
   const PouDecl& pou_;
@@ -177,7 +185,9 @@ void PouExport::method(const PouDecl& method) {
   to_.xml.open("Method").attribute("name", to_.text(method.name));
   interfaceOf(method);
   if (pou_.pou_kind != PouKind::Interface) exportBody(to_, method);
-  {
+  if (hasOwnText(method)) {
+    ownText(method);
+  } else {
     AddData data(to_);
     exportAttributes(to_, method.h.pragmas, data);
     modifiers(method.access, method.modifiers, data);
@@ -185,6 +195,15 @@ void PouExport::method(const PouDecl& method) {
   }
   to_.documentation(words(method));
   to_.xml.close();
+}
+
+// An action or method that is more than its body: all of it as text, for Rung.
+//   warns   an ACTION inside of an ACTION whose body is a chart          W1099
+void PouExport::ownText(const PouDecl& pou) {
+  if (!hasOwnText(pou)) return;
+  to_.onlyRung(pou.h.loc, "actions and conditions inside of an action or method");
+  AddData data(to_);
+  exportOwnText(to_, source_.cut(source_.at(pou.begin), source_.at(pou.end)), data);
 }
 
 void PouExport::accessor(DeclId id, std::string_view element, const PropertyDecl& of) {
@@ -263,6 +282,7 @@ void PouExport::actions() {
     any = true;
     to_.xml.open("action").attribute("name", to_.text(action.name));
     exportBody(to_, action);
+    ownText(action);
     to_.documentation(words(action));
     to_.xml.close();
   }
@@ -275,13 +295,20 @@ void PouExport::run() {
   to_.xml.attribute("pouType", pou_.pou_kind == PouKind::Function  ? "function"
                                : pou_.pou_kind == PouKind::Program ? "program"
                                                                    : "functionBlock");
+  const bool is_class = pou_.pou_kind == PouKind::Class;
+  if (is_class) to_.onlyRung(pou_.h.loc, "classes");
   interfaceOf(pou_);
   const bool says_all = to_.says_all;
   actions();
   exportTransitions(to_, pou_);
-  exportBody(to_, pou_);
+  if (!is_class) exportBody(to_, pou_);
   {
     AddData data(to_);
+    if (is_class) {
+      data.openOwn();
+      to_.xml.open("kind").attribute("pouType", "class").close();
+      data.close();
+    }
     to_.says_all = says_all;
     exportAttributes(to_, pou_.h.pragmas, data);
     const bool attributes_say_all = to_.says_all;
@@ -331,6 +358,9 @@ class ProjectExport {
   void checkTexts();
   void headers(const std::string& project);
   void globals(AddData& data);
+  size_t endOf(DeclId space) const;
+  void ownTexts(AddData& data);
+  bool sharesWithInner(const PouDecl& pou) const;
 
   Export& to_;
   std::span<const FileUnit> files_;
@@ -398,12 +428,51 @@ void ProjectExport::globals(AddData& data) {
   });
 }
 
-// Forbids what TC6 has no element for.
-//   fails   NAMESPACE Plant … END_NAMESPACE          E1095
+size_t ProjectExport::endOf(DeclId space) const {
+  size_t end = to_.source->at(to_.tree.loc(space));
+  for (const DeclId inner : to_.tree.list(to_.tree.as<NamespaceDecl>(space).decls))
+    if (to_.tree.kind(inner) == DeclKind::Namespace) end = endOf(inner);
+  return to_.source->endOfWord(end, "END_NAMESPACE");
+}
+
+// What TC6 has no element for stands as text that only Rung reads. Forbids a USING that would count for another file.
+//   warns   NAMESPACE Plant … END_NAMESPACE          W1099
+//   fails   USING Plant; in one of two files         E1095
+void ProjectExport::ownTexts(AddData& data) {
+  forEach(DeclKind::Using, [&](DeclId id, FileId) {
+    const Loc loc = to_.tree.loc(id);
+    if (files_.size() > 1) return to_.cannotSay(loc, "USING for one of several files");
+    to_.onlyRung(loc, "USING");
+    const size_t begin = to_.source->wordBefore(to_.source->at(loc) + 1, "USING");
+    const std::string_view rest = to_.source->cut(begin, std::string_view::npos);
+    exportOwnText(to_, rest.substr(0, rest.find(';') + 1), data);
+  });
+  forEach(DeclKind::Namespace, [&](DeclId id, FileId) {
+    const Loc loc = to_.tree.loc(id);
+    to_.onlyRung(loc, "namespaces");
+    const size_t begin = to_.source->wordBefore(to_.source->at(loc), "NAMESPACE");
+    exportOwnText(to_, to_.source->cut(to_.source->commentsBefore(begin), endOf(id)), data);
+  });
+  forEach(DeclKind::Pou, [&](DeclId id, FileId) {
+    const auto& pou = to_.tree.as<PouDecl>(id);
+    if (!sharesWithInner(pou)) return;
+    to_.onlyRung(pou.h.loc, "actions and conditions inside of an action or method");
+    const size_t begin = to_.source->at(pou.begin);
+    exportOwnText(to_, to_.source->cut(to_.source->commentsBefore(begin), to_.source->at(pou.end)), data);
+  });
+}
+
+// Conditions of a block that charts inside of an action may use, which is text then: so is the block.
+bool ProjectExport::sharesWithInner(const PouDecl& pou) const {
+  const auto members = to_.tree.list(pou.members);
+  const bool inner = std::any_of(members.begin(), members.end(), [&](DeclId member) {
+    return to_.tree.kind(member) == DeclKind::Pou && !to_.tree.as<PouDecl>(member).members.empty();
+  });
+  return inner && !pou.transitions.empty();
+}
+
 void ProjectExport::run(const std::string& project) {
   checkTexts();
-  forEach(DeclKind::Namespace, [&](DeclId id, FileId) { to_.cannotSay(to_.tree.loc(id), "namespaces"); });
-  forEach(DeclKind::Using, [&](DeclId id, FileId) { to_.cannotSay(to_.tree.loc(id), "USING for a whole file"); });
   if (to_.diagnostics.hasErrors()) return;
   to_.xml.open("project")
       .attribute("xmlns", "http://www.plcopen.org/xml/tc6_0201")
@@ -415,10 +484,7 @@ void ProjectExport::run(const std::string& project) {
   to_.xml.open("pous");
   forEach(DeclKind::Pou, [&](DeclId id, FileId) {
     const auto& pou = to_.tree.as<PouDecl>(id);
-    if (pou.pou_kind == PouKind::Class)
-      to_.cannotSay(pou.h.loc, "classes");
-    else if (pou.pou_kind != PouKind::Interface)
-      PouExport(to_, pou).run();
+    if (pou.pou_kind != PouKind::Interface && !sharesWithInner(pou)) PouExport(to_, pou).run();
   });
   to_.xml.close();
   to_.xml.close();
@@ -428,6 +494,7 @@ void ProjectExport::run(const std::string& project) {
   to_.xml.close();
   {
     AddData data(to_);
+    ownTexts(data);
     globals(data);
     forEach(DeclKind::Pou, [&](DeclId id, FileId) {
       const auto& pou = to_.tree.as<PouDecl>(id);
@@ -442,10 +509,8 @@ void ProjectExport::run(const std::string& project) {
 
 }  // namespace
 
-//   fails   an ACTION inside of an ACTION whose body is a chart          E1095
+//   warns   {C++} … {END_C++}          W1099
 void exportBody(Export& to, const PouDecl& pou, std::string_view element) {
-  const bool inside = pou.pou_kind == PouKind::Action || pou.pou_kind == PouKind::Method;
-  if (inside && !pou.members.empty()) to.cannotSay(pou.h.loc, "actions and conditions inside of an action or method");
   const SourceText& source = *to.source;
   to.xml.open(element);
   if (element == "inline") to.xml.attribute("name", "");
@@ -453,6 +518,11 @@ void exportBody(Export& to, const PouDecl& pou, std::string_view element) {
     exportNetworks(to, pou.diagram);
   } else if (pou.body_kind == BodyKind::Sfc) {
     exportChart(to, pou);
+  } else if (pou.body_kind == BodyKind::Cpp) {
+    to.onlyRung(pou.h.loc, "bodies in C++");
+    to.xml.formatted("ST", "");
+    AddData data(to);
+    exportOwnText(to, source.cut(source.at(pou.body_begin), source.at(pou.body_end)), data);
   } else {
     size_t begin = source.at(pou.body_begin), end = source.at(pou.body_end);
     if (pou.closed || begin != end) begin = source.commentsBefore(begin, true);

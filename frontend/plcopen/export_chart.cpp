@@ -33,19 +33,28 @@ class ChartExport {
     bool jumps;
   };
 
-  uint32_t indexOf(const Ident& step) const { return index_.at(to_.names.key(step.name).index); }
+  // Of a step that there is; sema reports the others.
+  uint32_t indexOf(const Ident& step) const {
+    const auto found = index_.find(to_.names.key(step.name).index);
+    return found == index_.end() ? 0 : found->second;
+  }
   void plan();
   std::string_view text(const SfcExpr& e) const {
     return to_.source->cut(to_.source->at(e.begin), to_.source->at(e.end));
   }
   void open(std::string_view element, uint64_t id);
   void position(int column, int row);
+  void position(const SfcPlace& place);
   void wire(uint64_t from) {
     to_.xml.open("connectionPointIn").open("connection").attribute("refLocalId", std::to_string(from)).close();
     to_.xml.close();
   }
   void outputs(size_t count) {
     for (size_t i = 0; i < count; ++i) to_.xml.open("connectionPointOut").attribute("formalParameter", "sfc").close();
+  }
+  void size(const SfcPlace& place) {
+    if (place.width == 0 && place.height == 0) return;
+    to_.xml.attribute("height", std::to_string(place.height)).attribute("width", std::to_string(place.width));
   }
   void step(uint32_t i);
   void actions(uint32_t i);
@@ -114,6 +123,12 @@ void ChartExport::position(int column, int row) {
       .close();
 }
 
+// Of the file that the chart came from; else below what stands before.
+void ChartExport::position(const SfcPlace& place) {
+  if (!place.placed) return position(0, row_);
+  to_.xml.open("position").attribute("x", std::to_string(place.x)).attribute("y", std::to_string(place.y)).close();
+}
+
 void ChartExport::ownActions(const SfcStep& step) {
   AddData data(to_);
   if (step.min.value || step.max.value) {
@@ -179,8 +194,19 @@ void ChartExport::actions(uint32_t i) {
     open("action", ++next_id_);
     to_.xml.attribute("qualifier", word);
     if (a.time.value) to_.xml.attribute("duration", text(a.time));
+    const std::span<const Ident> indicators = to_.tree.list(a.indicators);
+    if (!indicators.empty()) to_.xml.attribute("indicator", to_.text(indicators[0].name));
     to_.xml.open("relPosition").attribute("x", "0").attribute("y", std::to_string(20 * row++)).close();
     to_.xml.open("reference").attribute("name", to_.text(a.action.name)).close();
+    if (indicators.size() > 1) {
+      AddData data(to_);
+      data.openOwn();
+      to_.xml.open("action");
+      for (const Ident& more : indicators.subspan(1))
+        to_.xml.open("indicator").attribute("name", to_.text(more.name)).close();
+      to_.xml.close();
+      data.close();
+    }
     to_.xml.close();
   }
   if (any) to_.xml.close();
@@ -197,9 +223,10 @@ void ChartExport::step(uint32_t i) {
     to_.xml.close();
   }
   open("step", step_id_[i]);
+  size(step.place);
   to_.xml.attribute("name", to_.text(step.name.name));
   if (step.initial) to_.xml.attribute("initialStep", "true");
-  position(0, row_);
+  position(step.place);
   if (from != 0) wire(from);
   to_.xml.open("connectionPointOut").attribute("formalParameter", "sfc").close();
   to_.xml.open("connectionPointOutAction").attribute("formalParameter", "").close();
@@ -243,8 +270,10 @@ void ChartExport::transition(uint32_t i) {
     to_.xml.close();
   }
   open("transition", transition_id_[i]);
+  size(t.place);
   if (t.has_priority) to_.xml.attribute("priority", std::to_string(t.priority));
-  position(0, row_++);
+  position(t.place);
+  ++row_;
   wire(from);
   to_.xml.leaf("connectionPointOut");
   condition(t);
@@ -314,7 +343,6 @@ void ChartExport::run() {
 void exportChart(Export& to, const PouDecl& pou) { ChartExport(to, pou).run(); }
 
 void exportTransitions(Export& to, const PouDecl& pou) {
-  if (pou.body_kind != BodyKind::Sfc) return;
   bool any = false;
   for (const SfcTransition& t : to.tree.list(pou.transitions)) {
     if (!t.body || !t.name.name) continue;

@@ -25,6 +25,8 @@ struct Export {
   std::string printed(ExprId expr) const { return printExpr(expr); }
   std::string printExpr(ExprId expr) const;
   void cannotSay(Loc loc, std::string_view what) { diagnostics.report(Diag::XmlCannotSay, loc, {what}); }
+  // What stands in Rung's own addData: other tools pass it over.
+  void onlyRung(Loc loc, std::string_view what) { diagnostics.report(Diag::XmlOnlyRung, loc, {what}); }
   // <data name="…" handleUnknown="…">, closed by its caller.
   void openData(std::string_view name, std::string_view unknown = "implementation");
   void openVendorData(std::string_view kind);  // of the 3S family
@@ -55,6 +57,11 @@ class AddData {
   Export& to_;
   bool open_ = false;
 };
+
+// ---- export.cpp
+
+// <text>, in Rung's own addData.
+void exportOwnText(Export& to, std::string_view text, AddData& data);
 
 // ---- export_types.cpp
 

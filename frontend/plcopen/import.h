@@ -58,6 +58,9 @@ struct Import {
 
 // ---- text.cpp: reading and writing names, values and texts
 
+// The <text> of Rung's own addData, which says all of `owner`; null: there is none.
+const xml::Element* ownTextOf(const Import& import, const xml::Element& owner);
+
 // The content of the first addData of `owner` whose name ends with this kind: "method" of
 // http://www.3s-software.com/plcopenxml/method. Null: there is none.
 const xml::Element* dataOf(const Import& import, const xml::Element& owner, std::string_view kind);
@@ -125,6 +128,11 @@ void writeInterface(Import& import, const xml::Element& interface);
 void writeBodies(Import& import, const xml::Element& owner, const xml::Element& pou, const std::string& name);
 // That of one <body> or <inline>. False: it could not be read, which was reported.
 bool writeBody(Import& import, const xml::Element& body, const xml::Element& pou, const std::string& name);
+
+// ---- action_blocks.cpp
+
+// The variables of the action blocks in the LD and FBD bodies of a POU.
+void writeControls(Import& import, const xml::Element& pou);
 
 // ---- configuration.cpp
 

@@ -61,6 +61,7 @@ class Writer {
 
   void collect(const Element& body);
   void writeElement(const Element& e);
+  void writeActions(const Element& body);
   void writeNetworkOf(const Element& e);
   void writeBox(const Element& e);
   void writeBoxName(const Element& e);
@@ -99,8 +100,8 @@ class Writer {
 
 bool isElement(std::string_view name) {
   static constexpr std::string_view kNames[] = {
-      "leftPowerRail", "rightPowerRail", "contact", "coil",  "block",  "inVariable", "outVariable",  "inOutVariable",
-      "connector",     "continuation",   "jump",    "label", "return", "comment",    "vendorElement"};
+      "leftPowerRail", "rightPowerRail", "contact", "coil",  "block",  "inVariable", "outVariable",   "inOutVariable",
+      "connector",     "continuation",   "jump",    "label", "return", "comment",    "vendorElement", "actionBlock"};
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
@@ -133,6 +134,7 @@ bool Writer::negatedByVendor(const Element& e) const {
 void Writer::collect(const Element& body) {
   std::vector<uint64_t> turns;
   for (const Element* e = document_.firstChild(body); e != nullptr; e = document_.next(*e)) {
+    if (e->name == "step") by_number_.emplace(numberOf(*e), e);
     if (!isElement(e->name)) continue;
     elements_.push_back(e);
     by_number_.emplace(numberOf(*e), e);
@@ -238,17 +240,7 @@ void Writer::writeOrder(const Element& e) {
 }
 
 void Writer::writePlace(const Element& e) {
-  const Element* position = document_.child(e, "position");
-  if (position == nullptr) return;
-  const auto number = [&](const Element& from, std::string_view name) {
-    const std::string text = value(from, name);
-    double v = 0;
-    if (std::from_chars(text.data(), text.data() + text.size(), v).ec != std::errc{} || !std::isfinite(v)) v = 0;
-    return std::to_string(std::lround(std::clamp(v, -1e9, 1e9)));
-  };
-  const std::string size = number(e, "width") + ", " + number(e, "height");
-  out_.put(position->loc, " AT " + number(*position, "x") + ", " + number(*position, "y") +
-                              (size == "0, 0" ? std::string() : ", " + size));
+  if (const std::string place = placeOf(document_, e); !place.empty()) out_.put(e.loc, place);
 }
 
 // ( expression )
@@ -328,6 +320,13 @@ void Writer::writePins(const Element& e) {
   out_.word("]");
 }
 
+// TON and TOF by their symbols, T---0 and 0---T. IEC 61131-3 ed. 3 table 46, 2d and 3d.
+std::string_view timerOf(std::string_view symbol) {
+  if (symbol.size() < 3 || symbol.find_first_not_of('-', 1) != symbol.size() - 1) return {};
+  if (symbol.front() == 'T' && symbol.back() == '0') return "TON";
+  return symbol.front() == '0' && symbol.back() == 'T' ? "TOF" : std::string_view{};
+}
+
 // What the box calls, and its instance. A method is called by way of its instance.
 void Writer::writeBoxName(const Element& e) {
   const xml::Attribute* type = document_.attribute(e, "typeName");
@@ -343,7 +342,10 @@ void Writer::writeBoxName(const Element& e) {
     out_.put(type->loc, instance_name + "." + type_name.substr(dot == std::string::npos ? 0 : dot + 1));
     return;
   }
-  if (type != nullptr && !type_name.empty()) {
+  if (const std::string_view timer = timerOf(type_name); !timer.empty()) {
+    out_.word(" ");
+    out_.put(type->loc, timer);
+  } else if (type != nullptr && !type_name.empty()) {
     out_.word(" ");
     out_.add(document_, *type);
   }
@@ -397,6 +399,24 @@ void Writer::writeElement(const Element& e) {
     return;
   }
   writeNetworkOf(e);
+  if (kind == "actionBlock") {
+    out_.word("output ");
+    writeNumber(e);
+    out_.word(" (" + wireOf(document_, e) + ")");
+    writeOrder(e);
+    writePlace(e);
+    writeInput(e);
+    out_.word(";\n");
+    return;
+  }
+  if (kind == "step") {
+    out_.word("input ");
+    writeNumber(e);
+    out_.word(" (");
+    if (const xml::Attribute* name = document_.attribute(e, "name")) out_.add(document_, *name);
+    out_.word(".X);\n");
+    return;
+  }
   if (kind == "block") {
     writeBox(e);
     out_.word(";\n");
@@ -446,6 +466,20 @@ void Writer::writeElement(const Element& e) {
   out_.word(";\n");
 }
 
+// Behind everything else: below all places, or in a network of their own.
+void Writer::writeActions(const Element& body) {
+  const auto block =
+      std::find_if(elements_.begin(), elements_.end(), [](const Element* e) { return e->name == "actionBlock"; });
+  if (block == elements_.end()) return;
+  if (network_ != 0) out_.put((*block)->loc, "NETWORK " + std::to_string(UINT32_MAX) + ";\n");
+  const bool placed = std::any_of(elements_.begin(), elements_.end(),
+                                  [&](const Element* e) { return document_.child(*e, "position") != nullptr; });
+  out_.put((*block)->loc,
+           "execute " + std::to_string(kOwnNumbers - 2) + (placed ? " AT 0, 1000000000" : "") + " {network ST}\n");
+  writeActionCalls(document_, body, out_);
+  out_.word("{end_network};\n");
+}
+
 void Writer::writeBody(const Diagram& diagram) {
   collect(diagram.body);
   const char* word = diagram.language == NetworkLanguage::Ladder   ? "LD"
@@ -453,6 +487,7 @@ void Writer::writeBody(const Diagram& diagram) {
                                                                    : "CFC";
   out_.put(diagram.body.loc, std::string("{network ") + word + "}\n");
   for (const Element* e : elements_) writeElement(*e);
+  writeActions(diagram.body);
   out_.put(diagram.body.end, "{end_network}\n");
 }
 
@@ -468,7 +503,8 @@ void Writer::writeCondition(const Diagram& diagram) {
         wanted.push_back(number);
     }
   };
-  want(*diagram.condition);
+  if (diagram.condition != nullptr) want(*diagram.condition);
+  for (const Element* end : diagram.ends) wanted.push_back(numberOf(*end));
   std::unordered_map<uint64_t, bool> seen;
   std::vector<const Element*> used;
   for (size_t k = 0; k < wanted.size(); ++k) {
@@ -476,6 +512,7 @@ void Writer::writeCondition(const Diagram& diagram) {
     if (found == by_number_.end() || !seen.emplace(wanted[k], true).second) continue;
     used.push_back(found->second);
     const Element& e = *found->second;
+    if (e.name == "step") continue;
     if (const Element* point = document_.child(e, "connectionPointIn")) want(*point);
     for (const char* list : {"inputVariables", "inOutVariables"}) {
       const Element* pins = document_.child(e, list);
@@ -485,8 +522,9 @@ void Writer::writeCondition(const Diagram& diagram) {
     }
   }
   std::sort(used.begin(), used.end());
-  out_.put(diagram.condition->loc, "{network LD}\n");
+  out_.put((diagram.condition != nullptr ? diagram.condition : diagram.ends[0])->loc, "{network LD}\n");
   for (const Element* e : used) writeElement(*e);
+  if (diagram.condition == nullptr) return out_.word("{end_network}\n");
   out_.put(diagram.condition->loc, "output " + std::to_string(kOwnNumbers - 1) + " (" + diagram.target + ") := ");
   writeWires(*diagram.condition);
   out_.put(diagram.condition->end, ";\n{end_network}\n");
@@ -494,9 +532,23 @@ void Writer::writeCondition(const Diagram& diagram) {
 
 }  // namespace
 
+std::string placeOf(const xml::Document& document, const xml::Element& e) {
+  const xml::Element* position = document.child(e, "position");
+  if (position == nullptr) return {};
+  const auto number = [&](const xml::Element& from, std::string_view name) {
+    const std::string text = document.value(from, name);
+    double v = 0;
+    if (std::from_chars(text.data(), text.data() + text.size(), v).ec != std::errc{} || !std::isfinite(v)) v = 0;
+    return std::to_string(std::lround(std::clamp(v, -1e9, 1e9)));
+  };
+  const std::string size = number(e, "width") + ", " + number(e, "height");
+  return " AT " + number(*position, "x") + ", " + number(*position, "y") +
+         (size == "0, 0" ? std::string() : ", " + size);
+}
+
 void writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram, xml::Assembly& out) {
   Writer writer(sources, document, out);
-  if (diagram.condition != nullptr)
+  if (diagram.condition != nullptr || !diagram.ends.empty())
     writer.writeCondition(diagram);
   else
     writer.writeBody(diagram);

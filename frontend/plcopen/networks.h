@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "frontend/syntax/diagram.h"
 #include "frontend/xml/assembly.h"
@@ -16,7 +17,17 @@ struct Diagram {
   // to it; otherwise the body does, by a coil or variable of the name or, in an <inline>, whatever name its result has.
   const xml::Element* condition = nullptr;
   std::string target = {};
+  // Of a chart: these coils and variables with all that leads to them; steps give their flags.
+  std::vector<const xml::Element*> ends = {};
 };
+
+// ` AT 100, 40, 60, 30`; empty where the element has no place.
+std::string placeOf(const xml::Document& document, const xml::Element& element);
+
+// Of an action block in a network: the variable that its wire is stored in; and, for the end of its body, the
+// statements that call all of them. (action_blocks.cpp)
+std::string wireOf(const xml::Document& document, const xml::Element& block);
+void writeActionCalls(const xml::Document& document, const xml::Element& body, xml::Assembly& out);
 
 void writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram, xml::Assembly& out);
 

@@ -200,6 +200,13 @@ void ProjectReader::run() {
   findBeremizNames();
   findInitialisers();
   leaveOutApplications();
+  forEachData(import_, import_.document.elements[0], "extension", [&](const xml::Element& data) {
+    const xml::Element* text = import_.document.child(data, "text");  // namespaces, of Rung's own export
+    if (text == nullptr) return;
+    import_.out.put(text->loc, "");
+    writeText(import_, *text);
+    import_.out.word("\n");
+  });
   for (const xml::Element& element : import_.document.elements) {
     const Part part = partOf(element);
     if (element.name == "Libraries") addLibraries(element);

@@ -23,6 +23,8 @@ constexpr PouWords kPous[] = {{"function", "FUNCTION ", "END_FUNCTION"},
 //   fails   <pou name="P" pouType="programm">          E1052
 const PouWords* wordsOf(Import& import, const xml::Element& pou) {
   const xml::Attribute* type = import.document.attribute(pou, "pouType");
+  if (const xml::Element* own = dataOf(import, pou, "extension"))  // of Rung's own export: class
+    if (const xml::Attribute* named = import.document.attribute(*own, "pouType")) type = named;
   for (const PouWords& words : kPous)
     if (type != nullptr && sameIdentifier(type->raw, words.type)) return &words;
   if (type == nullptr)
@@ -98,7 +100,18 @@ bool writeHeader(Import& import, const xml::Element& owner, std::string_view wor
 
 std::string nameOf(const Import& import, const xml::Element& element) { return import.document.value(element, "name"); }
 
+// A member that Rung has exported as text.
+bool writeOwnText(Import& import, const xml::Element& owner) {
+  const xml::Element* text = ownTextOf(import, owner);
+  if (text == nullptr) return false;
+  import.out.put(text->loc, "");
+  writeText(import, *text);
+  import.out.word("\n");
+  return true;
+}
+
 void writeMethod(Import& import, const xml::Element& method, const xml::Element& pou) {
+  if (writeOwnText(import, method)) return;
   if (!writeHeader(import, method, "METHOD ", {})) return;
   writeBodies(import, method, pou, nameOf(import, pou) + "." + nameOf(import, method));
   import.out.put(method.end, "END_METHOD\n");
@@ -139,7 +152,7 @@ void writeActions(Import& import, const xml::Element& pou) {
   const xml::Element* actions = import.document.child(pou, "actions");
   for (const xml::Element* e = actions == nullptr ? nullptr : import.document.firstChild(*actions); e != nullptr;
        e = import.document.next(*e)) {
-    if (e->name != "action" || !checkName(import, *e)) continue;
+    if (e->name != "action" || writeOwnText(import, *e) || !checkName(import, *e)) continue;
     import.out.put(e->loc, "ACTION ");
     writeName(import, *e);
     if (import.isRenamed(nameOf(import, *e))) import.out.word(kActionSuffix);
@@ -189,6 +202,7 @@ bool writeBody(Import& import, const xml::Element& body, const xml::Element& pou
     networks(*cfc, NetworkLanguage::Continuous);
     return true;
   }
+  if (writeOwnText(import, body)) return true;
   bool good = true;
   for (const xml::Element* e = import.document.firstChild(body); e != nullptr; e = import.document.next(*e)) {
     if (e->name == "ST" || e->name == "IL") {
@@ -221,6 +235,7 @@ void writePou(Import& import, const xml::Element& pou) {
   if (words == nullptr) return;
   if (!writeHeader(import, pou, words->begin, "pouinheritance")) return;
   writeFlags(import, pou);
+  writeControls(import, pou);
   findSteps(import, pou);
   import.own_action_count = 0;
   writeActions(import, pou);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "frontend/plcopen/chart.h"
+#include "frontend/plcopen/networks.h"
 #include "frontend/source/names.h"
 
 namespace rung::plcopen {
@@ -73,6 +74,14 @@ void Chart::writeAction(const xml::Element& action) {
     import_.out.put(indicator->loc, ", ");
     import_.out.add(document_, *indicator);
   }
+  // Of Rung's own export: elsewhere an action has one.
+  const xml::Element* own = dataOf(import_, action, "extension");
+  for (const xml::Element* e = own == nullptr ? nullptr : document_.firstChild(*own); e != nullptr;
+       e = document_.next(*e)) {
+    if (e->name != "indicator" || !hasName(import_, *e)) continue;
+    import_.out.put(e->loc, ", ");
+    writeName(import_, *e);
+  }
   import_.out.word(");\n");
 }
 
@@ -120,10 +129,17 @@ void Chart::writeStep(uint32_t node) {
   const bool is_initial = nodes_[node].kind == NodeKind::Step && isTrue(import_, step, "initialStep");
   import_.out.put(step.loc, is_initial ? "INITIAL_STEP " : "STEP ");
   writeStepName(node);
+  if (nodes_[node].kind == NodeKind::Step) writePlace(step);
   writeStepTimes(step);
   import_.out.word(":\n");
   if (nodes_[node].kind == NodeKind::Step) writeStepActions(node);
   import_.out.put(step.end, "END_STEP\n");
+}
+
+// What stands in a macro step has a drawing of its own: such charts are laid out anew.
+void Chart::writePlace(const xml::Element& element) {
+  if (outer_ != nullptr || !macros_.empty()) return;
+  if (const std::string place = placeOf(document_, element); !place.empty()) import_.out.put(element.loc, place);
 }
 
 void Chart::writeStepName(uint32_t node) {
@@ -148,6 +164,25 @@ void Chart::writeElements() {
     if (nodes_[i].kind == NodeKind::Transition) writeTransition(i);
   }
   for (size_t i = 0; i < definitions_.size(); ++i) writeDefinition(definitions_[i]);
+  writeStepFlags();
+}
+
+// Coils and variables that are wired to steps, in the chart: a step of its own that never ends does what they say,
+// behind all others. IEC 61131-3 ed. 3 table 54, 3b.
+void Chart::writeStepFlags() {
+  std::vector<const xml::Element*> ends;
+  for (const ChartNode& node : nodes_) {
+    const bool writes = node.element->name == "coil" || node.element->name == "outVariable";
+    if (writes && node.first_wire != node.end_wire) ends.push_back(node.element);
+  }
+  if (ends.empty()) return;
+  const std::string number = std::to_string(++import_.own_action_count);
+  import_.out.put(ends[0]->loc, "INITIAL_STEP sfc_flags_" + number + ": sfc_action_" + number +
+                                    "(N); END_STEP\nACTION sfc_action_" + number + ":\n");
+  Diagram diagram{chart_, NetworkLanguage::Ladder};
+  diagram.ends = ends;
+  writeNetworks(import_.sources, document_, diagram, import_.out);
+  import_.out.put(ends[0]->loc, "END_ACTION\n");
 }
 
 void writeChart(Import& import, const xml::Element& chart, const xml::Element& pou, const std::string& name) {

@@ -21,6 +21,11 @@ const xml::Element* dataOf(const Import& import, const xml::Element& owner, std:
   return found;
 }
 
+const xml::Element* ownTextOf(const Import& import, const xml::Element& owner) {
+  const xml::Element* own = dataOf(import, owner, "extension");
+  return own != nullptr && own->name == "text" ? own : nullptr;
+}
+
 bool isTrue(const Import& import, const xml::Element& element, std::string_view attribute) {
   const xml::Attribute* found = import.document.attribute(element, attribute);
   return found != nullptr && (sameIdentifier(found->raw, "true") || found->raw == "1");

@@ -22,18 +22,24 @@ struct SfcExpr {
   ExprId value;  // none: not written
   Loc begin, end;
 };
-struct SfcAssociation {  // open(D, T#5s);  {entry} prepare;
+struct SfcPlace {  // AT 100, 40, 60, 30: in the file that the chart was drawn in
+  bool placed;
+  int32_t x, y, width, height;
+};
+struct SfcAssociation {  // open(D, T#5s, opened);  {entry} prepare;
   Ident action;
   SfcQualifier qualifier;
   NameId word;  // the qualifier as written
   SfcExpr time;
-  Loc loc;  // of the qualifier, or of the name
+  Loc loc;                  // of the qualifier, or of the name
+  Slice<Ident> indicators;  // they show what became of the action, to a reader
 };
 struct SfcStep {
   Ident name;
   bool initial;
   SfcExpr min, max;  // STEP s (TMIN := T#1s, TMAX := T#5s):
   Slice<SfcAssociation> actions;
+  SfcPlace place;
 };
 struct SfcTransition {
   Ident name;  // none: it has none
@@ -45,6 +51,7 @@ struct SfcTransition {
   DeclId body;            // an action that assigns the condition to `target`; none: see `condition`
   Ident target;
   Loc begin, end;  // the text from TRANSITION to END_TRANSITION
+  SfcPlace place;
 };
 
 }  // namespace rung

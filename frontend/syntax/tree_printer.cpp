@@ -713,9 +713,11 @@ void Printer::chart(const PouDecl& d, int depth) {
       text += kQualifiers[static_cast<size_t>(a.qualifier)];
       text += ' ';
       text += names_.text(a.action.name);
-      if (!a.time.value) continue;
-      text += ' ';
-      expr(a.time.value);
+      if (a.time.value) {
+        text += ' ';
+        expr(a.time.value);
+      }
+      if (!a.indicators.empty()) idents(" shows", a.indicators);
     }
   }
   for (const SfcTransition& t : tree_.list(d.transitions)) {

@@ -187,6 +187,7 @@ class Parser {
   bool takeWord(Ident& out);
   bool takeNumber(uint64_t& out);
   bool takePlace(int32_t& out);
+  void parsePlace(SfcPlace& place);
   void connectWires(const std::vector<DiagramElement>& elements, uint32_t first_wire);
 
   // ---- Sequential Function Chart (sfc.cpp)

@@ -1,7 +1,8 @@
 // Bodies in Sequential Function Chart as text. IEC 61131-3 ed. 2 annex B.1.6, ed. 3 table 54 to 61.
 //   chart      = {step | transition | macro (sfc_macros.cpp) | ACTION … END_ACTION}
-//   step       = (INITIAL_STEP | STEP) name ["(" TMIN ":=" e "," TMAX ":=" e ")"] ":" {association ";"} END_STEP
-//   transition = TRANSITION [name] ["(" PRIORITY ":=" n ")"] [FROM steps TO steps] condition END_TRANSITION
+//   step       = (INITIAL_STEP | STEP) name [place] ["(" TMIN ":=" e "," TMAX ":=" e ")"] ":" {association ";"}
+//   END_STEP transition = TRANSITION [name] [place] ["(" PRIORITY ":=" n ")"] [FROM steps TO steps] condition
+//   END_TRANSITION place      = AT x "," y ["," width "," height]
 // The hidden part of a transition with a body, or whose condition several transitions use, is an action of its own.
 #include "frontend/text/parser.h"
 
@@ -25,7 +26,7 @@ bool Parser::atSfc() const {
   if (!isName(kind()) || (t_[1].flags & kLineStart) != 0) return false;
   if (!isName(peek()) && !nameReserved(t_ + 1) && peek() != Tok::LeftParen) return false;
   if (is(t_, "STEP") || is(t_, "MACRO_STEP"))
-    return peek(2) == Tok::Colon || (peek() != Tok::LeftParen && peek(2) == Tok::LeftParen);
+    return peek(2) == Tok::Colon || (peek() != Tok::LeftParen && (peek(2) == Tok::LeftParen || is(t_ + 2, "AT")));
   if (is(t_, "INITIAL_STEP")) return peek() != Tok::LeftParen;
   return is(t_, "TRANSITION") && (peek() != Tok::LeftParen || is(t_ + 2, "PRIORITY"));
 }
@@ -135,6 +136,7 @@ void Parser::parseStep(std::vector<SfcStep>& out) {
   advance();
   std::vector<SfcAssociation> actions;
   if (parseName(step.name)) {
+    parsePlace(step.place);
     if (at(Tok::LeftParen)) parseStepTimes(step);
     if (!panic_) expect(Tok::Colon);
     while (!panic_ && !at(Tok::EndStep) && !atBlockEnd() && !atSfc() && !atMacroEnd())
@@ -152,6 +154,15 @@ void Parser::parseStep(std::vector<SfcStep>& out) {
   if (!step.name.name) return;
   step.actions = tree_.addList<SfcAssociation>(actions);
   out.push_back(step);
+}
+
+void Parser::parsePlace(SfcPlace& place) {
+  if (!is(t_, "AT") || (peek() != Tok::Number && peek() != Tok::Minus)) return;
+  advance();
+  int32_t* const numbers[] = {&place.x, &place.y, &place.width, &place.height};
+  for (int32_t* const number : numbers)
+    if (!takePlace(*number) || !accept(Tok::Comma)) break;
+  place.placed = true;
 }
 
 // "(" TMIN ":=" expression ["," TMAX ":=" expression] ")"
@@ -185,6 +196,7 @@ bool Parser::parseAssociation(std::vector<SfcAssociation>& out) {
   const Slice<Pragma> pragmas = takePragmas();
   if (!parseName(a.action)) return false;
   bool timed = false;
+  std::vector<Ident> indicators;
   if (accept(Tok::LeftParen)) {
     if (isName(kind()) && !at(Tok::RightParen)) {
       const Qualifier* found = nullptr;
@@ -214,6 +226,7 @@ bool Parser::parseAssociation(std::vector<SfcAssociation>& out) {
         }
         Ident indicator;
         if (!parseName(indicator)) return false;
+        indicators.push_back(indicator);
       }
     }
     if (!panic_) expect(Tok::RightParen);
@@ -222,6 +235,7 @@ bool Parser::parseAssociation(std::vector<SfcAssociation>& out) {
   if (pragmaNamed(pragmas, "active")) a.qualifier = SfcQualifier::Active;
   if (pragmaNamed(pragmas, "exit")) a.qualifier = SfcQualifier::Exit;
   if (panic_) return false;
+  a.indicators = tree_.addList<Ident>(indicators);
   out.push_back(a);
   if (!accept(Tok::Semicolon)) missing(Diag::MissingSemicolon, {describe(t_ - 1)});
   return true;
@@ -249,11 +263,12 @@ bool Parser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId
   SfcTransition t{};
   t.loc = t.begin = here();
   advance();
-  if (isName(kind()) && !is(t_, "FROM")) {
+  if (isName(kind()) && !is(t_, "FROM") && !is(t_, "AT")) {
     t.name = ident(t_);
     t.loc = here();
     advance();
   }
+  parsePlace(t.place);
   if (at(Tok::LeftParen)) {
     advance();
     if (is(t_, "PRIORITY")) advance();

@@ -68,6 +68,7 @@ class NetworkReader {
   bool isSeries(const Element& tree, bool at_rail) const;
   Wires series(const Element& tree, Wires from);
 
+  bool isDisabled(const Element& network) const { return archive_.isTrue(network, "OutCommented"); }
   uint64_t flagsOf(const Element& object) const {
     const Element* flags = archive_.member(object, "Flags");
     return flags == nullptr ? 0 : archive_.number(*flags, "Flags");
@@ -75,6 +76,15 @@ class NetworkReader {
   const Element* listOf(const Element& owner, std::string_view holder, std::string_view list) const {
     const Element* object = archive_.member(owner, holder);
     return object == nullptr ? nullptr : archive_.member(*object, list);
+  }
+  // What is an expression for certain: a path, or a literal without quotes.
+  bool isPlainOrNothing(const Element* text) const {
+    if (text == nullptr) return true;
+    const std::string t = archive_.text(*text);
+    if (t.empty() || isPath(t)) return true;
+    const bool literal = t[0] >= '0' && t[0] <= '9';
+    return literal ? t.find_first_not_of("0123456789") == std::string::npos
+                   : t.starts_with("T#") && isPath(t.substr(2).insert(0, 1, 'd'));
   }
   std::vector<const Element*> itemsOf(const Element* list) const {
     std::vector<const Element*> items;
@@ -87,8 +97,9 @@ class NetworkReader {
   Diagnostics& diagnostics_;
   xml::Assembly& out_;
   bool ladder_ = false;
-  uint64_t last_ = 0;  // number of an element
-  uint64_t rail_ = 0;  // of the network at hand
+  bool quiet_ = false;  // a disabled network: nothing in it is a mistake
+  uint64_t last_ = 0;   // number of an element
+  uint64_t rail_ = 0;   // of the network at hand
   std::unordered_map<uint64_t, Wires> branches_;
   std::unordered_set<uint64_t> begun_;  // branches that checkTree() has seen
 };
@@ -99,7 +110,9 @@ class NetworkReader {
 //   fails   <v n="Operand">"???"</v>          E1086
 bool NetworkReader::checkOperand(const Element* operand, bool returns) {
   const Element* text = operand == nullptr ? nullptr : archive_.member(*operand, "Operand");
-  if (text == nullptr || returns || archive_.text(*text) != kMissing) return true;
+  if (text == nullptr || returns) return true;
+  if (quiet_) return isPlainOrNothing(text);
+  if (archive_.text(*text) != kMissing) return true;
   diagnostics_.report(Diag::ArchiveOpen, archive_.placeOf(*text)).length(kMissing.size());
   return false;
 }
@@ -119,6 +132,7 @@ bool NetworkReader::checkTree(const Element& tree) {
       good = checkOperand(target, ((flagsOf(*target) | flagsOf(tree)) & kReturn) != 0) && good;
   } else if (type == "BoxTreeBox") {
     const Element* called = archive_.member(tree, "BoxType");
+    if (quiet_ && (archive_.isTrue(tree, "ProvidesSTSnippet") || !isPlainOrNothing(called))) return false;
     if (called != nullptr && archive_.text(*called) == kMissing) {
       diagnostics_.report(Diag::ArchiveOpen, archive_.placeOf(*called)).length(kMissing.size());
       return false;
@@ -134,6 +148,7 @@ bool NetworkReader::checkTree(const Element& tree) {
     if (input != nullptr) {
       begun_.insert(branch);
     } else if (begun_.count(branch) == 0) {
+      if (quiet_) return false;
       diagnostics_.report(Diag::ArchiveBranch, tree.loc, {std::to_string(branch)});
       return false;
     }
@@ -141,6 +156,7 @@ bool NetworkReader::checkTree(const Element& tree) {
     inner(archive_.member(tree, "Input"));
     for (const Element* item : itemsOf(archive_.member(tree, "Trees"))) inner(item);
   } else {
+    if (quiet_) return false;
     const xml::Attribute* said = archive_.document().attribute(tree, "t");
     diagnostics_.report(Diag::ArchiveObject, said == nullptr ? tree.loc : said->loc,
                         {type.empty() ? "?" : type, "FBD or LD", name_});
@@ -154,10 +170,11 @@ bool NetworkReader::checkTree(const Element& tree) {
 bool NetworkReader::check(const Element& network, uint32_t number) {
   const Element* lines = archive_.first(archive_.member(network, "ILLines"));
   if (lines != nullptr && archive_.isTrue(network, "ILActive")) {
+    if (quiet_) return false;
     diagnostics_.report(Diag::ArchiveIl, lines->loc, {std::to_string(number), name_});
     return false;
   }
-  bool good = true;
+  bool good = !quiet_ || isPlainOrNothing(archive_.member(network, "Label"));
   for (const Element* item : itemsOf(archive_.member(network, "NetworkItems"))) good = checkTree(*item) && good;
   return good;
 }
@@ -170,10 +187,9 @@ void NetworkReader::run(const Element& body) {
   std::vector<bool> readable;
   bool good = true;
   for (const Element* network : networks) {
-    const bool disabled = archive_.isTrue(*network, "OutCommented");
-    readable.push_back(disabled || check(*network, static_cast<uint32_t>(readable.size()) + 1));
-    good = good && readable.back();
-    if (disabled) readable.back() = false;
+    quiet_ = isDisabled(*network);
+    readable.push_back(check(*network, static_cast<uint32_t>(readable.size()) + 1));
+    good = good && (readable.back() || quiet_);
   }
   if (!good) return;
   out_.put(body.loc, ladder_ ? "{network LD}\n" : "{network FBD}\n");
@@ -181,10 +197,10 @@ void NetworkReader::run(const Element& body) {
   out_.put(body.end, "{end_network}\n");
 }
 
-// Nothing of a disabled network is needed but its number.
+// A disabled network is there for the picture: what cannot be read of it is passed over.
 void NetworkReader::writeNetwork(const Element& network, uint32_t number, bool readable) {
   out_.put(network.loc, "NETWORK " + std::to_string(number));
-  if (!readable) out_.word(" DISABLED");
+  if (isDisabled(network)) out_.word(" DISABLED");
   archive_.writeString(network, "Title", out_);
   out_.word(";\n");
   if (!readable) return;

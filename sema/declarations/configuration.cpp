@@ -247,6 +247,23 @@ void addBlockTasks(Context& context, const Part& part, const ProgramInstanceDecl
   }
 }
 
+// The task of programs that name none: as often as the machine can, behind all others. IEC 61131-3 ed. 3, 6.8.2 and
+// table 62, 6c. It has no place in the source.
+uint32_t backgroundTask(Context& context) {
+  std::vector<Task>& tasks = context.project.tasks;
+  std::string name = "background";
+  for (uint32_t i = 0; i < tasks.size(); ++i) {
+    if (!tasks[i].loc) return i + 1;
+    if (sameIdentifier(context.names().text(tasks[i].name), name)) name += '_';
+  }
+  Task task;
+  task.name = context.names().intern(name);
+  task.kind = TaskKind::Freewheeling;
+  task.priority = 31;
+  tasks.push_back(task);
+  return static_cast<uint32_t>(tasks.size());
+}
+
 // Forbids an instance of what is no program, a task that is not declared, and connections at the instance.
 //   passes  PROGRAM p WITH t : Main;
 //   fails   PROGRAM p WITH tt : Main;                     E0815, did you mean `t`?
@@ -283,6 +300,8 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
   }
   if (decl.task.name) {
     instance.task = findTask(context, part, decl.task, tasks);
+  } else if (context.iec()) {
+    instance.task = backgroundTask(context);
   } else {
     context.report(Diag::ProgramWithoutTask, decl.h.loc, {context.names().text(decl.name)});
   }

@@ -12,7 +12,8 @@ namespace {
 
 class Grapher {
  public:
-  explicit Grapher(const Compilation& compilation) : tree_(compilation.tree), names_(compilation.names) {}
+  Grapher(const Compilation& compilation, uint32_t page)
+      : tree_(compilation.tree), names_(compilation.names), page_(static_cast<int32_t>(page)) {}
   std::vector<OutputText> pictures();
 
  private:
@@ -23,6 +24,7 @@ class Grapher {
 
   const Tree& tree_;
   const Names& names_;
+  const int32_t page_;
   std::unordered_set<std::string> taken_;  // folded: a file system may take large and small letters for the same
   std::vector<OutputText> pictures_;
 };
@@ -33,7 +35,7 @@ void Grapher::add(const PouDecl& pou, const std::string& name) {
   for (uint32_t n = 2; !taken_.insert(foldedIdentifier(file)).second; ++n) file = name + "_" + std::to_string(n);
   pictures_.push_back({file + ".svg", pou.body_kind == BodyKind::Sfc
                                           ? picture::drawChart(tree_, names_, pou, name)
-                                          : picture::drawNetworks(tree_, names_, pou.diagram, name)});
+                                          : picture::drawNetworks(tree_, names_, pou.diagram, name, page_)});
 }
 
 // A condition of a transition that has a body of its own is an action that the parser made; it has the transition's
@@ -97,7 +99,7 @@ int runGraph(const Options& options) {
   Compilation compilation(options, times);
   std::vector<OutputText> pictures;
   const bool parsed = compilation.parse() && !compilation.diagnostics.hasErrors();
-  if (parsed) pictures = Grapher(compilation).pictures();
+  if (parsed) pictures = Grapher(compilation, options.page_width).pictures();
   const int exit = compilation.finish();
   if (exit != kGood) return exit;
   if (pictures.empty())

@@ -57,6 +57,7 @@ enum class Key : uint8_t {
   TimePhases,
   Emit,
   To,
+  PageWidth,
   Depfile,
   DepfileTarget,
   ListOutputs,
@@ -89,6 +90,7 @@ constexpr OptionRow kOptions[] = {
      "where the output goes"},
     {Key::Emit, "--emit", "cpp|ir|tree", bit(Command::Emit), "what to write; ir and tree go to stdout (cpp)"},
     {Key::To, "--to", "st|xml", bit(Command::Convert), "Structured Text, or one PLCopen XML file"},
+    {Key::PageWidth, "--page-width", "N", bit(Command::Graph), "wrap networks at N pixels; 0: never (1200)"},
     {Key::Depfile, "--depfile", "FILE", bit(Command::Emit), "write the inputs as a make rule"},
     {Key::DepfileTarget, "--depfile-target", "PATH", bit(Command::Emit), "the rule's target (DIR/rung.manifest)"},
     {Key::ListOutputs, "--list-outputs", nullptr, bit(Command::Emit), "print the names of the files, write none"},
@@ -249,6 +251,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       error = parseChoice(row.name, value, row.value, choice);
       options.format = static_cast<DiagnosticFormat>(choice);
       return error;
+    case Key::PageWidth: return parseNumber(row.name, value, 0, 1'000'000, options.page_width);
     case Key::Jobs: return parseNumber(row.name, value, 1, 1024, options.jobs);
     case Key::Color:
       error = parseChoice(row.name, value, row.value, choice);

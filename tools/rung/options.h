@@ -67,6 +67,9 @@ struct Options {
   // convert
   ConvertTo to = ConvertTo::None;
 
+  // graph
+  uint32_t page_width = 1200;  // 0: without end
+
   // build
   BuildKind build = BuildKind::Executable;
   bool keep = false;

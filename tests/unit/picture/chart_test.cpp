@@ -6,12 +6,18 @@
 namespace rung::picture {
 namespace {
 
-std::string randomChart(uint32_t seed) {
+// `placed`: mostly from top to bottom, as an editor has them.
+std::string randomChart(uint32_t seed, bool placed) {
   Numbers random(seed);
+  const auto at = [&](uint32_t row) {
+    if (!placed) return std::string();
+    return " AT " + std::to_string(random.below(5) * 100) + ", " + std::to_string(row * 40 + random.below(3) * 80) +
+           ", 60, 30";
+  };
   const uint32_t steps = 1 + random.below(9), transitions = random.below(14);
   std::string out = "PROGRAM p\nVAR go : BOOL; END_VAR\n";
   for (uint32_t k = 0; k < steps; ++k) {
-    out += (k == 0 ? "INITIAL_STEP s" : "STEP s") + std::to_string(k) + ":";
+    out += (k == 0 ? "INITIAL_STEP s" : "STEP s") + std::to_string(k) + at(2 * k) + ":";
     for (uint32_t n = random.below(4); n > 0; --n) out += " action_" + std::to_string(n) + "(D, T#2s);";
     out += " END_STEP\n";
   }
@@ -26,14 +32,15 @@ std::string randomChart(uint32_t seed) {
     return chosen.size() > 1 ? "(" + text + ")" : text;
   };
   for (uint32_t k = 0; k < transitions; ++k)
-    out += "TRANSITION t" + std::to_string(k) + (random.below(3) == 0 ? " (PRIORITY := 2)" : "") + " FROM " + some() +
-           " TO " + some() + " := go AND NOT go OR go; END_TRANSITION\n";
+    out += "TRANSITION t" + std::to_string(k) + at(2 * k % (2 * steps) + 1) +
+           (random.below(3) == 0 ? " (PRIORITY := 2)" : "") + " FROM " + some() + " TO " + some() +
+           " := go AND NOT go OR go; END_TRANSITION\n";
   return out + "END_PROGRAM\n";
 }
 
 TEST(Chart, random_charts_are_readable) {
-  for (uint32_t seed = 0; seed < 300; ++seed) {
-    const std::string source = randomChart(seed);
+  for (uint32_t seed = 0; seed < 400; ++seed) {
+    const std::string source = randomChart(seed % 200, seed >= 200);
     const Drawn drawn(source);
     const PouDecl& pou = *drawn.pou;
     ChartPlan plan = measureChart(drawn.tree, drawn.names, pou);
@@ -113,6 +120,52 @@ TEST(Chart, branches_stand_side_by_side_and_meet_below) {
   EXPECT_EQ(2, std::count_if(plan.lines.begin(), plan.lines.end(), [](const ChartLine& line) { return line.doubled; }));
   ASSERT_EQ(1u, plan.jumps.size());
   EXPECT_EQ("s0", drawn.names.text(plan.jumps[0].step));
+}
+
+TEST(Chart, places_of_the_file_are_taken) {
+  const std::string actions = "a(N); a(N); a(N);";
+  const auto source = [&](int32_t x_of_s2) {
+    return "PROGRAM p\nVAR a : BOOL; END_VAR\nINITIAL_STEP s0 AT 200, 0, 60, 30: END_STEP\nSTEP s1 AT 100, 100, 60, "
+           "30: " +
+           actions + " END_STEP STEP s2 AT " + std::to_string(x_of_s2) +
+           ", 300, 60, 30: END_STEP\n"
+           "TRANSITION AT 120, 70, 20, 2 FROM s0 TO s1 := a; END_TRANSITION\n"
+           "TRANSITION AT 320, 70, 20, 2 FROM s0 TO s2 := a; END_TRANSITION\n"
+           "TRANSITION AT 120, 160, 20, 2 FROM s1 TO s2 := a; END_TRANSITION\n"
+           "TRANSITION AT " +
+           std::to_string(x_of_s2 + 20) + ", 350, 20, 2 FROM s2 TO s0 := a; END_TRANSITION\nEND_PROGRAM\n";
+  };
+  const Drawn drawn(source(300));
+  ChartPlan plan = measureChart(drawn.tree, drawn.names, *drawn.pou);
+  ASSERT_TRUE(takeChartPlaces(drawn.tree, drawn.names, *drawn.pou, plan));
+  const auto& n = plan.nodes;
+  // The middles of steps and transitions that the file has in a column still are; s0 is right of s1 and left of s2.
+  EXPECT_EQ(n[1].origin.x, n[3].origin.x);
+  EXPECT_EQ(n[1].origin.x, n[5].origin.x);
+  EXPECT_EQ(n[2].origin.x, n[4].origin.x);
+  EXPECT_EQ(n[2].origin.x, n[6].origin.x);
+  EXPECT_LT(n[1].origin.x, n[0].origin.x);
+  EXPECT_LT(n[0].origin.x, n[2].origin.x);
+  EXPECT_GT(n[5].origin.y, n[1].origin.y + n[1].area.height);  // three actions are higher than the file's step
+  EXPECT_EQ(1u, plan.jumps.size());
+  // s2 below s1's transition: the line from the other branch would run through nothing, and both meet.
+  const Drawn moved(source(100));
+  ChartPlan other = measureChart(moved.tree, moved.names, *moved.pou);
+  ASSERT_TRUE(takeChartPlaces(moved.tree, moved.names, *moved.pou, other));
+  EXPECT_EQ(other.nodes[1].origin.x, other.nodes[2].origin.x);
+}
+
+TEST(Chart, a_chart_without_usable_places_is_laid_out) {
+  for (const char* places : {"", " AT 0, 0"}) {  // none; what CODESYS writes
+    const std::string at = places;
+    const Drawn drawn("PROGRAM p\nVAR a : BOOL; END_VAR\nINITIAL_STEP s0" + at + ": END_STEP STEP s1" + at +
+                      ": END_STEP\nTRANSITION" + at + " FROM s0 TO s1 := a; END_TRANSITION\nEND_PROGRAM\n");
+    ChartPlan plan = measureChart(drawn.tree, drawn.names, *drawn.pou);
+    EXPECT_FALSE(takeChartPlaces(drawn.tree, drawn.names, *drawn.pou, plan));
+    planChart(drawn.tree, drawn.names, *drawn.pou, plan);
+    EXPECT_LT(plan.nodes[0].origin.y, plan.nodes[2].origin.y);
+    EXPECT_LT(plan.nodes[2].origin.y, plan.nodes[1].origin.y);
+  }
 }
 
 }  // namespace

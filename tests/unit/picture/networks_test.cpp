@@ -1,5 +1,9 @@
 // Pictures of networks, for the drawings of many random programs: nothing overlaps, wires lead from pin to pin and
 // around elements, and every name can be read.
+#include <map>
+#include <set>
+#include <tuple>
+
 #include "frontend/picture/network_plan.h"
 #include "frontend/picture/picture.h"
 #include "tests/unit/picture/drawn.h"
@@ -176,6 +180,92 @@ TEST(Networks, a_joint_in_a_circle_and_a_wire_of_a_box_to_itself_end) {
       "PROGRAM p\n{network CFC}\nconnector 1 := 2; connector 2 := 1;\n"
       "box 3 ADD [IN1 := 1, IN2 := 3(OUT), OUT =>];\n{end_network}\nEND_PROGRAM\n");
   EXPECT_EQ(1u, plansOf(drawn)[0].nets.size());
+}
+
+// Which pins give to which, by the file's elements; through marks with the same number.
+using Wired = std::set<std::tuple<uint32_t, uint32_t, uint32_t, uint32_t>>;
+Wired wiredIn(const Plan& plan) {
+  std::map<uint32_t, std::vector<End>> into, out_of;  // by mark
+  for (const Net& net : plan.nets)
+    for (const End& from : net.sources)
+      for (const End& to : net.targets) {
+        if (const uint32_t mark = plan.items[to.item].mark; mark != 0) into[mark].push_back(from);
+        if (const uint32_t mark = plan.items[from.item].mark; mark != 0) out_of[mark].push_back(to);
+      }
+  Wired all;
+  const auto add = [&](const End& from, const End& to) {
+    all.insert({plan.items[from.item].element, from.terminal, plan.items[to.item].element, to.terminal});
+  };
+  for (const Net& net : plan.nets)
+    for (const End& from : net.sources)
+      for (const End& to : net.targets)
+        if (plan.items[from.item].mark == 0 && plan.items[to.item].mark == 0) add(from, to);
+  for (const auto& [mark, sources] : into) {
+    EXPECT_FALSE(out_of[mark].empty()) << "nothing goes on at mark " << mark;
+    for (const End& from : sources)
+      for (const End& to : out_of[mark]) add(from, to);
+  }
+  for (const auto& [mark, targets] : out_of) EXPECT_FALSE(into[mark].empty()) << "nothing leads to mark " << mark;
+  return all;
+}
+
+TEST(Networks, a_narrow_page_keeps_every_element_and_every_wire) {
+  for (const char* language : {"LD", "FBD", "CFC"}) {
+    for (uint32_t seed = 0; seed < 15; ++seed) {
+      for (const bool placed : {false, true}) {
+        const std::string source = randomNetworks(seed, language, placed);
+        const Drawn drawn(source);
+        const Diagram& diagram = drawn.pou->diagram;
+        const Body body{drawn.tree, drawn.names, diagram, drawn.tree.list(diagram.elements)};
+        const Plan whole = planNetworks(body)[0], narrow = planNetworks(body, 500)[0];
+        checkPlan(narrow, source);
+        EXPECT_EQ(wiredIn(whole), wiredIn(narrow)) << source;
+        size_t elements = 0;
+        for (const Item& item : narrow.items) elements += item.element != kNone && item.terminals[0].length == 0;
+        for (const Item& item : whole.items) elements -= item.element != kNone && item.terminals[0].length == 0;
+        EXPECT_EQ(0u, elements) << source;
+        EXPECT_TRUE(narrow.bounds.width <= whole.bounds.width || narrow.bounds.width <= 700) << source;
+        if (HasFailure()) return;
+      }
+    }
+  }
+}
+
+// `count` elements in a row, each wired to the one before.
+std::string row(uint32_t count, const char* language) {
+  const bool ladder = std::string_view(language) == "LD";
+  std::string out =
+      "PROGRAM p\n{network " + std::string(language) + "}\n" + (ladder ? "rail 1;\n" : "input 1 (first);\n");
+  for (uint32_t k = 2; k < count + 2; ++k) {
+    const std::string n = std::to_string(k), before = std::to_string(k - 1);
+    out += ladder ? "contact " + n + " (input_" + n + ") := " + before + ";\n"
+                  : "box " + n + " ADD [IN1 := " + before + ", OUT =>];\n";
+  }
+  return out + (ladder ? "coil 1000 (last) := " : "output 1000 (last) := ") + std::to_string(count + 1) +
+         ";\n{end_network}\nEND_PROGRAM\n";
+}
+
+TEST(Networks, a_rung_of_sixty_contacts_and_a_chain_of_forty_boxes_stay_on_the_page) {
+  for (const bool ladder : {true, false}) {
+    const std::string source = ladder ? row(60, "LD") : row(40, "FBD");
+    const Drawn drawn(source);
+    const Plan plan = planNetworks(
+        {drawn.tree, drawn.names, drawn.pou->diagram, drawn.tree.list(drawn.pou->diagram.elements)}, 1000)[0];
+    checkPlan(plan, source);
+    EXPECT_LE(plan.bounds.width, 1000);
+    // Each band begins below the one before it, and all wires are straight.
+    std::set<int32_t> rows;
+    for (const Net& net : plan.nets)
+      for (const std::vector<Point>& line : net.lines) {
+        EXPECT_EQ(2u, line.size());
+        rows.insert(line[0].y);
+      }
+    uint32_t marks = 0;
+    for (const Item& item : plan.items) marks = std::max(marks, item.mark);
+    EXPECT_EQ(rows.size(), marks + 1);
+    EXPECT_GT(marks, 2u);
+    EXPECT_LT(marks, 8u);
+  }
 }
 
 TEST(Svg, text_is_escaped_and_what_xml_cannot_hold_becomes_a_question_mark) {

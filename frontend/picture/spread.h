@@ -1,0 +1,49 @@
+// Places of a file in one direction, moved apart where what stands there needs more room than in its editor.
+// Private to frontend/picture: networks (places.cpp) and charts (chart_places.cpp).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "frontend/picture/svg.h"
+
+namespace rung::picture {
+
+// Of each item in one direction: its place in the file, and what it takes before and behind it.
+struct Axis {
+  std::vector<int64_t> wanted;
+  std::vector<int32_t> before, behind;
+};
+
+constexpr int32_t kWidest = 300;  // between a column and the next, where nothing stands in between
+
+// Places by the order of the file, moved on where an item would come too near to one before it.
+// `gap`: between two elements that could overlap; negative: they could not.
+template <class Gap>
+std::vector<int32_t> spread(const Axis& axis, Gap gap) {
+  const size_t count = axis.wanted.size();
+  std::vector<uint32_t> order(count);
+  for (uint32_t k = 0; k < count; ++k) order[k] = k;
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return axis.wanted[a] < axis.wanted[b]; });
+  std::vector<int32_t> at(count);
+  int64_t now = 0;
+  for (size_t first = 0; first < count;) {
+    size_t last = first;
+    while (last < count && axis.wanted[order[last]] == axis.wanted[order[first]]) ++last;
+    if (first > 0) {
+      const int64_t step = axis.wanted[order[first]] - axis.wanted[order[first - 1]];
+      now += std::min<int64_t>(step, kWidest);
+    }
+    for (size_t k = first; k < last; ++k)
+      for (size_t other = 0; other < first; ++other)
+        if (const int32_t free = gap(order[k], order[other]); free >= 0)
+          now = std::max<int64_t>(now, at[order[other]] + axis.behind[order[other]] + free + axis.before[order[k]]);
+    now = (now + kGrid - 1) / kGrid * kGrid;
+    for (size_t k = first; k < last; ++k) at[order[k]] = static_cast<int32_t>(now);
+    first = last;
+  }
+  return at;
+}
+
+}  // namespace rung::picture
