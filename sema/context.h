@@ -135,6 +135,9 @@ void checkBody(Context& context, PouId pou);
 bool ensureBody(Context& context, PouId pou);
 // The arguments of PROGRAM p WITH t : Main(...), as of a call of that program.
 void checkConnections(Context& context, ExprId call, PouId program);
+// The list of the texts in a POU whose address is taken; of all POUs that have none yet. (bodies/text_places.cpp)
+void declareTexts(Context& context, PouId pou);
+void declareTexts(Context& context);
 // The rules that need all bodies: recursion, unused variables. check() calls it once, when every body is checked.
 void checkAfterBodies(Context& context);
 

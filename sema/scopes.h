@@ -4,6 +4,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -144,6 +145,14 @@ struct Scopes {
     bool busy = false;
   };
   std::vector<Mock> mocks;
+  struct Texts {  // whose address is taken (bodies/text_places.cpp)
+    struct Place {
+      PouId pou;
+      VarId var;
+    };
+    std::map<std::pair<uint32_t, uint64_t>, VarId> places;  // by POU, and by text and kind
+    std::vector<Place> undeclared;                          // not yet in a list
+  } texts;
 
   // Everything declared, in order; settle() resolves from these marks on.
   std::vector<TypeId> declared_types;

@@ -31,6 +31,8 @@ TypeId checkAddress(Context& context, ExprId& expr, ExprId place) {
     place = context.tree().as<BitAccessExpr>(place).base;
     type = types::kByte;
   }
+  if (kind == ExprKind::Literal && types::TypeTable::isText(context.types().kind(type)) && !context.iec())
+    type = context.tree().expr(place = placeOfText(context, place)).type;
   if (!checkAddressable(context, place)) return types::kError;
   expr = addressOf(context, place, context.types().pointer(type), loc);
   return context.tree().expr(expr).type;
