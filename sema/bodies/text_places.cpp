@@ -1,7 +1,7 @@
 // Places for texts whose address is taken: ADR('text') of codesys needs memory behind the literal. Equal texts of one
 // POU share a place; what happens when it is written through the pointer, CODESYS leaves open.
-// In: literals of one POU. Out: constants in a global list of its own, which no name in a program can reach. The list is
-// declared when the body is checked, so that a POU's places depend on its own text alone.
+// In: literals of one POU. Out: constants in a global list of its own, which no name in a program can reach. The list
+// is declared when the body is checked, so that a POU's places depend on its own text alone.
 #include <algorithm>
 
 #include "sema/bodies/bodies.h"
