@@ -115,6 +115,7 @@ void check(Project& project) {
   }
   checkBodies(context);
   declareTexts(context);
+  orderInitialValues(context);
   resolveInstancePlaces(context);
   resolveAccessPaths(context);
   checkAfterBodies(context);

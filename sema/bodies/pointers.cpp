@@ -47,7 +47,7 @@ TypeId checkBitAddress(Context& context, ExprId& expr, ExprId place) {
     view = resolveAddress(context, context.tree().as<AddressExpr>(place).address, loc, {});
   } else if (const Entity entity = entityOf(context, place); entity.what() == EntityKind::Var) {
     const Var& var = context.project.vars[entity.index];
-    if (var.storage == Storage::Image) view = var.image;
+    if (var.storage == Storage::Image && !var.hierarchical) view = var.image;
   }
   if (!view) {
     context.report(Diag::NoBitAddress, context.tree().begin(place));
