@@ -97,6 +97,11 @@ VarId findPin(Context& context, PouId pou, NameId name);
 // The view of the image that an address means; reports what is wrong with it and gives nothing then. `type`: of the
 // variable, or none for a bare address, whose type is the one of its size (see addressType). Notes the bytes used.
 std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& address, Loc loc, TypeId type);
+// Hierarchical addresses, %QW0.1.2: each has a place of its own, chosen by placeHierarchical when all others are known.
+bool isHierarchical(const Context& context, const DirectAddress& address);
+// The hidden variable of such an address; `user`: a variable located there, or none. None after a report.
+VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, VarId user);
+void placeHierarchical(Context& context);
 // BOOL, BYTE, WORD, DWORD or LWORD, by the size letter.
 TypeId addressType(const DirectAddress& address);
 
@@ -135,6 +140,9 @@ void checkBody(Context& context, PouId pou);
 bool ensureBody(Context& context, PouId pou);
 // The arguments of PROGRAM p WITH t : Main(...), as of a call of that program.
 void checkConnections(Context& context, ExprId call, PouId program);
+// The list of the texts in a POU whose address is taken; of all POUs that have none yet. (bodies/text_places.cpp)
+void declareTexts(Context& context, PouId pou);
+void declareTexts(Context& context);
 // The rules that need all bodies: recursion, unused variables. check() calls it once, when every body is checked.
 void checkAfterBodies(Context& context);
 

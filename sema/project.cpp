@@ -63,6 +63,7 @@ bool ensureBody(Context& context, PouId id) {
   Context there = atPou(context, id);
   checkBody(there, id);
   project.pou(id).checking = false;
+  declareTexts(context, id);
   project.pou(id).broken = isBroken(context, id) || project.diagnostics.errorCount() != errors;
   return !project.pou(id).broken;
 }
@@ -113,6 +114,8 @@ void check(Project& project) {
       checkObjectMembers(context, PouId{i});
   }
   checkBodies(context);
+  declareTexts(context);
+  orderInitialValues(context);
   resolveInstancePlaces(context);
   resolveAccessPaths(context);
   checkAfterBodies(context);

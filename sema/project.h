@@ -63,6 +63,7 @@ struct Var {
   bool has_value = false;  // constant scalar or text with a known value: see `value`
   bool required = false, lazy = false,
        extensible = false;             // pins of library declarations: {required} {lazy} {extensible}
+  bool hierarchical = false;           // AT %QW0.1.2: placed behind all others when these are known
   bool open_address = false;           // AT %I*: the number comes from VAR_CONFIG or from the system
   bool instance_path = false;          // {attribute 'instance-path'}: holds the path of its instance
   bool read = false, written = false;  // by any body: for the warnings
@@ -77,6 +78,7 @@ struct Var {
   TypeId record;       // field of a structure or union: its type
   AccessLevel access = AccessLevel::None;
   CallId constructor;  // of a block whose FB_Init has parameters of its own: what the declaration gives them
+  bool late = false;   // its initial value reads other variables: Project::late, Pou::late
   uint32_t element_constructors = 0;  // of an array: how many calls from `constructor` on, one for each element
   TypeId any;                         // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
   VarId bounds;                       // ARRAY[*]: the first of the hidden variables with its bounds, two a dimension
@@ -106,6 +108,7 @@ struct Pou {
   TypeId result;            // functions; none: no result
   VarId result_var;         // the variable that the function's name is inside its body
   std::vector<VarId> vars;  // all, in order of declaration (result_var is not among them)
+  std::vector<VarId> late;  // fields whose initial values read others, in the order in which they are set
   std::vector<VarId> pins;  // the inputs, in-outs and outputs among them; filled by bodies/ at the first call
   bool pins_ready = false;
   bool library = false, native = false, pure = false, test = false;
@@ -313,6 +316,7 @@ struct Project {
   std::vector<EnumValue> enum_values;
   std::deque<GlobalList> global_lists;
   std::deque<Property> properties;
+  std::vector<VarId> late;  // globals whose initial values read others, in the order in which they are set
   std::vector<Task> tasks;
   std::vector<ProgramInstance> instances;
   std::deque<Call> calls;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -146,6 +147,21 @@ struct Scopes {
     bool busy = false;
   };
   std::vector<Mock> mocks;
+  struct HierarchicalPlace {  // of %QW0.1.2 (declarations/addresses.cpp)
+    VarId named;              // the hidden variable that has the address as its name
+    uint64_t bytes = 0, align = 1;
+    std::vector<VarId> users;
+  };
+  std::vector<HierarchicalPlace> hierarchical;
+  NameMap hierarchical_names;  // address -> Var; the entity's index counts in `hierarchical`
+  struct Texts {  // whose address is taken (bodies/text_places.cpp)
+    struct Place {
+      PouId pou;
+      VarId var;
+    };
+    std::map<std::pair<uint32_t, uint64_t>, VarId> places;  // by POU, and by text and kind
+    std::vector<Place> undeclared;                          // not yet in a list
+  } texts;
 
   // Everything declared, in order; settle() resolves from these marks on.
   std::vector<TypeId> declared_types;
@@ -153,6 +169,7 @@ struct Scopes {
   size_t settled_pous = 1, checked_pous = 1;
   size_t settled_lists = 1, checked_lists = 1;
   bool settling = false;
+  std::vector<VarId> reading_inits;  // variables whose initial values, or arguments of FB_Init, may read others
   uint32_t depth = 0;  // of declarations resolved within each other
 
   Libraries libraries;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frontend/syntax/tree.h"
+#include "frontend/text/foreign.h"
 
 namespace rung::text {
 namespace {
@@ -232,7 +233,9 @@ size_t FileConditions::skipQuoted(size_t at) const {
 
 // Gives the place behind it.
 size_t FileConditions::pragma(size_t at) {
-  size_t end = at + 1;
+  size_t end = endOfDoubleBrace(text_, at);
+  if (end != std::string_view::npos) return end;
+  end = at + 1;
   while (end < text_.size() && text_[end] != '}') {
     if (text_[end] == '\'' || text_[end] == '"') {
       const size_t close = text_.find_first_of(std::string_view(text_[end] == '"' ? "\"\n" : "'\n", 2), end + 1);
@@ -262,6 +265,7 @@ void FileConditions::choose(Open& open, Truth value) {
 // False: a pragma of another kind, which stays.
 bool FileConditions::directive(uint32_t at) {
   const std::string_view name = word();
+  if (holdsC(name, text_.substr(at + 1, pragma_end_ - at - 1)) && !sameIdentifier(name, "define")) return false;
   const bool is_if = sameIdentifier(name, "IF"), is_elsif = sameIdentifier(name, "ELSIF"),
              is_else = sameIdentifier(name, "ELSE"), is_end = sameIdentifier(name, "END_IF"),
              is_define = sameIdentifier(name, "define"), is_undefine = sameIdentifier(name, "undefine");

@@ -137,7 +137,7 @@ bool Parser::beginsType(const Token* t) const {
 }
 
 bool Parser::parseName(Ident& out) {
-  if (isName(kind())) {
+  if (isName(kind()) || isNullName(t_)) {
     out = ident(t_);
     advance();
     return true;
@@ -237,7 +237,7 @@ DeclId Parser::parseVar(SectionKind section) {
   if (!(at(Tok::At) && peek() == Tok::Address)) {
     for (;;) {
       Ident name;
-      if (!isName(kind()) && !nameReserved(t_)) {
+      if (!isName(kind()) && !isNullName(t_) && !nameReserved(t_)) {
         if (at(Tok::Error)) {
           last_error_ = t_;
           panic_ = true;

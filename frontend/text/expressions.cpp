@@ -238,7 +238,7 @@ ExprId Parser::parsePostfix(ExprId base, bool calls) {
         advance();
         const Loc at_member = here();
         const bool same_line = !atLineStart();
-        if (isName(kind()) || (isTypeWord(kind()) && same_line)) {
+        if (isName(kind()) || isNullName(t_) || (isTypeWord(kind()) && same_line)) {
           base = tree_.add<ExprId>(MemberExpr{exprHeader(ExprKind::Member, at_member), base, nameOf(t_), {}});
           advance();
         } else if (at(Tok::Number)) {

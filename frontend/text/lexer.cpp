@@ -7,6 +7,7 @@
 
 #include "frontend/source/invariant.h"
 #include "frontend/source/nested_comments.h"
+#include "frontend/text/foreign.h"
 
 namespace rung::text {
 namespace {
@@ -552,6 +553,11 @@ Tok networkMark(std::string_view text) {
 
 // { … }: strings inside may hold braces.
 const char* Lexer::pragma(const char* begin) {
+  const std::string_view rest(begin, static_cast<size_t>(end_ - begin));
+  if (const size_t end = endOfDoubleBrace(rest, 0); end != std::string_view::npos) {
+    diagnostics_.report(Diag::CodeInC, loc(begin)).length(2);
+    return begin + end;
+  }
   const char* p = begin + 1;
   while (p < end_ && *p != '}') {
     if (*p == '\'' || *p == '"') {
@@ -594,7 +600,12 @@ void Lexer::checkPragma(std::string_view word, const char* rest, const char* end
     known = &kAttributes;
   }
   for (const std::string_view name : *known)
-    if (sameIdentifier(name, word)) return;
+    if (sameIdentifier(name, word) && !sameIdentifier(name, "IF") && !sameIdentifier(name, "exit")) return;
+  if (holdsC(word, {word.data(), static_cast<size_t>(end - word.data())})) {
+    diagnostics_.report(Diag::CodeInC, loc(word.data())).length(1);
+    return;
+  }
+  if (sameIdentifier(word, "IF") || sameIdentifier(word, "exit")) return;
   const std::string_view near = nearest(word, *known);
   if (near.empty()) return;
   diagnostics_.report(Diag::UnknownPragma, loc(word.data()), {word}).didYouMean(near);

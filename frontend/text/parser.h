@@ -105,6 +105,8 @@ class Parser {
   void skipStray(bool fits_behind, Diag diag);
   bool beginsType(const Token* t) const;
   bool parseName(Ident& out);
+  // CODESYS knows NULL as a value only: items and members may be called so.
+  bool isNullName(const Token* t) const { return t->kind == Tok::Null && standard_ == Standard::Codesys; }
   bool parsePath(std::vector<Ident>& out);
   TypeExprId parseType();
   TypeExprId parseStruct();

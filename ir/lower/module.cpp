@@ -322,14 +322,16 @@ bool ModuleLowering::isZero(TypeId declared) {
 BodyId ModuleLowering::initOf(TypeId type) {
   auto known = init_of_.find(type.index);
   if (known != init_of_.end()) return known->second;
-  if (isZero(type)) return init_of_[type.index] = {};
+  const sema::ListId of_list = list_of_record_[type.index];
+  const bool sets_late = of_list && !project.late.empty() && list_index[of_list.index] + 1 == module.lists.size();
+  if (isZero(type) && !sets_late) return init_of_[type.index] = {};
   module.bodies.emplace_back();
   BodyId id{static_cast<uint32_t>(module.bodies.size() - 1)};
   init_of_[type.index] = id;
   Body& body = module.bodies.back();
   const TypeInfo& info = types.info(type);
   sema::PouId pou = pou_of_record_[type.index];
-  sema::ListId list = list_of_record_[type.index];
+  const sema::ListId list = of_list;
   body.name = info.name;
   if (pou) {
     const sema::Pou& owner = project.pou(pou);
@@ -359,7 +361,9 @@ BodyId ModuleLowering::initOf(TypeId type) {
                           true);
   };
   if (pou) {
-    for (sema::VarId var : project.pou(pou).vars) storeVar(var);
+    for (sema::VarId var : project.pou(pou).vars)
+      if (!project.var(var).late) storeVar(var);
+    for (sema::VarId var : project.pou(pou).late) storeVar(var);
     if (project.pou(pou).dispatched) {
       sema::PouId first = pou;
       while (!project.pou(first).id_var) first = project.pou(first).base;
@@ -368,9 +372,16 @@ BodyId ModuleLowering::initOf(TypeId type) {
       ExprId place = lowering.field(lowering.asBase(lowering.self(loc), first, loc), field, types::kUDInt, loc);
       lowering.assign(place, number, loc);
     }
-  } else if (list)
-    for (sema::VarId var : project.global_lists[list.index].vars) storeVar(var);
-  else
+  } else if (list) {
+    for (sema::VarId var : project.global_lists[list.index].vars)
+      if (!project.var(var).late) storeVar(var);
+    // What reads other lists is set when all have their values, and programs have none yet.
+    for (size_t i = 0; sets_late && i < project.late.size(); ++i) {
+      const sema::Var& var = project.var(project.late[i]);
+      lowering.storeInitial(lowering.varPlace(project.late[i], var.loc), var.type, var.init,
+                            var.storage == sema::Storage::Global);
+    }
+  } else
     for (const bool written : {false, true})  // of members that overlap, values that are written win
       for (uint32_t i = 0; i < info.fields.size(); ++i) {
         rung::ExprId init;

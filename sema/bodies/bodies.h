@@ -202,6 +202,9 @@ TypeId checkPointerIndex(Context& context, ExprId& expr);
 // p + n, p - n, p - q, and pointers as numbers. None when the types do not combine so.
 TypeId combinePointers(Context& context, ExprId& self, TypeId expected);
 
+// ---- text_places.cpp: the hidden constant that holds a text, so that it has an address
+ExprId placeOfText(Context& context, ExprId literal);
+
 // ---- made_nodes.cpp: nodes that need not be checked again; makeLiteral is in context.h
 ExprId makeBinary(Context& context, BinaryOp op, ExprId left, ExprId right, TypeId type, Loc loc);
 ExprId makeDeref(Context& context, ExprId pointer, TypeId target, Loc loc);

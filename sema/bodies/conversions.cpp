@@ -1,6 +1,7 @@
 // Conversions: which are implicit, which lose values, which need a function. In: checked expressions and the type
 // that is wanted. Out: ConvertExpr nodes in the parent's child field, or one message. Design §6, dialect table.
 #include "sema/bodies/bodies.h"
+#include "sema/scopes.h"
 #include "sema/types/arithmetic.h"
 
 namespace rung::sema {
@@ -124,7 +125,7 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
   if (source.kind == TypeKind::Enum || target.kind == TypeKind::Enum) {
     if (context.iec() && isNamedValueOf(context, from, to)) return Fit::Lossless;
     if (source.kind == target.kind) return context.iec() ? Fit::No : Fit::Lossy;
-    if (source.strict || target.strict) return Fit::No;
+    if (target.strict) return Fit::No;
     if (!isNumberKind(a) || !isNumberKind(b)) return Fit::No;
     if (TypeTable::isReal(a)) return Fit::No;
     if (context.iec()) return Fit::Extension;
@@ -256,6 +257,52 @@ bool constantFits(Context& context, ExprId expr, TypeId to) {
          !types::convert(context.types(), *value, to).overflow;
 }
 
+// A constant number for an enumeration: the item that it is. CODESYS and TwinCAT take any number where the enumeration
+// is not {attribute 'strict'}, and the number of an item where it is.
+//   passes  actual := 1;     where Running is 1
+//   warns   actual := 7;     where no item is 7                     W0549
+//   fails   actual := 7;     the same of a strict enumeration       E0547
+// False when this does not apply; `good`: no error was reported.
+bool takeItem(Context& context, ExprId& expr, TypeId to, bool& good) {
+  if (context.iec()) return false;
+  const TypeId target = context.types().resolve(to);
+  const TypeId from = context.tree().expr(expr).type;
+  const types::TypeInfo& info = context.types().info(target);
+  if (info.kind != TypeKind::Enum || context.types().kind(from) == TypeKind::Enum) return false;
+  __int128 number = 0;
+  if (!isUntyped(context, from)) {
+    if (!isWholeKind(context.types().plainKind(from)) || !context.tree().expr(expr).is_constant) return false;
+    const std::optional<types::Value> value = evaluate(context, expr);
+    if (!value) return false;
+    number =
+        context.types().isSigned(context.types().plainKind(from)) ? __int128{value->asSigned()} : __int128{value->bits};
+  } else if (from != types::idOf(TypeKind::IntegerLiteral) || !untypedValue(context, expr, number)) {
+    return false;
+  }
+  const NamedType* named = context.scopes.named(target);
+  bool is_item = false;
+  if (named == nullptr || named->resolved != State::Done) return false;
+  named->members.forEach(
+      [&](NameId, Entity item) { is_item |= __int128{context.project.enum_values[item.index].value} == number; });
+  const Loc loc = context.tree().begin(expr);
+  if (!is_item && !context.library) {
+    const std::string spelled = number < 0 ? "-" + std::to_string(static_cast<uint64_t>(-number))
+                                           : std::to_string(static_cast<uint64_t>(number));
+    context.report(info.strict ? Diag::NoItemOfStrict : Diag::NoItem, loc, {spelled, context.types().spell(to)});
+    if (info.strict) {
+      context.tree().expr(expr).type = types::kError;
+      good = false;
+      return true;
+    }
+    if (!types::convert(context.types(), {types::kLInt, static_cast<uint64_t>(number)}, info.base).overflow)
+      is_item = true;
+  }
+  if (!is_item) return false;
+  expr = makeLiteral(context, LiteralKind::Integer, to, static_cast<int64_t>(number < 0 ? -number : number), loc);
+  if (number < 0) context.tree().expr(expr).bits = kLiteralNegative;
+  return true;
+}
+
 }  // namespace
 
 bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
@@ -268,6 +315,7 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
     expr = makeLiteral(context, LiteralKind::Null, to, 0, context.tree().loc(expr));
     return true;
   }
+  if (bool good = true; takeItem(context, expr, to, good)) return good;
   if (isUntyped(context, from)) return adapt(context, expr, to, purpose);
   Fit fitness = fit(context, from, to);
   if (fitness == Fit::Lossy && constantFits(context, expr, to)) fitness = Fit::Lossless;

@@ -103,6 +103,18 @@ TypeId checkBitAccess(Context& context, ExprId& expr, Access access) {
 TypeId checkAddress(Context& context, ExprId& expr) {
   AddressExpr& node = context.tree().as<AddressExpr>(expr);
   node.h.writable = 1;
+  if (isHierarchical(context, node.address)) {
+    NameExpr name{};
+    name.h = node.h;
+    name.h.kind = ExprKind::Name;
+    const VarId named = hierarchicalVar(context, node.address, node.h.loc, {});
+    if (!named) return node.h.type = types::kError;
+    name.name = context.project.var(named).name;
+    name.entity = Entity::of(EntityKind::Var, named.index);
+    name.h.type = context.project.var(named).type;
+    expr = context.tree().add<ExprId>(name);
+    return name.h.type;
+  }
   if (!resolveAddress(context, node.address, node.h.loc, {})) return node.h.type = types::kError;
   return node.h.type = addressType(node.address);
 }

@@ -81,7 +81,7 @@ TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
     return header.type;
   }
   if (bare && info.name && (context.iec() || info.qualified)) {
-    context.report(context.iec() ? Diag::BareEnumItem : Diag::StrictEnumItem, header.loc,
+    context.report(context.iec() ? Diag::BareEnumItem : Diag::QualifiedEnumItem, header.loc,
                    {text(context, item.name), text(context, context.types().info(item.type).name)});
     return header.type = types::kError;
   }

@@ -44,8 +44,7 @@ TypeId join(Context& context, TypeId a, TypeId b) {
   const TypeKind x = table.plainKind(a), y = table.plainKind(b);
   if (isNumberKind(x) && isNumberKind(y)) {
     const bool enums = table.kind(a) == TypeKind::Enum || table.kind(b) == TypeKind::Enum;
-    const bool strict = table.info(table.resolve(a)).strict || table.info(table.resolve(b)).strict;
-    if (enums && (strict || context.iec() || table.kind(a) == table.kind(b))) return {};
+    if (enums && (context.iec() || table.kind(a) == table.kind(b))) return {};
     if (context.iec() && TypeTable::isBits(x) != TypeTable::isBits(y)) return {};
     return commonNumber(context, a, b);
   }
@@ -66,8 +65,7 @@ TypeId joinUntyped(Context& context, TypeId typed, ExprId literal, TypeId expect
   types::TypeTable& table = context.types();
   const TypeId plain = table.plain(typed);
   const TypeKind kind = table.info(plain).kind;
-  const bool strict = table.info(table.resolve(typed)).strict;
-  if (table.kind(typed) == TypeKind::Enum && (strict || context.iec())) return {};
+  if (table.kind(typed) == TypeKind::Enum && context.iec()) return {};
   if (untypedFits(context, literal, plain)) return plain;
   if (context.tree().expr(literal).type == types::idOf(TypeKind::RealLiteral)) {
     if (!isNumberKind(kind) || (context.iec() && TypeTable::isBits(kind))) return {};

@@ -31,6 +31,8 @@ TypeId checkAddress(Context& context, ExprId& expr, ExprId place) {
     place = context.tree().as<BitAccessExpr>(place).base;
     type = types::kByte;
   }
+  if (kind == ExprKind::Literal && types::TypeTable::isText(context.types().kind(type)) && !context.iec())
+    type = context.tree().expr(place = placeOfText(context, place)).type;
   if (!checkAddressable(context, place)) return types::kError;
   expr = addressOf(context, place, context.types().pointer(type), loc);
   return context.tree().expr(expr).type;
@@ -45,7 +47,7 @@ TypeId checkBitAddress(Context& context, ExprId& expr, ExprId place) {
     view = resolveAddress(context, context.tree().as<AddressExpr>(place).address, loc, {});
   } else if (const Entity entity = entityOf(context, place); entity.what() == EntityKind::Var) {
     const Var& var = context.project.vars[entity.index];
-    if (var.storage == Storage::Image) view = var.image;
+    if (var.storage == Storage::Image && !var.hierarchical) view = var.image;
   }
   if (!view) {
     context.report(Diag::NoBitAddress, context.tree().begin(place));

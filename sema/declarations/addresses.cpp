@@ -1,5 +1,7 @@
 // Located variables and direct addresses: %IX0.3, %QW4, %ID48 as views of the process image. A number counts units of
 // the size letter (%ID48 begins at byte 192); %IX5 is byte 0, bit 5.
+#include <algorithm>
+
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {
@@ -22,6 +24,8 @@ std::string spelledAddress(const Context& context, const DirectAddress& address)
 
 uint32_t unitBytes(char size) { return size == 'B' ? 1 : size == 'W' ? 2 : size == 'D' ? 4 : size == 'L' ? 8 : 0; }
 
+bool isBitAddress(const DirectAddress& address) { return !address.size_given || unitBytes(address.size) == 0; }
+
 }  // namespace
 
 TypeId addressType(const DirectAddress& address) {
@@ -39,6 +43,7 @@ TypeId addressType(const DirectAddress& address) {
 //   passes  v AT %QX5.1 : BOOL; w AT %QW28 : INT;
 //   fails   v AT %QX5.9 : BOOL;                         E0340
 //   fails   v AT %QX5.1 : INT;                          E0341
+//   fails   VAR_CONFIG Main.v AT %QW5.1 : INT;          E0344 (see isHierarchical)
 std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& address, Loc loc, TypeId type) {
   const std::string text = spelledAddress(context, address);
   const auto path = context.tree().list(address.path);
@@ -85,6 +90,82 @@ std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& a
   uint32_t& end = context.project.image_bytes[static_cast<size_t>(view.area)];
   if (byte + bytes > end) end = static_cast<uint32_t>(byte + bytes);
   return view;
+}
+
+// Two numbers of a bit, one of everything else are flat; the standard leaves open what more of them mean.
+// IEC 61131-3 ed. 3 table 16, ed. 2 table 15.
+bool isHierarchical(const Context& context, const DirectAddress& address) {
+  return !address.incomplete && context.tree().list(address.path).size() > (isBitAddress(address) ? 2u : 1u);
+}
+
+// The type of the user must be known. Equal addresses are one place, as large as its largest user.
+VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, VarId user) {
+  Project& project = context.project;
+  Scopes& scopes = context.scopes;
+  const TypeId type = user ? project.var(user).type : addressType(address);
+  const std::string text = spelledAddress(context, address);
+  if (!type || type == types::kError) return {};
+  if (isBitAddress(address) && context.types().kind(type) != types::TypeKind::Bool) {
+    context.report(Diag::AddressType, loc, {text, context.types().spell(type)});
+    return {};
+  }
+  if (!ensureLayout(context, type)) return {};
+  const NameId name = context.names().intern(text);
+  Entity known = scopes.hierarchical_names.find(keyOf(context, name));
+  if (!known) {
+    if (!context.iec() && !context.library) context.report(Diag::HierarchicalAddress, loc, {text});
+    known = Entity::of(EntityKind::Var, static_cast<uint32_t>(scopes.hierarchical.size()));
+    scopes.hierarchical_names.insert(keyOf(context, name), known);
+    Var var;
+    var.name = name;
+    var.loc = loc;
+    var.type = addressType(address);
+    var.section = SectionKind::Global;
+    var.storage = Storage::Image;
+    var.image.area = address.area;
+    var.image.is_bit = isBitAddress(address);
+    var.hierarchical = true;
+    const VarId named{static_cast<uint32_t>(project.vars.size())};
+    project.vars.push_back(var);
+    scopes.hierarchical.push_back({named, uint64_t{1}, 1, {}});
+  }
+  Scopes::HierarchicalPlace& place = scopes.hierarchical[known.index];
+  for (const TypeId held : {type, addressType(address)}) {
+    const types::TypeInfo& info = context.types().info(context.types().resolve(held));
+    place.bytes = std::max<uint64_t>(place.bytes, info.size);
+    place.align = std::max<uint64_t>(place.align, info.align);
+  }
+  if (user) {
+    Var& var = project.var(user);
+    var.hierarchical = true;
+    var.image.area = address.area;
+    var.image.is_bit = context.types().kind(type) == types::TypeKind::Bool;
+    place.users.push_back(user);
+  }
+  return place.named;
+}
+
+// Behind the last byte of the other addresses, by name, each at the next byte that is aligned for it. Bits have a byte
+// each, so that all is found by its own.
+void placeHierarchical(Context& context) {
+  Project& project = context.project;
+  std::vector<Scopes::HierarchicalPlace>& places = context.scopes.hierarchical;
+  std::sort(places.begin(), places.end(), [&](const auto& a, const auto& b) {
+    return context.names().text(project.var(a.named).name) < context.names().text(project.var(b.named).name);
+  });
+  for (const Scopes::HierarchicalPlace& place : places) {
+    Var& named = project.var(place.named);
+    uint32_t& end = project.image_bytes[static_cast<size_t>(named.image.area)];
+    const uint64_t byte = (end + place.align - 1) / place.align * place.align;
+    if (byte + place.bytes > kMaxImageBytes) {
+      context.report(Diag::AddressTooLarge, named.loc,
+                     {context.names().text(named.name), std::to_string(kMaxImageBytes)});
+      return;
+    }
+    named.image.byte = static_cast<uint32_t>(byte);
+    for (const VarId user : place.users) project.var(user).image.byte = static_cast<uint32_t>(byte);
+    end = static_cast<uint32_t>(byte + place.bytes);
+  }
 }
 
 }  // namespace rung::sema

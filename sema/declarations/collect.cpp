@@ -203,9 +203,8 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   named.region = context.region;
   declare(context, names, decl.name, decl.h.loc, entity(type));
   if (tree.kind(decl.type) == TypeExprKind::Enum) {
-    const bool strict = findPragma(context, decl.h, scopes.words.attribute_strict) != nullptr;
-    const bool qualified = strict || findPragma(context, decl.h, scopes.words.attribute_qualified_only) != nullptr;
-    table.edit(type).strict = strict;
+    const bool qualified = findPragma(context, decl.h, scopes.words.attribute_qualified_only) != nullptr;
+    table.edit(type).strict = findPragma(context, decl.h, scopes.words.attribute_strict) != nullptr;
     table.edit(type).qualified = qualified;
     NameMap* bare = library != kNoLibrary ? &names : space != nullptr ? &space->items : &scopes.items;
     declareItems(context, type, decl.type, qualified ? nullptr : bare, library == kNoLibrary);

@@ -148,7 +148,13 @@ bool ensureLayout(Context& context, TypeId type);
 std::optional<int64_t> constantBound(Context& context, ExprId& expr);
 
 // ---- initial_values.cpp
-void checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string_view what);
+// What an initial value may read in codesys: constants alone, variables that live as long, also those of the same call.
+enum class InitialReads : uint8_t { Constants, Variables, Call };
+// True when it reads variables.
+bool checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string_view what,
+                        InitialReads may = InitialReads::Constants);
+// ---- initial_order.cpp
+void orderInitialValues(Context& context);
 
 // ---- libraries.cpp
 // What the library __SYSTEM, the compiler's own, declares by this name.

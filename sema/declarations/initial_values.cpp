@@ -16,7 +16,9 @@ namespace {
 struct Initializer {
   Context& context;
   std::string_view what;  // "the initial value of `x`"
-  bool broken = false;    // an element could not be parsed: how many were meant is not known
+  InitialReads may = InitialReads::Constants;
+  bool reads = false;   // variables
+  bool broken = false;  // an element could not be parsed: how many were meant is not known
 
   Tree& tree() const { return context.tree(); }
 
@@ -45,8 +47,31 @@ struct Initializer {
     return true;
   }
 
-  // What may stand in an initial value: constants, operators and functions on them, and addresses.
-  bool isStatic(ExprId id, uint32_t depth) const {
+  // A variable that has its value before this one can be set: a global one, one of the same instance, a part of these.
+  bool isReadable(ExprId id, uint32_t depth) {
+    if (may == InitialReads::Constants) return false;
+    reads = true;
+    const ExprKind kind = tree().kind(id);
+    if (kind == ExprKind::Name || kind == ExprKind::Member) {
+      const Entity entity = kind == ExprKind::Name ? tree().as<NameExpr>(id).entity : tree().as<MemberExpr>(id).entity;
+      if (entity.what() != EntityKind::Var) return false;
+      const Storage storage = context.project.vars[entity.index].storage;
+      if (storage == Storage::Global || storage == Storage::Image) return true;
+      if (storage != Storage::Field) return false;
+      return kind == ExprKind::Name || isReadable(tree().as<MemberExpr>(id).base, depth + 1);
+    }
+    if (kind == ExprKind::Index) {
+      for (const ExprId index : tree().list(tree().as<IndexExpr>(id).indices))
+        if (!isStatic(index, depth + 1)) return false;
+      return isReadable(tree().as<IndexExpr>(id).base, depth + 1);
+    }
+    if (kind == ExprKind::Deref) return isReadable(tree().as<DerefExpr>(id).base, depth + 1);
+    if (kind == ExprKind::BitAccess) return isReadable(tree().as<BitAccessExpr>(id).base, depth + 1);
+    return kind == ExprKind::This || kind == ExprKind::Address;
+  }
+
+  // What may stand in an initial value: constants, operators and functions on them, addresses, and what is readable.
+  bool isStatic(ExprId id, uint32_t depth) {
     if (depth > 1000) return false;
     const ExprHeader& header = tree().expr(id);
     if (header.type == types::kError) return true;
@@ -70,14 +95,14 @@ struct Initializer {
       }
       case ExprKind::Name:
       case ExprKind::TypedName:
-      case ExprKind::Member: return evaluate(context, id).has_value();
+      case ExprKind::Member: return evaluate(context, id).has_value() || isReadable(id, depth + 1);
       case ExprKind::Error: return true;
       case ExprKind::Index:
-      case ExprKind::This:
-      case ExprKind::Super:
       case ExprKind::Deref:
       case ExprKind::BitAccess:
-      case ExprKind::Address:
+      case ExprKind::Address: return isReadable(id, depth + 1);
+      case ExprKind::This:
+      case ExprKind::Super:
       case ExprKind::Bound:
       case ExprKind::New:
       case ExprKind::AnyValue:
@@ -89,9 +114,10 @@ struct Initializer {
     return false;
   }
 
-  // Forbids initial values that are not known before the program runs. IEC 61131-3 ed. 3, 6.5.1.2. Variables of one
-  // call (of functions, VAR_TEMP) are set when the call begins, and may use what is known then in codesys.
-  //   fails   VAR a : INT; b : INT := a; END_VAR in a block      E0325
+  // Forbids initial values that are not known before the program runs. IEC 61131-3 ed. 3, 6.5.1.2. In codesys they may
+  // read other variables (initial_order.cpp), but not those of another program; variables of one call (of functions,
+  // VAR_TEMP) are set when the call begins, and may use what is known then.
+  //   fails   VAR a : INT; b : INT := a; END_VAR in a block of iec2 or iec3      E0325
   void scalar(ExprId& init, TypeId type) {
     const ExprKind kind = tree().kind(init);
     if (kind == ExprKind::ArrayInit || kind == ExprKind::StructInit || kind == ExprKind::Repeat) {
@@ -106,9 +132,11 @@ struct Initializer {
     }
     if (!checkExprAs(context, init, type, std::string("used as ") + std::string(what))) return;
     const TypeKind to = context.types().kind(type);
-    if (to == TypeKind::Pointer) return;
-    const bool of_call = context.pou && isFunction(context.project.pou(context.pou).kind);
-    if (of_call && !context.iec()) return;
+    if (to == TypeKind::Pointer) {
+      reads |= may == InitialReads::Variables && !isStatic(init, 0);
+      return;
+    }
+    if (may == InitialReads::Call) return;
     const uint32_t errors = context.project.diagnostics.errorCount();
     if (isStatic(init, 0) || context.project.diagnostics.errorCount() != errors) {
       if (tree().kind(init) == ExprKind::Binary || tree().kind(init) == ExprKind::Unary) evaluate(context, init);
@@ -346,8 +374,10 @@ struct Initializer {
 
 }  // namespace
 
-void checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string_view what) {
-  Initializer{.context = context, .what = what}.value(init, type);
+bool checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string_view what, InitialReads may) {
+  Initializer initializer{.context = context, .what = what, .may = may};
+  initializer.value(init, type);
+  return initializer.reads;
 }
 
 void checkInitializer(Context& context, ExprId& init, TypeId type) {

@@ -403,6 +403,7 @@ void resolveInstancePlaces(Context& context) {
   resolver.collect();
   resolver.configureAll();
   resolver.completeAll();
+  placeHierarchical(there);
   context.project.instance_places = std::move(resolver.places);
 }
 

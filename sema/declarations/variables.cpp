@@ -292,6 +292,10 @@ void ensureVarType(Context& context, VarId id) {
       var.open_address = true;
       var.image.area = decl.address.area;
       var.image.is_bit = type != types::kError && context.types().kind(type) == TypeKind::Bool;
+    } else if (decl.located && !var.record && isHierarchical(there, decl.address)) {
+      const VarId named = hierarchicalVar(there, decl.address, decl.address_loc, VarId{i});
+      if (!named) project.vars[i].type = types::kError;
+      continue;
     } else if (decl.located && !var.record) {
       if (const auto view = resolveAddress(there, decl.address, decl.address_loc, type)) {
         var.image = *view;
@@ -342,13 +346,21 @@ void ensureInitialValue(Context& context, VarId id) {
       var.section != SectionKind::InOut && type != types::kError) {
     context.report(Diag::ConstantWithoutValue, var.loc, {context.names().text(var.name)});
   }
-  bool good = true;
+  bool good = true, reads = false;
   if (init && !mayHaveInitialValue(there, var, init)) init = {};
   if (init) {
     ++context.scopes.depth;
     const uint32_t errors = project.diagnostics.errorCount();
     std::string what = "the initial value of `" + spelled(context, var.name) + "`";
-    checkInitializerAs(there, init, type, what);
+    InitialReads may = InitialReads::Constants;
+    if (there.pou && isFunction(project.pou(there.pou).kind)) may = InitialReads::Call;
+    if (there.iec() || var.record)
+      may = InitialReads::Constants;
+    else if (var.storage == Storage::Local)
+      may = InitialReads::Call;
+    else if (var.list || var.pou)
+      may = InitialReads::Variables;
+    reads = checkInitializerAs(there, init, type, what, may);
     good = project.diagnostics.errorCount() == errors;
     --context.scopes.depth;
     decl.init = init;
@@ -368,6 +380,7 @@ void ensureInitialValue(Context& context, VarId id) {
     project.vars[i].init = init;
     project.vars[i].constructor = constructor;
     project.vars[i].element_constructors = elements;
+    if (reads || constructor.index != 0) context.scopes.reading_inits.push_back(VarId{i});
     if (value) {
       project.vars[i].has_value = true;
       project.vars[i].value = *value;

@@ -40,6 +40,11 @@ TEST(InitialValues, structures_and_instances) {
   EXPECT_NE(checked.messages().find("`age`"), std::string::npos);
 }
 
+TEST(InitialValues, of_a_block_read_its_own_variables_in_codesys) {
+  const Checked checked("PROGRAM p VAR a : INT := 5; c : INT := a; END_VAR END_PROGRAM");
+  EXPECT_EQ(checked.codes(), "");
+}
+
 TEST(InitialValues, must_be_constant_in_blocks) {
   const Checked checked(
       "PROGRAM p VAR\n"
