@@ -9,8 +9,8 @@
 namespace rung::sema {
 
 inline constexpr uint32_t kMaxDeclarationDepth = 500;
-inline constexpr uint32_t kMaxTypeDepth =
-    1000;  // structures and blocks inside each other, arrays of arrays, bases of bases
+inline constexpr uint32_t kMaxTypeDepth = 2500;  // structures and blocks inside each other, arrays of arrays
+inline constexpr uint32_t kMaxBases = 500;       // bases of bases
 
 // The same project seen from another place.
 inline Context at(Context& context, PouId pou, FileId file, bool library, RegionId region = {}) {
@@ -135,7 +135,7 @@ inline constexpr uint64_t kMaxImageBytes = uint64_t{1} << 24;
 
 // ---- types.cpp
 void resolveNamed(Context& context, TypeId type);
-void reportTooDeep(Context& context, Loc loc, const char* what);
+void reportTooDeep(Context& context, Loc loc, const char* what, uint32_t limit);
 TypeId lookUpType(Context& context, NameId name, Loc loc = {});
 
 // ---- settle.cpp

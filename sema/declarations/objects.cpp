@@ -213,8 +213,8 @@ void resolveHeader(Context& context, PouId id) {
     resolveHeader(context, base);
     --context.scopes.depth;
     const uint32_t depth = project.pou(base).base_depth + 1;
-    if (depth > kMaxTypeDepth) {
-      reportTooDeep(there, context.tree().loc(written), "bases");
+    if (depth > kMaxBases) {
+      reportTooDeep(there, context.tree().loc(written), "bases", kMaxBases);
       continue;
     }
     project.pou(id).base_depth = std::max(project.pou(id).base_depth, depth);

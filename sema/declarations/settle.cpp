@@ -78,7 +78,7 @@ struct CycleSearch {
       if (inner->cut == State::Busy) {
         report(held, index);
       } else if (depth > kMaxTypeDepth) {
-        reportTooDeep(context, context.project.var(named.fields[index]).loc, "structures and blocks");
+        reportTooDeep(context, context.project.var(named.fields[index]).loc, "structures and blocks", kMaxTypeDepth);
       } else {
         named.depth = std::max(named.depth, depth);
         continue;

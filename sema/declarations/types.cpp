@@ -403,9 +403,9 @@ TypeId resolveWritten(Context& context, TypeExprId id) {
 }  // namespace
 
 // Forbids types that are nested so deep that a walk over them would exhaust the stack.
-//   fails   1001 structures inside each other          E0220
-void reportTooDeep(Context& context, Loc loc, const char* what) {
-  context.report(Diag::TooDeep, loc, {what, std::to_string(kMaxTypeDepth)});
+//   fails   2501 structures inside each other          E0220
+void reportTooDeep(Context& context, Loc loc, const char* what, uint32_t limit) {
+  context.report(Diag::TooDeep, loc, {what, std::to_string(limit)});
 }
 
 TypeId lookUpType(Context& context, NameId name, Loc loc) {
@@ -474,7 +474,8 @@ void resolveNamed(Context& context, TypeId type) {
         const TypeKind kind = context.types().info(inner).kind;
         if (inner == type || (kind != TypeKind::Alias && kind != TypeKind::Array)) break;
       }
-      if (depth > kMaxTypeDepth) reportTooDeep(there, context.tree().loc(named->type), "arrays and names of types");
+      if (depth > kMaxTypeDepth)
+        reportTooDeep(there, context.tree().loc(named->type), "arrays and names of types", kMaxTypeDepth);
       context.types().edit(type).base = step == type || depth > kMaxTypeDepth ? types::kError : target;
       break;
     }
