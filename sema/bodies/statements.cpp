@@ -53,6 +53,7 @@ void checkReferenceAssign(Context& context, AssignStmt& node) {
     check(context, node.value, {}, Access::Address);
     return;
   }
+  if (checkPropertyAssign(context, node)) return;
   if (context.tree().kind(node.target) == ExprKind::Deref) node.target = context.tree().as<DerefExpr>(node.target).base;
   const TypeId own = context.tree().expr(node.target).type;
   if (context.types().kind(own) != TypeKind::Reference) {

@@ -51,7 +51,8 @@ TEST(InitialValues, must_be_constant_in_blocks) {
       "a : INT := 5; b : INT := 2 * 3;\n"
       "c : INT := a;\n"
       "END_VAR END_PROGRAM\n"
-      "FUNCTION f : INT VAR_INPUT x : INT; END_VAR VAR y : INT := x; END_VAR f := y; END_FUNCTION");
+      "FUNCTION f : INT VAR_INPUT x : INT; END_VAR VAR y : INT := 2; END_VAR f := x + y; END_FUNCTION",
+      Options{.standard = text::Standard::Iec3, .libraries = {}});
   EXPECT_EQ(checked.codes(), "E0325@3");
 }
 
