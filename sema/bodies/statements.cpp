@@ -53,8 +53,8 @@ void checkReferenceAssign(Context& context, AssignStmt& node) {
     check(context, node.value, {}, Access::Address);
     return;
   }
-  if (checkPropertyAssign(context, node)) return;
   if (context.tree().kind(node.target) == ExprKind::Deref) node.target = context.tree().as<DerefExpr>(node.target).base;
+  if (checkPropertyAssign(context, node)) return;
   const TypeId own = context.tree().expr(node.target).type;
   if (context.types().kind(own) != TypeKind::Reference) {
     context.report(Diag::NotAReference, context.tree().loc(node.target), {"REF=", context.types().spell(own)});
