@@ -148,7 +148,7 @@ TEST_F(InputsTest, ProjectOfTwinCatAsLibrary) {
   folder.write("p/main.st", kProgram);
   options.library_paths = {library};
   read({folder.path() + "/p"});
-  EXPECT_EQ(paths(), (std::vector<std::string>{"lib/FB_Part.TcPOU", "p/main.st"}));
+  EXPECT_EQ(paths(), (std::vector<std::string>{"../lib/FB_Part.TcPOU", "main.st"}));
   EXPECT_EQ(inputs.project_names, (std::vector<std::string>{"Parts"}));
 }
 
