@@ -135,7 +135,10 @@ void ProjectReader::addLibraries(const xml::Element& libraries) {
     while (!title.empty() && title.back() == ' ') title.pop_back();
     const bool seen = std::any_of(libraries_.begin(), libraries_.end(),
                                   [&](const Library& library) { return sameIdentifier(library.name, title); });
-    if (!title.empty() && !seen) libraries_.push_back({std::move(title), loc});
+    if (!title.empty() && !seen) {
+      const xml::Attribute* space = import_.document.attribute(*e, "Namespace");
+      libraries_.push_back({std::move(title), space == nullptr ? "" : import_.document.decoded(*space), loc});
+    }
   }
 }
 

@@ -23,6 +23,7 @@ bool isPlcopen(std::string_view text);
 // A library that the project refers to.
 struct Library {
   std::string name;
+  std::string space;  // the namespace under which the project knows it, or empty
   Loc loc;
 };
 

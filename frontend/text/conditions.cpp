@@ -265,7 +265,7 @@ void FileConditions::choose(Open& open, Truth value) {
 // False: a pragma of another kind, which stays.
 bool FileConditions::directive(uint32_t at) {
   const std::string_view name = word();
-  if (holdsC(name, text_.substr(at + 1, pragma_end_ - at - 1)) && !sameIdentifier(name, "define")) return false;
+  if (holdsC(text_.substr(at + 1, pragma_end_ - at - 1)) && !sameIdentifier(name, "define")) return false;
   const bool is_if = sameIdentifier(name, "IF"), is_elsif = sameIdentifier(name, "ELSIF"),
              is_else = sameIdentifier(name, "ELSE"), is_end = sameIdentifier(name, "END_IF"),
              is_define = sameIdentifier(name, "define"), is_undefine = sameIdentifier(name, "undefine");

@@ -7,10 +7,10 @@
 
 namespace rung::text {
 
-// `word`: the first word of the pragma. Only operators and names that no pragma of an IEC compiler has count.
-inline bool holdsC(std::string_view word, std::string_view text) {
-  if (word.empty()) return text.find(';') != std::string_view::npos;
+// Only operators and names that no pragma of an IEC compiler has count, and a `;` before any quoted text.
+inline bool holdsC(std::string_view text) {
   const auto has = [&](std::string_view what) { return text.find(what) != std::string_view::npos; };
+  if (has(":=")) return false;  // ST in braces
   return has("->") || has("==") || has("&&") || has("||") || has("__SET_") || has("__GET_") || has("#include") ||
          text.substr(0, text.find('\'')).find(';') != std::string_view::npos;
 }

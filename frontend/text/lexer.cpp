@@ -601,7 +601,7 @@ void Lexer::checkPragma(std::string_view word, const char* rest, const char* end
   }
   for (const std::string_view name : *known)
     if (sameIdentifier(name, word) && !sameIdentifier(name, "IF") && !sameIdentifier(name, "exit")) return;
-  if (holdsC(word, {word.data(), static_cast<size_t>(end - word.data())})) {
+  if (holdsC({word.data(), static_cast<size_t>(end - word.data())})) {
     diagnostics_.report(Diag::CodeInC, loc(word.data())).length(1);
     return;
   }

@@ -50,14 +50,17 @@ bool readProject(const Sources& sources, FileId file, Diagnostics& diagnostics, 
       const xml::Element* excluded = document.child(element, "ExcludeFromBuild");
       if (excluded != nullptr && sameIdentifier(document.text(*excluded, sources), "true")) continue;
       std::string path = pathOf(name);
-      if (holdsProgram(path)) out.files.push_back({std::move(path), include->loc});
+      if (holdsProgram(path)) out.files.push_back({std::move(path), {}, include->loc});
     } else if (element.name == "PlaceholderReference" || element.name == "LibraryReference") {
       // "Standard, 3.5.2.0, System"
       std::string title = name.substr(0, name.find(','));
       while (!title.empty() && (title.back() == ' ' || title.back() == '\t')) title.pop_back();
       const bool seen = std::any_of(out.libraries.begin(), out.libraries.end(),
                                     [&](const ProjectEntry& entry) { return sameIdentifier(entry.name, title); });
-      if (!title.empty() && !seen) out.libraries.push_back({std::move(title), include->loc});
+      const xml::Element* space = document.child(element, "Namespace");
+      if (!title.empty() && !seen)
+        out.libraries.push_back(
+            {std::move(title), space == nullptr ? "" : document.text(*space, sources), include->loc});
     }
   }
   return true;

@@ -86,6 +86,20 @@ static bool pointsAlike(const Context& context, TypeId from, TypeId to) {
 
 namespace {
 
+// A structure that extends another one begins with its members.
+bool extendsStructure(const Context& context, TypeId derived, TypeId base) {
+  base = context.types().resolve(base);
+  for (;;) {
+    const NamedType* named = context.scopes.named(context.types().resolve(derived));
+    if (named == nullptr || !named->type || context.tree().kind(named->type) != TypeExprKind::Struct) return false;
+    const TypeExprId extended = context.tree().as<StructTypeExpr>(named->type).base;
+    if (!extended) return false;
+    derived = context.tree().typeExpr(extended).type;
+    if (!derived || derived == types::kError) return false;
+    if (context.types().resolve(derived) == base) return true;
+  }
+}
+
 bool isInterface(const Context& context, const types::TypeInfo& type) {
   if (type.kind != TypeKind::Pointer) return false;
   const types::TypeInfo& target = context.types().info(context.types().resolve(type.base));
@@ -146,6 +160,7 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
     if (isObjectFit(context, source, from, target)) return Fit::Lossless;
     if (isInterface(context, target) || isInterface(context, source))
       return sameType(context, from, to) ? Fit::Same : Fit::No;
+    if (source.kind == TypeKind::Pointer && extendsStructure(context, source.base, target.base)) return Fit::Lossless;
     if (source.kind == TypeKind::Pointer)
       return pointsAlike(context, source.base, target.base) ? Fit::Same : Fit::Pointer;
   }

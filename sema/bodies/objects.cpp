@@ -240,7 +240,15 @@ bool checkPropertyAssign(Context& context, AssignStmt& node) {
   const bool good = mayAccess(context, setter.access, setter.owner, property.name, loc);
   const ExprId instance =
       context.tree().kind(node.target) == ExprKind::Member ? context.tree().as<MemberExpr>(node.target).base : ExprId{};
-  if (node.op() != AssignOp::Assign) {  // x.p += 1 reads it first
+  const TypeId pin_type = context.project.var(pin).type;
+  if (node.op() == AssignOp::Reference) {
+    if (context.types().kind(pin_type) != TypeKind::Reference) {
+      context.report(Diag::NotAReference, loc, {"REF=", context.types().spell(pin_type)});
+      return true;
+    }
+    if (!bindReference(context, node.value, pin_type)) return true;
+    node.h.op = static_cast<uint8_t>(AssignOp::Assign);
+  } else if (node.op() != AssignOp::Assign) {  // x.p += 1 reads it first
     ExprId read = context.tree().kind(node.target) == ExprKind::Member
                       ? context.tree().add<ExprId>(MemberExpr(context.tree().as<MemberExpr>(node.target)))
                       : context.tree().add<ExprId>(NameExpr(context.tree().as<NameExpr>(node.target)));

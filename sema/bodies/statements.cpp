@@ -54,6 +54,7 @@ void checkReferenceAssign(Context& context, AssignStmt& node) {
     return;
   }
   if (context.tree().kind(node.target) == ExprKind::Deref) node.target = context.tree().as<DerefExpr>(node.target).base;
+  if (checkPropertyAssign(context, node)) return;
   const TypeId own = context.tree().expr(node.target).type;
   if (context.types().kind(own) != TypeKind::Reference) {
     context.report(Diag::NotAReference, context.tree().loc(node.target), {"REF=", context.types().spell(own)});

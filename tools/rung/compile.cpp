@@ -107,9 +107,18 @@ bool Compilation::read() {
   return good;
 }
 
-// Names the libraries that a project of another tool asks for and Rung does not have.
+// Names the libraries that a project of another tool asks for and Rung does not have, and gives the others the names
+// that the project has for them.
 void Compilation::noteLibraries() {
   for (const vendor::ProjectEntry& wanted : inputs.libraries) {
+    if (!wanted.space.empty() && !sameIdentifier(wanted.space, wanted.name)) {
+      const bool of_project = std::any_of(inputs.project_names.begin(), inputs.project_names.end(),
+                                          [&](std::string_view name) { return sameIdentifier(name, wanted.name); });
+      if (of_project)
+        inputs.project_names.push_back(wanted.space);
+      else
+        libraries.addAlias(wanted.space, wanted.name);
+    }
     const auto called = [&](std::string_view name) { return sameIdentifier(name, wanted.name); };
     const bool known = std::any_of(inputs.project_names.begin(), inputs.project_names.end(), called) ||
                        std::any_of(libraries.files().begin(), libraries.files().end(),

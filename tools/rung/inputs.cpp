@@ -486,7 +486,8 @@ void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
       continue;
     if (!input.file) inputs.unread = true;
   }
-  for (plcopen::Library& library : xml_libraries) inputs.libraries.push_back({std::move(library.name), library.loc});
+  for (plcopen::Library& library : xml_libraries)
+    inputs.libraries.push_back({std::move(library.name), std::move(library.space), library.loc});
   std::erase_if(inputs.files, [](const InputFile& input) { return !input.file; });
 }
 

@@ -23,16 +23,30 @@ std::string LibrarySet::load(const Options& options) {
     files_.push_back({library, texts_.back().c_str(), file.text});
   }
   for (const NamespaceAlias& row : namespaceAliases()) aliases_.push_back({row.alias, row.name});
-  for (const std::string& folder : options.library_paths)
-    if (folder.ends_with(".plcproj"))
-      continue;  // read with the inputs
-    else if (std::string error = addFolder(folder, true); !error.empty())
-      return error;
+  for (const std::string& path : options.library_paths) {
+    if (path.ends_with(".plcproj")) continue;  // read with the inputs
+    const LibraryPath library = libraryPath(path);
+    if (std::string error = addFolder(library.folder, library.called, true); !error.empty()) return error;
+  }
   return {};
 }
 
+LibraryPath libraryPath(const std::string& written) {
+  const size_t equal = written.find('=');
+  const std::string_view name = std::string_view(written).substr(0, equal);
+  if (equal == std::string::npos || !isIdentifier(name)) return {{}, written};
+  return {std::string(name), written.substr(equal + 1)};
+}
+
+void LibrarySet::addAlias(const std::string& alias, const std::string& library) {
+  texts_.push_back(alias);
+  const char* shown = texts_.back().c_str();
+  texts_.push_back(library);
+  aliases_.push_back({shown, texts_.back().c_str()});
+}
+
 // Files of the folder are one library of its name; each folder in it is one, too.
-std::string LibrarySet::addFolder(const std::string& folder, bool with_folders) {
+std::string LibrarySet::addFolder(const std::string& folder, std::string_view called, bool with_folders) {
   DIR* dir = opendir(folder.c_str());
   if (dir == nullptr) return "cannot read the library folder `" + folder + "`: " + strerror(errno);
   std::vector<std::string> names;
@@ -44,14 +58,14 @@ std::string LibrarySet::addFolder(const std::string& folder, bool with_folders) 
 
   std::string_view name = folder;
   while (name.size() > 1 && name.back() == '/') name.remove_suffix(1);
-  texts_.emplace_back(name.substr(name.rfind('/') + 1));
+  texts_.emplace_back(called.empty() ? name.substr(name.rfind('/') + 1) : called);
   const char* library = texts_.back().c_str();
   for (const std::string& entry : names) {
     const std::string path = folder + "/" + entry;
     struct stat info;
     if (stat(path.c_str(), &info) != 0) continue;
     if (S_ISDIR(info.st_mode) && with_folders) {
-      if (std::string error = addFolder(path, false); !error.empty()) return error;
+      if (std::string error = addFolder(path, {}, false); !error.empty()) return error;
     } else if (S_ISREG(info.st_mode) && (entry.ends_with(".st") || entry.ends_with(".iecst"))) {
       ReadResult read = readFile(path);
       if (!read.error.empty()) return "cannot read the library `" + path + "`: " + read.error;

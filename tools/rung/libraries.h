@@ -11,16 +11,26 @@
 
 namespace rung::tool {
 
+struct LibraryPath {
+  std::string called;  // empty: as the folder
+  std::string folder;
+};
+// `-I DIR` and `-I NAME=DIR`.
+LibraryPath libraryPath(const std::string& written);
+
 class LibrarySet {
  public:
   // The error names what could not be read.
   [[nodiscard]] std::string load(const Options& options);
+  // Another name for a library: `Std.TON` where a project refers to Tc2_Standard as Std.
+  void addAlias(const std::string& alias, const std::string& library);
   const std::vector<sema::LibraryFile>& files() const { return files_; }
   const std::vector<sema::LibraryAlias>& aliases() const { return aliases_; }
   const std::vector<std::string>& read() const { return read_; }  // files and folders of -I, for depfiles
 
  private:
-  [[nodiscard]] std::string addFolder(const std::string& folder, bool with_folders);
+  // `called`: the library's name, or empty for that of the folder.
+  [[nodiscard]] std::string addFolder(const std::string& folder, std::string_view called, bool with_folders);
 
   std::vector<sema::LibraryFile> files_;
   std::vector<sema::LibraryAlias> aliases_;

@@ -3,6 +3,8 @@
 
 #include <charconv>
 
+#include "tools/rung/libraries.h"
+
 namespace rung::tool {
 namespace {
 
@@ -284,7 +286,11 @@ void applyProjectFile(const ProjectFile& project, Options& options) {
   options.warnings.insert(options.warnings.begin(), project.warnings.begin(), project.warnings.end());
   // Of two with one name the later one counts: the command line's.
   options.defines.insert(options.defines.begin(), project.defines.begin(), project.defines.end());
-  for (const std::string& folder : project.libraries) options.library_paths.push_back(project.folder + "/" + folder);
+  for (const std::string& written : project.libraries) {
+    const LibraryPath library = libraryPath(written);
+    const std::string called = library.called.empty() ? std::string() : library.called + "=";
+    options.library_paths.push_back(called + project.folder + "/" + library.folder);
+  }
 }
 
 }  // namespace rung::tool

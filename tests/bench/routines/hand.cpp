@@ -369,6 +369,27 @@ struct Stations {
   }
 };
 
+struct Conveyors {
+  struct Conveyor {
+    uint32_t n = 0, last = 0;
+    int32_t step(int32_t x) {
+      n += static_cast<uint32_t>(x);
+      const uint32_t before = last;
+      last = static_cast<uint32_t>(x);
+      return static_cast<int32_t>(n - before);
+    }
+    void clear() { n = last = 0; }
+  };
+  Conveyor line[8];
+  int32_t run(int32_t rounds) {
+    int32_t x = 1;
+    for (Conveyor& conveyor : line) conveyor.clear();
+    for (int32_t r = 0; r < rounds; ++r)
+      for (Conveyor& conveyor : line) x = conveyor.step(x);
+    return x;
+  }
+};
+
 }  // namespace
 
 int main() {
@@ -383,5 +404,6 @@ int main() {
   measure<Ranking>("ranking", 5000);
   measure<Calendar>("calendar", 1000000);
   measure<Stations>("stations", 1000000);
+  measure<Conveyors>("conveyors", 1000000);
   return 0;
 }

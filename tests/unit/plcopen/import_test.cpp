@@ -108,11 +108,13 @@ TEST(Plcopen, BodyOfCfcHidesItsPlaceholder) {
 }
 
 TEST(Plcopen, LibrariesOfTheProject) {
-  const Reading reading(project(
-      "<x><Libraries><Library Name='#Standard'/><Library Name='Util, 3.5.17.0 (System)'/><Library Name='UTIL, *'/>"
-      "<Library Name='#IoStandard' SystemLibrary='true'/></Libraries></x>"));
+  const Reading reading(
+      project("<x><Libraries><Library Name='#Standard' Namespace='Std'/><Library Name='Util, 3.5.17.0 "
+              "(System)'/><Library Name='UTIL, *'/>"
+              "<Library Name='#IoStandard' SystemLibrary='true'/></Libraries></x>"));
   ASSERT_EQ(reading.libraries.size(), 2u);
   EXPECT_EQ(reading.libraries[0].name, "Standard");
+  EXPECT_EQ(reading.libraries[0].space, "Std");
   EXPECT_EQ(reading.libraries[1].name, "Util");
 }
 

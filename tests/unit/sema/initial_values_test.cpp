@@ -46,12 +46,15 @@ TEST(InitialValues, of_a_block_read_its_own_variables_in_codesys) {
 }
 
 TEST(InitialValues, must_be_constant_in_blocks) {
+  Options iec;
+  iec.standard = text::Standard::Iec3;
   const Checked checked(
       "PROGRAM p VAR\n"
       "a : INT := 5; b : INT := 2 * 3;\n"
       "c : INT := a;\n"
       "END_VAR END_PROGRAM\n"
-      "FUNCTION f : INT VAR_INPUT x : INT; END_VAR VAR y : INT := x; END_VAR f := y; END_FUNCTION");
+      "FUNCTION f : INT VAR_INPUT x : INT; END_VAR VAR y : INT := 2; END_VAR f := x + y; END_FUNCTION",
+      iec);
   EXPECT_EQ(checked.codes(), "E0325@3");
 }
 

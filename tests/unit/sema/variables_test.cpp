@@ -82,7 +82,7 @@ TEST(Variables, addresses) {
       "i AT %I* : BOOL;\n"
       "j AT %IW1.2 : INT;\n"
       "END_VAR");
-  EXPECT_EQ(checked.codes(), "E0340@4 E0341@5 E0344@7");
+  EXPECT_EQ(checked.codes(), "E0340@4 E0341@5 W0367@7");
   EXPECT_EQ(checked.var("a").image.byte, 192u);
   EXPECT_EQ(checked.var("b").image.byte, 0u);
   EXPECT_EQ(checked.var("b").image.bit, 5u);
@@ -91,7 +91,8 @@ TEST(Variables, addresses) {
   EXPECT_TRUE(checked.var("d").image.is_bit);
   EXPECT_EQ(checked.var("e").image.byte, 192u);
   EXPECT_EQ(checked.var("i").image.byte, 216u);  // allocated behind all others
-  EXPECT_EQ(checked.project.image_bytes[0], 217u);
+  EXPECT_EQ(checked.var("j").image.byte, 218u);  // and this one behind them, aligned
+  EXPECT_EQ(checked.project.image_bytes[0], 220u);
 }
 
 TEST(Variables, edge_inputs_have_a_memory) {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "tests/unit/tools/temporary_folder.h"
+#include "tools/rung/libraries.h"
 
 namespace rung::tool {
 namespace {
@@ -128,6 +129,35 @@ TEST_F(InputsTest, ProjectOfTwinCatTakesWhatItLists) {
   read({folder.path() + "/p"});
   EXPECT_EQ(paths(), (std::vector<std::string>{"plain.st", "plc/DUTs/a.TcDUT"}));
   EXPECT_FALSE(inputs.io_error);
+}
+
+// -I X.plcproj: what the project lists but its programs and tasks; its name qualifies what it declares.
+TEST_F(InputsTest, ProjectOfTwinCatAsLibrary) {
+  const std::string head = "<Project xmlns=\"http://schemas.microsoft.com/developer/msbuild/2003\">";
+  const std::string library = folder.write("lib/Parts.plcproj", head +
+                                                                    "<Compile Include=\"FB_Part.TcPOU\"/><Compile "
+                                                                    "Include=\"Try.TcPOU\"/><Compile "
+                                                                    "Include=\"Task.TcTTO\"/></Project>");
+  folder.write("lib/FB_Part.TcPOU",
+               "<TcPlcObject><POU Name='FB_Part'><Declaration><![CDATA[FUNCTION_BLOCK FB_Part\n]]></Declaration>"
+               "<Implementation><ST></ST></Implementation></POU></TcPlcObject>");
+  folder.write("lib/Try.TcPOU",
+               "<TcPlcObject><POU Name='Try'><Declaration><![CDATA[PROGRAM Try\n]]></Declaration>"
+               "<Implementation><ST></ST></Implementation></POU></TcPlcObject>");
+  folder.write("lib/Task.TcTTO", "<TcPlcObject><Task Name='T'/></TcPlcObject>");
+  folder.write("p/main.st", kProgram);
+  options.library_paths = {library};
+  read({folder.path() + "/p"});
+  EXPECT_EQ(paths(), (std::vector<std::string>{"../lib/FB_Part.TcPOU", "main.st"}));
+  EXPECT_EQ(inputs.project_names, (std::vector<std::string>{"Parts"}));
+}
+
+TEST(LibraryPath, MayBeCalledAnotherName) {
+  EXPECT_EQ(libraryPath("lib/oscat").called, "");
+  EXPECT_EQ(libraryPath("lib/oscat").folder, "lib/oscat");
+  EXPECT_EQ(libraryPath("OSCAT_BASIC=lib/oscat").called, "OSCAT_BASIC");
+  EXPECT_EQ(libraryPath("OSCAT_BASIC=lib/oscat").folder, "lib/oscat");
+  EXPECT_EQ(libraryPath("lib/a=b").folder, "lib/a=b");
 }
 
 TEST_F(InputsTest, ListedFileThatIsGone) {

@@ -96,7 +96,7 @@ TEST(TwinCat, ProjectListsFilesAndLibraries) {
   Diagnostics diagnostics(sources);
   const FileId file = sources.add("a.plcproj", R"(<Project><ItemGroup><Compile Include="POUs\A%20b.TcPOU" />
 <Compile Include="V.TcVIS" /><Compile Include="Off.tcpou"><ExcludeFromBuild>true</ExcludeFromBuild></Compile>
-<Folder Include="POUs" /></ItemGroup><PlaceholderReference Include="Tc2_Standard" />
+<Folder Include="POUs" /></ItemGroup><PlaceholderReference Include="Tc2_Standard"><Namespace>Std</Namespace></PlaceholderReference>
 <LibraryReference Include="Util, 3.5.1.0, System" /><LibraryReference Include="util,newest,System" /></Project>)");
   Project project;
   ASSERT_TRUE(readProject(sources, file, diagnostics, project));
@@ -105,6 +105,8 @@ TEST(TwinCat, ProjectListsFilesAndLibraries) {
   EXPECT_EQ(sources.place(project.files[0].loc).column, 39u);
   ASSERT_EQ(project.libraries.size(), 2u);
   EXPECT_EQ(project.libraries[0].name, "Tc2_Standard");
+  EXPECT_EQ(project.libraries[0].space, "Std");
+  EXPECT_EQ(project.libraries[1].space, "");
   EXPECT_EQ(project.libraries[1].name, "Util");
 }
 
