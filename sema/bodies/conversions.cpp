@@ -266,7 +266,7 @@ bool constantFits(Context& context, ExprId expr, TypeId to) {
 
 bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
   const TypeId from = context.tree().expr(expr).type;
-  if (from == to) return from != types::kError;
+  if (from == to) return from != types::kError && checkCopied(context, expr, to);
   if (!from || from == types::kError || to == types::kError) return false;
   __int128 number = 1;
   if (!context.iec() && isUntyped(context, from) && untypedValue(context, expr, number) && number == 0 &&

@@ -340,6 +340,7 @@ RUNG_BYTE_ORDER(DATE_AND_TIME, uint32_t, RUNG_SWAP32)
 RUNG_BYTE_ORDER(LDATE_AND_TIME, uint64_t, RUNG_SWAP64)
 RUNG_BYTE_ORDER(CHAR, uint8_t, in)
 RUNG_BYTE_ORDER(WCHAR, uint16_t, RUNG_SWAP16)
+RUNG_BYTE_ORDER(UCHAR, uint32_t, RUNG_SWAP32)
 RUNG_BYTE_ORDER(REAL, float, rung_f32_of(__builtin_bswap32(rung_bits_of_f32(in))))
 RUNG_BYTE_ORDER(LREAL, double, rung_f64_of(__builtin_bswap64(rung_bits_of_f64(in))))
 #undef RUNG_SWAP16
@@ -350,6 +351,9 @@ RUNG_BYTE_ORDER(LREAL, double, rung_f64_of(__builtin_bswap64(rung_bits_of_f64(in
 #define RUNG_TEXT_ORDER(NAME)                                                                                         \
   uint32_t rung_standard_##NAME##__STRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {          \
     return rung_text_assign(out, capacity, in);                                                                       \
+  }                                                                                                                   \
+  uint32_t rung_standard_##NAME##__USTRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {         \
+    return rung_utext_assign(out, capacity, in);                                                                      \
   }                                                                                                                   \
   uint32_t rung_standard_##NAME##__WSTRING_255(rung_context*, const char16_t* in, char16_t* out, uint32_t capacity) { \
     return rung_wtext_assign(out, capacity, in);                                                                      \
