@@ -230,9 +230,9 @@ void BodyWriter::writeExits() {
   if (uses_fault_) {
     out_ += "\nfault:";
     writeBack(out_);
-    out_ += " rung_raise(ctx, at & 7, sites_";
+    out_ += " rung_raise(ctx, at & 15, sites_";
     out_ += group_.stem;
-    out_ += " + (at >> 3), value);";
+    out_ += " + (at >> 4), value);";
   }
 }
 

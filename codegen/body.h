@@ -231,6 +231,7 @@ class BodyWriter {
   uint32_t widthOf(TypeKind kind) const { return types::TypeTable::bitWidth(kind); }
   bool isText(TypeId type) const { return types::TypeTable::isText(types_.kind(type)); }
   bool isWide(TypeId type) const { return types_.kind(type) == TypeKind::WString; }
+  bool isUtf8(TypeId type) const { return types_.kind(type) == TypeKind::UString; }
   bool isAggregate(TypeId type) const {
     const TypeKind kind = types_.kind(type);
     return kind == TypeKind::Array || kind == TypeKind::Record;

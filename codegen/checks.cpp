@@ -26,7 +26,7 @@ uint32_t BodyWriter::site(Loc loc, Fault fault, int64_t low, int64_t high) {
     made.column = place.column;
   }
   group_.sites.push_back(made);
-  return static_cast<uint32_t>(group_.sites.size() - 1) << 3 | static_cast<uint32_t>(fault);
+  return static_cast<uint32_t>(group_.sites.size() - 1) << 4 | static_cast<uint32_t>(fault);
 }
 
 void BodyWriter::endCheck(Loc loc, Fault fault, std::string_view value, int64_t low, int64_t high) {

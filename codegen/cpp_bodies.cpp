@@ -128,7 +128,8 @@ class Writer {
     if (of.kind == TypeKind::Enum && of.name) return named(type);
     if (isText(type)) {
       const TypeId plain = types_.resolve(type);
-      std::string out = types_.plainKind(plain) == TypeKind::WString ? "WideText<" : "Text<";
+      const TypeKind kind = types_.plainKind(plain);
+      std::string out = kind == TypeKind::WString ? "WideText<" : kind == TypeKind::UString ? "Utf8Text<" : "Text<";
       appendUnsigned(out, info(plain).length);
       return out + ">";
     }

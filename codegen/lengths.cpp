@@ -20,9 +20,10 @@ constexpr uint32_t kWorthKeeping = 2;   // the same where it is known from the f
 }  // namespace
 
 bool BodyWriter::isSized(const Body& callee) const {
-  if (!callee.sized || isWide(callee.result)) return false;
+  const auto is_other = [&](TypeId type) { return isText(type) && types_.kind(type) != TypeKind::String; };
+  if (!callee.sized || is_other(callee.result)) return false;
   for (const ir::Local& local : callee.locals) {
-    if (isWide(local.type)) return false;
+    if (is_other(local.type)) return false;
   }
   return true;
 }

@@ -490,7 +490,9 @@ void BodyWriter::callStatement(const Stmt& stmt) {
     if (isText(to)) {
       const bool wide = isWide(to), from_wide = isWide(callee.result);
       if (!length.empty()) out_ += length + " = ";
-      out_ += wide == from_wide ? (wide ? "rung_wtext_assign(" : "rung_text_assign(")
+      out_ += wide == from_wide ? (wide         ? "rung_wtext_assign("
+                                   : isUtf8(to) ? "rung_utext_assign("
+                                                : "rung_text_assign(")
                                 : (wide ? "rung_wtext_of_text(" : "rung_text_of_wtext(");
       place(ExprId{stmt.e});
       out_ += ", ";
@@ -560,7 +562,7 @@ void BodyWriter::guarded(const std::string& frame, const std::string& fault, Stm
   flushCloses(0);
   out_ += " return;";
   if (uses_fault_) {
-    out_ += " fault: rung_raise(ctx, at & 7, sites_" + group_.stem + " + (at >> 3), value);";
+    out_ += " fault: rung_raise(ctx, at & 15, sites_" + group_.stem + " + (at >> 4), value);";
   }
   uses_fault_ = outer_uses_fault;
   --depth_;
@@ -654,7 +656,7 @@ void BodyWriter::assertStatement(const Stmt& stmt) {
     if (types_.info(types_.resolve(type)).kind == TypeKind::Enum) {
       out_ += "RUNG_ENUM";
     } else {
-      out_ += isText(type) ? (isWide(type) ? "RUNG_WSTRING" : "RUNG_STRING") : typeKindName(types_, type);
+      out_ += typeKindName(types_, type);
     }
   };
   const auto bits = [&](ExprId id) {

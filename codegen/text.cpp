@@ -15,6 +15,13 @@ constexpr uint32_t kComparedByUnit = 3;  // units of a literal that are compared
 
 std::string_view upToNul(std::string_view text) { return text.substr(0, text.find('\0')); }
 
+// The characters that fit `bytes` bytes of a USTRING.
+std::string_view firstWhole(std::string_view text, uint32_t bytes) {
+  if (text.size() <= bytes) return text;
+  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xc0) == 0x80) --bytes;
+  return text.substr(0, bytes);
+}
+
 // The first `units` UTF-16 units of a UTF-8 text.
 std::string_view firstUnits(std::string_view text, uint32_t units) {
   size_t at = 0;
@@ -175,7 +182,9 @@ void BodyWriter::copyText(std::string_view to, uint32_t capacity, bool wide, Exp
     case ExprKind::Text: {
       if (isWide(e.type) != wide) break;
       std::string_view literal = upToNul(text(NameId{e.a}));
-      literal = wide ? firstUnits(literal, capacity) : literal.substr(0, capacity);
+      literal = wide             ? firstUnits(literal, capacity)
+                : isUtf8(e.type) ? firstWhole(literal, capacity)
+                                 : literal.substr(0, capacity);
       if (literal.empty()) {
         out_ += to;
         out_ += "[0] = 0;";
@@ -256,7 +265,7 @@ void BodyWriter::copyText(std::string_view to, uint32_t capacity, bool wide, Exp
     out_ += ");";
     return;
   } else {
-    begin(wide ? "rung_wtext_assign" : "rung_text_assign", capacity);
+    begin(wide ? "rung_wtext_assign" : isUtf8(e.type) ? "rung_utext_assign" : "rung_text_assign", capacity);
   }
   out_ += source + ");";
 }

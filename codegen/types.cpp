@@ -29,7 +29,7 @@ Shape shapeOf(const TypeTable& types, TypeId type) {
   if (kind == TypeKind::Real) return kF32;
   if (kind == TypeKind::LReal) return kF64;
   if (kind == TypeKind::Pointer || kind == TypeKind::Reference) return kPointer;
-  if (kind == TypeKind::String) return kText;
+  if (kind == TypeKind::String || kind == TypeKind::UString) return kText;
   if (kind == TypeKind::WString) return kWideText;
   const bool is_signed = types.isSigned(kind);
   switch (TypeTable::bitWidth(kind)) {
@@ -131,8 +131,10 @@ const char* typeKindName(const TypeTable& types, TypeId type) {
     case TypeKind::LDateTime: return "RUNG_LDT";
     case TypeKind::Char: return "RUNG_CHAR";
     case TypeKind::WChar: return "RUNG_WCHAR";
+    case TypeKind::UChar: return "RUNG_UCHAR";
     case TypeKind::String: return "RUNG_STRING";
     case TypeKind::WString: return "RUNG_WSTRING";
+    case TypeKind::UString: return "RUNG_USTRING";
     case TypeKind::Array: return "RUNG_ARRAY";
     case TypeKind::Record: return "RUNG_RECORD";
     case TypeKind::None:

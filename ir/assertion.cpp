@@ -5,8 +5,7 @@ namespace rung::ir {
 
 rung_type_kind assertedKind(const types::TypeTable& types, TypeId type) {
   const types::TypeKind kind = types.kind(type);
-  if (kind == types::TypeKind::String) return RUNG_STRING;
-  if (kind == types::TypeKind::WString) return RUNG_WSTRING;
+  if (types::TypeTable::isText(kind)) return hostKind(types, types::idOf(kind));
   return types.info(types.resolve(type)).kind == types::TypeKind::Enum ? RUNG_ENUM : hostKind(types, type);
 }
 

@@ -371,7 +371,7 @@ rung_type_kind hostKind(const TypeTable& types, TypeId type) {
   if (kind == TypeKind::Record) return RUNG_RECORD;
   if (!TypeTable::isElementary(kind)) return RUNG_POINTER;
   // Both lists name the elementary types in the same order.
-  static_assert(static_cast<int>(TypeKind::WString) - static_cast<int>(TypeKind::Bool) == RUNG_WSTRING - RUNG_BOOL);
+  static_assert(static_cast<int>(TypeKind::UString) - static_cast<int>(TypeKind::Bool) == RUNG_USTRING - RUNG_BOOL);
   static_assert(static_cast<int>(TypeKind::Time) - static_cast<int>(TypeKind::Bool) == RUNG_TIME - RUNG_BOOL);
   static_assert(static_cast<int>(TypeKind::LDateTime) - static_cast<int>(TypeKind::Bool) == RUNG_LDT - RUNG_BOOL);
   return static_cast<rung_type_kind>(static_cast<int>(kind) - static_cast<int>(TypeKind::Bool));

@@ -120,9 +120,9 @@ void Reader::stmt() {
     b.loc = loc;
     if (!failed_) b.body.stmts[b.tryCatch(body_block, catch_block, finally_block, number).index].op = catches;
   } else if (accept("fault")) {
-    constexpr types::Fault kFaults[] = {types::Fault::Div,     types::Fault::Index,    types::Fault::Null,
-                                        types::Fault::Cast,    types::Fault::Subrange, types::Fault::Convert,
-                                        types::Fault::Overflow};
+    constexpr types::Fault kFaults[] = {types::Fault::Div,      types::Fault::Index,    types::Fault::Null,
+                                        types::Fault::Cast,     types::Fault::Subrange, types::Fault::Convert,
+                                        types::Fault::Overflow, types::Fault::Lock};
     auto kind = types::Fault::None;
     for (types::Fault one : kFaults)
       if (isWord(types::word(one))) kind = one;

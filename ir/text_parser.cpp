@@ -564,7 +564,7 @@ bool Reader::read() {
 bool Reader::atType() const {
   const Token& t = token();
   if (t.kind != TokenKind::Name || t.quoted) return false;
-  for (const char* word : {"string", "wstring", "array", "pointer", "reference"})
+  for (const char* word : {"string", "wstring", "ustring", "array", "pointer", "reference"})
     if (t.text == word) return true;
   for (const TypeWord& row : typeWords())
     if (t.text == row.word) return true;
@@ -598,11 +598,14 @@ TypeId Reader::type() {
     return types::kError;
   }
   const std::string_view word = tokens_[at_++].text;
-  if (word == "string" || word == "wstring") {
+  if (word == "string" || word == "wstring" || word == "ustring") {
     expect("[");
     const auto length = static_cast<uint32_t>(integer());
     expect("]");
-    return word == "string" ? types_.string(length) : types_.wstring(length);
+    return types_.text(word[0] == 'w'   ? types::TypeKind::WString
+                       : word[0] == 'u' ? types::TypeKind::UString
+                                        : types::TypeKind::String,
+                       length);
   }
   if (word == "array") {
     std::vector<Dimension> dimensions;

@@ -94,7 +94,7 @@ void Printer::type(TypeId id) {
   id = types_.resolve(id);
   const TypeInfo& info = types_.info(id);
   if (TypeTable::isText(info.kind)) {
-    put(info.kind == TypeKind::String ? "string[" : "wstring[");
+    put(info.kind == TypeKind::String ? "string[" : info.kind == TypeKind::WString ? "wstring[" : "ustring[");
     number(info.length);
     put("]");
   } else if (info.kind == TypeKind::Array) {

@@ -16,16 +16,16 @@ constexpr TypeWord kTypeWords[] = {
     {"time", TypeKind::Time},   {"ltime", TypeKind::LTime},   {"date", TypeKind::Date},
     {"ldate", TypeKind::LDate}, {"tod", TypeKind::TimeOfDay}, {"ltod", TypeKind::LTimeOfDay},
     {"dt", TypeKind::DateTime}, {"ldt", TypeKind::LDateTime}, {"char", TypeKind::Char},
-    {"wchar", TypeKind::WChar},
+    {"wchar", TypeKind::WChar}, {"uchar", TypeKind::UChar},
 };
 constexpr const char* kReserved[] = {
-    "address", "array",    "assert",  "assert_eq", "assert_near", "bind",     "break",   "call",       "case",
-    "catch",   "continue", "convert", "data",      "else",        "evaluate", "false",   "fault",      "finally",
-    "for",     "if",       "in",      "inf",       "init",        "inout",    "jump",    "label",      "loop",
-    "nan",     "next",     "null",    "of",        "on",          "out",      "pointer", "ref",        "reference",
-    "result",  "return",   "select",  "self",      "string",      "switch",   "temp",    "to",         "true",
-    "try",     "value",    "var",     "wstring",   "zero",        "by",       "retain",  "persistent", "constant",
-    "text",    "shows",    "class",   "base"};
+    "address",  "array",    "assert",  "assert_eq", "assert_near", "bind",     "break",   "call",   "case",
+    "catch",    "continue", "convert", "data",      "else",        "evaluate", "false",   "fault",  "finally",
+    "for",      "if",       "in",      "inf",       "init",        "inout",    "jump",    "label",  "loop",
+    "nan",      "next",     "null",    "of",        "on",          "out",      "pointer", "ref",    "reference",
+    "result",   "return",   "select",  "self",      "string",      "switch",   "temp",    "to",     "true",
+    "try",      "value",    "var",     "wstring",   "ustring",     "zero",     "by",      "retain", "persistent",
+    "constant", "text",     "shows",   "class",     "base"};
 constexpr CheckWord kCheckWords[] = {
     {"div", kCheckDiv},           {"index", kCheckIndex},     {"null", kCheckNull},        {"cast", kCheckCast},
     {"subrange", kCheckSubrange}, {"convert", kCheckConvert}, {"overflow", kCheckOverflow}};

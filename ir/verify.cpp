@@ -419,7 +419,7 @@ void Verifier::stmt(StmtId id) {
       block(StmtId{s.c});
       return;
     case StmtKind::Fault:
-      require(s.op > 0 && s.op <= static_cast<uint8_t>(types::Fault::Overflow), 28, "a fault that does not exist");
+      require(s.op > 0 && s.op <= static_cast<uint8_t>(types::Fault::Lock), 28, "a fault that does not exist");
       if (s.a != 0) value(s.a);
       found_fault_ = true;
       return;

@@ -120,6 +120,9 @@ struct Pou {
   bool sized = false;            // {sized}: has a second native form that takes and gives lengths of texts
   bool slice = false;            // {slice}: and a third that only tells which part of the first input the result is
   bool prefix = false;    // {prefix}: the first n characters of the result follow from the first n of the first input
+  bool faults = false;    // {fault}: its result is 0 or what the caller faults with, a rung_lock_error
+  bool no_copy = false;   // {no_copy}: an instance cannot be copied
+  bool bytes = false;     // {bytes}: its generic type is ARRAY OF BYTE
   bool checked = false;   // its body was checked (library bodies: when used)
   bool checking = false;  // it is at hand
   bool broken = false;    // it has errors

@@ -183,7 +183,8 @@ struct Scopes {
   // Pragmas and words that declarations look for, as name keys.
   struct Words {
     NameId attribute_qualified_only, attribute_strict, attribute_instance_path, test, test_only, replaces, mock, alias,
-        required, lazy, extensible, prefix, sized, slice, pure, native, op, std, no_final_scan, list;
+        required, lazy, extensible, prefix, sized, slice, pure, native, op, std, no_final_scan, list, fault, no_copy,
+        bytes;
   } words;
 
   NamedType* named(TypeId type) {

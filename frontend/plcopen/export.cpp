@@ -82,7 +82,7 @@ bool PouExport::isOwnAction(DeclId member) const {
 size_t PouExport::beginOf(DeclId member) const {
   if (to_.tree.kind(member) == DeclKind::Pou) return source_.at(to_.tree.as<PouDecl>(member).begin);
   const auto& property = to_.tree.as<PropertyDecl>(member);
-  size_t begin = source_.wordBefore(source_.at(property.h.loc), "PROPERTY");
+  size_t begin = source_.at(property.begin);
   for (const Pragma& pragma : to_.tree.list(property.h.pragmas)) begin = std::min(begin, source_.at(pragma.loc));
   return begin;
 }
@@ -250,11 +250,11 @@ void PouExport::property(const PropertyDecl& property) {
       end = source_.wordBefore(end, "END_PROPERTY");
       for (const DeclId id : {property.get, property.set})
         if (id) end = std::min(end, source_.at(to_.tree.as<PouDecl>(id).begin));
-      const size_t begin = source_.wordBefore(name, "PROPERTY");
-      exportPlainText(to_, source_.cut(begin, end), data);
+      const size_t behind_word = source_.at(property.begin) + (property.h.bits == kInHalves ? 12 : 8);
+      exportPlainText(to_, "PROPERTY" + std::string(source_.cut(behind_word, end)), data);
     }
   }
-  const size_t begin = source_.wordBefore(name, "PROPERTY");
+  const size_t begin = source_.at(property.begin);
   to_.documentation(source_.comments(source_.commentsBefore(begin), begin));
   to_.xml.close();
 }

@@ -150,7 +150,11 @@ void exportType(Export& to, TypeExprId id) {
     }
     case TypeExprKind::Text: {
       const auto& type = to.tree.as<TextTypeExpr>(id);
-      to.xml.open(type.wide ? "wstring" : "string");
+      if (type.code == TextCode::Utf8) {  // TC6 has no USTRING, so its length stands in the text only
+        to.says_all = false;
+        return exportNamed(to, spelling(type.code));
+      }
+      to.xml.open(type.code == TextCode::Wide ? "wstring" : "string");
       if (type.length) to.xml.attribute("length", to.printed(type.length));
       to.xml.close();
       return;
@@ -190,7 +194,7 @@ void exportType(Export& to, TypeExprId id) {
 // Beremiz keeps texts without quotes, and so a text in this version is a literal, never the name of a constant.
 void exportInitialValue(Export& to, ExprId value, TypeExprId type) {
   if (type && to.tree.kind(type) == TypeExprKind::Text) {
-    const char quote = to.tree.as<TextTypeExpr>(type).wide ? '"' : '\'';
+    const char quote = to.tree.as<TextTypeExpr>(type).code == TextCode::Wide ? '"' : '\'';
     if (to.printed(value).find(quote) == std::string::npos) to.says_all = false;
   }
   to.xml.open("initialValue");

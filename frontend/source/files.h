@@ -114,5 +114,6 @@ struct ReadResult {
 
 // First byte that is not UTF-8, or npos. Vendor exports in Latin-1 are told apart by it.
 size_t findInvalidUtf8(std::string_view text);
+inline bool isUtf8(std::string_view text) { return findInvalidUtf8(text) == std::string_view::npos; }
 
 }  // namespace rung

@@ -263,7 +263,7 @@ void StPrinter::newExpr(const NewExpr& e) {
   text += "__NEW(";
   if (tree_.kind(e.what) == TypeExprKind::Text) {
     const auto& type = tree_.as<TextTypeExpr>(e.what);
-    text += type.wide ? "WSTRING" : "STRING";
+    text += spelling(type.code);
     if (type.length) operand(type.length, 0, true);
   } else if (tree_.kind(e.what) == TypeExprKind::Named) {
     const auto& type = tree_.as<NamedTypeExpr>(e.what);

@@ -357,13 +357,17 @@ struct NamedTypeExpr {
   Slice<Ident> path;
   Slice<Argument> arguments;  // of FB_Init
   bool has_arguments;
-  Slice<ExprId> elements;  // of an array's elements, a CallExpr without callee each
-};                         // Lib.Motor   Pump(3, x := 4)   ARRAY[0..1] OF Pump[(3), (4)]
+  Slice<ExprId> elements;                             // of an array's elements, a CallExpr without callee each
+};                                                    // Lib.Motor   Pump(3, x := 4)   ARRAY[0..1] OF Pump[(3), (4)]
+enum class TextCode : uint8_t { Bytes, Wide, Utf8 };  // STRING, WSTRING, USTRING
 struct TextTypeExpr {
   TypeExprHeader h;
-  ExprId length;
-  bool wide;
-};  // none: default
+  ExprId length;  // none: default
+  TextCode code;
+};
+inline const char* spelling(TextCode code) {
+  return code == TextCode::Wide ? "WSTRING" : code == TextCode::Utf8 ? "USTRING" : "STRING";
+}
 struct SubrangeTypeExpr {
   TypeExprHeader h;
   TypeExprId base;
@@ -451,15 +455,18 @@ struct PouDecl {
   Loc body_begin, body_end;  // the text of its statements or instructions; Cpp: with {C++} and {END_C++}
 };
 
+enum PropertyBits : uint8_t { kInHalves = 1 };  // PROPERTY_GET, PROPERTY_SET: edition 4
+
 // PROPERTY name : type. Its accessors are methods of its name: the getter has its type as result, the setter has an
 // input of that name and type.
 struct PropertyDecl {
-  DeclHeader h;
+  DeclHeader h; /* bits: PropertyBits */
   NameId name;
   AccessLevel access;
   uint8_t modifiers;
   TypeExprId type;
   DeclId get, set;  // Pou; none: not declared
+  Loc begin;        // its first word
 };
 
 struct NamespaceDecl {

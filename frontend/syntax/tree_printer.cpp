@@ -452,7 +452,8 @@ void Printer::typeExpr(TypeExprId id, int depth) {
       break;
     case TypeExprKind::Text: {
       const auto& t = tree_.as<TextTypeExpr>(id);
-      text += t.wide ? " WSTRING" : " STRING";
+      text += ' ';
+      text += spelling(t.code);
       if (t.length) {
         text += ' ';
         expr(t.length);

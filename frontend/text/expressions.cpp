@@ -607,13 +607,30 @@ ExprId Parser::parseNumber(NameId prefix, bool negative, Loc start) {
   return tree_.add<ExprId>(e);
 }
 
+// The texts of edition 4 and its short prefixes, with the word whose quotes they take.
+struct TextPrefix {
+  const char* word;
+  const char* type;
+  Tok quotes;
+};
+static constexpr TextPrefix kTextPrefixes[] = {
+    {"S", "STRING", Tok::String},  {"W", "WSTRING", Tok::Wstring},      {"U", "USTRING", Tok::String},
+    {"C", "CHAR", Tok::Char},      {"WC", "WCHAR", Tok::Wchar},         {"UC", "UCHAR", Tok::Char},
+    {"UCHAR", "UCHAR", Tok::Char}, {"USTRING", "USTRING", Tok::String},
+};
+
 ExprId Parser::parseText(NameId prefix, Loc start) {
   const Token* token = t_;
   advance();
   bool wide = token->kind == Tok::WideText;
   if ((token->flags & kReported) != 0) last_error_ = token;
   if (prefix) {
-    const Tok type = token[-2].kind;
+    Tok type = token[-2].kind;
+    for (const TextPrefix& row : kTextPrefixes) {
+      if (!is(token - 2, row.word)) continue;
+      prefix = names_.intern(row.type);
+      type = row.quotes;
+    }
     const bool double_byte = type == Tok::Wstring || type == Tok::Wchar;  // with either quote: ed. 3 table 6, 4c and 4d
     const bool good = type == Tok::String || type == Tok::Char ? !wide : double_byte || !isTypeWord(type);
     wide = wide || double_byte;

@@ -97,58 +97,17 @@ Tok findWord(const char* s, uint32_t n) {
 // Words that open, divide or close blocks; recover.cpp checks that they balance.
 constexpr std::array<bool, kTokCount> makeBlockWords() {
   std::array<bool, kTokCount> b{};
-  for (Tok t : {Tok::If,
-                Tok::EndIf,
-                Tok::Case,
-                Tok::EndCase,
-                Tok::For,
-                Tok::EndFor,
-                Tok::While,
-                Tok::EndWhile,
-                Tok::Repeat,
-                Tok::EndRepeat,
-                Tok::Try,
-                Tok::EndTry,
-                Tok::Type,
-                Tok::EndType,
-                Tok::Struct,
-                Tok::EndStruct,
-                Tok::Union,
-                Tok::EndUnion,
-                Tok::Var,
-                Tok::VarInput,
-                Tok::VarOutput,
-                Tok::VarInOut,
-                Tok::VarTemp,
-                Tok::VarExternal,
-                Tok::VarGlobal,
-                Tok::VarStat,
-                Tok::VarAccess,
-                Tok::VarInst,
-                Tok::VarConfig,
-                Tok::EndVar,
-                Tok::Function,
-                Tok::EndFunction,
-                Tok::FunctionBlock,
-                Tok::EndFunctionBlock,
-                Tok::Program,
-                Tok::EndProgram,
-                Tok::Method,
-                Tok::EndMethod,
-                Tok::Property,
-                Tok::EndProperty,
-                Tok::Action,
-                Tok::EndAction,
-                Tok::Interface,
-                Tok::EndInterface,
-                Tok::Class,
-                Tok::EndClass,
-                Tok::Namespace,
-                Tok::Using,
-                Tok::Configuration,
-                Tok::EndConfiguration,
-                Tok::Resource,
-                Tok::EndResource})
+  for (
+      Tok t :
+      {Tok::If,        Tok::EndIf,       Tok::Case,          Tok::EndCase,          Tok::For,         Tok::EndFor,
+       Tok::While,     Tok::EndWhile,    Tok::Repeat,        Tok::EndRepeat,        Tok::Try,         Tok::EndTry,
+       Tok::Type,      Tok::EndType,     Tok::Struct,        Tok::EndStruct,        Tok::Union,       Tok::EndUnion,
+       Tok::Var,       Tok::VarInput,    Tok::VarOutput,     Tok::VarInOut,         Tok::VarTemp,     Tok::VarExternal,
+       Tok::VarGlobal, Tok::VarStat,     Tok::VarAccess,     Tok::VarInst,          Tok::VarConfig,   Tok::EndVar,
+       Tok::Function,  Tok::EndFunction, Tok::FunctionBlock, Tok::EndFunctionBlock, Tok::Program,     Tok::EndProgram,
+       Tok::Method,    Tok::EndMethod,   Tok::Property,      Tok::PropertyGet,      Tok::PropertySet, Tok::EndProperty,
+       Tok::Action,    Tok::EndAction,   Tok::Interface,     Tok::EndInterface,     Tok::Class,       Tok::EndClass,
+       Tok::Namespace, Tok::Using,       Tok::Configuration, Tok::EndConfiguration, Tok::Resource,    Tok::EndResource})
     b[static_cast<size_t>(t)] = true;
   return b;
 }
@@ -586,9 +545,10 @@ const char* Lexer::pragma(const char* begin) {
 // What is nearly the name of a pragma that does something was most likely meant to be it; all others are passed over.
 void Lexer::checkPragma(std::string_view word, const char* rest, const char* end) {
   static const std::vector<std::string_view> kPragmas = {
-      "attribute", "test",     "info",   "warning",   "error",  "text",  "define",   "undefine",   "IF",   "ELSIF",
-      "ELSE",      "END_IF",   "region", "endregion", "native", "alias", "required", "extensible", "lazy", "pure",
-      "operator",  "replaces", "std",    "sized",     "list",   "entry", "active",   "exit"};
+      "attribute", "test",       "info",   "warning", "error",    "text",      "define", "undefine",
+      "IF",        "ELSIF",      "ELSE",   "END_IF",  "region",   "endregion", "native", "alias",
+      "required",  "extensible", "lazy",   "pure",    "operator", "replaces",  "std",    "sized",
+      "list",      "entry",      "active", "exit",    "fault",    "no_copy",   "bytes"};
   static const std::vector<std::string_view> kAttributes = {"qualified_only", "strict", "test", "no_final_scan"};
   const std::vector<std::string_view>* known = &kPragmas;
   if (sameIdentifier(word, "attribute")) {

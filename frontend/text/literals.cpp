@@ -352,6 +352,26 @@ bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnost
       case 't': value += '\t'; continue;
       default: break;
     }
+    if (next == '{') {
+      const size_t end = std::min(inner.find('}', i), inner.size());
+      uint64_t point = 0;
+      bool is_point = end < inner.size() && end > i + 1;
+      for (size_t k = i + 1; is_point && k < end; ++k) {
+        const int h = hexDigit(inner[k]);
+        is_point = h >= 0 && point < 0x110000;
+        point = point * 16 + static_cast<uint64_t>(h);
+      }
+      if (is_point && point < 0x110000 && !(point >= 0xD800 && point < 0xE000)) {
+        appendUtf8(value, static_cast<uint32_t>(point));
+      } else {
+        const std::string_view shown = inner.substr(start, end + 1 - start);
+        diagnostics.report(Diag::NoCodePoint, Loc{loc.offset + 1 + static_cast<uint32_t>(start)}, {shown})
+            .length(static_cast<uint32_t>(shown.size()));
+        good = false;
+      }
+      i = end;
+      continue;
+    }
     if (!is_code) {
       const std::string_view shown = inner.substr(start, next == '\0' ? 1 : 2);
       diagnostics

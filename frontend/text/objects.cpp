@@ -5,12 +5,13 @@
 namespace rung::text {
 
 // Words that are names unless a declaration begins with them: `METHOD Start`. What is none becomes a name, so that the
-// parser and the block repair need no further look.
+// parser and the block repair need no further look; PROPERTY_GET and PROPERTY_SET are one kind with PROPERTY.
 void settleObjectWords(TokenStream& stream) {
   std::vector<Token>& tokens = stream.tokens;
   size_t kept = 0;
   for (const uint32_t i : stream.blocks) {
-    const Tok k = tokens[i].kind;
+    Tok& k = tokens[i].kind;
+    if (k == Tok::PropertyGet || k == Tok::PropertySet) k = Tok::Property;
     if (isObjectWord(k) || k == Tok::Using) {
       const Tok before = i == 0 ? Tok::Semicolon : tokens[i - 1].kind;
       const Token& next = tokens[i + 1];
@@ -19,7 +20,7 @@ void settleObjectWords(TokenStream& stream) {
                                    (before >= Tok::And && before <= Tok::Not) || before == Tok::Mod;
       const bool line_start = (tokens[i].flags & kLineStart) != 0;
       if (!names_something || (!line_start && behind_operator)) {
-        tokens[i].kind = Tok::Ident;
+        k = Tok::Ident;
         continue;
       }
     }
@@ -108,7 +109,12 @@ void Parser::parseMember(std::vector<DeclId>& out) {
   const Tok pou_end = pou_end_;
   const Known pou_closes = pou_closes_;
   panic_ = false;
-  out.push_back(at(Tok::Property) ? parseProperty() : parsePou());
+  if (!at(Tok::Property))
+    out.push_back(parsePou());
+  else if (is(t_, "PROPERTY"))
+    out.push_back(parseProperty());
+  else
+    parseHalfProperty(out);
   panic_ = false;
   declared_in_body_ = declared_in_body;
   lost_ = lost;
@@ -122,10 +128,10 @@ bool Parser::atAccessor() const {
   return (t_[1].flags & kLineStart) != 0 || next == Tok::Semicolon || next < Tok::Semicolon || next > Tok::EqualLess;
 }
 
-// PROPERTY modifiers name ":" type {GET sections statements [END_GET] | SET … [END_SET]} [END_PROPERTY]
-DeclId Parser::parseProperty() {
-  PropertyDecl d{{DeclKind::Property, 0, 0, here(), takeDoc(), takePragmas()}, {}, AccessLevel::None, 0, {}, {}, {}};
-  const Token* open = t_;
+// [PROPERTY | PROPERTY_GET | PROPERTY_SET] modifiers name ":" type [";"]
+Ident Parser::parsePropertyHeader(PropertyDecl& d) {
+  d.h = {DeclKind::Property, 0, 0, here(), takeDoc(), takePragmas()};
+  d.begin = here();
   advance();
   parseModifiers(d.access, d.modifiers, true);
   Ident name{{}, here()};
@@ -140,6 +146,14 @@ DeclId Parser::parseProperty() {
   }
   if (!d.type) d.type = tree_.add<TypeExprId>(ErrorTypeExpr{{TypeExprKind::Error, 0, 0, d.h.loc, {}}});
   accept(Tok::Semicolon);
+  return name;
+}
+
+// PROPERTY header {GET sections statements [END_GET] | SET … [END_SET]} [END_PROPERTY]
+DeclId Parser::parseProperty() {
+  PropertyDecl d{};
+  const Token* open = t_;
+  const Ident name = parsePropertyHeader(d);
   ++in_property_;
   while (atAccessor()) {
     const bool is_set = at(Tok::Set);
@@ -158,19 +172,52 @@ DeclId Parser::parseProperty() {
   return tree_.add<DeclId>(d);
 }
 
+// PROPERTY_GET header sections statements END_PROPERTY | PROPERTY_SET …: edition 4. Both of a name are one property.
+void Parser::parseHalfProperty(std::vector<DeclId>& out) {
+  PropertyDecl d{};
+  const Token* open = t_;
+  const bool is_set = is(t_, "PROPERTY_SET");
+  const Ident name = parsePropertyHeader(d);
+  d.h.bits = kInHalves;
+  PouDecl accessor{};
+  accessor.h = {DeclKind::Pou, 0, 0, d.h.loc, {}, {}};
+  accessor.access = d.access;
+  accessor.modifiers = d.modifiers;
+  accessor.begin = here();
+  (is_set ? d.set : d.get) = parseAccessorBody(accessor, name, d, is_set, Tok::EndProperty);
+  if (t_[-1].kind != Tok::EndProperty && t_[-1].kind != Tok::Semicolon) {
+    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    missing(Diag::MissingEnd, {"END_PROPERTY", is_set ? "PROPERTY_SET" : "PROPERTY_GET", line});
+  }
+  for (const DeclId known : out) {
+    if (tree_.kind(known) != DeclKind::Property) continue;
+    auto& other = tree_.as<PropertyDecl>(known);
+    if (other.h.bits != kInHalves || (is_set ? other.set : other.get)) continue;
+    if (!names_.same(other.name, d.name)) continue;
+    (is_set ? other.set : other.get) = is_set ? d.set : d.get;
+    other.modifiers &= d.modifiers;  // of the whole; each half keeps its own
+    return;
+  }
+  out.push_back(tree_.add<DeclId>(d));
+}
+
 DeclId Parser::parseAccessor(const Ident& property, const PropertyDecl& of) {
   PouDecl d{};
   d.h = {DeclKind::Pou, 0, 0, here(), takeDoc(), takePragmas()};
-  d.name = property.name;
-  d.pou_kind = PouKind::Method;
   d.access = of.access;
   d.modifiers = of.modifiers;
   d.begin = here();
   const bool is_set = at(Tok::Set);
-  const Tok end = is_set ? Tok::EndSet : Tok::EndGet;
   advance();
   parseModifiers(d.access, d.modifiers, false);
   accept(Tok::Semicolon);
+  return parseAccessorBody(d, property, of, is_set, is_set ? Tok::EndSet : Tok::EndGet);
+}
+
+// sections statements [`end`]
+DeclId Parser::parseAccessorBody(PouDecl& d, const Ident& property, const PropertyDecl& of, bool is_set, Tok end) {
+  d.name = property.name;
+  d.pou_kind = PouKind::Method;
   const size_t first = decls_.size();
   if (is_set) {
     VarDecl value{{DeclKind::Var, 0, 0, property.loc, {}, {}}, {}, of.type, {}, EdgeKind::None, false, {}, {}};

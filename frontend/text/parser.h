@@ -90,7 +90,10 @@ class Parser {
   void parseMember(std::vector<DeclId>& out);
   bool atAccessor() const;
   DeclId parseProperty();
+  void parseHalfProperty(std::vector<DeclId>& out);
+  Ident parsePropertyHeader(PropertyDecl& d);
   DeclId parseAccessor(const Ident& property, const PropertyDecl& of);
+  DeclId parseAccessorBody(PouDecl& d, const Ident& property, const PropertyDecl& of, bool is_set, Tok end);
   DeclId parseNamespace();
   void parseUsing(std::vector<DeclId>& out);
 

@@ -140,11 +140,15 @@ TypeExprId Parser::parseType() {
   return type;
 }
 
-// name {"." name} | STRING ["[" expr "]" | "(" expr ")"] | INT "(" low ".." high ")" | INT "(" items ")"
+// name {"." name} | (STRING | WSTRING | USTRING) ["[" expr "]" | "(" expr ")"] | INT "(" low ".." high ")" | INT "("
+// items ")"
 TypeExprId Parser::parseNamedType() {
   const Loc start = here();
-  if (at(Tok::String) || at(Tok::Wstring)) {
-    TextTypeExpr d{{TypeExprKind::Text, 0, 0, start, {}}, {}, at(Tok::Wstring)};
+  // USTRING came late to be a keyword: a type of the project may have its name.
+  const bool is_utf8 = at(Tok::Ident) && is(t_, "USTRING") && (peek() == Tok::LeftBracket || peek() == Tok::LeftParen);
+  if (at(Tok::String) || at(Tok::Wstring) || is_utf8) {
+    const TextCode code = is_utf8 ? TextCode::Utf8 : at(Tok::Wstring) ? TextCode::Wide : TextCode::Bytes;
+    TextTypeExpr d{{TypeExprKind::Text, 0, 0, start, {}}, {}, code};
     advance();
     if (at(Tok::LeftBracket) || at(Tok::LeftParen)) {
       const Tok close = at(Tok::LeftBracket) ? Tok::RightBracket : Tok::RightParen;

@@ -231,7 +231,7 @@ void BodyTranslator::callStatement(const Stmt& stmt) {
   if (to && by_reference && !direct_result) {
     const TypeId type = expr(to).type;
     if (isText(type)) {
-      copyText(place(to), capacityOf(type), isWide(type), memory, isWide(callee.result));
+      copyText(place(to), capacityOf(type), isWide(type), memory, callee.result);
     } else {
       copyAggregate(place(to), memory, info(type).size);
     }

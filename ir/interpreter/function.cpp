@@ -111,6 +111,8 @@ FunctionResult runFunction(const Module& module, BodyId function, std::span<cons
         const std::string text(names.text(NameId{static_cast<uint32_t>(value.bits)}));
         if (module.types.kind(local.type) == TypeKind::WString) {
           rung_wtext_of_text(reinterpret_cast<char16_t*>(to), capacity, text.c_str());
+        } else if (module.types.kind(local.type) == TypeKind::UString) {
+          rung_utext_assign(to, capacity, text.c_str());
         } else {
           rung_text_assign(to, capacity, text.c_str());
         }
@@ -156,7 +158,8 @@ FunctionResult runFunction(const Module& module, BodyId function, std::span<cons
     uint64_t bits;
     memcpy(&bits, fp + at, 8);
     result.value = valueOf(module.types, body.result, bits);
-  } else if (body.result && module.types.kind(body.result) == TypeKind::String) {
+  } else if (body.result && (module.types.kind(body.result) == TypeKind::String ||
+                             module.types.kind(body.result) == TypeKind::UString)) {
     result.value = {body.result, names.intern(reinterpret_cast<const char*>(result_memory)).index};
   } else if (body.result && module.types.kind(body.result) == TypeKind::WString) {
     const uint32_t capacity = module.types.info(module.types.resolve(body.result)).length;

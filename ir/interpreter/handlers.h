@@ -66,6 +66,7 @@ Handler compareMemoryHandler();           // truth a := c bytes at (slot b) equa
 
 // ---- handlers_text.cpp. Addresses of texts; capacity in c.
 Handler assignTextHandler(bool wide, bool from_wide, Base to, Base from);  // a := b
+Handler assignUtf8Handler(Base to, Base from);                             // of two USTRINGs
 Handler compareTextHandler(bool wide, Base left, Base right);              // I32 a := order of b and c
 Handler emptyTextHandler(bool wide, Base to);                              // a
 Handler textOfScalarHandler(bool wide);  // text at (slot a) of the bits in slot b, kind d

@@ -30,6 +30,12 @@ void assign(RUNG_HANDLER_PARAMETERS) {
   RUNG_NEXT;
 }
 
+template <Base D, Base A>
+void assignUtf8(RUNG_HANDLER_PARAMETERS) {
+  rung_utext_assign(text<false, D>(ip, fp, self, ip->a), ip->c, text<false, A>(ip, fp, self, ip->b));
+  RUNG_NEXT;
+}
+
 template <bool Wide, Base A, Base B>
 void compare(RUNG_HANDLER_PARAMETERS) {
   const auto* const a = text<Wide, A>(ip, fp, self, ip->b);
@@ -78,6 +84,10 @@ Handler compareOf(Base left, Base right) {
 Handler assignTextHandler(bool wide, bool from_wide, Base to, Base from) {
   if (wide) return from_wide ? assignOf<true, true>(to, from) : assignOf<true, false>(to, from);
   return from_wide ? assignOf<false, true>(to, from) : assignOf<false, false>(to, from);
+}
+Handler assignUtf8Handler(Base to, Base from) {
+  return withAddress(
+      to, [&](auto d) { return withAnyAddress(from, [&](auto a) -> Handler { return assignUtf8<d(), a()>; }); });
 }
 Handler compareTextHandler(bool wide, Base left, Base right) {
   return wide ? compareOf<true>(left, right) : compareOf<false>(left, right);

@@ -96,13 +96,15 @@ Address BodyTranslator::text(ExprId id) {
   return place(id);
 }
 
-void BodyTranslator::copyText(const Address& to, uint32_t capacity, bool wide, const Address& from, bool from_wide) {
+void BodyTranslator::copyText(const Address& to, uint32_t capacity, bool wide, const Address& from, TypeId type) {
   const auto base = [&](const Address& a) -> Address {
     if (a.base != Base::Pointer || a.offset == 0) return a;
     return {Base::Pointer, pointerTo(a), 0, 0, kNoBit};
   };
   const Address a = base(to), b = base(from);
-  emit(assignTextHandler(wide, from_wide, a.base, b.base), a.ref, b.ref, {capacity, false}, 0, b.imm);
+  const bool is_utf8 = !wide && types_.kind(type) == types::TypeKind::UString;  // then `to` is a USTRING, too
+  emit(is_utf8 ? assignUtf8Handler(a.base, b.base) : assignTextHandler(wide, isWide(type), a.base, b.base), a.ref,
+       b.ref, {capacity, false}, 0, b.imm);
 }
 
 void BodyTranslator::assignText(const Address& to, uint32_t capacity, bool wide, ExprId from) {
@@ -119,9 +121,9 @@ void BodyTranslator::assignText(const Address& to, uint32_t capacity, bool wide,
   if (e.kind == ExprKind::Convert) {  // of another width: its own text first
     const Address made = textBuffer(e.type);
     assignText(made, capacityOf(e.type), isWide(e.type), from);
-    return copyText(to, capacity, wide, made, isWide(e.type));
+    return copyText(to, capacity, wide, made, e.type);
   }
-  copyText(to, capacity, wide, text(from), isWide(e.type));
+  copyText(to, capacity, wide, text(from), e.type);
 }
 
 Operand BodyTranslator::textOrder(ExprId left, ExprId right) {

@@ -162,7 +162,7 @@ class BodyTranslator {
   // ---- texts.cpp
   Address text(ExprId id);
   void assignText(const Address& to, uint32_t capacity, bool wide, ExprId from);
-  void copyText(const Address& to, uint32_t capacity, bool wide, const Address& from, bool from_wide);
+  void copyText(const Address& to, uint32_t capacity, bool wide, const Address& from, TypeId type);
   Operand textOrder(ExprId left, ExprId right);
   Address literal(const Expr& e);
   Address textBuffer(TypeId type);

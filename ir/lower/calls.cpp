@@ -412,6 +412,16 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
           .d = count,
           .e = result.index});
   for (const AfterCall& output : after) storeOutput(output.target, output.value, output.negated, loc);
+  if (pou.faults && !(pou_ && project_.pou(pou_).library)) {
+    const StmtId fault = block([&] {
+      append({.kind = StmtKind::Fault,
+              .op = static_cast<uint8_t>(types::Fault::Lock),
+              .loc = loc,
+              .a = convert(result, types::kLInt, loc).index});
+    });
+    const ExprId bad = binary(Op::Ne, types::kBool, result, constant(result_type, 0, loc), loc);
+    append({.kind = StmtKind::If, .loc = loc, .a = bad.index, .b = fault.index});
+  }
   return result;
 }
 

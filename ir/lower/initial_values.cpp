@@ -16,8 +16,10 @@ uint64_t elementCount(const TypeInfo& array) {
 
 bool storeText(const TypeTable& types, TypeId type, std::string_view text, uint8_t* to) {
   const TypeInfo& info = types.info(types.resolve(type));
-  if (info.kind == TypeKind::String) {
+  if (info.kind != TypeKind::WString) {
     size_t length = std::min<size_t>(text.size(), info.length);
+    if (info.kind == TypeKind::UString && length < text.size())  // cut between characters
+      while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0) == 0x80) --length;
     std::memcpy(to, text.data(), length);
     return true;
   }

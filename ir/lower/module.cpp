@@ -288,8 +288,10 @@ bool ModuleLowering::isZero(TypeId declared) {
       case TypeKind::LDateTime:
       case TypeKind::Char:
       case TypeKind::WChar:
+      case TypeKind::UChar:
       case TypeKind::String:
       case TypeKind::WString:
+      case TypeKind::UString:
       case TypeKind::IntegerLiteral:
       case TypeKind::RealLiteral:
       case TypeKind::NullLiteral:

@@ -360,7 +360,8 @@ static uint32_t exceptionCode(types::Fault fault) {
     case types::Fault::Overflow: return 0x103;  // RTSEXCPT_OVERFLOW
     case types::Fault::Cast:
     case types::Fault::Subrange:
-    case types::Fault::Convert: break;
+    case types::Fault::Convert:
+    case types::Fault::Lock: break;
   }
   return 0xffffffff;  // RTSEXCPT_UNKNOWN
 }

@@ -14,7 +14,8 @@ uint32_t typeClassOf(const Context& context, TypeId type) {
     case TypeKind::Char: return 2;
     case TypeKind::Word:
     case TypeKind::WChar: return 3;
-    case TypeKind::DWord: return 4;
+    case TypeKind::DWord:
+    case TypeKind::UChar: return 4;
     case TypeKind::LWord: return 5;
     case TypeKind::SInt: return 6;
     case TypeKind::Int: return 7;
@@ -26,7 +27,8 @@ uint32_t typeClassOf(const Context& context, TypeId type) {
     case TypeKind::ULInt: return 13;
     case TypeKind::Real: return 14;
     case TypeKind::LReal: return 15;
-    case TypeKind::String: return 16;
+    case TypeKind::String:
+    case TypeKind::UString: return 16;
     case TypeKind::WString: return 17;
     case TypeKind::Time: return 18;
     case TypeKind::Date:

@@ -88,6 +88,8 @@ inline bool isUntyped(const Context& context, TypeId type) {
   const TypeKind kind = context.types().info(type).kind;
   return kind == TypeKind::IntegerLiteral || kind == TypeKind::RealLiteral;
 }
+// A literal without a prefix, of a character or text, as one of the kind of `wanted`, where its quotes allow that.
+void retypeText(Context& context, LiteralExpr& node, TypeId wanted);
 TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected);
 // The type that an untyped expression has when nothing around it gives one: INT, DINT, LINT, ULINT; REAL.
 TypeId defaultType(Context& context, ExprId expr);
@@ -175,8 +177,8 @@ TypeId checkBitOf(Context& context, ExprId expr);
 // A variable may have the name of THIS or SUPER: then it is meant.
 TypeId checkThisOrSuper(Context& context, ExprId& expr, TypeId expected, Access access);
 // `base.member` where base is an object: a method or action (then without a type) or a property that is read. None when
-// the object has no such member but, it may be, a variable.
-std::optional<TypeId> checkObjectMember(Context& context, ExprId& expr, PouId object, Access access);
+// the object has no such member but, it may be, a variable. `method`: the member, where it is known.
+std::optional<TypeId> checkObjectMember(Context& context, ExprId& expr, PouId object, Access access, PouId method = {});
 // The same for a bare name that means a member of the object at hand.
 TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance, Access access);
 TypeId callMethod(Context& context, ExprId& expr, PouId method, ExprId instance, bool as_statement);

@@ -315,10 +315,34 @@ TypeId sizeOf(Context& context, ExprId& expr) {
   return untyped;
 }
 
+// LEN_MAX(s): the capacity that the text is declared with, in bytes or 16-bit units. Edition 4.
+TypeId lengthLimit(Context& context, ExprId& expr) {
+  CallExpr& node = context.tree().as<CallExpr>(expr);
+  const NameId name = nameOf(context, node.callee);
+  if (node.arguments.count != 1) {
+    context.report(Diag::WrongArgumentCount, node.h.loc,
+                   {text(context, name), "1", std::to_string(node.arguments.count)});
+    return refuse(context, node);
+  }
+  ExprId operand = context.tree().list(node.arguments)[0].value;
+  const TypeId type = check(context, operand, {}, Access::Address);
+  if (!type || type == types::kError) return node.h.type = types::kError;
+  const types::TypeInfo& info = context.types().info(context.types().resolve(type));
+  if (!types::TypeTable::isText(info.kind)) {
+    context.report(Diag::NotOfGeneric, context.tree().loc(operand),
+                   {context.types().spell(type), text(context, name), "ANY_STRING"});
+    return node.h.type = types::kError;
+  }
+  const TypeId untyped = types::idOf(TypeKind::IntegerLiteral);
+  expr = makeLiteral(context, LiteralKind::Integer, untyped, int64_t{info.length}, node.h.loc);
+  return untyped;
+}
+
 TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (const auto assertion = assertionOf(context.names(), name)) return checkAssertion(context, expr, *assertion);
   if (isNamed(context, name, "SIZEOF") || isNamed(context, name, "XSIZEOF")) return sizeOf(context, expr);
+  if (isNamed(context, name, "LEN_MAX")) return lengthLimit(context, expr);
   if (const TypeId type = checkRuleCall(context, expr, name, expected)) return type;
   if (const TypeId type = checkAddressCall(context, expr, name)) return type;
   if (const TypeId type = checkBoundCall(context, expr, name)) return type;

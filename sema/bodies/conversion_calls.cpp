@@ -149,8 +149,8 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
     wrapConvert(context, value, from);
   }
   const TypeKind source = context.types().plainKind(from), target = context.types().plainKind(rule.to);
-  const bool text_source = TypeTable::isText(source) || source == TypeKind::Char || source == TypeKind::WChar;
-  const bool text_target = TypeTable::isText(target) || target == TypeKind::Char || target == TypeKind::WChar;
+  const bool text_source = TypeTable::isText(source) || TypeTable::isCharacter(source);
+  const bool text_target = TypeTable::isText(target) || TypeTable::isCharacter(target);
   if (!TypeTable::isElementary(source)) {
     context.report(Diag::NotOfGeneric, context.tree().loc(value),
                    {context.types().spell(from), text(context, name), "ANY_ELEMENTARY"});

@@ -1,6 +1,7 @@
 // Conversions: which are implicit, which lose values, which need a function. In: checked expressions and the type
 // that is wanted. Out: ConvertExpr nodes in the parent's child field, or one message. Design §6, dialect table.
 #include "sema/bodies/bodies.h"
+#include "sema/checks/uncopied.h"
 #include "sema/scopes.h"
 #include "sema/types/arithmetic.h"
 
@@ -155,6 +156,10 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
   if (isNumberKind(a) && isNumberKind(b)) return fitNumbers(context, from, to);
   if (sameQuantity(a, b)) return types::isLossless(table, from, to) ? Fit::Lossless : Fit::Lossy;
   if (TypeTable::isText(a) && a == b) return Fit::Same;  // cut to the capacity where it is stored
+  // An addition of edition 4.
+  const bool widens =
+      (a == TypeKind::String && b == TypeKind::WString) || (a == TypeKind::Char && b == TypeKind::WChar);
+  if (widens && context.project.options.standard != text::Standard::Iec2) return Fit::Lossless;
   if (target.kind == TypeKind::Pointer) {
     if (source.kind == TypeKind::NullLiteral) return Fit::Same;
     if (isObjectFit(context, source, from, target)) return Fit::Lossless;
@@ -240,12 +245,13 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
     case Fit::No: break;
   }
   const TypeKind own = context.types().plainKind(from), wanted = context.types().plainKind(to);
-  if (context.tree().kind(expr) == ExprKind::Literal && own != wanted && TypeTable::isText(own) &&
-      TypeTable::isText(wanted)) {
+  if (context.tree().kind(expr) == ExprKind::Literal && !context.tree().as<LiteralExpr>(expr).prefix && own != wanted &&
+      TypeTable::isText(own) && TypeTable::isText(wanted)) {
     const bool wide = own == TypeKind::WString;
-    context.report(Diag::TextQuotes, loc,
-                   {wide ? "double" : "single", wide ? "WSTRING" : "STRING", wide ? "STRING" : "WSTRING",
-                    wide ? "single" : "double", wide ? "'" : "\""});
+    context.report(
+        Diag::TextQuotes, loc,
+        {wide ? "double" : "single", wide ? "WSTRING" : "STRING",
+         text(context, context.types().info(types::idOf(wanted)).name), wide ? "single" : "double", wide ? "'" : "\""});
     return false;
   }
   // BOOL_TO_TIME(FALSE) is no advice: another constant is meant.
@@ -322,7 +328,7 @@ bool takeItem(Context& context, ExprId& expr, TypeId to, bool& good) {
 
 bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
   const TypeId from = context.tree().expr(expr).type;
-  if (from == to) return from != types::kError;
+  if (from == to) return from != types::kError && checkCopied(context, expr, to);
   if (!from || from == types::kError || to == types::kError) return false;
   __int128 number = 1;
   if (!context.iec() && isUntyped(context, from) && untypedValue(context, expr, number) && number == 0 &&
@@ -343,6 +349,7 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
     return false;
   }
   if (fitness == Fit::Same) {
+    if (!checkCopied(context, expr, to)) return false;
     if (context.types().info(from).kind == TypeKind::NullLiteral) context.tree().expr(expr).type = to;
     const types::TypeInfo& info = context.types().info(context.types().resolve(to));
     if (TypeTable::isText(info.kind) && context.tree().kind(expr) == ExprKind::Literal &&

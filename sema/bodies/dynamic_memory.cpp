@@ -106,7 +106,7 @@ TypeId checkDeleteCall(Context& context, ExprId& expr, NameId name, bool as_stat
   if (!ensureLayout(context, target)) return fail();
   Call call;
   call.kind = CallKind::Delete;
-  const CallId release = poolCall(context, "Release", node.h.loc);
+  const CallId release = poolCall(context, "GiveBack", node.h.loc);
   const CallId owns = poolCall(context, "Owns", node.h.loc);
   if (release.index == 0 || owns.index == 0) return fail();
   call.pou = context.project.call(release).pou;

@@ -30,6 +30,11 @@ TypeId checkIndexValue(Context& context, ExprId& index) {
 // CHAR and WCHAR, from 1 (6.4.2.2).
 TypeId checkCharacter(Context& context, IndexExpr& node, TypeId text_type, Access access) {
   const types::TypeInfo& info = context.types().info(context.types().resolve(text_type));
+  if (info.kind == TypeKind::UString) {
+    checkIndexValue(context, context.tree().list(node.indices)[0]);
+    context.report(Diag::CharacterOfUtf8, context.tree().begin(context.tree().list(node.indices)[0]));
+    return types::kError;
+  }
   const bool reads = access == Access::Read || access == Access::Qualifier;
   const bool from_one = context.iec();
   const types::Dimension characters{from_one ? 1 : 0, int64_t{info.length} - (reads || from_one ? 0 : 1)};

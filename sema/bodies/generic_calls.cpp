@@ -98,6 +98,22 @@ TypeId foldCall(Context& context, ExprId& expr, PouId pou, const Arguments& argu
   return checkGenericCall(context, expr, pou, expected, {});
 }
 
+// Forbids anything but an ARRAY OF BYTE of one dimension for the generic type of a {bytes} function. Edition 4.
+//   passes  bytes := STRING_TO_ARRAY_OF_BYTE(s);       fails   words := STRING_TO_ARRAY_OF_BYTE(s);        E0150
+bool checkBytes(Context& context, const CallExpr& node, const Pou& pou, std::span<const TypeId> pins, TypeId expected) {
+  const bool gives = pou.result && TypeTable::isGeneric(context.types().kind(pou.result));
+  const TypeId type = gives ? expected : pins[0];
+  const types::TypeInfo* const info = type ? &context.types().info(context.types().resolve(type)) : nullptr;
+  if (type == types::kError) return false;
+  if (info != nullptr && info->kind == TypeKind::Array && info->dimensions.size() == 1 &&
+      context.types().kind(info->base) == TypeKind::Byte)
+    return true;
+  context.report(Diag::BytesOnly, node.h.loc,
+                 {text(context, pou.name), gives ? "gives" : "takes",
+                  type ? "`" + context.types().spell(type) + "`" : std::string("a value")});
+  return false;
+}
+
 }  // namespace
 
 TypeId GenericOperands::typeFor(const Context& context, TypeId declared) const {
@@ -204,8 +220,7 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   const bool native = context.project.pou(pou).native;
   const auto normal = [&](TypeId type) {
     const TypeKind kind = context.types().plainKind(type);
-    if (kind == TypeKind::String) return context.types().string(255);
-    if (kind == TypeKind::WString) return context.types().wstring(255);
+    if (TypeTable::isText(kind)) return context.types().text(kind, 255);
     return native ? context.types().plain(type) : type;
   };
   std::vector<TypeId> types_by_pin;
@@ -215,6 +230,7 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
     const TypeId type = operands.typeFor(context, pin);
     types_by_pin.push_back(type ? normal(type) : types::kInt);
   }
+  if (generic.bytes && !checkBytes(context, node, generic, types_by_pin, expected)) return node.h.type = types::kError;
   TypeId result = generic.result ? operands.typeFor(context, generic.result) : TypeId{};
   if (generic.result && !result) {  // TRUNC: the result is any integer that is wanted
     result = forced ? forced : types::kDInt;

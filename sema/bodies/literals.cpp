@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sema/bodies/bodies.h"
+#include "sema/declarations/declarations.h"
 #include "sema/types/arithmetic.h"
 
 namespace rung::sema {
@@ -230,18 +231,40 @@ bool adaptReal(Context& context, ExprId& expr, TypeId to) {
 }
 
 // The number of characters that a text has in memory: bytes, or UTF-16 units.
-uint32_t lengthOf(std::string_view value, bool wide) {
-  if (!wide) return static_cast<uint32_t>(value.size());
+// Of a text of this kind, in its units; of a UCHAR in characters.
+uint32_t lengthOf(std::string_view value, TypeKind kind) {
+  if (kind != TypeKind::WString && kind != TypeKind::WChar && kind != TypeKind::UChar)
+    return static_cast<uint32_t>(value.size());
+  const uint32_t outside = kind == TypeKind::UChar ? 1 : 2;  // of U+10000 and above
   uint32_t units = 0;
   for (const char c : value) {
     const auto byte = static_cast<unsigned char>(c);
-    if ((byte & 0xc0) != 0x80) units += byte >= 0xf0 ? 2 : 1;
+    if ((byte & 0xc0) != 0x80) units += byte >= 0xf0 ? outside : 1;
   }
   return units;
 }
 
+// '$E9' is a byte of a STRING. In texts of Unicode bytes that are no UTF-8 are the characters of these codes.
+void makeUnicode(Context& context, LiteralExpr& node) {
+  std::string_view rest = context.tree().text(node.text());
+  if (node.literal() == LiteralKind::WString || isUtf8(rest)) return;  // those of "..." are codes of 16 bits already
+  std::string out;
+  for (size_t bad = findInvalidUtf8(rest); bad != std::string_view::npos; bad = findInvalidUtf8(rest)) {
+    out.append(rest.substr(0, bad));
+    appendUtf8(out, static_cast<unsigned char>(rest[bad]));
+    rest.remove_prefix(bad + 1);
+  }
+  out.append(rest);
+  const TextId text = context.tree().addText(out);
+  node.low = text.first;
+  node.high = text.length;
+}
+
 TypeId prefixType(Context& context, LiteralExpr& node) {
-  if (const TypeId elementary = context.types().elementary(node.prefix)) return elementary;
+  if (const TypeId elementary = context.types().elementary(node.prefix)) {
+    const TypeId own = ownTypeOfLateName(context, node.prefix, context.types().info(elementary).kind);
+    return own ? own : elementary;
+  }
   const Entity entity = lookUp(context, node.prefix);
   if (entity.what() == EntityKind::Type) return TypeId{entity.index};
   if (!entity) {
@@ -274,12 +297,18 @@ TypeId checkTypedNumber(Context& context, ExprId& expr) {
     return node.h.type = type;
   }
   if (kind == TypeKind::Bool && node.literal() == LiteralKind::Bool) return node.h.type = type;
-  if ((types::TypeTable::isText(kind) || kind == TypeKind::Char || kind == TypeKind::WChar) &&
+  if ((types::TypeTable::isText(kind) || types::TypeTable::isCharacter(kind)) &&
       (node.literal() == LiteralKind::String || node.literal() == LiteralKind::WString)) {
-    const bool wide = kind == TypeKind::WString || kind == TypeKind::WChar;
-    if (!types::TypeTable::isText(kind)) return node.h.type = type;
-    const uint32_t length = lengthOf(context.tree().text(node.text()), wide);
-    return node.h.type = wide ? context.types().wstring(length) : context.types().string(length);
+    if (kind != TypeKind::String && kind != TypeKind::Char) makeUnicode(context, node);
+    const uint32_t length = lengthOf(context.tree().text(node.text()), kind);
+    if (types::TypeTable::isText(kind)) return node.h.type = context.types().text(kind, length);
+    if (length == 1) return node.h.type = type;
+    const uint64_t value = context.names().intern(context.tree().text(node.text())).index;
+    context.report(Diag::NotOneCharacter, node.h.loc,
+                   {types::spell(context.types(), context.names(),
+                                 {context.types().text(types::TypeTable::textOf(kind), 1), value}),
+                    context.types().spell(type)});
+    return node.h.type = types::kError;
   }
   context.report(Diag::NotALiteralType, node.h.loc, {text(context, node.prefix)});
   return node.h.type = types::kError;
@@ -316,14 +345,33 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
 }
 
 TypeId checkText(Context& context, LiteralExpr& node, TypeId expected) {
-  const bool wide = node.literal() == LiteralKind::WString;
-  const uint32_t length = lengthOf(context.tree().text(node.text()), wide);
-  const TypeKind wanted = expected ? context.types().kind(expected) : TypeKind::None;
-  if (length == 1 && wanted == (wide ? TypeKind::WChar : TypeKind::Char)) return node.h.type = expected;
-  return node.h.type = wide ? context.types().wstring(length) : context.types().string(length);
+  const TypeKind own = node.literal() == LiteralKind::WString ? TypeKind::WString : TypeKind::String;
+  node.h.type = context.types().text(own, lengthOf(context.tree().text(node.text()), own));
+  if (expected) retypeText(context, node, expected);
+  return node.h.type;
 }
 
 }  // namespace
+
+void retypeText(Context& context, LiteralExpr& node, TypeId wanted) {
+  const TypeKind kind = context.types().plainKind(wanted);
+  const bool is_text = types::TypeTable::isText(kind), wide = node.literal() == LiteralKind::WString;
+  if (node.prefix || (node.literal() != LiteralKind::String && !wide)) return;
+  if (!is_text && !types::TypeTable::isCharacter(kind)) return;
+  const bool is_wide_kind = kind == TypeKind::WString || kind == TypeKind::WChar;
+  const bool edition2 = context.project.options.standard == text::Standard::Iec2;
+  if (wide ? !is_wide_kind : is_wide_kind && edition2) return;
+  const std::string_view value = context.tree().text(node.text());
+  if (kind != TypeKind::String && kind != TypeKind::Char && !wide && !isUtf8(value)) {
+    if (!is_text && value.size() != 1) return;
+    makeUnicode(context, node);
+  }
+  const uint32_t length = lengthOf(context.tree().text(node.text()), kind);
+  if (is_text)
+    node.h.type = context.types().text(kind, length);
+  else if (length == 1)
+    node.h.type = wanted;
+}
 
 TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected) {
   LiteralExpr& node = context.tree().as<LiteralExpr>(expr);

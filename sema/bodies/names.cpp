@@ -438,6 +438,13 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   if (!member && object) {
     if (const auto type = checkObjectMember(context, expr, object, access)) return *type;
   }
+  // A block of edition 2 has got methods in edition 4, one with the name of a pin: SEMA.RELEASE(). The call means it.
+  if (member && object && access == Access::Qualifier && context.project.pou(object).library) {
+    for (const PouId method : context.project.pou(object).members) {
+      if (context.names().same(context.project.pou(method).name, node.member))
+        return *checkObjectMember(context, expr, object, access, method);
+    }
+  }
   if (!member) {
     node.entity = Entity::of(EntityKind::Error, 0);
     if (sayUnknownMember(context, record, node.member))

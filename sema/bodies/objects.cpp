@@ -174,6 +174,28 @@ bool isExact(const Context& context, ExprId instance) {
   }
 }
 
+namespace {
+
+// A property with the accessors that its object inherits where it has none of its own.
+Property accessorsOf(Context& context, uint32_t index) {
+  Property property = context.project.properties[index];
+  const auto inherit = [&](PouId base) {
+    const Entity found = findInObject(context, base, property.name);
+    if (found.what() != EntityKind::Property) return;
+    const Property other = accessorsOf(context, found.index);
+    if (!property.get) property.get = other.get;
+    if (!property.set) property.set = other.set;
+  };
+  const Pou& owner = context.project.pou(property.owner);
+  if (property.get && property.set) return property;
+  if (owner.base) inherit(owner.base);
+  if (owner.kind == PouKind::Interface)
+    for (const PouId base : std::vector<PouId>(owner.interfaces)) inherit(base);
+  return property;
+}
+
+}  // namespace
+
 TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance, Access access) {
   const Loc loc = context.tree().loc(expr);
   ExprHeader& header = context.tree().expr(expr);
@@ -186,7 +208,7 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
                                                                                : "a method; call it with `(...)`"});
     return header.type = types::kError;
   }
-  const Property property = context.project.properties[member.index];
+  const Property property = accessorsOf(context, member.index);
   const PouId accessor = property.get ? property.get : property.set;
   if (!accessor) return header.type = types::kError;
   resolvePou(context, accessor);
@@ -214,10 +236,10 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
   return call.h.type;
 }
 
-std::optional<TypeId> checkObjectMember(Context& context, ExprId& expr, PouId object, Access access) {
+std::optional<TypeId> checkObjectMember(Context& context, ExprId& expr, PouId object, Access access, PouId method) {
   if (!object) return std::nullopt;
   MemberExpr& node = context.tree().as<MemberExpr>(expr);
-  const Entity found = findInObject(context, object, node.member);
+  const Entity found = method ? entity(method) : findInObject(context, object, node.member);
   if (found.what() != EntityKind::Pou && found.what() != EntityKind::Property) return std::nullopt;
   node.entity = found;
   markObject(context, node.base);
@@ -227,7 +249,7 @@ std::optional<TypeId> checkObjectMember(Context& context, ExprId& expr, PouId ob
 bool checkPropertyAssign(Context& context, AssignStmt& node) {
   const Entity found = entityOf(context, node.target);
   if (found.what() != EntityKind::Property) return false;
-  const Property property = context.project.properties[found.index];
+  const Property property = accessorsOf(context, found.index);
   const Loc loc = context.tree().loc(node.target);
   if (!property.set) {
     context.report(Diag::PropertyWithoutSet, loc, {text(context, property.name)});

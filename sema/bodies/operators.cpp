@@ -108,16 +108,15 @@ bool accepts(Context& context, Operands accepted, TypeId type) {
   return false;
 }
 
-// 'x' = c: next to a CHAR or WCHAR a text literal of one character is that character.
+// 'x' = c: next to a character a text literal of one character is that character, and next to a WSTRING or USTRING one
+// in single quotes is a text of that kind.
 void typeCharacters(Context& context, std::span<const ExprId> operands) {
-  Tree& tree = context.tree();
   for (const ExprId operand : operands) {
-    const TypeKind kind = context.types().plainKind(tree.expr(operand).type);
-    if (kind != TypeKind::Char && kind != TypeKind::WChar) continue;
-    const TypeId text = kind == TypeKind::Char ? context.types().string(1) : context.types().wstring(1);
+    const TypeKind kind = context.types().plainKind(context.tree().expr(operand).type);
+    if (!TypeTable::isCharacter(kind) && kind != TypeKind::WString && kind != TypeKind::UString) continue;
     for (const ExprId other : operands) {
-      if (tree.kind(other) != ExprKind::Literal || tree.as<LiteralExpr>(other).prefix) continue;
-      if (tree.expr(other).type == text) tree.expr(other).type = types::idOf(kind);
+      if (context.tree().kind(other) == ExprKind::Literal)
+        retypeText(context, context.tree().as<LiteralExpr>(other), types::idOf(kind));
     }
     return;
   }
@@ -252,7 +251,13 @@ TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, Ty
     }
     if (!accepts(context, accepted, common)) return reportOperand(context, what, common, loc);
   }
-  if (TypeTable::isText(context.types().plainKind(common))) return common;
+  if (const TypeKind kind = context.types().plainKind(common); TypeTable::isText(kind)) {
+    for (ExprId& operand : operands) {
+      const types::TypeInfo& own = context.types().info(context.types().resolve(tree.expr(operand).type));
+      if (own.kind != kind) wrapConvert(context, operand, context.types().text(kind, own.length));
+    }
+    return common;
+  }
   for (ExprId& operand : operands) {
     if (mixed_enums && context.types().kind(tree.expr(operand).type) == TypeKind::Enum) {
       wrapConvert(context, operand, common);

@@ -97,7 +97,7 @@ int rankOf(Context& context, const Var& pin, ExprId value) {
   const bool is_text = TypeTable::isText(info.kind);
   if (is_text && given.kind == info.kind) return kExact;
   if (context.tree().kind(value) == ExprKind::Literal && TypeTable::isText(given.kind) && given.length == 1 &&
-      info.kind == (given.kind == TypeKind::String ? TypeKind::Char : TypeKind::WChar))
+      info.kind == TypeTable::characterOf(given.kind))
     return kLiteral;
   if (context.types().isOpenArray(wanted) && given.kind == TypeKind::Array) {
     const size_t dimensions = given.dimensions.empty() ? given.length : given.dimensions.size();

@@ -34,7 +34,7 @@ TypeId roomFor(Context& context, TypeId type) {
   const types::TypeInfo& info = table.info(table.resolve(type));
   if (types::TypeTable::isText(info.kind)) {
     const uint32_t length = std::max(info.length, 255u);
-    type = info.kind == TypeKind::WString ? table.wstring(length) : table.string(length);
+    type = table.text(info.kind, length);
   } else if (info.kind == TypeKind::Subrange) {
     type = table.plain(type);
   }

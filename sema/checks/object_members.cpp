@@ -1,7 +1,7 @@
 // Forbids what a block, class or interface cannot promise: a method of an interface or an abstract one of a base that
 // it does not have; another signature than that of the method it replaces; replacing a FINAL one; OVERRIDE without a
 // method to replace, and in edition 3 replacing without OVERRIDE; an abstract method in what is not ABSTRACT; a
-// variable of the base declared again. IEC 61131-3 ed. 3, 6.6.5.5.4, 6.6.6.6.
+// variable of the base declared again; halves of a property that do not fit. IEC 61131-3 ed. 3, 6.6.5.5.4, 6.6.6.6.
 //   passes  FUNCTION_BLOCK Pump IMPLEMENTS IDrive METHOD Start … END_METHOD
 //   fails   FUNCTION_BLOCK Pump IMPLEMENTS IDrive (without Start)                    E0355
 // Called once for each object of the project, when everything is declared.
@@ -157,10 +157,51 @@ void checkMethod(Context& context, PouId object, PouId id) {
   }
 }
 
+// Forbids PROPERTY_GET and PROPERTY_SET of one name with different types or access words. Edition 4.
+//   passes  PROPERTY_GET PUBLIC Speed : INT … PROPERTY_SET PUBLIC Speed : INT …
+//   fails   PROPERTY_GET Speed : INT … PROPERTY_SET Speed : REAL …                                           E0555
+void checkHalves(Context& context, const Property& property) {
+  const Pou& getter = context.project.pou(property.get);
+  const Pou& setter = context.project.pou(property.set);
+  const auto report = [&](const std::string& set, const std::string& get) {
+    context.report(Diag::PropertyHalves, setter.loc, {text(context, property.name), set, get})
+        .note(getter.loc, Note::DeclaredHere);
+  };
+  const TypeId read = getter.result, written = context.project.var(pinsOf(context, property.set)[0]).type;
+  if (read == types::kError || written == types::kError) return;
+  if (!sameType(context, read, written)) {
+    report("`" + context.types().spell(written) + "`", "`" + context.types().spell(read) + "`");
+  } else if (setter.access != getter.access) {
+    const auto word = [](AccessLevel access) -> std::string {
+      switch (access) {
+        case AccessLevel::None: return "without an access word";
+        case AccessLevel::Public: return "PUBLIC";
+        case AccessLevel::Private: return "PRIVATE";
+        case AccessLevel::Protected: return "PROTECTED";
+        case AccessLevel::Internal: return "INTERNAL";
+      }
+      return {};
+    };
+    report(word(setter.access), word(getter.access));
+  }
+}
+
+void checkHalves(Context& context, PouId object) {
+  size_t index = 0;
+  for (const DeclId member :
+       context.tree().list(context.tree().as<PouDecl>(context.project.pou(object).decl).members)) {
+    if (context.tree().kind(member) != DeclKind::Property) continue;
+    const Property& property = context.project.properties[context.project.pou(object).properties[index++]];
+    if (context.tree().as<PropertyDecl>(member).h.bits == kInHalves && property.get && property.set)
+      checkHalves(context, property);
+  }
+}
+
 }  // namespace
 
 void checkObjectMembers(Context& context, PouId object) {
   const Pou& pou = context.project.pou(object);
+  checkHalves(context, object);
   if (pou.kind == PouKind::Interface) return checkPrototypes(context, object);
   const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
   for (const PouId member : pou.members) checkMethod(context, object, member);

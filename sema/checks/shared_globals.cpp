@@ -5,6 +5,8 @@
 // Called once, after the recursion rule, which sorts the calls by their caller. Linear in POUs and calls for each task.
 #include "sema/checks/shared_globals.h"
 
+#include "sema/checks/uncopied.h"
+
 namespace rung::sema {
 
 void checkSharedGlobals(Context& context) {
@@ -36,6 +38,7 @@ void checkSharedGlobals(Context& context) {
       if (by == 0) by = task;
       if (by == task || by == ~0u) continue;
       const Var& var = project.var(write.var);
+      if (uncopiedIn(context, var.type)) continue;  // a lock, or what has one of its own
       context.report(Diag::TwoTasksWrite, var.loc,
                      {text(context, var.name), text(context, project.tasks[by - 1].name),
                       text(context, project.tasks[task - 1].name)});

@@ -33,6 +33,9 @@ void initWords(Context& context) {
   words.std = word("std");
   words.no_final_scan = word("no_final_scan");
   words.list = word("list");
+  words.fault = word("fault");
+  words.no_copy = word("no_copy");
+  words.bytes = word("bytes");
 }
 
 const Pragma* findPragma(const Context& context, const DeclHeader& header, NameId key) {
@@ -118,6 +121,9 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.prefix = findPragma(context, decl.h, words.prefix) != nullptr;
   pou.sized = findPragma(context, decl.h, words.sized) != nullptr;
   pou.slice = findPragma(context, decl.h, words.slice) != nullptr;
+  pou.faults = findPragma(context, decl.h, words.fault) != nullptr;
+  pou.no_copy = findPragma(context, decl.h, words.no_copy) != nullptr;
+  pou.bytes = findPragma(context, decl.h, words.bytes) != nullptr;
   pou.test_only = findPragma(context, decl.h, words.test_only) != nullptr;
   pou.test = findPragma(context, decl.h, words.test) != nullptr;
   if (const Pragma* pragma = findPragma(context, decl.h, words.replaces); pragma != nullptr && library == kNoLibrary) {

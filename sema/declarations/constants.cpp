@@ -17,13 +17,14 @@ constexpr uint32_t kMaxDepth = 2000;
 
 bool isUntypedLiteral(TypeKind kind) { return kind == TypeKind::IntegerLiteral || kind == TypeKind::RealLiteral; }
 
-// The code of the first character of a text in UTF-8, as one 16-bit unit for a WCHAR.
-uint64_t characterOf(std::string_view text, bool wide) {
+// The code of a text of one character: a byte for a CHAR, else of the UTF-8 (a WCHAR: one 16-bit unit).
+uint64_t characterOf(std::string_view text, TypeKind kind) {
   const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const uint64_t lead = byte(0);
-  if (!wide || text.size() < 2 || lead < 0xc0) return lead;
+  if (kind == TypeKind::Char || text.size() < 2 || lead < 0xc0) return lead;
   if (lead < 0xe0) return (lead & 0x1f) << 6 | (byte(1) & 0x3f);
-  return (lead & 0x0f) << 12 | (byte(1) & 0x3f) << 6 | (byte(2) & 0x3f);
+  if (lead < 0xf0) return (lead & 0x0f) << 12 | (byte(1) & 0x3f) << 6 | (byte(2) & 0x3f);
+  return (lead & 0x07) << 18 | (byte(1) & 0x3f) << 12 | (byte(2) & 0x3f) << 6 | (byte(3) & 0x3f);
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ Value valueOf(const Project& project, const LiteralExpr& literal) {
     case LiteralKind::String:
     case LiteralKind::WString: {
       const std::string_view text = project.tree.text(literal.text());
-      if (kind == TypeKind::Char || kind == TypeKind::WChar) return {type, characterOf(text, kind == TypeKind::WChar)};
+      if (TypeTable::isCharacter(kind)) return {type, characterOf(text, kind)};
       return {type, project.names.intern(text).index};
     }
     case LiteralKind::Duration: return types::convert(table, {types::kLTime, literal.value()}, type).value;
@@ -242,7 +243,15 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
         const std::string_view text = context.names().text(NameId{static_cast<uint32_t>(value->bits)});
         const uint32_t capacity = context.types().info(context.types().resolve(header.type)).length;
         if (to == TypeKind::WString || text.size() <= capacity) return Value{header.type, value->bits};
-        return Value{header.type, context.names().intern(text.substr(0, capacity)).index};
+        size_t taken = capacity;
+        while (to == TypeKind::UString && taken > 0 && (static_cast<unsigned char>(text[taken]) & 0xc0) == 0x80)
+          --taken;
+        return Value{header.type, context.names().intern(text.substr(0, taken)).index};
+      }
+      if (from == TypeKind::String && to == TypeKind::WString) {
+        const std::string_view text = context.names().text(NameId{static_cast<uint32_t>(value->bits)});
+        if (!isUtf8(text)) return std::nullopt;
+        return Value{header.type, value->bits};
       }
       if (TypeTable::isText(from) || !TypeTable::isScalar(to)) return std::nullopt;
       return types::convert(context.types(), *value, header.type).value;

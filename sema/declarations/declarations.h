@@ -114,6 +114,9 @@ uint8_t initialBits(Context& context, TypeId record, VarId byte);
 void placeFields(Context& context, TypeId record, std::span<const VarId> members);
 
 // ---- objects.cpp
+// USTRING and UCHAR of edition 4 are no keywords: the project's own type of such a name, or none.
+TypeId ownTypeOfLateName(Context& context, NameId name, types::TypeKind kind);
+
 // METHODs, ACTIONs and PROPERTYs of a POU: a Pou each.
 void collectMembers(Context& context, PouId owner);
 // FB_Init, FB_Reinit, FB_Exit: called when an instance is made, moved and taken away (codesys).

@@ -194,6 +194,7 @@ std::vector<IndexedBlock> indexLibrary(std::string_view text) {
                                                 : nullptr;
     if (end != nullptr) {
       if (scan.next() != Kind::Word) continue;
+      if (scan.is("FINAL") || scan.is("ABSTRACT")) scan.next();
       block.names.push_back(scan.token());
       skipTo(scan, end);
     } else if (scan.is("TYPE")) {

@@ -52,6 +52,7 @@ PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accesso
   member.cpp = decl.body_kind == BodyKind::Cpp;
   member.library = owner.library;
   member.used = owner.library;
+  member.faults = findPragma(context, decl.h, context.scopes.words.fault) != nullptr;
   member.library_name = owner.library_name;
   member.owner = owner_id;
   member.access = decl.access;
@@ -138,6 +139,7 @@ void declareMembers(Context& context, PouId object) {
     if (!name || names.insert(keyOf(context, name), declared)) return;
     const Entity first = names.find(keyOf(context, name));
     if (declared.what() == EntityKind::Pou && addOverload(context, first, PouId{declared.index})) return;
+    if (project.pou(object).library && first.what() == EntityKind::Var) return;  // SEMA.RELEASE: what is called is it
     const Loc known = first.what() == EntityKind::Var        ? project.vars[first.index].loc
                       : first.what() == EntityKind::Property ? project.properties[first.index].loc
                       : first.what() == EntityKind::Pou      ? project.pous[first.index].loc

@@ -93,6 +93,16 @@ TypeId typeOf(Context& context, Entity found) {
   return {};
 }
 
+}  // namespace
+
+TypeId ownTypeOfLateName(Context& context, NameId name, TypeKind kind) {
+  if (kind != TypeKind::UString && kind != TypeKind::UChar) return {};
+  const Entity found = lookUp(context, name);
+  return found.what() == EntityKind::Type || found.what() == EntityKind::Pou ? typeOf(context, found) : TypeId{};
+}
+
+namespace {
+
 TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
   const uint32_t length = expr.path.count;
   if (length == 0) return types::kError;  // reported by the parser
@@ -102,6 +112,7 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
   if (length == 1) {
     if (const TypeId elementary = context.types().elementary(first.name)) {
       const TypeKind kind = context.types().info(elementary).kind;
+      if (const TypeId own = ownTypeOfLateName(context, first.name, kind)) return own;
       if (!TypeTable::isGeneric(kind) || !context.pou) return elementary;
       for (const Substitution& put : context.scopes.pous[context.pou.index].substitutions) {
         if (put.generic == kind) return put.type;
@@ -126,7 +137,10 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
 
 TypeId resolveText(Context& context, TypeExprId id) {
   TextTypeExpr& expr = context.tree().as<TextTypeExpr>(id);
-  if (!expr.length) return types::idOf(expr.wide ? TypeKind::WString : TypeKind::String);
+  const TypeKind kind = expr.code == TextCode::Wide   ? TypeKind::WString
+                        : expr.code == TextCode::Utf8 ? TypeKind::UString
+                                                      : TypeKind::String;
+  if (!expr.length) return types::idOf(kind);
   const auto length = constantBound(context, expr.length);
   if (!length) return types::kError;
   if (*length < 1 || *length > kMaxTextLength) {
@@ -134,7 +148,7 @@ TypeId resolveText(Context& context, TypeExprId id) {
     return types::kError;
   }
   const auto capacity = static_cast<uint32_t>(*length);
-  return expr.wide ? context.types().wstring(capacity) : context.types().string(capacity);
+  return context.types().text(kind, capacity);
 }
 
 // Forbids ARRAY[*] as the type of anything but a VAR_IN_OUT. IEC 61131-3 ed. 3 table 15, 2.

@@ -2,6 +2,7 @@
 #include "frontend/diagram/schedule.h"
 #include "sema/bodies/shapes.h"
 #include "sema/checks/object_members.h"
+#include "sema/checks/uncopied.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
 
@@ -282,6 +283,7 @@ void ensureVarType(Context& context, VarId id) {
     if (var.section != SectionKind::InOut && var.section != SectionKind::External && type != types::kError &&
         !checkNotAbstract(there, type, context.tree().loc(decl.type)))
       var.type = types::kError;
+    if (var.type != types::kError && !checkKept(there, var, context.tree().loc(decl.type))) var.type = types::kError;
     if (decl.located && decl.address.incomplete) {  // completed by resolveInstancePlaces
       if (decl.address.size_given && addressType(decl.address) == types::kBool && type != types::kError &&
           context.types().kind(type) != TypeKind::Bool) {

@@ -311,6 +311,7 @@ const char* word(Fault fault) {
     case Fault::Subrange: return "subrange";
     case Fault::Convert: return "convert";
     case Fault::Overflow: return "overflow";
+    case Fault::Lock: return "lock";
   }
   return "none";
 }
@@ -440,7 +441,8 @@ bool isLossless(const TypeTable& table, TypeId from, TypeId to) {
   if (a == TypeKind::Bool) return b == TypeKind::Bool || TypeTable::isBits(b);
   return a == b || (a == TypeKind::Time && b == TypeKind::LTime) || (a == TypeKind::Date && b == TypeKind::LDate) ||
          (a == TypeKind::TimeOfDay && b == TypeKind::LTimeOfDay) ||
-         (a == TypeKind::DateTime && b == TypeKind::LDateTime) || (a == TypeKind::Char && b == TypeKind::WChar);
+         (a == TypeKind::DateTime && b == TypeKind::LDateTime) ||
+         (TypeTable::isCharacter(a) && TypeTable::isCharacter(b) && a < b);
 }
 
 }  // namespace rung::types

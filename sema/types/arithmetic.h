@@ -21,8 +21,8 @@ bool findOp(std::string_view word, Op& op);
 bool isComparison(Op op);
 
 // A scalar or a text. Integers, BOOL, bit strings, times, dates, enumerations: sign- or zero-extended to 64 bits.
-// REAL and LREAL: the bits of a double (a REAL's value is exact in it). STRING, WSTRING: the NameId of the exact text
-// (WSTRING as UTF-8).
+// REAL and LREAL: the bits of a double (a REAL's value is exact in it). texts: the NameId of the exact text (WSTRING
+// as UTF-8).
 struct Value {
   TypeId type;
   uint64_t bits = 0;
@@ -32,7 +32,7 @@ struct Value {
   friend bool operator==(const Value&, const Value&) = default;
 };
 
-enum class Fault : uint8_t { None, Div, Index, Null, Cast, Subrange, Convert, Overflow };
+enum class Fault : uint8_t { None, Div, Index, Null, Cast, Subrange, Convert, Overflow, Lock };
 const char* word(Fault fault);
 
 struct Outcome {

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "frontend/source/files.h"
 #include "sema/types/arithmetic.h"
 #include "sema/types/types.h"
 
@@ -142,7 +143,7 @@ std::string TypeTable::spell(TypeId id) const {
     }
   };
   if (isText(info.kind) && id != idOf(info.kind)) {
-    text = info.kind == TypeKind::String ? "STRING[" : "WSTRING[";
+    text = std::string(names_.text(types_[static_cast<size_t>(info.kind)].name)) + '[';
     appendNumber(text, info.length);
     return text + ']';
   }
@@ -222,25 +223,14 @@ std::string spell(const TypeTable& table, const Names& names, const Value& value
     out += '-';
     appendClock(out, kind == TypeKind::DateTime ? in_day * kNsPerSecond : in_day);
   } else if (TypeTable::isText(kind)) {
-    appendText(out, names.text(NameId{static_cast<uint32_t>(value.bits)}), kind == TypeKind::String ? '\'' : '"');
+    appendText(out, names.text(NameId{static_cast<uint32_t>(value.bits)}), kind == TypeKind::WString ? '"' : '\'');
   } else if (kind == TypeKind::Char) {
     const char c = static_cast<char>(value.bits);
     appendText(out, {&c, 1}, '\'');
-  } else if (kind == TypeKind::WChar) {
-    const uint64_t unit = value.bits & 0xffff;
-    char utf8[3];
-    size_t length = 0;
-    if (unit < 0x80) {
-      utf8[length++] = static_cast<char>(unit);
-    } else if (unit < 0x800) {
-      utf8[length++] = static_cast<char>(0xc0 | unit >> 6);
-      utf8[length++] = static_cast<char>(0x80 | (unit & 0x3f));
-    } else {
-      utf8[length++] = static_cast<char>(0xe0 | unit >> 12);
-      utf8[length++] = static_cast<char>(0x80 | (unit >> 6 & 0x3f));
-      utf8[length++] = static_cast<char>(0x80 | (unit & 0x3f));
-    }
-    appendText(out, {utf8, length}, '"');
+  } else if (TypeTable::isCharacter(kind)) {
+    std::string character;
+    appendUtf8(character, static_cast<uint32_t>(value.bits));
+    appendText(out, character, kind == TypeKind::WChar ? '"' : '\'');
   } else if (TypeTable::isSignedInteger(kind) || kind == TypeKind::IntegerLiteral) {
     appendSigned(out, value.asSigned());
   } else {

@@ -42,8 +42,10 @@ constexpr ElementaryName kElementaryNames[] = {
     {"LDT", TypeKind::LDateTime},
     {"CHAR", TypeKind::Char},
     {"WCHAR", TypeKind::WChar},
+    {"UCHAR", TypeKind::UChar},
     {"STRING", TypeKind::String},
     {"WSTRING", TypeKind::WString},
+    {"USTRING", TypeKind::UString},
     {"ANY", TypeKind::Any},
     {"ANY_ELEMENTARY", TypeKind::AnyElementary},
     {"ANY_MAGNITUDE", TypeKind::AnyMagnitude},
@@ -101,9 +103,9 @@ TypeTable::TypeTable(Names& names, uint32_t pointer_size) : names_(names), point
   native("__XWORD", TypeKind::LWord, TypeKind::DWord);
   native("__XINT", TypeKind::LInt, TypeKind::DInt);
   native("__UXINT", TypeKind::ULInt, TypeKind::UDInt);
-  // STRING and WSTRING without a length are the same types as with the default one.
-  interned_.emplace(internKey(TypeKind::String, kDefaultLength), idOf(TypeKind::String));
-  interned_.emplace(internKey(TypeKind::WString, kDefaultLength), idOf(TypeKind::WString));
+  // A text without a length is the same type as with the default one.
+  for (const TypeKind kind : {TypeKind::String, TypeKind::WString, TypeKind::UString})
+    interned_.emplace(internKey(kind, kDefaultLength), idOf(kind));
 }
 
 TypeId TypeTable::plain(TypeId id) const {
@@ -128,22 +130,11 @@ TypeId append(std::deque<TypeInfo>& types, TypeInfo info) {
 
 }  // namespace
 
-TypeId TypeTable::string(uint32_t length) {
-  TypeId& id = interned_[internKey(TypeKind::String, length)];
+TypeId TypeTable::text(TypeKind kind, uint32_t length) {
+  TypeId& id = interned_[internKey(kind, length)];
   if (!id) {
     TypeInfo info;
-    info.kind = TypeKind::String;
-    setLength(info, length);
-    id = append(types_, std::move(info));
-  }
-  return id;
-}
-
-TypeId TypeTable::wstring(uint32_t length) {
-  TypeId& id = interned_[internKey(TypeKind::WString, length)];
-  if (!id) {
-    TypeInfo info;
-    info.kind = TypeKind::WString;
+    info.kind = kind;
     setLength(info, length);
     id = append(types_, std::move(info));
   }
@@ -261,6 +252,7 @@ uint32_t TypeTable::bitWidth(TypeKind k) {
     case TypeKind::DWord:
     case TypeKind::DInt:
     case TypeKind::UDInt:
+    case TypeKind::UChar:
     case TypeKind::Real:
     case TypeKind::Time:
     case TypeKind::Date:
@@ -278,6 +270,7 @@ uint32_t TypeTable::bitWidth(TypeKind k) {
     case TypeKind::Error:
     case TypeKind::String:
     case TypeKind::WString:
+    case TypeKind::UString:
     case TypeKind::IntegerLiteral:
     case TypeKind::RealLiteral:
     case TypeKind::NullLiteral:
@@ -317,7 +310,7 @@ bool TypeTable::belongsTo(TypeKind kind, TypeKind generic) {
   const bool integer = isInteger(kind);
   const bool magnitude = integer || isReal(kind) || isDuration(kind);
   const bool bits = kind == TypeKind::Bool || isBits(kind);
-  const bool chars = isText(kind) || kind == TypeKind::Char || kind == TypeKind::WChar;
+  const bool chars = isText(kind) || isCharacter(kind);
   if (generic == TypeKind::Any) return kind != TypeKind::None;
   if (generic == TypeKind::AnyElementary) return magnitude || bits || chars || isDate(kind);
   if (generic == TypeKind::AnyMagnitude) return magnitude;
@@ -330,7 +323,7 @@ bool TypeTable::belongsTo(TypeKind kind, TypeKind generic) {
   if (generic == TypeKind::AnyBit) return bits;
   if (generic == TypeKind::AnyChars) return chars;
   if (generic == TypeKind::AnyString) return isText(kind);
-  if (generic == TypeKind::AnyChar) return kind == TypeKind::Char || kind == TypeKind::WChar;
+  if (generic == TypeKind::AnyChar) return isCharacter(kind);
   if (generic == TypeKind::AnyDate) return isDate(kind);
   if (generic == TypeKind::AnyDerived) {
     return kind == TypeKind::Enum || kind == TypeKind::Subrange || kind == TypeKind::Array || kind == TypeKind::Record;

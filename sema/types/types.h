@@ -44,8 +44,10 @@ enum class TypeKind : uint8_t {
   LDateTime,
   Char,
   WChar,
+  UChar,  // one code point
   String,
-  WString,  // length: characters
+  WString,
+  UString,  // UTF-8, edition 4
   // Untyped literals, before their context gives them a type. Never in IR.
   IntegerLiteral,
   RealLiteral,
@@ -120,8 +122,9 @@ struct TypeInfo {
   bool strict = false;        // enumerations: no numbers for items ({attribute 'strict'})
   bool qualified = false;     // enumerations: TYPE#item only ({attribute 'strict'} or 'qualified_only')
   NameId name;                // named types
-  TypeId base;          // Enum, Subrange: the integer type; Alias, Array (element), Pointer, Reference: the target
-  uint32_t length = 0;  // String, WString: capacity in characters; Array without `dimensions`: how many are open
+  TypeId base;  // Enum, Subrange: the integer type; Alias, Array (element), Pointer, Reference: the target
+  uint32_t length =
+      0;  // texts: capacity in bytes, of a WString in 16-bit units; Array without `dimensions`: how many are open
   int64_t low = 0, high = 0;  // Subrange: bounds in the base type's bits
   int64_t initial = 0;        // Subrange: the value that a variable begins with
   uint64_t size = 0;          // bytes, after layout
@@ -156,8 +159,9 @@ class TypeTable {
   // The elementary type with this name (any case; TOD and TIME_OF_DAY alike), generic types included; or none.
   TypeId elementary(NameId name) const;
 
-  TypeId string(uint32_t length);
-  TypeId wstring(uint32_t length);
+  TypeId text(TypeKind kind, uint32_t length);
+  TypeId string(uint32_t length) { return text(TypeKind::String, length); }
+  TypeId wstring(uint32_t length) { return text(TypeKind::WString, length); }
   TypeId array(TypeId element, std::span<const Dimension> dimensions);
   TypeId openArray(TypeId element, uint32_t dimensions);  // ARRAY[*], ARRAY[*, *]: of a VAR_IN_OUT
   TypeId pointer(TypeId target);
@@ -188,14 +192,24 @@ class TypeTable {
   static bool isDateTime(TypeKind k) { return k == TypeKind::DateTime || k == TypeKind::LDateTime; }
   static bool isDay(TypeKind k) { return k == TypeKind::Date || k == TypeKind::LDate; }
   static bool isDate(TypeKind k) { return k >= TypeKind::Date && k <= TypeKind::LDateTime; }
-  static bool isText(TypeKind k) { return k == TypeKind::String || k == TypeKind::WString; }
+  static bool isText(TypeKind k) { return k >= TypeKind::String && k <= TypeKind::UString; }
+  static bool isCharacter(TypeKind k) { return k >= TypeKind::Char && k <= TypeKind::UChar; }
+  // The character of a text, the text of a character.
+  static TypeKind characterOf(TypeKind text) {
+    return text == TypeKind::WString ? TypeKind::WChar : text == TypeKind::UString ? TypeKind::UChar : TypeKind::Char;
+  }
+  static TypeKind textOf(TypeKind character) {
+    return character == TypeKind::WChar   ? TypeKind::WString
+           : character == TypeKind::UChar ? TypeKind::UString
+                                          : TypeKind::String;
+  }
   bool isOpenArray(TypeId id) const {
     const TypeInfo& info = types_[resolve(id).index];
     return info.kind == TypeKind::Array && info.dimensions.empty();
   }
-  static bool isElementary(TypeKind k) { return k >= TypeKind::Bool && k <= TypeKind::WString; }
+  static bool isElementary(TypeKind k) { return k >= TypeKind::Bool && k <= TypeKind::UString; }
   static bool isGeneric(TypeKind k) { return k >= TypeKind::Any && k <= TypeKind::AnyDerived; }
-  static bool isScalar(TypeKind k) { return k >= TypeKind::Bool && k <= TypeKind::WChar; }  // elementary, no text
+  static bool isScalar(TypeKind k) { return k >= TypeKind::Bool && k <= TypeKind::UChar; }  // elementary, no text
   static uint32_t bitWidth(TypeKind k);  // BOOL 1, INT 16, TIME 32, LTIME 64, …; 0 for what is no scalar
   // What an elementary kind is in memory: signed or unsigned integer of bitWidth, or floating point.
   // TIME is unsigned in codesys and signed in iec2/iec3.

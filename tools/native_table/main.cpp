@@ -80,13 +80,11 @@ void instantiateAll(Context& context, PouId generic) {
       context.project.pou(made).used = true;
       return;
     }
-    for (int kind = static_cast<int>(TypeKind::Bool); kind <= static_cast<int>(TypeKind::WString); ++kind) {
+    for (int kind = static_cast<int>(TypeKind::Bool); kind <= static_cast<int>(TypeKind::UString); ++kind) {
       const auto of = static_cast<TypeKind>(kind);
       if (!admits(generics[at], of)) continue;
       // A text has its largest capacity inside: one instance serves every length.
-      chosen[at] = of == TypeKind::String    ? context.types().string(255)
-                   : of == TypeKind::WString ? context.types().wstring(255)
-                                             : rung::types::idOf(of);
+      chosen[at] = rung::types::TypeTable::isText(of) ? context.types().text(of, 255) : rung::types::idOf(of);
       self(self, at + 1);
     }
   };

@@ -259,7 +259,7 @@ bool Condition::compared(const Node& node) const {
     if (at_a == nullptr || at_b == nullptr) return false;
     Integer x, y;
     double p = 0, q = 0;
-    if (a.type->kind == RUNG_STRING) {
+    if (a.type->kind == RUNG_STRING || a.type->kind == RUNG_USTRING) {
       order = compareTexts<uint8_t>(at_a, at_b);
     } else if (a.type->kind == RUNG_WSTRING) {
       order = compareTexts<uint16_t>(at_a, at_b);

@@ -43,6 +43,15 @@ std::string describeFault(const rung_module& module, const rung_fault& fault) {
       word = "overflow";
       what = "the result does not fit its type";
       break;
+    case RUNG_FAULT_LOCK:
+      word = "lock";
+      what = fault.value == RUNG_LOCK_HELD   ? "another task has the MUTEX, and cannot unlock it while this one waits"
+             : fault.value == RUNG_LOCK_OWN  ? "this task has the MUTEX already"
+             : fault.value == RUNG_SEMA_FULL ? "RELEASE of a SEMA of which nothing is taken"
+             : fault.value == RUNG_SEMA_EMPTY
+                 ? "all of the SEMA is taken, and nothing is released while this task waits"
+                 : "UNLOCK of a MUTEX that this task has not locked";
+      break;
     case RUNG_FAULT_STACK:
       word = "stack";
       what = "calls nest too deep";

@@ -50,6 +50,17 @@ struct Shared {
   const std::function<void(int64_t)>*before, *after;
 };
 
+std::atomic<Shared*> running{nullptr};  // for what has only the program's context
+
+// Called by a task that waits for a MUTEX or SEMA. Sleeps, so that a task of lower priority may run.
+int waitForOthers(void*) {
+  constexpr int64_t kMoment = 50'000;
+  const Shared* const shared = running.load();
+  if (shared == nullptr || shared->stop.load()) return 0;
+  sleepUntil(monotonicNs() + kMoment);
+  return 1;
+}
+
 // Priority 0 is the highest of 32; SCHED_FIFO needs a right that the user may not have, and then is not used.
 void raisePriority(uint32_t priority) {
   sched_param parameters{};
@@ -69,6 +80,7 @@ bool activate(Shared& shared, Worker& worker, int64_t now_ns) {
   const int64_t took = monotonicNs() - begin;
   worker.longest_run_ns = std::max(worker.longest_run_ns, took);
   ++worker.activations;
+  if (fault == RUNG_FAULT_LOCK && shared.stop.load()) return false;  // it waited when the run ended
   if (fault != RUNG_FAULT_NONE) {
     const std::lock_guard<std::mutex> lock(shared.mutex);
     if (!shared.result.faulted) shared.result.fault = worker.context.fault;
@@ -138,6 +150,9 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
   shared.rows = rows;
   shared.before = &before;
   shared.after = &after;
+  rung_host host = context.host != nullptr ? *context.host : rung_host{};
+  host.wait = waitForOthers;
+  running.store(&shared);
   signalled = 0;
   struct sigaction action {
   }, old_interrupt{}, old_terminate{};
@@ -152,6 +167,7 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
     auto worker = std::make_unique<Worker>();
     worker->item = &item;
     worker->context = context;
+    worker->context.host = &host;
     worker->context.task = static_cast<uint32_t>(workers.size()) + 1;
     worker->context.activation = 0;
     if (item.task->kind == RUNG_CYCLIC && (fastest == nullptr || item.interval_ns < fastest->item->interval_ns))
@@ -208,6 +224,7 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
     else
       worker->thread.join();
   }
+  running.store(nullptr);
   sigaction(SIGINT, &old_interrupt, nullptr);
   sigaction(SIGTERM, &old_terminate, nullptr);
 

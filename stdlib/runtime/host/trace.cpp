@@ -50,8 +50,7 @@ void Trace::row(int64_t cycle, int64_t time_ns) {
   buffer_ += millisecondsOf(time_ns);
   for (const Variable& variable : variables_) {
     buffer_ += ',';
-    if (variable.type->kind == RUNG_STRING || variable.type->kind == RUNG_WSTRING || variable.type->kind == RUNG_CHAR ||
-        variable.type->kind == RUNG_WCHAR) {
+    if (variable.type->kind >= RUNG_CHAR && variable.type->kind <= RUNG_USTRING) {
       cell_.clear();
       spellValue(symbols_.module(), variable, cell_);
       appendCell(buffer_, cell_);

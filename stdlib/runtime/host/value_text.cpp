@@ -7,10 +7,10 @@
 namespace rung::host {
 namespace {
 
-const char* const kKindNames[] = {"BOOL",  "BYTE",   "WORD",    "DWORD",       "LWORD", "SINT",      "INT",    "DINT",
-                                  "LINT",  "USINT",  "UINT",    "UDINT",       "ULINT", "REAL",      "LREAL",  "TIME",
-                                  "LTIME", "DATE",   "LDATE",   "TOD",         "LTOD",  "DT",        "LDT",    "CHAR",
-                                  "WCHAR", "STRING", "WSTRING", "enumeration", "array", "structure", "pointer"};
+const char* const kKindNames[] = {
+    "BOOL",  "BYTE",  "WORD",  "DWORD", "LWORD",  "SINT",    "INT",     "DINT",        "LINT",  "USINT",     "UINT",
+    "UDINT", "ULINT", "REAL",  "LREAL", "TIME",   "LTIME",   "DATE",    "LDATE",       "TOD",   "LTOD",      "DT",
+    "LDT",   "CHAR",  "WCHAR", "UCHAR", "STRING", "WSTRING", "USTRING", "enumeration", "array", "structure", "pointer"};
 
 uint8_t integerKind(const rung_module& module, const rung_type& type) {
   if (type.kind == RUNG_ENUM && type.element != RUNG_NONE) return module.types[type.element].kind;
@@ -64,8 +64,8 @@ std::string typeName(const rung_module& module, const rung_type& type) {
 bool integerOf(const rung_module& module, const Variable& variable, Integer& value) {
   const uint8_t* const at = variable.address();
   const rung_type& type = *variable.type;
-  if (at == nullptr || type.kind == RUNG_REAL || type.kind == RUNG_LREAL || type.kind == RUNG_STRING ||
-      type.kind == RUNG_WSTRING || type.kind >= RUNG_ARRAY)
+  if (at == nullptr || type.kind == RUNG_REAL || type.kind == RUNG_LREAL ||
+      (type.kind >= RUNG_STRING && type.kind <= RUNG_USTRING) || type.kind >= RUNG_ARRAY)
     return false;
   if (type.kind == RUNG_BOOL) {
     value = {(variable.bit == 255 ? *at != 0 : (*at >> variable.bit & 1) != 0) ? 1 : 0, false};
@@ -116,7 +116,8 @@ void spellValue(const rung_module& module, const Variable& variable, std::string
       return;
     }
     case RUNG_STRING:
-    case RUNG_WSTRING: {
+    case RUNG_WSTRING:
+    case RUNG_USTRING: {
       const size_t begin = to.size();
       to.resize(begin + 5 * size_t{type.length} + 2);
       to.resize(begin + rung_spell(type.kind, false, at, to.data() + begin, static_cast<uint32_t>(to.size() - begin)));
@@ -158,7 +159,8 @@ void spellValue(const rung_module& module, const Variable& variable, std::string
     case RUNG_DT:
     case RUNG_LDT:
     case RUNG_CHAR:
-    case RUNG_WCHAR: break;
+    case RUNG_WCHAR:
+    case RUNG_UCHAR: break;
   }
   to.append(room, rung_spell(type.kind, type.is_signed != 0, at, room, RUNG_SPELLED_SCALAR));
 }
@@ -180,7 +182,7 @@ std::string assignValue(const rung_module& module, const Variable& variable, std
   if (type.kind == RUNG_ENUM) return assignEnum(module, type, text, to);
   if (!rung_parse(type.kind, type.is_signed != 0, type.length, text.data(), text.size(), to)) {
     std::string hint;
-    if (type.kind == RUNG_STRING) hint = "; write '...'";
+    if (type.kind == RUNG_STRING || type.kind == RUNG_USTRING) hint = "; write '...'";
     if (type.kind == RUNG_WSTRING) hint = "; write \"...\"";
     if (type.kind == RUNG_TIME) hint = "; write T#1s500ms";
     return "`" + std::string(text) + "` is no value of type " + typeName(module, type) + hint;

@@ -42,7 +42,7 @@ void spellItem(const char* items, uint64_t bits, Spelled& out) {
 }
 
 void spell(const rung_assertion* assertion, uint8_t kind, uint64_t bits, Spelled& out) {
-  if (kind == RUNG_STRING) {
+  if (kind == RUNG_STRING || kind == RUNG_USTRING) {
     rung_spell(kind, false, textAt<char>(bits), out.text, kRoom);
   } else if (kind == RUNG_WSTRING) {
     rung_spell(kind, false, textAt<char16_t>(bits), out.text, kRoom);
@@ -57,7 +57,7 @@ void spell(const rung_assertion* assertion, uint8_t kind, uint64_t bits, Spelled
 }
 
 bool areEqual(uint8_t kind, uint64_t a, uint64_t b) {
-  if (kind == RUNG_STRING) return strcmp(textAt<char>(a), textAt<char>(b)) == 0;
+  if (kind == RUNG_STRING || kind == RUNG_USTRING) return strcmp(textAt<char>(a), textAt<char>(b)) == 0;
   if (kind == RUNG_WSTRING) return rung_wtext_compare(textAt<char16_t>(a), textAt<char16_t>(b)) == 0;
   if (!isReal(kind)) return a == b;
   const double x = rung_f64_of(a), y = rung_f64_of(b);

@@ -1,4 +1,4 @@
-// STRING and WSTRING in place (rung/code.h): assignment, comparison, conversion between the two and to scalars.
+// STRING, WSTRING and USTRING in place (rung/code.h): assignment, comparison, conversion between them and to scalars.
 // In: NUL-terminated texts. Out: texts of at most `capacity` characters. `to` may overlap `from`.
 #include <charconv>
 #include <cstdint>
@@ -41,6 +41,45 @@ uint32_t spellScalar(uint8_t kind, uint64_t bits, char* out) {
   }
   // Sign-extended where the type is signed, so the sign of 64 bits is the sign of the value.
   return rung_spell(kind, static_cast<int64_t>(bits) < 0, &bits, out, kScalarRoom);
+}
+
+bool isSurrogate(uint32_t code) { return code >= 0xd800 && code < 0xe000; }
+
+// UTF-8 of a code point: how many bytes; '?' for what is none.
+uint32_t encode(uint32_t code, char (&bytes)[4]) {
+  if (code >= 0x110000 || isSurrogate(code)) code = '?';
+  uint32_t count = 0;
+  if (code < 0x80) {
+    bytes[count++] = static_cast<char>(code);
+    return count;
+  }
+  if (code >= 0x10000) {
+    bytes[count++] = static_cast<char>(0xf0 | code >> 18);
+    bytes[count++] = static_cast<char>(0x80 | (code >> 12 & 0x3f));
+  } else if (code >= 0x800) {
+    bytes[count++] = static_cast<char>(0xe0 | code >> 12);
+  }
+  bytes[count++] = static_cast<char>(code >= 0x800 ? 0x80 | (code >> 6 & 0x3f) : 0xc0 | code >> 6);
+  bytes[count++] = static_cast<char>(0x80 | (code & 0x3f));
+  return count;
+}
+
+// The bytes of the character that begins with `lead`; 1 where none does.
+uint32_t bytesOf(unsigned char lead) {
+  return lead >= 0xf0 && lead < 0xf5 ? 4 : lead >= 0xe0 && lead < 0xf0 ? 3 : lead >= 0xc2 && lead < 0xe0 ? 2 : 1;
+}
+
+// The code point at `at`, which moves behind it; '?' where the bytes are none.
+uint32_t decode(const unsigned char*& at) {
+  const uint32_t lead = *at++;
+  if (lead < 0x80) return lead;
+  const uint32_t more = bytesOf(static_cast<unsigned char>(lead)) - 1;
+  if (more == 0) return '?';
+  uint32_t code = lead & (0x3fu >> more), i = 0;
+  for (; i < more && (at[i] & 0xc0) == 0x80; ++i) code = code << 6 | (at[i] & 0x3fu);
+  at += i;
+  const uint32_t least = more == 1 ? 0x80u : more == 2 ? 0x800u : 0x10000u;
+  return i == more && code >= least && code < 0x110000 && !isSurrogate(code) ? code : '?';
 }
 
 bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
@@ -123,23 +162,9 @@ uint32_t rung_text_of_wtext(char* to, uint32_t capacity, const char16_t* from) {
     if (code >= 0xd800 && code < 0xdc00 && from[1] >= 0xdc00 && from[1] < 0xe000) {
       code = 0x10000 + ((code - 0xd800) << 10) + (from[1] - 0xdc00u);
       ++from;
-    } else if (code >= 0xd800 && code < 0xe000) {
-      code = '?';
     }
     char bytes[4];
-    uint32_t count = 0;
-    if (code < 0x80) {
-      bytes[count++] = static_cast<char>(code);
-    } else {
-      if (code >= 0x10000) bytes[count++] = static_cast<char>(0xf0 | code >> 18);
-      if (code >= 0x10000)
-        bytes[count++] = static_cast<char>(0x80 | (code >> 12 & 0x3f));
-      else if (code >= 0x800)
-        bytes[count++] = static_cast<char>(0xe0 | code >> 12);
-      bytes[count++] = static_cast<char>(code >= 0x800 ? 0x80 | (code >> 6 & 0x3f) : 0xc0 | code >> 6);
-      bytes[count] = static_cast<char>(0x80 | (code & 0x3f));
-      ++count;
-    }
+    const uint32_t count = encode(code, bytes);
     if (length + count > capacity) break;  // never half a character
     memcpy(to + length, bytes, count);
     length += count;
@@ -152,26 +177,7 @@ uint32_t rung_wtext_of_text(char16_t* to, uint32_t capacity, const char* from) {
   uint32_t length = 0;
   const unsigned char* at = reinterpret_cast<const unsigned char*>(from);
   while (*at != 0) {
-    uint32_t code = *at++;
-    const int more = code < 0x80                   ? 0
-                     : code >= 0xf0 && code < 0xf5 ? 3
-                     : code >= 0xe0 && code < 0xf0 ? 2
-                     : code >= 0xc2 && code < 0xe0 ? 1
-                                                   : -1;
-    if (more < 0) {
-      code = '?';
-    } else if (more > 0) {
-      uint32_t decoded = code & (0x3fu >> more);
-      int i = 0;
-      for (; i < more && (at[i] & 0xc0) == 0x80; ++i) decoded = decoded << 6 | (at[i] & 0x3fu);
-      const bool good = i == more &&
-                        decoded >= (more == 1   ? 0x80u
-                                    : more == 2 ? 0x800u
-                                                : 0x10000u) &&
-                        decoded < 0x110000 && !(decoded >= 0xd800 && decoded < 0xe000);
-      code = good ? decoded : '?';
-      at += i;
-    }
+    const uint32_t code = decode(at);
     const uint32_t units = code >= 0x10000 ? 2 : 1;
     if (length + units > capacity) break;
     if (units == 2) {
@@ -180,6 +186,65 @@ uint32_t rung_wtext_of_text(char16_t* to, uint32_t capacity, const char* from) {
     } else {
       to[length++] = static_cast<char16_t>(code);
     }
+  }
+  to[length] = 0;
+  return length;
+}
+
+uint32_t rung_utext_whole(char* text, uint32_t length) {
+  uint32_t begin = length;  // of the last character
+  while (begin > 0 && length - begin < 3 && (static_cast<unsigned char>(text[begin - 1]) & 0xc0) == 0x80) --begin;
+  if (begin > 0 && length - begin + 1 < bytesOf(static_cast<unsigned char>(text[begin - 1]))) {
+    length = begin - 1;
+    text[length] = 0;
+  }
+  return length;
+}
+
+uint32_t rung_utext_assign(char* to, uint32_t capacity, const char* from) {
+  return rung_utext_whole(to, rung_text_assign(to, capacity, from));
+}
+
+uint32_t rung_utext_length(const char* text) {
+  uint32_t length = 0;
+  for (; *text != 0; ++text) length += (static_cast<unsigned char>(*text) & 0xc0) != 0x80;
+  return length;
+}
+
+int64_t rung_utext_offset(const char* text, int64_t count) {
+  int64_t offset = 0;
+  for (; count > 0; --count) {
+    if (text[offset] == 0) return offset + count;
+    ++offset;
+    while ((static_cast<unsigned char>(text[offset]) & 0xc0) == 0x80) ++offset;
+  }
+  return offset + count;  // a negative count stays one
+}
+
+uint32_t rung_utext_code(const char* text) {
+  const unsigned char* at = reinterpret_cast<const unsigned char*>(text);
+  return decode(at);
+}
+
+uint32_t rung_utext_of_code(char* to, uint32_t capacity, uint32_t code) {
+  char bytes[4];
+  uint32_t length = code == 0 ? 0 : encode(code, bytes);
+  if (length > capacity) length = 0;
+  memcpy(to, bytes, length);
+  to[length] = 0;
+  return length;
+}
+
+uint32_t rung_utext_of_text(char* to, uint32_t capacity, const char* from) {
+  // A '?' is no longer than the bytes that it stands for, so `to` may be `from`.
+  uint32_t length = 0;
+  const unsigned char* at = reinterpret_cast<const unsigned char*>(from);
+  while (*at != 0) {
+    char bytes[4];
+    const uint32_t count = encode(decode(at), bytes);
+    if (length + count > capacity) break;
+    memcpy(to + length, bytes, count);
+    length += count;
   }
   to[length] = 0;
   return length;
@@ -213,6 +278,7 @@ uint32_t rung_text_of_integer(char* to, uint32_t capacity, bool negative, uint64
 }
 
 uint32_t rung_text_of_scalar(char* to, uint32_t capacity, uint8_t kind, uint64_t bits) {
+  if (kind == RUNG_UCHAR) return rung_utext_of_code(to, capacity, static_cast<uint32_t>(bits));
   if (kind == RUNG_WCHAR) {
     const char16_t one[2] = {static_cast<char16_t>(bits), 0};
     return rung_text_of_wtext(to, capacity, one);
@@ -233,11 +299,15 @@ uint32_t rung_wtext_of_scalar(char16_t* to, uint32_t capacity, uint8_t kind, uin
     return rung_wtext_assign(to, capacity, one);
   }
   char text[kScalarRoom + 1];
-  spellScalar(kind, bits, text);
+  if (kind == RUNG_UCHAR)
+    rung_utext_of_code(text, kScalarRoom, static_cast<uint32_t>(bits));
+  else
+    spellScalar(kind, bits, text);
   return rung_wtext_of_text(to, capacity, text);
 }
 
 uint64_t rung_scalar_of_text(uint8_t kind, const char* text) {
+  if (kind == RUNG_UCHAR) return rung_utext_code(text);
   if (kind == RUNG_CHAR || kind == RUNG_WCHAR) {
     char16_t one[2];
     if (kind == RUNG_CHAR) return static_cast<unsigned char>(*text);

@@ -2,6 +2,8 @@
 // seconds, TOD in 32-bit milliseconds since midnight, the L-forms in 64-bit nanoseconds.
 #include "rung/values.h"
 
+#include "rung/code.h"
+
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -444,8 +446,8 @@ bool readDate(uint8_t kind, Reader from, uint64_t& ns) {
   return from.done();
 }
 
-// The next character of a quoted text: a code unit of `hex_digits` digits, or false at the closing quote.
-// `bad` when an escape is none.
+// The next character of a quoted text: a code unit of `hex_digits` digits or a code point in braces, or false at the
+// closing quote. `bad` when an escape is none.
 bool readEscaped(Reader& from, char quote, int hex_digits, uint32_t& code, bool& bad) {
   if (from.done() || *from.at == quote) return false;
   if (*from.at != '$') {
@@ -464,7 +466,8 @@ bool readEscaped(Reader& from, char quote, int hex_digits, uint32_t& code, bool&
     }
   }
   code = 0;
-  for (int i = 0; i < hex_digits; ++i) {
+  const bool is_point = from.take('{');
+  for (int i = 0; is_point ? from.peek() != '}' || i == 0 : i < hex_digits; ++i) {
     const char digit = lower(from.peek());
     if (digit >= '0' && digit <= '9')
       code = code * 16 + static_cast<uint32_t>(digit - '0');
@@ -474,19 +477,31 @@ bool readEscaped(Reader& from, char quote, int hex_digits, uint32_t& code, bool&
       bad = true;
       return false;
     }
+    if (code >= 0x110000) return bad = true, false;
     ++from.at;
   }
-  return true;
+  if (!is_point) return true;
+  ++from.at;
+  bad = code >= 0xd800 && code < 0xe000;
+  return !bad;
 }
 
 // Reads `'...'`; with `to` null only checks. `length` characters at most are stored, then NUL.
 bool readString(Reader from, uint32_t length, char* to) {
-  from.take("string#");
+  if (!from.take("string#")) from.take("ustring#");
   if (!from.take('\'')) return false;
   uint32_t n = 0, code = 0;
   bool bad = false;
-  while (readEscaped(from, '\'', 2, code, bad))
-    if (to != nullptr && n < length) to[n++] = static_cast<char>(code);
+  for (;;) {
+    const bool is_point = from.end - from.at > 1 && from.at[0] == '$' && from.at[1] == '{';
+    if (!readEscaped(from, '\'', 2, code, bad)) break;
+    if (to == nullptr) continue;
+    if (is_point) {
+      n += rung_utext_of_code(to + n, length - n, code);
+    } else if (n < length) {
+      to[n++] = static_cast<char>(code);
+    }
+  }
   if (to != nullptr) to[n] = 0;
   return !bad && from.take('\'') && from.done();
 }
@@ -605,7 +620,14 @@ uint32_t rung_spell(uint8_t kind, bool is_signed, const void* value, char* out, 
       spellWString(to, text);
       break;
     }
-    case RUNG_STRING: spellString(to, static_cast<const unsigned char*>(value)); break;
+    case RUNG_UCHAR: {
+      char text[5];
+      rung_utext_of_code(text, 4, load<uint32_t>(value));
+      spellString(to, reinterpret_cast<const unsigned char*>(text));
+      break;
+    }
+    case RUNG_STRING:
+    case RUNG_USTRING: spellString(to, static_cast<const unsigned char*>(value)); break;
     case RUNG_WSTRING: spellWString(to, static_cast<const char16_t*>(value)); break;
     case RUNG_ENUM:
     case RUNG_ARRAY:
@@ -690,9 +712,24 @@ bool rung_parse(uint8_t kind, bool is_signed, uint32_t length, const char* text,
       store(value, one[0]);
       return true;
     }
+    case RUNG_UCHAR: {
+      char one[5];
+      if (!readString(from, 4, nullptr)) return false;
+      readString(from, 4, one);
+      if (rung_utext_length(one) > 1) return false;
+      store(value, rung_utext_code(one));
+      return true;
+    }
     case RUNG_STRING:
       if (!readString(from, length, nullptr)) return false;
       return readString(from, length, static_cast<char*>(value));
+    case RUNG_USTRING: {
+      char* const text = static_cast<char*>(value);
+      if (!readString(from, length, nullptr)) return false;
+      readString(from, length, text);
+      rung_utext_of_text(text, rung_utext_whole(text, rung_text_length(text)), text);
+      return true;
+    }
     case RUNG_WSTRING:
       if (!readWString(from, length, nullptr)) return false;
       return readWString(from, length, static_cast<char16_t*>(value));

@@ -63,6 +63,25 @@ uint64_t toBcd(uint64_t value, int digits) {
   for (int i = 0; i < digits; ++i, value /= 10) bcd |= value % 10 << (4 * i);
   return bcd;
 }
+// A CHAR and a WCHAR are the code points of their numbers.
+uint32_t textOfUnicode(rung_type_kind kind, uint64_t bits, char* out, uint32_t capacity) {
+  if (kind >= RUNG_CHAR && kind <= RUNG_UCHAR) return rung_utext_of_code(out, capacity, static_cast<uint32_t>(bits));
+  return rung_text_of_scalar(out, capacity, kind, bits);
+}
+
+// What is no code point is '?', and so is a character that a CHAR or WCHAR has no place for.
+uint32_t codeOf(uint64_t number) {
+  return number < 0x110000 && (number < 0xd800 || number >= 0xe000) ? static_cast<uint32_t>(number) : uint32_t{'?'};
+}
+uint8_t charOf(uint32_t code) { return static_cast<uint8_t>(code < 0x100 ? code : '?'); }
+uint16_t wcharOf(uint32_t code) { return static_cast<uint16_t>(code < 0x10000 ? code : '?'); }
+uint32_t firstOf(const char16_t* text) {
+  char utf8[5];
+  const char16_t first[3] = {text[0], text[0] != 0 ? text[1] : char16_t{0}, 0};
+  rung_text_of_wtext(utf8, 4, first);
+  return rung_utext_code(utf8);
+}
+
 uint8_t isBcd(uint64_t bcd) {
   for (; bcd != 0; bcd >>= 4)
     if ((bcd & 15) > 9) return 0;
@@ -84,9 +103,16 @@ extern "C" {
   uint32_t rung_standard_TO_WSTRING__##TYPE(rung_context* ctx, T in, char16_t* out, uint32_t capacity) { \
     (void)ctx;                                                                                           \
     return rung_wtext_of_scalar(out, capacity, RUNG_##KIND, bits);                                       \
+  }                                                                                                      \
+  uint32_t rung_standard_TO_USTRING__##TYPE(rung_context* ctx, T in, char* out, uint32_t capacity) {     \
+    (void)ctx;                                                                                           \
+    return textOfUnicode(RUNG_##KIND, bits, out, capacity);                                              \
   }
 #define RUNG_OF_TEXT(TYPE, KIND, T)                                      \
   T rung_standard_STRING_TO_##TYPE(rung_context*, const char* in) {      \
+    return Read<T>::from(rung_scalar_of_text(RUNG_##KIND, in));          \
+  }                                                                      \
+  T rung_standard_USTRING_TO_##TYPE(rung_context*, const char* in) {     \
     return Read<T>::from(rung_scalar_of_text(RUNG_##KIND, in));          \
   }                                                                      \
   T rung_standard_WSTRING_TO_##TYPE(rung_context*, const char16_t* in) { \
@@ -123,6 +149,10 @@ uint32_t rung_standard_TO_STRING__LTIME(rung_context* ctx, int64_t in, char* out
   char text[64];
   return rung_text_assign(out, capacity, longTimeText(ctx, in, text));
 }
+uint32_t rung_standard_TO_USTRING__LTIME(rung_context* ctx, int64_t in, char* out, uint32_t capacity) {
+  char text[64];
+  return rung_text_assign(out, capacity, longTimeText(ctx, in, text));
+}
 uint32_t rung_standard_TO_WSTRING__LTIME(rung_context* ctx, int64_t in, char16_t* out, uint32_t capacity) {
   char text[64];
   return rung_wtext_of_text(out, capacity, longTimeText(ctx, in, text));
@@ -135,6 +165,7 @@ RUNG_TEXT_BOTH(DATE_AND_TIME, DT, uint32_t)
 RUNG_TEXT_BOTH(LDATE_AND_TIME, LDT, uint64_t)
 RUNG_TEXT_OF(CHAR, CHAR, uint8_t, bitsOf(in))
 RUNG_TEXT_OF(WCHAR, WCHAR, uint16_t, bitsOf(in))
+RUNG_TEXT_OF(UCHAR, UCHAR, uint32_t, bitsOf(in))
 #undef RUNG_INTEGER_BOTH
 #undef RUNG_TEXT_BOTH
 #undef RUNG_WTEXT_OF
@@ -146,6 +177,21 @@ uint32_t rung_standard_TO_STRING__STRING_255(rung_context*, const char* in, char
 }
 uint32_t rung_standard_TO_STRING__WSTRING_255(rung_context*, const char16_t* in, char* out, uint32_t capacity) {
   return rung_text_of_wtext(out, capacity, in);
+}
+uint32_t rung_standard_TO_STRING__USTRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {
+  return rung_utext_assign(out, capacity, in);
+}
+uint32_t rung_standard_TO_USTRING__STRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {
+  return rung_utext_of_text(out, capacity, in);
+}
+uint32_t rung_standard_TO_USTRING__WSTRING_255(rung_context*, const char16_t* in, char* out, uint32_t capacity) {
+  return rung_text_of_wtext(out, capacity, in);
+}
+uint32_t rung_standard_TO_USTRING__USTRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {
+  return rung_utext_assign(out, capacity, in);
+}
+uint32_t rung_standard_TO_WSTRING__USTRING_255(rung_context*, const char* in, char16_t* out, uint32_t capacity) {
+  return rung_wtext_of_text(out, capacity, in);
 }
 uint32_t rung_standard_TO_WSTRING__STRING_255(rung_context*, const char* in, char16_t* out, uint32_t capacity) {
   return rung_wtext_of_text(out, capacity, in);
@@ -169,12 +215,14 @@ double rung_standard_LWORD_TO_LREAL(rung_context*, uint64_t in) { return rung_f6
 uint64_t rung_standard_LREAL_TO_LWORD(rung_context*, double in) { return rung_bits_of_f64(in); }
 
 // ---- single characters
-#define RUNG_CHAR_OF(TYPE, T)                                                                     \
-  uint8_t rung_standard_TO_CHAR__##TYPE(rung_context*, T in) { return static_cast<uint8_t>(in); } \
-  uint16_t rung_standard_TO_WCHAR__##TYPE(rung_context*, T in) { return static_cast<uint16_t>(in); }
-#define RUNG_CODE_OF(TYPE, T)                                                              \
-  T rung_standard_CHAR_TO_##TYPE(rung_context*, uint8_t in) { return static_cast<T>(in); } \
-  T rung_standard_WCHAR_TO_##TYPE(rung_context*, uint16_t in) { return static_cast<T>(in); }
+#define RUNG_CHAR_OF(TYPE, T)                                                                        \
+  uint8_t rung_standard_TO_CHAR__##TYPE(rung_context*, T in) { return static_cast<uint8_t>(in); }    \
+  uint16_t rung_standard_TO_WCHAR__##TYPE(rung_context*, T in) { return static_cast<uint16_t>(in); } \
+  uint32_t rung_standard_TO_UCHAR__##TYPE(rung_context*, T in) { return codeOf(static_cast<uint64_t>(in)); }
+#define RUNG_CODE_OF(TYPE, T)                                                                \
+  T rung_standard_CHAR_TO_##TYPE(rung_context*, uint8_t in) { return static_cast<T>(in); }   \
+  T rung_standard_WCHAR_TO_##TYPE(rung_context*, uint16_t in) { return static_cast<T>(in); } \
+  T rung_standard_UCHAR_TO_##TYPE(rung_context*, uint32_t in) { return static_cast<T>(in); }
 #define RUNG_CHAR_BOTH(TYPE, T) \
   RUNG_CHAR_OF(TYPE, T)         \
   RUNG_CODE_OF(TYPE, T)
@@ -208,6 +256,20 @@ uint8_t rung_standard_TO_CHAR__REAL(rung_context*, float in) { return static_cas
 uint8_t rung_standard_TO_CHAR__LREAL(rung_context*, double in) { return static_cast<uint8_t>(rung_round_i32(in)); }
 uint16_t rung_standard_TO_WCHAR__REAL(rung_context*, float in) { return static_cast<uint16_t>(rung_round_i32(in)); }
 uint16_t rung_standard_TO_WCHAR__LREAL(rung_context*, double in) { return static_cast<uint16_t>(rung_round_i32(in)); }
+uint32_t rung_standard_TO_UCHAR__REAL(rung_context*, float in) {
+  return codeOf(static_cast<uint32_t>(rung_round_i32(in)));
+}
+uint32_t rung_standard_TO_UCHAR__LREAL(rung_context*, double in) {
+  return codeOf(static_cast<uint32_t>(rung_round_i32(in)));
+}
+uint32_t rung_standard_TO_UCHAR__UCHAR(rung_context*, uint32_t in) { return in; }
+uint8_t rung_standard_TO_CHAR__UCHAR(rung_context*, uint32_t in) { return charOf(in); }
+uint16_t rung_standard_TO_WCHAR__UCHAR(rung_context*, uint32_t in) { return wcharOf(in); }
+uint32_t rung_standard_TO_UCHAR__STRING_255(rung_context*, const char* in) { return rung_utext_code(in); }
+uint32_t rung_standard_TO_UCHAR__WSTRING_255(rung_context*, const char16_t* in) { return firstOf(in); }
+uint32_t rung_standard_TO_UCHAR__USTRING_255(rung_context*, const char* in) { return rung_utext_code(in); }
+uint8_t rung_standard_TO_CHAR__USTRING_255(rung_context*, const char* in) { return charOf(rung_utext_code(in)); }
+uint16_t rung_standard_TO_WCHAR__USTRING_255(rung_context*, const char* in) { return wcharOf(rung_utext_code(in)); }
 uint8_t rung_standard_TO_CHAR__STRING_255(rung_context*, const char* in) { return static_cast<uint8_t>(*in); }
 uint8_t rung_standard_TO_CHAR__WSTRING_255(rung_context*, const char16_t* in) { return static_cast<uint8_t>(*in); }
 uint16_t rung_standard_TO_WCHAR__STRING_255(rung_context*, const char* in) {
@@ -278,6 +340,7 @@ RUNG_BYTE_ORDER(DATE_AND_TIME, uint32_t, RUNG_SWAP32)
 RUNG_BYTE_ORDER(LDATE_AND_TIME, uint64_t, RUNG_SWAP64)
 RUNG_BYTE_ORDER(CHAR, uint8_t, in)
 RUNG_BYTE_ORDER(WCHAR, uint16_t, RUNG_SWAP16)
+RUNG_BYTE_ORDER(UCHAR, uint32_t, RUNG_SWAP32)
 RUNG_BYTE_ORDER(REAL, float, rung_f32_of(__builtin_bswap32(rung_bits_of_f32(in))))
 RUNG_BYTE_ORDER(LREAL, double, rung_f64_of(__builtin_bswap64(rung_bits_of_f64(in))))
 #undef RUNG_SWAP16
@@ -288,6 +351,9 @@ RUNG_BYTE_ORDER(LREAL, double, rung_f64_of(__builtin_bswap64(rung_bits_of_f64(in
 #define RUNG_TEXT_ORDER(NAME)                                                                                         \
   uint32_t rung_standard_##NAME##__STRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {          \
     return rung_text_assign(out, capacity, in);                                                                       \
+  }                                                                                                                   \
+  uint32_t rung_standard_##NAME##__USTRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {         \
+    return rung_utext_assign(out, capacity, in);                                                                      \
   }                                                                                                                   \
   uint32_t rung_standard_##NAME##__WSTRING_255(rung_context*, const char16_t* in, char16_t* out, uint32_t capacity) { \
     return rung_wtext_assign(out, capacity, in);                                                                      \

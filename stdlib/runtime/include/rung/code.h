@@ -207,6 +207,16 @@ extern "C" {
 uint32_t rung_text_assign(char* to, uint32_t capacity, const char* from);
 uint32_t rung_wtext_assign(char16_t* to, uint32_t capacity, const char16_t* from);
 /* Below, at or above 0, by unsigned units. */
+/* USTRING: UTF-8, cut between characters. Compared as STRING is: that order is the order of code points. */
+uint32_t rung_utext_assign(char* to, uint32_t capacity, const char* from);
+/* The length of a text that ends in a piece of a character without that piece, which goes. */
+uint32_t rung_utext_whole(char* text, uint32_t length);
+uint32_t rung_utext_length(const char* text) RUNG_PURE; /* in characters */
+/* Where `count` characters end, in bytes; beyond the end of the text a byte for each that there is not. */
+int64_t rung_utext_offset(const char* text, int64_t count) RUNG_PURE;
+uint32_t rung_utext_code(const char* text) RUNG_PURE; /* the first character; 0 of an empty text, '?' of what is none */
+uint32_t rung_utext_of_code(char* to, uint32_t capacity, uint32_t code);
+uint32_t rung_utext_of_text(char* to, uint32_t capacity, const char* from); /* of a STRING, which may hold any bytes */
 int rung_text_compare(const char* a, const char* b) RUNG_PURE;
 int rung_wtext_compare(const char16_t* a, const char16_t* b) RUNG_PURE;
 uint32_t rung_wtext_length(const char16_t* text) RUNG_PURE;

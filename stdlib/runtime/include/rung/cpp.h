@@ -45,16 +45,18 @@ typedef float REAL;
 typedef double LREAL;
 typedef uint8_t CHAR;
 typedef uint16_t WCHAR;
+typedef uint32_t UCHAR;
 
-/* STRING[N], WSTRING[N]: characters and a NUL; what does not fit is cut. */
-template <class Char, uint32_t N>
+/* STRING[N], USTRING[N], WSTRING[N]: characters and a NUL; what does not fit is cut, of a USTRING between characters.
+ */
+template <class Char, uint32_t N, bool Utf8 = false>
 struct RUNG_MAY_ALIAS BasicText {
   Char characters[N + 1];
   BasicText() { characters[0] = 0; }
   BasicText(const Char* text) { assign(text, std::char_traits<Char>::length(text)); }
   BasicText(const std::basic_string<Char>& text) { assign(text.data(), text.size()); }
-  template <uint32_t M>
-  BasicText(const BasicText<Char, M>& text) {
+  template <uint32_t M, bool Other>
+  BasicText(const BasicText<Char, M, Other>& text) {
     assign(text.c_str(), text.size());
   }
   const Char* c_str() const { return characters; }
@@ -84,7 +86,10 @@ struct RUNG_MAY_ALIAS BasicText {
 
  private:
   void assign(const Char* text, size_t length) {  // `text` may lie in *this
-    if (length > N) length = N;
+    if (length > N) {
+      length = N;
+      while (Utf8 && length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0) == 0x80) --length;
+    }
     memmove(characters, text, length * sizeof(Char));
     characters[length] = 0;
   }
@@ -93,8 +98,11 @@ template <uint32_t N>
 using Text = BasicText<char, N>;
 template <uint32_t N>
 using WideText = BasicText<char16_t, N>;
+template <uint32_t N>
+using Utf8Text = BasicText<char, N, true>;
 typedef Text<255> STRING;
 typedef WideText<255> WSTRING;
+typedef Utf8Text<255> USTRING;
 
 /* ARRAY: `x.table[i - low]`; Table is a C array type. */
 template <class Table>

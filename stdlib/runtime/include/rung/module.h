@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-#define RUNG_MODULE_ABI 3u
+#define RUNG_MODULE_ABI 4u
 #define RUNG_NONE 0xffffffffu
 
 typedef struct rung_context rung_context;
@@ -45,8 +45,10 @@ typedef enum rung_type_kind {
   RUNG_LDT,
   RUNG_CHAR,
   RUNG_WCHAR,
-  RUNG_STRING,  /* length: capacity in characters; length+1 bytes, NUL-terminated */
+  RUNG_UCHAR,   /* a code point in 32 bits */
+  RUNG_STRING,  /* length: capacity in bytes; length+1 bytes, NUL-terminated */
   RUNG_WSTRING, /* the same in 16-bit units */
+  RUNG_USTRING, /* as RUNG_STRING, UTF-8 */
   RUNG_ENUM,    /* element: the integer type; first, count: slice of enum_items */
   RUNG_ARRAY,   /* element; first, count: slice of dimensions */
   RUNG_RECORD,  /* struct, function block, program, global list; first, count: slice of fields */
@@ -144,10 +146,19 @@ typedef enum rung_fault_kind {
   RUNG_FAULT_SUBRANGE,
   RUNG_FAULT_CONVERT,
   RUNG_FAULT_OVERFLOW,
+  RUNG_FAULT_LOCK, /* a MUTEX or SEMA: value is a rung_lock_error */
   RUNG_FAULT_STACK /* calls nest too deep; noticed in interpreted modules, and by the bundled host */
 } rung_fault_kind;
 /* rung_fault.value of two faults that are told apart from others of their kind. */
 #define RUNG_NO_SUCH_METHOD 1 /* CAST: a call of what is no object with that method */
+enum rung_lock_error {
+  RUNG_LOCK_FREE,    /* no error */
+  RUNG_LOCK_HELD,    /* LOCK: another task has it, and waiting gives it no chance to unlock it */
+  RUNG_LOCK_OWN,     /* LOCK: this task has it */
+  RUNG_LOCK_NOT_OWN, /* UNLOCK: this task does not have it */
+  RUNG_SEMA_EMPTY,   /* ACQUIRE: all are taken, and waiting gives no task a chance to release one */
+  RUNG_SEMA_FULL     /* RELEASE: none is taken */
+};
 #define RUNG_BAD_ADDRESS (-1) /* NULL: memory that the program may not touch; of the bundled host */
 /* Where a check stands: a table of the module, indexed by the number that the code passes. */
 typedef struct rung_site {
@@ -217,6 +228,9 @@ typedef struct rung_host {
   /* Default (null): opening fails as RUNG_FILE_DENIED. */
   const rung_files* files;
   void* files_data;
+  /* Lets other tasks run while this one waits for a MUTEX or SEMA; 0: they cannot, or the program ends. Default (null):
+   * 0. */
+  int (*wait)(void* data);
 } rung_host;
 
 struct rung_context {
