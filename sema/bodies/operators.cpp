@@ -114,6 +114,8 @@ void typeCharacters(Context& context, std::span<const ExprId> operands) {
   for (const ExprId operand : operands) {
     const TypeKind kind = context.types().plainKind(context.tree().expr(operand).type);
     if (!TypeTable::isCharacter(kind) && kind != TypeKind::WString && kind != TypeKind::UString) continue;
+    const bool is_literal = context.tree().kind(operand) == ExprKind::Literal;
+    if (is_literal && !context.tree().as<LiteralExpr>(operand).prefix) continue;
     for (const ExprId other : operands) {
       if (context.tree().kind(other) == ExprKind::Literal)
         retypeText(context, context.tree().as<LiteralExpr>(other), types::idOf(kind));
