@@ -125,6 +125,11 @@ void writeBodies(Import& import, const xml::Element& owner, const xml::Element& 
 // That of one <body> or <inline>. False: it could not be read, which was reported.
 bool writeBody(Import& import, const xml::Element& body, const xml::Element& pou, const std::string& name);
 
+// ---- action_blocks.cpp
+
+// The variables of the action blocks in the LD and FBD bodies of a POU.
+void writeControls(Import& import, const xml::Element& pou);
+
 // ---- configuration.cpp
 
 void writeConfiguration(Import& import, const xml::Element& configuration);

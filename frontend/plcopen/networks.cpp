@@ -61,6 +61,7 @@ class Writer {
 
   void collect(const Element& body);
   void writeElement(const Element& e);
+  void writeActions(const Element& body);
   void writeNetworkOf(const Element& e);
   void writeBox(const Element& e);
   void writeBoxName(const Element& e);
@@ -99,8 +100,8 @@ class Writer {
 
 bool isElement(std::string_view name) {
   static constexpr std::string_view kNames[] = {
-      "leftPowerRail", "rightPowerRail", "contact", "coil",  "block",  "inVariable", "outVariable",  "inOutVariable",
-      "connector",     "continuation",   "jump",    "label", "return", "comment",    "vendorElement"};
+      "leftPowerRail", "rightPowerRail", "contact", "coil",  "block",  "inVariable", "outVariable",   "inOutVariable",
+      "connector",     "continuation",   "jump",    "label", "return", "comment",    "vendorElement", "actionBlock"};
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
@@ -398,6 +399,16 @@ void Writer::writeElement(const Element& e) {
     return;
   }
   writeNetworkOf(e);
+  if (kind == "actionBlock") {
+    out_.word("output ");
+    writeNumber(e);
+    out_.word(" (" + wireOf(document_, e) + ")");
+    writeOrder(e);
+    writePlace(e);
+    writeInput(e);
+    out_.word(";\n");
+    return;
+  }
   if (kind == "step") {
     out_.word("input ");
     writeNumber(e);
@@ -455,6 +466,20 @@ void Writer::writeElement(const Element& e) {
   out_.word(";\n");
 }
 
+// Behind everything else: below all places, or in a network of their own.
+void Writer::writeActions(const Element& body) {
+  const auto block =
+      std::find_if(elements_.begin(), elements_.end(), [](const Element* e) { return e->name == "actionBlock"; });
+  if (block == elements_.end()) return;
+  if (network_ != 0) out_.put((*block)->loc, "NETWORK " + std::to_string(UINT32_MAX) + ";\n");
+  const bool placed = std::any_of(elements_.begin(), elements_.end(),
+                                  [&](const Element* e) { return document_.child(*e, "position") != nullptr; });
+  out_.put((*block)->loc,
+           "execute " + std::to_string(kOwnNumbers - 2) + (placed ? " AT 0, 1000000000" : "") + " {network ST}\n");
+  writeActionCalls(document_, body, out_);
+  out_.word("{end_network};\n");
+}
+
 void Writer::writeBody(const Diagram& diagram) {
   collect(diagram.body);
   const char* word = diagram.language == NetworkLanguage::Ladder   ? "LD"
@@ -462,6 +487,7 @@ void Writer::writeBody(const Diagram& diagram) {
                                                                    : "CFC";
   out_.put(diagram.body.loc, std::string("{network ") + word + "}\n");
   for (const Element* e : elements_) writeElement(*e);
+  writeActions(diagram.body);
   out_.put(diagram.body.end, "{end_network}\n");
 }
 

@@ -24,6 +24,11 @@ struct Diagram {
 // ` AT 100, 40, 60, 30`; empty where the element has no place.
 std::string placeOf(const xml::Document& document, const xml::Element& element);
 
+// Of an action block in a network: the variable that its wire is stored in; and, for the end of its body, the
+// statements that call all of them. (action_blocks.cpp)
+std::string wireOf(const xml::Document& document, const xml::Element& block);
+void writeActionCalls(const xml::Document& document, const xml::Element& body, xml::Assembly& out);
+
 void writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram, xml::Assembly& out);
 
 }  // namespace rung::plcopen

@@ -233,6 +233,7 @@ void writePou(Import& import, const xml::Element& pou) {
   if (words == nullptr) return;
   if (!writeHeader(import, pou, words->begin, "pouinheritance")) return;
   writeFlags(import, pou);
+  writeControls(import, pou);
   findSteps(import, pou);
   import.own_action_count = 0;
   writeActions(import, pou);
