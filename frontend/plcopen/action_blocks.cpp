@@ -59,8 +59,8 @@ std::string wireOf(const xml::Document& document, const xml::Element& block) {
   return "sfc_wire_" + identifierOf("n" + document.value(block, "localId"));
 }
 
-// Forbids an action block in a network whose action has no name.
-//   fails   <action><inline>…</inline></action> in an <LD>          E1019
+// Forbids an action block in a network that names no variable or action: other blocks could not share its body.
+//   fails   <action><inline>…</inline></action> in an <LD>          E1050
 void writeControls(Import& import, const xml::Element& pou) {
   const xml::Document& document = import.document;
   std::unordered_set<std::string> declared;
@@ -74,7 +74,7 @@ void writeControls(Import& import, const xml::Element& pou) {
       if (const xml::Attribute* name = nameOf(document, action))
         declare(action.loc, "sfc_control_" + std::string(name->raw), "SFCActionControl");
       else
-        import.diagnostics.report(Diag::ActionWithoutName, action.loc, {});
+        import.diagnostics.report(Diag::XmlNoName, action.loc, {"reference", "name"});
     });
   });
 }

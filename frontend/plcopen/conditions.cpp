@@ -279,8 +279,8 @@ void Chart::writeTransition(uint32_t node) {
       writeName(import_, *named);
       import_.out.word(" ");
     }
-    writePlace(transition);
-    import_.out.word(" ");
+    if (const std::string place = placeOf(document_, transition); !place.empty())
+      import_.out.put(transition.loc, place.substr(1) + " ");
     if (hasName(import_, transition, "priority") && raw(transition, "priority") != "0") {
       import_.out.word("(PRIORITY := ");
       writeName(import_, transition, "priority");
