@@ -152,7 +152,7 @@ struct Scopes {
   };
   std::vector<HierarchicalPlace> hierarchical;
   NameMap hierarchical_names;  // address -> Var; the entity's index counts in `hierarchical`
-  struct Texts {  // whose address is taken (bodies/text_places.cpp)
+  struct Texts {               // whose address is taken (bodies/text_places.cpp)
     struct Place {
       PouId pou;
       VarId var;
@@ -168,7 +168,7 @@ struct Scopes {
   size_t settled_lists = 1, checked_lists = 1;
   bool settling = false;
   std::vector<VarId> reading_inits;  // variables whose initial values, or arguments of FB_Init, may read others
-  uint32_t depth = 0;  // of declarations resolved within each other
+  uint32_t depth = 0;                // of declarations resolved within each other
 
   Libraries libraries;
   NameMap namespaces;                                       // NAMESPACEs that stand in no other

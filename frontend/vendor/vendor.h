@@ -40,7 +40,7 @@ FileId joinPair(Sources& sources, FileId declaration, FileId body);
 
 // What a .plcproj lists, in its order.
 struct ProjectEntry {
-  std::string name;  // of a file: its path below the project's folder, with `/`; of a library: its title
+  std::string name;   // of a file: its path below the project's folder, with `/`; of a library: its title
   std::string space;  // of a library: the namespace under which the project knows it, or empty
   Loc loc;
 };
