@@ -1,8 +1,10 @@
 #include "frontend/syntax/st_printer.h"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 
+#include "frontend/source/files.h"
 #include "frontend/source/invariant.h"
 
 namespace rung {
@@ -75,12 +77,16 @@ class StPrinter {
 void StPrinter::quoted(std::string_view s, char quote) {
   static const char* const kHex = "0123456789ABCDEF";
   text += quote;
-  for (const char c : s) {
+  size_t bad = std::min(findInvalidUtf8(s), s.size());
+  for (size_t k = 0; k < s.size(); ++k) {
+    const char c = s[k];
     const auto byte = static_cast<unsigned char>(c);
+    const bool is_bad = k == bad;
+    if (is_bad) bad = std::min(findInvalidUtf8(s.substr(k + 1)), s.size() - k - 1) + k + 1;
     if (c == quote || c == '$') {
       text += '$';
       text += c;
-    } else if (byte < 0x20 || byte == 0x7f) {
+    } else if (byte < 0x20 || byte == 0x7f || is_bad) {
       text += quote == '"' ? "$00" : "$";
       text += kHex[byte >> 4];
       text += kHex[byte & 15];
