@@ -180,8 +180,8 @@ void decideDispatch(Context& context, PouId id) {
 
 namespace {
 
-// Forbids an interface that is named twice in one list.
-//   passes  IMPLEMENTS IRun, IStop      fails   IMPLEMENTS IRun, IRun                                       E0346
+// Warns of an interface that is named twice in one list.
+//   passes  IMPLEMENTS IRun, IStop      warns   IMPLEMENTS IRun, IRun                                       W0346
 void addInterface(Context& there, Pou& pou, PouId interface, Loc loc) {
   if (std::find(pou.interfaces.begin(), pou.interfaces.end(), interface) == pou.interfaces.end())
     pou.interfaces.push_back(interface);
