@@ -178,7 +178,7 @@ bool adaptInteger(Context& context, ExprId& expr, TypeId to, Bounds bounds) {
 }
 
 // A negative number where the type has no sign is the bit pattern of that width (codesys): `mask : WORD := -1`.
-//   warns   count : UINT := -1;      W0507
+//   warns   count : UINT := -1;      W0562
 bool adaptNegative(Context& context, ExprId& expr, TypeId to, TypeKind kind) {
   Int128 value;
   if (context.iec() || context.types().isSigned(kind) || kind == TypeKind::Bool) return false;

@@ -1,13 +1,13 @@
 // The programs in the documentation: fenced blocks of docs/**.md, README.md, CONTRIBUTING.md and samples/**.md.
-//   ```st wrong [options]     on docs/errors/E0231.md: `rung check` reports that code and no other error
-//   ```st mended [options]    on such a page: no error, and not that code
+//   ```st broken [options]    on docs/errors/E0231.md: `rung check` reports that code and no other error
+//   ```st fixed [options]     on such a page: no error, and not that code
 //   ```st run [options]       `rung run` ends well; an ```output block after it is what it prints
 //   ```st check [options]     no error
-//   ```xml wrong, mended      the same for a project in XML
-//   ```ir wrong, mended       the same for IR text, which ir_golden reads; its comments begin with `; `
+//   ```xml broken, fixed      the same for a project in XML
+//   ```ir broken, fixed       the same for IR text, which ir_golden reads; its comments begin with `; `
 //   ```st name.st             a file for the console blocks of the same page (any language, any ending)
 //   ```console                a session (console.h), in a folder that looks like the project's root;
-//   ```console wrong          a session that must mention the page's code
+//   ```console broken         a session that must mention the page's code
 //   <!-- no program: why -->  on a page of docs/errors whose mistake no test can make
 #include <algorithm>
 #include <filesystem>
@@ -20,7 +20,7 @@ namespace rung::tests {
 namespace {
 
 struct Block {
-  std::string language, kind;  // of "```st wrong --std=iec3": st, wrong
+  std::string language, kind;  // of "```st broken --std=iec3": st, broken
   std::vector<std::string> options;
   std::vector<std::string> lines;
   size_t line;  // of the fence, from 1
@@ -64,18 +64,18 @@ class Page {
 
   Result run() {
     const std::vector<Block> blocks = blocksOf(lines_);
-    bool wrong = false, mended = false;
+    bool broken = false, fixed = false;
     for (size_t i = 0; i < blocks.size(); ++i) {
       const Block& block = blocks[i];
-      wrong = wrong || block.kind == "wrong";
-      mended = mended || block.kind == "mended";
+      broken = broken || block.kind == "broken";
+      fixed = fixed || block.kind == "fixed";
       const Block* after = i + 1 < blocks.size() && blocks[i + 1].language == "output" ? &blocks[i + 1] : nullptr;
       if (block.language == "console") {
         runConsole(block);
       } else if ((block.language == "st" || block.language == "xml") &&
-                 (block.kind == "wrong" || block.kind == "mended" || block.kind == "check")) {
+                 (block.kind == "broken" || block.kind == "fixed" || block.kind == "check")) {
         runCheck(block);
-      } else if (block.language == "ir" && (block.kind == "wrong" || block.kind == "mended")) {
+      } else if (block.language == "ir" && (block.kind == "broken" || block.kind == "fixed")) {
         runIr(block);
       } else if (block.language == "st" && block.kind == "run") {
         runProgram(block, after);
@@ -85,8 +85,8 @@ class Page {
     }
     const bool excused = std::any_of(lines_.begin(), lines_.end(),
                                      [](const std::string& line) { return startsWith(line, "<!-- no program: "); });
-    if (!code_.empty() && !(wrong && mended) && !excused) {
-      result_.fail(file_, "  a page needs a ```st wrong and a ```st mended program (or ```console wrong)\n", "");
+    if (!code_.empty() && !(broken && fixed) && !excused) {
+      result_.fail(file_, "  a page needs a ```st broken and a ```st fixed program (or ```console broken)\n", "");
     }
     return std::move(result_);
   }
@@ -118,10 +118,10 @@ class Page {
       const bool own = !code_.empty() && heading.find("[" + code_ + "]") != std::string::npos;
       const bool error = heading.find(": error[") != std::string::npos;
       reported = reported || own;
-      if (error && !(own && block.kind == "wrong")) problem += "  " + heading + "\n";
-      if (!error && own && block.kind == "mended") problem += "  " + heading + "\n";
+      if (error && !(own && block.kind == "broken")) problem += "  " + heading + "\n";
+      if (!error && own && block.kind == "fixed") problem += "  " + heading + "\n";
     }
-    if (block.kind == "wrong" && !reported) problem += "  " + code_ + " is not reported\n";
+    if (block.kind == "broken" && !reported) problem += "  " + code_ + " is not reported\n";
     if (output.exit_code != 0 && output.exit_code != 1)
       problem += "  exit code " + std::to_string(output.exit_code) + "\n";
     finish(block, problem, spelled(check));
@@ -143,10 +143,10 @@ class Page {
       if (words.size() < 2 || words[0].find(':') == std::string::npos || !startsWith(words[1], "E09")) continue;
       const bool own = words[1] == code_;
       reported = reported || own;
-      if (!own || block.kind == "mended") problem += "  " + line + "\n";
+      if (!own || block.kind == "fixed") problem += "  " + line + "\n";
     }
-    if (block.kind == "wrong" && !reported) problem += "  " + code_ + " is not reported\n";
-    if (block.kind == "mended" && output.exit_code != 0)
+    if (block.kind == "broken" && !reported) problem += "  " + code_ + " is not reported\n";
+    if (block.kind == "fixed" && output.exit_code != 0)
       problem += "  exit code " + std::to_string(output.exit_code) + "\n";
     finish(block, problem, spelled(read));
   }
@@ -169,7 +169,7 @@ class Page {
     const bool mentioned = std::any_of(updated.begin(), updated.end(), [&](const std::string& line) {
       return line.find("[" + code_ + "]") != std::string::npos;
     });
-    if (block.kind == "wrong" && !mentioned) problem += "  " + code_ + " is not reported\n";
+    if (block.kind == "broken" && !mentioned) problem += "  " + code_ + " is not reported\n";
     if (setting_.update && updated != block.lines) {
       lines_.erase(lines_.begin() + static_cast<std::ptrdiff_t>(block.line + shift_),
                    lines_.begin() + static_cast<std::ptrdiff_t>(block.line + shift_ + block.lines.size()));

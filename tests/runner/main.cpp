@@ -34,7 +34,7 @@ const char kHelp[] =
   tests/golden/ir/*.ir      passes, with ir_golden
   tests/conformance/**.st   {test} POUs by `rung test`, or `// expect:`
   tests/programs/**         `// run: ` options and `// trace: ` lines
-  docs/**.md, README.md     ```st wrong, mended, check, run; ```console
+  docs/**.md, README.md     ```st broken, fixed, check, run; ```console
   unit/NAME, tools/house    GoogleTest programs, differential; the checks of tools/precommit.sh
   A run of everything writes build/test-results.tsv and compares docs/compliance.md with it.
 )";

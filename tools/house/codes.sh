@@ -16,8 +16,8 @@ for code in $codes; do
     echo "$page:1: the title is not \`# $code: ...\`"
     bad=1
   fi
-  # The wrong program of the page is run by the tests, too; a page without one says why.
-  if ! grep -qx "$code" <<<"$provoked" && ! grep -qsE '^(```[a-z]+ wrong|<!-- no program: )' "$page"; then
+  # The broken program of the page is run by the tests, too; a page without one says why.
+  if ! grep -qx "$code" <<<"$provoked" && ! grep -qsE '^(```[a-z]+ broken|<!-- no program: )' "$page"; then
     echo "$code: no test provokes it"
     bad=1
   fi

@@ -18,7 +18,7 @@ TEST(InitialValues, arrays_are_filled_in_row_major_order) {
       "g : ARRAY[1..2] OF INT := 1;\n"
       "h : INT := [1];\n"
       "END_VAR END_PROGRAM");
-  EXPECT_EQ(checked.codes(), "W0301@3 W0301@7 E0326@8 E0328@9");
+  EXPECT_EQ(checked.codes(), "W0366@3 W0366@7 E0326@8 E0328@9");
   const ArrayInitExpr& cut = checked.tree.as<ArrayInitExpr>(checked.var("f").init);
   EXPECT_EQ(cut.elements.count, 2u);
 }

@@ -40,7 +40,7 @@ TEST(Calls, InOutsNeedAVariableOfTheType) {
   const std::string mixer =
       "FUNCTION_BLOCK Mixer VAR_IN_OUT level : REAL; END_VAR level := level + 1.0; END_FUNCTION_BLOCK\n"
       "PROGRAM Main VAR m : Mixer; tank : REAL; n : INT; END_VAR\n";
-  EXPECT_EQ(Checked(mixer + "m(level := tank); END_PROGRAM").codes(), "2:42 W0708\n");
+  EXPECT_EQ(Checked(mixer + "m(level := tank); END_PROGRAM").codes(), "2:42 W0758\n");
   EXPECT_EQ(Checked(mixer + "m(); END_PROGRAM").codes(), "3:1 E0602\n");
   EXPECT_EQ(Checked(mixer + "m(level := 1.0); END_PROGRAM").codes(), "3:12 E0701\n");
   EXPECT_EQ(Checked(mixer + "m(level := n); END_PROGRAM").codes(), "3:12 E0609\n");

@@ -28,25 +28,25 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"r := l;", "1:6 W0503"}, Row{"t := 5;", "1:6 E0501"}, Row{"counter := t;", "1:12 E0501"},
                     Row{"arr := counter;", "1:8 E0502"}, Row{"flag := 2;", "1:9 E0501"}, Row{"flag := 1;", ""},
                     Row{"w := counter;", "1:6 W0503"}, Row{"e := 1;", ""}, Row{"e := 99;", "1:6 W0549"},
-                    Row{"e := counter;", "1:6 W0506"}, Row{"e := Fast;", "1:6 E0401"}, Row{"counter := e;", ""}));
+                    Row{"e := counter;", "1:6 W0561"}, Row{"e := Fast;", "1:6 E0401"}, Row{"counter := e;", ""}));
 
 INSTANTIATE_TEST_SUITE_P(
     Constants, ExpressionTest,
     testing::Values(Row{"counter := 70000;", "1:12 E0504"}, Row{"counter := -32769;", "1:12 E0504"},
                     Row{"counter := -32768;", ""}, Row{"counter := 30000 + 30000;", "1:12 E0504"},
-                    Row{"bt := 256;", "1:7 E0504"}, Row{"u := -1;", "1:6 W0507"},
+                    Row{"bt := 256;", "1:7 E0504"}, Row{"u := -1;", "1:6 W0562"},
                     Row{"counter := SINT#200;", "1:12 E0504"}, Row{"counter := 5 / 0;", "1:16 E0505"},
                     Row{"counter := counter MOD 0;", "1:24 E0505"}, Row{"r := r / 0.0;", "1:10 E0505"},
                     Row{"arr[9] := 1;", "1:5 E0506"}, Row{"arr[0] := 1;", "1:5 E0506"}, Row{"arr[5] := 1;", ""},
-                    Row{"grid[0, 2] := 1.0;", "1:9 E0506"}, Row{"sub := 10;", "1:8 W0505"},
-                    Row{"r := 1 / 2;", "1:8 W0502"}, Row{"t := -T#1s;", ""}, Row{"s := 'x';", ""}));
+                    Row{"grid[0, 2] := 1.0;", "1:9 E0506"}, Row{"sub := 10;", "1:8 W0559"},
+                    Row{"r := 1 / 2;", "1:8 W0557"}, Row{"t := -T#1s;", ""}, Row{"s := 'x';", ""}));
 
 INSTANTIATE_TEST_SUITE_P(
     Operators, ExpressionTest,
     testing::Values(Row{"flag := flag + flag;", "1:14 E0507"}, Row{"counter := counter + s;", "1:20 E0507"},
                     Row{"flag := flag AND counter;", "1:14 E0508"}, Row{"flag := NOT r;", "1:9 E0507"},
                     Row{"counter := counter + flag;", "1:20 E0507"}, Row{"flag := counter = s;", "1:17 E0508"},
-                    Row{"flag := r = l;", "1:11 W0501"}, Row{"flag := r <> 0.0;", ""},
+                    Row{"flag := r = l;", "1:11 W0556"}, Row{"flag := r <> 0.0;", ""},
                     Row{"r := r MOD 2.0;", "1:8 E0507"}, Row{"t := t * t;", "1:8 E0508"},
                     Row{"flag := t > counter;", "1:11 E0508"}, Row{"flag := arr = arr;", "1:13 E0507"},
                     Row{"counter := -flag;", "1:12 E0507"}));

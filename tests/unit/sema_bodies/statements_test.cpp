@@ -19,7 +19,7 @@ TEST_P(StatementTest, GivesItsCode) {
 
 INSTANTIATE_TEST_SUITE_P(Branches, StatementTest,
                          testing::Values(Row{"IF i THEN j := 1; END_IF", "1:4 E0501"},
-                                         Row{"IF TRUE THEN j := 1; END_IF", "1:4 W0702"},
+                                         Row{"IF TRUE THEN j := 1; END_IF", "1:4 W0754"},
                                          Row{"CASE i OF 1: j := 1; 1: j := 2; END_CASE", "1:22 E0709"},
                                          Row{"CASE i OF 1..5: j := 1; 3: j := 2; END_CASE", "1:25 E0709"},
                                          Row{"CASE i OF 5..1: j := 1; END_CASE", "1:11 E0708"},
@@ -37,14 +37,14 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"FOR i := 1 TO 3 DO i := 2; END_FOR", "1:20 W0704"},
                     Row{"FOR i := 1 TO 3 BY 0 DO j := i; END_FOR", "1:20 E0711"},
                     Row{"FOR r := 1.0 TO 3.0 DO j := 1; END_FOR", "1:5 E0710"},
-                    Row{"FOR i := 9 TO 1 DO j := i; END_FOR", "1:10 W0705"},
+                    Row{"FOR i := 9 TO 1 DO j := i; END_FOR", "1:10 W0755"},
                     Row{"FOR i := 9 TO 1 BY -1 DO j := i; END_FOR", ""},
                     Row{"FOR i := 1 TO 40000 DO j := i; END_FOR", "1:15 E0504"},
                     Row{"FOR bt := 0 TO 255 DO j := bt; END_FOR", ""}, Row{"WHILE i DO j := 1; END_WHILE", "1:7 E0501"},
-                    Row{"WHILE TRUE DO j := 1; END_WHILE", "1:1 W0706"}, Row{"WHILE TRUE DO EXIT; END_WHILE", ""},
-                    Row{"REPEAT j := 1; UNTIL FALSE END_REPEAT", "1:1 W0706"},
-                    Row{"FOR i := 1 TO 3 DO EXIT; j := 1; END_FOR", "1:26 W0701"}, Row{"RETURN;\nj := 1;", "2:1 W0701"},
-                    Row{"IF f THEN RETURN; ELSE RETURN; END_IF\nj := 1;", "2:1 W0701"}));
+                    Row{"WHILE TRUE DO j := 1; END_WHILE", "1:1 W0756"}, Row{"WHILE TRUE DO EXIT; END_WHILE", ""},
+                    Row{"REPEAT j := 1; UNTIL FALSE END_REPEAT", "1:1 W0756"},
+                    Row{"FOR i := 1 TO 3 DO EXIT; j := 1; END_FOR", "1:26 W0753"}, Row{"RETURN;\nj := 1;", "2:1 W0753"},
+                    Row{"IF f THEN RETURN; ELSE RETURN; END_IF\nj := 1;", "2:1 W0753"}));
 
 INSTANTIATE_TEST_SUITE_P(Targets, StatementTest,
                          testing::Values(Row{"5 := i;", "1:1 E0217"}, Row{"Run := 1;", "1:1 E0701"},
@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Jumps, StatementTest,
                          testing::Values(Row{"again: i := 1;\nIF f THEN JMP again; END_IF", ""},
                                          Row{"JMP agan;\nagain: i := 1;", "1:5 E0713"},
                                          Row{"JMP a; a: i := 1; a: i := 2;", "1:19 E0714"},
-                                         Row{"JMP a; IF f THEN a: i := 1; END_IF", "1:5 E0715, 1:8 W0701"}));
+                                         Row{"JMP a; IF f THEN a: i := 1; END_IF", "1:5 E0715, 1:8 W0753"}));
 
 TEST(Statements, ConstantsAndInputsAreNotWritten) {
   EXPECT_EQ(Checked("PROGRAM Main VAR CONSTANT limit : INT := 5; END_VAR\nlimit := 3; END_PROGRAM").codes(),
@@ -70,12 +70,12 @@ TEST(Statements, UnusedAndNeverWrittenAreToldOnce) {
   EXPECT_EQ(Checked("FUNCTION_BLOCK B VAR_OUTPUT y : INT; z : INT; END_VAR\nVAR a : INT; b : INT; c : INT; END_VAR\n"
                     "c := b; y := c; END_FUNCTION_BLOCK")
                 .codes(),
-            "1:38 W0710\n2:5 W0708\n2:14 W0709\n");
+            "1:38 W0760\n2:5 W0758\n2:14 W0759\n");
 }
 
 TEST(Statements, AFunctionAssignsItsResult) {
   EXPECT_EQ(Checked("FUNCTION F : INT VAR_INPUT x : INT; END_VAR\nIF x > 0 THEN RETURN; END_IF END_FUNCTION").codes(),
-            "1:10 W0707\n");
+            "1:10 W0757\n");
 }
 
 TEST(Statements, AThousandNestedIfsAreFine) {

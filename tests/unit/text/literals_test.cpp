@@ -82,7 +82,7 @@ TEST(Literals, Dates) {
   EXPECT_EQ(value("TIME_OF_DAY#23:59:59.999"), "tod#86399999000000ns");
   EXPECT_EQ(value("LTOD#00:00:00.000000001"), "ltod#1ns");
   EXPECT_EQ(value("TOD#12:60:00"), "2:6 E0129");
-  EXPECT_EQ(value("TOD#1193:02:47.295"), "2:6 W0129");
+  EXPECT_EQ(value("TOD#1193:02:47.295"), "2:6 W0151");
   EXPECT_EQ(value("DT#1970-01-01-00:00:01"), "dt#1000000000ns");
   EXPECT_EQ(value("LDATE_AND_TIME#1970-01-01-00:00:00.5"), "ldt#500000000ns");
   EXPECT_EQ(value("DT#1970-01-01"), "2:6 E0127");

@@ -15,7 +15,7 @@ struct Parsed {
     printed = printTree(tree, names, unit);
     diagnostics.sort();
   }
-  // "3:7 E0201 5:1 W0201"
+  // "3:7 E0201 5:1 W0250"
   std::string codes() const {
     std::string all;
     for (const Diagnostic& d : diagnostics.all()) {

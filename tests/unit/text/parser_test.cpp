@@ -31,8 +31,8 @@ TEST(Expressions, Precedence) {
 TEST(Expressions, SignAndPowerByDialect) {
   EXPECT_EQ(expression("-2 ** 2"), "(unary - (binary ** (literal 2) (literal 2)))");
   EXPECT_EQ(expression("-2 ** 2", Standard::Iec3), "(binary ** (unary - (literal 2)) (literal 2))");
-  EXPECT_EQ(statementErrors("x := -2 ** 2;"), "2:6 W0201");
-  EXPECT_EQ(statementErrors("x := -2 ** 2;", Standard::Iec2), "2:6 W0201");
+  EXPECT_EQ(statementErrors("x := -2 ** 2;"), "2:6 W0250");
+  EXPECT_EQ(statementErrors("x := -2 ** 2;", Standard::Iec2), "2:6 W0250");
   EXPECT_EQ(statementErrors("x := (-2) ** 2 + -(2 ** 2);"), "");
   EXPECT_EQ(expression("2 ** -1"), "(binary ** (literal 2) (unary - (literal 1)))");
 }
