@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "ir/diagnostics.h"
 #include "ir/text_reader.h"
 
 namespace rung::ir::text_form {
@@ -21,7 +22,7 @@ void Reader::code() {
     if (body.locals[i].kind == LocalKind::Result)
       result_ = i;
     else if (!local_by_name_.emplace(body.locals[i].name.index, i).second)
-      fail(Diag::IrRepeatedName, body.locals[i].loc, {module_.names.text(body.locals[i].name)});
+      fail(diag::IrRepeatedName, body.locals[i].loc, {module_.names.text(body.locals[i].name)});
   }
   const StmtId first = block();
   body.first = first;
@@ -30,7 +31,7 @@ void Reader::code() {
 
 StmtId Reader::block() {
   const Block outer = builder_->open();
-  if (++depth_ > kMaxDepth) fail(Diag::IrTooDeep, token().loc, {"1000"});
+  if (++depth_ > kMaxDepth) fail(diag::IrTooDeep, token().loc, {"1000"});
   expect("{");
   while (!failed_ && !accept("}")) stmt();
   --depth_;
@@ -49,7 +50,7 @@ void Reader::stmt() {
     if (failed_) return;
     const uint32_t index = b.local(id, local_type, is_temp ? LocalKind::Temp : LocalKind::Variable);
     if (!(is_temp ? temp_by_name_ : local_by_name_).emplace(id.index, index).second)
-      fail(Diag::IrRepeatedName, loc, {module_.names.text(id)});
+      fail(diag::IrRepeatedName, loc, {module_.names.text(id)});
   } else if (accept("bind")) {
     const ExprId field = expr({});
     expect("=");
@@ -92,7 +93,7 @@ void Reader::stmt() {
     b.continueLoop();
   } else if (accept("return")) {
     if (!token().first_in_line && !isPunct("}")) {
-      if (result_ == ~0u) return fail(Diag::IrUnknownName, b.loc, {"result", "local"});
+      if (result_ == ~0u) return fail(diag::IrUnknownName, b.loc, {"result", "local"});
       const ExprId place = b.localPlace(result_);
       const ExprId value = expr(typeOf(place));
       if (!failed_) b.assign(place, value);
@@ -189,7 +190,7 @@ void Reader::callStmt(ExprId result) {
   if (failed_) return;
   const Map& by_name = is_init ? init_by_name_ : body_by_name_;
   auto found = by_name.find(module_.names.intern(text).index);
-  if (found == by_name.end()) return fail(Diag::IrUnknownName, name_loc, {text, "body"});
+  if (found == by_name.end()) return fail(diag::IrUnknownName, name_loc, {text, "body"});
   const BodyId callee{found->second};
   std::vector<ExprId> given;
   if (isPunct("(") && !token().first_in_line) given = operands(module_.body(callee));
@@ -279,7 +280,7 @@ uint32_t Reader::fieldOf(TypeId record_type, NameId field) {
 ExprId Reader::expr(TypeId wanted) {
   if (failed_) return {};
   if (++depth_ > kMaxDepth) {
-    fail(Diag::IrTooDeep, token().loc, {"1000"});
+    fail(diag::IrTooDeep, token().loc, {"1000"});
     return {};
   }
   ExprId id = primary(wanted ? types_.resolve(wanted) : wanted);
@@ -310,7 +311,7 @@ ExprId Reader::primary(TypeId wanted) {
     if (isPunct("(") && !token().first_in_line) {
       auto found = body_by_name_.find(id.index);
       if (found == body_by_name_.end()) {
-        fail(Diag::IrUnknownName, loc, {text, "function"});
+        fail(diag::IrUnknownName, loc, {text, "function"});
         return {};
       }
       const std::vector<ExprId> given = operands(module_.body(BodyId{found->second}));
@@ -319,7 +320,7 @@ ExprId Reader::primary(TypeId wanted) {
     }
     auto found = list_by_name_.find(id.index);
     if (found == list_by_name_.end()) {
-      fail(Diag::IrUnknownName, loc, {text, "list"});
+      fail(diag::IrUnknownName, loc, {text, "list"});
       return {};
     }
     return postfix(b.global(found->second));
@@ -329,14 +330,14 @@ ExprId Reader::primary(TypeId wanted) {
     const NameId id = name();
     auto found = program_by_name_.find(id.index);
     if (!failed_ && found == program_by_name_.end())
-      fail(Diag::IrUnknownName, loc, {module_.names.text(id), "program"});
+      fail(diag::IrUnknownName, loc, {module_.names.text(id), "program"});
     return failed_ ? ExprId{} : postfix(b.program(found->second));
   }
   if (accept("%")) {
     const Loc loc = token().loc;
     const NameId id = name();
     auto found = temp_by_name_.find(id.index);
-    if (!failed_ && found == temp_by_name_.end()) fail(Diag::IrUnknownName, loc, {module_.names.text(id), "temp"});
+    if (!failed_ && found == temp_by_name_.end()) fail(diag::IrUnknownName, loc, {module_.names.text(id), "temp"});
     return failed_ ? ExprId{} : postfix(b.localPlace(found->second));
   }
   if (token().kind == TokenKind::Number || token().kind == TokenKind::Text || isPunct("-")) return literal(wanted);
@@ -354,19 +355,19 @@ ExprId Reader::primary(TypeId wanted) {
   const Loc loc = b.loc;
   if (accept("data")) {
     const auto number = static_cast<uint64_t>(integer());
-    if (!failed_ && number >= module_.data.size()) fail(Diag::IrUnknownName, loc, {"data", "data item"});
+    if (!failed_ && number >= module_.data.size()) fail(diag::IrUnknownName, loc, {"data", "data item"});
     return failed_ ? ExprId{} : b.data(static_cast<uint32_t>(number));
   }
   if (accept("self")) {
     if (!b.body.self) {
-      fail(Diag::IrUnknownName, loc, {"self", "instance"});
+      fail(diag::IrUnknownName, loc, {"self", "instance"});
       return {};
     }
     return postfix(b.self());
   }
   if (accept("result")) {
     if (result_ == ~0u) {
-      fail(Diag::IrUnknownName, loc, {"result", "local"});
+      fail(diag::IrUnknownName, loc, {"result", "local"});
       return {};
     }
     return postfix(b.localPlace(result_));
@@ -451,7 +452,7 @@ ExprId Reader::variable() {
     return postfix(b.localPlace(found->second));
   const uint32_t field = b.body.self ? fieldOf(b.body.self, id) : ~0u;
   if (field == ~0u) {
-    fail(Diag::IrUnknownName, loc, {module_.names.text(id), "variable"});
+    fail(diag::IrUnknownName, loc, {module_.names.text(id), "variable"});
     return {};
   }
   const ExprId place = b.field(b.self(), field);
@@ -488,7 +489,7 @@ ExprId Reader::literal(TypeId of) {
   const Loc loc = b.loc;
   auto kindOf = [&](TypeId id) { return id ? types_.plainKind(id) : TypeKind::None; };
   auto misfit = [&](std::string_view seen) {
-    fail(Diag::IrLiteralType, loc, {seen, of ? types_.spell(of) : "an unknown type"});
+    fail(diag::IrLiteralType, loc, {seen, of ? types_.spell(of) : "an unknown type"});
     return ExprId{};
   };
   if (token().kind == TokenKind::Text) {
@@ -518,7 +519,7 @@ ExprId Reader::literal(TypeId of) {
     const NameId item = name();
     for (const auto& [item_name, value] : types_.info(of).items)
       if (item_name == item) return b.integer(of, value);
-    fail(Diag::IrUnknownName, loc, {module_.names.text(item), "item"});
+    fail(diag::IrUnknownName, loc, {module_.names.text(item), "item"});
     return {};
   }
   const bool negative = accept("-");
@@ -574,7 +575,7 @@ ExprId Reader::postfix(ExprId base) {
     b.loc = token().loc;
     const TypeInfo& info = types_.info(types_.resolve(typeOf(base)));
     auto need = [&](bool holds, std::string_view access, std::string_view what) {
-      if (!holds) fail(Diag::IrWrongBase, b.loc, {access, what, types_.spell(typeOf(base))});
+      if (!holds) fail(diag::IrWrongBase, b.loc, {access, what, types_.spell(typeOf(base))});
       return holds;
     };
     ExprId made;
@@ -601,7 +602,7 @@ ExprId Reader::postfix(ExprId base) {
       if (failed_ || !need(info.kind == TypeKind::Record, "`.`", "a record")) return {};
       const uint32_t field = fieldOf(types_.resolve(typeOf(base)), id);
       if (field == ~0u) {
-        fail(Diag::IrUnknownName, loc, {module_.names.text(id), "field"});
+        fail(diag::IrUnknownName, loc, {module_.names.text(id), "field"});
         return {};
       }
       made = b.field(base, field);

@@ -2,6 +2,7 @@
 // signatures, then code; so an item may use what stands below it. A mistake ends its item and the next one is read.
 #include <charconv>
 
+#include "ir/diagnostics.h"
 #include "ir/text_reader.h"
 
 namespace rung::ir {
@@ -24,7 +25,7 @@ void Reader::expected(std::string_view what) {
   const Token& seen = token();
   std::string quoted;
   if (what.size() < 3 || isReserved(what)) quoted = "`" + std::string(what) + "`";
-  fail(Diag::IrExpected, seen.loc,
+  fail(diag::IrExpected, seen.loc,
        {quoted.empty() ? what : quoted, seen.kind == TokenKind::End ? std::string_view("end of file") : seen.text});
 }
 
@@ -138,7 +139,7 @@ void Reader::declareType() {
   } else {
     made = types_.addRecord(kind, id);
   }
-  if (!type_by_name_.emplace(text, made).second) fail(Diag::IrRepeatedName, loc, {text});
+  if (!type_by_name_.emplace(text, made).second) fail(diag::IrRepeatedName, loc, {text});
 }
 
 Origin Reader::origin() {
@@ -206,7 +207,7 @@ void Reader::record() {
 void Reader::dataItem() {
   ++at_;
   const Loc loc = token().loc;
-  if (static_cast<uint64_t>(integer()) != module_.data.size()) fail(Diag::IrExpected, loc, {"the next number", "this"});
+  if (static_cast<uint64_t>(integer()) != module_.data.size()) fail(diag::IrExpected, loc, {"the next number", "this"});
   expect(":");
   Data data;
   data.type = type();
@@ -220,7 +221,7 @@ void Reader::dataItem() {
     uint8_t byte = 0;
     auto [end, error] = std::from_chars(digits.data() + i, digits.data() + i + 2, byte, 16);
     if (error != std::errc() || end != digits.data() + i + 2)
-      fail(Diag::IrExpected, loc, {"hexadecimal bytes", "this"});
+      fail(diag::IrExpected, loc, {"hexadecimal bytes", "this"});
     data.bytes.push_back(byte);
   }
   if (!failed_) module_.data.push_back(std::move(data));
@@ -265,7 +266,7 @@ void Reader::instance() {
     const NameId wanted = name();
     auto found = task_by_name_.find(wanted.index);
     if (found == task_by_name_.end())
-      fail(Diag::IrUnknownName, loc, {module_.names.text(wanted), "task"});
+      fail(diag::IrUnknownName, loc, {module_.names.text(wanted), "task"});
     else
       made.task = found->second + 1;
   }
@@ -276,7 +277,7 @@ void Reader::instance() {
     const Loc loc = token().loc;
     const std::string text = sigilName();
     auto found = body_by_name_.find(module_.names.intern(text).index);
-    if (found == body_by_name_.end()) fail(Diag::IrUnknownName, loc, {text, "function"});
+    if (found == body_by_name_.end()) fail(diag::IrUnknownName, loc, {text, "function"});
     return found == body_by_name_.end() ? BodyId{} : BodyId{found->second};
   };
   if (accept("run")) made.run = function();
@@ -311,7 +312,7 @@ void Reader::located() {
     const NameId wanted = name();
     auto found = program_by_name_.find(wanted.index);
     if (found == program_by_name_.end())
-      fail(Diag::IrUnknownName, loc, {module_.names.text(wanted), "program"});
+      fail(diag::IrUnknownName, loc, {module_.names.text(wanted), "program"});
     else
       made.owner_program = found->second + 1;
   }
@@ -370,7 +371,7 @@ void Reader::function() {
     return;
   }
   if (!body_by_name_.emplace(body.name.index, id.index).second)
-    fail(Diag::IrRepeatedName, body.loc, {module_.names.text(body.name)});
+    fail(diag::IrRepeatedName, body.loc, {module_.names.text(body.name)});
 }
 
 // body @Ramp { … } of a function declared above or of a record;   init @Ramp { … }
@@ -383,9 +384,9 @@ void Reader::blockBody(BodyKind kind) {
   Map& by_name = kind == BodyKind::Init ? init_by_name_ : body_by_name_;
   if (auto found = by_name.find(id.index); found != by_name.end()) {
     const BodyId known{found->second};
-    if (module_.body(known).kind != BodyKind::Function) return fail(Diag::IrRepeatedName, loc, {text});
+    if (module_.body(known).kind != BodyKind::Function) return fail(diag::IrRepeatedName, loc, {text});
     for (const Code& code : codes_)
-      if (code.body == known) return fail(Diag::IrRepeatedName, loc, {text});
+      if (code.body == known) return fail(diag::IrRepeatedName, loc, {text});
     codes_.push_back({at_, known});
     return;
   }
@@ -395,7 +396,7 @@ void Reader::blockBody(BodyKind kind) {
     return;
   }
   if (record_type == type_by_name_.end())
-    return fail(Diag::IrUnknownName, loc, {text, kind == BodyKind::Init ? "record" : "function or block"});
+    return fail(diag::IrUnknownName, loc, {text, kind == BodyKind::Init ? "record" : "function or block"});
   auto listed = record_by_type_.find(record_type->second.index);
   Body& body = module_.bodies.emplace_back();
   const BodyId body_id{static_cast<uint32_t>(module_.bodies.size()) - 1};
@@ -432,7 +433,7 @@ void Reader::dispatch() {
     const Loc loc = token().loc;
     const std::string text = sigilName();
     auto found = body_by_name_.find(module_.names.intern(text).index);
-    if (!failed_ && found == body_by_name_.end()) fail(Diag::IrUnknownName, loc, {text, "body"});
+    if (!failed_ && found == body_by_name_.end()) fail(diag::IrUnknownName, loc, {text, "body"});
     return failed_ ? BodyId{} : BodyId{found->second};
   };
   made.method = body();
@@ -534,7 +535,7 @@ bool Reader::read() {
     const Loc loc = token().loc;
     const std::string text = sigilName();
     auto found = body_by_name_.find(module_.names.intern(text).index);
-    if (found == body_by_name_.end()) return fail(Diag::IrUnknownName, loc, {text, "body"});
+    if (found == body_by_name_.end()) return fail(diag::IrUnknownName, loc, {text, "body"});
     if (is_exit)
       module_.exit = BodyId{found->second};
     else
@@ -574,14 +575,14 @@ bool Reader::atType() const {
 TypeId Reader::typeNamed(const std::string& text, Loc loc) {
   auto found = type_by_name_.find(text);
   if (found != type_by_name_.end()) return found->second;
-  fail(Diag::IrUnknownName, loc, {text, "type"});
+  fail(diag::IrUnknownName, loc, {text, "type"});
   return types::kError;
 }
 
 TypeId Reader::type() {
   if (failed_) return types::kError;
   if (++depth_ > kMaxDepth) {
-    fail(Diag::IrTooDeep, token().loc, {"1000"});
+    fail(diag::IrTooDeep, token().loc, {"1000"});
     return types::kError;
   }
   struct Leave {

@@ -8,6 +8,7 @@
 #include "sema/checks/object_members.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
 #include "sema/declarations/instance_places.h"
 #include "sema/declarations/overloads.h"
 
@@ -87,7 +88,7 @@ void checkProgramsRun(Context& context) {
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const Pou& pou = project.pous[i];
     if (pou.kind != PouKind::Program || pou.library || pou.test || pou.used || runs[i]) continue;
-    context.report(Diag::ProgramNeverRuns, pou.loc, {project.names.text(pou.name)});
+    context.report(diag::ProgramNeverRuns, pou.loc, {project.names.text(pou.name)});
   }
 }
 

@@ -2,7 +2,7 @@
 # Installs the Debian packages that building and testing Rung needs; does nothing when all are there.
 # Works as root or through sudo. Called by tools/quickstart.sh and tools/test.sh.
 set -eu
-packages=(g++ cmake ninja-build libeigen3-dev libceres-dev libgtest-dev python3)
+packages=(g++ cmake ninja-build libgtest-dev python3)
 
 missing=()
 for package in "${packages[@]}"; do

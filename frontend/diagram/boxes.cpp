@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "frontend/diagram/diagnostics.h"
 #include "frontend/diagram/scheduler.h"
 
 namespace rung::diagram {
@@ -115,7 +116,7 @@ bool Scheduler::fillArguments(uint32_t element, Call& call) {
         if (candidate.direction != PinDirection::Output) candidates.push_back(names_.text(candidate.name));
       near = nearest(names_.text(pin.name.name), candidates);
       diagnostics_
-          .report(Diag::NoSuchPin, pin.name.loc, {describe(tree_, names_, e), "input", names_.text(pin.name.name)})
+          .report(diag::NoSuchPin, pin.name.loc, {describe(tree_, names_, e), "input", names_.text(pin.name.name)})
           .didYouMean(near);
       good = false;
       continue;
@@ -154,14 +155,14 @@ ExprId Scheduler::readBox(uint32_t source) {
       if (known == nullptr) {
         std::vector<std::string_view> candidates;
         for (const PinShape& candidate : shape.pins) candidates.push_back(names_.text(candidate.name));
-        diagnostics_.report(Diag::NoSuchPin, loc, {describe(tree_, names_, e), "output", names_.text(pin)})
+        diagnostics_.report(diag::NoSuchPin, loc, {describe(tree_, names_, e), "output", names_.text(pin)})
             .didYouMean(nearest(names_.text(pin), candidates));
         return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
       }
     }
     value = memberExpr(instance, pin, loc);
   } else {
-    diagnostics_.report(Diag::ReadBeforeTurn, loc, {describe(tree_, names_, e)});
+    diagnostics_.report(diag::ReadBeforeTurn, loc, {describe(tree_, names_, e)});
     return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
   }
   const DiagramPin* out = outputNamed(e, s.pin);
@@ -208,14 +209,14 @@ void Scheduler::settleOperator(uint32_t element, Call& call) {
   for (const DiagramPin& pin : tree_.list(e.pins)) {
     if (pin.direction == PinDirection::Output || !pin.wires.empty() || isControl(names_, pin.name.name)) continue;
     if (!open)
-      diagnostics_.report(Diag::NotWired, pin.name.loc,
+      diagnostics_.report(diag::NotWired, pin.name.loc,
                           {"`" + std::string(names_.text(pin.name.name)) + "` of " + describe(tree_, names_, e)});
     open = true;
   }
   failed_[element] = open || !fits;
   if (open) return;
   if (!fits) {
-    diagnostics_.report(Diag::NotWired, e.loc, {"all inputs of " + describe(tree_, names_, e)});
+    diagnostics_.report(diag::NotWired, e.loc, {"all inputs of " + describe(tree_, names_, e)});
     return;
   }
   ExprId value = call.arguments[0].value;

@@ -4,7 +4,9 @@
 #include <numeric>
 #include <utility>
 
+#include "frontend/diagram/diagnostics.h"
 #include "frontend/diagram/graph.h"
+#include "frontend/syntax/diagnostics.h"
 
 namespace rung::diagram {
 namespace {
@@ -60,7 +62,7 @@ Graph::End Graph::endOf(uint32_t link) {
   while (end.element != kNone && isLink(end.element)) {
     const uint32_t at = end.element;
     const DiagramElement& e = elements[at];
-    if (ends_[at].element == kWalked) diagnostics_->report(Diag::WireLoop, e.loc);
+    if (ends_[at].element == kWalked) diagnostics_->report(diag::WireLoop, e.loc);
     if (ends_[at].element != kOpen) {
       end = ends_[at].element == kWalked ? End{kNone, {}} : ends_[at];
       break;
@@ -70,7 +72,7 @@ Graph::End Graph::endOf(uint32_t link) {
     if (e.kind == ElementKind::Continuation) {
       end.element = e.network;  // connect() put the connector there, or reported that there is none
     } else if (e.pins.empty() || tree_->list(e.pins)[0].wires.empty()) {
-      diagnostics_->report(Diag::NotWired, e.loc, {nameOf(e)});
+      diagnostics_->report(diag::NotWired, e.loc, {nameOf(e)});
       end.element = kNone;
     } else {
       const DiagramWire wire = tree_->list(tree_->list(e.pins)[0].wires)[0];
@@ -121,15 +123,15 @@ bool Graph::connect() {
     if (connectors[k].first != connectors[k - 1].first) continue;
     good = false;
     const Ident& name = elements[connectors[k].second].name;
-    diagnostics_->report(Diag::ConnectorTwice, name.loc, {names_->text(name.name)})
-        .note(elements[connectors[k - 1].second].name.loc, Note::DeclaredHere);
+    diagnostics_->report(diag::ConnectorTwice, name.loc, {names_->text(name.name)})
+        .note(elements[connectors[k - 1].second].name.loc, diag::DeclaredHere);
   }
   for (DiagramElement& e : elements) {
     if (e.kind != ElementKind::Continuation) continue;
     const auto found = std::lower_bound(connectors.begin(), connectors.end(),
                                         std::pair{e.name.name ? names_->key(e.name.name).index : 0u, 0u});
     const bool known = e.name.name && found != connectors.end() && found->first == names_->key(e.name.name).index;
-    if (!known) diagnostics_->report(Diag::NoConnector, e.loc, {names_->text(e.name.name)});
+    if (!known) diagnostics_->report(diag::NoConnector, e.loc, {names_->text(e.name.name)});
     e.network = known ? found->second : kNone;
     good = good && known;
   }
@@ -246,7 +248,7 @@ void Graph::checkTurns() {
     const DiagramElement& before = elements[roots[k - 1]];
     const DiagramElement& e = elements[roots[k]];
     if (e.order == 0 || e.order != before.order) continue;
-    diagnostics_->report(Diag::TurnTwice, e.loc, {std::to_string(e.order)}).note(before.loc, Note::DeclaredHere);
+    diagnostics_->report(diag::TurnTwice, e.loc, {std::to_string(e.order)}).note(before.loc, diag::DeclaredHere);
   }
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "frontend/diagram/diagnostics.h"
 #include "frontend/diagram/scheduler.h"
+#include "frontend/syntax/diagnostics.h"
 
 namespace rung::diagram {
 namespace {
@@ -33,7 +35,7 @@ ExprId Scheduler::callExpr(ExprId callee, std::span<const Argument> arguments, L
 //   fails   an edge in a function        E1012
 ExprId Scheduler::sensed(NameId sensor, ExprId value, Loc loc) {
   if (function_ != nullptr) {
-    diagnostics_.report(Diag::EdgeInFunction, loc, {function_});
+    diagnostics_.report(diag::EdgeInFunction, loc, {function_});
     return value;
   }
   const Argument clk{{names_.intern("CLK"), loc}, value, false, false, loc};
@@ -142,7 +144,7 @@ ExprId Scheduler::valueOf(const DiagramElement& e, const DiagramPin& pin) {
         const Loc loc = tree_.list(pin.wires)[1].loc;
         std::string where = describe(tree_, names_, e);
         if (pin.name.name) where = "pin `" + std::string(names_.text(pin.name.name)) + "` of " + where;
-        diagnostics_.report(Diag::WiresMeet, loc, {std::to_string(pin.wires.count), where});
+        diagnostics_.report(diag::WiresMeet, loc, {std::to_string(pin.wires.count), where});
       }
     }
     value = joined(pin, 0, pin.wires.count);
@@ -201,7 +203,7 @@ ExprId Scheduler::read(uint32_t source) {
     case ElementKind::Comment: break;
   }
   // Its value is not there yet: only where its turn comes later.
-  diagnostics_.report(Diag::ReadBeforeTurn, e.loc, {describe(tree_, names_, e)});
+  diagnostics_.report(diag::ReadBeforeTurn, e.loc, {describe(tree_, names_, e)});
   return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, e.loc)});
 }
 
@@ -264,7 +266,7 @@ void Scheduler::breakCircle(uint32_t first) {
     return push(begin, true);
   }
   const DiagramElement& e = graph_.elements[first];
-  diagnostics_.report(Diag::WireLoop, e.loc);
+  diagnostics_.report(diag::WireLoop, e.loc);
   phase_[first] = Phase::Settled;
   for (uint32_t s = graph_.first_source[first]; s != kNone; s = graph_.sources[s].next)
     graph_.sources[s].temporary = newTemporary("wire_" + std::to_string(e.number), e.loc);
@@ -313,7 +315,7 @@ bool Scheduler::readable(uint32_t element) {
 void Scheduler::settleContact(uint32_t element) {
   const DiagramElement e = graph_.elements[element];
   const DiagramPin* pin = firstInput(e);
-  if (pin == nullptr || pin->wires.empty()) diagnostics_.report(Diag::NotWired, e.loc, {describe(tree_, names_, e)});
+  if (pin == nullptr || pin->wires.empty()) diagnostics_.report(diag::NotWired, e.loc, {describe(tree_, names_, e)});
   const uint32_t source = graph_.first_source[element];
   if (e.edge != EdgeKind::None) {
     ExprId value = operandOf(element);
@@ -364,7 +366,7 @@ void Scheduler::settleAssignment(uint32_t element) {
   const DiagramPin* pin = firstInput(e);
   if (pin == nullptr || pin->wires.empty()) {
     if (e.kind == ElementKind::InOut) return;
-    diagnostics_.report(Diag::NotWiredIdle, e.loc, {describe(tree_, names_, e)});
+    diagnostics_.report(diag::NotWiredIdle, e.loc, {describe(tree_, names_, e)});
     return;
   }
   const DiagramPin copy = *pin;
@@ -408,7 +410,7 @@ void Scheduler::settleComposer(uint32_t element) {
     }
     return;
   }
-  if (e.kind == ElementKind::Select) diagnostics_.report(Diag::NotWired, e.loc, {describe(tree_, names_, e)});
+  if (e.kind == ElementKind::Select) diagnostics_.report(diag::NotWired, e.loc, {describe(tree_, names_, e)});
 }
 
 void Scheduler::settleExecute(uint32_t element) {
@@ -469,8 +471,8 @@ void Scheduler::checkCoils() {
   for (size_t k = 1; k < coils.size(); ++k) {
     if (coils[k].first != coils[k - 1].first) continue;
     const DiagramElement& e = graph_.elements[coils[k].second];
-    diagnostics_.report(Diag::CoilTwice, tree_.loc(e.operand), {names_.text(tree_.as<NameExpr>(e.operand).name)})
-        .note(tree_.loc(graph_.elements[coils[k - 1].second].operand), Note::OtherCoil);
+    diagnostics_.report(diag::CoilTwice, tree_.loc(e.operand), {names_.text(tree_.as<NameExpr>(e.operand).name)})
+        .note(tree_.loc(graph_.elements[coils[k - 1].second].operand), diag::OtherCoil);
   }
 }
 
@@ -486,8 +488,8 @@ void Scheduler::checkHolding(const PouDecl& pou) {
       for (const DeclId v : tree_.list(section.vars))
         for (const Ident& declared : tree_.list(tree_.as<VarDecl>(v).names))
           if (names_.same(declared.name, name))
-            diagnostics_.report(Diag::CoilNotRetained, tree_.loc(e.operand), {names_.text(name)})
-                .note(declared.loc, Note::DeclaredHere);
+            diagnostics_.report(diag::CoilNotRetained, tree_.loc(e.operand), {names_.text(name)})
+                .note(declared.loc, diag::DeclaredHere);
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include "frontend/iec10/parts.h"
 #include "frontend/source/names.h"
+#include "frontend/xml/diagnostics.h"
 
 namespace rung::iec10 {
 namespace {
@@ -21,7 +22,7 @@ constexpr std::pair<std::string_view, std::string_view> kSections[] = {{"InputVa
 
 bool isTooDeep(Import& import, const xml::Element& element, uint32_t depth) {
   if (depth < plcopen::kMaxNesting) return false;
-  import.diagnostics.report(Diag::XmlTooLarge, element.loc,
+  import.diagnostics.report(diag::XmlTooLarge, element.loc,
                             {std::to_string(plcopen::kMaxNesting), "types and values inside each other"});
   return true;
 }
@@ -188,7 +189,7 @@ void writeTypeRef(Import& import, const xml::Element& holder, uint32_t depth) {
   if (const xml::Element* name = import.document.child(holder, "TypeName")) return writeTypeName(import, *name);
   if (const xml::Element* spec = import.document.child(holder, "InstantlyDefinedType"))
     return writeSpec(import, *spec, depth);
-  import.diagnostics.report(Diag::XmlNoType, holder.loc, {holder.name});
+  import.diagnostics.report(diag::XmlNoType, holder.loc, {holder.name});
   import.out.put(holder.loc, "INT");
 }
 
@@ -196,7 +197,7 @@ void writeTypeDecl(Import& import, const xml::Element& declaration) {
   const xml::Element* spec = import.document.child(declaration, "UserDefinedTypeSpec");
   if (!plcopen::checkName(import, declaration)) return;
   if (spec == nullptr) {
-    import.diagnostics.report(Diag::XmlNoType, declaration.loc, {declaration.name});
+    import.diagnostics.report(diag::XmlNoType, declaration.loc, {declaration.name});
     return;
   }
   writeRemark(import, declaration);

@@ -9,6 +9,8 @@
 
 #include "frontend/iec10/parts.h"
 #include "frontend/source/names.h"
+#include "frontend/syntax/diagnostics.h"
+#include "frontend/xml/diagnostics.h"
 
 namespace rung::iec10 {
 namespace {
@@ -117,7 +119,7 @@ bool Networks::checkWires(const Element& owner) {
     const xml::Attribute* from = document_.attribute(*e, "refConnectionPointOutId");
     const std::string id = document_.value(*e, "refConnectionPointOutId");
     if (from != nullptr && sources_.count(id) != 0) continue;
-    import_.diagnostics.report(Diag::WireFromNothing, from == nullptr ? e->loc : from->loc,
+    import_.diagnostics.report(diag::WireFromNothing, from == nullptr ? e->loc : from->loc,
                                {"with the connectionPointOutId " + id});
     good = false;
   }
@@ -135,7 +137,7 @@ bool Networks::collect(const Element& network) {
     if (type == "Unconnected") continue;
     if (wordOf(*e).empty()) {
       const xml::Attribute* said = document_.attribute(*e, "type");
-      import_.diagnostics.report(Diag::ArchiveObject, said == nullptr ? e->loc : said->loc,
+      import_.diagnostics.report(diag::ArchiveObject, said == nullptr ? e->loc : said->loc,
                                  {type.empty() ? e->name : type, "FBD or LD", name_});
       good = false;
       continue;
@@ -388,7 +390,7 @@ void writeMainBody(Import& import, const xml::Element& body, const std::string& 
     const bool networks = type == "LD" || type == "FBD" || type == "LdSection";
     if (!text && !networks) {
       const xml::Attribute* said = import.document.attribute(*e, "type");
-      import.diagnostics.report(Diag::XmlBodyLanguage, said == nullptr ? e->loc : said->loc, {name, type});
+      import.diagnostics.report(diag::XmlBodyLanguage, said == nullptr ? e->loc : said->loc, {name, type});
       return;
     }
     drawn = drawn || networks;

@@ -2,6 +2,7 @@
 // chart. Each action has a control block of the library, which all action blocks with its name share; the block stores
 // its wire in a variable, and behind all elements of the body the controls are called, and the actions that are
 // active. IEC 61131-3 ed. 3, 6.7.4.5 and table 58, 5l and 5f.
+#include "frontend/plcopen/diagnostics.h"
 #include "frontend/plcopen/import.h"
 #include "frontend/plcopen/networks.h"
 #include "frontend/source/names.h"
@@ -74,7 +75,7 @@ void writeControls(Import& import, const xml::Element& pou) {
       if (const xml::Attribute* name = nameOf(document, action))
         declare(action.loc, "sfc_control_" + std::string(name->raw), "SFCActionControl");
       else
-        import.diagnostics.report(Diag::XmlNoName, action.loc, {"reference", "name"});
+        import.diagnostics.report(diag::XmlNoName, action.loc, {"reference", "name"});
     });
   });
 }

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "frontend/plcopen/diagnostics.h"
 #include "frontend/source/names.h"
+#include "frontend/syntax/diagnostics.h"
+#include "frontend/xml/diagnostics.h"
 
 namespace rung::plcopen {
 namespace {
@@ -53,9 +56,9 @@ void Chart::readNodes() {
     if (id == nullptr) continue;
     const auto [known, fresh] = by_id_.emplace(id->raw, index);
     if (!fresh)
-      report(Diag::ChartIdTwice, id->loc, {id->raw})
+      report(diag::ChartIdTwice, id->loc, {id->raw})
           .length(static_cast<uint32_t>(id->raw.size()))
-          .note(nodes_[known->second].element->loc, Note::AlsoDeclaredHere);
+          .note(nodes_[known->second].element->loc, diag::AlsoDeclaredHere);
   }
   behind_.resize(nodes_.size());
   for (uint32_t i = 0; i < nodes_.size(); ++i) {
@@ -120,7 +123,7 @@ void Chart::checkOrder() {
       const NodeKind from = nodes_[wires_[w].from].kind;
       if (from == NodeKind::Step || from == NodeKind::MacroStep || from == NodeKind::SimultaneousConvergence ||
           from == NodeKind::SelectionDivergence)
-        report(Diag::ChartNoTransitionBetween, wires_[w].loc, {nameOf(wires_[w].from), nameOf(i)});
+        report(diag::ChartNoTransitionBetween, wires_[w].loc, {nameOf(wires_[w].from), nameOf(i)});
     }
   }
 }
@@ -140,7 +143,7 @@ std::vector<ChartWire> Chart::wiresOf(const xml::Element& holder) {
       out.push_back({found->second, id->loc});
       return;
     }
-    report(Diag::ChartWireNowhere, id->loc, {id->raw}).length(static_cast<uint32_t>(id->raw.size()));
+    report(diag::ChartWireNowhere, id->loc, {id->raw}).length(static_cast<uint32_t>(id->raw.size()));
   };
   for (const xml::Element* e = document_.firstChild(holder); e != nullptr; e = document_.next(*e)) {
     if (e->name == "connection") add(*e);  // TC6 1.01: in a condition
@@ -175,7 +178,7 @@ void Chart::connectActionBlocks() {
       action_blocks_[wires_[w].from].push_back(i);
       found = true;
     }
-    if (!found && good_) report(Diag::ChartNoStepBefore, nodes_[i].element->loc, {nameOf(i)});
+    if (!found && good_) report(diag::ChartNoStepBefore, nodes_[i].element->loc, {nameOf(i)});
   }
 }
 
@@ -184,7 +187,7 @@ bool Chart::spend(uint32_t node, size_t steps) {
   spent_ += steps + 1;
   if (spent_ <= kMaxSteps) return true;
   if (good_)
-    report(Diag::XmlTooLarge, nodes_[node].element->loc, {std::to_string(kMaxSteps), "ways through one chart"});
+    report(diag::XmlTooLarge, nodes_[node].element->loc, {std::to_string(kMaxSteps), "ways through one chart"});
   good_ = false;
   return false;
 }
@@ -194,7 +197,7 @@ void Chart::addWays(Ways& ways, uint32_t node, uint32_t depth) {
   for (uint32_t w = nodes_[node].first_wire; w < nodes_[node].end_wire; ++w) {
     const uint32_t from = wires_[w].from;
     if (nodes_[from].kind == NodeKind::Transition || nodes_[from].kind == NodeKind::Jump) {
-      report(Diag::ChartNoStepBetween, wires_[w].loc, {nameOf(from), nameOf(node)});
+      report(diag::ChartNoStepBetween, wires_[w].loc, {nameOf(from), nameOf(node)});
       continue;
     }
     const Ways& inner = before(from, depth + 1);
@@ -214,12 +217,12 @@ void Chart::addUnited(Ways& ways, uint32_t node, uint32_t depth) {
     const uint32_t from = wires_[w].from;
     if (nodes_[from].kind == NodeKind::Jump) {
       if (!ways.never)
-        import_.diagnostics.report(Diag::ChartNeverUnites, nodes_[from].element->loc, {nameOf(from), nameOf(node)});
+        import_.diagnostics.report(diag::ChartNeverUnites, nodes_[from].element->loc, {nameOf(from), nameOf(node)});
       ways.never = true;
       continue;
     }
     if (nodes_[from].kind == NodeKind::Transition) {
-      report(Diag::ChartNoStepBetween, wires_[w].loc, {nameOf(from), nameOf(node)});
+      report(diag::ChartNoStepBetween, wires_[w].loc, {nameOf(from), nameOf(node)});
       continue;
     }
     const Ways& inner = before(from, depth + 1);
@@ -241,7 +244,7 @@ const Chart::Ways& Chart::before(uint32_t node, uint32_t depth) {
   if (ways.state == Ways::State::Known) return ways;
   if (ways.state == Ways::State::Busy || depth == kMaxWires) {
     ways.state = Ways::State::Known;
-    report(Diag::ChartCycle, nodes_[node].element->loc, {nameOf(node)});
+    report(diag::ChartCycle, nodes_[node].element->loc, {nameOf(node)});
     return ways;
   }
   ways.state = Ways::State::Busy;
@@ -262,7 +265,7 @@ const Chart::Ways& Chart::before(uint32_t node, uint32_t depth) {
     case NodeKind::Contact:
     case NodeKind::Rail:
     case NodeKind::Other:
-      report(Diag::ChartNoStepBetween, nodes_[node].element->loc, {nameOf(node), "a transition"});
+      report(diag::ChartNoStepBetween, nodes_[node].element->loc, {nameOf(node), "a transition"});
       break;
   }
   ways.state = Ways::State::Known;
@@ -272,7 +275,7 @@ const Chart::Ways& Chart::before(uint32_t node, uint32_t depth) {
 // The steps and jumps that begin when the transition fires, of which a wire comes out of `node`.
 void Chart::after(uint32_t node, uint32_t transition, uint32_t depth) {
   if (depth == kMaxWires || passed_[node] == transition) {
-    report(Diag::ChartCycle, nodes_[node].element->loc, {nameOf(node)});
+    report(diag::ChartCycle, nodes_[node].element->loc, {nameOf(node)});
     return;
   }
   passed_[node] = transition;
@@ -281,7 +284,7 @@ void Chart::after(uint32_t node, uint32_t transition, uint32_t depth) {
   for (const uint32_t next : behind_[node]) {
     if (nodes_[next].kind == NodeKind::Other || nodes_[next].kind == NodeKind::ActionBlock) continue;
     if (any && nodes_[node].kind != NodeKind::SimultaneousDivergence) {
-      report(Diag::ChartSplits, nodes_[next].element->loc, {nameOf(node), nameOf(next)});
+      report(diag::ChartSplits, nodes_[next].element->loc, {nameOf(node), nameOf(next)});
       return;
     }
     any = true;
@@ -309,12 +312,12 @@ void Chart::after(uint32_t node, uint32_t transition, uint32_t depth) {
       case NodeKind::Contact:
       case NodeKind::Rail:
       case NodeKind::Other:
-        report(Diag::ChartNoStepBetween, nodes_[next].element->loc, {nameOf(node), nameOf(next)});
+        report(diag::ChartNoStepBetween, nodes_[next].element->loc, {nameOf(node), nameOf(next)});
         break;
     }
     if (!good_) return;
   }
-  if (!any) report(Diag::ChartLeadsNowhere, nodes_[node].element->loc, {nameOf(node)});
+  if (!any) report(diag::ChartLeadsNowhere, nodes_[node].element->loc, {nameOf(node)});
 }
 
 // Forbids a transition without a step before or behind it. IEC 61131-3 ed. 3, 6.7.3.
@@ -326,7 +329,7 @@ void Chart::connectTransition(uint32_t node) {
   if (ways.never) ways.sets.clear();
   if (import_.diagnostics.errorCount() != errors || ways.never) return;
   if (ways.sets.empty())
-    report(Diag::ChartNoStepBefore, nodes_[node].element->loc, {nameOf(node)});
+    report(diag::ChartNoStepBefore, nodes_[node].element->loc, {nameOf(node)});
   else
     after(node, node, 0);
 }

@@ -6,6 +6,7 @@
 #include "frontend/plcopen/chart.h"
 #include "frontend/plcopen/networks.h"
 #include "frontend/source/names.h"
+#include "frontend/xml/diagnostics.h"
 
 namespace rung::plcopen {
 namespace {
@@ -153,7 +154,7 @@ bool Chart::readBody(const xml::Element& inline_body, const std::string& name, C
     define(out.definition = name, inline_body);
     return true;
   }
-  report(Diag::ChartNoCondition, inline_body.loc, {});
+  report(diag::ChartNoCondition, inline_body.loc, {});
   return false;
 }
 
@@ -164,7 +165,7 @@ bool Chart::readCondition(uint32_t node, Condition& out) {
   const std::string own = "sfc_condition_" + own_prefix_ + std::to_string(node);
   const xml::Element* condition = document_.child(transition, "condition");
   if (condition == nullptr) {
-    report(Diag::ChartNoCondition, transition.loc, {});
+    report(diag::ChartNoCondition, transition.loc, {});
     return false;
   }
   out.negated = isTrue(import_, *condition, "negated");
@@ -182,7 +183,7 @@ bool Chart::readCondition(uint32_t node, Condition& out) {
   for (const ChartWire& wire : wiresOf(*condition)) out.wires.push_back(wire.from);
   if (were_good && !good_) return false;
   if (out.wires.empty()) {
-    report(Diag::ChartNoCondition, condition->loc, {});
+    report(diag::ChartNoCondition, condition->loc, {});
     return false;
   }
   uint32_t budget = kMaxCondition;
@@ -316,7 +317,7 @@ void Chart::writeDefinition(const Definition& definition) {
     const Diagram diagram{chart_, NetworkLanguage::Ladder, wires == nullptr ? &e : wires, definition.name};
     writeNetworks(import_.sources, document_, diagram, import_.out);
   } else if (language == nullptr) {
-    report(Diag::ChartNoCondition, e.loc, {});
+    report(diag::ChartNoCondition, e.loc, {});
     import_.out.word(" := FALSE;\n");
   } else if (language->name != "ST") {
     import_.out.word(" :\n");
@@ -325,7 +326,7 @@ void Chart::writeDefinition(const Definition& definition) {
     const std::string text = document_.text(*language, import_.sources);
     switch (formOf(text, begin, end)) {
       case Form::Empty:
-        report(Diag::ChartNoCondition, language->loc, {});
+        report(diag::ChartNoCondition, language->loc, {});
         import_.out.word(" := FALSE;\n");
         break;
       case Form::Expression:

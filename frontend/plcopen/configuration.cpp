@@ -6,6 +6,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "frontend/plcopen/diagnostics.h"
 #include "frontend/plcopen/import.h"
 #include "frontend/source/names.h"
 
@@ -70,7 +71,7 @@ std::string timeOf(Import& import, const xml::Attribute& attribute, std::string 
   if (unit.empty()) unit = "ms";
   if (unit != "s" && unit != "ms" && unit != "us" && unit != "m") unit = "us";  // µs
   if (read.ec == std::errc{} && read.ptr == text.data() + text.size()) return "T#" + text + unit;
-  import.diagnostics.report(Diag::XmlDuration, attribute.loc, {text})
+  import.diagnostics.report(diag::XmlDuration, attribute.loc, {text})
       .length(static_cast<uint32_t>(attribute.raw.size()));
   return {};
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "frontend/plcopen/diagnostics.h"
 #include "frontend/plcopen/exporter.h"
 #include "frontend/syntax/st_printer.h"
 
@@ -375,7 +376,7 @@ void ProjectExport::checkTexts() {
     for (size_t p = 0; p < bad; ++p)
       if (static_cast<unsigned char>(text[p]) < ' ' && text[p] != '\t' && text[p] != '\n' && text[p] != '\r') bad = p;
     if (bad == text.size()) continue;
-    to_.diagnostics.report(Diag::XmlCannotHold, {to_.sources.begin(unit.file).offset + static_cast<uint32_t>(bad)})
+    to_.diagnostics.report(diag::XmlCannotHold, {to_.sources.begin(unit.file).offset + static_cast<uint32_t>(bad)})
         .length(1);
   }
 }

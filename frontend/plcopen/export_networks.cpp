@@ -4,6 +4,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "frontend/plcopen/diagnostics.h"
 #include "frontend/plcopen/exporter.h"
 
 namespace rung::plcopen {
@@ -301,7 +302,7 @@ void NetworkExport::element(uint32_t k) {
 void NetworkExport::network(uint32_t index) {
   const DiagramNetwork& n = to_.tree.list(diagram_.networks)[index - 1];
   if (n.disabled) {
-    to_.diagnostics.report(Diag::XmlNetworkLeftOut, n.loc, {std::to_string(n.number)});
+    to_.diagnostics.report(diag::XmlNetworkLeftOut, n.loc, {std::to_string(n.number)});
     return;
   }
   if (n.title_length == 0) return;

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "frontend/plcopen/diagnostics.h"
 #include "frontend/plcopen/source_text.h"
 #include "frontend/source/diagnostics.h"
 #include "frontend/syntax/tree.h"
@@ -24,9 +25,9 @@ struct Export {
   std::string_view text(NameId name) const { return names.text(name); }
   std::string printed(ExprId expr) const { return printExpr(expr); }
   std::string printExpr(ExprId expr) const;
-  void cannotSay(Loc loc, std::string_view what) { diagnostics.report(Diag::XmlCannotSay, loc, {what}); }
+  void cannotSay(Loc loc, std::string_view what) { diagnostics.report(diag::XmlCannotSay, loc, {what}); }
   // What stands in Rung's own addData: other tools pass it over.
-  void onlyRung(Loc loc, std::string_view what) { diagnostics.report(Diag::XmlOnlyRung, loc, {what}); }
+  void onlyRung(Loc loc, std::string_view what) { diagnostics.report(diag::XmlOnlyRung, loc, {what}); }
   // <data name="…" handleUnknown="…">, closed by its caller.
   void openData(std::string_view name, std::string_view unknown = "implementation");
   void openVendorData(std::string_view kind);  // of the 3S family

@@ -1,5 +1,6 @@
 // Macro steps of a chart: what stands in <macroStep> becomes a MACRO_STEP, which the parser inlines; see chart.h.
 #include "frontend/plcopen/chart.h"
+#include "frontend/plcopen/diagnostics.h"
 
 namespace rung::plcopen {
 
@@ -25,7 +26,7 @@ void Chart::findEnd(Macro& macro, bool entry) {
     end = i;
   }
   if (found != 1)
-    report(Diag::ChartMacroEnds, node.element->loc,
+    report(diag::ChartMacroEnds, node.element->loc,
            {document_.value(*node.element, "name"),
             entry ? "that nothing leads to, to begin with" : "that leads nowhere, to end with"});
 }

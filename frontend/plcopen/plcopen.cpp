@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "frontend/plcopen/diagnostics.h"
 #include "frontend/plcopen/import.h"
 #include "frontend/source/names.h"
 
@@ -104,7 +105,7 @@ void ProjectReader::leaveOutApplications() {
     import_.left_out.insert(resource);
     const xml::Attribute* called = import_.document.attribute(*resource, "name");
     import_.diagnostics
-        .report(Diag::XmlSecondApplication, called == nullptr ? resource->loc : called->loc,
+        .report(diag::XmlSecondApplication, called == nullptr ? resource->loc : called->loc,
                 {import_.document.value(*resource, "name"), import_.document.value(*known->second, "name"),
                  import_.document.value(element, "name")})
         .length(called == nullptr ? 0 : static_cast<uint32_t>(called->raw.size()));
@@ -192,7 +193,7 @@ void ProjectReader::noteExtensions() {
     if (std::find(std::begin(kKnown), std::end(kKnown), kind) != std::end(kKnown)) continue;
     if (std::find(noted.begin(), noted.end(), name->raw) != noted.end() || noted.size() == 100) continue;
     noted.push_back(name->raw);
-    import_.diagnostics.report(Diag::XmlExtension, name->loc, {import_.document.decoded(*name)})
+    import_.diagnostics.report(diag::XmlExtension, name->loc, {import_.document.decoded(*name)})
         .length(static_cast<uint32_t>(name->raw.size()));
   }
 }

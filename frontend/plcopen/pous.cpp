@@ -3,9 +3,11 @@
 //   declaration {ACTION | METHOD | PROPERTY} body END_…
 #include <utility>
 
+#include "frontend/plcopen/diagnostics.h"
 #include "frontend/plcopen/import.h"
 #include "frontend/plcopen/networks.h"
 #include "frontend/source/names.h"
+#include "frontend/xml/diagnostics.h"
 
 namespace rung::plcopen {
 namespace {
@@ -28,9 +30,9 @@ const PouWords* wordsOf(Import& import, const xml::Element& pou) {
   for (const PouWords& words : kPous)
     if (type != nullptr && sameIdentifier(type->raw, words.type)) return &words;
   if (type == nullptr)
-    import.diagnostics.report(Diag::XmlNoName, pou.loc, {pou.name, "pouType"});
+    import.diagnostics.report(diag::XmlNoName, pou.loc, {pou.name, "pouType"});
   else
-    import.diagnostics.report(Diag::XmlPouType, type->loc, {type->raw}).length(static_cast<uint32_t>(type->raw.size()));
+    import.diagnostics.report(diag::XmlPouType, type->loc, {type->raw}).length(static_cast<uint32_t>(type->raw.size()));
   return nullptr;
 }
 
@@ -218,7 +220,7 @@ bool writeBody(Import& import, const xml::Element& body, const xml::Element& pou
     } else if (e->name == "SFC") {
       writeChart(import, *e, pou, name);
     } else if (e->name != "addData" && e->name != "documentation") {
-      import.diagnostics.report(Diag::XmlBodyLanguage, e->loc, {name, e->name});
+      import.diagnostics.report(diag::XmlBodyLanguage, e->loc, {name, e->name});
       good = false;
     }
   }

@@ -1,6 +1,7 @@
 // Names, values and texts of the XML as parts of ST; see import.h.
 #include <algorithm>
 
+#include "frontend/plcopen/diagnostics.h"
 #include "frontend/plcopen/import.h"
 #include "frontend/source/names.h"
 
@@ -73,7 +74,7 @@ bool hasName(const Import& import, const xml::Element& element, std::string_view
 
 bool checkName(Import& import, const xml::Element& element, std::string_view attribute) {
   if (hasName(import, element, attribute)) return true;
-  import.diagnostics.report(Diag::XmlNoName, element.loc, {element.name, attribute});
+  import.diagnostics.report(diag::XmlNoName, element.loc, {element.name, attribute});
   return false;
 }
 

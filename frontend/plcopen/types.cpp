@@ -1,6 +1,7 @@
 // Types, data types and initial values of the XML as ST; see import.h.
 #include "frontend/plcopen/import.h"
 #include "frontend/source/names.h"
+#include "frontend/xml/diagnostics.h"
 
 namespace rung::plcopen {
 namespace {
@@ -108,7 +109,7 @@ void writeValues(Import& import, const xml::Element& list, uint32_t depth) {
 
 void writeValue(Import& import, const xml::Element& value, const xml::Element* type, uint32_t depth) {
   if (depth == kMaxNesting) {
-    import.diagnostics.report(Diag::XmlTooLarge, value.loc, {std::to_string(kMaxNesting), "values inside each other"});
+    import.diagnostics.report(diag::XmlTooLarge, value.loc, {std::to_string(kMaxNesting), "values inside each other"});
     return;
   }
   if (value.name != "simpleValue") return writeValues(import, value, depth + 1);
@@ -128,12 +129,12 @@ void writeValue(Import& import, const xml::Element& value, const xml::Element* t
 void writeType(Import& import, const xml::Element& holder, uint32_t depth) {
   const xml::Element* type = typeIn(import, holder);
   if (type == nullptr) {
-    import.diagnostics.report(Diag::XmlNoType, holder.loc, {holder.name});
+    import.diagnostics.report(diag::XmlNoType, holder.loc, {holder.name});
     import.out.word("INT");
     return;
   }
   if (depth == kMaxNesting) {
-    import.diagnostics.report(Diag::XmlTooLarge, type->loc, {std::to_string(kMaxNesting), "types inside each other"});
+    import.diagnostics.report(diag::XmlTooLarge, type->loc, {std::to_string(kMaxNesting), "types inside each other"});
     import.out.word("INT");
     return;
   }

@@ -1,4 +1,4 @@
-// The registry's tables and the list of reports: switches, limits, duplicates, order.
+// The list of reports: switches, limits, duplicates, order.
 #include "frontend/source/diagnostics.h"
 
 #include <algorithm>
@@ -7,22 +7,6 @@
 
 namespace rung {
 namespace {
-
-constexpr DiagInfo kInfos[] = {
-#define RUNG_ERROR(code, name, text) {#code, #name, text, Severity::Error},
-#define RUNG_WARNING(code, name, text) {#code, #name, text, Severity::Warning},
-#define RUNG_INFO(code, name, text) {#code, #name, text, Severity::Info},
-#define RUNG_NOTE(name, text)
-#include "frontend/source/diagnostics.def"
-};
-
-constexpr const char* kNotes[] = {
-#define RUNG_ERROR(code, name, text)
-#define RUNG_WARNING(code, name, text)
-#define RUNG_INFO(code, name, text)
-#define RUNG_NOTE(name, text) text,
-#include "frontend/source/diagnostics.def"
-};
 
 constexpr size_t kMaxArgumentBytes = 400;  // a name of a megabyte must not make a message of a megabyte
 
@@ -65,24 +49,13 @@ bool isSwitchName(std::string_view name, const char* enumerator) {
 
 }  // namespace
 
-const DiagInfo& diagInfo(Diag diag) { return kInfos[static_cast<size_t>(diag)]; }
-
-const DiagInfo* findDiag(std::string_view code) {
-  for (const DiagInfo& info : kInfos) {
-    if (sameIdentifier(info.code, code)) return &info;
-  }
-  return nullptr;
-}
-
-uint32_t diagCount() { return static_cast<uint32_t>(std::size(kInfos)); }
-
 Report& Report::note(Loc loc, Note note, std::initializer_list<std::string_view> args) {
-  if (diagnostic_ != nullptr) diagnostic_->notes.push_back({loc, format(kNotes[static_cast<size_t>(note)], args)});
+  if (diagnostic_ != nullptr) diagnostic_->notes.push_back({loc, format(note.text, args)});
   return *this;
 }
 
 Report& Report::didYouMean(std::string_view candidate) {
-  return candidate.empty() ? *this : note({}, Note::DidYouMean, {candidate});
+  return candidate.empty() ? *this : note({}, diag::DidYouMean, {candidate});
 }
 
 Report& Report::length(uint32_t bytes) {
@@ -108,7 +81,7 @@ uint64_t lineKey(const Sources& sources, Loc loc) {
 
 }  // namespace
 
-void Diagnostics::nameElements(const std::function<std::string(Loc)>& at) {
+void Diagnostics::nameElements(FunctionRef<std::string(Loc)> at) {
   for (Diagnostic& diagnostic : list_)
     if (diagnostic.loc && diagnostic.element.empty()) diagnostic.element = at(diagnostic.loc);
 }
@@ -176,8 +149,7 @@ void Diagnostics::sort() {
 }
 
 bool Diagnostics::enabled(Diag diag) const {
-  const auto index = static_cast<size_t>(diag);
-  return index >= disabled_.size() || !disabled_[index];
+  return std::find(disabled_.begin(), disabled_.end(), diag) == disabled_.end();
 }
 
 bool Diagnostics::setWarning(std::string_view name, bool on) {
@@ -185,15 +157,15 @@ bool Diagnostics::setWarning(std::string_view name, bool on) {
     name.remove_prefix(3);
     on = !on;
   }
-  bool known = false;
-  for (size_t i = 0; i < std::size(kInfos); ++i) {
-    if (kInfos[i].severity == Severity::Error) continue;
-    if (name != "all" && !sameIdentifier(name, kInfos[i].code) && !isSwitchName(name, kInfos[i].name)) continue;
-    if (disabled_.empty()) disabled_.resize(std::size(kInfos));
-    disabled_[i] = !on;
+  bool known = name == "all";
+  for (const DiagInfo& info : allDiags()) {
+    if (info.severity == Severity::Error) continue;
+    if (name != "all" && !sameIdentifier(name, info.code) && !isSwitchName(name, info.name)) continue;
+    std::erase(disabled_, info.diag);
+    if (!on) disabled_.push_back(info.diag);
     known = true;
   }
-  return known || name == "all";
+  return known;
 }
 
 }  // namespace rung

@@ -1,40 +1,51 @@
-// Diagnostics: what is wrong, where, and what to do. One registry, diagnostics.def, names every code.
-// In: reports from all phases. Out: an ordered list that render.h prints as text, JSON or SARIF.
-// A report is data, not output: phases go on after it and use the Error type to silence what follows from it.
+// Diagnostics: what is wrong, where, and what to do. In: reports from all phases. Out: an ordered list that render.h
+// prints as text, JSON or SARIF. A report is data, not output: phases go on after it and use the Error type to silence
+// what follows from it.
+// Each folder lists its messages in a diagnostics.def; the diagnostics.h beside it makes constants of them.
+// registry.cpp is the one file that knows all of them.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "frontend/source/files.h"
+#include "frontend/source/function_ref.h"
 
 namespace rung {
 
 enum class Severity : uint8_t { Note, Info, Warning, Error };
 
-// Codes: RUNG_ERROR(E0412, UnknownName, "…"), RUNG_WARNING(W0101, …), RUNG_INFO(I0001, …) rows of diagnostics.def.
-// {0} {1} … are replaced by the arguments of report().
-enum class Diag : uint16_t {
-#define RUNG_ERROR(code, name, text) name,
-#define RUNG_WARNING(code, name, text) name,
-#define RUNG_INFO(code, name, text) name,
-#define RUNG_NOTE(name, text)
-#include "frontend/source/diagnostics.def"
+// The code of a message: its number times four plus its severity, so that lists need not know each other.
+enum class Diag : uint16_t;
+
+consteval Diag diagOf(const char* code) {  // "E0412"
+  unsigned number = 0;
+  for (const char* at = code + 1; *at != '\0'; ++at) number = number * 10 + static_cast<unsigned>(*at - '0');
+  const Severity severity = *code == 'E' ? Severity::Error : *code == 'W' ? Severity::Warning : Severity::Info;
+  return static_cast<Diag>(number * 4 + static_cast<unsigned>(severity));
+}
+
+// What a note says below a report; {0} {1} are its arguments.
+struct Note {
+  const char* text;
 };
 
-enum class Note : uint16_t {
-#define RUNG_ERROR(code, name, text)
-#define RUNG_WARNING(code, name, text)
-#define RUNG_INFO(code, name, text)
-#define RUNG_NOTE(name, text) name,
+// What the rows of a diagnostics.def mean in a header. {0} {1} in the message are the arguments of report().
+#define RUNG_ERROR(code, name, text) inline constexpr Diag name = diagOf(#code);
+#define RUNG_WARNING(code, name, text) inline constexpr Diag name = diagOf(#code);
+#define RUNG_INFO(code, name, text) inline constexpr Diag name = diagOf(#code);
+#define RUNG_NOTE(name, text) inline constexpr Note name{text};
+
+namespace diag {
 #include "frontend/source/diagnostics.def"
-};
+}
 
 struct DiagInfo {
+  Diag diag;
   const char* code;  // "E0412"
   const char* name;  // "UnknownName"
   const char* text;  // the template
@@ -43,7 +54,8 @@ struct DiagInfo {
 const DiagInfo& diagInfo(Diag diag);
 // The row with this code ("E0412", any case), or null.
 const DiagInfo* findDiag(std::string_view code);
-uint32_t diagCount();
+// All rows, by number.
+std::span<const DiagInfo> allDiags();
 
 struct Diagnostic {
   struct Attached {
@@ -95,7 +107,7 @@ class Diagnostics {
   bool full() const { return error_count_ >= max_errors; }
   const std::vector<Diagnostic>& all() const { return list_; }
   // Says of each diagnostic in which element of a diagram its place is, by what `at` says of the place.
-  void nameElements(const std::function<std::string(Loc)>& at);
+  void nameElements(FunctionRef<std::string(Loc)> at);
   // By file, then place; equal places keep the order of reporting. Whole-file diagnostics first.
   void sort();
 
@@ -108,7 +120,7 @@ class Diagnostics {
  private:
   const Sources& sources_;
   std::vector<Diagnostic> list_;
-  std::vector<bool> disabled_;
+  std::vector<Diag> disabled_;
   uint32_t error_count_ = 0, warning_count_ = 0, dropped_count_ = 0, dropped_warning_count_ = 0;
   bool firstAt(Diag diag, Loc loc);
 

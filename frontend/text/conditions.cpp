@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frontend/syntax/tree.h"
+#include "frontend/text/diagnostics.h"
 #include "frontend/text/foreign.h"
 
 namespace rung::text {
@@ -203,7 +204,7 @@ void FileConditions::run() {
       ++at;
     }
   }
-  for (const Open& open : open_) diagnostics_.report(Diag::ConditionNotClosed, loc(open.at)).length(1);
+  for (const Open& open : open_) diagnostics_.report(diag::ConditionNotClosed, loc(open.at)).length(1);
   if (!reads()) blanks.push_back({static_cast<uint32_t>(blank_from_), static_cast<uint32_t>(text_.size())});
 }
 
@@ -282,7 +283,7 @@ bool FileConditions::directive(uint32_t at) {
   }
   if (!is_elsif && !is_else && !is_end) return false;
   if (open_.empty() || (!is_end && open_.back().has_else)) {
-    diagnostics_.report(Diag::ConditionStray, loc(at), {name}).length(static_cast<uint32_t>(pragma_end_ + 1 - at));
+    diagnostics_.report(diag::ConditionStray, loc(at), {name}).length(static_cast<uint32_t>(pragma_end_ + 1 - at));
     return true;
   }
   Open& open = open_.back();
@@ -353,7 +354,7 @@ Truth FileConditions::failed() {
   if (!failed_) {
     skipBlanks();
     const size_t at = std::min(p_, pragma_end_);
-    diagnostics_.report(Diag::ConditionForm, loc(at)).length(1);
+    diagnostics_.report(diag::ConditionForm, loc(at)).length(1);
   }
   failed_ = true;
   return Truth::No;

@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 #include "frontend/text/recover.h"
 
@@ -147,14 +148,14 @@ bool Parser::parseName(Ident& out) {
     if ((next == Tok::Colon || next == Tok::Comma || next == Tok::At || next == Tok::Assign ||
          next == Tok::RightParen || next == Tok::Semicolon) ||
         (t_[1].flags & kLineStart) != 0) {
-      slip(Diag::ReservedName, t_, {textOf(t_)});
+      slip(diag::ReservedName, t_, {textOf(t_)});
       lost_ = true;
       out = {names_.intern(textOf(t_)), here()};
       advance();
       return true;
     }
   }
-  fail(Diag::MissingName, t_, {describe(t_)});
+  fail(diag::MissingName, t_, {describe(t_)});
   return false;
 }
 
@@ -165,7 +166,7 @@ void Parser::parseNamePath(Slice<Ident>& out) {
       idents_.push_back(ident(t_));
       advance();
     } else {
-      fail(Diag::MissingName, t_, {describe(t_)});
+      fail(diag::MissingName, t_, {describe(t_)});
       break;
     }
   } while (accept(Tok::Dot));
@@ -209,7 +210,7 @@ DeclId Parser::parseSection() {
     accept(Tok::Semicolon);
   } else {
     const std::string line = std::to_string(sources_.place(loc(open)).line);
-    missing(Diag::MissingEnd, {"END_VAR", spelling(open->kind), line});
+    missing(diag::MissingEnd, {"END_VAR", spelling(open->kind), line});
   }
   d.vars = listFrom(decls_, first);
   if (lost_ && d.section == SectionKind::Global) tree_.lost_names = true;
@@ -221,7 +222,7 @@ void Parser::parseVars(SectionKind section, Tok end, std::vector<DeclId>& out) {
     if (accept(Tok::Semicolon)) continue;
     if (at(end) || endsDeclarations(kind())) return;
     const Token* before = t_;
-    skipStray(!isName(kind()) && !nameReserved(t_) && beginsDeclaration(t_ + 1) && !at(Tok::At), Diag::NotADeclaration);
+    skipStray(!isName(kind()) && !nameReserved(t_) && beginsDeclaration(t_ + 1) && !at(Tok::At), diag::NotADeclaration);
     const DeclId var = parseVar(section);
     if (var) out.push_back(var);
     if (t_ == before) advance();
@@ -242,9 +243,9 @@ DeclId Parser::parseVar(SectionKind section) {
           last_error_ = t_;
           panic_ = true;
         } else if (atLineStart() && idents_.size() > first) {
-          fail(Diag::MissingName, t_ - 1, {describe(t_ - 1)});
+          fail(diag::MissingName, t_ - 1, {describe(t_ - 1)});
         } else {
-          fail(idents_.size() > first || at(Tok::Colon) || at(Tok::Comma) ? Diag::MissingName : Diag::NotADeclaration,
+          fail(idents_.size() > first || at(Tok::Colon) || at(Tok::Comma) ? diag::MissingName : diag::NotADeclaration,
                t_, {describe(t_)});
         }
         break;
@@ -261,7 +262,7 @@ DeclId Parser::parseVar(SectionKind section) {
       }
       // `a b : INT`
       if (isName(kind()) && !(at(Tok::At) && peek() == Tok::Address) && !atLineStart() && beginsDeclaration(t_)) {
-        slip(Diag::MissingToken, t_, {",", describe(t_)});
+        slip(diag::MissingToken, t_, {",", describe(t_)});
         continue;
       }
       break;
@@ -274,7 +275,7 @@ DeclId Parser::parseVar(SectionKind section) {
     if (at(Tok::Address) && in_structure_) {
       // AT %I*: a place in the image that nobody has named; AT %B0: a place in the structure
       if (standard_ == Standard::Codesys && textOf(t_).ends_with('*')) {
-        if (!address_told_) diagnostics_.report(Diag::OpenAddressInStructure, here(), {textOf(t_)});
+        if (!address_told_) diagnostics_.report(diag::OpenAddressInStructure, here(), {textOf(t_)});
         address_told_ = true;
       } else if (textOf(t_).ends_with('*')) {
         d.located = true;
@@ -293,22 +294,22 @@ DeclId Parser::parseVar(SectionKind section) {
         last_error_ = t_;
       advance();
     } else {
-      fail(Diag::MissingValueBehind, word, {"`AT`"});
+      fail(diag::MissingValueBehind, word, {"`AT`"});
     }
   }
-  if (!panic_ && !at(Tok::Colon)) skipStray(peek() == Tok::Colon, Diag::StrayToken);
+  if (!panic_ && !at(Tok::Colon)) skipStray(peek() == Tok::Colon, diag::StrayToken);
   if (!panic_ && !accept(Tok::Colon)) {
     if (at(Tok::Assign) || at(Tok::LeftParen) || at(Tok::Dot) || at(Tok::LeftBracket) || at(Tok::PlusAssign))
-      fail(Diag::NotADeclaration, t_, {describe(t_)});
+      fail(diag::NotADeclaration, t_, {describe(t_)});
     else if (atLineStart())
-      missing(Diag::MissingToken, {":", describe(t_)}), panic_ = true;
+      missing(diag::MissingToken, {":", describe(t_)}), panic_ = true;
     else if (isTypeWord(kind()) || at(Tok::Array) || at(Tok::Struct) ||
              (isName(kind()) && (peek() == Tok::Semicolon || peek() == Tok::Assign)))
-      slip(Diag::MissingToken, t_, {":", describe(t_)});
+      slip(diag::MissingToken, t_, {":", describe(t_)});
     else if (at(Tok::Semicolon) || at(Tok::Equal))
-      fail(Diag::MissingToken, t_, {":", describe(t_)});
+      fail(diag::MissingToken, t_, {":", describe(t_)});
     else
-      fail(Diag::NotADeclaration, t_, {describe(t_)});
+      fail(diag::NotADeclaration, t_, {describe(t_)});
   }
   if (!panic_ && section == SectionKind::Access) {
     // access name : path : type direction, or : %address : type direction
@@ -343,7 +344,7 @@ DeclId Parser::parseVar(SectionKind section) {
   if (!d.type) d.type = tree_.add<TypeExprId>(ErrorTypeExpr{{TypeExprKind::Error, 0, 0, d.h.loc, {}}});
   if (!panic_) {
     if (at(Tok::Equal) || (at(Tok::Colon) && peek() == Tok::Equal)) {
-      slip(Diag::AssignWithEqual, t_, {at(Tok::Equal) ? "=" : ": ="});
+      slip(diag::AssignWithEqual, t_, {at(Tok::Equal) ? "=" : ": ="});
       if (at(Tok::Colon)) advance();
       advance();
       d.init = parseInit();
@@ -351,7 +352,7 @@ DeclId Parser::parseVar(SectionKind section) {
       d.init = parseDeclaredInit(d.type);
     } else if ((at(Tok::Number) || at(Tok::True) || at(Tok::False) || at(Tok::Text) || at(Tok::Duration)) &&
                !atLineStart()) {
-      slip(Diag::MissingToken, t_, {":=", describe(t_)});
+      slip(diag::MissingToken, t_, {":=", describe(t_)});
       d.init = parseInit();
     }
   }
@@ -361,15 +362,15 @@ DeclId Parser::parseVar(SectionKind section) {
   } else {
     if (!panic_) {
       if (at(Tok::RightParen) || at(Tok::RightBracket))
-        fail(Diag::StrayParen, t_, {textOf(t_)});
+        fail(diag::StrayParen, t_, {textOf(t_)});
       else if (atLineStart() || endsDeclarations(kind()))
-        missing(Diag::MissingSemicolon, {describe(t_ - 1)});
+        missing(diag::MissingSemicolon, {describe(t_ - 1)});
       else if (isName(kind()) && (peek() == Tok::Colon || peek() == Tok::Comma))
-        missing(Diag::MissingSemicolon, {describe(t_ - 1)});
+        missing(diag::MissingSemicolon, {describe(t_ - 1)});
       else if (at(Tok::Error))
         last_error_ = t_, panic_ = true;
       else
-        fail(Diag::StrayToken, t_, {describe(t_)});
+        fail(diag::StrayToken, t_, {describe(t_)});
     }
     if (panic_) syncDeclaration(Tok::EndVar);
   }
@@ -410,7 +411,7 @@ void Parser::readRelativeAddress(VarDecl& d) {
   const bool bit = d.address.size == 'X';
   good = good && !numbers_.empty() && numbers_.size() <= (bit ? 2u : 1u) && (numbers_.size() < 2 || numbers_[1] < 8);
   if (!good) {
-    fail(Diag::RelativeAddress, t_, {text});
+    fail(diag::RelativeAddress, t_, {text});
     return;
   }
   d.located = true;
@@ -421,7 +422,7 @@ void Parser::readRelativeAddress(VarDecl& d) {
 // path = {name "."} (name ["[" expr {"," expr} "]"] {"." …} | address)
 void Parser::parseAccessPath(VarDecl& d) {
   ExprId path;
-  if (!isName(kind())) fail(Diag::MissingName, t_, {describe(t_)});
+  if (!isName(kind())) fail(diag::MissingName, t_, {describe(t_)});
   while (!panic_ && isName(kind())) {
     const Ident name = ident(t_);
     ExprHeader header = exprHeader(path ? ExprKind::Member : ExprKind::Name, name.loc);

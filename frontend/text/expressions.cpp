@@ -3,6 +3,7 @@
 #include <array>
 #include <cstring>
 
+#include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 
 namespace rung::text {
@@ -85,11 +86,11 @@ ExprId Parser::parseExpr(uint32_t least) {
       return left;
     }
     if (op->kind >= Tok::EqualEqual && op->kind <= Tok::EqualLess)
-      slip(Diag::ForeignOperator, op, {spelling(op->kind), nativeOperator(op->kind)});
+      slip(diag::ForeignOperator, op, {spelling(op->kind), nativeOperator(op->kind)});
     advance();
     // No value: the next line begins with a statement of its own.
     if (atLineStart() && !panic_ && isName(kind()) && peek() == Tok::Assign) {
-      fail(Diag::MissingValueBehind, op, {describe(op)});
+      fail(diag::MissingValueBehind, op, {describe(op)});
       return errorExpr(loc(op));
     }
     const ExprId right = parseExpr(row.precedence + 1u);
@@ -101,7 +102,7 @@ ExprId Parser::parseExpr(uint32_t least) {
     }
     if (row.op == BinaryOp::Power && standard_ != Standard::Codesys && tree_.kind(left) == ExprKind::Unary &&
         tree_.expr(left).in_parens == 0 && tree_.as<UnaryExpr>(left).op() == UnaryOp::Negate)
-      diagnostics_.report(Diag::NegatedPower, tree_.loc(left), {"tighter"});
+      diagnostics_.report(diag::NegatedPower, tree_.loc(left), {"tighter"});
     left =
         tree_.add<ExprId>(BinaryExpr{exprHeader(ExprKind::Binary, loc(op), static_cast<uint8_t>(row.op)), left, right});
   }
@@ -113,7 +114,7 @@ ExprId Parser::parseUnary() {
   switch (static_cast<int>(kind())) {
     case static_cast<int>(Tok::Minus): op = UnaryOp::Negate; break;
     case static_cast<int>(Tok::Plus): op = UnaryOp::Plus; break;
-    case static_cast<int>(Tok::Bang): slip(Diag::ForeignOperator, t_, {"!", "NOT"}); [[fallthrough]];
+    case static_cast<int>(Tok::Bang): slip(diag::ForeignOperator, t_, {"!", "NOT"}); [[fallthrough]];
     case static_cast<int>(Tok::Not):
       // NOT(EN := x, IN := y): the functional form, with pins
       if (peek() == Tok::LeftParen && peek(3) == Tok::Assign && (is(t_ + 2, "EN") || is(t_ + 2, "IN"))) {
@@ -138,7 +139,7 @@ ExprId Parser::parseUnary() {
     return errorExpr(start);
   }
   if (op == UnaryOp::Negate && tree_.kind(operand) == ExprKind::Binary && tree_.expr(operand).in_parens == 0)
-    diagnostics_.report(Diag::NegatedPower, start, {"weaker"});
+    diagnostics_.report(diag::NegatedPower, start, {"weaker"});
   return tree_.add<ExprId>(UnaryExpr{exprHeader(ExprKind::Unary, start, static_cast<uint8_t>(op)), operand});
 }
 
@@ -213,9 +214,9 @@ ExprId Parser::parsePrimary() {
   const Token* before = t_ - 1;
   const bool is_punctuation = kind() > Tok::Semicolon && kind() <= Tok::EqualLess;
   if (((atLineStart() && !is_punctuation) || at(Tok::End)) && index() > 0 && before->kind != Tok::Semicolon)
-    fail(Diag::MissingValueBehind, before, {describe(before)});
+    fail(diag::MissingValueBehind, before, {describe(before)});
   else
-    fail(Diag::MissingValue, t_, {describe(t_)});
+    fail(diag::MissingValue, t_, {describe(t_)});
   return errorExpr(start);
 }
 
@@ -246,7 +247,7 @@ ExprId Parser::parsePostfix(ExprId base, bool calls) {
           const std::string_view digits = textOf(t_);
           if (readNumber(digits, at_member, diagnostics_, value) &&
               (value.is_real || value.is_based || value.integer > 63))
-            fail(Diag::MissingName, t_, {describe(t_)});
+            fail(diag::MissingName, t_, {describe(t_)});
           base = tree_.add<ExprId>(BitAccessExpr{exprHeader(ExprKind::BitAccess, at_member), base,
                                                  static_cast<uint32_t>(value.integer & 63), 1});
           advance();
@@ -265,7 +266,7 @@ ExprId Parser::parsePostfix(ExprId base, bool calls) {
           }
           good = good && bit.size() <= 2 && bit.find_first_not_of("0123456789") == std::string_view::npos;
           good = good && token.size() == part.size() + (bit.empty() ? 0 : bit.size() + 1);
-          if (!good) fail(Diag::AddressForm, t_, {token});
+          if (!good) fail(diag::AddressForm, t_, {token});
           base = tree_.add<ExprId>(BitAccessExpr{exprHeader(ExprKind::BitAccess, at_member), base, good ? position : 0,
                                                  static_cast<uint8_t>(good ? width : 1)});
           if (good && !bit.empty()) {
@@ -277,9 +278,9 @@ ExprId Parser::parsePostfix(ExprId base, bool calls) {
           advance();
         } else {
           if (same_line)
-            fail(Diag::MissingName, t_, {describe(t_)});
+            fail(diag::MissingName, t_, {describe(t_)});
           else
-            fail(Diag::MissingName, dot, {describe(dot)});
+            fail(diag::MissingName, dot, {describe(dot)});
           return errorExpr(loc(dot));
         }
         break;
@@ -363,7 +364,7 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
     const Token* pin = negated ? t_ + 1 : t_;
     Tok binder = pin[1].kind;
     if (binder == Tok::Colon && isName(pin->kind)) {  // `IN : TRUE`
-      slip(Diag::WrongWord, pin + 1, {":", ":="});
+      slip(diag::WrongWord, pin + 1, {":", ":="});
       binder = Tok::Assign;
     }
     if ((isName(pin->kind) || isTypeWord(pin->kind)) && (binder == Tok::Assign || binder == Tok::Arrow)) {
@@ -372,7 +373,7 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
       a.is_output = binder == Tok::Arrow;
       t_ = const_cast<Token*>(pin) + 2;
       if (at(Tok::Comma) || at(Tok::RightParen)) {
-        if (standard_ != Standard::Codesys) slip(Diag::EmptyBinding, pin, {textOf(pin)});
+        if (standard_ != Standard::Codesys) slip(diag::EmptyBinding, pin, {textOf(pin)});
       } else if (atNestedIl()) {
         parseNestedIl(static_cast<uint32_t>(arguments_.size() - first));
       } else {
@@ -386,7 +387,7 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
     if (at(Tok::With) && !panic_) {  // PROGRAM p : Main (block WITH task)
       const ExprId block = a.value;
       const bool named = block && tree_.kind(block) == ExprKind::Name && !a.pin.name;
-      if (!in_program_instance_ || !named || !isName(peek())) fail(Diag::StrayToken, t_, {describe(t_)});
+      if (!in_program_instance_ || !named || !isName(peek())) fail(diag::StrayToken, t_, {describe(t_)});
       arguments_.pop_back();
       advance();
       if (!panic_) {
@@ -400,9 +401,9 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
       if (at(Tok::Comma)) {
         if (peek() == Tok::RightParen) {
           if (standard_ == Standard::Codesys)
-            diagnostics_.report(Diag::TrailingCommaWarning, here());
+            diagnostics_.report(diag::TrailingCommaWarning, here());
           else
-            slip(Diag::TrailingComma, t_);
+            slip(diag::TrailingComma, t_);
           advance();
           break;
         }
@@ -416,7 +417,7 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
                (t->flags & kLineStart) == 0)
           ++t;
         if (t->kind == Tok::RightParen) {
-          slip(Diag::WrongWord, t_, {";", ","});
+          slip(diag::WrongWord, t_, {";", ","});
           advance();
           continue;
         }
@@ -436,12 +437,12 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
       }
       if (closes) {
         if (atLineStart())
-          missing(Diag::MissingToken, {",", describe(t_)});
+          missing(diag::MissingToken, {",", describe(t_)});
         else
-          slip(Diag::MissingToken, t_, {",", describe(t_)});
+          slip(diag::MissingToken, t_, {",", describe(t_)});
         continue;
       }
-      if (at(Tok::Assign) || at(Tok::Arrow)) fail(Diag::NotInArguments, t_, {describe(t_)});
+      if (at(Tok::Assign) || at(Tok::Arrow)) fail(diag::NotInArguments, t_, {describe(t_)});
     }
     break;
   }
@@ -456,7 +457,7 @@ ExprId Parser::parseCompared(ExprId left) {
   if (!at(Tok::Assign) || panic_) return left;
   const Loc op = here();
   const uint32_t height = height_;
-  slip(Diag::CompareWithAssign, t_);
+  slip(diag::CompareWithAssign, t_);
   advance();
   const ExprId right = parseExpr();
   height_ = std::max(height, height_) + 1;
@@ -473,22 +474,22 @@ void Parser::closeParen(Tok close, bool is_arguments) {
     const bool ends = k == Tok::Semicolon || k == Tok::End || (isReserved(k) && !isOperand(k)) || startsStatement(t_);
     if (ends) {
       if (atLineStart() || k == Tok::End)
-        missing(Diag::MissingToken, {spelling(close), describe(t_)});
+        missing(diag::MissingToken, {spelling(close), describe(t_)});
       else
-        slip(Diag::MissingToken, t_, {spelling(close), describe(t_)});
+        slip(diag::MissingToken, t_, {spelling(close), describe(t_)});
       return;
     }
     if (k == Tok::RightParen || k == Tok::RightBracket) {
-      slip(Diag::MissingToken, t_, {spelling(close), describe(t_)});
+      slip(diag::MissingToken, t_, {spelling(close), describe(t_)});
       if (k != Tok::RightParen || close != Tok::RightBracket) advance();
       return;
     }
     if (is_arguments)
-      fail(Diag::NotInArguments, t_, {describe(t_)});
+      fail(diag::NotInArguments, t_, {describe(t_)});
     else if (isOperand(k))
-      fail(Diag::MissingOperator, t_, {describe(t_)});
+      fail(diag::MissingOperator, t_, {describe(t_)});
     else
-      fail(Diag::MissingToken, t_, {spelling(close), describe(t_)});
+      fail(diag::MissingToken, t_, {spelling(close), describe(t_)});
   }
   // The partner, even on a later line, as long as the statement lasts.
   uint32_t depth = 0;
@@ -551,7 +552,7 @@ ExprId Parser::parseTyped() {
   if (at(Tok::True) || at(Tok::False)) {
     const bool value = at(Tok::True);
     if (isTypeWord(type->kind) && type->kind != Tok::Bool) {
-      slip(Diag::LiteralPrefix, t_, {textOf(t_), textOf(type)});
+      slip(diag::LiteralPrefix, t_, {textOf(t_), textOf(type)});
       advance();
       return errorExpr(start);
     }
@@ -564,7 +565,7 @@ ExprId Parser::parseTyped() {
     advance();
     return e;
   }
-  fail(Diag::MissingValue, t_, {describe(t_)});
+  fail(diag::MissingValue, t_, {describe(t_)});
   return errorExpr(start);
 }
 
@@ -589,7 +590,7 @@ ExprId Parser::parseNumber(NameId prefix, bool negative, Loc start) {
     if (isTypeWord(type->kind) &&
         ((value.is_real && !is_real_type) || (is_real_type && value.is_based) || type->kind == Tok::Bool ||
          type->kind == Tok::String || type->kind == Tok::Wstring)) {
-      slip(Diag::LiteralPrefix, token, {textOf(token), textOf(type)});
+      slip(diag::LiteralPrefix, token, {textOf(token), textOf(type)});
       return errorExpr(start);
     }
     if (value.is_real && negative) value.real = -value.real;
@@ -635,7 +636,7 @@ ExprId Parser::parseText(NameId prefix, Loc start) {
     const bool good = type == Tok::String || type == Tok::Char ? !wide : double_byte || !isTypeWord(type);
     wide = wide || double_byte;
     if (!good) {
-      slip(Diag::LiteralPrefix, token, {textOf(token), textOf(token - 2)});
+      slip(diag::LiteralPrefix, token, {textOf(token), textOf(token - 2)});
       return errorExpr(start);
     }
   }

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 
 namespace rung::text {
@@ -173,12 +174,12 @@ Slice<IlInstruction> Parser::parseIl(bool nested) {
   while (!atBlockEnd() && !(nested && at(Tok::RightParen) && il_open_.size() == first_open)) {
     const Token* before = t_;
     if (at(Tok::RightParen) && il_open_.size() == first_open) {
-      slip(Diag::StrayParen, t_, {")"});
+      slip(diag::StrayParen, t_, {")"});
       advance();
       continue;
     }
     if (atSection()) {
-      if (!declared_in_body_) slip(Diag::DeclarationInBody, t_);
+      if (!declared_in_body_) slip(diag::DeclarationInBody, t_);
       declared_in_body_ = true;
       parseSection();
       continue;
@@ -195,7 +196,7 @@ Slice<IlInstruction> Parser::parseIl(bool nested) {
   while (il_open_.size() > first_open) {  // closed here, so that the scheduler need not ask
     const Token* open = il_open_.back();
     il_open_.pop_back();
-    slip(Diag::IlParenOpen, open, {textOf(open)});
+    slip(diag::IlParenOpen, open, {textOf(open)});
     for (size_t k = il_.size(); k-- > first;) {
       IlInstruction& deferred = il_[k];
       if ((deferred.flags & kIlDeferred) == 0 || deferred.loc != loc(open)) continue;
@@ -214,7 +215,7 @@ void Parser::parseInstruction() {
   IlInstruction i{};
   i.kind = IlKind::Label;
   if (peek() == Tok::Colon && (isName(kind()) || nameReserved(t_))) {
-    if (!isName(kind())) slip(Diag::ReservedName, t_, {textOf(t_)});
+    if (!isName(kind())) slip(diag::ReservedName, t_, {textOf(t_)});
     i.label = isName(kind()) ? ident(t_) : Ident{names_.intern(textOf(t_)), here()};
     advance();
     advance();
@@ -249,7 +250,7 @@ void Parser::parseInstruction() {
     i.callee = parseIlCallee();
     parseOperands(i, op);
   } else {
-    fail(Diag::NotAnInstruction, t_, {describe(t_)});
+    fail(diag::NotAnInstruction, t_, {describe(t_)});
     i.kind = IlKind::Load;  // of what nobody knows
   }
   if (panic_) mend(i);
@@ -270,14 +271,14 @@ void Parser::mend(IlInstruction& i) {
 void Parser::endInstruction() {
   if (!panic_ && !atLineStart() && !atBlockEnd() && !at(Tok::RightParen)) {
     if (isPlainInstruction(t_) || (il_open_.size() > 0 && isInstruction(t_))) {
-      if (!il_line_told_) diagnostics_.report(Diag::InstructionsOnLine, here());
+      if (!il_line_told_) diagnostics_.report(diag::InstructionsOnLine, here());
       il_line_told_ = true;
       return;
     }
     if (isInfix(kind()))
-      fail(Diag::IlExpression, t_, {textOf(t_)});
+      fail(diag::IlExpression, t_, {textOf(t_)});
     else
-      fail(Diag::BehindInstruction, t_, {describe(t_)});
+      fail(diag::BehindInstruction, t_, {describe(t_)});
   }
   if (!panic_) return;
   panic_ = false;
@@ -310,17 +311,17 @@ void Parser::parseOperands(IlInstruction& i, const Token* op) {
     case IlKind::Close: return;
     case IlKind::Jump:
       if (atLineStart() || atBlockEnd())
-        fail(Diag::IlOperandMissing, op, {textOf(op)});
+        fail(diag::IlOperandMissing, op, {textOf(op)});
       else
         parseName(i.target);
       return;
     case IlKind::Call:
       if (atLineStart() || atBlockEnd()) {
-        fail(Diag::IlOperandMissing, op, {textOf(op)});
+        fail(diag::IlOperandMissing, op, {textOf(op)});
         return;
       }
       if (!isName(kind())) {
-        fail(Diag::MissingName, t_, {describe(t_)});
+        fail(diag::MissingName, t_, {describe(t_)});
         return;
       }
       i.callee = parseIlCallee();
@@ -337,7 +338,7 @@ void Parser::parseOperands(IlInstruction& i, const Token* op) {
   }
   const bool none = atLineStart() || atBlockEnd() || at(Tok::RightParen);
   if (none) {
-    if (i.kind != IlKind::Function) fail(Diag::IlOperandMissing, op, {textOf(op)});
+    if (i.kind != IlKind::Function) fail(diag::IlOperandMissing, op, {textOf(op)});
     return;
   }
   parseIlList(i, op);
@@ -349,7 +350,7 @@ void Parser::parseIlList(IlInstruction& i, const Token* op) {
   const bool several = i.kind == IlKind::Function || (i.kind == IlKind::Binary && takesSeveral(i.op));
   do {
     if (arguments_.size() > first && !several) {
-      fail(Diag::IlOperandCount, t_, {textOf(op)});
+      fail(diag::IlOperandCount, t_, {textOf(op)});
       break;
     }
     Argument a{};
@@ -393,7 +394,7 @@ void Parser::parseIlParens(IlInstruction& i, const Token* op) {
   if (formal) {
     if (i.kind == IlKind::Binary) {  // ADD(IN1 := a, IN2 := b): the function of that name
       if (first->kind == Tok::RightParen) {
-        fail(Diag::IlOperandMissing, op, {textOf(op)});
+        fail(diag::IlOperandMissing, op, {textOf(op)});
         return;
       }
       i.kind = IlKind::Function;
@@ -464,9 +465,9 @@ void Parser::closeIlParen(Tok close) {
   if (!panic_) {
     if (accept(close)) return;
     if (atLineStart() || atBlockEnd())
-      missing(Diag::MissingToken, {spelling(close), describe(t_)});
+      missing(diag::MissingToken, {spelling(close), describe(t_)});
     else
-      fail(Diag::NotInArguments, t_, {describe(t_)});
+      fail(diag::NotInArguments, t_, {describe(t_)});
   }
   while (!atBlockEnd() && !at(Tok::RightParen) && !(atLineStart() && isInstruction(t_))) advance();
   if (at(Tok::RightParen)) advance();
@@ -479,7 +480,7 @@ bool Parser::statementInIl() {
   const bool word = isReserved(t->kind) && wordAt(t->kind, textOf(t)) == nullptr && t[1].kind != Tok::Colon;
   while (isName(t->kind) && (t[1].kind == Tok::Dot || t[1].kind == Tok::Caret) && isName(t[2].kind)) t += 2;
   if (!word && !(isName(t->kind) && t[1].kind == Tok::Assign)) return false;
-  slip(Diag::StatementInIl, t_, {textOf(t_)});
+  slip(diag::StatementInIl, t_, {textOf(t_)});
   while (!at(Tok::End) && kind() != pou_end_ && !atTopLevelWord()) advance();
   return true;
 }
@@ -487,7 +488,7 @@ bool Parser::statementInIl() {
 // Instructions among the statements of a body that began in ST: one error for all of them.
 bool Parser::instructionInSt() {
   if (!isPlainInstruction(t_)) return false;
-  slip(Diag::InstructionInSt, t_, {textOf(t_)});
+  slip(diag::InstructionInSt, t_, {textOf(t_)});
   while (!at(Tok::End) && kind() != pou_end_ && !atTopLevelWord()) advance();
   return true;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "frontend/syntax/diagnostics.h"
+
 namespace rung::text {
 
 // Whether the accumulator is the first argument. It is none of f(a, b) where that is all that f takes.
@@ -69,8 +71,8 @@ void collectLabels(const Tree& tree, const Names& names, Diagnostics& diagnostic
   for (size_t n = 1; n < flow.labels.size(); ++n) {
     if (!twice(flow.labels[n - 1], flow.labels[n])) continue;
     const Ident second = tree.list(list)[flow.labels[n].second].label;
-    diagnostics.report(Diag::JumpLabelTwice, second.loc, {names.text(second.name)})
-        .note(tree.list(list)[flow.labels[n - 1].second].label.loc, Note::DeclaredHere);
+    diagnostics.report(diag::JumpLabelTwice, second.loc, {names.text(second.name)})
+        .note(tree.list(list)[flow.labels[n - 1].second].label.loc, diag::DeclaredHere);
   }
   flow.labels.erase(std::unique(flow.labels.begin(), flow.labels.end(), twice), flow.labels.end());
 }

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "frontend/syntax/diagnostics.h"
+#include "frontend/text/diagnostics.h"
 #include "frontend/text/il_flow.h"
 #include "frontend/text/il_structure.h"
 
@@ -198,7 +200,7 @@ void Scheduler::limit(Value& value) {
 void Scheduler::require(Value& value, const IlInstruction& reader) {
   if (value.state != State::Empty) return;
   value.state = State::Broken;
-  diagnostics_.report(Diag::AccumulatorEmpty, reader.loc,
+  diagnostics_.report(diag::AccumulatorEmpty, reader.loc,
                       {reader.word ? names_.text(reader.word) : std::string_view(")")});
 }
 
@@ -257,7 +259,7 @@ void Scheduler::drop() {
   const Value value = std::exchange(acc_, {});
   if (value.state != State::Known || value.read) return;
   if (value.expr && tree_.kind(value.expr) == ExprKind::Call) return callStatement(value.expr);
-  diagnostics_.report(Diag::AccumulatorUnused, value.loc);
+  diagnostics_.report(diag::AccumulatorUnused, value.loc);
   if (value.constant) return;
   acc_ = value;
   settleOpen();
@@ -292,7 +294,7 @@ bool Scheduler::allowed(const IlInstruction& i) {
       i.kind == IlKind::Store || i.kind == IlKind::Set || i.kind == IlKind::Reset || i.kind == IlKind::Call;
   if (!(leaves && open_.size() > first_open_) && !(nested_ && (leaves || states))) return true;
   const std::string shown = "`" + std::string(names_.text(i.word)) + "`";
-  diagnostics_.report(Diag::IlInsideParens, i.loc, {shown});
+  diagnostics_.report(diag::IlInsideParens, i.loc, {shown});
   return false;
 }
 
@@ -319,8 +321,8 @@ Scheduler::Value Scheduler::runList(Slice<IlInstruction> list, bool nested) {
     const EmptyWay& way = empty_ways_[k];
     const IlInstruction reader = tree_.list(list)[flow.reader[way.label]];
     diagnostics_
-        .report(Diag::AccumulatorEmpty, reader.loc, {reader.word ? names_.text(reader.word) : std::string_view(")")})
-        .note(way.from, Note::WayWithoutValue);
+        .report(diag::AccumulatorEmpty, reader.loc, {reader.word ? names_.text(reader.word) : std::string_view(")")})
+        .note(way.from, diag::WayWithoutValue);
   }
   if (!nested) drop();
   flow_ = outer_flow;
@@ -334,7 +336,7 @@ Scheduler::Value Scheduler::runList(Slice<IlInstruction> list, bool nested) {
 void Scheduler::label(const IlInstruction& i) {
   if (open_.size() > first_open_ || nested_) {
     const std::string shown = "the label `" + std::string(names_.text(i.label.name)) + "`";
-    diagnostics_.report(Diag::IlInsideParens, i.label.loc, {shown});
+    diagnostics_.report(diag::IlInsideParens, i.label.loc, {shown});
     return;
   }
   if (flow_->jumps[at_] == 0) return;
@@ -357,7 +359,7 @@ void Scheduler::label(const IlInstruction& i) {
 // An instruction that is never reached. Its parentheses count, so that a label inside of them is seen to be there.
 void Scheduler::skip(const IlInstruction& i, bool& told) {
   if (!told && i.kind != IlKind::Label) {
-    diagnostics_.report(Diag::Unreachable, i.loc);
+    diagnostics_.report(diag::Unreachable, i.loc);
     told = true;
   }
   if ((i.flags & kIlDeferred) != 0) {

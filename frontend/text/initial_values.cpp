@@ -2,6 +2,7 @@
 // expressions of the tree; which form a call-like `n(1, 2)` has is told by sema.
 #include <utility>
 
+#include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 #include "frontend/text/recover.h"
 
@@ -57,7 +58,7 @@ void Parser::parseElements(Tok close) {
     }
     if (accept(Tok::Comma)) continue;
     if (!panic_ && isOperand(kind()) && !atLineStart()) {
-      slip(Diag::MissingToken, t_, {",", describe(t_)});
+      slip(diag::MissingToken, t_, {",", describe(t_)});
       continue;
     }
     break;
@@ -92,10 +93,10 @@ ExprId Parser::parseStructInit() {
     FieldInit field{};
     if (!parseName(field.field)) break;
     if (at(Tok::Equal)) {
-      slip(Diag::AssignWithEqual, t_, {"="});
+      slip(diag::AssignWithEqual, t_, {"="});
       advance();
     } else if (!accept(Tok::Assign)) {
-      fail(Diag::MissingToken, t_, {":=", describe(t_)});
+      fail(diag::MissingToken, t_, {":=", describe(t_)});
       break;
     }
     field.value = parseInit();
@@ -103,9 +104,9 @@ ExprId Parser::parseStructInit() {
     if (accept(Tok::Comma)) continue;
     if (!panic_ && isName(kind()) && peek() == Tok::Assign) {
       if (atLineStart())
-        missing(Diag::MissingToken, {",", describe(t_)});
+        missing(diag::MissingToken, {",", describe(t_)});
       else
-        slip(Diag::MissingToken, t_, {",", describe(t_)});
+        slip(diag::MissingToken, t_, {",", describe(t_)});
       continue;
     }
     break;

@@ -7,6 +7,8 @@
 
 #include "frontend/source/invariant.h"
 #include "frontend/source/nested_comments.h"
+#include "frontend/syntax/diagnostics.h"
+#include "frontend/text/diagnostics.h"
 #include "frontend/text/foreign.h"
 
 namespace rung::text {
@@ -209,7 +211,7 @@ void Lexer::run(uint32_t begin, uint32_t end) {
   end_ = text_.data() + end;
   out_.tokens.reserve((end - begin) / 4 + 16);
   if (const void* nul = std::memchr(p, 0, end - begin); nul != nullptr) {
-    diagnostics_.report(Diag::BinaryFile, loc(static_cast<const char*>(nul)), {path_});
+    diagnostics_.report(diag::BinaryFile, loc(static_cast<const char*>(nul)), {path_});
     end_ = p;
   }
   const auto settle = [&] {
@@ -315,9 +317,9 @@ void Lexer::checkUnderscores(const char* begin, const char* end) {
   const std::string_view name(begin, static_cast<size_t>(end - begin));
   if (name.size() < 2 || (name.back() != '_' && name.find("__") == std::string_view::npos)) return;
   if (standard_ == Standard::Codesys) {
-    if (name.substr(0, 2) != "__") diagnostics_.report(Diag::UnderscoresInNameWarning, loc(begin), {name});
+    if (name.substr(0, 2) != "__") diagnostics_.report(diag::UnderscoresInNameWarning, loc(begin), {name});
   } else {
-    diagnostics_.report(Diag::UnderscoresInName, loc(begin), {name});
+    diagnostics_.report(diag::UnderscoresInName, loc(begin), {name});
   }
 }
 
@@ -370,7 +372,7 @@ const char* Lexer::quoted(const char* begin) {
   const char* p = begin + 1;
   while (*p != quote) {
     if (*p == '\n' || *p == '\r' || p >= end_) {
-      diagnostics_.report(Diag::UnterminatedString, loc(begin), {std::string_view(&quote, 1)})
+      diagnostics_.report(diag::UnterminatedString, loc(begin), {std::string_view(&quote, 1)})
           .length(static_cast<uint32_t>(p - begin));
       flags_ |= kReported;
       push(quote == '\'' ? Tok::Text : Tok::WideText, begin, static_cast<uint32_t>(p - begin));
@@ -474,7 +476,7 @@ const char* Lexer::blockComment(const char* begin, bool slash) {
         ++depth;
         ++p;
       } else if (nests_ && p[2] != close) {
-        if (!told) diagnostics_.report(Diag::NestedComment, loc(p), {std::string_view(p, 2)}).length(2);
+        if (!told) diagnostics_.report(diag::NestedComment, loc(p), {std::string_view(p, 2)}).length(2);
         told = true;
         ++depth;  // most likely it is closed as well
         ++p;
@@ -483,7 +485,7 @@ const char* Lexer::blockComment(const char* begin, bool slash) {
       flags_ |= kLineStart;
     }
   }
-  diagnostics_.report(Diag::UnterminatedComment, loc(begin), {slash ? "*/" : "*)"}).length(2);
+  diagnostics_.report(diag::UnterminatedComment, loc(begin), {slash ? "*/" : "*)"}).length(2);
   return end_;
 }
 
@@ -492,7 +494,7 @@ const char* Lexer::cppBody(const char* begin) {
   const char* p = begin + 5;
   while (p < end_ && !(*p == '{' && end_ - p >= 9 && sameIdentifier({p, 9}, "{END_C++}"))) ++p;
   if (p == end_) {
-    diagnostics_.report(Diag::UnterminatedPragma, loc(begin), {"{END_C++}"}).length(5);
+    diagnostics_.report(diag::UnterminatedPragma, loc(begin), {"{END_C++}"}).length(5);
     return end_;
   }
   p += 9;
@@ -514,7 +516,7 @@ Tok networkMark(std::string_view text) {
 const char* Lexer::pragma(const char* begin) {
   const std::string_view rest(begin, static_cast<size_t>(end_ - begin));
   if (const size_t end = endOfDoubleBrace(rest, 0); end != std::string_view::npos) {
-    diagnostics_.report(Diag::CodeInC, loc(begin)).length(2);
+    diagnostics_.report(diag::CodeInC, loc(begin)).length(2);
     return begin + end;
   }
   const char* p = begin + 1;
@@ -527,7 +529,7 @@ const char* Lexer::pragma(const char* begin) {
     ++p;
   }
   if (p >= end_) {
-    diagnostics_.report(Diag::UnterminatedPragma, loc(begin), {"}"}).length(1);
+    diagnostics_.report(diag::UnterminatedPragma, loc(begin), {"}"}).length(1);
     p = begin;
     while (p < end_ && *p != '\n') ++p;
     return p;
@@ -562,13 +564,13 @@ void Lexer::checkPragma(std::string_view word, const char* rest, const char* end
   for (const std::string_view name : *known)
     if (sameIdentifier(name, word) && !sameIdentifier(name, "IF") && !sameIdentifier(name, "exit")) return;
   if (holdsC({word.data(), static_cast<size_t>(end - word.data())})) {
-    diagnostics_.report(Diag::CodeInC, loc(word.data())).length(1);
+    diagnostics_.report(diag::CodeInC, loc(word.data())).length(1);
     return;
   }
   if (sameIdentifier(word, "IF") || sameIdentifier(word, "exit")) return;
   const std::string_view near = nearest(word, *known);
   if (near.empty()) return;
-  diagnostics_.report(Diag::UnknownPragma, loc(word.data()), {word}).didYouMean(near);
+  diagnostics_.report(diag::UnknownPragma, loc(word.data()), {word}).didYouMean(near);
 }
 
 // {info 'text'}, {text 'text'}, {WARNING: "text"}, {error 'text'}
@@ -592,7 +594,7 @@ void Lexer::message(const char* begin, const char* end) {
   while (text_end > begin && text_end[-1] != quote) --text_end;
   if (text_end > begin) --text_end;
   const std::string_view text(begin, static_cast<size_t>(text_end - begin));
-  const Diag diag = info ? Diag::PragmaInfo : warning ? Diag::PragmaWarning : Diag::PragmaError;
+  const Diag diag = info ? diag::PragmaInfo : warning ? diag::PragmaWarning : diag::PragmaError;
   diagnostics_.report(diag, loc(word_begin), {text});
 }
 
@@ -615,9 +617,9 @@ const char* Lexer::stray(const char* begin) {
     if (findInvalidUtf8(shown) != std::string::npos) shown = "a byte that is not UTF-8";
   }
   if (c >= 0x80 || kClasses[c] == kLetter)
-    diagnostics_.report(Diag::NotAscii, loc(begin), {shown}).length(static_cast<uint32_t>(p - begin));
+    diagnostics_.report(diag::NotAscii, loc(begin), {shown}).length(static_cast<uint32_t>(p - begin));
   else
-    diagnostics_.report(c == '}' ? Diag::StrayBrace : Diag::StrayCharacter, loc(begin), {shown})
+    diagnostics_.report(c == '}' ? diag::StrayBrace : diag::StrayCharacter, loc(begin), {shown})
         .length(static_cast<uint32_t>(p - begin));
   flags_ |= kReported;
   push(Tok::Error, begin, static_cast<uint32_t>(p - begin));

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "frontend/text/diagnostics.h"
+
 namespace rung::text {
 namespace {
 
@@ -21,7 +23,7 @@ bool checkUnderscores(std::string_view digits, std::string_view text, Loc loc, D
     if (i > 0 && i + 1 < digits.size() && digits[i - 1] != '_' && hexDigit(digits[i - 1]) >= 0 &&
         hexDigit(digits[i + 1]) >= 0)
       continue;
-    diagnostics.report(Diag::NumberUnderscore, loc, {text});
+    diagnostics.report(diag::NumberUnderscore, loc, {text});
     return false;
   }
   return true;
@@ -81,7 +83,7 @@ bool takeDate(std::string_view& text, std::string_view whole, const char* sample
               int64_t& days) {
   uint64_t y = 0, m = 0, d = 0;
   if (!takeNumber(text, y) || !take(text, '-') || !takeNumber(text, m) || !take(text, '-') || !takeNumber(text, d)) {
-    diagnostics.report(Diag::DateForm, loc, {whole, sample});
+    diagnostics.report(diag::DateForm, loc, {whole, sample});
     return false;
   }
   static constexpr unsigned kLengths[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
@@ -90,7 +92,7 @@ bool takeDate(std::string_view& text, std::string_view whole, const char* sample
   const bool good =
       y >= 1678 && y <= 2261 && m >= 1 && m <= 12 && d >= 1 && d <= kLengths[m - 1] + (m == 2 && leap ? 1u : 0u);
   if (!good) {
-    diagnostics.report(Diag::NoSuchDay, loc, {behindHash(whole).substr(0, behindHash(whole).size() - text.size())});
+    diagnostics.report(diag::NoSuchDay, loc, {behindHash(whole).substr(0, behindHash(whole).size() - text.size())});
     return false;
   }
   days = daysFromCivil(static_cast<int64_t>(y), static_cast<unsigned>(m), static_cast<unsigned>(d));
@@ -113,10 +115,10 @@ bool takeTime(std::string_view text, std::string_view whole, const char* sample,
     }
   }
   if (!good || !text.empty() || m > 59 || s > 59 || h > (hours_free ? 1193u : 23u)) {
-    diagnostics.report(Diag::TimeOfDayForm, loc, {whole, sample});
+    diagnostics.report(diag::TimeOfDayForm, loc, {whole, sample});
     return false;
   }
-  if (h > 23) diagnostics.report(Diag::TimeOfDayLong, loc, {whole});
+  if (h > 23) diagnostics.report(diag::TimeOfDayLong, loc, {whole});
   nanoseconds = h * kHour + m * kMinute + s * kSecond + fraction;
   return true;
 }
@@ -142,11 +144,11 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
                           : base_text == "10" ? 10
                                               : 0;
     if (base == 0) {
-      diagnostics.report(Diag::NumberBase, loc, {text});
+      diagnostics.report(diag::NumberBase, loc, {text});
       return false;
     }
     if (digits.empty()) {
-      diagnostics.report(Diag::NumberDigit, loc, {text, base_text});
+      diagnostics.report(diag::NumberDigit, loc, {text, base_text});
       return false;
     }
     value.is_based = true;
@@ -154,12 +156,12 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
       if (c == '_') continue;
       const int digit = hexDigit(c);
       if (digit < 0 || digit >= static_cast<int>(base)) {
-        diagnostics.report(Diag::NumberDigit, loc, {std::string_view(&c, 1), base_text});
+        diagnostics.report(diag::NumberDigit, loc, {std::string_view(&c, 1), base_text});
         return false;
       }
       if (__builtin_mul_overflow(value.integer, static_cast<uint64_t>(base), &value.integer) ||
           __builtin_add_overflow(value.integer, static_cast<uint64_t>(digit), &value.integer)) {
-        diagnostics.report(Diag::NumberTooLarge, loc, {text});
+        diagnostics.report(diag::NumberTooLarge, loc, {text});
         return false;
       }
     }
@@ -174,7 +176,7 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
       if (c != '_') plain += c;
     const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value.real);
     if (end != plain.data() + plain.size()) {
-      diagnostics.report(Diag::NumberSuffix, loc, {text});
+      diagnostics.report(diag::NumberSuffix, loc, {text});
       return false;
     }
     if (error == std::errc::result_out_of_range) {
@@ -183,21 +185,21 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
       const bool tiny = e != std::string::npos && plain[e + 1] == '-';
       value.real = 0;
       if (!tiny) {
-        diagnostics.report(Diag::NumberTooLarge, loc, {text});
+        diagnostics.report(diag::NumberTooLarge, loc, {text});
         return false;
       }
     }
     return checkUnderscores(text.substr(0, text.find_first_of("eE")), text, loc, diagnostics);
   }
   if (i != text.size()) {
-    diagnostics.report(Diag::NumberSuffix, loc, {text});
+    diagnostics.report(diag::NumberSuffix, loc, {text});
     return false;
   }
   for (char c : text) {
     if (c == '_') continue;
     if (__builtin_mul_overflow(value.integer, 10u, &value.integer) ||
         __builtin_add_overflow(value.integer, static_cast<uint64_t>(c - '0'), &value.integer)) {
-      diagnostics.report(Diag::NumberTooLarge, loc, {text});
+      diagnostics.report(diag::NumberTooLarge, loc, {text});
       return false;
     }
   }
@@ -225,7 +227,7 @@ bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
   Loc last_part;
   std::string_view last_text;
   if (rest.empty()) {
-    diagnostics.report(Diag::TimeUnit, loc, {text});
+    diagnostics.report(diag::TimeUnit, loc, {text});
     return false;
   }
   while (!rest.empty()) {
@@ -233,7 +235,7 @@ bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
     const Loc part = at();
     const std::string_view part_text = rest;
     if (had_fraction) {
-      diagnostics.report(Diag::TimeFraction, last_part, {last_text}).length(static_cast<uint32_t>(last_text.size()));
+      diagnostics.report(diag::TimeFraction, last_part, {last_text}).length(static_cast<uint32_t>(last_text.size()));
       return false;
     }
     size_t n = 0;
@@ -255,12 +257,12 @@ bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
     while (u < 7 && !sameIdentifier(unit, kUnits[u].name)) ++u;
     if (u == 7 || digits.empty()) {
       const std::string_view shown = unit.empty() || digits.empty() ? part_text : unit;
-      diagnostics.report(Diag::TimeUnit, unit.empty() || digits.empty() ? part : at(), {shown})
+      diagnostics.report(diag::TimeUnit, unit.empty() || digits.empty() ? part : at(), {shown})
           .length(static_cast<uint32_t>(shown.size()));
       return false;
     }
     if (u < next_unit) {
-      diagnostics.report(Diag::TimeUnitOrder, at(), {unit}).length(static_cast<uint32_t>(n));
+      diagnostics.report(diag::TimeUnitOrder, at(), {unit}).length(static_cast<uint32_t>(n));
       return false;
     }
     rest.remove_prefix(n);
@@ -274,7 +276,7 @@ bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
            !__builtin_add_overflow(sum, fractionOf(fraction, kUnits[u].nanoseconds), &sum);
   }
   if (!fits || (value.is_negative && sum > (1ull << 63))) {
-    diagnostics.report(Diag::TimeTooLong, loc, {text});
+    diagnostics.report(diag::TimeTooLong, loc, {text});
     return false;
   }
   value.value = value.is_negative ? 0 - sum : sum;
@@ -288,7 +290,7 @@ bool readDate(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValu
   int64_t days = 0;
   if (!takeDate(rest, text, "D#2026-12-31", loc, diagnostics, days)) return false;
   if (!rest.empty()) {
-    diagnostics.report(Diag::DateForm, loc, {text, "D#2026-12-31"});
+    diagnostics.report(diag::DateForm, loc, {text, "D#2026-12-31"});
     return false;
   }
   value.value = static_cast<uint64_t>(days) * kDay;
@@ -310,7 +312,7 @@ bool readDateTime(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
   uint64_t time = 0;
   if (!takeDate(rest, text, kSample, loc, diagnostics, days)) return false;
   if (!take(rest, '-')) {
-    diagnostics.report(Diag::DateForm, loc, {text, kSample});
+    diagnostics.report(diag::DateForm, loc, {text, kSample});
     return false;
   }
   if (!takeTime(rest, text, kSample, false, loc, diagnostics, time)) return false;
@@ -365,7 +367,7 @@ bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnost
         appendUtf8(value, static_cast<uint32_t>(point));
       } else {
         const std::string_view shown = inner.substr(start, end + 1 - start);
-        diagnostics.report(Diag::NoCodePoint, Loc{loc.offset + 1 + static_cast<uint32_t>(start)}, {shown})
+        diagnostics.report(diag::NoCodePoint, Loc{loc.offset + 1 + static_cast<uint32_t>(start)}, {shown})
             .length(static_cast<uint32_t>(shown.size()));
         good = false;
       }
@@ -375,7 +377,7 @@ bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnost
     if (!is_code) {
       const std::string_view shown = inner.substr(start, next == '\0' ? 1 : 2);
       diagnostics
-          .report(Diag::StringEscape, Loc{loc.offset + 1 + static_cast<uint32_t>(start)},
+          .report(diag::StringEscape, Loc{loc.offset + 1 + static_cast<uint32_t>(start)},
                   {shown, wide ? "four" : "two"})
           .length(static_cast<uint32_t>(shown.size()));
       good = false;
@@ -426,7 +428,7 @@ bool readAddress(std::string_view text, Loc loc, Diagnostics& diagnostics, Direc
     } while (good && take(rest, '.'));
     good = good && rest.empty();
   }
-  if (!good) diagnostics.report(Diag::AddressForm, loc, {text});
+  if (!good) diagnostics.report(diag::AddressForm, loc, {text});
   return good;
 }
 

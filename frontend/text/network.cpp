@@ -12,6 +12,8 @@
 #include <charconv>
 #include <utility>
 
+#include "frontend/syntax/diagnostics.h"
+#include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 
 namespace rung::text {
@@ -68,7 +70,7 @@ std::string plainText(std::string_view quoted) {
 bool Parser::takeWord(Ident& out) {
   const bool word = isName(kind()) || nameReserved(t_);
   if (!word) {
-    fail(Diag::MissingName, t_, {describe(t_)});
+    fail(diag::MissingName, t_, {describe(t_)});
     return false;
   }
   out = {isName(kind()) ? nameOf(t_) : names_.intern(textOf(t_)), here()};
@@ -80,7 +82,7 @@ bool Parser::takeNumber(uint64_t& out) {
   const std::string_view digits = at(Tok::Number) ? textOf(t_) : std::string_view{};
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out);
   if (digits.empty() || error != std::errc{} || end != digits.data() + digits.size()) {
-    fail(Diag::ElementNumber, t_, {describe(t_)});
+    fail(diag::ElementNumber, t_, {describe(t_)});
     return false;
   }
   advance();
@@ -168,7 +170,7 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
   const auto* known =
       std::find_if(std::begin(kWords), std::end(kWords), [&](const Word& w) { return is(word, w.word); });
   if (known == std::end(kWords)) {
-    fail(Diag::NoElement, t_, {textOf(t_)});
+    fail(diag::NoElement, t_, {textOf(t_)});
     return;
   }
   advance();
@@ -230,7 +232,7 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
       e.text_length = text.length;
       advance();
     } else {
-      fail(Diag::NoPartOfElement, t_, {describe(t_), known->word});
+      fail(diag::NoPartOfElement, t_, {describe(t_), known->word});
     }
   }
   e.end = here();
@@ -238,7 +240,7 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
   const bool open =
       (e.kind == ElementKind::Box || e.kind == ElementKind::Jump || e.kind == ElementKind::Label) && !e.name.name;
   if (open || (needsOperand(e.kind) && !e.operand)) {
-    fail(Diag::ElementUnnamed, named - 1, {known->word, open ? "name" : "variable"});
+    fail(diag::ElementUnnamed, named - 1, {known->word, open ? "name" : "variable"});
     return;
   }
   e.pins = tree_.addList<DiagramPin>(pins);
@@ -255,8 +257,8 @@ void Parser::connectWires(const std::vector<DiagramElement>& elements, uint32_t 
   std::sort(numbers.begin(), numbers.end());
   for (size_t k = 1; k < numbers.size(); ++k) {
     if (numbers[k].first != numbers[k - 1].first) continue;
-    diagnostics_.report(Diag::ElementTwice, elements[numbers[k].second].loc, {std::to_string(numbers[k].first)})
-        .note(elements[numbers[k - 1].second].loc, Note::DeclaredHere);
+    diagnostics_.report(diag::ElementTwice, elements[numbers[k].second].loc, {std::to_string(numbers[k].first)})
+        .note(elements[numbers[k - 1].second].loc, diag::DeclaredHere);
   }
   const Slice<DiagramWire> all{first_wire, static_cast<uint32_t>(wire_numbers_.size())};
   for (uint32_t k = 0; k < all.count; ++k) {
@@ -265,7 +267,7 @@ void Parser::connectWires(const std::vector<DiagramElement>& elements, uint32_t 
     if (found != numbers.end() && found->first == wire_numbers_[k])
       wire.from = found->second;
     else
-      diagnostics_.report(Diag::WireFromNothing, wire.loc, {std::to_string(wire_numbers_[k])});
+      diagnostics_.report(diag::WireFromNothing, wire.loc, {std::to_string(wire_numbers_[k])});
   }
   wire_numbers_.clear();
 }
@@ -318,7 +320,7 @@ void Parser::parseNetworks(PouDecl& d) {
   const bool cut_off = at(Tok::End) && diagnostics_.errorCount() != errors;  // which was reported
   if (!accept(Tok::EndNetwork) && !cut_off) {
     const std::string line = std::to_string(sources_.place(loc(open)).line);
-    missing(Diag::MissingEnd, {"{end_network}", "{network}", line});
+    missing(diag::MissingEnd, {"{end_network}", "{network}", line});
   }
   if (diagnostics_.errorCount() == errors) connectWires(elements, first_wire);
   wire_numbers_.clear();

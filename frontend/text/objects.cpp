@@ -1,5 +1,6 @@
 // Objects in text: METHOD, ACTION, PROPERTY with its accessors, the modifiers of headers, NAMESPACE and USING.
 // CLASS and INTERFACE are POUs of parser.cpp.
+#include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 
 namespace rung::text {
@@ -70,7 +71,7 @@ void Parser::parseModifiers(AccessLevel& access, uint8_t& modifiers, bool before
     const Token** earlier = nullptr;
     const uint8_t modifier = modifierOf(textOf(t_));
     if ((modifiers & modifier) != 0) {
-      diagnostics_.report(Diag::WordTwice, loc(word), {textOf(word)});
+      diagnostics_.report(diag::WordTwice, loc(word), {textOf(word)});
       advance();
     } else if (modifier != 0) {
       modifiers = static_cast<uint8_t>(modifiers | modifier);
@@ -83,9 +84,9 @@ void Parser::parseModifiers(AccessLevel& access, uint8_t& modifiers, bool before
     }
     if (earlier == nullptr) continue;
     if (*earlier != nullptr && sameIdentifier(textOf(*earlier), textOf(word)))
-      diagnostics_.report(Diag::WordTwice, loc(word), {textOf(word)});
+      diagnostics_.report(diag::WordTwice, loc(word), {textOf(word)});
     else if (*earlier != nullptr)
-      diagnostics_.report(Diag::WordsContradict, loc(word), {textOf(word), textOf(*earlier)});
+      diagnostics_.report(diag::WordsContradict, loc(word), {textOf(word), textOf(*earlier)});
     *earlier = word;
   }
 }
@@ -159,7 +160,7 @@ DeclId Parser::parseProperty() {
     const bool is_set = at(Tok::Set);
     const DeclId accessor = parseAccessor(name, d);
     DeclId& slot = is_set ? d.set : d.get;
-    if (slot) diagnostics_.report(Diag::WordTwice, tree_.loc(accessor), {is_set ? "SET" : "GET"});
+    if (slot) diagnostics_.report(diag::WordTwice, tree_.loc(accessor), {is_set ? "SET" : "GET"});
     slot = accessor;
   }
   --in_property_;
@@ -167,7 +168,7 @@ DeclId Parser::parseProperty() {
     accept(Tok::Semicolon);
   } else if (standard_ != Standard::Codesys) {
     const std::string line = std::to_string(sources_.place(loc(open)).line);
-    missing(Diag::MissingEnd, {"END_PROPERTY", "PROPERTY", line});
+    missing(diag::MissingEnd, {"END_PROPERTY", "PROPERTY", line});
   }
   return tree_.add<DeclId>(d);
 }
@@ -187,7 +188,7 @@ void Parser::parseHalfProperty(std::vector<DeclId>& out) {
   (is_set ? d.set : d.get) = parseAccessorBody(accessor, name, d, is_set, Tok::EndProperty);
   if (t_[-1].kind != Tok::EndProperty && t_[-1].kind != Tok::Semicolon) {
     const std::string line = std::to_string(sources_.place(loc(open)).line);
-    missing(Diag::MissingEnd, {"END_PROPERTY", is_set ? "PROPERTY_SET" : "PROPERTY_GET", line});
+    missing(diag::MissingEnd, {"END_PROPERTY", is_set ? "PROPERTY_SET" : "PROPERTY_GET", line});
   }
   for (const DeclId known : out) {
     if (tree_.kind(known) != DeclKind::Property) continue;
@@ -265,7 +266,7 @@ DeclId Parser::parseNamespace() {
     accept(Tok::Semicolon);
   } else {
     const std::string line = std::to_string(sources_.place(loc(open)).line);
-    missing(Diag::MissingEnd, {"END_NAMESPACE", "NAMESPACE", line});
+    missing(diag::MissingEnd, {"END_NAMESPACE", "NAMESPACE", line});
   }
   return tree_.add<DeclId>(d);
 }

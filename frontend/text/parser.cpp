@@ -1,6 +1,8 @@
 // Files, POUs and configurations; tokens and error reports of the parser.
 #include "frontend/text/parser.h"
 
+#include "frontend/syntax/diagnostics.h"
+#include "frontend/text/diagnostics.h"
 #include "frontend/text/recover.h"
 
 namespace rung::text {
@@ -119,12 +121,12 @@ bool Parser::expect(Tok wanted) {
     return false;
   }
   if (atLineStart() || at(Tok::End))
-    missing(Diag::MissingToken, {spelling(wanted), describe(t_)});
+    missing(diag::MissingToken, {spelling(wanted), describe(t_)});
   else if (isOperand(kind()) || at(Tok::Minus) || at(Tok::Array) || at(Tok::Struct) || at(Tok::Colon) ||
            at(Tok::Semicolon))
-    slip(Diag::MissingToken, t_, {spelling(wanted), describe(t_)});
+    slip(diag::MissingToken, t_, {spelling(wanted), describe(t_)});
   else
-    fail(Diag::WrongWord, t_, {textOf(t_), spelling(wanted)});
+    fail(diag::WrongWord, t_, {textOf(t_), spelling(wanted)});
   return false;
 }
 
@@ -133,7 +135,7 @@ Tok Parser::nearKeyword(const Token* t, std::span<const Tok> candidates) const {
 }
 
 bool Parser::respell(Tok wanted) {
-  slip(Diag::MisspelledKeyword, t_, {textOf(t_), spelling(wanted)});
+  slip(diag::MisspelledKeyword, t_, {textOf(t_), spelling(wanted)});
   const uint32_t length = lengthOf(t_);
   t_->kind = wanted;
   if (!isName(wanted) && !isTypeWord(wanted)) t_->value = length;
@@ -143,7 +145,7 @@ bool Parser::respell(Tok wanted) {
 
 void Parser::tooDeep(const char* what, uint32_t limit) {
   const std::string number = std::to_string(limit);
-  fail(Diag::TooDeep, t_, {what, number});
+  fail(diag::TooDeep, t_, {what, number});
 }
 
 // ---- files
@@ -157,7 +159,7 @@ Slice<DeclId> Parser::parseDecls() {
 ExprId Parser::parseLoneExpression() {
   if (at(Tok::End)) return {};
   const ExprId e = parseExpr();
-  if (!panic_ && !at(Tok::End)) fail(isOperand(kind()) ? Diag::MissingOperator : Diag::StrayToken, t_, {describe(t_)});
+  if (!panic_ && !at(Tok::End)) fail(isOperand(kind()) ? diag::MissingOperator : diag::StrayToken, t_, {describe(t_)});
   return panic_ ? ExprId{} : e;
 }
 
@@ -208,7 +210,7 @@ void Parser::parseTopLevel(std::vector<DeclId>& out) {
   if (at(Tok::Error)) {
     last_error_ = t_;
   } else {
-    slip(Diag::NotAtFileLevel, t_, {describe(t_)});
+    slip(diag::NotAtFileLevel, t_, {describe(t_)});
   }
   tree_.lost_names = true;
   advance();
@@ -263,7 +265,7 @@ DeclId Parser::parsePou() {
   parseModifiers(d.access, d.modifiers, true);
   Ident name{{}, here()};
   if (atLineStart()) {
-    missing(Diag::MissingName, {describe(t_)});
+    missing(diag::MissingName, {describe(t_)});
   } else if (peek() == Tok::Colon && ((kind() >= Tok::And && kind() <= Tok::Mod) ||
                                       (isTypeWord(kind()) && pragmaNamed(d.h.pragmas, "native")))) {
     // The functional form of an operator, FUNCTION AND : ANY_BIT, and the library's FUNCTION TIME : TIME.
@@ -286,7 +288,7 @@ DeclId Parser::parsePou() {
     advance();
     d.result = parseType();
   } else if ((isTypeWord(kind()) || (isName(kind()) && word == Tok::Function)) && !atLineStart() && !atMember()) {
-    slip(Diag::MissingToken, t_, {":", describe(t_)});
+    slip(diag::MissingToken, t_, {":", describe(t_)});
     d.result = parseType();
   }
   if (panic_) {
@@ -297,7 +299,7 @@ DeclId Parser::parsePou() {
   // One token too many on the line of the header.
   if (!atLineStart() && !at(Tok::End) && (t_[1].flags & kLineStart) != 0 && !atBlockEnd() && !atSection() &&
       !atMember()) {
-    slip(Diag::StrayToken, t_, {describe(t_)});
+    slip(diag::StrayToken, t_, {describe(t_)});
     advance();
   }
   declared_in_body_ = lost_ = eno_used_ = false;
@@ -326,9 +328,9 @@ DeclId Parser::parsePou() {
     if (!atTopLevelWord() && !at(Tok::End) && !outer_ends) {
       // An END_… of something else, which block repair would have removed.
       if (d.body_kind == BodyKind::Cpp)
-        slip(Diag::BehindCpp, t_, {describe(t_)});
+        slip(diag::BehindCpp, t_, {describe(t_)});
       else
-        slip(Diag::StrayEnd, t_, {textOf(t_)});
+        slip(diag::StrayEnd, t_, {textOf(t_)});
       advance();
       if (d.pou_kind != PouKind::Method && d.pou_kind != PouKind::Action) {  // its rest is no text of the file's level
         while (!at(end) && !at(Tok::End) && (atMember() || !atTopLevelWord())) advance();
@@ -336,7 +338,7 @@ DeclId Parser::parsePou() {
       }
     } else if (standard_ != Standard::Codesys) {
       const std::string line = std::to_string(sources_.place(loc(open)).line);
-      missing(Diag::MissingEnd, {spelling(end), spelling(word), line});
+      missing(diag::MissingEnd, {spelling(end), spelling(word), line});
     }
   }
   return tree_.add<DeclId>(d);
@@ -407,7 +409,7 @@ DeclId Parser::parseConfiguration() {
     accept(Tok::Semicolon);
   } else {
     const std::string line = std::to_string(sources_.place(loc(open)).line);
-    missing(Diag::MissingEnd, {"END_CONFIGURATION", "CONFIGURATION", line});
+    missing(diag::MissingEnd, {"END_CONFIGURATION", "CONFIGURATION", line});
   }
   d.members = listFrom(decls_, first);
   return tree_.add<DeclId>(d);
@@ -436,7 +438,7 @@ void Parser::parseMembers(Tok end, std::vector<DeclId>& out) {
           continue;
         }
       }
-      slip(Diag::NotInConfiguration, t_, {describe(t_)});
+      slip(diag::NotInConfiguration, t_, {describe(t_)});
       do advance();
       while (!at(Tok::End) && !atLineStart() && !at(Tok::Semicolon));
       continue;
@@ -461,13 +463,13 @@ DeclId Parser::parseResource() {
   }
   if (!panic_ && !accept(Tok::On)) {
     if (isName(kind()) && !atLineStart())
-      slip(Diag::MissingToken, t_, {"ON", describe(t_)});
+      slip(diag::MissingToken, t_, {"ON", describe(t_)});
     else
-      missing(Diag::MissingToken, {"ON", describe(t_)}), panic_ = true;
+      missing(diag::MissingToken, {"ON", describe(t_)}), panic_ = true;
   }
   if (!panic_) {
     if (atLineStart())
-      missing(Diag::MissingName, {describe(t_)});
+      missing(diag::MissingName, {describe(t_)});
     else if (parseName(target))
       d.target = target.name;
   }
@@ -481,7 +483,7 @@ DeclId Parser::parseResource() {
     accept(Tok::Semicolon);
   } else {
     const std::string line = std::to_string(sources_.place(loc(open)).line);
-    missing(Diag::MissingEnd, {"END_RESOURCE", "RESOURCE", line});
+    missing(diag::MissingEnd, {"END_RESOURCE", "RESOURCE", line});
   }
   d.members = listFrom(decls_, first);
   return tree_.add<DeclId>(d);
@@ -501,7 +503,7 @@ DeclId Parser::parseTask() {
     if (at(Tok::LeftParen))
       d.settings = parseArguments(end);
     else if (!at(Tok::Semicolon))
-      fail(Diag::MissingToken, t_, {"(", describe(t_)});
+      fail(diag::MissingToken, t_, {"(", describe(t_)});
   }
   endStatement(nullptr);
   return tree_.add<DeclId>(d);
@@ -523,7 +525,7 @@ DeclId Parser::parseProgramInstance() {
     if (accept(Tok::With)) {
       parseName(d.task);
     } else if (isName(kind()) && peek() == Tok::Colon && !atLineStart()) {
-      if (isName(peek(2))) slip(Diag::MissingToken, t_, {"WITH", describe(t_)});
+      if (isName(peek(2))) slip(diag::MissingToken, t_, {"WITH", describe(t_)});
       parseName(d.task);
     }
     if (!panic_) expect(Tok::Colon);

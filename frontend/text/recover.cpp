@@ -4,6 +4,8 @@
 #include <array>
 #include <string>
 
+#include "frontend/text/diagnostics.h"
+
 namespace rung::text {
 namespace {
 
@@ -362,7 +364,7 @@ void Balancer::visit(uint32_t i) {
     if (i > region_first_ && tokens_[i - 1].kind == Tok::EndSlip && !atLineStart(i)) {
       const std::string written = std::string(textOf(i - 1)) + " " + std::string(textOf(i));
       const Tok closer = closerOf(k);
-      diagnostics_.report(Diag::MisspelledKeyword, loc(i - 1), {written, spelling(closer)})
+      diagnostics_.report(diag::MisspelledKeyword, loc(i - 1), {written, spelling(closer)})
           .length(static_cast<uint32_t>(written.size()));
       markReported(i);
       edit(i - 1, EditKind::Remove, Tok::End);
@@ -370,7 +372,7 @@ void Balancer::visit(uint32_t i) {
       return close(i, closer);
     }
     if (i > region_first_ && tokens_[i - 1].kind == k && !atLineStart(i)) {
-      diagnostics_.report(Diag::WordTwice, loc(i), {textOf(i)});
+      diagnostics_.report(diag::WordTwice, loc(i), {textOf(i)});
       markReported(i);
       edit(i, EditKind::Remove, Tok::End);
       return;
@@ -393,7 +395,7 @@ void Balancer::visit(uint32_t i) {
           const Tok wanted[] = {closerOf(stack_.back().kind)};
           if (nearestKeyword(word, wanted) != Tok::End) meant = wanted[0];
         }
-        diagnostics_.report(Diag::MisspelledKeyword, loc(i), {word, spelling(meant)})
+        diagnostics_.report(diag::MisspelledKeyword, loc(i), {word, spelling(meant)})
             .length(static_cast<uint32_t>(word.size()));
         markReported(i);
         edit(i, EditKind::Respell, meant);
@@ -437,7 +439,7 @@ void Balancer::close(uint32_t i, Tok closer) {
   // END_IF END_IF
   if (i > region_first_ && tokens_[i - 1].kind == closer && !line_start &&
       (stack_.empty() || stack_.back().column < line_column_ || isPouOpener(stack_.back().kind))) {
-    diagnostics_.report(Diag::WordTwice, loc(i), {textOf(i)});
+    diagnostics_.report(diag::WordTwice, loc(i), {textOf(i)});
     markReported(i);
     edit(i, EditKind::Remove, Tok::End);
     return;
@@ -479,12 +481,12 @@ void Balancer::close(uint32_t i, Tok closer) {
       const bool function_without_result = top.kind == Tok::Function && tokens_[top.index + 2].kind != Tok::Colon;
       if ((isStatementOpener(top.kind) && !belongs(top.connective, top.kind) && belongs(top.connective, openers[0])) ||
           (function_without_result && isPouCloser(closer))) {
-        diagnostics_.report(Diag::WrongWord, loc(top.index), {textOf(top.index), spelling(openers[0])});
+        diagnostics_.report(diag::WrongWord, loc(top.index), {textOf(top.index), spelling(openers[0])});
         markReported(top.index);
         edit(top.index, EditKind::Respell, openers[0]);
       } else {
         const Tok right = closerOf(top.kind);
-        diagnostics_.report(Diag::WrongEnd, loc(i), {textOf(i), spelling(top.kind), lineOf(top), spelling(right)});
+        diagnostics_.report(diag::WrongEnd, loc(i), {textOf(i), spelling(top.kind), lineOf(top), spelling(right)});
         markReported(i);
         edit(i, EditKind::Respell, right);
       }
@@ -531,7 +533,7 @@ void Balancer::leaveOpen(const Open& open, uint32_t forced) {
   if (open.chain_child != 0) {
     const uint32_t child = open.chain_child;
     const std::string written = std::string(textOf(child - 1)) + " " + std::string(textOf(child));
-    diagnostics_.report(Diag::ElseIf, loc(child - 1), {written})
+    diagnostics_.report(diag::ElseIf, loc(child - 1), {written})
         .length(tokens_[child].offset + 2 - tokens_[child - 1].offset);
     markReported(child);
     edit(child - 1, EditKind::Remove, Tok::End);
@@ -542,7 +544,7 @@ void Balancer::leaveOpen(const Open& open, uint32_t forced) {
   const uint32_t at = open.suspect != 0 && open.suspect < forced ? open.suspect : forced;
   uint32_t length = 1;
   const Loc place = gapBefore(at, length);
-  diagnostics_.report(Diag::MissingEnd, place, {spelling(closer), textOf(open.index), lineOf(open)}).length(length);
+  diagnostics_.report(diag::MissingEnd, place, {spelling(closer), textOf(open.index), lineOf(open)}).length(length);
   markReported(at);
   if (at == count_ && at > 0) markReported(at - 1);
   edit(at, EditKind::Insert, closer);
@@ -570,7 +572,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
   Tok meant = Tok::End;
   if (const uint32_t found = findOpener(i, closer, meant); found != 0) {
     const uint32_t k = found - 1;
-    diagnostics_.report(Diag::MisspelledKeyword, loc(k), {textOf(k), spelling(meant)})
+    diagnostics_.report(diag::MisspelledKeyword, loc(k), {textOf(k), spelling(meant)})
         .length(static_cast<uint32_t>(textOf(k).size()));
     markReported(k);
     edit(k, EditKind::Respell, meant);
@@ -592,13 +594,13 @@ void Balancer::stray(uint32_t i, Tok closer) {
       if (!atLineStart(at + 1) &&
           (isName(next) || next == Tok::Not || next == Tok::Number ||
            (!isName(tokens_[at].kind) && tokens_[at].kind != Tok::LeftParen && next == Tok::LeftParen))) {
-        diagnostics_.report(Diag::WrongWord, loc(at), {textOf(at), spelling(openers[0])})
+        diagnostics_.report(diag::WrongWord, loc(at), {textOf(at), spelling(openers[0])})
             .length(static_cast<uint32_t>(textOf(at).size()));
         markReported(at);
         edit(at, EditKind::Respell, openers[0]);
         return;
       }
-      diagnostics_.report(Diag::MissingOpener, loc(at), {spelling(openers[0]), describe(at)})
+      diagnostics_.report(diag::MissingOpener, loc(at), {spelling(openers[0]), describe(at)})
           .length(static_cast<uint32_t>(textOf(at).size()));
       markReported(at);
       edit(at, EditKind::Insert, openers[0]);
@@ -624,7 +626,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
     }
     if (at != 0) {
       if (closer == Tok::EndStruct || closer == Tok::EndUnion) {
-        diagnostics_.report(Diag::MissingOpener, {loc(at - 1).offset + 1}, {spelling(openers[0]), describe(at)})
+        diagnostics_.report(diag::MissingOpener, {loc(at - 1).offset + 1}, {spelling(openers[0]), describe(at)})
             .length(1);
         markReported(at - 1);
         edit(at, EditKind::Insert, openers[0]);
@@ -647,7 +649,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
        (isName(tokens_[decl_start_ + 1].kind) &&
         (tokens_[decl_start_ + 2].kind == Tok::Colon || tokens_[decl_start_ + 2].kind == Tok::Comma ||
          tokens_[decl_start_ + 2].kind == Tok::At)))) {
-    diagnostics_.report(Diag::WrongWord, loc(decl_start_), {textOf(decl_start_), "VAR"})
+    diagnostics_.report(diag::WrongWord, loc(decl_start_), {textOf(decl_start_), "VAR"})
         .length(static_cast<uint32_t>(textOf(decl_start_).size()));
     markReported(decl_start_);
     edit(decl_start_, EditKind::Respell, Tok::Var);
@@ -660,7 +662,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
       outside_start_ < i) {
     const uint32_t at = outside_start_;
     if (!isName(tokens_[at].kind) && !opens(at) && (isName(tokens_[at + 1].kind) || atLineStart(at + 1))) {
-      diagnostics_.report(Diag::WrongWord, loc(at), {textOf(at), spelling(openers[0])})
+      diagnostics_.report(diag::WrongWord, loc(at), {textOf(at), spelling(openers[0])})
           .length(static_cast<uint32_t>(textOf(at).size()));
       markReported(at);
       edit(at, EditKind::Respell, openers[0]);
@@ -675,7 +677,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
     decl_start_ = i + 1;
     return;
   }
-  diagnostics_.report(Diag::StrayEnd, loc(i), {textOf(i)});
+  diagnostics_.report(diag::StrayEnd, loc(i), {textOf(i)});
   markReported(i);
   edit(i, EditKind::Remove, Tok::End);
 }
@@ -685,7 +687,7 @@ void Balancer::missingOpener(uint32_t at, Tok word) {
   // What has its name beside it is missing on this line, the others on the blank line above.
   const Loc place =
       isPouOpener(word) || word == Tok::Configuration || word == Tok::Resource ? loc(at) : gapBefore(at, length);
-  diagnostics_.report(Diag::MissingOpener, place, {spelling(word), describe(at)}).length(length);
+  diagnostics_.report(diag::MissingOpener, place, {spelling(word), describe(at)}).length(length);
   markReported(at);
   edit(at, EditKind::Insert, word);
 }
@@ -718,7 +720,7 @@ bool Balancer::insideExpression(uint32_t i) const {
 
 // Makes the token an error that has been said.
 void Balancer::spoil(uint32_t i) {
-  diagnostics_.report(Diag::MissingValue, loc(i), {describe(i)}).length(static_cast<uint32_t>(textOf(i).size()));
+  diagnostics_.report(diag::MissingValue, loc(i), {describe(i)}).length(static_cast<uint32_t>(textOf(i).size()));
   markReported(i);
   edit(i, EditKind::Respell, Tok::Error);
 }

@@ -4,6 +4,7 @@
 //   END_STEP transition = TRANSITION [name] [place] ["(" PRIORITY ":=" n ")"] [FROM steps TO steps] condition
 //   END_TRANSITION place      = AT x "," y ["," width "," height]
 // The hidden part of a transition with a body, or whose condition several transitions use, is an action of its own.
+#include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 
 namespace rung::text {
@@ -69,7 +70,7 @@ void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members, std::vector<SfcT
   d.body_begin = here();
   d.body_kind = BodyKind::Sfc;
   if (d.pou_kind == PouKind::Function || d.pou_kind == PouKind::Class) {
-    slip(Diag::SfcInFunction, t_, {d.pou_kind == PouKind::Function ? "a function" : "a class"});
+    slip(diag::SfcInFunction, t_, {d.pou_kind == PouKind::Function ? "a function" : "a class"});
     d.body_kind = BodyKind::None;
   }
   std::vector<SfcStep> steps;
@@ -91,19 +92,19 @@ void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members, std::vector<SfcT
       advance();
       closeMacro(macros, open, steps);
     } else if (at(Tok::EndStep) || at(Tok::EndTransition) || atMacroEnd()) {
-      slip(Diag::StrayEnd, t_, {textOf(t_)});
+      slip(diag::StrayEnd, t_, {textOf(t_)});
       advance();
     } else if (atBlockEnd()) {
       break;
     } else {
-      slip(Diag::SfcNotInChart, t_, {describe(t_)});
+      slip(diag::SfcNotInChart, t_, {describe(t_)});
       do advance();
       while (!atSfc() && !atMember() && !atBlockEnd() && !atMacroEnd());
     }
   }
   if (!open.empty()) {
     const std::string line = std::to_string(sources_.place(loc(macros[open.back()].open)).line);
-    missing(Diag::MissingEnd, {"END_MACRO_STEP", "MACRO_STEP", line});
+    missing(diag::MissingEnd, {"END_MACRO_STEP", "MACRO_STEP", line});
   } else if (diagnostics_.errorCount() == errors) {
     inlineMacros(macros, steps, transitions);
   }
@@ -149,7 +150,7 @@ void Parser::parseStep(std::vector<SfcStep>& out) {
   if (panic_) syncChart(Tok::EndStep);
   if (!accept(Tok::EndStep)) {
     const std::string line = std::to_string(sources_.place(loc(open)).line);
-    missing(Diag::MissingEnd, {"END_STEP", textOf(open), line});
+    missing(diag::MissingEnd, {"END_STEP", textOf(open), line});
   }
   if (!step.name.name) return;
   step.actions = tree_.addList<SfcAssociation>(actions);
@@ -171,7 +172,7 @@ void Parser::parseStepTimes(SfcStep& step) {
   do {
     const bool least = is(t_, "TMIN");
     if (!least && !is(t_, "TMAX")) {
-      fail(Diag::WrongWord, t_, {textOf(t_), "TMIN` or `TMAX"});
+      fail(diag::WrongWord, t_, {textOf(t_), "TMIN` or `TMAX"});
       return;
     }
     advance();
@@ -204,7 +205,7 @@ bool Parser::parseAssociation(std::vector<SfcAssociation>& out) {
         if (is(t_, row.word)) found = &row;
       a.loc = here();
       if (found == nullptr) {
-        slip(Diag::SfcQualifier, t_, {textOf(t_)});
+        slip(diag::SfcQualifier, t_, {textOf(t_)});
       } else {
         a.qualifier = found->qualifier;
         a.word = nameOf(t_);
@@ -215,12 +216,12 @@ bool Parser::parseAssociation(std::vector<SfcAssociation>& out) {
           a.time = parseSfcExpr();
           timed = true;
         } else {
-          diagnostics_.report(Diag::SfcTimeMissing, a.loc, {found->word, textOf(first)});
+          diagnostics_.report(diag::SfcTimeMissing, a.loc, {found->word, textOf(first)});
         }
       }
       while (!panic_ && accept(Tok::Comma)) {  // variables that show what became of the action: they do nothing
         if (found != nullptr && !timed && !isName(kind())) {
-          slip(Diag::SfcTimeSurplus, t_, {found->word});
+          slip(diag::SfcTimeSurplus, t_, {found->word});
           parseExpr();
           continue;
         }
@@ -237,7 +238,7 @@ bool Parser::parseAssociation(std::vector<SfcAssociation>& out) {
   if (panic_) return false;
   a.indicators = tree_.addList<Ident>(indicators);
   out.push_back(a);
-  if (!accept(Tok::Semicolon)) missing(Diag::MissingSemicolon, {describe(t_ - 1)});
+  if (!accept(Tok::Semicolon)) missing(diag::MissingSemicolon, {describe(t_ - 1)});
   return true;
 }
 
@@ -251,7 +252,7 @@ bool Parser::parseSteps(Slice<Ident>& out) {
     steps.push_back(step);
   } while (several && accept(Tok::Comma));
   if (several && !accept(Tok::RightParen)) {
-    fail(Diag::WrongWord, t_, {textOf(t_), ")"});
+    fail(diag::WrongWord, t_, {textOf(t_), ")"});
     return false;
   }
   out = tree_.addList<Ident>(steps);
@@ -279,7 +280,7 @@ bool Parser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId
       t.has_priority = true;
       expect(Tok::RightParen);
     } else {
-      fail(Diag::WrongWord, t_, {textOf(t_), "a number"});
+      fail(diag::WrongWord, t_, {textOf(t_), "a number"});
     }
   }
   if (!panic_ && isName(kind()) && is(t_, "FROM")) {
@@ -288,18 +289,18 @@ bool Parser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId
       if (is(t_, "TO"))
         advance();
       else
-        fail(Diag::WrongWord, t_, {textOf(t_), "TO"});
+        fail(diag::WrongWord, t_, {textOf(t_), "TO"});
       if (!panic_) parseSteps(t.to);
     }
   } else if (!panic_ && !at(Tok::Assign) && !at(Tok::Colon) && !at(Tok::Semicolon) && !at(Tok::EndTransition)) {
-    fail(Diag::WrongWord, t_, {textOf(t_), "FROM"});
+    fail(diag::WrongWord, t_, {textOf(t_), "FROM"});
   }
   if (!panic_) parseCondition(t, members);
   const bool good = !panic_;
   if (panic_) syncChart(Tok::EndTransition);
   if (!accept(Tok::EndTransition)) {
     const std::string line = std::to_string(sources_.place(loc(open)).line);
-    missing(Diag::MissingEnd, {"END_TRANSITION", "TRANSITION", line});
+    missing(diag::MissingEnd, {"END_TRANSITION", "TRANSITION", line});
   }
   t.end = endOf(t_ - 1);
   if (good) out.push_back(t);
@@ -324,7 +325,7 @@ void Parser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
   if (accept(Tok::Assign)) {
     t.condition = parseSfcExpr();
     if (panic_) return;
-    if (!accept(Tok::Semicolon)) missing(Diag::MissingSemicolon, {describe(t_ - 1)});
+    if (!accept(Tok::Semicolon)) missing(diag::MissingSemicolon, {describe(t_ - 1)});
     if (!t.from.empty()) return;
     AssignStmt assign{header(StmtKind::Assign, t.condition.begin, static_cast<uint8_t>(AssignOp::Assign)), {}, {}};
     assign.target = target();
@@ -360,14 +361,14 @@ void Parser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
         list.push_back(store);
       d.il = tree_.addList<IlInstruction>(list);
     } else if (d.body_kind == BodyKind::St && (!t.name.name || d.body.empty())) {
-      slip(Diag::SfcNoCondition, first);
+      slip(diag::SfcNoCondition, first);
       panic_ = true;
       return;
     }
   } else {
     accept(Tok::Semicolon);
     if (!t.name.name || t.from.empty()) {
-      diagnostics_.report(Diag::SfcNoCondition, t.loc);
+      diagnostics_.report(diag::SfcNoCondition, t.loc);
       panic_ = true;
     }
     return;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "frontend/syntax/diagnostics.h"
+#include "frontend/text/diagnostics.h"
 #include "frontend/text/sfc_schedule.h"
 
 namespace rung::text {
@@ -96,12 +98,12 @@ void Checker::checkInitial() {
       first = i;
       continue;
     }
-    report(Diag::SfcSeveralInitial, steps_[i].name.loc, {text(steps_[i].name.name)})
-        .note(steps_[first].name.loc, Note::AlsoDeclaredHere);
+    report(diag::SfcSeveralInitial, steps_[i].name.loc, {text(steps_[i].name.name)})
+        .note(steps_[first].name.loc, diag::AlsoDeclaredHere);
     return;
   }
   if (!any)
-    report(Diag::SfcNoInitial, steps_.empty() ? pou_.body_begin : steps_[0].name.loc,
+    report(diag::SfcNoInitial, steps_.empty() ? pou_.body_begin : steps_[0].name.loc,
            {text(pou_.name), steps_.empty() ? "Start" : text(steps_[0].name.name)});
 }
 
@@ -112,7 +114,7 @@ void Checker::checkSteps(Slice<Ident> list) {
     if (index_.of(step.name) < steps_.size()) continue;
     std::vector<std::string_view> candidates;
     for (const SfcStep& known : steps_) candidates.push_back(text(known.name.name));
-    report(Diag::SfcUnknownStep, step.loc, {text(step.name)}).didYouMean(nearest(text(step.name), candidates));
+    report(diag::SfcUnknownStep, step.loc, {text(step.name)}).didYouMean(nearest(text(step.name), candidates));
   }
 }
 
@@ -130,7 +132,7 @@ void Checker::checkActions() {
         for (const DeclId member : charts_.tree.list(pou->members))
           if (charts_.tree.kind(member) == DeclKind::Pou)
             candidates.push_back(text(charts_.tree.as<PouDecl>(member).name));
-      report(Diag::SfcUnknownAction, a.action.loc, {text(a.action.name)})
+      report(diag::SfcUnknownAction, a.action.loc, {text(a.action.name)})
           .didYouMean(nearest(text(a.action.name), candidates));
     }
   }
@@ -189,7 +191,7 @@ bool Checker::unite(const SfcTransition& t, Region& region) {
       for (const uint32_t a : own) {
         for (const uint32_t b : regions_[index_.of(from[k].name)]) {
           if (concurrent(a, b)) continue;
-          report(Diag::SfcNeverTogether, from[i].loc, {text(from[k].name), text(from[i].name)});
+          report(diag::SfcNeverTogether, from[i].loc, {text(from[k].name), text(from[i].name)});
           return false;
         }
       }
@@ -208,7 +210,7 @@ bool Checker::enter(const Ident& step, const Region& region) {
   Region& own = regions_[index_.of(step.name)];
   if (own.empty()) own = region;
   if (own == region) return true;
-  report(Diag::SfcBranchCrossed, step.loc, {text(step.name)});
+  report(diag::SfcBranchCrossed, step.loc, {text(step.name)});
   return false;
 }
 
@@ -275,7 +277,7 @@ void Checker::checkRegions() {
   if (charts_.diagnostics.hasErrors()) return;  // ways may have been lost
   for (size_t i = 0; i < steps_.size(); ++i)
     if (regions_[i].empty())
-      charts_.diagnostics.report(Diag::SfcUnreachable, steps_[i].name.loc, {text(steps_[i].name.name)});
+      charts_.diagnostics.report(diag::SfcUnreachable, steps_[i].name.loc, {text(steps_[i].name.name)});
 }
 
 bool Checker::run() {
@@ -287,7 +289,7 @@ bool Checker::run() {
     // Forbids a transition to the step that it leaves, in codesys. TM/TP manual 5.5.2.4.
     if (charts_.standard == Standard::Codesys && from.size() == 1 && to.size() == 1 &&
         charts_.names.same(from[0].name, to[0].name))
-      charts_.diagnostics.report(Diag::SfcSameStep, to[0].loc, {text(to[0].name)});
+      charts_.diagnostics.report(diag::SfcSameStep, to[0].loc, {text(to[0].name)});
   }
   checkActions();
   if (good_) checkRegions();

@@ -4,6 +4,8 @@
 // are its first and its last step in the text. TM/TP manual 5.5.2.5.
 #include <unordered_map>
 
+#include "frontend/syntax/diagnostics.h"
+#include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 
 namespace rung::text {
@@ -19,7 +21,7 @@ void Parser::openMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& ope
     do {
       const bool entry = is(t_, "ENTRY");
       if (!entry && !is(t_, "EXIT")) {
-        fail(Diag::WrongWord, t_, {textOf(t_), "ENTRY` or `EXIT"});
+        fail(diag::WrongWord, t_, {textOf(t_), "ENTRY` or `EXIT"});
         break;
       }
       advance();
@@ -45,7 +47,7 @@ void Parser::closeMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& op
   macro.end_step = static_cast<uint32_t>(steps.size());
   if (macro.first_step == macro.end_step) {
     if (macro.name.name && diagnostics_.errorCount() == macro.errors)
-      diagnostics_.report(Diag::MacroEmpty, macro.name.loc, {names_.text(macro.name.name)});
+      diagnostics_.report(diag::MacroEmpty, macro.name.loc, {names_.text(macro.name.name)});
     return;
   }
   // A macro inside has its own entry and exit; of two that begin together the outer one stands first.
@@ -61,7 +63,7 @@ void Parser::closeMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& op
     if (found) continue;
     std::vector<std::string_view> candidates;
     for (const SfcStep& step : steps.subspan(macro.first_step)) candidates.push_back(names_.text(step.name.name));
-    diagnostics_.report(Diag::MacroStepUnknown, end->loc, {names_.text(end->name), names_.text(macro.name.name)})
+    diagnostics_.report(diag::MacroStepUnknown, end->loc, {names_.text(end->name), names_.text(macro.name.name)})
         .didYouMean(nearest(names_.text(end->name), candidates));
     *end = {};
   }
@@ -87,7 +89,7 @@ void Parser::inlineMacros(std::span<const SfcMacro> macros, std::span<const SfcS
     return found == by_name.end() ? nullptr : found->second;
   };
   const auto reportTwice = [&](const Ident& name, Loc first) {
-    diagnostics_.report(Diag::DeclaredTwice, name.loc, {names_.text(name.name)}).note(first, Note::AlsoDeclaredHere);
+    diagnostics_.report(diag::DeclaredTwice, name.loc, {names_.text(name.name)}).note(first, diag::AlsoDeclaredHere);
   };
   for (const SfcMacro& macro : macros) {
     if (const SfcMacro* first = find(macro.name.name)) return reportTwice(macro.name, first->name.loc);

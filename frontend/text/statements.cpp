@@ -1,4 +1,6 @@
 // Statements, and the places where the parser finds its feet again behind a mistake.
+#include "frontend/syntax/diagnostics.h"
+#include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 #include "frontend/text/recover.h"
 
@@ -108,9 +110,9 @@ void Parser::parseStatement() {
         s.label = ident(t_);
         advance();
       } else if (atLineStart()) {
-        fail(Diag::MissingName, first, {describe(t_)});
+        fail(diag::MissingName, first, {describe(t_)});
       } else {
-        fail(Diag::MissingName, t_, {describe(t_)});
+        fail(diag::MissingName, t_, {describe(t_)});
       }
       stmts_.push_back(tree_.add<StmtId>(s));
       return endStatement(first);
@@ -127,7 +129,7 @@ void Parser::parseStatement() {
   if (chartInSt() || instructionInSt()) return;
   if (isName(kind()) || (isTypeWord(kind()) && peek() == Tok::LeftParen)) return parseExprStatement();
   if (atSection()) {
-    if (!declared_in_body_) slip(Diag::DeclarationInBody, t_);
+    if (!declared_in_body_) slip(diag::DeclarationInBody, t_);
     declared_in_body_ = true;
     parseSection();
     return;
@@ -137,13 +139,13 @@ void Parser::parseStatement() {
     panic_ = true;
   } else if (at(Tok::Else) || at(Tok::Elsif) || at(Tok::Until) || at(Tok::Then) || at(Tok::Do) || at(Tok::Of)) {
     const Tok word = kind();
-    slip(Diag::StrayEnd, t_, {textOf(t_)});
+    slip(diag::StrayEnd, t_, {textOf(t_)});
     advance();
     // A lone ELSIF keeps its branch; its condition is read and dropped.
     if (word == Tok::Elsif) parseHeader(Tok::Then);
     return;
   } else {
-    fail(Diag::NotAStatement, t_, {describe(t_)});
+    fail(diag::NotAStatement, t_, {describe(t_)});
   }
   stmts_.push_back(tree_.add<StmtId>(ErrorStmt{header(StmtKind::Error, start)}));
   advance();
@@ -153,7 +155,7 @@ void Parser::parseStatement() {
 // Steps among the statements of a body that began in ST: one error for all of them.
 bool Parser::chartInSt() {
   if (!atSfc()) return false;
-  slip(Diag::SfcNotInChart, t_, {describe(t_)});
+  slip(diag::SfcNotInChart, t_, {describe(t_)});
   while (!at(Tok::End) && kind() != pou_end_ && !atTopLevelWord()) advance();
   return true;
 }
@@ -170,7 +172,7 @@ void Parser::parseExprStatement() {
       // `a : = 5`
     } else if (isTypeWord(third) || third == Tok::Array || third == Tok::Struct ||
                (isName(third) && peek(3) == Tok::Semicolon && (t_[2].flags & kLineStart) == 0)) {
-      if (!declared_in_body_) fail(Diag::DeclarationInBody, t_);
+      if (!declared_in_body_) fail(diag::DeclarationInBody, t_);
       declared_in_body_ = true;
       stmts_.push_back(tree_.add<StmtId>(ErrorStmt{header(StmtKind::Error, here())}));
       advance();
@@ -213,16 +215,16 @@ void Parser::parseExprStatement() {
         break;
       case static_cast<int>(Tok::Equal):
       case static_cast<int>(Tok::EqualEqual):
-        slip(Diag::AssignWithEqual, t_, {spelling(kind())});
+        slip(diag::AssignWithEqual, t_, {spelling(kind())});
         advance();
         break;
       case static_cast<int>(Tok::Arrow):
-        slip(Diag::ForeignOperator, t_, {"=>", ":="});
+        slip(diag::ForeignOperator, t_, {"=>", ":="});
         advance();
         break;
       case static_cast<int>(Tok::Colon):
         if (peek() == Tok::Equal) {
-          slip(Diag::ForeignOperator, t_, {": =", ":="});
+          slip(diag::ForeignOperator, t_, {": =", ":="});
           advance();
           advance();
         } else {
@@ -277,23 +279,23 @@ void Parser::parseExprStatement() {
   const bool ends = at(Tok::Semicolon) || atLineStart() || atBlockEnd() || startsStatement(t_);
   if (ends) {
     const std::string shown(text_.substr(first->offset, (t_ - 1)->offset + lengthOf(t_ - 1) - first->offset));
-    slip(Diag::NoEffect, first, {shown.size() > 60 ? textOf(first) : std::string_view(shown)});
+    slip(diag::NoEffect, first, {shown.size() > 60 ? textOf(first) : std::string_view(shown)});
     if (at(Tok::Semicolon)) advance();
     return;
   }
   if (isOperand(kind()) && !at(Tok::LeftParen))
-    fail(Diag::MissingToken, t_, {":=", describe(t_)});
+    fail(diag::MissingToken, t_, {":=", describe(t_)});
   else if (at(Tok::RightParen) || at(Tok::RightBracket))
-    fail(Diag::StrayParen, t_, {textOf(t_)});
+    fail(diag::StrayParen, t_, {textOf(t_)});
   else
-    fail(Diag::StrayToken, t_, {describe(t_)});
+    fail(diag::StrayToken, t_, {describe(t_)});
   syncStatement();
 }
 
 // a := b := c is c to b, then b to a. Targets are read once more from their tokens, since each use is a node of its
 // own.
 void Parser::parseChain(ExprId target, ExprId value, Token* value_start, const Token* op) {
-  if (standard_ != Standard::Codesys) slip(Diag::ChainedAssign, t_);
+  if (standard_ != Standard::Codesys) slip(diag::ChainedAssign, t_);
   struct Link {
     ExprId target;
     Token* start;  // where its text as a value begins
@@ -303,13 +305,13 @@ void Parser::parseChain(ExprId target, ExprId value, Token* value_start, const T
   while (at(Tok::Assign) && !panic_) {
     const ExprKind k = tree_.kind(value);
     if (k == ExprKind::Literal || k == ExprKind::Binary || k == ExprKind::Unary || k == ExprKind::Call) {
-      fail(Diag::CompareWithAssign, t_);
+      fail(diag::CompareWithAssign, t_);
       break;
     }
     // Read twice, as a target and as a value: a call in it would run twice.
     for (const Token* t = value_start; t < t_; ++t)
       if (t->kind == Tok::LeftParen && (isName(t[-1].kind) || isTypeWord(t[-1].kind))) {
-        slip(Diag::ChainedCall, t - 1);
+        slip(diag::ChainedCall, t - 1);
         break;
       }
     links.push_back({value, value_start, here()});
@@ -353,7 +355,7 @@ void Parser::endStatement(const Token*) {
   }
   if (panic_) return syncStatement();
   if (at(Tok::RightParen) || at(Tok::RightBracket)) {
-    fail(Diag::StrayParen, t_, {textOf(t_)});
+    fail(diag::StrayParen, t_, {textOf(t_)});
     advance();
     if (accept(Tok::Semicolon)) {
       panic_ = false;
@@ -361,14 +363,14 @@ void Parser::endStatement(const Token*) {
     }
   } else if (atLineStart() || atBlockEnd() || startsStatement(t_) || at(Tok::Else) || at(Tok::Elsif) ||
              at(Tok::Until) || atSection()) {
-    missing(Diag::MissingSemicolon, {describe(t_ - 1)});
+    missing(diag::MissingSemicolon, {describe(t_ - 1)});
     return;
   } else if (isOperand(kind())) {
-    fail(Diag::MissingOperator, t_, {describe(t_)});
+    fail(diag::MissingOperator, t_, {describe(t_)});
   } else if (at(Tok::Error)) {
     last_error_ = t_;
   } else {
-    fail(Diag::StrayToken, t_, {describe(t_)});
+    fail(diag::StrayToken, t_, {describe(t_)});
   }
   syncStatement();
 }
@@ -419,7 +421,7 @@ void Parser::finishHeader(Tok connective) {
     if (accept(connective)) return;
     const Tok candidates[] = {connective};
     if (at(Tok::Then) || at(Tok::Do) || at(Tok::Of)) {
-      slip(Diag::WrongWord, t_, {textOf(t_), spelling(connective)});
+      slip(diag::WrongWord, t_, {textOf(t_), spelling(connective)});
       advance();
       return;
     }
@@ -430,11 +432,11 @@ void Parser::finishHeader(Tok connective) {
       return;
     }
     if ((t_->flags & kPragma) != 0 && (t_ - 1)->kind != Tok::Semicolon) {
-      missing(Diag::PragmaForBlock, {spelling(connective)});
+      missing(diag::PragmaForBlock, {spelling(connective)});
       return;
     }
     if (atLineStart() || at(Tok::Semicolon) || atBlockEnd() || startsStatement(t_) || atSection() || at(Tok::Else)) {
-      missing(Diag::MissingToken, {spelling(connective), describe(t_)});
+      missing(diag::MissingToken, {spelling(connective), describe(t_)});
       if (at(Tok::Semicolon) && (t_[1].flags & kLineStart) != 0) advance();
       return;
     }
@@ -446,20 +448,20 @@ void Parser::finishHeader(Tok connective) {
     ++t;
   if (t->kind == connective) {
     if (at(Tok::RightParen) || at(Tok::RightBracket))
-      fail(Diag::StrayParen, t_, {textOf(t_)});
+      fail(diag::StrayParen, t_, {textOf(t_)});
     else if (isOperand(kind()))
-      fail(Diag::MissingOperator, t_, {describe(t_)});
+      fail(diag::MissingOperator, t_, {describe(t_)});
     else
-      fail(Diag::WrongWord, t_, {textOf(t_), spelling(connective)});
+      fail(diag::WrongWord, t_, {textOf(t_), spelling(connective)});
     t_ = const_cast<Token*>(t) + 1;
     panic_ = false;
     return;
   }
   if (!panic_) {
     if (at(Tok::RightParen) || at(Tok::RightBracket))
-      fail(Diag::StrayParen, t_, {textOf(t_)});
+      fail(diag::StrayParen, t_, {textOf(t_)});
     else
-      slip(Diag::MissingToken, t_, {spelling(connective), describe(t_)});
+      slip(diag::MissingToken, t_, {spelling(connective), describe(t_)});
   }
   while (!atBlockEnd() && !at(Tok::Semicolon) && !atLineStart() && !isStatementWord(kind()) && !startsStatement(t_) &&
          !at(Tok::Else))
@@ -495,7 +497,7 @@ void Parser::closeBlock(const Token* open, Tok end) {
     return;
   }
   const std::string line = std::to_string(sources_.place(loc(open)).line);
-  missing(Diag::MissingEnd, {spelling(end), spelling(open->kind), line});
+  missing(diag::MissingEnd, {spelling(end), spelling(open->kind), line});
 }
 
 // IF expr THEN statements {ELSIF expr THEN statements} [ELSE statements] END_IF
@@ -580,22 +582,22 @@ void Parser::parseCaseLabels(std::vector<ExprId>& out) {
     if (!panic_ && accept(Tok::Comma)) continue;
     if (!panic_ && accept(Tok::Colon)) return;
     if (!panic_ && !atLineStart() && at(Tok::Number)) {
-      slip(Diag::MissingToken, t_, {",", describe(t_)});
+      slip(diag::MissingToken, t_, {",", describe(t_)});
       continue;
     }
     break;
   }
   if (!panic_) {
     if (at(Tok::Assign) || at(Tok::Semicolon) || at(Tok::Equal)) {
-      slip(Diag::WrongWord, t_, {textOf(t_), ":"});
+      slip(diag::WrongWord, t_, {textOf(t_), ":"});
       advance();
       return;
     }
     if (atLineStart() || atBlockEnd() || startsStatement(t_)) {
-      missing(Diag::MissingToken, {":", describe(t_)});
+      missing(diag::MissingToken, {":", describe(t_)});
       return;
     }
-    fail(Diag::MissingToken, t_, {":", describe(t_)});
+    fail(diag::MissingToken, t_, {":", describe(t_)});
   }
   // Behind the mistake: the colon of this line, if there is one.
   const Token* t = t_;
@@ -624,7 +626,7 @@ void Parser::parseCase() {
       parseCaseLabels(exprs_);
     } else {
       const Token* before = t_;
-      slip(Diag::MissingToken, t_, {"label:", describe(t_)});
+      slip(diag::MissingToken, t_, {"label:", describe(t_)});
       exprs_.push_back(errorExpr(here()));
       if (!isName(kind()) && !startsStatement(t_) && t_ == before && !at(Tok::Semicolon)) advance();
     }
@@ -634,7 +636,7 @@ void Parser::parseCase() {
   }
   if (accept(Tok::Else)) {
     if (at(Tok::Colon)) {
-      slip(Diag::StrayToken, t_, {describe(t_)});
+      slip(diag::StrayToken, t_, {describe(t_)});
       advance();
     }
     s.has_else = true;
@@ -654,16 +656,16 @@ void Parser::parseFor() {
   s.control = parsePrimary();
   if (!panic_ && !accept(Tok::Assign)) {
     if (at(Tok::Equal) || at(Tok::EqualEqual)) {
-      slip(Diag::AssignWithEqual, t_, {textOf(t_)});
+      slip(diag::AssignWithEqual, t_, {textOf(t_)});
       advance();
     } else if (at(Tok::Colon) && peek() == Tok::Equal) {
-      slip(Diag::ForeignOperator, t_, {": =", ":="});
+      slip(diag::ForeignOperator, t_, {": =", ":="});
       advance();
       advance();
     } else if (isOperand(kind()) || at(Tok::Minus)) {
-      slip(Diag::MissingToken, t_, {":=", describe(t_)});
+      slip(diag::MissingToken, t_, {":=", describe(t_)});
     } else {
-      fail(Diag::MissingToken, t_, {":=", describe(t_)});
+      fail(diag::MissingToken, t_, {":=", describe(t_)});
     }
   }
   s.from = panic_ ? errorExpr(here()) : parseExpr();
@@ -704,7 +706,7 @@ void Parser::parseRepeat() {
     accept(Tok::Semicolon);
     if (!at(Tok::EndRepeat)) {
       if (!panic_ && !atLineStart() && !atBlockEnd())
-        fail(at(Tok::RightParen) ? Diag::StrayParen : Diag::StrayToken, t_,
+        fail(at(Tok::RightParen) ? diag::StrayParen : diag::StrayToken, t_,
              {at(Tok::RightParen) ? std::string(")") : describe(t_)});
       while (!at(Tok::EndRepeat) && !atBlockEnd() && !atLineStart()) advance();
     }
@@ -712,7 +714,7 @@ void Parser::parseRepeat() {
   } else {
     // Said already when the line before, most likely its condition, has an error.
     s.until = errorExpr(here());
-    if (last_error_ == nullptr || last_error_ < statement_start_) slip(Diag::MissingToken, t_, {"UNTIL", describe(t_)});
+    if (last_error_ == nullptr || last_error_ < statement_start_) slip(diag::MissingToken, t_, {"UNTIL", describe(t_)});
   }
   closeBlock(open, Tok::EndRepeat);
   stmts_.push_back(tree_.add<StmtId>(s));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 #include "frontend/text/recover.h"
 
@@ -27,7 +28,7 @@ void Parser::parseTypes(std::vector<DeclId>& out) {
     }
     if (endsDeclarations(kind())) {
       const std::string line = std::to_string(sources_.place(loc(open)).line);
-      missing(Diag::MissingEnd, {"END_TYPE", "TYPE", line});
+      missing(diag::MissingEnd, {"END_TYPE", "TYPE", line});
       return;
     }
     if (t_[0].flags & kPragma) pragmas = takePragmas();
@@ -45,7 +46,7 @@ DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessLevel access
     if (is(t_, "INTERNAL")) access = AccessLevel::Internal;
     advance();
   }
-  skipStray(!isName(kind()) && isName(peek()) && peek(2) == Tok::Colon, Diag::MissingName);
+  skipStray(!isName(kind()) && isName(peek()) && peek(2) == Tok::Colon, diag::MissingName);
   TypeDecl d{{DeclKind::Type, 0, 0, here(), doc, pragmas}, {}, {}, {}};
   if (access == AccessLevel::Internal) d.h.bits |= kInternal;
   Ident name;
@@ -61,7 +62,7 @@ DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessLevel access
     advance();
     base = parseNamedType();
   }
-  if (!panic_ && !at(Tok::Colon)) skipStray(peek() == Tok::Colon, Diag::StrayToken);
+  if (!panic_ && !at(Tok::Colon)) skipStray(peek() == Tok::Colon, diag::StrayToken);
   if (!panic_) expect(Tok::Colon);
   in_variable_ = false;
   if (!panic_) d.type = parseType();
@@ -71,7 +72,7 @@ DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessLevel access
   if (base && is_struct) tree_.as<StructTypeExpr>(d.type).base = base;
   if (!panic_) {
     if (at(Tok::Equal)) {
-      slip(Diag::AssignWithEqual, t_, {"="});
+      slip(diag::AssignWithEqual, t_, {"="});
       advance();
       d.init = parseInit();
     } else if (accept(Tok::Assign)) {
@@ -80,11 +81,11 @@ DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessLevel access
   }
   if (!panic_ && !accept(Tok::Semicolon) && !(is_struct && (at(Tok::EndType) || atLineStart()))) {
     if (atLineStart() || endsDeclarations(kind()) || (isName(kind()) && peek() == Tok::Colon))
-      missing(Diag::MissingSemicolon, {describe(t_ - 1)});
+      missing(diag::MissingSemicolon, {describe(t_ - 1)});
     else if (at(Tok::RightParen) || at(Tok::RightBracket))
-      fail(Diag::StrayParen, t_, {textOf(t_)});
+      fail(diag::StrayParen, t_, {textOf(t_)});
     else
-      fail(Diag::StrayToken, t_, {describe(t_)});
+      fail(diag::StrayToken, t_, {describe(t_)});
   }
   if (panic_) {
     tree_.lost_names = true;  // another declaration may have been skipped
@@ -103,7 +104,7 @@ TypeExprId Parser::parseType() {
   }
   TypeExprId type;
   if (!beginsType(t_) && (!isName(kind()) || atLineStart()) && !at(Tok::Union) && !at(Tok::Semicolon))
-    skipStray(beginsType(t_ + 1) && (t_[1].flags & kLineStart) == 0, Diag::MissingType);
+    skipStray(beginsType(t_ + 1) && (t_[1].flags & kLineStart) == 0, diag::MissingType);
   const Loc start = here();
   switch (static_cast<int>(kind())) {
     case static_cast<int>(Tok::Array): type = parseArray(); break;
@@ -130,9 +131,9 @@ TypeExprId Parser::parseType() {
         last_error_ = t_;
         panic_ = true;
       } else if (atLineStart()) {
-        fail(Diag::MissingType, t_ - 1, {describe(t_ - 1)});
+        fail(diag::MissingType, t_ - 1, {describe(t_ - 1)});
       } else {
-        fail(Diag::MissingType, t_, {describe(t_)});
+        fail(diag::MissingType, t_, {describe(t_)});
       }
       break;
   }
@@ -244,7 +245,7 @@ TypeExprId Parser::parseStruct() {
   in_structure_ = outer;
   if (!accept(end)) {
     const std::string line = std::to_string(sources_.place(loc(open)).line);
-    missing(Diag::MissingEnd, {spelling(end), spelling(open->kind), line});
+    missing(diag::MissingEnd, {spelling(end), spelling(open->kind), line});
   }
   d.fields = listFrom(decls_, first);
   return tree_.add<TypeExprId>(d);
@@ -259,7 +260,7 @@ TypeExprId Parser::parseEnum(TypeExprId base) {
     EnumItem item{};
     if (!parseName(item.item)) break;
     if (at(Tok::Equal)) {
-      slip(Diag::AssignWithEqual, t_, {"="});
+      slip(diag::AssignWithEqual, t_, {"="});
       advance();
       item.value = parseExpr();
     } else if (accept(Tok::Assign)) {
@@ -269,17 +270,17 @@ TypeExprId Parser::parseEnum(TypeExprId base) {
     if (accept(Tok::Comma)) {
       if (at(Tok::RightParen)) {
         if (standard_ == Standard::Codesys)
-          diagnostics_.report(Diag::TrailingCommaWarning, loc(t_ - 1));
+          diagnostics_.report(diag::TrailingCommaWarning, loc(t_ - 1));
         else
-          slip(Diag::TrailingComma, t_ - 1);
+          slip(diag::TrailingComma, t_ - 1);
       }
       continue;
     }
     if (!panic_ && isName(kind()) && (peek() == Tok::Comma || peek() == Tok::RightParen || peek() == Tok::Assign)) {
       if (atLineStart())
-        missing(Diag::MissingToken, {",", describe(t_)});
+        missing(diag::MissingToken, {",", describe(t_)});
       else
-        slip(Diag::MissingToken, t_, {",", describe(t_)});
+        slip(diag::MissingToken, t_, {",", describe(t_)});
       continue;
     }
     break;
@@ -298,10 +299,10 @@ TypeExprId Parser::parseArray() {
   advance();
   if (!accept(Tok::LeftBracket)) {
     if (at(Tok::LeftParen)) {
-      slip(Diag::WrongWord, t_, {"(", "["});
+      slip(diag::WrongWord, t_, {"(", "["});
       advance();
     } else {
-      slip(Diag::MissingToken, t_, {"[", describe(t_)});
+      slip(diag::MissingToken, t_, {"[", describe(t_)});
     }
   }
   std::vector<ArrayBound> bounds;
@@ -317,25 +318,25 @@ TypeExprId Parser::parseArray() {
           tree_.as<LiteralExpr>(bound.low).literal() == LiteralKind::Integer) {
         const uint64_t size = tree_.as<LiteralExpr>(bound.low).value();
         const std::string written = std::to_string(size), last = std::to_string(size == 0 ? 0 : size - 1);
-        slip(Diag::ArraySize, t_ - 1, {written, last});
+        slip(diag::ArraySize, t_ - 1, {written, last});
         LiteralExpr end = tree_.as<LiteralExpr>(bound.low);
         end.setValue(size == 0 ? 0 : size - 1);
         bound.high = tree_.add<ExprId>(end);
         tree_.as<LiteralExpr>(bound.low).setValue(0);
       } else if (isOperand(kind())) {
-        slip(Diag::MissingToken, t_, {"..", describe(t_)});
+        slip(diag::MissingToken, t_, {"..", describe(t_)});
       } else {
-        fail(Diag::MissingToken, t_, {"..", describe(t_)});
+        fail(diag::MissingToken, t_, {"..", describe(t_)});
       }
     }
     if (!bound.high) bound.high = panic_ ? errorExpr(here()) : parseExpr();
     bounds.push_back(bound);
   } while (!panic_ && accept(Tok::Comma));
   if (!panic_ && at(Tok::RightParen)) {
-    slip(Diag::WrongWord, t_, {")", "]"});
+    slip(diag::WrongWord, t_, {")", "]"});
     advance();
   } else if (!panic_ && at(Tok::Of)) {
-    slip(Diag::MissingToken, t_, {"]", describe(t_)});
+    slip(diag::MissingToken, t_, {"]", describe(t_)});
   } else {
     closeParen(Tok::RightBracket, false);
   }

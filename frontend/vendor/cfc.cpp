@@ -8,7 +8,10 @@
 #include <vector>
 
 #include "frontend/source/names.h"
+#include "frontend/syntax/diagnostics.h"
 #include "frontend/vendor/archive.h"
+#include "frontend/vendor/diagnostics.h"
+#include "frontend/xml/diagnostics.h"
 
 namespace rung::vendor {
 namespace {
@@ -93,7 +96,7 @@ bool CfcReader::collect(const Element& item, uint64_t number) {
   }
   if (std::none_of(std::begin(kWords), std::end(kWords), [&](const Word& word) { return word.type == type; })) {
     const xml::Attribute* said = archive_.document().attribute(item, "t");
-    diagnostics_.report(Diag::ArchiveObject, said == nullptr ? item.loc : said->loc,
+    diagnostics_.report(diag::ArchiveObject, said == nullptr ? item.loc : said->loc,
                         {type.empty() ? "?" : type, "CFC", name_});
     return false;
   }
@@ -120,7 +123,7 @@ bool CfcReader::collect(const Element& item, uint64_t number) {
       const Element* stores = archive_.member(*pin, "SetReset");
       const std::string how = stores == nullptr ? std::string("None") : archive_.text(*stores);
       if (how == "None" || how == "Set" || how == "Reset") continue;
-      diagnostics_.report(Diag::ArchiveObject, stores->loc, {how, "CFC", name_});
+      diagnostics_.report(diag::ArchiveObject, stores->loc, {how, "CFC", name_});
       good = false;
     }
   }
@@ -133,7 +136,7 @@ bool CfcReader::checkConnection(const Element& connection) {
   const uint64_t id = archive_.number(connection, "SourcePinId");
   if (pins_.count(id) != 0) return true;
   const Element* source = archive_.member(connection, "SourcePinId");
-  diagnostics_.report(Diag::WireFromNothing, source == nullptr ? connection.loc : archive_.placeOf(*source),
+  diagnostics_.report(diag::WireFromNothing, source == nullptr ? connection.loc : archive_.placeOf(*source),
                       {"with the pin " + std::to_string(id)});
   return false;
 }
@@ -297,7 +300,7 @@ void writeCfc(const Archive& archive, const xml::Element& body, const std::strin
               xml::Assembly& out) {
   const xml::Element* object = archive.root(body, "CFCImplementationObject");
   if (object == nullptr) {
-    diagnostics.report(Diag::ArchiveEmpty, body.loc, {name, "CFCImplementationObject"});
+    diagnostics.report(diag::ArchiveEmpty, body.loc, {name, "CFCImplementationObject"});
     return;
   }
   CfcReader(archive, name, diagnostics, out).run(*object);

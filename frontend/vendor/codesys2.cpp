@@ -4,6 +4,7 @@
 // `_FBD_BODY` and the like. Whatever else is exported (visualisations, the PLC's configuration, lists of libraries) is
 // passed over; a word that no export has is left to the parser, which says so.
 #include "frontend/source/names.h"
+#include "frontend/vendor/diagnostics.h"
 #include "frontend/vendor/readers.h"
 #include "frontend/vendor/words.h"
 #include "frontend/xml/assembly.h"
@@ -85,7 +86,7 @@ class Codesys2Reader {
       if (sameIdentifier(word, closing)) break;
       if (!word.starts_with("_") || !word.ends_with("_BODY") || !words.atLineStart()) continue;
       const std::string how = "drawn in " + std::string(word.substr(1, word.size() - 6));
-      diagnostics_.report(Diag::NetworkBody, loc(words.begin()), {name, how})
+      diagnostics_.report(diag::NetworkBody, loc(words.begin()), {name, how})
           .length(static_cast<uint32_t>(word.size()));
       // Its texts follow no rules of ST: the line that closes the POU is what can be found.
       size_t end = text_.find("\n" + std::string(closing), words.begin());

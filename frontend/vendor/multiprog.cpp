@@ -2,6 +2,7 @@
 // begin with `(*@`; between them a description is bare text, and each worksheet says in which language it is written.
 #include <algorithm>
 
+#include "frontend/vendor/diagnostics.h"
 #include "frontend/vendor/readers.h"
 #include "frontend/vendor/words.h"
 #include "frontend/xml/assembly.h"
@@ -47,7 +48,7 @@ FileId readMultiprog(Sources& sources, FileId file, Diagnostics& diagnostics) {
       if (!language.empty() && language != "ST" && language != "IL") {
         const std::string_view name = valueOf(text, p, end, "NAME:");
         const std::string how = "drawn in " + std::string(language);
-        diagnostics.report(Diag::NetworkBody, loc(static_cast<size_t>(language.data() - text.data())), {name, how})
+        diagnostics.report(diag::NetworkBody, loc(static_cast<size_t>(language.data() - text.data())), {name, how})
             .length(static_cast<uint32_t>(language.size()));
         p = leaveOut(end, "END_WORKSHEET");
         continue;

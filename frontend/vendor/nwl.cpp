@@ -11,6 +11,8 @@
 
 #include "frontend/source/names.h"
 #include "frontend/vendor/archive.h"
+#include "frontend/vendor/diagnostics.h"
+#include "frontend/xml/diagnostics.h"
 
 namespace rung::vendor {
 namespace {
@@ -113,7 +115,7 @@ bool NetworkReader::checkOperand(const Element* operand, bool returns) {
   if (text == nullptr || returns) return true;
   if (quiet_) return isPlainOrNothing(text);
   if (archive_.text(*text) != kMissing) return true;
-  diagnostics_.report(Diag::ArchiveOpen, archive_.placeOf(*text)).length(kMissing.size());
+  diagnostics_.report(diag::ArchiveOpen, archive_.placeOf(*text)).length(kMissing.size());
   return false;
 }
 
@@ -134,7 +136,7 @@ bool NetworkReader::checkTree(const Element& tree) {
     const Element* called = archive_.member(tree, "BoxType");
     if (quiet_ && (archive_.isTrue(tree, "ProvidesSTSnippet") || !isPlainOrNothing(called))) return false;
     if (called != nullptr && archive_.text(*called) == kMissing) {
-      diagnostics_.report(Diag::ArchiveOpen, archive_.placeOf(*called)).length(kMissing.size());
+      diagnostics_.report(diag::ArchiveOpen, archive_.placeOf(*called)).length(kMissing.size());
       return false;
     }
     good = checkOperand(archive_.member(tree, "Instance"));
@@ -149,7 +151,7 @@ bool NetworkReader::checkTree(const Element& tree) {
       begun_.insert(branch);
     } else if (begun_.count(branch) == 0) {
       if (quiet_) return false;
-      diagnostics_.report(Diag::ArchiveBranch, tree.loc, {std::to_string(branch)});
+      diagnostics_.report(diag::ArchiveBranch, tree.loc, {std::to_string(branch)});
       return false;
     }
   } else if (type == "BoxTreeTerminator" || type == "BoxTreeParallel") {
@@ -158,7 +160,7 @@ bool NetworkReader::checkTree(const Element& tree) {
   } else {
     if (quiet_) return false;
     const xml::Attribute* said = archive_.document().attribute(tree, "t");
-    diagnostics_.report(Diag::ArchiveObject, said == nullptr ? tree.loc : said->loc,
+    diagnostics_.report(diag::ArchiveObject, said == nullptr ? tree.loc : said->loc,
                         {type.empty() ? "?" : type, "FBD or LD", name_});
     return false;
   }
@@ -171,7 +173,7 @@ bool NetworkReader::check(const Element& network, uint32_t number) {
   const Element* lines = archive_.first(archive_.member(network, "ILLines"));
   if (lines != nullptr && archive_.isTrue(network, "ILActive")) {
     if (quiet_) return false;
-    diagnostics_.report(Diag::ArchiveIl, lines->loc, {std::to_string(number), name_});
+    diagnostics_.report(diag::ArchiveIl, lines->loc, {std::to_string(number), name_});
     return false;
   }
   bool good = !quiet_ || isPlainOrNothing(archive_.member(network, "Label"));
@@ -521,7 +523,7 @@ void writeNwl(const Archive& archive, const xml::Element& body, const std::strin
               xml::Assembly& out) {
   const xml::Element* object = archive.root(body, "NWLImplementationObject");
   if (object == nullptr) {
-    diagnostics.report(Diag::ArchiveEmpty, body.loc, {name, "NWLImplementationObject"});
+    diagnostics.report(diag::ArchiveEmpty, body.loc, {name, "NWLImplementationObject"});
     return;
   }
   NetworkReader(archive, name, diagnostics, out).run(*object);

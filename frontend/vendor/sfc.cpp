@@ -8,6 +8,8 @@
 
 #include "frontend/source/names.h"
 #include "frontend/vendor/archive.h"
+#include "frontend/vendor/diagnostics.h"
+#include "frontend/xml/diagnostics.h"
 
 namespace rung::vendor {
 namespace {
@@ -126,8 +128,8 @@ Loc ChartReader::locOf(const Element& element) const {
 // Forbids a step behind a step.
 //   fails   SFCStep SFCStep          E1091
 void ChartReader::step(const Element& element, Front& front) {
-  if (attributeOf(archive_, element, kName) == nullptr) return report(Diag::ArchiveNoName, element.loc, "step");
-  if (!front.steps.empty()) return report(Diag::ChartNoTransition, locOf(element), before(front), called(element));
+  if (attributeOf(archive_, element, kName) == nullptr) return report(diag::ArchiveNoName, element.loc, "step");
+  if (!front.steps.empty()) return report(diag::ChartNoTransition, locOf(element), before(front), called(element));
   for (const size_t t : front.transitions) transitions_[t].to.push_back(&element);
   steps_.push_back(&element);
   written_.emplace_back(true, steps_.size() - 1);
@@ -138,9 +140,9 @@ void ChartReader::step(const Element& element, Front& front) {
 //   fails   SFCTransition SFCTransition                              E1063
 //   fails   an SFCTransition whose name, its condition, is empty     E1066
 void ChartReader::transition(const Element& element, Front& front) {
-  if (attributeOf(archive_, element, kName) == nullptr) return report(Diag::ChartNoCondition, element.loc);
+  if (attributeOf(archive_, element, kName) == nullptr) return report(diag::ChartNoCondition, element.loc);
   if (!front.transitions.empty() || (front.steps.empty() && front.begins))
-    return report(Diag::ChartNoStepBetween, locOf(element),
+    return report(diag::ChartNoStepBetween, locOf(element),
                   front.transitions.empty() ? std::string("the beginning") : before(front), called(element));
   transitions_.push_back({&element, front.steps, {}});
   written_.emplace_back(false, transitions_.size() - 1);
@@ -150,8 +152,8 @@ void ChartReader::transition(const Element& element, Front& front) {
 // Forbids a jump to a step that the chart does not have, and one behind a step.
 //   fails   SFCStep SFCJump          E1091
 void ChartReader::jump(const Element& element, Front& front) {
-  if (attributeOf(archive_, element, kName) == nullptr) return report(Diag::ArchiveNoName, element.loc, "jump");
-  if (!front.steps.empty()) return report(Diag::ChartNoTransition, locOf(element), before(front), called(element));
+  if (attributeOf(archive_, element, kName) == nullptr) return report(diag::ArchiveNoName, element.loc, "jump");
+  if (!front.steps.empty()) return report(diag::ChartNoTransition, locOf(element), before(front), called(element));
   for (const size_t t : front.transitions) transitions_[t].to.push_back(&element);
   front = {};
 }
@@ -169,13 +171,13 @@ void ChartReader::branch(const Element& element, Front& front) {
     if (!parallel) {
       front.steps.insert(front.steps.end(), line.steps.begin(), line.steps.end());
       front.transitions.insert(front.transitions.end(), line.transitions.begin(), line.transitions.end());
-      if (front.steps.size() > kMaxWays) return report(Diag::ChartTooManyWays, element.loc);
+      if (front.steps.size() > kMaxWays) return report(diag::ChartTooManyWays, element.loc);
       continue;
     }
     if (!line.transitions.empty())
-      return report(Diag::ChartNoStepBetween, element.end, before(line), std::string("the end of a parallel branch"));
-    if (line.steps.empty()) diagnostics_.report(Diag::ChartNeverUnites, element.end, {"a jump", "the parallel branch"});
-    if (line.steps.size() * united.size() > kMaxWays) return report(Diag::ChartTooManyWays, element.loc);
+      return report(diag::ChartNoStepBetween, element.end, before(line), std::string("the end of a parallel branch"));
+    if (line.steps.empty()) diagnostics_.report(diag::ChartNeverUnites, element.end, {"a jump", "the parallel branch"});
+    if (line.steps.size() * united.size() > kMaxWays) return report(diag::ChartTooManyWays, element.loc);
     std::vector<Steps> all;
     for (const Steps& one : united)
       for (const Steps& other : line.steps) {
@@ -202,7 +204,7 @@ void ChartReader::walk(const Element& segment, Front& front) {
       branch(*e, front);
     } else {
       const xml::Attribute* said = archive_.document().attribute(*e, "t");
-      report(Diag::ArchiveObject, said == nullptr ? e->loc : said->loc, type.empty() ? std::string("?") : type,
+      report(diag::ArchiveObject, said == nullptr ? e->loc : said->loc, type.empty() ? std::string("?") : type,
              std::string("SFC"), name_);
     }
   }
@@ -279,7 +281,7 @@ void ChartReader::run(const Element& root) {
   front.begins = true;
   walk(root, front);
   for (const Transition& t : transitions_)
-    if (good_ && t.to.empty()) report(Diag::ChartLeadsNowhere, locOf(*t.element), called(*t.element));
+    if (good_ && t.to.empty()) report(diag::ChartLeadsNowhere, locOf(*t.element), called(*t.element));
   if (!good_) return;
   for (const auto& [is_step, at] : written_) {
     if (is_step)
@@ -296,7 +298,7 @@ void writeSfc(const Archive& archive, const xml::Element& body, const std::strin
   const xml::Element* object = archive.root(body, "SFCImplementationObject");
   const xml::Element* root = object == nullptr ? nullptr : archive.member(*object, "Root");
   if (root == nullptr) {
-    diagnostics.report(Diag::ArchiveEmpty, body.loc, {name, "SFCImplementationObject"});
+    diagnostics.report(diag::ArchiveEmpty, body.loc, {name, "SFCImplementationObject"});
     return;
   }
   ChartReader(archive, name, diagnostics, out).run(*root);

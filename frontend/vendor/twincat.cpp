@@ -5,6 +5,7 @@
 #include <string>
 
 #include "frontend/vendor/archive.h"
+#include "frontend/vendor/diagnostics.h"
 #include "frontend/vendor/readers.h"
 #include "frontend/vendor/vendor.h"
 #include "frontend/vendor/words.h"
@@ -128,7 +129,7 @@ class TwinCatReader {
       } else if (e->name == "SFC") {
         writeSfc(archive_, *e, name, diagnostics_, program_);
       } else if (const char* language = languageOf(e->name)) {
-        diagnostics_.report(Diag::NetworkBody, e->loc, {name, language});
+        diagnostics_.report(diag::NetworkBody, e->loc, {name, language});
       }
     }
   }

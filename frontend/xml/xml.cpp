@@ -6,6 +6,7 @@
 #include <string>
 
 #include "frontend/source/names.h"
+#include "frontend/xml/diagnostics.h"
 
 namespace rung::xml {
 namespace {
@@ -67,7 +68,7 @@ class Reader {
   Loc loc(size_t at) const { return {base_ + static_cast<uint32_t>(at)}; }
   bool at(std::string_view word) const { return text_.substr(p_, word.size()) == word; }
   bool broken(size_t at, std::string_view what) {
-    diagnostics_.report(Diag::XmlSyntax, loc(at), {what}).length(1);
+    diagnostics_.report(diag::XmlSyntax, loc(at), {what}).length(1);
     return false;
   }
   void skipBlanks() {
@@ -123,7 +124,7 @@ bool Reader::run() {
   }
   if (open_ != kNone) {
     const Element& element = out_.elements[open_];
-    diagnostics_.report(Diag::XmlNotClosed, element.loc, {element.name})
+    diagnostics_.report(diag::XmlNotClosed, element.loc, {element.name})
         .length(static_cast<uint32_t>(element.name.size()));
     return false;
   }
@@ -193,7 +194,7 @@ bool Reader::readStart() {
   if (open_ == kNone && !out_.elements.empty()) return broken(begin, "a second root element begins");
   if (depth_ == kMaxDepth || out_.elements.size() == kMaxElements) {
     const std::string limit = std::to_string(depth_ == kMaxDepth ? kMaxDepth : kMaxElements);
-    diagnostics_.report(Diag::XmlTooLarge, loc(name_at),
+    diagnostics_.report(diag::XmlTooLarge, loc(name_at),
                         {limit, depth_ == kMaxDepth ? "elements inside each other" : "elements"});
     return false;
   }
@@ -297,7 +298,7 @@ bool Reader::readEnd() {
     if (open_ == kNone) return broken(begin, "this end tag closes nothing");
     const Element& element = out_.elements[open_];
     const std::string line = std::to_string(sources_.place(element.loc).line);
-    diagnostics_.report(Diag::XmlWrongEnd, loc(begin + 2), {full, element.name, line});
+    diagnostics_.report(diag::XmlWrongEnd, loc(begin + 2), {full, element.name, line});
     return false;
   }
   close(begin);
@@ -313,7 +314,7 @@ bool Reader::readEntity(size_t end, char32_t& character, uint32_t& length) {
   length = static_cast<uint32_t>(entity.size() + 2);
   if (character != 0) return true;
   const std::string shown = stop == std::string_view::npos ? "&" : "&" + std::string(entity) + ";";
-  diagnostics_.report(Diag::XmlEntity, loc(p_), {shown}).length(static_cast<uint32_t>(shown.size()));
+  diagnostics_.report(diag::XmlEntity, loc(p_), {shown}).length(static_cast<uint32_t>(shown.size()));
   return false;
 }
 

@@ -2,6 +2,7 @@
 // which class its type is (__SYSTEM.AnyType). In: the argument. Out: an AnyValueExpr. Called for each call that binds
 // one.
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 #include "sema/bodies/generic_calls.h"
 #include "sema/declarations/declarations.h"
 
@@ -77,7 +78,7 @@ void bindAny(Context& context, const Pou& pou, const Var& pin, ExprId& value) {
   if (context.types().resolve(type) == context.types().resolve(pin.type)) return;  // an ANY input passed on
   const Loc loc = context.tree().begin(value);
   if (context.types().isOpenArray(type) || !belongs(context, type, context.types().kind(pin.any))) {
-    context.report(Diag::NotOfGeneric, loc,
+    context.report(diag::NotOfGeneric, loc,
                    {context.types().spell(type), text(context, pou.name), context.types().spell(pin.any)});
     return;
   }

@@ -2,6 +2,7 @@
 // of tests (design §11). In: a call of one of these names that is not declared otherwise. Out: CallKind::Assertion
 // with the operands in order, both sides brought to one type.
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 
 namespace rung::sema {
 
@@ -24,7 +25,7 @@ TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion) {
   }
   if (operands.size() != node.arguments.count || operands.size() < needed || operands.size() > needed + 1) {
     context.report(
-        Diag::WrongArgumentCount, node.h.loc,
+        diag::WrongArgumentCount, node.h.loc,
         {name, std::to_string(needed) + " or " + std::to_string(needed + 1), std::to_string(operands.size())});
     checkLooseArguments(context, node);
     return node.h.type = types::kError;
@@ -52,7 +53,7 @@ TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion) {
         if (isUntyped(context, type)) continue;
         const TypeId with = commonNumber(context, common, type);
         if (!with) {
-          context.report(Diag::OperandType, context.tree().loc(operands[i]), {name, context.types().spell(type)});
+          context.report(diag::OperandType, context.tree().loc(operands[i]), {name, context.types().spell(type)});
           good = false;
         } else {
           common = with;
@@ -71,7 +72,7 @@ TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion) {
                          context.tree().as<LiteralExpr>(words).literal() == LiteralKind::String;
     if (!literal) {
       check(context, words, {}, Access::Read);
-      context.report(Diag::AssertionText, context.tree().begin(words), {name});
+      context.report(diag::AssertionText, context.tree().begin(words), {name});
       good = false;
     } else {
       check(context, words, {}, Access::Read);

@@ -2,6 +2,7 @@
 // __QUERYINTERFACE and __QUERYPOINTER of CODESYS. In: unchecked operands. Out: a sema::Call of kind Attempt.
 // IEC 61131-3 ed. 3, 6.6.6.7, table 52.
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 #include "sema/checks/dangling_address.h"
 #include "sema/checks/writable.h"
 
@@ -34,7 +35,7 @@ PouId checkSource(Context& context, ExprId& source, std::string_view word) {
     source = context.tree().add<ExprId>(address);
     return object;
   }
-  context.report(Diag::AttemptNeedsObject, context.tree().begin(source),
+  context.report(diag::AttemptNeedsObject, context.tree().begin(source),
                  {word, kObjectWords, context.types().spell(type)});
   return {};
 }
@@ -53,7 +54,7 @@ TypeId checkTaker(Context& context, ExprId& target) {
 
 void refuseTaker(Context& context, ExprId target, TypeId type, std::string_view word, std::string_view wanted) {
   if (type == types::kError) return;
-  context.report(Diag::AttemptNeedsObject, context.tree().begin(target), {word, wanted, context.types().spell(type)});
+  context.report(diag::AttemptNeedsObject, context.tree().begin(target), {word, wanted, context.types().spell(type)});
 }
 
 // `wanted`: what the object must be; none: any.
@@ -99,7 +100,7 @@ TypeId checkQueryCall(Context& context, ExprId& expr, NameId name) {
   const CallExpr node = context.tree().as<CallExpr>(expr);
   const std::span<const Argument> arguments = context.tree().list(node.arguments);
   if (arguments.size() != 2 || !arguments[0].value || !arguments[1].value) {
-    context.report(Diag::WrongArgumentCount, node.h.loc, {text(context, name), "2", std::to_string(arguments.size())});
+    context.report(diag::WrongArgumentCount, node.h.loc, {text(context, name), "2", std::to_string(arguments.size())});
     checkLooseArguments(context, node);
     return context.tree().expr(expr).type = types::kError;
   }

@@ -2,11 +2,14 @@
 // the bindings in the order of the pins. Called by expressions.cpp and statements.cpp.
 // Generic and extensible functions are in generic_calls.cpp, operators in operator_calls.cpp, names that follow a rule
 // (INT_TO_REAL) in conversion_calls.cpp.
+#include "frontend/syntax/diagnostics.h"
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 #include "sema/bodies/generic_calls.h"
 #include "sema/checks/required_pins.h"
 #include "sema/checks/test_only.h"
 #include "sema/checks/writable.h"
+#include "sema/diagnostics.h"
 
 namespace rung::sema {
 
@@ -63,7 +66,7 @@ struct Slots {
       const Argument& argument = context.tree().list(node.arguments)[index];
       const Argument& first = context.tree().list(node.arguments)[out.slots[slot] - 1];
       const Ident& pin = argument.pin.name ? argument.pin : first.pin;
-      context.report(Diag::PinGivenTwice, argument.pin.name ? argument.pin.loc : argument.loc,
+      context.report(diag::PinGivenTwice, argument.pin.name ? argument.pin.loc : argument.loc,
                      {text(context, pin.name)});
       out.good = false;
       return false;
@@ -81,7 +84,7 @@ bool isMistypedBinding(Context& context, PouId pou, ExprId value) {
     return false;
   const NameId name = context.tree().as<NameExpr>(node.left).name;
   if (!findPin(context, pou, name) || lookUp(context, name)) return false;
-  context.report(Diag::BindingWithEqual, node.h.loc, {text(context, name)});
+  context.report(diag::BindingWithEqual, node.h.loc, {text(context, name)});
   return true;
 }
 
@@ -114,7 +117,7 @@ bool sameInOut(const Context& context, TypeId pin, TypeId actual) {
 
 void checkOpenArgument(Context& context, const Var& pin, ExprId value, TypeId actual, const Purpose& purpose) {
   if (actual == types::kError || sameInOut(context, pin.type, actual)) return;
-  context.report(Diag::WrongType, context.tree().begin(value),
+  context.report(diag::WrongType, context.tree().begin(value),
                  {context.types().spell(actual), purpose.spell(context), context.types().spell(pin.type)});
 }
 
@@ -137,7 +140,7 @@ void bindOutput(Context& context, const Pou& pou, const Var& pin, Binding& bindi
     return;
   }
   if (argument.negated && context.types().plainKind(pin.type) != TypeKind::Bool) {
-    context.report(Diag::NegatedPin, argument.pin.loc, {text(context, pin.name), context.types().spell(pin.type)});
+    context.report(diag::NegatedPin, argument.pin.loc, {text(context, pin.name), context.types().spell(pin.type)});
     return;
   }
   // The value flows from the pin to the place; lowering converts it there.
@@ -163,7 +166,7 @@ void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& bindin
   }
   if (!pin.constant && !checkWritable(context, binding.value, purpose)) return;
   if (!sameInOut(context, pin.type, actual)) {
-    context.report(Diag::OtherInOutType, context.tree().loc(binding.value),
+    context.report(diag::OtherInOutType, context.tree().loc(binding.value),
                    {context.types().spell(actual), text(context, pin.name), text(context, pou.name),
                     context.types().spell(pin.type)});
   }
@@ -213,7 +216,7 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
   if (arguments.good) checkRequiredPins(context, node, pou, arguments);
   node.call = addCall(context, std::move(call));
   if (!callee.result && !as_statement) {
-    context.report(Diag::NoResult, node.h.loc, {text(context, callee.name)});
+    context.report(diag::NoResult, node.h.loc, {text(context, callee.name)});
     return node.h.type = types::kError;
   }
   return node.h.type = callee.result;
@@ -237,7 +240,7 @@ TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool a
   if (arguments.good) checkRequiredPins(context, node, pou, arguments);
   node.call = addCall(context, std::move(call));
   if (!as_statement) {
-    context.report(Diag::BlockCallAsValue, node.h.loc, {text(context, context.project.pou(pou).name)});
+    context.report(diag::BlockCallAsValue, node.h.loc, {text(context, context.project.pou(pou).name)});
     return node.h.type = types::kError;
   }
   return node.h.type = {};
@@ -262,12 +265,12 @@ TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool 
     case PouKind::FunctionBlock:
     case PouKind::Class:
     case PouKind::Interface:
-      context.report(Diag::CallOfBlockType, node.h.loc, {text(context, callee.name)});
+      context.report(diag::CallOfBlockType, node.h.loc, {text(context, callee.name)});
       return refuse(context, node);
     case PouKind::Program:
       if (context.iec()) {
         context.project.pou(pou).used = true;  // what is refused here is no program that nobody calls
-        context.report(Diag::CallOfProgram, node.h.loc, {text(context, callee.name)});
+        context.report(diag::CallOfProgram, node.h.loc, {text(context, callee.name)});
         return refuse(context, node);
       }
       return callBlock(context, expr, pou, CallKind::Program, as_statement);
@@ -285,9 +288,9 @@ TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement)
   }
   const NameId name = nameOf(context, node.callee);
   const Entity called = entityOf(context, node.callee);
-  Report report = context.report(Diag::NotCallable, node.h.loc,
+  Report report = context.report(diag::NotCallable, node.h.loc,
                                  {name ? text(context, name) : std::string_view("this"), context.types().spell(type)});
-  if (called.what() == EntityKind::Var) report.note(context.project.vars[called.index].loc, Note::DeclaredHere);
+  if (called.what() == EntityKind::Var) report.note(context.project.vars[called.index].loc, diag::DeclaredHere);
   return refuse(context, node);
 }
 
@@ -295,7 +298,7 @@ TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement)
 TypeId sizeOf(Context& context, ExprId& expr) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (node.arguments.count != 1) {
-    context.report(Diag::WrongArgumentCount, node.h.loc,
+    context.report(diag::WrongArgumentCount, node.h.loc,
                    {text(context, nameOf(context, node.callee)), "1", std::to_string(node.arguments.count)});
     return refuse(context, node);
   }
@@ -320,7 +323,7 @@ TypeId lengthLimit(Context& context, ExprId& expr) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   const NameId name = nameOf(context, node.callee);
   if (node.arguments.count != 1) {
-    context.report(Diag::WrongArgumentCount, node.h.loc,
+    context.report(diag::WrongArgumentCount, node.h.loc,
                    {text(context, name), "1", std::to_string(node.arguments.count)});
     return refuse(context, node);
   }
@@ -329,7 +332,7 @@ TypeId lengthLimit(Context& context, ExprId& expr) {
   if (!type || type == types::kError) return node.h.type = types::kError;
   const types::TypeInfo& info = context.types().info(context.types().resolve(type));
   if (!types::TypeTable::isText(info.kind)) {
-    context.report(Diag::NotOfGeneric, context.tree().loc(operand),
+    context.report(diag::NotOfGeneric, context.tree().loc(operand),
                    {context.types().spell(type), text(context, name), "ANY_STRING"});
     return node.h.type = types::kError;
   }
@@ -350,7 +353,7 @@ TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected,
   if (const TypeId type = checkDeleteCall(context, expr, name, as_statement)) return type;
   if (const TypeId type = checkKnownCall(context, expr, name)) return type;
   if (sayUnknown(context, name))
-    context.report(Diag::UnknownName, node.h.loc, {text(context, name)}).didYouMean(nearestName(context, name));
+    context.report(diag::UnknownName, node.h.loc, {text(context, name)}).didYouMean(nearestName(context, name));
   context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);
   return refuse(context, node);
 }
@@ -463,7 +466,7 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
         for (size_t p = 0; p < pins.size(); ++p) inputs += isOutput(p) ? 0 : 1;
         const Loc loc = argument.value ? context.tree().begin(argument.value) : argument.loc;
         if (!isBroken(context, pou))
-          context.report(Diag::TooManyArguments, loc,
+          context.report(diag::TooManyArguments, loc,
                          {text(context, context.project.pou(pou).name), std::to_string(inputs)});
       }
       out.good = false;
@@ -493,7 +496,7 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
       out.good = false;
       if (!isBroken(context, pou))
         context
-            .report(Diag::UnknownPin, argument.pin.loc,
+            .report(diag::UnknownPin, argument.pin.loc,
                     {text(context, context.project.pou(pou).name), text(context, argument.pin.name)})
             .didYouMean(nearestPin(context, pou, argument.pin.name));
       checkLoose(context, node, i);
@@ -503,7 +506,7 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
     const Var& pin = context.project.var(pins[slot]);
     if (argument.is_output != (pin.section == SectionKind::Output)) {
       out.good = false;
-      context.report(argument.is_output ? Diag::ArrowToInput : Diag::AssignToOutputPin, argument.pin.loc,
+      context.report(argument.is_output ? diag::ArrowToInput : diag::AssignToOutputPin, argument.pin.loc,
                      {text(context, pin.name), text(context, context.project.pou(pou).name), wordOf(pin.section)});
       checkLoose(context, node, i);
       continue;
@@ -554,7 +557,7 @@ bool isBareCall(Context& context, const CallExpr& node) {
   const std::string_view source = context.project.sources.text(context.project.sources.fileOf(begin));
   const uint32_t from = begin.offset - context.project.sources.begin(context.project.sources.fileOf(begin)).offset;
   const std::string shown(source.substr(from, node.end.offset - begin.offset));
-  context.report(Diag::NoEffect, begin, {shown});
+  context.report(diag::NoEffect, begin, {shown});
   return false;
 }
 

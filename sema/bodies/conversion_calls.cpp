@@ -5,7 +5,9 @@
 #include <string>
 
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 #include "sema/bodies/generic_calls.h"
+#include "sema/diagnostics.h"
 
 namespace rung::sema {
 
@@ -76,7 +78,7 @@ OneInput oneInput(Context& context, const CallExpr& node, NameId name) {
     } else if (sameIdentifier(pin, "ENO") && argument.is_output) {
       out.eno = argument.value;
     } else if (!pin.empty() && !sameIdentifier(pin, "IN")) {
-      context.report(Diag::UnknownPin, argument.pin.loc, {text(context, name), pin}).didYouMean("IN");
+      context.report(diag::UnknownPin, argument.pin.loc, {text(context, name), pin}).didYouMean("IN");
       return out;
     } else {
       ++inputs;
@@ -86,7 +88,7 @@ OneInput oneInput(Context& context, const CallExpr& node, NameId name) {
   }
   out.good = inputs == 1 && out.value;
   if (!out.good) {
-    context.report(Diag::WrongArgumentCount, node.h.loc, {text(context, name), "1", std::to_string(inputs)});
+    context.report(diag::WrongArgumentCount, node.h.loc, {text(context, name), "1", std::to_string(inputs)});
   }
   return out;
 }
@@ -97,7 +99,7 @@ TypeId callLibrary(Context& context, ExprId& expr, std::string_view function, Ty
   NameExpr& callee = context.tree().as<NameExpr>(node.callee);
   const NameId name = context.names().intern(function);
   if (lookUp(context, name).what() != EntityKind::Pou) {
-    context.report(Diag::UnknownName, node.h.loc, {text(context, written)});
+    context.report(diag::UnknownName, node.h.loc, {text(context, written)});
     return node.h.type = types::kError;
   }
   callee.name = name;
@@ -152,7 +154,7 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
   const bool text_source = TypeTable::isText(source) || TypeTable::isCharacter(source);
   const bool text_target = TypeTable::isText(target) || TypeTable::isCharacter(target);
   if (!TypeTable::isElementary(source)) {
-    context.report(Diag::NotOfGeneric, context.tree().loc(value),
+    context.report(diag::NotOfGeneric, context.tree().loc(value),
                    {context.types().spell(from), text(context, name), "ANY_ELEMENTARY"});
     return node.h.type = types::kError;
   }
@@ -180,7 +182,7 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
   if (rule.kind == Rule::Kind::Truncate) {
     const Entity trunc = lookUp(context, context.names().intern("TRUNC"));
     if (!TypeTable::isReal(source) || !(TypeTable::isInteger(target) || TypeTable::isBits(target))) {
-      context.report(Diag::NotOfGeneric, context.tree().loc(value),
+      context.report(diag::NotOfGeneric, context.tree().loc(value),
                      {context.types().spell(from), text(context, name), "ANY_REAL"});
       return node.h.type = types::kError;
     }

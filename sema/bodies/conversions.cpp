@@ -1,6 +1,7 @@
 // Conversions: which are implicit, which lose values, which need a function. In: checked expressions and the type
 // that is wanted. Out: ConvertExpr nodes in the parent's child field, or one message. Design §6, dialect table.
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 #include "sema/checks/uncopied.h"
 #include "sema/scopes.h"
 #include "sema/types/arithmetic.h"
@@ -228,17 +229,17 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
       if (context.library) return true;
       const std::string function = conversionName(context, from, to);
       if (context.types().info(context.types().resolve(to)).kind == TypeKind::Enum) {
-        context.report(Diag::NumberToEnum, loc,
+        context.report(diag::NumberToEnum, loc,
                        {context.types().spell(from), purpose.spell(context), context.types().spell(to)});
         return true;
       }
-      context.report(context.iec() ? Diag::LossyConversion : Diag::MayLoseValues, loc,
+      context.report(context.iec() ? diag::LossyConversion : diag::MayLoseValues, loc,
                      {context.types().spell(from), purpose.spell(context), context.types().spell(to), function});
       return !context.iec();
     }
     case Fit::Pointer:
       if (context.library) return true;
-      context.report(context.iec() ? Diag::OtherPointer : Diag::PointerToOther, loc,
+      context.report(context.iec() ? diag::OtherPointer : diag::PointerToOther, loc,
                      {context.types().spell(from), purpose.spell(context), context.types().spell(to)});
       return !context.iec();
     case Fit::Extension:
@@ -249,7 +250,7 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
       TypeTable::isText(own) && TypeTable::isText(wanted)) {
     const bool wide = own == TypeKind::WString;
     context.report(
-        Diag::TextQuotes, loc,
+        diag::TextQuotes, loc,
         {wide ? "double" : "single", wide ? "WSTRING" : "STRING",
          text(context, context.types().info(types::idOf(wanted)).name), wide ? "single" : "double", wide ? "'" : "\""});
     return false;
@@ -258,10 +259,10 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
   const bool truth = own == TypeKind::Bool && context.tree().kind(expr) == ExprKind::Literal;
   const std::string function = truth ? std::string() : conversionName(context, from, to);
   if (function.empty()) {
-    context.report(Diag::WrongType, loc,
+    context.report(diag::WrongType, loc,
                    {context.types().spell(from), purpose.spell(context), context.types().spell(to)});
   } else {
-    context.report(Diag::NeedsConversion, loc,
+    context.report(diag::NeedsConversion, loc,
                    {context.types().spell(from), purpose.spell(context), context.types().spell(to), function});
   }
   return false;
@@ -309,7 +310,7 @@ bool takeItem(Context& context, ExprId& expr, TypeId to, bool& good) {
   if (!is_item && !context.library) {
     const std::string spelled = number < 0 ? "-" + std::to_string(static_cast<uint64_t>(-number))
                                            : std::to_string(static_cast<uint64_t>(number));
-    context.report(info.strict ? Diag::NoItemOfStrict : Diag::NoItem, loc, {spelled, context.types().spell(to)});
+    context.report(info.strict ? diag::NoItemOfStrict : diag::NoItem, loc, {spelled, context.types().spell(to)});
     if (info.strict) {
       context.tree().expr(expr).type = types::kError;
       good = false;
@@ -354,7 +355,7 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
     const types::TypeInfo& info = context.types().info(context.types().resolve(to));
     if (TypeTable::isText(info.kind) && context.tree().kind(expr) == ExprKind::Literal &&
         context.types().info(context.types().resolve(from)).length > info.length) {
-      context.report(Diag::TextTooLong, context.tree().loc(expr),
+      context.report(diag::TextTooLong, context.tree().loc(expr),
                      {std::to_string(context.types().info(context.types().resolve(from)).length),
                       context.types().spell(to), std::to_string(info.length)});
     }

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 
 namespace rung::sema {
 
@@ -91,7 +92,7 @@ void checkCppBody(Context& context, const PouDecl& decl) {
     if (var->external) var = &context.project.var(var->external);
     if (!named.name || !var->type || context.types().kind(var->type) == TypeKind::Error) continue;
     if (const char* why = whyNot(context, *var))
-      context.report(Diag::CppVariable, named.loc, {text(context, named.name), why});
+      context.report(diag::CppVariable, named.loc, {text(context, named.name), why});
   }
   const std::string_view text = context.project.sources.text(pou.file);
   const uint32_t base = context.project.sources.begin(pou.file).offset;

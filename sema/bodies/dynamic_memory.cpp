@@ -2,9 +2,11 @@
 // In: a NewExpr, a call of __DELETE. Out: the same with the types, the functions of the pool and the arguments of
 // FB_Init resolved; lowering sets the initial values and calls FB_Init and FB_Exit.
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 #include "sema/checks/object_members.h"
 #include "sema/checks/writable.h"
 #include "sema/declarations/declarations.h"
+#include "sema/diagnostics.h"
 #include "sema/scopes.h"
 
 namespace rung::sema {
@@ -39,12 +41,12 @@ CallId poolCall(Context& context, const char* name, Loc loc) {
 bool mayBeMade(Context& context, TypeId type, TypeExprId what) {
   const Loc loc = context.tree().loc(what);
   if (context.types().isOpenArray(type)) {
-    context.report(Diag::OpenArray, loc);
+    context.report(diag::OpenArray, loc);
     return false;
   }
   const PouId pou = pouOf(context, type);
   if (pou && context.project.pou(pou).kind == PouKind::Program) {
-    context.report(Diag::NotNewable, loc, {context.types().spell(type)});
+    context.report(diag::NotNewable, loc, {context.types().spell(type)});
     return false;
   }
   return checkNotAbstract(context, type, loc);
@@ -64,7 +66,7 @@ TypeId checkNew(Context& context, ExprId& expr) {
   if (type == types::kError || !mayBeMade(context, type, node.what)) return node.h.type = types::kError;
   if (const PouId pou = pouOf(context, type)) resolvePou(context, pou);
   if (!ensureLayout(context, type)) {
-    context.report(Diag::TypeTooLarge, context.tree().loc(node.what), {context.types().spell(type)});
+    context.report(diag::TypeTooLarge, context.tree().loc(node.what), {context.types().spell(type)});
     return node.h.type = types::kError;
   }
   uint32_t elements = 0;
@@ -83,7 +85,7 @@ TypeId checkDeleteCall(Context& context, ExprId& expr, NameId name, bool as_stat
   const auto fail = [&] { return context.tree().expr(expr).type = types::kError; };
   if (context.iec()) return fail();  // the lexer has refused the name
   if (node.arguments.count != 1 || !context.tree().list(node.arguments)[0].value) {
-    context.report(Diag::WrongArgumentCount, node.h.loc,
+    context.report(diag::WrongArgumentCount, node.h.loc,
                    {text(context, name), "1", std::to_string(node.arguments.count)});
     checkLooseArguments(context, node);
     return fail();
@@ -92,13 +94,13 @@ TypeId checkDeleteCall(Context& context, ExprId& expr, NameId name, bool as_stat
   const TypeId type = check(context, pointer, {}, Access::ReadWrite);
   if (!type || type == types::kError) return fail();
   if (context.types().kind(type) != TypeKind::Pointer) {
-    context.report(Diag::DeleteOfValue, context.tree().begin(pointer), {context.types().spell(type)});
+    context.report(diag::DeleteOfValue, context.tree().begin(pointer), {context.types().spell(type)});
     return fail();
   }
   const bool is_this = context.tree().kind(pointer) == ExprKind::This;
   if (!is_this && !checkWritable(context, pointer, Purpose{"deleted", {}, {}})) return fail();
   if (!as_statement) {
-    context.report(Diag::NoResult, node.h.loc, {text(context, name)});
+    context.report(diag::NoResult, node.h.loc, {text(context, name)});
     return fail();
   }
   const TypeId target = context.types().info(context.types().resolve(type)).base;

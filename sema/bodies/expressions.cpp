@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 #include "sema/checks/constant_index.h"
 #include "sema/checks/writable.h"
 
@@ -21,7 +22,7 @@ TypeId checkIndexValue(Context& context, ExprId& index) {
   const bool enumeration = context.types().kind(type) == TypeKind::Enum;
   if (type == types::kError) return type;
   if ((TypeTable::isInteger(kind) || TypeTable::isBits(kind)) && !(enumeration && context.iec())) return type;
-  context.report(Diag::IndexNotInteger, context.tree().loc(index), {context.types().spell(type)});
+  context.report(diag::IndexNotInteger, context.tree().loc(index), {context.types().spell(type)});
   return types::kError;
 }
 
@@ -32,7 +33,7 @@ TypeId checkCharacter(Context& context, IndexExpr& node, TypeId text_type, Acces
   const types::TypeInfo& info = context.types().info(context.types().resolve(text_type));
   if (info.kind == TypeKind::UString) {
     checkIndexValue(context, context.tree().list(node.indices)[0]);
-    context.report(Diag::CharacterOfUtf8, context.tree().begin(context.tree().list(node.indices)[0]));
+    context.report(diag::CharacterOfUtf8, context.tree().begin(context.tree().list(node.indices)[0]));
     return types::kError;
   }
   const bool reads = access == Access::Read || access == Access::Qualifier;
@@ -61,11 +62,11 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   const bool array = info->kind == TypeKind::Array;
   const uint32_t dimensions = info->dimensions.empty() ? info->length : static_cast<uint32_t>(info->dimensions.size());
   if (!array && base != types::kError) {
-    context.report(Diag::NotAnArray, node.h.loc, {context.types().spell(base)});
+    context.report(diag::NotAnArray, node.h.loc, {context.types().spell(base)});
   } else if (array && dimensions != count) {
     // The first index too many, or the last one, behind which some are missing.
     const uint32_t marked = std::min(dimensions, count - 1);
-    context.report(Diag::WrongIndexCount, context.tree().loc(context.tree().list(node.indices)[marked]),
+    context.report(diag::WrongIndexCount, context.tree().loc(context.tree().list(node.indices)[marked]),
                    {context.types().spell(base), std::to_string(dimensions), std::to_string(count)});
   }
   bool good = array && dimensions == count;
@@ -90,7 +91,7 @@ TypeId checkDeref(Context& context, ExprId& expr) {
   if (base == types::kError) return node.h.type = types::kError;
   const types::TypeInfo& info = context.types().info(context.types().resolve(base));
   if (info.kind != TypeKind::Pointer) {
-    context.report(Diag::NotAPointer, node.h.loc, {context.types().spell(base)});
+    context.report(diag::NotAPointer, node.h.loc, {context.types().spell(base)});
     return node.h.type = types::kError;
   }
   node.h.writable = 1;
@@ -171,15 +172,15 @@ TypeId checkBitOf(Context& context, ExprId expr) {
   const TypeKind kind = context.types().plainKind(base);
   const bool integer = TypeTable::isInteger(kind);
   if ((!TypeTable::isBits(kind) && !integer) || (integer && context.iec())) {
-    context.report(Diag::NoBits, node.h.loc, {context.types().spell(base)});
+    context.report(diag::NoBits, node.h.loc, {context.types().spell(base)});
     return node.h.type = types::kError;
   }
   const uint32_t count = TypeTable::bitWidth(kind) / node.width;
   if (node.position >= count) {
     if (count == 0) {
-      context.report(Diag::NoBits, node.h.loc, {context.types().spell(base)});
+      context.report(diag::NoBits, node.h.loc, {context.types().spell(base)});
     } else {
-      context.report(Diag::BitOutOfRange, node.h.loc,
+      context.report(diag::BitOutOfRange, node.h.loc,
                      {std::to_string(node.position), context.types().spell(base), std::to_string(count - 1)});
     }
     return node.h.type = types::kError;
@@ -196,7 +197,7 @@ TypeId checkBitOf(Context& context, ExprId expr) {
 TypeId check(Context& context, ExprId& expr, TypeId expected, Access access) {
   if (!expr) return types::kError;
   if (context.depth >= kMaxExprDepth) {
-    context.report(Diag::ExpressionTooDeep, context.tree().loc(expr), {std::to_string(kMaxExprDepth)});
+    context.report(diag::ExpressionTooDeep, context.tree().loc(expr), {std::to_string(kMaxExprDepth)});
     return context.tree().expr(expr).type = types::kError;
   }
   ++context.depth;

@@ -1,5 +1,6 @@
 #include "sema/bodies/generic_calls.h"
 
+#include "sema/bodies/diagnostics.h"
 #include "sema/checks/required_pins.h"
 #include "sema/checks/writable.h"
 #include "sema/types/arithmetic.h"
@@ -62,7 +63,7 @@ TypeId groupType(Context& context, std::span<ExprId> operands, TypeKind generic,
   if (common == types::kError) return common;
   if (!belongs(context, common, generic)) {
     context.report(
-        Diag::NotOfGeneric, operands.size() == 1 ? context.tree().loc(operands[0]) : loc,
+        diag::NotOfGeneric, operands.size() == 1 ? context.tree().loc(operands[0]) : loc,
         {context.types().spell(common), text(context, pou.name), context.types().spell(types::idOf(generic))});
     return types::kError;
   }
@@ -108,7 +109,7 @@ bool checkBytes(Context& context, const CallExpr& node, const Pou& pou, std::spa
   if (info != nullptr && info->kind == TypeKind::Array && info->dimensions.size() == 1 &&
       context.types().kind(info->base) == TypeKind::Byte)
     return true;
-  context.report(Diag::BytesOnly, node.h.loc,
+  context.report(diag::BytesOnly, node.h.loc,
                  {text(context, pou.name), gives ? "gives" : "takes",
                   type ? "`" + context.types().spell(type) + "`" : std::string("a value")});
   return false;

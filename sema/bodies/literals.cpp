@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 #include "sema/declarations/declarations.h"
+#include "sema/diagnostics.h"
 #include "sema/types/arithmetic.h"
 
 namespace rung::sema {
@@ -45,7 +47,7 @@ Int128 literalValue(const LiteralExpr& node) {
 bool isIntegerLike(TypeKind kind) { return types::TypeTable::isInteger(kind) || types::TypeTable::isBits(kind); }
 
 bool reportRange(Context& context, ExprId expr, Int128 value, TypeId to, Bounds bounds) {
-  context.report(Diag::ConstantOutOfRange, context.tree().begin(expr),
+  context.report(diag::ConstantOutOfRange, context.tree().begin(expr),
                  {spellNumber(value), context.types().spell(to), spellNumber(bounds.low), spellNumber(bounds.high)});
   context.tree().expr(expr).type = types::kError;
   return false;
@@ -186,7 +188,7 @@ bool adaptNegative(Context& context, ExprId& expr, TypeId to, TypeKind kind) {
   if (!untypedValue(context, expr, value) || value >= 0 || value < -(Int128{1} << (width - 1))) return false;
   const Int128 bits = (Int128{1} << width) + value;
   const Loc loc = context.tree().begin(expr);
-  context.report(Diag::NegativeWithoutSign, loc, {spellNumber(value), context.types().spell(to), spellNumber(bits)});
+  context.report(diag::NegativeWithoutSign, loc, {spellNumber(value), context.types().spell(to), spellNumber(bits)});
   expr = makeLiteral(context, LiteralKind::Integer, to, static_cast<int64_t>(bits), loc);
   return true;
 }
@@ -212,7 +214,7 @@ bool setRealType(Context& context, ExprId& expr, TypeId to, bool whole) {
   constexpr double kRoundsToInfinity = 3.4028235677973366e38;  // halfway between the largest REAL and the next
   const double value = std::fabs(realValue(tree.as<LiteralExpr>(expr)));
   if (context.types().plainKind(to) != TypeKind::Real || value < kRoundsToInfinity) return true;
-  context.report(Diag::RealOutOfRange, header.loc, {"REAL"});
+  context.report(diag::RealOutOfRange, header.loc, {"REAL"});
   header.type = types::kError;
   return false;
 }
@@ -222,7 +224,7 @@ bool adaptReal(Context& context, ExprId& expr, TypeId to) {
   const bool integer = header.type == types::idOf(TypeKind::IntegerLiteral);
   bool divides = false;
   if (integer && needsIntegers(context, expr, divides)) {
-    if (divides) context.report(Diag::IntegerDivision, header.loc);
+    if (divides) context.report(diag::IntegerDivision, header.loc);
     if (settle(context, expr) == types::kError) return false;
     wrapConvert(context, expr, to);
     return true;
@@ -269,10 +271,10 @@ TypeId prefixType(Context& context, LiteralExpr& node) {
   if (entity.what() == EntityKind::Type) return TypeId{entity.index};
   if (!entity) {
     if (sayUnknown(context, node.prefix))
-      context.report(Diag::UnknownName, node.h.loc, {text(context, node.prefix)})
+      context.report(diag::UnknownName, node.h.loc, {text(context, node.prefix)})
           .didYouMean(nearestName(context, node.prefix));
   } else {
-    context.report(Diag::NotALiteralType, node.h.loc, {text(context, node.prefix)});
+    context.report(diag::NotALiteralType, node.h.loc, {text(context, node.prefix)});
   }
   return types::kError;
 }
@@ -304,13 +306,13 @@ TypeId checkTypedNumber(Context& context, ExprId& expr) {
     if (types::TypeTable::isText(kind)) return node.h.type = context.types().text(kind, length);
     if (length == 1) return node.h.type = type;
     const uint64_t value = context.names().intern(context.tree().text(node.text())).index;
-    context.report(Diag::NotOneCharacter, node.h.loc,
+    context.report(diag::NotOneCharacter, node.h.loc,
                    {types::spell(context.types(), context.names(),
                                  {context.types().text(types::TypeTable::textOf(kind), 1), value}),
                     context.types().spell(type)});
     return node.h.type = types::kError;
   }
-  context.report(Diag::NotALiteralType, node.h.loc, {text(context, node.prefix)});
+  context.report(diag::NotALiteralType, node.h.loc, {text(context, node.prefix)});
   return node.h.type = types::kError;
 }
 
@@ -322,7 +324,7 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
   const bool is_long = (node.h.bits & kLiteralLong) != 0 || wanted == longer;
   const bool beyond = longer == TypeKind::LTime && (node.h.bits & kLiteralNegative) == 0 && node.value() >> 63 != 0;
   if (is_long && beyond && context.types().isSigned(longer)) {
-    context.report(Diag::ConstantOutOfRange, node.h.loc,
+    context.report(diag::ConstantOutOfRange, node.h.loc,
                    {context.project.sources.tokenAt(node.h.loc), context.types().spell(types::idOf(longer)),
                     types::spell(context.types(), context.names(), {types::kLTime, uint64_t{1} << 63}),
                     types::spell(context.types(), context.names(), {types::kLTime, ~uint64_t{0} >> 1})});
@@ -336,7 +338,7 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
     const types::Value low{types::idOf(shorter), static_cast<uint64_t>(bounds.low)};
     const types::Value high{types::idOf(shorter), static_cast<uint64_t>(bounds.high)};
     context.report(
-        Diag::ConstantOutOfRange, node.h.loc,
+        diag::ConstantOutOfRange, node.h.loc,
         {context.project.sources.tokenAt(node.h.loc), context.types().spell(types::idOf(shorter)),
          types::spell(context.types(), context.names(), low), types::spell(context.types(), context.names(), high)});
     return node.h.type = types::kError;
@@ -459,7 +461,7 @@ bool adapt(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
         const Int128 low = is_signed ? Int128{info.low} : Int128{static_cast<uint64_t>(info.low)};
         const Int128 high = is_signed ? Int128{info.high} : Int128{static_cast<uint64_t>(info.high)};
         if (value < low || value > high) {
-          context.report(Diag::OutsideSubrange, context.tree().begin(expr),
+          context.report(diag::OutsideSubrange, context.tree().begin(expr),
                          {spellNumber(value), context.types().spell(to), spellNumber(low), spellNumber(high)});
           if (!adaptInteger(context, expr, info.base, bounds)) return false;
           wrapConvert(context, expr, to);

@@ -1,9 +1,12 @@
 // Names in expressions: variables, enumeration items, members of records, and what `GVL.x`, `Lib.f`, `Prog.x` mean.
 // In: NameExpr, TypedNameExpr, MemberExpr. Out: their entity and type. Called for every operand of every body.
+#include "frontend/syntax/diagnostics.h"
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 #include "sema/bodies/temporaries.h"
 #include "sema/checks/outside_access.h"
 #include "sema/declarations/declarations.h"
+#include "sema/diagnostics.h"
 #include "sema/scopes.h"
 
 namespace rung::sema {
@@ -81,7 +84,7 @@ TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
     return header.type;
   }
   if (bare && info.name && (context.iec() || info.qualified)) {
-    context.report(context.iec() ? Diag::BareEnumItem : Diag::QualifiedEnumItem, header.loc,
+    context.report(context.iec() ? diag::BareEnumItem : diag::QualifiedEnumItem, header.loc,
                    {text(context, item.name), text(context, context.types().info(item.type).name)});
     return header.type = types::kError;
   }
@@ -108,7 +111,7 @@ TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId 
       const bool is_block = pou.kind == PouKind::FunctionBlock || pou.kind == PouKind::Class;
       if (access == Access::Qualifier && is_block && !context.iec()) return header.type = {};
       if (access == Access::Address) return header.type = pou.record ? pou.record : types::kError;
-      if (sayUnknown(context, name)) context.report(Diag::NotAValue, loc, {text(context, name), wordOf(pou.kind)});
+      if (sayUnknown(context, name)) context.report(diag::NotAValue, loc, {text(context, name), wordOf(pou.kind)});
       return header.type = types::kError;
     }
     case EntityKind::Property: return useMember(context, expr, entity, {}, access);
@@ -119,7 +122,7 @@ TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId 
     case EntityKind::Namespace:
     case EntityKind::Program:
       if (access == Access::Qualifier) return header.type = {};
-      if (sayUnknown(context, name)) context.report(Diag::NotAValue, loc, {text(context, name), wordOf(entity.what())});
+      if (sayUnknown(context, name)) context.report(diag::NotAValue, loc, {text(context, name), wordOf(entity.what())});
       return header.type = types::kError;
   }
   return header.type = types::kError;
@@ -168,7 +171,7 @@ Entity constantOfBlock(Context& context, PouId block, const MemberExpr& node) {
     ensureInitialValue(context, VarId{found.index});
     if (context.project.var(VarId{found.index}).has_value) return found;
   }
-  context.report(Diag::NotAValue, context.tree().loc(node.base),
+  context.report(diag::NotAValue, context.tree().loc(node.base),
                  {text(context, nameOf(context, node.base)), wordOf(context.project.pou(block).kind)});
   return Entity::of(EntityKind::Error, 0);
 }
@@ -201,7 +204,7 @@ TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access acces
   if (!found) {
     if (!is_unknown_type && (!record || sayUnknownMember(context, record, node.member)))
       context
-          .report(Diag::UnknownMember, node.h.loc,
+          .report(diag::UnknownMember, node.h.loc,
                   {text(context, nameOf(context, node.base)), text(context, node.member)})
           .didYouMean(record ? nearestField(context, record, node.member) : nearestIn(context, qualifier, node.member));
     node.entity = Entity::of(EntityKind::Error, 0);
@@ -284,13 +287,13 @@ Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected) {
                          context.types().resolve(context.project.enum_values[entity.index].type) == wanted;
     if (!decided && isAmbiguousItem(context, entity)) {
       const TypeId type = context.project.enum_values[entity.index].type;
-      context.report(Diag::AmbiguousItem, loc, {text(context, name), context.types().spell(type)});
+      context.report(diag::AmbiguousItem, loc, {text(context, name), context.types().spell(type)});
       return Entity::of(EntityKind::Error, 0);
     }
     return entity;
   }
   if (sayUnknown(context, name))
-    context.report(Diag::UnknownName, loc, {text(context, name)}).didYouMean(nearestName(context, name));
+    context.report(diag::UnknownName, loc, {text(context, name)}).didYouMean(nearestName(context, name));
   return Entity::of(EntityKind::Error, 0);
 }
 
@@ -319,10 +322,10 @@ TypeId checkTypedName(Context& context, ExprId& expr) {
     node.entity = Entity::of(EntityKind::Error, 0);
     if (!type && !context.types().elementary(node.type_name.name)) {
       if (sayUnknown(context, node.type_name.name))
-        context.report(Diag::UnknownName, node.type_name.loc, {text(context, node.type_name.name)})
+        context.report(diag::UnknownName, node.type_name.loc, {text(context, node.type_name.name)})
             .didYouMean(nearestName(context, node.type_name.name));
     } else {
-      context.report(Diag::NotAnEnumeration, node.type_name.loc, {text(context, node.type_name.name)});
+      context.report(diag::NotAnEnumeration, node.type_name.loc, {text(context, node.type_name.name)});
     }
     return node.h.type = types::kError;
   }
@@ -330,7 +333,7 @@ TypeId checkTypedName(Context& context, ExprId& expr) {
   if (context.types().info(enumeration).kind != TypeKind::Enum) {
     node.entity = Entity::of(EntityKind::Error, 0);
     if (enumeration != types::kError) {
-      context.report(Diag::NotAnEnumeration, node.type_name.loc, {text(context, node.type_name.name)});
+      context.report(diag::NotAnEnumeration, node.type_name.loc, {text(context, node.type_name.name)});
     }
     return node.h.type = types::kError;
   }
@@ -338,7 +341,7 @@ TypeId checkTypedName(Context& context, ExprId& expr) {
   if (node.entity.what() != EntityKind::EnumValue) {
     if (sayUnknownMember(context, enumeration, node.item.name))
       context
-          .report(Diag::UnknownMember, node.item.loc,
+          .report(diag::UnknownMember, node.item.loc,
                   {text(context, node.type_name.name), text(context, node.item.name)})
           .didYouMean(nearestField(context, enumeration, node.item.name));
     node.entity = Entity::of(EntityKind::Error, 0);
@@ -380,14 +383,14 @@ std::optional<TypeId> checkNamedBit(Context& context, ExprId& expr, TypeId base)
   node.entity = Entity::of(EntityKind::Error, 0);
   node.h.type = types::kError;
   if (context.iec()) {
-    context.report(Diag::NamedBitExtension, node.h.loc);
+    context.report(diag::NamedBitExtension, node.h.loc);
     return types::kError;
   }
   if (var.constant) ensureInitialValue(context, id);
   markAccess(context, VarId{found.index}, Access::Read);
   if (!var.constant || !var.has_value) {
-    context.report(Diag::NamedBitNotConstant, node.h.loc, {text(context, node.member)})
-        .note(var.loc, Note::DeclaredHere);
+    context.report(diag::NamedBitNotConstant, node.h.loc, {text(context, node.member)})
+        .note(var.loc, diag::DeclaredHere);
     return types::kError;
   }
   BitAccessExpr bit{};
@@ -410,7 +413,7 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   if (hidden && context.iec()) {
     const std::string typed =
         std::string(text(context, nameOf(context, node.base))) + "#" + std::string(text(context, node.member));
-    context.report(Diag::NotARecord, node.h.loc, {text(context, node.member), context.types().spell(base)})
+    context.report(diag::NotARecord, node.h.loc, {text(context, node.member), context.types().spell(base)})
         .didYouMean(typed);
     node.entity = Entity::of(EntityKind::Error, 0);
     return node.h.type = types::kError;
@@ -427,9 +430,9 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
     if (const auto type = checkNamedBit(context, expr, record)) return *type;
     node.entity = Entity::of(EntityKind::Error, 0);
     if (info.kind == TypeKind::Pointer) {
-      context.report(Diag::MemberOfPointer, node.h.loc, {text(context, node.member)});
+      context.report(diag::MemberOfPointer, node.h.loc, {text(context, node.member)});
     } else {
-      context.report(Diag::NotARecord, node.h.loc, {text(context, node.member), context.types().spell(base)});
+      context.report(diag::NotARecord, node.h.loc, {text(context, node.member), context.types().spell(base)});
     }
     return node.h.type = types::kError;
   }
@@ -448,7 +451,7 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   if (!member) {
     node.entity = Entity::of(EntityKind::Error, 0);
     if (sayUnknownMember(context, record, node.member))
-      context.report(Diag::UnknownMember, node.h.loc, {context.types().spell(base), text(context, node.member)})
+      context.report(diag::UnknownMember, node.h.loc, {context.types().spell(base), text(context, node.member)})
           .didYouMean(nearestField(context, record, node.member));
     return node.h.type = types::kError;
   }

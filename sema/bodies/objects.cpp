@@ -2,8 +2,10 @@
 // thing. Out: a sema::Call of kind Method; a property that is read is the call of its GET, one that is written that of
 // its SET. Called by names.cpp, calls.cpp and statements.cpp.
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 #include "sema/checks/required_pins.h"
 #include "sema/declarations/declarations.h"
+#include "sema/diagnostics.h"
 #include "sema/scopes.h"
 
 namespace rung::sema {
@@ -78,7 +80,7 @@ bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, L
   const PouId object = objectOf(context);
   if (object == owner) return true;
   if (access == AccessLevel::Protected && object && isKindOf(context, object, owner)) return true;
-  context.report(Diag::NotAccessible, loc,
+  context.report(diag::NotAccessible, loc,
                  {text(context, name), wordOf(access), text(context, context.project.pou(owner).name)});
   return false;
 }
@@ -90,7 +92,7 @@ TypeId checkThis(Context& context, ExprId expr) {
   ExprHeader& header = context.tree().expr(expr);
   const PouId object = objectOf(context);
   if (!object || context.project.pou(object).kind == PouKind::Program) {
-    context.report(Diag::ThisOutside, header.loc, {"THIS"});
+    context.report(diag::ThisOutside, header.loc, {"THIS"});
     return header.type = types::kError;
   }
   return header.type = context.types().pointer(context.project.pou(object).record);
@@ -101,13 +103,13 @@ TypeId checkSuper(Context& context, ExprId expr) {
   ExprHeader& header = context.tree().expr(expr);
   const PouId object = objectOf(context);
   if (!object || context.project.pou(object).kind == PouKind::Program) {
-    context.report(Diag::ThisOutside, header.loc, {"SUPER"});
+    context.report(diag::ThisOutside, header.loc, {"SUPER"});
     return header.type = types::kError;
   }
   const PouId base = context.project.pou(object).base;
   if (!base) {
     if (context.tree().as<PouDecl>(context.project.pou(object).decl).bases.empty())
-      context.report(Diag::SuperWithoutBase, header.loc, {text(context, context.project.pou(object).name)});
+      context.report(diag::SuperWithoutBase, header.loc, {text(context, context.project.pou(object).name)});
     return header.type = types::kError;
   }
   return header.type = context.types().pointer(context.project.pou(base).record);
@@ -203,7 +205,7 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
     const Pou& method = context.project.pou(PouId{member.index});
     if (!mayAccess(context, method.access, method.owner, method.name, loc)) return header.type = types::kError;
     if (access == Access::Qualifier) return header.type = {};
-    context.report(Diag::NotAValue, loc,
+    context.report(diag::NotAValue, loc,
                    {text(context, method.name), method.kind == PouKind::Action ? "an action; call it with `()`"
                                                                                : "a method; call it with `(...)`"});
     return header.type = types::kError;
@@ -218,7 +220,7 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
     return header.type;
   }
   if (!property.get) {
-    context.report(Diag::PropertyWithoutGet, loc, {text(context, property.name)});
+    context.report(diag::PropertyWithoutGet, loc, {text(context, property.name)});
     return header.type = types::kError;
   }
   const Pou& getter = context.project.pou(property.get);
@@ -252,7 +254,7 @@ bool checkPropertyAssign(Context& context, AssignStmt& node) {
   const Property property = accessorsOf(context, found.index);
   const Loc loc = context.tree().loc(node.target);
   if (!property.set) {
-    context.report(Diag::PropertyWithoutSet, loc, {text(context, property.name)});
+    context.report(diag::PropertyWithoutSet, loc, {text(context, property.name)});
     checkExpr(context, node.value);
     return true;
   }
@@ -265,7 +267,7 @@ bool checkPropertyAssign(Context& context, AssignStmt& node) {
   const TypeId pin_type = context.project.var(pin).type;
   if (node.op() == AssignOp::Reference) {
     if (context.types().kind(pin_type) != TypeKind::Reference) {
-      context.report(Diag::NotAReference, loc, {"REF=", context.types().spell(pin_type)});
+      context.report(diag::NotAReference, loc, {"REF=", context.types().spell(pin_type)});
       return true;
     }
     if (!bindReference(context, node.value, pin_type)) return true;
@@ -331,7 +333,7 @@ Call constructorCall(Context& context, TypeId block, PouId method, Slice<Argumen
     ensureInitialValue(context, pins[i]);
     const Var& pin = context.project.var(pins[i]);
     if ((i < matched.slots.size() && matched.slots[i] != 0) || pin.init || pin.section == SectionKind::Output) continue;
-    context.report(Diag::MissingArgument, loc, {context.types().spell(block), text(context, pin.name)});
+    context.report(diag::MissingArgument, loc, {context.types().spell(block), text(context, pin.name)});
     break;
   }
   return call;
@@ -367,14 +369,14 @@ CallId checkConstructor(Context& context, TypeExprId type, uint32_t& elements) {
     Slice<Argument> first = written.arguments;
     if (!lists.empty()) first = tree.as<CallExpr>(lists[0]).arguments;
     if (first.count > 0)
-      context.report(Diag::TooManyArguments, tree.list(first)[0].loc, {context.types().spell(resolved), "0"});
+      context.report(diag::TooManyArguments, tree.list(first)[0].loc, {context.types().spell(resolved), "0"});
     return {};
   }
   if (lists.empty())
     return addCall(context, constructorCall(context, resolved, method, written.arguments, written.h.loc));
   const uint64_t count = elementCount(context, tree.typeExpr(whole).type);
   if (count != lists.size()) {
-    context.report(Diag::ElementArguments, tree.loc(lists[0]), {std::to_string(lists.size()), std::to_string(count)});
+    context.report(diag::ElementArguments, tree.loc(lists[0]), {std::to_string(lists.size()), std::to_string(count)});
     return {};
   }
   std::vector<Call> calls;
@@ -411,7 +413,7 @@ TypeId callMethod(Context& context, ExprId& expr, PouId id, ExprId instance, boo
   node.call = made;
   const Pou& callee = context.project.pou(id);
   if (!callee.result && !as_statement) {
-    context.report(Diag::NoResult, node.h.loc, {text(context, callee.name)});
+    context.report(diag::NoResult, node.h.loc, {text(context, callee.name)});
     return node.h.type = types::kError;
   }
   return node.h.type = callee.result;

@@ -2,6 +2,7 @@
 // own bounds, a BoundExpr where it is an ARRAY[*] of a VAR_IN_OUT, whose bounds come with the variable that is bound to
 // it.
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 
 namespace rung::sema {
 
@@ -12,7 +13,7 @@ TypeId checkBoundCall(Context& context, ExprId& expr, NameId name) {
   const CallExpr node = context.tree().as<CallExpr>(expr);
   const auto fail = [&] { return context.tree().expr(expr).type = types::kError; };
   if (node.arguments.count != 2) {
-    context.report(Diag::WrongArgumentCount, node.h.loc, {word, "2", std::to_string(node.arguments.count)});
+    context.report(diag::WrongArgumentCount, node.h.loc, {word, "2", std::to_string(node.arguments.count)});
     checkLooseArguments(context, node);
     return fail();
   }
@@ -21,13 +22,13 @@ TypeId checkBoundCall(Context& context, ExprId& expr, NameId name) {
   if (checkExpr(context, number) == types::kError || type == types::kError || !type) return fail();
   const types::TypeInfo& info = context.types().info(context.types().resolve(type));
   if (info.kind != TypeKind::Array) {
-    context.report(Diag::NotAnArray, context.tree().begin(array), {context.types().spell(type)});
+    context.report(diag::NotAnArray, context.tree().begin(array), {context.types().spell(type)});
     return fail();
   }
   const uint32_t dimensions = info.dimensions.empty() ? info.length : static_cast<uint32_t>(info.dimensions.size());
   const std::optional<int64_t> dimension = constantInteger(context, number);
   if (!dimension || *dimension < 1 || *dimension > dimensions) {
-    context.report(Diag::BoundDimension, context.tree().begin(number), {word, std::to_string(dimensions)});
+    context.report(diag::BoundDimension, context.tree().begin(number), {word, std::to_string(dimensions)});
     return fail();
   }
   const auto index = static_cast<uint32_t>(*dimension - 1);

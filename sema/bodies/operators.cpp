@@ -2,6 +2,7 @@
 // operator functions (ADD, MAX, EQ …), which follow the same rules. Out: types, and conversions of the operands.
 // Design §6: integers keep their own width in every subexpression, so what a result is assigned to does not widen it.
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 #include "sema/bodies/temporaries.h"
 #include "sema/checks/division_by_zero.h"
 #include "sema/checks/real_equality.h"
@@ -21,7 +22,7 @@ bool isTimeKind(TypeKind k) { return TypeTable::isDuration(k) || TypeTable::isDa
 TypeId reportOperand(Context& context, std::string_view what, TypeId type, Loc loc) {
   const TypeKind kind = context.types().plainKind(type);
   const bool extension = context.iec() && (TypeTable::isBits(kind) || TypeTable::isInteger(kind));
-  context.report(extension ? Diag::OperandExtension : Diag::OperandType, loc, {what, context.types().spell(type)});
+  context.report(extension ? diag::OperandExtension : diag::OperandType, loc, {what, context.types().spell(type)});
   return types::kError;
 }
 
@@ -32,7 +33,7 @@ TypeId reportOperands(Context& context, std::string_view what, TypeId a, TypeId 
     if (kind == TypeKind::RealLiteral) return std::string("REAL");
     return context.types().spell(type);
   };
-  context.report(Diag::OperandTypes, loc, {what, word(a), word(b)});
+  context.report(diag::OperandTypes, loc, {what, word(a), word(b)});
   return types::kError;
 }
 
@@ -217,7 +218,7 @@ TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, Ty
       return reportOperand(context, what, type, place);
     }
     if (common && areOtherEnums(context, accepted, common, type)) {
-      context.report(Diag::EnumsCompared, loc, {what, context.types().spell(common), context.types().spell(type)});
+      context.report(diag::EnumsCompared, loc, {what, context.types().spell(common), context.types().spell(type)});
       common = commonNumber(context, common, type);
       mixed_enums = true;
       continue;
@@ -347,7 +348,7 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
   }
   if (op == BinaryOp::Add && TypeTable::isText(context.types().plainKind(left)) &&
       TypeTable::isText(context.types().plainKind(right))) {
-    context.report(Diag::TextsAdded, node.h.loc);
+    context.report(diag::TextsAdded, node.h.loc);
     return node.h.type = types::kError;
   }
   ExprId operands[2] = {node.left, node.right};

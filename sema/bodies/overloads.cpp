@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 #include "sema/declarations/overloads.h"
 
 namespace rung::sema {
@@ -178,7 +179,7 @@ PouId chooseOverload(Context& context, const CallExpr& node, PouId called, bool&
   if (fitting.size() == 1) return fitting[0].pou;
   const auto name = text(context, context.project.pou(called).name);
   if (fitting.empty()) {
-    context.report(Diag::NoOverload, node.h.loc, {name, signatures(context, all)});
+    context.report(diag::NoOverload, node.h.loc, {name, signatures(context, all)});
     checkLooseArguments(context, node);
     return {};
   }
@@ -206,9 +207,9 @@ PouId chooseOverload(Context& context, const CallExpr& node, PouId called, bool&
   }
   if (broken) return {};
   if (able.empty())
-    context.report(Diag::NoOverload, node.h.loc, {name, signatures(context, fitting)});
+    context.report(diag::NoOverload, node.h.loc, {name, signatures(context, fitting)});
   else
-    context.report(Diag::SeveralOverloads, node.h.loc, {name, signatures(context, able)});
+    context.report(diag::SeveralOverloads, node.h.loc, {name, signatures(context, able)});
   return {};
 }
 

@@ -2,6 +2,7 @@
 // In: checked or unchecked operands. Out: AddressOf and Deref nodes, and arithmetic on the 64-bit numbers of addresses.
 // TM/TP manual 5.2, 5.3 (ADR, BITADR, POINTER TO); IEC 61131-3 ed. 3, 6.4.4.10 (REF_TO).
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 #include "sema/checks/addressable.h"
 #include "sema/declarations/declarations.h"
 
@@ -27,7 +28,7 @@ TypeId checkAddress(Context& context, ExprId& expr, ExprId place) {
   if (kind == ExprKind::This || kind == ExprKind::Super) type = throughObject(context, place, type);
   if (kind == ExprKind::BitAccess && (context.tree().expr(place).bits & kBitMember) != 0) {
     // TwinCAT gives the byte that holds a BIT.
-    context.report(Diag::AddressOfBitMember, context.tree().begin(place));
+    context.report(diag::AddressOfBitMember, context.tree().begin(place));
     place = context.tree().as<BitAccessExpr>(place).base;
     type = types::kByte;
   }
@@ -50,7 +51,7 @@ TypeId checkBitAddress(Context& context, ExprId& expr, ExprId place) {
     if (var.storage == Storage::Image && !var.hierarchical) view = var.image;
   }
   if (!view) {
-    context.report(Diag::NoBitAddress, context.tree().begin(place));
+    context.report(diag::NoBitAddress, context.tree().begin(place));
     return types::kError;
   }
   const uint32_t area = view->area == ImageArea::Memory ? 1 : view->area == ImageArea::Input ? 2 : 3;
@@ -92,7 +93,7 @@ TypeId checkIsValid(Context& context, ExprId& expr, ExprId operand) {
     }
   }
   if (context.types().kind(own) != TypeKind::Reference) {
-    context.report(Diag::NotAReference, context.tree().begin(operand), {"__ISVALIDREF", context.types().spell(own)});
+    context.report(diag::NotAReference, context.tree().begin(operand), {"__ISVALIDREF", context.types().spell(own)});
     return types::kError;
   }
   const ExprId null = makeLiteral(context, LiteralKind::Null, own, 0, loc);
@@ -121,7 +122,7 @@ TypeId checkAddressCall(Context& context, ExprId& expr, NameId name) {
   const CallExpr node = context.tree().as<CallExpr>(expr);
   const Slice<Argument> arguments = node.arguments;
   if (arguments.count != 1 || !context.tree().list(arguments)[0].value) {
-    context.report(Diag::WrongArgumentCount, node.h.loc, {text(context, name), "1", std::to_string(arguments.count)});
+    context.report(diag::WrongArgumentCount, node.h.loc, {text(context, name), "1", std::to_string(arguments.count)});
     checkLooseArguments(context, node);
     return context.tree().expr(expr).type = types::kError;
   }
@@ -153,7 +154,7 @@ bool bindReference(Context& context, ExprId& place, TypeId reference) {
     return true;
   }
   if (fitness != Fit::Same) {
-    context.report(Diag::WrongType, context.tree().begin(place),
+    context.report(diag::WrongType, context.tree().begin(place),
                    {context.types().spell(type), "bound to the reference", context.types().spell(reference)});
     return false;
   }
@@ -165,7 +166,7 @@ TypeId checkPointerIndex(Context& context, ExprId& expr) {
   IndexExpr& node = context.tree().as<IndexExpr>(expr);
   const Loc loc = node.h.loc;
   if (context.iec()) {
-    context.report(Diag::IndexOfPointer, loc);
+    context.report(diag::IndexOfPointer, loc);
     return node.h.type = types::kError;
   }
   const ExprId pointer = node.base;
@@ -174,7 +175,7 @@ TypeId checkPointerIndex(Context& context, ExprId& expr) {
   const TypeId given = checkExpr(context, index);
   if (given == types::kError) return node.h.type = types::kError;
   if (!isWhole(context, given)) {
-    context.report(Diag::IndexNotInteger, context.tree().loc(index), {context.types().spell(given)});
+    context.report(diag::IndexNotInteger, context.tree().loc(index), {context.types().spell(given)});
     return node.h.type = types::kError;
   }
   const TypeId target = context.types().info(context.types().resolve(type)).base;

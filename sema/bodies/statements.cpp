@@ -1,9 +1,11 @@
 // Statements. In: the statement list of a POU. Out: the same tree with every expression checked and converted.
 // Called by checkBody() below, which sema::check() calls for each POU and for each library POU in use.
 #include "frontend/diagram/schedule.h"
+#include "frontend/syntax/diagnostics.h"
 #include "frontend/text/il_schedule.h"
 #include "frontend/text/sfc_schedule.h"
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 #include "sema/bodies/shapes.h"
 #include "sema/bodies/temporaries.h"
 #include "sema/checks/case_labels.h"
@@ -57,7 +59,7 @@ void checkReferenceAssign(Context& context, AssignStmt& node) {
   if (checkPropertyAssign(context, node)) return;
   const TypeId own = context.tree().expr(node.target).type;
   if (context.types().kind(own) != TypeKind::Reference) {
-    context.report(Diag::NotAReference, context.tree().loc(node.target), {"REF=", context.types().spell(own)});
+    context.report(diag::NotAReference, context.tree().loc(node.target), {"REF=", context.types().spell(own)});
     return;
   }
   if (!checkWritable(context, node.target, Purpose{"assigned to", {}, {}})) return;
@@ -131,7 +133,7 @@ void checkAssign(Context& context, AssignStmt& node) {
       const TypeId type = checkTarget(context, node.target, Access::ReadWrite);
       checkAs(context, node.value, types::kBool, Purpose{"used to set or reset", {}, {}});
       if (type != types::kError && context.types().plainKind(type) != TypeKind::Bool) {
-        context.report(Diag::SetNeedsBool, context.tree().loc(node.target), {context.types().spell(type)});
+        context.report(diag::SetNeedsBool, context.tree().loc(node.target), {context.types().spell(type)});
       }
       return;
     }
@@ -154,7 +156,7 @@ void checkCallStatement(Context& context, StmtId id) {
   if (context.tree().kind(node.call) == ExprKind::Call) return;
   const TypeId type = context.tree().expr(node.call).type;
   if (isUntyped(context, type)) settle(context, node.call);
-  if (type != types::kError) context.report(Diag::ResultUnused, node.h.loc);
+  if (type != types::kError) context.report(diag::ResultUnused, node.h.loc);
   node.h.kind = StmtKind::Empty;  // a conversion: nothing happens
 }
 
@@ -164,7 +166,7 @@ bool checkIf(Context& context, const IfStmt& node) {
   for (uint32_t i = 0; i < node.branches.count; ++i) {
     IfBranch branch = context.tree().list(node.branches)[i];
     if (i > 0 && ++context.body->elsif_depth > kMaxElsifDepth) {
-      context.report(Diag::StatementsTooDeep, context.tree().begin(branch.condition), {std::to_string(kMaxElsifDepth)});
+      context.report(diag::StatementsTooDeep, context.tree().begin(branch.condition), {std::to_string(kMaxElsifDepth)});
       break;
     }
     checkCondition(context, branch.condition,
@@ -192,7 +194,7 @@ ExprId checkLabel(Context& context, ExprId label, TypeId selector, CaseLabels& l
   if (!convert(context, label, wanted, Purpose{"used as a CASE label", {}, {}})) return label;
   const std::optional<int64_t> known = constantInteger(context, label);
   if (!known) {
-    context.report(Diag::LabelNotConstant, context.tree().begin(label));
+    context.report(diag::LabelNotConstant, context.tree().begin(label));
     return label;
   }
   *value = *known;
@@ -208,7 +210,7 @@ bool checkCase(Context& context, CaseStmt& node) {
   if (isUntyped(context, selector)) selector = settle(context, node.selector);
   const TypeKind kind = context.types().plainKind(selector);
   if (selector != types::kError && !types::TypeTable::isInteger(kind) && !types::TypeTable::isBits(kind)) {
-    context.report(Diag::CaseSelector, context.tree().loc(node.selector), {context.types().spell(selector)});
+    context.report(diag::CaseSelector, context.tree().loc(node.selector), {context.types().spell(selector)});
     selector = types::kError;
   }
   CaseLabels labels;
@@ -305,20 +307,20 @@ bool checkEndless(Context& context, ExprId condition, bool goes_on, uint32_t way
   if (tree.kind(condition) != ExprKind::Literal || tree.expr(condition).type != types::kBool) return false;
   if ((tree.as<LiteralExpr>(condition).value() != 0) != goes_on) return false;
   if (context.body->ways_out != ways_out_before) return false;
-  context.report(Diag::EndlessLoop, loc);
+  context.report(diag::EndlessLoop, loc);
   return true;
 }
 
 // __TRY of CODESYS. The code is a number or an __SYSTEM.ExceptionCode.
 bool checkTry(Context& context, TryStmt& node) {
-  if (context.iec()) context.report(Diag::TryExtension, node.h.loc);
+  if (context.iec()) context.report(diag::TryExtension, node.h.loc);
   const bool falls = checkStatements(context, node.body);
   if (node.code) {
     const TypeId type = checkTarget(context, node.code, Access::Write);
     const TypeKind kind = context.types().plainKind(type);
     if (type != types::kError && (types::TypeTable::bitWidth(kind) < 32 ||
                                   !(types::TypeTable::isInteger(kind) || types::TypeTable::isBits(kind))))
-      context.report(Diag::ExceptionCode, context.tree().begin(node.code), {context.types().spell(type)});
+      context.report(diag::ExceptionCode, context.tree().begin(node.code), {context.types().spell(type)});
   }
   const bool handled = checkStatements(context, node.handler);
   const bool finished = checkStatements(context, node.finally);
@@ -360,7 +362,7 @@ bool checkStatement(Context& context, StmtId id) {
     case StmtKind::Continue:
       if (context.loop_depth == 0) {
         const bool exit = tree.kind(id) == StmtKind::Exit;
-        context.report(Diag::OutsideLoop, tree.loc(id), {exit ? "EXIT" : "CONTINUE"});
+        context.report(diag::OutsideLoop, tree.loc(id), {exit ? "EXIT" : "CONTINUE"});
         return true;
       }
       if (tree.kind(id) == StmtKind::Exit) ++body.ways_out;
@@ -381,7 +383,7 @@ bool checkStatements(Context& context, Slice<StmtId> list) {
   if (list.empty()) return true;
   BodyState& body = *context.body;
   if (body.stmt_depth >= kMaxStmtDepth) {
-    context.report(Diag::StatementsTooDeep, context.tree().loc(context.tree().list(list)[0]),
+    context.report(diag::StatementsTooDeep, context.tree().loc(context.tree().list(list)[0]),
                    {std::to_string(kMaxStmtDepth)});
     return true;
   }
@@ -395,7 +397,7 @@ bool checkStatements(Context& context, Slice<StmtId> list) {
     const StmtKind kind = context.tree().kind(id);
     if (kind == StmtKind::Label) reachable = true;
     if (!reachable && !told && kind != StmtKind::Empty && kind != StmtKind::Error) {
-      context.report(Diag::Unreachable, kind == StmtKind::Assign
+      context.report(diag::Unreachable, kind == StmtKind::Assign
                                             ? context.tree().begin(context.tree().as<AssignStmt>(id).target)
                                             : context.tree().loc(id));
       told = true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "sema/bodies/diagnostics.h"
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {
@@ -67,8 +68,8 @@ void adaptValue(Context& context, const Temporary& state, AssignStmt& node) {
   }
   const TypeId own = isUntyped(context, type) ? defaultType(context, node.value) : type;
   const std::string line = std::to_string(context.project.sources.lineNumber(state.first));
-  context.report(Diag::TypesMeet, node.h.loc, {context.types().spell(own), context.types().spell(state.type), line})
-      .note(state.first, Note::OtherValue);
+  context.report(diag::TypesMeet, node.h.loc, {context.types().spell(own), context.types().spell(state.type), line})
+      .note(state.first, diag::OtherValue);
 }
 
 void settleType(Context& context, Temporary& state, TypeId type, Loc first) {

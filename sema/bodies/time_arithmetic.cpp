@@ -3,6 +3,7 @@
 // with conversions at the rim, so that lowering and the kernel know one kind of arithmetic.
 // TIME and TOD count milliseconds, DATE and DT seconds, the L forms nanoseconds.
 #include "sema/bodies/bodies.h"
+#include "sema/diagnostics.h"
 
 namespace rung::sema {
 
@@ -60,7 +61,7 @@ TypeId scale(Context& context, ExprId& self, BinaryOp op, ExprId span, ExprId fa
   }
   if (op == BinaryOp::Divide) {
     if (const auto value = constantInteger(context, factor); value && *value == 0) {
-      context.report(Diag::DivisionByZero, context.tree().loc(factor));
+      context.report(diag::DivisionByZero, context.tree().loc(factor));
       return types::kError;
     }
   }

@@ -1,6 +1,7 @@
 // __VARINFO(x), __POUNAME() and __POSITION() of codesys: what the compiler knows of a variable and of the place in the
 // program. In: calls. Out: literals, and an AnyValue node with the constant members of __SYSTEM.VAR_INFO.
 #include "sema/bodies/bodies.h"
+#include "sema/bodies/diagnostics.h"
 #include "sema/checks/addressable.h"
 #include "sema/declarations/declarations.h"
 
@@ -127,7 +128,7 @@ TypeId checkVarInfo(Context& context, ExprId& expr, ExprId place) {
   if (is_bit) whole = context.tree().as<BitAccessExpr>(place).base;
   if (const ExprId byte = byteOfImage(context, place)) whole = byte;
   if (context.types().isOpenArray(type) || !hasMemory(context, whole)) {
-    context.report(Diag::NotAVariable, context.tree().begin(place));
+    context.report(diag::NotAVariable, context.tree().begin(place));
     return types::kError;
   }
   if (const PouId pou = pouOf(context, type)) resolvePou(context, pou);
@@ -181,7 +182,7 @@ TypeId checkKnownCall(Context& context, ExprId& expr, NameId name) {
   const CallExpr node = context.tree().as<CallExpr>(expr);
   const uint32_t wanted = info ? 1 : 0;
   if (node.arguments.count != wanted || (info && !context.tree().list(node.arguments)[0].value)) {
-    context.report(Diag::WrongArgumentCount, node.h.loc,
+    context.report(diag::WrongArgumentCount, node.h.loc,
                    {text(context, name), std::to_string(wanted), std::to_string(node.arguments.count)});
     checkLooseArguments(context, node);
     return context.tree().expr(expr).type = types::kError;

@@ -5,6 +5,8 @@
 // Called for the operand of ADR and REF, and for what a reference is bound to.
 #include "sema/checks/addressable.h"
 
+#include "sema/checks/diagnostics.h"
+
 namespace rung::sema {
 
 namespace {
@@ -67,7 +69,7 @@ bool hasMemory(const Context& context, ExprId place) { return wrongWith(context,
 
 bool checkAddressable(Context& context, ExprId place) {
   const char* wrong = wrongWith(context, place);
-  if (wrong != nullptr) context.report(Diag::NoAddress, context.tree().begin(place), {wrong});
+  if (wrong != nullptr) context.report(diag::NoAddress, context.tree().begin(place), {wrong});
   return wrong == nullptr;
 }
 

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "sema/checks/diagnostics.h"
+
 namespace rung::sema {
 
 namespace {
@@ -26,7 +28,7 @@ std::string spellLabel(Context& context, int64_t low, int64_t high, TypeId selec
 
 void addCaseLabel(Context& context, CaseLabels& labels, int64_t low, int64_t high, Loc loc, bool is_signed) {
   if (less(high, low, is_signed)) {
-    context.report(Diag::RangeReversed, loc, {std::to_string(low), std::to_string(high)});
+    context.report(diag::RangeReversed, loc, {std::to_string(low), std::to_string(high)});
     return;
   }
   labels.list.push_back({low, high, loc});
@@ -43,8 +45,8 @@ void checkCaseLabels(Context& context, CaseLabels& labels, TypeId selector, bool
     if (widest != nullptr && !less(widest->high, label.low, is_signed)) {
       const Label& later = widest->loc < label.loc ? label : *widest;
       const Label& first = widest->loc < label.loc ? *widest : label;
-      context.report(Diag::LabelTwice, later.loc, {spellLabel(context, later.low, later.high, selector)})
-          .note(first.loc, Note::FirstLabel);
+      context.report(diag::LabelTwice, later.loc, {spellLabel(context, later.low, later.high, selector)})
+          .note(first.loc, diag::FirstLabel);
     }
     if (widest == nullptr || less(widest->high, label.high, is_signed)) widest = &label;
   }

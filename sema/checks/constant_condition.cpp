@@ -4,13 +4,15 @@
 // Called for each condition of IF and ELSIF.
 #include "sema/checks/constant_condition.h"
 
+#include "sema/checks/diagnostics.h"
+
 namespace rung::sema {
 
 void checkConstantCondition(Context& context, ExprId condition) {
   const Tree& tree = context.tree();
   if (tree.kind(condition) != ExprKind::Literal || tree.expr(condition).type != types::kBool) return;
   const bool value = tree.as<LiteralExpr>(condition).value() != 0;
-  context.report(Diag::ConstantCondition, tree.loc(condition), {value ? "TRUE" : "FALSE"});
+  context.report(diag::ConstantCondition, tree.loc(condition), {value ? "TRUE" : "FALSE"});
 }
 
 }  // namespace rung::sema

@@ -4,13 +4,15 @@
 // Called by expressions.cpp for each index of each dimension.
 #include "sema/checks/constant_index.h"
 
+#include "sema/checks/diagnostics.h"
+
 namespace rung::sema {
 
 void checkConstantIndex(Context& context, ExprId index, const types::Dimension* dimension, TypeId array) {
   if (dimension == nullptr) return;
   const std::optional<int64_t> value = constantInteger(context, index);
   if (!value || (*value >= dimension->low && *value <= dimension->high)) return;
-  context.report(Diag::IndexOutOfRange, context.tree().begin(index),
+  context.report(diag::IndexOutOfRange, context.tree().begin(index),
                  {std::to_string(*value), std::to_string(dimension->low), std::to_string(dimension->high),
                   context.types().spell(array)});
 }

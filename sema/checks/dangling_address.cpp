@@ -5,6 +5,8 @@
 // Called for each assignment of a pointer and each binding of a reference.
 #include "sema/checks/dangling_address.h"
 
+#include "sema/checks/diagnostics.h"
+
 namespace rung::sema {
 
 namespace {
@@ -75,7 +77,7 @@ void checkDanglingAddress(Context& context, ExprId target, ExprId value) {
   const bool leaves = keeper && (context.project.var(keeper).section == SectionKind::Output ||
                                  keeper == context.project.pou(context.pou).result_var);
   if (keeper && !leaves && livesForOneCall(context, keeper)) return;
-  context.report(context.iec() ? Diag::DanglingAddress : Diag::AddressOutlives, tree.loc(address),
+  context.report(context.iec() ? diag::DanglingAddress : diag::AddressOutlives, tree.loc(address),
                  {text(context, context.project.var(variable).name)});
 }
 

@@ -4,6 +4,8 @@
 // Called for each infix division and for DIV and MOD.
 #include "sema/checks/division_by_zero.h"
 
+#include "sema/diagnostics.h"
+
 namespace rung::sema {
 
 bool checkDivisor(Context& context, ExprId divisor, BinaryOp op) {
@@ -22,7 +24,7 @@ bool checkDivisor(Context& context, ExprId divisor, BinaryOp op) {
     zero = constantInteger(context, divisor) == 0;
   }
   if (!zero) return true;
-  context.report(Diag::DivisionByZero, context.tree().begin(divisor), {spelling(op)});
+  context.report(diag::DivisionByZero, context.tree().begin(divisor), {spelling(op)});
   return false;
 }
 

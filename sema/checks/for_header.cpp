@@ -5,6 +5,7 @@
 // Called for each FOR before its body.
 #include "sema/checks/for_header.h"
 
+#include "sema/checks/diagnostics.h"
 #include "sema/checks/writable.h"
 
 namespace rung::sema {
@@ -21,7 +22,7 @@ TypeId checkForControl(Context& context, ForStmt& node) {
   if (!enumeration && (types::TypeTable::isInteger(kind) || (types::TypeTable::isBits(kind) && !context.iec()))) {
     return type;
   }
-  context.report(Diag::ControlNotInteger, context.tree().loc(node.control), {context.types().spell(type)});
+  context.report(diag::ControlNotInteger, context.tree().loc(node.control), {context.types().spell(type)});
   return types::kError;
 }
 
@@ -32,7 +33,7 @@ void checkForBounds(Context& context, const ForStmt& node) {
   if (node.step) {
     step = context.tree().expr(node.step).type == types::kError ? std::nullopt : constantInteger(context, node.step);
     if (step == 0) {
-      context.report(Diag::StepZero, context.tree().begin(node.step));
+      context.report(diag::StepZero, context.tree().begin(node.step));
       return;
     }
   }
@@ -45,7 +46,7 @@ void checkForBounds(Context& context, const ForStmt& node) {
   };
   const bool never = up ? less(*to, *from) : less(*from, *to);
   if (never) {
-    context.report(Diag::LoopNeverRuns, context.tree().begin(node.from),
+    context.report(diag::LoopNeverRuns, context.tree().begin(node.from),
                    {std::to_string(*from), std::to_string(*to), up ? "BY -1" : "a positive step"});
   }
 }

@@ -12,6 +12,8 @@
 
 #include <algorithm>
 
+#include "frontend/syntax/diagnostics.h"
+#include "sema/checks/diagnostics.h"
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {
@@ -79,8 +81,8 @@ void compare(Context& context, PouId mock_id, PouId original_id) {
   const std::string_view mock_name = context.names().text(mock.name),
                          original_name = context.names().text(original.name);
   const auto differs = [&](Loc loc, Loc there, std::string_view what, std::string_view is, std::string_view is_there) {
-    Report report = context.report(Diag::MockDiffers, loc, {what, is, mock_name, is_there, original_name});
-    if (there) report.note(there, Note::DeclaredHere);
+    Report report = context.report(diag::MockDiffers, loc, {what, is, mock_name, is_there, original_name});
+    if (there) report.note(there, diag::DeclaredHere);
   };
   const auto resultOf = [&](const Pou& pou) {
     return pou.result ? '`' + context.types().spell(pou.result) + '`' : std::string("missing");
@@ -117,13 +119,13 @@ void checkReplaced(Context& context, PouId id, const Pragma& pragma) {
   if (wanted.empty()) wanted = "...";
   if (found.what() != EntityKind::Pou) {
     if (context.tree().lost_names) return;
-    reportPragma(context, Diag::MockOfUnknown, pragma, {wanted}).didYouMean(nearestName(context, mock.replaces));
+    reportPragma(context, diag::MockOfUnknown, pragma, {wanted}).didYouMean(nearestName(context, mock.replaces));
     return;
   }
   const PouId original{found.index};
   if (!canBeReplaced(context.project.pou(original), mock)) {
-    reportPragma(context, Diag::MockOfOtherKind, pragma, {context.names().text(mock.name), wanted})
-        .note(context.project.pou(original).loc, Note::DeclaredHere);
+    reportPragma(context, diag::MockOfOtherKind, pragma, {context.names().text(mock.name), wanted})
+        .note(context.project.pou(original).loc, diag::DeclaredHere);
     return;
   }
   if (isBroken(context, id) || isBroken(context, original)) return;
@@ -149,7 +151,7 @@ void checkMocks(Context& context) {
       if (key == words.replaces) checkReplaced(there, PouId{i}, pragma);
       if (key != words.mock) continue;
       if (!pou.test) {
-        reportPragma(context, Diag::MockOutsideTest, pragma, {context.names().text(pou.name)});
+        reportPragma(context, diag::MockOutsideTest, pragma, {context.names().text(pou.name)});
         break;
       }
       const NameId name = context.names().intern(context.tree().text(pragma.value));
@@ -159,7 +161,7 @@ void checkMocks(Context& context) {
         for (const Pou& other : project.pous)
           if (other.replaces) mocks.push_back(context.names().text(other.name));
         const std::string_view written = context.names().text(name);
-        reportPragma(context, Diag::NoMock, pragma, {written.empty() ? "..." : written})
+        reportPragma(context, diag::NoMock, pragma, {written.empty() ? "..." : written})
             .didYouMean(nearest(written, mocks));
         continue;
       }
@@ -171,7 +173,7 @@ void checkMocks(Context& context) {
       if (original.what() != EntityKind::Pou) continue;  // reported at the mock
       for (const auto& [other, by] : replaced) {
         if (other != original.index) continue;
-        reportPragma(context, Diag::TwoMocks, pragma,
+        reportPragma(context, diag::TwoMocks, pragma,
                      {context.names().text(project.pou(by).name), context.names().text(mock.name),
                       context.names().text(mock.replaces)});
       }
@@ -181,7 +183,7 @@ void checkMocks(Context& context) {
   if (project.diagnostics.hasErrors()) return;
   for (uint32_t i = 1; i < taken.size(); ++i) {
     const Pou& pou = project.pous[i];
-    if (pou.replaces && !taken[i]) context.report(Diag::MockUnused, pou.loc, {context.names().text(pou.name)});
+    if (pou.replaces && !taken[i]) context.report(diag::MockUnused, pou.loc, {context.names().text(pou.name)});
   }
 }
 

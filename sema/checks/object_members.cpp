@@ -9,6 +9,8 @@
 
 #include <algorithm>
 
+#include "frontend/syntax/diagnostics.h"
+#include "sema/checks/diagnostics.h"
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {
@@ -44,10 +46,10 @@ void checkAccess(Context& context, PouId method, PouId replaced) {
       (hidden && shown) || (pou.access == AccessLevel::Private && other.access == AccessLevel::Protected);
   if (!narrower) return;
   context
-      .report(Diag::NarrowerAccess, pou.loc,
+      .report(diag::NarrowerAccess, pou.loc,
               {text(context, pou.name), pou.access == AccessLevel::Private ? "PRIVATE" : "PROTECTED",
                text(context, context.project.pou(other.owner).name)})
-      .note(other.loc, Note::DeclaredHere);
+      .note(other.loc, diag::DeclaredHere);
 }
 
 void checkSignature(Context& context, PouId method, PouId replaced) {
@@ -83,9 +85,9 @@ void checkSignature(Context& context, PouId method, PouId replaced) {
   if (difference.empty()) checkAccess(context, method, replaced);
   if (difference.empty() || isBroken(context, method) || isBroken(context, replaced)) return;
   context
-      .report(Diag::OtherSignature, pou.loc,
+      .report(diag::OtherSignature, pou.loc,
               {text(context, pou.name), text(context, context.project.pou(other.owner).name), difference})
-      .note(other.loc, Note::DeclaredHere);
+      .note(other.loc, diag::DeclaredHere);
 }
 
 struct Demands {
@@ -111,10 +113,10 @@ struct Demands {
     const Pou& pou = context.project.pou(object);
     if ((pou.modifiers & kAbstract) != 0 || isBroken(context, object)) return;
     context
-        .report(Diag::MemberMissing, loc,
+        .report(diag::MemberMissing, loc,
                 {text(context, pou.name), wordOf(wanted), text(context, wanted.name),
                  text(context, context.project.pou(wanted.owner).name)})
-        .note(wanted.loc, Note::DeclaredHere);
+        .note(wanted.loc, diag::DeclaredHere);
   }
 };
 
@@ -124,7 +126,7 @@ void checkPrototypes(Context& context, PouId interface) {
     const Pou& method = context.project.pou(member);
     const PouDecl& decl = context.tree().as<PouDecl>(method.decl);
     if (!decl.body.empty())
-      context.report(Diag::PrototypeWithBody, context.tree().loc(context.tree().list(decl.body)[0]),
+      context.report(diag::PrototypeWithBody, context.tree().loc(context.tree().list(decl.body)[0]),
                      {text(context, method.name), text(context, context.project.pou(interface).name)});
   }
 }
@@ -134,24 +136,24 @@ void checkMethod(Context& context, PouId object, PouId id) {
   const Pou& owner = context.project.pou(object);
   if (method.kind != PouKind::Method) return;
   if ((method.modifiers & kAbstract) != 0 && (owner.modifiers & kAbstract) == 0) {
-    context.report(Diag::AbstractInConcrete, method.loc, {text(context, method.name), text(context, owner.name)});
+    context.report(diag::AbstractInConcrete, method.loc, {text(context, method.name), text(context, owner.name)});
     return;
   }
   const PouId replaced = owner.base ? inherited(context, owner.base, id) : PouId{};
   if (!replaced || context.project.pou(replaced).access == AccessLevel::Private) {
     if ((method.modifiers & kOverride) != 0)
-      context.report(Diag::OverridesNothing, method.loc, {text(context, method.name)});
+      context.report(diag::OverridesNothing, method.loc, {text(context, method.name)});
     return;
   }
   const Pou& other = context.project.pou(replaced);
   const std::string_view base = text(context, context.project.pou(other.owner).name);
   if ((other.modifiers & kFinal) != 0) {
-    context.report(Diag::OverridesFinal, method.loc, {text(context, method.name), base})
-        .note(other.loc, Note::DeclaredHere);
+    context.report(diag::OverridesFinal, method.loc, {text(context, method.name), base})
+        .note(other.loc, diag::DeclaredHere);
   } else if (isLifeMethod(context, method.name)) {
     return;  // FB_Init has parameters of its own
   } else if (context.iec() && (method.modifiers & kOverride) == 0) {
-    context.report(Diag::OverrideMissing, method.loc, {text(context, method.name), base});
+    context.report(diag::OverrideMissing, method.loc, {text(context, method.name), base});
   } else {
     checkSignature(context, id, replaced);
   }
@@ -164,8 +166,8 @@ void checkHalves(Context& context, const Property& property) {
   const Pou& getter = context.project.pou(property.get);
   const Pou& setter = context.project.pou(property.set);
   const auto report = [&](const std::string& set, const std::string& get) {
-    context.report(Diag::PropertyHalves, setter.loc, {text(context, property.name), set, get})
-        .note(getter.loc, Note::DeclaredHere);
+    context.report(diag::PropertyHalves, setter.loc, {text(context, property.name), set, get})
+        .note(getter.loc, diag::DeclaredHere);
   };
   const TypeId read = getter.result, written = context.project.var(pinsOf(context, property.set)[0]).type;
   if (read == types::kError || written == types::kError) return;
@@ -232,7 +234,7 @@ bool checkNotAbstract(Context& context, TypeId type, Loc loc) {
   while (context.types().kind(type) == TypeKind::Array) type = context.types().info(context.types().resolve(type)).base;
   const PouId pou = context.types().kind(type) == TypeKind::Record ? pouOf(context, type) : PouId{};
   if (!pou || (context.project.pou(pou).modifiers & kAbstract) == 0) return true;
-  context.report(Diag::AbstractInstance, loc, {text(context, context.project.pou(pou).name)});
+  context.report(diag::AbstractInstance, loc, {text(context, context.project.pou(pou).name)});
   return false;
 }
 

@@ -5,6 +5,9 @@
 // Called by names.cpp for each `instance.pin`.
 #include "sema/checks/outside_access.h"
 
+#include "frontend/syntax/diagnostics.h"
+#include "sema/checks/diagnostics.h"
+
 namespace rung::sema {
 
 bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, TypeId record, Access access) {
@@ -22,22 +25,22 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
   const std::string_view pin = text(context, var.name);
   const std::string block = context.types().spell(record);
   const auto refuse = [&](Diag diag) {
-    context.report(diag, node.h.loc, {pin, block}).note(var.loc, Note::DeclaredHere);
+    context.report(diag, node.h.loc, {pin, block}).note(var.loc, diag::DeclaredHere);
     return false;
   };
   switch (var.section) {
     case SectionKind::Input:  // set for the call that follows: ed. 3 table 42, 6a, table 69, 2
       if (!context.iec() || program || access == Access::Write || access == Access::Qualifier) return true;
-      return refuse(Diag::InputReadOutside);
-    case SectionKind::Output: return writes ? refuse(Diag::OutputWrittenOutside) : true;
-    case SectionKind::InOut: return writes ? refuse(Diag::InOutWrittenOutside) : true;
+      return refuse(diag::InputReadOutside);
+    case SectionKind::Output: return writes ? refuse(diag::OutputWrittenOutside) : true;
+    case SectionKind::InOut: return writes ? refuse(diag::InOutWrittenOutside) : true;
     case SectionKind::Local:
     case SectionKind::Inst:
       if (!context.iec() && access != Access::Write && !context.project.pou(var.pou).library) return true;
       [[fallthrough]];
     case SectionKind::Temp:
     case SectionKind::External:
-    case SectionKind::Stat: return program || isBroken(context, var.pou) ? true : refuse(Diag::InternalVariable);
+    case SectionKind::Stat: return program || isBroken(context, var.pou) ? true : refuse(diag::InternalVariable);
     case SectionKind::Global:
     case SectionKind::Access:
     case SectionKind::Config: return true;

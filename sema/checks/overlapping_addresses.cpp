@@ -7,6 +7,9 @@
 
 #include <algorithm>
 
+#include "frontend/syntax/diagnostics.h"
+#include "sema/checks/diagnostics.h"
+
 namespace rung::sema {
 
 namespace {
@@ -47,8 +50,8 @@ void checkOverlappingAddresses(Context& context) {
       const bool in_order = first.loc.offset < second.loc.offset;
       const Var& later = in_order ? second : first;
       const Var& earlier = in_order ? first : second;
-      context.report(Diag::AddressOverlap, later.loc, {name(later), name(earlier)})
-          .note(earlier.loc, Note::DeclaredHere);
+      context.report(diag::AddressOverlap, later.loc, {name(later), name(earlier)})
+          .note(earlier.loc, diag::DeclaredHere);
     }
     if (!overlaps || other.end > one.end) last = i;
   }

@@ -5,6 +5,8 @@
 // Called by operators.cpp when both sides are typed.
 #include "sema/checks/real_equality.h"
 
+#include "sema/checks/diagnostics.h"
+
 namespace rung::sema {
 
 void checkRealEquality(Context& context, const BinaryExpr& node) {
@@ -14,7 +16,7 @@ void checkRealEquality(Context& context, const BinaryExpr& node) {
   for (const ExprId side : {node.left, node.right}) {
     if (tree.kind(side) == ExprKind::Literal && tree.as<LiteralExpr>(side).value() == 0) return;
   }
-  context.report(Diag::RealEquality, node.h.loc, {spelling(node.op())});
+  context.report(diag::RealEquality, node.h.loc, {spelling(node.op())});
 }
 
 }  // namespace rung::sema

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "sema/checks/diagnostics.h"
+
 namespace rung::sema {
 
 void checkRecursion(Context& context) {
@@ -43,7 +45,7 @@ void checkRecursion(Context& context) {
           cycle.append("`").append(text(context, context.project.pous[path[i].first].name)).append("`");
         }
         cycle.append(" calls `").append(text(context, context.project.pous[callee].name)).append("`");
-        context.report(context.iec() ? Diag::Recursion : Diag::RecursionAllowed, edge.loc, {cycle});
+        context.report(context.iec() ? diag::Recursion : diag::RecursionAllowed, edge.loc, {cycle});
       }
     }
   }

@@ -6,6 +6,10 @@
 // Called for every resolved call of any language.
 #include "sema/checks/required_pins.h"
 
+#include "frontend/syntax/diagnostics.h"
+#include "sema/checks/diagnostics.h"
+#include "sema/diagnostics.h"
+
 namespace rung::sema {
 
 bool checkRequiredPins(Context& context, const CallExpr& node, PouId id, const Arguments& arguments) {
@@ -24,12 +28,12 @@ bool checkRequiredPins(Context& context, const CallExpr& node, PouId id, const A
       if (!open || !must) continue;
     }
     if (must) {
-      context.report(Diag::PinNotConnected, node.h.loc, {text(context, pin.name), text(context, pou.name)})
-          .note(pin.loc, Note::DeclaredHere);
+      context.report(diag::PinNotConnected, node.h.loc, {text(context, pin.name), text(context, pou.name)})
+          .note(pin.loc, diag::DeclaredHere);
       good = false;
     } else if (by_position && pin.section == SectionKind::Input && !pin.init) {
       if (!isBroken(context, id))
-        context.report(Diag::MissingArgument, node.end ? node.end : node.h.loc,
+        context.report(diag::MissingArgument, node.end ? node.end : node.h.loc,
                        {text(context, pou.name), text(context, pin.name)});
       return false;
     }

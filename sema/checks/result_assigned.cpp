@@ -4,6 +4,7 @@
 // Called at the end of each body.
 #include "sema/checks/result_assigned.h"
 
+#include "sema/checks/diagnostics.h"
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {
@@ -12,7 +13,7 @@ void checkResultAssigned(Context& context) {
   const Pou& pou = context.project.pou(context.pou);
   if (pou.library || !pou.result_var || context.project.var(pou.result_var).written) return;
   if (pou.owner && isLifeMethod(context, pou.name)) return;  // nobody looks at theirs
-  context.report(Diag::ResultNotAssigned, pou.loc, {text(context, pou.name)});
+  context.report(diag::ResultNotAssigned, pou.loc, {text(context, pou.name)});
 }
 
 }  // namespace rung::sema

@@ -5,6 +5,7 @@
 // Called once, after the recursion rule, which sorts the calls by their caller. Linear in POUs and calls for each task.
 #include "sema/checks/shared_globals.h"
 
+#include "sema/checks/diagnostics.h"
 #include "sema/checks/uncopied.h"
 
 namespace rung::sema {
@@ -39,7 +40,7 @@ void checkSharedGlobals(Context& context) {
       if (by == task || by == ~0u) continue;
       const Var& var = project.var(write.var);
       if (uncopiedIn(context, var.type)) continue;  // a lock, or what has one of its own
-      context.report(Diag::TwoTasksWrite, var.loc,
+      context.report(diag::TwoTasksWrite, var.loc,
                      {text(context, var.name), text(context, project.tasks[by - 1].name),
                       text(context, project.tasks[task - 1].name)});
       by = ~0u;

@@ -5,6 +5,8 @@
 // Called for every call of a function and every type that is named.
 #include "sema/checks/test_only.h"
 
+#include "sema/checks/diagnostics.h"
+
 namespace rung::sema {
 
 void checkTestOnly(Context& context, PouId used, Loc loc) {
@@ -12,7 +14,7 @@ void checkTestOnly(Context& context, PouId used, Loc loc) {
   if (!pou.test_only || context.library) return;
   const Pou& user = context.project.pou(context.pou);
   if (user.test || user.test_only || user.replaces) return;
-  context.report(Diag::TestOnly, loc, {context.names().text(pou.name)});
+  context.report(diag::TestOnly, loc, {context.names().text(pou.name)});
 }
 
 }  // namespace rung::sema

@@ -6,6 +6,7 @@
 // Called for each conversion to a record or array, and for each variable.
 #include "sema/checks/uncopied.h"
 
+#include "sema/checks/diagnostics.h"
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {
@@ -28,7 +29,7 @@ bool checkCopied(Context& context, ExprId expr, TypeId type) {
   if (kind != TypeKind::Record && kind != TypeKind::Array) return true;
   const PouId held = uncopiedIn(context, type);
   if (!held) return true;
-  context.report(Diag::Uncopied, context.tree().loc(expr), {text(context, context.project.pou(held).name)});
+  context.report(diag::Uncopied, context.tree().loc(expr), {text(context, context.project.pou(held).name)});
   return false;
 }
 
@@ -44,7 +45,7 @@ bool checkKept(Context& context, const Var& var, Loc loc) {
   if (where == nullptr || var.section == SectionKind::External) return true;
   const PouId held = uncopiedIn(context, var.type);
   if (!held) return true;
-  context.report(Diag::NotKept, loc, {text(context, context.project.pou(held).name), where});
+  context.report(diag::NotKept, loc, {text(context, context.project.pou(held).name), where});
   return false;
 }
 

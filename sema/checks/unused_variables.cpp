@@ -5,6 +5,8 @@
 // Called once, when all bodies are checked; silent when there are errors, which leave uses unseen.
 #include "sema/checks/unused_variables.h"
 
+#include "sema/checks/diagnostics.h"
+
 namespace rung::sema {
 
 namespace {
@@ -35,11 +37,11 @@ void checkUnusedVariables(Context& context) {
           var.section == SectionKind::Local || var.section == SectionKind::Temp || var.section == SectionKind::Stat;
       if (local && !var.read && !var.written) {
         if (isMadeByMethod(context, var.type)) continue;
-        context.report(Diag::UnusedVariable, var.loc, {text(context, var.name)});
+        context.report(diag::UnusedVariable, var.loc, {text(context, var.name)});
       } else if (local && !var.written && !var.init && var.constructor.index == 0 && pou.kind != PouKind::Program) {
-        context.report(Diag::NeverWritten, var.loc, {text(context, var.name)});
+        context.report(diag::NeverWritten, var.loc, {text(context, var.name)});
       } else if (var.section == SectionKind::Output && !var.written && !var.init) {
-        context.report(Diag::OutputNeverWritten, var.loc, {text(context, var.name), text(context, pou.name)});
+        context.report(diag::OutputNeverWritten, var.loc, {text(context, var.name), text(context, pou.name)});
       }
     }
   }

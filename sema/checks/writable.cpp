@@ -6,6 +6,9 @@
 // Called for every target of an assignment, output binding and in-out argument.
 #include "sema/checks/writable.h"
 
+#include "frontend/syntax/diagnostics.h"
+#include "sema/checks/diagnostics.h"
+
 namespace rung::sema {
 
 namespace {
@@ -14,22 +17,22 @@ bool checkVariable(Context& context, VarId id, Loc loc) {
   const Var& var = context.project.var(id);
   const std::string_view name = text(context, var.name);
   if (var.constant || (var.external && context.project.var(var.external).constant)) {
-    context.report(Diag::AssignToConstant, loc, {name}).note(var.loc, Note::DeclaredHere);
+    context.report(diag::AssignToConstant, loc, {name}).note(var.loc, diag::DeclaredHere);
     return false;
   }
   if (var.section == SectionKind::Input && var.pou == context.pou && !context.library) {
     if (context.types().isOpenArray(var.type)) {
-      context.report(Diag::OpenInputWritten, loc, {name}).note(var.loc, Note::DeclaredHere);
+      context.report(diag::OpenInputWritten, loc, {name}).note(var.loc, diag::DeclaredHere);
       return false;
     }
-    context.report(context.iec() ? Diag::AssignToInput : Diag::InputWritten, loc, {name});
+    context.report(context.iec() ? diag::AssignToInput : diag::InputWritten, loc, {name});
     return !context.iec();
   }
   if (context.body == nullptr) return true;
   for (const BodyState::LoopControl& loop : context.body->loop_controls) {
     if (loop.var != id) continue;
-    context.report(context.iec() ? Diag::AssignToControl : Diag::ControlWritten, loc, {name})
-        .note(loop.loc, Note::LoopIsHere);
+    context.report(context.iec() ? diag::AssignToControl : diag::ControlWritten, loc, {name})
+        .note(loop.loc, diag::LoopIsHere);
     return !context.iec();
   }
   return true;
@@ -45,7 +48,7 @@ bool checkOfChart(Context& context, VarId id, Loc loc, std::string_view member) 
   if (own.chart_body && context.project.sources.fileOf(loc) == own.chart_body) return true;
   std::string what(text(context, var.name));
   if (!member.empty()) what += "." + std::string(member);
-  context.report(Diag::StepWritten, loc, {what});
+  context.report(diag::StepWritten, loc, {what});
   return false;
 }
 
@@ -63,13 +66,13 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
           const bool passed = purpose.words != "assigned to";  // a whole step may be lent to an in-out
           return (passed || checkOfChart(context, var, node.h.loc, {})) && checkVariable(context, var, node.h.loc);
         }
-        context.report(Diag::NotAPlace, node.h.loc, {purpose.spell(context)});
+        context.report(diag::NotAPlace, node.h.loc, {purpose.spell(context)});
         return false;
       }
       case ExprKind::Member: {
         const MemberExpr& node = tree.as<MemberExpr>(expr);
         if (node.entity.what() != EntityKind::Var) {
-          context.report(Diag::NotAPlace, node.h.loc, {purpose.spell(context)});
+          context.report(diag::NotAPlace, node.h.loc, {purpose.spell(context)});
           return false;
         }
         const VarId var{node.entity.index};
@@ -81,8 +84,8 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
           return false;
         if (isWhole(context, node)) return checkVariable(context, var, node.h.loc);
         if (context.project.var(var).constant) {
-          context.report(Diag::AssignToConstant, node.h.loc, {text(context, node.member)})
-              .note(context.project.var(var).loc, Note::DeclaredHere);
+          context.report(diag::AssignToConstant, node.h.loc, {text(context, node.member)})
+              .note(context.project.var(var).loc, diag::DeclaredHere);
           return false;
         }
         const types::TypeInfo& info = context.types().info(context.types().resolve(tree.expr(node.base).type));
@@ -113,7 +116,7 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
       case ExprKind::New:
       case ExprKind::AnyValue:
       case ExprKind::AddressOf:
-        context.report(Diag::NotAPlace, tree.begin(whole), {purpose.spell(context)});
+        context.report(diag::NotAPlace, tree.begin(whole), {purpose.spell(context)});
         return false;
     }
   }

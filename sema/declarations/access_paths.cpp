@@ -3,6 +3,7 @@
 // 10 and table 47, 9. Without a direction an access path is READ_ONLY.
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
 
 namespace rung::sema {
 
@@ -44,7 +45,7 @@ struct Resolver {
   // The path does not lead to a variable.
   //   passes  level : Cpu.p.level : INT;       fails   level : Cpu.p.lvl : INT;       E0890
   bool lost(const Ident& at) {
-    context.report(Diag::AccessPath, at.loc, {text(at.name)});
+    context.report(diag::AccessPath, at.loc, {text(at.name)});
     return false;
   }
 
@@ -190,7 +191,7 @@ struct Resolver {
     }
     out.type = type;
     if (context.types().resolve(type) != context.types().resolve(declared)) {
-      context.report(Diag::ExternalType, tree().loc(decl.type),
+      context.report(diag::ExternalType, tree().loc(decl.type),
                      {text(last.name), context.types().spell(declared), context.types().spell(type)});
       return;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
 
 namespace rung::sema {
 
@@ -51,7 +52,7 @@ std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& a
   const bool is_bit = unit == 0;
   if (path.empty()) return std::nullopt;  // reported by the lexer
   if (path.size() > (is_bit ? 2 : 1)) {
-    context.report(Diag::AddressParts, loc, {text, is_bit ? "`byte.bit`" : "one number"});
+    context.report(diag::AddressParts, loc, {text, is_bit ? "`byte.bit`" : "one number"});
     return std::nullopt;
   }
   ImageView view;
@@ -59,7 +60,7 @@ std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& a
   uint64_t byte = 0, bytes = 1;
   if (is_bit) {
     if (path.size() == 2 && path[1] > 7) {
-      context.report(Diag::AddressBit, loc, {text});
+      context.report(diag::AddressBit, loc, {text});
       return std::nullopt;
     }
     byte = path.size() == 2 ? path[0] : path[0] / 8;
@@ -73,7 +74,7 @@ std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& a
   if (type) {
     const bool is_bool = context.types().kind(type) == types::TypeKind::Bool;
     if (is_bit && !is_bool) {
-      context.report(Diag::AddressType, loc, {text, context.types().spell(type)});
+      context.report(diag::AddressType, loc, {text, context.types().spell(type)});
       return std::nullopt;
     }
     if (is_bool) view.is_bit = true;  // BOOL at %QB0: its bit 0
@@ -83,7 +84,7 @@ std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& a
     }
   }
   if (byte + bytes > kMaxImageBytes) {
-    context.report(Diag::AddressTooLarge, loc, {text, std::to_string(kMaxImageBytes)});
+    context.report(diag::AddressTooLarge, loc, {text, std::to_string(kMaxImageBytes)});
     return std::nullopt;
   }
   view.byte = static_cast<uint32_t>(byte);
@@ -106,14 +107,14 @@ VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, V
   const std::string text = spelledAddress(context, address);
   if (!type || type == types::kError) return {};
   if (isBitAddress(address) && context.types().kind(type) != types::TypeKind::Bool) {
-    context.report(Diag::AddressType, loc, {text, context.types().spell(type)});
+    context.report(diag::AddressType, loc, {text, context.types().spell(type)});
     return {};
   }
   if (!ensureLayout(context, type)) return {};
   const NameId name = context.names().intern(text);
   Entity known = scopes.hierarchical_names.find(keyOf(context, name));
   if (!known) {
-    if (!context.iec() && !context.library) context.report(Diag::HierarchicalAddress, loc, {text});
+    if (!context.iec() && !context.library) context.report(diag::HierarchicalAddress, loc, {text});
     known = Entity::of(EntityKind::Var, static_cast<uint32_t>(scopes.hierarchical.size()));
     scopes.hierarchical_names.insert(keyOf(context, name), known);
     Var var;
@@ -158,7 +159,7 @@ void placeHierarchical(Context& context) {
     uint32_t& end = project.image_bytes[static_cast<size_t>(named.image.area)];
     const uint64_t byte = (end + place.align - 1) / place.align * place.align;
     if (byte + place.bytes > kMaxImageBytes) {
-      context.report(Diag::AddressTooLarge, named.loc,
+      context.report(diag::AddressTooLarge, named.loc,
                      {context.names().text(named.name), std::to_string(kMaxImageBytes)});
       return;
     }

@@ -2,6 +2,7 @@
 // declared BIT. Out: hidden BYTE fields with the bits at their places, and the byte that the initial values of the bits
 // make. In bodies such a member is a BitAccess to that byte (bodies/names.cpp). In a union each is bit 0.
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
 
 namespace rung::sema {
 
@@ -25,7 +26,7 @@ bool mayBeBit(Context& context, const Var& var, TypeExprId written) {
   const bool plain =
       var.section == SectionKind::Local || var.section == SectionKind::Input || var.section == SectionKind::Output;
   if (var.storage == Storage::Field && plain && (block || var.record)) return true;
-  context.report(Diag::BitOutside, context.tree().loc(written));
+  context.report(diag::BitOutside, context.tree().loc(written));
   return false;
 }
 

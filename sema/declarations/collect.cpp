@@ -2,8 +2,10 @@
 // that the order of files and declarations does not matter. Nothing is resolved here.
 #include <string>
 
+#include "frontend/syntax/diagnostics.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
 #include "sema/declarations/overloads.h"
 
 namespace rung::sema {
@@ -51,8 +53,8 @@ const Pragma* findPragma(const Context& context, const DeclHeader& header, NameI
 //   passes  FUNCTION f … FUNCTION g …
 //   fails   FUNCTION f … FUNCTION F …                  E0301
 void reportTwice(Context& context, NameId name, Loc loc, Loc first) {
-  Report report = context.report(Diag::DeclaredTwice, loc, {context.names().text(name)});
-  if (first) report.note(first, Note::AlsoDeclaredHere);
+  Report report = context.report(diag::DeclaredTwice, loc, {context.names().text(name)});
+  if (first) report.note(first, diag::AlsoDeclaredHere);
 }
 
 NamedType& addNamed(Context& context, TypeId type) {
@@ -281,8 +283,8 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
     const std::string_view here = context.names().text(list.name);
     const std::string_view there =
         context.names().text(project.global_lists[project.vars[other.index].list.index].name);
-    context.report(Diag::GlobalAlsoDeclared, var.loc, {context.names().text(var.name), there, here})
-        .note(project.vars[other.index].loc, Note::AlsoDeclaredHere);
+    context.report(diag::GlobalAlsoDeclared, var.loc, {context.names().text(var.name), there, here})
+        .note(project.vars[other.index].loc, diag::AlsoDeclaredHere);
   }
 }
 

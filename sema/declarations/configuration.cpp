@@ -3,6 +3,7 @@
 #include "sema/declarations/configuration.h"
 
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
 
 namespace rung::sema {
 
@@ -76,7 +77,7 @@ struct TaskReader {
     const TypeId type = checkExpr(context, expr, types::kTime);
     if (type == types::kError) return std::nullopt;
     if (!TypeTable::isDuration(context.types().plainKind(type))) {
-      context.report(Diag::TaskSettingType, tree.begin(expr), {setting, "a TIME"});
+      context.report(diag::TaskSettingType, tree.begin(expr), {setting, "a TIME"});
       return std::nullopt;
     }
     const auto value = requireConstant(context, expr, {});
@@ -88,7 +89,7 @@ struct TaskReader {
     const auto value = constantBound(context, expr);
     if (!value) return std::nullopt;
     if (*value >= low && *value <= high) return value;
-    context.report(Diag::TaskSettingRange, context.tree().begin(expr),
+    context.report(diag::TaskSettingRange, context.tree().begin(expr),
                    {setting, std::to_string(low), std::to_string(high)});
     return std::nullopt;
   }
@@ -107,7 +108,7 @@ struct TaskReader {
     } else if (word == "EXTERNAL") {
       task.kind = TaskKind::External;
     } else {
-      context.report(Diag::TaskKindUnknown, context.tree().begin(expr));
+      context.report(diag::TaskKindUnknown, context.tree().begin(expr));
     }
   }
 
@@ -120,7 +121,7 @@ struct TaskReader {
       if (const auto ns = time(argument.value, name)) {
         has_interval = *ns != 0 || !has_single;
         if (*ns < 0 || (*ns == 0 && !has_single)) {
-          context.report(Diag::TaskInterval, context.tree().begin(argument.value));
+          context.report(diag::TaskInterval, context.tree().begin(argument.value));
         } else {
           task.interval_ns = *ns;
         }
@@ -142,7 +143,7 @@ struct TaskReader {
     } else {
       const std::string_view written = context.names().text(argument.pin.name);
       if (argument.pin.name)
-        context.report(Diag::TaskSettingUnknown, argument.pin.loc, {written})
+        context.report(diag::TaskSettingUnknown, argument.pin.loc, {written})
             .didYouMean(
                 nearest(written, {"INTERVAL", "PRIORITY", "SINGLE", "KIND", "TRIGGER", "WATCHDOG", "SENSITIVITY"}));
     }
@@ -154,13 +155,13 @@ struct TaskReader {
     if (task.kind == TaskKind::External) {
       if (trigger) task.external_event = wordOf(context, trigger);
       if (task.external_event.empty()) {
-        context.report(Diag::TaskNeedsTrigger, loc, {context.names().text(task.name), "the name of an event"});
+        context.report(diag::TaskNeedsTrigger, loc, {context.names().text(task.name), "the name of an event"});
       }
       return;
     }
     if (task.kind != TaskKind::Event && task.kind != TaskKind::Status) return;
     if (!trigger) {
-      context.report(Diag::TaskNeedsTrigger, loc, {context.names().text(task.name), "a BOOL variable"});
+      context.report(diag::TaskNeedsTrigger, loc, {context.names().text(task.name), "a BOOL variable"});
       return;
     }
     const TypeId type = checkExpr(context, trigger, types::kBool);
@@ -173,7 +174,7 @@ struct TaskReader {
         (context.project.vars[found.index].storage == Storage::Field &&
          (!context.project.vars[found.index].pou ||
           context.project.pou(context.project.vars[found.index].pou).kind != PouKind::Program))) {
-      context.report(Diag::TaskTriggerType, context.tree().begin(trigger), {context.names().text(task.name)});
+      context.report(diag::TaskTriggerType, context.tree().begin(trigger), {context.names().text(task.name)});
       return;
     }
     task.trigger = VarId{found.index};
@@ -193,7 +194,7 @@ struct TaskReader {
       task.kind = has_single ? TaskKind::Event : has_interval ? TaskKind::Cyclic : TaskKind::Freewheeling;
     }
     if (task.kind == TaskKind::Cyclic && !has_interval) {
-      context.report(Diag::TaskInterval, decl.h.loc);
+      context.report(diag::TaskInterval, decl.h.loc);
     }
     resolveTrigger(decl.h.loc);
   }
@@ -216,7 +217,7 @@ uint32_t findTask(Context& context, const Part& part, const Ident& wanted, std::
   }
   const std::string_view text = context.names().text(wanted.name);
   if (found == 0 && !context.tree().lost_names)
-    context.report(Diag::UnknownTask, wanted.loc, {text}).didYouMean(nearest(text, names));
+    context.report(diag::UnknownTask, wanted.loc, {text}).didYouMean(nearest(text, names));
   return found;
 }
 
@@ -235,7 +236,7 @@ void addBlockTasks(Context& context, const Part& part, const ProgramInstanceDecl
     const PouId pou = named == nullptr ? PouId{} : named->pou;
     if (!pou || project.pou(pou).kind != PouKind::FunctionBlock) {
       if (type != types::kError)
-        context.report(Diag::NoBlockOfProgram, block.loc,
+        context.report(diag::NoBlockOfProgram, block.loc,
                        {context.names().text(block.name), context.names().text(project.pou(program).name)});
       continue;
     }
@@ -295,7 +296,7 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
     }
     const std::string_view text = context.names().text(type.name);
     if (!context.tree().lost_names)
-      context.report(Diag::NoProgram, type.loc, {text}).didYouMean(nearest(text, programs));
+      context.report(diag::NoProgram, type.loc, {text}).didYouMean(nearest(text, programs));
     return;
   }
   if (decl.task.name) {
@@ -303,7 +304,7 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
   } else if (context.iec()) {
     instance.task = backgroundTask(context);
   } else {
-    context.report(Diag::ProgramWithoutTask, decl.h.loc, {context.names().text(decl.name)});
+    context.report(diag::ProgramWithoutTask, decl.h.loc, {context.names().text(decl.name)});
   }
   if (!decl.arguments.empty()) {
     NameExpr callee{};

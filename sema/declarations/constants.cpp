@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
 
 namespace rung::sema {
 
@@ -92,12 +93,12 @@ namespace {
 //   fails   VAR CONSTANT n : INT := 1 / 0; END_VAR      E0323
 std::optional<Value> checked(Context& context, const Outcome& outcome, Loc loc, Loc divisor) {
   if (outcome.fault == types::Fault::Div) {
-    context.report(Diag::ConstantDivision, divisor);
+    context.report(diag::ConstantDivision, divisor);
     return std::nullopt;
   }
   if (outcome.overflow) {
     context.report(
-        Diag::ConstantOverflow, loc,
+        diag::ConstantOverflow, loc,
         {context.types().spell(outcome.value.type), types::spell(context.types(), context.names(), outcome.value)});
   }
   return outcome.value;
@@ -320,7 +321,7 @@ std::optional<Value> requireConstant(Context& context, ExprId expr, TypeId type)
   const auto value = evaluate(context, expr);
   if (!value) {
     if (context.project.diagnostics.errorCount() == errors) {
-      context.report(Diag::ConstantNeeded, context.tree().begin(expr));
+      context.report(diag::ConstantNeeded, context.tree().begin(expr));
     }
     return std::nullopt;
   }
@@ -339,14 +340,14 @@ std::optional<int64_t> constantBound(Context& context, ExprId& expr) {
   if (type == types::kError) return std::nullopt;
   const TypeKind kind = context.types().plainKind(type);
   if (!TypeTable::isInteger(kind) && !TypeTable::isBits(kind) && kind != TypeKind::IntegerLiteral) {
-    context.report(Diag::IntegerNeeded, context.tree().begin(expr), {context.types().spell(type)});
+    context.report(diag::IntegerNeeded, context.tree().begin(expr), {context.types().spell(type)});
     return std::nullopt;
   }
   const auto value = requireConstant(context, expr, {});
   if (!value) return std::nullopt;
   if (kind == TypeKind::ULInt || kind == TypeKind::LWord) {
     if (value->asSigned() < 0) {
-      context.report(Diag::NoValueOfType, context.tree().begin(expr), {std::to_string(value->bits), "LINT"});
+      context.report(diag::NoValueOfType, context.tree().begin(expr), {std::to_string(value->bits), "LINT"});
       return std::nullopt;
     }
   }

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
 
 namespace rung::sema {
 
@@ -138,7 +139,7 @@ struct InitialOrder {
     for (auto step = at; step != path.end(); ++step) way += "`" + spelled(context, var(*step).name) + "` reads ";
     way += "`" + spelled(context, var(again).name) + "`";
     const Loc loc = var(again).init ? tree().begin(var(again).init) : var(again).loc;
-    context.report(Diag::InitialValueCircle, loc, {spelled(context, var(again).name), way});
+    context.report(diag::InitialValueCircle, loc, {spelled(context, var(again).name), way});
   }
 
   // Depth first with a stack of its own, in order of declaration; `same`: which variables are ordered together.

@@ -3,7 +3,10 @@
 // surplus array elements are cut off and repetition counts are literals.
 #include <algorithm>
 
+#include "frontend/syntax/diagnostics.h"
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
+#include "sema/diagnostics.h"
 
 namespace rung::sema {
 
@@ -121,7 +124,7 @@ struct Initializer {
   void scalar(ExprId& init, TypeId type) {
     const ExprKind kind = tree().kind(init);
     if (kind == ExprKind::ArrayInit || kind == ExprKind::StructInit || kind == ExprKind::Repeat) {
-      context.report(Diag::ListForOneValue, tree().loc(init), {context.types().spell(type)});
+      context.report(diag::ListForOneValue, tree().loc(init), {context.types().spell(type)});
       init = {};
       return;
     }
@@ -142,7 +145,7 @@ struct Initializer {
       if (tree().kind(init) == ExprKind::Binary || tree().kind(init) == ExprKind::Unary) evaluate(context, init);
       return;
     }
-    context.report(Diag::InitialValueNotConstant, tree().begin(init), {what});
+    context.report(diag::InitialValueNotConstant, tree().begin(init), {what});
     init = {};
   }
 
@@ -190,7 +193,7 @@ struct Initializer {
           continue;
         }
         if (*turns < 0) {
-          context.report(Diag::RepetitionNegative, tree().begin(repeat.count), {std::to_string(*turns)});
+          context.report(diag::RepetitionNegative, tree().begin(repeat.count), {std::to_string(*turns)});
           continue;
         }
         if (tree().kind(repeat.count) != ExprKind::Literal) {
@@ -244,7 +247,7 @@ struct Initializer {
     const TypeInfo& info = context.types().info(context.types().resolve(type));
     if (tree().kind(init) != ExprKind::ArrayInit) {
       if (likeAnother(init, type)) return;
-      context.report(Diag::ArrayListExpected, tree().begin(init), {context.types().spell(type)});
+      context.report(diag::ArrayListExpected, tree().begin(init), {context.types().spell(type)});
       init = {};
       return;
     }
@@ -255,7 +258,7 @@ struct Initializer {
     Loc surplus;
     const uint64_t count = elements(node.elements, info.base, room, surplus);
     if (surplus && !broken)
-      context.report(Diag::SurplusElements, surplus, {std::to_string(count), std::to_string(room)});
+      context.report(diag::SurplusElements, surplus, {std::to_string(count), std::to_string(room)});
   }
 
   // Forbids members that do not exist, that are set twice, or that an initial value cannot set. Design §6: inputs, and
@@ -277,7 +280,7 @@ struct Initializer {
           return;
         }
       }
-      context.report(Diag::MembersExpected, tree().begin(init), {context.types().spell(type)});
+      context.report(diag::MembersExpected, tree().begin(init), {context.types().spell(type)});
       init = {};
       return;
     }
@@ -290,21 +293,21 @@ struct Initializer {
       const std::string_view name = context.names().text(given.field.name);
       const VarId member = findMember(context, type, given.field.name);
       if (!member) {
-        context.report(Diag::UnknownMember, given.field.loc, {context.types().spell(type), name})
+        context.report(diag::UnknownMember, given.field.loc, {context.types().spell(type), name})
             .didYouMean(nearestMember(type, given.field.name));
         continue;
       }
       const Var& var = context.project.var(member);
       if (!seen.insert(keyOf(context, var.name), entity(member))) {
-        context.report(Diag::MemberSetTwice, given.field.loc, {name});
+        context.report(diag::MemberSetTwice, given.field.loc, {name});
         continue;
       }
       const bool settable =
           var.storage == Storage::Field && var.section != SectionKind::InOut &&
           (!var.pou || var.section == SectionKind::Input || var.access == AccessLevel::Public || !context.iec());
       if (!settable) {
-        context.report(Diag::MemberNotSettable, given.field.loc, {name, context.types().spell(type)})
-            .note(var.loc, Note::DeclaredHere);
+        context.report(diag::MemberNotSettable, given.field.loc, {name, context.types().spell(type)})
+            .note(var.loc, diag::DeclaredHere);
         continue;
       }
       given.field.name = var.name;  // an alias stands for its pin

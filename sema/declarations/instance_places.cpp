@@ -5,8 +5,10 @@
 
 #include <algorithm>
 
+#include "frontend/syntax/diagnostics.h"
 #include "sema/bodies/bodies.h"
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
 
 namespace rung::sema {
 
@@ -196,7 +198,7 @@ struct Resolver {
         found = next == 1 ? context.scopes.lists[list.index].names.find(keyOf(context, names[next].name))
                           : context.scopes.globals.find(keyOf(context, names[next].name));
         if (found.what() != EntityKind::Var) {
-          context.report(Diag::ConfigPath, names[next].loc, {text(names[next].name)});
+          context.report(diag::ConfigPath, names[next].loc, {text(names[next].name)});
           return false;
         }
         out.path.push_back({VarId{found.index}, -1});
@@ -208,7 +210,7 @@ struct Resolver {
     for (; next < names.size(); ++next) {
       const VarId member = findMember(context, type, names[next].name);
       if (!member) {
-        if (type != types::kError) context.report(Diag::ConfigPath, names[next].loc, {text(names[next].name)});
+        if (type != types::kError) context.report(diag::ConfigPath, names[next].loc, {text(names[next].name)});
         return false;
       }
       out.var = member;
@@ -216,15 +218,15 @@ struct Resolver {
       type = project.var(member).type;
     }
     if (out.var) return true;
-    context.report(Diag::ConfigPath, names[names.size() - 1].loc, {text(names[names.size() - 1].name)});
+    context.report(diag::ConfigPath, names[names.size() - 1].loc, {text(names[names.size() - 1].name)});
     return false;
   }
 
   // Forbids two lines of VAR_CONFIG for one variable.   fails  Main.start AT %IX0 : BOOL; Main.start AT %IX1 : BOOL;
   // E0830
   void reportConfiguredTwice(const Ident& variable, Loc first) {
-    Report report = context.report(Diag::ConfigTwice, variable.loc, {text(variable.name)});
-    if (first) report.note(first, Note::AlsoDeclaredHere);
+    Report report = context.report(diag::ConfigTwice, variable.loc, {text(variable.name)});
+    if (first) report.note(first, diag::AlsoDeclaredHere);
   }
 
   static bool samePath(const InstancePlace& a, const InstancePlace& b) {
@@ -248,24 +250,24 @@ struct Resolver {
     if (type == types::kError || var.type == types::kError) return;
     if (context.types().resolve(type) != context.types().resolve(var.type)) {
       context
-          .report(Diag::ExternalType, tree().loc(decl.type),
+          .report(diag::ExternalType, tree().loc(decl.type),
                   {text(last.name), context.types().spell(type), context.types().spell(var.type)})
-          .note(var.loc, Note::DeclaredHere);
+          .note(var.loc, diag::DeclaredHere);
       return;
     }
     if (decl.located && !var.open_address) {
-      context.report(Diag::ConfigNotOpen, decl.address_loc, {text(last.name)}).note(var.loc, Note::DeclaredHere);
+      context.report(diag::ConfigNotOpen, decl.address_loc, {text(last.name)}).note(var.loc, diag::DeclaredHere);
       return;
     }
     std::optional<ImageView> view;
     if (decl.located) {
       if (decl.address.area != var.image.area) {
         const std::string area(1, areaLetter(var.image.area));
-        context.report(Diag::ConfigArea, decl.address_loc, {text(last.name), area}).note(var.loc, Note::DeclaredHere);
+        context.report(diag::ConfigArea, decl.address_loc, {text(last.name), area}).note(var.loc, diag::DeclaredHere);
         return;
       }
       if (decl.address.incomplete) {
-        context.report(Diag::ConfigIncomplete, decl.address_loc, {text(last.name)});
+        context.report(diag::ConfigIncomplete, decl.address_loc, {text(last.name)});
         return;
       }
       view = resolveAddress(context, decl.address, decl.address_loc, type);
@@ -352,7 +354,7 @@ struct Resolver {
       std::string address = "%";
       address += areaLetter(var.image.area);
       address += is_bool ? "X0.0" : info.size == 2 ? "W0" : info.size == 4 ? "D0" : info.size == 8 ? "L0" : "B0";
-      context.report(Diag::AddressIncomplete, var.loc, {path, address, context.types().spell(var.type)});
+      context.report(diag::AddressIncomplete, var.loc, {path, address, context.types().spell(var.type)});
       return false;
     }
     uint64_t& bit = free_bit_[area];
@@ -369,7 +371,7 @@ struct Resolver {
       bit = (byte + info.size) * 8;
     }
     if (bit / 8 >= kMaxImageBytes) {
-      context.report(Diag::AddressTooLarge, var.loc, {path, std::to_string(kMaxImageBytes)});
+      context.report(diag::AddressTooLarge, var.loc, {path, std::to_string(kMaxImageBytes)});
       return false;
     }
     project.image_bytes[area] = static_cast<uint32_t>((bit + 7) / 8);

@@ -6,6 +6,8 @@
 // block open, then the same of the namespace around that one; at file level the project's names, the USINGs of the
 // file, the libraries. A USING opens what its namespace declares itself, not the namespaces in it.
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
+#include "sema/diagnostics.h"
 
 namespace rung::sema {
 
@@ -72,7 +74,7 @@ struct Collector {
       if (tree.kind(decl) == DeclKind::Namespace) {
         space(tree.as<NamespaceDecl>(decl), file, region);
       } else if (tree.kind(decl) == DeclKind::Configuration && !at_file_level) {
-        context.report(Diag::SectionNotAllowed, tree.loc(decl), {"CONFIGURATION", "NAMESPACE"});
+        context.report(diag::SectionNotAllowed, tree.loc(decl), {"CONFIGURATION", "NAMESPACE"});
       } else {
         out.push_back({decl, file, region});
       }
@@ -117,7 +119,7 @@ Entity findOpened(Context& context, RegionId region, NameId key, Loc loc, bool t
       const std::string first = spelled(context, spaceAt(context, from).name),
                         second = spelled(context, spaceAt(context, space).name);
       if (loc && sayUnknown(context, key))
-        context.report(Diag::AmbiguousName, loc, {context.names().text(key), first, second});
+        context.report(diag::AmbiguousName, loc, {context.names().text(key), first, second});
       return Entity::of(EntityKind::Error, 0);
     }
     found = here;
@@ -184,7 +186,7 @@ void openUsings(Context& context, RegionId region) {
               : of_library ? Entity{}
                            : spaceAt(there, space.index).names.find(keyOf(there, part.name));
       if (isNamespace(space)) continue;
-      there.report(Diag::UnknownNamespace, part.loc, {context.names().text(part.name)});
+      there.report(diag::UnknownNamespace, part.loc, {context.names().text(part.name)});
       break;
     }
     if (isNamespace(space) && checkVisible(there, space, tree.list(decl.path)[decl.path.count - 1].loc))
@@ -266,7 +268,7 @@ Entity lookUpQualified(Context& context, Slice<Ident> path) {
   const Ident first = context.tree().list(path)[0];
   Entity found = findNamespace(context, first.name);
   if (!found) {
-    context.report(Diag::UnknownName, first.loc, {context.names().text(first.name)})
+    context.report(diag::UnknownName, first.loc, {context.names().text(first.name)})
         .didYouMean(nearestName(context, first.name));
     return wrong;
   }
@@ -279,7 +281,7 @@ Entity lookUpQualified(Context& context, Slice<Ident> path) {
     }
     if (!isNamespace(found)) {
       const Ident before = context.tree().list(path)[i - 1];
-      context.report(Diag::UnknownNamespace, before.loc, {context.names().text(before.name)});
+      context.report(diag::UnknownNamespace, before.loc, {context.names().text(before.name)});
       return wrong;
     }
     if (!checkVisible(context, found, context.tree().list(path)[i - 1].loc)) return wrong;
@@ -316,7 +318,7 @@ bool checkVisible(Context& context, Entity found, Loc loc) {
   if (found.what() == EntityKind::Pou) name = context.project.pous[found.index].name;
   if (found.what() == EntityKind::Type) name = context.types().info(TypeId{found.index}).name;
   if (isNamespace(found)) name = spaceAt(context, found.index).name;
-  context.report(Diag::NotAccessible, loc,
+  context.report(diag::NotAccessible, loc,
                  {context.names().text(name), "INTERNAL",
                   context.names().text(spaceAt(context, spaceAround(context, found)).name)});
   return false;

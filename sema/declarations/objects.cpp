@@ -7,7 +7,9 @@
 // has, the id comes first.
 #include <algorithm>
 
+#include "frontend/syntax/diagnostics.h"
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
 #include "sema/declarations/overloads.h"
 
 namespace rung::sema {
@@ -102,7 +104,7 @@ PouId objectNamed(Context& context, TypeExprId written, bool want_interface) {
   const PouId block = named != nullptr ? named->pou : PouId{};
   if (want_interface ? static_cast<bool>(interface) : block && context.project.pou(block).kind != PouKind::Program)
     return want_interface ? interface : block;
-  context.report(want_interface ? Diag::NotAnInterface : Diag::NotABase, context.tree().loc(written),
+  context.report(want_interface ? diag::NotAnInterface : diag::NotABase, context.tree().loc(written),
                  {context.types().spell(type)});
   return {};
 }
@@ -186,7 +188,7 @@ void addInterface(Context& there, Pou& pou, PouId interface, Loc loc) {
   if (std::find(pou.interfaces.begin(), pou.interfaces.end(), interface) == pou.interfaces.end())
     pou.interfaces.push_back(interface);
   else
-    there.report(Diag::InterfaceTwice, loc, {there.names().text(there.project.pou(interface).name)});
+    there.report(diag::InterfaceTwice, loc, {there.names().text(there.project.pou(interface).name)});
 }
 
 }  // namespace
@@ -207,7 +209,7 @@ void resolveHeader(Context& context, PouId id) {
     const PouId base = objectNamed(there, written, is_interface);
     if (!base) continue;
     if (context.scopes.depth > kMaxDeclarationDepth) {
-      there.report(Diag::DeclarationsTooDeep, context.tree().loc(written),
+      there.report(diag::DeclarationsTooDeep, context.tree().loc(written),
                    {context.names().text(project.pou(id).name)});
       continue;
     }
@@ -222,14 +224,14 @@ void resolveHeader(Context& context, PouId id) {
     project.pou(id).base_depth = std::max(project.pou(id).base_depth, depth);
     const std::string_view name = context.names().text(project.pou(base).name);
     if (project.pou(base).header == Pou::Header::Busy) {
-      there.report(Diag::ExtendsItself, context.tree().loc(written), {context.names().text(project.pou(id).name)});
+      there.report(diag::ExtendsItself, context.tree().loc(written), {context.names().text(project.pou(id).name)});
     } else if (is_interface) {
       addInterface(there, project.pou(id), base, context.tree().loc(written));
     } else if (project.pou(id).base) {
-      there.report(Diag::SeveralBases, context.tree().loc(written), {context.names().text(project.pou(id).name)});
+      there.report(diag::SeveralBases, context.tree().loc(written), {context.names().text(project.pou(id).name)});
     } else if ((project.pou(base).modifiers & kFinal) != 0) {
-      there.report(Diag::ExtendsFinal, context.tree().loc(written), {name})
-          .note(project.pou(base).loc, Note::DeclaredHere);
+      there.report(diag::ExtendsFinal, context.tree().loc(written), {name})
+          .note(project.pou(base).loc, diag::DeclaredHere);
     } else {
       project.pou(id).base = base;
       if (!project.pou(base).native) project.pou(base).extended = true;

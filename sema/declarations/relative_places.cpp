@@ -4,7 +4,9 @@
 // is a union whose members have places, in the order in which they are written.
 #include <algorithm>
 
+#include "frontend/syntax/diagnostics.h"
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
 
 namespace rung::sema {
 
@@ -87,7 +89,7 @@ void placeFields(Context& context, TypeId record, std::span<const VarId> members
     const types::TypeInfo& info = context.types().info(context.types().resolve(var.type));
     const VarDecl& decl = context.tree().as<VarDecl>(var.decl);
     if (item.bit >= 0 && info.kind != types::TypeKind::Bool) {
-      context.report(Diag::PlaceOfBit, decl.address_loc, {name, context.types().spell(var.type)});
+      context.report(diag::PlaceOfBit, decl.address_loc, {name, context.types().spell(var.type)});
       addField(context, record, item.var);
       continue;
     }
@@ -95,13 +97,13 @@ void placeFields(Context& context, TypeId record, std::span<const VarId> members
         item.bit >= 0 && bits && bits_at == item.byte && (!overlaps || (bits_used >> item.bit & 1) == 0);
     const uint64_t at = item.given ? item.byte : (end + info.align - 1) / info.align * info.align;
     if (!overlaps && (same_byte ? (bits_used >> item.bit & 1) != 0 : at < end)) {
-      Report report = context.report(Diag::PlaceOverlaps, decl.located ? decl.address_loc : loc, {name});
-      if (last) report.note(context.project.var(last).loc, Note::AlsoDeclaredHere);
+      Report report = context.report(diag::PlaceOverlaps, decl.located ? decl.address_loc : loc, {name});
+      if (last) report.note(context.project.var(last).loc, diag::AlsoDeclaredHere);
       addField(context, record, item.var);
       continue;
     }
     if (item.bit < 0 && at % info.align != 0) {
-      context.report(Diag::PlaceAlignment, decl.address_loc,
+      context.report(diag::PlaceAlignment, decl.address_loc,
                      {name, context.types().spell(var.type), std::to_string(info.align)});
       addField(context, record, item.var);
       continue;

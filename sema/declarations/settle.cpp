@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
+#include "sema/diagnostics.h"
 
 namespace rung::sema {
 
@@ -48,7 +50,7 @@ struct CycleSearch {
     names += "`" + context.types().spell(start) + "`";
     NamedType& holder = *context.scopes.named(stack.back().record);
     const VarId var = holder.fields[field_index];
-    context.report(Diag::ContainsItself, context.project.var(var).loc, {context.types().spell(start), names});
+    context.report(diag::ContainsItself, context.project.var(var).loc, {context.types().spell(start), names});
   }
 
   void run(TypeId root) {
@@ -109,7 +111,7 @@ void layoutVar(Context& context, VarId id) {
   Var& var = context.project.var(id);
   if (var.type == types::kError || !var.type) return;
   if (ensureLayout(context, var.type)) return;
-  context.report(Diag::TypeTooLarge, var.loc, {context.names().text(var.name)});
+  context.report(diag::TypeTooLarge, var.loc, {context.names().text(var.name)});
   var.type = types::kError;
 }
 
@@ -184,7 +186,7 @@ void settleDeclarations(Context& context) {
         const Loc loc = named.decl   ? context.tree().loc(named.decl)
                         : named.type ? context.tree().loc(named.type)
                                      : Loc{};
-        context.report(Diag::TypeTooLarge, loc, {context.types().spell(type)});
+        context.report(diag::TypeTooLarge, loc, {context.types().spell(type)});
       }
     }
     for (size_t i = scopes.checked_pous; i < pous_end; ++i) {

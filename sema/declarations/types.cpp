@@ -1,8 +1,11 @@
 // Types as written become TypeIds: elementary types, names, arrays, strings, subranges, enumerations, structures,
 // pointers. Named types are resolved on first use; records only get their fields when somebody asks for them, so that
 // long chains of blocks within blocks need no deep recursion.
+#include "frontend/syntax/diagnostics.h"
 #include "sema/checks/test_only.h"
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
+#include "sema/diagnostics.h"
 
 #include <limits>
 
@@ -28,16 +31,16 @@ std::string spelled(int64_t number) { return std::to_string(number); }
 void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
   const std::string_view text = context.names().text(name);
   if (found.what() == EntityKind::Pou) {
-    context.report(Diag::FunctionAsType, loc, {text}).note(context.project.pous[found.index].loc, Note::DeclaredHere);
+    context.report(diag::FunctionAsType, loc, {text}).note(context.project.pous[found.index].loc, diag::DeclaredHere);
     return;
   }
   if (!sayUnknown(context, name)) return;
   if (context.project.diagnostics.full()) {
-    context.report(Diag::UnknownType, loc, {text});
+    context.report(diag::UnknownType, loc, {text});
     return;
   }
   if (const std::string_view elsewhere = nameElsewhere(context, keyOf(context, name)); !elsewhere.empty()) {
-    context.report(Diag::UnknownType, loc, {text}).didYouMean(elsewhere);
+    context.report(diag::UnknownType, loc, {text}).didYouMean(elsewhere);
     return;
   }
   std::vector<std::string_view> candidates;
@@ -58,7 +61,7 @@ void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
     const NameId elementary = context.types().info(TypeId{kind}).name;
     if (elementary) candidates.push_back(context.names().text(elementary));
   }
-  context.report(Diag::UnknownType, loc, {text}).didYouMean(nearest(text, candidates));
+  context.report(diag::UnknownType, loc, {text}).didYouMean(nearest(text, candidates));
 }
 
 // A type or block by name: of the namespaces around, of the project, then of libraries (a library's own names first for
@@ -126,7 +129,7 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
   if (found.what() == EntityKind::Error) return types::kError;
   if (found.what() == EntityKind::Pou) checkTestOnly(context, PouId{found.index}, last.loc);
   if (!found && length == 1 && !context.iec() && isNamedBit(context, last.name)) {
-    context.report(Diag::BitOutside, last.loc);
+    context.report(diag::BitOutside, last.loc);
     return types::kError;
   }
   const TypeId type = typeOf(context, found);
@@ -144,7 +147,7 @@ TypeId resolveText(Context& context, TypeExprId id) {
   const auto length = constantBound(context, expr.length);
   if (!length) return types::kError;
   if (*length < 1 || *length > kMaxTextLength) {
-    context.report(Diag::TextLength, context.tree().begin(expr.length), {spelled(*length), spelled(kMaxTextLength)});
+    context.report(diag::TextLength, context.tree().begin(expr.length), {spelled(*length), spelled(kMaxTextLength)});
     return types::kError;
   }
   const auto capacity = static_cast<uint32_t>(*length);
@@ -156,7 +159,7 @@ TypeId resolveText(Context& context, TypeExprId id) {
 TypeId closedType(Context& context, TypeExprId written) {
   const TypeId type = resolveType(context, written);
   if (type == types::kError || !context.types().isOpenArray(type)) return type;
-  context.report(Diag::OpenArray, context.tree().loc(written));
+  context.report(diag::OpenArray, context.tree().loc(written));
   return types::kError;
 }
 
@@ -179,10 +182,10 @@ TypeId resolveArray(Context& context, TypeExprId id) {
     if (!low || !high) {
       good = false;
     } else if (*low > *high) {
-      context.report(Diag::ArrayBoundsReversed, context.tree().begin(bound.low), {spelled(*low), spelled(*high)});
+      context.report(diag::ArrayBoundsReversed, context.tree().begin(bound.low), {spelled(*low), spelled(*high)});
       good = false;
     } else if (*low < std::numeric_limits<int32_t>::min() || *high > std::numeric_limits<int32_t>::max()) {
-      context.report(Diag::ArrayBoundOutside, context.tree().begin(bound.low));
+      context.report(diag::ArrayBoundOutside, context.tree().begin(bound.low));
       good = false;
     } else {
       dimensions.push_back({*low, *high});
@@ -192,7 +195,7 @@ TypeId resolveArray(Context& context, TypeExprId id) {
   if (!good || element == types::kError) return types::kError;
   if (open == 0) return context.types().array(element, dimensions);
   if (open == expr.bounds.count) return context.types().openArray(element, open);
-  context.report(Diag::OpenArray, expr.h.loc);
+  context.report(diag::OpenArray, expr.h.loc);
   return types::kError;
 }
 
@@ -211,13 +214,13 @@ TypeId integerBase(Context& context, TypeExprId base, Diag diag) {
 bool fits(Context& context, TypeId base, int64_t number, Loc loc) {
   const types::Value value{types::idOf(TypeKind::LInt), static_cast<uint64_t>(number)};
   if (!types::convert(context.types(), value, base).overflow) return true;
-  context.report(Diag::NoValueOfType, loc, {spelled(number), context.types().spell(base)});
+  context.report(diag::NoValueOfType, loc, {spelled(number), context.types().spell(base)});
   return false;
 }
 
 void fillSubrange(Context& context, TypeId type, TypeExprId id) {
   SubrangeTypeExpr& expr = context.tree().as<SubrangeTypeExpr>(id);
-  const TypeId base = integerBase(context, expr.base, Diag::SubrangeBase);
+  const TypeId base = integerBase(context, expr.base, diag::SubrangeBase);
   const auto low = constantBound(context, expr.low);
   const auto high = constantBound(context, expr.high);
   TypeInfo& info = context.types().edit(type);
@@ -228,7 +231,7 @@ void fillSubrange(Context& context, TypeId type, TypeExprId id) {
            fits(context, base, *high, context.tree().begin(expr.high));
   }
   if (good && *low > *high) {
-    context.report(Diag::SubrangeReversed, context.tree().begin(expr.low), {spelled(*low), spelled(*high)});
+    context.report(diag::SubrangeReversed, context.tree().begin(expr.low), {spelled(*low), spelled(*high)});
     good = false;
   }
   if (!good) {  // what uses it is silent
@@ -252,7 +255,7 @@ void fillEnum(Context& context, TypeId type, TypeExprId id) {
   Project& project = context.project;
   TypeId base = types::kInt;
   if (expr.base) {
-    base = integerBase(context, expr.base, Diag::EnumBase);
+    base = integerBase(context, expr.base, diag::EnumBase);
     if (base == types::kError) base = types::kInt;
   }
   context.types().edit(type).base = base;
@@ -290,7 +293,7 @@ void inheritFields(Context& context, TypeId record, TypeExprId base_expr) {
   NamedType* named_base = context.scopes.named(base);
   const TypeInfo& info = context.types().info(base);
   if (named_base == nullptr || info.kind != TypeKind::Record || info.record_kind != RecordKind::Struct) {
-    context.report(Diag::ExtendsNoStruct, context.tree().loc(base_expr), {context.types().spell(base)});
+    context.report(diag::ExtendsNoStruct, context.tree().loc(base_expr), {context.types().spell(base)});
     return;
   }
   resolveNamed(context, base);
@@ -419,7 +422,7 @@ TypeId resolveWritten(Context& context, TypeExprId id) {
 // Forbids types that are nested so deep that a walk over them would exhaust the stack.
 //   fails   2501 structures inside each other          E0220
 void reportTooDeep(Context& context, Loc loc, const char* what, uint32_t limit) {
-  context.report(Diag::TooDeep, loc, {what, std::to_string(limit)});
+  context.report(diag::TooDeep, loc, {what, std::to_string(limit)});
 }
 
 TypeId lookUpType(Context& context, NameId name, Loc loc) {
@@ -432,11 +435,11 @@ TypeId resolveType(Context& context, TypeExprId id) {
   TypeExprHeader& header = context.tree().typeExpr(id);
   if (header.type) return header.type;
   if ((header.bits & kBusy) != 0) {  // an array bound or length that needs the type itself
-    context.report(Diag::TypeOfItself, header.loc);
+    context.report(diag::TypeOfItself, header.loc);
     return header.type = types::kError;
   }
   if (context.scopes.depth > kMaxDeclarationDepth) {
-    context.report(Diag::DeclarationsTooDeep, header.loc, {context.project.sources.tokenAt(header.loc)});
+    context.report(diag::DeclarationsTooDeep, header.loc, {context.project.sources.tokenAt(header.loc)});
     return header.type = types::kError;
   }
   header.bits |= kBusy;
@@ -458,12 +461,12 @@ void resolveNamed(Context& context, TypeId type) {
     if (info.kind == TypeKind::Alias && info.base == types::kError && named->decl) {
       // Forbids an alias of itself.   fails  TYPE a : b; b : a; END_TYPE       E0304
       const TypeDecl& decl = context.tree().as<TypeDecl>(named->decl);
-      context.report(Diag::AliasOfItself, decl.h.loc, {context.names().text(decl.name)});
+      context.report(diag::AliasOfItself, decl.h.loc, {context.names().text(decl.name)});
     }
     return;
   }
   if (context.scopes.depth > kMaxDeclarationDepth) {
-    context.report(Diag::DeclarationsTooDeep, context.tree().loc(named->type),
+    context.report(diag::DeclarationsTooDeep, context.tree().loc(named->type),
                    {context.names().text(context.types().info(type).name)});
     named->resolved = State::Done;
     return;

@@ -1,10 +1,13 @@
 // Variables of POUs and global lists: their names first, then types and storage, then initial values; each on demand.
 #include "frontend/diagram/schedule.h"
+#include "frontend/syntax/diagnostics.h"
 #include "sema/bodies/shapes.h"
 #include "sema/checks/object_members.h"
 #include "sema/checks/uncopied.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
+#include "sema/diagnostics.h"
 
 namespace rung::sema {
 
@@ -168,7 +171,7 @@ void checkEdge(Context& context, const Var& var) {
   if (var.edge == EdgeKind::None || var.type == types::kError) return;
   const bool block = var.pou && !isFunction(context.project.pou(var.pou).kind) && !var.is_bit;
   if (block && var.section == SectionKind::Input && context.types().kind(var.type) == TypeKind::Bool) return;
-  context.report(Diag::EdgeNotBool, var.loc, {context.names().text(var.name)});
+  context.report(diag::EdgeNotBool, var.loc, {context.names().text(var.name)});
 }
 
 // Forbids a VAR_EXTERNAL without its VAR_GLOBAL, or with another type. IEC 61131-3 ed. 3, 6.5.2.2.
@@ -187,7 +190,7 @@ void matchExternal(Context& context, VarId id) {
     std::vector<std::string_view> candidates;
     context.scopes.globals.forEach(
         [&](NameId, Entity global) { candidates.push_back(context.names().text(project.vars[global.index].name)); });
-    context.report(Diag::ExternalUnknown, loc, {context.names().text(name)})
+    context.report(diag::ExternalUnknown, loc, {context.names().text(name)})
         .didYouMean(nearest(context.names().text(name), candidates));
     project.var(id).type = types::kError;
     return;
@@ -200,8 +203,8 @@ void matchExternal(Context& context, VarId id) {
   if (var.type != types::kError && global.type != types::kError &&
       table.resolve(var.type) != table.resolve(global.type)) {
     context
-        .report(Diag::ExternalType, loc, {context.names().text(name), table.spell(var.type), table.spell(global.type)})
-        .note(global.loc, Note::DeclaredHere);
+        .report(diag::ExternalType, loc, {context.names().text(name), table.spell(var.type), table.spell(global.type)})
+        .note(global.loc, diag::DeclaredHere);
     var.type = types::kError;
     return;
   }
@@ -222,11 +225,11 @@ void matchExternal(Context& context, VarId id) {
 //   fails   VAR_EXTERNAL level : REAL := 1.0; END_VAR  E0324
 bool mayHaveInitialValue(Context& context, const Var& var, ExprId init) {
   if (context.types().isOpenArray(var.type) && var.section != SectionKind::InOut) {
-    context.report(Diag::InitialValueNotAllowed, context.tree().begin(init), {"ARRAY[*]"});
+    context.report(diag::InitialValueNotAllowed, context.tree().begin(init), {"ARRAY[*]"});
     return false;
   }
   if (var.section != SectionKind::External && var.section != SectionKind::InOut) return true;
-  context.report(Diag::InitialValueNotAllowed, context.tree().begin(init), {sectionWord(var.section)});
+  context.report(diag::InitialValueNotAllowed, context.tree().begin(init), {sectionWord(var.section)});
   return false;
 }
 
@@ -250,7 +253,7 @@ void ensureVarType(Context& context, VarId id) {
   Context there = contextOf(context, id);
   VarDecl& decl = context.tree().as<VarDecl>(project.var(id).decl);
   if (context.scopes.depth > kMaxDeclarationDepth) {
-    context.report(Diag::DeclarationsTooDeep, project.var(id).loc, {context.names().text(project.var(id).name)});
+    context.report(diag::DeclarationsTooDeep, project.var(id).loc, {context.names().text(project.var(id).name)});
     project.var(id).type = types::kError;
     return;
   }
@@ -269,7 +272,7 @@ void ensureVarType(Context& context, VarId id) {
     var.type = type;
     var.is_bit = bit && type != types::kError;
     if (context.types().isOpenArray(type) && !mayBeOpen(context, var)) {
-      if (i == first) there.report(Diag::OpenArray, context.tree().loc(decl.type));
+      if (i == first) there.report(diag::OpenArray, context.tree().loc(decl.type));
       var.type = types::kError;
     }
     // An ANY input of CODESYS tells of any variable where it is; the standard's generic types are the library's.
@@ -288,7 +291,7 @@ void ensureVarType(Context& context, VarId id) {
       if (decl.address.size_given && addressType(decl.address) == types::kBool && type != types::kError &&
           context.types().kind(type) != TypeKind::Bool) {
         const std::string address = {'%', areaLetter(decl.address.area), 'X', '*'};
-        there.report(Diag::AddressType, decl.address_loc, {address, context.types().spell(type)});
+        there.report(diag::AddressType, decl.address_loc, {address, context.types().spell(type)});
         var.type = types::kError;
       }
       var.open_address = true;
@@ -330,14 +333,14 @@ void ensureInitialValue(Context& context, VarId id) {
   };
   if (decl.h.spare == static_cast<uint16_t>(State::Busy)) {
     if (project.var(id).constant && !project.var(id).has_value) {
-      context.report(Diag::ConstantCycle, project.var(id).loc, {context.names().text(project.var(id).name)});
+      context.report(diag::ConstantCycle, project.var(id).loc, {context.names().text(project.var(id).name)});
       setUnknown();
     }
     return;
   }
   ensureVarType(context, id);
   if (context.scopes.depth > kMaxDeclarationDepth) {
-    context.report(Diag::DeclarationsTooDeep, project.var(id).loc, {context.names().text(project.var(id).name)});
+    context.report(diag::DeclarationsTooDeep, project.var(id).loc, {context.names().text(project.var(id).name)});
     return setUnknown();
   }
   decl.h.spare = static_cast<uint16_t>(State::Busy);
@@ -346,7 +349,7 @@ void ensureInitialValue(Context& context, VarId id) {
   const Var& var = project.var(id);
   if (!init && var.constant && var.section != SectionKind::External && var.section != SectionKind::Input &&
       var.section != SectionKind::InOut && type != types::kError) {
-    context.report(Diag::ConstantWithoutValue, var.loc, {context.names().text(var.name)});
+    context.report(diag::ConstantWithoutValue, var.loc, {context.names().text(var.name)});
   }
   bool good = true, reads = false;
   if (init && !mayHaveInitialValue(there, var, init)) init = {};
@@ -485,7 +488,7 @@ void declarePou(Context& context, PouId id) {
                            (section.section == SectionKind::Stat && context.iec()) ||
                            (section.section == SectionKind::Inst && !is_member);
     if (misplaced) {
-      there.report(Diag::SectionNotAllowed, section.h.loc, {sectionWord(section.section), kindWord(kind)});
+      there.report(diag::SectionNotAllowed, section.h.loc, {sectionWord(section.section), kindWord(kind)});
       if (section.section != SectionKind::Global && section.section != SectionKind::Stat) continue;
     }
     const bool of_chart = decl.chart_sections && project.sources.fileOf(section.h.loc) == decl.chart_sections;
@@ -545,7 +548,7 @@ void resolvePou(Context& context, PouId id) {
   }
   // Forbids generic types outside of functions: an instance of a block has one layout.
   if (pou.generic && (pou.kind != PouKind::Function || pou.owner)) {
-    context.report(Diag::GenericBlock, pou.loc, {context.names().text(pou.name)});
+    context.report(diag::GenericBlock, pou.loc, {context.names().text(pou.name)});
     pou.generic = false;
   }
   const auto addHidden = [&](VarId of, const std::string& suffix, TypeId type) {

@@ -1,10 +1,15 @@
 #!/usr/bin/env bash
-# Every code of diagnostics.def has a page in docs/errors and a test program that provokes it, and every page has a code.
+# Every code of the diagnostics.def files is unique and in the registry, has a page in docs/errors and a test program that
+# provokes it, and every page has a code.
 set -eu
 cd "$(dirname "$0")/../.."
 bad=0
-codes=$(sed -nE 's/^RUNG_(ERROR|WARNING|INFO)\(([EWI][0-9]{4}),.*/\2/p' frontend/source/diagnostics.def)
-for code in $(echo "$codes" | sort | uniq -d); do echo "frontend/source/diagnostics.def: $code is used twice"; bad=1; done
+lists=$(tools/house/tracked diagnostics.def)
+codes=$(sed -nE 's/^RUNG_(ERROR|WARNING|INFO)\(([EWI][0-9]{4}),.*/\2/p' $lists)
+for list in $lists; do
+  grep -q "\"$list\"" frontend/source/registry.cpp || { echo "frontend/source/registry.cpp: does not include $list"; bad=1; }
+done
+for code in $(echo "$codes" | sort | uniq -d); do echo "$code is used twice in the diagnostics.def files"; bad=1; done
 provoked=$(grep -rhoE '(error|warning|info)\[[EWI][0-9]{4}\]' tests/golden tests/conformance tests/programs 2>/dev/null |
   grep -oE '[EWI][0-9]{4}' | sort -u || true)
 for code in $codes; do

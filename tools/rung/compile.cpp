@@ -24,6 +24,7 @@
 #include "native_table.h"
 #include "tools/rung/commands.h"
 #include "tools/rung/crash.h"
+#include "tools/rung/diagnostics.h"
 
 namespace rung::tool {
 namespace {
@@ -126,7 +127,7 @@ void Compilation::noteLibraries() {
                        std::any_of(libraries.aliases().begin(), libraries.aliases().end(),
                                    [&](const sema::LibraryAlias& alias) { return called(alias.alias); });
     if (!known)
-      diagnostics.report(Diag::LibraryNotKnown, wanted.loc, {wanted.name})
+      diagnostics.report(diag::LibraryNotKnown, wanted.loc, {wanted.name})
           .length(static_cast<uint32_t>(wanted.name.size()));
   }
 }
@@ -297,7 +298,7 @@ bool Compilation::addRefusals(const NativeResult& native, Diagnostics& to) const
   for (const Refusal& refusal : native.refusals) {
     for (uint32_t i = 1; i <= sources.fileCount(); ++i) {
       if (sources.path({i}) != refusal.path) continue;
-      to.report(Diag::CppRefused, placeIn(sources, {i}, refusal), {refusal.message});
+      to.report(diag::CppRefused, placeIn(sources, {i}, refusal), {refusal.message});
       any = true;
       break;
     }

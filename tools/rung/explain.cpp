@@ -30,7 +30,7 @@ int runExplain(const Options& options) {
   const DiagInfo* info = findDiag(code);
   if (info == nullptr) {
     std::vector<std::string_view> codes;
-    for (uint32_t i = 0; i < diagCount(); i++) codes.push_back(diagInfo(static_cast<Diag>(i)).code);
+    for (const DiagInfo& row : allDiags()) codes.push_back(row.code);
     std::string_view near = nearest(code, codes);
     return usageError("there is no diagnostic `" + options.inputs[0] + "`" +
                       (near.empty() ? "" : "; did you mean `" + std::string(near) + "`?"));

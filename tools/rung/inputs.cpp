@@ -12,6 +12,8 @@
 #include "frontend/iec10/iec10.h"
 #include "frontend/plcopen/plcopen.h"
 #include "frontend/source/names.h"
+#include "frontend/syntax/diagnostics.h"
+#include "tools/rung/diagnostics.h"
 
 namespace rung::tool {
 namespace {
@@ -135,7 +137,7 @@ class Collector {
       last = &candidate;
     }
     if (inputs_.files.empty() && !inputs_.io_error && !diagnostics_.hasErrors() && !options_.inputs.empty())
-      fail(Diag::EmptyFolder, options_.inputs[0], {options_.inputs[0]});
+      fail(diag::EmptyFolder, options_.inputs[0], {options_.inputs[0]});
   }
 
  private:
@@ -179,12 +181,12 @@ class Collector {
     struct stat info;
     if (stat(word.c_str(), &info) != 0) {
       const char* why = strerror(errno);
-      fail(Diag::CannotRead, word, {word, why}, similar(word));
+      fail(diag::CannotRead, word, {word, why}, similar(word));
     } else if (S_ISDIR(info.st_mode)) {
       bases_.push_back(absolute(word));
       addProjectFolder(word);
     } else if (!S_ISREG(info.st_mode)) {
-      fail(Diag::CannotRead, word, {word, "it is neither a file nor a folder"});
+      fail(diag::CannotRead, word, {word, "it is neither a file nor a folder"});
     } else if (kindOfExtension(word) == FileKind::Project) {
       size_t slash = word.rfind('/');
       std::string folder = slash == std::string::npos ? "." : word.substr(0, slash);
@@ -212,10 +214,10 @@ class Collector {
   // What the project file of TwinCAT lists, relative to its folder. Of a library tasks and programs do not count.
   void addPlcProject(const std::string& path, bool is_library = false) {
     ReadResult read = readFile(path);
-    if (!read.error.empty()) return fail(Diag::CannotRead, path, {path, read.error});
+    if (!read.error.empty()) return fail(diag::CannotRead, path, {path, read.error});
     inputs_.read.push_back(path);
     const FileId file = sources_.add(path, std::move(read.text));
-    if (!file) return fail(Diag::TooMuchInput, path, {path});
+    if (!file) return fail(diag::TooMuchInput, path, {path});
     vendor::Project project;
     if (!vendor::readProject(sources_, file, diagnostics_, project)) return;
     const size_t slash = path.rfind('/');
@@ -230,7 +232,7 @@ class Collector {
         continue;
       }
       const char* why = strerror(errno);
-      diagnostics_.report(Diag::CannotRead, entry.loc, {entry.name, why})
+      diagnostics_.report(diag::CannotRead, entry.loc, {entry.name, why})
           .length(static_cast<uint32_t>(entry.name.size()));
       inputs_.io_error = true;
     }
@@ -263,15 +265,15 @@ class Collector {
     struct stat info;
     if (stat(file.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return addFolder(folder);
     if (inputs_.project.file) {
-      fail(Diag::CannotRead, file, {file, "another folder of this run has a rung.project already"});
+      fail(diag::CannotRead, file, {file, "another folder of this run has a rung.project already"});
       return;
     }
     ReadResult read = readFile(file);
-    if (!read.error.empty()) return fail(Diag::CannotRead, file, {file, read.error});
+    if (!read.error.empty()) return fail(diag::CannotRead, file, {file, read.error});
     inputs_.read.push_back(file);
-    if (isBinary(read.text)) return fail(Diag::BinaryFile, file, {file});
+    if (isBinary(read.text)) return fail(diag::BinaryFile, file, {file});
     FileId id = sources_.add("rung.project", std::move(read.text));
-    if (!id) return fail(Diag::TooMuchInput, file, {file});
+    if (!id) return fail(diag::TooMuchInput, file, {file});
     inputs_.project.folder = folder;
     sources_.showAs(id, folder + "/rung.project");
     project_shown_ = file;
@@ -282,7 +284,7 @@ class Collector {
       struct stat entry;
       if (stat(path.c_str(), &entry) != 0) {
         const char* why = strerror(errno);
-        fail(Diag::CannotRead, path, {path, why}, similar(path));
+        fail(diag::CannotRead, path, {path, why}, similar(path));
       } else if (S_ISDIR(entry.st_mode)) {
         addFolder(path);
       } else {
@@ -296,7 +298,7 @@ class Collector {
     const size_t before = candidates_.size();
     inputs_.read.push_back(folder);
     scan(folder, 0);
-    if (candidates_.size() == before && !diagnostics_.hasErrors()) fail(Diag::EmptyFolder, folder, {folder});
+    if (candidates_.size() == before && !diagnostics_.hasErrors()) fail(diag::EmptyFolder, folder, {folder});
   }
 
   // A folder with a .plcproj takes what that lists.
@@ -304,7 +306,7 @@ class Collector {
     DIR* dir = opendir(folder.c_str());
     if (dir == nullptr) {
       const char* why = strerror(errno);
-      return fail(Diag::CannotRead, folder, {folder, why});
+      return fail(diag::CannotRead, folder, {folder, why});
     }
     const size_t before = candidates_.size();
     std::vector<std::string> folders, projects;
@@ -352,7 +354,7 @@ class Collector {
       inputs_.root = absolute(options_.root);
       struct stat info;
       if (stat(inputs_.root.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
-        fail(Diag::CannotRead, options_.root, {options_.root, "`--root` takes a folder"});
+        fail(diag::CannotRead, options_.root, {options_.root, "`--root` takes a folder"});
       return;
     }
     if (bases_.empty()) return;
@@ -370,11 +372,11 @@ class Collector {
     // Before it is read: such a file would not fit the memory either.
     struct stat info;
     if (stat(candidate.path.c_str(), &info) == 0 && static_cast<uint64_t>(info.st_size) >= UINT32_MAX)
-      return fail(Diag::TooMuchInput, candidate.path, {candidate.path});
+      return fail(diag::TooMuchInput, candidate.path, {candidate.path});
     ReadResult read = readFile(candidate.path);
-    if (!read.error.empty()) return fail(Diag::CannotRead, candidate.path, {candidate.path, read.error});
+    if (!read.error.empty()) return fail(diag::CannotRead, candidate.path, {candidate.path, read.error});
     inputs_.read.push_back(candidate.path);
-    if (!decodeUtf16(read.text)) return fail(Diag::Utf16File, candidate.path, {candidate.path});
+    if (!decodeUtf16(read.text)) return fail(diag::Utf16File, candidate.path, {candidate.path});
     FileKind kind = kindOf(candidate.path, read.text);
     switch (kind) {
       case FileKind::St:
@@ -384,19 +386,19 @@ class Collector {
       case FileKind::Iec10:
       case FileKind::Codesys2:
       case FileKind::Multiprog: break;
-      case FileKind::Binary: return fail(Diag::BinaryFile, candidate.path, {candidate.path});
-      case FileKind::Unknown: return fail(Diag::UnknownFileKind, candidate.path, {candidate.path});
+      case FileKind::Binary: return fail(diag::BinaryFile, candidate.path, {candidate.path});
+      case FileKind::Unknown: return fail(diag::UnknownFileKind, candidate.path, {candidate.path});
       case FileKind::Xml:
       case FileKind::Nct:
       case FileKind::Cam:
-        if (candidate.named) return fail(Diag::KindNotRead, candidate.path, {candidate.path, describe(kind)});
-        diagnostics_.report(Diag::KindPassedOver, {}, {candidate.path, describe(kind)}).path(candidate.path);
+        if (candidate.named) return fail(diag::KindNotRead, candidate.path, {candidate.path, describe(kind)});
+        diagnostics_.report(diag::KindPassedOver, {}, {candidate.path, describe(kind)}).path(candidate.path);
         return;
       case FileKind::PlcProject:
       case FileKind::Project: return;
     }
     FileId file = sources_.add(candidate.below, std::move(read.text));
-    if (!file) return fail(Diag::TooMuchInput, candidate.path, {candidate.path});
+    if (!file) return fail(diag::TooMuchInput, candidate.path, {candidate.path});
     sources_.showAs(file, candidate.path);
     inputs_.files.push_back({candidate.path, candidate.path, candidate.below, kind, file});
   }

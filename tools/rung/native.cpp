@@ -17,6 +17,7 @@
 #include "frontend/source/diagnostics.h"
 #include "frontend/source/files.h"
 #include "tools/rung/compile.h"
+#include "tools/rung/diagnostics.h"
 #include "tools/rung/installation.h"
 #include "tools/rung/process.h"
 
@@ -440,7 +441,7 @@ class Builder {
         unit != nullptr && unit->user_file != nullptr) {
       result_.refusals = refusalsOf(*unit->user_file, log.text);
       first.pop_back();
-      return fail(kInputErrors, "error[" + std::string(diagInfo(Diag::CppRefused).code) +
+      return fail(kInputErrors, "error[" + std::string(diagInfo(diag::CppRefused).code) +
                                     "]: the C++ compiler refuses a body in C++:\n" + first);
     }
     return fail(kInternal, "`" + failed->arguments[0] + "` refused generated code while " + label +

@@ -3,6 +3,8 @@
 
 #include <charconv>
 
+#include "frontend/syntax/diagnostics.h"
+#include "tools/rung/diagnostics.h"
 #include "tools/rung/libraries.h"
 
 namespace rung::tool {
@@ -76,21 +78,21 @@ class Reader {
 
     size_t equals = line.find('=');
     if (equals == std::string_view::npos) {
-      diagnostics_.report(Diag::ProjectLine, loc(line)).length(static_cast<uint32_t>(line.size()));
+      diagnostics_.report(diag::ProjectLine, loc(line)).length(static_cast<uint32_t>(line.size()));
       return;
     }
     std::string_view key = trim(line.substr(0, equals)), value = trim(line.substr(equals + 1));
     if (project_.sections.empty()) {
-      diagnostics_.report(Diag::ProjectNoSection, loc(line), {key}).length(static_cast<uint32_t>(key.size()));
+      diagnostics_.report(diag::ProjectNoSection, loc(line), {key}).length(static_cast<uint32_t>(key.size()));
       return;
     }
     if (schema_ == nullptr) return;  // the section was reported
     if (schema_->keys != nullptr && !known(key)) return;
     for (const ProjectEntry& entry : project_.sections.back().entries) {
       if (entry.key != key) continue;
-      diagnostics_.report(Diag::ProjectTwice, loc(key), {key})
+      diagnostics_.report(diag::ProjectTwice, loc(key), {key})
           .length(static_cast<uint32_t>(key.size()))
-          .note(entry.key_loc, Note::DeclaredHere);
+          .note(entry.key_loc, diag::DeclaredHere);
       return;
     }
     // An empty value still has a place: one past the sign.
@@ -106,15 +108,15 @@ class Reader {
     std::string_view name = blank == std::string_view::npos ? std::string_view() : trim(inner.substr(blank));
     schema_ = findSchema(kind);
     if (close == std::string_view::npos || inner.empty()) {
-      diagnostics_.report(Diag::ProjectLine, loc(line)).length(static_cast<uint32_t>(line.size()));
+      diagnostics_.report(diag::ProjectLine, loc(line)).length(static_cast<uint32_t>(line.size()));
     } else if (schema_ == nullptr) {
       std::vector<std::string_view> kinds;
       for (const Schema& schema : kSchemas) kinds.push_back(schema.kind);
-      diagnostics_.report(Diag::ProjectUnknownSection, loc(kind), {kind})
+      diagnostics_.report(diag::ProjectUnknownSection, loc(kind), {kind})
           .length(static_cast<uint32_t>(kind.size()))
           .didYouMean(nearest(kind, kinds));
     } else if (schema_->named != !name.empty()) {
-      diagnostics_.report(schema_->named ? Diag::ProjectSectionName : Diag::ProjectSectionNoName, loc(kind), {kind})
+      diagnostics_.report(schema_->named ? diag::ProjectSectionName : diag::ProjectSectionNoName, loc(kind), {kind})
           .length(static_cast<uint32_t>(inner.size()));
     }
     project_.sections.push_back({std::string(kind), std::string(name), loc(line), {}});
@@ -124,7 +126,7 @@ class Reader {
     std::vector<std::string_view> keys = split(schema_->keys, ' ');
     for (std::string_view k : keys)
       if (k == key) return true;
-    diagnostics_.report(Diag::ProjectUnknownKey, loc(key), {key, schema_->kind})
+    diagnostics_.report(diag::ProjectUnknownKey, loc(key), {key, schema_->kind})
         .length(static_cast<uint32_t>(key.size()))
         .didYouMean(nearest(key, keys));
     return false;
@@ -138,7 +140,7 @@ class Reader {
 };
 
 void badValue(Diagnostics& diagnostics, const ProjectEntry& entry, std::string_view why) {
-  diagnostics.report(Diag::ProjectValue, entry.value_loc, {entry.key, why})
+  diagnostics.report(diag::ProjectValue, entry.value_loc, {entry.key, why})
       .length(static_cast<uint32_t>(entry.value.size()));
 }
 
@@ -186,7 +188,7 @@ void readPoolSection(const ProjectSection& section, Diagnostics& diagnostics, Pr
   if (section.name != "new") return;
   for (const ProjectEntry& entry : section.entries) {
     if (entry.key != "bytes") {
-      diagnostics.report(Diag::ProjectUnknownKey, entry.key_loc, {entry.key, "pool new"})
+      diagnostics.report(diag::ProjectUnknownKey, entry.key_loc, {entry.key, "pool new"})
           .length(static_cast<uint32_t>(entry.key.size()))
           .didYouMean("bytes");
       continue;

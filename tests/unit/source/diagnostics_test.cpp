@@ -5,13 +5,14 @@
 
 #include <set>
 
+#include "sema/diagnostics.h"
+
 namespace rung {
 namespace {
 
 TEST(Diagnostics, CodesAreUniqueAndNamed) {
   std::set<std::string> codes;
-  for (uint32_t i = 0; i < diagCount(); ++i) {
-    const DiagInfo& info = diagInfo(static_cast<Diag>(i));
+  for (const DiagInfo& info : allDiags()) {
     EXPECT_TRUE(codes.insert(info.code).second) << info.code << " is used twice";
     EXPECT_EQ(std::string(info.code).size(), 5u) << info.code;
     EXPECT_EQ(info.code[0], info.severity == Severity::Error ? 'E' : info.severity == Severity::Warning ? 'W' : 'I');
@@ -25,9 +26,9 @@ TEST(Diagnostics, SamePlaceAndCodeIsReportedOnce) {
   Sources sources;
   const Loc loc = sources.begin(sources.add("a.st", "x y"));
   Diagnostics diagnostics(sources);
-  diagnostics.report(Diag::UnknownName, loc, {"x"});
-  diagnostics.report(Diag::UnknownName, loc, {"x"});
-  diagnostics.report(Diag::UnknownName, {loc.offset + 2}, {"y"});
+  diagnostics.report(diag::UnknownName, loc, {"x"});
+  diagnostics.report(diag::UnknownName, loc, {"x"});
+  diagnostics.report(diag::UnknownName, {loc.offset + 2}, {"y"});
   EXPECT_EQ(diagnostics.errorCount(), 2u);
   EXPECT_EQ(diagnostics.all()[1].message, "`y` is not declared");
 }
@@ -36,7 +37,7 @@ TEST(Diagnostics, ErrorsBeyondTheLimitAreCounted) {
   Sources sources;
   const Loc loc = sources.begin(sources.add("a.st", std::string(50000, 'x')));
   Diagnostics diagnostics(sources);
-  for (uint32_t i = 0; i < 50000; ++i) diagnostics.report(Diag::UnknownName, {loc.offset + i}, {"x"}).didYouMean("y");
+  for (uint32_t i = 0; i < 50000; ++i) diagnostics.report(diag::UnknownName, {loc.offset + i}, {"x"}).didYouMean("y");
   EXPECT_EQ(diagnostics.all().size(), 100u);
   EXPECT_EQ(diagnostics.errorCount(), 50000u);
   EXPECT_EQ(diagnostics.droppedCount(), 49900u);
@@ -47,9 +48,9 @@ TEST(Diagnostics, SortedByPlace) {
   Sources sources;
   const Loc loc = sources.begin(sources.add("a.st", "x y"));
   Diagnostics diagnostics(sources);
-  diagnostics.report(Diag::UnknownName, {loc.offset + 2}, {"y"});
-  diagnostics.report(Diag::UnknownName, loc, {"x"});
-  diagnostics.report(Diag::UnknownName, {}, {"whole"}).path("b.st");
+  diagnostics.report(diag::UnknownName, {loc.offset + 2}, {"y"});
+  diagnostics.report(diag::UnknownName, loc, {"x"});
+  diagnostics.report(diag::UnknownName, {}, {"whole"}).path("b.st");
   diagnostics.sort();
   EXPECT_EQ(diagnostics.all()[0].path, "b.st");
   EXPECT_EQ(diagnostics.all()[1].loc, loc);
@@ -58,7 +59,7 @@ TEST(Diagnostics, SortedByPlace) {
 TEST(Diagnostics, LongArgumentsAreCut) {
   Sources sources;
   Diagnostics diagnostics(sources);
-  diagnostics.report(Diag::UnknownName, {}, {std::string(1000000, 'x')});
+  diagnostics.report(diag::UnknownName, {}, {std::string(1000000, 'x')});
   EXPECT_LT(diagnostics.all()[0].message.size(), 500u);
 }
 
@@ -68,12 +69,11 @@ TEST(Diagnostics, SwitchesOfWarnings) {
   EXPECT_FALSE(diagnostics.setWarning("no-such-warning", false));
   EXPECT_FALSE(diagnostics.setWarning("E0401", false));  // errors stay
   EXPECT_TRUE(diagnostics.setWarning("all", true));
-  for (uint32_t i = 0; i < diagCount(); ++i) {
-    const auto diag = static_cast<Diag>(i);
-    if (diagInfo(diag).severity != Severity::Warning) continue;
-    EXPECT_TRUE(diagnostics.setWarning(std::string("no-") + diagInfo(diag).code, true));
-    EXPECT_FALSE(diagnostics.enabled(diag));
-    diagnostics.report(diag, {});
+  for (const DiagInfo& info : allDiags()) {
+    if (info.severity != Severity::Warning) continue;
+    EXPECT_TRUE(diagnostics.setWarning(std::string("no-") + info.code, true));
+    EXPECT_FALSE(diagnostics.enabled(info.diag));
+    diagnostics.report(info.diag, {});
     EXPECT_TRUE(diagnostics.all().empty());
     break;
   }

@@ -1,5 +1,7 @@
 // What people and tools read: text with marks, JSON, SARIF; hostile bytes; cut lines; limits.
 #include "frontend/source/render.h"
+#include "frontend/syntax/diagnostics.h"
+#include "sema/diagnostics.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +12,7 @@ class Render : public testing::Test {
  protected:
   Report unknown(const std::string& text, size_t offset, std::string_view name) {
     const Loc loc = sources.begin(sources.add("a.st", text));
-    return diagnostics.report(Diag::UnknownName, {loc.offset + static_cast<uint32_t>(offset)}, {name});
+    return diagnostics.report(diag::UnknownName, {loc.offset + static_cast<uint32_t>(offset)}, {name});
   }
   std::string as(DiagnosticFormat format) { return render(diagnostics, sources, {format, false, nullptr}); }
   std::string text() { return as(DiagnosticFormat::Text); }
@@ -30,7 +32,7 @@ TEST_F(Render, LineCaretAndNote) {
 
 TEST_F(Render, NoteWithAPlaceShowsIt) {
   const Loc loc = sources.begin(sources.add("a.st", "first\nsecond\n"));
-  diagnostics.report(Diag::UnknownName, {loc.offset + 6}, {"second"}).note(loc, Note::DeclaredHere);
+  diagnostics.report(diag::UnknownName, {loc.offset + 6}, {"second"}).note(loc, diag::DeclaredHere);
   EXPECT_EQ(text(),
             "a.st:2:1: error[E0401]: `second` is not declared\n"
             " 2 | second\n"
@@ -49,7 +51,7 @@ TEST_F(Render, EndOfFileHasACaret) {
 }
 
 TEST_F(Render, WholeFile) {
-  diagnostics.report(Diag::UnknownName, {}, {"x"}).path("missing.st");
+  diagnostics.report(diag::UnknownName, {}, {"x"}).path("missing.st");
   EXPECT_EQ(text(), "missing.st: error[E0401]: `x` is not declared\n");
 }
 
@@ -87,7 +89,7 @@ TEST_F(Render, LongLinesAreCut) {
 TEST_F(Render, SaysHowManyAreNotShown) {
   diagnostics.max_errors = 1;
   const Loc loc = sources.begin(sources.add("a.st", "x y z"));
-  for (uint32_t i = 0; i < 5; i += 2) diagnostics.report(Diag::UnknownName, {loc.offset + i}, {"x"});
+  for (uint32_t i = 0; i < 5; i += 2) diagnostics.report(diag::UnknownName, {loc.offset + i}, {"x"});
   EXPECT_NE(text().find("\n2 more errors not shown (--max-errors)\n"), std::string::npos);
 }
 

@@ -1,4 +1,6 @@
 #include "tools/rung/inputs.h"
+#include "frontend/syntax/diagnostics.h"
+#include "tools/rung/diagnostics.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -65,7 +67,7 @@ TEST_F(InputsTest, EmptyFolder) {
   folder.write("p/readme.md", "nothing");
   read({folder.path() + "/p"});
   EXPECT_TRUE(inputs.io_error);
-  EXPECT_EQ(diagnostics.all()[0].diag, Diag::EmptyFolder);
+  EXPECT_EQ(diagnostics.all()[0].diag, diag::EmptyFolder);
 }
 
 TEST_F(InputsTest, UnreadableFile) {
@@ -74,7 +76,7 @@ TEST_F(InputsTest, UnreadableFile) {
   chmod(path.c_str(), 0);
   read({path});
   EXPECT_TRUE(inputs.io_error);
-  EXPECT_EQ(diagnostics.all()[0].diag, Diag::CannotRead);
+  EXPECT_EQ(diagnostics.all()[0].diag, diag::CannotRead);
 }
 
 TEST_F(InputsTest, BinaryAndUtf16) {
@@ -82,14 +84,14 @@ TEST_F(InputsTest, BinaryAndUtf16) {
   uint32_t x = 1;
   for (int i = 0; i < 500; i++) noise += static_cast<char>((x = x * 1664525 + 1013904223) >> 24 | 1);
   read({folder.write("noise.st", noise)});
-  EXPECT_EQ(diagnostics.all()[0].diag, Diag::BinaryFile);
+  EXPECT_EQ(diagnostics.all()[0].diag, diag::BinaryFile);
   EXPECT_TRUE(inputs.io_error);
 
   Diagnostics more(sources);
   Inputs second;
   options.inputs = {folder.write("wide.st", std::string("\xff\xfeP\0R", 5))};
   readInputs(options, sources, more, second);
-  EXPECT_EQ(more.all()[0].diag, Diag::Utf16File);
+  EXPECT_EQ(more.all()[0].diag, diag::Utf16File);
 }
 
 TEST_F(InputsTest, FileThatFitsNoMemory) {

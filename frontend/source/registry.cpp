@@ -1,0 +1,66 @@
+// The registry of messages: the rows of every folder in one table, by number. In: the diagnostics.def files. Out:
+// diagInfo(), findDiag() and allDiags() of diagnostics.h. It includes lists of later layers, which hold rows and no
+// code.
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "frontend/source/diagnostics.h"
+#include "frontend/source/names.h"
+
+#undef RUNG_ERROR
+#undef RUNG_WARNING
+#undef RUNG_INFO
+#undef RUNG_NOTE
+#define RUNG_ERROR(code, name, text) {diagOf(#code), #code, #name, text, Severity::Error},
+#define RUNG_WARNING(code, name, text) {diagOf(#code), #code, #name, text, Severity::Warning},
+#define RUNG_INFO(code, name, text) {diagOf(#code), #code, #name, text, Severity::Info},
+#define RUNG_NOTE(name, text)
+
+namespace rung {
+namespace {
+
+constexpr DiagInfo kRows[] = {
+#include "frontend/diagram/diagnostics.def"
+#include "frontend/plcopen/diagnostics.def"
+#include "frontend/source/diagnostics.def"
+#include "frontend/syntax/diagnostics.def"
+#include "frontend/text/diagnostics.def"
+#include "frontend/vendor/diagnostics.def"
+#include "frontend/xml/diagnostics.def"
+#include "ir/diagnostics.def"
+#include "sema/bodies/diagnostics.def"
+#include "sema/checks/diagnostics.def"
+#include "sema/declarations/diagnostics.def"
+#include "sema/diagnostics.def"
+#include "tools/rung/diagnostics.def"
+};
+
+constexpr auto kByNumber = [] {
+  std::array<DiagInfo, std::size(kRows)> rows{};
+  std::copy(std::begin(kRows), std::end(kRows), rows.begin());
+  std::sort(rows.begin(), rows.end(), [](const DiagInfo& a, const DiagInfo& b) { return a.diag < b.diag; });
+  return rows;
+}();
+
+static_assert(std::adjacent_find(kByNumber.begin(), kByNumber.end(),
+                                 [](const DiagInfo& a, const DiagInfo& b) { return a.diag == b.diag; }) ==
+                  kByNumber.end(),
+              "two rows have one code");
+
+}  // namespace
+
+const DiagInfo& diagInfo(Diag diag) {
+  return *std::lower_bound(kByNumber.begin(), kByNumber.end(), diag,
+                           [](const DiagInfo& row, Diag wanted) { return row.diag < wanted; });
+}
+
+const DiagInfo* findDiag(std::string_view code) {
+  for (const DiagInfo& row : kByNumber)
+    if (sameIdentifier(row.code, code)) return &row;
+  return nullptr;
+}
+
+std::span<const DiagInfo> allDiags() { return kByNumber; }
+
+}  // namespace rung

@@ -1,0 +1,8 @@
+// Messages that the parser shares with importers, sema or the tools. One constant for each row of diagnostics.def.
+#pragma once
+
+#include "frontend/source/diagnostics.h"
+
+namespace rung::diag {
+#include "frontend/syntax/diagnostics.def"
+}  // namespace rung::diag

@@ -1,0 +1,8 @@
+// Messages of the reader of IR text. One constant for each row of diagnostics.def.
+#pragma once
+
+#include "frontend/source/diagnostics.h"
+
+namespace rung::diag {
+#include "ir/diagnostics.def"
+}  // namespace rung::diag

@@ -1,0 +1,8 @@
+// Messages about expressions, calls and statements. One constant for each row of diagnostics.def.
+#pragma once
+
+#include "frontend/source/diagnostics.h"
+
+namespace rung::diag {
+#include "sema/bodies/diagnostics.def"
+}  // namespace rung::diag

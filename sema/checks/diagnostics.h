@@ -1,0 +1,8 @@
+// Messages of the rules in sema/checks. One constant for each row of diagnostics.def.
+#pragma once
+
+#include "frontend/source/diagnostics.h"
+
+namespace rung::diag {
+#include "sema/checks/diagnostics.def"
+}  // namespace rung::diag

@@ -1,0 +1,8 @@
+// Messages about declarations, configurations and initial values. One constant for each row of diagnostics.def.
+#pragma once
+
+#include "frontend/source/diagnostics.h"
+
+namespace rung::diag {
+#include "sema/declarations/diagnostics.def"
+}  // namespace rung::diag
