@@ -4,7 +4,11 @@
 #pragma once
 
 #include "ir/ir.h"
-#include "sema/project.h"
+#include "sema/ids.h"
+
+namespace rung::sema {
+struct Project;
+}
 
 namespace rung::ir {
 

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <string_view>
 
-#include "frontend/text/sfc_schedule.h"
-#include "sema/project.h"
+#include "frontend/source/dialect.h"
+#include "sema/entities.h"
 
 namespace rung::sema {
 
+struct Project;    // project.h
 struct Scopes;     // scopes.h: hash tables of the project, of each POU, of libraries
 struct BodyState;  // bodies/bodies.h: what the statements of one body share
 
@@ -19,7 +22,8 @@ struct RegionId {
 };
 
 struct Context {
-  Project& project;
+  Symbols& symbols;
+  Project& project;  // the same, with what only few rules read
   Scopes& scopes;
   PouId pou;    // whose declarations or body are at hand; none: file level
   FileId file;  // for diagnostics and for names that a library file sees first
@@ -31,18 +35,14 @@ struct Context {
   RegionId region = {};       // the namespaces around the place at hand
   ListId list = {};           // a list of globals whose declarations are at hand: its variables need no qualifier
 
-  Tree& tree() const { return project.tree; }
-  types::TypeTable& types() const { return project.types; }
-  Names& names() const { return project.names; }
+  Tree& tree() const { return symbols.tree; }
+  types::TypeTable& types() const { return symbols.types; }
+  Names& names() const { return symbols.names; }
   Report report(Diag diag, Loc loc, std::initializer_list<std::string_view> args = {}) const {
-    return project.diagnostics.report(diag, loc, args);
+    return symbols.diagnostics.report(diag, loc, args);
   }
-  bool iec() const { return !library && project.options.standard != text::Standard::Codesys; }
+  bool iec() const { return !library && symbols.dialect != Dialect::Codesys; }
 };
-
-// What the scheduler of charts works with.
-text::Charts chartsOf(const Context& context);
-text::ChartPlace chartPlaceOf(const Context& context, PouId pou);
 
 // ---- declarations (declarations/)
 

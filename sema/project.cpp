@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "frontend/source/dialect.h"
 #include "frontend/source/invariant.h"
 #include "sema/checks/mocks.h"
 #include "sema/checks/object_members.h"
@@ -16,38 +17,10 @@ namespace rung::sema {
 
 Project::Project(Sources& the_sources, Names& the_names, Diagnostics& the_diagnostics, Tree& the_tree,
                  Options the_options)
-    : sources(the_sources),
-      names(the_names),
-      diagnostics(the_diagnostics),
-      tree(the_tree),
-      options(std::move(the_options)),
-      types(the_names, options.pointer_size) {
-  types.time_is_signed = options.standard != text::Standard::Codesys;
-  vars.emplace_back();
-  pous.emplace_back();
-  enum_values.emplace_back();
-  global_lists.emplace_back();
-  calls.emplace_back();
-  properties.emplace_back();
-}
-
-text::Charts chartsOf(const Context& context) {
-  Project& project = context.project;
-  const text::Standard standard = context.library ? text::Standard::Codesys : project.options.standard;
-  return {project.tree, project.names, project.sources, project.diagnostics, standard};
-}
-
-text::ChartPlace chartPlaceOf(const Context& context, PouId pou) {
-  text::ChartPlace place;
-  place.final_scan = !context.iec();
-  for (PouId at = pou; at;) {
-    const Pou& of = context.project.pou(at);
-    const PouDecl& decl = context.tree().as<PouDecl>(of.decl);
-    if (at != pou) place.around.push_back(&decl);
-    if (findPragma(context, decl.h, context.scopes.words.no_final_scan) != nullptr) place.final_scan = false;
-    at = of.chart ? of.chart : of.owner;
-  }
-  return place;
+    : Symbols{the_sources, the_names,           the_diagnostics,
+              the_tree,    the_options.dialect, types::TypeTable(the_names, the_options.pointer_size)},
+      options(std::move(the_options)) {
+  types.time_is_signed = dialect != Dialect::Codesys;
 }
 
 bool ensureBody(Context& context, PouId id) {
@@ -98,7 +71,7 @@ void check(Project& project) {
   setPhase("sema");
   project.diagnostics.closeLines();
   Scopes scopes;
-  Context context{.project = project, .scopes = scopes, .pou = {}, .file = {}};
+  Context context{.symbols = project, .project = project, .scopes = scopes, .pou = {}, .file = {}};
   initWords(context);
   indexLibraries(context);
   collectFiles(context);

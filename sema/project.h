@@ -1,187 +1,16 @@
-// The project as sema understands it: every variable, POU, type, list and task, resolved and laid out.
-// In: the syntax trees of all files and the libraries they use. Out: tables that lowering, code generation, the symbol
-// map and the tools read. Ids are indices into the vectors here; index 0 of each is unused.
+// The whole project as sema understands it: the symbols, and what runs them: tasks, instances, addresses, initial
+// values. In: the syntax trees of all files and the libraries they use. Out: tables that lowering, code generation, the
+// symbol map and the tools read.
 #pragma once
 
 #include <cstdint>
-#include <deque>
-#include <functional>
-#include <optional>
-#include <span>
 #include <string>
-#include <string_view>
-#include <unordered_map>
 #include <vector>
 
-#include "frontend/source/diagnostics.h"
-#include "frontend/syntax/tree.h"
-#include "frontend/text/parse.h"
-#include "sema/types/arithmetic.h"
-#include "sema/types/types.h"
+#include "sema/entities.h"
+#include "sema/options.h"
 
 namespace rung::sema {
-
-struct VarId {
-  uint32_t index = 0;
-  explicit operator bool() const { return index != 0; }
-  friend bool operator==(VarId, VarId) = default;
-};
-struct PouId {
-  uint32_t index = 0;
-  explicit operator bool() const { return index != 0; }
-  friend bool operator==(PouId, PouId) = default;
-};
-struct ListId {
-  uint32_t index = 0;
-  explicit operator bool() const { return index != 0; }
-};
-
-// Where a variable lives.
-enum class Storage : uint8_t {
-  Field,     // of an FB or program instance: Pou::record, field index
-  Local,     // of one call: function variables and pins, VAR_TEMP
-  Global,    // of a global list: GlobalList::record, field index
-  Image,     // located: a view of the process image
-  Constant,  // a named value without memory of its own (enumeration items are not variables)
-};
-
-struct ImageView {  // 8-bit byte offset in its area, and the bit for %X
-  ImageArea area = ImageArea::Input;
-  uint32_t byte = 0;
-  uint8_t bit = 0;
-  bool is_bit = false;
-};
-
-struct Var {
-  NameId name;  // none: an unnamed located variable
-  Loc loc;
-  TypeId type;
-  SectionKind section = SectionKind::Local;
-  Storage storage = Storage::Local;
-  EdgeKind edge = EdgeKind::None;
-  bool constant = false, retain = false, persistent = false;
-  bool has_value = false;  // constant scalar or text with a known value: see `value`
-  bool required = false, lazy = false,
-       extensible = false;             // pins of library declarations: {required} {lazy} {extensible}
-  bool hierarchical = false;           // AT %QW0.1.2: placed behind all others when these are known
-  bool open_address = false;           // AT %I*: the number comes from VAR_CONFIG or from the system
-  bool instance_path = false;          // {attribute 'instance-path'}: holds the path of its instance
-  bool read = false, written = false;  // by any body: for the warnings
-  PouId pou;                           // owner, or none
-  ListId list;                         // owner when global
-  uint32_t field = 0;  // Storage::Field and Global: index in the record; Local: position among the POU's vars
-  ExprId init;         // none: the type's default; checked and converted to `type`
-  DeclId decl;
-  ImageView image;
-  types::Value value;  // when has_value
-  VarId external;      // VAR_EXTERNAL: the global it names
-  TypeId record;       // field of a structure or union: its type
-  AccessLevel access = AccessLevel::None;
-  CallId constructor;  // of a block whose FB_Init has parameters of its own: what the declaration gives them
-  bool late = false;   // its initial value reads other variables: Project::late, Pou::late
-  uint32_t element_constructors = 0;  // of an array: how many calls from `constructor` on, one for each element
-  TypeId any;                         // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
-  VarId bounds;                       // ARRAY[*]: the first of the hidden variables with its bounds, two a dimension
-  bool of_chart = false;              // a step or what else a chart keeps
-  bool hidden_input = false;          // of a function: such a bound, passed behind the pins
-  uint32_t temporary = 0;             // of the compiler, without declared type: its number in the body; 0: none
-  VarId bits_of;                      // a member of type BIT: the hidden byte whose `bit` it is; `field` is that byte's
-  uint8_t bit = 0;
-  bool is_bit = false, holds_bits = false;  // is such a member; is such a byte
-  VarId edge_memory;                        // R_EDGE, F_EDGE: the hidden BOOL field with the input's last value
-  std::vector<NameId> aliases;              // {alias 'R'}
-};
-
-struct Property {
-  NameId name;
-  Loc loc;
-  PouId owner;
-  PouId get, set;  // none: not declared
-};
-
-struct Pou {
-  NameId name;
-  Loc loc;
-  PouKind kind = PouKind::Program;
-  DeclId decl;
-  TypeId record;            // FB and program: the instance type; function: none
-  TypeId result;            // functions; none: no result
-  VarId result_var;         // the variable that the function's name is inside its body
-  std::vector<VarId> vars;  // all, in order of declaration (result_var is not among them)
-  std::vector<VarId> late;  // fields whose initial values read others, in the order in which they are set
-  std::vector<VarId> pins;  // the inputs, in-outs and outputs among them; filled by bodies/ at the first call
-  bool pins_ready = false;
-  bool library = false, native = false, pure = false, test = false;
-  bool test_only = false;        // {test_only}, {replaces …}: only tests use it
-  bool left_out = false;         // a test, or only for tests, and not part of this program: checked, not lowered
-  bool cpp = false;              // its body is in C++
-  std::vector<PouId> cpp_calls;  // functions that such a body names
-  bool extensible = false;       // has an {extensible} pin
-  bool sized = false;            // {sized}: has a second native form that takes and gives lengths of texts
-  bool slice = false;            // {slice}: and a third that only tells which part of the first input the result is
-  bool prefix = false;    // {prefix}: the first n characters of the result follow from the first n of the first input
-  bool faults = false;    // {fault}: its result is 0 or what the caller faults with, a rung_lock_error
-  bool no_copy = false;   // {no_copy}: an instance cannot be copied
-  bool bytes = false;     // {bytes}: its generic type is ARRAY OF BYTE
-  bool checked = false;   // its body was checked (library bodies: when used)
-  bool checking = false;  // it is at hand
-  bool broken = false;    // it has errors
-  bool used = false;
-  bool may_fault = false;
-  types::Op op = types::Op::Add;
-  enum class Operator : uint8_t {
-    None,
-    Op,
-    Select,
-    Mux,
-    Convert,
-    Move
-  } operator_kind = Operator::None;  // {operator '…'}
-  NameId library_name;               // `Standard`
-  // A generic function is never lowered itself: each tuple of types makes an instance of its own, named as C++ and the
-  // IR spell it (`LIMIT__REAL`).
-  bool generic = false;
-  PouId generic_of;
-  NameId replaces;            // {replaces 'X'}: a mock of X
-  std::vector<NameId> mocks;  // {mock 'M'} of a test: name keys, sorted
-  NameId
-      unique_name;  // unique over the project; equals name unless it is an instance of a generic function or a member
-  // ---- objects: FUNCTION_BLOCK, CLASS, INTERFACE, and their METHODs and ACTIONs (declarations/objects.cpp)
-  PouId owner;                    // of a method or action
-  PouId chart;                    // the action or method whose chart this action belongs to
-  PouId base;                     // EXTENDS
-  uint32_t base_depth = 0;        // bases of bases
-  std::vector<PouId> interfaces;  // IMPLEMENTS; EXTENDS of an interface
-  std::vector<PouId> members;     // methods, actions and accessors, in order
-  std::vector<uint32_t> properties;
-  VarId base_var;       // the hidden field that holds the base
-  VarId id_var;         // the hidden type id, where this object is the first of its line to have one
-  PouId overloads;      // of functions and methods of one name: the first of them
-  PouId next_overload;  // the next, in order of declaration
-  AccessLevel access = AccessLevel::None;
-  uint8_t modifiers = 0;                                                       // Modifier
-  enum class Accessor : uint8_t { None, Get, Set } accessor = Accessor::None;  // of a property
-  bool extended = false;    // another block of the project extends it
-  bool dispatched = false;  // begins with a type id: its methods and body may be called through a table
-  enum class Header : uint8_t { New, Busy, Done } header = Header::New;  // base and interfaces are known
-  FileId file;
-};
-
-struct EnumValue {
-  NameId name;
-  TypeId type;
-  int64_t value;
-  Loc loc;
-};
-
-// VAR_GLOBAL of one file (or of a configuration or resource): a record in memory.
-struct GlobalList {
-  NameId name;  // the file's stem, the configuration's or the resource's name
-  bool qualified_only = false;
-  TypeId record;
-  std::vector<VarId> vars;
-  Loc loc;
-};
 
 enum class TaskKind : uint8_t { Cyclic, Freewheeling, Event, Status, External };
 struct Task {
@@ -242,87 +71,13 @@ struct BlockTask {
   Loc loc;
 };
 
-// One actual of a call, in the order of the callee's pins, EN and ENO apart.
-struct Binding {
-  VarId pin;
-  ExprId value;            // converted to the pin's type; none: left open (function input: its default; FB input: kept)
-  bool is_output = false;  // copied to `value` after the call
-  bool negated = false;    // NOT pin =>
-};
-// Attempt: the first binding is a pointer to an object, the second the place that takes it when the object is a `pou`
-// (none: any), and 0 when not; the result is whether it was.
-enum class CallKind : uint8_t { Function, Instance, Program, Operator, Assertion, Method, Attempt, Delete };
-enum class Assertion : uint8_t { Assert, AssertEq, AssertNear };
-struct Call {
-  CallKind kind = CallKind::Function;
-  PouId pou;                // callee; the instance of a generic function
-  ExprId instance;          // Instance: the FB variable; Method: the object, none: the one at hand; Delete: pointer
-  PouId owns;               // Delete: tells whether memory is of the pool; `pou` gives it back
-  bool is_virtual = false;  // Method, Instance: the object may be of a derived type
-  std::vector<Binding> bindings;  // Operator: operands in order, pin none
-  ExprId en;                      // EN := …
-  ExprId eno;                     // ENO => …
-  bool eno_is_pin = false;        // … and one of `bindings`: the callee has an output of that name
-  Assertion assertion = Assertion::Assert;
-};
-
-struct Project;
-
-// Told of each body that a scheduler has made statements of, before they are checked: the moment to print them.
-// The types of the temporaries follow when the project is checked: Project::pous, Var::temporary.
-using Scheduled = std::function<void(Project& project, PouId pou)>;
-
-// One file of a library that is built into the compiler.
-struct LibraryFile {
-  const char* library;  // `Standard`
-  const char* path;     // as diagnostics and faults print it
-  std::string_view text;
-};
-// Another name of a library, for qualified names: Tc2_Standard.TON.
-struct LibraryAlias {
-  const char *alias, *library;
-};
-// Runs a function whose inputs are constant. `ready`: checks the body of a function; false: it cannot be run. The later
-// layer that can do it is ir/interpreter (constant_call.h).
-using CallConstant = std::function<std::optional<types::Value>(
-    Project& project, PouId function, std::span<const types::Value> values, const std::function<bool(PouId)>& ready)>;
-
-// What the command line and rung.project choose.
-struct Options {
-  text::Standard standard = text::Standard::Codesys;
-  uint32_t pointer_size = 8;
-  std::string_view name = "plc";               // of the module: instance paths begin with it
-  std::span<const LibraryFile> libraries;      // texts that outlive the project; declarations are parsed on first use
-  std::span<const std::string> project_names;  // qualify what the project itself declares: `TcUnit.FB_TestSuite`
-  std::span<const LibraryAlias> library_aliases;
-  CallConstant call_constant;                // none: calls of functions are no constants
-  bool free_subranges = false;               // a subrange takes all values of its base, as in TwinCAT
-  uint32_t pool_bytes = 0;                   // of the pool behind __NEW; 0: as the library has it
-  Scheduled scheduled;                       // none: nobody asks
-  bool with_tests = false;                   // the program is for `rung test`
-  std::vector<std::string> mocks;            // … of the tests that name exactly these
-  int64_t default_interval_ns = 10'000'000;  // of the task that is made when there is no CONFIGURATION
-};
-
-struct Project {
+struct Project : Symbols {
   Project(Sources& sources, Names& names, Diagnostics& diagnostics, Tree& tree, Options options);
 
-  Sources& sources;
-  Names& names;
-  Diagnostics& diagnostics;
-  Tree& tree;
   Options options;
-  types::TypeTable types;
-
-  std::deque<Var> vars;
-  std::deque<Pou> pous;
-  std::vector<EnumValue> enum_values;
-  std::deque<GlobalList> global_lists;
-  std::deque<Property> properties;
   std::vector<VarId> late;  // globals whose initial values read others, in the order in which they are set
   std::vector<Task> tasks;
   std::vector<ProgramInstance> instances;
-  std::deque<Call> calls;
   std::vector<InstancePlace> instance_places;
   std::vector<AccessPath> access_paths;
   std::vector<BlockTask> block_tasks;
@@ -340,13 +95,6 @@ struct Project {
   };
   std::vector<GlobalWrite> global_writes;  // by bodies, of variables outside of the instance: for the rule on tasks
   uint32_t image_bytes[3] = {0, 0, 0};     // I, Q, M: end of the last used byte
-
-  Var& var(VarId id) { return vars[id.index]; }
-  const Var& var(VarId id) const { return vars[id.index]; }
-  Pou& pou(PouId id) { return pous[id.index]; }
-  const Pou& pou(PouId id) const { return pous[id.index]; }
-  Call& call(CallId id) { return calls[id.index]; }
-  const Call& call(CallId id) const { return calls[id.index]; }
 };
 
 // Checks the whole project: collects the declarations of tree.files, resolves types and layout, checks every body,
@@ -354,14 +102,5 @@ struct Project {
 // Afterwards each expression of a checked body has its type, implicit conversions are ConvertExpr nodes, untyped
 // literals have their context's type, and project.pous lists user POUs and the library POUs in use.
 void check(Project& project);
-
-// Functions or methods whose parameters have the same types, one by one; and the method of an object itself that has
-// the name of another and, where the name is overloaded, its parameters.
-bool sameParameters(const Project& project, PouId a, PouId b);
-PouId methodLike(const Project& project, PouId object, PouId like);
-
-// The value of a checked literal, in its type; and the operator of the arithmetic kernel that an infix one is.
-types::Value valueOf(const Project& project, const LiteralExpr& literal);
-types::Op operatorOf(BinaryOp op);
 
 }  // namespace rung::sema

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "sema/project.h"
+#include "sema/entities.h"
 
 namespace rung::sema {
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "frontend/diagram/feedback.h"
+#include "frontend/syntax/diagram.h"
 
 namespace rung::diagram {
 namespace {

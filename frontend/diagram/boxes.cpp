@@ -7,6 +7,7 @@
 
 #include "frontend/diagram/diagnostics.h"
 #include "frontend/diagram/scheduler.h"
+#include "frontend/syntax/diagram.h"
 
 namespace rung::diagram {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "frontend/diagram/feedback.h"
 #include "frontend/diagram/schedule.h"
+#include "frontend/syntax/diagram.h"
 
 namespace rung::diagram {
 namespace {

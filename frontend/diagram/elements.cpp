@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "frontend/syntax/diagram.h"
+
 namespace rung::diagram {
 
 std::string describe(const Tree& tree, const Names& names, const DiagramElement& element) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "frontend/syntax/diagram.h"
 #include "frontend/syntax/tree.h"
 
 namespace rung::diagram {

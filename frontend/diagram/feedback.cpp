@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "frontend/syntax/diagram.h"
+
 namespace rung::diagram {
 namespace {
 

@@ -7,6 +7,7 @@
 
 #include "frontend/diagram/elements.h"
 #include "frontend/diagram/schedule.h"
+#include "frontend/syntax/diagram.h"
 
 namespace rung::diagram {
 

@@ -7,6 +7,7 @@
 #include "frontend/diagram/diagnostics.h"
 #include "frontend/diagram/graph.h"
 #include "frontend/syntax/diagnostics.h"
+#include "frontend/syntax/diagram.h"
 
 namespace rung::diagram {
 namespace {

@@ -6,6 +6,7 @@
 #include "frontend/diagram/diagnostics.h"
 #include "frontend/diagram/scheduler.h"
 #include "frontend/syntax/diagnostics.h"
+#include "frontend/syntax/diagram.h"
 
 namespace rung::diagram {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "frontend/diagram/graph.h"
 #include "frontend/syntax/clone.h"
+#include "frontend/syntax/diagram.h"
 
 namespace rung::diagram {
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "frontend/picture/network_plan.h"
+#include "frontend/syntax/diagram.h"
 
 namespace rung::picture {
 namespace {

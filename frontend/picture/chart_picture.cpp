@@ -4,6 +4,7 @@
 
 #include "frontend/picture/chart_plan.h"
 #include "frontend/picture/picture.h"
+#include "frontend/syntax/sfc.h"
 #include "frontend/syntax/st_printer.h"
 
 namespace rung::picture {

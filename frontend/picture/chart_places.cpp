@@ -6,6 +6,7 @@
 
 #include "frontend/picture/chart_plan.h"
 #include "frontend/picture/spread.h"
+#include "frontend/syntax/sfc.h"
 
 namespace rung::picture {
 namespace {

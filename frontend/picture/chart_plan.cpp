@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "frontend/syntax/sfc.h"
+
 namespace rung::picture {
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include "frontend/picture/network_plan.h"
 #include "frontend/picture/picture.h"
+#include "frontend/syntax/diagram.h"
 
 namespace rung::picture {
 namespace {

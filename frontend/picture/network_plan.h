@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "frontend/picture/svg.h"
+#include "frontend/syntax/diagram.h"
 #include "frontend/syntax/tree.h"
 
 namespace rung::picture {

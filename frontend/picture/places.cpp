@@ -5,6 +5,7 @@
 
 #include "frontend/picture/network_plan.h"
 #include "frontend/picture/spread.h"
+#include "frontend/syntax/diagram.h"
 
 namespace rung::picture {
 namespace {

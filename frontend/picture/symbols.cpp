@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "frontend/picture/network_plan.h"
+#include "frontend/syntax/diagram.h"
 #include "frontend/syntax/st_printer.h"
 
 namespace rung::picture {

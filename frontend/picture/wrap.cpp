@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "frontend/picture/network_plan.h"
+#include "frontend/syntax/diagram.h"
 
 namespace rung::picture {
 namespace {

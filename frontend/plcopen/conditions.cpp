@@ -6,6 +6,7 @@
 #include "frontend/plcopen/chart.h"
 #include "frontend/plcopen/networks.h"
 #include "frontend/source/names.h"
+#include "frontend/syntax/diagram.h"
 #include "frontend/xml/diagnostics.h"
 
 namespace rung::plcopen {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frontend/plcopen/exporter.h"
+#include "frontend/syntax/sfc.h"
 
 namespace rung::plcopen {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "frontend/plcopen/diagnostics.h"
 #include "frontend/plcopen/exporter.h"
+#include "frontend/syntax/diagram.h"
 
 namespace rung::plcopen {
 namespace {

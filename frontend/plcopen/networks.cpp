@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "frontend/source/names.h"
+#include "frontend/syntax/diagram.h"
 
 namespace rung::plcopen {
 namespace {

@@ -7,6 +7,7 @@
 #include "frontend/plcopen/import.h"
 #include "frontend/plcopen/networks.h"
 #include "frontend/source/names.h"
+#include "frontend/syntax/diagram.h"
 #include "frontend/xml/diagnostics.h"
 
 namespace rung::plcopen {

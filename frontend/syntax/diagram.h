@@ -7,11 +7,9 @@
 #include <cstdint>
 
 #include "frontend/syntax/ids.h"
+#include "frontend/syntax/pin.h"
 
 namespace rung {
-
-enum class EdgeKind : uint8_t { None, Rising, Falling };
-enum class PinDirection : uint8_t { Input, Output, InOut };
 
 enum class ElementKind : uint8_t {
   Rail,          // the left power rail: TRUE
@@ -77,12 +75,6 @@ struct DiagramNetwork {
   uint32_t title, title_length;  // TextId
   Loc loc;
   bool disabled;  // nothing in it runs
-};
-// Of one body. The elements' indices in wires count from the first of them.
-struct Diagram {
-  NetworkLanguage language;
-  Slice<DiagramNetwork> networks;  // those that the file separates
-  Slice<DiagramElement> elements;
 };
 
 }  // namespace rung

@@ -1,5 +1,9 @@
 #include "frontend/syntax/tree.h"
 
+#include "frontend/syntax/diagram.h"
+#include "frontend/syntax/il.h"
+#include "frontend/syntax/sfc.h"
+
 namespace rung {
 
 const char* spelling(BinaryOp op) {
@@ -51,13 +55,17 @@ const char* spelling(AssignOp op) {
 
 Tree::Tree() = default;
 
+Tree::~Tree() {
+  for (const uint32_t* chunk : chunks_) delete[] chunk;
+}
+
 uint32_t Tree::store(const void* node, size_t bytes) {
   const auto words = static_cast<uint32_t>((bytes + 3) / 4);
   if (next_word_ % kChunkWords + words > kChunkWords) next_word_ = (next_word_ / kChunkWords + 1) * kChunkWords;
   const uint32_t chunk = next_word_ / kChunkWords;
-  if (chunk == chunks_.size()) chunks_.push_back(std::make_unique_for_overwrite<uint32_t[]>(kChunkWords));
+  if (chunk == chunks_.size()) chunks_.push_back(new uint32_t[kChunkWords]);
   const uint32_t word = next_word_;
-  std::memcpy(chunks_[chunk].get() + word % kChunkWords, node, bytes);
+  std::memcpy(chunks_[chunk] + word % kChunkWords, node, bytes);
   next_word_ += words;
   return word;
 }

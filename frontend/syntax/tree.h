@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <new>
 #include <span>
 #include <string_view>
@@ -16,10 +15,8 @@
 #include "frontend/source/files.h"
 #include "frontend/source/invariant.h"
 #include "frontend/source/names.h"
-#include "frontend/syntax/diagram.h"
 #include "frontend/syntax/ids.h"
-#include "frontend/syntax/il.h"
-#include "frontend/syntax/sfc.h"
+#include "frontend/syntax/pin.h"
 
 namespace rung {
 
@@ -429,6 +426,24 @@ struct TypeDecl {
 enum class PouKind : uint8_t { Function, FunctionBlock, Program, Class, Interface, Method, Action };
 enum class AccessLevel : uint8_t { None, Public, Private, Protected, Internal };  // None: as the dialect has it
 enum Modifier : uint8_t { kAbstract = 1, kFinal = 2, kOverride = 4 };
+// What a body in another language than ST is made of: il.h, sfc.h, diagram.h.
+struct IlInstruction;
+struct IlNested;
+struct SfcStep;
+struct SfcTransition;
+struct SfcAssociation;
+struct DiagramWire;
+struct DiagramPin;
+struct DiagramElement;
+struct DiagramNetwork;
+enum class NetworkLanguage : uint8_t;
+// Of one body. The elements' indices in wires count from the first of them.
+struct Diagram {
+  NetworkLanguage language;
+  Slice<DiagramNetwork> networks;  // those that the file separates
+  Slice<DiagramElement> elements;
+};
+
 enum class BodyKind : uint8_t { None, St, Il, Sfc, Network, Cpp, Native };
 struct PouDecl {
   DeclHeader h;
@@ -538,6 +553,7 @@ struct FileUnit {
 class Tree {
  public:
   Tree();
+  ~Tree();
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
 
@@ -617,11 +633,11 @@ class Tree {
   static constexpr uint32_t kChunkWords = 1u << 16;
   template <class Node>
   Node& header(uint32_t word) const {
-    return *std::launder(reinterpret_cast<Node*>(chunks_[word / kChunkWords].get() + word % kChunkWords));
+    return *std::launder(reinterpret_cast<Node*>(chunks_[word / kChunkWords] + word % kChunkWords));
   }
   uint32_t store(const void* node, size_t bytes);
 
-  std::vector<std::unique_ptr<uint32_t[]>> chunks_;
+  std::vector<uint32_t*> chunks_;  // owned
   uint32_t next_word_ = 1;
   std::vector<char> text_;
   // One vector per element type of addList.

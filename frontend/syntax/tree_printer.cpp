@@ -2,6 +2,9 @@
 #include <charconv>
 #include <string>
 
+#include "frontend/syntax/diagram.h"
+#include "frontend/syntax/il.h"
+#include "frontend/syntax/sfc.h"
 #include "frontend/syntax/tree.h"
 
 namespace rung {

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "frontend/source/dialect.h"
 #include "frontend/syntax/tree.h"
 #include "frontend/text/diagnostics.h"
 #include "frontend/text/foreign.h"
@@ -127,12 +128,12 @@ bool isWordChar(char c) {
 
 class FileConditions {
  public:
-  FileConditions(std::string_view text, Loc base, std::vector<Define> defines, Standard standard,
+  FileConditions(std::string_view text, Loc base, std::vector<Define> defines, Dialect dialect,
                  const Declared* declared, Diagnostics& diagnostics)
       : text_(text),
         base_(base),
         defines_(std::move(defines)),
-        standard_(standard),
+        dialect_(dialect),
         declared_(declared),
         diagnostics_(diagnostics) {}
 
@@ -176,7 +177,7 @@ class FileConditions {
   std::string_view text_;
   Loc base_;
   std::vector<Define> defines_;
-  Standard standard_;
+  Dialect dialect_;
   const Declared* declared_;
   Diagnostics& diagnostics_;
   std::vector<Open> open_;
@@ -212,7 +213,7 @@ size_t FileConditions::skipComment(size_t at) const {
   const char open = text_[at], close = open == '(' ? ')' : '/';
   uint32_t depth = 0;
   while (at + 1 < text_.size()) {
-    if (text_[at] == open && text_[at + 1] == '*' && (depth == 0 || standard_ != Standard::Iec2)) {
+    if (text_[at] == open && text_[at + 1] == '*' && (depth == 0 || dialect_ != Dialect::Iec2)) {
       ++depth;
       at += 2;
     } else if (text_[at] == '*' && text_[at + 1] == close) {
@@ -475,15 +476,15 @@ std::string blanked(std::string_view text, const std::vector<Range>& blanks) {
 
 }  // namespace
 
-void applyConditions(Sources& sources, std::span<const FileId> files, std::span<const Define> defines,
-                     Standard standard, Diagnostics& diagnostics) {
+void applyConditions(Sources& sources, std::span<const FileId> files, std::span<const Define> defines, Dialect dialect,
+                     Diagnostics& diagnostics) {
   std::vector<FileId> with;
   for (const FileId file : files)
     if (mayHaveConditions(sources.text(file))) with.push_back(file);
   if (with.empty()) return;
 
   const auto evaluate = [&](FileId file, const Declared* declared, Diagnostics& to) {
-    FileConditions conditions(sources.text(file), sources.begin(file), {defines.begin(), defines.end()}, standard,
+    FileConditions conditions(sources.text(file), sources.begin(file), {defines.begin(), defines.end()}, dialect,
                               declared, to);
     conditions.run();
     return conditions;
@@ -506,7 +507,7 @@ void applyConditions(Sources& sources, std::span<const FileId> files, std::span<
       scratch.add(std::string(sources.path(FileId{i})), std::move(texts[i]));
     }
     Diagnostics dropped(scratch);
-    for (const FileId file : files) parseFile(tree, names, scratch, file, standard, dropped);
+    for (const FileId file : files) parseFile(tree, names, scratch, file, dialect, dropped);
   }
   const Declared declared(tree, names, scratch);
   for (const FileId file : with) {

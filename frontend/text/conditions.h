@@ -8,6 +8,7 @@
 #include <string>
 
 #include "frontend/source/diagnostics.h"
+#include "frontend/source/dialect.h"
 #include "frontend/text/parse.h"
 
 namespace rung::text {
@@ -19,7 +20,7 @@ struct Define {
 // {define} holds from its place to the end of its file. `defined (variable: x)`, `type:`, `pou:`, `task:`,
 // `resource:`, `hasattribute` and `hastype` ask for declarations of the project, which are known once everything
 // outside of such conditions has been parsed: then, and only then, the files are parsed here once more.
-void applyConditions(Sources& sources, std::span<const FileId> files, std::span<const Define> defines,
-                     Standard standard, Diagnostics& diagnostics);
+void applyConditions(Sources& sources, std::span<const FileId> files, std::span<const Define> defines, Dialect dialect,
+                     Diagnostics& diagnostics);
 
 }  // namespace rung::text

@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "frontend/source/dialect.h"
 #include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 #include "frontend/text/recover.h"
@@ -274,7 +275,7 @@ DeclId Parser::parseVar(SectionKind section) {
     advance();
     if (at(Tok::Address) && in_structure_) {
       // AT %I*: a place in the image that nobody has named; AT %B0: a place in the structure
-      if (standard_ == Standard::Codesys && textOf(t_).ends_with('*')) {
+      if (dialect_ == Dialect::Codesys && textOf(t_).ends_with('*')) {
         if (!address_told_) diagnostics_.report(diag::OpenAddressInStructure, here(), {textOf(t_)});
         address_told_ = true;
       } else if (textOf(t_).ends_with('*')) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstring>
 
+#include "frontend/source/dialect.h"
 #include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 
@@ -100,7 +101,7 @@ ExprId Parser::parseExpr(uint32_t least) {
       height_ = 1;
       return errorExpr(loc(op));
     }
-    if (row.op == BinaryOp::Power && standard_ != Standard::Codesys && tree_.kind(left) == ExprKind::Unary &&
+    if (row.op == BinaryOp::Power && dialect_ != Dialect::Codesys && tree_.kind(left) == ExprKind::Unary &&
         tree_.expr(left).in_parens == 0 && tree_.as<UnaryExpr>(left).op() == UnaryOp::Negate)
       diagnostics_.report(diag::NegatedPower, tree_.loc(left), {"tighter"});
     left =
@@ -131,7 +132,7 @@ ExprId Parser::parseUnary() {
     return errorExpr(start);
   }
   advance();
-  const ExprId operand = standard_ == Standard::Codesys ? parseExpr(kPowerPrecedence) : parseUnary();
+  const ExprId operand = dialect_ == Dialect::Codesys ? parseExpr(kPowerPrecedence) : parseUnary();
   --expr_depth_;
   if (++height_ > kMaxExprHeight + 1) {
     tooDeep("operators", kMaxChain);
@@ -373,7 +374,7 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
       a.is_output = binder == Tok::Arrow;
       t_ = const_cast<Token*>(pin) + 2;
       if (at(Tok::Comma) || at(Tok::RightParen)) {
-        if (standard_ != Standard::Codesys) slip(diag::EmptyBinding, pin, {textOf(pin)});
+        if (dialect_ != Dialect::Codesys) slip(diag::EmptyBinding, pin, {textOf(pin)});
       } else if (atNestedIl()) {
         parseNestedIl(static_cast<uint32_t>(arguments_.size() - first));
       } else {
@@ -400,7 +401,7 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
       if (at(Tok::RightParen)) break;
       if (at(Tok::Comma)) {
         if (peek() == Tok::RightParen) {
-          if (standard_ == Standard::Codesys)
+          if (dialect_ == Dialect::Codesys)
             diagnostics_.report(diag::TrailingCommaWarning, here());
           else
             slip(diag::TrailingComma, t_);

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "frontend/syntax/il.h"
 #include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "frontend/syntax/diagnostics.h"
+#include "frontend/syntax/il.h"
 
 namespace rung::text {
 

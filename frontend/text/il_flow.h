@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frontend/source/diagnostics.h"
+#include "frontend/syntax/il.h"
 #include "frontend/syntax/shapes.h"
 #include "frontend/syntax/tree.h"
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "frontend/syntax/diagnostics.h"
+#include "frontend/syntax/il.h"
 #include "frontend/text/diagnostics.h"
 #include "frontend/text/il_flow.h"
 #include "frontend/text/il_structure.h"

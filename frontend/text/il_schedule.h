@@ -5,6 +5,7 @@
 #pragma once
 
 #include "frontend/source/diagnostics.h"
+#include "frontend/syntax/il.h"
 #include "frontend/syntax/shapes.h"
 #include "frontend/syntax/tree.h"
 

@@ -2,6 +2,7 @@
 // expressions of the tree; which form a call-like `n(1, 2)` has is told by sema.
 #include <utility>
 
+#include "frontend/source/dialect.h"
 #include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 #include "frontend/text/recover.h"
@@ -10,7 +11,7 @@ namespace rung::text {
 
 // The value behind `:=` of a declaration. CODESYS 2.3 writes the values of an array without brackets.
 ExprId Parser::parseDeclaredInit(TypeExprId type) {
-  if (standard_ != Standard::Codesys || at(Tok::LeftBracket) || tree_.kind(type) != TypeExprKind::Array)
+  if (dialect_ != Dialect::Codesys || at(Tok::LeftBracket) || tree_.kind(type) != TypeExprKind::Array)
     return parseInit();
   const Loc start = here();
   const size_t first = exprs_.size();
@@ -28,7 +29,7 @@ ExprId Parser::parseDeclaredInit(TypeExprId type) {
 ExprId Parser::parseInit() {
   if (at(Tok::LeftBracket)) return parseArrayInit();
   if (at(Tok::LeftParen) && isName(peek()) && peek(2) == Tok::Assign) return parseStructInit();
-  if (at(Tok::LeftParen) && peek() == Tok::RightParen && standard_ == Standard::Codesys) return parseStructInit();
+  if (at(Tok::LeftParen) && peek() == Tok::RightParen && dialect_ == Dialect::Codesys) return parseStructInit();
   return parseExpr();
 }
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string>
 
+#include "frontend/source/dialect.h"
 #include "frontend/source/invariant.h"
 #include "frontend/source/nested_comments.h"
 #include "frontend/syntax/diagnostics.h"
@@ -146,11 +147,10 @@ Prefix prefixOf(std::string_view word) {
 
 class Lexer {
  public:
-  Lexer(TokenStream& out, Names& names, const Sources& sources, FileId file, Standard standard,
-        Diagnostics& diagnostics)
+  Lexer(TokenStream& out, Names& names, const Sources& sources, FileId file, Dialect dialect, Diagnostics& diagnostics)
       : out_(out),
         names_(names),
-        standard_(standard),
+        dialect_(dialect),
         diagnostics_(diagnostics),
         base_(sources.begin(file).offset),
         text_(sources.text(file)),
@@ -192,7 +192,7 @@ class Lexer {
 
   TokenStream& out_;
   Names& names_;
-  Standard standard_;
+  Dialect dialect_;
   bool nests_ = true;  // of CODESYS 2.3: comments nest in the object at hand
   Diagnostics& diagnostics_;
   uint32_t base_;
@@ -270,7 +270,7 @@ void Lexer::run(uint32_t begin, uint32_t end) {
   settle();
   flags_ |= kLineStart;
   for (uint32_t i = 0; i < kLookahead; ++i) out_.tokens.push_back({at(end_), 0, Tok::End, flags_, 0});
-  if (long_types_ && standard_ == Standard::Codesys) settleLongTypes();
+  if (long_types_ && dialect_ == Dialect::Codesys) settleLongTypes();
 }
 
 const char* Lexer::word(const char* begin) {
@@ -316,7 +316,7 @@ void Lexer::settleLongTypes() {
 void Lexer::checkUnderscores(const char* begin, const char* end) {
   const std::string_view name(begin, static_cast<size_t>(end - begin));
   if (name.size() < 2 || (name.back() != '_' && name.find("__") == std::string_view::npos)) return;
-  if (standard_ == Standard::Codesys) {
+  if (dialect_ == Dialect::Codesys) {
     if (name.substr(0, 2) != "__") diagnostics_.report(diag::UnderscoresInNameWarning, loc(begin), {name});
   } else {
     diagnostics_.report(diag::UnderscoresInName, loc(begin), {name});
@@ -459,7 +459,7 @@ const char* Lexer::lineComment(const char* p) {
 const char* Lexer::blockComment(const char* begin, bool slash) {
   const char open = slash ? '/' : '(', close = slash ? '/' : ')';
   const char* p = begin + 2;
-  const bool nests = standard_ != Standard::Iec2 && nests_;
+  const bool nests = dialect_ != Dialect::Iec2 && nests_;
   bool told = false;
   uint32_t depth = 1;
   for (; p < end_; ++p) {
@@ -657,8 +657,8 @@ bool endsPart(Tok kind) {
 const char* spelling(Tok kind) { return kSpellings[static_cast<size_t>(kind)].text; }
 
 void lex(TokenStream& out, Names& names, const Sources& sources, FileId file, uint32_t begin, uint32_t end,
-         Standard standard, Diagnostics& diagnostics) {
-  Lexer(out, names, sources, file, standard, diagnostics).run(begin, end);
+         Dialect dialect, Diagnostics& diagnostics) {
+  Lexer(out, names, sources, file, dialect, diagnostics).run(begin, end);
 }
 
 }  // namespace rung::text

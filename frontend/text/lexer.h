@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "frontend/source/diagnostics.h"
+#include "frontend/source/dialect.h"
 #include "frontend/source/names.h"
 #include "frontend/text/parse.h"
 
@@ -76,7 +77,7 @@ struct TokenStream {
 
 // Reads [begin, end) of the file's text.
 void lex(TokenStream& out, Names& names, const Sources& sources, FileId file, uint32_t begin, uint32_t end,
-         Standard standard, Diagnostics& diagnostics);
+         Dialect dialect, Diagnostics& diagnostics);
 
 // Whether a line begins with an instruction of IL that no statement or declaration begins with: a word such as LD or
 // JMP, and an operand behind it (il.cpp).

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "frontend/syntax/diagnostics.h"
+#include "frontend/syntax/diagram.h"
 #include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 

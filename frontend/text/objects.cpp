@@ -1,5 +1,6 @@
 // Objects in text: METHOD, ACTION, PROPERTY with its accessors, the modifiers of headers, NAMESPACE and USING.
 // CLASS and INTERFACE are POUs of parser.cpp.
+#include "frontend/source/dialect.h"
 #include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 
@@ -166,7 +167,7 @@ DeclId Parser::parseProperty() {
   --in_property_;
   if (accept(Tok::EndProperty)) {
     accept(Tok::Semicolon);
-  } else if (standard_ != Standard::Codesys) {
+  } else if (dialect_ != Dialect::Codesys) {
     const std::string line = std::to_string(sources_.place(loc(open)).line);
     missing(diag::MissingEnd, {"END_PROPERTY", "PROPERTY", line});
   }

@@ -4,29 +4,28 @@
 #pragma once
 
 #include "frontend/source/diagnostics.h"
+#include "frontend/source/dialect.h"
 #include "frontend/syntax/tree.h"
 
 namespace rung::text {
 
-enum class Standard : uint8_t { Iec2, Iec3, Codesys };
-
 // Parses a whole file and appends it to tree.files.
-FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                    Diagnostics& diagnostics);
 
 // Parses the one declaration (POU or TYPE entry block) that stands in [begin, end) of its file: a library declaration
 // on first use, or a fresh copy of a generic function. Not appended to tree.files.
-Slice<DeclId> parseDeclarations(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Standard standard,
+Slice<DeclId> parseDeclarations(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Dialect dialect,
                                 Diagnostics& diagnostics);
 
 // Parse the sections, and the statements, that a scheduler wrote as text: `file` holds nothing else.
-Slice<DeclId> parseSections(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+Slice<DeclId> parseSections(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                             Diagnostics& diagnostics);
-Slice<StmtId> parseStatements(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+Slice<StmtId> parseStatements(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                               Diagnostics& diagnostics);
 
 // Parses `text` of `file` as a lone expression (for --set, --stop-on and --inputs cells); none when it is not one.
-ExprId parseExpression(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+ExprId parseExpression(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                        Diagnostics& diagnostics);
 
 }  // namespace rung::text

@@ -1,19 +1,20 @@
 // Files, POUs and configurations; tokens and error reports of the parser.
 #include "frontend/text/parser.h"
 
+#include "frontend/source/dialect.h"
 #include "frontend/syntax/diagnostics.h"
+#include "frontend/syntax/sfc.h"
 #include "frontend/text/diagnostics.h"
 #include "frontend/text/recover.h"
 
 namespace rung::text {
 
-Parser::Parser(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
-               Diagnostics& diagnostics)
+Parser::Parser(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect, Diagnostics& diagnostics)
     : tree_(tree),
       names_(names),
       sources_(sources),
       file_(file),
-      standard_(standard),
+      dialect_(dialect),
       diagnostics_(diagnostics),
       base_(sources.begin(file).offset),
       text_(sources.text(file)) {
@@ -23,9 +24,9 @@ Parser::Parser(Tree& tree, Names& names, const Sources& sources, FileId file, St
 }
 
 void Parser::read(uint32_t begin, uint32_t end) {
-  lex(stream_, names_, sources_, file_, begin, end, standard_, diagnostics_);
+  lex(stream_, names_, sources_, file_, begin, end, dialect_, diagnostics_);
   settleObjectWords(stream_);
-  balanceBlocks(stream_, names_, sources_, file_, standard_, diagnostics_);
+  balanceBlocks(stream_, names_, sources_, file_, dialect_, diagnostics_);
   tokens_ = std::move(stream_.tokens);
   t_ = tokens_.data();
 }
@@ -223,7 +224,7 @@ void Parser::skipToTopLevel() {
 
 // False: a POU without END_…, which codesys allows, so that a VAR_GLOBAL behind it begins a list of globals.
 bool Parser::pouCloses() {
-  if (standard_ != Standard::Codesys) return true;
+  if (dialect_ != Dialect::Codesys) return true;
   if (pou_closes_ == Known::NotYet) {
     const Token* t = t_;
     while (t->kind != pou_end_ && t->kind != Tok::End && t->kind != Tok::Function && t->kind != Tok::FunctionBlock &&
@@ -336,7 +337,7 @@ DeclId Parser::parsePou() {
         while (!at(end) && !at(Tok::End) && (atMember() || !atTopLevelWord())) advance();
         accept(end);
       }
-    } else if (standard_ != Standard::Codesys) {
+    } else if (dialect_ != Dialect::Codesys) {
       const std::string line = std::to_string(sources_.place(loc(open)).line);
       missing(diag::MissingEnd, {spelling(end), spelling(word), line});
     }
@@ -545,41 +546,41 @@ DeclId Parser::parseProgramInstance() {
 
 // ---- the interface
 
-FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                    Diagnostics& diagnostics) {
-  Parser parser(tree, names, sources, file, standard, diagnostics);
+  Parser parser(tree, names, sources, file, dialect, diagnostics);
   parser.read(0, static_cast<uint32_t>(sources.text(file).size()));
   const FileUnit unit{file, parser.parseDecls()};
   tree.files.push_back(unit);
   return unit;
 }
 
-Slice<DeclId> parseDeclarations(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Standard standard,
+Slice<DeclId> parseDeclarations(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Dialect dialect,
                                 Diagnostics& diagnostics) {
   const FileId file = sources.fileOf(begin);
   const uint32_t base = sources.begin(file).offset;
-  Parser parser(tree, names, sources, file, standard, diagnostics);
+  Parser parser(tree, names, sources, file, dialect, diagnostics);
   parser.read(begin.offset - base, end.offset - base);
   return parser.parseDecls();
 }
 
-Slice<DeclId> parseSections(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+Slice<DeclId> parseSections(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                             Diagnostics& diagnostics) {
-  Parser parser(tree, names, sources, file, standard, diagnostics);
+  Parser parser(tree, names, sources, file, dialect, diagnostics);
   parser.read(0, static_cast<uint32_t>(sources.text(file).size()));
   return parser.parseLoneSections();
 }
 
-Slice<StmtId> parseStatements(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+Slice<StmtId> parseStatements(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                               Diagnostics& diagnostics) {
-  Parser parser(tree, names, sources, file, standard, diagnostics);
+  Parser parser(tree, names, sources, file, dialect, diagnostics);
   parser.read(0, static_cast<uint32_t>(sources.text(file).size()));
   return parser.parseLoneStatements();
 }
 
-ExprId parseExpression(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard,
+ExprId parseExpression(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                        Diagnostics& diagnostics) {
-  Parser parser(tree, names, sources, file, standard, diagnostics);
+  Parser parser(tree, names, sources, file, dialect, diagnostics);
   parser.read(0, static_cast<uint32_t>(sources.text(file).size()));
   return parser.parseLoneExpression();
 }

@@ -12,6 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "frontend/source/dialect.h"
+#include "frontend/syntax/diagram.h"
+#include "frontend/syntax/il.h"
+#include "frontend/syntax/sfc.h"
 #include "frontend/text/lexer.h"
 #include "frontend/text/literals.h"
 #include "frontend/text/parse.h"
@@ -20,7 +24,7 @@ namespace rung::text {
 
 class Parser {
  public:
-  Parser(Tree& tree, Names& names, const Sources& sources, FileId file, Standard standard, Diagnostics& diagnostics);
+  Parser(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect, Diagnostics& diagnostics);
 
   // Lexes [begin, end) of the file and balances its blocks.
   void read(uint32_t begin, uint32_t end);
@@ -109,7 +113,7 @@ class Parser {
   bool beginsType(const Token* t) const;
   bool parseName(Ident& out);
   // CODESYS knows NULL as a value only: items and members may be called so.
-  bool isNullName(const Token* t) const { return t->kind == Tok::Null && standard_ == Standard::Codesys; }
+  bool isNullName(const Token* t) const { return t->kind == Tok::Null && dialect_ == Dialect::Codesys; }
   bool parsePath(std::vector<Ident>& out);
   TypeExprId parseType();
   TypeExprId parseStruct();
@@ -257,7 +261,7 @@ class Parser {
   Names& names_;
   const Sources& sources_;
   FileId file_;
-  Standard standard_;
+  Dialect dialect_;
   Diagnostics& diagnostics_;
   uint32_t base_;
   std::string_view text_;

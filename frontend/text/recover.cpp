@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "frontend/source/dialect.h"
 #include "frontend/text/diagnostics.h"
 
 namespace rung::text {
@@ -72,13 +73,13 @@ std::span<const Tok> openersFor(Tok closer) {
 
 class Balancer {
  public:
-  Balancer(TokenStream& stream, const Names& names, const Sources& sources, FileId file, Standard standard,
+  Balancer(TokenStream& stream, const Names& names, const Sources& sources, FileId file, Dialect dialect,
            Diagnostics& diagnostics)
       : stream_(stream),
         tokens_(stream.tokens),
         names_(names),
         sources_(sources),
-        standard_(standard),
+        dialect_(dialect),
         diagnostics_(diagnostics),
         base_(sources.begin(file).offset),
         text_(sources.text(file)),
@@ -192,7 +193,7 @@ class Balancer {
   std::vector<Token>& tokens_;
   const Names& names_;
   const Sources& sources_;
-  Standard standard_;
+  Dialect dialect_;
   Diagnostics& diagnostics_;
   uint32_t base_;
   std::string_view text_;
@@ -218,7 +219,7 @@ void Balancer::run() {
   const std::vector<uint32_t>& blocks = stream_.blocks;
   for (const Tok member : {Tok::Method, Tok::Property, Tok::Action}) {
     const auto closes = [&](uint32_t b) { return tokens_[b].kind == closerOf(member); };
-    if (standard_ != Standard::Codesys || std::any_of(blocks.begin(), blocks.end(), closes))
+    if (dialect_ != Dialect::Codesys || std::any_of(blocks.begin(), blocks.end(), closes))
       members_closed_.push_back(member);
   }
   size_t start = 0;
@@ -258,7 +259,7 @@ bool Balancer::balanced(size_t first_block, size_t end_block) {
       stack.pop_back();
     }
   }
-  if (standard_ == Standard::Codesys && stack.size() == 1 && isPouOpener(stack.back())) return true;
+  if (dialect_ == Dialect::Codesys && stack.size() == 1 && isPouOpener(stack.back())) return true;
   return stack.empty();
 }
 
@@ -282,7 +283,7 @@ void Balancer::repair(uint32_t first, uint32_t end) {
   while (!stack_.empty()) {
     const Open open = stack_.back();
     stack_.pop_back();
-    if (isPouOpener(open.kind) && standard_ == Standard::Codesys) continue;
+    if (isPouOpener(open.kind) && dialect_ == Dialect::Codesys) continue;
     leaveOpen(open, end);
   }
 }
@@ -761,9 +762,9 @@ void Balancer::apply() {
 
 }  // namespace
 
-void balanceBlocks(TokenStream& stream, const Names& names, const Sources& sources, FileId file, Standard standard,
+void balanceBlocks(TokenStream& stream, const Names& names, const Sources& sources, FileId file, Dialect dialect,
                    Diagnostics& diagnostics) {
-  Balancer(stream, names, sources, file, standard, diagnostics).run();
+  Balancer(stream, names, sources, file, dialect, diagnostics).run();
 }
 
 Tok nearestKeyword(std::string_view written, std::span<const Tok> candidates) {

@@ -7,11 +7,12 @@
 
 #include <span>
 
+#include "frontend/source/dialect.h"
 #include "frontend/text/lexer.h"
 
 namespace rung::text {
 
-void balanceBlocks(TokenStream& stream, const Names& names, const Sources& sources, FileId file, Standard standard,
+void balanceBlocks(TokenStream& stream, const Names& names, const Sources& sources, FileId file, Dialect dialect,
                    Diagnostics& diagnostics);
 
 // The keyword among `candidates` nearest to `written`, or End.

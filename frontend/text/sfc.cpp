@@ -4,6 +4,8 @@
 //   END_STEP transition = TRANSITION [name] [place] ["(" PRIORITY ":=" n ")"] [FROM steps TO steps] condition
 //   END_TRANSITION place      = AT x "," y ["," width "," height]
 // The hidden part of a transition with a body, or whose condition several transitions use, is an action of its own.
+#include "frontend/syntax/sfc.h"
+#include "frontend/syntax/il.h"
 #include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "frontend/syntax/sfc.h"
+
 namespace rung::text {
 
 StepIndex::StepIndex(const Charts& charts, const PouDecl& pou) : names_(charts.names), count_(pou.steps.count) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "frontend/syntax/sfc.h"
 #include "frontend/text/sfc_schedule.h"
 
 namespace rung::text {

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "frontend/source/dialect.h"
 #include "frontend/syntax/diagnostics.h"
+#include "frontend/syntax/sfc.h"
 #include "frontend/text/diagnostics.h"
 #include "frontend/text/sfc_schedule.h"
 
@@ -287,7 +289,7 @@ bool Checker::run() {
     checkSteps(t.to);
     const std::span<const Ident> from = charts_.tree.list(t.from), to = charts_.tree.list(t.to);
     // Forbids a transition to the step that it leaves, in codesys. TM/TP manual 5.5.2.4.
-    if (charts_.standard == Standard::Codesys && from.size() == 1 && to.size() == 1 &&
+    if (charts_.dialect == Dialect::Codesys && from.size() == 1 && to.size() == 1 &&
         charts_.names.same(from[0].name, to[0].name))
       charts_.diagnostics.report(diag::SfcSameStep, to[0].loc, {text(to[0].name)});
   }

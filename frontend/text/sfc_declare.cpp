@@ -1,5 +1,6 @@
 // The variables of a chart; see sfc_schedule.h. Flags that other declarations bring are not known yet: what they need
 // is declared where their name occurs in the project at all.
+#include "frontend/syntax/sfc.h"
 #include "frontend/text/sfc_chart.h"
 
 namespace rung::text {
@@ -58,7 +59,7 @@ void declareSfc(const Charts& charts, PouDecl& pou, const ChartPlace& place) {
   pou.chart_sections = out.finish();
   std::vector<DeclId> sections(charts.tree.list(pou.sections).begin(), charts.tree.list(pou.sections).end());
   const Slice<DeclId> made =
-      parseSections(charts.tree, charts.names, charts.sources, pou.chart_sections, charts.standard, charts.diagnostics);
+      parseSections(charts.tree, charts.names, charts.sources, pou.chart_sections, charts.dialect, charts.diagnostics);
   for (const DeclId section : charts.tree.list(made)) sections.push_back(section);
   pou.sections = charts.tree.addList<DeclId>(sections);
 }

@@ -1,6 +1,7 @@
 // Flags of a chart and the limits of its steps; see sfc_scheduler.h. TM/TP manual 5.5.2.5.
 #include <algorithm>
 
+#include "frontend/syntax/sfc.h"
 #include "frontend/text/sfc_scheduler.h"
 
 namespace rung::text {

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "frontend/syntax/diagnostics.h"
+#include "frontend/syntax/sfc.h"
 #include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 

@@ -9,12 +9,13 @@
 
 #include <algorithm>
 
+#include "frontend/syntax/sfc.h"
 #include "frontend/text/sfc_scheduler.h"
 
 namespace rung::text {
 
 void Scheduler::forWords(uint32_t depth, size_t count,
-                         const std::function<void(const std::string& index, uint32_t depth)>& body) {
+                         FunctionRef<void(const std::string& index, uint32_t depth)> body) {
   const uint32_t words = chart_.words(count);
   if (words <= 1) return body("", depth);
   out_.line(depth, "FOR sfc_word := 0 TO ", std::to_string(words - 1), " DO");
@@ -22,8 +23,8 @@ void Scheduler::forWords(uint32_t depth, size_t count,
   out_.line(depth, "END_FOR");
 }
 
-void Scheduler::scan(uint32_t depth, const char* set, size_t count, const std::function<bool(uint32_t)>& wanted,
-                     const std::function<std::string_view(uint32_t)>& name, const Branch& branch) {
+void Scheduler::scan(uint32_t depth, const char* set, size_t count, FunctionRef<bool(uint32_t)> wanted,
+                     FunctionRef<std::string_view(uint32_t)> name, Branch branch) {
   uint32_t first = 0;
   while (first < count && !wanted(first)) ++first;
   if (first == count) return;
@@ -319,7 +320,7 @@ bool scheduleSfc(const Charts& charts, Shapes& shapes, PouDecl& pou, const Chart
   out.at(pou.body_begin);
   pou.chart_body = out.finish();
   pou.body =
-      parseStatements(charts.tree, charts.names, charts.sources, pou.chart_body, charts.standard, charts.diagnostics);
+      parseStatements(charts.tree, charts.names, charts.sources, pou.chart_body, charts.dialect, charts.diagnostics);
   return true;
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "frontend/source/diagnostics.h"
+#include "frontend/source/dialect.h"
 #include "frontend/syntax/shapes.h"
 #include "frontend/syntax/tree.h"
 #include "frontend/text/parse.h"
@@ -24,7 +25,7 @@ struct Charts {
   Names& names;
   Sources& sources;
   Diagnostics& diagnostics;
-  Standard standard;
+  Dialect dialect;
 };
 
 // Where a chart stands.

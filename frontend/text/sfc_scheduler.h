@@ -2,6 +2,8 @@
 // sfc_flags.cpp the flags and the limits of steps.
 #pragma once
 
+#include "frontend/source/function_ref.h"
+#include "frontend/syntax/sfc.h"
 #include "frontend/text/sfc_chart.h"
 
 namespace rung::text {
@@ -14,22 +16,21 @@ class Scheduler {
   void run();
 
  private:
-  using Branch = std::function<void(uint32_t index, uint32_t depth)>;
+  using Branch = FunctionRef<void(uint32_t index, uint32_t depth)>;
 
   std::string word(const char* set, size_t count, uint32_t index) const {
     return chart_.words(count) <= 1 ? set : std::string(set) + "[" + std::to_string(index / kWord) + "]";
   }
   std::string stepWord(const char* set, uint32_t step) const { return word(set, chart_.steps_.size(), step); }
   // All words of a set.
-  void forWords(uint32_t depth, size_t count,
-                const std::function<void(const std::string& index, uint32_t depth)>& body);
+  void forWords(uint32_t depth, size_t count, FunctionRef<void(const std::string& index, uint32_t depth)> body);
   // Visits the set bits of a set: `wanted` says which have a branch.
-  void scan(uint32_t depth, const char* set, size_t count, const std::function<bool(uint32_t)>& wanted,
-            const std::function<std::string_view(uint32_t)>& name, const Branch& branch);
-  std::function<std::string_view(uint32_t)> stepNames() const {
+  void scan(uint32_t depth, const char* set, size_t count, FunctionRef<bool(uint32_t)> wanted,
+            FunctionRef<std::string_view(uint32_t)> name, Branch branch);
+  auto stepNames() const {
     return [this](uint32_t i) { return chart_.name(i); };
   }
-  std::function<std::string_view(uint32_t)> actionNames() const {
+  auto actionNames() const {
     return [this](uint32_t i) { return chart_.text(chart_.actions_[i].name); };
   }
   bool callsAction(const Ident& action) const { return shapes_.of(action.name).kind != ShapeKind::Value; }

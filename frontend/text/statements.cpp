@@ -1,4 +1,5 @@
 // Statements, and the places where the parser finds its feet again behind a mistake.
+#include "frontend/source/dialect.h"
 #include "frontend/syntax/diagnostics.h"
 #include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
@@ -267,7 +268,7 @@ void Parser::parseExprStatement() {
   }
   if (misspelledStart(first)) return;
   const ExprKind written = tree_.kind(target);
-  if (standard_ == Standard::Codesys && at(Tok::Semicolon) &&
+  if (dialect_ == Dialect::Codesys && at(Tok::Semicolon) &&
       (written == ExprKind::Name || written == ExprKind::Member)) {  // an action is called by its bare name
     const Loc start = tree_.loc(target);
     const ExprId call =
@@ -295,7 +296,7 @@ void Parser::parseExprStatement() {
 // a := b := c is c to b, then b to a. Targets are read once more from their tokens, since each use is a node of its
 // own.
 void Parser::parseChain(ExprId target, ExprId value, Token* value_start, const Token* op) {
-  if (standard_ != Standard::Codesys) slip(diag::ChainedAssign, t_);
+  if (dialect_ != Dialect::Codesys) slip(diag::ChainedAssign, t_);
   struct Link {
     ExprId target;
     Token* start;  // where its text as a value begins

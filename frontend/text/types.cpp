@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "frontend/source/dialect.h"
 #include "frontend/text/diagnostics.h"
 #include "frontend/text/parser.h"
 #include "frontend/text/recover.h"
@@ -269,7 +270,7 @@ TypeExprId Parser::parseEnum(TypeExprId base) {
     items.push_back(item);
     if (accept(Tok::Comma)) {
       if (at(Tok::RightParen)) {
-        if (standard_ == Standard::Codesys)
+        if (dialect_ == Dialect::Codesys)
           diagnostics_.report(diag::TrailingCommaWarning, loc(t_ - 1));
         else
           slip(diag::TrailingComma, t_ - 1);

@@ -34,7 +34,7 @@ bool isClosed(Module& module, const Body& body) {
 
 std::optional<types::Value> callConstant(sema::Project& project, sema::PouId function,
                                          std::span<const types::Value> values, std::span<const Native> natives,
-                                         const std::function<bool(sema::PouId)>& ready) {
+                                         FunctionRef<bool(sema::PouId)> ready) {
   // Lowering tells which function it needs next.
   for (sema::PouId next = function; next;) {
     if (!ready(next)) return std::nullopt;

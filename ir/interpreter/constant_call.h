@@ -15,6 +15,6 @@ namespace rung::ir::interpreter {
 
 std::optional<types::Value> callConstant(sema::Project& project, sema::PouId function,
                                          std::span<const types::Value> values, std::span<const Native> natives,
-                                         const std::function<bool(sema::PouId)>& ready);
+                                         FunctionRef<bool(sema::PouId)> ready);
 
 }  // namespace rung::ir::interpreter

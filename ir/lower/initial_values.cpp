@@ -162,7 +162,7 @@ bool BodyLowering::writeArray(TypeId type, rung::ExprId init, uint8_t* to) {
 }
 
 void BodyLowering::forEachElement(ExprId array, TypeId type, Loc loc, uint32_t dimension, std::vector<ExprId>& indices,
-                                  const std::function<void(ExprId)>& store, bool backwards) {
+                                  FunctionRef<void(ExprId)> store, bool backwards) {
   const TypeInfo& info = types_.info(type);
   if (dimension == info.dimensions.size()) {
     uint32_t first = static_cast<uint32_t>(body_.operands.size());

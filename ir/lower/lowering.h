@@ -3,14 +3,15 @@
 // aliases.cpp, calls.cpp, objects.cpp, statements.cpp and initial_values.cpp are its subjects.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
+#include "frontend/source/function_ref.h"
 #include "ir/builder.h"
 #include "ir/lower.h"
+#include "sema/project.h"
 
 namespace rung::ir {
 
@@ -296,8 +297,7 @@ class BodyLowering {
   void lowerFor(const ForStmt& stmt);
   void lowerForOfSubrange(const ForStmt& stmt, ExprId control, ExprId from, ExprId to,
                           const std::optional<Value>& step);
-  void lowerForWithVariableStep(const ForStmt& stmt, ExprId control, ExprId from, ExprId to,
-                                const std::function<void()>& turn);
+  void lowerForWithVariableStep(const ForStmt& stmt, ExprId control, ExprId from, ExprId to, FunctionRef<void()> turn);
   void lowerWhile(const WhileStmt& stmt);
   void lowerRepeat(const RepeatStmt& stmt);
   void lowerTry(const TryStmt& stmt);
@@ -324,7 +324,7 @@ class BodyLowering {
   const sema::Var* constructedVar(ExprId place) const;
   ExprId elementAt(ExprId array, uint64_t number, Loc loc);
   void forEachElement(ExprId array, TypeId type, Loc loc, uint32_t dimension, std::vector<ExprId>& indices,
-                      const std::function<void(ExprId)>& store, bool backwards = false);
+                      FunctionRef<void(ExprId)> store, bool backwards = false);
   bool writeBytes(TypeId type, rung::ExprId init, uint8_t* to);
   bool writeDefault(TypeId type, uint8_t* to);
   bool writeArray(TypeId type, rung::ExprId init, uint8_t* to);

@@ -285,7 +285,7 @@ void BodyLowering::lowerForOfSubrange(const ForStmt& stmt, ExprId control, ExprI
 // FOR with a step that is only known at run time: the direction is tested in each turn, and the loop ends when the next
 // value does not fit the type (design §8).
 void BodyLowering::lowerForWithVariableStep(const ForStmt& stmt, ExprId control, ExprId from, ExprId to,
-                                            const std::function<void()>& turn) {
+                                            FunctionRef<void()> turn) {
   Loc loc = stmt.h.loc;
   TypeId type = typeOf(control);
   from = toTemp(from, loc);

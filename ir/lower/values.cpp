@@ -1,5 +1,6 @@
 // Lowering of values: literals, operators, conversions, and the order of evaluation. In: checked expressions. Out: IR
 // expressions; calls inside them become statements in front, and what was read before a call moves to a temporary.
+#include "frontend/source/dialect.h"
 #include "ir/lower/lowering.h"
 
 namespace rung::ir {
@@ -207,7 +208,7 @@ ExprId BodyLowering::lowerBinary(rung::ExprId id) {
   if (logical && types_.plainKind(strip(node.h.type)) == TypeKind::Bool) {
     bool is_and = op == BinaryOp::And || op == BinaryOp::AndThen;
     bool short_circuit =
-        op == BinaryOp::AndThen || op == BinaryOp::OrElse || project_.options.standard != text::Standard::Codesys;
+        op == BinaryOp::AndThen || op == BinaryOp::OrElse || project_.options.dialect != Dialect::Codesys;
     return lowerLogical(id, is_and, short_circuit);
   }
   ExprId left = lowerValue(node.left);

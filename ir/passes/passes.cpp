@@ -24,15 +24,15 @@ std::span<const Pass> bodyPasses(int level) {
   return kBodyPasses;
 }
 
-void optimize(Module& module, Body& body, int level, const std::function<void(const Pass&, Body&)>& after) {
+void optimize(Module& module, Body& body, int level, FunctionRef<void(const Pass&, Body&)> after) {
   if (body.native || !body.first) return;
   for (const Pass& pass : bodyPasses(level)) {
     pass.run(module, body);
-    if (after) after(pass, body);
+    after(pass, body);
   }
 }
 
-void optimize(Module& module, int level, const std::function<void(const Pass&, Body&)>& after) {
+void optimize(Module& module, int level, FunctionRef<void(const Pass&, Body&)> after) {
   if (level <= 0) return;
   for (size_t i = 1; i < module.bodies.size(); ++i) optimize(module, module.bodies[i], level, after);
 }

@@ -2,10 +2,10 @@
 // In: a verified module. Out: the same, smaller. -O0 runs none, -O1 what keeps POUs apart, -O2 also across POUs.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <string_view>
 
+#include "frontend/source/function_ref.h"
 #include "ir/ir.h"
 
 namespace rung::ir {
@@ -17,7 +17,7 @@ struct Pass {
 std::span<const Pass> bodyPasses(int level);
 
 // Runs the passes over every body. After each pass calls `after(pass name, body)`; the debug build verifies there.
-void optimize(Module& module, int level, const std::function<void(const Pass&, Body&)>& after);
-void optimize(Module& module, Body& body, int level, const std::function<void(const Pass&, Body&)>& after);
+void optimize(Module& module, int level, FunctionRef<void(const Pass&, Body&)> after);
+void optimize(Module& module, Body& body, int level, FunctionRef<void(const Pass&, Body&)> after);
 
 }  // namespace rung::ir

@@ -17,7 +17,7 @@ PouId pointedObject(Context& context, TypeId type) {
   const types::TypeInfo& info = context.types().info(context.types().resolve(type));
   if (info.kind != TypeKind::Pointer && info.kind != TypeKind::Reference) return {};
   const PouId object = pouOf(context, info.base);
-  return object && context.project.pou(object).kind != PouKind::Program ? object : PouId{};
+  return object && context.symbols.pou(object).kind != PouKind::Program ? object : PouId{};
 }
 
 // Forbids asking of what is no object what it is.   fails   shape ?= 7;                              E0560
@@ -26,7 +26,7 @@ PouId checkSource(Context& context, ExprId& source, std::string_view word) {
   if (!type || type == types::kError) return {};
   if (const PouId object = pointedObject(context, type)) return object;
   const PouId object = context.types().kind(type) == TypeKind::Record ? pouOf(context, type) : PouId{};
-  if (object && context.project.pou(object).kind != PouKind::Program) {
+  if (object && context.symbols.pou(object).kind != PouKind::Program) {
     AddressOfExpr address{};
     address.h.kind = ExprKind::AddressOf;
     address.h.loc = context.tree().loc(source);
@@ -108,7 +108,7 @@ TypeId checkQueryCall(Context& context, ExprId& expr, NameId name) {
   const PouId given = checkSource(context, source, text(context, name));
   const TypeId type = checkTaker(context, target);
   const PouId wanted = type == types::kError ? PouId{} : pointedObject(context, type);
-  const bool is_interface = wanted && context.project.pou(wanted).kind == PouKind::Interface;
+  const bool is_interface = wanted && context.symbols.pou(wanted).kind == PouKind::Interface;
   const bool is_pointer = type != types::kError && context.types().kind(type) == TypeKind::Pointer;
   if (to_pointer ? is_interface || !is_pointer : !is_interface) {
     refuseTaker(context, target, type, text(context, name), to_pointer ? "a pointer" : "an interface variable");

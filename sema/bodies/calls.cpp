@@ -10,6 +10,7 @@
 #include "sema/checks/test_only.h"
 #include "sema/checks/writable.h"
 #include "sema/diagnostics.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 
@@ -26,7 +27,7 @@ const char* wordOf(SectionKind section) {
 
 std::string_view nearestPin(Context& context, PouId pou, NameId written) {
   std::vector<std::string_view> candidates;
-  for (const VarId pin : pinsOf(context, pou)) candidates.push_back(text(context, context.project.var(pin).name));
+  for (const VarId pin : pinsOf(context, pou)) candidates.push_back(text(context, context.symbols.var(pin).name));
   return nearest(text(context, written), candidates);
 }
 
@@ -34,7 +35,7 @@ std::string_view nearestPin(Context& context, PouId pou, NameId written) {
 int extensibleSlot(Context& context, PouId pou, NameId written) {
   const std::span<const VarId> pins = pinsOf(context, pou);
   for (size_t i = 0; i < pins.size(); ++i) {
-    const Var& pin = context.project.var(pins[i]);
+    const Var& pin = context.symbols.var(pins[i]);
     if (!pin.extensible) continue;
     const std::string_view own = text(context, pin.name), other = text(context, written);
     size_t stem = own.size();
@@ -195,7 +196,7 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
   if (isOverloaded(context, pou)) pou = chooseOverload(context, node, pou, checked);
   if (!pou) return node.h.type = types::kError;
   resolvePou(context, pou);
-  const Pou& callee = context.project.pou(pou);
+  const Pou& callee = context.symbols.pou(pou);
   noteCall(context, pou, node.h.loc);
   checkTestOnly(context, pou, node.h.loc);
   if (callee.operator_kind != Pou::Operator::None) return checkOperatorCall(context, expr, pou, expected, {});
@@ -208,7 +209,7 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
   bindControlPins(context, node, arguments, call);
   bindArguments(context, node, pou, arguments, call);
   for (const Binding& binding : call.bindings) {
-    if (!binding.value || !binding.is_output || !isNamed(context, context.project.var(binding.pin).name, "ENO"))
+    if (!binding.value || !binding.is_output || !isNamed(context, context.symbols.var(binding.pin).name, "ENO"))
       continue;
     call.eno = binding.value;
     call.eno_is_pin = true;
@@ -232,7 +233,7 @@ TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool a
   call.pou = pou;
   if (kind == CallKind::Instance) {
     call.instance = node.callee;
-    const Pou& block = context.project.pou(pou);
+    const Pou& block = context.symbols.pou(pou);
     call.is_virtual = block.dispatched && (block.modifiers & kFinal) == 0 && !isExact(context, node.callee);
   }
   bindControlPins(context, node, arguments, call);
@@ -240,7 +241,7 @@ TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool a
   if (arguments.good) checkRequiredPins(context, node, pou, arguments);
   node.call = addCall(context, std::move(call));
   if (!as_statement) {
-    context.report(diag::BlockCallAsValue, node.h.loc, {text(context, context.project.pou(pou).name)});
+    context.report(diag::BlockCallAsValue, node.h.loc, {text(context, context.symbols.pou(pou).name)});
     return node.h.type = types::kError;
   }
   return node.h.type = {};
@@ -253,7 +254,7 @@ TypeId refuse(Context& context, CallExpr& node) {
 
 TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
-  const Pou& callee = context.project.pou(pou);
+  const Pou& callee = context.symbols.pou(pou);
   switch (callee.kind) {
     case PouKind::Function: return callFunction(context, expr, pou, expected, as_statement);
     case PouKind::Method:
@@ -269,7 +270,7 @@ TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool 
       return refuse(context, node);
     case PouKind::Program:
       if (context.iec()) {
-        context.project.pou(pou).used = true;  // what is refused here is no program that nobody calls
+        context.symbols.pou(pou).used = true;  // what is refused here is no program that nobody calls
         context.report(diag::CallOfProgram, node.h.loc, {text(context, callee.name)});
         return refuse(context, node);
       }
@@ -283,14 +284,14 @@ TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement)
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (type == types::kError) return refuse(context, node);
   const PouId pou = pouOf(context, type);
-  if (pou && context.project.pou(pou).kind == PouKind::FunctionBlock) {
+  if (pou && context.symbols.pou(pou).kind == PouKind::FunctionBlock) {
     return callBlock(context, expr, pou, CallKind::Instance, as_statement);
   }
   const NameId name = nameOf(context, node.callee);
   const Entity called = entityOf(context, node.callee);
   Report report = context.report(diag::NotCallable, node.h.loc,
                                  {name ? text(context, name) : std::string_view("this"), context.types().spell(type)});
-  if (called.what() == EntityKind::Var) report.note(context.project.vars[called.index].loc, diag::DeclaredHere);
+  if (called.what() == EntityKind::Var) report.note(context.symbols.vars[called.index].loc, diag::DeclaredHere);
   return refuse(context, node);
 }
 
@@ -362,7 +363,7 @@ TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected,
 
 void bindArguments(Context& context, const CallExpr& node, PouId callee, const Arguments& arguments, Call& call) {
   const std::span<const VarId> pins = pinsOf(context, callee);
-  const Pou& pou = context.project.pou(callee);
+  const Pou& pou = context.symbols.pou(callee);
   call.bindings.reserve(arguments.slots.size());
   for (size_t i = 0; i < arguments.slots.size() && i < pins.size(); ++i) {
     if (arguments.slots[i] == 0) continue;
@@ -372,7 +373,7 @@ void bindArguments(Context& context, const CallExpr& node, PouId callee, const A
     Binding binding;
     binding.pin = pins[i];
     binding.value = argument.value;
-    const Var& pin = context.project.var(pins[i]);
+    const Var& pin = context.symbols.var(pins[i]);
     switch (pin.section) {
       case SectionKind::Output: bindOutput(context, pou, pin, binding, argument, arguments.checked); break;
       case SectionKind::InOut: bindInOut(context, pou, pin, binding, arguments.checked); break;
@@ -392,7 +393,7 @@ void bindArguments(Context& context, const CallExpr& node, PouId callee, const A
 }
 
 std::span<const VarId> pinsOf(Context& context, PouId id) {
-  Pou& pou = context.project.pou(id);
+  Pou& pou = context.symbols.pou(id);
   if (!pou.pins_ready) {
     resolvePou(context, id);
     pou.pins.clear();
@@ -401,7 +402,7 @@ std::span<const VarId> pinsOf(Context& context, PouId id) {
       pou.pins.assign(inherited.begin(), inherited.end());
     }
     for (const VarId var : pou.vars) {
-      if (isPin(context.project.var(var).section)) pou.pins.push_back(var);
+      if (isPin(context.symbols.var(var).section)) pou.pins.push_back(var);
     }
     pou.pins_ready = true;
   }
@@ -409,7 +410,7 @@ std::span<const VarId> pinsOf(Context& context, PouId id) {
 }
 
 void noteCall(Context& context, PouId callee, Loc loc) {
-  Pou& pou = context.project.pou(callee);
+  Pou& pou = context.symbols.pou(callee);
   pou.used = true;
   if (!pou.library && context.pou) context.project.call_edges.push_back({context.pou, callee, loc});
 }
@@ -419,8 +420,8 @@ void checkConnections(Context& context, ExprId call, PouId program) {
 }
 
 CallId addCall(Context& context, Call&& call) {
-  context.project.calls.push_back(std::move(call));
-  return CallId{static_cast<uint32_t>(context.project.calls.size() - 1)};
+  context.symbols.calls.push_back(std::move(call));
+  return CallId{static_cast<uint32_t>(context.symbols.calls.size() - 1)};
 }
 
 void checkLooseArguments(Context& context, const CallExpr& node) {
@@ -434,7 +435,7 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
   out.slots.reserve(pins.size());
   size_t next = 0;  // the pin after the last one named: calls mostly keep the order
   size_t input = 0, output = 0, extra = pins.size();
-  const auto isOutput = [&](size_t i) { return context.project.var(pins[i]).section == SectionKind::Output; };
+  const auto isOutput = [&](size_t i) { return context.symbols.var(pins[i]).section == SectionKind::Output; };
   // f(a := 1, 2): what has no name goes to the next pin that no name before it has taken.
   const auto isNamedAlready = [&](size_t i) {
     return i < out.slots.size() && out.slots[i] != 0 && context.tree().list(node.arguments)[out.slots[i] - 1].pin.name;
@@ -452,7 +453,7 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
         if (!slots.put(input++, i)) checkLoose(context, node, i);
         continue;
       }
-      if (context.project.pou(pou).extensible) {
+      if (context.symbols.pou(pou).extensible) {
         slots.put(extra++, i);
         continue;
       }
@@ -467,14 +468,14 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
         const Loc loc = argument.value ? context.tree().begin(argument.value) : argument.loc;
         if (!isBroken(context, pou))
           context.report(diag::TooManyArguments, loc,
-                         {text(context, context.project.pou(pou).name), std::to_string(inputs)});
+                         {text(context, context.symbols.pou(pou).name), std::to_string(inputs)});
       }
       out.good = false;
       checkLoose(context, node, i);
       continue;
     }
     size_t slot = pins.size();
-    if (next < pins.size() && context.names().same(context.project.var(pins[next]).name, argument.pin.name)) {
+    if (next < pins.size() && context.names().same(context.symbols.var(pins[next]).name, argument.pin.name)) {
       slot = next;
     } else if (const VarId found = findPin(context, pou, argument.pin.name)) {
       for (slot = 0; slot < pins.size() && pins[slot] != found;) ++slot;
@@ -488,7 +489,7 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
         out.eno = i + 1;
         continue;
       }
-      const int more = context.project.pou(pou).extensible ? extensibleSlot(context, pou, argument.pin.name) : -1;
+      const int more = context.symbols.pou(pou).extensible ? extensibleSlot(context, pou, argument.pin.name) : -1;
       if (more >= 0 && !argument.is_output) {
         if (!slots.put(static_cast<size_t>(more), i)) checkLoose(context, node, i);
         continue;
@@ -497,17 +498,17 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
       if (!isBroken(context, pou))
         context
             .report(diag::UnknownPin, argument.pin.loc,
-                    {text(context, context.project.pou(pou).name), text(context, argument.pin.name)})
+                    {text(context, context.symbols.pou(pou).name), text(context, argument.pin.name)})
             .didYouMean(nearestPin(context, pou, argument.pin.name));
       checkLoose(context, node, i);
       continue;
     }
     next = slot + 1;
-    const Var& pin = context.project.var(pins[slot]);
+    const Var& pin = context.symbols.var(pins[slot]);
     if (argument.is_output != (pin.section == SectionKind::Output)) {
       out.good = false;
       context.report(argument.is_output ? diag::ArrowToInput : diag::AssignToOutputPin, argument.pin.loc,
-                     {text(context, pin.name), text(context, context.project.pou(pou).name), wordOf(pin.section)});
+                     {text(context, pin.name), text(context, context.symbols.pou(pou).name), wordOf(pin.section)});
       checkLoose(context, node, i);
       continue;
     }
@@ -544,18 +545,18 @@ namespace {
 bool isBareCall(Context& context, const CallExpr& node) {
   if (context.tree().kind(node.callee) == ExprKind::Name) {
     const Entity found = lookUp(context, context.tree().as<NameExpr>(node.callee).name);
-    if (found.what() == EntityKind::Pou && context.project.pous[found.index].owner) return true;
+    if (found.what() == EntityKind::Pou && context.symbols.pous[found.index].owner) return true;
   } else {
     ExprId callee = node.callee;
-    const uint32_t errors = context.project.diagnostics.errorCount();
+    const uint32_t errors = context.symbols.diagnostics.errorCount();
     check(context, callee, {}, Access::Qualifier);
     const Entity found = entityOf(context, node.callee);
-    if (found.what() == EntityKind::Pou && context.project.pous[found.index].owner) return true;
-    if (context.project.diagnostics.errorCount() != errors) return false;
+    if (found.what() == EntityKind::Pou && context.symbols.pous[found.index].owner) return true;
+    if (context.symbols.diagnostics.errorCount() != errors) return false;
   }
   const Loc begin = context.tree().begin(node.callee);
-  const std::string_view source = context.project.sources.text(context.project.sources.fileOf(begin));
-  const uint32_t from = begin.offset - context.project.sources.begin(context.project.sources.fileOf(begin)).offset;
+  const std::string_view source = context.symbols.sources.text(context.symbols.sources.fileOf(begin));
+  const uint32_t from = begin.offset - context.symbols.sources.begin(context.symbols.sources.fileOf(begin)).offset;
   const std::string shown(source.substr(from, node.end.offset - begin.offset));
   context.report(diag::NoEffect, begin, {shown});
   return false;
@@ -573,14 +574,14 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
       case EntityKind::None: return callUnknown(context, expr, callee.name, expected, as_statement);
       case EntityKind::Pou: {
         const PouId pou{callee.entity.index};
-        const PouId owner = context.project.pou(pou).owner;
-        if (owner && !mayAccess(context, context.project.pou(pou).access, owner, callee.name, callee.h.loc))
+        const PouId owner = context.symbols.pou(pou).owner;
+        if (owner && !mayAccess(context, context.symbols.pou(pou).access, owner, callee.name, callee.h.loc))
           return refuse(context, node);
         return callPou(context, expr, pou, expected, as_statement);
       }
       case EntityKind::Error: return refuse(context, node);
       case EntityKind::Var:
-        if (VarId{callee.entity.index} == context.project.pou(context.pou).result_var) {
+        if (VarId{callee.entity.index} == context.symbols.pou(context.pou).result_var) {
           return callPou(context, expr, context.pou, expected, as_statement);  // recursion
         }
         [[fallthrough]];

@@ -121,7 +121,7 @@ std::string libraryConversion(Context& context, TypeKind from, TypeKind to) {
   std::string function(text(context, context.types().info(types::idOf(from)).name));
   function.append("_TO_").append(text(context, context.types().info(types::idOf(to)).name));
   const Entity entity = lookUp(context, context.names().intern(function));
-  return entity.what() == EntityKind::Pou && context.project.pou(PouId{entity.index}).library ? function
+  return entity.what() == EntityKind::Pou && context.symbols.pou(PouId{entity.index}).library ? function
                                                                                               : std::string();
 }
 
@@ -230,7 +230,7 @@ TypeId checkTypedCall(Context& context, ExprId& expr, std::string_view name, Typ
   const Entity entity = lookUp(context, function);
   if (entity.what() != EntityKind::Pou || operand_types.empty()) return {};
   const PouId id{entity.index};
-  const Pou& pou = context.project.pou(id);
+  const Pou& pou = context.symbols.pou(id);
   if (pou.kind != PouKind::Function || (pou.operator_kind == Pou::Operator::None && !pou.generic)) return {};
   pinsOf(context, id);
   noteCall(context, id, node.h.loc);

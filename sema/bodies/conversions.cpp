@@ -1,5 +1,6 @@
 // Conversions: which are implicit, which lose values, which need a function. In: checked expressions and the type
 // that is wanted. Out: ConvertExpr nodes in the parent's child field, or one message. Design §6, dialect table.
+#include "frontend/source/dialect.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/checks/uncopied.h"
@@ -116,7 +117,7 @@ bool isObjectFit(const Context& constant, const types::TypeInfo& source, TypeId 
                       : source.kind == TypeKind::Pointer ? pouOf(context, source.base)
                                                          : PouId{};
   if (!wanted || !given || wanted == given) return false;
-  if (source.kind == TypeKind::Record && context.project.pou(wanted).kind != PouKind::Interface) return false;
+  if (source.kind == TypeKind::Record && context.symbols.pou(wanted).kind != PouKind::Interface) return false;
   return isKindOf(context, given, wanted);
 }
 
@@ -160,7 +161,7 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
   // An addition of edition 4.
   const bool widens =
       (a == TypeKind::String && b == TypeKind::WString) || (a == TypeKind::Char && b == TypeKind::WChar);
-  if (widens && context.project.options.standard != text::Standard::Iec2) return Fit::Lossless;
+  if (widens && context.symbols.dialect != Dialect::Iec2) return Fit::Lossless;
   if (target.kind == TypeKind::Pointer) {
     if (source.kind == TypeKind::NullLiteral) return Fit::Same;
     if (isObjectFit(context, source, from, target)) return Fit::Lossless;
@@ -305,7 +306,7 @@ bool takeItem(Context& context, ExprId& expr, TypeId to, bool& good) {
   bool is_item = false;
   if (named == nullptr || named->resolved != State::Done) return false;
   named->members.forEach(
-      [&](NameId, Entity item) { is_item |= __int128{context.project.enum_values[item.index].value} == number; });
+      [&](NameId, Entity item) { is_item |= __int128{context.symbols.enum_values[item.index].value} == number; });
   const Loc loc = context.tree().begin(expr);
   if (!is_item && !context.library) {
     const std::string spelled = number < 0 ? "-" + std::to_string(static_cast<uint64_t>(-number))

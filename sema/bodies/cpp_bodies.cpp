@@ -40,7 +40,7 @@ bool isWordChar(char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'
 bool isLower(char c) { return c >= 'a' && c <= 'z'; }
 
 bool noteUse(Context& context, PouId callee, Loc loc) {
-  std::vector<PouId>& calls = context.project.pou(context.pou).cpp_calls;
+  std::vector<PouId>& calls = context.symbols.pou(context.pou).cpp_calls;
   if (std::find(calls.begin(), calls.end(), callee) != calls.end()) return false;
   calls.push_back(callee);
   resolvePou(context, callee);
@@ -56,8 +56,8 @@ bool noteMember(Context& context, std::string_view word, Loc loc) {
   const Entity found = findInObject(context, object, name);
   if (found.what() != EntityKind::Pou || found.index == context.pou.index) return false;
   const PouId member{found.index};
-  if (text(context, context.project.pou(member).name) != word) return false;
-  if ((context.project.pou(member).modifiers & kAbstract) == 0) noteUse(context, member, loc);
+  if (text(context, context.symbols.pou(member).name) != word) return false;
+  if ((context.symbols.pou(member).modifiers & kAbstract) == 0) noteUse(context, member, loc);
   return true;
 }
 
@@ -76,7 +76,7 @@ void noteFunctions(Context& context, std::string_view text, Loc loc) {
     const Entity found = lookUp(context, context.names().intern(word));
     if (found.what() != EntityKind::Pou || found.index == context.pou.index) continue;
     const PouId function{found.index};
-    const Pou& callee = context.project.pou(function);
+    const Pou& callee = context.symbols.pou(function);
     if (callee.kind != PouKind::Function || callee.generic || callee.operator_kind != Pou::Operator::None) continue;
     noteUse(context, function, Loc{loc.offset + static_cast<uint32_t>(begin)});
   }
@@ -85,17 +85,17 @@ void noteFunctions(Context& context, std::string_view text, Loc loc) {
 }  // namespace
 
 void checkCppBody(Context& context, const PouDecl& decl) {
-  const Pou& pou = context.project.pou(context.pou);
+  const Pou& pou = context.symbols.pou(context.pou);
   for (const VarId id : pou.vars) {
-    const Var* var = &context.project.var(id);
+    const Var* var = &context.symbols.var(id);
     const Var& named = *var;
-    if (var->external) var = &context.project.var(var->external);
+    if (var->external) var = &context.symbols.var(var->external);
     if (!named.name || !var->type || context.types().kind(var->type) == TypeKind::Error) continue;
     if (const char* why = whyNot(context, *var))
       context.report(diag::CppVariable, named.loc, {text(context, named.name), why});
   }
-  const std::string_view text = context.project.sources.text(pou.file);
-  const uint32_t base = context.project.sources.begin(pou.file).offset;
+  const std::string_view text = context.symbols.sources.text(pou.file);
+  const uint32_t base = context.symbols.sources.begin(pou.file).offset;
   const Loc begin{decl.body_begin.offset + 5};
   noteFunctions(context, text.substr(begin.offset - base, decl.body_end.offset - 9 - begin.offset), begin);
 }

@@ -7,6 +7,7 @@
 #include "sema/checks/writable.h"
 #include "sema/declarations/declarations.h"
 #include "sema/diagnostics.h"
+#include "sema/project.h"
 #include "sema/scopes.h"
 
 namespace rung::sema {
@@ -18,7 +19,7 @@ CallId poolCall(Context& context, const char* name, Loc loc) {
   const Entity size = lookUpSystem(context, "POOL_UNITS");
   const Options& options = context.project.options;
   if (size.what() == EntityKind::Var && options.pool_bytes != 0) {
-    Var& var = context.project.vars[size.index];
+    Var& var = context.symbols.vars[size.index];
     ensureInitialValue(context, VarId{size.index});
     const ExprId init = var.init;
     if (init && context.tree().kind(init) == ExprKind::Literal) {
@@ -45,7 +46,7 @@ bool mayBeMade(Context& context, TypeId type, TypeExprId what) {
     return false;
   }
   const PouId pou = pouOf(context, type);
-  if (pou && context.project.pou(pou).kind == PouKind::Program) {
+  if (pou && context.symbols.pou(pou).kind == PouKind::Program) {
     context.report(diag::NotNewable, loc, {context.types().spell(type)});
     return false;
   }
@@ -111,8 +112,8 @@ TypeId checkDeleteCall(Context& context, ExprId& expr, NameId name, bool as_stat
   const CallId release = poolCall(context, "GiveBack", node.h.loc);
   const CallId owns = poolCall(context, "Owns", node.h.loc);
   if (release.index == 0 || owns.index == 0) return fail();
-  call.pou = context.project.call(release).pou;
-  call.owns = context.project.call(owns).pou;
+  call.pou = context.symbols.call(release).pou;
+  call.owns = context.symbols.call(owns).pou;
   call.instance = pointer;
   node.call = addCall(context, std::move(call));
   // A statement without a value: TRUE stands for the type that a call must have.

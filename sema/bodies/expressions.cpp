@@ -3,6 +3,7 @@
 // conversions written into the tree. Called by statements.cpp and by the declarations.
 #include <algorithm>
 
+#include "frontend/source/dialect.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/checks/constant_index.h"
@@ -55,7 +56,7 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   const uint32_t count = node.indices.count;
   const types::TypeInfo* info = &context.types().info(context.types().resolve(base));
   if (info->kind == TypeKind::Pointer && count == 1) return checkPointerIndex(context, expr);
-  const bool edition2 = context.iec() && context.project.options.standard == text::Standard::Iec2;
+  const bool edition2 = context.iec() && context.symbols.dialect == Dialect::Iec2;
   if (TypeTable::isText(info->kind) && count == 1 && !edition2) {
     return node.h.type = checkCharacter(context, node, base, access);
   }
@@ -115,9 +116,9 @@ TypeId checkAddress(Context& context, ExprId& expr) {
     name.h.kind = ExprKind::Name;
     const VarId named = hierarchicalVar(context, node.address, node.h.loc, {});
     if (!named) return node.h.type = types::kError;
-    name.name = context.project.var(named).name;
+    name.name = context.symbols.var(named).name;
     name.entity = Entity::of(EntityKind::Var, named.index);
-    name.h.type = context.project.var(named).type;
+    name.h.type = context.symbols.var(named).type;
     expr = context.tree().add<ExprId>(name);
     return name.h.type;
   }
@@ -228,7 +229,7 @@ std::optional<int64_t> constantInteger(Context& context, ExprId expr) {
     return (node.h.bits & kLiteralNegative) != 0 ? -value : value;
   }
   const Entity entity = entityOf(context, expr);
-  if (entity.what() == EntityKind::EnumValue) return context.project.enum_values[entity.index].value;
+  if (entity.what() == EntityKind::EnumValue) return context.symbols.enum_values[entity.index].value;
   const std::optional<types::Value> value = evaluate(context, expr);
   if (!value || !TypeTable::isScalar(context.types().plainKind(value->type)) ||
       TypeTable::isReal(context.types().plainKind(value->type))) {

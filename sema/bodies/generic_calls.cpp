@@ -130,25 +130,25 @@ GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, 
                               TypeId expected, TypeId forced, bool checked) {
   GenericOperands out;
   const std::span<const VarId> pins = pinsOf(context, id);
-  const Pou& pou = context.project.pou(id);
+  const Pou& pou = context.symbols.pou(id);
   out.values.resize(arguments.slots.size());
   out.pin_types.resize(arguments.slots.size());
   TypeId extensible_type;
   for (const VarId pin : pins) {
-    if (context.project.var(pin).extensible) extensible_type = context.project.var(pin).type;
+    if (context.symbols.var(pin).extensible) extensible_type = context.symbols.var(pin).type;
   }
   const bool result_is_generic = pou.result && TypeTable::isGeneric(context.types().info(pou.result).kind);
   for (size_t i = 0; i < arguments.slots.size(); ++i) {
-    const TypeId declared = i < pins.size() ? context.project.var(pins[i]).type : extensible_type;
+    const TypeId declared = i < pins.size() ? context.symbols.var(pins[i]).type : extensible_type;
     out.pin_types[i] = declared;
     if (arguments.slots[i] == 0) continue;
     const uint32_t index = arguments.slots[i] - 1;
     const Argument argument = context.tree().list(node.arguments)[index];
     if (!argument.value) continue;
     ExprId value = argument.value;
-    const Purpose purpose{"passed to", i < pins.size() ? context.project.var(pins[i]).name : argument.pin.name,
+    const Purpose purpose{"passed to", i < pins.size() ? context.symbols.var(pins[i]).name : argument.pin.name,
                           pou.name};
-    const SectionKind section = i < pins.size() ? context.project.var(pins[i]).section : SectionKind::Input;
+    const SectionKind section = i < pins.size() ? context.symbols.var(pins[i]).section : SectionKind::Input;
     if (section == SectionKind::Output) {
       out.good &= check(context, value, {}, Access::Write) != types::kError && checkWritable(context, value, purpose);
     } else if (!TypeTable::isGeneric(context.types().info(declared).kind)) {
@@ -218,16 +218,16 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   GenericOperands operands = groupOperands(context, node, pou, arguments, expected, forced, false);
   if (!operands.good) return node.h.type = types::kError;
   // A text has its largest capacity inside: one instance serves every length. C functions know no named types.
-  const bool native = context.project.pou(pou).native;
+  const bool native = context.symbols.pou(pou).native;
   const auto normal = [&](TypeId type) {
     const TypeKind kind = context.types().plainKind(type);
     if (TypeTable::isText(kind)) return context.types().text(kind, 255);
     return native ? context.types().plain(type) : type;
   };
   std::vector<TypeId> types_by_pin;
-  const Pou& generic = context.project.pou(pou);
+  const Pou& generic = context.symbols.pou(pou);
   for (size_t i = 0; i < declared; ++i) {
-    const TypeId pin = context.project.var(pinsOf(context, pou)[i]).type;
+    const TypeId pin = context.symbols.var(pinsOf(context, pou)[i]).type;
     const TypeId type = operands.typeFor(context, pin);
     types_by_pin.push_back(type ? normal(type) : types::kInt);
   }
@@ -242,7 +242,7 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   if (result) result = normal(result);
   call.pou = generic.generic ? instantiate(context, pou, types_by_pin, result) : pou;
   if (!call.pou) return node.h.type = types::kError;
-  context.project.pou(call.pou).used = true;
+  context.symbols.pou(call.pou).used = true;
   const std::span<const VarId> pins = pinsOf(context, call.pou);
   node.h.is_constant = generic.library && generic.pure && !native && !call.en && !call.eno;
   for (size_t i = 0; i < operands.values.size() && i < pins.size(); ++i) {
@@ -251,10 +251,10 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
     Binding binding;
     binding.pin = pins[i];
     binding.value = operands.values[i];
-    binding.is_output = context.project.var(pins[i]).section == SectionKind::Output;
+    binding.is_output = context.symbols.var(pins[i]).section == SectionKind::Output;
     call.bindings.push_back(binding);
   }
-  const TypeId type = context.project.pou(call.pou).result;
+  const TypeId type = context.symbols.pou(call.pou).result;
   node.call = addCall(context, std::move(call));
   return node.h.type = type;
 }

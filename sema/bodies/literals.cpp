@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "frontend/source/dialect.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/declarations/declarations.h"
@@ -325,7 +326,7 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
   const bool beyond = longer == TypeKind::LTime && (node.h.bits & kLiteralNegative) == 0 && node.value() >> 63 != 0;
   if (is_long && beyond && context.types().isSigned(longer)) {
     context.report(diag::ConstantOutOfRange, node.h.loc,
-                   {context.project.sources.tokenAt(node.h.loc), context.types().spell(types::idOf(longer)),
+                   {context.symbols.sources.tokenAt(node.h.loc), context.types().spell(types::idOf(longer)),
                     types::spell(context.types(), context.names(), {types::kLTime, uint64_t{1} << 63}),
                     types::spell(context.types(), context.names(), {types::kLTime, ~uint64_t{0} >> 1})});
     return node.h.type = types::kError;
@@ -339,7 +340,7 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
     const types::Value high{types::idOf(shorter), static_cast<uint64_t>(bounds.high)};
     context.report(
         diag::ConstantOutOfRange, node.h.loc,
-        {context.project.sources.tokenAt(node.h.loc), context.types().spell(types::idOf(shorter)),
+        {context.symbols.sources.tokenAt(node.h.loc), context.types().spell(types::idOf(shorter)),
          types::spell(context.types(), context.names(), low), types::spell(context.types(), context.names(), high)});
     return node.h.type = types::kError;
   }
@@ -361,7 +362,7 @@ void retypeText(Context& context, LiteralExpr& node, TypeId wanted) {
   if (node.prefix || (node.literal() != LiteralKind::String && !wide)) return;
   if (!is_text && !types::TypeTable::isCharacter(kind)) return;
   const bool is_wide_kind = kind == TypeKind::WString || kind == TypeKind::WChar;
-  const bool edition2 = context.project.options.standard == text::Standard::Iec2;
+  const bool edition2 = context.symbols.dialect == Dialect::Iec2;
   if (wide ? !is_wide_kind : is_wide_kind && edition2) return;
   const std::string_view value = context.tree().text(node.text());
   if (kind != TypeKind::String && kind != TypeKind::Char && !wide && !isUtf8(value)) {

@@ -7,6 +7,7 @@
 #include "sema/checks/outside_access.h"
 #include "sema/declarations/declarations.h"
 #include "sema/diagnostics.h"
+#include "sema/project.h"
 #include "sema/scopes.h"
 
 namespace rung::sema {
@@ -43,7 +44,7 @@ const char* wordOf(PouKind kind) {
 }
 
 TypeId typeOf(const Context& context, VarId id) {
-  const TypeId type = context.project.var(id).type;
+  const TypeId type = context.symbols.var(id).type;
   return type ? type : types::kError;
 }
 
@@ -64,7 +65,7 @@ TypeId useBit(Context& context, ExprId& expr, const Var& var) {
 
 TypeId useVar(Context& context, ExprId& expr, VarId id, Access access) {
   markAccess(context, id, access);
-  const Var& var = context.project.var(id);
+  const Var& var = context.symbols.var(id);
   ExprHeader& header = context.tree().expr(expr);
   header.is_constant = var.constant && var.has_value;
   header.writable = !var.constant;
@@ -74,7 +75,7 @@ TypeId useVar(Context& context, ExprId& expr, VarId id, Access access) {
 }
 
 TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
-  const EnumValue& item = context.project.enum_values[index];
+  const EnumValue& item = context.symbols.enum_values[index];
   ExprHeader& header = context.tree().expr(expr);
   header.is_constant = 1;
   header.type = item.type;
@@ -96,7 +97,7 @@ TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId 
   ExprHeader& header = context.tree().expr(expr);
   switch (entity.what()) {
     case EntityKind::Var: {
-      const Var& var = context.project.vars[entity.index];
+      const Var& var = context.symbols.vars[entity.index];
       if (bare && var.access == AccessLevel::Private && var.pou && !mayAccess(context, var.access, var.pou, name, loc))
         return header.type = types::kError;
       return useVar(context, expr, VarId{entity.index}, access);
@@ -105,7 +106,7 @@ TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId 
     case EntityKind::None:
     case EntityKind::Error: return header.type = types::kError;
     case EntityKind::Pou: {
-      const Pou& pou = context.project.pou(PouId{entity.index});
+      const Pou& pou = context.symbols.pou(PouId{entity.index});
       if (access == Access::Qualifier && (pou.kind == PouKind::Program || pou.kind == PouKind::Function || pou.owner))
         return header.type = {};
       const bool is_block = pou.kind == PouKind::FunctionBlock || pou.kind == PouKind::Class;
@@ -152,13 +153,13 @@ std::string_view nearestField(Context& context, TypeId record, NameId written) {
 std::string_view nearestIn(Context& context, Entity qualifier, NameId written) {
   if (qualifier.what() == EntityKind::Type) return nearestField(context, TypeId{qualifier.index}, written);
   if (qualifier.what() == EntityKind::GlobalList) {
-    return nearestField(context, context.project.global_lists[qualifier.index].record, written);
+    return nearestField(context, context.symbols.global_lists[qualifier.index].record, written);
   }
   return {};
 }
 
 bool isBlockType(const Context& context, PouId pou) {
-  const Pou& type = context.project.pou(pou);
+  const Pou& type = context.symbols.pou(pou);
   return (type.kind == PouKind::FunctionBlock || type.kind == PouKind::Class) && !type.owner;
 }
 
@@ -167,12 +168,12 @@ bool isBlockType(const Context& context, PouId pou) {
 Entity constantOfBlock(Context& context, PouId block, const MemberExpr& node) {
   declarePou(context, block);
   const Entity found = context.scopes.pous[block.index].names.find(keyOf(context, node.member));
-  if (found.what() == EntityKind::Var && context.project.var(VarId{found.index}).constant) {
+  if (found.what() == EntityKind::Var && context.symbols.var(VarId{found.index}).constant) {
     ensureInitialValue(context, VarId{found.index});
-    if (context.project.var(VarId{found.index}).has_value) return found;
+    if (context.symbols.var(VarId{found.index}).has_value) return found;
   }
   context.report(diag::NotAValue, context.tree().loc(node.base),
-                 {text(context, nameOf(context, node.base)), wordOf(context.project.pou(block).kind)});
+                 {text(context, nameOf(context, node.base)), wordOf(context.symbols.pou(block).kind)});
   return Entity::of(EntityKind::Error, 0);
 }
 
@@ -185,11 +186,11 @@ TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access acces
   } else if (qualifier.what() == EntityKind::Pou) {
     const PouId pou{qualifier.index};
     resolvePou(context, pou);
-    record = context.project.pou(pou).record;
+    record = context.symbols.pou(pou).record;
   } else if (qualifier.what() == EntityKind::Program) {
     const PouId pou = context.project.instances[qualifier.index].program;
     resolvePou(context, pou);
-    record = context.project.pou(pou).record;
+    record = context.symbols.pou(pou).record;
   } else {
     found = lookUpIn(context, qualifier, node.member);
   }
@@ -220,8 +221,8 @@ TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access acces
 
 void markAccess(Context& context, VarId id, Access access) {
   if (access == Access::Qualifier) return;
-  for (VarId at = id; at; at = context.project.var(at).external) {
-    Var& var = context.project.var(at);
+  for (VarId at = id; at; at = context.symbols.var(at).external) {
+    Var& var = context.symbols.var(at);
     if (access != Access::Write) var.read = true;
     if (access == Access::Read) continue;
     var.written = true;
@@ -277,16 +278,16 @@ Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected) {
   const TypeId wanted = expected ? context.types().resolve(expected) : expected;
   if (wanted && context.types().info(wanted).kind == TypeKind::Enum) {
     const bool other_item = entity.what() == EntityKind::EnumValue &&
-                            context.types().resolve(context.project.enum_values[entity.index].type) != wanted;
+                            context.types().resolve(context.symbols.enum_values[entity.index].type) != wanted;
     if (!entity || other_item) {
       if (const Entity item = lookUpIn(context, Entity::of(EntityKind::Type, wanted.index), name)) entity = item;
     }
   }
   if (entity) {
     const bool decided = wanted && entity.what() == EntityKind::EnumValue &&
-                         context.types().resolve(context.project.enum_values[entity.index].type) == wanted;
+                         context.types().resolve(context.symbols.enum_values[entity.index].type) == wanted;
     if (!decided && isAmbiguousItem(context, entity)) {
-      const TypeId type = context.project.enum_values[entity.index].type;
+      const TypeId type = context.symbols.enum_values[entity.index].type;
       context.report(diag::AmbiguousItem, loc, {text(context, name), context.types().spell(type)});
       return Entity::of(EntityKind::Error, 0);
     }
@@ -302,11 +303,11 @@ TypeId checkName(Context& context, ExprId& expr, TypeId expected, Access access)
   node.entity = resolveName(context, node.name, node.h.loc, expected);
   if (node.entity.what() == EntityKind::Pou && node.entity.index == context.pou.index) {
     // The name of a function is its result inside its body.
-    if (const VarId result = context.project.pou(context.pou).result_var) {
+    if (const VarId result = context.symbols.pou(context.pou).result_var) {
       node.entity = Entity::of(EntityKind::Var, result.index);
     }
   }
-  if (node.entity.what() == EntityKind::Var && context.project.vars[node.entity.index].temporary != 0)
+  if (node.entity.what() == EntityKind::Var && context.symbols.vars[node.entity.index].temporary != 0)
     temporaryType(context, VarId{node.entity.index}, expected);
   return useEntity(context, expr, node.entity, node.h.loc, node.name, access, true);
 }
@@ -348,7 +349,7 @@ TypeId checkTypedName(Context& context, ExprId& expr) {
     return node.h.type = types::kError;
   }
   node.h.is_constant = 1;
-  return node.h.type = context.project.enum_values[node.entity.index].type;
+  return node.h.type = context.symbols.enum_values[node.entity.index].type;
 }
 
 // `phase : Phase; … Phase.Idle`: where the variable has no such member, the name is that of the enumeration which the
@@ -374,9 +375,9 @@ std::optional<TypeId> checkNamedBit(Context& context, ExprId& expr, TypeId base)
   const Entity found = lookUp(context, node.member);
   if (found.what() != EntityKind::Var) return std::nullopt;
   VarId id{found.index};
-  if (context.project.var(id).external) id = context.project.var(id).external;
+  if (context.symbols.var(id).external) id = context.symbols.var(id).external;
   ensureVarType(context, id);
-  const Var& var = context.project.var(id);
+  const Var& var = context.symbols.var(id);
   if (var.type == types::kError) return node.h.type = types::kError;
   const TypeKind index = context.types().plainKind(var.type);
   if (!types::TypeTable::isInteger(index) && !types::TypeTable::isBits(index)) return std::nullopt;
@@ -442,9 +443,9 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
     if (const auto type = checkObjectMember(context, expr, object, access)) return *type;
   }
   // A block of edition 2 has got methods in edition 4, one with the name of a pin: SEMA.RELEASE(). The call means it.
-  if (member && object && access == Access::Qualifier && context.project.pou(object).library) {
-    for (const PouId method : context.project.pou(object).members) {
-      if (context.names().same(context.project.pou(method).name, node.member))
+  if (member && object && access == Access::Qualifier && context.symbols.pou(object).library) {
+    for (const PouId method : context.symbols.pou(object).members) {
+      if (context.names().same(context.symbols.pou(method).name, node.member))
         return *checkObjectMember(context, expr, object, access, method);
     }
   }

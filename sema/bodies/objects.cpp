@@ -27,7 +27,7 @@ const char* wordOf(AccessLevel access) {
 // one of the interface that declares the method.
 ExprId instanceFor(Context& context, ExprId instance, PouId method) {
   if (!instance) return instance;
-  const Pou& owner = context.project.pou(context.project.pou(method).owner);
+  const Pou& owner = context.symbols.pou(context.symbols.pou(method).owner);
   const types::TypeInfo& info = context.types().info(context.types().resolve(context.tree().expr(instance).type));
   if (owner.kind != PouKind::Interface || info.kind != TypeKind::Record ||
       owner.record == context.types().resolve(context.tree().expr(instance).type) ||
@@ -55,8 +55,8 @@ void markObject(Context& context, ExprId at) {
 }
 
 CallId addMethodCall(Context& context, PouId method, ExprId instance, std::vector<Binding>&& bindings) {
-  const Pou& callee = context.project.pou(method);
-  const Pou& owner = context.project.pou(callee.owner);
+  const Pou& callee = context.symbols.pou(method);
+  const Pou& owner = context.symbols.pou(callee.owner);
   Call call;
   call.kind = CallKind::Method;
   call.pou = method;
@@ -71,17 +71,17 @@ CallId addMethodCall(Context& context, PouId method, ExprId instance, std::vecto
 }  // namespace
 
 bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, Loc loc) {
-  const bool of_interface = context.project.pou(owner).kind == PouKind::Interface;
+  const bool of_interface = context.symbols.pou(owner).kind == PouKind::Interface;
   if (access == AccessLevel::None && context.iec() && !of_interface) access = AccessLevel::Protected;
   if (access == AccessLevel::None || access == AccessLevel::Public) return true;
-  const bool same_text = context.library || !context.project.pou(owner).library;
+  const bool same_text = context.library || !context.symbols.pou(owner).library;
   if (access == AccessLevel::Internal && same_text && isInside(context, context.scopes.pous[owner.index].region))
     return true;
   const PouId object = objectOf(context);
   if (object == owner) return true;
   if (access == AccessLevel::Protected && object && isKindOf(context, object, owner)) return true;
   context.report(diag::NotAccessible, loc,
-                 {text(context, name), wordOf(access), text(context, context.project.pou(owner).name)});
+                 {text(context, name), wordOf(access), text(context, context.symbols.pou(owner).name)});
   return false;
 }
 
@@ -91,28 +91,28 @@ namespace {
 TypeId checkThis(Context& context, ExprId expr) {
   ExprHeader& header = context.tree().expr(expr);
   const PouId object = objectOf(context);
-  if (!object || context.project.pou(object).kind == PouKind::Program) {
+  if (!object || context.symbols.pou(object).kind == PouKind::Program) {
     context.report(diag::ThisOutside, header.loc, {"THIS"});
     return header.type = types::kError;
   }
-  return header.type = context.types().pointer(context.project.pou(object).record);
+  return header.type = context.types().pointer(context.symbols.pou(object).record);
 }
 
 // Forbids SUPER where there is no base.   fails   FUNCTION_BLOCK a … SUPER^.m();       E0551
 TypeId checkSuper(Context& context, ExprId expr) {
   ExprHeader& header = context.tree().expr(expr);
   const PouId object = objectOf(context);
-  if (!object || context.project.pou(object).kind == PouKind::Program) {
+  if (!object || context.symbols.pou(object).kind == PouKind::Program) {
     context.report(diag::ThisOutside, header.loc, {"SUPER"});
     return header.type = types::kError;
   }
-  const PouId base = context.project.pou(object).base;
+  const PouId base = context.symbols.pou(object).base;
   if (!base) {
-    if (context.tree().as<PouDecl>(context.project.pou(object).decl).bases.empty())
-      context.report(diag::SuperWithoutBase, header.loc, {text(context, context.project.pou(object).name)});
+    if (context.tree().as<PouDecl>(context.symbols.pou(object).decl).bases.empty())
+      context.report(diag::SuperWithoutBase, header.loc, {text(context, context.symbols.pou(object).name)});
     return header.type = types::kError;
   }
-  return header.type = context.types().pointer(context.project.pou(base).record);
+  return header.type = context.types().pointer(context.symbols.pou(base).record);
 }
 
 }  // namespace
@@ -124,7 +124,7 @@ TypeId checkThisOrSuper(Context& context, ExprId& expr, TypeId expected, Access 
   name.h.kind = ExprKind::Name;
   name.name = context.names().intern(is_this ? "THIS" : "SUPER");
   const Entity found = lookUp(context, name.name);
-  if (found.what() != EntityKind::Var || context.project.vars[found.index].type == types::kError)
+  if (found.what() != EntityKind::Var || context.symbols.vars[found.index].type == types::kError)
     return is_this ? checkThis(context, expr) : checkSuper(context, expr);
   expr = context.tree().add<ExprId>(name);
   return checkName(context, expr, expected, access);
@@ -145,11 +145,11 @@ bool isExact(const Context& context, ExprId instance) {
     switch (tree.kind(instance)) {
       case ExprKind::Name: {
         const Entity entity = tree.as<NameExpr>(instance).entity;
-        return entity.what() != EntityKind::Var || context.project.vars[entity.index].section != SectionKind::InOut;
+        return entity.what() != EntityKind::Var || context.symbols.vars[entity.index].section != SectionKind::InOut;
       }
       case ExprKind::Member: {
         const Entity entity = tree.as<MemberExpr>(instance).entity;
-        return entity.what() != EntityKind::Var || context.project.vars[entity.index].section != SectionKind::InOut;
+        return entity.what() != EntityKind::Var || context.symbols.vars[entity.index].section != SectionKind::InOut;
       }
       case ExprKind::Index: instance = tree.as<IndexExpr>(instance).base; break;
       case ExprKind::Deref: return tree.kind(tree.as<DerefExpr>(instance).base) == ExprKind::Super;
@@ -180,7 +180,7 @@ namespace {
 
 // A property with the accessors that its object inherits where it has none of its own.
 Property accessorsOf(Context& context, uint32_t index) {
-  Property property = context.project.properties[index];
+  Property property = context.symbols.properties[index];
   const auto inherit = [&](PouId base) {
     const Entity found = findInObject(context, base, property.name);
     if (found.what() != EntityKind::Property) return;
@@ -188,7 +188,7 @@ Property accessorsOf(Context& context, uint32_t index) {
     if (!property.get) property.get = other.get;
     if (!property.set) property.set = other.set;
   };
-  const Pou& owner = context.project.pou(property.owner);
+  const Pou& owner = context.symbols.pou(property.owner);
   if (property.get && property.set) return property;
   if (owner.base) inherit(owner.base);
   if (owner.kind == PouKind::Interface)
@@ -202,7 +202,7 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
   const Loc loc = context.tree().loc(expr);
   ExprHeader& header = context.tree().expr(expr);
   if (member.what() == EntityKind::Pou) {
-    const Pou& method = context.project.pou(PouId{member.index});
+    const Pou& method = context.symbols.pou(PouId{member.index});
     if (!mayAccess(context, method.access, method.owner, method.name, loc)) return header.type = types::kError;
     if (access == Access::Qualifier) return header.type = {};
     context.report(diag::NotAValue, loc,
@@ -215,15 +215,15 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
   if (!accessor) return header.type = types::kError;
   resolvePou(context, accessor);
   if (access == Access::Write || access == Access::ReadWrite) {  // an assignment looks at it; others want a variable
-    header.type = property.get ? context.project.pou(property.get).result
-                               : context.project.var(pinsOf(context, property.set)[0]).type;
+    header.type = property.get ? context.symbols.pou(property.get).result
+                               : context.symbols.var(pinsOf(context, property.set)[0]).type;
     return header.type;
   }
   if (!property.get) {
     context.report(diag::PropertyWithoutGet, loc, {text(context, property.name)});
     return header.type = types::kError;
   }
-  const Pou& getter = context.project.pou(property.get);
+  const Pou& getter = context.symbols.pou(property.get);
   if (!mayAccess(context, getter.access, getter.owner, property.name, loc)) return header.type = types::kError;
   noteCall(context, property.get, loc);
   CallExpr call{};
@@ -259,12 +259,12 @@ bool checkPropertyAssign(Context& context, AssignStmt& node) {
     return true;
   }
   resolvePou(context, property.set);
-  const Pou& setter = context.project.pou(property.set);
+  const Pou& setter = context.symbols.pou(property.set);
   const VarId pin = pinsOf(context, property.set)[0];
   const bool good = mayAccess(context, setter.access, setter.owner, property.name, loc);
   const ExprId instance =
       context.tree().kind(node.target) == ExprKind::Member ? context.tree().as<MemberExpr>(node.target).base : ExprId{};
-  const TypeId pin_type = context.project.var(pin).type;
+  const TypeId pin_type = context.symbols.var(pin).type;
   if (node.op() == AssignOp::Reference) {
     if (context.types().kind(pin_type) != TypeKind::Reference) {
       context.report(diag::NotAReference, loc, {"REF=", context.types().spell(pin_type)});
@@ -285,12 +285,12 @@ bool checkPropertyAssign(Context& context, AssignStmt& node) {
     sum.right = node.value;
     node.value = context.tree().add<ExprId>(sum);
     node.h.op = static_cast<uint8_t>(AssignOp::Assign);
-    const TypeId type = context.project.var(pin).type;
+    const TypeId type = context.symbols.var(pin).type;
     check(context, context.tree().as<BinaryExpr>(node.value).right, type, Access::Read);
     if (combine(context, node.value, type) == types::kError) return true;
     convert(context, node.value, type, Purpose{"assigned to", property.name, {}});
   } else {
-    checkAs(context, node.value, context.project.var(pin).type, Purpose{"assigned to", property.name, {}});
+    checkAs(context, node.value, context.symbols.var(pin).type, Purpose{"assigned to", property.name, {}});
   }
   if (!good) return true;
   noteCall(context, property.set, loc);
@@ -331,7 +331,7 @@ Call constructorCall(Context& context, TypeId block, PouId method, Slice<Argumen
   if (!matched.good) return call;
   for (size_t i = kImplicit; i < pins.size(); ++i) {
     ensureInitialValue(context, pins[i]);
-    const Var& pin = context.project.var(pins[i]);
+    const Var& pin = context.symbols.var(pins[i]);
     if ((i < matched.slots.size() && matched.slots[i] != 0) || pin.init || pin.section == SectionKind::Output) continue;
     context.report(diag::MissingArgument, loc, {context.types().spell(block), text(context, pin.name)});
     break;
@@ -399,19 +399,19 @@ TypeId callMethod(Context& context, ExprId& expr, PouId id, ExprId instance, boo
   resolvePou(context, id);
   noteCall(context, id, node.h.loc);
   // An action has the pins of its block (codesys): they are set before it runs and copied after.
-  const bool is_action = context.project.pou(id).kind == PouKind::Action;
-  const PouId has_pins = is_action ? context.project.pou(id).owner : id;
+  const bool is_action = context.symbols.pou(id).kind == PouKind::Action;
+  const PouId has_pins = is_action ? context.symbols.pou(id).owner : id;
   resolvePou(context, has_pins);
   Arguments arguments = matchArguments(context, node, has_pins);
   arguments.checked = checked;
   const CallId made = addMethodCall(context, id, instance, {});
-  Call call = context.project.call(made);
+  Call call = context.symbols.call(made);
   bindControlPins(context, node, arguments, call);
   bindArguments(context, node, has_pins, arguments, call);
   if (arguments.good && !is_action) checkRequiredPins(context, node, id, arguments);
-  context.project.call(made) = std::move(call);
+  context.symbols.call(made) = std::move(call);
   node.call = made;
-  const Pou& callee = context.project.pou(id);
+  const Pou& callee = context.symbols.pou(id);
   if (!callee.result && !as_statement) {
     context.report(diag::NoResult, node.h.loc, {text(context, callee.name)});
     return node.h.type = types::kError;

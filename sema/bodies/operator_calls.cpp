@@ -95,7 +95,7 @@ TypeId infixTimes(Context& context, ExprId& expr, const Arguments& arguments, Bi
 
 TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expected, TypeId forced) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
-  const Pou& pou = context.project.pou(id);
+  const Pou& pou = context.symbols.pou(id);
   const Arguments arguments = matchArguments(context, node, id);
   if (!arguments.good) {
     for (const uint32_t index : arguments.slots) {

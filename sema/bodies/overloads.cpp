@@ -29,17 +29,17 @@ struct Candidate {
 // Replaced by what extends, or declared twice, which was said.
 bool isKnown(const Context& context, std::span<const Candidate> known, PouId pou) {
   return std::any_of(known.begin(), known.end(),
-                     [&](const Candidate& candidate) { return sameParameters(context.project, candidate.pou, pou); });
+                     [&](const Candidate& candidate) { return sameParameters(context.symbols, candidate.pou, pou); });
 }
 
 // The methods of the same name that the bases have, but for those that are replaced.
 void addInherited(Context& context, PouId method, std::vector<Candidate>& out) {
-  const PouId owner = context.project.pou(method).owner;
-  for (PouId at = owner ? context.project.pou(owner).base : PouId{}; at; at = context.project.pou(at).base)
-    for (const PouId member : context.project.pou(at).members) {
-      const Pou& pou = context.project.pou(member);
+  const PouId owner = context.symbols.pou(method).owner;
+  for (PouId at = owner ? context.symbols.pou(owner).base : PouId{}; at; at = context.symbols.pou(at).base)
+    for (const PouId member : context.symbols.pou(at).members) {
+      const Pou& pou = context.symbols.pou(member);
       if (pou.kind != PouKind::Method || pou.accessor != Pou::Accessor::None ||
-          !context.names().same(pou.name, context.project.pou(method).name))
+          !context.names().same(pou.name, context.symbols.pou(method).name))
         continue;
       resolvePou(context, member);
       if (!isKnown(context, out, member)) out.push_back({member, {}, {}, 0});
@@ -50,13 +50,13 @@ void addInherited(Context& context, PouId method, std::vector<Candidate>& out) {
 bool match(Context& context, const CallExpr& node, Candidate& candidate) {
   const std::span<const VarId> pins = pinsOf(context, candidate.pou);
   std::vector<bool> taken(pins.size());
-  const auto isOutput = [&](size_t i) { return context.project.var(pins[i]).section == SectionKind::Output; };
+  const auto isOutput = [&](size_t i) { return context.symbols.var(pins[i]).section == SectionKind::Output; };
   size_t input = 0, output = 0;
   for (uint32_t i = 0; i < node.arguments.count; ++i) {
     const Argument argument = context.tree().list(node.arguments)[i];
     size_t slot = 0;
     if (argument.pin.name) {
-      while (slot < pins.size() && !context.names().same(context.project.var(pins[slot]).name, argument.pin.name))
+      while (slot < pins.size() && !context.names().same(context.symbols.var(pins[slot]).name, argument.pin.name))
         ++slot;
       if (slot == pins.size()) {
         const bool control = isNamed(context, argument.pin.name, argument.is_output ? "ENO" : "EN");
@@ -77,7 +77,7 @@ bool match(Context& context, const CallExpr& node, Candidate& candidate) {
   }
   for (size_t i = 0; i < pins.size(); ++i) {
     if (taken[i] || isOutput(i)) continue;
-    if (context.project.var(pins[i]).section == SectionKind::InOut) return false;
+    if (context.symbols.var(pins[i]).section == SectionKind::InOut) return false;
     ++candidate.open_inputs;
   }
   return true;
@@ -117,7 +117,7 @@ void checkArguments(Context& context, const CallExpr& node, std::span<const Cand
     Access access = argument.is_output ? Access::Write : Access::Read;
     for (const Candidate& candidate : candidates) {
       if (!candidate.pin_of[i]) continue;
-      const SectionKind section = context.project.var(candidate.pin_of[i]).section;
+      const SectionKind section = context.symbols.var(candidate.pin_of[i]).section;
       if (section == SectionKind::Output) access = Access::Write;
       if (section == SectionKind::InOut) access = Access::ReadWrite;
     }
@@ -142,11 +142,11 @@ std::string signatures(Context& context, std::span<const Candidate> candidates) 
   constexpr size_t kMost = 6;
   for (size_t i = 0; i < candidates.size() && i < kMost; ++i) {
     out += i == 0 ? "`" : i + 1 == candidates.size() ? " or `" : ", `";
-    out += text(context, context.project.pou(candidates[i].pou).name);
+    out += text(context, context.symbols.pou(candidates[i].pou).name);
     out += '(';
     bool first = true;
     for (const VarId pin : pinsOf(context, candidates[i].pou)) {
-      const Var& var = context.project.var(pin);
+      const Var& var = context.symbols.var(pin);
       out += first ? "" : ", ";
       first = false;
       out += (var.section == SectionKind::Output ? "=> " : "") + context.types().spell(var.type);
@@ -159,7 +159,7 @@ std::string signatures(Context& context, std::span<const Candidate> candidates) 
 }  // namespace
 
 bool isOverloaded(const Context& context, PouId called) {
-  return static_cast<bool>(context.project.pou(called).overloads);
+  return static_cast<bool>(context.symbols.pou(called).overloads);
 }
 
 // Forbids a call that no overload takes, or that several take equally well.
@@ -167,8 +167,8 @@ bool isOverloaded(const Context& context, PouId called) {
 //   fails   f(SINT#1) where f takes INT or DINT                                        E0628
 PouId chooseOverload(Context& context, const CallExpr& node, PouId called, bool& checked) {
   std::vector<Candidate> all;
-  const PouId head = context.project.pou(called).overloads;
-  for (PouId id = head ? head : called; id; id = context.project.pou(id).next_overload) {
+  const PouId head = context.symbols.pou(called).overloads;
+  for (PouId id = head ? head : called; id; id = context.symbols.pou(id).next_overload) {
     resolvePou(context, id);
     if (!isKnown(context, all, id)) all.push_back({id, {}, {}, 0});
   }
@@ -177,7 +177,7 @@ PouId chooseOverload(Context& context, const CallExpr& node, PouId called, bool&
   for (Candidate& candidate : all)
     if (match(context, node, candidate)) fitting.push_back(candidate);
   if (fitting.size() == 1) return fitting[0].pou;
-  const auto name = text(context, context.project.pou(called).name);
+  const auto name = text(context, context.symbols.pou(called).name);
   if (fitting.empty()) {
     context.report(diag::NoOverload, node.h.loc, {name, signatures(context, all)});
     checkLooseArguments(context, node);
@@ -192,7 +192,7 @@ PouId chooseOverload(Context& context, const CallExpr& node, PouId called, bool&
     for (uint32_t i = 0; i < node.arguments.count; ++i) {
       const ExprId value = context.tree().list(node.arguments)[i].value;
       int rank = kExact;
-      if (value && candidate.pin_of[i]) rank = rankOf(context, context.project.var(candidate.pin_of[i]), value);
+      if (value && candidate.pin_of[i]) rank = rankOf(context, context.symbols.var(candidate.pin_of[i]), value);
       broken = broken || (value && context.tree().expr(value).type == types::kError);
       can = can && rank != kNever;
       candidate.ranks.push_back(rank);

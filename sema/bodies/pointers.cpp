@@ -47,7 +47,7 @@ TypeId checkBitAddress(Context& context, ExprId& expr, ExprId place) {
   if (context.tree().kind(place) == ExprKind::Address) {
     view = resolveAddress(context, context.tree().as<AddressExpr>(place).address, loc, {});
   } else if (const Entity entity = entityOf(context, place); entity.what() == EntityKind::Var) {
-    const Var& var = context.project.vars[entity.index];
+    const Var& var = context.symbols.vars[entity.index];
     if (var.storage == Storage::Image && !var.hierarchical) view = var.image;
   }
   if (!view) {
@@ -79,7 +79,7 @@ TypeId checkIsValid(Context& context, ExprId& expr, ExprId operand) {
   const TypeId own = context.tree().expr(operand).type;
   if (const Entity entity = entityOf(context, operand); entity.what() == EntityKind::Var) {
     // A VAR_IN_OUT of a block refers to nothing before it is bound; one of a function always refers to something.
-    const Var& var = context.project.vars[entity.index];
+    const Var& var = context.symbols.vars[entity.index];
     const ExprKind kind = context.tree().kind(operand);
     if (var.section == SectionKind::InOut && (kind == ExprKind::Name || kind == ExprKind::Member)) {
       if (var.storage == Storage::Local) {

@@ -1,6 +1,7 @@
 #include "sema/bodies/shapes.h"
 
 #include "sema/bodies/bodies.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 

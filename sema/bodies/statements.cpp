@@ -8,6 +8,7 @@
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/shapes.h"
 #include "sema/bodies/temporaries.h"
+#include "sema/charts.h"
 #include "sema/checks/case_labels.h"
 #include "sema/checks/constant_condition.h"
 #include "sema/checks/dangling_address.h"
@@ -19,6 +20,7 @@
 #include "sema/checks/shared_globals.h"
 #include "sema/checks/unused_variables.h"
 #include "sema/checks/writable.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 
@@ -416,7 +418,7 @@ static void schedule(Context& context, PouDecl& decl) {
   if (kind != BodyKind::Il && kind != BodyKind::Sfc && kind != BodyKind::Network) return;
   ProjectShapes shapes(context);
   Tree& tree = context.tree();
-  Diagnostics& diagnostics = context.project.diagnostics;
+  Diagnostics& diagnostics = context.symbols.diagnostics;
   decl.body_kind = BodyKind::St;
   const auto take = [&](const auto& made) {
     decl.body = made.body;
@@ -434,7 +436,7 @@ static void schedule(Context& context, PouDecl& decl) {
 }
 
 void checkBody(Context& context, PouId id) {
-  Pou& pou = context.project.pou(id);
+  Pou& pou = context.symbols.pou(id);
   pou.checked = true;
   if (!pou.decl) return;
   resolvePou(context, id);
@@ -443,7 +445,8 @@ void checkBody(Context& context, PouId id) {
   const std::string_view name = text(context, pou.name);
   setPhaseSubject(name.data(), name.size());
   BodyState body;
-  Context inner{.project = context.project,
+  Context inner{.symbols = context.symbols,
+                .project = context.project,
                 .scopes = context.scopes,
                 .pou = id,
                 .file = pou.file,

@@ -16,14 +16,14 @@ constexpr uint16_t kChecked = 1;        // StmtHeader::spare: the value was look
 constexpr uint32_t kMaxLookAhead = 50;  // temporaries that wait for each other's types
 
 Temporary& stateOf(Context& context, VarId id) {
-  return context.body->temporaries[context.project.var(id).temporary - 1];
+  return context.body->temporaries[context.symbols.var(id).temporary - 1];
 }
 
 VarId temporaryOf(Context& context, ExprId expr) {
   if (context.body == nullptr || context.body->temporaries.empty()) return {};
   if (context.tree().kind(expr) != ExprKind::Name) return {};
   const Entity entity = lookUp(context, context.tree().as<NameExpr>(expr).name);
-  const bool is_one = entity.what() == EntityKind::Var && context.project.vars[entity.index].temporary != 0;
+  const bool is_one = entity.what() == EntityKind::Var && context.symbols.vars[entity.index].temporary != 0;
   return is_one ? VarId{entity.index} : VarId{};
 }
 
@@ -67,7 +67,7 @@ void adaptValue(Context& context, const Temporary& state, AssignStmt& node) {
     return;
   }
   const TypeId own = isUntyped(context, type) ? defaultType(context, node.value) : type;
-  const std::string line = std::to_string(context.project.sources.lineNumber(state.first));
+  const std::string line = std::to_string(context.symbols.sources.lineNumber(state.first));
   context.report(diag::TypesMeet, node.h.loc, {context.types().spell(own), context.types().spell(state.type), line})
       .note(state.first, diag::OtherValue);
 }
@@ -75,7 +75,7 @@ void adaptValue(Context& context, const Temporary& state, AssignStmt& node) {
 void settleType(Context& context, Temporary& state, TypeId type, Loc first) {
   state.type = type == types::kError ? type : roomFor(context, type);
   state.first = first;
-  context.project.var(state.var).type = state.type;
+  context.symbols.var(state.var).type = state.type;
   for (AssignStmt* open : std::exchange(state.open, {})) adaptValue(context, state, *open);
 }
 
@@ -133,13 +133,13 @@ TypeId typeOfOpen(Context& context, const Temporary& state, TypeId expected) {
 
 void declareTemporaries(Context& context, DeclId section) {
   if (!section) return;
-  Project& project = context.project;
+  Symbols& symbols = context.symbols;
   const Slice<DeclId> decls = context.tree().as<SectionDecl>(section).vars;
   for (uint32_t k = 0; k < decls.count; ++k) {
     const VarDecl& decl = context.tree().as<VarDecl>(context.tree().list(decls)[k]);
     const Ident ident = context.tree().list(decl.names)[0];
-    const VarId id{static_cast<uint32_t>(project.vars.size())};
-    Pou& pou = project.pou(context.pou);
+    const VarId id{static_cast<uint32_t>(symbols.vars.size())};
+    Pou& pou = symbols.pou(context.pou);
     Var var;
     var.name = ident.name;
     var.loc = ident.loc;
@@ -150,7 +150,7 @@ void declareTemporaries(Context& context, DeclId section) {
     var.field = static_cast<uint32_t>(pou.vars.size());
     context.body->temporaries.push_back({.var = id});
     var.temporary = static_cast<uint32_t>(context.body->temporaries.size());
-    project.vars.push_back(var);
+    symbols.vars.push_back(var);
     pou.vars.push_back(id);
     context.scopes.pous[context.pou.index].names.insert(keyOf(context, ident.name), entity(id));
   }
@@ -172,7 +172,7 @@ TypeId temporaryType(Context& context, VarId id, TypeId expected) {
   Temporary& state = stateOf(context, id);
   if (!state.type) lookAhead(context, state);
   if (!state.type) {
-    const Loc first = state.open.empty() ? context.project.var(id).loc : state.open.front()->h.loc;
+    const Loc first = state.open.empty() ? context.symbols.var(id).loc : state.open.front()->h.loc;
     settleType(context, state, typeOfOpen(context, state, expected), first);
   }
   return state.type;

@@ -11,7 +11,7 @@
 namespace rung::sema {
 
 ExprId placeOfText(Context& context, ExprId literal) {
-  Project& project = context.project;
+  Symbols& symbols = context.symbols;
   const LiteralExpr& node = context.tree().as<LiteralExpr>(literal);
   const Loc loc = node.h.loc;
   const bool wide = node.literal() == LiteralKind::WString;
@@ -19,7 +19,7 @@ ExprId placeOfText(Context& context, ExprId literal) {
   Scopes::Texts& texts = context.scopes.texts;
   VarId& place = texts.places[{context.pou.index, uint64_t{text.index} << 1 | uint64_t{wide}}];
   if (!place) {
-    place = VarId{static_cast<uint32_t>(project.vars.size())};
+    place = VarId{static_cast<uint32_t>(symbols.vars.size())};
     Var var;
     var.name = context.names().intern("text" + std::to_string(texts.places.size()));
     var.loc = loc;
@@ -30,20 +30,20 @@ ExprId placeOfText(Context& context, ExprId literal) {
     var.storage = Storage::Global;
     var.constant = var.read = var.written = true;
     var.init = literal;
-    project.vars.push_back(var);
+    symbols.vars.push_back(var);
     texts.undeclared.push_back({context.pou, place});
   }
   NameExpr name{};
   name.h.kind = ExprKind::Name;
   name.h.loc = loc;
-  name.h.type = project.var(place).type;
-  name.name = project.var(place).name;
+  name.h.type = symbols.var(place).type;
+  name.name = symbols.var(place).name;
   name.entity = entity(place);
   return context.tree().add<ExprId>(name);
 }
 
 void declareTexts(Context& context, PouId pou) {
-  Project& project = context.project;
+  Symbols& symbols = context.symbols;
   std::vector<Scopes::Texts::Place>& undeclared = context.scopes.texts.undeclared;
   ListId list;
   size_t kept = 0;
@@ -53,12 +53,12 @@ void declareTexts(Context& context, PouId pou) {
       continue;
     }
     if (!list) {
-      const std::string owner = pou ? spelled(context, project.pou(pou).unique_name) : std::string();
-      const Loc loc = project.var(place.var).loc;
-      list = listNamed(context, owner + "__texts", project.sources.fileOf(loc), loc, context.scopes.qualifiers);
+      const std::string owner = pou ? spelled(context, symbols.pou(pou).unique_name) : std::string();
+      const Loc loc = symbols.var(place.var).loc;
+      list = listNamed(context, owner + "__texts", symbols.sources.fileOf(loc), loc, context.scopes.qualifiers);
     }
-    project.var(place.var).list = list;
-    project.global_lists[list.index].vars.push_back(place.var);
+    symbols.var(place.var).list = list;
+    symbols.global_lists[list.index].vars.push_back(place.var);
   }
   undeclared.resize(kept);
   if (list) settleDeclarations(context);

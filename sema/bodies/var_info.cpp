@@ -17,7 +17,7 @@ struct Facts {
 
   TypeId typeOf(std::string_view name) const {
     const VarId member = findMember(context, record, context.names().intern(name));
-    return member ? context.project.var(member).type : types::kError;
+    return member ? context.symbols.var(member).type : types::kError;
   }
   void add(std::string_view name, int64_t value) {
     const TypeId type = context.types().plain(typeOf(name));
@@ -34,9 +34,9 @@ struct Facts {
 std::string commentOf(const Context& context, const Var& var) {
   if (!var.decl || !context.tree().decl(var.decl).doc) return {};
   const Loc doc = context.tree().decl(var.decl).doc;
-  const FileId file = context.project.sources.fileOf(doc);
-  std::string_view text = context.project.sources.text(file);
-  text.remove_prefix(doc.offset - context.project.sources.begin(file).offset);
+  const FileId file = context.symbols.sources.fileOf(doc);
+  std::string_view text = context.symbols.sources.text(file);
+  text.remove_prefix(doc.offset - context.symbols.sources.begin(file).offset);
   text = text.substr(0, text.find_first_of("\r\n"));
   while (!text.empty() && (text.front() == '/' || text.front() == ' ')) text.remove_prefix(1);
   return std::string(text);
@@ -54,12 +54,12 @@ void addPlace(Facts& facts, ExprId place) {
   int64_t offset = 0, area = -1, bit_address = 0, memory = 5;
   std::string comment;
   if (entity.what() == EntityKind::Var) {
-    const Var* var = &context.project.vars[entity.index];
-    if (var->external) var = &context.project.var(var->external);
+    const Var* var = &context.symbols.vars[entity.index];
+    if (var->external) var = &context.symbols.var(var->external);
     comment = commentOf(context, *var);
     TypeId holder = var->record;
-    if (var->pou) holder = context.project.pou(var->pou).record;
-    if (var->list) holder = context.project.global_lists[var->list.index].record;
+    if (var->pou) holder = context.symbols.pou(var->pou).record;
+    if (var->list) holder = context.symbols.global_lists[var->list.index].record;
     const bool in_record = var->storage == Storage::Field || var->storage == Storage::Global;
     if (in_record && holder && ensureLayout(context, holder))
       offset = context.types().info(context.types().resolve(holder)).fields[var->field].offset;
@@ -103,8 +103,8 @@ void addType(Facts& facts, TypeId type, bool is_bit) {
 ExprId byteOfImage(Context& context, ExprId place) {
   const Entity entity = entityOf(context, place);
   if (entity.what() != EntityKind::Var) return {};
-  const Var* var = &context.project.vars[entity.index];
-  if (var->external) var = &context.project.var(var->external);
+  const Var* var = &context.symbols.vars[entity.index];
+  if (var->external) var = &context.symbols.var(var->external);
   if (var->storage != Storage::Image || !var->image.is_bit) return {};
   AddressExpr byte{};
   byte.h.kind = ExprKind::Address;
@@ -135,9 +135,9 @@ TypeId checkVarInfo(Context& context, ExprId& expr, ExprId place) {
   if (!ensureLayout(context, type)) return types::kError;
   const Loc begin = context.tree().begin(place);
   const CallExpr& call = context.tree().as<CallExpr>(expr);
-  const FileId file = context.project.sources.fileOf(begin);
-  std::string_view written = context.project.sources.text(file);
-  const uint32_t base = context.project.sources.begin(file).offset;
+  const FileId file = context.symbols.sources.fileOf(begin);
+  std::string_view written = context.symbols.sources.text(file);
+  const uint32_t base = context.symbols.sources.begin(file).offset;
   written = written.substr(begin.offset - base, call.end.offset - begin.offset);
   while (!written.empty() && (written.back() == ' ' || written.back() == ')')) written.remove_suffix(1);
 
@@ -162,13 +162,13 @@ TypeId checkVarInfo(Context& context, ExprId& expr, ExprId place) {
 
 std::string pouName(const Context& context) {
   if (!context.pou) return {};
-  const Pou& pou = context.project.pou(context.pou);
+  const Pou& pou = context.symbols.pou(context.pou);
   const std::string own(text(context, pou.name));
-  return pou.owner ? std::string(text(context, context.project.pou(pou.owner).name)) + "." + own : own;
+  return pou.owner ? std::string(text(context, context.symbols.pou(pou.owner).name)) + "." + own : own;
 }
 
 std::string position(const Context& context, Loc loc) {
-  const Place place = context.project.sources.place(loc);
+  const Place place = context.symbols.sources.place(loc);
   const std::string line = "Line " + std::to_string(place.line);
   return context.body ? line + ", Column " + std::to_string(place.column) + " (Impl)" : line + " (Decl)";
 }

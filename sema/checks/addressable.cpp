@@ -13,8 +13,8 @@ namespace {
 
 // What is wrong with the variable as the root of a place, or nothing.
 const char* wrongWith(const Context& context, VarId id) {
-  const Var* var = &context.project.var(id);
-  if (var->external) var = &context.project.var(var->external);
+  const Var* var = &context.symbols.var(id);
+  if (var->external) var = &context.symbols.var(var->external);
   if (var->storage == Storage::Image && var->image.is_bit) return "one bit of the process image";
   if (var->storage == Storage::Constant) return "a constant";
   const bool number = types::TypeTable::isScalar(context.types().plainKind(var->type));
@@ -31,7 +31,7 @@ const char* wrongWith(const Context& context, ExprId place) {
         if (entity.what() == EntityKind::EnumValue) return "a constant";
         if (entity.what() == EntityKind::Program) return nullptr;
         if (entity.what() == EntityKind::Pou)
-          return context.project.pou(PouId{entity.index}).kind == PouKind::Program ? nullptr : "the name of a POU";
+          return context.symbols.pou(PouId{entity.index}).kind == PouKind::Program ? nullptr : "the name of a POU";
         if (entity.what() != EntityKind::Var) return "the name of a type";
         if (const char* wrong = wrongWith(context, VarId{entity.index})) return wrong;
         if (tree.kind(place) == ExprKind::Name || isWhole(context, tree.as<MemberExpr>(place))) return nullptr;

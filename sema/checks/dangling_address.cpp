@@ -53,7 +53,7 @@ VarId rootOf(const Context& context, ExprId place) {
 // Memory of one call: what a caller owns is not.
 bool livesForOneCall(const Context& context, VarId id) {
   if (!id) return false;
-  const Var& var = context.project.var(id);
+  const Var& var = context.symbols.var(id);
   if (var.storage != Storage::Local || var.section == SectionKind::InOut) return false;
   const types::TypeKind kind = context.types().kind(var.type);
   const bool by_reference = kind == TypeKind::Array || kind == TypeKind::Record || types::TypeTable::isText(kind);
@@ -74,11 +74,11 @@ void checkDanglingAddress(Context& context, ExprId target, ExprId value) {
   const VarId variable = rootOf(context, address);
   if (!livesForOneCall(context, variable)) return;
   const VarId keeper = rootOf(context, target);
-  const bool leaves = keeper && (context.project.var(keeper).section == SectionKind::Output ||
-                                 keeper == context.project.pou(context.pou).result_var);
+  const bool leaves = keeper && (context.symbols.var(keeper).section == SectionKind::Output ||
+                                 keeper == context.symbols.pou(context.pou).result_var);
   if (keeper && !leaves && livesForOneCall(context, keeper)) return;
   context.report(context.iec() ? diag::DanglingAddress : diag::AddressOutlives, tree.loc(address),
-                 {text(context, context.project.var(variable).name)});
+                 {text(context, context.symbols.var(variable).name)});
 }
 
 }  // namespace rung::sema

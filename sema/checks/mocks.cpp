@@ -15,18 +15,19 @@
 #include "frontend/syntax/diagnostics.h"
 #include "sema/checks/diagnostics.h"
 #include "sema/declarations/declarations.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 
 void chooseTests(Context& context) {
-  Project& project = context.project;
-  const Options& options = project.options;
+  Symbols& symbols = context.symbols;
+  const Options& options = context.project.options;
   std::vector<NameId> chosen;
   for (const std::string& name : options.mocks) chosen.push_back(keyOf(context, context.names().intern(name)));
   const auto byIndex = [](NameId a, NameId b) { return a.index < b.index; };
   std::sort(chosen.begin(), chosen.end(), byIndex);
-  for (uint32_t i = 1; i < project.pous.size(); ++i) {
-    Pou& pou = project.pous[i];
+  for (uint32_t i = 1; i < symbols.pous.size(); ++i) {
+    Pou& pou = symbols.pous[i];
     for (const Pragma& pragma : context.tree().list(context.tree().decl(pou.decl).pragmas)) {
       if (keyOf(context, pragma.name) != context.scopes.words.mock) continue;
       pou.mocks.push_back(keyOf(context, context.names().intern(context.tree().text(pragma.value))));
@@ -49,7 +50,7 @@ namespace {
 
 // An error at a pragma marks all of it.
 Report reportPragma(Context& context, Diag diag, const Pragma& pragma, std::initializer_list<std::string_view> args) {
-  const Sources& sources = context.project.sources;
+  const Sources& sources = context.symbols.sources;
   const FileId file = sources.fileOf(pragma.loc);
   const size_t at = pragma.loc.offset - sources.begin(file).offset, end = sources.text(file).find('}', at);
   Report report = context.report(diag, pragma.loc, args);
@@ -64,8 +65,8 @@ struct Pin {
 
 std::vector<Pin> pinsOf(Context& context, PouId id) {
   std::vector<Pin> pins;
-  for (const VarId var_id : context.project.pou(id).vars) {
-    const Var& var = context.project.var(var_id);
+  for (const VarId var_id : context.symbols.pou(id).vars) {
+    const Var& var = context.symbols.var(var_id);
     const char* const section = var.section == SectionKind::Input    ? "`VAR_INPUT "
                                 : var.section == SectionKind::Output ? "`VAR_OUTPUT "
                                 : var.section == SectionKind::InOut  ? "`VAR_IN_OUT "
@@ -76,8 +77,8 @@ std::vector<Pin> pinsOf(Context& context, PouId id) {
 }
 
 void compare(Context& context, PouId mock_id, PouId original_id) {
-  Project& project = context.project;
-  const Pou &mock = project.pou(mock_id), &original = project.pou(original_id);
+  Symbols& symbols = context.symbols;
+  const Pou &mock = symbols.pou(mock_id), &original = symbols.pou(original_id);
   const std::string_view mock_name = context.names().text(mock.name),
                          original_name = context.names().text(original.name);
   const auto differs = [&](Loc loc, Loc there, std::string_view what, std::string_view is, std::string_view is_there) {
@@ -91,8 +92,8 @@ void compare(Context& context, PouId mock_id, PouId original_id) {
     differs(mock.loc, original.loc, "the result", resultOf(mock), resultOf(original));
   const std::vector<Pin> pins = pinsOf(context, mock_id), wanted = pinsOf(context, original_id);
   for (size_t i = 0; i < std::max(pins.size(), wanted.size()); ++i) {
-    const Var* const pin = i < pins.size() ? &project.var(pins[i].var) : nullptr;
-    const Var* const other = i < wanted.size() ? &project.var(wanted[i].var) : nullptr;
+    const Var* const pin = i < pins.size() ? &symbols.var(pins[i].var) : nullptr;
+    const Var* const other = i < wanted.size() ? &symbols.var(wanted[i].var) : nullptr;
     if (pin != nullptr && other != nullptr && context.names().same(pin->name, other->name)) {
       if (pins[i].is == wanted[i].is) continue;
       const std::string what = "the pin `" + spelled(context, pin->name) + "`";
@@ -113,8 +114,8 @@ bool canBeReplaced(const Pou& original, const Pou& mock) {
 }
 
 void checkReplaced(Context& context, PouId id, const Pragma& pragma) {
-  const Entity found = findDotted(context, context.project.pou(id).replaces);
-  const Pou& mock = context.project.pou(id);
+  const Entity found = findDotted(context, context.symbols.pou(id).replaces);
+  const Pou& mock = context.symbols.pou(id);
   std::string_view wanted = context.names().text(mock.replaces);
   if (wanted.empty()) wanted = "...";
   if (found.what() != EntityKind::Pou) {
@@ -123,9 +124,9 @@ void checkReplaced(Context& context, PouId id, const Pragma& pragma) {
     return;
   }
   const PouId original{found.index};
-  if (!canBeReplaced(context.project.pou(original), mock)) {
+  if (!canBeReplaced(context.symbols.pou(original), mock)) {
     reportPragma(context, diag::MockOfOtherKind, pragma, {context.names().text(mock.name), wanted})
-        .note(context.project.pou(original).loc, diag::DeclaredHere);
+        .note(context.symbols.pou(original).loc, diag::DeclaredHere);
     return;
   }
   if (isBroken(context, id) || isBroken(context, original)) return;
@@ -136,12 +137,12 @@ void checkReplaced(Context& context, PouId id, const Pragma& pragma) {
 }  // namespace
 
 void checkMocks(Context& context) {
-  Project& project = context.project;
-  if (!project.options.mocks.empty()) return;  // was done with the originals
+  Symbols& symbols = context.symbols;
+  if (!context.project.options.mocks.empty()) return;  // was done with the originals
   const Scopes::Words& words = context.scopes.words;
-  std::vector<bool> taken(project.pous.size());
-  for (uint32_t i = 1; i < project.pous.size(); ++i) {
-    const Pou& pou = project.pous[i];
+  std::vector<bool> taken(symbols.pous.size());
+  for (uint32_t i = 1; i < symbols.pous.size(); ++i) {
+    const Pou& pou = symbols.pous[i];
     if (pou.library) continue;
     Context there = atPou(context, PouId{i});
     there.pou = {};
@@ -156,9 +157,9 @@ void checkMocks(Context& context) {
       }
       const NameId name = context.names().intern(context.tree().text(pragma.value));
       const Entity found = lookUp(there, name);
-      if (found.what() != EntityKind::Pou || !project.pous[found.index].replaces) {
+      if (found.what() != EntityKind::Pou || !symbols.pous[found.index].replaces) {
         std::vector<std::string_view> mocks;
-        for (const Pou& other : project.pous)
+        for (const Pou& other : symbols.pous)
           if (other.replaces) mocks.push_back(context.names().text(other.name));
         const std::string_view written = context.names().text(name);
         reportPragma(context, diag::NoMock, pragma, {written.empty() ? "..." : written})
@@ -166,7 +167,7 @@ void checkMocks(Context& context) {
         continue;
       }
       taken[found.index] = true;
-      const Pou& mock = project.pous[found.index];
+      const Pou& mock = symbols.pous[found.index];
       Context at_mock = atPou(context, PouId{found.index});
       at_mock.pou = {};
       const Entity original = findDotted(at_mock, mock.replaces);
@@ -174,15 +175,15 @@ void checkMocks(Context& context) {
       for (const auto& [other, by] : replaced) {
         if (other != original.index) continue;
         reportPragma(context, diag::TwoMocks, pragma,
-                     {context.names().text(project.pou(by).name), context.names().text(mock.name),
+                     {context.names().text(symbols.pou(by).name), context.names().text(mock.name),
                       context.names().text(mock.replaces)});
       }
       replaced.push_back({original.index, PouId{found.index}});
     }
   }
-  if (project.diagnostics.hasErrors()) return;
+  if (symbols.diagnostics.hasErrors()) return;
   for (uint32_t i = 1; i < taken.size(); ++i) {
-    const Pou& pou = project.pous[i];
+    const Pou& pou = symbols.pous[i];
     if (pou.replaces && !taken[i]) context.report(diag::MockUnused, pou.loc, {context.names().text(pou.name)});
   }
 }

@@ -19,10 +19,10 @@ namespace {
 
 PouId inherited(Context& context, PouId object, PouId like) {
   resolvePou(context, like);
-  for (PouId at = object; at; at = context.project.pou(at).base) {
-    if (context.project.pou(like).overloads)
-      for (const PouId member : context.project.pou(at).members) resolvePou(context, member);
-    if (const PouId found = methodLike(context.project, at, like)) return found;
+  for (PouId at = object; at; at = context.symbols.pou(at).base) {
+    if (context.symbols.pou(like).overloads)
+      for (const PouId member : context.symbols.pou(at).members) resolvePou(context, member);
+    if (const PouId found = methodLike(context.symbols, at, like)) return found;
   }
   return {};
 }
@@ -36,10 +36,10 @@ std::string_view wordOf(const Pou& member) {
 // Forbids hiding what may be called through the base or the interface.
 //   fails   METHOD PRIVATE Start (PUBLIC in the base)                                    E0363
 void checkAccess(Context& context, PouId method, PouId replaced) {
-  const Pou& pou = context.project.pou(method);
-  const Pou& other = context.project.pou(replaced);
+  const Pou& pou = context.symbols.pou(method);
+  const Pou& other = context.symbols.pou(replaced);
   const bool hidden = pou.access == AccessLevel::Private || pou.access == AccessLevel::Protected;
-  const bool of_interface = context.project.pou(other.owner).kind == PouKind::Interface;
+  const bool of_interface = context.symbols.pou(other.owner).kind == PouKind::Interface;
   const bool shown = of_interface || other.access == AccessLevel::Public || other.access == AccessLevel::Internal ||
                      (other.access == AccessLevel::None && !context.iec());
   const bool narrower =
@@ -48,7 +48,7 @@ void checkAccess(Context& context, PouId method, PouId replaced) {
   context
       .report(diag::NarrowerAccess, pou.loc,
               {text(context, pou.name), pou.access == AccessLevel::Private ? "PRIVATE" : "PROTECTED",
-               text(context, context.project.pou(other.owner).name)})
+               text(context, context.symbols.pou(other.owner).name)})
       .note(other.loc, diag::DeclaredHere);
 }
 
@@ -56,13 +56,13 @@ void checkSignature(Context& context, PouId method, PouId replaced) {
   resolvePou(context, method);
   resolvePou(context, replaced);
   const std::span<const VarId> pins = pinsOf(context, method), wanted = pinsOf(context, replaced);
-  const Pou& pou = context.project.pou(method);
-  const Pou& other = context.project.pou(replaced);
+  const Pou& pou = context.symbols.pou(method);
+  const Pou& other = context.symbols.pou(replaced);
   std::string difference;
   if (pou.accessor == Pou::Accessor::Set) {  // GET has said that the property is of another type
-    for (const PouId member : context.project.pou(pou.owner).members)
-      if (context.project.pou(member).accessor == Pou::Accessor::Get &&
-          context.names().same(context.project.pou(member).name, pou.name))
+    for (const PouId member : context.symbols.pou(pou.owner).members)
+      if (context.symbols.pou(member).accessor == Pou::Accessor::Get &&
+          context.names().same(context.symbols.pou(member).name, pou.name))
         return;
   }
   const auto spell = [&](TypeId type) { return type ? context.types().spell(type) : std::string("nothing"); };
@@ -70,15 +70,15 @@ void checkSignature(Context& context, PouId method, PouId replaced) {
     difference = "its result is `" + spell(other.result) + "`";
   for (size_t i = 0; difference.empty() && i < std::max(pins.size(), wanted.size()); ++i) {
     if (i >= wanted.size()) {
-      difference = "that has no `" + std::string(text(context, context.project.var(pins[i]).name)) + "`";
+      difference = "that has no `" + std::string(text(context, context.symbols.var(pins[i]).name)) + "`";
       continue;
     }
-    const Var& there = context.project.var(wanted[i]);
+    const Var& there = context.symbols.var(wanted[i]);
     const std::string name(text(context, there.name));
-    if (i >= pins.size() || context.project.var(pins[i]).section != there.section ||
-        !context.names().same(context.project.var(pins[i]).name, there.name)) {
+    if (i >= pins.size() || context.symbols.var(pins[i]).section != there.section ||
+        !context.names().same(context.symbols.var(pins[i]).name, there.name)) {
       difference = "the next is `" + name + "`";
-    } else if (!sameType(context, context.project.var(pins[i]).type, there.type)) {
+    } else if (!sameType(context, context.symbols.var(pins[i]).type, there.type)) {
       difference = "`" + name + "` is `" + spell(there.type) + "`";
     }
   }
@@ -86,7 +86,7 @@ void checkSignature(Context& context, PouId method, PouId replaced) {
   if (difference.empty() || isBroken(context, method) || isBroken(context, replaced)) return;
   context
       .report(diag::OtherSignature, pou.loc,
-              {text(context, pou.name), text(context, context.project.pou(other.owner).name), difference})
+              {text(context, pou.name), text(context, context.symbols.pou(other.owner).name), difference})
       .note(other.loc, diag::DeclaredHere);
 }
 
@@ -99,54 +99,54 @@ struct Demands {
   void interface(PouId id) {
     if (std::find(seen.begin(), seen.end(), id) != seen.end()) return;
     seen.push_back(id);
-    for (const PouId method : context.project.pou(id).members) demand(method);
-    for (const PouId base : context.project.pou(id).interfaces) interface(base);
+    for (const PouId method : context.symbols.pou(id).members) demand(method);
+    for (const PouId base : context.symbols.pou(id).interfaces) interface(base);
   }
 
   void demand(PouId method) {
-    const Pou& wanted = context.project.pou(method);
+    const Pou& wanted = context.symbols.pou(method);
     const PouId found = inherited(context, object, method);
     if (found && found != method) {
-      if (context.project.pou(found).owner == object) checkSignature(context, found, method);
+      if (context.symbols.pou(found).owner == object) checkSignature(context, found, method);
       return;
     }
-    const Pou& pou = context.project.pou(object);
+    const Pou& pou = context.symbols.pou(object);
     if ((pou.modifiers & kAbstract) != 0 || isBroken(context, object)) return;
     context
         .report(diag::MemberMissing, loc,
                 {text(context, pou.name), wordOf(wanted), text(context, wanted.name),
-                 text(context, context.project.pou(wanted.owner).name)})
+                 text(context, context.symbols.pou(wanted.owner).name)})
         .note(wanted.loc, diag::DeclaredHere);
   }
 };
 
 // Forbids statements in an interface.   fails   INTERFACE i METHOD m x := 1; END_METHOD …        E0364
 void checkPrototypes(Context& context, PouId interface) {
-  for (const PouId member : context.project.pou(interface).members) {
-    const Pou& method = context.project.pou(member);
+  for (const PouId member : context.symbols.pou(interface).members) {
+    const Pou& method = context.symbols.pou(member);
     const PouDecl& decl = context.tree().as<PouDecl>(method.decl);
     if (!decl.body.empty())
       context.report(diag::PrototypeWithBody, context.tree().loc(context.tree().list(decl.body)[0]),
-                     {text(context, method.name), text(context, context.project.pou(interface).name)});
+                     {text(context, method.name), text(context, context.symbols.pou(interface).name)});
   }
 }
 
 void checkMethod(Context& context, PouId object, PouId id) {
-  const Pou& method = context.project.pou(id);
-  const Pou& owner = context.project.pou(object);
+  const Pou& method = context.symbols.pou(id);
+  const Pou& owner = context.symbols.pou(object);
   if (method.kind != PouKind::Method) return;
   if ((method.modifiers & kAbstract) != 0 && (owner.modifiers & kAbstract) == 0) {
     context.report(diag::AbstractInConcrete, method.loc, {text(context, method.name), text(context, owner.name)});
     return;
   }
   const PouId replaced = owner.base ? inherited(context, owner.base, id) : PouId{};
-  if (!replaced || context.project.pou(replaced).access == AccessLevel::Private) {
+  if (!replaced || context.symbols.pou(replaced).access == AccessLevel::Private) {
     if ((method.modifiers & kOverride) != 0)
       context.report(diag::OverridesNothing, method.loc, {text(context, method.name)});
     return;
   }
-  const Pou& other = context.project.pou(replaced);
-  const std::string_view base = text(context, context.project.pou(other.owner).name);
+  const Pou& other = context.symbols.pou(replaced);
+  const std::string_view base = text(context, context.symbols.pou(other.owner).name);
   if ((other.modifiers & kFinal) != 0) {
     context.report(diag::OverridesFinal, method.loc, {text(context, method.name), base})
         .note(other.loc, diag::DeclaredHere);
@@ -163,13 +163,13 @@ void checkMethod(Context& context, PouId object, PouId id) {
 //   passes  PROPERTY_GET PUBLIC Speed : INT … PROPERTY_SET PUBLIC Speed : INT …
 //   fails   PROPERTY_GET Speed : INT … PROPERTY_SET Speed : REAL …                                           E0555
 void checkHalves(Context& context, const Property& property) {
-  const Pou& getter = context.project.pou(property.get);
-  const Pou& setter = context.project.pou(property.set);
+  const Pou& getter = context.symbols.pou(property.get);
+  const Pou& setter = context.symbols.pou(property.set);
   const auto report = [&](const std::string& set, const std::string& get) {
     context.report(diag::PropertyHalves, setter.loc, {text(context, property.name), set, get})
         .note(getter.loc, diag::DeclaredHere);
   };
-  const TypeId read = getter.result, written = context.project.var(pinsOf(context, property.set)[0]).type;
+  const TypeId read = getter.result, written = context.symbols.var(pinsOf(context, property.set)[0]).type;
   if (read == types::kError || written == types::kError) return;
   if (!sameType(context, read, written)) {
     report("`" + context.types().spell(written) + "`", "`" + context.types().spell(read) + "`");
@@ -191,9 +191,9 @@ void checkHalves(Context& context, const Property& property) {
 void checkHalves(Context& context, PouId object) {
   size_t index = 0;
   for (const DeclId member :
-       context.tree().list(context.tree().as<PouDecl>(context.project.pou(object).decl).members)) {
+       context.tree().list(context.tree().as<PouDecl>(context.symbols.pou(object).decl).members)) {
     if (context.tree().kind(member) != DeclKind::Property) continue;
-    const Property& property = context.project.properties[context.project.pou(object).properties[index++]];
+    const Property& property = context.symbols.properties[context.symbols.pou(object).properties[index++]];
     if (context.tree().as<PropertyDecl>(member).h.bits == kInHalves && property.get && property.set)
       checkHalves(context, property);
   }
@@ -202,7 +202,7 @@ void checkHalves(Context& context, PouId object) {
 }  // namespace
 
 void checkObjectMembers(Context& context, PouId object) {
-  const Pou& pou = context.project.pou(object);
+  const Pou& pou = context.symbols.pou(object);
   checkHalves(context, object);
   if (pou.kind == PouKind::Interface) return checkPrototypes(context, object);
   const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
@@ -215,17 +215,17 @@ void checkObjectMembers(Context& context, PouId object) {
   }
   if (!pou.base) return;
   const Loc base_loc = context.tree().loc(context.tree().list(decl.bases)[0]);
-  for (PouId at = pou.base; at; at = context.project.pou(at).base) {
+  for (PouId at = pou.base; at; at = context.symbols.pou(at).base) {
     Demands demands{context, object, base_loc, {}};
-    for (const PouId method : context.project.pou(at).members)
-      if ((context.project.pou(method).modifiers & kAbstract) != 0 && inherited(context, object, method) == method)
+    for (const PouId method : context.symbols.pou(at).members)
+      if ((context.symbols.pou(method).modifiers & kAbstract) != 0 && inherited(context, object, method) == method)
         demands.demand(method);
   }
   for (const VarId id : pou.vars) {
-    const Var& var = context.project.var(id);
+    const Var& var = context.symbols.var(id);
     if (!var.decl || !var.name || var.of_chart) continue;  // of two charts, each has its own
     const Entity first = findInObject(context, pou.base, var.name);
-    if (first.what() == EntityKind::Var) reportTwice(context, var.name, var.loc, context.project.vars[first.index].loc);
+    if (first.what() == EntityKind::Var) reportTwice(context, var.name, var.loc, context.symbols.vars[first.index].loc);
   }
 }
 
@@ -233,8 +233,8 @@ void checkObjectMembers(Context& context, PouId object) {
 bool checkNotAbstract(Context& context, TypeId type, Loc loc) {
   while (context.types().kind(type) == TypeKind::Array) type = context.types().info(context.types().resolve(type)).base;
   const PouId pou = context.types().kind(type) == TypeKind::Record ? pouOf(context, type) : PouId{};
-  if (!pou || (context.project.pou(pou).modifiers & kAbstract) == 0) return true;
-  context.report(diag::AbstractInstance, loc, {text(context, context.project.pou(pou).name)});
+  if (!pou || (context.symbols.pou(pou).modifiers & kAbstract) == 0) return true;
+  context.report(diag::AbstractInstance, loc, {text(context, context.symbols.pou(pou).name)});
   return false;
 }
 

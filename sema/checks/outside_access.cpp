@@ -12,7 +12,7 @@ namespace rung::sema {
 
 bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, TypeId record, Access access) {
   if (access == Access::Address) return true;
-  const Var& var = context.project.var(member);
+  const Var& var = context.symbols.var(member);
   const PouId object = objectOf(context);
   if (object &&
       (var.pou == object || isKindOf(context, object, var.pou)))  // THIS^.x, another instance of the same block
@@ -36,7 +36,7 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
     case SectionKind::InOut: return writes ? refuse(diag::InOutWrittenOutside) : true;
     case SectionKind::Local:
     case SectionKind::Inst:
-      if (!context.iec() && access != Access::Write && !context.project.pou(var.pou).library) return true;
+      if (!context.iec() && access != Access::Write && !context.symbols.pou(var.pou).library) return true;
       [[fallthrough]];
     case SectionKind::Temp:
     case SectionKind::External:

@@ -23,11 +23,11 @@ struct Span {
 }  // namespace
 
 void checkOverlappingAddresses(Context& context) {
-  const Project& project = context.project;
+  const Symbols& symbols = context.symbols;
   const types::TypeTable& table = context.types();
   std::vector<Span> spans;
-  for (uint32_t i = 1; i < project.vars.size(); ++i) {
-    const Var& var = project.vars[i];
+  for (uint32_t i = 1; i < symbols.vars.size(); ++i) {
+    const Var& var = symbols.vars[i];
     if (var.storage != Storage::Image || var.external || !var.type || var.type == types::kError) continue;
     if (!var.written && !var.init) continue;
     const ImageView& view = var.image;
@@ -42,8 +42,8 @@ void checkOverlappingAddresses(Context& context) {
     const Span& one = spans[last];
     const Span& other = spans[i];
     const bool overlaps = one.area == other.area && other.begin < one.end;
-    const Var& first = project.var(one.var);
-    const Var& second = project.var(other.var);
+    const Var& first = symbols.var(one.var);
+    const Var& second = symbols.var(other.var);
     const bool same =
         one.begin == other.begin && one.end == other.end && table.resolve(first.type) == table.resolve(second.type);
     if (overlaps && !same) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "sema/checks/diagnostics.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 
@@ -14,7 +15,7 @@ void checkRecursion(Context& context) {
   std::vector<Project::CallEdge>& edges = context.project.call_edges;
   std::stable_sort(edges.begin(), edges.end(),
                    [](const auto& a, const auto& b) { return a.caller.index < b.caller.index; });
-  const size_t count = context.project.pous.size();
+  const size_t count = context.symbols.pous.size();
   std::vector<uint32_t> first(count + 1, 0);
   for (const auto& edge : edges) ++first[edge.caller.index + 1];
   for (size_t i = 0; i < count; ++i) first[i + 1] += first[i];
@@ -42,9 +43,9 @@ void checkRecursion(Context& context) {
         for (size_t i = 0; i < path.size(); ++i) {
           if (cycle.empty() && path[i].first != callee) continue;
           if (!cycle.empty()) cycle += " calls ";
-          cycle.append("`").append(text(context, context.project.pous[path[i].first].name)).append("`");
+          cycle.append("`").append(text(context, context.symbols.pous[path[i].first].name)).append("`");
         }
-        cycle.append(" calls `").append(text(context, context.project.pous[callee].name)).append("`");
+        cycle.append(" calls `").append(text(context, context.symbols.pous[callee].name)).append("`");
         context.report(context.iec() ? diag::Recursion : diag::RecursionAllowed, edge.loc, {cycle});
       }
     }

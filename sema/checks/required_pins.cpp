@@ -13,14 +13,14 @@
 namespace rung::sema {
 
 bool checkRequiredPins(Context& context, const CallExpr& node, PouId id, const Arguments& arguments) {
-  const Pou& pou = context.project.pou(id);
+  const Pou& pou = context.symbols.pou(id);
   const std::span<const VarId> pins = pinsOf(context, id);
   const uint32_t named = node.arguments.count - arguments.positional;
   const bool by_position = (pou.kind == PouKind::Function || pou.kind == PouKind::Method) && named == 0;
   bool good = true;
   for (size_t i = 0; i < pins.size(); ++i) {
     const bool given = i < arguments.slots.size() && arguments.slots[i] != 0;
-    const Var& pin = context.project.var(pins[i]);
+    const Var& pin = context.symbols.var(pins[i]);
     const bool must = pin.section == SectionKind::InOut || pin.required ||
                       (pin.section == SectionKind::Input && context.types().isOpenArray(pin.type));
     if (given) {

@@ -10,8 +10,8 @@
 namespace rung::sema {
 
 void checkResultAssigned(Context& context) {
-  const Pou& pou = context.project.pou(context.pou);
-  if (pou.library || !pou.result_var || context.project.var(pou.result_var).written) return;
+  const Pou& pou = context.symbols.pou(context.pou);
+  if (pou.library || !pou.result_var || context.symbols.var(pou.result_var).written) return;
   if (pou.owner && isLifeMethod(context, pou.name)) return;  // nobody looks at theirs
   context.report(diag::ResultNotAssigned, pou.loc, {text(context, pou.name)});
 }

@@ -7,6 +7,7 @@
 
 #include "sema/checks/diagnostics.h"
 #include "sema/checks/uncopied.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 

@@ -10,9 +10,9 @@
 namespace rung::sema {
 
 void checkTestOnly(Context& context, PouId used, Loc loc) {
-  const Pou& pou = context.project.pou(used);
+  const Pou& pou = context.symbols.pou(used);
   if (!pou.test_only || context.library) return;
-  const Pou& user = context.project.pou(context.pou);
+  const Pou& user = context.symbols.pou(context.pou);
   if (user.test || user.test_only || user.replaces) return;
   context.report(diag::TestOnly, loc, {context.names().text(pou.name)});
 }

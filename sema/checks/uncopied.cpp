@@ -16,7 +16,7 @@ PouId uncopiedIn(Context& context, TypeId type) {
   const types::TypeInfo& info = context.types().info(type);
   if (info.kind == TypeKind::Array) return uncopiedIn(context, info.base);
   if (info.kind != TypeKind::Record || info.record_kind == types::RecordKind::Interface) return {};
-  if (const PouId pou = pouOf(context, type); pou && context.project.pou(pou).no_copy) return pou;
+  if (const PouId pou = pouOf(context, type); pou && context.symbols.pou(pou).no_copy) return pou;
   for (const types::Field& field : info.fields) {
     if (field.by_reference || !field.type) continue;
     if (const PouId found = uncopiedIn(context, field.type)) return found;
@@ -29,7 +29,7 @@ bool checkCopied(Context& context, ExprId expr, TypeId type) {
   if (kind != TypeKind::Record && kind != TypeKind::Array) return true;
   const PouId held = uncopiedIn(context, type);
   if (!held) return true;
-  context.report(diag::Uncopied, context.tree().loc(expr), {text(context, context.project.pou(held).name)});
+  context.report(diag::Uncopied, context.tree().loc(expr), {text(context, context.symbols.pou(held).name)});
   return false;
 }
 
@@ -45,7 +45,7 @@ bool checkKept(Context& context, const Var& var, Loc loc) {
   if (where == nullptr || var.section == SectionKind::External) return true;
   const PouId held = uncopiedIn(context, var.type);
   if (!held) return true;
-  context.report(diag::NotKept, loc, {text(context, context.project.pou(held).name), where});
+  context.report(diag::NotKept, loc, {text(context, context.symbols.pou(held).name), where});
   return false;
 }
 

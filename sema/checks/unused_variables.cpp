@@ -22,14 +22,14 @@ bool isMadeByMethod(Context& context, TypeId type) {
 }  // namespace
 
 void checkUnusedVariables(Context& context) {
-  if (context.project.diagnostics.hasErrors()) return;
-  for (uint32_t i = 1; i < context.project.pous.size(); ++i) {
-    const Pou& pou = context.project.pous[i];
+  if (context.symbols.diagnostics.hasErrors()) return;
+  for (uint32_t i = 1; i < context.symbols.pous.size(); ++i) {
+    const Pou& pou = context.symbols.pous[i];
     if (pou.library || pou.native || !pou.checked || !pou.decl) continue;
     const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
     if (decl.body_kind != BodyKind::St || decl.body.empty()) continue;
     for (const VarId id : pou.vars) {
-      const Var& var = context.project.var(id);
+      const Var& var = context.symbols.var(id);
       if (!var.name || var.temporary != 0 || var.storage == Storage::Image || var.open_address || var.constant ||
           var.of_chart)
         continue;

@@ -14,9 +14,9 @@ namespace rung::sema {
 namespace {
 
 bool checkVariable(Context& context, VarId id, Loc loc) {
-  const Var& var = context.project.var(id);
+  const Var& var = context.symbols.var(id);
   const std::string_view name = text(context, var.name);
-  if (var.constant || (var.external && context.project.var(var.external).constant)) {
+  if (var.constant || (var.external && context.symbols.var(var.external).constant)) {
     context.report(diag::AssignToConstant, loc, {name}).note(var.loc, diag::DeclaredHere);
     return false;
   }
@@ -42,10 +42,10 @@ bool checkVariable(Context& context, VarId id, Loc loc) {
 // IEC 61131-3 ed. 3, 6.7.2; TM/TP manual 5.5.2.5.
 //   fails   INITIAL_STEP a: END_STEP …  ACTION b: a.x := TRUE; END_ACTION        E0746
 bool checkOfChart(Context& context, VarId id, Loc loc, std::string_view member) {
-  const Var& var = context.project.var(id);
+  const Var& var = context.symbols.var(id);
   if (!var.of_chart || !var.type || context.types().kind(var.type) != types::TypeKind::Record) return true;
-  const PouDecl& own = context.tree().as<PouDecl>(context.project.pou(context.pou).decl);
-  if (own.chart_body && context.project.sources.fileOf(loc) == own.chart_body) return true;
+  const PouDecl& own = context.tree().as<PouDecl>(context.symbols.pou(context.pou).decl);
+  if (own.chart_body && context.symbols.sources.fileOf(loc) == own.chart_body) return true;
   std::string what(text(context, var.name));
   if (!member.empty()) what += "." + std::string(member);
   context.report(diag::StepWritten, loc, {what});
@@ -83,9 +83,9 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
             !checkOfChart(context, VarId{of.index}, node.h.loc, text(context, node.member)))
           return false;
         if (isWhole(context, node)) return checkVariable(context, var, node.h.loc);
-        if (context.project.var(var).constant) {
+        if (context.symbols.var(var).constant) {
           context.report(diag::AssignToConstant, node.h.loc, {text(context, node.member)})
-              .note(context.project.var(var).loc, diag::DeclaredHere);
+              .note(context.symbols.var(var).loc, diag::DeclaredHere);
           return false;
         }
         const types::TypeInfo& info = context.types().info(context.types().resolve(tree.expr(node.base).type));

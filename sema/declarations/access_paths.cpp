@@ -4,6 +4,7 @@
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 

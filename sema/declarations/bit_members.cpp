@@ -21,8 +21,8 @@ bool isBit(Context& context, TypeExprId written) {
 // Forbids BIT outside of structures and blocks, where nothing stands beside it that it could share a byte with.
 //   passes  TYPE t : STRUCT ready : BIT; END_STRUCT END_TYPE       fails  FUNCTION f VAR b : BIT; END_VAR      E0380
 bool mayBeBit(Context& context, const Var& var, TypeExprId written) {
-  const bool block = var.pou && (context.project.pou(var.pou).kind == PouKind::FunctionBlock ||
-                                 context.project.pou(var.pou).kind == PouKind::Class);
+  const bool block = var.pou && (context.symbols.pou(var.pou).kind == PouKind::FunctionBlock ||
+                                 context.symbols.pou(var.pou).kind == PouKind::Class);
   const bool plain =
       var.section == SectionKind::Local || var.section == SectionKind::Input || var.section == SectionKind::Output;
   if (var.storage == Storage::Field && plain && (block || var.record)) return true;
@@ -31,18 +31,18 @@ bool mayBeBit(Context& context, const Var& var, TypeExprId written) {
 }
 
 void addBitAt(Context& context, TypeId record, VarId id, VarId byte, uint8_t bit) {
-  Var& var = context.project.var(id);
+  Var& var = context.symbols.var(id);
   var.bits_of = byte;
   var.bit = bit;
-  var.field = context.project.var(byte).field;
+  var.field = context.symbols.var(byte).field;
   var.is_bit = true;
   context.scopes.named(record)->bits.push_back(id);
   context.types().edit(record).bits.push_back({var.name, var.field, var.bit});
 }
 
 VarId addByteOfBits(Context& context, TypeId record, VarId first) {
-  Project& project = context.project;
-  const Var var = project.var(first);
+  Symbols& symbols = context.symbols;
+  const Var var = symbols.var(first);
   Var byte;
   byte.name = context.names().intern("__bits_" + spelled(context, var.name));
   byte.loc = var.loc;
@@ -54,22 +54,22 @@ VarId addByteOfBits(Context& context, TypeId record, VarId first) {
   byte.record = var.record;
   byte.read = byte.written = true;
   byte.holds_bits = true;
-  const VarId made{static_cast<uint32_t>(project.vars.size())};
-  project.vars.push_back(byte);
-  if (var.pou) project.pou(var.pou).vars.push_back(made);
+  const VarId made{static_cast<uint32_t>(symbols.vars.size())};
+  symbols.vars.push_back(byte);
+  if (var.pou) symbols.pou(var.pou).vars.push_back(made);
   addField(context, record, made);
   return made;
 }
 
 void addBit(Context& context, TypeId record, VarId id) {
-  Project& project = context.project;
+  Symbols& symbols = context.symbols;
   NamedType& named = *context.scopes.named(record);
-  Var& var = project.var(id);
+  Var& var = symbols.var(id);
   const bool is_union = context.types().info(record).record_kind == types::RecordKind::Union;
   const VarId last = named.bits.empty() || is_union ? VarId{} : named.bits.back();
-  if (last && project.var(last).bit < 7 && project.var(last).bits_of == named.fields.back() &&
-      project.var(last).retain == var.retain && project.var(last).persistent == var.persistent) {
-    return addBitAt(context, record, id, project.var(last).bits_of, static_cast<uint8_t>(project.var(last).bit + 1));
+  if (last && symbols.var(last).bit < 7 && symbols.var(last).bits_of == named.fields.back() &&
+      symbols.var(last).retain == var.retain && symbols.var(last).persistent == var.persistent) {
+    return addBitAt(context, record, id, symbols.var(last).bits_of, static_cast<uint8_t>(symbols.var(last).bit + 1));
   }
   addBitAt(context, record, id, addByteOfBits(context, record, id), 0);
 }
@@ -80,12 +80,12 @@ uint8_t initialBits(Context& context, TypeId record, VarId byte) {
   const NamedType& named = *context.scopes.named(context.types().resolve(record));
   for (size_t i = 0; i < named.bits.size(); ++i) {
     const VarId id = named.bits[i];
-    if (context.project.var(id).bits_of != byte) continue;
+    if (context.symbols.var(id).bits_of != byte) continue;
     ensureInitialValue(context, id);
-    const ExprId init = context.project.var(id).init;
+    const ExprId init = context.symbols.var(id).init;
     if (!init) continue;
     const auto bit = requireConstant(context, init, types::kBool);
-    if (bit && bit->bits != 0) value = static_cast<uint8_t>(value | 1u << context.project.var(id).bit);
+    if (bit && bit->bits != 0) value = static_cast<uint8_t>(value | 1u << context.symbols.var(id).bit);
   }
   return value;
 }

@@ -3,10 +3,12 @@
 #include <string>
 
 #include "frontend/syntax/diagnostics.h"
+#include "sema/charts.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/declarations/overloads.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 
@@ -228,7 +230,7 @@ std::string listOfSection(Context& context, const SectionDecl& section, FileId f
     scopes.open_list = context.tree().text(pragma->value);
   }
   const bool is_named = scopes.open_list_file == file && !scopes.open_list.empty();
-  return is_named ? scopes.open_list : listNameOf(context.project.sources.path(file));
+  return is_named ? scopes.open_list : listNameOf(context.symbols.sources.path(file));
 }
 
 }  // namespace
@@ -319,7 +321,7 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
       const SectionKind section = context.tree().as<SectionDecl>(decl).section;
       if (section == SectionKind::Config) return;  // instance_places.cpp
       if (section == SectionKind::Access) return;  // access_paths.cpp
-      const std::string stem = listNameOf(context.project.sources.path(file));
+      const std::string stem = listNameOf(context.symbols.sources.path(file));
       if (Namespace* const space = namespaceAround(context); space != nullptr) {  // one list for all of its sections
         const ListId list = listNamed(context, spelled(context, space->name), file, loc, context.scopes.qualifiers);
         return addGlobals(context, list, decl, space->globals);
@@ -331,10 +333,10 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
       }
       Namespace& from = context.scopes.libraries.list[library];
       std::string name = spelled(context, from.name) + "_" + stem;
-      if (context.project.global_lists.size() > 1)
-        name += "_" + std::to_string(loc.offset - context.project.sources.begin(file).offset);
+      if (context.symbols.global_lists.size() > 1)
+        name += "_" + std::to_string(loc.offset - context.symbols.sources.begin(file).offset);
       const ListId list = listNamed(context, name, file, loc, from.names);
-      context.scopes.named(context.project.global_lists[list.index].record)->library = true;
+      context.scopes.named(context.symbols.global_lists[list.index].record)->library = true;
       return addGlobals(context, list, decl, from.names);
     }
     case DeclKind::Configuration:  // collectConfigurations

@@ -4,6 +4,7 @@
 
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 
@@ -171,14 +172,14 @@ struct TaskReader {
     if (context.tree().kind(trigger) == ExprKind::Member) found = context.tree().as<MemberExpr>(trigger).entity;
     const bool is_bool = context.types().kind(type) == TypeKind::Bool;
     if (found.what() != EntityKind::Var || !is_bool ||
-        (context.project.vars[found.index].storage == Storage::Field &&
-         (!context.project.vars[found.index].pou ||
-          context.project.pou(context.project.vars[found.index].pou).kind != PouKind::Program))) {
+        (context.symbols.vars[found.index].storage == Storage::Field &&
+         (!context.symbols.vars[found.index].pou ||
+          context.symbols.pou(context.symbols.vars[found.index].pou).kind != PouKind::Program))) {
       context.report(diag::TaskTriggerType, context.tree().begin(trigger), {context.names().text(task.name)});
       return;
     }
     task.trigger = VarId{found.index};
-    context.project.var(task.trigger).read = true;
+    context.symbols.var(task.trigger).read = true;
   }
 
   void read(const TaskDecl& decl) {

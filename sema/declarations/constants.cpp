@@ -3,6 +3,7 @@
 
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 
@@ -30,8 +31,8 @@ uint64_t characterOf(std::string_view text, TypeKind kind) {
 
 }  // namespace
 
-Value valueOf(const Project& project, const LiteralExpr& literal) {
-  const TypeTable& table = project.types;
+Value valueOf(const Symbols& symbols, const LiteralExpr& literal) {
+  const TypeTable& table = symbols.types;
   const TypeId type = table.resolve(literal.h.type);
   const TypeKind kind = table.plainKind(type);
   const bool negative = (literal.h.bits & kLiteralNegative) != 0;
@@ -50,9 +51,9 @@ Value valueOf(const Project& project, const LiteralExpr& literal) {
     }
     case LiteralKind::String:
     case LiteralKind::WString: {
-      const std::string_view text = project.tree.text(literal.text());
+      const std::string_view text = symbols.tree.text(literal.text());
       if (TypeTable::isCharacter(kind)) return {type, characterOf(text, kind)};
-      return {type, project.names.intern(text).index};
+      return {type, symbols.names.intern(text).index};
     }
     case LiteralKind::Duration: return types::convert(table, {types::kLTime, literal.value()}, type).value;
     case LiteralKind::Date: return types::convert(table, {types::idOf(TypeKind::LDate), literal.value()}, type).value;
@@ -146,27 +147,27 @@ std::optional<Value> evaluateChoice(Context& context, const Call& call, TypeId t
 
 // A function that has no effect but its result, run in bounds. IEC 61131-3 has no such constants: an extension.
 std::optional<Value> callFunction(Context& context, PouId function, std::vector<Value> values) {
-  Project& project = context.project;
-  const Pou& pou = project.pou(function);
-  if (!project.options.call_constant || pou.generic) return std::nullopt;
+  Symbols& symbols = context.symbols;
+  const Pou& pou = symbols.pou(function);
+  if (!context.project.options.call_constant || pou.generic) return std::nullopt;
   for (size_t i = 0; i < values.size(); ++i) {
     Value& value = values[i];
     if (!isOperand(context.types(), value.type)) return std::nullopt;
     if (!isUntypedLiteral(context.types().kind(value.type))) continue;
     if (i >= pou.pins.size()) return std::nullopt;
-    value = types::convert(context.types(), value, project.var(pou.pins[i]).type).value;
+    value = types::convert(context.types(), value, symbols.var(pou.pins[i]).type).value;
   }
-  return project.options.call_constant(project, function, values,
-                                       [&](PouId callee) { return ensureBody(context, callee); });
+  return context.project.options.call_constant(context.project, function, values,
+                                               [&](PouId callee) { return ensureBody(context, callee); });
 }
 
 std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32_t depth) {
   if (!node.call) return std::nullopt;
-  const Project& project = context.project;
-  const Call& call = project.call(node.call);
+  const Symbols& symbols = context.symbols;
+  const Call& call = symbols.call(node.call);
   if (!call.pou || call.en || call.eno) return std::nullopt;
   if (call.kind != CallKind::Operator && call.kind != CallKind::Function) return std::nullopt;
-  const Pou& pou = project.pou(call.pou);
+  const Pou& pou = symbols.pou(call.pou);
   if (pou.operator_kind == Pou::Operator::Select || pou.operator_kind == Pou::Operator::Mux) {
     return evaluateChoice(context, call, node.h.type, pou.operator_kind == Pou::Operator::Select, depth);
   }
@@ -220,7 +221,7 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
   const ExprHeader& header = tree.expr(id);
   if (!header.type || header.type == types::kError || depth > kMaxDepth) return std::nullopt;
   switch (header.kind) {
-    case ExprKind::Literal: return valueOf(context.project, tree.as<LiteralExpr>(id));
+    case ExprKind::Literal: return valueOf(context.symbols, tree.as<LiteralExpr>(id));
     case ExprKind::Name:
     case ExprKind::TypedName:
     case ExprKind::Member: {
@@ -228,11 +229,11 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
                            : header.kind == ExprKind::TypedName ? tree.as<TypedNameExpr>(id).entity
                                                                 : tree.as<MemberExpr>(id).entity;
       if (found.what() == EntityKind::EnumValue) {
-        const EnumValue& item = context.project.enum_values[found.index];
+        const EnumValue& item = context.symbols.enum_values[found.index];
         return Value{item.type, static_cast<uint64_t>(item.value)};
       }
       if (found.what() != EntityKind::Var) return std::nullopt;
-      const Var& var = context.project.vars[found.index];
+      const Var& var = context.symbols.vars[found.index];
       if (!var.constant || !var.has_value) return std::nullopt;
       return var.value;
     }
@@ -317,10 +318,10 @@ std::optional<Value> evaluate(Context& context, ExprId expr) { return evaluateAt
 
 std::optional<Value> requireConstant(Context& context, ExprId expr, TypeId type) {
   if (context.tree().expr(expr).type == types::kError) return std::nullopt;
-  const uint32_t errors = context.project.diagnostics.errorCount();
+  const uint32_t errors = context.symbols.diagnostics.errorCount();
   const auto value = evaluate(context, expr);
   if (!value) {
-    if (context.project.diagnostics.errorCount() == errors) {
+    if (context.symbols.diagnostics.errorCount() == errors) {
       context.report(diag::ConstantNeeded, context.tree().begin(expr));
     }
     return std::nullopt;

@@ -14,7 +14,8 @@ inline constexpr uint32_t kMaxBases = 500;       // bases of bases
 
 // The same project seen from another place.
 inline Context at(Context& context, PouId pou, FileId file, bool library, RegionId region = {}) {
-  return Context{.project = context.project,
+  return Context{.symbols = context.symbols,
+                 .project = context.project,
                  .scopes = context.scopes,
                  .pou = pou,
                  .file = file,
@@ -22,7 +23,7 @@ inline Context at(Context& context, PouId pou, FileId file, bool library, Region
                  .region = region};
 }
 inline Context atPou(Context& context, PouId pou) {
-  return at(context, pou, context.project.pou(pou).file, context.project.pou(pou).library,
+  return at(context, pou, context.symbols.pou(pou).file, context.symbols.pou(pou).library,
             context.scopes.pous[pou.index].region);
 }
 inline Entity entity(VarId id) { return Entity::of(EntityKind::Var, id.index); }

@@ -1,5 +1,7 @@
 // Instances of generic library functions: the text of the function is parsed again for each tuple of types, so that
 // its body is checked and lowered like any other.
+#include "frontend/source/dialect.h"
+#include "frontend/text/parse.h"
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {
@@ -24,10 +26,10 @@ std::string identifierOf(const types::TypeTable& table, TypeId type) {
 }  // namespace
 
 PouId instantiate(Context& context, PouId generic_id, std::span<const TypeId> types_by_pin, TypeId result) {
-  Project& project = context.project;
+  Symbols& symbols = context.symbols;
   Scopes& scopes = context.scopes;
   resolvePou(context, generic_id);
-  const Pou& generic = project.pou(generic_id);
+  const Pou& generic = symbols.pou(generic_id);
   if (!generic.generic) return generic_id;
 
   std::vector<Substitution> substitutions;
@@ -41,7 +43,7 @@ PouId instantiate(Context& context, PouId generic_id, std::span<const TypeId> ty
   };
   size_t pin = 0;
   for (const VarId id : generic.vars) {
-    const Var& var = project.var(id);
+    const Var& var = symbols.var(id);
     if (var.section != SectionKind::Input && var.section != SectionKind::InOut && var.section != SectionKind::Output) {
       continue;
     }
@@ -60,12 +62,12 @@ PouId instantiate(Context& context, PouId generic_id, std::span<const TypeId> ty
   if (const Entity known = scopes.instances.find(key)) return PouId{known.index};
 
   const PouDecl& written = context.tree().as<PouDecl>(generic.decl);
-  const Slice<DeclId> decls = text::parseDeclarations(
-      project.tree, project.names, project.sources, written.begin, written.end,
-      generic.library ? text::Standard::Codesys : project.options.standard, project.diagnostics);
+  const Slice<DeclId> decls =
+      text::parseDeclarations(symbols.tree, symbols.names, symbols.sources, written.begin, written.end,
+                              generic.library ? Dialect::Codesys : symbols.dialect, symbols.diagnostics);
   for (uint32_t i = 0; i < decls.count; ++i) {
-    const DeclId decl = project.tree.list(decls)[i];
-    if (project.tree.kind(decl) != DeclKind::Pou) continue;
+    const DeclId decl = symbols.tree.list(decls)[i];
+    if (symbols.tree.kind(decl) != DeclKind::Pou) continue;
     Pou pou = generic;
     pou.decl = decl;
     pou.vars.clear();
@@ -77,8 +79,8 @@ PouId instantiate(Context& context, PouId generic_id, std::span<const TypeId> ty
     pou.used = true;
     pou.generic_of = generic_id;
     pou.unique_name = unique_name;
-    const PouId id{static_cast<uint32_t>(project.pous.size())};
-    project.pous.push_back(std::move(pou));
+    const PouId id{static_cast<uint32_t>(symbols.pous.size())};
+    symbols.pous.push_back(std::move(pou));
     scopes.pous.emplace_back();
     scopes.pous.back().substitutions = std::move(substitutions);
     scopes.instances.insert(key, entity(id));

@@ -8,6 +8,7 @@
 
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 
@@ -19,7 +20,7 @@ struct InitialOrder {
   std::unordered_map<uint32_t, std::vector<VarId>> record_reads;  // by TypeId: globals that its fields' values read
 
   const Tree& tree() const { return context.tree(); }
-  Var& var(VarId id) const { return context.project.var(id); }
+  Var& var(VarId id) const { return context.symbols.var(id); }
 
   void addVar(Entity entity, std::vector<VarId>& into) const {
     if (entity.what() != EntityKind::Var) return;
@@ -31,7 +32,7 @@ struct InitialOrder {
 
   void collectCall(CallId id, std::vector<VarId>& into) const {
     if (id.index == 0) return;
-    for (const Binding& binding : context.project.call(id).bindings)
+    for (const Binding& binding : context.symbols.call(id).bindings)
       if (binding.value) collect(binding.value, into);
   }
 
@@ -88,7 +89,7 @@ struct InitialOrder {
     std::erase_if(all, [&](VarId read) { return !var(read).list && var(read).pou != var(id).pou; });
     if (all.empty()) return;
     if (!var(id).list && var(id).pou) {
-      std::vector<VarId>& of_record = record_reads[context.project.pou(var(id).pou).record.index];
+      std::vector<VarId>& of_record = record_reads[context.symbols.pou(var(id).pou).record.index];
       for (const VarId read : all)
         if (var(read).list) of_record.push_back(read);
     }
@@ -110,8 +111,8 @@ struct InitialOrder {
       if (const TypeId record = var(id).section == SectionKind::InOut ? TypeId{} : recordIn(var(id).type))
         holders[record.index].push_back(id);
     };
-    for (uint32_t i = 1; i < context.project.vars.size(); ++i)
-      if (context.project.vars[i].type && !context.project.vars[i].external) note(VarId{i});
+    for (uint32_t i = 1; i < context.symbols.vars.size(); ++i)
+      if (context.symbols.vars[i].type && !context.symbols.vars[i].external) note(VarId{i});
     std::vector<uint32_t> changed;
     for (const auto& [record, list] : record_reads) changed.push_back(record);
     std::sort(changed.begin(), changed.end());
@@ -121,7 +122,7 @@ struct InitialOrder {
       const std::vector<VarId> what = record_reads[record];
       for (const VarId holder : holders[record]) {
         const TypeId around =
-            var(holder).pou && !var(holder).list ? context.project.pou(var(holder).pou).record : var(holder).record;
+            var(holder).pou && !var(holder).list ? context.symbols.pou(var(holder).pou).record : var(holder).record;
         std::vector<VarId>& into = var(holder).list ? reads[holder.index] : record_reads[around.index];
         const size_t before = into.size();
         for (const VarId read : what)

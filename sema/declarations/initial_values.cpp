@@ -58,7 +58,7 @@ struct Initializer {
     if (kind == ExprKind::Name || kind == ExprKind::Member) {
       const Entity entity = kind == ExprKind::Name ? tree().as<NameExpr>(id).entity : tree().as<MemberExpr>(id).entity;
       if (entity.what() != EntityKind::Var) return false;
-      const Storage storage = context.project.vars[entity.index].storage;
+      const Storage storage = context.symbols.vars[entity.index].storage;
       if (storage == Storage::Global || storage == Storage::Image) return true;
       if (storage != Storage::Field) return false;
       return kind == ExprKind::Name || isReadable(tree().as<MemberExpr>(id).base, depth + 1);
@@ -89,7 +89,7 @@ struct Initializer {
       case ExprKind::Call: {
         const CallExpr& node = tree().as<CallExpr>(id);
         if (!node.call) return true;
-        const Call& call = context.project.call(node.call);
+        const Call& call = context.symbols.call(node.call);
         if (call.kind != CallKind::Function && call.kind != CallKind::Operator) return false;
         for (const Binding& binding : call.bindings) {
           if (binding.is_output || (binding.value && !isStatic(binding.value, depth + 1))) return false;
@@ -140,8 +140,8 @@ struct Initializer {
       return;
     }
     if (may == InitialReads::Call) return;
-    const uint32_t errors = context.project.diagnostics.errorCount();
-    if (isStatic(init, 0) || context.project.diagnostics.errorCount() != errors) {
+    const uint32_t errors = context.symbols.diagnostics.errorCount();
+    if (isStatic(init, 0) || context.symbols.diagnostics.errorCount() != errors) {
       if (tree().kind(init) == ExprKind::Binary || tree().kind(init) == ExprKind::Unary) evaluate(context, init);
       return;
     }
@@ -154,8 +154,8 @@ struct Initializer {
     const CallExpr& call = tree().as<CallExpr>(id);
     if (tree().kind(call.callee) != ExprKind::Name) return id;
     const Entity found = lookUp(context, tree().as<NameExpr>(call.callee).name);
-    if (found.what() != EntityKind::Var || !context.project.vars[found.index].constant) return id;
-    if (!TypeTable::isInteger(context.types().plainKind(context.project.vars[found.index].type))) return id;
+    if (found.what() != EntityKind::Var || !context.symbols.vars[found.index].constant) return id;
+    if (!TypeTable::isInteger(context.types().plainKind(context.symbols.vars[found.index].type))) return id;
     std::vector<ExprId> values;
     for (uint32_t i = 0; i < call.arguments.count; ++i) {
       const Argument& argument = tree().list(call.arguments)[i];
@@ -233,10 +233,10 @@ struct Initializer {
                                                      : Entity{};
     if (entity.what() != EntityKind::Var) return true;
     const VarId other{entity.index};
-    const Var& var = context.project.var(other);
+    const Var& var = context.symbols.var(other);
     if (var.storage != Storage::Global && var.storage != Storage::Field) return true;
     ensureInitialValue(context, other);
-    if (!var.record || var.list) init = context.project.var(other).init;
+    if (!var.record || var.list) init = context.symbols.var(other).init;
     return true;
   }
 
@@ -297,7 +297,7 @@ struct Initializer {
             .didYouMean(nearestMember(type, given.field.name));
         continue;
       }
-      const Var& var = context.project.var(member);
+      const Var& var = context.symbols.var(member);
       if (!seen.insert(keyOf(context, var.name), entity(member))) {
         context.report(diag::MemberSetTwice, given.field.loc, {name});
         continue;
@@ -324,7 +324,7 @@ struct Initializer {
     for (const auto& [byte, bits] : bytes) {
       const Loc loc = node.h.loc;
       fields.push_back(
-          {{context.project.var(byte).name, loc}, makeLiteral(context, LiteralKind::Integer, types::kByte, bits, loc)});
+          {{context.symbols.var(byte).name, loc}, makeLiteral(context, LiteralKind::Integer, types::kByte, bits, loc)});
     }
     node.fields = tree().addList<FieldInit>(fields);
   }
@@ -333,11 +333,11 @@ struct Initializer {
   void setBit(std::vector<std::pair<VarId, uint8_t>>& bytes, TypeId type, VarId member, ExprId given) const {
     const auto bit = requireConstant(context, given, types::kBool);
     if (!bit) return;
-    const Var& var = context.project.var(member);
+    const Var& var = context.symbols.var(member);
     if (bytes.empty() || bytes.back().first != var.bits_of) {
       auto at = std::find_if(bytes.begin(), bytes.end(), [&](const auto& byte) { return byte.first == var.bits_of; });
       if (at == bytes.end()) {
-        const TypeId holder = var.record ? type : context.project.pou(var.pou).record;
+        const TypeId holder = var.record ? type : context.symbols.pou(var.pou).record;
         bytes.emplace_back(var.bits_of, initialBits(context, holder, var.bits_of));
       } else {
         std::rotate(at, at + 1, bytes.end());

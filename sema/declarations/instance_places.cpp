@@ -9,6 +9,7 @@
 #include "sema/bodies/bodies.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 
@@ -276,7 +277,7 @@ struct Resolver {
     if (decl.init) {
       checkInitializerAs(context, decl.init, type, "the initial value of `" + spelled(context, last.name) + "`");
       for (const PathStep& step : place.path) {  // what is configured has a value though no body writes it
-        if (step.var) context.project.var(step.var).written = true;
+        if (step.var) context.symbols.var(step.var).written = true;
       }
     }
     if (inField(var) || !var.open_address) {

@@ -2,7 +2,9 @@
 // nothing but the scan.
 #include "sema/declarations/libraries.h"
 
+#include "frontend/source/dialect.h"
 #include "sema/declarations/declarations.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 
@@ -154,9 +156,9 @@ void scanGlobals(Scanner& scan, std::vector<std::string_view>& names) {
 
 uint8_t standardsOf(std::string_view pragma) {
   uint8_t standards = 0;
-  if (pragma.find("iec2") != std::string_view::npos) standards |= 1u << static_cast<int>(text::Standard::Iec2);
-  if (pragma.find("iec3") != std::string_view::npos) standards |= 1u << static_cast<int>(text::Standard::Iec3);
-  if (pragma.find("codesys") != std::string_view::npos) standards |= 1u << static_cast<int>(text::Standard::Codesys);
+  if (pragma.find("iec2") != std::string_view::npos) standards |= 1u << static_cast<int>(Dialect::Iec2);
+  if (pragma.find("iec3") != std::string_view::npos) standards |= 1u << static_cast<int>(Dialect::Iec3);
+  if (pragma.find("codesys") != std::string_view::npos) standards |= 1u << static_cast<int>(Dialect::Codesys);
   return standards;
 }
 
@@ -216,7 +218,7 @@ std::vector<IndexedBlock> indexLibrary(std::string_view text) {
 void indexLibraries(Context& context) {
   Libraries& libraries = context.scopes.libraries;
   const auto files = context.project.options.libraries;
-  const auto standard = static_cast<unsigned>(context.project.options.standard);
+  const auto dialect = static_cast<unsigned>(context.symbols.dialect);
   libraries.library_of_file.resize(files.size());
   libraries.sources.resize(files.size());
   for (uint32_t f = 0; f < files.size(); ++f) {
@@ -230,9 +232,9 @@ void indexLibraries(Context& context) {
     }
     libraries.library_of_file[f] = space.index;
     for (const IndexedBlock& block : indexLibrary(files[f].text)) {
-      if ((block.standards >> standard & 1u) == 0) continue;
+      if ((block.standards >> dialect & 1u) == 0) continue;
       const auto number = static_cast<uint32_t>(libraries.blocks.size());
-      libraries.blocks.push_back({f, block.begin, block.end, false, (block.qualified >> standard & 1u) != 0});
+      libraries.blocks.push_back({f, block.begin, block.end, false, (block.qualified >> dialect & 1u) != 0});
       for (const std::string_view text : block.names) {
         const NameId spelling = context.names().intern(text);
         const NameId declared = keyOf(context, spelling);
@@ -261,19 +263,19 @@ namespace {
 void load(Context& context, LibraryBlock& block) {
   block.loaded = true;
   Libraries& libraries = context.scopes.libraries;
-  Project& project = context.project;
-  const LibraryFile& file = project.options.libraries[block.file];
+  Symbols& symbols = context.symbols;
+  const LibraryFile& file = context.project.options.libraries[block.file];
   FileId& source = libraries.sources[block.file];
-  if (!source) source = project.sources.add(file.path, std::string(file.text));
+  if (!source) source = symbols.sources.add(file.path, std::string(file.text));
   if (!source) return;
-  const uint32_t base = project.sources.begin(source).offset;
+  const uint32_t base = symbols.sources.begin(source).offset;
   const FileId from = source;
   const uint32_t library = libraries.library_of_file[block.file];
   const Slice<DeclId> decls =
-      text::parseDeclarations(project.tree, project.names, project.sources, Loc{base + block.begin},
-                              Loc{base + block.end}, text::Standard::Codesys, project.diagnostics);
+      text::parseDeclarations(symbols.tree, symbols.names, symbols.sources, Loc{base + block.begin},
+                              Loc{base + block.end}, Dialect::Codesys, symbols.diagnostics);
   Context there = at(context, {}, from, true);
-  for (uint32_t i = 0; i < decls.count; ++i) collectDecl(there, project.tree.list(decls)[i], from, library);
+  for (uint32_t i = 0; i < decls.count; ++i) collectDecl(there, symbols.tree.list(decls)[i], from, library);
 }
 
 }  // namespace

@@ -35,14 +35,14 @@ Entity ready(Context& context, Entity found) {
     case EntityKind::Var: {
       const VarId id{found.index};
       ensureVarType(context, id);
-      if (context.project.var(id).constant) ensureInitialValue(context, id);
+      if (context.symbols.var(id).constant) ensureInitialValue(context, id);
       break;
     }
-    case EntityKind::EnumValue: resolveNamed(context, context.project.enum_values[found.index].type); break;
+    case EntityKind::EnumValue: resolveNamed(context, context.symbols.enum_values[found.index].type); break;
     case EntityKind::Type: resolveNamed(context, TypeId{found.index}); break;
     case EntityKind::Pou: resolvePou(context, PouId{found.index}); break;
     case EntityKind::Property: {
-      const Property& property = context.project.properties[found.index];
+      const Property& property = context.symbols.properties[found.index];
       for (const PouId accessor : {property.get, property.set})
         if (accessor) resolvePou(context, accessor);
       break;
@@ -93,10 +93,10 @@ Entity findName(Context& context, NameId key, Loc loc) {
   }
   if (context.pou) {
     if (const Entity found = scopes.pous[context.pou.index].names.find(key)) return found;
-    const Pou& pou = context.project.pou(context.pou);
-    for (PouId chart = pou.chart; chart; chart = context.project.pou(chart).chart) {
+    const Pou& pou = context.symbols.pou(context.pou);
+    for (PouId chart = pou.chart; chart; chart = context.symbols.pou(chart).chart) {
       const Entity found = scopes.pous[chart.index].names.find(key);
-      const bool local = found.what() == EntityKind::Var && context.project.vars[found.index].pou == chart;
+      const bool local = found.what() == EntityKind::Var && context.symbols.vars[found.index].pou == chart;
       if (found && !local) return found;
     }
     if (const PouId object = objectOf(context); object && (pou.owner || pou.base)) {
@@ -123,7 +123,7 @@ Entity orMock(Context& context, NameId key, Entity found) {
       context.scopes.mocks[i].busy = true;
       Context there = atPou(context, mock);
       there.pou = {};
-      const Entity original = findDotted(there, context.project.pou(mock).replaces);
+      const Entity original = findDotted(there, context.symbols.pou(mock).replaces);
       context.scopes.mocks[i].busy = false;
       if (original.what() == EntityKind::Pou) context.scopes.mocks[i].original = PouId{original.index};
     }
@@ -196,11 +196,11 @@ VarId findMember(Context& context, TypeId record, NameId name) {
 
 VarId findPin(Context& context, PouId pou, NameId name) {
   resolvePou(context, pou);
-  for (; pou; pou = context.project.pou(pou).base) {
+  for (; pou; pou = context.symbols.pou(pou).base) {
     const Entity found = context.scopes.pous[pou.index].names.find(keyOf(context, name));
     if (found.what() != EntityKind::Var) continue;
     const VarId id{found.index};
-    if (context.project.var(id).pou != pou || id == context.project.pou(pou).result_var) continue;
+    if (context.symbols.var(id).pou != pou || id == context.symbols.pou(pou).result_var) continue;
     ensureVarType(context, id);
     return id;
   }
@@ -208,15 +208,15 @@ VarId findPin(Context& context, PouId pou, NameId name) {
 }
 
 bool isBroken(const Context& context, PouId id) {
-  const DeclId decl = id ? context.project.pou(id).decl : DeclId{};
+  const DeclId decl = id ? context.symbols.pou(id).decl : DeclId{};
   if (decl && (context.tree().decl(decl).bits & kBrokenDeclarations) != 0) return true;
-  return id && isBroken(context, context.project.pou(id).owner);
+  return id && isBroken(context, context.symbols.pou(id).owner);
 }
 
 namespace {
 
 bool firstTime(Context& context, uint32_t where, NameId name) {
-  if (context.project.diagnostics.full()) return true;  // only counted, and not worth the search
+  if (context.symbols.diagnostics.full()) return true;  // only counted, and not worth the search
   const uint64_t key = uint64_t{where} << 32 | keyOf(context, name).index;
   std::vector<uint64_t>& told = context.scopes.told;
   if (std::find(told.begin(), told.end(), key) != told.end()) return false;
@@ -238,7 +238,7 @@ bool sayUnknownMember(Context& context, TypeId record, NameId name) {
 }
 
 std::string_view nearestName(Context& context, NameId written) {
-  if (context.project.diagnostics.full()) return {};  // nobody would see it, and the search looks at every name
+  if (context.symbols.diagnostics.full()) return {};  // nobody would see it, and the search looks at every name
   if (const std::string_view elsewhere = nameElsewhere(context, keyOf(context, written)); !elsewhere.empty())
     return elsewhere;
   std::vector<std::string_view> candidates;
@@ -246,16 +246,16 @@ std::string_view nearestName(Context& context, NameId written) {
   const auto add = [&](NameId key, Entity) { candidates.push_back(names.text(key)); };
   const auto addDeclared = [&](NameId key, Entity found) {
     NameId spelling = key;
-    if (found.what() == EntityKind::Var) spelling = context.project.vars[found.index].name;
-    if (found.what() == EntityKind::Pou) spelling = context.project.pous[found.index].name;
-    if (found.what() == EntityKind::Property) spelling = context.project.properties[found.index].name;
-    if (found.what() == EntityKind::EnumValue) spelling = context.project.enum_values[found.index].name;
+    if (found.what() == EntityKind::Var) spelling = context.symbols.vars[found.index].name;
+    if (found.what() == EntityKind::Pou) spelling = context.symbols.pous[found.index].name;
+    if (found.what() == EntityKind::Property) spelling = context.symbols.properties[found.index].name;
+    if (found.what() == EntityKind::EnumValue) spelling = context.symbols.enum_values[found.index].name;
     if (found.what() == EntityKind::Type) spelling = context.types().info(TypeId{found.index}).name;
     candidates.push_back(names.text(spelling && names.same(spelling, key) ? spelling : key));
   };
   if (context.pou) context.scopes.pous[context.pou.index].names.forEach(addDeclared);
   const PouId object = objectOf(context);
-  for (PouId at = object; at; at = context.project.pou(at).base)
+  for (PouId at = object; at; at = context.symbols.pou(at).base)
     if (at != context.pou) context.scopes.pous[at.index].names.forEach(addDeclared);
   if (const Namespace* space = namespaceAround(context); space != nullptr) {
     space->names.forEach(addDeclared);

@@ -154,7 +154,7 @@ uint32_t spaceAround(Context& context, Entity found) {
 
 bool isInternal(Context& context, Entity found) {
   switch (found.what()) {
-    case EntityKind::Pou: return context.project.pous[found.index].access == AccessLevel::Internal;
+    case EntityKind::Pou: return context.symbols.pous[found.index].access == AccessLevel::Internal;
     case EntityKind::Type: {
       const NamedType* named = context.scopes.named(TypeId{found.index});
       return named != nullptr && named->internal;
@@ -315,7 +315,7 @@ bool isVisible(Context& context, Entity found) {
 bool checkVisible(Context& context, Entity found, Loc loc) {
   if (isVisible(context, found)) return true;
   NameId name;
-  if (found.what() == EntityKind::Pou) name = context.project.pous[found.index].name;
+  if (found.what() == EntityKind::Pou) name = context.symbols.pous[found.index].name;
   if (found.what() == EntityKind::Type) name = context.types().info(TypeId{found.index}).name;
   if (isNamespace(found)) name = spaceAt(context, found.index).name;
   context.report(diag::NotAccessible, loc,
@@ -330,9 +330,9 @@ std::string_view nameElsewhere(Context& context, NameId key) {
     const Entity found = findInSpace(context, space, key, false);
     if (!found || isNamespace(found) || !isVisible(context, found)) continue;
     NameId name = key;
-    if (found.what() == EntityKind::Pou) name = context.project.pous[found.index].name;
-    if (found.what() == EntityKind::Var) name = context.project.vars[found.index].name;
-    if (found.what() == EntityKind::EnumValue) name = context.project.enum_values[found.index].name;
+    if (found.what() == EntityKind::Pou) name = context.symbols.pous[found.index].name;
+    if (found.what() == EntityKind::Var) name = context.symbols.vars[found.index].name;
+    if (found.what() == EntityKind::EnumValue) name = context.symbols.enum_values[found.index].name;
     if (found.what() == EntityKind::Type) return context.names().text(context.types().info(TypeId{found.index}).name);
     return context.names().text(
         context.names().intern(spelled(context, libraries.list[space].name) + "." + spelled(context, name)));

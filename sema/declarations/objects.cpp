@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "frontend/syntax/diagnostics.h"
+#include "sema/charts.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/declarations/overloads.h"
@@ -35,13 +36,13 @@ NameId uniqueName(Context& context, const Pou& owner, std::string name) {
 }
 
 PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accessor, PouId chart = {}) {
-  Project& project = context.project;
+  Symbols& symbols = context.symbols;
   const PouDecl& decl = context.tree().as<PouDecl>(id);
-  const PouId member_id{static_cast<uint32_t>(project.pous.size())};
-  project.pous.emplace_back();
+  const PouId member_id{static_cast<uint32_t>(symbols.pous.size())};
+  symbols.pous.emplace_back();
   context.scopes.pous.emplace_back();
-  Pou& member = project.pous.back();
-  Pou& owner = project.pou(owner_id);
+  Pou& member = symbols.pous.back();
+  Pou& owner = symbols.pou(owner_id);
   Context there = atPou(context, owner_id);
   member.chart = chart;
   context.scopes.pous.back().region = regionOfPou(there, decl);
@@ -71,14 +72,14 @@ PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accesso
 
 // A variable of an action's chart has its bare name in the whole block, as in CODESYS, where nothing else has it.
 void shareChartVars(Context& context, PouId object) {
-  Project& project = context.project;
+  Symbols& symbols = context.symbols;
   NameMap& names = context.scopes.pous[object.index].names;
   NameMap seen, twice;
   std::vector<std::pair<NameId, VarId>> shared;
-  for (const PouId member : project.pou(object).members) {
-    if (project.pou(member).kind != PouKind::Action) continue;
+  for (const PouId member : symbols.pou(object).members) {
+    if (symbols.pou(member).kind != PouKind::Action) continue;
     context.scopes.pous[member.index].names.forEach([&](NameId key, Entity found) {
-      if (found.what() != EntityKind::Var || project.vars[found.index].pou != object) return;
+      if (found.what() != EntityKind::Var || symbols.vars[found.index].pou != object) return;
       if (seen.insert(key, found))
         shared.push_back({key, VarId{found.index}});
       else
@@ -88,10 +89,10 @@ void shareChartVars(Context& context, PouId object) {
   std::sort(shared.begin(), shared.end(), [](const auto& a, const auto& b) { return a.second.index < b.second.index; });
   for (const auto& [key, var] : shared) {
     if (twice.find(key)) continue;
-    if (const PouId base = project.pou(object).base; base && findInObject(context, base, key)) continue;
+    if (const PouId base = symbols.pou(object).base; base && findInObject(context, base, key)) continue;
     if (!names.insert(key, entity(var))) continue;
-    for (const Ident& name : context.tree().list(context.tree().as<VarDecl>(project.var(var).decl).names))
-      if (keyOf(context, name.name) == key) project.var(var).name = name.name;
+    for (const Ident& name : context.tree().list(context.tree().as<VarDecl>(symbols.var(var).decl).names))
+      if (keyOf(context, name.name) == key) symbols.var(var).name = name.name;
   }
 }
 
@@ -102,7 +103,7 @@ PouId objectNamed(Context& context, TypeExprId written, bool want_interface) {
   const PouId interface = interfaceOf(context, type);
   const NamedType* named = context.scopes.named(context.types().resolve(type));
   const PouId block = named != nullptr ? named->pou : PouId{};
-  if (want_interface ? static_cast<bool>(interface) : block && context.project.pou(block).kind != PouKind::Program)
+  if (want_interface ? static_cast<bool>(interface) : block && context.symbols.pou(block).kind != PouKind::Program)
     return want_interface ? interface : block;
   context.report(want_interface ? diag::NotAnInterface : diag::NotABase, context.tree().loc(written),
                  {context.types().spell(type)});
@@ -112,7 +113,7 @@ PouId objectNamed(Context& context, TypeExprId written, bool want_interface) {
 }  // namespace
 
 void collectMembers(Context& context, PouId owner) {
-  const PouDecl& decl = context.tree().as<PouDecl>(context.project.pou(owner).decl);
+  const PouDecl& decl = context.tree().as<PouDecl>(context.symbols.pou(owner).decl);
   for (uint32_t i = 0; i < decl.members.count; ++i) {
     const DeclId member = context.tree().list(decl.members)[i];
     if (context.tree().kind(member) == DeclKind::Pou) {
@@ -123,40 +124,40 @@ void collectMembers(Context& context, PouId owner) {
     Property made{property.name, property.h.loc, owner, {}, {}};
     if (property.get) {
       made.get = addMember(context, owner, property.get, "__get");
-      context.project.pou(made.get).accessor = Pou::Accessor::Get;
+      context.symbols.pou(made.get).accessor = Pou::Accessor::Get;
     }
     if (property.set) {
       made.set = addMember(context, owner, property.set, "__set");
-      context.project.pou(made.set).accessor = Pou::Accessor::Set;
+      context.symbols.pou(made.set).accessor = Pou::Accessor::Set;
     }
-    context.project.pou(owner).properties.push_back(static_cast<uint32_t>(context.project.properties.size()));
-    context.project.properties.push_back(made);
+    context.symbols.pou(owner).properties.push_back(static_cast<uint32_t>(context.symbols.properties.size()));
+    context.symbols.properties.push_back(made);
   }
 }
 
 void declareMembers(Context& context, PouId object) {
-  Project& project = context.project;
+  Symbols& symbols = context.symbols;
   NameMap& names = context.scopes.pous[object.index].names;
   const auto declare = [&](NameId name, Loc loc, Entity declared) {
     if (!name || names.insert(keyOf(context, name), declared)) return;
     const Entity first = names.find(keyOf(context, name));
     if (declared.what() == EntityKind::Pou && addOverload(context, first, PouId{declared.index})) return;
-    if (project.pou(object).library && first.what() == EntityKind::Var) return;  // SEMA.RELEASE: what is called is it
-    const Loc known = first.what() == EntityKind::Var        ? project.vars[first.index].loc
-                      : first.what() == EntityKind::Property ? project.properties[first.index].loc
-                      : first.what() == EntityKind::Pou      ? project.pous[first.index].loc
+    if (symbols.pou(object).library && first.what() == EntityKind::Var) return;  // SEMA.RELEASE: what is called is it
+    const Loc known = first.what() == EntityKind::Var        ? symbols.vars[first.index].loc
+                      : first.what() == EntityKind::Property ? symbols.properties[first.index].loc
+                      : first.what() == EntityKind::Pou      ? symbols.pous[first.index].loc
                                                              : Loc{};
     reportTwice(context, name, loc, known);
   };
-  for (const uint32_t property : project.pou(object).properties) {
-    const Property& of = project.properties[property];
+  for (const uint32_t property : symbols.pou(object).properties) {
+    const Property& of = symbols.properties[property];
     declare(of.name, of.loc, Entity::of(EntityKind::Property, property));
   }
-  for (const PouId member : project.pou(object).members) {
-    if (const PouId chart = project.pou(member).chart)
-      context.scopes.pous[chart.index].names.insert(keyOf(context, project.pou(member).name), entity(member));
-    else if (project.pou(member).accessor == Pou::Accessor::None)
-      declare(project.pou(member).name, project.pou(member).loc, entity(member));
+  for (const PouId member : symbols.pou(object).members) {
+    if (const PouId chart = symbols.pou(member).chart)
+      context.scopes.pous[chart.index].names.insert(keyOf(context, symbols.pou(member).name), entity(member));
+    else if (symbols.pou(member).accessor == Pou::Accessor::None)
+      declare(symbols.pou(member).name, symbols.pou(member).loc, entity(member));
     declarePou(context, member);  // its VAR_INST are variables of the object
   }
   shareChartVars(context, object);
@@ -165,17 +166,17 @@ void declareMembers(Context& context, PouId object) {
 namespace {
 
 void decideDispatch(Context& context, PouId id) {
-  Pou& pou = context.project.pou(id);
+  Pou& pou = context.symbols.pou(id);
   const bool is_interface = pou.kind == PouKind::Interface;
   if (pou.kind != PouKind::FunctionBlock && pou.kind != PouKind::Class && !is_interface) return;
   if (pou.base) decideDispatch(context, pou.base);
   bool own = is_interface || pou.extended || !pou.interfaces.empty() || (pou.modifiers & kAbstract) != 0;
   for (const PouId member : pou.members) {
-    const Pou& method = context.project.pou(member);
+    const Pou& method = context.symbols.pou(member);
     own =
         own || (method.kind == PouKind::Method && (pou.modifiers & kFinal) == 0 && !isLifeMethod(context, method.name));
   }
-  pou.dispatched = own || (pou.base && context.project.pou(pou.base).dispatched);
+  pou.dispatched = own || (pou.base && context.symbols.pou(pou.base).dispatched);
 }
 
 }  // namespace
@@ -188,7 +189,7 @@ void addInterface(Context& there, Pou& pou, PouId interface, Loc loc) {
   if (std::find(pou.interfaces.begin(), pou.interfaces.end(), interface) == pou.interfaces.end())
     pou.interfaces.push_back(interface);
   else
-    there.report(diag::InterfaceTwice, loc, {there.names().text(there.project.pou(interface).name)});
+    there.report(diag::InterfaceTwice, loc, {there.names().text(there.symbols.pou(interface).name)});
 }
 
 }  // namespace
@@ -197,12 +198,12 @@ void addInterface(Context& there, Pou& pou, PouId interface, Loc loc) {
 // interface. IEC 61131-3 ed. 3, 6.6.5.5, 6.6.6.5.
 //   fails   FUNCTION_BLOCK a EXTENDS b … FUNCTION_BLOCK b EXTENDS a …                 E0342
 void resolveHeader(Context& context, PouId id) {
-  Project& project = context.project;
-  if (project.pou(id).header != Pou::Header::New || !project.pou(id).decl) return;
-  project.pou(id).header = Pou::Header::Busy;
+  Symbols& symbols = context.symbols;
+  if (symbols.pou(id).header != Pou::Header::New || !symbols.pou(id).decl) return;
+  symbols.pou(id).header = Pou::Header::Busy;
   Context there = atPou(context, id);
   there.pou = {};
-  const PouDecl& decl = context.tree().as<PouDecl>(project.pou(id).decl);
+  const PouDecl& decl = context.tree().as<PouDecl>(symbols.pou(id).decl);
   const bool is_interface = decl.pou_kind == PouKind::Interface;
   for (uint32_t i = 0; i < decl.bases.count; ++i) {
     const TypeExprId written = context.tree().list(decl.bases)[i];
@@ -210,56 +211,56 @@ void resolveHeader(Context& context, PouId id) {
     if (!base) continue;
     if (context.scopes.depth > kMaxDeclarationDepth) {
       there.report(diag::DeclarationsTooDeep, context.tree().loc(written),
-                   {context.names().text(project.pou(id).name)});
+                   {context.names().text(symbols.pou(id).name)});
       continue;
     }
     ++context.scopes.depth;
     resolveHeader(context, base);
     --context.scopes.depth;
-    const uint32_t depth = project.pou(base).base_depth + 1;
+    const uint32_t depth = symbols.pou(base).base_depth + 1;
     if (depth > kMaxBases) {
       reportTooDeep(there, context.tree().loc(written), "bases", kMaxBases);
       continue;
     }
-    project.pou(id).base_depth = std::max(project.pou(id).base_depth, depth);
-    const std::string_view name = context.names().text(project.pou(base).name);
-    if (project.pou(base).header == Pou::Header::Busy) {
-      there.report(diag::ExtendsItself, context.tree().loc(written), {context.names().text(project.pou(id).name)});
+    symbols.pou(id).base_depth = std::max(symbols.pou(id).base_depth, depth);
+    const std::string_view name = context.names().text(symbols.pou(base).name);
+    if (symbols.pou(base).header == Pou::Header::Busy) {
+      there.report(diag::ExtendsItself, context.tree().loc(written), {context.names().text(symbols.pou(id).name)});
     } else if (is_interface) {
-      addInterface(there, project.pou(id), base, context.tree().loc(written));
-    } else if (project.pou(id).base) {
-      there.report(diag::SeveralBases, context.tree().loc(written), {context.names().text(project.pou(id).name)});
-    } else if ((project.pou(base).modifiers & kFinal) != 0) {
+      addInterface(there, symbols.pou(id), base, context.tree().loc(written));
+    } else if (symbols.pou(id).base) {
+      there.report(diag::SeveralBases, context.tree().loc(written), {context.names().text(symbols.pou(id).name)});
+    } else if ((symbols.pou(base).modifiers & kFinal) != 0) {
       there.report(diag::ExtendsFinal, context.tree().loc(written), {name})
-          .note(project.pou(base).loc, diag::DeclaredHere);
+          .note(symbols.pou(base).loc, diag::DeclaredHere);
     } else {
-      project.pou(id).base = base;
-      if (!project.pou(base).native) project.pou(base).extended = true;
+      symbols.pou(id).base = base;
+      if (!symbols.pou(base).native) symbols.pou(base).extended = true;
     }
   }
   for (uint32_t i = 0; i < decl.implements.count; ++i) {
     const TypeExprId written = context.tree().list(decl.implements)[i];
     if (const PouId interface = objectNamed(there, written, true)) {
       resolveHeader(context, interface);
-      addInterface(there, project.pou(id), interface, context.tree().loc(written));
+      addInterface(there, symbols.pou(id), interface, context.tree().loc(written));
     }
   }
-  project.pou(id).header = Pou::Header::Done;
+  symbols.pou(id).header = Pou::Header::Done;
   decideDispatch(context, id);
 }
 
 void resolveHeaders(Context& context) {
   context.scopes.settling = true;  // a library's block that is read now may yet be extended
-  for (uint32_t i = 1; i < context.project.pous.size(); ++i)
-    if (!context.project.pous[i].owner) resolveHeader(context, PouId{i});
+  for (uint32_t i = 1; i < context.symbols.pous.size(); ++i)
+    if (!context.symbols.pous[i].owner) resolveHeader(context, PouId{i});
   context.scopes.settling = false;
-  for (uint32_t i = 1; i < context.project.pous.size(); ++i) decideDispatch(context, PouId{i});
+  for (uint32_t i = 1; i < context.symbols.pous.size(); ++i) decideDispatch(context, PouId{i});
 }
 
 void addObjectFields(Context& context, PouId id) {
-  Project& project = context.project;
+  Symbols& symbols = context.symbols;
   resolveHeader(context, id);
-  Pou& pou = project.pou(id);
+  Pou& pou = symbols.pou(id);
   const auto hidden = [&](std::string_view name, TypeId type) {
     Var var;
     var.name = context.names().intern(name);
@@ -268,54 +269,54 @@ void addObjectFields(Context& context, PouId id) {
     var.storage = Storage::Field;
     var.pou = id;
     var.read = var.written = true;
-    const VarId made{static_cast<uint32_t>(project.vars.size())};
-    project.vars.push_back(var);
+    const VarId made{static_cast<uint32_t>(symbols.vars.size())};
+    symbols.vars.push_back(var);
     pou.vars.insert(pou.vars.begin() + (pou.id_var ? 1 : 0), made);
     return made;
   };
-  if (pou.dispatched && !(pou.base && project.pou(pou.base).dispatched))
+  if (pou.dispatched && !(pou.base && symbols.pou(pou.base).dispatched))
     pou.id_var = hidden("__type", types::idOf(types::TypeKind::UDInt));
-  if (pou.base) pou.base_var = hidden("SUPER", project.pou(pou.base).record);
+  if (pou.base) pou.base_var = hidden("SUPER", symbols.pou(pou.base).record);
 }
 
 PouId constructorOf(const Context& context, PouId object) {
-  for (PouId at = object; at; at = context.project.pou(at).base)
-    for (const PouId member : context.project.pou(at).members)
-      if (sameIdentifier(context.names().text(context.project.pou(member).name), "FB_Init")) return member;
+  for (PouId at = object; at; at = context.symbols.pou(at).base)
+    for (const PouId member : context.symbols.pou(at).members)
+      if (sameIdentifier(context.names().text(context.symbols.pou(member).name), "FB_Init")) return member;
   return {};
 }
 
 PouId objectOf(const Context& context) {
   if (!context.pou) return {};
-  const Pou& pou = context.project.pou(context.pou);
+  const Pou& pou = context.symbols.pou(context.pou);
   if (pou.owner) return pou.owner;
   return pou.kind == PouKind::Function ? PouId{} : context.pou;
 }
 
 Entity findInObject(Context& context, PouId object, NameId name) {
   const NameId key = keyOf(context, name);
-  for (PouId at = object; at; at = context.project.pou(at).base) {
+  for (PouId at = object; at; at = context.symbols.pou(at).base) {
     resolveHeader(context, at);
     declarePou(context, at);
     if (const Entity found = context.scopes.pous[at.index].names.find(key)) {
       if (found.what() != EntityKind::Var) return found;
-      if (context.project.vars[found.index].pou == at) {
+      if (context.symbols.vars[found.index].pou == at) {
         ensureVarType(context, VarId{found.index});
         return found;
       }
     }
-    if (context.project.pou(at).kind != PouKind::Interface) continue;
-    for (const PouId base : context.project.pou(at).interfaces)
+    if (context.symbols.pou(at).kind != PouKind::Interface) continue;
+    for (const PouId base : context.symbols.pou(at).interfaces)
       if (const Entity found = findInObject(context, base, name)) return found;
   }
   return {};
 }
 
 bool isKindOf(Context& context, PouId object, PouId base) {
-  for (PouId at = object; at; at = context.project.pou(at).base) {
+  for (PouId at = object; at; at = context.symbols.pou(at).base) {
     if (at == base) return true;
     resolveHeader(context, at);
-    for (const PouId interface : context.project.pou(at).interfaces)
+    for (const PouId interface : context.symbols.pou(at).interfaces)
       if (isKindOf(context, interface, base)) return true;
   }
   return false;

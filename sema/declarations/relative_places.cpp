@@ -21,7 +21,7 @@ struct Placed {
 
 Placed placeOf(const Context& context, VarId id) {
   Placed out{.var = id};
-  const VarDecl& decl = context.tree().as<VarDecl>(context.project.var(id).decl);
+  const VarDecl& decl = context.tree().as<VarDecl>(context.symbols.var(id).decl);
   if (!decl.located || decl.address.incomplete || decl.address.path.empty()) return out;
   const auto path = context.tree().list(decl.address.path);
   const char size = decl.address.size;
@@ -43,8 +43,8 @@ void addGap(Context& context, TypeId record, uint64_t bytes, Loc loc) {
   gap.storage = Storage::Field;
   gap.record = record;
   gap.read = gap.written = true;
-  const VarId made{static_cast<uint32_t>(context.project.vars.size())};
-  context.project.vars.push_back(gap);
+  const VarId made{static_cast<uint32_t>(context.symbols.vars.size())};
+  context.symbols.vars.push_back(gap);
   addField(context, record, made);
 }
 
@@ -79,7 +79,7 @@ void placeFields(Context& context, TypeId record, std::span<const VarId> members
   uint64_t bits_at = 0;
   uint8_t bits_used = 0;
   for (const Placed& item : list) {
-    const Var& var = context.project.var(item.var);
+    const Var& var = context.symbols.var(item.var);
     if (var.type == types::kError || !ensureLayout(context, var.type)) {
       addField(context, record, item.var);
       continue;
@@ -98,7 +98,7 @@ void placeFields(Context& context, TypeId record, std::span<const VarId> members
     const uint64_t at = item.given ? item.byte : (end + info.align - 1) / info.align * info.align;
     if (!overlaps && (same_byte ? (bits_used >> item.bit & 1) != 0 : at < end)) {
       Report report = context.report(diag::PlaceOverlaps, decl.located ? decl.address_loc : loc, {name});
-      if (last) report.note(context.project.var(last).loc, diag::AlsoDeclaredHere);
+      if (last) report.note(context.symbols.var(last).loc, diag::AlsoDeclaredHere);
       addField(context, record, item.var);
       continue;
     }

@@ -5,6 +5,7 @@
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/diagnostics.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 
@@ -50,7 +51,7 @@ struct CycleSearch {
     names += "`" + context.types().spell(start) + "`";
     NamedType& holder = *context.scopes.named(stack.back().record);
     const VarId var = holder.fields[field_index];
-    context.report(diag::ContainsItself, context.project.var(var).loc, {context.types().spell(start), names});
+    context.report(diag::ContainsItself, context.symbols.var(var).loc, {context.types().spell(start), names});
   }
 
   void run(TypeId root) {
@@ -80,13 +81,13 @@ struct CycleSearch {
       if (inner->cut == State::Busy) {
         report(held, index);
       } else if (depth > kMaxTypeDepth) {
-        reportTooDeep(context, context.project.var(named.fields[index]).loc, "structures and blocks", kMaxTypeDepth);
+        reportTooDeep(context, context.symbols.var(named.fields[index]).loc, "structures and blocks", kMaxTypeDepth);
       } else {
         named.depth = std::max(named.depth, depth);
         continue;
       }
       field.type = types::kError;
-      context.project.var(named.fields[index]).type = types::kError;
+      context.symbols.var(named.fields[index]).type = types::kError;
     }
   }
 
@@ -108,7 +109,7 @@ void resolveHeld(Context& context, TypeId type) {
 }
 
 void layoutVar(Context& context, VarId id) {
-  Var& var = context.project.var(id);
+  Var& var = context.symbols.var(id);
   if (var.type == types::kError || !var.type) return;
   if (ensureLayout(context, var.type)) return;
   context.report(diag::TypeTooLarge, var.loc, {context.names().text(var.name)});
@@ -134,11 +135,11 @@ void checkFieldInits(Context& context, TypeId type) {
   std::vector<ExprId> list(named.fields.size());
   for (size_t i = 0; i < list.size(); ++i) {
     ensureInitialValue(context, named.fields[i]);
-    if (Var& var = context.project.var(named.fields[i]); var.holds_bits) {
+    if (Var& var = context.symbols.var(named.fields[i]); var.holds_bits) {
       const uint8_t value = initialBits(context, type, named.fields[i]);
       if (value != 0) var.init = makeLiteral(context, LiteralKind::Integer, types::kByte, value, var.loc);
     }
-    list[i] = context.project.var(named.fields[i]).init;
+    list[i] = context.symbols.var(named.fields[i]).init;
   }
   if (inits.size() <= type.index) inits.resize(type.index + 1);
   inits[type.index] = std::move(list);

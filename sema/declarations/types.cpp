@@ -6,6 +6,7 @@
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/diagnostics.h"
+#include "sema/project.h"
 
 #include <limits>
 
@@ -31,11 +32,11 @@ std::string spelled(int64_t number) { return std::to_string(number); }
 void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
   const std::string_view text = context.names().text(name);
   if (found.what() == EntityKind::Pou) {
-    context.report(diag::FunctionAsType, loc, {text}).note(context.project.pous[found.index].loc, diag::DeclaredHere);
+    context.report(diag::FunctionAsType, loc, {text}).note(context.symbols.pous[found.index].loc, diag::DeclaredHere);
     return;
   }
   if (!sayUnknown(context, name)) return;
-  if (context.project.diagnostics.full()) {
+  if (context.symbols.diagnostics.full()) {
     context.report(diag::UnknownType, loc, {text});
     return;
   }
@@ -48,8 +49,8 @@ void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
     if (declared.what() == EntityKind::Type) {
       const NameId spelling = context.types().info(TypeId{declared.index}).name;
       candidates.push_back(context.names().text(spelling ? spelling : key));
-    } else if (declared.what() == EntityKind::Pou && context.project.pous[declared.index].kind != PouKind::Function) {
-      candidates.push_back(context.names().text(context.project.pous[declared.index].name));
+    } else if (declared.what() == EntityKind::Pou && context.symbols.pous[declared.index].kind != PouKind::Function) {
+      candidates.push_back(context.names().text(context.symbols.pous[declared.index].name));
     }
   };
   if (const Namespace* space = namespaceAround(context); space != nullptr) space->names.forEach(add);
@@ -64,7 +65,7 @@ void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
   context.report(diag::UnknownType, loc, {text}).didYouMean(nearest(text, candidates));
 }
 
-// A type or block by name: of the namespaces around, of the project, then of libraries (a library's own names first for
+// A type or block by name: of the namespaces around, of the symbols, then of libraries (a library's own names first for
 // its texts).
 Entity findDeclaredType(Context& context, NameId key, Loc loc) {
   if (context.library) {
@@ -90,7 +91,7 @@ TypeId typeOf(Context& context, Entity found) {
     return type;
   }
   if (found.what() == EntityKind::Pou) {
-    const Pou& pou = context.project.pous[found.index];
+    const Pou& pou = context.symbols.pous[found.index];
     return pou.kind == PouKind::Interface ? context.types().pointer(pou.record) : pou.record;
   }
   return {};
@@ -252,7 +253,7 @@ void fillSubrange(Context& context, TypeId type, TypeExprId id) {
 // Items without a value follow the one before, from 0. IEC 61131-3 ed. 3, 6.4.4.2 and table 11, 3.
 void fillEnum(Context& context, TypeId type, TypeExprId id) {
   EnumTypeExpr& expr = context.tree().as<EnumTypeExpr>(id);
-  Project& project = context.project;
+  Symbols& symbols = context.symbols;
   TypeId base = types::kInt;
   if (expr.base) {
     base = integerBase(context, expr.base, diag::EnumBase);
@@ -278,8 +279,8 @@ void fillEnum(Context& context, TypeId type, TypeExprId id) {
     if (good && !fits(context, base, next, item.value ? context.tree().begin(item.value) : item.item.loc)) next = 0;
     context.types().edit(type).items.emplace_back(item.item.name, next);
     const Entity declared = named.members.find(keyOf(context, item.item.name));
-    if (declared.what() == EntityKind::EnumValue && project.enum_values[declared.index].loc == item.item.loc) {
-      project.enum_values[declared.index].value = next;
+    if (declared.what() == EntityKind::EnumValue && symbols.enum_values[declared.index].loc == item.item.loc) {
+      symbols.enum_values[declared.index].value = next;
     }
     next = static_cast<int64_t>(static_cast<uint64_t>(next) + 1);  // behind the largest value: wraps
   }
@@ -300,11 +301,11 @@ void inheritFields(Context& context, TypeId record, TypeExprId base_expr) {
   NamedType& named = *context.scopes.named(record);
   const auto inherit = [&](VarId inherited) {
     ensureInitialValue(context, inherited);
-    Var var = context.project.var(inherited);
-    const VarId id{static_cast<uint32_t>(context.project.vars.size())};
+    Var var = context.symbols.var(inherited);
+    const VarId id{static_cast<uint32_t>(context.symbols.vars.size())};
     var.record = record;
     var.decl = {};  // checked where it is written
-    context.project.vars.push_back(var);
+    context.symbols.vars.push_back(var);
     named.members.insert(keyOf(context, var.name), entity(id));
     return id;
   };
@@ -315,7 +316,7 @@ void inheritFields(Context& context, TypeId record, TypeExprId base_expr) {
   }
   for (size_t i = 0; i < named_base->bits.size(); ++i) {
     const VarId id = inherit(named_base->bits[i]);
-    Var& var = context.project.var(id);
+    Var& var = context.symbols.var(id);
     var.bits_of = named.fields[var.field];
     named.bits.push_back(id);
     context.types().edit(record).bits.push_back({var.name, var.field, var.bit});
@@ -336,7 +337,7 @@ namespace {
 
 void fillRecord(Context& context, TypeId type, TypeExprId id) {
   const StructTypeExpr& expr = context.tree().as<StructTypeExpr>(id);
-  Project& project = context.project;
+  Symbols& symbols = context.symbols;
   NamedType& named = *context.scopes.named(type);
   if (expr.base) inheritFields(context, type, expr.base);
   SectionDecl section{};
@@ -348,13 +349,13 @@ void fillRecord(Context& context, TypeId type, TypeExprId id) {
     declareVars(context, decl, section, {}, {}, &named.members, vars);
   }
   for (const VarId var : vars) {
-    project.var(var).record = type;
-    project.var(var).storage = Storage::Field;
+    symbols.var(var).record = type;
+    symbols.var(var).storage = Storage::Field;
   }
   bool placed = false;
   for (const VarId var : vars) {
     ensureVarType(context, var);
-    const VarDecl& decl = context.tree().as<VarDecl>(project.var(var).decl);
+    const VarDecl& decl = context.tree().as<VarDecl>(symbols.var(var).decl);
     placed = placed || (decl.located && !decl.address.incomplete);
   }
   if (placed || expr.overlaps) return placeFields(context, type, vars);
@@ -363,8 +364,8 @@ void fillRecord(Context& context, TypeId type, TypeExprId id) {
 
 // Types written in place, in VAR: a name of their own for generated code.
 NameId nameInPlace(Context& context, Loc loc) {
-  const Place place = context.project.sources.place(loc);
-  std::string name = context.pou ? spelled(context, context.project.pou(context.pou).unique_name) : "Type";
+  const Place place = context.symbols.sources.place(loc);
+  std::string name = context.pou ? spelled(context, context.symbols.pou(context.pou).unique_name) : "Type";
   name += "__" + std::to_string(place.line) + "_" + std::to_string(place.column);
   return context.names().intern(name);
 }
@@ -439,7 +440,7 @@ TypeId resolveType(Context& context, TypeExprId id) {
     return header.type = types::kError;
   }
   if (context.scopes.depth > kMaxDeclarationDepth) {
-    context.report(diag::DeclarationsTooDeep, header.loc, {context.project.sources.tokenAt(header.loc)});
+    context.report(diag::DeclarationsTooDeep, header.loc, {context.symbols.sources.tokenAt(header.loc)});
     return header.type = types::kError;
   }
   header.bits |= kBusy;

@@ -49,30 +49,30 @@ const char* kindWord(PouKind kind) {
 
 // A variable AT %I* of a block, or of a program with several instances, has a place of its own in each instance.
 bool hasOwnPlaces(const Context& context, PouId pou) {
-  if (!pou || isFunction(context.project.pou(pou).kind)) return false;
-  if (context.project.pou(pou).kind == PouKind::FunctionBlock) return true;
-  return static_cast<bool>(context.scopes.programs_with_several.find(keyOf(context, context.project.pou(pou).name)));
+  if (!pou || isFunction(context.symbols.pou(pou).kind)) return false;
+  if (context.symbols.pou(pou).kind == PouKind::FunctionBlock) return true;
+  return static_cast<bool>(context.scopes.programs_with_several.find(keyOf(context, context.symbols.pou(pou).name)));
 }
 
 Storage storageOf(const Context& context, SectionKind section, PouId pou, const VarDecl& decl) {
   if (decl.located && decl.address.incomplete && hasOwnPlaces(context, pou)) return Storage::Field;
   if (decl.located) return Storage::Image;
   if (!pou || section == SectionKind::External || section == SectionKind::Stat) return Storage::Global;
-  if (section == SectionKind::Temp || isFunction(context.project.pou(pou).kind)) return Storage::Local;
+  if (section == SectionKind::Temp || isFunction(context.symbols.pou(pou).kind)) return Storage::Local;
   return Storage::Field;
 }
 
 Context contextOf(Context& context, VarId id) {
-  const Var& var = context.project.var(id);
+  const Var& var = context.symbols.var(id);
   if (var.pou) return atPou(context, var.pou);
   if (const NamedType* named = var.record ? context.scopes.named(var.record) : nullptr) {
     return at(context, named->owner, named->file, named->library, named->region);
   }
   const NamedType* list = nullptr;
-  if (var.list) list = context.scopes.named(context.project.global_lists[var.list.index].record);
+  if (var.list) list = context.scopes.named(context.symbols.global_lists[var.list.index].record);
   const auto& regions = context.scopes.region_of_global;
   const auto region = regions.find(id.index);
-  Context there = at(context, {}, context.project.sources.fileOf(var.loc), list != nullptr && list->library,
+  Context there = at(context, {}, context.symbols.sources.fileOf(var.loc), list != nullptr && list->library,
                      region == regions.end() ? RegionId{} : region->second);
   there.list = var.list;
   return there;
@@ -82,7 +82,7 @@ Context contextOf(Context& context, VarId id) {
 
 void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, PouId pou, ListId list, NameMap* names,
                  std::vector<VarId>& into) {
-  Project& project = context.project;
+  Symbols& symbols = context.symbols;
   const Scopes::Words& words = context.scopes.words;
   const VarDecl& decl = context.tree().as<VarDecl>(decl_id);
   Var var;
@@ -109,20 +109,20 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
   }
   const uint32_t count = decl.names.empty() ? 1 : decl.names.count;  // an unnamed located variable
   for (uint32_t i = 0; i < count; ++i) {
-    const VarId id{static_cast<uint32_t>(project.vars.size())};
+    const VarId id{static_cast<uint32_t>(symbols.vars.size())};
     var.loc = decl.h.loc;
     if (!decl.names.empty()) {
       const Ident& ident = context.tree().list(decl.names)[i];
       var.name = ident.name;
       var.loc = ident.loc;
     }
-    project.vars.push_back(var);
+    symbols.vars.push_back(var);
     into.push_back(id);
     if (!var.name) continue;
     const NameId key = keyOf(context, var.name);
     if (!names->insert(key, entity(id))) {
       const Entity first = names->find(key);
-      const Loc loc = first.what() == EntityKind::Var ? project.vars[first.index].loc : Loc{};
+      const Loc loc = first.what() == EntityKind::Var ? symbols.vars[first.index].loc : Loc{};
       // What could not be read as a declaration is none.
       if (!decl.type || context.tree().kind(decl.type) != TypeExprKind::Error)
         reportTwice(context, var.name, var.loc, loc);
@@ -133,13 +133,13 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
 }
 
 static bool isBase(const Context& context, VarId id) {
-  const PouId pou = context.project.var(id).pou;
-  return pou && context.project.pou(pou).base_var == id;
+  const PouId pou = context.symbols.var(id).pou;
+  return pou && context.symbols.pou(pou).base_var == id;
 }
 
 void addField(Context& context, TypeId record, VarId id) {
-  if (context.project.var(id).is_bit) return addBit(context, record, id);
-  Var& var = context.project.var(id);
+  if (context.symbols.var(id).is_bit) return addBit(context, record, id);
+  Var& var = context.symbols.var(id);
   Field field;
   field.name = var.name;
   field.type = var.type;
@@ -169,7 +169,7 @@ namespace {
 //   fails   VAR_INPUT clk : INT R_EDGE; END_VAR        E0333
 void checkEdge(Context& context, const Var& var) {
   if (var.edge == EdgeKind::None || var.type == types::kError) return;
-  const bool block = var.pou && !isFunction(context.project.pou(var.pou).kind) && !var.is_bit;
+  const bool block = var.pou && !isFunction(context.symbols.pou(var.pou).kind) && !var.is_bit;
   if (block && var.section == SectionKind::Input && context.types().kind(var.type) == TypeKind::Bool) return;
   context.report(diag::EdgeNotBool, var.loc, {context.names().text(var.name)});
 }
@@ -178,9 +178,9 @@ void checkEdge(Context& context, const Var& var) {
 //   passes  VAR_GLOBAL level : REAL; END_VAR … VAR_EXTERNAL level : REAL; END_VAR
 //   fails   VAR_EXTERNAL level : INT; END_VAR          E0335
 void matchExternal(Context& context, VarId id) {
-  Project& project = context.project;
-  const NameId name = project.var(id).name;
-  const Loc loc = project.var(id).loc;
+  Symbols& symbols = context.symbols;
+  const NameId name = symbols.var(id).name;
+  const Loc loc = symbols.var(id).loc;
   Entity found;
   for (const Namespace* space = namespaceAround(context); space != nullptr && !found;
        space = space->outer == kNoLibrary ? nullptr : &context.scopes.libraries.list[space->outer])
@@ -189,16 +189,16 @@ void matchExternal(Context& context, VarId id) {
   if (found.what() != EntityKind::Var) {
     std::vector<std::string_view> candidates;
     context.scopes.globals.forEach(
-        [&](NameId, Entity global) { candidates.push_back(context.names().text(project.vars[global.index].name)); });
+        [&](NameId, Entity global) { candidates.push_back(context.names().text(symbols.vars[global.index].name)); });
     context.report(diag::ExternalUnknown, loc, {context.names().text(name)})
         .didYouMean(nearest(context.names().text(name), candidates));
-    project.var(id).type = types::kError;
+    symbols.var(id).type = types::kError;
     return;
   }
   const VarId global_id{found.index};
   ensureVarType(context, global_id);
-  Var& var = project.var(id);
-  const Var& global = project.var(global_id);
+  Var& var = symbols.var(id);
+  const Var& global = symbols.var(global_id);
   const types::TypeTable& table = context.types();
   if (var.type != types::kError && global.type != types::kError &&
       table.resolve(var.type) != table.resolve(global.type)) {
@@ -216,8 +216,8 @@ void matchExternal(Context& context, VarId id) {
   var.image = global.image;
   if (global.constant) {
     ensureInitialValue(context, global_id);
-    var.has_value = project.var(global_id).has_value;
-    var.value = project.var(global_id).value;
+    var.has_value = symbols.var(global_id).has_value;
+    var.value = symbols.var(global_id).value;
   }
 }
 
@@ -236,38 +236,38 @@ bool mayHaveInitialValue(Context& context, const Var& var, ExprId init) {
 // ARRAY[*]: of a call a pin of any direction, of an instance only what is bound anew by each call.
 bool mayBeOpen(const Context& context, const Var& var) {
   if (var.section == SectionKind::InOut) return true;
-  const bool of_call = var.pou && isFunction(context.project.pou(var.pou).kind);
+  const bool of_call = var.pou && isFunction(context.symbols.pou(var.pou).kind);
   return of_call && (var.section == SectionKind::Input || var.section == SectionKind::Output);
 }
 
-uint32_t firstOfDecl(const Project& project, uint32_t index) {
-  while (index > 1 && project.vars[index - 1].decl == project.vars[index].decl) --index;
+uint32_t firstOfDecl(const Symbols& symbols, uint32_t index) {
+  while (index > 1 && symbols.vars[index - 1].decl == symbols.vars[index].decl) --index;
   return index;
 }
 
 }  // namespace
 
 void ensureVarType(Context& context, VarId id) {
-  Project& project = context.project;
-  if (project.var(id).type || !project.var(id).decl) return;
+  Symbols& symbols = context.symbols;
+  if (symbols.var(id).type || !symbols.var(id).decl) return;
   Context there = contextOf(context, id);
-  VarDecl& decl = context.tree().as<VarDecl>(project.var(id).decl);
+  VarDecl& decl = context.tree().as<VarDecl>(symbols.var(id).decl);
   if (context.scopes.depth > kMaxDeclarationDepth) {
-    context.report(diag::DeclarationsTooDeep, project.var(id).loc, {context.names().text(project.var(id).name)});
-    project.var(id).type = types::kError;
+    context.report(diag::DeclarationsTooDeep, symbols.var(id).loc, {context.names().text(symbols.var(id).name)});
+    symbols.var(id).type = types::kError;
     return;
   }
   ++context.scopes.depth;
   TypeId type = types::kError;
   const bool bit = decl.type && isBit(there, decl.type);
   if (bit)
-    type = mayBeBit(there, project.var(id), decl.type) ? types::kBool : types::kError;
+    type = mayBeBit(there, symbols.var(id), decl.type) ? types::kBool : types::kError;
   else if (decl.type)
     type = resolveType(there, decl.type);
   --context.scopes.depth;
-  const uint32_t first = firstOfDecl(project, id.index);
-  for (uint32_t i = first; i < project.vars.size() && project.vars[i].decl == project.vars[id.index].decl; ++i) {
-    Var& var = project.vars[i];
+  const uint32_t first = firstOfDecl(symbols, id.index);
+  for (uint32_t i = first; i < symbols.vars.size() && symbols.vars[i].decl == symbols.vars[id.index].decl; ++i) {
+    Var& var = symbols.vars[i];
     if (var.type) continue;
     var.type = type;
     var.is_bit = bit && type != types::kError;
@@ -299,7 +299,7 @@ void ensureVarType(Context& context, VarId id) {
       var.image.is_bit = type != types::kError && context.types().kind(type) == TypeKind::Bool;
     } else if (decl.located && !var.record && isHierarchical(there, decl.address)) {
       const VarId named = hierarchicalVar(there, decl.address, decl.address_loc, VarId{i});
-      if (!named) project.vars[i].type = types::kError;
+      if (!named) symbols.vars[i].type = types::kError;
       continue;
     } else if (decl.located && !var.record) {
       if (const auto view = resolveAddress(there, decl.address, decl.address_loc, type)) {
@@ -316,14 +316,14 @@ void ensureVarType(Context& context, VarId id) {
 //   passes  VAR CONSTANT a : INT := b + 1; b : INT := 2; END_VAR
 //   fails   VAR CONSTANT a : INT := b; b : INT := a; END_VAR       E0321
 void ensureInitialValue(Context& context, VarId id) {
-  Project& project = context.project;
-  if (!project.var(id).decl) return;
-  VarDecl& decl = context.tree().as<VarDecl>(project.var(id).decl);
+  Symbols& symbols = context.symbols;
+  if (!symbols.var(id).decl) return;
+  VarDecl& decl = context.tree().as<VarDecl>(symbols.var(id).decl);
   if (decl.h.spare == static_cast<uint16_t>(State::Done)) return;
-  if (project.var(id).section == SectionKind::External && project.var(id).external && !decl.init) return;
+  if (symbols.var(id).section == SectionKind::External && symbols.var(id).external && !decl.init) return;
   Context there = contextOf(context, id);
   const auto setUnknown = [&] {  // what follows from the mistake is silent
-    Var& var = project.var(id);
+    Var& var = symbols.var(id);
     const TypeKind kind = context.types().plainKind(var.type);
     if (!types::TypeTable::isElementary(kind)) return;
     var.has_value = true;
@@ -332,21 +332,21 @@ void ensureInitialValue(Context& context, VarId id) {
     if (types::TypeTable::isInteger(kind) && var.value.bits == 0) var.value.bits = 1;
   };
   if (decl.h.spare == static_cast<uint16_t>(State::Busy)) {
-    if (project.var(id).constant && !project.var(id).has_value) {
-      context.report(diag::ConstantCycle, project.var(id).loc, {context.names().text(project.var(id).name)});
+    if (symbols.var(id).constant && !symbols.var(id).has_value) {
+      context.report(diag::ConstantCycle, symbols.var(id).loc, {context.names().text(symbols.var(id).name)});
       setUnknown();
     }
     return;
   }
   ensureVarType(context, id);
   if (context.scopes.depth > kMaxDeclarationDepth) {
-    context.report(diag::DeclarationsTooDeep, project.var(id).loc, {context.names().text(project.var(id).name)});
+    context.report(diag::DeclarationsTooDeep, symbols.var(id).loc, {context.names().text(symbols.var(id).name)});
     return setUnknown();
   }
   decl.h.spare = static_cast<uint16_t>(State::Busy);
-  const TypeId type = project.var(id).type;
+  const TypeId type = symbols.var(id).type;
   ExprId init = decl.init;
-  const Var& var = project.var(id);
+  const Var& var = symbols.var(id);
   if (!init && var.constant && var.section != SectionKind::External && var.section != SectionKind::Input &&
       var.section != SectionKind::InOut && type != types::kError) {
     context.report(diag::ConstantWithoutValue, var.loc, {context.names().text(var.name)});
@@ -355,10 +355,10 @@ void ensureInitialValue(Context& context, VarId id) {
   if (init && !mayHaveInitialValue(there, var, init)) init = {};
   if (init) {
     ++context.scopes.depth;
-    const uint32_t errors = project.diagnostics.errorCount();
+    const uint32_t errors = symbols.diagnostics.errorCount();
     std::string what = "the initial value of `" + spelled(context, var.name) + "`";
     InitialReads may = InitialReads::Constants;
-    if (there.pou && isFunction(project.pou(there.pou).kind)) may = InitialReads::Call;
+    if (there.pou && isFunction(symbols.pou(there.pou).kind)) may = InitialReads::Call;
     if (there.iec() || var.record)
       may = InitialReads::Constants;
     else if (var.storage == Storage::Local)
@@ -366,7 +366,7 @@ void ensureInitialValue(Context& context, VarId id) {
     else if (var.list || var.pou)
       may = InitialReads::Variables;
     reads = checkInitializerAs(there, init, type, what, may);
-    good = project.diagnostics.errorCount() == errors;
+    good = symbols.diagnostics.errorCount() == errors;
     --context.scopes.depth;
     decl.init = init;
   }
@@ -380,15 +380,15 @@ void ensureInitialValue(Context& context, VarId id) {
     if (good) value = evaluate(there, init);
     if (value) value->type = type;
   }
-  for (uint32_t i = firstOfDecl(project, id.index);
-       i < project.vars.size() && project.vars[i].decl == project.vars[id.index].decl; ++i) {
-    project.vars[i].init = init;
-    project.vars[i].constructor = constructor;
-    project.vars[i].element_constructors = elements;
+  for (uint32_t i = firstOfDecl(symbols, id.index);
+       i < symbols.vars.size() && symbols.vars[i].decl == symbols.vars[id.index].decl; ++i) {
+    symbols.vars[i].init = init;
+    symbols.vars[i].constructor = constructor;
+    symbols.vars[i].element_constructors = elements;
     if (reads || constructor.index != 0) context.scopes.reading_inits.push_back(VarId{i});
     if (value) {
-      project.vars[i].has_value = true;
-      project.vars[i].value = *value;
+      symbols.vars[i].has_value = true;
+      symbols.vars[i].value = *value;
     } else if (var.constant && init && !good) {
       id = VarId{i};
       setUnknown();
@@ -399,23 +399,23 @@ void ensureInitialValue(Context& context, VarId id) {
 // VAR_INST of a method: a variable of the object, which only this method sees; of an action, where charts put theirs,
 // see shareChartVars.
 static void declareInstanceVars(Context& context, DeclId decl, const SectionDecl& section, PouId method) {
-  Project& project = context.project;
-  const PouId owner = project.pou(method).owner;
-  std::vector<VarId>& vars = project.pou(owner).vars;
+  Symbols& symbols = context.symbols;
+  const PouId owner = symbols.pou(method).owner;
+  std::vector<VarId>& vars = symbols.pou(owner).vars;
   const size_t first = vars.size();
   SectionDecl local = section;
   local.section = SectionKind::Local;
   declareVars(context, decl, local, owner, {}, &context.scopes.pous[method.index].names, vars);
   for (size_t i = first; i < vars.size(); ++i) {
-    Var& var = project.var(vars[i]);
-    var.name = context.names().intern(spelled(context, project.pou(method).name) + "__" + spelled(context, var.name));
+    Var& var = symbols.var(vars[i]);
+    var.name = context.names().intern(spelled(context, symbols.pou(method).name) + "__" + spelled(context, var.name));
   }
 }
 
 // The variables that networks of the POU and of its actions need without anybody having written them.
 static void declareHidden(Context& context, PouId id) {
   Tree& tree = context.tree();
-  PouDecl& decl = tree.as<PouDecl>(context.project.pou(id).decl);
+  PouDecl& decl = tree.as<PouDecl>(context.symbols.pou(id).decl);
   if (decl.pou_kind == PouKind::Action || decl.pou_kind == PouKind::Interface) return;
   std::vector<DeclId> added;
   Context there = atPou(context, id);
@@ -424,7 +424,7 @@ static void declareHidden(Context& context, PouId id) {
     if (of.body_kind != BodyKind::Network) return;
     const SectionKind kind = decl.pou_kind == PouKind::Method ? SectionKind::Inst : SectionKind::Local;
     const DeclId section =
-        diagram::declareNetworks(tree, context.names(), context.project.diagnostics, shapes, of, kind, prefix);
+        diagram::declareNetworks(tree, context.names(), context.symbols.diagnostics, shapes, of, kind, prefix);
     if (section) added.push_back(section);
   };
   declare(decl, {});
@@ -443,29 +443,29 @@ static void declareHidden(Context& context, PouId id) {
 // ENO in the body of a function is an output that nobody declares; TRUE until the body says otherwise.
 // IEC 61131-3 ed. 2, 2.5.1.2 and the function WEIGH of its annex F.
 static void declareEno(Context& context, PouId id) {
-  Project& project = context.project;
+  Symbols& symbols = context.symbols;
   const NameId name = context.names().intern("ENO");
-  const VarId made{static_cast<uint32_t>(project.vars.size())};
+  const VarId made{static_cast<uint32_t>(symbols.vars.size())};
   if (!context.scopes.pous[id.index].names.insert(keyOf(context, name), entity(made))) return;
   Var var;
   var.name = name;
-  var.loc = project.pou(id).loc;
+  var.loc = symbols.pou(id).loc;
   var.type = types::kBool;
   var.section = SectionKind::Output;
   var.pou = id;
   var.init = makeLiteral(context, LiteralKind::Bool, types::kBool, 1, var.loc);
-  project.vars.push_back(var);
-  project.pou(id).vars.push_back(made);
+  symbols.vars.push_back(var);
+  symbols.pou(id).vars.push_back(made);
 }
 
 void declarePou(Context& context, PouId id) {
   PouScope& scope = context.scopes.pous[id.index];
   if (scope.declared) return;
   scope.declared = true;
-  Project& project = context.project;
+  Symbols& symbols = context.symbols;
   Tree& tree = context.tree();
   declareHidden(context, id);
-  const PouDecl& decl = tree.as<PouDecl>(project.pou(id).decl);
+  const PouDecl& decl = tree.as<PouDecl>(symbols.pou(id).decl);
   Context there = atPou(context, id);
   const PouKind kind = decl.pou_kind;
   const bool is_member = kind == PouKind::Method || kind == PouKind::Action;
@@ -475,8 +475,8 @@ void declarePou(Context& context, PouId id) {
     var.loc = decl.h.loc;
     var.section = SectionKind::Output;
     var.pou = id;
-    project.vars.push_back(var);
-    project.pou(id).result_var = VarId{static_cast<uint32_t>(project.vars.size() - 1)};
+    symbols.vars.push_back(var);
+    symbols.pou(id).result_var = VarId{static_cast<uint32_t>(symbols.vars.size() - 1)};
   }
   for (uint32_t s = 0; s < decl.sections.count; ++s) {
     const SectionDecl& section = tree.as<SectionDecl>(tree.list(decl.sections)[s]);
@@ -491,30 +491,30 @@ void declarePou(Context& context, PouId id) {
       there.report(diag::SectionNotAllowed, section.h.loc, {sectionWord(section.section), kindWord(kind)});
       if (section.section != SectionKind::Global && section.section != SectionKind::Stat) continue;
     }
-    const bool of_chart = decl.chart_sections && project.sources.fileOf(section.h.loc) == decl.chart_sections;
-    const size_t first_var = project.vars.size();
+    const bool of_chart = decl.chart_sections && symbols.sources.fileOf(section.h.loc) == decl.chart_sections;
+    const size_t first_var = symbols.vars.size();
     for (uint32_t i = 0; i < section.vars.count; ++i) {
       const DeclId var = tree.list(section.vars)[i];
       if (section.section == SectionKind::Stat) {
         // One for all instances and calls: a list of its own, which only this POU sees. codesys.
-        const std::string name = spelled(context, project.pou(id).unique_name) + "__static";
-        const ListId list = listNamed(context, name, project.pou(id).file, section.h.loc, context.scopes.qualifiers);
-        declareVars(there, var, section, id, list, &scope.names, project.global_lists[list.index].vars);
+        const std::string name = spelled(context, symbols.pou(id).unique_name) + "__static";
+        const ListId list = listNamed(context, name, symbols.pou(id).file, section.h.loc, context.scopes.qualifiers);
+        declareVars(there, var, section, id, list, &scope.names, symbols.global_lists[list.index].vars);
         continue;
       }
       if (section.section == SectionKind::Inst && is_member) {
         declareInstanceVars(there, var, section, id);
         continue;
       }
-      declareVars(there, var, section, id, {}, &scope.names, project.pou(id).vars);
+      declareVars(there, var, section, id, {}, &scope.names, symbols.pou(id).vars);
     }
-    for (size_t i = first_var; of_chart && i < project.vars.size(); ++i) project.vars[i].of_chart = true;
+    for (size_t i = first_var; of_chart && i < symbols.vars.size(); ++i) symbols.vars[i].of_chart = true;
   }
   declareMembers(context, id);
   if (kind == PouKind::Function && decl.uses_eno) declareEno(context, id);
-  if (project.pou(id).result_var) {
+  if (symbols.pou(id).result_var) {
     // The name is the result inside the body, unless a pin has it (reported by nobody: the pin hides it).
-    scope.names.insert(keyOf(context, decl.name), entity(project.pou(id).result_var));
+    scope.names.insert(keyOf(context, decl.name), entity(symbols.pou(id).result_var));
   }
 }
 
@@ -523,22 +523,22 @@ void resolvePou(Context& context, PouId id) {
   if (scope.resolved != State::New) return;
   scope.resolved = State::Busy;
   declarePou(context, id);
-  Project& project = context.project;
+  Symbols& symbols = context.symbols;
   Context there = atPou(context, id);
   addObjectFields(context, id);
-  Pou& pou = project.pou(id);
+  Pou& pou = symbols.pou(id);
   const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
   if (decl.result) {
     const TypeId result = resolveType(there, decl.result);
     pou.result = result;
-    project.var(pou.result_var).type = result;
+    symbols.var(pou.result_var).type = result;
     if (types::TypeTable::isGeneric(context.types().kind(result))) pou.generic = true;
   }
   std::vector<VarId> edges, open_arrays;
   for (size_t i = 0; i < pou.vars.size(); ++i) {
     const VarId var_id = pou.vars[i];
     ensureVarType(there, var_id);
-    Var& var = project.var(var_id);
+    Var& var = symbols.var(var_id);
     if (var.storage == Storage::Local) var.field = static_cast<uint32_t>(i);
     if (var.storage == Storage::Field && !var.holds_bits) addField(there, pou.record, var_id);
     if (types::TypeTable::isGeneric(context.types().kind(var.type))) pou.generic = true;
@@ -553,26 +553,26 @@ void resolvePou(Context& context, PouId id) {
   }
   const auto addHidden = [&](VarId of, const std::string& suffix, TypeId type) {
     Var hidden;
-    hidden.name = context.names().intern("__" + spelled(context, project.var(of).name) + suffix);
-    hidden.loc = project.var(of).loc;
+    hidden.name = context.names().intern("__" + spelled(context, symbols.var(of).name) + suffix);
+    hidden.loc = symbols.var(of).loc;
     hidden.type = type;
-    hidden.storage = project.var(of).storage;
+    hidden.storage = symbols.var(of).storage;
     hidden.pou = id;
     hidden.read = hidden.written = true;
     hidden.field = static_cast<uint32_t>(pou.vars.size());
     hidden.hidden_input = hidden.storage == Storage::Local;
-    const VarId hidden_id{static_cast<uint32_t>(project.vars.size())};
-    project.vars.push_back(hidden);
+    const VarId hidden_id{static_cast<uint32_t>(symbols.vars.size())};
+    symbols.vars.push_back(hidden);
     pou.vars.push_back(hidden_id);
     if (hidden.storage == Storage::Field) addField(there, pou.record, hidden_id);
     return hidden_id;
   };
-  for (const VarId edge : edges) project.var(edge).edge_memory = addHidden(edge, "_edge", types::kBool);
+  for (const VarId edge : edges) symbols.var(edge).edge_memory = addHidden(edge, "_edge", types::kBool);
   for (const VarId array : open_arrays) {
-    const uint32_t dimensions = context.types().info(context.types().resolve(project.var(array).type)).length;
+    const uint32_t dimensions = context.types().info(context.types().resolve(symbols.var(array).type)).length;
     for (uint32_t i = 0; i < 2 * dimensions; ++i) {
       const VarId bound = addHidden(array, (i % 2 == 0 ? "_low" : "_high") + std::to_string(i / 2 + 1), types::kDInt);
-      if (i == 0) project.var(array).bounds = bound;
+      if (i == 0) symbols.var(array).bounds = bound;
     }
   }
   scope.resolved = State::Done;
@@ -582,12 +582,12 @@ void resolveList(Context& context, ListId id) {
   ListScope& scope = context.scopes.lists[id.index];
   if (scope.resolved != State::New) return;
   scope.resolved = State::Busy;
-  Project& project = context.project;
-  const TypeId record = project.global_lists[id.index].record;
-  for (size_t i = 0; i < project.global_lists[id.index].vars.size(); ++i) {
-    const VarId var = project.global_lists[id.index].vars[i];
+  Symbols& symbols = context.symbols;
+  const TypeId record = symbols.global_lists[id.index].record;
+  for (size_t i = 0; i < symbols.global_lists[id.index].vars.size(); ++i) {
+    const VarId var = symbols.global_lists[id.index].vars[i];
     ensureVarType(context, var);
-    if (project.var(var).storage == Storage::Global) addField(context, record, var);
+    if (symbols.var(var).storage == Storage::Global) addField(context, record, var);
   }
   scope.resolved = State::Done;
 }

@@ -10,11 +10,13 @@
 
 #include "codegen/body.h"
 #include "codegen/types.h"
+#include "frontend/source/dialect.h"
 #include "frontend/source/render.h"
 #include "ir/builder.h"
 #include "ir/lower.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/libraries.h"
+#include "sema/project.h"
 #include "tools/rung/namespaces.h"
 
 namespace {
@@ -52,8 +54,8 @@ void instantiateAll(Context& context, PouId generic) {
       generics.push_back(kind);
     }
   };
-  for (const VarId id : context.project.pou(generic).vars) {
-    const rung::sema::Var& var = context.project.var(id);
+  for (const VarId id : context.symbols.pou(generic).vars) {
+    const rung::sema::Var& var = context.symbols.var(id);
     if (var.section != rung::SectionKind::Input && var.section != rung::SectionKind::InOut &&
         var.section != rung::SectionKind::Output) {
       continue;
@@ -61,7 +63,7 @@ void instantiateAll(Context& context, PouId generic) {
     pins.push_back(var.type);
     note(var.type);
   }
-  const TypeId result = context.project.pou(generic).result;
+  const TypeId result = context.symbols.pou(generic).result;
   if (result) note(result);
 
   std::vector<TypeId> chosen(generics.size());
@@ -77,7 +79,7 @@ void instantiateAll(Context& context, PouId generic) {
       types.reserve(pins.size());
       for (const TypeId pin : pins) types.push_back(typeOf(pin));
       const PouId made = rung::sema::instantiate(context, generic, types, result ? typeOf(result) : TypeId{});
-      context.project.pou(made).used = true;
+      context.symbols.pou(made).used = true;
       return;
     }
     for (int kind = static_cast<int>(TypeKind::Bool); kind <= static_cast<int>(TypeKind::UString); ++kind) {
@@ -92,17 +94,17 @@ void instantiateAll(Context& context, PouId generic) {
 }
 
 // `table`: the thunk by the C function's name.
-bool addThunks(const Texts& texts, rung::text::Standard standard, std::map<std::string, std::string>& table) {
+bool addThunks(const Texts& texts, rung::Dialect dialect, std::map<std::string, std::string>& table) {
   rung::Sources sources;
   rung::Names names;
   rung::Diagnostics diagnostics(sources);
   rung::Tree tree;
   rung::sema::Options options;
-  options.standard = standard;
+  options.dialect = dialect;
   options.libraries = texts.files;
   rung::sema::Project project(sources, names, diagnostics, tree, options);
   rung::sema::Scopes scopes;
-  Context context{.project = project, .scopes = scopes, .pou = {}, .file = {}};
+  Context context{.symbols = project, .project = project, .scopes = scopes, .pou = {}, .file = {}};
   rung::sema::initWords(context);
   rung::sema::indexLibraries(context);
   for (const rung::sema::LibraryFile& file : texts.files) {
@@ -207,9 +209,8 @@ int main(int argc, char** argv) {
     texts.files.push_back({texts.names.back().c_str(), texts.paths.back().c_str(), texts.texts.back()});
   }
   std::map<std::string, std::string> table;
-  for (const rung::text::Standard standard :
-       {rung::text::Standard::Codesys, rung::text::Standard::Iec2, rung::text::Standard::Iec3}) {
-    if (!addThunks(texts, standard, table)) return 1;
+  for (const rung::Dialect dialect : {rung::Dialect::Codesys, rung::Dialect::Iec2, rung::Dialect::Iec3}) {
+    if (!addThunks(texts, dialect, table)) return 1;
   }
 
   std::string out =

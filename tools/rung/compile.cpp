@@ -22,6 +22,7 @@
 #include "ir/text.h"
 #include "ir/verify.h"
 #include "native_table.h"
+#include "sema/project.h"
 #include "tools/rung/commands.h"
 #include "tools/rung/crash.h"
 #include "tools/rung/diagnostics.h"
@@ -82,6 +83,8 @@ std::string PhaseTimes::table() const {
   return out + line;
 }
 
+Compilation::~Compilation() = default;
+
 Compilation::Compilation(const Options& given, PhaseTimes& times)
     : options(given), diagnostics(sources), times_(times) {
   diagnostics.max_errors = options.max_errors;
@@ -138,16 +141,16 @@ bool Compilation::parse() {
   tree.lost_names = inputs.unread;
   std::vector<FileId> files;
   for (const InputFile& file : inputs.files) files.push_back(file.file);
-  text::applyConditions(sources, files, options.defines, options.standard, diagnostics);
+  text::applyConditions(sources, files, options.defines, options.dialect, diagnostics);
   for (const InputFile& file : inputs.files) {
     if (diagnostics.full()) break;
     setPhaseSubject(file.below.data(), file.below.size());
-    text::parseFile(tree, names, sources, file.file, options.standard, diagnostics);
+    text::parseFile(tree, names, sources, file.file, options.dialect, diagnostics);
   }
   if (!inputs.project.configuration.empty()) {
     FileId file = sources.add("rung.project", inputs.project.configuration);
     sources.showAs(file, inputs.project.folder + "/rung.project");
-    if (file) text::parseFile(tree, names, sources, file, options.standard, diagnostics);
+    if (file) text::parseFile(tree, names, sources, file, options.dialect, diagnostics);
   }
   setPhaseSubject("", 0);
   times_.end();
@@ -163,7 +166,7 @@ bool Compilation::check() {
   // Errors of the parser do not keep the rest from being checked: one run shows as much as it can.
   if (!diagnostics.full()) {
     sema::Options sema_options;
-    sema_options.standard = options.standard;
+    sema_options.dialect = options.dialect;
     if (!options.name.empty()) sema_options.name = options.name;
     sema_options.libraries = libraries.files();
     sema_options.library_aliases = libraries.aliases();
@@ -176,7 +179,7 @@ bool Compilation::check() {
     sema_options.pointer_size = options.pointer_size;
     sema_options.scheduled = scheduled;
     sema_options.call_constant = [](sema::Project& in, sema::PouId function, std::span<const types::Value> values,
-                                    const std::function<bool(sema::PouId)>& ready) {
+                                    FunctionRef<bool(sema::PouId)> ready) {
       return ir::interpreter::callConstant(in, function, values, {natives::table, natives::count}, ready);
     };
     project = std::make_unique<sema::Project>(sources, names, diagnostics, tree, sema_options);

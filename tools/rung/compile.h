@@ -13,7 +13,7 @@
 #include "frontend/syntax/tree.h"
 #include "ir/interpreter/program.h"
 #include "ir/ir.h"
-#include "sema/project.h"
+#include "sema/options.h"
 #include "tools/rung/inputs.h"
 #include "tools/rung/libraries.h"
 #include "tools/rung/native.h"
@@ -43,6 +43,7 @@ class Compilation {
  public:
   // Options are taken over: rung.project may change them.
   Compilation(const Options& options, PhaseTimes& times);
+  ~Compilation();
 
   // Each runs what comes before it. False: stop, finish() says with which exit code.
   bool read();

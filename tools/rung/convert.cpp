@@ -9,7 +9,9 @@
 #include <unordered_set>
 
 #include "frontend/plcopen/export.h"
+#include "frontend/syntax/sfc.h"
 #include "frontend/syntax/st_printer.h"
+#include "sema/project.h"
 #include "tools/rung/commands.h"
 #include "tools/rung/compile.h"
 

@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "frontend/picture/picture.h"
+#include "frontend/syntax/sfc.h"
 #include "tools/rung/commands.h"
 #include "tools/rung/compile.h"
 

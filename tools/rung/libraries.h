@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sema/project.h"
+#include "sema/options.h"
 #include "tools/rung/options.h"
 
 namespace rung::tool {

@@ -82,7 +82,7 @@ int listLibraries(const Options& options) {
   eachBlock(libraries, [&](const sema::LibraryFile& file, const sema::IndexedBlock& block) {
     if (library != file.library) flush();
     library = file.library;
-    if ((block.standards >> static_cast<unsigned>(options.standard) & 1u) == 0) return;
+    if ((block.standards >> static_cast<unsigned>(options.dialect) & 1u) == 0) return;
     for (std::string_view name : block.names) names.emplace_back(name);
   });
   flush();
@@ -128,7 +128,7 @@ int listSignature(const Options& options) {
     }
   }
   eachBlock(libraries, [&](const sema::LibraryFile& file, const sema::IndexedBlock& block) {
-    if ((block.standards >> static_cast<unsigned>(options.standard) & 1u) != 0) add(file.path, file.text, block);
+    if ((block.standards >> static_cast<unsigned>(options.dialect) & 1u) != 0) add(file.path, file.text, block);
   });
   if (!out.empty()) return printResult(out);
   std::string_view near = nearest(options.signature, known);

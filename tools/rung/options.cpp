@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "frontend/source/diagnostics.h"
+#include "frontend/source/dialect.h"
 #include "ir/ir.h"
 
 namespace rung::tool {
@@ -44,7 +45,7 @@ enum class Key : uint8_t {
   Define,
   Root,
   Name,
-  Standard,
+  Dialect,
   Checks,
   Level,
   Warning,
@@ -121,7 +122,7 @@ constexpr OptionRow kOptions[] = {
     {Key::Lcov, "--lcov", "FILE", bit(Command::Test), "write the same for lcov and genhtml"},
     {Key::Separate, "--separate", nullptr, bit(Command::Test), "each file is a project of its own"},
     {Key::Signature, "--signature", "NAME", bit(Command::List), "the declaration of a function, block or type"},
-    {Key::Standard, "--std", "codesys|iec3|iec2", kReads, "dialect (codesys)"},
+    {Key::Dialect, "--std", "codesys|iec3|iec2", kReads, "dialect (codesys)"},
     {Key::Checks, "--checks", "LIST", kCompile,
      "of div,index,null,cast,subrange,convert,overflow;\n"
      "default, all or none (div,index,null,cast)"},
@@ -226,7 +227,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       if (!isIdentifier(value)) return quoted(value) + " is no C identifier; `--name` takes letters, digits and `_`";
       options.name = value;
       return {};
-    case Key::Standard: options.standard_given = true; return parseStandard(value, options.standard);
+    case Key::Dialect: options.dialect_given = true; return parseDialect(value, options.dialect);
     case Key::Checks: options.checks_given = true; return parseChecks(value, options.checks);
     case Key::Level:
       options.level_given = true;
@@ -431,10 +432,10 @@ const char* commandName(Command command) {
   return "help";
 }
 
-std::string parseStandard(std::string_view name, text::Standard& standard) {
+std::string parseDialect(std::string_view name, Dialect& dialect) {
   uint32_t choice = 0;
   std::string error = parseChoice("--std", name, "iec2|iec3|codesys", choice);
-  if (error.empty()) standard = static_cast<text::Standard>(choice);
+  if (error.empty()) dialect = static_cast<Dialect>(choice);
   return error;
 }
 

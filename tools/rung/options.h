@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "frontend/source/dialect.h"
 #include "frontend/source/render.h"
 #include "frontend/text/conditions.h"
 #include "frontend/text/parse.h"
@@ -42,8 +43,8 @@ struct Options {
   std::vector<text::Define> defines;       // -D
   std::string root;                        // --root
   std::string name;                        // --name; empty: plc
-  text::Standard standard = text::Standard::Codesys;
-  bool standard_given = false;
+  Dialect dialect = Dialect::Codesys;
+  bool dialect_given = false;
   uint8_t checks = 0;  // ir::Check bits
   bool checks_given = false;
   int level = 1;  // -O
@@ -107,7 +108,7 @@ struct Options {
 [[nodiscard]] std::string parseChecks(std::string_view list, uint8_t& checks);
 // NAME or NAME=VALUE.
 [[nodiscard]] std::string parseDefine(std::string_view text, std::vector<text::Define>& defines);
-[[nodiscard]] std::string parseStandard(std::string_view name, text::Standard& standard);
+[[nodiscard]] std::string parseDialect(std::string_view name, Dialect& dialect);
 
 // One screen of help: of rung (Command::None) or of one command.
 std::string helpText(Command command);

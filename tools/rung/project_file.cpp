@@ -156,8 +156,8 @@ void readProjectSection(const ProjectSection& section, Diagnostics& diagnostics,
     } else if (entry.key == "libraries") {
       project.libraries = list(entry.value);
     } else if (entry.key == "std") {
-      project.has_standard = true;
-      error = parseStandard(entry.value, project.standard);
+      project.has_dialect = true;
+      error = parseDialect(entry.value, project.dialect);
     } else if (entry.key == "checks") {
       project.has_checks = true;
       std::string checks;
@@ -281,7 +281,7 @@ void parseProjectFile(const Sources& sources, FileId file, Diagnostics& diagnost
 }
 
 void applyProjectFile(const ProjectFile& project, Options& options) {
-  if (project.has_standard && !options.standard_given) options.standard = project.standard;
+  if (project.has_dialect && !options.dialect_given) options.dialect = project.dialect;
   if (project.has_checks && !options.checks_given) options.checks = project.checks;
   if (project.has_level && !options.level_given) options.level = project.level;
   if (options.name.empty()) options.name = project.name;

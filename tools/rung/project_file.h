@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "frontend/source/diagnostics.h"
+#include "frontend/source/dialect.h"
 #include "tools/rung/options.h"
 
 namespace rung::tool {
@@ -31,8 +32,8 @@ struct ProjectFile {
 
   std::vector<std::string> sources, libraries;  // paths relative to `folder`
   std::string name;
-  bool has_standard = false, has_checks = false, has_level = false;
-  text::Standard standard = text::Standard::Codesys;
+  bool has_dialect = false, has_checks = false, has_level = false;
+  Dialect dialect = Dialect::Codesys;
   uint8_t checks = 0;
   int level = 1;
   uint32_t pool_bytes = 0;  // 0: not given

@@ -6,6 +6,7 @@
 
 #include "ir/ir.h"
 #include "rung/host.h"
+#include "sema/project.h"
 #include "tools/rung/commands.h"
 #include "tools/rung/compile.h"
 #include "tools/rung/coverage.h"

@@ -1,5 +1,6 @@
 // Objects as edition 3 has them: a line of classes with methods that are replaced and overloaded, an interface, REF_TO,
 // attempts (?=), overloaded functions, characters of texts, structures whose members overlap.
+#include "frontend/source/dialect.h"
 #include "tests/fuzz/differential/generator.h"
 
 namespace rung::differential {

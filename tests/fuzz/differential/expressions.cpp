@@ -1,4 +1,5 @@
 // Expressions of generated programs: each has a type, and a depth that it does not exceed.
+#include "frontend/source/dialect.h"
 #include "tests/fuzz/differential/generator.h"
 
 namespace rung::differential {

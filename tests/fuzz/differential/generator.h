@@ -4,6 +4,7 @@
 
 #include <initializer_list>
 
+#include "frontend/source/dialect.h"
 #include "tests/fuzz/differential/program.h"
 #include "tests/fuzz/generated/options.h"
 

@@ -22,6 +22,7 @@
 #include <thread>
 #include <unordered_map>
 
+#include "frontend/source/dialect.h"
 #include "tests/fuzz/differential/program.h"
 #include "tests/fuzz/differential/shrink.h"
 #include "tests/fuzz/generated/options.h"

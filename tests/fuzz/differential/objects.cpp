@@ -3,6 +3,7 @@
 // A method calls only methods with a smaller number, so that every call ends, whatever the object is.
 #include <cctype>
 
+#include "frontend/source/dialect.h"
 #include "tests/fuzz/differential/generator.h"
 
 namespace rung::differential {

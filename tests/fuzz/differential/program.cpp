@@ -3,6 +3,7 @@
 
 #include <cctype>
 
+#include "frontend/source/dialect.h"
 #include "tests/fuzz/differential/generator.h"
 
 namespace rung::differential {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "frontend/source/dialect.h"
+
 namespace rung::differential {
 
 // The letter that stands in Node::text where the next child is printed.

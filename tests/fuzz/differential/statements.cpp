@@ -1,4 +1,5 @@
 // Statements of generated programs.
+#include "frontend/source/dialect.h"
 #include "tests/fuzz/differential/generator.h"
 
 namespace rung::differential {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "frontend/iec10/iec10.h"
+#include "frontend/source/dialect.h"
 #include "frontend/text/parse.h"
 
 namespace rung::iec10 {
@@ -34,7 +35,7 @@ uint32_t readAndParse(const std::string& text) {
   Names names;
   Tree tree;
   const uint32_t errors = diagnostics.errorCount();
-  if (program) text::parseFile(tree, names, sources, program, text::Standard::Codesys, diagnostics);
+  if (program) text::parseFile(tree, names, sources, program, Dialect::Codesys, diagnostics);
   diagnostics.sort();
   for (const Diagnostic& diagnostic : diagnostics.all()) {
     if (!diagnostic.loc) continue;

@@ -12,6 +12,7 @@
 #include "frontend/picture/picture.h"
 #include "frontend/plcopen/export.h"
 #include "frontend/plcopen/plcopen.h"
+#include "frontend/source/dialect.h"
 #include "frontend/text/parse.h"
 #include "frontend/xml/xml.h"
 
@@ -61,7 +62,7 @@ Outcome outcomeOf(const std::string& program) {
   if (plcopen::isPlcopen(program)) file = plcopen::readProject(sources, file, diagnostics, libraries);
   Outcome out;
   if (file) {
-    const FileUnit unit = text::parseFile(tree, names, sources, file, text::Standard::Codesys, diagnostics);
+    const FileUnit unit = text::parseFile(tree, names, sources, file, Dialect::Codesys, diagnostics);
     if (diagnostics.errorCount() == 0) {
       drawMembers(tree, names, unit.decls, program, out);
       const std::string written = plcopen::writeProject({tree, names, sources, {&unit, 1}}, "p", diagnostics);

@@ -10,6 +10,7 @@
 #include <random>
 #include <span>
 
+#include "frontend/source/dialect.h"
 #include "frontend/text/lexer.h"
 #include "sema/project.h"
 
@@ -91,7 +92,7 @@ Outcome check(const std::string& program) {
   sema::Options options;
   options.libraries = libraryFiles();
   const FileId file = sources.add("mutant.st", program);
-  text::parseFile(tree, names, sources, file, options.standard, diagnostics);
+  text::parseFile(tree, names, sources, file, options.dialect, diagnostics);
   sema::Project project(sources, names, diagnostics, tree, options);
   sema::check(project);
   diagnostics.sort();
@@ -117,8 +118,7 @@ std::vector<Piece> piecesOf(const std::string& program) {
   Diagnostics diagnostics(sources);
   const FileId file = sources.add("program.st", program);
   text::TokenStream stream;
-  text::lex(stream, names, sources, file, 0, static_cast<uint32_t>(program.size()), text::Standard::Codesys,
-            diagnostics);
+  text::lex(stream, names, sources, file, 0, static_cast<uint32_t>(program.size()), Dialect::Codesys, diagnostics);
   std::vector<Piece> pieces;
   for (const text::Token& token : stream.tokens) {
     if (token.kind == Tok::End) break;

@@ -48,7 +48,7 @@ uint32_t errorsIn(const std::string& program, bool xml) {
   FileId file = sources.add(xml ? "mutant.xml" : "mutant.st", program);
   std::vector<plcopen::Library> libraries;
   if (xml) file = plcopen::readProject(sources, file, diagnostics, libraries);
-  if (file) text::parseFile(tree, names, sources, file, options.standard, diagnostics);
+  if (file) text::parseFile(tree, names, sources, file, options.dialect, diagnostics);
   sema::Project project(sources, names, diagnostics, tree, options);
   sema::check(project);
   return diagnostics.errorCount();

@@ -1,6 +1,7 @@
 // Pictures of charts: nothing overlaps, and every way of the chart is a line or a jump with the name of its step.
 #include "frontend/picture/chart_plan.h"
 #include "frontend/picture/picture.h"
+#include "frontend/syntax/sfc.h"
 #include "tests/unit/picture/drawn.h"
 
 namespace rung::picture {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "frontend/picture/svg.h"
+#include "frontend/source/dialect.h"
 #include "frontend/text/parse.h"
 
 namespace rung::picture {
@@ -15,7 +16,7 @@ namespace rung::picture {
 struct Drawn {
   explicit Drawn(const std::string& source) : diagnostics(sources) {
     const FileUnit unit =
-        text::parseFile(tree, names, sources, sources.add("test.st", source), text::Standard::Codesys, diagnostics);
+        text::parseFile(tree, names, sources, sources.add("test.st", source), Dialect::Codesys, diagnostics);
     EXPECT_EQ(0u, diagnostics.errorCount()) << source;
     pou = &tree.as<PouDecl>(tree.list(unit.decls)[0]);
   }

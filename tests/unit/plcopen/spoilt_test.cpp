@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "frontend/source/dialect.h"
 #include "frontend/text/parse.h"
 #include "tests/unit/plcopen/read_helper.h"
 
@@ -41,7 +42,7 @@ void readAndParse(const std::string& text) {
   Names names;
   Tree tree;
   if (reading.program)
-    text::parseFile(tree, names, reading.sources, reading.program, text::Standard::Codesys, reading.diagnostics);
+    text::parseFile(tree, names, reading.sources, reading.program, Dialect::Codesys, reading.diagnostics);
   reading.diagnostics.sort();
   for (const Diagnostic& diagnostic : reading.diagnostics.all()) {
     if (!diagnostic.loc) continue;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "frontend/text/parse.h"
 #include "sema/project.h"
 
 namespace rung::sema {
@@ -22,7 +23,7 @@ struct Checked {
       : project(sources, names, diagnostics, tree, options) {
     for (const auto& [path, text] : files) {
       const FileId file = sources.add(path, text);
-      text::parseFile(tree, names, sources, file, options.standard, diagnostics);
+      text::parseFile(tree, names, sources, file, options.dialect, diagnostics);
     }
     check(project);
     diagnostics.sort();

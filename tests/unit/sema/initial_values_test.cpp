@@ -1,6 +1,7 @@
 // Initial values: lists, repetitions, surplus, members, instances, constants.
 #include <gtest/gtest.h>
 
+#include "frontend/source/dialect.h"
 #include "tests/unit/sema/checked.h"
 
 namespace rung::sema {
@@ -47,7 +48,7 @@ TEST(InitialValues, of_a_block_read_its_own_variables_in_codesys) {
 
 TEST(InitialValues, must_be_constant_in_blocks) {
   Options iec;
-  iec.standard = text::Standard::Iec3;
+  iec.dialect = Dialect::Iec3;
   const Checked checked(
       "PROGRAM p VAR\n"
       "a : INT := 5; b : INT := 2 * 3;\n"

@@ -1,5 +1,6 @@
 #include "tests/unit/sema_bodies/checked.h"
 
+#include "frontend/source/dialect.h"
 #include "frontend/text/parse.h"
 #include "sema/types/arithmetic.h"
 
@@ -55,9 +56,9 @@ END_FUNCTION_BLOCK
 )";
 const sema::LibraryFile kFiles[] = {{"Standard", "standard.st", kLibrary}};
 
-sema::Options optionsFor(text::Standard standard) {
+sema::Options optionsFor(Dialect dialect) {
   sema::Options options;
-  options.standard = standard;
+  options.dialect = dialect;
   options.libraries = kFiles;
   return options;
 }
@@ -231,10 +232,10 @@ std::string programOf(const std::string& vars, const std::string& statements) {
 
 }  // namespace
 
-Checked::Checked(const std::string& source, text::Standard standard)
-    : project(sources, names, diagnostics, tree, optionsFor(standard)) {
+Checked::Checked(const std::string& source, Dialect dialect)
+    : project(sources, names, diagnostics, tree, optionsFor(dialect)) {
   const FileId file = sources.add("test.st", source);
-  text::parseFile(tree, names, sources, file, standard, diagnostics);
+  text::parseFile(tree, names, sources, file, dialect, diagnostics);
   sema::check(project);
   diagnostics.sort();
 }
@@ -271,8 +272,8 @@ std::string Checked::body(const std::string& pou) const {
   return printer.out;
 }
 
-std::string codesOf(const std::string& vars, const std::string& statements, text::Standard standard) {
-  const Checked checked(programOf(vars, statements), standard);
+std::string codesOf(const std::string& vars, const std::string& statements, Dialect dialect) {
+  const Checked checked(programOf(vars, statements), dialect);
   std::string out;
   for (const Diagnostic& diagnostic : checked.diagnostics.all()) {
     if (std::string_view(diagInfo(diagnostic.diag).code) == "W0758") continue;  // unused: the tests are short
@@ -283,8 +284,8 @@ std::string codesOf(const std::string& vars, const std::string& statements, text
   return out;
 }
 
-std::string treeOf(const std::string& vars, const std::string& statements, text::Standard standard) {
-  const Checked checked(programOf(vars, statements), standard);
+std::string treeOf(const std::string& vars, const std::string& statements, Dialect dialect) {
+  const Checked checked(programOf(vars, statements), dialect);
   if (checked.diagnostics.hasErrors()) return checked.messages();
   return checked.body("Main");
 }

@@ -4,12 +4,13 @@
 
 #include <string>
 
+#include "frontend/source/dialect.h"
 #include "sema/project.h"
 
 namespace rung::sema_test {
 
 struct Checked {
-  explicit Checked(const std::string& source, text::Standard standard = text::Standard::Codesys);
+  explicit Checked(const std::string& source, Dialect dialect = Dialect::Codesys);
   // All diagnostics, one a line: `4:7 E0501`. Empty: none.
   std::string codes() const;
   // The same with their messages.
@@ -25,10 +26,8 @@ struct Checked {
 };
 
 // The diagnostics of statements in a program with these variables; lines count from the first statement, 1.
-std::string codesOf(const std::string& vars, const std::string& statements,
-                    text::Standard standard = text::Standard::Codesys);
+std::string codesOf(const std::string& vars, const std::string& statements, Dialect dialect = Dialect::Codesys);
 // The statements as the tree has them after the check; diagnostics instead when there are errors.
-std::string treeOf(const std::string& vars, const std::string& statements,
-                   text::Standard standard = text::Standard::Codesys);
+std::string treeOf(const std::string& vars, const std::string& statements, Dialect dialect = Dialect::Codesys);
 
 }  // namespace rung::sema_test

@@ -1,6 +1,7 @@
 // Rules of expressions: one mistake gives one code at the narrowest token.
 #include <gtest/gtest.h>
 
+#include "frontend/source/dialect.h"
 #include "tests/unit/sema_bodies/checked.h"
 
 namespace rung::sema_test {
@@ -62,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"counter := MAX;", "1:12 E0518"}, Row{"counter := counter^;", "1:19 E0515"}));
 
 TEST(Expressions, IecForbidsWhatCodesysAllows) {
-  const auto iec = [](const char* source) { return codesOf(kVars, source, text::Standard::Iec3); };
+  const auto iec = [](const char* source) { return codesOf(kVars, source, Dialect::Iec3); };
   EXPECT_EQ(iec("counter := big;"), "1:12 E0503");
   EXPECT_EQ(iec("bt := bt + 1;"), "1:10 E0523");
   EXPECT_EQ(iec("tm.PT := T#1s;"), "");

@@ -1,6 +1,7 @@
 // Rules of statements: conditions, CASE labels, loops, jumps, targets, what is never reached or used.
 #include <gtest/gtest.h>
 
+#include "frontend/source/dialect.h"
 #include "tests/unit/sema_bodies/checked.h"
 
 namespace rung::sema_test {
@@ -63,7 +64,7 @@ TEST(Statements, ConstantsAndInputsAreNotWritten) {
   const std::string block =
       "FUNCTION_BLOCK B VAR_INPUT x : INT; END_VAR VAR_OUTPUT y : INT; END_VAR\nx := 3; y := x; END_FUNCTION_BLOCK";
   EXPECT_EQ(Checked(block).codes(), "2:1 W0703\n");
-  EXPECT_EQ(Checked(block, text::Standard::Iec3).codes(), "2:1 E0703\n");
+  EXPECT_EQ(Checked(block, Dialect::Iec3).codes(), "2:1 E0703\n");
 }
 
 TEST(Statements, UnusedAndNeverWrittenAreToldOnce) {

@@ -1,5 +1,6 @@
 // Every token, comment and pragma form, and what the lexer says about text that is none.
 #include "frontend/text/lexer.h"
+#include "frontend/source/dialect.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +10,9 @@ namespace rung::text {
 namespace {
 
 struct Lexed {
-  explicit Lexed(const std::string& source, Standard standard = Standard::Codesys) : diagnostics(sources) {
+  explicit Lexed(const std::string& source, Dialect dialect = Dialect::Codesys) : diagnostics(sources) {
     const FileId file = sources.add("test.st", source);
-    lex(stream, names, sources, file, 0, static_cast<uint32_t>(sources.text(file).size()), standard, diagnostics);
+    lex(stream, names, sources, file, 0, static_cast<uint32_t>(sources.text(file).size()), dialect, diagnostics);
     for (const Token& t : stream.tokens) {
       if (t.kind == Tok::End) break;
       if (!words.empty()) words += ' ';
@@ -57,11 +58,11 @@ TEST(Lexer, NumbersAndRanges) {
 TEST(Lexer, CommentsNestByDialect) {
   EXPECT_EQ(Lexed("a (* x (* y *) z *) b").words, "a name a name");
   EXPECT_EQ(Lexed("a (* x (* y *) z *) b").codes, "");
-  EXPECT_EQ(Lexed("a (* x (* y *) z *) b", Standard::Iec2).codes, "E0114");
-  EXPECT_EQ(Lexed("a (* x (* y (* z *) *) (* v *) *) b", Standard::Iec2).codes, "E0114");
-  EXPECT_EQ(Lexed("a (* x (* y (* z *) *) (* v *) *) b", Standard::Iec2).words, "a name a name");
+  EXPECT_EQ(Lexed("a (* x (* y *) z *) b", Dialect::Iec2).codes, "E0114");
+  EXPECT_EQ(Lexed("a (* x (* y (* z *) *) (* v *) *) b", Dialect::Iec2).codes, "E0114");
+  EXPECT_EQ(Lexed("a (* x (* y (* z *) *) (* v *) *) b", Dialect::Iec2).words, "a name a name");
   EXPECT_EQ(Lexed("a /* x /* y */ z */ b").words, "a name a name");
-  EXPECT_EQ(Lexed("a /* x /* y */ z */ b", Standard::Iec2).codes, "E0114");
+  EXPECT_EQ(Lexed("a /* x /* y */ z */ b", Dialect::Iec2).codes, "E0114");
   EXPECT_EQ(Lexed("a // x (* y\nb /* z */ c").words, "a name a name a name");
   EXPECT_EQ(Lexed("a (*).*) b").words, "a name a name");
   EXPECT_EQ(Lexed("a (* open").codes, "E0110");
@@ -94,9 +95,9 @@ TEST(Lexer, StrayBytesGiveOneErrorEach) {
 }
 
 TEST(Lexer, UnderscoresInNames) {
-  EXPECT_EQ(Lexed("a__b c_", Standard::Iec3).codes, "E0116 E0116");
+  EXPECT_EQ(Lexed("a__b c_", Dialect::Iec3).codes, "E0116 E0116");
   EXPECT_EQ(Lexed("a__b __XWORD").codes, "W0116");
-  EXPECT_EQ(Lexed("_a a_b", Standard::Iec3).codes, "");
+  EXPECT_EQ(Lexed("_a a_b", Dialect::Iec3).codes, "");
 }
 
 }  // namespace

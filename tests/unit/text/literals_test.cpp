@@ -1,5 +1,6 @@
 // Values of literals. The nanoseconds are computed by hand from the calendar and the units.
 #include "frontend/text/literals.h"
+#include "frontend/source/dialect.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +9,8 @@
 namespace rung::text {
 namespace {
 
-std::string value(const std::string& literal, Standard standard = Standard::Codesys) {
-  std::string printed = body("x := " + literal + ";", standard);
+std::string value(const std::string& literal, Dialect dialect = Dialect::Codesys) {
+  std::string printed = body("x := " + literal + ";", dialect);
   const std::string before = "    assign := (name x) (literal ";
   if (printed.rfind(before, 0) != 0) return printed;
   printed.erase(0, before.size());

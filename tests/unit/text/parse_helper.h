@@ -3,15 +3,16 @@
 
 #include <string>
 
+#include "frontend/source/dialect.h"
 #include "frontend/text/parse.h"
 
 namespace rung::text {
 
 struct Parsed {
-  explicit Parsed(const std::string& source, Standard standard = Standard::Codesys) : diagnostics(sources) {
+  explicit Parsed(const std::string& source, Dialect dialect = Dialect::Codesys) : diagnostics(sources) {
     diagnostics.max_errors = 1000000;
     const FileId file = sources.add("test.st", source);
-    const FileUnit unit = parseFile(tree, names, sources, file, standard, diagnostics);
+    const FileUnit unit = parseFile(tree, names, sources, file, dialect, diagnostics);
     printed = printTree(tree, names, unit);
     diagnostics.sort();
   }
@@ -34,14 +35,14 @@ struct Parsed {
 };
 
 // The statements, two blanks deep less, of a program around them.
-inline std::string body(const std::string& statements, Standard standard = Standard::Codesys) {
-  const Parsed parsed("PROGRAM p\n" + statements + "\nEND_PROGRAM\n", standard);
+inline std::string body(const std::string& statements, Dialect dialect = Dialect::Codesys) {
+  const Parsed parsed("PROGRAM p\n" + statements + "\nEND_PROGRAM\n", dialect);
   if (!parsed.codes().empty()) return parsed.codes();
   const size_t at = parsed.printed.find("  body\n");
   return at == std::string::npos ? parsed.printed : parsed.printed.substr(at + 7);
 }
-inline std::string statementErrors(const std::string& statements, Standard standard = Standard::Codesys) {
-  return Parsed("PROGRAM p\n" + statements + "\nEND_PROGRAM\n", standard).codes();
+inline std::string statementErrors(const std::string& statements, Dialect dialect = Dialect::Codesys) {
+  return Parsed("PROGRAM p\n" + statements + "\nEND_PROGRAM\n", dialect).codes();
 }
 
 }  // namespace rung::text

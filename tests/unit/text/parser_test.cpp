@@ -3,13 +3,14 @@
 
 #include <algorithm>
 
+#include "frontend/source/dialect.h"
 #include "tests/unit/text/parse_helper.h"
 
 namespace rung::text {
 namespace {
 
-std::string expression(const std::string& text, Standard standard = Standard::Codesys) {
-  const Parsed parsed("PROGRAM p\nx := " + text + ";\nEND_PROGRAM\n", standard);
+std::string expression(const std::string& text, Dialect dialect = Dialect::Codesys) {
+  const Parsed parsed("PROGRAM p\nx := " + text + ";\nEND_PROGRAM\n", dialect);
   const std::string before = "assign := (name x) ";
   const size_t at = parsed.printed.find(before);
   if (parsed.diagnostics.hasErrors() || at == std::string::npos) return parsed.codes();
@@ -30,9 +31,9 @@ TEST(Expressions, Precedence) {
 
 TEST(Expressions, SignAndPowerByDialect) {
   EXPECT_EQ(expression("-2 ** 2"), "(unary - (binary ** (literal 2) (literal 2)))");
-  EXPECT_EQ(expression("-2 ** 2", Standard::Iec3), "(binary ** (unary - (literal 2)) (literal 2))");
+  EXPECT_EQ(expression("-2 ** 2", Dialect::Iec3), "(binary ** (unary - (literal 2)) (literal 2))");
   EXPECT_EQ(statementErrors("x := -2 ** 2;"), "2:6 W0250");
-  EXPECT_EQ(statementErrors("x := -2 ** 2;", Standard::Iec2), "2:6 W0250");
+  EXPECT_EQ(statementErrors("x := -2 ** 2;", Dialect::Iec2), "2:6 W0250");
   EXPECT_EQ(statementErrors("x := (-2) ** 2 + -(2 ** 2);"), "");
   EXPECT_EQ(expression("2 ** -1"), "(binary ** (literal 2) (unary - (literal 1)))");
 }
@@ -51,9 +52,9 @@ TEST(Expressions, Calls) {
   EXPECT_EQ(expression("f(a, p := b, q => c, NOT r => d)"),
             "(call (name f) (name a) p := (name b) q => (name c) NOT r => (name d))");
   EXPECT_EQ(expression("f(p := , q => )"), "(call (name f) p := open q => open)");
-  EXPECT_EQ(statementErrors("f(p := , q => 1);", Standard::Iec3), "2:3 E0225");
+  EXPECT_EQ(statementErrors("f(p := , q => 1);", Dialect::Iec3), "2:3 E0225");
   EXPECT_EQ(statementErrors("f(a, );"), "2:4 W0222");
-  EXPECT_EQ(statementErrors("f(a, );", Standard::Iec3), "2:4 E0222");
+  EXPECT_EQ(statementErrors("f(a, );", Dialect::Iec3), "2:4 E0222");
   EXPECT_EQ(expression("AND(a, b)"), "(call (name AND) (name a) (name b))");
   EXPECT_EQ(expression("TIME()"), "(call (name TIME))");
 }
@@ -63,7 +64,7 @@ TEST(Statements, AssignmentForms) {
   EXPECT_EQ(body("a S= b; a R= b; r REF= b;"),
             "    assign S= (name a) (name b)\n    assign R= (name a) (name b)\n    assign REF= (name r) (name b)\n");
   EXPECT_EQ(body("a := b := 0;"), "    assign := (name b) (literal 0)\n    assign := (name a) (name b)\n");
-  EXPECT_EQ(statementErrors("a := b := 0;", Standard::Iec3), "2:8 E0221");
+  EXPECT_EQ(statementErrors("a := b := 0;", Dialect::Iec3), "2:8 E0221");
   EXPECT_EQ(body("again: a := 1; JMP again;"), "    label again\n    assign := (name a) (literal 1)\n    jump again\n");
 }
 
@@ -80,13 +81,13 @@ END_PROGRAM
 }
 
 TEST(Statements, SemicolonBehindEndIsOptional) {
-  EXPECT_EQ(statementErrors("IF a THEN b := 1; END_IF FOR i := 1 TO 2 DO ; END_FOR x := 1;", Standard::Iec3), "");
+  EXPECT_EQ(statementErrors("IF a THEN b := 1; END_IF FOR i := 1 TO 2 DO ; END_FOR x := 1;", Dialect::Iec3), "");
   EXPECT_EQ(statementErrors("REPEAT a := 1; UNTIL a = 1; END_REPEAT"), "");
 }
 
 TEST(Declarations, PousWithoutEnd) {
   EXPECT_EQ(Parsed("PROGRAM a\nx := 1;\nFUNCTION_BLOCK b\nVAR y : INT; END_VAR\n").codes(), "");
-  EXPECT_EQ(Parsed("PROGRAM a\nx := 1;\n", Standard::Iec3).codes(), "2:8 E0210");
+  EXPECT_EQ(Parsed("PROGRAM a\nx := 1;\n", Dialect::Iec3).codes(), "2:8 E0210");
 }
 
 TEST(Declarations, DocsAndPragmas) {
@@ -124,10 +125,10 @@ TEST(Declarations, OneDeclarationOutOfAFile) {
   const std::string text =
       "PROGRAM a END_PROGRAM {native} FUNCTION f : INT VAR_INPUT x : INT; END_VAR END_FUNCTION PROGRAM b END_PROGRAM";
   const FileId file = sources.add("lib.st", text);
-  const FileUnit unit = parseFile(tree, names, sources, file, Standard::Codesys, diagnostics);
+  const FileUnit unit = parseFile(tree, names, sources, file, Dialect::Codesys, diagnostics);
   ASSERT_EQ(unit.decls.count, 3u);
   const PouDecl f = tree.as<PouDecl>(tree.list(unit.decls)[1]);
-  const Slice<DeclId> again = parseDeclarations(tree, names, sources, f.begin, f.end, Standard::Codesys, diagnostics);
+  const Slice<DeclId> again = parseDeclarations(tree, names, sources, f.begin, f.end, Dialect::Codesys, diagnostics);
   ASSERT_EQ(again.count, 1u);
   const auto& copy = tree.as<PouDecl>(tree.list(again)[0]);
   EXPECT_EQ(copy.name, f.name);
@@ -141,9 +142,9 @@ TEST(Declarations, LoneExpression) {
   Diagnostics diagnostics(sources);
   Names names;
   Tree tree;
-  EXPECT_TRUE(parseExpression(tree, names, sources, sources.add("set", "T#5s"), Standard::Codesys, diagnostics));
+  EXPECT_TRUE(parseExpression(tree, names, sources, sources.add("set", "T#5s"), Dialect::Codesys, diagnostics));
   EXPECT_FALSE(diagnostics.hasErrors());
-  EXPECT_FALSE(parseExpression(tree, names, sources, sources.add("set", "5 6"), Standard::Codesys, diagnostics));
+  EXPECT_FALSE(parseExpression(tree, names, sources, sources.add("set", "5 6"), Dialect::Codesys, diagnostics));
   EXPECT_TRUE(diagnostics.hasErrors());
 }
 

@@ -1,4 +1,5 @@
 #include "tools/rung/inputs.h"
+#include "frontend/source/dialect.h"
 #include "frontend/syntax/diagnostics.h"
 #include "tools/rung/diagnostics.h"
 
@@ -115,7 +116,7 @@ TEST_F(InputsTest, ProjectFileNamesItsSources) {
   read({folder.path() + "/p"});
   EXPECT_EQ(paths(), (std::vector<std::string>{"lib/x.st", "main.st"}));
   applyProjectFile(inputs.project, options);
-  EXPECT_EQ(options.standard, text::Standard::Iec3);
+  EXPECT_EQ(options.dialect, Dialect::Iec3);
 }
 
 TEST_F(InputsTest, ProjectOfTwinCatTakesWhatItLists) {

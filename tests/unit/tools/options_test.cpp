@@ -1,4 +1,5 @@
 #include "tools/rung/options.h"
+#include "frontend/source/dialect.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +32,7 @@ TEST(Options, EveryFormOfAValue) {
 
 TEST(Options, Defaults) {
   Options options = parsed({"check", "a.st"});
-  EXPECT_EQ(options.standard, text::Standard::Codesys);
+  EXPECT_EQ(options.dialect, Dialect::Codesys);
   EXPECT_EQ(options.checks, ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast);
   EXPECT_EQ(options.level, 1);
   EXPECT_EQ(options.max_errors, 100u);

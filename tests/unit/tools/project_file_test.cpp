@@ -1,4 +1,5 @@
 #include "tools/rung/project_file.h"
+#include "frontend/source/dialect.h"
 
 #include <gtest/gtest.h>
 
@@ -40,13 +41,13 @@ TEST_F(ProjectFileTest, AllSections) {
 
   Options options;
   applyProjectFile(project, options);
-  EXPECT_EQ(options.standard, text::Standard::Iec2);
+  EXPECT_EQ(options.dialect, Dialect::Iec2);
   EXPECT_EQ(options.moduleName(), "press");
   Options chosen;
-  chosen.standard_given = true;
-  chosen.standard = text::Standard::Iec3;
+  chosen.dialect_given = true;
+  chosen.dialect = Dialect::Iec3;
   applyProjectFile(project, chosen);
-  EXPECT_EQ(chosen.standard, text::Standard::Iec3);  // the command line wins
+  EXPECT_EQ(chosen.dialect, Dialect::Iec3);  // the command line wins
 }
 
 TEST_F(ProjectFileTest, MistakesHaveTheirPlace) {

@@ -1,0 +1,26 @@
+#include "sema/charts.h"
+
+#include "sema/declarations/declarations.h"
+
+namespace rung::sema {
+
+text::Charts chartsOf(const Context& context) {
+  const Symbols& symbols = context.symbols;
+  const Dialect dialect = context.library ? Dialect::Codesys : symbols.dialect;
+  return {symbols.tree, symbols.names, symbols.sources, symbols.diagnostics, dialect};
+}
+
+text::ChartPlace chartPlaceOf(const Context& context, PouId pou) {
+  text::ChartPlace place;
+  place.final_scan = !context.iec();
+  for (PouId at = pou; at;) {
+    const Pou& of = context.symbols.pou(at);
+    const PouDecl& decl = context.tree().as<PouDecl>(of.decl);
+    if (at != pou) place.around.push_back(&decl);
+    if (findPragma(context, decl.h, context.scopes.words.no_final_scan) != nullptr) place.final_scan = false;
+    at = of.chart ? of.chart : of.owner;
+  }
+  return place;
+}
+
+}  // namespace rung::sema

@@ -1,0 +1,12 @@
+// What the scheduler of charts works with. In: the context of the POU whose chart is scheduled.
+#pragma once
+
+#include "frontend/text/sfc_schedule.h"
+#include "sema/context.h"
+
+namespace rung::sema {
+
+text::Charts chartsOf(const Context& context);
+text::ChartPlace chartPlaceOf(const Context& context, PouId pou);
+
+}  // namespace rung::sema
