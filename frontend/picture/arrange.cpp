@@ -12,10 +12,6 @@
 namespace rung::picture {
 namespace {
 
-constexpr int32_t kGap = 20;  // between elements: room for a wire
-
-bool isRail(ElementKind kind) { return kind == ElementKind::Rail || kind == ElementKind::RightRail; }
-
 class Arranger {
  public:
   Arranger(const Body& body, Plan& plan) : body_(body), plan_(plan) {}
@@ -164,7 +160,7 @@ void Arranger::moveDown(uint32_t first, uint32_t end, int32_t by) {
     plan_.items[item].origin.y += by;
     const Node& node = nodes_[item];
     int32_t& free = skyline_[node.column];
-    free = std::max(free, node.cluster.at(plan_.items[item].origin).bottom() + kGap);
+    free = std::max(free, node.cluster.at(plan_.items[item].origin).bottom() + kElementGap);
     reserve(item);
   }
 }
@@ -196,7 +192,7 @@ void Arranger::place(uint32_t item) {
       moveDown(node.first, node.turn, y - wanted);
   }
   it.origin.y = y;
-  skyline_[node.column] = node.cluster.at(it.origin).bottom() + kGap;
+  skyline_[node.column] = node.cluster.at(it.origin).bottom() + kElementGap;
   reserve(item);
 }
 
@@ -223,16 +219,16 @@ void Arranger::setX() {
     count(nodes_[link.to.item].column);
     if (feedback_[k]) count(nodes_[link.from.item].column + 1);
   }
-  int32_t x = ladder() ? kGap : 0;
+  int32_t x = ladder() ? kElementGap : 0;
   std::vector<int32_t> at(columns);
   for (size_t c = 0; c < columns; ++c) {
-    x += c > 0 || lanes[c] > 0 ? kGap + std::min(lanes[c], 60) * kGrid : 0;
+    x += c > 0 || lanes[c] > 0 ? kElementGap + std::min(lanes[c], 60) * kGrid : 0;
     at[c] = x + left[c];
     x = at[c] + right[c];
   }
-  x += kGap + lanes[columns] * kGrid;
+  x += kElementGap + lanes[columns] * kGrid;
   for (const uint32_t item : order_)
-    plan_.items[item].origin.x = standsAlone(item) ? (ladder() ? kGap : 0) : at[nodes_[item].column];
+    plan_.items[item].origin.x = standsAlone(item) ? (ladder() ? kElementGap : 0) : at[nodes_[item].column];
   setAttached();
   fitRails(plan_, 0, x);
 }

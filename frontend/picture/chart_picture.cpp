@@ -10,7 +10,7 @@
 namespace rung::picture {
 namespace {
 
-constexpr int32_t kRow = 20, kToActions = 20, kEdge = 20, kBar = 12;
+constexpr int32_t kRow = 20, kToActions = 20, kChartMargin = 20, kBar = 12;
 constexpr size_t kConditionWidth = 48;
 
 struct Action {
@@ -192,7 +192,7 @@ ChartPlan measureChart(const Tree& tree, const Names& names, const PouDecl& pou)
 std::string drawChart(const Tree& tree, const Names& names, const PouDecl& pou, std::string_view name) {
   ChartPlan plan = measureChart(tree, names, pou);
   planChart(tree, names, pou, plan);
-  const Point by{kEdge - plan.bounds.x, kEdge - plan.bounds.y};
+  const Point by{kChartMargin - plan.bounds.x, kChartMargin - plan.bounds.y};
   const ChartText texts(tree, names, pou);
   Svg svg;
   for (const ChartLine& line : plan.lines) {
@@ -210,7 +210,7 @@ std::string drawChart(const Tree& tree, const Names& names, const PouDecl& pou, 
     jump.at = jump.at + by;
     drawJump(svg, texts, jump);
   }
-  return svg.finish(name, plan.bounds.width + 2 * kEdge, plan.bounds.height + 2 * kEdge);
+  return svg.finish(name, plan.bounds.width + 2 * kChartMargin, plan.bounds.height + 2 * kChartMargin);
 }
 
 }  // namespace rung::picture

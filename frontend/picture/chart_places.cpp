@@ -11,8 +11,7 @@
 namespace rung::picture {
 namespace {
 
-constexpr int32_t kGap = 30;
-constexpr size_t kMostPlaced = 2'000;  // each is compared with each
+constexpr size_t kMostPlacedSteps = 2'000;  // each is compared with each
 
 class Placer {
  public:
@@ -56,7 +55,7 @@ class Placer {
 };
 
 bool Placer::readPlaces() {
-  if (plan_.nodes.empty() || plan_.nodes.size() > kMostPlaced) return false;
+  if (plan_.nodes.empty() || plan_.nodes.size() > kMostPlacedSteps) return false;
   std::vector<std::pair<int32_t, int32_t>> all;
   for (uint32_t k = 0; k < plan_.nodes.size(); ++k) {
     const SfcPlace& place = placeOf(k);
@@ -133,7 +132,7 @@ void Placer::spreadNodes() {
   };
   const std::vector<int32_t> ys = spread(y, gapY);
   const auto gapX = [&](uint32_t a, uint32_t b) {
-    return std::max(ys[a], ys[b]) < std::min(ys[a] + y.behind[a], ys[b] + y.behind[b]) ? kGap : -1;
+    return std::max(ys[a], ys[b]) < std::min(ys[a] + y.behind[a], ys[b] + y.behind[b]) ? kBranchGap : -1;
   };
   const std::vector<int32_t> xs = spread(x, gapX);
   for (uint32_t k = 0; k < count; ++k) plan_.nodes[k].origin = {xs[k], ys[k]};

@@ -13,9 +13,6 @@
 namespace rung::picture {
 namespace {
 
-constexpr uint32_t kNone = kNoNode;
-constexpr int32_t kGap = 30;  // between branches
-
 struct Open {  // a line that leads on to a node below
   Point at;
   uint32_t target;
@@ -41,7 +38,7 @@ class ChartArranger {
   void findDominators();
   uint32_t common(uint32_t a, uint32_t b) const;
   bool isBranch(uint32_t node, const Edge& edge) const {
-    return edge.to != kNone && !edge.back && above_[edge.to] == node && in_[edge.to].size() == 1;
+    return edge.to != kNoNode && !edge.back && above_[edge.to] == node && in_[edge.to].size() == 1;
   }
   NameId nameOf(const Edge& edge) const;
   NameId jumpName(uint32_t target) const;
@@ -87,7 +84,7 @@ void ChartArranger::findOrder() {
         continue;
       }
       Edge& edge = out_[node][stack.back().next++];
-      if (edge.to == kNone) continue;
+      if (edge.to == kNoNode) continue;
       edge.back = state[edge.to] == State::Open;
       if (state[edge.to] != State::New) continue;
       state[edge.to] = State::Open;
@@ -105,7 +102,7 @@ void ChartArranger::findOrder() {
   in_.resize(order_.size());
   for (const uint32_t node : order_) {
     for (const Edge& edge : out_[node])
-      if (edge.to != kNone && !edge.back) in_[edge.to].push_back(node);
+      if (edge.to != kNoNode && !edge.back) in_[edge.to].push_back(node);
   }
   // A step that an earlier chain leads to is no begin of its own.
   std::erase_if(out_[root_], [&](const Edge& edge) {
@@ -126,7 +123,7 @@ uint32_t ChartArranger::common(uint32_t a, uint32_t b) const {
 }
 
 void ChartArranger::findDominators() {
-  above_.assign(order_.size(), kNone);
+  above_.assign(order_.size(), kNoNode);
   below_.resize(order_.size());
   for (const uint32_t node : order_) {
     if (node == root_) continue;
@@ -170,7 +167,7 @@ void ChartArranger::addBranches(uint32_t node, Block& block, bool side_by_side_o
     const bool branch = isBranch(node, edges[k]);
     const int32_t half = branch ? 0 : jumpWidth(nameOf(edges[k])) / 2;
     const int32_t left = branch ? -blocks_[edges[k].to].left : half, right = branch ? blocks_[edges[k].to].right : half;
-    if (k > 0) x += left + kGap;
+    if (k > 0) x += left + kBranchGap;
     at[k] = x;
     x += right;
   }
@@ -194,7 +191,7 @@ void ChartArranger::addBranches(uint32_t node, Block& block, bool side_by_side_o
     const int32_t half = jumpWidth(nameOf(edges[k])) / 2;
     block.left = std::min(block.left, p.x - half);
     block.right = std::max(block.right, p.x + half);
-    if (edges[k].back || edges[k].to == kNone) {
+    if (edges[k].back || edges[k].to == kNoNode) {
       block.jumps.push_back({p, nameOf(edges[k])});
       block.bottom = std::max(block.bottom, top + kJumpHeight);
     } else {
@@ -224,7 +221,8 @@ void ChartArranger::addMeeting(uint32_t node, Block& block) {
   }
   if (count == 0) first = last = 0;
   const int32_t x = (first + last) / 2;
-  const int32_t from = std::min(first, x + inner.left) - kGap / 2, to = std::max(last, x + inner.right) + kGap / 2;
+  const int32_t from = std::min(first, x + inner.left) - kBranchGap / 2,
+                to = std::max(last, x + inner.right) + kBranchGap / 2;
   bool jumps = false;
   for (size_t k = 0; k < block.open.size();) {
     const Open& open = block.open[k];

@@ -13,6 +13,7 @@
 
 namespace rung::picture {
 
+constexpr int32_t kBranchGap = 30;
 constexpr int32_t kDouble = 4;  // between the lines of a simultaneous divergence
 
 struct ChartNode {

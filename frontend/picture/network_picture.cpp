@@ -9,14 +9,8 @@
 namespace rung::picture {
 namespace {
 
-constexpr int32_t kStrip = 40, kHeader = 30, kEdge = 20, kBetweenBands = 30;
+constexpr int32_t kStrip = 40, kHeader = 30, kPageMargin = 20, kBetweenBands = 30;
 constexpr int32_t kLeastPage = 300;  // an element and the marks beside it
-
-bool isRail(ElementKind kind) { return kind == ElementKind::Rail || kind == ElementKind::RightRail; }
-bool isBox(ElementKind kind) {
-  return kind == ElementKind::Box || kind == ElementKind::Execute || kind == ElementKind::Compose ||
-         kind == ElementKind::Select;
-}
 
 // CODESYS puts a connector without a name into each wire.
 bool isJoint(const DiagramElement& e) { return e.kind == ElementKind::Connector && !e.name.name; }
@@ -300,8 +294,8 @@ std::vector<Plan> planNetworks(const Body& body, int32_t page) {
 std::string drawNetworks(const Tree& tree, const Names& names, const Diagram& diagram, std::string_view name,
                          int32_t page) {
   const Body body{tree, names, diagram, tree.list(diagram.elements)};
-  const int32_t left = diagram.networks.empty() ? kEdge : kStrip + kEdge;
-  std::vector<Plan> plans = planNetworks(body, page == 0 ? 0 : std::max(page - left - kEdge, kLeastPage));
+  const int32_t left = diagram.networks.empty() ? kPageMargin : kStrip + kPageMargin;
+  std::vector<Plan> plans = planNetworks(body, page == 0 ? 0 : std::max(page - left - kPageMargin, kLeastPage));
   int32_t y = 0, right = 0;
   Svg svg;
   for (uint32_t k = 0; k < plans.size(); ++k) {
@@ -309,8 +303,8 @@ std::string drawNetworks(const Tree& tree, const Names& names, const Diagram& di
     if (k == 0 && plan.items.empty()) continue;
     const int32_t top = y;
     if (k > 0) y += kHeader;
-    moveBy(plan, {left - plan.bounds.x, y + kEdge - plan.bounds.y});
-    y = roundUp(plan.bounds.bottom() + kEdge);
+    moveBy(plan, {left - plan.bounds.x, y + kPageMargin - plan.bounds.y});
+    y = roundUp(plan.bounds.bottom() + kPageMargin);
     right = std::max(right, plan.bounds.right());
     if (k > 0) {
       const DiagramNetwork& network = tree.list(diagram.networks)[k - 1];
@@ -326,7 +320,7 @@ std::string drawNetworks(const Tree& tree, const Names& names, const Diagram& di
     drawPlan(svg, body, plan);
     if (k > 0 && tree.list(diagram.networks)[k - 1].disabled) svg.close();
   }
-  return svg.finish(name, right + kEdge, std::max(y, 2 * kEdge));
+  return svg.finish(name, right + kPageMargin, std::max(y, 2 * kPageMargin));
 }
 
 }  // namespace rung::picture

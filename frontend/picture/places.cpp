@@ -10,15 +10,8 @@
 namespace rung::picture {
 namespace {
 
-constexpr int32_t kGap = 20;
-constexpr size_t kMostPlaced = 20'000;  // each is compared with each
-constexpr int32_t kCell = 20;           // pixels of an editor's cell
-
-bool isRail(ElementKind kind) { return kind == ElementKind::Rail || kind == ElementKind::RightRail; }
-bool isBox(ElementKind kind) {
-  return kind == ElementKind::Box || kind == ElementKind::Execute || kind == ElementKind::Compose ||
-         kind == ElementKind::Select || kind == ElementKind::Comment;
-}
+constexpr size_t kMostPlacedElements = 20'000;  // each is compared with each
+constexpr int32_t kCell = 20;                   // pixels of an editor's cell
 
 // Editors that count cells leave a cell or two between an element and the next, those that count pixels many more.
 int32_t unitOf(const Body& body, const Plan& plan) {
@@ -78,7 +71,7 @@ void snapToPins(const Body& body, Plan& plan) {
 
 bool takePlaces(const Body& body, Plan& plan) {
   const size_t count = plan.items.size();
-  if (count > kMostPlaced) return false;
+  if (count > kMostPlacedElements) return false;
   for (const Item& item : plan.items) {
     const DiagramElement& e = body.elements[item.element];
     if (!e.placed && e.kind != ElementKind::Comment) return false;
@@ -107,14 +100,16 @@ bool takePlaces(const Body& body, Plan& plan) {
   const auto rail = [&](uint32_t k) { return isRail(body.elements[plan.items[k].element].kind); };
   // Variables stand as close as the pins that they lead to.
   const auto gapY = [&](uint32_t a, uint32_t b) {
-    if (rail(a) || rail(b) || guess[a].x >= guess[b].right() + kGap || guess[b].x >= guess[a].right() + kGap) return -1;
-    return plan.items[a].area.height <= kGap && plan.items[b].area.height <= kGap ? 0 : kGap;
+    if (rail(a) || rail(b) || guess[a].x >= guess[b].right() + kElementGap ||
+        guess[b].x >= guess[a].right() + kElementGap)
+      return -1;
+    return plan.items[a].area.height <= kElementGap && plan.items[b].area.height <= kElementGap ? 0 : kElementGap;
   };
   const std::vector<int32_t> ys = spread(y, gapY);
   const auto gapX = [&](uint32_t a, uint32_t b) {
     const int32_t above = std::max(ys[a] - y.before[a], ys[b] - y.before[b]);
     const int32_t below = std::min(ys[a] + y.behind[a], ys[b] + y.behind[b]);
-    return rail(a) || rail(b) || above < below ? kGap : -1;
+    return rail(a) || rail(b) || above < below ? kElementGap : -1;
   };
   const std::vector<int32_t> xs = spread(x, gapX);
   for (uint32_t k = 0; k < count; ++k) plan.items[k].origin = {xs[k], ys[k]};

@@ -10,8 +10,6 @@
 namespace rung::picture {
 namespace {
 
-constexpr int32_t kGap = 20;
-
 bool isRail(const Item& item) { return !item.terminals.empty() && item.terminals[0].length > 0; }
 
 Item makeMark(uint32_t number, bool begins) {
@@ -184,7 +182,7 @@ void placeMarks(Plan& plan, bool begin, int32_t x) {
   for (const Wanted& mark : marks) {
     const int32_t y = std::max(mark.y, free);
     plan.items[mark.item].origin = {begin ? x : x - plan.items[mark.item].frame.width, y};
-    free = y + kGap;
+    free = y + kElementGap;
   }
 }
 
@@ -212,9 +210,9 @@ void fitRails(Plan& plan, int32_t left, int32_t right) {
       top = std::min(top, y);
       bottom = std::max(bottom, y);
     }
-    item.terminals[0].length = top > bottom ? 0 : bottom - top + 2 * kGap;
+    item.terminals[0].length = top > bottom ? 0 : bottom - top + 2 * kElementGap;
     item.area = {0, 0, 0, item.terminals[0].length};
-    item.origin = top > bottom ? Point{} : Point{gives ? left : right, top - kGap};
+    item.origin = top > bottom ? Point{} : Point{gives ? left : right, top - kElementGap};
   }
 }
 
@@ -281,7 +279,7 @@ std::vector<Plan> wrap(const Body& body, Plan plan, int32_t page, uint32_t& mark
     whole.push_back(std::move(plan));
     return whole;
   }
-  constexpr int32_t kForMarks = 2 * kGap + 30;  // on each side
+  constexpr int32_t kForMarks = 2 * kElementGap + 30;  // on each side
   const std::vector<Column> columns = columnsOf(body, plan, page - 2 * kForMarks);
   std::vector<uint32_t> band(plan.items.size());
   std::vector<int32_t> begins;
@@ -304,8 +302,9 @@ std::vector<Plan> wrap(const Body& body, Plan plan, int32_t page, uint32_t& mark
     const int32_t in = marksOf(p, true, width);
     const bool railed = std::any_of(p.items.begin(), p.items.end(),
                                     [](const Item& item) { return isRail(item) && item.terminals[0].output; });
-    const int32_t mark_x = railed ? kGap : 0;
-    const int32_t begin = b == 0 && in == 0 ? begins[0] - origin : mark_x + width + kGap + std::min(in, 20) * kGrid;
+    const int32_t mark_x = railed ? kElementGap : 0;
+    const int32_t begin =
+        b == 0 && in == 0 ? begins[0] - origin : mark_x + width + kElementGap + std::min(in, 20) * kGrid;
     for (Item& item : p.items)
       if (item.mark == 0 && !isRail(item)) item.origin.x += begin - begins[b];
     int32_t end = 0;
@@ -313,7 +312,7 @@ std::vector<Plan> wrap(const Body& body, Plan plan, int32_t page, uint32_t& mark
       if (item.mark == 0 && !isRail(item)) end = std::max(end, item.place().right());
     width = 0;
     const int32_t out = marksOf(p, false, width);
-    end = roundUp(std::max(end + kGap + std::min(out, 20) * kGrid + width, out > 0 ? page : 0));
+    end = roundUp(std::max(end + kElementGap + std::min(out, 20) * kGrid + width, out > 0 ? page : 0));
     placeMarks(p, true, mark_x);
     placeMarks(p, false, end);
     fitRails(p, 0, end);

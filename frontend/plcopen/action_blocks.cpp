@@ -10,13 +10,11 @@
 namespace rung::plcopen {
 namespace {
 
-bool isName(std::string_view text) { return !isBlank(text) && identifierOf(text) == text; }
-
 // The name of the variable or action; null: there is none that could be one.
 const xml::Attribute* nameOf(const xml::Document& document, const xml::Element& action) {
   const xml::Element* reference = document.child(action, "reference");
   const xml::Attribute* name = reference == nullptr ? nullptr : document.attribute(*reference, "name");
-  return name != nullptr && isName(name->raw) ? name : nullptr;
+  return name != nullptr && isIdentifier(name->raw) ? name : nullptr;
 }
 
 template <class Visit>

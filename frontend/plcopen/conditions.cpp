@@ -315,7 +315,7 @@ void Chart::writeDefinition(const Definition& definition) {
   if (e.name == "condition") {
     import_.out.word(" :\n");
     const xml::Element* wires = document_.child(e, "connectionPointIn");
-    const Diagram diagram{chart_, NetworkLanguage::Ladder, wires == nullptr ? &e : wires, definition.name};
+    const DrawnBody diagram{chart_, NetworkLanguage::Ladder, wires == nullptr ? &e : wires, definition.name};
     writeNetworks(import_.sources, document_, diagram, import_.out);
   } else if (language == nullptr) {
     report(diag::ChartNoCondition, e.loc, {});

@@ -17,7 +17,7 @@ constexpr std::string_view kEntry = "a6b08bd8-b696-47e3-9cbf-7408b61c9ff8",
                            kActive = "700a583f-b4d4-43e4-8c14-629c7cd3bec8",
                            kExit = "a2621e18-7de3-4ea6-ae6d-89e9e0b7befd";
 
-constexpr int kRow = 80, kColumn = 200;
+constexpr int kStepRow = 80, kStepColumn = 200;
 
 class ChartExport {
  public:
@@ -119,8 +119,8 @@ void ChartExport::open(std::string_view element, uint64_t id) {
 
 void ChartExport::position(int column, int row) {
   to_.xml.open("position")
-      .attribute("x", std::to_string(column * kColumn))
-      .attribute("y", std::to_string(row * kRow))
+      .attribute("x", std::to_string(column * kStepColumn))
+      .attribute("y", std::to_string(row * kStepRow))
       .close();
 }
 

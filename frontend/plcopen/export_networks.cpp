@@ -6,14 +6,14 @@
 
 #include "frontend/plcopen/diagnostics.h"
 #include "frontend/plcopen/exporter.h"
+#include "frontend/plcopen/networks.h"
 #include "frontend/syntax/diagram.h"
 
 namespace rung::plcopen {
 namespace {
 
 // CODESYS numbers the elements of network n from n times this on.
-constexpr uint64_t kNumbersPerNetwork = 10'000'000'000u;
-constexpr int kRow = 40, kColumn = 120;
+constexpr int kElementRow = 40, kElementColumn = 120;
 
 std::string_view elementName(ElementKind kind) {
   switch (kind) {
@@ -125,7 +125,7 @@ void NetworkExport::place() {
         if (wire.from < k) depth[k] = std::max(depth[k], depth[wire.from] + 1);
     if (rows.size() <= depth[k]) rows.resize(depth[k] + 1, 0);
     const uint32_t height = 1 + e.pins.count;
-    places_[k] = {static_cast<int64_t>(depth[k]) * kColumn, (row + rows[depth[k]]) * kRow};
+    places_[k] = {static_cast<int64_t>(depth[k]) * kElementColumn, (row + rows[depth[k]]) * kElementRow};
     rows[depth[k]] += height;
     const bool ends = e.kind == ElementKind::Coil || e.kind == ElementKind::Output || e.kind == ElementKind::Box ||
                       e.kind == ElementKind::Execute || e.kind == ElementKind::Jump || e.kind == ElementKind::Return ||

@@ -95,6 +95,8 @@ void writeDocumentation(Import& import, const xml::Element& element);
 void writeAttributes(Import& import, const xml::Element& element);
 // A name made fit for ST: what cannot stand in one becomes `_`.
 std::string identifierOf(std::string_view name);
+// Whether it is an identifier already.
+bool isIdentifier(std::string_view text);
 
 // ---- types.cpp
 

@@ -18,7 +18,6 @@ namespace {
 // Numbers for elements without a localId, beyond those that editors give.
 constexpr uint64_t kOwnNumbers = 9'000'000'000'000'000'000u;
 // CODESYS numbers the elements of network n from n times this on.
-constexpr uint64_t kNumbersPerNetwork = 10'000'000'000u;
 
 bool isNameChar(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -54,8 +53,8 @@ class Writer {
   Writer(const Sources& sources, const xml::Document& document, xml::Assembly& out)
       : sources_(sources), document_(document), out_(out) {}
 
-  void writeBody(const Diagram& diagram);
-  void writeCondition(const Diagram& diagram);
+  void writeBody(const DrawnBody& diagram);
+  void writeCondition(const DrawnBody& diagram);
 
  private:
   using Element = xml::Element;
@@ -481,7 +480,7 @@ void Writer::writeActions(const Element& body) {
   out_.word("{end_network};\n");
 }
 
-void Writer::writeBody(const Diagram& diagram) {
+void Writer::writeBody(const DrawnBody& diagram) {
   collect(diagram.body);
   const char* word = diagram.language == NetworkLanguage::Ladder   ? "LD"
                      : diagram.language == NetworkLanguage::Blocks ? "FBD"
@@ -493,7 +492,7 @@ void Writer::writeBody(const Diagram& diagram) {
 }
 
 // Only what leads to the condition, in the order of the file.
-void Writer::writeCondition(const Diagram& diagram) {
+void Writer::writeCondition(const DrawnBody& diagram) {
   collect(diagram.body);
   std::vector<uint64_t> wanted;
   const auto want = [&](const Element& point) {
@@ -547,7 +546,8 @@ std::string placeOf(const xml::Document& document, const xml::Element& e) {
          (size == "0, 0" ? std::string() : ", " + size);
 }
 
-void writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram, xml::Assembly& out) {
+void writeNetworks(const Sources& sources, const xml::Document& document, const DrawnBody& diagram,
+                   xml::Assembly& out) {
   Writer writer(sources, document, out);
   if (diagram.condition != nullptr || !diagram.ends.empty())
     writer.writeCondition(diagram);

@@ -10,7 +10,10 @@
 
 namespace rung::plcopen {
 
-struct Diagram {
+// localId of an element: the number of its network times this, plus a number of its own.
+constexpr uint64_t kNumbersPerNetwork = 10'000'000'000u;
+
+struct DrawnBody {
   const xml::Element& body;  // the <LD>, <FBD> or <CFC>; the <SFC> around a condition
   NetworkLanguage language;
   // Of the condition of a transition: the variable that it assigns. Where a <connectionPointIn> is given, what is wired
@@ -29,6 +32,6 @@ std::string placeOf(const xml::Document& document, const xml::Element& element);
 std::string wireOf(const xml::Document& document, const xml::Element& block);
 void writeActionCalls(const xml::Document& document, const xml::Element& body, xml::Assembly& out);
 
-void writeNetworks(const Sources& sources, const xml::Document& document, const Diagram& diagram, xml::Assembly& out);
+void writeNetworks(const Sources& sources, const xml::Document& document, const DrawnBody& diagram, xml::Assembly& out);
 
 }  // namespace rung::plcopen

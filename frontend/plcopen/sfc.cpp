@@ -21,8 +21,6 @@ bool isTimed(std::string_view qualifier) {
   return false;
 }
 
-bool isName(std::string_view text) { return !isBlank(text) && identifierOf(text) == text; }
-
 }  // namespace
 
 const xml::Element* Chart::ownAttribute(const xml::Element& element, std::string_view guid) const {
@@ -50,7 +48,7 @@ void Chart::writeAction(const xml::Element& action) {
   if (reference == nullptr && inline_body == nullptr) return;  // drawn, and not filled in yet
   if (reference != nullptr && !checkName(import_, *reference)) return;
   const xml::Attribute* name = reference == nullptr ? nullptr : document_.attribute(*reference, "name");
-  if (name != nullptr && isName(name->raw)) {
+  if (name != nullptr && isIdentifier(name->raw)) {
     import_.out.add(document_, *name);
     if (import_.isRenamed(name->raw)) import_.out.word(kActionSuffix);
   } else {
@@ -71,7 +69,7 @@ void Chart::writeAction(const xml::Element& action) {
     writeTime(action, qualifier->raw);
   }
   const xml::Attribute* indicator = document_.attribute(action, "indicator");
-  if (indicator != nullptr && isName(indicator->raw)) {
+  if (indicator != nullptr && isIdentifier(indicator->raw)) {
     import_.out.put(indicator->loc, ", ");
     import_.out.add(document_, *indicator);
   }
@@ -180,7 +178,7 @@ void Chart::writeStepFlags() {
   const std::string number = std::to_string(++import_.own_action_count);
   import_.out.put(ends[0]->loc, "INITIAL_STEP sfc_flags_" + number + ": sfc_action_" + number +
                                     "(N); END_STEP\nACTION sfc_action_" + number + ":\n");
-  Diagram diagram{chart_, NetworkLanguage::Ladder};
+  DrawnBody diagram{chart_, NetworkLanguage::Ladder};
   diagram.ends = ends;
   writeNetworks(import_.sources, document_, diagram, import_.out);
   import_.out.put(ends[0]->loc, "END_ACTION\n");

@@ -137,4 +137,6 @@ std::string identifierOf(std::string_view name) {
   return out;
 }
 
+bool isIdentifier(std::string_view text) { return !isBlank(text) && identifierOf(text) == text; }
+
 }  // namespace rung::plcopen

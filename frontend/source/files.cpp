@@ -40,10 +40,6 @@ bool isAscii(std::string_view text) {
   return true;
 }
 
-uint32_t countCharacters(std::string_view text) {
-  return static_cast<uint32_t>(std::count_if(text.begin(), text.end(), [](char c) { return !isContinuation(c); }));
-}
-
 // LF, CR LF and a lone CR each end a line.
 std::vector<uint32_t> findLineStarts(std::string_view text) {
   std::vector<uint32_t> starts = {0};
@@ -103,6 +99,10 @@ size_t addressLength(std::string_view text) {
 }
 
 }  // namespace
+
+uint32_t countCharacters(std::string_view utf8) {
+  return static_cast<uint32_t>(std::count_if(utf8.begin(), utf8.end(), [](char c) { return !isContinuation(c); }));
+}
 
 Sources::Sources() { files_.push_back({{}, {}, 0, {}, {}, {}, true}); }
 

@@ -104,6 +104,7 @@ class Sources {
 [[nodiscard]] bool decodeUtf16(std::string& text);
 
 void appendUtf8(std::string& out, uint32_t c);
+uint32_t countCharacters(std::string_view utf8);
 
 // Reads a whole file. The error says what the system said ("No such file or directory").
 struct ReadResult {

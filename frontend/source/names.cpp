@@ -45,21 +45,19 @@ uint32_t foldedHash(std::string_view text) {
   return static_cast<uint32_t>(hash ^ hash >> 32);
 }
 
-char folded(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; }
-
 }  // namespace
 
 bool sameIdentifier(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   for (size_t i = 0; i < a.size(); ++i) {
-    if (a[i] != b[i] && folded(a[i]) != folded(b[i])) return false;
+    if (a[i] != b[i] && foldedCharacter(a[i]) != foldedCharacter(b[i])) return false;
   }
   return true;
 }
 
 std::string foldedIdentifier(std::string_view text) {
   std::string result(text);
-  for (char& c : result) c = folded(c);
+  for (char& c : result) c = foldedCharacter(c);
   return result;
 }
 

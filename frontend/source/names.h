@@ -51,6 +51,8 @@ class Names {
   std::deque<std::vector<char>> storage_;
 };
 
+// An ASCII letter in lower case.
+constexpr char foldedCharacter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; }
 // True when the two texts are the same IEC identifier (ASCII case folded).
 bool sameIdentifier(std::string_view a, std::string_view b);
 // The text in small letters: equal for equal identifiers, and so the order of names that the dialects mean.

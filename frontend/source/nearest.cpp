@@ -4,17 +4,18 @@
 #include <bit>
 
 #include "frontend/source/diagnostics.h"
+#include "frontend/source/names.h"
 
 namespace rung {
 namespace {
 
 constexpr size_t kMaxLength = 64;  // longer names get no suggestion
 
-unsigned char folded(char c) { return static_cast<unsigned char>(c >= 'A' && c <= 'Z' ? c + 32 : c); }
+unsigned char foldedByte(char c) { return static_cast<unsigned char>(foldedCharacter(c)); }
 
 uint64_t characterSet(std::string_view text) {
   uint64_t set = 0;
-  for (const char c : text) set |= uint64_t{1} << (folded(c) & 63);
+  for (const char c : text) set |= uint64_t{1} << (foldedByte(c) & 63);
   return set;
 }
 
@@ -27,10 +28,10 @@ size_t distance(std::string_view a, std::string_view b, size_t limit) {
     row[0] = i;
     size_t least = i;
     for (size_t j = 1; j <= b.size(); ++j) {
-      const bool equal = folded(a[i - 1]) == folded(b[j - 1]);
+      const bool equal = foldedByte(a[i - 1]) == foldedByte(b[j - 1]);
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (equal ? 0 : 1)});
-      const bool swapped =
-          i > 1 && j > 1 && folded(a[i - 1]) == folded(b[j - 2]) && folded(a[i - 2]) == folded(b[j - 1]);
+      const bool swapped = i > 1 && j > 1 && foldedByte(a[i - 1]) == foldedByte(b[j - 2]) &&
+                           foldedByte(a[i - 2]) == foldedByte(b[j - 1]);
       if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
       least = std::min(least, row[j]);
     }

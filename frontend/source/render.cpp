@@ -70,11 +70,6 @@ std::string visible(std::string_view text) {
   return out;
 }
 
-uint32_t countCharacters(std::string_view text) {
-  return static_cast<uint32_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
-}
-
 // ---- where a diagnostic stands, for all formats
 
 struct Range {

@@ -187,7 +187,7 @@ class FileConditions {
   bool failed_ = false;
 };
 
-constexpr uint32_t kMaxDepth = 100;
+constexpr uint32_t kMaxConditionDepth = 100;
 
 void FileConditions::run() {
   size_t at = 0;
@@ -401,7 +401,7 @@ Truth FileConditions::negation() {
   for (; sameIdentifier(name, "NOT"); name = word()) negated = !negated;
   Truth value;
   if (name.empty()) {
-    if (depth_ >= kMaxDepth || !accept('(')) return failed();
+    if (depth_ >= kMaxConditionDepth || !accept('(')) return failed();
     ++depth_;
     value = disjunction();
     --depth_;

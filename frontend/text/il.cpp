@@ -14,13 +14,13 @@
 namespace rung::text {
 namespace {
 
-struct Word {
+struct Instruction {
   std::string_view text;  // sorted
   IlKind kind;
   BinaryOp op;
   uint8_t flags;
 };
-constexpr Word kWords[] = {
+constexpr Instruction kInstructions[] = {
     {"ADD", IlKind::Binary, BinaryOp::Add, 0},
     {"AND", IlKind::Binary, BinaryOp::And, 0},
     {"ANDN", IlKind::Binary, BinaryOp::And, kIlNegated},
@@ -58,19 +58,20 @@ constexpr Word kWords[] = {
     {"XOR", IlKind::Binary, BinaryOp::Xor, 0},
     {"XORN", IlKind::Binary, BinaryOp::Xor, kIlNegated},
 };
-constexpr Word kAmpersand = {"&", IlKind::Binary, BinaryOp::And, 0};
-constexpr Word kAmpersandN = {"&N", IlKind::Binary, BinaryOp::And, kIlNegated};
-constexpr size_t kLongestWord = 5;
+constexpr Instruction kAmpersand = {"&", IlKind::Binary, BinaryOp::And, 0};
+constexpr Instruction kAmpersandN = {"&N", IlKind::Binary, BinaryOp::And, kIlNegated};
+constexpr size_t kLongestInstruction = 5;
 
-const Word* findWord(std::string_view text) {
-  char upper[kLongestWord];
-  if (text.size() > kLongestWord) return nullptr;
+const Instruction* findInstruction(std::string_view text) {
+  char upper[kLongestInstruction];
+  if (text.size() > kLongestInstruction) return nullptr;
   for (size_t i = 0; i < text.size(); ++i)
     upper[i] = static_cast<char>(text[i] >= 'a' && text[i] <= 'z' ? text[i] - 32 : text[i]);
   const std::string_view wanted(upper, text.size());
-  const Word* found = std::lower_bound(std::begin(kWords), std::end(kWords), wanted,
-                                       [](const Word& word, std::string_view t) { return word.text < t; });
-  return found != std::end(kWords) && found->text == wanted ? found : nullptr;
+  const Instruction* found =
+      std::lower_bound(std::begin(kInstructions), std::end(kInstructions), wanted,
+                       [](const Instruction& word, std::string_view t) { return word.text < t; });
+  return found != std::end(kInstructions) && found->text == wanted ? found : nullptr;
 }
 
 // ADD, MUL, AND, OR, XOR take a list: `ADD 10, 12, 14`.
@@ -84,10 +85,10 @@ bool endsOperand(Tok k) {
 }
 bool isInfix(Tok k) { return (k >= Tok::Plus && k <= Tok::EqualLess) || (k >= Tok::And && k <= Tok::Mod); }
 
-const Word* wordAt(Tok kind, std::string_view text) {
+const Instruction* instructionAt(Tok kind, std::string_view text) {
   if (isName(kind) || kind == Tok::And || kind == Tok::Or || kind == Tok::Xor || kind == Tok::Not || kind == Tok::Mod ||
       kind == Tok::Jmp)
-    return findWord(text);
+    return findInstruction(text);
   return kind == Tok::Ampersand ? &kAmpersand : nullptr;
 }
 
@@ -95,7 +96,7 @@ const Word* wordAt(Tok kind, std::string_view text) {
 
 bool beginsIl(Tok kind, std::string_view text, const Token& next) {
   if (!isName(kind) || (next.flags & kLineStart) != 0) return false;
-  const Word* word = findWord(text);
+  const Instruction* word = findInstruction(text);
   return word != nullptr && (isName(next.kind) || next.kind == Tok::Number || next.kind == Tok::True ||
                              next.kind == Tok::False || next.kind == Tok::Address);
 }
@@ -104,12 +105,12 @@ bool beginsIl(Tok kind, std::string_view text, const Token& next) {
 bool Parser::isInstruction(const Token* t) const {
   if (t->kind == Tok::RightParen) return true;
   if (isName(t->kind) && t[1].kind == Tok::Colon) return true;
-  return wordAt(t->kind, textOf(t)) != nullptr;
+  return instructionAt(t->kind, textOf(t)) != nullptr;
 }
 
 // `LD x`, `JMP done`, `RET` on a line of its own, and not the statement `LD := 1;` or `AND(a, b);`.
 bool Parser::isPlainInstruction(const Token* t) const {
-  const Word* word = wordAt(t->kind, textOf(t));
+  const Instruction* word = instructionAt(t->kind, textOf(t));
   if (word == nullptr) return false;
   const Token* next = t + 1;
   const bool alone = (next->flags & kLineStart) != 0 || next->kind == Tok::End;
@@ -228,7 +229,7 @@ void Parser::parseInstruction() {
     }
   }
   const Token* op = t_;
-  const Word* word = wordAt(kind(), textOf(t_));
+  const Instruction* word = instructionAt(kind(), textOf(t_));
   i.loc = here();
   i.word = isName(kind()) ? nameOf(t_) : names_.intern(textOf(t_));
   if (at(Tok::RightParen)) {
@@ -478,7 +479,7 @@ void Parser::closeIlParen(Tok close) {
 // Statements among the instructions: one error for the whole body, since nobody knows what they would have done.
 bool Parser::statementInIl() {
   const Token* t = t_;
-  const bool word = isReserved(t->kind) && wordAt(t->kind, textOf(t)) == nullptr && t[1].kind != Tok::Colon;
+  const bool word = isReserved(t->kind) && instructionAt(t->kind, textOf(t)) == nullptr && t[1].kind != Tok::Colon;
   while (isName(t->kind) && (t[1].kind == Tok::Dot || t[1].kind == Tok::Caret) && isName(t[2].kind)) t += 2;
   if (!word && !(isName(t->kind) && t[1].kind == Tok::Assign)) return false;
   slip(diag::StatementInIl, t_, {textOf(t_)});

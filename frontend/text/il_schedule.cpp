@@ -21,9 +21,9 @@ namespace {
 // Of one expression; beyond it a temporary cuts the tree, so that no number of instructions is too large.
 constexpr uint16_t kMaxHeight = 200;
 
-class Scheduler {
+class IlScheduler {
  public:
-  Scheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Shapes& shapes, bool short_circuit)
+  IlScheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Shapes& shapes, bool short_circuit)
       : tree_(tree), names_(names), diagnostics_(diagnostics), shapes_(shapes), short_circuit_(short_circuit) {}
 
   IlStatements run(Slice<IlInstruction> list);
@@ -134,12 +134,12 @@ class Scheduler {
 
 // ---- values
 
-bool Scheduler::isConstant(ExprId expr) const {
+bool IlScheduler::isConstant(ExprId expr) const {
   while (tree_.kind(expr) == ExprKind::Unary) expr = tree_.as<UnaryExpr>(expr).operand;
   return tree_.kind(expr) == ExprKind::Literal || tree_.kind(expr) == ExprKind::TypedName;
 }
 
-NameId Scheduler::newTemporary(Loc loc) {
+NameId IlScheduler::newTemporary(Loc loc) {
   Ident ident{{}, loc};
   do {
     std::string name = "acc";
@@ -153,7 +153,7 @@ NameId Scheduler::newTemporary(Loc loc) {
   return ident.name;
 }
 
-Scheduler::Value Scheduler::valueOf(ExprId operand, Loc loc) const {
+IlScheduler::Value IlScheduler::valueOf(ExprId operand, Loc loc) const {
   Value value;
   value.state = State::Known;
   value.expr = operand;
@@ -163,7 +163,7 @@ Scheduler::Value Scheduler::valueOf(ExprId operand, Loc loc) const {
   return value;
 }
 
-ExprId Scheduler::copy(ExprId constant) {
+ExprId IlScheduler::copy(ExprId constant) {
   const ExprKind kind = tree_.kind(constant);
   if (kind == ExprKind::TypedName) return tree_.add<ExprId>(TypedNameExpr(tree_.as<TypedNameExpr>(constant)));
   if (kind == ExprKind::Literal) return tree_.add<ExprId>(LiteralExpr(tree_.as<LiteralExpr>(constant)));
@@ -173,7 +173,7 @@ ExprId Scheduler::copy(ExprId constant) {
 }
 
 // Evaluates it now, into a temporary.
-void Scheduler::spill(Value& value) {
+void IlScheduler::spill(Value& value) {
   if (value.state != State::Known || value.constant || value.temporary) return;
   const NameId name = newTemporary(value.loc);
   out_.push_back(
@@ -185,12 +185,12 @@ void Scheduler::spill(Value& value) {
 }
 
 // What stands in front of open parentheses is evaluated before the statement that follows.
-void Scheduler::settleOpen() {
+void IlScheduler::settleOpen() {
   for (; settled_ < open_.size(); ++settled_) spill(open_[settled_].left);
 }
 
 // A temporary for literals alone would give them a type before their time.
-void Scheduler::limit(Value& value) {
+void IlScheduler::limit(Value& value) {
   if (value.height < kMaxHeight || value.literals) return;
   settleOpen();
   spill(value);
@@ -198,7 +198,7 @@ void Scheduler::limit(Value& value) {
 
 // Forbids reading an accumulator that nothing was loaded into.
 //   fails   ST a        at the beginning of a body                E0727
-void Scheduler::require(Value& value, const IlInstruction& reader) {
+void IlScheduler::require(Value& value, const IlInstruction& reader) {
   if (value.state != State::Empty) return;
   value.state = State::Broken;
   diagnostics_.report(diag::AccumulatorEmpty, reader.loc,
@@ -206,7 +206,7 @@ void Scheduler::require(Value& value, const IlInstruction& reader) {
 }
 
 // The value as an expression of the tree.
-ExprId Scheduler::take(Value& value, Loc reader) {
+ExprId IlScheduler::take(Value& value, Loc reader) {
   value.read = true;
   if (value.state != State::Known) return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, reader)});
   if (value.temporary) return nameExpr(value.temporary, reader);
@@ -214,7 +214,7 @@ ExprId Scheduler::take(Value& value, Loc reader) {
 }
 
 // The accumulator for an instruction that leaves it as it is.
-ExprId Scheduler::use(const IlInstruction& reader) {
+ExprId IlScheduler::use(const IlInstruction& reader) {
   if (isLive(at_ + 1)) {
     settleOpen();
     spill(acc_);
@@ -222,7 +222,7 @@ ExprId Scheduler::use(const IlInstruction& reader) {
   return take(acc_, reader.loc);
 }
 
-Scheduler::Value Scheduler::negated(Value value, Loc loc) {
+IlScheduler::Value IlScheduler::negated(Value value, Loc loc) {
   Value result = value;
   result.expr = unary(UnaryOp::Not, take(value, loc), loc);
   result.state = value.state == State::Broken ? State::Broken : State::Known;
@@ -234,7 +234,7 @@ Scheduler::Value Scheduler::negated(Value value, Loc loc) {
   return result;
 }
 
-Scheduler::Value Scheduler::combined(Value left, BinaryOp op, Value right, Loc loc) {
+IlScheduler::Value IlScheduler::combined(Value left, BinaryOp op, Value right, Loc loc) {
   const bool logical = op == BinaryOp::And || op == BinaryOp::Or;
   if (short_circuit_ && logical && right.calls) {
     settleOpen();
@@ -256,7 +256,7 @@ Scheduler::Value Scheduler::combined(Value left, BinaryOp op, Value right, Loc l
 
 // The accumulator gets another value. What was computed for nobody is still evaluated: it may call or fault, and its
 // names are checked.
-void Scheduler::drop() {
+void IlScheduler::drop() {
   const Value value = std::exchange(acc_, {});
   if (value.state != State::Known || value.read) return;
   if (value.expr && tree_.kind(value.expr) == ExprKind::Call) return callStatement(value.expr);
@@ -269,7 +269,7 @@ void Scheduler::drop() {
 }
 
 // Before a call that has no use for the accumulator.
-void Scheduler::keepOrDrop() {
+void IlScheduler::keepOrDrop() {
   if (!isLive(at_ + 1)) return drop();
   settleOpen();
   spill(acc_);
@@ -278,7 +278,7 @@ void Scheduler::keepOrDrop() {
 // ---- instructions
 
 template <class Body>
-void Scheduler::conditional(ExprId condition, Loc loc, Body body) {
+void IlScheduler::conditional(ExprId condition, Loc loc, Body body) {
   settleOpen();
   const size_t first = out_.size();
   body();
@@ -289,7 +289,7 @@ void Scheduler::conditional(ExprId condition, Loc loc, Body body) {
 }
 
 // Forbids what leaves open parentheses, and statements in the list of an argument.
-bool Scheduler::allowed(const IlInstruction& i) {
+bool IlScheduler::allowed(const IlInstruction& i) {
   const bool leaves = i.kind == IlKind::Jump || i.kind == IlKind::Return;
   const bool states =
       i.kind == IlKind::Store || i.kind == IlKind::Set || i.kind == IlKind::Reset || i.kind == IlKind::Call;
@@ -300,7 +300,7 @@ bool Scheduler::allowed(const IlInstruction& i) {
 }
 
 // The accumulator that a list leaves.
-Scheduler::Value Scheduler::runList(Slice<IlInstruction> list, bool nested) {
+IlScheduler::Value IlScheduler::runList(Slice<IlInstruction> list, bool nested) {
   IlFlow flow = flowOf(tree_, names_, diagnostics_, shapes_, list, nested);
   IlFlow* const outer_flow = std::exchange(flow_, &flow);
   const uint32_t outer_at = at_;
@@ -334,7 +334,7 @@ Scheduler::Value Scheduler::runList(Slice<IlInstruction> list, bool nested) {
 }
 
 // Where ways meet, the accumulator is a temporary that each of them sets. A label that nothing jumps to is none.
-void Scheduler::label(const IlInstruction& i) {
+void IlScheduler::label(const IlInstruction& i) {
   if (open_.size() > first_open_ || nested_) {
     const std::string shown = "the label `" + std::string(names_.text(i.label.name)) + "`";
     diagnostics_.report(diag::IlInsideParens, i.label.loc, {shown});
@@ -358,7 +358,7 @@ void Scheduler::label(const IlInstruction& i) {
 }
 
 // An instruction that is never reached. Its parentheses count, so that a label inside of them is seen to be there.
-void Scheduler::skip(const IlInstruction& i, bool& told) {
+void IlScheduler::skip(const IlInstruction& i, bool& told) {
   if (!told && i.kind != IlKind::Label) {
     diagnostics_.report(diag::Unreachable, i.loc);
     told = true;
@@ -372,7 +372,7 @@ void Scheduler::skip(const IlInstruction& i, bool& told) {
   settled_ = std::min(settled_, open_.size());
 }
 
-void Scheduler::step(const IlInstruction& i) {
+void IlScheduler::step(const IlInstruction& i) {
   if (!allowed(i)) return;
   if (const NameId* pin = inputOperator(tree_, names_, shapes_, i)) {  // the call of the instance with this one input
     require(acc_, i);
@@ -403,7 +403,7 @@ void Scheduler::step(const IlInstruction& i) {
   }
 }
 
-void Scheduler::store(const IlInstruction& i) {
+void IlScheduler::store(const IlInstruction& i) {
   require(acc_, i);
   const ExprId value = use(i);
   const ExprId target = operand(i, 0).value;
@@ -415,7 +415,7 @@ void Scheduler::store(const IlInstruction& i) {
     assign(target, (i.flags & kIlNegated) != 0 ? unary(UnaryOp::Not, value, i.loc) : value, i.loc);
 }
 
-void Scheduler::binary(const IlInstruction& i) {
+void IlScheduler::binary(const IlInstruction& i) {
   require(acc_, i);
   if ((i.flags & kIlDeferred) != 0) {
     open_.push_back({i, std::exchange(acc_, {})});
@@ -429,7 +429,7 @@ void Scheduler::binary(const IlInstruction& i) {
   }
 }
 
-void Scheduler::close(const IlInstruction& i) {
+void IlScheduler::close(const IlInstruction& i) {
   require(acc_, i);
   const Open open = open_.back();
   open_.pop_back();
@@ -448,7 +448,7 @@ void Scheduler::close(const IlInstruction& i) {
   acc_ = combined(open.left, op.op, acc_, op.loc);
 }
 
-Scheduler::Value Scheduler::called(ExprId callee, std::vector<Argument>& arguments, Loc loc, uint16_t height) {
+IlScheduler::Value IlScheduler::called(ExprId callee, std::vector<Argument>& arguments, Loc loc, uint16_t height) {
   Value value;
   value.state = State::Known;
   value.calls = true;
@@ -461,7 +461,7 @@ Scheduler::Value Scheduler::called(ExprId callee, std::vector<Argument>& argumen
 }
 
 // The operands as arguments, with what nested lists compute.
-void Scheduler::fillNested(const IlInstruction& i, std::vector<Argument>& arguments) {
+void IlScheduler::fillNested(const IlInstruction& i, std::vector<Argument>& arguments) {
   const size_t first = arguments.size();
   for (uint32_t k = 0; k < i.operands.count; ++k) arguments.push_back(operand(i, k));
   for (uint32_t k = 0; k < i.nested.count; ++k) {
@@ -474,7 +474,7 @@ void Scheduler::fillNested(const IlInstruction& i, std::vector<Argument>& argume
   }
 }
 
-void Scheduler::function(const IlInstruction& i) {
+void IlScheduler::function(const IlInstruction& i) {
   const Shape shape = shapes_.of(i.callee);
   if ((i.flags & kIlDeferred) != 0) {
     open_.push_back({i, std::exchange(acc_, {})});
@@ -510,7 +510,7 @@ void Scheduler::function(const IlInstruction& i) {
   limit(acc_);
 }
 
-void Scheduler::call(const IlInstruction& i) {
+void IlScheduler::call(const IlInstruction& i) {
   const auto make = [&] {
     std::vector<Argument> arguments;
     fillNested(i, arguments);
@@ -532,7 +532,7 @@ void Scheduler::call(const IlInstruction& i) {
   callStatement(make().expr);
 }
 
-void Scheduler::jump(const IlInstruction& i) {
+void IlScheduler::jump(const IlInstruction& i) {
   const bool conditioned = (i.flags & kIlConditional) != 0;
   if (conditioned) require(acc_, i);
   const StmtId statement = tree_.add<StmtId>(JumpStmt{stmtHeader(StmtKind::Jump, i.loc), i.target});
@@ -571,7 +571,7 @@ void Scheduler::jump(const IlInstruction& i) {
   conditional(condition, i.loc, [&] { out_.push_back(statement); });
 }
 
-void Scheduler::leave(const IlInstruction& i) {
+void IlScheduler::leave(const IlInstruction& i) {
   const bool conditioned = (i.flags & kIlConditional) != 0;
   const auto make = [&] { return tree_.add<StmtId>(ReturnStmt{stmtHeader(StmtKind::Return, i.loc)}); };
   if (!conditioned) {
@@ -586,7 +586,7 @@ void Scheduler::leave(const IlInstruction& i) {
   conditional(condition, i.loc, [&] { out_.push_back(make()); });
 }
 
-IlStatements Scheduler::run(Slice<IlInstruction> list) {
+IlStatements IlScheduler::run(Slice<IlInstruction> list) {
   runList(list, false);
   structureJumps(tree_, names_, out_);
   IlStatements result{tree_.addList<StmtId>(out_), {}};
@@ -603,7 +603,7 @@ IlStatements Scheduler::run(Slice<IlInstruction> list) {
 
 IlStatements scheduleIl(Tree& tree, Names& names, Diagnostics& diagnostics, Shapes& shapes,
                         Slice<IlInstruction> instructions, bool short_circuit) {
-  return Scheduler(tree, names, diagnostics, shapes, short_circuit).run(instructions);
+  return IlScheduler(tree, names, diagnostics, shapes, short_circuit).run(instructions);
 }
 
 }  // namespace rung::text

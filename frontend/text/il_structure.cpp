@@ -11,7 +11,7 @@
 namespace rung::text {
 namespace {
 
-constexpr uint32_t kMaxDepth = 40;
+constexpr uint32_t kMaxIfDepth = 40;
 
 class Structurer {
  public:
@@ -102,7 +102,7 @@ void Structurer::settle(StmtId statement) {
   const size_t at = jump == nullptr ? out_.size() : findLabel(*jump);
   uint32_t depth = 0;
   for (size_t i = at + 1; i < out_.size(); ++i) depth = std::max(depth, out_[i].depth);
-  if (at >= out_.size() || depth >= kMaxDepth) {
+  if (at >= out_.size() || depth >= kMaxIfDepth) {
     out_.push_back({statement, 1});
     return;
   }

@@ -71,9 +71,9 @@ constexpr uint32_t wordHash(const char* s, uint32_t n) {
   return (n * 131u + a * 7u + b * 61u + c * 313u + (static_cast<unsigned char>(s[n > 5 ? 5 : 0] | 0x20) * 29u)) &
          (kWordSlots - 1);
 }
-struct WordTable {
+struct KeywordTable {
   uint8_t slot[kWordSlots] = {};
-  constexpr WordTable() {
+  constexpr KeywordTable() {
     for (uint32_t k = static_cast<uint32_t>(Tok::And); k < kTokCount; ++k) {
       uint32_t h = wordHash(kSpellings[k].text, kSpellings[k].length);
       while (slot[h] != 0) h = (h + 1) & (kWordSlots - 1);
@@ -81,13 +81,13 @@ struct WordTable {
     }
   }
 };
-constexpr WordTable kWords;
-constexpr uint32_t kLongestWord = 18;  // END_FUNCTION_BLOCK
+constexpr KeywordTable kKeywords;
+constexpr uint32_t kLongestKeyword = 18;  // END_FUNCTION_BLOCK
 
-Tok findWord(const char* s, uint32_t n) {
-  if (n > kLongestWord) return Tok::Ident;
+Tok findKeyword(const char* s, uint32_t n) {
+  if (n > kLongestKeyword) return Tok::Ident;
   for (uint32_t h = wordHash(s, n);; h = (h + 1) & (kWordSlots - 1)) {
-    const uint8_t k = kWords.slot[h];
+    const uint8_t k = kKeywords.slot[h];
     if (k == 0) return Tok::Ident;
     if (kSpellings[k].length != n) continue;
     uint32_t i = 0;
@@ -280,7 +280,7 @@ const char* Lexer::word(const char* begin) {
   const auto length = static_cast<uint32_t>(p - begin);
   if (*p == '#' && p < end_)
     if (const Prefix prefix = prefixOf({begin, length}); prefix != Prefix::None) return prefixed(begin, p + 1, prefix);
-  const Tok kind = findWord(begin, length);
+  const Tok kind = findKeyword(begin, length);
   if (kBlockWord[static_cast<size_t>(kind)]) out_.blocks.push_back(static_cast<uint32_t>(out_.tokens.size()));
   if (isReserved(kind)) {
     push(kind, begin, length);

@@ -20,27 +20,27 @@
 namespace rung::text {
 namespace {
 
-struct Word {
+struct ElementName {
   std::string_view word;
   ElementKind kind;
 };
-constexpr Word kWords[] = {{"rail", ElementKind::Rail},
-                           {"right_rail", ElementKind::RightRail},
-                           {"contact", ElementKind::Contact},
-                           {"coil", ElementKind::Coil},
-                           {"box", ElementKind::Box},
-                           {"input", ElementKind::Input},
-                           {"output", ElementKind::Output},
-                           {"inout", ElementKind::InOut},
-                           {"connector", ElementKind::Connector},
-                           {"continuation", ElementKind::Continuation},
-                           {"jump", ElementKind::Jump},
-                           {"label", ElementKind::Label},
-                           {"return", ElementKind::Return},
-                           {"execute", ElementKind::Execute},
-                           {"compose", ElementKind::Compose},
-                           {"select", ElementKind::Select},
-                           {"comment", ElementKind::Comment}};
+constexpr ElementName kElementNames[] = {{"rail", ElementKind::Rail},
+                                         {"right_rail", ElementKind::RightRail},
+                                         {"contact", ElementKind::Contact},
+                                         {"coil", ElementKind::Coil},
+                                         {"box", ElementKind::Box},
+                                         {"input", ElementKind::Input},
+                                         {"output", ElementKind::Output},
+                                         {"inout", ElementKind::InOut},
+                                         {"connector", ElementKind::Connector},
+                                         {"continuation", ElementKind::Continuation},
+                                         {"jump", ElementKind::Jump},
+                                         {"label", ElementKind::Label},
+                                         {"return", ElementKind::Return},
+                                         {"execute", ElementKind::Execute},
+                                         {"compose", ElementKind::Compose},
+                                         {"select", ElementKind::Select},
+                                         {"comment", ElementKind::Comment}};
 
 // What the element stands for must be written in it.
 bool needsOperand(ElementKind kind) {
@@ -168,9 +168,9 @@ ExprId Parser::parseElementPath(Ident& name) {
 
 void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
   const Token* word = t_;
-  const auto* known =
-      std::find_if(std::begin(kWords), std::end(kWords), [&](const Word& w) { return is(word, w.word); });
-  if (known == std::end(kWords)) {
+  const auto* known = std::find_if(std::begin(kElementNames), std::end(kElementNames),
+                                   [&](const ElementName& w) { return is(word, w.word); });
+  if (known == std::end(kElementNames)) {
     fail(diag::NoElement, t_, {textOf(t_)});
     return;
   }

@@ -11,7 +11,7 @@ constexpr size_t kTextLength = 80;
 }  // namespace
 
 // As before the first cycle.
-void Scheduler::reset(uint32_t depth) {
+void SfcScheduler::reset(uint32_t depth) {
   for (const SfcStep& step : chart_.steps_) {
     out_.at(step.name.loc);
     out_.line(depth, step.name, ".x := ", step.initial ? "TRUE;" : "FALSE;");
@@ -44,7 +44,7 @@ void Scheduler::reset(uint32_t depth) {
   clearTable(depth);
 }
 
-void Scheduler::flags() {
+void SfcScheduler::flags() {
   if (const Ident* flag = chart_.flag(SfcFlag::Init)) {
     out_.at(flag->loc);
     out_.line(0, "IF ", *flag, " THEN");
@@ -103,7 +103,7 @@ void Scheduler::flags() {
 }
 
 // The content of a text literal, as much as a STRING holds.
-std::string Scheduler::quoted(std::string_view text) {
+std::string SfcScheduler::quoted(std::string_view text) {
   std::string out;
   size_t length = 0;
   for (const char c : text) {
@@ -114,7 +114,7 @@ std::string Scheduler::quoted(std::string_view text) {
   return out;
 }
 
-std::vector<const SfcTransition*> Scheduler::leaving(const SfcStep& step) const {
+std::vector<const SfcTransition*> SfcScheduler::leaving(const SfcStep& step) const {
   std::vector<const SfcTransition*> out;
   for (const SfcTransition& t : chart_.transitions_)
     for (const Ident& from : tree_.list(t.from))
@@ -122,7 +122,7 @@ std::vector<const SfcTransition*> Scheduler::leaving(const SfcStep& step) const 
   return out;
 }
 
-void Scheduler::clearTable(uint32_t depth) {
+void SfcScheduler::clearTable(uint32_t depth) {
   const Ident* table = chart_.flag(SfcFlag::ErrorAnalyzationTable);
   if (table == nullptr) return;
   out_.line(depth, "FOR sfc_row := LOWER_BOUND(", *table, ", 1) TO UPPER_BOUND(", *table, ", 1) DO");
@@ -132,7 +132,7 @@ void Scheduler::clearTable(uint32_t depth) {
 }
 
 template <class Condition>
-void Scheduler::analyseLeaf(const Condition& condition, std::string_view text, bool wanted, uint32_t depth) {
+void SfcScheduler::analyseLeaf(const Condition& condition, std::string_view text, bool wanted, uint32_t depth) {
   const Ident& table = *chart_.flag(SfcFlag::ErrorAnalyzationTable);
   out_.line(depth, "IF sfc_row <= UPPER_BOUND(", table, ", 1) AND ", wanted ? "NOT " : "", "(", condition);
   out_.line(depth, ") THEN");  // on a line of its own: the condition may end with a comment
@@ -144,7 +144,7 @@ void Scheduler::analyseLeaf(const Condition& condition, std::string_view text, b
 
 // A row for each part of a condition that keeps it from being `wanted`: of AND those that are FALSE, of OR all where
 // none is TRUE, behind NOT the other way round.
-void Scheduler::analyse(const SfcExpr& e, bool wanted, uint32_t depth) {
+void SfcScheduler::analyse(const SfcExpr& e, bool wanted, uint32_t depth) {
   const ExprKind kind = tree_.kind(e.value);
   if (kind == ExprKind::Unary && tree_.as<UnaryExpr>(e.value).op() == UnaryOp::Not) {
     const ExprId operand = tree_.as<UnaryExpr>(e.value).operand;
@@ -166,7 +166,7 @@ void Scheduler::analyse(const SfcExpr& e, bool wanted, uint32_t depth) {
 }
 
 // The text of a part of a condition: without the blanks and the parentheses of others behind it.
-SfcExpr Scheduler::part(const SfcExpr& e) const {
+SfcExpr SfcScheduler::part(const SfcExpr& e) const {
   std::string_view text = out_.textOf(e);
   size_t depth = 0;
   for (size_t i = 0; i < text.size(); ++i) {
@@ -183,7 +183,7 @@ SfcExpr Scheduler::part(const SfcExpr& e) const {
   return {e.value, e.begin, {e.begin.offset + static_cast<uint32_t>(last + 1)}};
 }
 
-void Scheduler::timeLimit(const SfcStep& step, uint32_t depth) {
+void SfcScheduler::timeLimit(const SfcStep& step, uint32_t depth) {
   const Ident* error = chart_.flag(SfcFlag::Error);
   const Ident* enabled = chart_.flag(SfcFlag::EnableLimit);
   if (!step.max.value || error == nullptr) return;

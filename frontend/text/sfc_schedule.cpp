@@ -14,8 +14,8 @@
 
 namespace rung::text {
 
-void Scheduler::forWords(uint32_t depth, size_t count,
-                         FunctionRef<void(const std::string& index, uint32_t depth)> body) {
+void SfcScheduler::forWords(uint32_t depth, size_t count,
+                            FunctionRef<void(const std::string& index, uint32_t depth)> body) {
   const uint32_t words = chart_.words(count);
   if (words <= 1) return body("", depth);
   out_.line(depth, "FOR sfc_word := 0 TO ", std::to_string(words - 1), " DO");
@@ -23,8 +23,8 @@ void Scheduler::forWords(uint32_t depth, size_t count,
   out_.line(depth, "END_FOR");
 }
 
-void Scheduler::scan(uint32_t depth, const char* set, size_t count, FunctionRef<bool(uint32_t)> wanted,
-                     FunctionRef<std::string_view(uint32_t)> name, Branch branch) {
+void SfcScheduler::scan(uint32_t depth, const char* set, size_t count, FunctionRef<bool(uint32_t)> wanted,
+                        FunctionRef<std::string_view(uint32_t)> name, Branch branch) {
   uint32_t first = 0;
   while (first < count && !wanted(first)) ++first;
   if (first == count) return;
@@ -45,7 +45,7 @@ void Scheduler::scan(uint32_t depth, const char* set, size_t count, FunctionRef<
 }
 
 // The entry, active or exit actions of a step.
-void Scheduler::run(uint32_t depth, const SfcStep& step, SfcQualifier when) {
+void SfcScheduler::run(uint32_t depth, const SfcStep& step, SfcQualifier when) {
   for (const SfcAssociation& a : tree_.list(step.actions)) {
     if (a.qualifier != when) continue;
     out_.at(a.action.loc);
@@ -54,7 +54,7 @@ void Scheduler::run(uint32_t depth, const SfcStep& step, SfcQualifier when) {
 }
 
 // What the transitions of the last cycle decided.
-void Scheduler::evolve() {
+void SfcScheduler::evolve() {
   const size_t count = chart_.steps_.size();
   const auto all = [](uint32_t) { return true; };
   out_.at(chart_.pou_.body_begin);
@@ -84,7 +84,7 @@ void Scheduler::evolve() {
   out_.line(0, "END_IF");
 }
 
-void Scheduler::activeStep(uint32_t i, uint32_t depth) {
+void SfcScheduler::activeStep(uint32_t i, uint32_t depth) {
   const SfcStep& step = chart_.steps_[i];
   out_.at(step.name.loc);
   out_.line(depth, step.name, ".t := sfc_now - ", step.name, "._t;");
@@ -106,7 +106,7 @@ void Scheduler::activeStep(uint32_t i, uint32_t depth) {
   }
 }
 
-void Scheduler::actions() {
+void SfcScheduler::actions() {
   const size_t count = chart_.actions_.size();
   scan(
       0, "sfc_actions", count, [](uint32_t) { return true; }, actionNames(),
@@ -138,7 +138,7 @@ void Scheduler::actions() {
 }
 
 // `TRANSITION t FROM a TO b;` has the condition of `TRANSITION t := …`, here or around, or is named like a variable.
-const SfcTransition& Scheduler::conditionOf(const SfcTransition& t) const {
+const SfcTransition& SfcScheduler::conditionOf(const SfcTransition& t) const {
   if (t.body || t.condition.value) return t;
   for (const SfcTransition& other : chart_.transitions_)
     if (other.body && charts_.names.same(other.name.name, t.name.name)) return other;
@@ -148,7 +148,7 @@ const SfcTransition& Scheduler::conditionOf(const SfcTransition& t) const {
   return t;
 }
 
-void Scheduler::prepare(uint32_t way, uint32_t depth) {
+void SfcScheduler::prepare(uint32_t way, uint32_t depth) {
   const SfcTransition& t = conditionOf(chart_.transitions_[way]);
   out_.at(t.loc);
   if (t.body)
@@ -157,7 +157,7 @@ void Scheduler::prepare(uint32_t way, uint32_t depth) {
     out_.line(depth, t.target, " := ", t.condition, ";");
 }
 
-void Scheduler::condition(uint32_t way) {
+void SfcScheduler::condition(uint32_t way) {
   const SfcTransition& own = chart_.transitions_[way];
   const SfcTransition& t = conditionOf(own);
   const std::span<const Ident> from = tree_.list(own.from);
@@ -195,7 +195,7 @@ void Scheduler::condition(uint32_t way) {
   if (tips) out_.put(", sfc_tip)");
 }
 
-void Scheduler::fire(uint32_t way, uint32_t depth) {
+void SfcScheduler::fire(uint32_t way, uint32_t depth) {
   const SfcTransition& t = chart_.transitions_[way];
   out_.at(t.loc);
   for (const Ident& step : tree_.list(t.from)) {
@@ -213,7 +213,7 @@ void Scheduler::fire(uint32_t way, uint32_t depth) {
 }
 
 // The first way whose condition is TRUE.
-void Scheduler::chain(const std::vector<uint32_t>& ways, size_t at, uint32_t depth) {
+void SfcScheduler::chain(const std::vector<uint32_t>& ways, size_t at, uint32_t depth) {
   const auto prepared = [&](size_t k) {
     const SfcTransition& t = conditionOf(chart_.transitions_[ways[k]]);
     return t.body || chart_.keepsCondition(t);
@@ -238,7 +238,7 @@ void Scheduler::chain(const std::vector<uint32_t>& ways, size_t at, uint32_t dep
 }
 
 // The transitions that are judged with each step: a transition from several steps with the first of them.
-std::vector<std::vector<uint32_t>> Scheduler::waysBySteps() const {
+std::vector<std::vector<uint32_t>> SfcScheduler::waysBySteps() const {
   std::vector<std::vector<uint32_t>> ways(chart_.steps_.size());
   for (uint32_t i = 0; i < chart_.transitions_.size(); ++i)
     if (!chart_.transitions_[i].from.empty())
@@ -252,7 +252,7 @@ std::vector<std::vector<uint32_t>> Scheduler::waysBySteps() const {
   return ways;
 }
 
-void Scheduler::transitions() {
+void SfcScheduler::transitions() {
   const std::vector<std::vector<uint32_t>> ways = waysBySteps();
   std::vector<bool> joined(chart_.steps_.size());  // may be left by a transition that is judged with another step
   for (const SfcTransition& t : chart_.transitions_) {
@@ -287,7 +287,7 @@ void Scheduler::transitions() {
   }
 }
 
-void Scheduler::run() {
+void SfcScheduler::run() {
   flags();
   evolve();
   scan(
@@ -316,7 +316,7 @@ bool scheduleSfc(const Charts& charts, Shapes& shapes, PouDecl& pou, const Chart
   Chart chart(charts, pou, place);
   chart.findFlags(shapes);
   Writer out(charts, pou.body_begin);
-  Scheduler(chart, shapes, out).run();
+  SfcScheduler(chart, shapes, out).run();
   out.at(pou.body_begin);
   pou.chart_body = out.finish();
   pou.body =

@@ -8,9 +8,9 @@
 
 namespace rung::text {
 
-class Scheduler {
+class SfcScheduler {
  public:
-  Scheduler(const Chart& chart, Shapes& shapes, Writer& out)
+  SfcScheduler(const Chart& chart, Shapes& shapes, Writer& out)
       : chart_(chart), charts_(chart.charts_), tree_(chart.charts_.tree), shapes_(shapes), out_(out) {}
 
   void run();

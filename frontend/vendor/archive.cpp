@@ -6,7 +6,7 @@
 namespace rung::vendor {
 namespace {
 
-bool isWordChar(char c) {
+bool isNameChar(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
@@ -17,7 +17,7 @@ bool isPath(std::string_view text) {
   for (const char c : text) {
     if (c == '.' && !at_begin) {
       at_begin = true;
-    } else if (isWordChar(c) && !(at_begin && c >= '0' && c <= '9')) {
+    } else if (isNameChar(c) && !(at_begin && c >= '0' && c <= '9')) {
       at_begin = false;
     } else {
       return false;

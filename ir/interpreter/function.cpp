@@ -15,7 +15,7 @@ using types::TypeTable;
 
 namespace {
 
-constexpr size_t kStack = size_t{1} << 20;
+constexpr size_t kConstantStack = size_t{1} << 20;
 
 // The function and all that it may call.
 std::vector<BodyId> reachable(const Module& module, BodyId from) {
@@ -84,7 +84,7 @@ FunctionResult runFunction(const Module& module, BodyId function, std::span<cons
   }
 
   const Insn halt{haltHandler(), 0, 0, 0, 0, 0};
-  const auto stack = std::make_unique<uint64_t[]>((kStack + 2 * size_t{code.bodies[function.index].frame}) / 8);
+  const auto stack = std::make_unique<uint64_t[]>((kConstantStack + 2 * size_t{code.bodies[function.index].frame}) / 8);
   auto* const fp = reinterpret_cast<uint8_t*>(stack.get());
   *reinterpret_cast<Linkage*>(fp) = {&halt, nullptr, nullptr};
   std::vector<std::unique_ptr<uint64_t[]>> memory;
@@ -134,7 +134,7 @@ FunctionResult runFunction(const Module& module, BodyId function, std::span<cons
   rung_context ctx{};
   Machine machine;
   machine.ctx = &ctx;
-  machine.limit = fp + kStack;
+  machine.limit = fp + kConstantStack;
   machine.budget = budget;
   struct Start {
     NativeThunk native;

@@ -37,7 +37,7 @@ void assignUtf8(RUNG_HANDLER_PARAMETERS) {
 }
 
 template <bool Wide, Base A, Base B>
-void compare(RUNG_HANDLER_PARAMETERS) {
+void compareStrings(RUNG_HANDLER_PARAMETERS) {
   const auto* const a = text<Wide, A>(ip, fp, self, ip->b);
   const auto* const b = text<Wide, B>(ip, fp, self, ip->c);
   if constexpr (Wide) store<int32_t>(fp + ip->a, rung_wtext_compare(a, b));
@@ -74,9 +74,10 @@ Handler assignOf(Base to, Base from) {
   });
 }
 template <bool Wide>
-Handler compareOf(Base left, Base right) {
-  return withAddress(
-      left, [&](auto a) { return withAnyAddress(right, [&](auto b) -> Handler { return compare<Wide, a(), b()>; }); });
+Handler compareStringsOf(Base left, Base right) {
+  return withAddress(left, [&](auto a) {
+    return withAnyAddress(right, [&](auto b) -> Handler { return compareStrings<Wide, a(), b()>; });
+  });
 }
 
 }  // namespace
@@ -90,7 +91,7 @@ Handler assignUtf8Handler(Base to, Base from) {
       to, [&](auto d) { return withAnyAddress(from, [&](auto a) -> Handler { return assignUtf8<d(), a()>; }); });
 }
 Handler compareTextHandler(bool wide, Base left, Base right) {
-  return wide ? compareOf<true>(left, right) : compareOf<false>(left, right);
+  return wide ? compareStringsOf<true>(left, right) : compareStringsOf<false>(left, right);
 }
 Handler emptyTextHandler(bool wide, Base to) {
   return withAddress(to, [&](auto d) -> Handler { return wide ? empty<true, d()> : empty<false, d()>; });

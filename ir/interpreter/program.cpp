@@ -13,7 +13,7 @@ namespace rung::ir::interpreter {
 
 namespace {
 
-constexpr size_t kStack = size_t{1} << 20;  // of an activation, on top of the largest frame
+constexpr size_t kTaskStack = size_t{1} << 20;  // of an activation, on top of the largest frame
 
 // The frames of the activation at hand on this thread: made once, so that the cycle allocates nothing.
 struct Stack {
@@ -34,7 +34,7 @@ struct Program::Parts {
   std::vector<rung_test> tests;
   Code::Entry init, exit;
   std::vector<Code::Entry> of_task, of_test, of_test_init, of_test_exit;
-  size_t stack_size = kStack;
+  size_t stack_size = kTaskStack;
   rung_site* spare_site = nullptr;  // the last row of code.sites: siteOfCrash
 
   static const Parts& of(const rung_context* ctx) { return *reinterpret_cast<const Parts*>(ctx->module); }
@@ -168,7 +168,7 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
     of_test_exit.push_back(translator.translateSteps(last));
   }
   link(module, code);
-  for (const Code::Entry& body : code.bodies) stack_size = std::max(stack_size, kStack + 2 * size_t{body.frame});
+  for (const Code::Entry& body : code.bodies) stack_size = std::max(stack_size, kTaskStack + 2 * size_t{body.frame});
   if (!code.missing.empty()) refusal = "the native function `" + code.missing + "` is not part of rung";
   if (!module.cpp_bodies.empty()) {
     const Body& body = module.body(module.cpp_bodies.front().body);

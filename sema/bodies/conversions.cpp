@@ -13,7 +13,6 @@ namespace {
 
 using types::TypeTable;
 
-bool isNumberKind(TypeKind k) { return TypeTable::isInteger(k) || TypeTable::isBits(k) || TypeTable::isReal(k); }
 bool isWholeKind(TypeKind k) { return TypeTable::isInteger(k) || TypeTable::isBits(k); }
 
 Fit fitNumbers(const Context& context, TypeId from, TypeId to) {
@@ -143,7 +142,7 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
     if (context.iec() && isNamedValueOf(context, from, to)) return Fit::Lossless;
     if (source.kind == target.kind) return context.iec() ? Fit::No : Fit::Lossy;
     if (target.strict) return Fit::No;
-    if (!isNumberKind(a) || !isNumberKind(b)) return Fit::No;
+    if (!TypeTable::isNumber(a) || !TypeTable::isNumber(b)) return Fit::No;
     if (TypeTable::isReal(a)) return Fit::No;
     if (context.iec()) return Fit::Extension;
     if (target.kind == TypeKind::Enum) return Fit::Lossy;
@@ -155,7 +154,7 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
     if (plain == Fit::Same) return Fit::Lossless;
     return plain == Fit::Lossy && types::isLossless(table, from, to) ? Fit::Lossless : plain;
   }
-  if (isNumberKind(a) && isNumberKind(b)) return fitNumbers(context, from, to);
+  if (TypeTable::isNumber(a) && TypeTable::isNumber(b)) return fitNumbers(context, from, to);
   if (sameQuantity(a, b)) return types::isLossless(table, from, to) ? Fit::Lossless : Fit::Lossy;
   if (TypeTable::isText(a) && a == b) return Fit::Same;  // cut to the capacity where it is stored
   // An addition of edition 4.
@@ -188,7 +187,7 @@ TypeId commonNumber(const Context& context, TypeId a, TypeId b) {
   b = table.plain(b);
   if (a == b) return a;
   const TypeKind x = table.info(a).kind, y = table.info(b).kind;
-  if (!isNumberKind(x) || !isNumberKind(y)) return {};
+  if (!TypeTable::isNumber(x) || !TypeTable::isNumber(y)) return {};
   if (TypeTable::isBits(x) && TypeTable::isInteger(y) && TypeTable::bitWidth(x) == TypeTable::bitWidth(y)) {
     return TypeTable::isUnsignedInteger(y)
                ? b

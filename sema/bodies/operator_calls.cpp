@@ -13,7 +13,7 @@ namespace {
 
 using types::TypeTable;
 
-bool binaryOf(types::Op op, BinaryOp& out) {
+bool infixOf(types::Op op, BinaryOp& out) {
   switch (op) {
     case types::Op::Add: out = BinaryOp::Add; return true;
     case types::Op::Sub: out = BinaryOp::Subtract; return true;
@@ -108,7 +108,7 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
   if (!checkRequiredPins(context, node, id, arguments)) return node.h.type = types::kError;
   BinaryOp infix;
   bool checked = false;
-  if (pou.operator_kind == Pou::Operator::Op && binaryOf(pou.op, infix) && infix != BinaryOp::Power) {
+  if (pou.operator_kind == Pou::Operator::Op && infixOf(pou.op, infix) && infix != BinaryOp::Power) {
     ExprId value = expr;
     if (const TypeId type = infixTimes(context, value, arguments, infix, expected, forced)) {
       if (type != types::kError && (arguments.en != 0 || arguments.eno != 0)) return guardValue(context, expr, value);

@@ -16,7 +16,6 @@ using types::TypeTable;
 
 constexpr Purpose kOperand{"brought to the type of the other operand", {}, {}};
 
-bool isNumberKind(TypeKind k) { return TypeTable::isInteger(k) || TypeTable::isBits(k) || TypeTable::isReal(k); }
 bool isTimeKind(TypeKind k) { return TypeTable::isDuration(k) || TypeTable::isDate(k); }
 
 TypeId reportOperand(Context& context, std::string_view what, TypeId type, Loc loc) {
@@ -43,7 +42,7 @@ TypeId join(Context& context, TypeId a, TypeId b) {
   if (sameType(context, a, b)) return a;
   if (isNamedValueOf(context, a, b)) return table.plain(a);
   const TypeKind x = table.plainKind(a), y = table.plainKind(b);
-  if (isNumberKind(x) && isNumberKind(y)) {
+  if (TypeTable::isNumber(x) && TypeTable::isNumber(y)) {
     const bool enums = table.kind(a) == TypeKind::Enum || table.kind(b) == TypeKind::Enum;
     if (enums && (context.iec() || table.kind(a) == table.kind(b))) return {};
     if (context.iec() && TypeTable::isBits(x) != TypeTable::isBits(y)) return {};
@@ -69,7 +68,7 @@ TypeId joinUntyped(Context& context, TypeId typed, ExprId literal, TypeId expect
   if (table.kind(typed) == TypeKind::Enum && context.iec()) return {};
   if (untypedFits(context, literal, plain)) return plain;
   if (context.tree().expr(literal).type == types::idOf(TypeKind::RealLiteral)) {
-    if (!isNumberKind(kind) || (context.iec() && TypeTable::isBits(kind))) return {};
+    if (!TypeTable::isNumber(kind) || (context.iec() && TypeTable::isBits(kind))) return {};
     const TypeKind wanted = expected ? table.plainKind(expected) : TypeKind::None;
     if (TypeTable::isReal(wanted)) return types::idOf(wanted);
     return types::isLossless(table, plain, types::kReal) ? types::kReal : types::kLReal;
@@ -80,7 +79,7 @@ TypeId joinUntyped(Context& context, TypeId typed, ExprId literal, TypeId expect
     }
     if (context.iec()) return {};
   }
-  if (!isNumberKind(kind)) return {};
+  if (!TypeTable::isNumber(kind)) return {};
   return commonNumber(context, plain, defaultType(context, literal));
 }
 
@@ -97,9 +96,9 @@ bool accepts(Context& context, Operands accepted, TypeId type) {
   }
   const bool bits = TypeTable::isBits(plain);
   switch (accepted) {
-    case Operands::Number: return isNumberKind(plain) && !(bits && context.iec());
+    case Operands::Number: return TypeTable::isNumber(plain) && !(bits && context.iec());
     case Operands::NumberOrTime:
-      return (isNumberKind(plain) && !(bits && context.iec())) || TypeTable::isDuration(plain);
+      return (TypeTable::isNumber(plain) && !(bits && context.iec())) || TypeTable::isDuration(plain);
     case Operands::Bits: return plain == TypeKind::Bool || bits || (TypeTable::isInteger(plain) && !context.iec());
     case Operands::Comparable:
     case Operands::Equatable:
@@ -277,7 +276,7 @@ TypeId power(Context& context, ExprId& base_expr, ExprId& exponent_expr, TypeId 
     const TypeId type = context.tree().expr(*side).type;
     if (isUntyped(context, type)) continue;
     const TypeKind kind = context.types().plainKind(type);
-    if (!isNumberKind(kind) || !accepts(context, Operands::Number, type)) {
+    if (!TypeTable::isNumber(kind) || !accepts(context, Operands::Number, type)) {
       return reportOperand(context, "**", type, loc);
     }
   }

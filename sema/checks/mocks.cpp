@@ -63,7 +63,7 @@ struct Pin {
   std::string is;  // `VAR_INPUT INT`
 };
 
-std::vector<Pin> pinsOf(Context& context, PouId id) {
+std::vector<Pin> mockedPins(Context& context, PouId id) {
   std::vector<Pin> pins;
   for (const VarId var_id : context.symbols.pou(id).vars) {
     const Var& var = context.symbols.var(var_id);
@@ -90,7 +90,7 @@ void compare(Context& context, PouId mock_id, PouId original_id) {
   };
   if (resultOf(mock) != resultOf(original))
     differs(mock.loc, original.loc, "the result", resultOf(mock), resultOf(original));
-  const std::vector<Pin> pins = pinsOf(context, mock_id), wanted = pinsOf(context, original_id);
+  const std::vector<Pin> pins = mockedPins(context, mock_id), wanted = mockedPins(context, original_id);
   for (size_t i = 0; i < std::max(pins.size(), wanted.size()); ++i) {
     const Var* const pin = i < pins.size() ? &symbols.var(pins[i].var) : nullptr;
     const Var* const other = i < wanted.size() ? &symbols.var(wanted[i].var) : nullptr;

@@ -18,7 +18,7 @@ struct Step {
   ExprId element;  // an IndexExpr; none: no element
 };
 
-struct Resolver {
+struct AccessPathResolver {
   Context context;
   Project& project;
   NameMap names;  // what is declared so far, by the whole symbol
@@ -265,7 +265,7 @@ struct Resolver {
 
 void resolveAccessPaths(Context& context) {
   Context there = at(context, {}, {}, false);
-  Resolver resolver{.context = there, .project = context.project, .names = {}};
+  AccessPathResolver resolver{.context = there, .project = context.project, .names = {}};
   resolver.configurations();
   resolver.programs();
 }

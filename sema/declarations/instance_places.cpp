@@ -18,7 +18,7 @@ using types::TypeKind;
 
 namespace {
 
-struct Resolver {
+struct InstancePathResolver {
   Context& context;
   Project& project;
   std::vector<InstancePlace> places;           // of fields, in order of instances and declarations
@@ -402,7 +402,8 @@ struct Resolver {
 
 void resolveInstancePlaces(Context& context) {
   Context there = at(context, {}, {}, false);
-  Resolver resolver{.context = there, .project = context.project, .places = {}, .has_open_ = {}, .whole_ = {}};
+  InstancePathResolver resolver{
+      .context = there, .project = context.project, .places = {}, .has_open_ = {}, .whole_ = {}};
   resolver.collect();
   resolver.configureAll();
   resolver.completeAll();

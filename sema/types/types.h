@@ -186,6 +186,7 @@ class TypeTable {
   static bool isUnsignedInteger(TypeKind k) { return k >= TypeKind::USInt && k <= TypeKind::ULInt; }
   static bool isInteger(TypeKind k) { return k >= TypeKind::SInt && k <= TypeKind::ULInt; }
   static bool isBits(TypeKind k) { return k >= TypeKind::Byte && k <= TypeKind::LWord; }  // without BOOL
+  static bool isNumber(TypeKind k) { return isInteger(k) || isBits(k) || isReal(k); }
   static bool isReal(TypeKind k) { return k == TypeKind::Real || k == TypeKind::LReal; }
   static bool isDuration(TypeKind k) { return k == TypeKind::Time || k == TypeKind::LTime; }
   static bool isTimeOfDay(TypeKind k) { return k == TypeKind::TimeOfDay || k == TypeKind::LTimeOfDay; }

@@ -167,12 +167,12 @@ constexpr CheckRow kChecks[] = {
     {"none", 0},
 };
 
-std::string quoted(std::string_view text) { return "`" + std::string(text) + "`"; }
+std::string backquoted(std::string_view text) { return "`" + std::string(text) + "`"; }
 
 std::string withSuggestion(std::string message, std::string_view written,
                            const std::vector<std::string_view>& candidates) {
   std::string_view near = nearest(written, candidates);
-  if (!near.empty()) message += "; did you mean " + quoted(near) + "?";
+  if (!near.empty()) message += "; did you mean " + backquoted(near) + "?";
   return message;
 }
 
@@ -192,8 +192,8 @@ std::string parseChoice(std::string_view option, std::string_view value, std::st
     rest.remove_prefix(bar + 1);
     position++;
   }
-  return withSuggestion(quoted(value) + " is no value of " + quoted(option) + "; it takes " + std::string(choices),
-                        value, names);
+  return withSuggestion(
+      backquoted(value) + " is no value of " + backquoted(option) + "; it takes " + std::string(choices), value, names);
 }
 
 std::string parseNumber(std::string_view option, std::string_view value, uint32_t low, uint32_t high,
@@ -208,8 +208,8 @@ std::string parseNumber(std::string_view option, std::string_view value, uint32_
     number = static_cast<uint32_t>(n);
     return {};
   }
-  return quoted(option) + " takes a number from " + std::to_string(low) + " to " + std::to_string(high) + ", not " +
-         quoted(value);
+  return backquoted(option) + " takes a number from " + std::to_string(low) + " to " + std::to_string(high) + ", not " +
+         backquoted(value);
 }
 
 std::string apply(const OptionRow& row, const std::string& value, Options& options) {
@@ -224,7 +224,8 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
     case Key::Define: return parseDefine(value, options.defines);
     case Key::Root: options.root = value; return {};
     case Key::Name:
-      if (!isIdentifier(value)) return quoted(value) + " is no C identifier; `--name` takes letters, digits and `_`";
+      if (!isIdentifier(value))
+        return backquoted(value) + " is no C identifier; `--name` takes letters, digits and `_`";
       options.name = value;
       return {};
     case Key::Dialect: options.dialect_given = true; return parseDialect(value, options.dialect);
@@ -296,7 +297,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
       options.pointer_size = choice == 0 ? 8 : 4;
       return error;
     case Key::Signature: options.signature = value; return {};
-    case Key::Later: return quoted(row.name) + " is not supported in this version of rung";
+    case Key::Later: return backquoted(row.name) + " is not supported in this version of rung";
     case Key::Help: options.help = true; return {};
   }
   return {};
@@ -320,17 +321,17 @@ std::string unknownOption(std::string_view word, Command command) {
   std::string_view name = word.substr(0, word.find('='));
   for (const OptionRow& row : kOptions)
     if (row.help != nullptr && (row.commands & bit(command))) candidates.push_back(row.name);
-  return withSuggestion("unknown option " + quoted(name) + " of `rung " + commandName(command) + "`", name,
+  return withSuggestion("unknown option " + backquoted(name) + " of `rung " + commandName(command) + "`", name,
                         candidates) +
          " (`rung " + commandName(command) + " --help` lists all)";
 }
 
 std::string elsewhere(const OptionRow& row, Command command) {
-  std::string message = quoted(row.name) + " is no option of `rung " + commandName(command) + "`; it belongs to";
+  std::string message = backquoted(row.name) + " is no option of `rung " + commandName(command) + "`; it belongs to";
   const char* separator = " ";
   for (const CommandRow& other : kCommands) {
     if (!(row.commands & bit(other.command))) continue;
-    message += separator + quoted(std::string("rung ") + other.name);
+    message += separator + backquoted(std::string("rung ") + other.name);
     separator = ", ";
   }
   return message;
@@ -442,7 +443,7 @@ std::string parseDialect(std::string_view name, Dialect& dialect) {
 std::string parseDefine(std::string_view text, std::vector<text::Define>& defines) {
   const size_t equal = text.find('=');
   const std::string_view name = text.substr(0, equal);
-  if (!isIdentifier(name)) return quoted(name) + " is no name; `-D` takes NAME or NAME=VALUE";
+  if (!isIdentifier(name)) return backquoted(name) + " is no name; `-D` takes NAME or NAME=VALUE";
   defines.push_back({std::string(name), equal == text.npos ? "" : std::string(text.substr(equal + 1))});
   return {};
 }
@@ -460,7 +461,7 @@ std::string parseChecks(std::string_view list, uint8_t& checks) {
       bits |= row.bits;
       known = true;
     }
-    if (!known) return withSuggestion("unknown check " + quoted(name) + " in `--checks`", name, names);
+    if (!known) return withSuggestion("unknown check " + backquoted(name) + " in `--checks`", name, names);
     if (comma == std::string_view::npos) break;
     rest.remove_prefix(comma + 1);
   }
@@ -473,9 +474,9 @@ std::string expandResponseFiles(std::vector<std::string>& words) {
   for (size_t i = 0; i < words.size(); i++) {
     if (words[i].size() < 2 || words[i][0] != '@') continue;
     std::string path = words[i].substr(1);
-    if (++files > 100) return "more than 100 response files; does " + quoted(words[i]) + " name itself?";
+    if (++files > 100) return "more than 100 response files; does " + backquoted(words[i]) + " name itself?";
     ReadResult read = readFile(path);
-    if (!read.error.empty()) return "cannot read response file " + quoted(path) + ": " + read.error;
+    if (!read.error.empty()) return "cannot read response file " + backquoted(path) + ": " + read.error;
 
     std::vector<std::string> inner;
     std::string word;
@@ -503,7 +504,7 @@ std::string expandResponseFiles(std::vector<std::string>& words) {
         in_word = true;
       }
     }
-    if (quote != 0) return "response file " + quoted(path) + " ends inside a quoted word";
+    if (quote != 0) return "response file " + backquoted(path) + " ends inside a quoted word";
     if (in_word) inner.push_back(std::move(word));
     words.erase(words.begin() + static_cast<ptrdiff_t>(i));
     words.insert(words.begin() + static_cast<ptrdiff_t>(i), std::make_move_iterator(inner.begin()),
@@ -522,7 +523,7 @@ std::string parseOptions(const std::vector<std::string>& words, Options& options
       if (words[0] == later) return "`rung " + words[0] + "` is not supported in this version of rung";
     std::vector<std::string_view> names;
     for (const CommandRow& row : kCommands) names.push_back(row.name);
-    return withSuggestion("unknown command " + quoted(words[0]), words[0], names) + " (`rung --help` lists all)";
+    return withSuggestion("unknown command " + backquoted(words[0]), words[0], names) + " (`rung --help` lists all)";
   }
   if (options.command == Command::Help) {
     options.help = true;
@@ -558,12 +559,12 @@ std::string parseOptions(const std::vector<std::string>& words, Options& options
     }
     if (row == nullptr) return unknownOption(word, options.command);
     if (!(row->commands & bit(options.command))) return elsewhere(*row, options.command);
-    if (row->value == nullptr && has_value) return quoted(row->name) + " takes no value";
+    if (row->value == nullptr && has_value) return backquoted(row->name) + " takes no value";
     if (row->value != nullptr && !has_value) {
-      if (i + 1 >= words.size()) return quoted(row->name) + " needs a value: " + spelled(*row);
+      if (i + 1 >= words.size()) return backquoted(row->name) + " needs a value: " + spelled(*row);
       value = words[++i];
     }
-    if (row->value != nullptr && value.empty()) return quoted(row->name) + " has an empty value";
+    if (row->value != nullptr && value.empty()) return backquoted(row->name) + " has an empty value";
     std::string error = apply(*row, value, options);
     if (!error.empty()) return error;
   }

@@ -9,14 +9,12 @@ namespace rung::host {
 namespace {
 
 constexpr uint32_t kDeepest = 100;
-const rung_type kBoolType = {RUNG_BOOL, 0, 0, 1, RUNG_NONE, 0, 0, 0};
+const rung_type kConditionType = {RUNG_BOOL, 0, 0, 1, RUNG_NONE, 0, 0, 0};
 
 bool isWordCharacter(char c) {
   return c == '_' || c == '%' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
          static_cast<unsigned char>(c) >= 0x80;
 }
-
-std::string quoted(std::string_view text) { return "`" + std::string(text) + "`"; }
 
 bool isNumber(const rung_type& type) { return type.kind >= RUNG_BYTE && type.kind <= RUNG_LREAL; }
 
@@ -82,7 +80,7 @@ bool Condition::parse(std::string_view text, std::string& error) {
     if (rest_.empty())
       needBool(root_);
     else
-      fail("after an operand comes a comparison, AND, XOR or OR, not " + quoted(rest_));
+      fail("after an operand comes a comparison, AND, XOR or OR, not " + backquoted(rest_));
   }
   error = error_;
   return error.empty();
@@ -138,7 +136,7 @@ bool Condition::parseUnary(uint32_t depth, uint32_t& node) {
   }
   if (takeSymbol("(")) {
     if (!parseBinary(0, depth + 1, node)) return false;
-    return takeSymbol(")") || fail(rest_.empty() ? "`)` is missing" : "`)` is missing before " + quoted(rest_));
+    return takeSymbol(")") || fail(rest_.empty() ? "`)` is missing" : "`)` is missing before " + backquoted(rest_));
   }
   return parseOperand(node);
 }
@@ -152,7 +150,7 @@ bool Condition::parseOperand(uint32_t& node) {
     const char quote = rest_.front();
     length = 1;
     while (length < rest_.size() && rest_[length] != quote) length += rest_[length] == '$' ? 2 : 1;
-    if (length >= rest_.size()) return fail("the quote of " + quoted(rest_) + " is not closed");
+    if (length >= rest_.size()) return fail("the quote of " + backquoted(rest_) + " is not closed");
     ++length;
   } else {
     const char first = rest_.front();
@@ -173,7 +171,7 @@ bool Condition::parseOperand(uint32_t& node) {
       }
     }
   }
-  if (length == 0) return fail("a variable or a value is missing before " + quoted(rest_));
+  if (length == 0) return fail("a variable or a value is missing before " + backquoted(rest_));
 
   node = add(Kind::Literal, 0, 0);
   Node& made = nodes_[node];
@@ -186,7 +184,7 @@ bool Condition::parseOperand(uint32_t& node) {
     made.kind = Kind::Variable;
     made.variable = variable;
   }
-  return !is_bool || giveType(node, kBoolType);
+  return !is_bool || giveType(node, kConditionType);
 }
 
 bool Condition::giveType(uint32_t literal, const rung_type& type) {
@@ -214,8 +212,8 @@ bool Condition::needBool(uint32_t index) {
   if (isBool(index)) return true;
   const Node& node = nodes_[index];
   if (!node.unknown.empty()) return fail(node.unknown);
-  if (node.kind == Kind::Literal) return fail(quoted(node.text) + " is not BOOL; compare it with a variable");
-  return fail(quoted(node.text) + " is " + typeName(symbols_.module(), *node.variable.type) +
+  if (node.kind == Kind::Literal) return fail(backquoted(node.text) + " is not BOOL; compare it with a variable");
+  return fail(backquoted(node.text) + " is " + typeName(symbols_.module(), *node.variable.type) +
               ", not BOOL; compare it with a value");
 }
 
@@ -223,18 +221,18 @@ bool Condition::compare(Relation relation, uint32_t left, uint32_t right, uint32
   for (const uint32_t side : {left, right}) {
     const Node& operand = nodes_[side];
     if (operand.kind == Kind::Variable && operand.variable.type->kind >= RUNG_ARRAY)
-      return fail(quoted(operand.text) + " is of type " + typeName(symbols_.module(), *operand.variable.type) +
+      return fail(backquoted(operand.text) + " is of type " + typeName(symbols_.module(), *operand.variable.type) +
                   "; only elementary variables and enumerations can be compared");
   }
   if (isUntyped(left) && isUntyped(right)) {
     for (const uint32_t side : {left, right})
       if (!nodes_[side].unknown.empty()) return fail(nodes_[side].unknown);
-    return fail(quoted(nodes_[left].text) + " and " + quoted(nodes_[right].text) +
+    return fail(backquoted(nodes_[left].text) + " and " + backquoted(nodes_[right].text) +
                 " are both values; one side of a comparison is a variable");
   }
   const auto typeOf = [&](uint32_t side) -> const rung_type& {
     const bool is_operand = nodes_[side].kind == Kind::Variable || nodes_[side].kind == Kind::Literal;
-    return is_operand ? *nodes_[side].variable.type : kBoolType;
+    return is_operand ? *nodes_[side].variable.type : kConditionType;
   };
   if (isUntyped(left) && !giveType(left, typeOf(right))) return false;
   if (isUntyped(right) && !giveType(right, typeOf(left))) return false;

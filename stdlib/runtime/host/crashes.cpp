@@ -10,7 +10,7 @@
 namespace rung::host {
 namespace {
 
-thread_local rung_context* running = nullptr;
+thread_local rung_context* context_of_thread = nullptr;
 FindSite find_site = nullptr;
 constexpr size_t kStackBytes = size_t{64} << 10;
 constexpr uintptr_t kNearStack = uintptr_t{64} << 10;
@@ -58,10 +58,10 @@ void handle(int number, siginfo_t* info, void* details) {
 uint8_t guarded(rung_context* ctx, void (*run)(rung_context*)) {
   thread_local const AlternateStack stack;
   static_cast<void>(stack.memory);
-  rung_context* const outer = running;
-  running = ctx;
+  rung_context* const outer = context_of_thread;
+  context_of_thread = ctx;
   const uint8_t kind = rung_guarded(ctx, run);
-  running = outer;
+  context_of_thread = outer;
   return kind;
 }
 
@@ -73,11 +73,11 @@ void catchCrashes() {
 }
 
 void raiseCrash(int number, const siginfo_t* info, const void* details) {
-  if ((number != SIGSEGV && number != SIGBUS) || running == nullptr) return;
+  if ((number != SIGSEGV && number != SIGBUS) || context_of_thread == nullptr) return;
   const uintptr_t address = reinterpret_cast<uintptr_t>(info->si_addr), stack = stackPointer(details);
   const bool is_stack = address - (stack - kNearStack) < 2 * kNearStack;
-  const uint32_t site = find_site == nullptr ? RUNG_NONE : find_site(running, details);
-  rung_raise(running, is_stack ? RUNG_FAULT_STACK : RUNG_FAULT_NULL, site, is_stack ? 0 : RUNG_BAD_ADDRESS);
+  const uint32_t site = find_site == nullptr ? RUNG_NONE : find_site(context_of_thread, details);
+  rung_raise(context_of_thread, is_stack ? RUNG_FAULT_STACK : RUNG_FAULT_NULL, site, is_stack ? 0 : RUNG_BAD_ADDRESS);
 }
 
 void setFindSite(FindSite find) { find_site = find; }

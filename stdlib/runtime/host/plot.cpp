@@ -13,7 +13,7 @@ namespace {
 constexpr size_t kMostColumns = 2000;
 constexpr int kCharacter = 7, kWidth = 800, kRight = 20, kTop = 16, kGap = 14, kLane = 64, kBoolLane = 20, kAxis = 30;
 
-std::string escaped(std::string_view text) {
+std::string escapedForSvg(std::string_view text) {
   std::string out;
   for (const char c : text) {
     if (c == '&')
@@ -38,7 +38,7 @@ std::string pixels(double value) {
 }
 
 std::string textAt(double x, double y, const char* anchor, std::string_view text) {
-  return "<text x=\"" + pixels(x) + "\" y=\"" + pixels(y) + "\" text-anchor=\"" + anchor + "\">" + escaped(text) +
+  return "<text x=\"" + pixels(x) + "\" y=\"" + pixels(y) + "\" text-anchor=\"" + anchor + "\">" + escapedForSvg(text) +
          "</text>\n";
 }
 

@@ -50,12 +50,12 @@ struct Shared {
   const std::function<void(int64_t)>*before, *after;
 };
 
-std::atomic<Shared*> running{nullptr};  // for what has only the program's context
+std::atomic<Shared*> running_host{nullptr};  // for what has only the program's context
 
 // Called by a task that waits for a MUTEX or SEMA. Sleeps, so that a task of lower priority may run.
 int waitForOthers(void*) {
   constexpr int64_t kMoment = 50'000;
-  const Shared* const shared = running.load();
+  const Shared* const shared = running_host.load();
   if (shared == nullptr || shared->stop.load()) return 0;
   sleepUntil(monotonicNs() + kMoment);
   return 1;
@@ -152,7 +152,7 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
   shared.after = &after;
   rung_host host = context.host != nullptr ? *context.host : rung_host{};
   host.wait = waitForOthers;
-  running.store(&shared);
+  running_host.store(&shared);
   signalled = 0;
   struct sigaction action {
   }, old_interrupt{}, old_terminate{};
@@ -224,7 +224,7 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
     else
       worker->thread.join();
   }
-  running.store(nullptr);
+  running_host.store(nullptr);
   sigaction(SIGINT, &old_interrupt, nullptr);
   sigaction(SIGTERM, &old_terminate, nullptr);
 

@@ -33,9 +33,9 @@ bool equalNames(std::string_view a, const char* b) {
 
 bool isInteger(const rung_type& type) { return type.kind >= RUNG_BYTE && type.kind <= RUNG_ULINT; }
 
-std::string quoted(std::string_view text) { return "`" + std::string(text) + "`"; }
-
 }  // namespace
+
+std::string backquoted(std::string_view text) { return "`" + std::string(text) + "`"; }
 
 std::string lowerCase(std::string_view text) {
   std::string lower(text);
@@ -68,7 +68,7 @@ std::string didYouMean(std::string_view written, const std::vector<std::string_v
       nearest = candidate;
     }
   }
-  return nearest.empty() ? "" : "; did you mean " + quoted(nearest) + "?";
+  return nearest.empty() ? "" : "; did you mean " + backquoted(nearest) + "?";
 }
 
 std::vector<std::string> splitList(std::string_view list) {
@@ -125,7 +125,7 @@ bool Symbols::findAddress(std::string_view path, Variable& variable, std::string
   static const char kAreas[] = "iqm";
   const char* const area = at < lower.size() ? strchr(kAreas, lower[at]) : nullptr;
   if (area == nullptr) {
-    error = quoted(path) + " is no address; write `%IX0.0`, `%QB1`, `%MW2`";
+    error = backquoted(path) + " is no address; write `%IX0.0`, `%QB1`, `%MW2`";
     return false;
   }
   ++at;
@@ -138,7 +138,7 @@ bool Symbols::findAddress(std::string_view path, Variable& variable, std::string
       case 'w': type = &kWordType; break;
       case 'd': type = &kDWordType; break;
       case 'l': type = &kLWordType; break;
-      default: error = quoted(path) + " has an unknown size; write X, B, W, D or L"; return false;
+      default: error = backquoted(path) + " has an unknown size; write X, B, W, D or L"; return false;
     }
   }
   uint64_t byte = 0, bit = 0;
@@ -154,12 +154,12 @@ bool Symbols::findAddress(std::string_view path, Variable& variable, std::string
   }
   if (type != &kBoolType) byte = byte < UINT32_MAX ? byte * type->size : byte;  // %QW2 is the bytes 4 and 5
   if (!good || read.ptr != end) {
-    error = quoted(path) + " is no address; write `%IX0.0`, `%QB1`, `%MW2`";
+    error = backquoted(path) + " is no address; write `%IX0.0`, `%QB1`, `%MW2`";
     return false;
   }
   if (byte + type->size > module_.image_bytes[index]) {
-    error = quoted(path) + " lies outside the image: the program uses " + std::to_string(module_.image_bytes[index]) +
-            " bytes of it";
+    error = backquoted(path) + " lies outside the image: the program uses " +
+            std::to_string(module_.image_bytes[index]) + " bytes of it";
     return false;
   }
   variable = Variable{};
@@ -201,7 +201,7 @@ bool Symbols::enter(Variable& variable, std::string_view name, std::vector<std::
 bool Symbols::step(Variable& variable, std::string_view& rest, std::string& error) const {
   const rung_type& type = *variable.type;
   if (rest.front() == '^') {
-    if (type.kind != RUNG_POINTER) return error = quoted(variable.path) + " is no pointer", false;
+    if (type.kind != RUNG_POINTER) return error = backquoted(variable.path) + " is no pointer", false;
     rest.remove_prefix(1);
     variable.type = &module_.types[type.element];
     variable.hops.push_back(0);
@@ -209,12 +209,13 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
     return true;
   }
   if (rest.front() == '[') {
-    if (type.kind != RUNG_ARRAY) return error = quoted(variable.path) + " is no array", false;
+    if (type.kind != RUNG_ARRAY) return error = backquoted(variable.path) + " is no array", false;
     const size_t close = rest.find(']');
-    if (close == std::string_view::npos) return error = "`]` is missing after " + quoted(variable.path) + "[", false;
+    if (close == std::string_view::npos)
+      return error = "`]` is missing after " + backquoted(variable.path) + "[", false;
     const std::vector<std::string> indices = splitList(rest.substr(1, close - 1));
     if (indices.size() != type.count)
-      return error = quoted(variable.path) + " has " + std::to_string(type.count) + " dimension(s), not " +
+      return error = backquoted(variable.path) + " has " + std::to_string(type.count) + " dimension(s), not " +
                      std::to_string(indices.size()),
              false;
     uint64_t element = 0;
@@ -225,10 +226,10 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
       const std::string& written = indices[d];
       const std::from_chars_result read = std::from_chars(written.data(), written.data() + written.size(), index);
       if (read.ec != std::errc{} || read.ptr != written.data() + written.size())
-        return error = quoted(written) + " is no index; write a number", false;
+        return error = backquoted(written) + " is no index; write a number", false;
       if (index < dimension.low || index > dimension.high)
         return error = "index " + written + " of " +
-                       quoted(std::string_view(variable.path).substr(0, variable.path.find_last_of('['))) +
+                       backquoted(std::string_view(variable.path).substr(0, variable.path.find_last_of('['))) +
                        " is outside " + std::to_string(dimension.low) + ".." + std::to_string(dimension.high),
                false;
       element = element * static_cast<uint64_t>(dimension.high - dimension.low + 1) +
@@ -242,7 +243,7 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
     return true;
   }
   if (rest.front() != '.')
-    return error = "after " + quoted(variable.path) + " write `.field`, `[index]` or nothing", false;
+    return error = "after " + backquoted(variable.path) + " write `.field`, `[index]` or nothing", false;
   rest.remove_prefix(1);
   size_t length = 0;
   while (length < rest.size() && isNameCharacter(rest[length])) ++length;
@@ -260,15 +261,15 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
       rest.remove_prefix(length);
       return true;
     }
-    return error = quoted(variable.path) + " has no bit " + quoted(name), false;
+    return error = backquoted(variable.path) + " has no bit " + backquoted(name), false;
   }
-  if (type.kind != RUNG_RECORD) return error = quoted(variable.path) + " has no fields", false;
+  if (type.kind != RUNG_RECORD) return error = backquoted(variable.path) + " has no fields", false;
   std::vector<std::string_view> names;
   if (enter(variable, name, names)) {
     rest.remove_prefix(length);
     return true;
   }
-  error = quoted(variable.path) + " has no variable " + quoted(name) + didYouMean(name, names);
+  error = backquoted(variable.path) + " has no variable " + backquoted(name) + didYouMean(name, names);
   return false;
 }
 
@@ -290,7 +291,7 @@ bool Symbols::find(std::string_view path, Variable& variable, std::string& error
     std::vector<std::string_view> names;
     for (uint32_t i = 0; i < module_.symbol_count; ++i) names.push_back(text(module_.symbols[i].name));
     const std::string_view first = path.substr(0, path.find_first_of(".[^"));
-    error = "unknown variable " + quoted(path) + didYouMean(first, names);
+    error = "unknown variable " + backquoted(path) + didYouMean(first, names);
     return false;
   }
   variable = root(roots_.at(lower.substr(0, root_length)));

@@ -67,6 +67,7 @@ class Symbols {
 
 // "; did you mean `x`?" for the candidate nearest to `written`, or empty.
 std::string didYouMean(std::string_view written, const std::vector<std::string_view>& candidates);
+std::string backquoted(std::string_view text);  // `text`, as messages have it
 std::string lowerCase(std::string_view text);
 // Splits at commas outside brackets and quotes; blanks around the parts go.
 std::vector<std::string> splitList(std::string_view list);

@@ -52,7 +52,8 @@ std::string excerpt(const rung_assertion& assertion) {
   return ' ' + number + " | " + assertion.source + '\n' + std::string(number.size() + 2, ' ') + "| " + mark;
 }
 
-void onAssertion(void* data, const rung_assertion* assertion, bool passed, const char* expected, const char* actual) {
+void onTestAssertion(void* data, const rung_assertion* assertion, bool passed, const char* expected,
+                     const char* actual) {
   Case& test = *static_cast<Case*>(data);
   ++test.result.assertions;
   if (passed) return;
@@ -107,7 +108,7 @@ std::string runTests(const rung_module& module, const TestOptions& options, Test
   Memory memory(module);
   rung_host host{};
   host.wall_clock = testClock;
-  host.assertion = onAssertion;
+  host.assertion = onTestAssertion;
   memory.context().host = &host;
 
   for (uint32_t i = 0; i < module.test_count; ++i) {

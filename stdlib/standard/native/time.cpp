@@ -8,7 +8,7 @@ namespace {
 constexpr int64_t kNsPerSecond = 1'000'000'000, kSecondsPerDay = 86'400;
 
 // Howard Hinnant's days_from_civil and its inverse, with 1970-01-01 as day 0; months beyond 12 go into the year.
-int64_t daysOf(int64_t year, int64_t month, int64_t day) {
+int64_t dayNumberOf(int64_t year, int64_t month, int64_t day) {
   year += (month - 1) / 12;
   month = (month - 1) % 12 + 1;
   if (month < 1) {
@@ -22,10 +22,10 @@ int64_t daysOf(int64_t year, int64_t month, int64_t day) {
   return era * 146097 + year_of_era * 365 + year_of_era / 4 - year_of_era / 100 + day_of_year - 719468;
 }
 
-struct Civil {
+struct DateParts {
   int16_t year, month, day;
 };
-Civil civilOf(int64_t days) {
+DateParts datePartsOf(int64_t days) {
   days += 719468;
   const int64_t era = days / 146097;  // never before 1970
   const int64_t day_of_era = days - era * 146097;
@@ -42,10 +42,10 @@ void put(int16_t* to, int64_t value) {
   if (to != nullptr) *to = static_cast<int16_t>(value);
 }
 void putDate(int64_t days, int16_t* year, int16_t* month, int16_t* day) {
-  const Civil civil = civilOf(days);
-  put(year, civil.year);
-  put(month, civil.month);
-  put(day, civil.day);
+  const DateParts parts = datePartsOf(days);
+  put(year, parts.year);
+  put(month, parts.month);
+  put(day, parts.day);
 }
 void putClock(uint64_t ms, int16_t* hour, int16_t* minute, int16_t* second, int16_t* millisecond) {
   put(hour, static_cast<int64_t>(ms / 3'600'000));
@@ -83,7 +83,7 @@ uint64_t rung_standard_CONCAT_DATE_LTOD(rung_context*, uint32_t date, uint64_t t
   return uint64_t{date} * kNsPerSecond + tod;
 }
 uint32_t rung_standard_CONCAT_DATE(rung_context*, int32_t year, int32_t month, int32_t day) {
-  return static_cast<uint32_t>(daysOf(year, month, day) * kSecondsPerDay);
+  return static_cast<uint32_t>(dayNumberOf(year, month, day) * kSecondsPerDay);
 }
 uint32_t rung_standard_CONCAT_TOD(rung_context*, int32_t hour, int32_t minute, int32_t second, int32_t millisecond) {
   return static_cast<uint32_t>(clockMs(hour, minute, second, millisecond));
@@ -93,12 +93,12 @@ uint64_t rung_standard_CONCAT_LTOD(rung_context*, int32_t hour, int32_t minute, 
 }
 uint32_t rung_standard_CONCAT_DT(rung_context*, int32_t year, int32_t month, int32_t day, int32_t hour, int32_t minute,
                                  int32_t second, int32_t millisecond) {
-  return static_cast<uint32_t>(daysOf(year, month, day) * kSecondsPerDay +
+  return static_cast<uint32_t>(dayNumberOf(year, month, day) * kSecondsPerDay +
                                clockMs(hour, minute, second, millisecond) / 1000);
 }
 uint64_t rung_standard_CONCAT_LDT(rung_context*, int32_t year, int32_t month, int32_t day, int32_t hour, int32_t minute,
                                   int32_t second, int32_t millisecond) {
-  return asNs(daysOf(year, month, day) * kSecondsPerDay * 1000 + clockMs(hour, minute, second, millisecond));
+  return asNs(dayNumberOf(year, month, day) * kSecondsPerDay * 1000 + clockMs(hour, minute, second, millisecond));
 }
 
 void rung_standard_SPLIT_DATE(rung_context*, uint32_t in, int16_t* year, int16_t* month, int16_t* day) {
