@@ -493,7 +493,7 @@ ExprId Reader::literal(TypeId of) {
     return ExprId{};
   };
   if (token().kind == TokenKind::Text) {
-    if (!TypeTable::isText(kindOf(of))) return misfit("a text");
+    if (!TypeTable::isText(kindOf(of))) return misfit("a string");
     return b.text(of, module_.names.intern(quotedText(TokenKind::Text)));
   }
   if (accept("zero")) return of ? b.zero(of) : misfit("zero");

@@ -54,7 +54,7 @@ std::string Reader::sigilName() {
 std::string Reader::quotedText(TokenKind kind) {
   if (failed_) return {};
   if (token().kind != kind) {
-    expected(kind == TokenKind::Text ? "a text in single quotes" : "a text in double quotes");
+    expected(kind == TokenKind::Text ? "a string in single quotes" : "a string in double quotes");
     return {};
   }
   return unescape(tokens_[at_++].text);
@@ -207,7 +207,8 @@ void Reader::record() {
 void Reader::dataItem() {
   ++at_;
   const Loc loc = token().loc;
-  if (static_cast<uint64_t>(integer()) != module_.data.size()) fail(diag::IrExpected, loc, {"the next number", "this"});
+  const std::string number(token().text);
+  if (static_cast<uint64_t>(integer()) != module_.data.size()) fail(diag::IrExpected, loc, {"the next number", number});
   expect(":");
   Data data;
   data.type = type();
@@ -221,7 +222,7 @@ void Reader::dataItem() {
     uint8_t byte = 0;
     auto [end, error] = std::from_chars(digits.data() + i, digits.data() + i + 2, byte, 16);
     if (error != std::errc() || end != digits.data() + i + 2)
-      fail(diag::IrExpected, loc, {"hexadecimal bytes", "this"});
+      fail(diag::IrExpected, loc, {"hexadecimal bytes", std::string_view(digits).substr(i, 2)});
     data.bytes.push_back(byte);
   }
   if (!failed_) module_.data.push_back(std::move(data));

@@ -115,7 +115,7 @@ class Verifier {
   TypeKind plainOf(uint32_t id) const { return types_.plainKind(typeOf(id)); }
   void wantType(const Expr& e, TypeId type, int rule) {
     require(e.type == types_.resolve(type), rule,
-            [&] { return "the node is " + spell(e.type) + ", what it names is " + spell(types_.resolve(type)); });
+            [&] { return "the node is " + spell(e.type) + ", but it refers to " + spell(types_.resolve(type)); });
   }
   void allowChecks(const Expr& e, unsigned allowed, int rule) {
     require((e.checks & ~allowed) == 0, rule, "a check that this node cannot have");
@@ -146,7 +146,7 @@ void Verifier::checkModule() {
   std::unordered_set<uint32_t> seen;
   auto unique = [&](NameId name, std::string_view what) {
     require(seen.insert(name.index).second, 1,
-            [&] { return std::string(what) + " `" + std::string(module_.names.text(name)) + "` stands twice"; });
+            [&] { return "duplicate " + std::string(what) + " `" + std::string(module_.names.text(name)) + "`"; });
   };
   auto isRecord = [&](TypeId type) { return type.index < types_.count() && types_.kind(type) == TypeKind::Record; };
   auto isBodyOf = [&](BodyId id, BodyKind kind, TypeId record) {
@@ -158,28 +158,30 @@ void Verifier::checkModule() {
   for (const Record& record : module_.records) {
     unique(record.name, "record");
     require(isRecord(record.type), 2, "a record without a record type");
-    require(isBodyOf(record.init, BodyKind::Init, record.type), 2, "a record whose init is none of it");
-    require(isBodyOf(record.body, BodyKind::Block, record.type), 2, "a record whose body is none of it");
+    require(isBodyOf(record.init, BodyKind::Init, record.type), 2, "the init of a record does not belong to it");
+    require(isBodyOf(record.body, BodyKind::Block, record.type), 2, "the body of a record does not belong to it");
   }
   seen.clear();
   for (const List& list : module_.lists) {
     unique(list.name, "list");
     require(isRecord(list.record), 2, "a list without a record type");
-    require(isBodyOf(list.init, BodyKind::Init, list.record), 2, "a list whose init is none of its record");
+    require(isBodyOf(list.init, BodyKind::Init, list.record), 2, "the init of a list does not belong to its record");
   }
   seen.clear();
   for (const ProgramInstance& program : module_.programs) {
     unique(program.name, "program instance");
     require(isRecord(program.record), 2, "a program instance without a record type");
-    require(isBodyOf(program.init, BodyKind::Init, program.record), 2, "a program whose init is none of its record");
-    require(isBodyOf(program.body, BodyKind::Block, program.record), 2, "a program whose body is none of its record");
+    require(isBodyOf(program.init, BodyKind::Init, program.record), 2,
+            "the init of a program does not belong to its record");
+    require(isBodyOf(program.body, BodyKind::Block, program.record), 2,
+            "the body of a program does not belong to its record");
     require(program.task <= module_.tasks.size(), 2, "a program in a task that does not exist");
     for (BodyId function : {program.run, program.setup, program.exit, module_.exit}) {
       require(!function || (function.index < module_.bodies.size() &&
                             module_.body(function).kind == BodyKind::Function && !module_.body(function).result &&
                             std::none_of(module_.body(function).locals.begin(), module_.body(function).locals.end(),
                                          isParameter)),
-              2, "a run or setup of a program instance that is no function without parameters and result");
+              2, "the run or setup of a program instance is not a function without parameters and result");
     }
   }
   seen.clear();
@@ -188,7 +190,7 @@ void Verifier::checkModule() {
     require(located.owner_program <= module_.programs.size(), 2, "a located variable of a program that does not exist");
   for (BodyId test : module_.tests)
     require(test && test.index < module_.bodies.size() && module_.body(test).kind != BodyKind::Init, 2,
-            "a test that is no function or block");
+            "a test is not a function or block");
   seen.clear();
   for (size_t i = 1; i < module_.bodies.size(); ++i)
     if (module_.bodies[i].kind != BodyKind::Init) unique(module_.bodies[i].name, "body");
@@ -199,7 +201,7 @@ void Verifier::checkModule() {
   checkDispatches();
   for (const Data& data : module_.data)
     require(known(data.type) && types_.info(types_.resolve(data.type)).size == data.bytes.size(), 4,
-            [&] { return "data of another size than its type " + spell(data.type); });
+            [&] { return "data does not have the size of its type " + spell(data.type); });
 }
 
 bool Verifier::hasDispatch(BodyId method) const {
@@ -210,9 +212,9 @@ bool Verifier::hasDispatch(BodyId method) const {
 void Verifier::checkDispatches() {
   std::unordered_set<uint32_t> seen;
   for (const Class& one : module_.classes) {
-    require(!one.base || seen.count(one.base.index) != 0, 31, "a class in front of its base");
+    require(!one.base || seen.count(one.base.index) != 0, 31, "a class before its base");
     require(one.record && types_.kind(one.record) == TypeKind::Record && seen.insert(one.record.index).second, 31,
-            "a class without a record of its own");
+            "a class does not have its own record");
   }
   for (const Dispatch& dispatch : module_.dispatches) {
     const Body& method = module_.body(dispatch.method);
@@ -246,7 +248,7 @@ void Verifier::checkRecordOrder() {
       TypeId held = types_.resolve(field.type);
       while (types_.info(held).kind == TypeKind::Array) held = types_.resolve(types_.info(held).base);
       require(!later[held.index], 3,
-              [&] { return spell(record.type) + " holds " + spell(held) + ", which does not stand before it"; });
+              [&] { return spell(record.type) + " contains " + spell(held) + ", which is not declared before it"; });
     }
     later[types_.resolve(record.type).index] = false;
   }
@@ -257,7 +259,7 @@ bool Verifier::known(TypeId type) {
   const TypeKind kind = types_.info(type).kind;
   return require(
       TypeTable::isElementary(kind) || (kind >= TypeKind::Enum && kind != TypeKind::Alias && kind != TypeKind::Count_),
-      6, [&] { return spell(type) + " is no type of the IR"; });
+      6, [&] { return spell(type) + " is not a type of the IR"; });
 }
 
 // ---- body
@@ -275,7 +277,7 @@ void Verifier::checkBody(const Body& body) {
   locals();
   if (body.kind != BodyKind::Function || body.self)
     require(body.self && body.self.index < types_.count() && types_.info(body.self).kind == TypeKind::Record, 8,
-            "a body whose self is no record");
+            "the self of a body is not a record");
   if (body.native || body.abstract) require(!body.first, 30, "a native or abstract body has code");
   block(body.first);
 
@@ -284,11 +286,11 @@ void Verifier::checkBody(const Body& body) {
     if (!require(at != 0, 27, "a jump to a label that is not placed")) continue;
     require(std::find(blocks.begin(), blocks.end(), at) != blocks.end(), 27, "a jump into a block");
   }
-  if (!body.labels.empty()) require(body.has_labels, 27, "a body with labels that does not say so");
+  if (!body.labels.empty()) require(body.has_labels, 27, "a body with labels without has_labels");
   std::unordered_set<uint32_t> names;
-  for (NameId label : body.labels) require(names.insert(label.index).second, 27, "two labels of one name");
-  if (found_fault_) require(body.may_fault, 29, "the body may fault and does not say so");
-  if (body.pure) require(!body.may_fault && !found_effect_, 29, "a pure body faults, or has an effect");
+  for (NameId label : body.labels) require(names.insert(label.index).second, 27, "duplicate label");
+  if (found_fault_) require(body.may_fault, 29, "the body may fault, but is not may_fault");
+  if (body.pure) require(!body.may_fault && !found_effect_, 29, "a pure body faults or has an effect");
   body_ = nullptr;
 }
 
@@ -299,17 +301,18 @@ void Verifier::locals() {
     known(local.type);
     if (local.type.index < types_.count())
       require(local.by_reference == isPassedByReference(types_, local.kind, local.type), 7,
-              "by_reference of a local does not follow from its kind and type");
+              "by_reference of a local does not match its kind and type");
     if (local.kind == LocalKind::Result) {
       ++results;
       require(body_->result && types_.resolve(body_->result) == local.type, 7,
               "the result local is not of the result type");
     } else {
       require((local.kind == LocalKind::Temp ? temps : names).insert(local.name.index).second, 7,
-              [&] { return "two locals are named `" + std::string(module_.names.text(local.name)) + "`"; });
+              [&] { return "duplicate local `" + std::string(module_.names.text(local.name)) + "`"; });
     }
     if (body_->kind != BodyKind::Function)
-      require(local.kind == LocalKind::Temp || local.kind == LocalKind::Variable, 7, "parameters in a body without");
+      require(local.kind == LocalKind::Temp || local.kind == LocalKind::Variable, 7,
+              "parameters in a body that has none");
   }
   require(results <= 1, 7, "two result locals");
 }
@@ -319,7 +322,7 @@ void Verifier::block(StmtId first) {
   open_blocks_.push_back(++block_count_);
   for (StmtId id = first; id; id = body_->stmt(id).next) {
     if (!require(id.index < body_->stmts.size(), 5, "a statement id out of range")) break;
-    if (!require(!stmt_seen_[id.index], 5, "a statement that stands twice")) break;
+    if (!require(!stmt_seen_[id.index], 5, "a statement is used twice")) break;
     stmt_seen_[id.index] = true;
     stmt(id);
   }
@@ -357,14 +360,15 @@ void Verifier::stmt(StmtId id) {
       if (!place(s.a, 21) || (s.b != 0 && !place(s.b, 21))) return;
       const Expr& field = body_->exprs[s.a];
       const TypeId record = field.kind == ExprKind::Field ? typeOf(field.a) : TypeId{};
-      require(record && types_.info(record).fields[field.b].by_reference, 21, "bind of what is no by-reference field");
-      require(s.b == 0 || typeOf(s.a) == typeOf(s.b), 21, "bind of a place of another type");
+      require(record && types_.info(record).fields[field.b].by_reference, 21,
+              "bind of something other than a by-reference field");
+      require(s.b == 0 || typeOf(s.a) == typeOf(s.b), 21, "bind of a place with another type");
       found_effect_ = true;
       return;
     }
     case StmtKind::Call: callStmt(s); return;
     case StmtKind::If:
-      if (value(s.a)) require(types_.kind(typeOf(s.a)) == TypeKind::Bool, 23, "a condition that is no BOOL");
+      if (value(s.a)) require(types_.kind(typeOf(s.a)) == TypeKind::Bool, 23, "the condition is not a BOOL");
       block(StmtId{s.b});
       block(StmtId{s.c});
       return;
@@ -384,13 +388,14 @@ void Verifier::stmt(StmtId id) {
       if (place(s.a, 25)) {
         const TypeKind control = plainOf(s.a);
         require(isIntegral(control), 25, [&] { return "a FOR over " + spell(typeOf(s.a)); });
-        forEachExpr(*body_, ExprId{s.a},
-                    [&](ExprId part) { require(body_->expr(part).checks == 0, 25, "a check in a FOR control place"); });
+        forEachExpr(*body_, ExprId{s.a}, [&](ExprId part) {
+          require(body_->expr(part).checks == 0, 25, "a check in the control place of a FOR");
+        });
         for (uint32_t bound : {s.b, s.c, s.d})
-          if (value(bound)) require(plainOf(bound) == control, 25, "a FOR bound of another type than its control");
+          if (value(bound)) require(plainOf(bound) == control, 25, "a FOR bound does not have the type of its control");
         if (s.d < body_->exprs.size())
           require(body_->exprs[s.d].kind == ExprKind::Const && body_->exprs[s.d].bits() != 0, 25,
-                  "a FOR step that is no constant other than 0");
+                  "a FOR step is not a constant other than 0");
         if (body_->expr(rootOf(*body_, ExprId{s.a})).kind != ExprKind::Local) found_effect_ = true;
       }
       ++loops_;
@@ -405,16 +410,18 @@ void Verifier::stmt(StmtId id) {
     case StmtKind::Continue: require(loops_ > 0 && !in_next_, 26, "continue outside of a loop"); return;
     case StmtKind::Return: return;
     case StmtKind::Jump:
-      if (require(s.a < body_->labels.size(), 27, "a jump to no label")) jumps_.push_back({s.a, open_blocks_});
+      if (require(s.a < body_->labels.size(), 27, "a jump to a label that does not exist"))
+        jumps_.push_back({s.a, open_blocks_});
       return;
     case StmtKind::Label:
-      if (!require(s.a < body_->labels.size(), 27, "a label without name")) return;
-      require(label_block_[s.a] == 0, 27, "a label that stands twice");
+      if (!require(s.a < body_->labels.size(), 27, "a label that does not exist")) return;
+      require(label_block_[s.a] == 0, 27, "a label is placed twice");
       label_block_[s.a] = open_blocks_.back();
       return;
     case StmtKind::Try:
       block(StmtId{s.a});
-      if (s.d != 0 && place(s.d, 28)) require(isIntegral(plainOf(s.d)), 28, "a fault's number goes to no integer");
+      if (s.d != 0 && place(s.d, 28))
+        require(isIntegral(plainOf(s.d)), 28, "the number of a fault is assigned to something other than an integer");
       block(StmtId{s.b});
       block(StmtId{s.c});
       return;
@@ -428,7 +435,7 @@ void Verifier::stmt(StmtId id) {
       require(s.op <= 2 && (s.a != 0) + (s.b != 0) + (s.c != 0) == static_cast<int>(wanted) && s.a != 0, 23,
               "an assertion with too many or too few operands");
       if (s.a != 0 && value(s.a) && s.op == 0)
-        require(types_.kind(typeOf(s.a)) == TypeKind::Bool, 23, "an assertion that is no BOOL");
+        require(types_.kind(typeOf(s.a)) == TypeKind::Bool, 23, "the condition of an assertion is not a BOOL");
       if (s.b != 0) value(s.b);
       if (s.c != 0) value(s.c);
       found_effect_ = true;
@@ -442,7 +449,7 @@ void Verifier::callOperands(const Body& callee, uint32_t first, uint32_t count, 
   uint32_t parameters = 0;
   for (const Local& local : callee.locals) parameters += isParameter(local);
   if (!require(parameters == count && first + count <= body_->operands.size(), rule, [&] {
-        return "a call of `" + std::string(module_.names.text(callee.name)) + "` with " + std::to_string(count) +
+        return "a call to `" + std::string(module_.names.text(callee.name)) + "` with " + std::to_string(count) +
                " operands for " + std::to_string(parameters) + " parameters";
       }))
     return;
@@ -451,13 +458,13 @@ void Verifier::callOperands(const Body& callee, uint32_t first, uint32_t count, 
     if (!isParameter(local)) continue;
     const uint32_t id = body_->operands[i++].index;
     if (id == 0) {
-      require(local.kind == LocalKind::Output && !pure, rule, "an operand is missing that is no output");
+      require(local.kind == LocalKind::Output && !pure, rule, "an operand other than an output is missing");
       continue;
     }
     if (!value(id)) continue;
     const bool is_value = local.kind == LocalKind::Input;
     if (!is_value) {
-      require(isPlace(body_->exprs[id].kind), rule, "a by-reference operand that is no place");
+      require(isPlace(body_->exprs[id].kind), rule, "a by-reference operand is not a place");
       const Expr& root = body_->expr(rootOf(*body_, ExprId{id}));
       if (root.kind != ExprKind::Local) found_effect_ = true;
     }
@@ -467,30 +474,30 @@ void Verifier::callOperands(const Body& callee, uint32_t first, uint32_t count, 
     const bool open_array = types_.kind(wanted) == TypeKind::Array && types_.info(wanted).dimensions.empty() &&
                             types_.kind(given) == TypeKind::Array;
     require((is_value ? fits(wanted, given) : wanted == given) || same_text || open_array, rule,
-            [&] { return spell(given) + " is given to a parameter of " + spell(wanted); });
+            [&] { return spell(given) + " is passed to a parameter of " + spell(wanted); });
   }
 }
 
 void Verifier::callStmt(const Stmt& s) {
-  if (!require(s.a != 0 && s.a < module_.bodies.size(), 22, "a call of no body")) return;
+  if (!require(s.a != 0 && s.a < module_.bodies.size(), 22, "a call to a body that does not exist")) return;
   const Body& callee = module_.bodies[s.a];
   if (callee.may_fault) found_fault_ = true;
   if (!callee.pure) found_effect_ = true;
   if (require((s.b != 0) == static_cast<bool>(callee.self), 22,
-              "a call with a self that its callee has not, or without") &&
+              "a call has a self and its callee has none, or the reverse") &&
       s.b != 0 && place(s.b, 22))
     require(typeOf(s.b) == types_.resolve(callee.self), 22, [&] { return "a call on " + spell(typeOf(s.b)); });
   callOperands(callee, s.c, s.d, 22, false);
   if ((s.op & kVirtual) != 0) {
     found_fault_ = true;
     require(callee.kind == BodyKind::Function && callee.self && hasDispatch(BodyId{s.a}), 31,
-            "a virtual call of what has no dispatch");
+            "a virtual call to a body without a dispatch");
   } else {
-    require(!callee.abstract, 31, "a call of an abstract method that is not virtual");
+    require(!callee.abstract, 31, "a non-virtual call to an abstract method");
   }
   if (s.e != 0 && place(s.e, 22))
     require(callee.result && fits(typeOf(s.e), types_.resolve(callee.result)), 22,
-            "a result of another type than its place");
+            "the result does not have the type of its place");
 }
 
 void Verifier::switchStmt(const Stmt& s) {
@@ -509,7 +516,7 @@ void Verifier::switchStmt(const Stmt& s) {
     require(one.range_count > 0, 24, "a case without values");
     for (uint32_t k = 0; k < one.range_count; ++k) {
       const CaseRange& range = body_->ranges[one.first_range + k];
-      require(!less(range.high, range.low), 24, "a case range from high to low");
+      require(!less(range.high, range.low), 24, "a case range is reversed");
       all.push_back(range);
     }
   }
@@ -522,12 +529,12 @@ void Verifier::switchStmt(const Stmt& s) {
 // ---- expressions
 
 bool Verifier::place(uint32_t id, int rule) {
-  return value(id) && require(isPlace(body_->exprs[id].kind), rule, "a place is needed where a value stands");
+  return value(id) && require(isPlace(body_->exprs[id].kind), rule, "expected a place, found a value");
 }
 
 bool Verifier::value(uint32_t id) {
   if (!require(id != 0 && id < body_->exprs.size(), 5, "an expression id out of range")) return false;
-  if (!require(!expr_seen_[id], 5, "an expression that is used twice")) return false;
+  if (!require(!expr_seen_[id], 5, "an expression is used twice")) return false;
   expr_seen_[id] = true;
   const Expr& e = body_->exprs[id];
   if (!known(e.type)) return false;
@@ -548,7 +555,7 @@ void Verifier::constant(const Expr& e) {
   if (TypeTable::isReal(kind)) {
     const double real = types::Value{e.type, e.bits()}.asReal();
     require(kind != TypeKind::Real || real != real || static_cast<double>(static_cast<float>(real)) == real, 9,
-            "a REAL constant that no REAL holds");
+            "a REAL constant does not fit in a REAL");
     return;
   }
   const uint32_t width = TypeTable::bitWidth(kind);
@@ -561,12 +568,12 @@ void Verifier::constant(const Expr& e) {
 }
 
 void Verifier::node(const Expr& e) {
-  auto base = [&](int rule) { return require(isPlace(body_->exprs[e.a].kind), rule, "the base is no place"); };
+  auto base = [&](int rule) { return require(isPlace(body_->exprs[e.a].kind), rule, "the base is not a place"); };
   switch (e.kind) {
     case ExprKind::None: require(false, 5, "an expression without kind"); return;
     case ExprKind::Const: constant(e); break;
     case ExprKind::Text:
-      require(TypeTable::isText(types_.kind(e.type)), 9, [&] { return "a text of " + spell(e.type); });
+      require(TypeTable::isText(types_.kind(e.type)), 9, [&] { return "a string constant of " + spell(e.type); });
       break;
     case ExprKind::Data:
       if (require(e.a < module_.data.size(), 9, "data that does not exist")) wantType(e, module_.data[e.a].type, 9);
@@ -577,7 +584,7 @@ void Verifier::node(const Expr& e) {
         wantType(e, body_->locals[e.a].type, 10);
       break;
     case ExprKind::Self:
-      if (require(static_cast<bool>(body_->self), 8, "self in a body without")) wantType(e, body_->self, 8);
+      if (require(static_cast<bool>(body_->self), 8, "self in a body that has none")) wantType(e, body_->self, 8);
       break;
     case ExprKind::Global:
       if (require(e.a < module_.lists.size(), 10, "a list that does not exist"))
@@ -592,12 +599,14 @@ void Verifier::node(const Expr& e) {
       const uint64_t size = e.c == kNoBit ? types_.info(e.type).size : 1;
       require(e.b + size <= module_.image_bytes[e.a], 10, "an image view outside of its area");
       if (e.c != kNoBit)
-        require(e.c < 8 && types_.plainKind(e.type) == TypeKind::Bool, 10, "an image bit that is none");
+        require(e.c < 8 && types_.plainKind(e.type) == TypeKind::Bool, 10,
+                "an image bit is out of range or not a BOOL");
       break;
     }
     case ExprKind::Field: {
       const TypeInfo& info = types_.info(typeOf(e.a));
-      if (!base(11) || !require(info.kind == TypeKind::Record && e.b < info.fields.size(), 11, "a field of no record"))
+      if (!base(11) || !require(info.kind == TypeKind::Record && e.b < info.fields.size(), 11,
+                                "a field of something other than a record"))
         return;
       wantType(e, info.fields[e.b].type, 11);
       allowChecks(e, info.fields[e.b].by_reference ? unsigned{kCheckNull} : 0u, 11);
@@ -605,18 +614,19 @@ void Verifier::node(const Expr& e) {
     }
     case ExprKind::Index: {
       const TypeInfo& info = types_.info(typeOf(e.a));
-      if (!base(12) || !require(info.kind == TypeKind::Array, 12, "an index into no array")) return;
+      if (!base(12) || !require(info.kind == TypeKind::Array, 12, "an index into something other than an array"))
+        return;
       require(info.dimensions.empty() || info.dimensions.size() == e.c, 12,
-              "another number of indices than dimensions");
+              "the number of indices differs from the number of dimensions");
       for (uint32_t i = 0; i < e.c; ++i)
-        require(isIntegral(plainOf(body_->operands[e.b + i].index)), 12, "an index that is no integer");
+        require(isIntegral(plainOf(body_->operands[e.b + i].index)), 12, "an index is not an integer");
       wantType(e, info.base, 12);
       allowChecks(e, kCheckIndex, 12);
       return;
     }
     case ExprKind::Deref: {
       const TypeInfo& info = types_.info(typeOf(e.a));
-      if (!require(isPointer(info.kind), 13, "a deref of no pointer")) return;
+      if (!require(isPointer(info.kind), 13, "a deref of something other than a pointer")) return;
       wantType(e, info.base, 13);
       allowChecks(e, kCheckNull | kCheckCast, 13);
       return;
@@ -642,14 +652,15 @@ void Verifier::node(const Expr& e) {
       return;
     }
     case ExprKind::Select:
-      require(types_.kind(typeOf(e.a)) == TypeKind::Bool, 17, "a select whose condition is no BOOL");
-      require(fits(e.type, typeOf(e.b)) && fits(e.type, typeOf(e.c)), 17, "a select of another type than its operands");
+      require(types_.kind(typeOf(e.a)) == TypeKind::Bool, 17, "the condition of a select is not a BOOL");
+      require(fits(e.type, typeOf(e.b)) && fits(e.type, typeOf(e.c)), 17,
+              "a select does not have the type of its operands");
       break;
     case ExprKind::Call: {
-      if (!require(e.a != 0 && e.a < module_.bodies.size(), 18, "a call of no body")) return;
+      if (!require(e.a != 0 && e.a < module_.bodies.size(), 18, "a call to a body that does not exist")) return;
       const Body& callee = module_.bodies[e.a];
       require(callee.pure && !callee.may_fault && callee.kind == BodyKind::Function && callee.result, 18, [&] {
-        return "`" + std::string(module_.names.text(callee.name)) + "` is called in an expression and is not pure";
+        return "`" + std::string(module_.names.text(callee.name)) + "` is called in an expression but is not pure";
       });
       if (callee.result) wantType(e, callee.result, 18);
       for (const Local& local : callee.locals)
@@ -662,7 +673,7 @@ void Verifier::node(const Expr& e) {
       require(isPointer(types_.kind(e.type)), 19, [&] { return "an address of type " + spell(e.type); });
       require(isPlace(place_expr.kind) && place_expr.kind != ExprKind::Bits &&
                   !(place_expr.kind == ExprKind::Image && place_expr.c != kNoBit),
-              19, "the address of what has none");
+              19, "the address of something that has none");
       break;
     }
   }
@@ -673,12 +684,12 @@ void Verifier::operatorNode(const Expr& e) {
   const bool is_unary = e.kind == ExprKind::Unary;
   const std::string_view word = types::word(e.op);
   if (!require(types::operandCount(e.op) == (is_unary ? 1 : 2), 15,
-               [&] { return std::string(word) + " has another number of operands"; }))
+               [&] { return std::string(word) + " has the wrong number of operands"; }))
     return;
   const TypeId left = types_.plain(typeOf(e.a));
   const TypeKind kind = types_.kind(left);
   if (types::isComparison(e.op))
-    require(types_.kind(e.type) == TypeKind::Bool, 15, [&] { return std::string(word) + " that is no BOOL"; });
+    require(types_.kind(e.type) == TypeKind::Bool, 15, [&] { return std::string(word) + " is not a BOOL"; });
   else
     require(types_.plain(e.type) == left || (TypeTable::isText(kind) && types_.kind(e.type) == kind), 15,
             [&] { return std::string(word) + " of " + spell(typeOf(e.a)) + " gives " + spell(e.type); });

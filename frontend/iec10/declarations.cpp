@@ -23,7 +23,7 @@ constexpr std::pair<std::string_view, std::string_view> kSections[] = {{"InputVa
 bool isTooDeep(Import& import, const xml::Element& element, uint32_t depth) {
   if (depth < plcopen::kMaxNesting) return false;
   import.diagnostics.report(diag::XmlTooLarge, element.loc,
-                            {std::to_string(plcopen::kMaxNesting), "types and values inside each other"});
+                            {std::to_string(plcopen::kMaxNesting), "nested types and values"});
   return true;
 }
 

@@ -187,7 +187,7 @@ bool Chart::spend(uint32_t node, size_t steps) {
   spent_ += steps + 1;
   if (spent_ <= kMaxSteps) return true;
   if (good_)
-    report(diag::XmlTooLarge, nodes_[node].element->loc, {std::to_string(kMaxSteps), "ways through one chart"});
+    report(diag::XmlTooLarge, nodes_[node].element->loc, {std::to_string(kMaxSteps), "paths through one chart"});
   good_ = false;
   return false;
 }

@@ -202,7 +202,7 @@ void PouExport::method(const PouDecl& method) {
 //   warns   an ACTION inside of an ACTION whose body is a chart          W1099
 void PouExport::ownText(const PouDecl& pou) {
   if (!hasOwnText(pou)) return;
-  to_.onlyRung(pou.h.loc, "actions and conditions inside of an action or method");
+  to_.onlyRung(pou.h.loc, "actions and conditions inside an action or method");
   AddData data(to_);
   exportOwnText(to_, source_.cut(source_.at(pou.begin), source_.at(pou.end)), data);
 }
@@ -457,7 +457,7 @@ void ProjectExport::ownTexts(AddData& data) {
   forEach(DeclKind::Pou, [&](DeclId id, FileId) {
     const auto& pou = to_.tree.as<PouDecl>(id);
     if (!sharesWithInner(pou)) return;
-    to_.onlyRung(pou.h.loc, "actions and conditions inside of an action or method");
+    to_.onlyRung(pou.h.loc, "actions and conditions inside an action or method");
     const size_t begin = to_.source->at(pou.begin);
     exportOwnText(to_, to_.source->cut(to_.source->commentsBefore(begin), to_.source->at(pou.end)), data);
   });
@@ -520,7 +520,7 @@ void exportBody(Export& to, const PouDecl& pou, std::string_view element) {
   } else if (pou.body_kind == BodyKind::Sfc) {
     exportChart(to, pou);
   } else if (pou.body_kind == BodyKind::Cpp) {
-    to.onlyRung(pou.h.loc, "bodies in C++");
+    to.onlyRung(pou.h.loc, "C++ bodies");
     to.xml.formatted("ST", "");
     AddData data(to);
     exportOwnText(to, source.cut(source.at(pou.body_begin), source.at(pou.body_end)), data);

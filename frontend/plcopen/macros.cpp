@@ -28,7 +28,7 @@ void Chart::findEnd(Macro& macro, bool entry) {
   if (found != 1)
     report(diag::ChartMacroEnds, node.element->loc,
            {document_.value(*node.element, "name"),
-            entry ? "that nothing leads to, to begin with" : "that leads nowhere, to end with"});
+            entry ? "without a predecessor, as its entry" : "without a successor, as its exit"});
 }
 
 void Chart::connectMacro(uint32_t node) {

@@ -109,7 +109,7 @@ void writeValues(Import& import, const xml::Element& list, uint32_t depth) {
 
 void writeValue(Import& import, const xml::Element& value, const xml::Element* type, uint32_t depth) {
   if (depth == kMaxNesting) {
-    import.diagnostics.report(diag::XmlTooLarge, value.loc, {std::to_string(kMaxNesting), "values inside each other"});
+    import.diagnostics.report(diag::XmlTooLarge, value.loc, {std::to_string(kMaxNesting), "nested values"});
     return;
   }
   if (value.name != "simpleValue") return writeValues(import, value, depth + 1);
@@ -134,7 +134,7 @@ void writeType(Import& import, const xml::Element& holder, uint32_t depth) {
     return;
   }
   if (depth == kMaxNesting) {
-    import.diagnostics.report(diag::XmlTooLarge, type->loc, {std::to_string(kMaxNesting), "types inside each other"});
+    import.diagnostics.report(diag::XmlTooLarge, type->loc, {std::to_string(kMaxNesting), "nested types"});
     import.out.word("INT");
     return;
   }

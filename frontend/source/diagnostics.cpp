@@ -36,18 +36,17 @@ std::string format(const char* text, std::initializer_list<std::string_view> arg
   return out;
 }
 
-// "UnusedVariable" is switched as "unused-variable".
-bool isSwitchName(std::string_view name, const char* enumerator) {
-  size_t n = 0;
-  for (const char* at = enumerator; *at != '\0'; ++at) {
-    const bool upper = *at >= 'A' && *at <= 'Z';
-    if (upper && at != enumerator && (n >= name.size() || name[n++] != '-')) return false;
-    if (n >= name.size() || name[n++] != (upper ? static_cast<char>(*at + 32) : *at)) return false;
-  }
-  return n == name.size();
-}
-
 }  // namespace
+
+std::string switchName(const DiagInfo& info) {
+  std::string name;
+  for (const char* at = info.name; *at != '\0'; ++at) {
+    const bool upper = *at >= 'A' && *at <= 'Z';
+    if (upper && !name.empty()) name += '-';
+    name += upper ? static_cast<char>(*at + 32) : *at;
+  }
+  return name;
+}
 
 Report& Report::note(Loc loc, Note note, std::initializer_list<std::string_view> args) {
   if (diagnostic_ != nullptr) diagnostic_->notes.push_back({loc, format(note.text, args)});
@@ -160,7 +159,7 @@ bool Diagnostics::setWarning(std::string_view name, bool on) {
   bool known = name == "all";
   for (const DiagInfo& info : allDiags()) {
     if (info.severity == Severity::Error) continue;
-    if (name != "all" && !sameIdentifier(name, info.code) && !isSwitchName(name, info.name)) continue;
+    if (name != "all" && !sameIdentifier(name, info.code) && name != switchName(info)) continue;
     std::erase(disabled_, info.diag);
     if (!on) disabled_.push_back(info.diag);
     known = true;

@@ -54,6 +54,8 @@ struct DiagInfo {
 const DiagInfo& diagInfo(Diag diag);
 // The row with this code ("E0412", any case), or null.
 const DiagInfo* findDiag(std::string_view code);
+// What `-W` calls the row: "unused-variable" for UnusedVariable.
+std::string switchName(const DiagInfo& info);
 // All rows, by number.
 std::span<const DiagInfo> allDiags();
 

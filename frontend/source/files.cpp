@@ -121,7 +121,7 @@ FileId Sources::addAssembled(std::string path, std::string text, std::vector<Seg
 
 void Sources::activate(FileId file, std::string text) {
   File& of = files_[file.index];
-  RUNG_INVARIANT(text.size() == of.text.size(), "a text is replaced by one of its length");
+  RUNG_INVARIANT(text.size() == of.text.size(), "content is replaced by content of the same length");
   of.active = std::move(text);
 }
 

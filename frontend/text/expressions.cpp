@@ -140,7 +140,7 @@ ExprId Parser::parseUnary() {
     return errorExpr(start);
   }
   if (op == UnaryOp::Negate && tree_.kind(operand) == ExprKind::Binary && tree_.expr(operand).in_parens == 0)
-    diagnostics_.report(diag::NegatedPower, start, {"weaker"});
+    diagnostics_.report(diag::NegatedPower, start, {"looser"});
   return tree_.add<ExprId>(UnaryExpr{exprHeader(ExprKind::Unary, start, static_cast<uint8_t>(op)), operand});
 }
 

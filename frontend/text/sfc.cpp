@@ -282,7 +282,7 @@ bool Parser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId
       t.has_priority = true;
       expect(Tok::RightParen);
     } else {
-      fail(diag::WrongWord, t_, {textOf(t_), "a number"});
+      fail(diag::MissingValue, t_, {describe(t_)});
     }
   }
   if (!panic_ && isName(kind()) && is(t_, "FROM")) {

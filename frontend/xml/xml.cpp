@@ -128,7 +128,7 @@ bool Reader::run() {
         .length(static_cast<uint32_t>(element.name.size()));
     return false;
   }
-  if (out_.elements.empty()) return broken(0, "it holds no element");
+  if (out_.elements.empty()) return broken(0, "the file contains no element");
   return true;
 }
 
@@ -136,13 +136,13 @@ bool Reader::readMarkup() {
   if (at("<!--")) return skipComment();
   if (at("<?")) return readInstruction();
   if (at("<![CDATA[")) {
-    if (open_ == kNone) return broken(p_, "text stands outside of the root element");
+    if (open_ == kNone) return broken(p_, "text outside the root element");
     const size_t begin = p_ + 9;
-    if (!skipTo("]]>", "this CDATA section has no `]]>`")) return false;
+    if (!skipTo("]]>", "expected `]]>` to close this CDATA section")) return false;
     addRun(begin, p_ - 3);
     return true;
   }
-  if (at("<!DOCTYPE")) return broken(p_, "a document type, which Rung does not read; remove it");
+  if (at("<!DOCTYPE")) return broken(p_, "Rung does not read document types; remove this one");
   if (at("</")) return readEnd();
   return readStart();
 }
@@ -151,8 +151,9 @@ bool Reader::readMarkup() {
 bool Reader::skipComment() {
   const size_t begin = p_;
   const size_t dashes = text_.find("--", begin + 4);
-  if (text_.find("-->", begin + 4) == std::string_view::npos) return broken(begin, "this comment has no `-->`");
-  if (text_[dashes + 2] != '>') return broken(dashes, "`--` cannot stand in a comment");
+  if (text_.find("-->", begin + 4) == std::string_view::npos)
+    return broken(begin, "expected `-->` to close this comment");
+  if (text_[dashes + 2] != '>') return broken(dashes, "`--` is not allowed in a comment");
   p_ = dashes + 3;
   return true;
 }
@@ -162,10 +163,10 @@ bool Reader::readInstruction() {
   const size_t begin = p_;
   p_ += 2;
   const std::string_view target = name();
-  if (target.empty()) return broken(begin, "a name must follow `<?`");
-  if (!skipTo("?>", "this instruction has no `?>`")) return false;
+  if (target.empty()) return broken(begin, "expected a name after `<?`");
+  if (!skipTo("?>", "expected `?>` to close this instruction")) return false;
   if (target.size() != 3 || !sameIdentifier(target, "xml")) return true;
-  if (begin != 0) return broken(begin, "the XML declaration must stand at the very beginning");
+  if (begin != 0) return broken(begin, "the XML declaration must be at the very beginning");
   return checkEncoding(text_.substr(0, p_));
 }
 
@@ -181,8 +182,7 @@ bool Reader::checkEncoding(std::string_view declaration) {
                                        "iso-8859-1", "iso-8859-15", "windows-1250", "windows-1252"})
     if (sameIdentifier(encoding, known)) return true;
   for (const char c : text_)
-    if (static_cast<unsigned char>(c) >= 0x80)
-      return broken(open + 1, "this encoding is not read; save the file as UTF-8");
+    if (static_cast<unsigned char>(c) >= 0x80) return broken(open + 1, "unsupported encoding; save the file as UTF-8");
   return true;
 }
 
@@ -190,12 +190,11 @@ bool Reader::readStart() {
   const size_t begin = p_++;
   const size_t name_at = p_;
   const std::string_view full = name();
-  if (full.empty()) return broken(begin, "a name must follow `<`; write `&lt;` for the character itself");
-  if (open_ == kNone && !out_.elements.empty()) return broken(begin, "a second root element begins");
+  if (full.empty()) return broken(begin, "expected a name after `<`; write `&lt;` for the character itself");
+  if (open_ == kNone && !out_.elements.empty()) return broken(begin, "second root element");
   if (depth_ == kMaxDepth || out_.elements.size() == kMaxElements) {
     const std::string limit = std::to_string(depth_ == kMaxDepth ? kMaxDepth : kMaxElements);
-    diagnostics_.report(diag::XmlTooLarge, loc(name_at),
-                        {limit, depth_ == kMaxDepth ? "elements inside each other" : "elements"});
+    diagnostics_.report(diag::XmlTooLarge, loc(name_at), {limit, depth_ == kMaxDepth ? "nested elements" : "elements"});
     return false;
   }
   const auto index = static_cast<uint32_t>(out_.elements.size());
@@ -234,8 +233,7 @@ bool Reader::checkTwice() {
   std::sort(attribute_names_.begin(), attribute_names_.end());
   for (size_t i = 1; i < attribute_names_.size(); ++i)
     if (attribute_names_[i] == attribute_names_[i - 1])
-      return broken(static_cast<size_t>(attribute_names_[i].data() - text_.data()),
-                    "this attribute stands twice in its tag");
+      return broken(static_cast<size_t>(attribute_names_[i].data() - text_.data()), "duplicate attribute in this tag");
   return true;
 }
 
@@ -243,8 +241,9 @@ bool Reader::checkTwice() {
 bool Reader::checkCharacters(size_t begin, size_t end) {
   for (size_t i = begin; i < end; ++i) {
     const auto c = static_cast<unsigned char>(text_[i]);
-    if (c < 0x20 && !isBlank(text_[i])) return broken(i, "a control character cannot stand in XML");
-    if (c == ']' && text_.substr(i, 3) == "]]>") return broken(i, "`]]>` ends no CDATA section here; write `]]&gt;`");
+    if (c < 0x20 && !isBlank(text_[i])) return broken(i, "control characters are not allowed in XML");
+    if (c == ']' && text_.substr(i, 3) == "]]>")
+      return broken(i, "`]]>` does not close a CDATA section; write `]]&gt;`");
   }
   return true;
 }
@@ -259,10 +258,10 @@ bool Reader::readAttributes() {
     if (text_[p_] == '>' || at("/>")) return true;
     const size_t name_at = p_;
     const std::string_view full = name();
-    if (full.empty()) return broken(p_, "an attribute, `>` or `/>` is needed");
-    if (before == name_at) return broken(name_at, "a blank must stand before an attribute");
+    if (full.empty()) return broken(p_, "expected an attribute, `>` or `/>`");
+    if (before == name_at) return broken(name_at, "expected a space before this attribute");
     skipBlanks();
-    if (!at("=")) return broken(p_, "`=` and a value must follow an attribute's name");
+    if (!at("=")) return broken(p_, "expected `=` and a value after the attribute's name");
     ++p_;
     skipBlanks();
     if (!at("\"") && !at("'")) return broken(p_, "the value of an attribute needs quotes");
@@ -270,7 +269,7 @@ bool Reader::readAttributes() {
     const size_t end = text_.find(text_[p_], begin);
     if (end == std::string_view::npos) return broken(p_, "this quote is not closed");
     if (const size_t open = text_.substr(begin, end - begin).find('<'); open != std::string_view::npos)
-      return broken(begin + open, "`<` cannot stand in a value; write `&lt;`, or close the quote before it");
+      return broken(begin + open, "`<` is not allowed in a value; write `&lt;`, or close the quote before it");
     if (!checkEntities(begin, end)) return false;
     attribute_names_.push_back(full);
     out_.attributes.push_back({withoutPrefix(full), text_.substr(begin, end - begin), loc(begin)});
@@ -292,10 +291,10 @@ bool Reader::readEnd() {
   p_ += 2;
   const std::string_view full = name();
   skipBlanks();
-  if (!at(">")) return broken(p_, "`>` must close an end tag");
+  if (!at(">")) return broken(p_, "expected `>` to close the end tag");
   ++p_;
   if (open_ == kNone || withoutPrefix(full) != out_.elements[open_].name) {
-    if (open_ == kNone) return broken(begin, "this end tag closes nothing");
+    if (open_ == kNone) return broken(begin, "unmatched end tag");
     const Element& element = out_.elements[open_];
     const std::string line = std::to_string(sources_.place(element.loc).line);
     diagnostics_.report(diag::XmlWrongEnd, loc(begin + 2), {full, element.name, line});
@@ -335,8 +334,8 @@ bool Reader::readText() {
   if (end == std::string_view::npos) end = text_.size();
   if (open_ == kNone) {
     skipBlanks();
-    return p_ >= end || broken(p_, out_.elements.empty() ? "text stands before the root element"
-                                                         : "text stands behind the root element");
+    return p_ >= end ||
+           broken(p_, out_.elements.empty() ? "text before the root element" : "text after the root element");
   }
   if (!checkCharacters(begin, end)) return false;
   size_t plain = begin;

@@ -172,7 +172,7 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
   if (!code.missing.empty()) refusal = "the native function `" + code.missing + "` is not part of rung";
   if (!module.cpp_bodies.empty()) {
     const Body& body = module.body(module.cpp_bodies.front().body);
-    refusal = "`" + std::string(module.names.text(body.spelling)) + "` has a body in C++";
+    refusal = "`" + std::string(module.names.text(body.spelling)) + "` has a C++ body";
   }
 }
 
@@ -214,7 +214,7 @@ void Program::Parts::describe() {
 Program::Program(const Module& module, const ProgramOptions& options) : parts_(std::make_unique<Parts>()) {
   Parts& parts = *parts_;
   if (module.types.pointerSize() != sizeof(void*)) {
-    parts.refusal = "it is made for another pointer size";
+    parts.refusal = "it uses another pointer size";
     return;
   }
   const MemoryBlocks blocks(module);

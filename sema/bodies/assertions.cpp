@@ -61,7 +61,7 @@ TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion) {
       }
       if (!types::TypeTable::isReal(context.types().plainKind(common))) common = types::kLReal;
       for (uint32_t i = 0; good && i < 3; ++i)
-        good = convert(context, operands[i], common, Purpose{"compared with ASSERT_NEAR", {}, {}});
+        good = convert(context, operands[i], common, Purpose{"compared by ASSERT_NEAR", {}, {}});
     } else {
       good = unify(context, std::span(operands).first(2), Operands::Equatable, {}, name, node.h.loc) != types::kError;
     }

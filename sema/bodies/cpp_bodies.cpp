@@ -18,7 +18,7 @@ const char* whyNot(Context& context, const Var& var) {
   const types::TypeTable& types = context.types();
   if (var.storage == Storage::Image) return "located";
   const TypeId type = types.resolve(var.type);
-  if (types.isOpenArray(type)) return "an array of open length";
+  if (types.isOpenArray(type)) return "an open array";
   TypeId element = type;
   while (types.kind(element) == TypeKind::Array) element = types.resolve(types.info(element).base);
   const bool is_record = types.kind(element) == TypeKind::Record;
@@ -26,13 +26,13 @@ const char* whyNot(Context& context, const Var& var) {
   if (is_record && types.info(element).record_kind == types::RecordKind::Interface) return "an interface";
   if (var.storage == Storage::Constant && !types::TypeTable::isScalar(types.plainKind(type)) &&
       !types::TypeTable::isText(types.plainKind(type)))
-    return "a constant that is no single value";
+    return "a constant that is not a single value";
   const bool is_pin =
       var.section == SectionKind::Input || var.section == SectionKind::Output || var.section == SectionKind::InOut;
   if (var.storage != Storage::Local || is_pin) return nullptr;
   if (is_record) return "a structure that lives for one call";
   if (var.init && (types.kind(type) == TypeKind::Array || !context.tree().expr(var.init).is_constant))
-    return "one of a call and begins with more than a constant";
+    return "a variable of one call whose initial value is not a single constant";
   return nullptr;
 }
 

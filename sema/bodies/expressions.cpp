@@ -159,7 +159,7 @@ TypeId dispatch(Context& context, ExprId& expr, TypeId expected, Access access) 
     case ExprKind::ArrayInit:
     case ExprKind::StructInit:
     case ExprKind::Range:
-    case ExprKind::Repeat: RUNG_INVARIANT(false, "lists and ranges stand in initial values and CASE labels only");
+    case ExprKind::Repeat: RUNG_INVARIANT(false, "lists and ranges appear only in initial values and CASE labels");
   }
   return types::kError;
 }

@@ -141,7 +141,7 @@ std::string signatures(Context& context, std::span<const Candidate> candidates) 
   std::string out;
   constexpr size_t kMost = 6;
   for (size_t i = 0; i < candidates.size() && i < kMost; ++i) {
-    out += i == 0 ? "`" : i + 1 == candidates.size() ? " or `" : ", `";
+    out += i == 0 ? "`" : ", `";
     out += text(context, context.symbols.pou(candidates[i].pou).name);
     out += '(';
     bool first = true;

@@ -133,7 +133,7 @@ void checkAssign(Context& context, AssignStmt& node) {
     case AssignOp::Set:
     case AssignOp::Reset: {
       const TypeId type = checkTarget(context, node.target, Access::ReadWrite);
-      checkAs(context, node.value, types::kBool, Purpose{"used to set or reset", {}, {}});
+      checkAs(context, node.value, types::kBool, Purpose{"used to set or reset a variable", {}, {}});
       if (type != types::kError && context.types().plainKind(type) != TypeKind::Bool) {
         context.report(diag::SetNeedsBool, context.tree().loc(node.target), {context.types().spell(type)});
       }

@@ -67,19 +67,19 @@ void checkSignature(Context& context, PouId method, PouId replaced) {
   }
   const auto spell = [&](TypeId type) { return type ? context.types().spell(type) : std::string("nothing"); };
   if (!pou.result != !other.result || (pou.result && !sameType(context, pou.result, other.result)))
-    difference = "its result is `" + spell(other.result) + "`";
+    difference = other.result ? "the result is `" + spell(other.result) + "` there" : "there is no result there";
   for (size_t i = 0; difference.empty() && i < std::max(pins.size(), wanted.size()); ++i) {
     if (i >= wanted.size()) {
-      difference = "that has no `" + std::string(text(context, context.symbols.var(pins[i]).name)) + "`";
+      difference = "there is no `" + std::string(text(context, context.symbols.var(pins[i]).name)) + "` there";
       continue;
     }
     const Var& there = context.symbols.var(wanted[i]);
     const std::string name(text(context, there.name));
     if (i >= pins.size() || context.symbols.var(pins[i]).section != there.section ||
         !context.names().same(context.symbols.var(pins[i]).name, there.name)) {
-      difference = "the next is `" + name + "`";
+      difference = "the next parameter is `" + name + "` there";
     } else if (!sameType(context, context.symbols.var(pins[i]).type, there.type)) {
-      difference = "`" + name + "` is `" + spell(there.type) + "`";
+      difference = "`" + name + "` is `" + spell(there.type) + "` there";
     }
   }
   if (difference.empty()) checkAccess(context, method, replaced);
@@ -176,7 +176,7 @@ void checkHalves(Context& context, const Property& property) {
   } else if (setter.access != getter.access) {
     const auto word = [](AccessLevel access) -> std::string {
       switch (access) {
-        case AccessLevel::None: return "without an access word";
+        case AccessLevel::None: return "without an access specifier";
         case AccessLevel::Public: return "PUBLIC";
         case AccessLevel::Private: return "PRIVATE";
         case AccessLevel::Protected: return "PROTECTED";

@@ -46,7 +46,7 @@ struct CycleSearch {
         start = step.record;
       }
       if (!inside) continue;
-      names += "`" + context.types().spell(step.record) + "` holds ";
+      names += "`" + context.types().spell(step.record) + "` contains ";
     }
     names += "`" + context.types().spell(start) + "`";
     NamedType& holder = *context.scopes.named(stack.back().record);

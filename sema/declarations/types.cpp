@@ -493,7 +493,7 @@ void resolveNamed(Context& context, TypeId type) {
         if (inner == type || (kind != TypeKind::Alias && kind != TypeKind::Array)) break;
       }
       if (depth > kMaxTypeDepth)
-        reportTooDeep(there, context.tree().loc(named->type), "arrays and names of types", kMaxTypeDepth);
+        reportTooDeep(there, context.tree().loc(named->type), "arrays and type names", kMaxTypeDepth);
       context.types().edit(type).base = step == type || depth > kMaxTypeDepth ? types::kError : target;
       break;
     }

@@ -14,7 +14,7 @@ root=$PWD
 rung=$(readlink -f "${RUNG:-build/bin/rung}")
 cxx=${CXX:-g++}
 include=$root/stdlib/runtime/include
-[ -x "$rung" ] || { echo "no $rung; build first (cmake --preset release && cmake --build build)" >&2; exit 2; }
+[ -x "$rung" ] || { echo "$rung not found; build first (cmake --preset release && cmake --build build)" >&2; exit 2; }
 runtime=$(dirname "$(dirname "$rung")")/lib/librung_runtime.a
 
 inputs=() parts=() other_kernels=

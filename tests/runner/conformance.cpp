@@ -152,7 +152,8 @@ std::string headProblem(const std::vector<std::string>& lines, const File& file)
   std::string problem = purposeProblem(lines);
   if (file.features.empty() && file.covers.empty()) problem += "  there is no `// features:` or `// covers:` line\n";
   const size_t named = splitWords(file.features).size();
-  if (named > kMaxFeatures) problem += "  it names " + std::to_string(named) + " features; at most six\n";
+  if (named > kMaxFeatures)
+    problem += "  the file names " + std::to_string(named) + " features; at most six are allowed\n";
   return problem;
 }
 

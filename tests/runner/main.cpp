@@ -24,7 +24,7 @@ const char kHelp[] =
     R"(rung_test_runner [options] [FILE|FOLDER...]     without files: every test
 
   --update        rewrite golden text (tests/update)
-  --ways=LIST     options that programs run with, separated by commas; a blank joins two options of one way:
+  --ways=LIST     options that programs run with, separated by commas; a space joins two options of one way:
                   --engine=interp -O0,--engine=interp,--engine=native -O0,--engine=native
   -j N            processes at once (default: one per processor)
   --list          only print the jobs
@@ -87,11 +87,11 @@ Arguments parse(int argc, char** argv, Setting& setting) {
         at = end + 1;
       }
     } else if (startsWith(word, "-")) {
-      arguments.error = "there is no option " + word;
+      arguments.error = "unknown option " + word;
     } else if (startsWith(word, "unit/")) {
       setting.wanted.push_back(word);
     } else if (!fs::exists(word, error) && !fs::exists(setting.root + "/" + word, error)) {
-      arguments.error = "there is no file " + word;
+      arguments.error = "no such file: " + word;
     } else {
       const fs::path path = fs::exists(word, error) ? fs::canonical(word, error) : fs::path(setting.root) / word;
       setting.wanted.push_back(path.lexically_relative(setting.root).string());

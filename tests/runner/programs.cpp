@@ -31,7 +31,7 @@ Result runProgram(const Setting& setting, const std::string& file) {
     const Output output = run(c);
     std::string problem;
     if (output.exit_code != exit_code) {
-      problem = "  exit code " + std::to_string(output.exit_code) + " for " + std::to_string(exit_code) + "\n" +
+      problem = "  exit code " + std::to_string(output.exit_code) + ", expected " + std::to_string(exit_code) + "\n" +
                 output.err.substr(0, 4000);
     }
     problem += diff(valuesOf(lines, "trace"), splitLines(output.out));

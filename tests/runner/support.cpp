@@ -138,7 +138,7 @@ std::string purposeProblem(const std::vector<std::string>& lines) {
   for (const char* comment : {"// ", "(* ", "; ", "# ", "<!-- ", "<?xml"}) {
     if (!lines.empty() && startsWith(lines[0], comment)) return {};
   }
-  return "  line 1 must be a comment that says what the test shows\n";
+  return "  line 1 must be a comment that describes the test\n";
 }
 
 }  // namespace rung::tests

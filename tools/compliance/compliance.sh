@@ -10,7 +10,7 @@ check=
 [ "${1:-}" != --check ] || { check=1; shift; }
 results=${1:-build/test-results.tsv}
 page=docs/compliance.md
-[ -r "$results" ] || { echo "there is no $results; a full run of build/bin/rung_test_runner writes it" >&2; exit 2; }
+[ -r "$results" ] || { echo "$results not found; a full run of build/bin/rung_test_runner writes it" >&2; exit 2; }
 
 made=$(mktemp)
 trap 'rm -f "$made"' EXIT
@@ -86,7 +86,7 @@ LC_ALL=C awk -F'\t' '
 if [ -z "$check" ]; then
   cmp -s "$made" "$page" || cp "$made" "$page"
 elif ! cmp -s "$made" "$page"; then
-  echo "$page is not what the last run shows; tools/compliance/compliance.sh writes it:"
+  echo "$page does not match the last run; tools/compliance/compliance.sh updates it:"
   diff "$page" "$made" | head -20
   exit 1
 fi

@@ -3,9 +3,9 @@
 set -eu
 cd "$(dirname "$0")/../.."
 if ! clang-format --version 2>/dev/null | grep -q 'version 14\.'; then
-  echo "format: skipped, there is no clang-format 14"
+  echo "format: skipped, clang-format 14 not found"
   exit 0
 fi
 unformatted=$(tools/house/tracked .h .cpp | xargs -d '\n' clang-format --dry-run 2>&1 |
   sed -nE 's/^([^ :]+):[0-9]+:[0-9]+: warning: code should be clang-formatted.*/\1/p' | uniq)
-[ -z "$unformatted" ] || { echo "not formatted (mend with clang-format -i):"; echo "$unformatted"; exit 1; }
+[ -z "$unformatted" ] || { echo "not formatted (run clang-format -i):"; echo "$unformatted"; exit 1; }

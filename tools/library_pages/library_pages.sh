@@ -88,7 +88,7 @@ for folder in stdlib/*/; do
   if [ "${1:-}" != --check ]; then
     cmp -s "$made" "$page" || cp "$made" "$page"
   elif ! cmp -s "$made" "$page"; then
-    echo "$page is stale; tools/library_pages/library_pages.sh writes it"
+    echo "$page is stale; tools/library_pages/library_pages.sh updates it"
     stale=1
   fi
 done

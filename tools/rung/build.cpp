@@ -13,7 +13,7 @@ namespace rung::tool {
 int runBuild(const Options& options) {
   struct stat info;
   if (stat(options.output.c_str(), &info) == 0 && S_ISDIR(info.st_mode))
-    return usageError("`" + options.output + "` is a folder; `-o` names the file to build");
+    return usageError("`" + options.output + "` is a folder; `-o` needs the name of a file");
 
   PhaseTimes times;
   Compilation compilation(options, times);

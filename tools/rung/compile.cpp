@@ -97,7 +97,7 @@ bool Compilation::read() {
   if (inputs.project.file) applyProjectFile(inputs.project, options);
   for (const WarningSwitch& warning : options.warnings)
     if (!diagnostics.setWarning(warning.name, warning.on) && usage_error_.empty())
-      usage_error_ = "unknown warning `" + warning.name + "` in `-W`; `rung explain` knows the codes";
+      usage_error_ = "unknown warning `" + warning.name + "` in `-W`; `rung list warnings` lists all";
   if (usage_error_.empty()) usage_error_ = libraries.load(options);
   for (const InputFile& file : inputs.files) {
     std::string_view text = sources.text(file.file);
@@ -330,7 +330,7 @@ std::string checkDumpName(const std::string& name) {
   for (const ir::Pass& pass : ir::bodyPasses(2)) known.push_back(pass.name);
   for (std::string_view candidate : known)
     if (candidate == name) return {};
-  std::string message = "`--dump-after` knows no `" + name + "`";
+  std::string message = "unknown `" + name + "` in `--dump-after`";
   std::string_view near = nearest(name, known);
   if (!near.empty()) return message + "; did you mean `" + std::string(near) + "`?";
   const char* separator = "; it takes ";
@@ -358,7 +358,7 @@ int writeFiles(const std::string& folder, const std::vector<OutputText>& files) 
     const std::filesystem::path path = std::filesystem::path(folder) / file.path;
     std::error_code error;
     std::filesystem::create_directories(path.parent_path(), error);
-    if (error) return usageError("cannot make the folder `" + path.parent_path().string() + "`: " + error.message());
+    if (error) return usageError("cannot create the folder `" + path.parent_path().string() + "`: " + error.message());
     if (const std::string problem = writeFile(path.string(), file.text); !problem.empty()) return usageError(problem);
   }
   return kGood;

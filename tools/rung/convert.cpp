@@ -384,7 +384,7 @@ std::string refusal(const Compilation& compilation) {
   const fs::path folder = fs::weakly_canonical(compilation.options.output, error);
   const fs::path root = fs::weakly_canonical(compilation.inputs.root, error);
   if (folder != root) return {};
-  return "`-o " + compilation.options.output + "` is the folder of the sources; write into another one";
+  return "`-o " + compilation.options.output + "` is the folder of the sources; use another one";
 }
 
 }  // namespace

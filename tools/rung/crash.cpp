@@ -24,10 +24,10 @@ char alternate_stack[64 * 1024];
 
 const char* signalName(int number) {
   switch (number) {
-    case SIGSEGV: return "SIGSEGV (memory access outside anything, or a stack overflow)";
-    case SIGBUS: return "SIGBUS (memory access outside a file)";
+    case SIGSEGV: return "SIGSEGV (access to unmapped memory, or a stack overflow)";
+    case SIGBUS: return "SIGBUS (access beyond the end of a mapped file)";
     case SIGFPE: return "SIGFPE (arithmetic)";
-    case SIGILL: return "SIGILL (no such machine instruction)";
+    case SIGILL: return "SIGILL (illegal instruction)";
     case SIGABRT: return "SIGABRT";
     default: return "a signal";
   }
@@ -44,7 +44,7 @@ void handle(int number, siginfo_t* info, void* details) {
   if (program_runs && !program_checked) {
     put("rung: the program crashed with ");
     put(signalName(number));
-    put("; run it with the checks div,index,null,cast to see the place\n");
+    put("; run it with the checks div,index,null,cast to see the location\n");
     _exit(kFault);
   }
   put("rung: internal error: ");
@@ -58,7 +58,7 @@ void handle(int number, siginfo_t* info, void* details) {
       put("`");
     }
   }
-  put("\nthis is a mistake in rung ");
+  put("\nthis is a bug in rung ");
   put(version());
   put(", not in your program; please report it with the input and this command:\n  rung");
   for (int i = 0; i < word_count; i++) {
@@ -92,11 +92,10 @@ void setProgramRuns(bool runs, bool checked) {
 }
 
 void printInternalError(const char* what) {
-  fprintf(
-      stderr,
-      "rung: internal error: %s\nthis is a mistake in rung %s, not in your program; please report it with the input "
-      "and this command:\n  rung",
-      what, version());
+  fprintf(stderr,
+          "rung: internal error: %s\nthis is a bug in rung %s, not in your program; please report it with the input "
+          "and this command:\n  rung",
+          what, version());
   for (int i = 0; i < word_count; i++) fprintf(stderr, " %s", words[i]);
   fputc('\n', stderr);
 }

@@ -81,7 +81,7 @@ int emitCpp(Compilation& compilation, PhaseTimes& times) {
   times.begin("write");
   std::error_code folder_error;
   std::filesystem::create_directories(options.output, folder_error);
-  if (folder_error) return usageError("cannot make the folder `" + options.output + "`: " + folder_error.message());
+  if (folder_error) return usageError("cannot create the folder `" + options.output + "`: " + folder_error.message());
   codegen::WriteResult written = codegen::writeOutputs(options.output, files);
   times.end();
   if (!written.error.empty()) return usageError(written.error);

@@ -32,7 +32,7 @@ int runExplain(const Options& options) {
     std::vector<std::string_view> codes;
     for (const DiagInfo& row : allDiags()) codes.push_back(row.code);
     std::string_view near = nearest(code, codes);
-    return usageError("there is no diagnostic `" + options.inputs[0] + "`" +
+    return usageError("unknown diagnostic `" + options.inputs[0] + "`" +
                       (near.empty() ? "" : "; did you mean `" + std::string(near) + "`?"));
   }
   std::string error = printOut(pageOf(*info));

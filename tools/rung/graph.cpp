@@ -104,7 +104,7 @@ int runGraph(const Options& options) {
   const int exit = compilation.finish();
   if (exit != kGood) return exit;
   if (pictures.empty())
-    return usageError("there is nothing to draw: no POU has a body in LD, FBD, CFC or SFC; `rung list pous` shows all");
+    return usageError("nothing to draw: no POU has a body in LD, FBD, CFC or SFC; `rung list pous` lists all");
   return writeFiles(options.output, pictures);
 }
 

@@ -97,7 +97,7 @@ vendor::Format formatOf(FileKind kind) {
 
 const char* describe(FileKind kind) {
   switch (kind) {
-    case FileKind::Xml: return "XML of another kind than PLCopen's or that of IEC 61131-10";
+    case FileKind::Xml: return "XML other than PLCopen's or that of IEC 61131-10";
     case FileKind::Nct: return "machine-tool ladder";
     case FileKind::Cam: return "a cam table";
     case FileKind::Unknown:
@@ -112,7 +112,7 @@ const char* describe(FileKind kind) {
     case FileKind::Project:
     case FileKind::Binary: break;
   }
-  return "of another kind";
+  return "a file of another kind";
 }
 
 class Collector {
@@ -186,7 +186,7 @@ class Collector {
       bases_.push_back(absolute(word));
       addProjectFolder(word);
     } else if (!S_ISREG(info.st_mode)) {
-      fail(diag::CannotRead, word, {word, "it is neither a file nor a folder"});
+      fail(diag::CannotRead, word, {word, "not a file or folder"});
     } else if (kindOfExtension(word) == FileKind::Project) {
       size_t slash = word.rfind('/');
       std::string folder = slash == std::string::npos ? "." : word.substr(0, slash);
@@ -265,7 +265,7 @@ class Collector {
     struct stat info;
     if (stat(file.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return addFolder(folder);
     if (inputs_.project.file) {
-      fail(diag::CannotRead, file, {file, "another folder of this run has a rung.project already"});
+      fail(diag::CannotRead, file, {file, "another folder of this run already has a rung.project"});
       return;
     }
     ReadResult read = readFile(file);
@@ -354,7 +354,7 @@ class Collector {
       inputs_.root = absolute(options_.root);
       struct stat info;
       if (stat(inputs_.root.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
-        fail(diag::CannotRead, options_.root, {options_.root, "`--root` takes a folder"});
+        fail(diag::CannotRead, options_.root, {options_.root, "`--root` needs a folder"});
       return;
     }
     if (bases_.empty()) return;

@@ -42,7 +42,7 @@ Installation find() {
   }
   if (found.include.empty() || found.runtime_library.empty())
     found.error = std::string("cannot find ") + (found.include.empty() ? "the headers" : "librung_runtime.a") +
-                  " of the runtime beside the executable; set RUNG_HOME to the folder that holds lib/ and "
+                  " of the runtime next to the executable; set RUNG_HOME to the folder that contains lib/ and "
                   "share/rung/include/";
   return found;
 }

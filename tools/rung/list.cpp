@@ -1,4 +1,4 @@
-// `rung list`: the libraries, the POUs of a project, or the declaration of one of them.
+// `rung list`: the libraries, the POUs of a project, the warnings, or the declaration of a library block.
 #include <algorithm>
 #include <cstdio>
 
@@ -48,6 +48,23 @@ int listPous(const Options& options) {
   }
   int exit = compilation.finish();
   return exit == kGood ? printResult(out) : exit;
+}
+
+// One line each: the code, the name for `-W` and the message, with A, B, ... for its arguments.
+int listWarnings() {
+  std::string out;
+  for (const DiagInfo& info : allDiags()) {
+    if (info.severity == Severity::Error) continue;
+    std::string name = switchName(info), message;
+    name.resize(std::max<size_t>(name.size(), 30), ' ');
+    for (const char* at = info.text; *at != '\0'; ++at) {
+      const bool argument = at[0] == '{' && at[1] >= '0' && at[1] <= '9' && at[2] == '}';
+      message += argument ? static_cast<char>(at[1] - '0' + 'A') : *at;
+      if (argument) at += 2;
+    }
+    out += std::string(info.code) + "  " + name + "  " + message + "\n";
+  }
+  return printResult(out);
 }
 
 // Every name that the libraries declare, with the range of its text.
@@ -132,7 +149,7 @@ int listSignature(const Options& options) {
   });
   if (!out.empty()) return printResult(out);
   std::string_view near = nearest(options.signature, known);
-  return usageError("nothing is called `" + options.signature + "`" +
+  return usageError("unknown function, block or type `" + options.signature + "`" +
                     (near.empty() ? "" : "; did you mean `" + std::string(near) + "`?"));
 }
 
@@ -142,8 +159,9 @@ int runList(const Options& options) {
   if (!options.signature.empty()) return listSignature(options);
   if (options.inputs[0] == "pous") return listPous(options);
   if (options.inputs[0] == "libraries" && options.inputs.size() == 1) return listLibraries(options);
-  return usageError("`rung list` knows no `" + options.inputs[0] +
-                    "`; it takes `libraries`, `pous FILE|DIR ...` or `--signature NAME`");
+  if (options.inputs[0] == "warnings" && options.inputs.size() == 1) return listWarnings();
+  return usageError("unknown argument `" + options.inputs[0] +
+                    "` of `rung list`; it takes `libraries`, `pous FILE|DIR ...`, `warnings` or `--signature NAME`");
 }
 
 }  // namespace rung::tool

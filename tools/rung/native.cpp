@@ -111,7 +111,7 @@ class Builder {
   // Makes every object; false: result() says why.
   bool compile() {
     if (!installation().error.empty()) return fail(kUsage, installation().error);
-    if (cache_.folder().empty()) return fail(kUsage, "cannot make a temporary folder for the C++ compiler");
+    if (cache_.folder().empty()) return fail(kUsage, "cannot create a temporary folder for the C++ compiler");
     flags_ = {"-std=c++17", "-O" + std::to_string(request_.level), "-fPIC", "-ffp-contract=off"};
     if (RUNG_SANITIZED) flags_.push_back("-fsanitize=address,undefined");
     flags_.insert(flags_.end(), user_flags_.begin(), user_flags_.end());
@@ -162,7 +162,7 @@ class Builder {
     for (const Unit& unit : units_) {
       std::string name = work_ + "/" + baseName(unit.source) + ".o";
       if (::link(unit.object.c_str(), name.c_str()) != 0 && symlink(unit.object.c_str(), name.c_str()) != 0)
-        return fail(kUsage, "cannot write in `" + work_ + "`: " + strerror(errno));
+        return fail(kUsage, "cannot write to `" + work_ + "`: " + strerror(errno));
       process.arguments.push_back(name);
     }
     process.log = work_ + "/link.log";
@@ -206,7 +206,7 @@ class Builder {
 
   bool needWork() {
     if (work_.empty()) work_ = cache_.workFolder();
-    return !work_.empty() || fail(kUsage, "cannot write in the cache folder `" + cache_.folder() + "`");
+    return !work_.empty() || fail(kUsage, "cannot write to the cache folder `" + cache_.folder() + "`");
   }
   const std::string& work() const { return work_; }
 
@@ -326,10 +326,10 @@ class Builder {
     for (size_t slash = path.find('/'); slash != std::string::npos; slash = path.find('/', slash + 1))
       mkdir((work_ + "/" + path.substr(0, slash)).c_str(), 0777);
     FILE* file = fopen((work_ + "/" + path).c_str(), "wb");
-    if (file == nullptr) return fail(kUsage, "cannot write in `" + work_ + "`: " + strerror(errno));
+    if (file == nullptr) return fail(kUsage, "cannot write to `" + work_ + "`: " + strerror(errno));
     bool good = fwrite(text.data(), 1, text.size(), file) == text.size();
     good = fclose(file) == 0 && good;
-    return good || fail(kUsage, "cannot write in `" + work_ + "`: " + strerror(errno));
+    return good || fail(kUsage, "cannot write to `" + work_ + "`: " + strerror(errno));
   }
 
   bool compileUnits(const std::vector<Unit*>& missing) {
@@ -350,7 +350,7 @@ class Builder {
     if (!run(processes, "compiling", &missing)) return false;
     for (size_t i = 0; i < missing.size(); i++)
       if (!cache_.put(objectPart(i), missing[i]->object))
-        return fail(kUsage, "cannot write in the cache folder `" + cache_.folder() + "`: " + strerror(errno));
+        return fail(kUsage, "cannot write to the cache folder `" + cache_.folder() + "`: " + strerror(errno));
     return true;
   }
 
@@ -442,9 +442,9 @@ class Builder {
       result_.refusals = refusalsOf(*unit->user_file, log.text);
       first.pop_back();
       return fail(kInputErrors, "error[" + std::string(diagInfo(diag::CppRefused).code) +
-                                    "]: the C++ compiler refuses a body in C++:\n" + first);
+                                    "]: the C++ compiler rejects a C++ body:\n" + first);
     }
-    return fail(kInternal, "`" + failed->arguments[0] + "` refused generated code while " + label +
+    return fail(kInternal, "`" + failed->arguments[0] + "` rejected generated code while " + label +
                                "; the files are in " + work_ + "\n" + first);
   }
 
@@ -491,7 +491,7 @@ NativeResult makeShared(Cache& cache, const NativeRequest& request) {
         if (cache.put(part, entry))
           builder.result().path = entry;
         else
-          builder.fail(kUsage, "cannot write in the cache folder `" + cache.folder() + "`: " + strerror(errno));
+          builder.fail(kUsage, "cannot write to the cache folder `" + cache.folder() + "`: " + strerror(errno));
       }
     }
   }

@@ -29,11 +29,13 @@ constexpr CommandRow kCommands[] = {
     {Command::Build, "build", "FILE|DIR ... -o FILE", "emit, compile and link"},
     {Command::Run, "run", "FILE|DIR ...", "simulate, with inputs and traces"},
     {Command::Test, "test", "FILE|DIR ...", "run the POUs marked {test}"},
-    {Command::Convert, "convert", "FILE|DIR ... --to st|xml -o DIR", "any language as ST, or a project as PLCopen XML"},
+    {Command::Convert, "convert", "FILE|DIR ... --to st|xml -o DIR",
+     "convert files to ST, or a project to PLCopen XML"},
     {Command::Graph, "graph", "FILE|DIR ... -o DIR", "draw LD, FBD, CFC and SFC as SVG pictures"},
-    {Command::List, "list", "libraries | pous FILE|DIR ... | --signature NAME", "show what there is"},
-    {Command::Explain, "explain", "CODE", "the page of a diagnostic, such as E0401"},
-    {Command::Version, "version", "", "version of rung"},
+    {Command::List, "list", "libraries|warnings | pous PATH ... | --signature NAME",
+     "list libraries, warnings or POUs"},
+    {Command::Explain, "explain", "CODE", "print the page of a diagnostic, such as E0401"},
+    {Command::Version, "version", "", "print the version of rung"},
 };
 
 // Commands that the documentation of the project announces.
@@ -88,58 +90,61 @@ struct OptionRow {
 };
 constexpr OptionRow kOptions[] = {
     {Key::Output, "-o", "PATH", bit(Command::Emit) | bit(Command::Build) | bit(Command::Convert) | bit(Command::Graph),
-     "where the output goes"},
-    {Key::Emit, "--emit", "cpp|ir|tree", bit(Command::Emit), "what to write; ir and tree go to stdout (cpp)"},
+     "output file or folder"},
+    {Key::Emit, "--emit", "cpp|ir|tree", bit(Command::Emit), "cpp to files, ir or tree to stdout (default: cpp)"},
     {Key::To, "--to", "st|xml", bit(Command::Convert), "Structured Text, or one PLCopen XML file"},
-    {Key::PageWidth, "--page-width", "N", bit(Command::Graph), "wrap networks at N pixels; 0: never (1200)"},
+    {Key::PageWidth, "--page-width", "N", bit(Command::Graph), "wrap networks at N pixels; 0: never (default: 1200)"},
     {Key::Depfile, "--depfile", "FILE", bit(Command::Emit), "write the inputs as a make rule"},
-    {Key::DepfileTarget, "--depfile-target", "PATH", bit(Command::Emit), "the rule's target (DIR/rung.manifest)"},
-    {Key::ListOutputs, "--list-outputs", nullptr, bit(Command::Emit), "print the names of the files, write none"},
-    {Key::Bundles, "--bundles", "N", bit(Command::Emit), "N more files, which include all others"},
+    {Key::DepfileTarget, "--depfile-target", "PATH", bit(Command::Emit),
+     "the rule's target (default: DIR/rung.manifest)"},
+    {Key::ListOutputs, "--list-outputs", nullptr, bit(Command::Emit), "print the file names without writing the files"},
+    {Key::Bundles, "--bundles", "N", bit(Command::Emit), "write N more files, which include all others"},
     {Key::Shared, "--shared", nullptr, bit(Command::Build), "make a shared library"},
     {Key::Static, "--static", nullptr, bit(Command::Build), "make a static library"},
     {Key::Keep, "--keep", nullptr, bit(Command::Build) | bit(Command::Run) | bit(Command::Test),
-     "keep the generated C++ and say where it is"},
+     "keep the generated C++ and print its folder"},
     {Key::Engine, "--engine", "native|interp", bit(Command::Run) | bit(Command::Test),
      "run compiled C++, or interpret (starts at once)"},
-    {Key::Host, "--cycles", "N", bit(Command::Run), "run N cycles (100, or as far as --inputs goes)"},
+    {Key::Host, "--cycles", "N", bit(Command::Run), "run N cycles (default: 100, or all of --inputs)"},
     {Key::Host, "--for", "T", bit(Command::Run), "run for a time, such as T#2s"},
-    {Key::Host, "--interval", "T", bit(Command::Run), "cycle time where no task is configured (T#10ms)"},
-    {Key::Host, "--inputs", "FILE", bit(Command::Run), "CSV, header cycle,PATH,...: values before cycles"},
+    {Key::Host, "--interval", "T", bit(Command::Run), "cycle time without tasks (default: T#10ms)"},
+    {Key::Host, "--inputs", "FILE", bit(Command::Run), "CSV (cycle,PATH,...): values to set before cycles"},
     {Key::Host, "--set", "PATH=VALUE", bit(Command::Run), "set a variable before cycle 0; may be repeated"},
-    {Key::Host, "--watch", "PATH,...", bit(Command::Run), "variables to trace (all of all programs)"},
+    {Key::Host, "--watch", "PATH,...", bit(Command::Run), "variables to trace (default: all)"},
     {Key::Host, "--trace", "FILE", bit(Command::Run), "write a CSV row after each cycle; - is stdout"},
-    {Key::Host, "--plot", "FILE", bit(Command::Run), "draw the variables over the time, as SVG"},
+    {Key::Host, "--plot", "FILE", bit(Command::Run), "plot the variables over time, as SVG"},
     {Key::Host, "--retain", "FILE", bit(Command::Run), "keep retained variables in FILE"},
-    {Key::Host, "--start", "cold|warm|origin", bit(Command::Run), "how to start (warm when the retain file exists)"},
-    {Key::Host, "--files-root", "DIR", bit(Command::Run), "the folder of the program's files (the current one)"},
-    {Key::Host, "--stop-on", "CONDITION", bit(Command::Run), "end after the cycle that makes it TRUE"},
+    {Key::Host, "--start", "cold|warm|origin", bit(Command::Run), "default: warm if the retain file exists, else cold"},
+    {Key::Host, "--files-root", "DIR", bit(Command::Run), "folder of the program's files (default: current)"},
+    {Key::Host, "--stop-on", "CONDITION", bit(Command::Run), "stop after the cycle that makes it TRUE"},
     {Key::Host, "--trace-calls", nullptr, bit(Command::Run), "print which POUs ran in each cycle"},
-    {Key::Host, "--realtime", nullptr, bit(Command::Run), "pace the run by the clock"},
-    {Key::Filter, "--filter", "GLOB", bit(Command::Test), "only tests whose name matches"},
+    {Key::Host, "--realtime", nullptr, bit(Command::Run), "run in real time"},
+    {Key::Filter, "--filter", "GLOB", bit(Command::Test), "run only tests whose name matches"},
     {Key::Junit, "--junit", "FILE", bit(Command::Test), "write the results as JUnit XML"},
     {Key::Coverage, "--coverage", nullptr, bit(Command::Test), "print which lines of the program ran"},
-    {Key::Lcov, "--lcov", "FILE", bit(Command::Test), "write the same for lcov and genhtml"},
-    {Key::Separate, "--separate", nullptr, bit(Command::Test), "each file is a project of its own"},
-    {Key::Signature, "--signature", "NAME", bit(Command::List), "the declaration of a function, block or type"},
-    {Key::Dialect, "--std", "codesys|iec3|iec2", kReads, "dialect (codesys)"},
+    {Key::Lcov, "--lcov", "FILE", bit(Command::Test), "write coverage for lcov and genhtml"},
+    {Key::Separate, "--separate", nullptr, bit(Command::Test), "treat each file as a separate project"},
+    {Key::Signature, "--signature", "NAME", bit(Command::List), "show the declaration of a function, block or type"},
+    {Key::Dialect, "--std", "codesys|iec3|iec2", kReads, "dialect (default: codesys)"},
     {Key::Checks, "--checks", "LIST", kCompile,
-     "of div,index,null,cast,subrange,convert,overflow;\n"
-     "default, all or none (div,index,null,cast)"},
-    {Key::Level, "-O", "0|1|2", kCompile, "optimization (1)"},
-    {Key::Warning, "-W", "NAME", kReads, "-Wno-NAME switches a warning off; NAME or code"},
-    {Key::Werror, "--werror", nullptr, kReads, "warnings are errors"},
-    {Key::MaxErrors, "--max-errors", "N", kReads, "stop listing after N errors; 0: never (100)"},
-    {Key::Format, "--format", "text|json|sarif", kReads, "form of diagnostics (text)"},
-    {Key::Color, "--color", "auto|always|never", kReads, "colours (auto: on a terminal)"},
+     "run-time checks: div,index,null,cast,subrange,\n"
+     "convert,overflow, or default, all, none\n"
+     "(default: div,index,null,cast)"},
+    {Key::Level, "-O", "0|1|2", kCompile, "optimization level (default: 1)"},
+    {Key::Warning, "-W", "NAME", kReads, "enable a warning by name or code; -Wno-NAME: disable"},
+    {Key::Werror, "--werror", nullptr, kReads, "treat warnings as errors"},
+    {Key::MaxErrors, "--max-errors", "N", kReads, "stop listing after N errors; 0: never (default: 100)"},
+    {Key::Format, "--format", "text|json|sarif", kReads, "format of diagnostics (default: text)"},
+    {Key::Color, "--color", "auto|always|never", kReads, "colours (default: auto, on a terminal)"},
     {Key::Define, "-D", "NAME[=VALUE]", kReads, "define NAME for {IF defined (NAME)}; may be repeated"},
-    {Key::Library, "-I", "DIR", kReads, "folder with libraries; may be repeated"},
-    {Key::Root, "--root", "DIR", kReads, "paths in the output are relative to DIR"},
-    {Key::Name, "--name", "ID", kCompile, "prefix of the module's symbols (plc)"},
+    {Key::Library, "-I", "DIR", kReads, "library folder; may be repeated"},
+    {Key::Root, "--root", "DIR", kReads, "make paths in the output relative to DIR"},
+    {Key::Name, "--name", "ID", kCompile, "prefix of the module's symbols (default: plc)"},
     {Key::TargetPointer, "--target-pointer", "8|4", bit(Command::Emit) | bit(Command::Build),
-     "bytes of a pointer on the target (8)"},
-    {Key::Jobs, "-j", "N", bit(Command::Build) | bit(Command::Run) | bit(Command::Test), "C++ compilers at a time"},
-    {Key::DumpAfter, "--dump-after", "NAME", kCompile, "print to stderr what parse, lower or a pass gives"},
+     "bytes of a pointer on the target (default: 8)"},
+    {Key::Jobs, "-j", "N", bit(Command::Build) | bit(Command::Run) | bit(Command::Test),
+     "C++ compilers to run at a time"},
+    {Key::DumpAfter, "--dump-after", "NAME", kCompile, "print the result of parse, lower or a pass to stderr"},
     {Key::TimePhases, "--time-phases", nullptr, kCompile, "print time and lines per second of each phase"},
     {Key::Later, "--serial", "N=DEVICE", bit(Command::Run), nullptr},
     {Key::Later, "--plc-period", "T", bit(Command::Run), nullptr},
@@ -193,7 +198,8 @@ std::string parseChoice(std::string_view option, std::string_view value, std::st
     position++;
   }
   return withSuggestion(
-      backquoted(value) + " is no value of " + backquoted(option) + "; it takes " + std::string(choices), value, names);
+      backquoted(value) + " is not a value of " + backquoted(option) + "; it takes " + std::string(choices), value,
+      names);
 }
 
 std::string parseNumber(std::string_view option, std::string_view value, uint32_t low, uint32_t high,
@@ -225,7 +231,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
     case Key::Root: options.root = value; return {};
     case Key::Name:
       if (!isIdentifier(value))
-        return backquoted(value) + " is no C identifier; `--name` takes letters, digits and `_`";
+        return backquoted(value) + " is not a C identifier; `--name` takes letters, digits and `_`";
       options.name = value;
       return {};
     case Key::Dialect: options.dialect_given = true; return parseDialect(value, options.dialect);
@@ -277,7 +283,7 @@ std::string apply(const OptionRow& row, const std::string& value, Options& optio
     case Key::Static: {
       BuildKind kind = row.key == Key::Shared ? BuildKind::Shared : BuildKind::Static;
       if (options.build != BuildKind::Executable && options.build != kind)
-        return "`--shared` and `--static` exclude each other";
+        return "`--shared` and `--static` cannot be combined";
       options.build = kind;
       return {};
     }
@@ -327,7 +333,8 @@ std::string unknownOption(std::string_view word, Command command) {
 }
 
 std::string elsewhere(const OptionRow& row, Command command) {
-  std::string message = backquoted(row.name) + " is no option of `rung " + commandName(command) + "`; it belongs to";
+  std::string message =
+      backquoted(row.name) + " is not an option of `rung " + commandName(command) + "`; it belongs to";
   const char* separator = " ";
   for (const CommandRow& other : kCommands) {
     if (!(row.commands & bit(other.command))) continue;
@@ -362,7 +369,7 @@ std::string checkCombination(const Options& options) {
       break;
     case Command::List:
       if (options.inputs.empty() && options.signature.empty())
-        return "`rung list` takes `libraries`, `pous FILE|DIR ...` or `--signature NAME`";
+        return "`rung list` takes `libraries`, `pous FILE|DIR ...`, `warnings` or `--signature NAME`";
       break;
     case Command::None:
     case Command::Version:
@@ -382,11 +389,11 @@ std::string checkCombination(const Options& options) {
   }
   const bool native = options.engine == Engine::Native || options.keep;
   if (options.counts() && native)
-    return std::string(options.coverage ? "`--coverage`" : "`--lcov`") + " needs the interpreter; leave out " +
+    return std::string(options.coverage ? "`--coverage`" : "`--lcov`") + " needs the interpreter; remove " +
            (options.keep ? "`--keep`" : "`--engine=native`");
   for (const std::string& argument : options.host_arguments)
     if (argument == "--trace-calls" && native)
-      return std::string("`--trace-calls` needs the interpreter; leave out ") +
+      return std::string("`--trace-calls` needs the interpreter; remove ") +
              (options.keep ? "`--keep`" : "`--engine=native`");
   if (options.command == Command::Convert && (options.output.empty() || options.to == ConvertTo::None))
     return "`rung convert` needs a target and a folder: add `--to st -o DIR` or `--to xml -o DIR`";
@@ -443,7 +450,7 @@ std::string parseDialect(std::string_view name, Dialect& dialect) {
 std::string parseDefine(std::string_view text, std::vector<text::Define>& defines) {
   const size_t equal = text.find('=');
   const std::string_view name = text.substr(0, equal);
-  if (!isIdentifier(name)) return backquoted(name) + " is no name; `-D` takes NAME or NAME=VALUE";
+  if (!isIdentifier(name)) return backquoted(name) + " is not a name; `-D` takes NAME or NAME=VALUE";
   defines.push_back({std::string(name), equal == text.npos ? "" : std::string(text.substr(equal + 1))});
   return {};
 }
@@ -474,7 +481,7 @@ std::string expandResponseFiles(std::vector<std::string>& words) {
   for (size_t i = 0; i < words.size(); i++) {
     if (words[i].size() < 2 || words[i][0] != '@') continue;
     std::string path = words[i].substr(1);
-    if (++files > 100) return "more than 100 response files; does " + backquoted(words[i]) + " name itself?";
+    if (++files > 100) return "more than 100 response files; does " + backquoted(words[i]) + " include itself?";
     ReadResult read = readFile(path);
     if (!read.error.empty()) return "cannot read response file " + backquoted(path) + ": " + read.error;
 
@@ -516,7 +523,7 @@ std::string expandResponseFiles(std::vector<std::string>& words) {
 
 std::string parseOptions(const std::vector<std::string>& words, Options& options) {
   options.checks = kDefaultChecks;
-  if (words.empty()) return "no command; `rung --help` lists them";
+  if (words.empty()) return "expected a command; `rung --help` lists all";
   options.command = findCommand(words[0]);
   if (options.command == Command::None) {
     for (const std::string_view later : kLaterCommands)
@@ -584,9 +591,9 @@ std::string helpText(Command command) {
     for (const CommandRow& row : kCommands) appendRow(out, row.name, row.summary);
     out +=
         "\n`rung COMMAND --help` lists the options of a command. Inputs are files or\n"
-        "folders; `@file` reads words from a file. Diagnostics go to stderr.\n\n"
-        "exit codes: 0 good, 1 the input has errors, 2 usage or I/O, 3 the program\n"
-        "faulted, 4 a test failed, 70 an internal error of rung\n";
+        "folders; `@file` reads arguments from a file. Diagnostics go to stderr.\n\n"
+        "exit codes: 0 success, 1 the input has errors, 2 usage or I/O, 3 the program\n"
+        "faulted, 4 a test failed, 70 internal error\n";
     return out;
   }
   for (const CommandRow& row : kCommands)
@@ -599,7 +606,7 @@ std::string helpText(Command command) {
   for (const CommandRow& row : kCommands)
     if (row.command == command && row.arguments[0] != '\0') out += std::string(" ") + row.arguments;
   out += '\n';
-  if (!options.empty()) out += "\noptions (what is taken without them stands in parentheses):\n" + options;
+  if (!options.empty()) out += "\noptions:\n" + options;
   return out;
 }
 

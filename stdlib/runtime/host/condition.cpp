@@ -80,7 +80,7 @@ bool Condition::parse(std::string_view text, std::string& error) {
     if (rest_.empty())
       needBool(root_);
     else
-      fail("after an operand comes a comparison, AND, XOR or OR, not " + backquoted(rest_));
+      fail("expected a comparison, AND, XOR or OR, found " + backquoted(rest_));
   }
   error = error_;
   return error.empty();
@@ -127,7 +127,7 @@ bool Condition::parseBinary(uint32_t level, uint32_t depth, uint32_t& node) {
 }
 
 bool Condition::parseUnary(uint32_t depth, uint32_t& node) {
-  if (depth == kDeepest) return fail("more than 100 parentheses and NOT inside each other");
+  if (depth == kDeepest) return fail("more than 100 nested parentheses and NOT");
   if (takeWord("not")) {
     uint32_t operand = 0;
     if (!parseUnary(depth + 1, operand) || !needBool(operand)) return false;
@@ -136,14 +136,15 @@ bool Condition::parseUnary(uint32_t depth, uint32_t& node) {
   }
   if (takeSymbol("(")) {
     if (!parseBinary(0, depth + 1, node)) return false;
-    return takeSymbol(")") || fail(rest_.empty() ? "`)` is missing" : "`)` is missing before " + backquoted(rest_));
+    return takeSymbol(")") ||
+           fail(rest_.empty() ? "expected `)` at the end" : "expected `)` before " + backquoted(rest_));
   }
   return parseOperand(node);
 }
 
 bool Condition::parseOperand(uint32_t& node) {
   skipBlanks();
-  if (rest_.empty()) return fail("a variable or a value is missing at the end");
+  if (rest_.empty()) return fail("expected a variable or a value at the end");
   size_t length = 0;
   bool is_literal = true;
   if (rest_.front() == '\'' || rest_.front() == '"') {
@@ -171,7 +172,7 @@ bool Condition::parseOperand(uint32_t& node) {
       }
     }
   }
-  if (length == 0) return fail("a variable or a value is missing before " + backquoted(rest_));
+  if (length == 0) return fail("expected a variable or a value before " + backquoted(rest_));
 
   node = add(Kind::Literal, 0, 0);
   Node& made = nodes_[node];
@@ -228,7 +229,7 @@ bool Condition::compare(Relation relation, uint32_t left, uint32_t right, uint32
     for (const uint32_t side : {left, right})
       if (!nodes_[side].unknown.empty()) return fail(nodes_[side].unknown);
     return fail(backquoted(nodes_[left].text) + " and " + backquoted(nodes_[right].text) +
-                " are both values; one side of a comparison is a variable");
+                " are both values; one side of a comparison must be a variable");
   }
   const auto typeOf = [&](uint32_t side) -> const rung_type& {
     const bool is_operand = nodes_[side].kind == Kind::Variable || nodes_[side].kind == Kind::Literal;

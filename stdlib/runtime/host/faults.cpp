@@ -23,13 +23,13 @@ std::string describeFault(const rung_module& module, const rung_fault& fault) {
       word = "null";
       what = fault.value == 0 ? "a pointer, reference or in-out refers to nothing"
              : fault.value == RUNG_BAD_ADDRESS
-                 ? "a pointer or reference leads to memory that the program may not touch"
-                 : "__DELETE of memory that __NEW has not given, or that was deleted before";
+                 ? "a pointer or reference points to memory that the program may not access"
+                 : "__DELETE of memory that __NEW did not return, or that was already deleted";
       break;
     case RUNG_FAULT_CAST:
       word = "cast";
-      what = fault.value == RUNG_NO_SUCH_METHOD ? "what the pointer leads to is no object that can be called here"
-                                                : "the object is not of the type that the cast names";
+      what = fault.value == RUNG_NO_SUCH_METHOD ? "the pointer does not point to an object that can be called here"
+                                                : "the object is not of the type named in the cast";
       break;
     case RUNG_FAULT_SUBRANGE:
       word = "subrange";
@@ -37,24 +37,23 @@ std::string describeFault(const rung_module& module, const rung_fault& fault) {
       break;
     case RUNG_FAULT_CONVERT:
       word = "convert";
-      what = "value " + value + " does not fit the type that it is converted to";
+      what = "value " + value + " does not fit in the type it is converted to";
       break;
     case RUNG_FAULT_OVERFLOW:
       word = "overflow";
-      what = "the result does not fit its type";
+      what = "the result does not fit in its type";
       break;
     case RUNG_FAULT_LOCK:
       word = "lock";
-      what = fault.value == RUNG_LOCK_HELD   ? "another task has the MUTEX, and cannot unlock it while this one waits"
-             : fault.value == RUNG_LOCK_OWN  ? "this task has the MUTEX already"
-             : fault.value == RUNG_SEMA_FULL ? "RELEASE of a SEMA of which nothing is taken"
-             : fault.value == RUNG_SEMA_EMPTY
-                 ? "all of the SEMA is taken, and nothing is released while this task waits"
-                 : "UNLOCK of a MUTEX that this task has not locked";
+      what = fault.value == RUNG_LOCK_HELD    ? "another task holds the MUTEX and cannot unlock it while this one waits"
+             : fault.value == RUNG_LOCK_OWN   ? "this task already holds the MUTEX"
+             : fault.value == RUNG_SEMA_FULL  ? "RELEASE of a SEMA that is not acquired"
+             : fault.value == RUNG_SEMA_EMPTY ? "the SEMA is exhausted, and nothing is released while this task waits"
+                                              : "UNLOCK of a MUTEX that this task has not locked";
       break;
     case RUNG_FAULT_STACK:
       word = "stack";
-      what = "calls nest too deep";
+      what = "calls are nested too deeply";
       break;
   }
   std::string text;
@@ -62,7 +61,7 @@ std::string describeFault(const rung_module& module, const rung_fault& fault) {
   text += "fault[" + word + "]: " + what;
   if (known && module.text[site.pou] != 0) text += std::string(" in `") + (module.text + site.pou) + '`';
   if (!known && (fault.value == RUNG_BAD_ADDRESS || fault.kind == RUNG_FAULT_STACK))
-    text += ", in compiled code; `rung run --engine=interp` tells the line";
+    text += ", in compiled code; `rung run --engine=interp` shows the line";
   return text;
 }
 

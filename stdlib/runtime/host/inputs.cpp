@@ -56,7 +56,7 @@ bool Inputs::load(const std::string& path, std::string& error) {
     error = place + std::to_string(row.places[cell].line) + ":" + std::to_string(row.places[cell].column) + ": " + what;
     return false;
   };
-  if (rows.empty()) return error = place + "1:1: the header `cycle,<path>,...` is missing", false;
+  if (rows.empty()) return error = place + "1:1: expected the header `cycle,<path>,...`", false;
 
   const CsvRow header = joinBrackets(rows[0]);
   const std::vector<std::string>& names = header.cells;
@@ -82,11 +82,11 @@ bool Inputs::load(const std::string& path, std::string& error) {
     const std::string& first = row.cells[0];
     const std::from_chars_result read = std::from_chars(first.data(), first.data() + first.size(), cycle);
     if (read.ec != std::errc{} || read.ptr != first.data() + first.size() || cycle < 0)
-      return fail(row, 0, "`" + first + "` is no cycle; write 0, 1, 2, ...");
+      return fail(row, 0, "`" + first + "` is not a cycle number; write 0, 1, 2, ...");
     if (row.cells.size() > columns.size())
-      return fail(
-          row, columns.size(),
-          "the row has " + std::to_string(row.cells.size()) + " cells, the header " + std::to_string(columns.size()));
+      return fail(row, columns.size(),
+                  "the row has " + std::to_string(row.cells.size()) + " cells, but the header has " +
+                      std::to_string(columns.size()));
     last_cycle_ = std::max(last_cycle_, cycle);
     for (size_t i = 1; i < row.cells.size(); ++i) {
       if (columns[i] == kIgnored || row.cells[i].empty()) continue;

@@ -18,8 +18,8 @@ uint8_t* place(std::vector<std::unique_ptr<uint8_t[]>>& storage, size_t size, si
 }  // namespace
 
 const char* refusal(const rung_module& module) {
-  if (module.abi != RUNG_MODULE_ABI) return "the program was made for another version of the runtime; build it again";
-  if (module.pointer_size != sizeof(void*)) return "the program was made for another pointer size (--target-pointer)";
+  if (module.abi != RUNG_MODULE_ABI) return "the program was built for another version of the runtime; build it again";
+  if (module.pointer_size != sizeof(void*)) return "the program was built for another pointer size (--target-pointer)";
   return nullptr;
 }
 

@@ -20,19 +20,19 @@ bool readDuration(const std::string& text, int64_t& ns) {
 
 const char kHelp[] =
     "options\n"
-    "  --cycles N            run N cycles of the fastest task (default 100, or as far as --inputs goes)\n"
-    "  --for TIME            run this long: --for T#2s\n"
-    "  --interval TIME       period of programs that were built without any (default T#10ms)\n"
+    "  --cycles N            run N cycles of the fastest task (default: 100, or all of --inputs)\n"
+    "  --for TIME            run for this time: --for T#2s\n"
+    "  --interval TIME       cycle time of programs built without one (default: T#10ms)\n"
     "  --inputs FILE         CSV with header cycle,PATH,...: variables set before each cycle\n"
     "  --set PATH=VALUE      set a variable once, before cycle 0\n"
-    "  --watch PATH,...      the variables to trace (default: all of all programs)\n"
+    "  --watch PATH,...      the variables to trace (default: all)\n"
     "  --trace FILE|-        write a CSV row after each cycle\n"
-    "  --plot FILE           draw the variables over the time, as SVG\n"
+    "  --plot FILE           plot the variables over time, as SVG\n"
     "  --retain FILE         keep retained variables in FILE\n"
     "  --files-root DIR      the folder of the program's files (default: the current one)\n"
-    "  --start cold|warm|origin   default: warm when the retain file exists, else cold\n"
-    "  --stop-on CONDITION   end the run after the cycle that makes it TRUE: --stop-on 'Main.n >= 10'\n"
-    "  --realtime            run by the clock, until the cycles are done or Ctrl-C\n";
+    "  --start cold|warm|origin   default: warm if the retain file exists, else cold\n"
+    "  --stop-on CONDITION   stop after the cycle that makes it TRUE: --stop-on 'Main.n >= 10'\n"
+    "  --realtime            run in real time, until the cycles are done or Ctrl-C\n";
 
 }  // namespace
 
@@ -93,7 +93,7 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
     } else if (name == "--files-root") {
       struct stat info;
       if (stat(value.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
-        return "--files-root needs a folder that is there, not `" + value + "`";
+        return "--files-root needs an existing folder, not `" + value + "`";
       options.files_root = value;
     } else if (name == "--retain") {
       options.retain_path = value;
@@ -109,8 +109,8 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
         return "--start needs cold, warm or origin, not `" + value + "`";
     }
   }
-  if (options.realtime && !options.stop_on.empty()) return "--stop-on ends runs in virtual time; leave out --realtime";
-  if (options.realtime && options.trace_calls) return "--trace-calls is for runs in virtual time; leave out --realtime";
+  if (options.realtime && !options.stop_on.empty()) return "--stop-on works only in virtual time; remove --realtime";
+  if (options.realtime && options.trace_calls) return "--trace-calls works only in virtual time; remove --realtime";
   if (options.trace_calls && options.trace_path == "-")
     return "--trace-calls and --trace - would both write to stdout; give --trace a file";
   return "";
@@ -140,7 +140,7 @@ int applicationMain(const rung_module& module, int argc, char** argv) {
       printf("%s, compiled by %s\n", module.name, module.compiler);
       return 0;
     }
-    fprintf(stderr, "error: unknown option `%s`; --help lists them\n", argument.c_str());
+    fprintf(stderr, "error: unknown option `%s`; --help lists all\n", argument.c_str());
     return 2;
   }
   return run(module, options);

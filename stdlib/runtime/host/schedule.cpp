@@ -35,7 +35,7 @@ bool Schedule::prepare(std::string& error) {
       return false;
     }
     if (item.trigger.type->kind != RUNG_BOOL) {
-      error = "task `" + name + "`: the trigger `" + item.trigger.path + "` is no BOOL";
+      error = "task `" + name + "`: the trigger `" + item.trigger.path + "` is not a BOOL";
       return false;
     }
   }

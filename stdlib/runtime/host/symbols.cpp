@@ -125,7 +125,7 @@ bool Symbols::findAddress(std::string_view path, Variable& variable, std::string
   static const char kAreas[] = "iqm";
   const char* const area = at < lower.size() ? strchr(kAreas, lower[at]) : nullptr;
   if (area == nullptr) {
-    error = backquoted(path) + " is no address; write `%IX0.0`, `%QB1`, `%MW2`";
+    error = backquoted(path) + " is not an address; write `%IX0.0`, `%QB1` or `%MW2`";
     return false;
   }
   ++at;
@@ -154,12 +154,12 @@ bool Symbols::findAddress(std::string_view path, Variable& variable, std::string
   }
   if (type != &kBoolType) byte = byte < UINT32_MAX ? byte * type->size : byte;  // %QW2 is the bytes 4 and 5
   if (!good || read.ptr != end) {
-    error = backquoted(path) + " is no address; write `%IX0.0`, `%QB1`, `%MW2`";
+    error = backquoted(path) + " is not an address; write `%IX0.0`, `%QB1` or `%MW2`";
     return false;
   }
   if (byte + type->size > module_.image_bytes[index]) {
-    error = backquoted(path) + " lies outside the image: the program uses " +
-            std::to_string(module_.image_bytes[index]) + " bytes of it";
+    error = backquoted(path) + " is outside the image, of which the program uses " +
+            std::to_string(module_.image_bytes[index]) + " bytes";
     return false;
   }
   variable = Variable{};
@@ -201,7 +201,7 @@ bool Symbols::enter(Variable& variable, std::string_view name, std::vector<std::
 bool Symbols::step(Variable& variable, std::string_view& rest, std::string& error) const {
   const rung_type& type = *variable.type;
   if (rest.front() == '^') {
-    if (type.kind != RUNG_POINTER) return error = backquoted(variable.path) + " is no pointer", false;
+    if (type.kind != RUNG_POINTER) return error = backquoted(variable.path) + " is not a pointer", false;
     rest.remove_prefix(1);
     variable.type = &module_.types[type.element];
     variable.hops.push_back(0);
@@ -209,10 +209,9 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
     return true;
   }
   if (rest.front() == '[') {
-    if (type.kind != RUNG_ARRAY) return error = backquoted(variable.path) + " is no array", false;
+    if (type.kind != RUNG_ARRAY) return error = backquoted(variable.path) + " is not an array", false;
     const size_t close = rest.find(']');
-    if (close == std::string_view::npos)
-      return error = "`]` is missing after " + backquoted(variable.path) + "[", false;
+    if (close == std::string_view::npos) return error = "expected `]` after " + backquoted(variable.path) + "[", false;
     const std::vector<std::string> indices = splitList(rest.substr(1, close - 1));
     if (indices.size() != type.count)
       return error = backquoted(variable.path) + " has " + std::to_string(type.count) + " dimension(s), not " +
@@ -226,7 +225,7 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
       const std::string& written = indices[d];
       const std::from_chars_result read = std::from_chars(written.data(), written.data() + written.size(), index);
       if (read.ec != std::errc{} || read.ptr != written.data() + written.size())
-        return error = backquoted(written) + " is no index; write a number", false;
+        return error = backquoted(written) + " is not an index; write a number", false;
       if (index < dimension.low || index > dimension.high)
         return error = "index " + written + " of " +
                        backquoted(std::string_view(variable.path).substr(0, variable.path.find_last_of('['))) +
@@ -243,7 +242,7 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
     return true;
   }
   if (rest.front() != '.')
-    return error = "after " + backquoted(variable.path) + " write `.field`, `[index]` or nothing", false;
+    return error = "expected `.field`, `[index]` or nothing after " + backquoted(variable.path), false;
   rest.remove_prefix(1);
   size_t length = 0;
   while (length < rest.size() && isNameCharacter(rest[length])) ++length;
@@ -276,7 +275,7 @@ bool Symbols::step(Variable& variable, std::string_view& rest, std::string& erro
 bool Symbols::find(std::string_view path, Variable& variable, std::string& error) const {
   while (!path.empty() && path.front() == ' ') path.remove_prefix(1);
   while (!path.empty() && path.back() == ' ') path.remove_suffix(1);
-  if (path.empty()) return error = "a path is missing", false;
+  if (path.empty()) return error = "expected the path of a variable", false;
 
   // The longest root that ends where a name ends.
   const std::string lower = lowerCase(path);

@@ -51,7 +51,7 @@ std::string assignEnum(const rung_module& module, const rung_type& type, std::st
     memcpy(to, &scratch, type.size);
     return "";
   }
-  return "`" + std::string(text) + "` is no item of " + typeName(module, type) + didYouMean(item, names);
+  return "`" + std::string(text) + "` is not an item of " + typeName(module, type) + didYouMean(item, names);
 }
 
 }  // namespace
@@ -168,7 +168,7 @@ void spellValue(const rung_module& module, const Variable& variable, std::string
 std::string assignValue(const rung_module& module, const Variable& variable, std::string_view text, bool dry) {
   text = trimmed(text);
   const rung_type& type = *variable.type;
-  if ((variable.flags & RUNG_FIELD_CONSTANT) != 0) return "`" + variable.path + "` is constant";
+  if ((variable.flags & RUNG_FIELD_CONSTANT) != 0) return "`" + variable.path + "` is a constant";
   if ((variable.flags & RUNG_FIELD_READ_ONLY) != 0) return "`" + variable.path + "` is READ_ONLY";
   if (type.kind == RUNG_ARRAY || type.kind == RUNG_RECORD)
     return "`" + variable.path + "` is " + (type.kind == RUNG_ARRAY ? "an array" : "a structure") +
@@ -176,7 +176,7 @@ std::string assignValue(const rung_module& module, const Variable& variable, std
   if (type.kind == RUNG_POINTER) return "`" + variable.path + "` is a pointer and cannot be set from outside";
 
   uint8_t* const at = variable.address();
-  if (at == nullptr && !dry) return "`" + variable.path + "` goes through a pointer that is null";
+  if (at == nullptr && !dry) return "`" + variable.path + "` goes through a null pointer";
   std::vector<uint8_t> scratch(dry || variable.bit != 255 ? size_t{type.size} + 8 : 0);
   uint8_t* const to = scratch.empty() ? at : scratch.data();
   if (type.kind == RUNG_ENUM) return assignEnum(module, type, text, to);
@@ -185,7 +185,7 @@ std::string assignValue(const rung_module& module, const Variable& variable, std
     if (type.kind == RUNG_STRING || type.kind == RUNG_USTRING) hint = "; write '...'";
     if (type.kind == RUNG_WSTRING) hint = "; write \"...\"";
     if (type.kind == RUNG_TIME) hint = "; write T#1s500ms";
-    return "`" + std::string(text) + "` is no value of type " + typeName(module, type) + hint;
+    return "`" + std::string(text) + "` is not a value of type " + typeName(module, type) + hint;
   }
   if (variable.bit != 255 && !dry) {
     const uint8_t mask = static_cast<uint8_t>(1u << variable.bit);

@@ -46,7 +46,7 @@ bool readOptions(int argc, char** argv, const char* tool, const char* taken, Opt
     } else if (is("-j")) {
       options.jobs = std::clamp(static_cast<unsigned>(number), 1u, 64u);
     } else {
-      std::fprintf(stderr, "%s: there is no option %s\n", tool, word.c_str());
+      std::fprintf(stderr, "%s: unknown option %s\n", tool, word.c_str());
       return false;
     }
   }

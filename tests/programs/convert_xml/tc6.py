@@ -225,7 +225,7 @@ class Checker:
     def wires(self, body, where):
         ids = [e.get("localId") for e in body.iter() if e.get("localId") is not None and e.tag != TC6 + "action"]
         for twice in {i for i in ids if ids.count(i) > 1} if len(ids) < 2000 else set():
-            self.wrong(where, f"localId {twice} stands twice")
+            self.wrong(where, f"duplicate localId {twice}")
         known = set(ids)
         for wire in body.iter(TC6 + "connection"):
             if wire.get("refLocalId") not in known:

@@ -45,7 +45,7 @@ TEST_F(BuilderTest, CopyIsATreeOfItsOwn) {
   b.open();
   b.assign(place, b.copy(place));
   body.first = b.block().first;
-  EXPECT_EQ(verify(module), std::vector<std::string>{"[29] body `f`: the body may fault and does not say so"});
+  EXPECT_EQ(verify(module), std::vector<std::string>{"[29] body `f`: the body may fault, but is not may_fault"});
   EXPECT_NE(squeeze(print(module, body)).find("a[sub int i, 1]! = a[sub int i, 1]!"), std::string::npos);
 }
 

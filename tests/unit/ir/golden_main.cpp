@@ -92,7 +92,7 @@ class Golden {
       Run run;
       if (line.rfind("; run: ", 0) != 0) continue;
       if (!parseRun(line.substr(7), run))
-        fail("`" + line + "` is no run line");
+        fail("`" + line + "` is not a run line");
       else
         runs.push_back(run);
     }

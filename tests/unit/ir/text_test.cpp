@@ -330,23 +330,22 @@ std::string errorsOf(const std::string& text) {
 }
 
 TEST(IrText, MistakesAreNamedOnceEach) {
-  EXPECT_EQ(errorsOf("function @f { in x int }\n"), "1:20 E0901 `:` is expected here, not `int`\n");
+  EXPECT_EQ(errorsOf("function @f { in x int }\n"), "1:20 E0901 expected `:`, found `int`\n");
   EXPECT_EQ(errorsOf("function @f { result int }\nbody @f { y = 3 }\n"),
-            "2:11 E0902 `y` is no variable of this module; declare it, or correct the name\n");
+            "2:11 E0902 unknown variable `y` in this module; declare it, or correct the name\n");
   EXPECT_EQ(errorsOf("function @f { in s: sint; result int }\nbody @f { s = 200 }\n"),
-            "2:15 E0903 `200` is no value of SINT; write the value's type before it, as in `int#3`\n");
+            "2:15 E0903 `200` is not a value of SINT; write the value's type before it, as in `int#3`\n");
   EXPECT_EQ(errorsOf("struct @A { x: int }\nstruct @A { x: int }\n"),
             "2:8 E0904 `A` is declared twice; rename one of them\n");
   EXPECT_EQ(errorsOf("function @f { in s: int }\nbody @f { s.x = 1 }\n"),
             "2:12 E0906 `.` needs a record before it, not INT\n");
-  EXPECT_EQ(errorsOf("hello\n"),
-            "1:1 E0901 an item (`function`, `body`, `struct`, ...) is expected here, not `hello`\n");
+  EXPECT_EQ(errorsOf("hello\n"), "1:1 E0901 expected an item (`function`, `body`, `struct`, ...), found `hello`\n");
 }
 
 TEST(IrText, EachItemIsReadAfterAMistake) {
   EXPECT_EQ(errorsOf("function @f { in x: int }\nbody @f { x = }\nfunction @g { in x: int }\nbody @g { x = y }\n"),
-            "2:15 E0901 an expression is expected here, not `}`\n"
-            "4:15 E0902 `y` is no variable of this module; declare it, or correct the name\n");
+            "2:15 E0901 expected an expression, found `}`\n"
+            "4:15 E0902 unknown variable `y` in this module; declare it, or correct the name\n");
 }
 
 TEST(IrText, DeepNestingEndsWithAMessage) {

@@ -124,8 +124,8 @@ TEST(Plcopen, ExtensionsAreMentionedOncePerKind) {
           "<project xmlns='http://www.plcopen.org/xml/tc6_0200'>\n<addData><data name='urn:a'/><data name='urn:a'/>\n"
           "<data name='urn:b'/><data name='urn:c' handleUnknown='discard'/></addData></project>")
           .errors(),
-      "2:22 the extension `urn:a` is not read; what it says is passed over\n"
-      "3:13 the extension `urn:b` is not read; what it says is passed over\n");
+      "2:22 the extension `urn:a` is not read; its content is ignored\n"
+      "3:13 the extension `urn:b` is not read; its content is ignored\n");
 }
 
 // Wires that meet and part again at each of many lines would be 2^n ways.
@@ -146,7 +146,7 @@ TEST(Plcopen, ChartsWithoutEndAreRefused) {
            "</connectionPointIn><condition><inline><ST>TRUE</ST></inline></condition></transition>";
   const Reading reading(project("<pou name='P' pouType='program'><body><SFC>" + chart + "</SFC></body></pou>"));
   ASSERT_EQ(reading.diagnostics.all().size(), 1u);
-  EXPECT_EQ(reading.diagnostics.all()[0].message, "more than 1000000 ways through one chart");
+  EXPECT_EQ(reading.diagnostics.all()[0].message, "too many paths through one chart; the limit is 1000000");
 }
 
 // Found by the spoiler: a variable has no inputs, whatever is wired to it.
@@ -170,7 +170,7 @@ TEST(Plcopen, TypesWithoutEndAreRefused) {
   for (int i = 0; i < 300; ++i) type += "</baseType></pointer>";
   const Reading reading(project("<dataType name='T'><baseType>" + type + "</baseType></dataType>"));
   ASSERT_EQ(reading.diagnostics.all().size(), 1u);
-  EXPECT_EQ(reading.diagnostics.all()[0].message, "more than 200 types inside each other");
+  EXPECT_EQ(reading.diagnostics.all()[0].message, "too many nested types; the limit is 200");
 }
 
 }  // namespace

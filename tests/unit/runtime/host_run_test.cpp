@@ -97,12 +97,12 @@ TEST(Run, BadInputsNameTheirPlace) {
     EXPECT_EQ(outcome.err.compare(0, head.size(), head), 0) << outcome.err;
     return outcome.err.substr(head.size());
   };
-  EXPECT_EQ(error(""), "1:1: the header `cycle,<path>,...` is missing\n");
+  EXPECT_EQ(error(""), "1:1: expected the header `cycle,<path>,...`\n");
   EXPECT_EQ(error("time,a\n"), "1:1: the first column must be `cycle`, not `time`\n");
   EXPECT_EQ(error("cycle,Main.cuont\n"), "1:7: `Main` has no variable `cuont`; did you mean `count`?\n");
-  EXPECT_EQ(error("cycle,Main.count\n0,5\n\nx,5\n"), "4:1: `x` is no cycle; write 0, 1, 2, ...\n");
-  EXPECT_EQ(error("cycle,Main.count\n0,5.5\n"), "2:3: `5.5` is no value of type DINT\n");
-  EXPECT_EQ(error("cycle,Main.count\n0,5,6\n"), "2:5: the row has 3 cells, the header 2\n");
+  EXPECT_EQ(error("cycle,Main.count\n0,5\n\nx,5\n"), "4:1: `x` is not a cycle number; write 0, 1, 2, ...\n");
+  EXPECT_EQ(error("cycle,Main.count\n0,5.5\n"), "2:3: `5.5` is not a value of type DINT\n");
+  EXPECT_EQ(error("cycle,Main.count\n0,5,6\n"), "2:5: the row has 3 cells, but the header has 2\n");
   options.inputs_path = temporary("missing.csv");
   EXPECT_EQ(go(options).code, 2);
 }

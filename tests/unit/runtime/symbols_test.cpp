@@ -47,11 +47,11 @@ TEST_F(Paths, SayWhatIsWrong) {
   EXPECT_EQ(value("Main.levl"), "`Main` has no variable `levl`; did you mean `Level`?");
   EXPECT_EQ(value("Main.table[3,0]"), "index 3 of `Main.table` is outside 1..2");
   EXPECT_EQ(value("Main.table[1]"), "`Main.table` has 2 dimension(s), not 1");
-  EXPECT_EQ(value("Main.table[1"), "`]` is missing after `Main.table`[");
+  EXPECT_EQ(value("Main.table[1"), "expected `]` after `Main.table`[");
   EXPECT_EQ(value("Main.count.40"), "`Main.count` has no bit `40`");
   EXPECT_EQ(value("Main.level.x"), "`Main.Level` has no fields");
-  EXPECT_EQ(value("%QW7"), "`%QW7` lies outside the image: the program uses 1 bytes of it");
-  EXPECT_EQ(value(""), "a path is missing");
+  EXPECT_EQ(value("%QW7"), "`%QW7` is outside the image, of which the program uses 1 bytes");
+  EXPECT_EQ(value(""), "expected the path of a variable");
   EXPECT_EQ(value("Main."), "`Main` has no variable ``");
 }
 
@@ -70,8 +70,8 @@ TEST_F(Paths, SetValues) {
   EXPECT_EQ(value("Main.point.x"), "-3");
   EXPECT_EQ(set("speed", "16#1234"), "");
   EXPECT_EQ(memory.image(0)[2], 0x34);
-  EXPECT_EQ(set("Main.color", "Gren"), "`Gren` is no item of Color; did you mean `Green`?");
-  EXPECT_EQ(set("Main.count", "x"), "`x` is no value of type DINT");
+  EXPECT_EQ(set("Main.color", "Gren"), "`Gren` is not an item of Color; did you mean `Green`?");
+  EXPECT_EQ(set("Main.count", "x"), "`x` is not a value of type DINT");
   EXPECT_EQ(set("Main.table", "1"), "`Main.table` is an array; set its elements one by one");
 }
 

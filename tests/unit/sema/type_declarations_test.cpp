@@ -77,7 +77,7 @@ TEST(TypeDeclarations, what_contains_itself_is_named_and_cut) {
       "FUNCTION_BLOCK b VAR y : ARRAY[1..2] OF a; END_VAR END_FUNCTION_BLOCK\n"
       "TYPE Link : STRUCT next : POINTER TO Link; END_STRUCT; END_TYPE\n");
   EXPECT_EQ(checked.codes(), "E0303@2");
-  EXPECT_NE(checked.messages().find("`a` holds `b` holds `a`"), std::string::npos);
+  EXPECT_NE(checked.messages().find("`a` contains `b` contains `a`"), std::string::npos);
 }
 
 TEST(TypeDeclarations, an_alias_of_itself) {

@@ -55,7 +55,7 @@ TEST(Calls, RecursionIsFound) {
   EXPECT_EQ(Checked("FUNCTION F : INT VAR_INPUT n : INT; END_VAR F := G(n); END_FUNCTION\n"
                     "FUNCTION G : INT VAR_INPUT n : INT; END_VAR G := F(n); END_FUNCTION\n")
                 .messages(),
-            "2:50 recursion: `F` calls `G` calls `F`; the stack it needs is not checked\n");
+            "2:50 recursion: `F` calls `G` calls `F`; its stack use is not checked\n");
 }
 
 TEST(Calls, AFunctionWithoutResultHasNoValue) {

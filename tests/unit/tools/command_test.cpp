@@ -62,9 +62,9 @@ TEST_F(CommandTest, InputsThatCannotBeRead) {
   folder.write("binary.st", std::string("\0\1\2\3", 4));
   folder.write("what.txt", "hello");
   expect("rung check nowhere.st", 2, "cannot read `nowhere.st`: No such file or directory");
-  expect("rung check empty", 2, "the folder `empty` holds no source file");
-  expect("rung check binary.st", 2, "`binary.st` holds binary data");
-  expect("rung check what.txt", 2, "the kind of `what.txt` is unknown");
+  expect("rung check empty", 2, "folder `empty` contains no source file");
+  expect("rung check binary.st", 2, "`binary.st` is a binary file");
+  expect("rung check what.txt", 2, "unknown file type of `what.txt`");
   expect("rung check", 2, "needs files or folders");
   expect("rung chekc x", 2, "did you mean `check`?");
 }
@@ -173,7 +173,7 @@ TEST_F(CommandTest, EndlessRecursionIsAFault) {
   folder.write("a.st",
                "FUNCTION F : INT\nVAR_INPUT n : INT; END_VAR\nF := F(n + 1) + 1;\nEND_FUNCTION\n"
                "PROGRAM Main\nVAR x : INT; END_VAR\nx := F(1);\nEND_PROGRAM\n");
-  expect("rung run a.st --cycles 1", 3, "a.st:3: fault[stack]: calls nest too deep in `F`");
+  expect("rung run a.st --cycles 1", 3, "a.st:3: fault[stack]: calls are nested too deeply in `F`");
 }
 
 TEST_F(CommandTest, ManyRunsAtOnce) {
@@ -236,7 +236,7 @@ TEST_F(CommandTest, ProjectFileTasks) {
 
 TEST_F(CommandTest, Explain) {
   EXPECT_NE(shell("rung explain e0401").out.find("E0401"), std::string::npos);
-  expect("rung explain E9999", 2, "there is no diagnostic `E9999`");
+  expect("rung explain E9999", 2, "unknown diagnostic `E9999`");
 }
 
 // A change of a block's fields is one of its users' text; only what many use is in a header (codegen/records.h).

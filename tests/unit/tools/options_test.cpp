@@ -63,15 +63,17 @@ TEST(Options, MistakesSayWhatToDo) {
   EXPECT_EQ(
       errorOf({"check", "--max-error=3", "a.st"}),
       "unknown option `--max-error` of `rung check`; did you mean `--max-errors`? (`rung check --help` lists all)");
-  EXPECT_EQ(errorOf({"check", "-o", "x", "a.st"}),
-            "`-o` is no option of `rung check`; it belongs to `rung emit`, `rung build`, `rung convert`, `rung graph`");
+  EXPECT_EQ(
+      errorOf({"check", "-o", "x", "a.st"}),
+      "`-o` is not an option of `rung check`; it belongs to `rung emit`, `rung build`, `rung convert`, `rung graph`");
   EXPECT_EQ(errorOf({"check"}), "`rung check` needs files or folders to read");
   EXPECT_EQ(errorOf({"check", "a.st", "--std=iec4"}),
-            "`iec4` is no value of `--std`; it takes iec2|iec3|codesys; did you mean `iec2`?");
-  EXPECT_EQ(errorOf({"check", "a.st", "-O3"}), "`3` is no value of `-O`; it takes 0|1|2");
+            "`iec4` is not a value of `--std`; it takes iec2|iec3|codesys; did you mean `iec2`?");
+  EXPECT_EQ(errorOf({"check", "a.st", "-O3"}), "`3` is not a value of `-O`; it takes 0|1|2");
   EXPECT_EQ(errorOf({"check", "a.st", "--max-errors=many"}),
             "`--max-errors` takes a number from 0 to 1000000000, not `many`");
-  EXPECT_EQ(errorOf({"check", "a.st", "--name=9x"}), "`9x` is no C identifier; `--name` takes letters, digits and `_`");
+  EXPECT_EQ(errorOf({"check", "a.st", "--name=9x"}),
+            "`9x` is not a C identifier; `--name` takes letters, digits and `_`");
   EXPECT_EQ(errorOf({"check", "a.st", "--name"}), "`--name` needs a value: --name=ID");
   EXPECT_EQ(errorOf({"check", "a.st", "--werror=1"}), "`--werror` takes no value");
   EXPECT_NE(errorOf({"emit", "a.st"}), "");

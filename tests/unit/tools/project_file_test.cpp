@@ -54,21 +54,21 @@ TEST_F(ProjectFileTest, MistakesHaveTheirPlace) {
   read("std = iec3\n[projekt]\nx = 1\n[project]\n  nmae = a\nstd=iec9\nwhat\n[task]\n[safe all]\n[project\n");
   EXPECT_EQ(messages(),
             (std::vector<std::string>{
-                "1:1: `std` stands before the first section; write `[project]` above it",
+                "1:1: `std` is before the first section; write `[project]` above it",
                 "2:2: unknown section `projekt`",
                 "5:3: unknown key `nmae` in section `project`",
-                "6:5: wrong value for `std`: `iec9` is no value of `--std`; it takes iec2|iec3|codesys; did "
+                "6:5: wrong value for `std`: `iec9` is not a value of `--std`; it takes iec2|iec3|codesys; did "
                 "you mean `iec2`?",
-                "7:1: this is no `[section]`, `key = value` or `# comment`",
-                "8:2: a section `task` needs a name: `[task NAME]`",
-                "9:2: the section `safe` takes no name: `[safe]`",
-                "10:1: this is no `[section]`, `key = value` or `# comment`",
+                "7:1: expected `[section]`, `key = value` or `# comment`",
+                "8:2: section `task` needs a name; write `[task NAME]`",
+                "9:2: section `safe` takes no name; write `[safe]`",
+                "10:1: expected `[section]`, `key = value` or `# comment`",
             }));
 }
 
 TEST_F(ProjectFileTest, KeySetTwice) {
   read("[project]\nname = a\nname = b\n");
-  EXPECT_EQ(messages(), (std::vector<std::string>{"3:1: `name` is set twice in its section"}));
+  EXPECT_EQ(messages(), (std::vector<std::string>{"3:1: duplicate key `name` in this section; remove one"}));
   EXPECT_EQ(project.name, "a");
 }
 

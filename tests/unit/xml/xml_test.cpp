@@ -80,51 +80,51 @@ TEST_F(XmlTest, TextIsDecodedAndKeepsItsPlaces) {
 
 // A billion laughs and a file of somebody else: refused before anything is read.
 TEST_F(XmlTest, DocumentTypeIsRefused) {
-  const std::string refused = " the XML is broken here: a document type, which Rung does not read; remove it";
+  const std::string refused = " malformed XML: Rung does not read document types; remove this one";
   EXPECT_EQ(error("<?xml version='1.0'?>\n<!DOCTYPE a [ <!ENTITY x 'y'> <!ENTITY z '&x;&x;'> ]><a>&z;</a>"),
             "2:1" + refused);
   EXPECT_EQ(error("<!DOCTYPE a SYSTEM 'file:///etc/passwd'><a/>"), "1:1" + refused);
-  EXPECT_EQ(error("<a>&z;</a>"), "1:4 `&z;` is no character that XML knows; write `&amp;` for `&`");
+  EXPECT_EQ(error("<a>&z;</a>"), "1:4 `&z;` is not a character reference known in XML; write `&amp;` for `&`");
 }
 
 TEST_F(XmlTest, Encodings) {
   EXPECT_TRUE(parse("<?xml version=\"1.0\" encoding=\"UTF-8\"?><a>\xc3\xa4</a>"));
   EXPECT_TRUE(parse("<?xml version='1.0' encoding='Shift_JIS'?><a>plain</a>"));
   EXPECT_EQ(error("<?xml version='1.0' encoding='Shift_JIS'?><a>\x83\x5c</a>"),
-            "1:31 the XML is broken here: this encoding is not read; save the file as UTF-8");
+            "1:31 malformed XML: unsupported encoding; save the file as UTF-8");
   EXPECT_EQ(error("\n<?xml version='1.0'?><a/>"),
-            "2:1 the XML is broken here: the XML declaration must stand at the very beginning");
+            "2:1 malformed XML: the XML declaration must be at the very beginning");
 }
 
 TEST_F(XmlTest, EachMistakeHasOneErrorAtItsPlace) {
-  EXPECT_EQ(error(""), "1:1 the XML is broken here: it holds no element");
-  EXPECT_EQ(error("text"), "1:1 the XML is broken here: text stands before the root element");
-  EXPECT_EQ(error("<a/> text"), "1:6 the XML is broken here: text stands behind the root element");
-  EXPECT_EQ(error("<a/><b/>"), "1:5 the XML is broken here: a second root element begins");
-  EXPECT_EQ(error("<a>\n <b>\n</a>"), "3:3 `</a>` cannot close the `<b>` of line 2");
-  EXPECT_EQ(error("<a>\n <b>\n"), "2:3 `<b>` is not closed; the end of the file seems to be missing");
-  EXPECT_EQ(error("</a>"), "1:1 the XML is broken here: this end tag closes nothing");
+  EXPECT_EQ(error(""), "1:1 malformed XML: the file contains no element");
+  EXPECT_EQ(error("text"), "1:1 malformed XML: text before the root element");
+  EXPECT_EQ(error("<a/> text"), "1:6 malformed XML: text after the root element");
+  EXPECT_EQ(error("<a/><b/>"), "1:5 malformed XML: second root element");
+  EXPECT_EQ(error("<a>\n <b>\n</a>"), "3:3 `</a>` cannot close the `<b>` on line 2");
+  EXPECT_EQ(error("<a>\n <b>\n"), "2:3 `<b>` is not closed; the file may be truncated");
+  EXPECT_EQ(error("</a>"), "1:1 malformed XML: unmatched end tag");
   EXPECT_EQ(error("<a>1 < 2</a>"),
-            "1:6 the XML is broken here: a name must follow `<`; write `&lt;` for the character itself");
-  EXPECT_EQ(error("<a b>"), "1:5 the XML is broken here: `=` and a value must follow an attribute's name");
-  EXPECT_EQ(error("<a b=c>"), "1:6 the XML is broken here: the value of an attribute needs quotes");
-  EXPECT_EQ(error("<a b='c>"), "1:6 the XML is broken here: this quote is not closed");
+            "1:6 malformed XML: expected a name after `<`; write `&lt;` for the character itself");
+  EXPECT_EQ(error("<a b>"), "1:5 malformed XML: expected `=` and a value after the attribute's name");
+  EXPECT_EQ(error("<a b=c>"), "1:6 malformed XML: the value of an attribute needs quotes");
+  EXPECT_EQ(error("<a b='c>"), "1:6 malformed XML: this quote is not closed");
   EXPECT_EQ(error("<a b='c\n<d e='f'/>"),
-            "2:1 the XML is broken here: `<` cannot stand in a value; write `&lt;`, or close the quote before it");
-  EXPECT_EQ(error("<a b='1'c='2'/>"), "1:9 the XML is broken here: a blank must stand before an attribute");
-  EXPECT_EQ(error("<a =1>"), "1:4 the XML is broken here: an attribute, `>` or `/>` is needed");
-  EXPECT_EQ(error("<a"), "1:3 the XML is broken here: the file ends inside a tag");
-  EXPECT_EQ(error("<a></a x>"), "1:8 the XML is broken here: `>` must close an end tag");
-  EXPECT_EQ(error("<a><!-- a -- b --></a>"), "1:11 the XML is broken here: `--` cannot stand in a comment");
-  EXPECT_EQ(error("<a x='1' t:x='1' x='2'/>"), "1:18 the XML is broken here: this attribute stands twice in its tag");
-  EXPECT_EQ(error("<a>\x01</a>"), "1:4 the XML is broken here: a control character cannot stand in XML");
-  EXPECT_EQ(error("<a>]]></a>"), "1:4 the XML is broken here: `]]>` ends no CDATA section here; write `]]&gt;`");
-  EXPECT_EQ(error("<a><? b?></a>"), "1:4 the XML is broken here: a name must follow `<?`");
-  EXPECT_EQ(error("<a><!-- </a>"), "1:4 the XML is broken here: this comment has no `-->`");
-  EXPECT_EQ(error("<a><![CDATA[ ]]</a>"), "1:4 the XML is broken here: this CDATA section has no `]]>`");
-  EXPECT_EQ(error("<![CDATA[x]]>"), "1:1 the XML is broken here: text stands outside of the root element");
-  EXPECT_EQ(error("<a>R & D</a>"), "1:6 `&` is no character that XML knows; write `&amp;` for `&`");
-  EXPECT_EQ(error("<a b='&nbsp;'/>"), "1:7 `&nbsp;` is no character that XML knows; write `&amp;` for `&`");
+            "2:1 malformed XML: `<` is not allowed in a value; write `&lt;`, or close the quote before it");
+  EXPECT_EQ(error("<a b='1'c='2'/>"), "1:9 malformed XML: expected a space before this attribute");
+  EXPECT_EQ(error("<a =1>"), "1:4 malformed XML: expected an attribute, `>` or `/>`");
+  EXPECT_EQ(error("<a"), "1:3 malformed XML: the file ends inside a tag");
+  EXPECT_EQ(error("<a></a x>"), "1:8 malformed XML: expected `>` to close the end tag");
+  EXPECT_EQ(error("<a><!-- a -- b --></a>"), "1:11 malformed XML: `--` is not allowed in a comment");
+  EXPECT_EQ(error("<a x='1' t:x='1' x='2'/>"), "1:18 malformed XML: duplicate attribute in this tag");
+  EXPECT_EQ(error("<a>\x01</a>"), "1:4 malformed XML: control characters are not allowed in XML");
+  EXPECT_EQ(error("<a>]]></a>"), "1:4 malformed XML: `]]>` does not close a CDATA section; write `]]&gt;`");
+  EXPECT_EQ(error("<a><? b?></a>"), "1:4 malformed XML: expected a name after `<?`");
+  EXPECT_EQ(error("<a><!-- </a>"), "1:4 malformed XML: expected `-->` to close this comment");
+  EXPECT_EQ(error("<a><![CDATA[ ]]</a>"), "1:4 malformed XML: expected `]]>` to close this CDATA section");
+  EXPECT_EQ(error("<![CDATA[x]]>"), "1:1 malformed XML: text outside the root element");
+  EXPECT_EQ(error("<a>R & D</a>"), "1:6 `&` is not a character reference known in XML; write `&amp;` for `&`");
+  EXPECT_EQ(error("<a b='&nbsp;'/>"), "1:7 `&nbsp;` is not a character reference known in XML; write `&amp;` for `&`");
   for (const char* entity : {"&#0;", "&#xD800;", "&#x110000;", "&#;", "&#x;", "&;", "&#99999999999;"})
     EXPECT_EQ(error("<a>" + std::string(entity) + "</a>").substr(0, 4), "1:4 ") << entity;
 }
@@ -132,7 +132,7 @@ TEST_F(XmlTest, EachMistakeHasOneErrorAtItsPlace) {
 TEST_F(XmlTest, DepthIsLimitedAndCostsNoStack) {
   std::string deep;
   for (int i = 0; i < 100000; ++i) deep += "<a>";
-  EXPECT_EQ(error(deep), "1:3002 more than 1000 elements inside each other");
+  EXPECT_EQ(error(deep), "1:3002 too many nested elements; the limit is 1000");
   std::string good;
   for (int i = 0; i < 1000; ++i) good += "<a>";
   for (int i = 0; i < 1000; ++i) good += "</a>";
