@@ -13,6 +13,8 @@ namespace {
 constexpr size_t kMostPlacedElements = 20'000;  // each is compared with each
 constexpr int32_t kCell = 20;                   // pixels of an editor's cell
 
+bool isFrame(ElementKind kind) { return isBox(kind) || kind == ElementKind::Comment; }
+
 // Editors that count cells leave a cell or two between an element and the next, those that count pixels many more.
 int32_t unitOf(const Body& body, const Plan& plan) {
   int32_t highest = 0;
@@ -84,7 +86,7 @@ bool takePlaces(const Body& body, Plan& plan) {
     const DiagramElement& e = body.elements[item.element];
     if (isRail(e.kind)) item.area.width = 0;
     // A line through the middle of an element stays one; boxes are placed by their upper edge.
-    const int64_t middle = isBox(e.kind) || isRail(e.kind) ? 0 : unit == kCell ? kGrid : e.height / 2;
+    const int64_t middle = isFrame(e.kind) || isRail(e.kind) ? 0 : unit == kCell ? kGrid : e.height / 2;
     const int64_t centre =
         e.kind == ElementKind::Contact || e.kind == ElementKind::Coil ? int64_t{e.width} * unit / 2 : 0;
     const auto onGrid = [](int64_t n) { return (n >= 0 ? n + kGrid / 2 : n - kGrid / 2) / kGrid * kGrid; };
