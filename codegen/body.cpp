@@ -47,7 +47,7 @@ void BodyWriter::appendSignature(std::string& out, const ir::Module& module, con
   if (by_value) {
     const char* type = scalarType(types, body.result);
     out += type;
-  } else if (body.native && body.result && TypeTable::isText(types.kind(body.result))) {
+  } else if (body.native && body.result && TypeTable::isString(types.kind(body.result))) {
     out += "uint32_t";  // the length
   } else {
     out += "void";
@@ -77,23 +77,23 @@ void BodyWriter::appendSignature(std::string& out, const ir::Module& module, con
     if (!isParameter(local.kind)) continue;
     out += ", ";
     name.clear();
-    appendMangled(name, module.names.text(local.name));
+    appendMangled(name, module.names.string(local.name));
     appendParameter(out, types, local, name, body.native);
   }
   if (body.result && !by_value) {
     name.clear();
     if (result != nullptr && !body.native) {
-      appendMangled(name, module.names.text(result->name));
+      appendMangled(name, module.names.string(result->name));
     } else {
       name = "out";
     }
     out += ", ";
-    if (body.native && !TypeTable::isText(types.kind(body.result))) {
+    if (body.native && !TypeTable::isString(types.kind(body.result))) {
       out += "void* out";
     } else {
       appendPointer(out, types, body.result, name);
     }
-    if (body.native && TypeTable::isText(types.kind(body.result))) out += ", uint32_t capacity";
+    if (body.native && TypeTable::isString(types.kind(body.result))) out += ", uint32_t capacity";
   }
   out += ')';
 }
@@ -113,7 +113,7 @@ void BodyWriter::call(ir::BodyId id) {
 
 std::string BodyWriter::newName(const char* prefix) {
   std::string name = prefix;
-  appendUnsigned(name, ++names_made_);
+  appendUnsigned(name, ++names_created_);
   return name;
 }
 
@@ -128,9 +128,9 @@ std::string BodyWriter::newVariable(TypeId type, const char* prefix) {
 
 void BodyWriter::variable(std::string& out, const ir::Local& local) const {
   if (local.kind == LocalKind::Temp) {
-    out += text(local.name);
+    out += string(local.name);
   } else {
-    appendMangled(out, text(local.name));
+    appendMangled(out, string(local.name));
   }
 }
 
@@ -158,7 +158,7 @@ void BodyWriter::declareVariables() {
       continue;
     }
     appendDeclaration(declarations_, types_, local.type, name);
-    if (!isAggregate(local.type) && !isText(local.type)) {
+    if (!isAggregate(local.type) && !isString(local.type)) {
       const TypeKind kind = types_.plainKind(local.type);
       declarations_ += kind == TypeKind::Pointer || kind == TypeKind::Reference ? " = nullptr" : " = 0";
     }
@@ -169,7 +169,7 @@ void BodyWriter::declareVariables() {
   for (uint32_t i = 0; i < fields_.size(); ++i) {
     if (!fields_[i].cached) continue;
     std::string name;
-    appendMangled(name, text(record.fields[i].name));
+    appendMangled(name, string(record.fields[i].name));
     declarations_ += ' ';
     if (fields_[i].wide != 0) {
       declarations_ += fields_[i].wide == 32 ? "int32_t" : "int64_t";
@@ -193,22 +193,22 @@ void BodyWriter::writeBack(std::string& out) {
   for (uint32_t i = 0; i < fields_.size(); ++i) {
     if (fields_[i].slice) {
       std::string name;
-      appendMangled(name, text(record.fields[i].name));
-      out += " if (" + name + "v != nullptr) rung_text_put(self." + name + ", ";
+      appendMangled(name, string(record.fields[i].name));
+      out += " if (" + name + "v != nullptr) rung_string_put(self." + name + ", ";
       appendUnsigned(out, capacityOf(record.fields[i].type));
       out += ", " + name + "v, " + name + "n);";
       continue;
     }
     if (!fields_[i].cached || !fields_[i].written) continue;
     out += " self.";
-    appendMangled(out, text(record.fields[i].name));
+    appendMangled(out, string(record.fields[i].name));
     out += " = ";
     if (fields_[i].wide != 0) {
       out += '(';
       out += scalarType(types_, record.fields[i].type);
       out += ')';
     }
-    appendMangled(out, text(record.fields[i].name));
+    appendMangled(out, string(record.fields[i].name));
     out += ';';
   }
 }
@@ -241,13 +241,13 @@ void BodyWriter::write(ir::BodyId id) {
   body_ = &body;
   out_.clear();
   declarations_.clear();
-  made_.clear();
+  materialized_.clear();
   loops_.clear();
   frames_.clear();
   blocks_declared_.clear();
   has_try_ = self_escapes_ = has_foreign_calls_ = has_calls_ = has_measured_ = has_leaving_calls_ = has_slices_ =
       uses_fault_ = uses_leave_ = false;
-  names_made_ = 0;
+  names_created_ = 0;
   depth_ = 1;
   closes_ = 0;
   line_ = 0;
@@ -270,7 +270,7 @@ void BodyWriter::write(ir::BodyId id) {
   } else {
     to += "\n// ";
     if (body.kind == BodyKind::Init) to += "initial values of ";
-    to += text(body.spelling ? body.spelling : body.name);
+    to += string(body.spelling ? body.spelling : body.name);
     to += '\n';
     const bool is_hot = marks_.hot[id.index] == group_number_;
     const Effort effort = effortFor(body);

@@ -101,27 +101,27 @@ class BodyWriter {
   // ---- lengths.cpp: lengths of texts in C++ locals
   bool isSized(const Body& callee) const;
   bool isSizedCall(const Body& callee, uint32_t first, uint32_t count, ExprId result) const;
-  Variable* textVariable(ExprId place);
-  const Variable* measuredText(ExprId place) const;
+  Variable* stringVariable(ExprId place);
+  const Variable* measuredString(ExprId place) const;
   void noteSizedCall(const Body& callee, uint32_t first, uint32_t count, uint32_t weight);
-  void noteTextAssign(const Stmt& stmt, uint32_t weight);
+  void noteStringAssign(const Stmt& stmt, uint32_t weight);
   void chooseMeasured();
   void declareLengths();
   bool needsMeasuring(ExprId id) const;
   void measure(const Stmt& stmt);
   void measureExpr(ExprId id);
-  void measureText(ExprId place);
+  void measureString(ExprId place);
   void collectUnknown(const Stmt& stmt);
   void collectUnknown(StmtId first);
   void forgetLengths(size_t mark);
   void setKnown(ExprId place);
   void lengthName(ExprId place);
-  void textLength(ExprId text);
+  void stringLength(ExprId string);
   // `form`: sized or slice.
   void sizedCall(const Body& callee, uint32_t first, uint32_t count, const char* form = "sized");
 
   // ---- slices.cpp: texts that are parts of others
-  const Variable* sliceText(ExprId place) const;
+  const Variable* slicedString(ExprId place) const;
   bool isSliceSource(ExprId id);
   void noteSlice(const Stmt& stmt, uint32_t weight);
   void chooseSlices();
@@ -181,8 +181,8 @@ class BodyWriter {
   void convertTime(ExprId from, TypeKind source, TypeKind target);
   void callExpr(const Expr& expr);
   void operands(const Body& callee, uint32_t first, uint32_t count, bool comma);
-  void scalarBits(ExprId id);  // as uint64_t, for the runtime's generic functions
-  void makeText(ExprId id);    // into a variable of its own
+  void scalarBits(ExprId id);         // as uint64_t, for the runtime's generic functions
+  void materializeString(ExprId id);  // into a variable of its own
 
   // ---- checks.cpp
   // The checks of an expression and the texts that it must make first, in order of evaluation.
@@ -212,24 +212,24 @@ class BodyWriter {
   void variable(std::string& out, const ir::Local& local) const;
   bool isVariableTruth(ExprId id) const;  // a BOOL that is 0 or 1 in its memory
 
-  // ---- text.cpp
+  // ---- strings.cpp
   void assign(const Stmt& stmt);
-  void prepareText(ExprId from);  // what copyText takes apart itself is not made first
+  void prepareString(ExprId from);  // what copyString takes apart itself is not made first
   // `length`: the name of the C++ local that takes the new length, or empty.
-  void copyText(std::string_view to, uint32_t capacity, bool wide, ExprId from, std::string_view length = {});
-  void textValue(ExprId id);  // a const char* or const char16_t*
-  void compareTexts(const Expr& expr, Prec context);
+  void copyString(std::string_view to, uint32_t capacity, bool wide, ExprId from, std::string_view length = {});
+  void stringValue(ExprId id);  // a const char* or const char16_t*
+  void compareStrings(const Expr& expr, Prec context);
   bool isSizedComparison(const Expr& expr) const;
   ExprId uncut(ExprId id) const;                       // a text without the conversions that cut it
   bool isBuffer(ExprId id, uint32_t& capacity) const;  // a text in memory that is as long as its type says
-  uint32_t literalLength(const Expr& text) const;
+  uint32_t literalLength(const Expr& string) const;
   void dataReference(uint32_t index);
 
   // ---- small helpers
   const Expr& expr(ExprId id) const { return body_->expr(id); }
   TypeKind kindOf(ExprId id) const { return types_.plainKind(expr(id).type); }
   uint32_t widthOf(TypeKind kind) const { return types::TypeTable::bitWidth(kind); }
-  bool isText(TypeId type) const { return types::TypeTable::isText(types_.kind(type)); }
+  bool isString(TypeId type) const { return types::TypeTable::isString(types_.kind(type)); }
   bool isWide(TypeId type) const { return types_.kind(type) == TypeKind::WString; }
   bool isUtf8(TypeId type) const { return types_.kind(type) == TypeKind::UString; }
   bool isAggregate(TypeId type) const {
@@ -237,7 +237,7 @@ class BodyWriter {
     return kind == TypeKind::Array || kind == TypeKind::Record;
   }
   uint32_t capacityOf(TypeId type) const { return types_.info(types_.resolve(type)).length; }
-  std::string_view text(NameId name) const { return module_.names.text(name); }
+  std::string_view string(NameId name) const { return module_.names.string(name); }
   void parenthesis(Prec own, Prec context) {
     if (own < context) out_ += '(';
   }
@@ -271,11 +271,11 @@ class BodyWriter {
   std::vector<ExprId> unknown_;    // collectUnknown: a place of each text that a loop needs the length of
   std::vector<uint8_t> private_loop_;
   std::vector<uint32_t> blocks_declared_;
-  std::vector<std::pair<uint32_t, std::string>> made_;  // expression, variable that holds its text
+  std::vector<std::pair<uint32_t, std::string>> materialized_;  // expression, variable that holds its text
   bool has_try_ = false, self_escapes_ = false, has_foreign_calls_ = false, has_calls_ = false, has_measured_ = false,
        has_leaving_calls_ = false, has_slices_ = false, slices_changed_ = false;
   bool uses_fault_ = false, uses_leave_ = false;
-  uint32_t names_made_ = 0;
+  uint32_t names_created_ = 0;
 
   // Where break and continue go.
   struct Loop {

@@ -12,20 +12,20 @@ using types::TypeTable;
 
 uint32_t BodyWriter::site(Loc loc, Fault fault, int64_t low, int64_t high) {
   uses_fault_ = true;
-  Site made;
-  made.pou = body_->spelling ? body_->spelling : body_->name;
-  made.low = low;
-  made.high = high;
+  Site created;
+  created.pou = body_->spelling ? body_->spelling : body_->name;
+  created.low = low;
+  created.high = high;
   if (body_->origin.path) {
-    made.origin_path = body_->origin.path;
-    made.line = body_->origin.line;
+    created.origin_path = body_->origin.path;
+    created.line = body_->origin.line;
   } else {
-    const Place place = module_.sources.place(loc ? loc : body_->loc);
-    made.file = place.file;
-    made.line = place.line;
-    made.column = place.column;
+    const SourceLocation location = module_.sources.location(loc ? loc : body_->loc);
+    created.file = location.file;
+    created.line = location.line;
+    created.column = location.column;
   }
-  group_.sites.push_back(made);
+  group_.sites.push_back(created);
   return static_cast<uint32_t>(group_.sites.size() - 1) << 4 | static_cast<uint32_t>(fault);
 }
 
@@ -40,7 +40,7 @@ void BodyWriter::endCheck(Loc loc, Fault fault, std::string_view value, int64_t 
 bool BodyWriter::needsPreparation(ExprId id) const {
   const Expr& e = expr(id);
   if (e.checks != 0) return true;
-  if (isText(e.type) && (e.kind == ExprKind::Convert || e.kind == ExprKind::Call)) return true;
+  if (isString(e.type) && (e.kind == ExprKind::Convert || e.kind == ExprKind::Call)) return true;
   bool needs = e.kind == ExprKind::Zero && isAggregate(e.type);
   ir::forEachSlot(*body_, e, [&](const uint32_t& slot) { needs = needs || needsPreparation(ExprId{slot}); });
   return needs;
@@ -54,12 +54,12 @@ void BodyWriter::prepare(ExprId id) {
   const Expr& e = expr(id);
   prepareChildren(e);
   if (e.checks != 0) checks(id, e);
-  if (isText(e.type) && (e.kind == ExprKind::Convert || e.kind == ExprKind::Call)) {
-    makeText(id);
+  if (isString(e.type) && (e.kind == ExprKind::Convert || e.kind == ExprKind::Call)) {
+    materializeString(id);
   } else if (e.kind == ExprKind::Zero && isAggregate(e.type)) {
     const std::string name = newVariable(e.type, "z");
     out_ += "memset(&" + name + ", 0, sizeof " + name + "); ";
-    made_.push_back({id.index, name});
+    materialized_.push_back({id.index, name});
   }
 }
 
@@ -76,7 +76,7 @@ void BodyWriter::checks(ExprId id, const Expr& e) {
         value(ExprId{e.a}, Prec::Sum);
       } else {
         member(ExprId{e.a});
-        appendMangled(out_, text(types_.info(types_.resolve(expr(ExprId{e.a}).type)).fields[e.b].name));
+        appendMangled(out_, string(types_.info(types_.resolve(expr(ExprId{e.a}).type)).fields[e.b].name));
       }
       out_ += " == nullptr";
       endCheck(e.loc, (e.checks & ir::kCheckNull) != 0 ? Fault::Null : Fault::Cast, "0");
@@ -109,7 +109,7 @@ void BodyWriter::checks(ExprId id, const Expr& e) {
       const TypeKind source = kindOf(a), target = types_.plainKind(e.type);
       const uint32_t width = widthOf(target);
       const TypeInfo& info = types_.info(types_.resolve(e.type));
-      if (TypeTable::isText(source) || TypeTable::isText(target)) return;
+      if (TypeTable::isString(source) || TypeTable::isString(target)) return;
       const bool is_integer = !TypeTable::isReal(target) && width > 0;
       if ((e.checks & ir::kCheckConvert) != 0 && is_integer && target != TypeKind::Bool) {
         const bool is_signed = types_.isSigned(target);
@@ -171,7 +171,7 @@ void BodyWriter::checks(ExprId id, const Expr& e) {
     }
     case ExprKind::None:
     case ExprKind::Const:
-    case ExprKind::Text:
+    case ExprKind::String:
     case ExprKind::Data:
     case ExprKind::Zero:
     case ExprKind::Local:

@@ -17,7 +17,7 @@ std::string declareDispatch(const ir::Module& module, ir::BodyId method) {
   return out += "extern const uint32_t " + methodName(module, method, "count") + ";\n";
 }
 
-std::string classesText(const ir::Module& module, std::string_view name_space) {
+std::string classesSource(const ir::Module& module, std::string_view name_space) {
   std::string numbers, tables;
   std::vector<uint32_t> used;
   for (size_t i = 0; i < module.classes.size(); ++i) {

@@ -14,6 +14,6 @@
 namespace rung::codegen {
 
 std::string declareDispatch(const ir::Module& module, ir::BodyId method);
-std::string classesText(const ir::Module& module, std::string_view name_space);
+std::string classesSource(const ir::Module& module, std::string_view name_space);
 
 }  // namespace rung::codegen

@@ -32,7 +32,7 @@ using types::TypeTable;
 
 namespace {
 
-constexpr uint64_t kMostBlocks = 256;  // of an array: each has an object
+constexpr uint64_t kMaxBlocks = 256;  // of an array: each has an object
 
 std::string mangled(std::string_view name) {
   std::string out;
@@ -47,26 +47,26 @@ class Writer {
 
   CppFile write() {
     Group& group = file_.group;
-    group.stem = "cpp_" + fileStem(text(body_.name));
+    group.stem = "cpp_" + fileStem(string(body_.name));
     group.bodies.push_back(cpp_.body);
     if (body_.self) need(body_.self);
     for (const Local& local : body_.locals) need(local.type);
-    splitText();
+    splitSource();
     for (const ir::BodyId function : cpp_.functions) declareFunction(function);
     const std::string variables = this->variables();
     group.code += "\nnamespace {\n\nusing namespace rung::cpp;\n" + times() + definitions_ + "\n}  // namespace\n\n// ";
-    group.code += text(body_.spelling);
+    group.code += string(body_.spelling);
     group.code += '\n';
     BodyWriter::appendSignature(group.code, module_, body_);
     group.code += " {\n  [[maybe_unused]] rung_context* const rung_ctx_ = ctx;\n" + names_ + "  {\n" + fields_ +
-                  "  {\n" + variables + "    [&]() -> void {\n" + text_ + "\n    }();\n" + ending_ + "  }\n  }\n}\n";
+                  "  {\n" + variables + "    [&]() -> void {\n" + source_ + "\n    }();\n" + ending_ + "  }\n  }\n}\n";
     return std::move(file_);
   }
 
  private:
-  std::string_view text(NameId name) const { return module_.names.text(name); }
+  std::string_view string(NameId name) const { return module_.names.string(name); }
   const TypeInfo& info(TypeId type) const { return types_.info(types_.resolve(type)); }
-  bool isText(TypeId type) const { return TypeTable::isText(types_.plainKind(type)); }
+  bool isString(TypeId type) const { return TypeTable::isString(types_.plainKind(type)); }
   bool isBlock(TypeId type) const {
     return types_.kind(type) == TypeKind::Record && (info(type).record_kind == RecordKind::FunctionBlock);
   }
@@ -89,33 +89,33 @@ class Writer {
   }
 
   // The text with its lines kept; #include lines go to the front of the file.
-  void splitText() {
-    const Place place = module_.sources.place(cpp_.loc);
+  void splitSource() {
+    const SourceLocation location = module_.sources.location(cpp_.loc);
     std::string path;
     appendQuoted(path, module_.sources.path(body_.file));
-    auto lineMark = [&](std::string& out, uint32_t line) {
+    auto lineDirective = [&](std::string& out, uint32_t line) {
       out += "#line ";
       appendUnsigned(out, line);
       out += ' ' + path + '\n';
     };
-    uint32_t line = place.line;
-    for (size_t at = 0; at <= cpp_.text.size(); ++line) {
-      const size_t end = std::min(cpp_.text.find('\n', at), cpp_.text.size());
-      std::string_view row = cpp_.text.substr(at, end - at);
+    uint32_t line = location.line;
+    for (size_t at = 0; at <= cpp_.source.size(); ++line) {
+      const size_t end = std::min(cpp_.source.find('\n', at), cpp_.source.size());
+      std::string_view row = cpp_.source.substr(at, end - at);
       at = end + 1;
-      if (line == place.line) {
-        lineMark(text_, line);
-        text_.append(place.column - 1, ' ');
+      if (line == location.line) {
+        lineDirective(source_, line);
+        source_.append(location.column - 1, ' ');
       } else {
-        text_ += '\n';
+        source_ += '\n';
       }
       const size_t begin = row.find_first_not_of(" \t");
       if (begin != std::string_view::npos && row.substr(begin, 8) == "#include") {
-        lineMark(file_.front, line);
+        lineDirective(file_.front, line);
         file_.front += std::string(row) + '\n';
         continue;
       }
-      text_ += row;
+      source_ += row;
     }
   }
 
@@ -126,10 +126,12 @@ class Writer {
     type = types_.resolve(type);
     const TypeInfo& of = types_.info(type);
     if (of.kind == TypeKind::Enum && of.name) return named(type);
-    if (isText(type)) {
+    if (isString(type)) {
       const TypeId plain = types_.resolve(type);
       const TypeKind kind = types_.plainKind(plain);
-      std::string out = kind == TypeKind::WString ? "WideText<" : kind == TypeKind::UString ? "Utf8Text<" : "Text<";
+      std::string out = kind == TypeKind::WString   ? "WideString<"
+                        : kind == TypeKind::UString ? "Utf8String<"
+                                                    : "String<";
       appendUnsigned(out, info(plain).length);
       return out + ">";
     }
@@ -155,7 +157,7 @@ class Writer {
     for (const auto& [known, name] : named_) {
       if (known == type) return name;
     }
-    std::string name = cppSpelled(cppUpper(text(info(type).name)));
+    std::string name = cppIdentifier(cppUpper(string(info(type).name)));
     for (size_t i = 0; i < named_.size(); ++i) {
       if (named_[i].second == name) name += '_', i = 0;
     }
@@ -172,7 +174,7 @@ class Writer {
     std::string out = "struct RUNG_MAY_ALIAS " + name + " {\n  enum Value : " + scalar + " {";
     const char* separator = " ";
     for (const auto& [item, value] : info(type).items) {
-      std::string item_name = cppSpelled(cppUpper(text(item)));
+      std::string item_name = cppIdentifier(cppUpper(string(item)));
       if (item_name == name) item_name += '_';
       out += separator + item_name + " = ";
       appendConstant(out, types_, type, static_cast<uint64_t>(value));
@@ -188,14 +190,14 @@ class Writer {
     for (size_t i = 0; i < of.fields.size(); ++i) {
       const Field& field = of.fields[i];
       const std::string seen = view(field.type);
-      const std::string_view field_name = text(field.name);
+      const std::string_view field_name = string(field.name);
       const bool is_plain =
           !seen.empty() && !field_name.empty() && mangled(field_name) == std::string(field_name) + "_";
       fields += "  alignas(";
       appendUnsigned(fields, info(field.type).align);
       fields += ") ";
       if (is_plain) {
-        fields += seen + ' ' + cppSpelled(field_name) + ";\n";
+        fields += seen + ' ' + cppIdentifier(field_name) + ";\n";
       } else {
         fields += "unsigned char rung_hidden";
         appendUnsigned(fields, i);
@@ -212,7 +214,7 @@ class Writer {
   // The fields of a block and of those that it extends, each with its place.
   void fieldsOf(TypeId type, const std::string& place, std::vector<std::pair<const Field*, std::string>>& out) const {
     for (const Field& field : info(type).fields) {
-      const std::string own = place + '.' + mangled(text(field.name));
+      const std::string own = place + '.' + mangled(string(field.name));
       if (field.role == FieldRole::Base)
         fieldsOf(types_.resolve(field.type), own, out);
       else
@@ -230,13 +232,13 @@ class Writer {
     const std::string object = named(element);
     if (element == type) return {object + ' ' + name, "(rung_ctx_, " + place + ")"};
     std::vector<std::string> places = {place};
-    std::string shape;
+    std::string extents;
     for (TypeId at = type; types_.kind(at) == TypeKind::Array; at = types_.resolve(info(at).base)) {
       if (at != type) return {};  // an array of arrays of blocks
       for (const types::Dimension& dimension : info(at).dimensions) {
-        if (dimension.count() * places.size() > kMostBlocks) return {};
+        if (dimension.count() * places.size() > kMaxBlocks) return {};
         std::vector<std::string> next;
-        shape += '[' + std::to_string(dimension.count()) + ']';
+        extents += '[' + std::to_string(dimension.count()) + ']';
         for (const std::string& one : places) {
           for (uint64_t i = 0; i < dimension.count(); ++i) next.push_back(one + '[' + std::to_string(i) + ']');
         }
@@ -245,7 +247,7 @@ class Writer {
     }
     std::string list;
     for (const std::string& one : places) list += (list.empty() ? "" : ", ") + object + "(rung_ctx_, " + one + ")";
-    return {"struct {\n      " + object + " table" + shape + ";\n    } " + name, "{{" + list + "}}"};
+    return {"struct {\n      " + object + " table" + extents + ";\n    } " + name, "{{" + list + "}}"};
   }
 
   // Inputs and outputs are references, in-outs values that Body() lends to the block. Blocks inside are objects again;
@@ -262,7 +264,7 @@ class Writer {
           field.role == FieldRole::Input || field.role == FieldRole::Output || field.role == FieldRole::InOut;
       const bool is_member = field.role == FieldRole::Member && !isBlock(type);
       if (!is_pin && !is_member) continue;
-      const std::string pin = cppSpelled(text(field.name));
+      const std::string pin = cppIdentifier(string(field.name));
       const TypeId field_type = types_.resolve(field.type);
       if (holdsBlock(field_type)) {
         if (field.role == FieldRole::InOut) {
@@ -325,7 +327,7 @@ class Writer {
         const std::string name = ownName(method);
         const Call call = callOf({i}, place);
         const std::string key = name + '(' + call.parameters;
-        if (!call.good || std::find(taken.begin(), taken.end(), key) != taken.end()) continue;
+        if (!call.ok || std::find(taken.begin(), taken.end(), key) != taken.end()) continue;
         taken.push_back(key);
         out += "  " + call.result + ' ' + name + "(" + call.parameters + ") { " + call.code + " }\n";
       }
@@ -333,7 +335,7 @@ class Writer {
       const auto base =
           std::find_if(fields.begin(), fields.end(), [](const Field& field) { return field.role == FieldRole::Base; });
       if (base == fields.end()) break;
-      place += '.' + mangled(text(base->name));
+      place += '.' + mangled(string(base->name));
       type = types_.resolve(base->type);
     }
     return out;
@@ -343,8 +345,8 @@ class Writer {
 
   // As declared: methods and actions are members like pins.
   std::string ownName(const ir::Body& method) const {
-    const std::string_view name = text(method.spelling);
-    return cppSpelled(name.substr(name.rfind('.') + 1));
+    const std::string_view name = string(method.spelling);
+    return cppIdentifier(name.substr(name.rfind('.') + 1));
   }
 
   // The way from a block to the one that it extends.
@@ -352,43 +354,43 @@ class Writer {
     from = types_.resolve(from);
     if (from == types_.resolve(to)) return place;
     for (const Field& field : info(from).fields)
-      if (field.role == FieldRole::Base) return placeOf(place + '.' + mangled(text(field.name)), field.type, to);
+      if (field.role == FieldRole::Base) return placeOf(place + '.' + mangled(string(field.name)), field.type, to);
     return place;
   }
 
   // A function or method as the facade calls it; `self`: the place of its object.
   struct Call {
-    bool good = false;
+    bool ok = false;
     std::string parameters, names, result, code;
   };
   Call callOf(ir::BodyId id, const std::string& self) {
     const ir::Body& function = module_.body(id);
-    Call made;
+    Call created;
     std::string arguments;
-    bool good = true;
+    bool ok = true;
     uint32_t count = 0;
     for (const Local& local : function.locals) {
       if (local.kind != LocalKind::Input && local.kind != LocalKind::Output && local.kind != LocalKind::InOut) continue;
       const std::string seen = view(local.type);
-      good = good && !seen.empty() && !holdsBlock(local.type);
+      ok = ok && !seen.empty() && !holdsBlock(local.type);
       need(local.type);
       std::string name = "rung_p";
       appendUnsigned(name, count++);
-      made.parameters += (made.parameters.empty() ? "" : ", ");
-      made.names += (made.names.empty() ? "" : ", ") + name;
+      created.parameters += (created.parameters.empty() ? "" : ", ");
+      created.names += (created.names.empty() ? "" : ", ") + name;
       if (local.kind == LocalKind::Input) {
-        made.parameters += (local.by_reference ? "const " + seen + "& " : seen + ' ') + name;
+        created.parameters += (local.by_reference ? "const " + seen + "& " : seen + ' ') + name;
         arguments += ", " + (local.by_reference ? pointer(local.type, "&" + name, true)
                                                 : "rung::cpp::bits<" + std::string(scalarType(types_, local.type)) +
                                                       ">(" + name + ")");
       } else {
-        made.parameters += seen + "* " + name;
+        created.parameters += seen + "* " + name;
         arguments += ", " + pointer(local.type, name, false);
       }
     }
-    made.result = function.result ? view(function.result) : "void";
-    if (!good || made.result.empty()) return made;
-    made.good = true;
+    created.result = function.result ? view(function.result) : "void";
+    if (!ok || created.result.empty()) return created;
+    created.ok = true;
     if (facts_.is_inlined[id.index] != 0) {
       file_.group.inlined.push_back(id);
     } else {
@@ -403,26 +405,26 @@ class Writer {
     call += self.empty() ? "(rung_ctx_" : isMethod(function) ? "(&" + self + ", rung_ctx_" : "(" + self + ", rung_ctx_";
     call += arguments;
     if (!function.result) {
-      made.code = call + ");";
+      created.code = call + ");";
     } else if (!ir::isAggregate(types_, function.result)) {
-      made.code = "return rung::cpp::bits<" + made.result + ">(" + call + "));";
+      created.code = "return rung::cpp::bits<" + created.result + ">(" + call + "));";
     } else {
       need(function.result);
-      made.code = made.result + " rung_result; " + call + ", " + pointer(function.result, "&rung_result", false);
-      if (function.native && isText(function.result)) {
-        made.code += ", ";
-        appendUnsigned(made.code, info(function.result).length);
+      created.code = created.result + " rung_result; " + call + ", " + pointer(function.result, "&rung_result", false);
+      if (function.native && isString(function.result)) {
+        created.code += ", ";
+        appendUnsigned(created.code, info(function.result).length);
       }
-      made.code += "); return rung_result;";
+      created.code += "); return rung_result;";
     }
-    return made;
+    return created;
   }
 
   void declareFunction(ir::BodyId id) {
     const ir::Body& function = module_.body(id);
     const Call call = callOf(id, function.self ? "rung_self_" : "");
-    if (!call.good) return;
-    const std::string name = function.self ? ownName(function) : cppSpelled(cppUpper(text(function.spelling)));
+    if (!call.ok) return;
+    const std::string name = function.self ? ownName(function) : cppIdentifier(cppUpper(string(function.spelling)));
     const std::string type = "rung_function_" + name;
     std::string self;
     if (function.self) {
@@ -460,8 +462,8 @@ class Writer {
   std::string constant(TypeId type, uint64_t bits) {
     const std::string seen = view(type);
     std::string value;
-    if (isText(type)) {
-      const std::string_view of = text(NameId{static_cast<uint32_t>(bits)});
+    if (isString(type)) {
+      const std::string_view of = string(NameId{static_cast<uint32_t>(bits)});
       if (types_.plainKind(type) == TypeKind::WString) {
         appendQuotedWide(value, of);
       } else {
@@ -488,7 +490,7 @@ class Writer {
   // A name for a place in memory: a reference, or the object of a block or the objects of an array of them.
   std::string variable(std::string_view name, TypeId type, const std::string& place, bool constant) {
     type = types_.resolve(type);
-    const std::string called = cppSpelled(name);
+    const std::string called = cppIdentifier(name);
     if (!holdsBlock(type)) {
       const std::string seen = view(type);
       if (seen.empty()) return {};
@@ -507,10 +509,10 @@ class Writer {
       const Field& field = info(list.record).fields[global.field];
       std::string block = "(*static_cast<" + recordName(types_, list.record) + "*>(rung_ctx_->blocks[";
       appendUnsigned(block, facts_.list_block[global.list]);
-      out += variable(text(global.name), field.type, block + "]))." + mangled(text(field.name)), global.constant);
+      out += variable(string(global.name), field.type, block + "]))." + mangled(string(field.name)), global.constant);
     }
     for (const ir::CppBody::Constant& known : cpp_.constants)
-      out += "    const " + view(known.type) + ' ' + cppSpelled(text(known.name)) + " = " +
+      out += "    const " + view(known.type) + ' ' + cppIdentifier(string(known.name)) + " = " +
              constant(known.type, known.bits) + ";\n";
     if (body_.self) {
       if (isMethod(body_)) {
@@ -524,13 +526,13 @@ class Writer {
       fieldsOf(types_.resolve(body_.self), "rung_self_", fields);
       for (const auto& [known, place] : fields) {
         const Field& field = *known;
-        const std::string_view name = text(field.name);
+        const std::string_view name = string(field.name);
         if (mangled(name) != std::string(name) + "_" || name.starts_with("__")) continue;
         const bool is_const = field.role == FieldRole::Input || field.constant;
         const bool own = !instance.empty() && name.starts_with(instance);
         const std::string_view called = own ? name.substr(instance.size()) : name;
-        if (field.by_reference && isText(field.type)) {
-          fields_ += "    " + view(field.type) + "& " + cppSpelled(called) + " = *reinterpret_cast<" +
+        if (field.by_reference && isString(field.type)) {
+          fields_ += "    " + view(field.type) + "& " + cppIdentifier(called) + " = *reinterpret_cast<" +
                      view(field.type) + "*>(" + place + ");\n";
         } else {
           (own ? out : fields_) +=
@@ -540,7 +542,7 @@ class Writer {
     }
     uint32_t count = 0;
     for (const Local& local : body_.locals) {
-      const std::string name = cppSpelled(text(local.name)), seen = view(local.type);
+      const std::string name = cppIdentifier(string(local.name)), seen = view(local.type);
       std::string passed = "rung_p";
       appendUnsigned(passed, count++);
       passed += '_';
@@ -550,8 +552,8 @@ class Writer {
           out += "    " + seen + ' ' + name + " = " + initial(local.name, local.type) + ";\n";
           break;
         case LocalKind::Input:
-          names_ += "  auto&& " + passed + " = " + mangled(text(local.name)) + ";\n";
-          if (isText(local.type)) {
+          names_ += "  auto&& " + passed + " = " + mangled(string(local.name)) + ";\n";
+          if (isString(local.type)) {
             out += "    const " + seen + ' ' + name + "(" + passed + ");\n";
           } else if (local.by_reference) {
             out += "    const " + seen + "& " + name + " = *reinterpret_cast<const " + seen + "*>(" + passed + ");\n";
@@ -561,19 +563,19 @@ class Writer {
           break;
         case LocalKind::Output:
         case LocalKind::InOut:
-          names_ += "  auto&& " + passed + " = " + mangled(text(local.name)) + ";\n";
+          names_ += "  auto&& " + passed + " = " + mangled(string(local.name)) + ";\n";
           if (holdsBlock(local.type)) {
-            out += variable(text(local.name), local.type, "(*" + passed + ")", false);
+            out += variable(string(local.name), local.type, "(*" + passed + ")", false);
             break;
           }
           out += "    " + seen + "& " + name + " = *reinterpret_cast<" + seen + "*>(" + passed + ");\n";
           if (local.kind == LocalKind::Output) out += "    " + name + " = " + initial(local.name, local.type) + ";\n";
           break;
         case LocalKind::Result: {
-          const std::string result = body_.self ? ownName(body_) : cppSpelled(cppUpper(text(body_.spelling)));
+          const std::string result = body_.self ? ownName(body_) : cppIdentifier(cppUpper(string(body_.spelling)));
           out += "    " + seen + ' ' + result + " = " + initial({}, local.type) + ";\n";
           if (local.by_reference) {
-            names_ += "  auto&& " + passed + " = " + mangled(text(local.name)) + ";\n";
+            names_ += "  auto&& " + passed + " = " + mangled(string(local.name)) + ";\n";
             ending_ += "    memcpy(static_cast<void*>(" + passed + "), &" + result + ", sizeof " + result + ");\n";
           } else {
             ending_ += "    return " + quotedBits(scalarType(types_, local.type), result) + ";\n";
@@ -621,7 +623,7 @@ class Writer {
   const ir::Body& body_;
   CppFile file_;
   std::vector<std::pair<TypeId, std::string>> named_;
-  std::string definitions_, functions_, names_, fields_, text_, ending_;
+  std::string definitions_, functions_, names_, fields_, source_, ending_;
 };
 
 }  // namespace

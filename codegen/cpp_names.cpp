@@ -8,7 +8,7 @@ std::string cppUpper(std::string_view name) {
   return out;
 }
 
-std::string cppSpelled(std::string_view name) {
+std::string cppIdentifier(std::string_view name) {
   // Words of C++ and common macros, between blanks.
   static constexpr std::string_view kTaken =
       " "

@@ -10,6 +10,6 @@ namespace rung::codegen {
 // Types, items and functions are in upper case there; of a path the last name.
 std::string cppUpper(std::string_view name);
 // As the user wrote it; words of C++ and common macros get a `_` behind them.
-std::string cppSpelled(std::string_view name);
+std::string cppIdentifier(std::string_view name);
 
 }  // namespace rung::codegen

@@ -18,14 +18,14 @@ using ir::StmtKind;
 constexpr uint64_t kSmall = 8;      // statements
 constexpr uint64_t kLoopShare = 3;  // work in loops per statement of the body
 constexpr uint64_t kSearch = 8, kCounted = 256,
-                   kMostWork = 1u << 20;  // turns of a WHILE, of a FOR with variable bounds
+                   kMaxWork = 1u << 20;  // turns of a WHILE, of a FOR with variable bounds
 
 struct Work {
   uint64_t statements = 0, runs = 0;
   bool loops = false;
 };
 
-uint64_t turns(const ir::Body& body, const Stmt& loop) {
+uint64_t iterations(const ir::Body& body, const Stmt& loop) {
   if (loop.kind == StmtKind::Loop) return kSearch;
   const ir::Expr &from = body.expr(ExprId{loop.b}), &to = body.expr(ExprId{loop.c}), &step = body.expr(ExprId{loop.d});
   if (from.kind != ExprKind::Const || to.kind != ExprKind::Const) return kCounted;
@@ -41,7 +41,7 @@ void add(const ir::Body& body, StmtId first, uint64_t times, Work& work) {
     work.runs += times;
     const bool loops = stmt.kind == StmtKind::Loop || stmt.kind == StmtKind::For;
     work.loops |= loops;
-    const uint64_t inner = loops ? std::min(times * std::min(turns(body, stmt), kMostWork), kMostWork) : times;
+    const uint64_t inner = loops ? std::min(times * std::min(iterations(body, stmt), kMaxWork), kMaxWork) : times;
     ir::forEachBlock(body, stmt, [&](const uint32_t& block) { add(body, StmtId{block}, inner, work); });
   }
 }

@@ -39,7 +39,7 @@ std::string prototypes(const ir::Module& module, const std::vector<ir::BodyId>& 
 }
 
 std::string inlineFile(const ir::Module& module, ir::BodyId id) {
-  return fileStem(module.names.text(module.body(id).name)) + "fn.h";
+  return fileStem(module.names.string(module.body(id).name)) + "fn.h";
 }
 
 // Of each record once: where its code stands.
@@ -68,15 +68,15 @@ std::string dispatchDeclarations(const ir::Module& module, const Group& group) {
 }
 
 // What a group's text needs in front of it, the text, and the end of the namespace.
-std::string around(const ir::Module& module, const Group& group, RecordPlaces& records, std::string_view name_space,
-                   std::string out) {
+std::string around(const ir::Module& module, const Group& group, RecordDefinitions& records,
+                   std::string_view name_space, std::string out) {
   std::vector<std::string> files;
   std::string definitions;
-  records.place(group.records, files, definitions);
+  records.collect(group.records, files, definitions);
   for (ir::BodyId id : group.inlined) files.push_back(inlineFile(module, id));
   std::sort(files.begin(), files.end());
   for (NameId library : group.libraries) {
-    std::string file(module.names.text(library));
+    std::string file(module.names.string(library));
     for (char& c : file) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     out += "#include \"rung/" + file + ".h\"\n";
   }
@@ -99,11 +99,12 @@ std::string around(const ir::Module& module, const Group& group, RecordPlaces& r
   return out;
 }
 
-std::string sourceOf(const ir::Module& module, const Group& group, RecordPlaces& records, std::string_view name_space) {
+std::string sourceOf(const ir::Module& module, const Group& group, RecordDefinitions& records,
+                     std::string_view name_space) {
   std::string out = "// Bodies from ";
-  out += module.names.text(module.body(group.bodies.front()).name);
+  out += module.names.string(module.body(group.bodies.front()).name);
   out += " to ";
-  out += module.names.text(module.body(group.bodies.back()).name);
+  out += module.names.string(module.body(group.bodies.back()).name);
   out += ".\n#define RUNG_GENERATED\n#include \"rung/code.h\"\n";
   return around(module, group, records, name_space, std::move(out));
 }
@@ -129,7 +130,7 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
     markHot(module, group, marks, i + 1);
     BodyWriter writer(module, options, facts, group, marks, i + 1);
     for (ir::BodyId id : group.bodies) {
-      const std::string_view name = module.names.text(module.body(id).name);
+      const std::string_view name = module.names.string(module.body(id).name);
       setPhaseSubject(name.data(), name.size());
       writer.write(id);
     }
@@ -141,8 +142,8 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   }
   std::vector<CppFile> cpp_files;
   for (const ir::CppBody& cpp : module.cpp_bodies) {
-    const CppFile& made = cpp_files.emplace_back(writeCppBody(module, facts, cpp));
-    for (ir::BodyId id : made.group.inlined) {
+    const CppFile& created = cpp_files.emplace_back(writeCppBody(module, facts, cpp));
+    for (ir::BodyId id : created.group.inlined) {
       if (is_listed[id.index] != 0) continue;
       is_listed[id.index] = 1;
       inlined.push_back(id);
@@ -160,7 +161,7 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   }
   setPhaseSubject("", 0);
 
-  RecordPlaces records(module, facts, name_space);
+  RecordDefinitions records(module, facts, name_space);
   for (const Group& group : groups) records.need(group.records, false);
   for (const Group& header : headers) records.need(header.records, true);
   for (const CppFile& file : cpp_files) records.need(file.group.records, false);
@@ -169,7 +170,8 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   for (const Group& group : groups)
     files.push_back({group.stem + ".cpp", sourceOf(module, group, records, name_space)});
   for (const CppFile& file : cpp_files) {
-    std::string front = "// The body of " + std::string(module.names.text(module.body(file.group.bodies[0]).spelling)) +
+    std::string front = "// The body of " +
+                        std::string(module.names.string(module.body(file.group.bodies[0]).spelling)) +
                         ", which is in C++.\n#define RUNG_GENERATED\n#include \"rung/cpp.h\"\n" + file.front;
     front += "#line 1 \"" + file.group.stem + ".cpp\"\n";
     files.push_back(
@@ -183,7 +185,7 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   Description description = describe(module, options, facts, groups, name_space);
   files.push_back({"module.cpp", std::move(description.module)});
   if (!module.classes.empty() || !module.dispatches.empty())
-    files.push_back({"classes.cpp", classesText(module, name_space)});
+    files.push_back({"classes.cpp", classesSource(module, name_space)});
   files.push_back({"sites.cpp", std::move(description.sites)});
   std::sort(files.begin(), files.end(), [](const OutputFile& a, const OutputFile& b) { return a.path < b.path; });
   return files;

@@ -19,7 +19,7 @@ struct EmitOptions {
 struct OutputFile {
   std::string path;
   std::string content;
-  bool has_user_text = false;  // a body in C++: g++ may refuse it, and its macros and names are its own
+  bool has_user_code = false;  // a body in C++: g++ may refuse it, and its macros and names are its own
 };
 
 // Headers and sources of the module; `.cpp` files are the ones to compile. Sorted by path.

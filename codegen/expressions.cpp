@@ -29,13 +29,13 @@ void BodyWriter::value(ExprId id, Prec context) {
     case ExprKind::None: out_ += '0'; return;
     case ExprKind::Const: constant(e, context); return;
     case ExprKind::Zero:
-      if (isText(e.type)) {
-        textValue(id);
+      if (isString(e.type)) {
+        stringValue(id);
       } else {
         appendConstant(out_, types_, e.type, 0);
       }
       return;
-    case ExprKind::Text: textValue(id); return;
+    case ExprKind::String: stringValue(id); return;
     case ExprKind::Data: place(id); return;
     case ExprKind::Local:
     case ExprKind::Self:
@@ -46,8 +46,8 @@ void BodyWriter::value(ExprId id, Prec context) {
     case ExprKind::Index:
     case ExprKind::Deref:
     case ExprKind::Bits: {
-      if (isText(e.type)) {
-        textValue(id);
+      if (isString(e.type)) {
+        stringValue(id);
         return;
       }
       if (!isLvalue(id)) {
@@ -73,8 +73,8 @@ void BodyWriter::value(ExprId id, Prec context) {
     case ExprKind::Binary: binary(e, context); return;
     case ExprKind::Convert: convert(e, context); return;
     case ExprKind::Select:
-      if (isText(e.type)) {
-        textValue(id);
+      if (isString(e.type)) {
+        stringValue(id);
         return;
       }
       parenthesis(Prec::Ternary, context);
@@ -87,7 +87,7 @@ void BodyWriter::value(ExprId id, Prec context) {
       return;
     case ExprKind::Call: callExpr(e); return;
     case ExprKind::Address:
-      out_ += isText(expr(ExprId{e.a}).type) ? "(void*)" : "(void*)&";
+      out_ += isString(expr(ExprId{e.a}).type) ? "(void*)" : "(void*)&";
       place(ExprId{e.a});
       return;
   }
@@ -123,7 +123,7 @@ void BodyWriter::constant(const Expr& e, Prec context) {
 void BodyWriter::callExpr(const Expr& e) {
   const ir::BodyId id{e.a};
   const Body& callee = module_.body(id);
-  if (!isText(e.type) && isSizedCall(callee, e.b, e.c, {})) {
+  if (!isString(e.type) && isSizedCall(callee, e.b, e.c, {})) {
     sizedCall(callee, e.b, e.c);
     out_ += ')';
     return;
@@ -220,8 +220,8 @@ void BodyWriter::binary(const Expr& e, Prec context) {
   const ExprId a{e.a}, b{e.b};
   const TypeKind kind = kindOf(a);
   if (types::isComparison(e.op)) {
-    if (TypeTable::isText(kind)) {
-      compareTexts(e, context);
+    if (TypeTable::isString(kind)) {
+      compareStrings(e, context);
     } else {
       comparison(e, context);
     }
@@ -297,8 +297,8 @@ void BodyWriter::binary(const Expr& e, Prec context) {
     case Op::Ror: shift(e, context); return;
     case Op::Min:
     case Op::Max: {
-      if (TypeTable::isText(kind)) {
-        textValue(ExprId{static_cast<uint32_t>(&e - body_->exprs.data())});
+      if (TypeTable::isString(kind)) {
+        stringValue(ExprId{static_cast<uint32_t>(&e - body_->exprs.data())});
         return;
       }
       const uint32_t width = widthOf(kind);
@@ -648,8 +648,8 @@ void BodyWriter::convertTime(ExprId from, TypeKind source, TypeKind target) {
 void BodyWriter::convert(const Expr& e, Prec context) {
   const ExprId a{e.a};
   const TypeKind source = kindOf(a), target = types_.plainKind(e.type);
-  if (TypeTable::isText(target)) {
-    textValue(ExprId{static_cast<uint32_t>(&e - body_->exprs.data())});
+  if (TypeTable::isString(target)) {
+    stringValue(ExprId{static_cast<uint32_t>(&e - body_->exprs.data())});
     return;
   }
   const TypeInfo& info = types_.info(types_.resolve(e.type));
@@ -675,17 +675,17 @@ void BodyWriter::convert(const Expr& e, Prec context) {
   const std::string type = scalarType(types_, e.type);
   const bool from_real = TypeTable::isReal(source);
 
-  if (TypeTable::isText(source)) {
+  if (TypeTable::isString(source)) {
     if (TypeTable::isReal(target)) {
       if (target == TypeKind::Real) out_ += "(float)";
       out_ += "rung_f64_of(";
     } else {
       cast(type);
     }
-    out_ += source == TypeKind::WString ? "rung_scalar_of_wtext(" : "rung_scalar_of_text(";
+    out_ += source == TypeKind::WString ? "rung_scalar_of_wstring(" : "rung_scalar_of_string(";
     out_ += typeKindName(types_, e.type);
     out_ += ", ";
-    textValue(a);
+    stringValue(a);
     out_ += ')';
     if (TypeTable::isReal(target)) {
       out_ += ')';

@@ -40,7 +40,7 @@ bool isForeign(const Body& body, ExprId place) {
     case ExprKind::Deref: return true;
     case ExprKind::None:
     case ExprKind::Const:
-    case ExprKind::Text:
+    case ExprKind::String:
     case ExprKind::Data:
     case ExprKind::Zero:
     case ExprKind::Image:

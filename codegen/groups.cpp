@@ -10,7 +10,7 @@ namespace rung::codegen {
 
 namespace {
 
-constexpr uint32_t kLeast = 32, kUsual = 32, kMost = 128;
+constexpr uint32_t kLeast = 32, kUsual = 32, kMax = 128;
 
 struct Row {
   std::string key;  // folded
@@ -26,7 +26,7 @@ std::vector<Group> makeGroups(const ir::Module& module, const Facts& facts) {
   for (uint32_t i = 1; i < module.bodies.size(); ++i) {
     const ir::Body& body = module.bodies[i];
     if (body.native || body.cpp != 0 || body.abstract || facts.is_inlined[i] != 0 || facts.is_zeroing[i] != 0) continue;
-    Row row{std::string(module.names.text(body.name)), static_cast<uint32_t>(body.kind), ir::BodyId{i}};
+    Row row{std::string(module.names.string(body.name)), static_cast<uint32_t>(body.kind), ir::BodyId{i}};
     for (char& c : row.key) {
       if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     }
@@ -43,11 +43,11 @@ std::vector<Group> makeGroups(const ir::Module& module, const Facts& facts) {
   uint32_t pous = 0;
   for (size_t i = 0; i < rows.size(); ++i) {
     const bool is_new = i == 0 || rows[i].key != rows[i - 1].key;
-    const bool cut = is_new && (pous >= kMost || (pous >= kLeast && nameHash(rows[i].key) % kUsual == 0));
+    const bool cut = is_new && (pous >= kMax || (pous >= kLeast && nameHash(rows[i].key) % kUsual == 0));
     if (groups.empty() || cut) {
       groups.emplace_back();
       groups.back().stem =
-          groups.size() == 1 ? "code" : "code_" + fileStem(module.names.text(module.body(rows[i].body).name));
+          groups.size() == 1 ? "code" : "code_" + fileStem(module.names.string(module.body(rows[i].body).name));
       pous = 0;
     }
     pous += is_new;

@@ -20,7 +20,7 @@ constexpr uint32_t kWorthKeeping = 2;   // the same where it is known from the f
 }  // namespace
 
 bool BodyWriter::isSized(const Body& callee) const {
-  const auto is_other = [&](TypeId type) { return isText(type) && types_.kind(type) != TypeKind::String; };
+  const auto is_other = [&](TypeId type) { return isString(type) && types_.kind(type) != TypeKind::String; };
   if (!callee.sized || is_other(callee.result)) return false;
   for (const ir::Local& local : callee.locals) {
     if (is_other(local.type)) return false;
@@ -31,25 +31,25 @@ bool BodyWriter::isSized(const Body& callee) const {
 // `out` of a sized function must be one of its texts or apart from all: true where either side is measured.
 bool BodyWriter::isSizedCall(const Body& callee, uint32_t first, uint32_t count, ExprId result) const {
   if (!isSized(callee)) return false;
-  if (result && isText(expr(result).type)) {
+  if (result && isString(expr(result).type)) {
     if (isWide(expr(result).type)) return false;
-    if (measuredText(result) != nullptr) return true;
+    if (measuredString(result) != nullptr) return true;
   }
   bool has_measured = false, all_apart = true;
   for (uint32_t i = 0; i < count; ++i) {
     const ExprId operand = body_->operands[first + i];
     const Expr& e = expr(operand);
-    if (!isText(e.type)) continue;
-    const bool is_measured = measuredText(operand) != nullptr;
+    if (!isString(e.type)) continue;
+    const bool is_measured = measuredString(operand) != nullptr;
     has_measured = has_measured || is_measured;
-    all_apart = all_apart && (is_measured || e.kind == ExprKind::Text || e.kind == ExprKind::Zero);
+    all_apart = all_apart && (is_measured || e.kind == ExprKind::String || e.kind == ExprKind::Zero);
   }
-  return has_measured && (all_apart || !result || !isText(expr(result).type));
+  return has_measured && (all_apart || !result || !isString(expr(result).type));
 }
 
 // ---- which texts
 
-BodyWriter::Variable* BodyWriter::textVariable(ExprId place) {
+BodyWriter::Variable* BodyWriter::stringVariable(ExprId place) {
   const Expr& e = expr(place);
   if (types_.kind(e.type) != TypeKind::String) return nullptr;
   if (e.kind == ExprKind::Local) {
@@ -61,8 +61,8 @@ BodyWriter::Variable* BodyWriter::textVariable(ExprId place) {
   return variableOf(slotOf(place));
 }
 
-const BodyWriter::Variable* BodyWriter::measuredText(ExprId place) const {
-  const Variable* of = const_cast<BodyWriter*>(this)->textVariable(place);
+const BodyWriter::Variable* BodyWriter::measuredString(ExprId place) const {
+  const Variable* of = const_cast<BodyWriter*>(this)->stringVariable(place);
   return of != nullptr && of->measured ? of : nullptr;
 }
 
@@ -70,14 +70,14 @@ void BodyWriter::noteSizedCall(const Body& callee, uint32_t first, uint32_t coun
   if (!isSized(callee)) return;
   for (uint32_t i = 0; i < count; ++i) {
     const ExprId operand = body_->operands[first + i];
-    if (Variable* of = operand ? textVariable(operand) : nullptr) of->sized_weight += weight;
+    if (Variable* of = operand ? stringVariable(operand) : nullptr) of->sized_weight += weight;
   }
 }
 
 // An assignment gives the length on.
-void BodyWriter::noteTextAssign(const Stmt& stmt, uint32_t weight) {
-  Variable* to = textVariable(ExprId{stmt.a});
-  Variable* from = textVariable(ExprId{stmt.b});
+void BodyWriter::noteStringAssign(const Stmt& stmt, uint32_t weight) {
+  Variable* to = stringVariable(ExprId{stmt.a});
+  Variable* from = stringVariable(ExprId{stmt.b});
   if (to == nullptr || from == nullptr) return;
   to->sized_weight += weight;
   from->sized_weight += weight;
@@ -120,12 +120,12 @@ void BodyWriter::declareLengths() {
     has_measured_ = true;
     declarations_ += " uint32_t ";
     const NameId name = types_.info(types_.resolve(body_->self)).fields[i].name;
-    appendMangled(declarations_, text(name));
+    appendMangled(declarations_, string(name));
     declarations_ += "n = 0;";
     if (!fields_[i].slice) continue;
     fields_[i].known = true;
     declarations_ += " const char* ";
-    appendMangled(declarations_, text(name));
+    appendMangled(declarations_, string(name));
     declarations_ += "v = nullptr;";
   }
 }
@@ -137,7 +137,7 @@ bool BodyWriter::needsMeasuring(ExprId id) const {
   bool needs = false;
   if (e.kind == ExprKind::Call && isSizedCall(module_.body(ir::BodyId{e.a}), e.b, e.c, {})) {
     for (uint32_t i = 0; i < e.c; ++i) {
-      const Variable* of = measuredText(body_->operands[e.b + i]);
+      const Variable* of = measuredString(body_->operands[e.b + i]);
       needs = needs || (of != nullptr && !of->known);
     }
   }
@@ -146,7 +146,7 @@ bool BodyWriter::needsMeasuring(ExprId id) const {
 }
 
 void BodyWriter::setKnown(ExprId place) {
-  Variable* of = textVariable(place);
+  Variable* of = stringVariable(place);
   if (of == nullptr || !of->measured || of->known) return;
   of->known = true;
   known_.push_back(of);
@@ -156,8 +156,8 @@ void BodyWriter::forgetLengths(size_t mark) {
   for (; known_.size() > mark; known_.pop_back()) known_.back()->known = false;
 }
 
-void BodyWriter::measureText(ExprId place) {
-  const Variable* of = measuredText(place);
+void BodyWriter::measureString(ExprId place) {
+  const Variable* of = measuredString(place);
   if (of == nullptr || of->known) return;
   unknown_.push_back(place);
   setKnown(place);
@@ -166,7 +166,7 @@ void BodyWriter::measureText(ExprId place) {
 void BodyWriter::measureExpr(ExprId id) {
   const Expr& e = expr(id);
   if (e.kind == ExprKind::Call && isSizedCall(module_.body(ir::BodyId{e.a}), e.b, e.c, {})) {
-    for (uint32_t i = 0; i < e.c; ++i) measureText(body_->operands[e.b + i]);
+    for (uint32_t i = 0; i < e.c; ++i) measureString(body_->operands[e.b + i]);
   }
   ir::forEachSlot(*body_, e, [&](const uint32_t& slot) { measureExpr(ExprId{slot}); });
 }
@@ -174,10 +174,10 @@ void BodyWriter::measureExpr(ExprId id) {
 // The lengths that a statement's own expressions need.
 void BodyWriter::collectUnknown(const Stmt& stmt) {
   ir::forEachRoot(module_, *body_, stmt, [&](const uint32_t& slot, ir::Use) { measureExpr(ExprId{slot}); });
-  if (stmt.kind == StmtKind::Assign && measuredText(ExprId{stmt.a}) != nullptr) measureText(ExprId{stmt.b});
+  if (stmt.kind == StmtKind::Assign && measuredString(ExprId{stmt.a}) != nullptr) measureString(ExprId{stmt.b});
   if (stmt.kind != StmtKind::Call) return;
   if (!isSizedCall(module_.body(ir::BodyId{stmt.a}), stmt.c, stmt.d, ExprId{stmt.e})) return;
-  for (uint32_t i = 0; i < stmt.d; ++i) measureText(body_->operands[stmt.c + i]);
+  for (uint32_t i = 0; i < stmt.d; ++i) measureString(body_->operands[stmt.c + i]);
 }
 
 // The lengths that a block needs before it, and what it makes known itself.
@@ -205,7 +205,7 @@ void BodyWriter::measure(const Stmt& stmt) {
   }
   for (const ExprId id : unknown_) {
     lengthName(id);
-    out_ += " = rung_text_length(";
+    out_ += " = rung_string_length(";
     place(id);
     out_ += "); ";
     setKnown(id);
@@ -219,22 +219,22 @@ void BodyWriter::lengthName(ExprId id) {
   if (e.kind == ExprKind::Local) {
     variable(out_, body_->locals[e.a]);
   } else {
-    appendMangled(out_, text(types_.info(types_.resolve(body_->self)).fields[e.b].name));
+    appendMangled(out_, string(types_.info(types_.resolve(body_->self)).fields[e.b].name));
   }
   out_ += 'n';
 }
 
-void BodyWriter::textLength(ExprId id) {
+void BodyWriter::stringLength(ExprId id) {
   const Expr& e = expr(id);
-  if (e.kind == ExprKind::Text) {
+  if (e.kind == ExprKind::String) {
     appendUnsigned(out_, literalLength(e));
   } else if (e.kind == ExprKind::Zero) {
     out_ += '0';
-  } else if (measuredText(id) != nullptr) {
+  } else if (measuredString(id) != nullptr) {
     lengthName(id);
   } else {
-    out_ += "rung_text_length(";
-    textValue(id);
+    out_ += "rung_string_length(";
+    stringValue(id);
     out_ += ')';
   }
 }
@@ -250,10 +250,10 @@ void BodyWriter::sizedCall(const Body& callee, uint32_t first, uint32_t count, c
   for (uint32_t i = 0; i < count; ++i) {
     const ExprId operand = body_->operands[first + i];
     if (i > 0) out_ += ", ";
-    if (isText(expr(operand).type)) {
-      textValue(operand);
+    if (isString(expr(operand).type)) {
+      stringValue(operand);
       out_ += ", ";
-      textLength(operand);
+      stringLength(operand);
     } else {
       value(operand, Prec::Ternary);
     }

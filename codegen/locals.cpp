@@ -10,7 +10,7 @@ using types::TypeTable;
 
 namespace {
 
-constexpr uint32_t kLoopWeight = 4, kMostWeight = 64, kWorthIt = 3;
+constexpr uint32_t kLoopWeight = 4, kMaxWeight = 64, kWorthIt = 3;
 
 }  // namespace
 
@@ -50,13 +50,13 @@ void BodyWriter::scanExpr(ExprId id, uint32_t weight) {
       Slot slot = slotOf(ir::rootOf(*body_, ExprId{e.a}));
       if (!slot.kind) slot = slotOf(ExprId{e.a});
       if (Variable* of = variableOf(slot)) of->exposed = true;
-      if (Variable* of = textVariable(ExprId{e.a})) of->exposed = true;
+      if (Variable* of = stringVariable(ExprId{e.a})) of->exposed = true;
       break;
     }
     case ExprKind::Call: noteSizedCall(module_.body(ir::BodyId{e.a}), e.b, e.c, weight); break;
     case ExprKind::None:
     case ExprKind::Const:
-    case ExprKind::Text:
+    case ExprKind::String:
     case ExprKind::Data:
     case ExprKind::Zero:
     case ExprKind::Global:
@@ -75,7 +75,7 @@ void BodyWriter::scanExpr(ExprId id, uint32_t weight) {
 
 void BodyWriter::noteWrite(ExprId place, bool by_reference) {
   const Slot slot = slotOf(place);
-  if (Variable* of = by_reference ? textVariable(place) : nullptr) of->exposed = true;
+  if (Variable* of = by_reference ? stringVariable(place) : nullptr) of->exposed = true;
   Variable* of = variableOf(slot);
   if (of == nullptr) {  // a part of an aggregate: the local is in use
     const Expr& root = expr(ir::rootOf(*body_, place));
@@ -101,7 +101,7 @@ void BodyWriter::scanBlock(StmtId first, uint32_t weight) {
       if (use == ir::Use::Reference && !(is_block_call && slot == stmt.b)) noteWrite(root, true);
     });
     if (stmt.kind == StmtKind::Try) has_try_ = true;
-    if (stmt.kind == StmtKind::Assign) noteTextAssign(stmt, weight);
+    if (stmt.kind == StmtKind::Assign) noteStringAssign(stmt, weight);
     if (stmt.kind == StmtKind::Call) {
       has_calls_ = true;
       const Body& callee = module_.body(ir::BodyId{stmt.a});
@@ -110,11 +110,11 @@ void BodyWriter::scanBlock(StmtId first, uint32_t weight) {
         has_leaving_calls_ = true;
       if (callee.slice) noteSlice(stmt, weight);
       noteSizedCall(callee, stmt.c, stmt.d, weight);
-      if (Variable* of = stmt.e != 0 && isSized(callee) ? textVariable(ExprId{stmt.e}) : nullptr)
+      if (Variable* of = stmt.e != 0 && isSized(callee) ? stringVariable(ExprId{stmt.e}) : nullptr)
         of->sized_weight += weight;
     }
     const bool loops = stmt.kind == StmtKind::For || stmt.kind == StmtKind::Loop;
-    const uint32_t inner = loops && weight < kMostWeight ? weight * kLoopWeight : weight;
+    const uint32_t inner = loops && weight < kMaxWeight ? weight * kLoopWeight : weight;
     if (stmt.kind == StmtKind::For) {
       if (private_loop_.empty()) private_loop_.resize(body_->stmts.size());
       const Slot slot = slotOf(ExprId{stmt.a});

@@ -17,7 +17,7 @@ bool BodyWriter::isExitTest(StmtId id) const {
 void BodyWriter::loopStatement(StmtId, const Stmt& stmt) {
   const StmtId first{stmt.a}, next{stmt.b};
   Loop loop;
-  loop.number = ++names_made_;
+  loop.number = ++names_created_;
   loop.has_next = stmt.b != 0;
   auto writeNegated = [&](StmtId test) {
     const ExprId id{body_->stmt(test).a};
@@ -150,7 +150,7 @@ void BodyWriter::privateFor(StmtId, const Stmt& stmt) {
   if (place.kind == ExprKind::Local) {
     variable(name, body_->locals[place.a]);
   } else {
-    appendMangled(name, text(types_.info(types_.resolve(body_->self)).fields[place.b].name));
+    appendMangled(name, string(types_.info(types_.resolve(body_->self)).fields[place.b].name));
   }
   // The limit is read once, before the control changes.
   std::string limit;
@@ -175,7 +175,7 @@ void BodyWriter::privateFor(StmtId, const Stmt& stmt) {
   out_ += ')';
   open();
   Loop loop;
-  loop.number = ++names_made_;
+  loop.number = ++names_created_;
   loops_.push_back(loop);
   block(StmtId{stmt.e});
   close();
@@ -257,7 +257,7 @@ void BodyWriter::forStatement(StmtId id, const Stmt& stmt) {
   out_ += ", " + test + "))";
   open();
   Loop loop;
-  loop.number = ++names_made_;
+  loop.number = ++names_created_;
   loops_.push_back(loop);
   block(StmtId{stmt.e});
   close();

@@ -22,7 +22,7 @@ constexpr const char* kTypeKinds[] = {
     "RUNG_DT",      "RUNG_LDT",  "RUNG_CHAR",  "RUNG_WCHAR",  "RUNG_UCHAR",  "RUNG_STRING", "RUNG_WSTRING",
     "RUNG_USTRING", "RUNG_ENUM", "RUNG_ARRAY", "RUNG_RECORD", "RUNG_POINTER"};
 static_assert(std::size(kTypeKinds) == RUNG_POINTER + 1);
-constexpr const char* kPlaces[] = {"RUNG_IN_BLOCK", "RUNG_IN_INPUTS", "RUNG_IN_OUTPUTS", "RUNG_IN_MEMORY"};
+constexpr const char* kStorages[] = {"RUNG_IN_BLOCK", "RUNG_IN_INPUTS", "RUNG_IN_OUTPUTS", "RUNG_IN_MEMORY"};
 constexpr const char* kTaskKinds[] = {"RUNG_CYCLIC", "RUNG_FREEWHEELING", "RUNG_EVENT", "RUNG_STATUS", "RUNG_EXTERNAL"};
 
 class Describer {
@@ -39,8 +39,8 @@ class Describer {
     addTasks();
     addTests();
     Description out;
-    out.sites = sitesText(groups);  // may add texts
-    out.module = moduleText();
+    out.sites = sitesSource(groups);  // may add texts
+    out.module = moduleSource();
     return out;
   }
 
@@ -157,7 +157,7 @@ class Describer {
       appendDeclaration(variables, types_, local.type, name);
       variables += " = {};\n";
       call += ", ";
-      if (local.by_reference && !TypeTable::isText(types_.kind(local.type))) call += '&';
+      if (local.by_reference && !TypeTable::isString(types_.kind(local.type))) call += '&';
       call += name;
     }
     return variables + call + ");\n";
@@ -176,7 +176,7 @@ class Describer {
     return std::string(rows.empty() ? "nullptr" : name) + ", " + number(rows.empty() ? 0 : count);
   }
 
-  std::string moduleText() {
+  std::string moduleSource() {
     std::string block_rows, type_rows, field_rows, item_rows, dimension_rows, symbol_rows, retain_rows, persistent_rows;
     for (const rung_block& is : is_.blocks) row(block_rows, {number(is.name), number(is.size), number(is.align)});
     for (const rung_type& is : is_.types) {
@@ -189,7 +189,7 @@ class Describer {
     for (const rung_enum_item& is : is_.enum_items) row(item_rows, {number(is.name), signedNumber(is.value)});
     for (const rung_dimension& is : is_.dimensions) row(dimension_rows, {signedNumber(is.low), signedNumber(is.high)});
     for (const rung_symbol& is : is_.symbols) {
-      row(symbol_rows, {number(is.name), number(is.type), kPlaces[is.place], number(is.bit), number(is.is_program),
+      row(symbol_rows, {number(is.name), number(is.type), kStorages[is.storage], number(is.bit), number(is.is_program),
                         number(is.block), number(is.offset), number(is.flags), number(is.path)});
     }
     for (const rung_range& is : is_.retain) row(retain_rows, {number(is.block), number(is.offset), number(is.size)});
@@ -223,7 +223,7 @@ class Describer {
     out += "#include \"rung/module.h\"\n\nnamespace " + name_space_ + " {\n\n";
     out += "extern const rung_site sites[];\nextern const uint32_t site_count;\n" + prototypes_ + "\n";
     out += "static const char text[] =\n";
-    const std::string& bytes = is_.text.bytes();
+    const std::string& bytes = is_.strings.bytes();
     for (size_t at = 0; at < bytes.size();) {  // a line per name
       size_t end = bytes.find('\0', at);
       out += "  ";
@@ -265,16 +265,16 @@ class Describer {
     return out;
   }
 
-  std::string sitesText(const std::vector<Group>& groups) {
+  std::string sitesSource(const std::vector<Group>& groups) {
     std::string numbers, rows;
     uint32_t count = 0;
     for (const Group& group : groups) {
       if (group.sites.empty()) continue;
       numbers += "extern const uint32_t sites_" + group.stem + " = " + number(count) + ";\n";
       for (const Site& site : group.sites) {
-        row(rows, {number(is_.text.add(module_.names.text(site.pou))),
-                   number(is_.text.add(site.origin_path ? module_.names.text(site.origin_path)
-                                                        : module_.sources.path(site.file))),
+        row(rows, {number(is_.strings.add(module_.names.string(site.pou))),
+                   number(is_.strings.add(site.origin_path ? module_.names.string(site.origin_path)
+                                                           : module_.sources.path(site.file))),
                    number(site.line), number(site.column), signedNumber(site.low), signedNumber(site.high)});
         ++count;
       }

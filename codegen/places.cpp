@@ -25,7 +25,7 @@ void BodyWriter::place(ExprId id) {
   switch (e.kind) {
     case ExprKind::Local: {
       const ir::Local& local = body_->locals[e.a];
-      const bool behind = local.by_reference && !isText(local.type);
+      const bool behind = local.by_reference && !isString(local.type);
       if (behind) out_ += "(*";
       variable(out_, local);
       if (behind) out_ += ')';
@@ -41,7 +41,7 @@ void BodyWriter::place(ExprId id) {
       bool declared = false;
       for (uint32_t known : blocks_declared_) declared |= known == number;
       std::string name;
-      appendMangled(name, text(facts_.blocks[number].name));
+      appendMangled(name, string(facts_.blocks[number].name));
       name += is_list ? "list_block" : "block";
       if (!declared) {
         blocks_declared_.push_back(number);
@@ -56,14 +56,14 @@ void BodyWriter::place(ExprId id) {
       const ExprId base{e.a};
       const Field& field = types_.info(types_.resolve(expr(base).type)).fields[e.b];
       if (expr(base).kind == ExprKind::Self && e.b < fields_.size() && fields_[e.b].cached) {
-        appendMangled(out_, text(field.name));
+        appendMangled(out_, string(field.name));
         return;
       }
-      const bool behind = field.by_reference && !isText(field.type);
+      const bool behind = field.by_reference && !isString(field.type);
       if (behind) includeRecord(field.type);
       if (behind) out_ += "(*";
       member(base);
-      appendMangled(out_, text(field.name));
+      appendMangled(out_, string(field.name));
       if (behind) out_ += ')';
       return;
     }
@@ -79,7 +79,7 @@ void BodyWriter::place(ExprId id) {
     }
     case ExprKind::Deref: {
       const TypeKind kind = types_.kind(e.type);
-      if (isText(e.type)) {
+      if (isString(e.type)) {
         out_ += isWide(e.type) ? "((char16_t*)" : "((char*)";
         value(ExprId{e.a}, Prec::Unary);
         out_ += ')';
@@ -92,7 +92,7 @@ void BodyWriter::place(ExprId id) {
         std::string type;
         appendPointer(type, types_, e.type, "");
         // Elements may be read as of another type than they were written.
-        if (types_.kind(element) != TypeKind::Record && !isText(element)) {
+        if (types_.kind(element) != TypeKind::Record && !isString(element)) {
           const std::string scalar = scalarType(types_, element);
           type.replace(0, scalar.size(), scalarAliasType(types_, element));
         }
@@ -116,8 +116,8 @@ void BodyWriter::place(ExprId id) {
     case ExprKind::Zero:
     case ExprKind::Call:
     case ExprKind::Convert:
-      for (const auto& [made, name] : made_) {
-        if (made == id.index) out_ += name;
+      for (const auto& [created, name] : materialized_) {
+        if (created == id.index) out_ += name;
       }
       return;
     case ExprKind::Select:
@@ -139,7 +139,7 @@ void BodyWriter::place(ExprId id) {
     case ExprKind::Bits:
     case ExprKind::None:
     case ExprKind::Const:
-    case ExprKind::Text:
+    case ExprKind::String:
     case ExprKind::Unary:
     case ExprKind::Binary:
     case ExprKind::Address: value(id, Prec::Postfix); return;
@@ -159,7 +159,7 @@ void BodyWriter::member(ExprId base) {
     if (field.by_reference) {
       includeRecord(field.type);
       member(ExprId{e.a});
-      appendMangled(out_, text(field.name));
+      appendMangled(out_, string(field.name));
       out_ += "->";
       return;
     }
@@ -183,8 +183,8 @@ ir::ExprId BodyWriter::peelIndex(ExprId id, const types::Dimension& dimension, i
   if (expr(constant).kind != ExprKind::Const) return id;
   int64_t c = static_cast<int64_t>(expr(constant).bits());
   if (e.op == Op::Sub) c = -c;
-  constexpr int64_t kMost = int64_t{1} << 31;
-  if (c <= -kMost || c >= kMost) return id;
+  constexpr int64_t kMax = int64_t{1} << 31;
+  if (c <= -kMax || c >= kMax) return id;
   const bool is_signed = types_.isSigned(kind);
   const int64_t low = is_signed ? -(int64_t{1} << (width - 1)) : 0;
   const int64_t high = (int64_t{1} << (is_signed ? width - 1 : width)) - 1;
@@ -326,12 +326,12 @@ void BodyWriter::imageLoad(ExprId id, const Expr& e) {
   out_ += ')';
 }
 
-void BodyWriter::store(ExprId to, std::string_view value_text) {
+void BodyWriter::store(ExprId to, std::string_view value_code) {
   const Expr& e = expr(to);
   if (isLvalue(to)) {
     place(to);
     out_ += " = ";
-    out_ += value_text;
+    out_ += value_code;
     return;
   }
   const TypeKind kind = types_.plainKind(e.type);
@@ -348,7 +348,7 @@ void BodyWriter::store(ExprId to, std::string_view value_text) {
     appendUnsigned(changed, keep);
     changed += from == 64 ? "ULL) | (" : "u) | (";
     changed += type + ")(";
-    changed += value_text;
+    changed += value_code;
     changed += ")";
     if (shift != 0) {
       changed += " << ";
@@ -364,7 +364,7 @@ void BodyWriter::store(ExprId to, std::string_view value_text) {
     out_ += ", ";
     appendUnsigned(out_, e.c);
     out_ += ", ";
-    out_ += value_text;
+    out_ += value_code;
     out_ += ')';
     return;
   }
@@ -373,7 +373,7 @@ void BodyWriter::store(ExprId to, std::string_view value_text) {
     out_ += "*(";
     imageAddress(to);
     out_ += ") = (uint8_t)(";
-    out_ += value_text;
+    out_ += value_code;
     out_ += ')';
     return;
   }
@@ -386,7 +386,7 @@ void BodyWriter::store(ExprId to, std::string_view value_text) {
           : width == 16             ? ", (uint16_t)("
           : width == 32             ? ", (uint32_t)("
                                     : ", (uint64_t)(";
-  out_ += value_text;
+  out_ += value_code;
   out_ += "))";
 }
 
@@ -396,14 +396,14 @@ void BodyWriter::reference(const ir::Local& parameter, bool native, ExprId opera
   static_cast<void>(native);
   if (!operand) {  // a discarded output
     const std::string name = newVariable(parameter.type, "d");
-    if (!isText(parameter.type)) out_ += '&';
+    if (!isString(parameter.type)) out_ += '&';
     out_ += name;
     return;
   }
   const Expr& e = expr(operand);
-  if (isText(parameter.type)) {
+  if (isString(parameter.type)) {
     if (parameter.kind == ir::LocalKind::Input) {
-      textValue(operand);
+      stringValue(operand);
     } else {
       place(operand);
     }

@@ -28,7 +28,7 @@ const char* keyword(RecordKind kind) {
 
 }  // namespace
 
-RecordPlaces::RecordPlaces(const ir::Module& module, const Facts& facts, std::string_view name_space)
+RecordDefinitions::RecordDefinitions(const ir::Module& module, const Facts& facts, std::string_view name_space)
     : module_(module), facts_(facts), name_space_(name_space) {
   row_of_.resize(module.types.count());
   for (uint32_t i = 0; i < module.records.size(); ++i) {
@@ -41,7 +41,7 @@ RecordPlaces::RecordPlaces(const ir::Module& module, const Facts& facts, std::st
   is_held_known_.resize(module.records.size());
 }
 
-const std::vector<uint32_t>& RecordPlaces::held(uint32_t row) {
+const std::vector<uint32_t>& RecordDefinitions::held(uint32_t row) {
   std::vector<uint32_t>& rows = held_[row];
   if (is_held_known_[row] != 0) return rows;
   is_held_known_[row] = 1;
@@ -58,7 +58,7 @@ const std::vector<uint32_t>& RecordPlaces::held(uint32_t row) {
 }
 
 template <class F>
-void RecordPlaces::visit(uint32_t row, bool into_headers, F& f) {
+void RecordDefinitions::visit(uint32_t row, bool into_headers, F& f) {
   if (seen_[row] == round_) return;
   seen_[row] = round_;
   if (into_headers || !hasHeader(row)) {
@@ -68,19 +68,19 @@ void RecordPlaces::visit(uint32_t row, bool into_headers, F& f) {
 }
 
 template <class F>
-void RecordPlaces::forEachHeld(const std::vector<TypeId>& records, bool into_headers, F&& f) {
+void RecordDefinitions::forEachHeld(const std::vector<TypeId>& records, bool into_headers, F&& f) {
   ++round_;
   for (TypeId type : records) {
     if (const uint32_t row = row_of_[type.index]) visit(row - 1, into_headers, f);
   }
 }
 
-void RecordPlaces::need(const std::vector<TypeId>& records, bool shared) {
-  forEachHeld(records, true, [&](uint32_t row) { copies_[row] += shared ? kMostCopies + 1 : 1; });
+void RecordDefinitions::need(const std::vector<TypeId>& records, bool shared) {
+  forEachHeld(records, true, [&](uint32_t row) { copies_[row] += shared ? kMaxCopies + 1 : 1; });
 }
 
-void RecordPlaces::place(const std::vector<TypeId>& records, std::vector<std::string>& includes,
-                         std::string& definitions) {
+void RecordDefinitions::collect(const std::vector<TypeId>& records, std::vector<std::string>& includes,
+                                std::string& definitions) {
   // By name: the order of the bodies' first uses would make copies differ.
   std::vector<TypeId> sorted = records;
   std::sort(sorted.begin(), sorted.end(),
@@ -95,14 +95,14 @@ void RecordPlaces::place(const std::vector<TypeId>& records, std::vector<std::st
   });
 }
 
-std::string RecordPlaces::definition(uint32_t row) const {
+std::string RecordDefinitions::definition(uint32_t row) const {
   const ir::Record& record = module_.records[row];
   const types::TypeTable& types = module_.types;
   const TypeId type = types.resolve(record.type);
   std::string out = "// ";
   out += keyword(types.info(type).record_kind);
   out += ' ';
-  out += module_.names.text(record.name);
+  out += module_.names.string(record.name);
   out += '\n';
   appendRecordDefinition(out, types, type, facts_.is_pointed[type.index] != 0);
   bool has_code = false;
@@ -119,7 +119,7 @@ std::string RecordPlaces::definition(uint32_t row) const {
   return out;
 }
 
-void RecordPlaces::appendHeaders(std::vector<OutputFile>& files) {
+void RecordDefinitions::appendHeaders(std::vector<OutputFile>& files) {
   for (uint32_t row = 0; row < module_.records.size(); ++row) {
     if (!hasHeader(row)) continue;
     const TypeId type = module_.types.resolve(module_.records[row].type);

@@ -3,7 +3,7 @@
 //
 // A record that few sources use is written into each of them, behind those that it holds: a change of its fields then
 // changes exactly its users, g++ opens no file for it, and a project of thousands of blocks makes few files. A record
-// that more than kMostCopies sources use has a header of its own, so that the text stays linear in the project.
+// that more than kMaxCopies sources use has a header of its own, so that the text stays linear in the project.
 #pragma once
 
 #include <string>
@@ -14,20 +14,20 @@
 
 namespace rung::codegen {
 
-class RecordPlaces {
+class RecordDefinitions {
  public:
-  RecordPlaces(const ir::Module& module, const Facts& facts, std::string_view name_space);
+  RecordDefinitions(const ir::Module& module, const Facts& facts, std::string_view name_space);
 
   // A source needs these complete. `shared`: it is a header itself, whose text must not stand twice.
   void need(const std::vector<TypeId>& records, bool shared);
 
   // After all of them: what such a source includes and the text of what it defines itself.
-  void place(const std::vector<TypeId>& records, std::vector<std::string>& includes, std::string& definitions);
+  void collect(const std::vector<TypeId>& records, std::vector<std::string>& includes, std::string& definitions);
   void appendHeaders(std::vector<OutputFile>& files);
 
  private:
-  static constexpr uint32_t kMostCopies = 4;
-  bool hasHeader(uint32_t row) const { return copies_[row] > kMostCopies; }
+  static constexpr uint32_t kMaxCopies = 4;
+  bool hasHeader(uint32_t row) const { return copies_[row] > kMaxCopies; }
   template <class F>
   void forEachHeld(const std::vector<TypeId>& records, bool into_headers, F&& f);  // each once, what is held first
   template <class F>

@@ -8,7 +8,7 @@
 //     still text and not taken apart is moved: that is a store or two, and a single character stays in a register;
 //   - nothing is called that may fault, so that the body is left at its own exits only, or that the host may answer.
 // Since what slices are parts of keeps still, they may be put back in any order. Called by locals.cpp once it is known
-// which lengths live in locals; written by text.cpp and statements.cpp.
+// which lengths live in locals; written by strings.cpp and statements.cpp.
 #include <algorithm>
 
 #include "codegen/body.h"
@@ -18,18 +18,18 @@ namespace rung::codegen {
 
 using ir::LocalKind;
 
-const BodyWriter::Variable* BodyWriter::sliceText(ExprId place) const {
+const BodyWriter::Variable* BodyWriter::slicedString(ExprId place) const {
   if (!has_slices_) return nullptr;
-  const Variable* of = measuredText(place);
+  const Variable* of = measuredString(place);
   return of != nullptr && of->slice ? of : nullptr;
 }
 
 // Something that keeps still, or a part of it.
 bool BodyWriter::isSliceSource(ExprId id) {
   const Expr& e = expr(id);
-  if (e.kind == ExprKind::Text) return !isWide(e.type);
+  if (e.kind == ExprKind::String) return !isWide(e.type);
   if (e.kind == ExprKind::Zero) return true;
-  const Variable* of = textVariable(id);
+  const Variable* of = stringVariable(id);
   if (of == nullptr || of->slice) return of != nullptr;
   if (of->written || of->exposed) return false;
   if (e.kind == ExprKind::Local) return body_->locals[e.a].kind == LocalKind::Input;
@@ -40,7 +40,7 @@ bool BodyWriter::isSliceSource(ExprId id) {
 // ---- which texts
 
 void BodyWriter::noteSlice(const Stmt& stmt, uint32_t weight) {
-  Variable* of = stmt.e != 0 ? textVariable(ExprId{stmt.e}) : nullptr;
+  Variable* of = stmt.e != 0 ? stringVariable(ExprId{stmt.e}) : nullptr;
   if (of == nullptr) return;
   // A text of the instance is put back at the exits: that pays in loops only.
   if (weight > 1 || expr(ExprId{stmt.e}).kind == ExprKind::Local) of->sliced = has_slices_ = true;
@@ -70,13 +70,13 @@ void BodyWriter::chooseSlices() {
 }
 
 void BodyWriter::refuseSlice(ExprId place) {
-  textVariable(place)->slice = false;
+  stringVariable(place)->slice = false;
   slices_changed_ = true;
 }
 
 void BodyWriter::judgeWrite(ExprId place, bool makes_slice) {
-  if (textVariable(place) != nullptr) {
-    if (!makes_slice && sliceText(place) != nullptr) refuseSlice(place);
+  if (stringVariable(place) != nullptr) {
+    if (!makes_slice && slicedString(place) != nullptr) refuseSlice(place);
     setKnown(place);
   } else {
     ir::forEachSlot(*body_, expr(place), [&](const uint32_t& slot) { judgeRead(ExprId{slot}, false); });
@@ -86,12 +86,12 @@ void BodyWriter::judgeWrite(ExprId place, bool makes_slice) {
 // is_sized: by something that is given the length.
 void BodyWriter::judgeRead(ExprId id, bool is_sized) {
   const Expr& e = expr(id);
-  if (const Variable* of = sliceText(id)) {
+  if (const Variable* of = slicedString(id)) {
     if (!is_sized || !of->known) refuseSlice(id);
     return;
   }
   bool reads_sized =
-      e.kind == ExprKind::Call && !isText(e.type) && isSizedCall(module_.body(ir::BodyId{e.a}), e.b, e.c, {});
+      e.kind == ExprKind::Call && !isString(e.type) && isSizedCall(module_.body(ir::BodyId{e.a}), e.b, e.c, {});
   if (e.kind == ExprKind::Binary) reads_sized = isSizedComparison(e);
   ir::forEachSlot(*body_, e, [&](const uint32_t& slot) { judgeRead(ExprId{slot}, reads_sized); });
 }
@@ -102,7 +102,7 @@ void BodyWriter::judgeBlock(StmtId first) {
     const Stmt& stmt = body_->stmt(id);
     if (stmt.kind == StmtKind::Assign) {
       const ExprId to{stmt.a}, from = uncut(ExprId{stmt.b});
-      judgeRead(from, isText(expr(to).type) && !isWide(expr(to).type));
+      judgeRead(from, isString(expr(to).type) && !isWide(expr(to).type));
       judgeWrite(to, isSliceSource(from));
     } else if (stmt.kind == StmtKind::Call) {
       const Body& callee = module_.body(ir::BodyId{stmt.a});
@@ -114,8 +114,8 @@ void BodyWriter::judgeBlock(StmtId first) {
       if (stmt.e != 0) {
         const bool makes_slice = is_sized && callee.slice && isSliceSource(body_->operands[stmt.c]);
         judgeWrite(ExprId{stmt.e}, makes_slice);
-        if (makes_slice && sliceText(body_->operands[stmt.c]) != nullptr)
-          textVariable(ExprId{stmt.e})->taken_apart = true;
+        if (makes_slice && slicedString(body_->operands[stmt.c]) != nullptr)
+          stringVariable(ExprId{stmt.e})->taken_apart = true;
       }
     } else {
       ir::forEachRoot(module_, *body_, stmt, [&](const uint32_t& slot, ir::Use) { judgeRead(ExprId{slot}, false); });
@@ -139,18 +139,18 @@ void BodyWriter::assignSlice(ExprId to, ExprId from) {
   from = uncut(from);
   sliceName(to);
   out_ += " = ";
-  textValue(from);
+  stringValue(from);
   out_ += "; ";
   lengthName(to);
   out_ += " = ";
   const Expr& source = expr(from);
-  if (source.kind == ExprKind::Text) {
+  if (source.kind == ExprKind::String) {
     appendUnsigned(out_, std::min(literalLength(source), capacity));
   } else if (source.kind == ExprKind::Zero || capacityOf(source.type) <= capacity) {
-    textLength(from);
+    stringLength(from);
   } else {
     out_ += "rung_min_u32(";
-    textLength(from);
+    stringLength(from);
     out_ += ", ";
     appendUnsigned(out_, capacity);
     out_ += ')';

@@ -13,7 +13,7 @@ using types::Fault;
 
 namespace {
 
-constexpr uint32_t kMostBlankLines = 6, kAnyLines = ~0u;
+constexpr uint32_t kMaxBlankLines = 6, kAnyLines = ~0u;
 constexpr uint32_t kDeepestIndent = 40;
 constexpr uint32_t kDeepestBraces = 200;  // clang++ takes 256
 
@@ -27,8 +27,8 @@ struct Position {
 Position positionOf(const ir::Module& module, const ir::Body& body, Loc loc) {
   if (body.origin.path) return {{}, body.origin.line};
   if (!loc) return {};
-  const Place place = module.sources.place(loc);
-  return {place.file, place.line};
+  const SourceLocation location = module.sources.location(loc);
+  return {location.file, location.line};
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ void BodyWriter::begin(Loc loc) {
     out_ += ' ';
     return;
   }
-  if (same_file && at.line > line_ && at.line - line_ <= kMostBlankLines + closes_) {
+  if (same_file && at.line > line_ && at.line - line_ <= kMaxBlankLines + closes_) {
     flushCloses(at.line - line_ - 1);
     out_.append(at.line - line_, '\n');
   } else {
@@ -75,7 +75,7 @@ void BodyWriter::begin(Loc loc) {
     appendUnsigned(out_, at.line);
     if (!same_file) {
       out_ += ' ';
-      appendQuoted(out_, body_->origin.path ? text(body_->origin.path) : module_.sources.path(at.file));
+      appendQuoted(out_, body_->origin.path ? string(body_->origin.path) : module_.sources.path(at.file));
     }
     out_ += '\n';
   }
@@ -123,11 +123,11 @@ void BodyWriter::statement(StmtId id, const Stmt& stmt) {
       const Expr& field = expr(ExprId{stmt.a});
       member(ExprId{field.a});
       const types::Field& info = types_.info(types_.resolve(expr(ExprId{field.a}).type)).fields[field.b];
-      appendMangled(out_, text(info.name));
+      appendMangled(out_, string(info.name));
       out_ += " = ";
       if (stmt.b == 0) {
         out_ += "nullptr";
-      } else if (isText(info.type)) {
+      } else if (isString(info.type)) {
         place(ExprId{stmt.b});
       } else {
         // The variable may be of a type that is the same in memory.
@@ -149,11 +149,11 @@ void BodyWriter::statement(StmtId id, const Stmt& stmt) {
     case StmtKind::Return: leave(); return;
     case StmtKind::Jump:
       out_ += "goto ";
-      appendMangled(out_, text(body_->labels[stmt.a]));
+      appendMangled(out_, string(body_->labels[stmt.a]));
       out_ += ';';
       return;
     case StmtKind::Label:
-      appendMangled(out_, text(body_->labels[stmt.a]));
+      appendMangled(out_, string(body_->labels[stmt.a]));
       out_ += ":;";
       return;
     case StmtKind::Try: tryStatement(stmt); return;
@@ -229,7 +229,7 @@ void BodyWriter::ifStatement(const Stmt& stmt) {
     uint32_t room = kAnyLines;
     if (next.line != 0 && line_ != 0 && next.file == line_file_) {
       room = next.line > line_ ? next.line - line_ - 1 : 0;
-      if (room > kMostBlankLines) room = kAnyLines;
+      if (room > kMaxBlankLines) room = kAnyLines;
     }
     flushCloses(room);
     out_ += " else";
@@ -357,7 +357,7 @@ void BodyWriter::callStatement(const Stmt& stmt) {
     call(callee_id);
   }
 
-  if (is_sized && stmt.e != 0 && sliceText(ExprId{stmt.e}) != nullptr) {
+  if (is_sized && stmt.e != 0 && slicedString(ExprId{stmt.e}) != nullptr) {
     sliceName(ExprId{stmt.e});
     out_ += " = ";
     sizedCall(callee, stmt.c, stmt.d, "slice");
@@ -371,7 +371,7 @@ void BodyWriter::callStatement(const Stmt& stmt) {
 
   // A text whose length lives in a local: the call gives it, or it is counted.
   const std::string length =
-      stmt.e != 0 && measuredText(ExprId{stmt.e}) != nullptr ? captured([&] { lengthName(ExprId{stmt.e}); }) : "";
+      stmt.e != 0 && measuredString(ExprId{stmt.e}) != nullptr ? captured([&] { lengthName(ExprId{stmt.e}); }) : "";
   std::string before, after;  // parameters that are no variables in memory: bits, views of the image
   const std::string arguments = captured([&] {
     uint32_t i = 0;
@@ -391,7 +391,7 @@ void BodyWriter::callStatement(const Stmt& stmt) {
           after += captured([&] { store(operand, copy); });
           after += ';';
         }
-        if (!isText(parameter.type)) out_ += '&';
+        if (!isString(parameter.type)) out_ += '&';
         out_ += copy;
         continue;
       }
@@ -420,19 +420,19 @@ void BodyWriter::callStatement(const Stmt& stmt) {
         const Expr& other = expr(ir::rootOf(*body_, operand));
         direct = !(other.kind == ExprKind::Local && other.a == root.a);
       }
-      if (isText(callee.result) && capacityOf(place_type) < capacityOf(callee.result)) direct = false;
+      if (isString(callee.result) && capacityOf(place_type) < capacityOf(callee.result)) direct = false;
     }
-    if (isText(callee.result) && isWide(place_type) != isWide(callee.result)) direct = false;
+    if (isString(callee.result) && isWide(place_type) != isWide(callee.result)) direct = false;
     uint32_t capacity = 0;
     if (direct) {
       result = captured([&] { place(ExprId{stmt.e}); });
-      if (isText(callee.result)) capacity = capacityOf(place_type);
+      if (isString(callee.result)) capacity = capacityOf(place_type);
     } else {
       result = copy = newVariable(callee.result, "v");
-      if (isText(callee.result)) capacity = capacityOf(callee.result);
+      if (isString(callee.result)) capacity = capacityOf(callee.result);
     }
-    if (!isText(callee.result)) result.insert(0, "&");
-    if (callee.native && isText(callee.result)) {
+    if (!isString(callee.result)) result.insert(0, "&");
+    if (callee.native && isString(callee.result)) {
       result += ", ";
       appendUnsigned(result, capacity);
     }
@@ -487,13 +487,13 @@ void BodyWriter::callStatement(const Stmt& stmt) {
   if (!copy.empty() && stmt.e != 0) {
     out_ += ' ';
     const TypeId to = expr(ExprId{stmt.e}).type;
-    if (isText(to)) {
+    if (isString(to)) {
       const bool wide = isWide(to), from_wide = isWide(callee.result);
       if (!length.empty()) out_ += length + " = ";
-      out_ += wide == from_wide ? (wide         ? "rung_wtext_assign("
-                                   : isUtf8(to) ? "rung_utext_assign("
-                                                : "rung_text_assign(")
-                                : (wide ? "rung_wtext_of_text(" : "rung_text_of_wtext(");
+      out_ += wide == from_wide ? (wide         ? "rung_wstring_assign("
+                                   : isUtf8(to) ? "rung_ustring_assign("
+                                                : "rung_string_assign(")
+                                : (wide ? "rung_wstring_of_string(" : "rung_string_of_wstring(");
       place(ExprId{stmt.e});
       out_ += ", ";
       appendUnsigned(out_, capacityOf(to));
@@ -506,7 +506,7 @@ void BodyWriter::callStatement(const Stmt& stmt) {
   }
   if (!length.empty()) {
     if (!callee.native && copy.empty()) {
-      out_ += ' ' + length + " = rung_text_length(";
+      out_ += ' ' + length + " = rung_string_length(";
       place(ExprId{stmt.e});
       out_ += ");";
     }
@@ -632,7 +632,7 @@ void BodyWriter::assertStatement(const Stmt& stmt) {
   for (uint32_t slot : {stmt.a, stmt.b, stmt.c}) {
     if (slot != 0) prepare(ExprId{slot});
   }
-  const ir::AssertionTexts texts = ir::assertionTexts(module_, *body_, stmt);
+  const ir::AssertionReport report = ir::assertionReport(module_, *body_, stmt);
   const auto quotedOrNull = [&](std::string_view string) {
     if (string.empty()) {
       out_ += "nullptr";
@@ -641,12 +641,12 @@ void BodyWriter::assertStatement(const Stmt& stmt) {
     }
   };
   out_ += "{ static const rung_assertion assertion = {";
-  appendQuoted(out_, texts.place.path);
+  appendQuoted(out_, report.position.path);
   out_ += ", ";
-  appendUnsigned(out_, texts.place.line);
+  appendUnsigned(out_, report.position.line);
   out_ += ", ";
-  appendUnsigned(out_, texts.place.column);
-  for (const std::string_view string : {texts.source, texts.text, texts.shown, std::string_view(texts.items)}) {
+  appendUnsigned(out_, report.position.column);
+  for (const std::string_view string : {report.source, report.message, report.shown, std::string_view(report.items)}) {
     out_ += ", ";
     quotedOrNull(string);
   }
@@ -661,9 +661,9 @@ void BodyWriter::assertStatement(const Stmt& stmt) {
   };
   const auto bits = [&](ExprId id) {
     out_ += ", ";
-    if (!isText(expr(id).type)) return scalarBits(id);
+    if (!isString(expr(id).type)) return scalarBits(id);
     out_ += "(uint64_t)(uintptr_t)";
-    textValue(id);
+    stringValue(id);
   };
   const ExprId first{stmt.a}, second{stmt.b}, third{stmt.c};
   switch (static_cast<ir::Assertion>(stmt.op)) {
@@ -686,7 +686,7 @@ void BodyWriter::assertStatement(const Stmt& stmt) {
       break;
     case ir::Assertion::AssertEq: {
       const TypeId type = expr(second).type;
-      if (isAggregate(type) && !isText(type)) {
+      if (isAggregate(type) && !isString(type)) {
         out_ += "rung_assert(ctx, &assertion, memcmp(&";
         place(first);
         out_ += ", &";

@@ -17,20 +17,35 @@ using types::TypeTable;
 
 namespace {
 
-enum Shape { kI8, kI16, kI32, kI64, kU8, kU16, kU32, kU64, kF32, kF64, kPointer, kText, kWideText, kOther };
+enum Representation {
+  kI8,
+  kI16,
+  kI32,
+  kI64,
+  kU8,
+  kU16,
+  kU32,
+  kU64,
+  kF32,
+  kF64,
+  kPointer,
+  kString,
+  kWideString,
+  kOther
+};
 constexpr const char* kPlainNames[] = {"int8_t",   "int16_t", "int32_t", "int64_t", "uint8_t", "uint16_t", "uint32_t",
                                        "uint64_t", "float",   "double",  "void*",   "char",    "char16_t", "void"};
 constexpr const char* kAliasNames[] = {"rung_i8_at",      "rung_i16_at", "rung_i32_at", "rung_i64_at", "rung_u8_at",
                                        "rung_u16_at",     "rung_u32_at", "rung_u64_at", "rung_f32_at", "rung_f64_at",
                                        "rung_pointer_at", "char",        "char16_t",    "void"};
 
-Shape shapeOf(const TypeTable& types, TypeId type) {
+Representation representationOf(const TypeTable& types, TypeId type) {
   const TypeKind kind = types.plainKind(type);
   if (kind == TypeKind::Real) return kF32;
   if (kind == TypeKind::LReal) return kF64;
   if (kind == TypeKind::Pointer || kind == TypeKind::Reference) return kPointer;
-  if (kind == TypeKind::String || kind == TypeKind::UString) return kText;
-  if (kind == TypeKind::WString) return kWideText;
+  if (kind == TypeKind::String || kind == TypeKind::UString) return kString;
+  if (kind == TypeKind::WString) return kWideString;
   const bool is_signed = types.isSigned(kind);
   switch (TypeTable::bitWidth(kind)) {
     case 1:
@@ -55,7 +70,7 @@ void appendDimensions(std::string& out, const TypeTable& types, TypeId type) {
       type = info.base;
       continue;
     }
-    if (TypeTable::isText(info.kind)) {
+    if (TypeTable::isString(info.kind)) {
       out += '[';
       appendUnsigned(out, uint64_t{info.length} + 1);
       out += ']';
@@ -101,8 +116,8 @@ void appendReal(std::string& out, Float value, const char* suffix) {
 
 }  // namespace
 
-const char* scalarType(const TypeTable& types, TypeId type) { return kPlainNames[shapeOf(types, type)]; }
-const char* scalarAliasType(const TypeTable& types, TypeId type) { return kAliasNames[shapeOf(types, type)]; }
+const char* scalarType(const TypeTable& types, TypeId type) { return kPlainNames[representationOf(types, type)]; }
+const char* scalarAliasType(const TypeTable& types, TypeId type) { return kAliasNames[representationOf(types, type)]; }
 
 const char* typeKindName(const TypeTable& types, TypeId type) {
   switch (types.plainKind(type)) {
@@ -178,13 +193,13 @@ TypeId elementOf(const TypeTable& types, TypeId type) {
 std::string recordName(const TypeTable& types, TypeId type) {
   const TypeInfo& info = types.info(types.resolve(type));
   std::string name;
-  appendMangled(name, types.names().text(info.name));
+  appendMangled(name, types.names().string(info.name));
   return name += info.record_kind == RecordKind::GlobalList ? "list" : "type";
 }
 
 std::string recordFile(const TypeTable& types, TypeId type) {
   const TypeInfo& info = types.info(types.resolve(type));
-  std::string name = fileStem(types.names().text(info.name));
+  std::string name = fileStem(types.names().string(info.name));
   return name += info.record_kind == RecordKind::GlobalList ? "list.h" : ".h";
 }
 
@@ -196,13 +211,13 @@ void appendRecordType(std::string& out, const TypeTable& types, TypeId type) {
 
 std::string className(const TypeTable& types, TypeId record) {
   std::string name;
-  appendMangled(name, types.names().text(types.info(types.resolve(record)).name));
+  appendMangled(name, types.names().string(types.info(types.resolve(record)).name));
   return name += "class";
 }
 
 std::string methodName(const ir::Module& module, ir::BodyId method, const char* what) {
   std::string name;
-  appendMangled(name, module.names.text(module.body(method).name));
+  appendMangled(name, module.names.string(module.body(method).name));
   return name += what;
 }
 
@@ -210,15 +225,15 @@ void appendFunctionName(std::string& out, const ir::Module& module, const ir::Bo
   const TypeTable& types = module.types;
   switch (body.kind) {
     case ir::BodyKind::Function:
-      appendMangled(out, module.names.text(body.name));
+      appendMangled(out, module.names.string(body.name));
       out += "fn";
       return;
     case ir::BodyKind::Block:
-      appendMangled(out, module.names.text(body.name));
+      appendMangled(out, module.names.string(body.name));
       out += "body";
       return;
     case ir::BodyKind::Init:
-      appendMangled(out, module.names.text(body.name));
+      appendMangled(out, module.names.string(body.name));
       // A list may have the name of a POU.
       if (types.info(types.resolve(body.self)).record_kind == RecordKind::GlobalList) out += "list_";
       out += "init";
@@ -248,14 +263,14 @@ void appendPointer(std::string& out, const TypeTable& types, TypeId type, std::s
 }
 
 void appendConstant(std::string& out, const TypeTable& types, TypeId type, uint64_t bits) {
-  const Shape shape = shapeOf(types, type);
+  const Representation representation = representationOf(types, type);
   if (types.plainKind(type) == TypeKind::Bool) {
     out += bits != 0 ? "true" : "false";
     return;
   }
   double real;
   std::memcpy(&real, &bits, sizeof real);
-  switch (shape) {
+  switch (representation) {
     case kF32: appendReal(out, static_cast<float>(real), "f"); return;
     case kF64: appendReal(out, real, ""); return;
     case kPointer:
@@ -294,8 +309,8 @@ void appendConstant(std::string& out, const TypeTable& types, TypeId type, uint6
       appendUnsigned(out, bits);
       out += "ULL";
       return;
-    case kText:
-    case kWideText:
+    case kString:
+    case kWideString:
     case kOther: out += '0'; return;
   }
 }
@@ -309,14 +324,14 @@ void appendRecordDefinition(std::string& out, const TypeTable& types, TypeId typ
   std::string field_name;
   for (const Field& field : info.fields) {
     field_name.clear();
-    appendMangled(field_name, types.names().text(field.name));
+    appendMangled(field_name, types.names().string(field.name));
     out += "  ";
-    const bool is_placed = info.record_kind == RecordKind::Union && field.place != 0;
-    if (is_placed) {  // STRUCT OVERLAP: behind a gap
+    const bool has_given_offset = info.record_kind == RecordKind::Union && field.given_offset != 0;
+    if (has_given_offset) {  // STRUCT OVERLAP: behind a gap
       out += "struct { uint8_t gap";
       appendUnsigned(out, static_cast<uint64_t>(&field - info.fields.data()));
       out += '[';
-      appendUnsigned(out, field.place);
+      appendUnsigned(out, field.given_offset);
       out += "]; ";
     }
     if (field.by_reference) {
@@ -325,7 +340,7 @@ void appendRecordDefinition(std::string& out, const TypeTable& types, TypeId typ
       if (isEightBytes(types, field.type)) out += "alignas(8) ";
       appendDeclaration(out, types, field.type, field_name);
     }
-    out += is_placed ? "; };\n" : ";\n";
+    out += has_given_offset ? "; };\n" : ";\n";
   }
   out += "};\n";
 }
@@ -344,7 +359,7 @@ void appendLayoutAssert(std::string& out, const TypeTable& types, TypeId type) {
     out += " && offsetof(";
     out += name;
     out += ", ";
-    appendMangled(out, types.names().text(info.fields[i].name));
+    appendMangled(out, types.names().string(info.fields[i].name));
     out += ") == ";
     appendUnsigned(out, info.fields[i].offset);
   }

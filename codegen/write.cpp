@@ -78,8 +78,8 @@ bool readWhole(const std::string& path, std::string& content) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return false;
   struct stat info;
-  bool good = fstat(file, &info) == 0 && S_ISREG(info.st_mode);
-  if (good) {
+  bool ok = fstat(file, &info) == 0 && S_ISREG(info.st_mode);
+  if (ok) {
     content.resize(static_cast<size_t>(info.st_size));
     size_t at = 0;
     while (at < content.size()) {
@@ -87,10 +87,10 @@ bool readWhole(const std::string& path, std::string& content) {
       if (got <= 0) break;
       at += static_cast<size_t>(got);
     }
-    good = at == content.size();
+    ok = at == content.size();
   }
   close(file);
-  return good;
+  return ok;
 }
 
 // True when the file has exactly this content; its size decides most cases without reading.
@@ -114,10 +114,10 @@ bool writeWhole(const std::string& path, const std::string& content) {
     at += static_cast<size_t>(put);
   }
   const int failure = errno;
-  const bool good = at == content.size();
+  const bool ok = at == content.size();
   if (close(file) != 0) return false;
-  if (!good) errno = failure;
-  return good;
+  if (!ok) errno = failure;
+  return ok;
 }
 
 // A name of the manifest that is a plain relative path below the folder; whatever else stands there is left alone.
@@ -158,15 +158,15 @@ std::string manifestOf(const std::vector<OutputFile>& files, std::vector<std::st
 // Fills a folder that is not there yet: no file needs a temporary name or a look at what stands in its place.
 WriteResult writeNewFolder(const std::string& folder, const std::vector<OutputFile>& files) {
   WriteResult result;
-  const std::string made = folder + unfinishedSuffix();
-  if (!makeFolder(made)) {
+  const std::string created = folder + unfinishedSuffix();
+  if (!makeFolder(created)) {
     result.error = systemError(folder);
     return result;
   }
   auto giveUp = [&](const std::string& path) {
     result.error = systemError(path);
-    for (const std::string& name : result.written) unlink((made + "/" + name).c_str());
-    rmdir(made.c_str());  // stays when it has folders of its own, which are empty
+    for (const std::string& name : result.written) unlink((created + "/" + name).c_str());
+    rmdir(created.c_str());  // stays when it has folders of its own, which are empty
     result.written.clear();
     return result;
   };
@@ -174,15 +174,15 @@ WriteResult writeNewFolder(const std::string& folder, const std::vector<OutputFi
   const std::string manifest = manifestOf(files, names);
   auto put = [&](const std::string& name, const std::string& content) {
     const size_t slash = name.find_last_of('/');
-    if (slash != std::string::npos && !makeFolder(made + "/" + name.substr(0, slash))) return false;
+    if (slash != std::string::npos && !makeFolder(created + "/" + name.substr(0, slash))) return false;
     result.written.push_back(name);
-    return writeWhole(made + "/" + name, content);
+    return writeWhole(created + "/" + name, content);
   };
   for (const OutputFile& file : files) {
     if (!put(file.path, file.content)) return giveUp(folder + "/" + file.path);
   }
   if (!put(kManifest, manifest)) return giveUp(folder + "/" + kManifest);
-  if (rename(made.c_str(), folder.c_str()) != 0) return giveUp(folder);
+  if (rename(created.c_str(), folder.c_str()) != 0) return giveUp(folder);
   return result;
 }
 

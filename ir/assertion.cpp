@@ -5,24 +5,24 @@ namespace rung::ir {
 
 rung_type_kind assertedKind(const types::TypeTable& types, TypeId type) {
   const types::TypeKind kind = types.kind(type);
-  if (types::TypeTable::isText(kind)) return hostKind(types, types::idOf(kind));
+  if (types::TypeTable::isString(kind)) return hostKind(types, types::idOf(kind));
   return types.info(types.resolve(type)).kind == types::TypeKind::Enum ? RUNG_ENUM : hostKind(types, type);
 }
 
-AssertionTexts assertionTexts(const Module& module, const Body& body, const Stmt& stmt) {
-  AssertionTexts out;
-  out.place = sourcePlace(module, body, stmt.loc);
+AssertionReport assertionReport(const Module& module, const Body& body, const Stmt& stmt) {
+  AssertionReport out;
+  out.position = filePosition(module, body, stmt.loc);
   if (!body.origin.path && stmt.loc) {
-    const Place written = module.sources.place(stmt.loc);
-    out.source = module.sources.line(written.file, written.line);
+    const SourceLocation location = module.sources.location(stmt.loc);
+    out.source = module.sources.line(location.file, location.line);
   }
-  if (stmt.d != 0) out.text = module.names.text(NameId{stmt.d});
-  if (stmt.e != 0) out.shown = module.names.text(NameId{stmt.e});
+  if (stmt.d != 0) out.message = module.names.string(NameId{stmt.d});
+  if (stmt.e != 0) out.shown = module.names.string(NameId{stmt.e});
   if (stmt.b == 0) return out;
   const types::TypeInfo& type = module.types.info(module.types.resolve(body.expr(ExprId{stmt.b}).type));
   if (type.kind != types::TypeKind::Enum) return out;
   for (const auto& [name, value] : type.items) {
-    out.items += module.names.text(name);
+    out.items += module.names.string(name);
     out.items += '\0';
     out.items += std::to_string(value);
     out.items += '\0';

@@ -10,12 +10,12 @@
 
 namespace rung::ir {
 
-struct AssertionTexts {
-  SourcePlace place;
-  std::string_view source, text, shown;
+struct AssertionReport {
+  FilePosition position;
+  std::string_view source, message, shown;
   std::string items;  // NULs inside; the last is the string's own
 };
-AssertionTexts assertionTexts(const Module& module, const Body& body, const Stmt& stmt);
+AssertionReport assertionReport(const Module& module, const Body& body, const Stmt& stmt);
 
 // The kind of a scalar or text that an assertion compares: hostKind, but RUNG_ENUM, RUNG_STRING and RUNG_WSTRING.
 rung_type_kind assertedKind(const types::TypeTable& types, TypeId type);

@@ -34,7 +34,7 @@ class Builder {
   ExprId boolean(bool value) { return constant(types::kBool, value); }
   ExprId integer(TypeId type, int64_t value) { return constant(type, static_cast<uint64_t>(value)); }
   ExprId real(TypeId type, double value) { return constant(types::Value::ofReal(type, value)); }
-  ExprId text(TypeId type, NameId characters);
+  ExprId string(TypeId type, NameId characters);
   ExprId data(uint32_t index);  // of Module::data
   ExprId zero(TypeId type);
 
@@ -88,7 +88,7 @@ class Builder {
   StmtId placeLabel(uint32_t label);
   StmtId tryCatch(StmtId body_block, StmtId catch_block, StmtId finally_block, ExprId number = {});
   StmtId fault(types::Fault fault, ExprId value = {});
-  StmtId assertion(Assertion what, ExprId a, ExprId b, ExprId c, NameId text, NameId shown = {});
+  StmtId assertion(Assertion kind, ExprId a, ExprId b, ExprId c, NameId text, NameId shown = {});
   StmtId evaluate(ExprId expr) { return append(StmtKind::Evaluate, expr.index); }
   StmtId append(StmtKind kind, uint32_t a = 0, uint32_t b = 0, uint32_t c = 0, uint32_t d = 0, uint32_t e = 0);
   // A case of a switch: its ranges go to the body's pool. Collect the result and give all to switchStmt.

@@ -28,21 +28,21 @@ class Describer {
   }
 
  private:
-  uint32_t text(std::string_view string) { return out_.text.add(string); }
-  uint32_t text(NameId name) { return text(module_.names.text(name)); }
+  uint32_t string(std::string_view string) { return out_.strings.add(string); }
+  uint32_t string(NameId name) { return string(module_.names.string(name)); }
 
   void addBodiesAndFiles() {
     std::vector<std::string_view> names, files;
     for (size_t i = 1; i < module_.bodies.size(); ++i) {
       const Body& body = module_.bodies[i];
       if (body.native) continue;
-      names.push_back(module_.names.text(body.spelling ? body.spelling : body.name));
-      files.push_back(body.origin.path ? module_.names.text(body.origin.path) : module_.sources.path(body.file));
+      names.push_back(module_.names.string(body.spelling ? body.spelling : body.name));
+      files.push_back(body.origin.path ? module_.names.string(body.origin.path) : module_.sources.path(body.file));
     }
     std::sort(names.begin(), names.end());
     std::sort(files.begin(), files.end());
-    for (std::string_view name : names) text(name);
-    for (std::string_view file : files) text(file);
+    for (std::string_view name : names) string(name);
+    for (std::string_view file : files) string(file);
   }
 
   // ---- types
@@ -68,7 +68,7 @@ class Describer {
       row.element = type(info->base);
       row.first = static_cast<uint32_t>(out_.enum_items.size());
       row.count = static_cast<uint32_t>(info->items.size());
-      for (const auto& [name, value] : info->items) out_.enum_items.push_back({text(name), value});
+      for (const auto& [name, value] : info->items) out_.enum_items.push_back({string(name), value});
     } else if (info->kind == TypeKind::Array) {
       row.element = type(info->base);
       row.first = static_cast<uint32_t>(out_.dimensions.size());
@@ -82,19 +82,19 @@ class Describer {
       for (uint32_t i = 0; i < info->fields.size(); ++i) row.count -= holdsBits(*info, i) ? 1 : 0;
       out_.fields.resize(row.first + row.count);
       uint32_t next = row.first;
-      const auto add = [&](rung_field made) { out_.fields[next++] = made; };  // type() may have added fields
+      const auto add = [&](rung_field created) { out_.fields[next++] = created; };  // type() may have added fields
       for (uint32_t i = 0; i < info->fields.size(); ++i) {
         const Field& field = info->fields[i];
-        if (!holdsBits(*info, i)) add({text(field.name), type(field.type), field.offset, flags(field)});
+        if (!holdsBits(*info, i)) add({string(field.name), type(field.type), field.offset, flags(field)});
         for (const types::BitMember& bit : info->bits)  // instead of the byte that holds them
           if (bit.field == i)
-            add({text(bit.name), type(types::kBool), field.offset,
+            add({string(bit.name), type(types::kBool), field.offset,
                  flags(field) | (bit.bit + 1u) << RUNG_FIELD_BIT_SHIFT});
       }
     }
     const TypeKind plain = types_.plainKind(id);
     row.is_signed = TypeTable::isScalar(plain) && types_.isSigned(plain) ? 1 : 0;
-    row.name = text(types_.spell(id));
+    row.name = string(types_.toString(id));
     row.size = static_cast<uint32_t>(info->size);
     row.length = info->length;
     out_.types[index] = row;
@@ -163,7 +163,7 @@ class Describer {
   void addBlock(uint32_t index) {
     const MemoryBlocks::Block& block = blocks_.blocks[index];
     const TypeInfo& info = types_.info(types_.resolve(block.record));
-    out_.blocks.push_back({text(block.name), static_cast<uint32_t>(info.size), info.align});
+    out_.blocks.push_back({string(block.name), static_cast<uint32_t>(info.size), info.align});
     type(block.record);
     collectKept(block.record, index, 0);
   }
@@ -174,7 +174,7 @@ class Describer {
     std::string path;
     for (NameId part : {program.configuration, program.resource}) {
       if (!part) continue;
-      path += module_.names.text(part);
+      path += module_.names.string(part);
       path += '.';
     }
     return path;
@@ -183,14 +183,14 @@ class Describer {
   void addSymbols() {
     std::vector<std::pair<std::string, rung_symbol>> rows;  // name in lower case
     const auto add = [&](std::string_view name, rung_symbol row, std::string_view path) {
-      row.name = text(name);
-      row.path = text(path);
+      row.name = string(name);
+      row.path = string(path);
       rows.push_back({foldedIdentifier(name), row});
     };
     const auto inBlock = [&](TypeId type_id, uint32_t block, uint64_t offset) {
       rung_symbol row{};
       row.type = type(type_id);
-      row.place = RUNG_IN_BLOCK;
+      row.storage = RUNG_IN_BLOCK;
       row.bit = 255;
       row.block = block;
       row.offset = static_cast<uint32_t>(offset);
@@ -200,42 +200,42 @@ class Describer {
       const ProgramInstance& program = module_.programs[i];
       rung_symbol row = inBlock(program.record, blocks_.program_block[i], 0);
       row.is_program = 1;
-      add(module_.names.text(program.name), row, programPath(program));
+      add(module_.names.string(program.name), row, programPath(program));
     }
     for (uint32_t i = 0; i < module_.lists.size(); ++i) {
       const TypeInfo& record = types_.info(types_.resolve(module_.lists[i].record));
-      const std::string path = std::string(module_.names.text(module_.lists[i].name)) + ".";
+      const std::string path = std::string(module_.names.string(module_.lists[i].name)) + ".";
       for (const Field& field : record.fields) {
         rung_symbol row = inBlock(field.type, blocks_.list_block[i], field.offset);
         row.flags = flags(field);
-        add(module_.names.text(field.name), row, path);
+        add(module_.names.string(field.name), row, path);
       }
     }
     for (const Located& located : module_.located) {
       std::string name, path;
       if (located.owner_program != 0) {
         const ProgramInstance& owner = module_.programs[located.owner_program - 1];
-        name = module_.names.text(owner.name);
+        name = module_.names.string(owner.name);
         name += '.';
         path = programPath(owner);
       }
-      name += module_.names.text(located.name);
+      name += module_.names.string(located.name);
       rung_symbol row = inBlock(located.type, 0, located.byte);
-      row.place = static_cast<uint8_t>(RUNG_IN_INPUTS + located.area);
+      row.storage = static_cast<uint8_t>(RUNG_IN_INPUTS + located.area);
       if (located.bit != kNoBit) row.bit = static_cast<uint8_t>(located.bit);
       add(name, row, path);
     }
     for (const AccessPath& access : module_.access_paths) {
       std::string name, path;
-      if (access.configuration) path.append(module_.names.text(access.configuration)).append(".");
-      if (access.prefix) name.append(module_.names.text(access.prefix)).append(".");
-      name += module_.names.text(access.name);
+      if (access.configuration) path.append(module_.names.string(access.configuration)).append(".");
+      if (access.prefix) name.append(module_.names.string(access.prefix)).append(".");
+      name += module_.names.string(access.name);
       const bool in_image = access.root == AccessPath::Root::Image;
       const uint32_t block = in_image                                   ? 0
                              : access.root == AccessPath::Root::Program ? blocks_.program_block[access.index]
                                                                         : blocks_.list_block[access.index];
       rung_symbol row = inBlock(access.type, block, access.offset);
-      if (in_image) row.place = static_cast<uint8_t>(RUNG_IN_INPUTS + access.index);
+      if (in_image) row.storage = static_cast<uint8_t>(RUNG_IN_INPUTS + access.index);
       if (access.bit != kNoBit) row.bit = static_cast<uint8_t>(access.bit);
       if (access.read_only) row.flags = RUNG_FIELD_READ_ONLY;
       add(name, row, path);
@@ -250,14 +250,14 @@ class Describer {
   void addTasks() {
     for (const Task& task : module_.tasks) {
       rung_task row{};
-      row.name = text(task.name);
+      row.name = string(task.name);
       row.kind = static_cast<uint8_t>(task.kind);  // in the order of rung_task_kind
       row.priority = task.priority;
       row.interval_ns = task.interval_ns;
       row.watchdog_ns = task.watchdog_ns;
       row.sensitivity = task.sensitivity;
-      row.trigger = text(task.trigger);
-      row.external_event = text(task.external_event);
+      row.trigger = string(task.trigger);
+      row.external_event = string(task.external_event);
       out_.tasks.push_back(row);
     }
   }
@@ -271,7 +271,7 @@ class Describer {
         if (!(module_.programs[p].body == id)) continue;
         test.program = p;
         for (const Field& field : types_.info(types_.resolve(module_.programs[p].record)).fields) {
-          if (!sameIdentifier(module_.names.text(field.name), "done") ||
+          if (!sameIdentifier(module_.names.string(field.name), "done") ||
               types_.plainKind(field.type) != TypeKind::Bool) {
             continue;
           }
@@ -280,10 +280,10 @@ class Describer {
         }
         break;
       }
-      const SourcePlace place = sourcePlace(module_, body, body.loc);
-      test.row.name = text(body.spelling ? body.spelling : body.name);
-      test.row.file = text(place.path);
-      test.row.line = place.line;
+      const FilePosition position = filePosition(module_, body, body.loc);
+      test.row.name = string(body.spelling ? body.spelling : body.name);
+      test.row.file = string(position.path);
+      test.row.line = position.line;
       out_.tests.push_back(test);
     }
   }
@@ -297,7 +297,7 @@ class Describer {
     const auto numbers = [&](std::initializer_list<int64_t> values) {
       for (const int64_t value : values) add(std::to_string(value) + ",");
     };
-    const auto name = [&](uint32_t offset) { add(out_.text.bytes().c_str() + offset); };
+    const auto name = [&](uint32_t offset) { add(out_.strings.bytes().c_str() + offset); };
     for (const rung_block& row : out_.blocks) {
       name(row.name);
       numbers({row.size, row.align});
@@ -332,9 +332,9 @@ MemoryBlocks::MemoryBlocks(const Module& module) {
   };
   std::vector<Row> rows;
   for (uint32_t i = 0; i < module.lists.size(); ++i)
-    rows.push_back({foldedIdentifier(module.names.text(module.lists[i].name)), false, i});
+    rows.push_back({foldedIdentifier(module.names.string(module.lists[i].name)), false, i});
   for (uint32_t i = 0; i < module.programs.size(); ++i)
-    rows.push_back({foldedIdentifier(module.names.text(module.programs[i].name)), true, i});
+    rows.push_back({foldedIdentifier(module.names.string(module.programs[i].name)), true, i});
   std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
     return a.key != b.key ? a.key < b.key : a.is_program < b.is_program;
   });
@@ -350,9 +350,9 @@ MemoryBlocks::MemoryBlocks(const Module& module) {
   }
 }
 
-TextPool::TextPool() { add(""); }
+StringPool::StringPool() { add(""); }
 
-uint32_t TextPool::add(std::string_view text) {
+uint32_t StringPool::add(std::string_view text) {
   const auto [at, is_new] = known_.try_emplace(std::string(text), static_cast<uint32_t>(bytes_.size()));
   if (is_new) {
     bytes_ += text;
@@ -377,11 +377,11 @@ rung_type_kind hostKind(const TypeTable& types, TypeId type) {
   return static_cast<rung_type_kind>(static_cast<int>(kind) - static_cast<int>(TypeKind::Bool));
 }
 
-SourcePlace sourcePlace(const Module& module, const Body& body, Loc loc) {
-  if (body.origin.path) return {module.names.text(body.origin.path), body.origin.line, 0};
+FilePosition filePosition(const Module& module, const Body& body, Loc loc) {
+  if (body.origin.path) return {module.names.string(body.origin.path), body.origin.line, 0};
   if (!loc) loc = body.loc;
-  const Place place = module.sources.place(loc);
-  return {module.sources.path(place.file), place.line, place.column};
+  const SourceLocation location = module.sources.location(loc);
+  return {module.sources.path(location.file), location.line, location.column};
 }
 
 }  // namespace rung::ir

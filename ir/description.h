@@ -28,9 +28,9 @@ struct MemoryBlocks {
 };
 
 // NUL-terminated texts by offset; the empty text is at 0.
-class TextPool {
+class StringPool {
  public:
-  TextPool();
+  StringPool();
   uint32_t add(std::string_view text);
   const std::string& bytes() const { return bytes_; }
 
@@ -42,7 +42,7 @@ class TextPool {
 struct Description {
   Description(const Module& module, const MemoryBlocks& blocks, bool with_tests);
 
-  TextPool text;  // names of bodies and files stand first: what refers to them does not move with the rest
+  StringPool strings;  // names of bodies and files stand first: what refers to them does not move with the rest
   std::vector<rung_block> blocks;
   std::vector<rung_type> types;
   std::vector<rung_field> fields;
@@ -64,10 +64,10 @@ struct Description {
 rung_type_kind hostKind(const types::TypeTable& types, TypeId type);
 
 // Where a body, a check or a test stands.
-struct SourcePlace {
+struct FilePosition {
   std::string_view path;
   uint32_t line = 0, column = 0;
 };
-SourcePlace sourcePlace(const Module& module, const Body& body, Loc loc);
+FilePosition filePosition(const Module& module, const Body& body, Loc loc);
 
 }  // namespace rung::ir

@@ -13,7 +13,7 @@ using types::TypeTable;
 
 bool isAggregate(const TypeTable& types, TypeId type) {
   TypeKind kind = types.kind(type);
-  return kind == TypeKind::Array || kind == TypeKind::Record || TypeTable::isText(kind);
+  return kind == TypeKind::Array || kind == TypeKind::Record || TypeTable::isString(kind);
 }
 
 bool isPassedByReference(const TypeTable& types, LocalKind kind, TypeId type) {
@@ -79,12 +79,12 @@ ExprId Builder::constant(TypeId type, uint64_t bits) {
 }
 
 ExprId Builder::constant(const types::Value& value) {
-  if (TypeTable::isText(module.types.kind(value.type)))
-    return text(value.type, NameId{static_cast<uint32_t>(value.bits)});
+  if (TypeTable::isString(module.types.kind(value.type)))
+    return string(value.type, NameId{static_cast<uint32_t>(value.bits)});
   return constant(value.type, value.bits);
 }
 
-ExprId Builder::text(TypeId type, NameId characters) { return add(ExprKind::Text, strip(type), characters.index); }
+ExprId Builder::string(TypeId type, NameId characters) { return add(ExprKind::String, strip(type), characters.index); }
 
 ExprId Builder::data(uint32_t index) { return add(ExprKind::Data, strip(module.data[index].type), index); }
 
@@ -247,15 +247,15 @@ StmtId Builder::fault(types::Fault fault, ExprId value) {
   return id;
 }
 
-StmtId Builder::assertion(Assertion what, ExprId a, ExprId b, ExprId c, NameId text, NameId shown) {
+StmtId Builder::assertion(Assertion kind, ExprId a, ExprId b, ExprId c, NameId text, NameId shown) {
   StmtId id = append(StmtKind::Assert, a.index, b.index, c.index, text.index, shown.index);
-  body.stmt(id).op = static_cast<uint8_t>(what);
+  body.stmt(id).op = static_cast<uint8_t>(kind);
   return id;
 }
 
 std::string nativeName(const Module& module, const Body& body) {
-  const std::string_view library = module.names.text(body.library_name);
-  std::string_view name = module.names.text(body.name);
+  const std::string_view library = module.names.string(body.library_name);
+  std::string_view name = module.names.string(body.name);
   std::string out = "rung_";
   for (char c : library) out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   out += '_';

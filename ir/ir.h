@@ -43,10 +43,10 @@ struct BodyId {
 
 enum class ExprKind : uint8_t {
   None,
-  Const,  // scalar; bits as types::Value. c: none, or TypeId of a class whose number it is (Module::classes)
-  Text,   // a: NameId of the text; type STRING[n] or WSTRING[n]
-  Data,   // a: index into Module::data: the constant bytes of an array or record
-  Zero,   // all bytes zero of an array, record or text
+  Const,   // scalar; bits as types::Value. c: none, or TypeId of a class whose number it is (Module::classes)
+  String,  // a: NameId of the text; type STRING[n] or WSTRING[n]
+  Data,    // a: index into Module::data: the constant bytes of an array or record
+  Zero,    // all bytes zero of an array, record or text
   // places
   Local,    // a: index into Body::locals (a by-reference local is the variable behind it)
   Self,     // the instance of a block body; type is the record
@@ -160,7 +160,7 @@ enum class BodyKind : uint8_t {
 
 // Where a body or record read from IR text comes from: its `loc` points into the text, its header names the source.
 struct Origin {
-  bool from_text = false;
+  bool from_string = false;
   NameId path;
   uint32_t line = 0;
 };
@@ -303,8 +303,8 @@ struct CppBody {
     uint64_t bits;  // of a text its NameId
   };
   BodyId body;
-  std::string_view text;  // between {C++} and {END_C++}; the sources hold it
-  Loc loc;                // where it begins
+  std::string_view source;  // between {C++} and {END_C++}; the sources hold it
+  Loc loc;                  // where it begins
   std::vector<Global> globals;
   std::vector<Constant> constants, initial;
   std::vector<BodyId> functions;  // those it may call

@@ -22,7 +22,7 @@ void Reader::code() {
     if (body.locals[i].kind == LocalKind::Result)
       result_ = i;
     else if (!local_by_name_.emplace(body.locals[i].name.index, i).second)
-      fail(diag::IrRepeatedName, body.locals[i].loc, {module_.names.text(body.locals[i].name)});
+      fail(diag::IrRepeatedName, body.locals[i].loc, {module_.names.string(body.locals[i].name)});
   }
   const StmtId first = block();
   body.first = first;
@@ -50,7 +50,7 @@ void Reader::stmt() {
     if (failed_) return;
     const uint32_t index = b.local(id, local_type, is_temp ? LocalKind::Temp : LocalKind::Variable);
     if (!(is_temp ? temp_by_name_ : local_by_name_).emplace(id.index, index).second)
-      fail(diag::IrRepeatedName, loc, {module_.names.text(id)});
+      fail(diag::IrRepeatedName, loc, {module_.names.string(id)});
   } else if (accept("bind")) {
     const ExprId field = expr({});
     expect("=");
@@ -136,16 +136,16 @@ void Reader::stmt() {
     }
     if (!failed_) b.fault(kind, value);
   } else if (isWord("assert") || isWord("assert_eq") || isWord("assert_near")) {
-    const auto what = isWord("assert")      ? Assertion::Assert
-                      : isWord("assert_eq") ? Assertion::AssertEq
-                                            : Assertion::AssertNear;
+    const auto assertion = isWord("assert")      ? Assertion::Assert
+                           : isWord("assert_eq") ? Assertion::AssertEq
+                                                 : Assertion::AssertNear;
     ++at_;
-    const ExprId first = expr(what == Assertion::Assert ? types::kBool : TypeId{});
+    const ExprId first = expr(assertion == Assertion::Assert ? types::kBool : TypeId{});
     ExprId second, third;
     NameId shown;
     if (failed_) return;
     const TypeId first_type = typeOf(first);
-    if (what == Assertion::Assert && accept("shows")) {
+    if (assertion == Assertion::Assert && accept("shows")) {
       second = expr({});
       if (failed_) return;
       expect(",");
@@ -153,17 +153,17 @@ void Reader::stmt() {
       expect("as");
       shown = module_.names.intern(quotedText(TokenKind::Text));
     }
-    if (what != Assertion::Assert) {
+    if (assertion != Assertion::Assert) {
       expect(",");
       second = expr(first_type);
     }
-    if (what == Assertion::AssertNear) {
+    if (assertion == Assertion::AssertNear) {
       expect(",");
       third = expr(first_type);
     }
     NameId text;
     if (accept("text")) text = module_.names.intern(quotedText(TokenKind::Text));
-    if (!failed_) b.assertion(what, first, second, third, text, shown);
+    if (!failed_) b.assertion(assertion, first, second, third, text, shown);
   } else if (accept("evaluate")) {
     const ExprId value = expr({});
     if (!failed_) b.evaluate(value);
@@ -197,8 +197,8 @@ void Reader::callStmt(ExprId result) {
   const ExprId self = accept("on") ? expr({}) : ExprId{};
   b.loc = loc;
   if (failed_) return;
-  const StmtId made = b.callStmt(callee, self, given, result);
-  if (is_virtual) b.body.stmt(made).op = is_checked ? kVirtual | kChecked : kVirtual;
+  const StmtId created = b.callStmt(callee, self, given, result);
+  if (is_virtual) b.body.stmt(created).op = is_checked ? kVirtual | kChecked : kVirtual;
 }
 
 std::vector<ExprId> Reader::operands(const Body& callee) {
@@ -252,7 +252,7 @@ uint8_t Reader::checks(ExprId id) {
   expect("(");
   do {
     bool known = false;
-    for (const CheckWord& row : checkWords()) {
+    for (const CheckKeyword& row : checkKeywords()) {
       if (!isWord(row.word)) continue;
       result |= row.check;
       known = true;
@@ -330,14 +330,14 @@ ExprId Reader::primary(TypeId wanted) {
     const NameId id = name();
     auto found = program_by_name_.find(id.index);
     if (!failed_ && found == program_by_name_.end())
-      fail(diag::IrUnknownName, loc, {module_.names.text(id), "program"});
+      fail(diag::IrUnknownName, loc, {module_.names.string(id), "program"});
     return failed_ ? ExprId{} : postfix(b.program(found->second));
   }
   if (accept("%")) {
     const Loc loc = token().loc;
     const NameId id = name();
     auto found = temp_by_name_.find(id.index);
-    if (!failed_ && found == temp_by_name_.end()) fail(diag::IrUnknownName, loc, {module_.names.text(id), "temp"});
+    if (!failed_ && found == temp_by_name_.end()) fail(diag::IrUnknownName, loc, {module_.names.string(id), "temp"});
     return failed_ ? ExprId{} : postfix(b.localPlace(found->second));
   }
   if (token().kind == TokenKind::Number || token().kind == TokenKind::Text || isPunct("-")) return literal(wanted);
@@ -419,11 +419,11 @@ ExprId Reader::primary(TypeId wanted) {
   if (types::findOp(token().text, op)) {
     ++at_;
     const bool is_unary = types::operandCount(op) == 1;
-    Expr shape;
-    shape.kind = is_unary ? ExprKind::Unary : ExprKind::Binary;
-    shape.op = op;
+    Expr probe;
+    probe.kind = is_unary ? ExprKind::Unary : ExprKind::Binary;
+    probe.op = op;
     b.body.exprs.resize(std::max<size_t>(b.body.exprs.size(), 1));
-    b.body.exprs[0] = shape;
+    b.body.exprs[0] = probe;
     const uint8_t set = checks(ExprId{0});
     b.body.exprs[0] = Expr{};
     const TypeId of = type();
@@ -452,7 +452,7 @@ ExprId Reader::variable() {
     return postfix(b.localPlace(found->second));
   const uint32_t field = b.body.self ? fieldOf(b.body.self, id) : ~0u;
   if (field == ~0u) {
-    fail(diag::IrUnknownName, loc, {module_.names.text(id), "variable"});
+    fail(diag::IrUnknownName, loc, {module_.names.string(id), "variable"});
     return {};
   }
   const ExprId place = b.field(b.self(), field);
@@ -489,12 +489,12 @@ ExprId Reader::literal(TypeId of) {
   const Loc loc = b.loc;
   auto kindOf = [&](TypeId id) { return id ? types_.plainKind(id) : TypeKind::None; };
   auto misfit = [&](std::string_view seen) {
-    fail(diag::IrLiteralType, loc, {seen, of ? types_.spell(of) : "an unknown type"});
+    fail(diag::IrLiteralType, loc, {seen, of ? types_.toString(of) : "an unknown type"});
     return ExprId{};
   };
   if (token().kind == TokenKind::Text) {
-    if (!TypeTable::isText(kindOf(of))) return misfit("a string");
-    return b.text(of, module_.names.intern(quotedText(TokenKind::Text)));
+    if (!TypeTable::isString(kindOf(of))) return misfit("a string");
+    return b.string(of, module_.names.intern(quotedText(TokenKind::Text)));
   }
   if (accept("zero")) return of ? b.zero(of) : misfit("zero");
   if (isWord("true") || isWord("false")) {
@@ -505,10 +505,10 @@ ExprId Reader::literal(TypeId of) {
   if (accept("class")) {
     const TypeId record = type();
     const ExprId number = b.constant(types::kUDInt, 0);
-    Expr& made = b.body.expr(number);
-    made.c = record.index;
+    Expr& created = b.body.expr(number);
+    created.c = record.index;
     for (size_t i = 0; i < module_.classes.size(); ++i)
-      if (module_.classes[i].record == record) made.a = static_cast<uint32_t>(i) + 1;
+      if (module_.classes[i].record == record) created.a = static_cast<uint32_t>(i) + 1;
     return number;
   }
   if (accept("null")) {
@@ -519,7 +519,7 @@ ExprId Reader::literal(TypeId of) {
     const NameId item = name();
     for (const auto& [item_name, value] : types_.info(of).items)
       if (item_name == item) return b.integer(of, value);
-    fail(diag::IrUnknownName, loc, {module_.names.text(item), "item"});
+    fail(diag::IrUnknownName, loc, {module_.names.string(item), "item"});
     return {};
   }
   const bool negative = accept("-");
@@ -575,10 +575,10 @@ ExprId Reader::postfix(ExprId base) {
     b.loc = token().loc;
     const TypeInfo& info = types_.info(types_.resolve(typeOf(base)));
     auto need = [&](bool holds, std::string_view access, std::string_view what) {
-      if (!holds) fail(diag::IrWrongBase, b.loc, {access, what, types_.spell(typeOf(base))});
+      if (!holds) fail(diag::IrWrongBase, b.loc, {access, what, types_.toString(typeOf(base))});
       return holds;
     };
-    ExprId made;
+    ExprId created;
     if (isPunct(".") && isPunct("%", 1) && token(2).kind == TokenKind::Name) {
       at_ += 2;
       const std::string_view part = token().text;
@@ -594,7 +594,7 @@ ExprId Reader::postfix(ExprId base) {
         return {};
       }
       ++at_;
-      made = b.bits(base, types::idOf(kind), position);
+      created = b.bits(base, types::idOf(kind), position);
     } else if (isPunct(".") && token(1).kind == TokenKind::Name) {
       ++at_;
       const Loc loc = token().loc;
@@ -602,10 +602,10 @@ ExprId Reader::postfix(ExprId base) {
       if (failed_ || !need(info.kind == TypeKind::Record, "`.`", "a record")) return {};
       const uint32_t field = fieldOf(types_.resolve(typeOf(base)), id);
       if (field == ~0u) {
-        fail(diag::IrUnknownName, loc, {module_.names.text(id), "field"});
+        fail(diag::IrUnknownName, loc, {module_.names.string(id), "field"});
         return {};
       }
-      made = b.field(base, field);
+      created = b.field(base, field);
     } else if (isPunct("[") && !token().first_in_line) {
       if (!need(info.kind == TypeKind::Array, "`[`", "an array")) return {};
       const Loc loc = b.loc;
@@ -616,17 +616,17 @@ ExprId Reader::postfix(ExprId base) {
       expect("]");
       if (failed_) return {};
       b.loc = loc;
-      made = b.index(base, indices);
+      created = b.index(base, indices);
     } else if (isPunct("^")) {
       if (!need(info.kind == TypeKind::Pointer || info.kind == TypeKind::Reference, "`^`", "a pointer")) return {};
       ++at_;
-      made = b.deref(base);
+      created = b.deref(base);
     } else {
       return base;
     }
-    const uint8_t set = checks(made);
-    b.body.expr(made).checks = set;
-    base = made;
+    const uint8_t set = checks(created);
+    b.body.expr(created).checks = set;
+    base = created;
   }
   return base;
 }

@@ -180,8 +180,8 @@ void Printer::stmt(const Stmt& s) {
       }
       return;
     case StmtKind::Assert: {
-      const auto what = static_cast<Assertion>(s.op);
-      if (what == Assertion::Assert) {
+      const auto assertion = static_cast<Assertion>(s.op);
+      if (assertion == Assertion::Assert) {
         put("assert ");
         expr(ExprId{s.a}, types::kBool);
         if (s.b != 0) {
@@ -190,21 +190,21 @@ void Printer::stmt(const Stmt& s) {
           put(", ");
           expr(ExprId{s.c}, typeOf(ExprId{s.b}));
           put(" as ");
-          quoted(module_.names.text(NameId{s.e}), '\'');
+          quoted(module_.names.string(NameId{s.e}), '\'');
         }
       } else {
-        put(what == Assertion::AssertEq ? "assert_eq " : "assert_near ");
+        put(assertion == Assertion::AssertEq ? "assert_eq " : "assert_near ");
         expr(ExprId{s.a}, {});
         put(", ");
         expr(ExprId{s.b}, typeOf(ExprId{s.a}));
-        if (what == Assertion::AssertNear) {
+        if (assertion == Assertion::AssertNear) {
           put(", ");
           expr(ExprId{s.c}, typeOf(ExprId{s.a}));
         }
       }
       if (s.d != 0) {
         put(" text ");
-        quoted(module_.names.text(NameId{s.d}), '\'');
+        quoted(module_.names.string(NameId{s.d}), '\'');
       }
       return;
     }
@@ -223,7 +223,7 @@ void Printer::checks(const Expr& e) {
   if (e.checks == naturalCheck(types_, e)) return;
   put("(");
   bool first = true;
-  for (const CheckWord& row : checkWords()) {
+  for (const CheckKeyword& row : checkKeywords()) {
     if ((e.checks & row.check) == 0) continue;
     if (!first) put(", ");
     first = false;
@@ -257,8 +257,8 @@ void Printer::constant(const Expr& e, TypeId expected) {
   }
   if (e.kind == ExprKind::Zero) {
     put("zero");
-  } else if (e.kind == ExprKind::Text) {
-    quoted(module_.names.text(NameId{e.a}), '\'');
+  } else if (e.kind == ExprKind::String) {
+    quoted(module_.names.string(NameId{e.a}), '\'');
   } else if (item) {
     name(item);
   } else if (kind == TypeKind::Bool && e.bits() <= 1) {
@@ -306,7 +306,7 @@ void Printer::operand(ExprId id, TypeId expected) {
       return;
     case ExprKind::None:
     case ExprKind::Const:
-    case ExprKind::Text:
+    case ExprKind::String:
     case ExprKind::Data:
     case ExprKind::Zero:
     case ExprKind::Local:
@@ -327,7 +327,7 @@ void Printer::expr(ExprId id, TypeId expected) {
   switch (e.kind) {
     case ExprKind::None: put("none"); return;
     case ExprKind::Const:
-    case ExprKind::Text:
+    case ExprKind::String:
     case ExprKind::Zero: constant(e, expected); return;
     case ExprKind::Data:
       put("data ");

@@ -43,7 +43,7 @@ NameId Reader::name() {
 std::string Reader::sigilName() {
   expect("@");
   NameId id = name();
-  std::string text(module_.names.text(id));
+  std::string text(module_.names.string(id));
   if (isPunct(".") && token(1).kind == TokenKind::Number) {
     text += "." + std::string(token(1).text);
     at_ += 2;
@@ -123,7 +123,7 @@ void Reader::declareType() {
   // `@Color.2` is a second type that the user also named Color; `@_` has no name.
   const std::string_view base_name = std::string_view(text).substr(0, text.find('.'));
   const NameId id = base_name == "_" ? NameId{} : module_.names.intern(base_name);
-  TypeId made;
+  TypeId created;
   if (word == "enum" || word == "subrange") {
     expect(":");
     const TypeId base = type();
@@ -135,16 +135,16 @@ void Reader::declareType() {
       high = integer();
       if (failed_) return;
     }
-    made = word == "enum" ? types_.addEnum(id, base) : types_.addSubrange(id, base, low, high);
+    created = word == "enum" ? types_.addEnum(id, base) : types_.addSubrange(id, base, low, high);
   } else {
-    made = types_.addRecord(kind, id);
+    created = types_.addRecord(kind, id);
   }
-  if (!type_by_name_.emplace(text, made).second) fail(diag::IrRepeatedName, loc, {text});
+  if (!type_by_name_.emplace(text, created).second) fail(diag::IrRepeatedName, loc, {text});
 }
 
 Origin Reader::origin() {
   Origin result;
-  result.from_text = true;
+  result.from_string = true;
   if (failed_ || token().kind != TokenKind::String) return result;
   result.path = module_.names.intern(quotedText(TokenKind::String));
   expect(":");
@@ -178,7 +178,7 @@ void Reader::recordFields(TypeId type_id) {
     field.name = name();
     expect(":");
     field.type = type();
-    if (!failed_ && accept("at")) field.place = static_cast<uint32_t>(integer());
+    if (!failed_ && accept("at")) field.given_offset = static_cast<uint32_t>(integer());
     if (failed_) return;
     types_.edit(type_id).fields.push_back(field);
   }
@@ -190,18 +190,18 @@ void Reader::record() {
   const std::string text = sigilName();
   if (failed_) return;
   const TypeId type_id = type_by_name_[text];
-  Record made;
-  made.type = type_id;
-  made.name = module_.names.intern(text);
-  made.loc = loc;
-  made.file = file_;
-  made.origin = origin();
-  made.library = accept("library");
+  Record created;
+  created.type = type_id;
+  created.name = module_.names.intern(text);
+  created.loc = loc;
+  created.file = file_;
+  created.origin = origin();
+  created.library = accept("library");
   const bool unlisted = accept("unlisted");
   recordFields(type_id);
   if (failed_ || unlisted) return;
   record_by_type_[type_id.index] = static_cast<uint32_t>(module_.records.size());
-  module_.records.push_back(made);
+  module_.records.push_back(created);
 }
 
 void Reader::dataItem() {
@@ -230,50 +230,50 @@ void Reader::dataItem() {
 
 void Reader::task() {
   ++at_;
-  Task made;
-  made.name = name();
+  Task created;
+  created.name = name();
   if (accept("cyclic"))
-    made.kind = TaskKind::Cyclic;
+    created.kind = TaskKind::Cyclic;
   else if (accept("freewheeling"))
-    made.kind = TaskKind::Freewheeling;
+    created.kind = TaskKind::Freewheeling;
   else if (accept("event"))
-    made.kind = TaskKind::Event;
+    created.kind = TaskKind::Event;
   else if (accept("status"))
-    made.kind = TaskKind::Status;
+    created.kind = TaskKind::Status;
   else if (accept("external"))
-    made.kind = TaskKind::External;
+    created.kind = TaskKind::External;
   else
     expected("the task's kind");
-  if (accept("interval")) made.interval_ns = integer();
-  if (accept("priority")) made.priority = static_cast<uint32_t>(integer());
-  if (accept("trigger")) made.trigger = quotedText(TokenKind::String);
-  if (accept("external")) made.external_event = quotedText(TokenKind::String);
-  if (accept("watchdog")) made.watchdog_ns = integer();
-  if (accept("sensitivity")) made.sensitivity = static_cast<uint32_t>(integer());
+  if (accept("interval")) created.interval_ns = integer();
+  if (accept("priority")) created.priority = static_cast<uint32_t>(integer());
+  if (accept("trigger")) created.trigger = quotedText(TokenKind::String);
+  if (accept("external")) created.external_event = quotedText(TokenKind::String);
+  if (accept("watchdog")) created.watchdog_ns = integer();
+  if (accept("sensitivity")) created.sensitivity = static_cast<uint32_t>(integer());
   if (failed_) return;
-  task_by_name_[made.name.index] = static_cast<uint32_t>(module_.tasks.size());
-  module_.tasks.push_back(std::move(made));
+  task_by_name_[created.name.index] = static_cast<uint32_t>(module_.tasks.size());
+  module_.tasks.push_back(std::move(created));
 }
 
 void Reader::instance() {
   ++at_;
   expect("$");
-  ProgramInstance made;
-  made.name = name();
+  ProgramInstance created;
+  created.name = name();
   expect(":");
-  made.record = type();
+  created.record = type();
   if (accept("task")) {
     const Loc loc = token().loc;
     const NameId wanted = name();
     auto found = task_by_name_.find(wanted.index);
     if (found == task_by_name_.end())
-      fail(diag::IrUnknownName, loc, {module_.names.text(wanted), "task"});
+      fail(diag::IrUnknownName, loc, {module_.names.string(wanted), "task"});
     else
-      made.task = found->second + 1;
+      created.task = found->second + 1;
   }
-  made.is_test = accept("test");
-  if (accept("resource")) made.resource = name();
-  if (accept("configuration")) made.configuration = name();
+  created.is_test = accept("test");
+  if (accept("resource")) created.resource = name();
+  if (accept("configuration")) created.configuration = name();
   auto function = [&] {
     const Loc loc = token().loc;
     const std::string text = sigilName();
@@ -281,43 +281,43 @@ void Reader::instance() {
     if (found == body_by_name_.end()) fail(diag::IrUnknownName, loc, {text, "function"});
     return found == body_by_name_.end() ? BodyId{} : BodyId{found->second};
   };
-  if (accept("run")) made.run = function();
-  if (accept("setup")) made.setup = function();
-  if (accept("exit")) made.exit = function();
+  if (accept("run")) created.run = function();
+  if (accept("setup")) created.setup = function();
+  if (accept("exit")) created.exit = function();
   if (failed_) return;
-  program_by_name_[made.name.index] = static_cast<uint32_t>(module_.programs.size());
-  module_.programs.push_back(made);
+  program_by_name_[created.name.index] = static_cast<uint32_t>(module_.programs.size());
+  module_.programs.push_back(created);
 }
 
 // located start: bool%I0.5 of $Main
 void Reader::located() {
   ++at_;
-  Located made{};
-  if (!accept("_")) made.name = name();
+  Located created{};
+  if (!accept("_")) created.name = name();
   expect(":");
-  made.type = type();
-  made.bit = kNoBit;
+  created.type = type();
+  created.bit = kNoBit;
   expect("%");
   if (failed_) return;
   const std::string_view area = token().text;
   const size_t letter = std::string_view("IQM").find(area.empty() ? '?' : area[0]);
   if (token().kind != TokenKind::Name || letter == std::string_view::npos || area.size() < 2)
     return expected("an area and a byte such as I4");
-  std::from_chars(area.data() + 1, area.data() + area.size(), made.byte);
-  made.area = static_cast<uint8_t>(letter);
+  std::from_chars(area.data() + 1, area.data() + area.size(), created.byte);
+  created.area = static_cast<uint8_t>(letter);
   ++at_;
-  if (accept(".")) made.bit = static_cast<uint32_t>(integer());
+  if (accept(".")) created.bit = static_cast<uint32_t>(integer());
   if (accept("of")) {
     expect("$");
     const Loc loc = token().loc;
     const NameId wanted = name();
     auto found = program_by_name_.find(wanted.index);
     if (found == program_by_name_.end())
-      fail(diag::IrUnknownName, loc, {module_.names.text(wanted), "program"});
+      fail(diag::IrUnknownName, loc, {module_.names.string(wanted), "program"});
     else
-      made.owner_program = found->second + 1;
+      created.owner_program = found->second + 1;
   }
-  if (!failed_) module_.located.push_back(made);
+  if (!failed_) module_.located.push_back(created);
 }
 
 void Reader::attributes(Body& body) {
@@ -372,7 +372,7 @@ void Reader::function() {
     return;
   }
   if (!body_by_name_.emplace(body.name.index, id.index).second)
-    fail(diag::IrRepeatedName, body.loc, {module_.names.text(body.name)});
+    fail(diag::IrRepeatedName, body.loc, {module_.names.string(body.name)});
 }
 
 // body @Ramp { … } of a function declared above or of a record;   init @Ramp { … }
@@ -419,17 +419,17 @@ void Reader::blockBody(BodyKind kind) {
 void Reader::classes() {
   do {
     ++at_;
-    Class made;
-    made.record = type();
-    if (accept("of")) made.base = type();
+    Class created;
+    created.record = type();
+    if (accept("of")) created.base = type();
     if (failed_) return;
-    module_.classes.push_back(made);
+    module_.classes.push_back(created);
   } while (isPunct(","));
 }
 
 // dispatch @Base__Run from 1: @Base__Run, _
 void Reader::dispatch() {
-  Dispatch made;
+  Dispatch created;
   auto body = [&] {
     const Loc loc = token().loc;
     const std::string text = sigilName();
@@ -437,13 +437,13 @@ void Reader::dispatch() {
     if (!failed_ && found == body_by_name_.end()) fail(diag::IrUnknownName, loc, {text, "body"});
     return failed_ ? BodyId{} : BodyId{found->second};
   };
-  made.method = body();
+  created.method = body();
   expect("from");
-  made.first = static_cast<uint32_t>(integer());
+  created.first = static_cast<uint32_t>(integer());
   expect(":");
-  do made.bodies.push_back(accept("_") ? BodyId{} : body());
+  do created.bodies.push_back(accept("_") ? BodyId{} : body());
   while (!failed_ && accept(","));
-  if (!failed_) module_.dispatches.push_back(std::move(made));
+  if (!failed_) module_.dispatches.push_back(std::move(created));
 }
 
 void Reader::declareItem() {
@@ -471,13 +471,13 @@ void Reader::declareItem() {
   } else if (isWord("list")) {
     ++at_;
     expect("@");
-    List made;
-    made.name = name();
+    List created;
+    created.name = name();
     expect(":");
-    made.record = type();
+    created.record = type();
     if (failed_) return;
-    list_by_name_[made.name.index] = static_cast<uint32_t>(module_.lists.size());
-    module_.lists.push_back(made);
+    list_by_name_[created.name.index] = static_cast<uint32_t>(module_.lists.size());
+    module_.lists.push_back(created);
   } else if (isWord("data")) {
     dataItem();
   } else if (isWord("classes")) {
@@ -556,9 +556,9 @@ bool Reader::read() {
     code();
     builder_ = nullptr;
   }
-  const bool good = !diagnostics_.hasErrors() || had_errors;
-  for (uint32_t i = 0; good && i < types_.count(); ++i) types_.layout(TypeId{i});  // those of locals, too
-  return good;
+  const bool ok = !diagnostics_.hasErrors() || had_errors;
+  for (uint32_t i = 0; ok && i < types_.count(); ++i) types_.layout(TypeId{i});  // those of locals, too
+  return ok;
 }
 
 // ---- types
@@ -568,7 +568,7 @@ bool Reader::atType() const {
   if (t.kind != TokenKind::Name || t.quoted) return false;
   for (const char* word : {"string", "wstring", "ustring", "array", "pointer", "reference"})
     if (t.text == word) return true;
-  for (const TypeWord& row : typeWords())
+  for (const TypeKeyword& row : typeKeywords())
     if (t.text == row.word) return true;
   return false;
 }
@@ -604,10 +604,10 @@ TypeId Reader::type() {
     expect("[");
     const auto length = static_cast<uint32_t>(integer());
     expect("]");
-    return types_.text(word[0] == 'w'   ? types::TypeKind::WString
-                       : word[0] == 'u' ? types::TypeKind::UString
-                                        : types::TypeKind::String,
-                       length);
+    return types_.string(word[0] == 'w'   ? types::TypeKind::WString
+                         : word[0] == 'u' ? types::TypeKind::UString
+                                          : types::TypeKind::String,
+                         length);
   }
   if (word == "array") {
     std::vector<Dimension> dimensions;
@@ -632,7 +632,7 @@ TypeId Reader::type() {
     if (failed_) return types::kError;
     return word == "pointer" ? types_.pointer(target) : types_.reference(target);
   }
-  for (const TypeWord& row : typeWords())
+  for (const TypeKeyword& row : typeKeywords())
     if (word == row.word) return types::idOf(row.kind);
   return types::kError;
 }

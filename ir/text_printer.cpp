@@ -48,7 +48,7 @@ void Printer::quoted(std::string_view text, char quote) {
 
 void Printer::giveName(TypeId type, NameId wanted) {
   if (type_names_.size() < types_.count()) type_names_.resize(types_.count());
-  std::string base(module_.names.text(wanted)), unique = base;
+  std::string base(module_.names.string(wanted)), unique = base;
   for (uint32_t n = 2; !used_names_.insert(unique).second; ++n) unique = base + "." + std::to_string(n);
   std::string saved;
   saved.swap(out);
@@ -93,7 +93,7 @@ void Printer::nameTypesOf(const Body& body) {
 void Printer::type(TypeId id) {
   id = types_.resolve(id);
   const TypeInfo& info = types_.info(id);
-  if (TypeTable::isText(info.kind)) {
+  if (TypeTable::isString(info.kind)) {
     put(info.kind == TypeKind::String ? "string[" : info.kind == TypeKind::WString ? "wstring[" : "ustring[");
     number(info.length);
     put("]");
@@ -115,7 +115,7 @@ void Printer::type(TypeId id) {
     if (type_names_.size() <= id.index || type_names_[id.index].empty()) giveName(id, info.name);
     put(type_names_[id.index]);
   } else {
-    const char* word = wordOf(info.kind);
+    const char* word = keywordOf(info.kind);
     put(word != nullptr ? word : "none");
   }
 }
@@ -157,9 +157,9 @@ void Printer::record(TypeId id, const Record* listed) {
     name(field.name);
     put(": ");
     type(field.type);
-    if (field.place != 0 && info.record_kind == RecordKind::Union) {
+    if (field.given_offset != 0 && info.record_kind == RecordKind::Union) {
       put(" at ");
-      number(field.place);
+      number(field.given_offset);
     }
   }
   put(first ? "}\n" : " }\n");
@@ -201,13 +201,13 @@ void Printer::typeDeclarations() {
 void Printer::origin(const Origin& origin, Loc loc) {
   std::string_view path;
   uint32_t line = 0;
-  if (origin.from_text) {
-    path = module_.names.text(origin.path);
+  if (origin.from_string) {
+    path = module_.names.string(origin.path);
     line = origin.line;
   } else if (loc) {
-    Place place = module_.sources.place(loc);
-    path = module_.sources.path(place.file);
-    line = place.line;
+    SourceLocation location = module_.sources.location(loc);
+    path = module_.sources.path(location.file);
+    line = location.line;
   }
   if (line == 0) return;
   put(" ");
@@ -382,7 +382,7 @@ void Printer::header(const Body& body) {
   origin(body.origin, body.loc);
   if (body.spelling && body.spelling != body.name) {
     put(" as ");
-    quoted(module_.names.text(body.spelling), '"');
+    quoted(module_.names.string(body.spelling), '"');
   }
   if (body.kind == BodyKind::Function && body.self) {
     put(" on ");

@@ -6,8 +6,8 @@
 
 #include "ir/builder.h"
 #include "ir/text.h"
+#include "ir/text_keywords.h"
 #include "ir/text_lexer.h"
-#include "ir/text_words.h"
 
 namespace rung::ir::text_form {
 
@@ -19,7 +19,7 @@ class Reader {
  public:
   Reader(const Sources& sources, FileId file, Module& module, Diagnostics& diagnostics)
       : module_(module), types_(module.types), diagnostics_(diagnostics), file_(file) {
-    tokens_ = tokenize(sources.text(file), sources.begin(file));
+    tokens_ = tokenize(sources.sourceText(file), sources.begin(file));
   }
   bool read();
 

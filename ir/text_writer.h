@@ -7,7 +7,7 @@
 
 #include "ir/builder.h"
 #include "ir/text.h"
-#include "ir/text_words.h"
+#include "ir/text_keywords.h"
 
 namespace rung::ir::text_form {
 
@@ -35,7 +35,7 @@ class Printer {
     out.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
   }
   void name(std::string_view text);
-  void name(NameId id) { name(module_.names.text(id)); }
+  void name(NameId id) { name(module_.names.string(id)); }
   void quoted(std::string_view text, char quote);
   void newLine() {
     out += '\n';

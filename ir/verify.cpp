@@ -95,7 +95,7 @@ class Verifier {
     return false;
   }
   void report(int rule, std::string_view what);
-  std::string spell(TypeId type) const { return types_.spell(type); }
+  std::string toString(TypeId type) const { return types_.toString(type); }
 
   void checkRecordOrder();
   bool known(TypeId type);
@@ -115,7 +115,7 @@ class Verifier {
   TypeKind plainOf(uint32_t id) const { return types_.plainKind(typeOf(id)); }
   void wantType(const Expr& e, TypeId type, int rule) {
     require(e.type == types_.resolve(type), rule,
-            [&] { return "the node is " + spell(e.type) + ", but it refers to " + spell(types_.resolve(type)); });
+            [&] { return "the node is " + toString(e.type) + ", but it refers to " + toString(types_.resolve(type)); });
   }
   void allowChecks(const Expr& e, unsigned allowed, int rule) {
     require((e.checks & ~allowed) == 0, rule, "a check that this node cannot have");
@@ -136,7 +136,7 @@ class Verifier {
 
 void Verifier::report(int rule, std::string_view what) {
   std::string line = "[" + std::to_string(rule) + "] ";
-  if (body_ != nullptr) line += "body `" + std::string(module_.names.text(body_->name)) + "`: ";
+  if (body_ != nullptr) line += "body `" + std::string(module_.names.string(body_->name)) + "`: ";
   problems.push_back(line + std::string(what));
 }
 
@@ -146,7 +146,7 @@ void Verifier::checkModule() {
   std::unordered_set<uint32_t> seen;
   auto unique = [&](NameId name, std::string_view what) {
     require(seen.insert(name.index).second, 1,
-            [&] { return "duplicate " + std::string(what) + " `" + std::string(module_.names.text(name)) + "`"; });
+            [&] { return "duplicate " + std::string(what) + " `" + std::string(module_.names.string(name)) + "`"; });
   };
   auto isRecord = [&](TypeId type) { return type.index < types_.count() && types_.kind(type) == TypeKind::Record; };
   auto isBodyOf = [&](BodyId id, BodyKind kind, TypeId record) {
@@ -201,7 +201,7 @@ void Verifier::checkModule() {
   checkDispatches();
   for (const Data& data : module_.data)
     require(known(data.type) && types_.info(types_.resolve(data.type)).size == data.bytes.size(), 4,
-            [&] { return "data does not have the size of its type " + spell(data.type); });
+            [&] { return "data does not have the size of its type " + toString(data.type); });
 }
 
 bool Verifier::hasDispatch(BodyId method) const {
@@ -247,8 +247,9 @@ void Verifier::checkRecordOrder() {
       if (field.by_reference) continue;
       TypeId held = types_.resolve(field.type);
       while (types_.info(held).kind == TypeKind::Array) held = types_.resolve(types_.info(held).base);
-      require(!later[held.index], 3,
-              [&] { return spell(record.type) + " contains " + spell(held) + ", which is not declared before it"; });
+      require(!later[held.index], 3, [&] {
+        return toString(record.type) + " contains " + toString(held) + ", which is not declared before it";
+      });
     }
     later[types_.resolve(record.type).index] = false;
   }
@@ -259,7 +260,7 @@ bool Verifier::known(TypeId type) {
   const TypeKind kind = types_.info(type).kind;
   return require(
       TypeTable::isElementary(kind) || (kind >= TypeKind::Enum && kind != TypeKind::Alias && kind != TypeKind::Count_),
-      6, [&] { return spell(type) + " is not a type of the IR"; });
+      6, [&] { return toString(type) + " is not a type of the IR"; });
 }
 
 // ---- body
@@ -308,7 +309,7 @@ void Verifier::locals() {
               "the result local is not of the result type");
     } else {
       require((local.kind == LocalKind::Temp ? temps : names).insert(local.name.index).second, 7,
-              [&] { return "duplicate local `" + std::string(module_.names.text(local.name)) + "`"; });
+              [&] { return "duplicate local `" + std::string(module_.names.string(local.name)) + "`"; });
     }
     if (body_->kind != BodyKind::Function)
       require(local.kind == LocalKind::Temp || local.kind == LocalKind::Variable, 7,
@@ -332,7 +333,7 @@ void Verifier::block(StmtId first) {
 bool Verifier::fits(TypeId place_type, TypeId value_type) const {
   if (place_type == value_type || place_type == types_.plain(value_type)) return true;
   const TypeKind a = types_.kind(place_type), b = types_.kind(value_type);
-  if (TypeTable::isText(a)) return a == b;
+  if (TypeTable::isString(a)) return a == b;
   if (isPointer(a) && isPointer(b))
     return types_.resolve(types_.info(place_type).base) == types_.resolve(types_.info(value_type).base);
   return false;
@@ -346,7 +347,7 @@ void Verifier::stmt(StmtId id) {
       if (!place(s.a, 20) | !value(s.b)) return;
       const Expr& root = body_->expr(rootOf(*body_, ExprId{s.a}));
       require(fits(typeOf(s.a), typeOf(s.b)), 20,
-              [&] { return spell(typeOf(s.b)) + " is assigned to " + spell(typeOf(s.a)); });
+              [&] { return toString(typeOf(s.b)) + " is assigned to " + toString(typeOf(s.a)); });
       if (root.kind == ExprKind::Local && root.a < body_->locals.size()) {
         const Local& local = body_->locals[root.a];
         require(!(local.by_reference && local.kind == LocalKind::Input), 20, "a by-reference input is assigned");
@@ -387,7 +388,7 @@ void Verifier::stmt(StmtId id) {
     case StmtKind::For: {
       if (place(s.a, 25)) {
         const TypeKind control = plainOf(s.a);
-        require(isIntegral(control), 25, [&] { return "a FOR over " + spell(typeOf(s.a)); });
+        require(isIntegral(control), 25, [&] { return "a FOR over " + toString(typeOf(s.a)); });
         forEachExpr(*body_, ExprId{s.a}, [&](ExprId part) {
           require(body_->expr(part).checks == 0, 25, "a check in the control place of a FOR");
         });
@@ -449,7 +450,7 @@ void Verifier::callOperands(const Body& callee, uint32_t first, uint32_t count, 
   uint32_t parameters = 0;
   for (const Local& local : callee.locals) parameters += isParameter(local);
   if (!require(parameters == count && first + count <= body_->operands.size(), rule, [&] {
-        return "a call to `" + std::string(module_.names.text(callee.name)) + "` with " + std::to_string(count) +
+        return "a call to `" + std::string(module_.names.string(callee.name)) + "` with " + std::to_string(count) +
                " operands for " + std::to_string(parameters) + " parameters";
       }))
     return;
@@ -470,11 +471,11 @@ void Verifier::callOperands(const Body& callee, uint32_t first, uint32_t count, 
     }
     const TypeId wanted = types_.resolve(local.type), given = typeOf(id);
     // A text of any capacity may stand for an in-out or input text; ARRAY[*] takes every array of its element.
-    const bool same_text = TypeTable::isText(types_.kind(wanted)) && types_.kind(wanted) == types_.kind(given);
+    const bool same_string_kind = TypeTable::isString(types_.kind(wanted)) && types_.kind(wanted) == types_.kind(given);
     const bool open_array = types_.kind(wanted) == TypeKind::Array && types_.info(wanted).dimensions.empty() &&
                             types_.kind(given) == TypeKind::Array;
-    require((is_value ? fits(wanted, given) : wanted == given) || same_text || open_array, rule,
-            [&] { return spell(given) + " is passed to a parameter of " + spell(wanted); });
+    require((is_value ? fits(wanted, given) : wanted == given) || same_string_kind || open_array, rule,
+            [&] { return toString(given) + " is passed to a parameter of " + toString(wanted); });
   }
 }
 
@@ -486,7 +487,7 @@ void Verifier::callStmt(const Stmt& s) {
   if (require((s.b != 0) == static_cast<bool>(callee.self), 22,
               "a call has a self and its callee has none, or the reverse") &&
       s.b != 0 && place(s.b, 22))
-    require(typeOf(s.b) == types_.resolve(callee.self), 22, [&] { return "a call on " + spell(typeOf(s.b)); });
+    require(typeOf(s.b) == types_.resolve(callee.self), 22, [&] { return "a call on " + toString(typeOf(s.b)); });
   callOperands(callee, s.c, s.d, 22, false);
   if ((s.op & kVirtual) != 0) {
     found_fault_ = true;
@@ -503,7 +504,7 @@ void Verifier::callStmt(const Stmt& s) {
 void Verifier::switchStmt(const Stmt& s) {
   if (!value(s.a)) return;
   const TypeKind kind = plainOf(s.a);
-  require(isIntegral(kind), 24, [&] { return "a switch over " + spell(typeOf(s.a)); });
+  require(isIntegral(kind), 24, [&] { return "a switch over " + toString(typeOf(s.a)); });
   const bool is_signed = types_.isSigned(kind);
   auto less = [&](int64_t a, int64_t b) {
     return is_signed ? a < b : static_cast<uint64_t>(a) < static_cast<uint64_t>(b);
@@ -539,18 +540,17 @@ bool Verifier::value(uint32_t id) {
   const Expr& e = body_->exprs[id];
   if (!known(e.type)) return false;
   if (e.checks != 0) found_fault_ = true;
-  bool good = true;
+  bool ok = true;
   if (e.kind == ExprKind::Index || e.kind == ExprKind::Call)
-    good = require(e.b + e.c <= body_->operands.size(), 5, "operands out of range");
-  if (good && e.kind != ExprKind::Call)
-    forEachSlot(*body_, e, [&](const uint32_t& slot) { good = value(slot) && good; });
-  if (good) node(e);
-  return good;
+    ok = require(e.b + e.c <= body_->operands.size(), 5, "operands out of range");
+  if (ok && e.kind != ExprKind::Call) forEachSlot(*body_, e, [&](const uint32_t& slot) { ok = value(slot) && ok; });
+  if (ok) node(e);
+  return ok;
 }
 
 void Verifier::constant(const Expr& e) {
   const TypeKind kind = types_.plainKind(e.type);
-  if (!require(TypeTable::isScalar(kind) || isPointer(kind), 9, [&] { return "a constant of " + spell(e.type); }))
+  if (!require(TypeTable::isScalar(kind) || isPointer(kind), 9, [&] { return "a constant of " + toString(e.type); }))
     return;
   if (TypeTable::isReal(kind)) {
     const double real = types::Value{e.type, e.bits()}.asReal();
@@ -564,7 +564,7 @@ void Verifier::constant(const Expr& e) {
   const uint64_t extended = types_.isSigned(kind)
                                 ? static_cast<uint64_t>(static_cast<int64_t>(e.bits() << shift) >> shift)
                                 : e.bits() << shift >> shift;
-  require(extended == e.bits(), 9, [&] { return "a constant whose bits do not fit " + spell(e.type); });
+  require(extended == e.bits(), 9, [&] { return "a constant whose bits do not fit " + toString(e.type); });
 }
 
 void Verifier::node(const Expr& e) {
@@ -572,13 +572,13 @@ void Verifier::node(const Expr& e) {
   switch (e.kind) {
     case ExprKind::None: require(false, 5, "an expression without kind"); return;
     case ExprKind::Const: constant(e); break;
-    case ExprKind::Text:
-      require(TypeTable::isText(types_.kind(e.type)), 9, [&] { return "a string constant of " + spell(e.type); });
+    case ExprKind::String:
+      require(TypeTable::isString(types_.kind(e.type)), 9, [&] { return "a string constant of " + toString(e.type); });
       break;
     case ExprKind::Data:
       if (require(e.a < module_.data.size(), 9, "data that does not exist")) wantType(e, module_.data[e.a].type, 9);
       break;
-    case ExprKind::Zero: require(isAggregate(types_, e.type), 9, [&] { return "zero of " + spell(e.type); }); break;
+    case ExprKind::Zero: require(isAggregate(types_, e.type), 9, [&] { return "zero of " + toString(e.type); }); break;
     case ExprKind::Local:
       if (require(e.a < body_->locals.size(), 10, "a local that does not exist"))
         wantType(e, body_->locals[e.a].type, 10);
@@ -633,11 +633,11 @@ void Verifier::node(const Expr& e) {
     }
     case ExprKind::Bits: {
       const TypeKind kind = plainOf(e.a), part = types_.kind(e.type);
-      if (!base(14) || !require(isIntegral(kind), 14, [&] { return "a part of " + spell(typeOf(e.a)); })) return;
+      if (!base(14) || !require(isIntegral(kind), 14, [&] { return "a part of " + toString(typeOf(e.a)); })) return;
       const bool is_part =
           part == TypeKind::Bool || part == TypeKind::Byte || part == TypeKind::Word || part == TypeKind::DWord;
       require(is_part && (uint64_t{e.b} + 1) * TypeTable::bitWidth(part) <= TypeTable::bitWidth(kind), 14,
-              [&] { return "a part outside of " + spell(typeOf(e.a)); });
+              [&] { return "a part outside of " + toString(typeOf(e.a)); });
       break;
     }
     case ExprKind::Unary:
@@ -645,9 +645,9 @@ void Verifier::node(const Expr& e) {
     case ExprKind::Convert: {
       const TypeKind from = plainOf(e.a), to = types_.plainKind(e.type);
       require((TypeTable::isScalar(from) && TypeTable::isScalar(to)) ||
-                  (TypeTable::isText(from) && TypeTable::isText(to)) ||
+                  (TypeTable::isString(from) && TypeTable::isString(to)) ||
                   ((isPointer(from) || isIntegral(from)) && isPointer(to)) || (isPointer(from) && isIntegral(to)),
-              16, [&] { return "a conversion of " + spell(typeOf(e.a)) + " to " + spell(e.type); });
+              16, [&] { return "a conversion of " + toString(typeOf(e.a)) + " to " + toString(e.type); });
       allowChecks(e, kCheckSubrange | kCheckConvert | kCheckOverflow, 16);
       return;
     }
@@ -660,7 +660,7 @@ void Verifier::node(const Expr& e) {
       if (!require(e.a != 0 && e.a < module_.bodies.size(), 18, "a call to a body that does not exist")) return;
       const Body& callee = module_.bodies[e.a];
       require(callee.pure && !callee.may_fault && callee.kind == BodyKind::Function && callee.result, 18, [&] {
-        return "`" + std::string(module_.names.text(callee.name)) + "` is called in an expression but is not pure";
+        return "`" + std::string(module_.names.string(callee.name)) + "` is called in an expression but is not pure";
       });
       if (callee.result) wantType(e, callee.result, 18);
       for (const Local& local : callee.locals)
@@ -670,7 +670,7 @@ void Verifier::node(const Expr& e) {
     }
     case ExprKind::Address: {
       const Expr& place_expr = body_->exprs[e.a];
-      require(isPointer(types_.kind(e.type)), 19, [&] { return "an address of type " + spell(e.type); });
+      require(isPointer(types_.kind(e.type)), 19, [&] { return "an address of type " + toString(e.type); });
       require(isPlace(place_expr.kind) && place_expr.kind != ExprKind::Bits &&
                   !(place_expr.kind == ExprKind::Image && place_expr.c != kNoBit),
               19, "the address of something that has none");
@@ -691,21 +691,22 @@ void Verifier::operatorNode(const Expr& e) {
   if (types::isComparison(e.op))
     require(types_.kind(e.type) == TypeKind::Bool, 15, [&] { return std::string(word) + " is not a BOOL"; });
   else
-    require(types_.plain(e.type) == left || (TypeTable::isText(kind) && types_.kind(e.type) == kind), 15,
-            [&] { return std::string(word) + " of " + spell(typeOf(e.a)) + " gives " + spell(e.type); });
+    require(types_.plain(e.type) == left || (TypeTable::isString(kind) && types_.kind(e.type) == kind), 15,
+            [&] { return std::string(word) + " of " + toString(typeOf(e.a)) + " gives " + toString(e.type); });
   if (!is_unary) {
     const TypeId right = types_.plain(typeOf(e.b));
     const TypeKind right_kind = types_.kind(right);
     const bool is_shift = e.op == Op::Shl || e.op == Op::Shr || e.op == Op::Rol || e.op == Op::Ror;
-    const bool same =
-        left == right || (TypeTable::isText(kind) && kind == right_kind) || (isPointer(kind) && isPointer(right_kind));
+    const bool same = left == right || (TypeTable::isString(kind) && kind == right_kind) ||
+                      (isPointer(kind) && isPointer(right_kind));
     if (is_shift)
-      require(isIntegral(right_kind), 15, [&] { return std::string(word) + " by " + spell(typeOf(e.b)); });
+      require(isIntegral(right_kind), 15, [&] { return std::string(word) + " by " + toString(typeOf(e.b)); });
     else if (e.op == Op::Power)
       require(isIntegral(right_kind) || TypeTable::isReal(right_kind), 15,
-              [&] { return std::string(word) + " to " + spell(typeOf(e.b)); });
+              [&] { return std::string(word) + " to " + toString(typeOf(e.b)); });
     else
-      require(same, 15, [&] { return std::string(word) + " of " + spell(typeOf(e.a)) + " and " + spell(typeOf(e.b)); });
+      require(same, 15,
+              [&] { return std::string(word) + " of " + toString(typeOf(e.a)) + " and " + toString(typeOf(e.b)); });
   }
   unsigned allowed = 0;
   const bool number = TypeTable::isScalar(kind) && kind != TypeKind::Bool;

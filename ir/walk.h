@@ -13,7 +13,7 @@ void forEachSlot(BodyT& body, ExprT& expr, F&& f) {
   switch (expr.kind) {
     case ExprKind::None:
     case ExprKind::Const:
-    case ExprKind::Text:
+    case ExprKind::String:
     case ExprKind::Data:
     case ExprKind::Zero:
     case ExprKind::Local:

@@ -10,17 +10,17 @@ text::Charts chartsOf(const Context& context) {
   return {symbols.tree, symbols.names, symbols.sources, symbols.diagnostics, dialect};
 }
 
-text::ChartPlace chartPlaceOf(const Context& context, PouId pou) {
-  text::ChartPlace place;
-  place.final_scan = !context.iec();
+text::ChartContext chartContextOf(const Context& context, PouId pou) {
+  text::ChartContext chart;
+  chart.final_scan = !context.iec();
   for (PouId at = pou; at;) {
     const Pou& of = context.symbols.pou(at);
     const PouDecl& decl = context.tree().as<PouDecl>(of.decl);
-    if (at != pou) place.around.push_back(&decl);
-    if (findPragma(context, decl.h, context.scopes.words.no_final_scan) != nullptr) place.final_scan = false;
+    if (at != pou) chart.around.push_back(&decl);
+    if (findPragma(context, decl.h, context.scopes.known_names.no_final_scan) != nullptr) chart.final_scan = false;
     at = of.chart ? of.chart : of.owner;
   }
-  return place;
+  return chart;
 }
 
 }  // namespace rung::sema

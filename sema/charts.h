@@ -7,6 +7,6 @@
 namespace rung::sema {
 
 text::Charts chartsOf(const Context& context);
-text::ChartPlace chartPlaceOf(const Context& context, PouId pou);
+text::ChartContext chartContextOf(const Context& context, PouId pou);
 
 }  // namespace rung::sema

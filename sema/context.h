@@ -65,8 +65,8 @@ std::string_view nearestName(Context& context, NameId written);
 bool isBroken(const Context& context, PouId pou);
 // Whether to say that a name, or a member of a record, is not declared: once in a POU, and only where no declaration
 // was lost to a syntax error.
-bool sayUnknown(Context& context, NameId name);
-bool sayUnknownMember(Context& context, TypeId record, NameId name);
+bool isFirstReport(Context& context, NameId name);
+bool isFirstReportOfMember(Context& context, TypeId record, NameId name);
 
 // ---- objects (declarations/objects.cpp)
 
@@ -97,11 +97,12 @@ VarId findPin(Context& context, PouId pou, NameId name);
 // The view of the image that an address means; reports what is wrong with it and gives nothing then. `type`: of the
 // variable, or none for a bare address, whose type is the one of its size (see addressType). Notes the bytes used.
 std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& address, Loc loc, TypeId type);
-// Hierarchical addresses, %QW0.1.2: each has a place of its own, chosen by placeHierarchical when all others are known.
+// Hierarchical addresses, %QW0.1.2: each has a place of its own, chosen by allocateHierarchical when all others are
+// known.
 bool isHierarchical(const Context& context, const DirectAddress& address);
 // The hidden variable of such an address; `user`: a variable located there, or none. None after a report.
 VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, VarId user);
-void placeHierarchical(Context& context);
+void allocateHierarchical(Context& context);
 // BOOL, BYTE, WORD, DWORD or LWORD, by the size letter.
 TypeId addressType(const DirectAddress& address);
 
@@ -128,21 +129,21 @@ TypeId checkExpr(Context& context, ExprId& expr, TypeId expected = {});
 // reports. `what` says what for: "assigned to `x`", for the message.
 bool checkExprAs(Context& context, ExprId& expr, TypeId to, std::string_view what);
 // A place that may be written: reports constants, inputs, literals.
-TypeId checkPlace(Context& context, ExprId& expr, std::string_view what);
+TypeId checkLvalue(Context& context, ExprId& expr, std::string_view what);
 // Makes a place what a reference of this type is bound to; reports when it cannot be bound to it.
-bool bindReference(Context& context, ExprId& place, TypeId reference);
+bool bindReference(Context& context, ExprId& lvalue, TypeId reference);
 // A literal of a known type (made_nodes.cpp).
 ExprId makeLiteral(Context& context, LiteralKind kind, TypeId type, int64_t value, Loc loc);
 // A text that lives in the tree, of the type STRING(its length).
-ExprId makeText(Context& context, std::string_view text, Loc loc);
+ExprId makeStringLiteral(Context& context, std::string_view text, Loc loc);
 void checkBody(Context& context, PouId pou);
 // Checks the body of a POU that was not checked. False: it has errors, or is being checked just now.
 bool ensureBody(Context& context, PouId pou);
 // The arguments of PROGRAM p WITH t : Main(...), as of a call of that program.
 void checkConnections(Context& context, ExprId call, PouId program);
-// The list of the texts in a POU whose address is taken; of all POUs that have none yet. (bodies/text_places.cpp)
-void declareTexts(Context& context, PouId pou);
-void declareTexts(Context& context);
+// The list of the texts in a POU whose address is taken; of all POUs that have none yet. (bodies/literal_storage.cpp)
+void declareLiteralStorage(Context& context, PouId pou);
+void declareLiteralStorage(Context& context);
 // The rules that need all bodies: recursion, unused variables. check() calls it once, when every body is checked.
 void checkAfterBodies(Context& context);
 

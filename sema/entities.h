@@ -95,7 +95,7 @@ struct Pou {
   bool pins_ready = false;
   bool library = false, native = false, pure = false, test = false;
   bool test_only = false;        // {test_only}, {replaces …}: only tests use it
-  bool left_out = false;         // a test, or only for tests, and not part of this program: checked, not lowered
+  bool excluded = false;         // a test, or only for tests, and not part of this program: checked, not lowered
   bool cpp = false;              // its body is in C++
   std::vector<PouId> cpp_calls;  // functions that such a body names
   bool extensible = false;       // has an {extensible} pin

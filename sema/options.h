@@ -26,7 +26,7 @@ using Scheduled = std::function<void(Project& project, PouId pou)>;
 struct LibraryFile {
   const char* library;  // `Standard`
   const char* path;     // as diagnostics and faults print it
-  std::string_view text;
+  std::string_view source;
 };
 // Another name of a library, for qualified names: Tc2_Standard.TON.
 struct LibraryAlias {

@@ -10,7 +10,7 @@
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
-#include "sema/declarations/instance_places.h"
+#include "sema/declarations/instance_paths.h"
 #include "sema/declarations/overloads.h"
 
 namespace rung::sema {
@@ -29,7 +29,7 @@ bool ensureBody(Context& context, PouId id) {
   if (project.pou(id).checked) return !project.pou(id).broken;
   project.pou(id).checked = true;
   if (project.pou(id).native || (project.pou(id).owner && (project.pou(id).modifiers & kAbstract) != 0)) return true;
-  const std::string_view name = project.names.text(project.pou(id).name);
+  const std::string_view name = project.names.string(project.pou(id).name);
   setPhaseSubject(name.data(), name.size());
   const uint32_t errors = project.diagnostics.errorCount();
   project.pou(id).checking = true;
@@ -37,7 +37,7 @@ bool ensureBody(Context& context, PouId id) {
   Context there = atPou(context, id);
   checkBody(there, id);
   project.pou(id).checking = false;
-  declareTexts(context, id);
+  declareLiteralStorage(context, id);
   project.pou(id).broken = isBroken(context, id) || project.diagnostics.errorCount() != errors;
   return !project.pou(id).broken;
 }
@@ -61,7 +61,7 @@ void checkProgramsRun(Context& context) {
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     const Pou& pou = project.pous[i];
     if (pou.kind != PouKind::Program || pou.library || pou.test || pou.used || runs[i]) continue;
-    context.report(diag::ProgramNeverRuns, pou.loc, {project.names.text(pou.name)});
+    context.report(diag::ProgramNeverRuns, pou.loc, {project.names.string(pou.name)});
   }
 }
 
@@ -72,13 +72,13 @@ void check(Project& project) {
   project.diagnostics.closeLines();
   Scopes scopes;
   Context context{.symbols = project, .project = project, .scopes = scopes, .pou = {}, .file = {}};
-  initWords(context);
+  internKnownNames(context);
   indexLibraries(context);
   collectFiles(context);
   chooseTests(context);
   collectConfigurations(context);
   resolveHeaders(context);
-  settleDeclarations(context);
+  resolveDeclarations(context);
   markOverloads(context);
   resolveConfigurations(context);
   checkMocks(context);
@@ -88,9 +88,9 @@ void check(Project& project) {
       checkObjectMembers(context, PouId{i});
   }
   checkBodies(context);
-  declareTexts(context);
+  declareLiteralStorage(context);
   orderInitialValues(context);
-  resolveInstancePlaces(context);
+  resolveInstancePaths(context);
   resolveAccessPaths(context);
   checkAfterBodies(context);
   checkProgramsRun(context);

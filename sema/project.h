@@ -38,7 +38,7 @@ struct PathStep {
   VarId var;             // a field, or a global variable; none: an element
   int64_t element = -1;  // of an array, counted row by row
 };
-struct InstancePlace {
+struct InstancePath {
   static constexpr uint32_t kNone = ~0u;
   uint32_t instance = kNone;   // index into Project::instances; none: see `program`
   PouId program;               // of the instance, or a test; none: the path begins with a global variable
@@ -78,7 +78,7 @@ struct Project : Symbols {
   std::vector<VarId> late;  // globals whose initial values read others, in the order in which they are set
   std::vector<Task> tasks;
   std::vector<ProgramInstance> instances;
-  std::vector<InstancePlace> instance_places;
+  std::vector<InstancePath> instance_paths;
   std::vector<AccessPath> access_paths;
   std::vector<BlockTask> block_tasks;
   std::vector<ExprId> type_inits;                // by TypeId: the declared initial value of a named type, or none

@@ -126,7 +126,7 @@ struct Libraries {
 };
 
 struct Scopes {
-  std::vector<uint64_t> told;  // unknown names: the POU or type, and the name
+  std::vector<uint64_t> reported;  // unknown names: the POU or type, and the name
   NameMap pous_and_types;
   NameMap globals;
   NameMap items;       // enumeration items by their bare name: the first that was declared
@@ -147,28 +147,28 @@ struct Scopes {
     bool busy = false;
   };
   std::vector<Mock> mocks;
-  struct HierarchicalPlace {  // of %QW0.1.2 (declarations/addresses.cpp)
-    VarId named;              // the hidden variable that has the address as its name
+  struct HierarchicalAddress {  // of %QW0.1.2 (declarations/addresses.cpp)
+    VarId named;                // the hidden variable that has the address as its name
     uint64_t bytes = 0, align = 1;
     std::vector<VarId> users;
   };
-  std::vector<HierarchicalPlace> hierarchical;
+  std::vector<HierarchicalAddress> hierarchical;
   NameMap hierarchical_names;  // address -> Var; the entity's index counts in `hierarchical`
-  struct Texts {               // whose address is taken (bodies/text_places.cpp)
-    struct Place {
+  struct LiteralStorage {      // whose address is taken (bodies/literal_storage.cpp)
+    struct Entry {
       PouId pou;
       VarId var;
     };
-    std::map<std::pair<uint32_t, uint64_t>, VarId> places;  // by POU, and by text and kind
-    std::vector<Place> undeclared;                          // not yet in a list
-  } texts;
+    std::map<std::pair<uint32_t, uint64_t>, VarId> variables;  // by POU, and by text and kind
+    std::vector<Entry> undeclared;                             // not yet in a list
+  } literal_storage;
 
-  // Everything declared, in order; settle() resolves from these marks on.
+  // Everything declared, in order; resolveDeclarations() resolves from these marks on.
   std::vector<TypeId> declared_types;
-  size_t settled_types = 0, checked_types = 0;
-  size_t settled_pous = 1, checked_pous = 1;
-  size_t settled_lists = 1, checked_lists = 1;
-  bool settling = false;
+  size_t resolved_types = 0, checked_types = 0;
+  size_t resolved_pous = 1, checked_pous = 1;
+  size_t resolved_lists = 1, checked_lists = 1;
+  bool resolving = false;
   std::vector<VarId> reading_inits;  // variables whose initial values, or arguments of FB_Init, may read others
   uint32_t depth = 0;                // of declarations resolved within each other
 
@@ -181,11 +181,11 @@ struct Scopes {
   std::string open_list;
   FileId open_list_file;
   // Pragmas and words that declarations look for, as name keys.
-  struct Words {
+  struct KnownNames {
     NameId attribute_qualified_only, attribute_strict, attribute_instance_path, test, test_only, replaces, mock, alias,
         required, lazy, extensible, prefix, sized, slice, pure, native, op, std, no_final_scan, list, fault, no_copy,
         bytes;
-  } words;
+  } known_names;
 
   NamedType* named(TypeId type) {
     const uint32_t index = type.index < named_of_type.size() ? named_of_type[type.index] : 0;

@@ -33,7 +33,7 @@ TypeExprId BoxTypes::ofBox(uint32_t element, uint32_t depth) {
 
 TypeExprId BoxTypes::ofCall(uint32_t element, uint32_t depth) {
   const DiagramElement& e = graph_.elements[element];
-  const std::string_view name = names_.text(e.name.name);
+  const std::string_view name = names_.string(e.name.name);
   if (isOneOf(name, {"GT", "GE", "EQ", "LE", "LT", "NE"})) return named("BOOL", e.loc);
   std::string upper(name);
   for (char& c : upper) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 32 : c);
@@ -54,7 +54,7 @@ TypeExprId BoxTypes::ofOperands(uint32_t element, bool selects, uint32_t depth) 
   const Slice<DiagramPin> pins = graph_.elements[element].pins;
   for (uint32_t p = 0; p < pins.count; ++p) {
     const DiagramPin pin = tree_.list(pins)[p];
-    if (pin.direction == PinDirection::Output || isOneOf(names_.text(pin.name.name), {"EN"})) continue;
+    if (pin.direction == PinDirection::Output || isOneOf(names_.string(pin.name.name), {"EN"})) continue;
     if (std::exchange(selects, false) || pin.wires.empty()) continue;
     if (pin.edge != EdgeKind::None) return named("BOOL", pin.name.loc);
     if (const TypeExprId type = ofSource(graph_.sourceOf(pin, 0), depth + 1)) return type;
@@ -109,14 +109,14 @@ TypeExprId BoxTypes::ofSource(uint32_t source, uint32_t depth) {
     case ElementKind::Compose:
     case ElementKind::Comment: return {};
   }
-  if (pin && isOneOf(names_.text(pin), {"ENO"})) return named("BOOL", e.loc);
+  if (pin && isOneOf(names_.string(pin), {"ENO"})) return named("BOOL", e.loc);
   const DeclId callee = e.path && tree_.kind(e.path) == ExprKind::Name ? declared(e.name.name) : DeclId{};
   const bool pou = callee && tree_.kind(callee) == DeclKind::Pou;
   if (pin && pou)
     if (const TypeExprId type = ofVariable(tree_.as<PouDecl>(callee), pin, 0)) return type;
   if (!e.operand && !e.hidden) return ofBox(s.element, depth);
-  const Shape shape = e.operand ? shapes_.of(e.operand) : shapes_.of(e.path);
-  const PinShape* known = pin ? shape.find(names_, pin) : nullptr;
+  const Signature signature = e.operand ? signatures_.of(e.operand) : signatures_.of(e.path);
+  const PinSignature* known = pin ? signature.find(names_, pin) : nullptr;
   return known != nullptr && known->is_bool ? named("BOOL", e.loc) : TypeExprId{};
 }
 
@@ -141,7 +141,7 @@ TypeExprId BoxTypes::ofExpr(ExprId expr, uint32_t depth) {
     }
     case ExprKind::Literal: {
       const LiteralExpr& literal = tree_.as<LiteralExpr>(expr);
-      if (literal.prefix) return named(names_.text(literal.prefix), tree_.loc(expr));
+      if (literal.prefix) return named(names_.string(literal.prefix), tree_.loc(expr));
       return literal.literal() == LiteralKind::Bool ? named("BOOL", tree_.loc(expr)) : TypeExprId{};
     }
     case ExprKind::Unary: return ofExpr(tree_.as<UnaryExpr>(expr).operand, depth + 1);

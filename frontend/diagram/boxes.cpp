@@ -34,13 +34,13 @@ const Operator* operatorNamed(std::string_view name) {
 }
 
 bool isControl(const Names& names, NameId pin) {
-  return sameIdentifier(names.text(pin), "EN") || sameIdentifier(names.text(pin), "ENO");
+  return sameIdentifier(names.string(pin), "EN") || sameIdentifier(names.string(pin), "ENO");
 }
 
 }  // namespace
 
 struct Scheduler::Call {
-  Shape shape;
+  Signature signature;
   ExprId callee;
   const Operator* op = nullptr;
   std::vector<Argument> arguments;
@@ -50,12 +50,12 @@ struct Scheduler::Call {
 
 bool Scheduler::isOperator(const DiagramElement& e) const {
   return e.kind == ElementKind::Box && !e.operand && e.path && tree_.kind(e.path) == ExprKind::Name &&
-         operatorNamed(names_.text(e.name.name)) != nullptr;
+         operatorNamed(names_.string(e.name.name)) != nullptr;
 }
 
 // The pin that a wire comes from; without a name the only one beside ENO.
 const DiagramPin* Scheduler::outputNamed(const DiagramElement& e, const Ident& pin) const {
-  if (pin.name) return pinNamed(e, names_.text(pin.name), PinDirection::Output);
+  if (pin.name) return pinNamed(e, names_.string(pin.name), PinDirection::Output);
   const DiagramPin* only = nullptr;
   for (const DiagramPin& candidate : tree_.list(e.pins)) {
     if (candidate.direction != PinDirection::Output || isControl(names_, candidate.name.name)) continue;
@@ -66,67 +66,69 @@ const DiagramPin* Scheduler::outputNamed(const DiagramElement& e, const Ident& p
 }
 
 // The output that a wire without a pin's name means: the result of a function.
-uint32_t Scheduler::resultOf(uint32_t element, const Shape& shape) const {
+uint32_t Scheduler::resultOf(uint32_t element, const Signature& signature) const {
   for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
     const NameId pin = graph_.sources[s].pin.name;
     if (pin && isControl(names_, pin)) continue;
-    if (pin && pinNamed(graph_.elements[element], names_.text(pin), PinDirection::InOut) != nullptr) continue;
-    const PinShape* known = pin ? shape.find(names_, pin) : nullptr;
+    if (pin && pinNamed(graph_.elements[element], names_.string(pin), PinDirection::InOut) != nullptr) continue;
+    const PinSignature* known = pin ? signature.find(names_, pin) : nullptr;
     if (known == nullptr || known->direction == PinDirection::Input) return s;
   }
   return kNone;
 }
 
 // Pins that repeat are called IN3, IN4, …
-bool Scheduler::hasPin(const Shape& shape, const Ident& pin) const {
-  if (shape.find(names_, pin.name) != nullptr) return true;
-  const std::string_view name = names_.text(pin.name);
+bool Scheduler::hasPin(const Signature& signature, const Ident& pin) const {
+  if (signature.find(names_, pin.name) != nullptr) return true;
+  const std::string_view name = names_.string(pin.name);
   if (name.empty() || std::isdigit(static_cast<unsigned char>(name.back())) == 0) return false;
-  return std::any_of(shape.pins.begin(), shape.pins.end(), [](const PinShape& known) { return known.extensible; });
+  return std::any_of(signature.pins.begin(), signature.pins.end(),
+                     [](const PinSignature& known) { return known.extensible; });
 }
 
 //   fails   a pin that the block does not have        E1004
 bool Scheduler::fillArguments(uint32_t element, Call& call) {
   const DiagramElement e = graph_.elements[element];
-  const ShapeKind kind = call.shape.kind;
-  const bool known = kind == ShapeKind::Instance || kind == ShapeKind::Function || kind == ShapeKind::Method ||
-                     kind == ShapeKind::Program;
+  const SignatureKind kind = call.signature.kind;
+  const bool known = kind == SignatureKind::Instance || kind == SignatureKind::Function ||
+                     kind == SignatureKind::Method || kind == SignatureKind::Program;
   bool named = known || e.operand || e.hidden;
-  if (named && call.shape.kind == ShapeKind::Function) {  // some editors have names of their own for all of them
+  if (named &&
+      call.signature.kind == SignatureKind::Function) {  // some editors have names of their own for all of them
     bool any = false, all_unknown = true;
     for (const DiagramPin& pin : tree_.list(e.pins)) {
       if (pin.direction == PinDirection::Output || isControl(names_, pin.name.name)) continue;
       any = true;
-      all_unknown = all_unknown && !hasPin(call.shape, pin.name);
+      all_unknown = all_unknown && !hasPin(call.signature, pin.name);
     }
-    named = !(any && all_unknown && !call.shape.pins.empty());
+    named = !(any && all_unknown && !call.signature.pins.empty());
   }
-  bool good = true;
+  bool ok = true;
   for (uint32_t p = 0; p < e.pins.count; ++p) {
     const DiagramPin pin = tree_.list(e.pins)[p];
     if (pin.direction == PinDirection::Output || pin.wires.empty()) continue;
-    if (isControl(names_, pin.name.name) && call.shape.find(names_, pin.name.name) == nullptr) {
+    if (isControl(names_, pin.name.name) && call.signature.find(names_, pin.name.name) == nullptr) {
       call.en = pin;
       call.has_en = true;
       continue;
     }
-    if (known && named && !hasPin(call.shape, pin.name)) {
+    if (known && named && !hasPin(call.signature, pin.name)) {
       std::string_view near;
       std::vector<std::string_view> candidates;
-      for (const PinShape& candidate : call.shape.pins)
-        if (candidate.direction != PinDirection::Output) candidates.push_back(names_.text(candidate.name));
-      near = nearest(names_.text(pin.name.name), candidates);
+      for (const PinSignature& candidate : call.signature.pins)
+        if (candidate.direction != PinDirection::Output) candidates.push_back(names_.string(candidate.name));
+      near = nearest(names_.string(pin.name.name), candidates);
       diagnostics_
-          .report(diag::NoSuchPin, pin.name.loc, {describe(tree_, names_, e), "input", names_.text(pin.name.name)})
+          .report(diag::NoSuchPin, pin.name.loc, {describe(tree_, names_, e), "input", names_.string(pin.name.name)})
           .didYouMean(near);
-      good = false;
+      ok = false;
       continue;
     }
     const ExprId value = valueOf(e, pin);
     const Loc loc = pin.name.loc;
     call.arguments.push_back({named ? pin.name : Ident{{}, loc}, value, false, false, loc});
   }
-  return good;
+  return ok;
 }
 
 // The value of an output of a box that was settled, or that keeps the value of the last cycle.
@@ -136,7 +138,7 @@ ExprId Scheduler::readBox(uint32_t source) {
   const Source s = graph_.sources[source];
   const DiagramElement& e = graph_.elements[s.element];
   const Loc loc = s.pin.loc ? s.pin.loc : e.loc;
-  if (const DiagramPin* wired = s.pin.name ? pinNamed(e, names_.text(s.pin.name), PinDirection::InOut) : nullptr;
+  if (const DiagramPin* wired = s.pin.name ? pinNamed(e, names_.string(s.pin.name), PinDirection::InOut) : nullptr;
       wired != nullptr && !wired->wires.empty())  // what is wired to an in-out goes on behind it
     return read(graph_.sourceOf(*wired, 0));
   ExprId value;
@@ -144,20 +146,20 @@ ExprId Scheduler::readBox(uint32_t source) {
   if (failed_[s.element]) return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
   if (keepsState(e)) {
     const ExprId instance = e.operand ? clone(tree_, e.operand) : nameExpr(e.hidden, e.loc);
-    const Shape shape = e.operand ? shapes_.of(e.operand) : shapes_.of(e.hidden);
+    const Signature signature = e.operand ? signatures_.of(e.operand) : signatures_.of(e.hidden);
     NameId pin = s.pin.name;
-    if (shape.kind == ShapeKind::Instance) {
-      const PinShape* known = pin ? shape.find(names_, pin) : nullptr;
+    if (signature.kind == SignatureKind::Instance) {
+      const PinSignature* known = pin ? signature.find(names_, pin) : nullptr;
       if (!pin) {  // the first output
-        for (const PinShape& candidate : shape.pins)
+        for (const PinSignature& candidate : signature.pins)
           if (known == nullptr && candidate.direction == PinDirection::Output) known = &candidate;
         if (known != nullptr) pin = known->name;
       }
       if (known == nullptr) {
         std::vector<std::string_view> candidates;
-        for (const PinShape& candidate : shape.pins) candidates.push_back(names_.text(candidate.name));
-        diagnostics_.report(diag::NoSuchPin, loc, {describe(tree_, names_, e), "output", names_.text(pin)})
-            .didYouMean(nearest(names_.text(pin), candidates));
+        for (const PinSignature& candidate : signature.pins) candidates.push_back(names_.string(candidate.name));
+        diagnostics_.report(diag::NoSuchPin, loc, {describe(tree_, names_, e), "output", names_.string(pin)})
+            .didYouMean(nearest(names_.string(pin), candidates));
         return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
       }
     }
@@ -176,7 +178,7 @@ uint32_t Scheduler::soleTarget(uint32_t source) const {
   const uint32_t user = graph_.sources[source].user;
   const DiagramElement& e = graph_.elements[user];
   const bool plain = e.kind == ElementKind::Output && !e.negated && e.edge == EdgeKind::None &&
-                     e.storage == PinStorage::None && phase_[user] != Phase::Settled;
+                     e.storage == PinStorage::None && phase_[user] != Phase::Resolved;
   if (!plain || (e.order != 0 && graph_.elements[graph_.sources[source].element].order == 0)) return kNone;
   const DiagramPin* pin = firstInput(e);
   return pin->wires.count == 1 && !pin->negated && pin->edge == EdgeKind::None ? user : kNone;
@@ -193,8 +195,8 @@ void Scheduler::giveResult(uint32_t element, uint32_t result, ExprId value) {
   }
   s.pending = value;
   s.height = heightOf(e);
-  const bool in_turn = e.order == 0 || (turn_[s.user] != kNone && turn_[s.user] == turn_[element] + 1);
-  if (s.uses == 1 && in_turn && s.height < kMaxHeight) {
+  const bool in_order = e.order == 0 || (order_of_[s.user] != kNone && order_of_[s.user] == order_of_[element] + 1);
+  if (s.uses == 1 && in_order && s.height < kMaxHeight) {
     if (hasCall(tree_, value)) calls_open_.push_back(result);
     return;
   }
@@ -202,7 +204,7 @@ void Scheduler::giveResult(uint32_t element, uint32_t result, ExprId value) {
 }
 
 //   fails   an input that nothing leads to        E1007
-void Scheduler::settleOperator(uint32_t element, Call& call) {
+void Scheduler::resolveOperator(uint32_t element, Call& call) {
   const DiagramElement e = graph_.elements[element];
   const size_t least = call.op->form == Form::Chain || call.op->form == Form::Pair ? 2 : 1;
   const bool fits = call.op->form == Form::Chain ? call.arguments.size() >= 2 : call.arguments.size() == least;
@@ -211,7 +213,7 @@ void Scheduler::settleOperator(uint32_t element, Call& call) {
     if (pin.direction == PinDirection::Output || !pin.wires.empty() || isControl(names_, pin.name.name)) continue;
     if (!open)
       diagnostics_.report(diag::NotWired, pin.name.loc,
-                          {"`" + std::string(names_.text(pin.name.name)) + "` of " + describe(tree_, names_, e)});
+                          {"`" + std::string(names_.string(pin.name.name)) + "` of " + describe(tree_, names_, e)});
     open = true;
   }
   failed_[element] = open || !fits;
@@ -256,7 +258,7 @@ void Scheduler::settleOperator(uint32_t element, Call& call) {
 }
 
 // The call of an instance, or of what has no result.
-void Scheduler::settleCall(uint32_t element, Call& call) {
+void Scheduler::resolveCall(uint32_t element, Call& call) {
   const DiagramElement e = graph_.elements[element];
   const uint32_t eno = graph_.find(element, names_.intern("ENO"));
   if (call.has_en) {
@@ -269,18 +271,20 @@ void Scheduler::settleCall(uint32_t element, Call& call) {
     const Ident pin = graph_.sources[eno].pin;
     call.arguments.push_back({pin, nameExpr(name, pin.loc), true, false, pin.loc});
   }
-  const bool function = call.shape.kind == ShapeKind::Function || call.shape.kind == ShapeKind::Method ||
-                        call.shape.kind == ShapeKind::Unknown;
+  const bool function = call.signature.kind == SignatureKind::Function ||
+                        call.signature.kind == SignatureKind::Method || call.signature.kind == SignatureKind::Unknown;
   uint32_t result = kNone;
   bool outputs = eno != kNone;
   if (function) {
-    result = call.shape.kind == ShapeKind::Unknown || call.shape.has_result ? resultOf(element, call.shape) : kNone;
+    result = call.signature.kind == SignatureKind::Unknown || call.signature.has_result
+                 ? resultOf(element, call.signature)
+                 : kNone;
     for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
       if (s == result || s == eno) continue;
-      if (pinNamed(e, names_.text(graph_.sources[s].pin.name), PinDirection::InOut) != nullptr) continue;
+      if (pinNamed(e, names_.string(graph_.sources[s].pin.name), PinDirection::InOut) != nullptr) continue;
       Source& source = graph_.sources[s];
-      source.temporary = newTemporary(wireName(element) + "_" + std::string(names_.text(source.pin.name)), e.loc);
-      const DiagramPin* out = pinNamed(e, names_.text(source.pin.name), PinDirection::Output);
+      source.temporary = newTemporary(wireName(element) + "_" + std::string(names_.string(source.pin.name)), e.loc);
+      const DiagramPin* out = pinNamed(e, names_.string(source.pin.name), PinDirection::Output);
       source.inverted = out != nullptr && out->negated;
       call.arguments.push_back({source.pin, nameExpr(source.temporary, source.pin.loc), true, false, source.pin.loc});
       outputs = true;
@@ -303,28 +307,28 @@ void Scheduler::settleCall(uint32_t element, Call& call) {
   giveResult(element, result, value);
 }
 
-void Scheduler::settleBox(uint32_t element) {
+void Scheduler::resolveBox(uint32_t element) {
   const DiagramElement e = graph_.elements[element];
   Call call;
   if (!e.path && !e.operand) return;
   if (isOperator(e)) {
-    call.op = operatorNamed(names_.text(e.name.name));
-    if (fillArguments(element, call)) settleOperator(element, call);
+    call.op = operatorNamed(names_.string(e.name.name));
+    if (fillArguments(element, call)) resolveOperator(element, call);
     return;
   }
   if (e.operand) {
-    call.shape = shapes_.of(e.operand);
+    call.signature = signatures_.of(e.operand);
   } else if (e.hidden) {
-    call.shape = shapes_.of(e.hidden);
+    call.signature = signatures_.of(e.hidden);
   } else {
-    call.shape = shapes_.of(e.path);
+    call.signature = signatures_.of(e.path);
   }
   if (!fillArguments(element, call)) {
     failed_[element] = true;
     return;
   }
   call.callee = e.operand ? operandOf(element) : e.hidden ? nameExpr(e.hidden, e.loc) : e.path;
-  settleCall(element, call);
+  resolveCall(element, call);
 }
 
 }  // namespace rung::diagram

@@ -12,8 +12,8 @@ namespace {
 
 class Declarer {
  public:
-  Declarer(Tree& tree, Names& names, Shapes& shapes, const PouDecl& pou, std::string_view prefix)
-      : tree_(tree), names_(names), shapes_(shapes), prefix_(prefix) {
+  Declarer(Tree& tree, Names& names, Signatures& signatures, const PouDecl& pou, std::string_view prefix)
+      : tree_(tree), names_(names), signatures_(signatures), prefix_(prefix) {
     for (uint32_t s = 0; s < pou.sections.count; ++s) {
       const Slice<DeclId> vars = tree_.as<SectionDecl>(tree_.list(pou.sections)[s]).vars;
       for (uint32_t v = 0; v < vars.count; ++v)
@@ -30,7 +30,7 @@ class Declarer {
       for (uint32_t p = 0; p < e.pins.count; ++p) {
         const DiagramPin pin = tree_.list(e.pins)[p];
         if (pin.edge == EdgeKind::None) continue;
-        const std::string base = sensor(pin.edge) + number(e) + "_" + std::string(names_.text(pin.name.name));
+        const std::string base = sensor(pin.edge) + number(e) + "_" + std::string(names_.string(pin.name.name));
         const NameId hidden = declare(base, sensorType(pin.edge, pin.name.loc), pin.name.loc);
         tree_.list(e.pins)[p].hidden = hidden;
       }
@@ -41,12 +41,12 @@ class Declarer {
   void keepValues(Diagnostics& diagnostics, const PouDecl& pou) {
     Graph graph;
     if (!graph.build(tree_, names_, diagnostics, pou.diagram)) return;
-    BoxTypes types(tree_, names_, shapes_, pou, graph);
-    for (const uint32_t k : readBeforeTurn(tree_, graph)) {
+    BoxTypes types(tree_, names_, signatures_, pou, graph);
+    for (const uint32_t k : readBeforeExecution(tree_, graph)) {
       const DiagramElement e = graph.elements[k];
       const TypeExprId type = types.of(k);
       if (!type) continue;
-      const NameId name = declare(std::string(names_.text(e.name.name)) + "_" + number(e), type, e.loc);
+      const NameId name = declare(std::string(names_.string(e.name.name)) + "_" + number(e), type, e.loc);
       tree_.list(pou.diagram.elements)[k].stored = name;
     }
   }
@@ -61,8 +61,8 @@ class Declarer {
     if (e.edge != EdgeKind::None) return declare(sensor(e.edge) + number(e), sensorType(e.edge, e.loc), e.loc);
     const bool composes = e.kind == ElementKind::Compose;
     const bool nameless = e.kind == ElementKind::Box && !e.operand && e.path;
-    if (!composes && !(nameless && shapes_.of(e.path).kind == ShapeKind::Block)) return {};
-    return declare(std::string(names_.text(e.name.name)) + "_" + number(e), typeOf(e.path), e.name.loc);
+    if (!composes && !(nameless && signatures_.of(e.path).kind == SignatureKind::Block)) return {};
+    return declare(std::string(names_.string(e.name.name)) + "_" + number(e), typeOf(e.path), e.name.loc);
   }
 
   TypeExprId sensorType(EdgeKind edge, Loc loc) {
@@ -99,7 +99,7 @@ class Declarer {
 
   Tree& tree_;
   Names& names_;
-  Shapes& shapes_;
+  Signatures& signatures_;
   std::string_view prefix_;
   std::vector<uint32_t> taken_;  // keys of the POU's own names, sorted
   std::vector<DeclId> vars_;
@@ -107,9 +107,9 @@ class Declarer {
 
 }  // namespace
 
-DeclId declareNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Shapes& shapes, const PouDecl& pou,
+DeclId declareNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures, const PouDecl& pou,
                        SectionKind kind, std::string_view prefix) {
-  Declarer declarer(tree, names, shapes, pou, prefix);
+  Declarer declarer(tree, names, signatures, pou, prefix);
   declarer.run(pou.diagram.elements);
   declarer.keepValues(diagnostics, pou);
   if (declarer.vars().empty()) return {};

@@ -13,9 +13,9 @@ namespace rung::diagram {
 std::string describe(const Tree& tree, const Names& names, const DiagramElement& element);
 
 // Finds the element of a place, in any body of the tree.
-class ElementPlaces {
+class ElementLocator {
  public:
-  ElementPlaces(const Tree& tree, const Names& names);
+  ElementLocator(const Tree& tree, const Names& names);
   bool empty() const { return bodies_.empty(); }
   // Empty: the place is in no element.
   std::string at(Loc loc) const;

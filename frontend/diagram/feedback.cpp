@@ -15,9 +15,9 @@ class Search {
       : tree_(tree),
         graph_(graph),
         phase_(graph.elements.size(), Phase::New),
-        turn_(graph.elements.size(), 0),
+        order_of_(graph.elements.size(), 0),
         is_found_(graph.elements.size(), false) {
-    for (uint32_t k = 0; k < graph.roots.size(); ++k) turn_[graph.roots[k]] = k + 1;
+    for (uint32_t k = 0; k < graph.roots.size(); ++k) order_of_[graph.roots[k]] = k + 1;
   }
 
   std::vector<uint32_t> run() {
@@ -62,7 +62,7 @@ class Search {
       }
       const DiagramElement& e = graph_.elements[from];
       if (e.order != 0) {  // who reads it has its turn at the root's
-        if (isFunction(e) && turn_[from] >= turn_[root]) find(from);
+        if (isFunction(e) && order_of_[from] >= order_of_[root]) find(from);
         continue;
       }
       if (phase_[from] == Phase::New) {
@@ -89,13 +89,13 @@ class Search {
   const Tree& tree_;
   const Graph& graph_;
   std::vector<Phase> phase_;
-  std::vector<uint32_t> turn_;
+  std::vector<uint32_t> order_of_;
   std::vector<uint32_t> found_;
   std::vector<bool> is_found_;
 };
 
 }  // namespace
 
-std::vector<uint32_t> readBeforeTurn(const Tree& tree, const Graph& graph) { return Search(tree, graph).run(); }
+std::vector<uint32_t> readBeforeExecution(const Tree& tree, const Graph& graph) { return Search(tree, graph).run(); }
 
 }  // namespace rung::diagram

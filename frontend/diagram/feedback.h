@@ -13,13 +13,13 @@
 namespace rung::diagram {
 
 // The elements that need a variable. What has no type is left to the scheduler, which reports it.
-std::vector<uint32_t> readBeforeTurn(const Tree& tree, const Graph& graph);
+std::vector<uint32_t> readBeforeExecution(const Tree& tree, const Graph& graph);
 
 // The types of what boxes give, as far as declarations tell; none: not known. box_types.cpp.
 class BoxTypes {
  public:
-  BoxTypes(Tree& tree, Names& names, Shapes& shapes, const PouDecl& pou, const Graph& graph)
-      : tree_(tree), names_(names), shapes_(shapes), pou_(pou), graph_(graph) {}
+  BoxTypes(Tree& tree, Names& names, Signatures& signatures, const PouDecl& pou, const Graph& graph)
+      : tree_(tree), names_(names), signatures_(signatures), pou_(pou), graph_(graph) {}
 
   TypeExprId of(uint32_t box) { return ofBox(box, 0); }
 
@@ -42,7 +42,7 @@ class BoxTypes {
 
   Tree& tree_;
   Names& names_;
-  Shapes& shapes_;
+  Signatures& signatures_;
   const PouDecl& pou_;
   const Graph& graph_;
   std::vector<TypeExprId> known_;  // of each element

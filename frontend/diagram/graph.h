@@ -61,8 +61,8 @@ class Graph {
   bool connect();
   void separate();
   void sortRoots();
-  void checkTurns();
-  void leaveOut(const Diagram& diagram);
+  void checkExecutionOrder();
+  void exclude(const Diagram& diagram);
   std::string nameOf(const DiagramElement& e) const { return describe(*tree_, *names_, e); }
 
   Tree* tree_ = nullptr;

@@ -113,7 +113,7 @@ uint32_t Graph::sourceAt(uint32_t element, const Ident& pin) {
 //   fails   a continuation without its connector        E1008
 //   fails   two connectors of one name                  E1009
 bool Graph::connect() {
-  bool good = true;                                       // a second report of the same mistake is not counted
+  bool ok = true;                                         // a second report of the same mistake is not counted
   std::vector<std::pair<uint32_t, uint32_t>> connectors;  // name key, element
   for (uint32_t k = 0; k < elements.size(); ++k) {
     const DiagramElement& e = elements[k];
@@ -122,9 +122,9 @@ bool Graph::connect() {
   std::sort(connectors.begin(), connectors.end());
   for (size_t k = 1; k < connectors.size(); ++k) {
     if (connectors[k].first != connectors[k - 1].first) continue;
-    good = false;
+    ok = false;
     const Ident& name = elements[connectors[k].second].name;
-    diagnostics_->report(diag::ConnectorTwice, name.loc, {names_->text(name.name)})
+    diagnostics_->report(diag::ConnectorTwice, name.loc, {names_->string(name.name)})
         .note(elements[connectors[k - 1].second].name.loc, diag::DeclaredHere);
   }
   for (DiagramElement& e : elements) {
@@ -132,9 +132,9 @@ bool Graph::connect() {
     const auto found = std::lower_bound(connectors.begin(), connectors.end(),
                                         std::pair{e.name.name ? names_->key(e.name.name).index : 0u, 0u});
     const bool known = e.name.name && found != connectors.end() && found->first == names_->key(e.name.name).index;
-    if (!known) diagnostics_->report(diag::NoConnector, e.loc, {names_->text(e.name.name)});
+    if (!known) diagnostics_->report(diag::NoConnector, e.loc, {names_->string(e.name.name)});
     e.network = known ? found->second : kNone;
-    good = good && known;
+    ok = ok && known;
   }
   first_source.assign(elements.size(), kNone);
   first_wire_ = kNone;
@@ -155,7 +155,7 @@ bool Graph::connect() {
         // The pin of a wire through connectors is that of the wire into the first of them.
         const End origin = isLink(wire.from) ? endOf(wire.from) : End{wire.from, wire.pin};
         if (origin.element == kNone) {
-          good = false;
+          ok = false;
           continue;
         }
         const uint32_t source = sourceAt(origin.element, origin.pin);
@@ -165,7 +165,7 @@ bool Graph::connect() {
         sources[source].user = k;
       }
   }
-  return good;
+  return ok;
 }
 
 // Elements are of one network when wires connect them, power rails apart, or when the file says so.
@@ -177,20 +177,20 @@ void Graph::separate() {
     return k;
   };
   const auto join = [&](uint32_t a, uint32_t b) { parent[root(std::max(a, b))] = root(std::min(a, b)); };
-  std::vector<std::pair<uint32_t, uint32_t>> said;  // network of the file, element
+  std::vector<std::pair<uint32_t, uint32_t>> numbered;  // network of the file, element
   for (uint32_t k = 0; k < elements.size(); ++k) {
     const DiagramElement& e = elements[k];
     if (isRail(e.kind) || isLink(k)) continue;
-    if (e.network != 0) said.emplace_back(e.network, k);
+    if (e.network != 0) numbered.emplace_back(e.network, k);
     for (const DiagramPin& pin : tree_->list(e.pins))
       for (uint32_t w = 0; w < pin.wires.count; ++w) {
         const uint32_t from = sources[sourceOf(pin, w)].element;
         if (!isRail(elements[from].kind)) join(k, from);
       }
   }
-  std::sort(said.begin(), said.end());
-  for (size_t k = 1; k < said.size(); ++k)
-    if (said[k].first == said[k - 1].first) join(said[k].second, said[k - 1].second);
+  std::sort(numbered.begin(), numbered.end());
+  for (size_t k = 1; k < numbered.size(); ++k)
+    if (numbered[k].first == numbered[k - 1].first) join(numbered[k].second, numbered[k - 1].second);
   network.resize(elements.size());
   for (uint32_t k = 0; k < elements.size(); ++k) network[k] = root(k);
 }
@@ -207,15 +207,15 @@ void Graph::sortRoots() {
   for (const DiagramElement& e : elements) ordered = ordered || e.order != 0;
 
   struct Key {
-    uint32_t said;  // the file's number of the network
+    uint32_t number_in_file;  // the file's number of the network
     int32_t y, x;
     uint32_t at;
     auto operator<=>(const Key&) const = default;
   };
   const auto keyOf = [&](uint32_t k) {
     const DiagramElement& e = elements[k];
-    const bool has_place = placed && e.placed;
-    return Key{e.kind == ElementKind::Continuation ? 0 : e.network, has_place ? e.y : 0, has_place ? e.x : 0, k};
+    const bool has_position = placed && e.placed;
+    return Key{e.kind == ElementKind::Continuation ? 0 : e.network, has_position ? e.y : 0, has_position ? e.x : 0, k};
   };
   std::vector<Key> network_key(elements.size(), Key{UINT32_MAX, INT32_MAX, INT32_MAX, UINT32_MAX});
   for (uint32_t k = 0; k < elements.size(); ++k) {
@@ -244,7 +244,7 @@ void Graph::sortRoots() {
 
 // Forbids a turn that two elements have. TM/TP manual 5.6.
 //   fails   two outputs with ORDER 3        E1017
-void Graph::checkTurns() {
+void Graph::checkExecutionOrder() {
   for (size_t k = 1; k < roots.size(); ++k) {
     const DiagramElement& before = elements[roots[k - 1]];
     const DiagramElement& e = elements[roots[k]];
@@ -254,7 +254,7 @@ void Graph::checkTurns() {
 }
 
 // What stands in a disabled network has no part in anything.
-void Graph::leaveOut(const Diagram& diagram) {
+void Graph::exclude(const Diagram& diagram) {
   for (DiagramElement& e : elements) {
     if (e.network == 0 || e.network > diagram.networks.count) continue;
     if (!tree_->list(diagram.networks)[e.network - 1].disabled) continue;
@@ -268,11 +268,11 @@ bool Graph::build(Tree& tree, Names& names, Diagnostics& diagnostics, const Diag
   names_ = &names;
   diagnostics_ = &diagnostics;
   elements.assign(tree.list(diagram.elements).begin(), tree.list(diagram.elements).end());
-  leaveOut(diagram);
+  exclude(diagram);
   if (!connect()) return false;
   separate();
   sortRoots();
-  checkTurns();
+  checkExecutionOrder();
   return true;
 }
 

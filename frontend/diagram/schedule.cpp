@@ -60,7 +60,7 @@ void Scheduler::conditional(ExprId condition, Loc loc, StmtId statement) {
 
 NameId Scheduler::newTemporary(const std::string& base, Loc loc) {
   Ident ident{names_.intern(base), loc};
-  for (int k = 2; shapes_.of(ident.name).kind != ShapeKind::Unknown; ++k)
+  for (int k = 2; signatures_.of(ident.name).kind != SignatureKind::Unknown; ++k)
     ident.name = names_.intern(base + "_" + std::to_string(k));
   VarDecl decl{{DeclKind::Var, 0, 0, loc, {}, {}}, {}, {}, {}, EdgeKind::None, false, {}, {}};
   decl.names = tree_.addList<Ident>({&ident, 1});
@@ -71,7 +71,7 @@ NameId Scheduler::newTemporary(const std::string& base, Loc loc) {
 std::string Scheduler::wireName(uint32_t element) const {
   const DiagramElement& e = graph_.elements[element];
   const std::string number = std::to_string(e.number);
-  if (e.kind == ElementKind::Box && e.name.name) return std::string(names_.text(e.name.name)) + "_" + number;
+  if (e.kind == ElementKind::Box && e.name.name) return std::string(names_.string(e.name.name)) + "_" + number;
   return "wire_" + number;
 }
 
@@ -93,7 +93,7 @@ const DiagramPin* Scheduler::firstInput(const DiagramElement& e) const {
 
 const DiagramPin* Scheduler::pinNamed(const DiagramElement& e, std::string_view name, PinDirection direction) const {
   for (const DiagramPin& pin : tree_.list(e.pins))
-    if (pin.direction == direction && sameIdentifier(names_.text(pin.name.name), name)) return &pin;
+    if (pin.direction == direction && sameIdentifier(names_.string(pin.name.name), name)) return &pin;
   return nullptr;
 }
 
@@ -144,7 +144,7 @@ ExprId Scheduler::valueOf(const DiagramElement& e, const DiagramPin& pin) {
       if (!ladder) {
         const Loc loc = tree_.list(pin.wires)[1].loc;
         std::string where = describe(tree_, names_, e);
-        if (pin.name.name) where = "pin `" + std::string(names_.text(pin.name.name)) + "` of " + where;
+        if (pin.name.name) where = "pin `" + std::string(names_.string(pin.name.name)) + "` of " + where;
         diagnostics_.report(diag::WiresMeet, loc, {std::to_string(pin.wires.count), where});
       }
     }
@@ -231,8 +231,8 @@ void Scheduler::visit(uint32_t root) {
       if (next == kNone) {
         const uint32_t done = stack_.back().element;
         stack_.pop_back();
-        phase_[done] = Phase::Settled;
-        settle(done);
+        phase_[done] = Phase::Resolved;
+        resolve(done);
       } else if (phase_[next] == Phase::New && graph_.elements[next].order == 0) {
         push(next, false);
       } else if (phase_[next] == Phase::Busy && graph_.elements[next].order == 0 &&
@@ -268,25 +268,25 @@ void Scheduler::breakCircle(uint32_t first) {
   }
   const DiagramElement& e = graph_.elements[first];
   diagnostics_.report(diag::WireLoop, e.loc);
-  phase_[first] = Phase::Settled;
+  phase_[first] = Phase::Resolved;
   for (uint32_t s = graph_.first_source[first]; s != kNone; s = graph_.sources[s].next)
     graph_.sources[s].temporary = newTemporary("wire_" + std::to_string(e.number), e.loc);
 }
 
-void Scheduler::settle(uint32_t element) {
+void Scheduler::resolve(uint32_t element) {
   switch (graph_.elements[element].kind) {
-    case ElementKind::Contact: return settleContact(element);
-    case ElementKind::Connector: return settleConnector(element);
+    case ElementKind::Contact: return resolveContact(element);
+    case ElementKind::Connector: return resolveConnector(element);
     case ElementKind::Coil:
     case ElementKind::Output:
-    case ElementKind::InOut: return settleAssignment(element);
-    case ElementKind::Box: return settleBox(element);
-    case ElementKind::Execute: return settleExecute(element);
+    case ElementKind::InOut: return resolveAssignment(element);
+    case ElementKind::Box: return resolveBox(element);
+    case ElementKind::Execute: return resolveExecute(element);
     case ElementKind::Jump:
     case ElementKind::Label:
-    case ElementKind::Return: return settleJump(element);
+    case ElementKind::Return: return resolveJump(element);
     case ElementKind::Compose:
-    case ElementKind::Select: return settleComposer(element);
+    case ElementKind::Select: return resolveComposer(element);
     case ElementKind::Input: {
       const uint32_t source = graph_.first_source[element];
       const DiagramElement& e = graph_.elements[element];
@@ -313,7 +313,7 @@ bool Scheduler::readable(uint32_t element) {
 }
 
 //   fails   a contact that nothing leads to        E1007
-void Scheduler::settleContact(uint32_t element) {
+void Scheduler::resolveContact(uint32_t element) {
   const DiagramElement e = graph_.elements[element];
   const DiagramPin* pin = firstInput(e);
   if (pin == nullptr || pin->wires.empty()) diagnostics_.report(diag::NotWired, e.loc, {describe(tree_, names_, e)});
@@ -339,7 +339,7 @@ void Scheduler::settleContact(uint32_t element) {
 }
 
 // Of wires that are joined.
-void Scheduler::settleConnector(uint32_t element) {
+void Scheduler::resolveConnector(uint32_t element) {
   const uint32_t source = graph_.first_source[element];
   if (source == kNone) return;
   Source& s = graph_.sources[source];
@@ -361,7 +361,7 @@ void Scheduler::assignTo(const DiagramElement& e, ExprId value) {
 }
 
 //   warns   a coil or a variable that nothing leads to        W1018
-void Scheduler::settleAssignment(uint32_t element) {
+void Scheduler::resolveAssignment(uint32_t element) {
   if (assigned_[element]) return;
   const DiagramElement& e = graph_.elements[element];
   const DiagramPin* pin = firstInput(e);
@@ -394,7 +394,7 @@ void Scheduler::settleAssignment(uint32_t element) {
 }
 
 // A composer fills its structure; a selector reads the members of what it is given.
-void Scheduler::settleComposer(uint32_t element) {
+void Scheduler::resolveComposer(uint32_t element) {
   const DiagramElement e = graph_.elements[element];
   for (uint32_t p = 0; p < e.pins.count; ++p) {
     const DiagramPin pin = tree_.list(e.pins)[p];
@@ -407,14 +407,14 @@ void Scheduler::settleComposer(uint32_t element) {
     for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
       const Ident member = graph_.sources[s].pin;
       graph_.sources[s].pending = memberExpr(clone(tree_, value), member.name, member.loc);
-      keep(s, wireName(element) + "_" + std::string(names_.text(member.name)));
+      keep(s, wireName(element) + "_" + std::string(names_.string(member.name)));
     }
     return;
   }
   if (e.kind == ElementKind::Select) diagnostics_.report(diag::NotWired, e.loc, {describe(tree_, names_, e)});
 }
 
-void Scheduler::settleExecute(uint32_t element) {
+void Scheduler::resolveExecute(uint32_t element) {
   const DiagramElement e = graph_.elements[element];
   const DiagramPin* en = pinNamed(e, "EN", PinDirection::Input);
   ExprId condition;
@@ -441,7 +441,7 @@ void Scheduler::settleExecute(uint32_t element) {
   emit(tree_.add<StmtId>(node));
 }
 
-void Scheduler::settleJump(uint32_t element) {
+void Scheduler::resolveJump(uint32_t element) {
   const DiagramElement e = graph_.elements[element];
   if (e.kind == ElementKind::Label) {
     emit(tree_.add<StmtId>(LabelStmt{stmtHeader(StmtKind::Label, e.name.loc), e.name}));
@@ -472,7 +472,7 @@ void Scheduler::checkCoils() {
   for (size_t k = 1; k < coils.size(); ++k) {
     if (coils[k].first != coils[k - 1].first) continue;
     const DiagramElement& e = graph_.elements[coils[k].second];
-    diagnostics_.report(diag::CoilTwice, tree_.loc(e.operand), {names_.text(tree_.as<NameExpr>(e.operand).name)})
+    diagnostics_.report(diag::CoilTwice, tree_.loc(e.operand), {names_.string(tree_.as<NameExpr>(e.operand).name)})
         .note(tree_.loc(graph_.elements[coils[k - 1].second].operand), diag::OtherCoil);
   }
 }
@@ -489,7 +489,7 @@ void Scheduler::checkHolding(const PouDecl& pou) {
       for (const DeclId v : tree_.list(section.vars))
         for (const Ident& declared : tree_.list(tree_.as<VarDecl>(v).names))
           if (names_.same(declared.name, name))
-            diagnostics_.report(diag::CoilNotRetained, tree_.loc(e.operand), {names_.text(name)})
+            diagnostics_.report(diag::CoilNotRetained, tree_.loc(e.operand), {names_.string(name)})
                 .note(declared.loc, diag::DeclaredHere);
     }
   }
@@ -508,8 +508,8 @@ Statements Scheduler::run(const PouDecl& pou) {
   assigned_.assign(count, false);
   failed_.assign(count, false);
   network_calls_.assign(count, false);
-  turn_.assign(count, kNone);
-  for (uint32_t k = 0; k < graph_.roots.size(); ++k) turn_[graph_.roots[k]] = k;
+  order_of_.assign(count, kNone);
+  for (uint32_t k = 0; k < graph_.roots.size(); ++k) order_of_[graph_.roots[k]] = k;
   for (uint32_t k = 0; k < count; ++k) {
     const DiagramElement& e = graph_.elements[k];
     if ((e.kind == ElementKind::Box && !isOperator(e)) || e.kind == ElementKind::Execute)
@@ -533,8 +533,9 @@ Statements Scheduler::run(const PouDecl& pou) {
   return result;
 }
 
-Statements scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Shapes& shapes, const PouDecl& pou) {
-  return Scheduler(tree, names, diagnostics, shapes).run(pou);
+Statements scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
+                            const PouDecl& pou) {
+  return Scheduler(tree, names, diagnostics, signatures).run(pou);
 }
 
 }  // namespace rung::diagram

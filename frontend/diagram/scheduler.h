@@ -20,13 +20,13 @@ constexpr uint16_t kMaxHeight = 100;
 
 class Scheduler {
  public:
-  Scheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Shapes& shapes)
-      : tree_(tree), names_(names), diagnostics_(diagnostics), shapes_(shapes) {}
+  Scheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures)
+      : tree_(tree), names_(names), diagnostics_(diagnostics), signatures_(signatures) {}
 
   Statements run(const PouDecl& pou);
 
  private:
-  enum class Phase : uint8_t { New, Busy, Settled };
+  enum class Phase : uint8_t { New, Busy, Resolved };
   struct Frame {
     uint32_t element, pin, wire;
     bool begins;  // out of turn, because wires lead from it to itself
@@ -40,31 +40,31 @@ class Scheduler {
   void push(uint32_t element, bool begins);
   void breakCircle(uint32_t first);
   uint32_t nextInput(Frame& frame) const;
-  void settle(uint32_t element);
+  void resolve(uint32_t element);
 
   // ---- elements
-  void settleContact(uint32_t element);
-  void settleConnector(uint32_t element);
-  void settleAssignment(uint32_t element);
-  void settleComposer(uint32_t element);
-  void settleExecute(uint32_t element);
-  void settleJump(uint32_t element);
+  void resolveContact(uint32_t element);
+  void resolveConnector(uint32_t element);
+  void resolveAssignment(uint32_t element);
+  void resolveComposer(uint32_t element);
+  void resolveExecute(uint32_t element);
+  void resolveJump(uint32_t element);
   void assignTo(const DiagramElement& e, ExprId value);
   ExprId operandOf(uint32_t element);
   bool readable(uint32_t element);
 
   // ---- boxes (boxes.cpp)
   struct Call;
-  void settleBox(uint32_t element);
+  void resolveBox(uint32_t element);
   bool isOperator(const DiagramElement& e) const;
-  void settleOperator(uint32_t element, Call& call);
-  void settleCall(uint32_t element, Call& call);
+  void resolveOperator(uint32_t element, Call& call);
+  void resolveCall(uint32_t element, Call& call);
   void giveResult(uint32_t element, uint32_t result, ExprId value);
   uint32_t soleTarget(uint32_t source) const;
   bool fillArguments(uint32_t element, Call& call);
-  bool hasPin(const Shape& shape, const Ident& pin) const;
+  bool hasPin(const Signature& signature, const Ident& pin) const;
   const DiagramPin* outputNamed(const DiagramElement& e, const Ident& pin) const;
-  uint32_t resultOf(uint32_t element, const Shape& shape) const;
+  uint32_t resultOf(uint32_t element, const Signature& signature) const;
   ExprId readBox(uint32_t source);
 
   // ---- wires
@@ -106,7 +106,7 @@ class Scheduler {
   Tree& tree_;
   Names& names_;
   Diagnostics& diagnostics_;
-  Shapes& shapes_;
+  Signatures& signatures_;
   NetworkLanguage language_ = NetworkLanguage::Ladder;
   const char* function_ = nullptr;  // what keeps no state: the body is one's
   Graph graph_;
@@ -114,7 +114,7 @@ class Scheduler {
   std::vector<bool> operand_taken_;
   std::vector<bool> failed_;                            // boxes with a reported mistake: who reads them says nothing
   std::vector<bool> assigned_;                          // variables that a box with EN writes by itself
-  std::vector<uint32_t> turn_;                          // of an element with a turn: its place among the roots
+  std::vector<uint32_t> order_of_;                      // of an element with a turn: its place among the roots
   std::vector<uint32_t> calls_open_;                    // sources whose pending value calls something
   std::vector<std::pair<uint32_t, uint32_t>> written_;  // network, key of a name that it writes; sorted
   std::vector<bool> network_calls_;                     // by the network's first element

@@ -92,10 +92,10 @@ void writeVariable(Import& import, const xml::Element& variable) {
   writeRemark(import, variable);
   plcopen::writeName(import, variable);
   const xml::Element* address = import.document.child(variable, "Address");
-  const xml::Attribute* place = address == nullptr ? nullptr : import.document.attribute(*address, "address");
-  if (place != nullptr && place->raw.starts_with("%")) {
+  const xml::Attribute* located_at = address == nullptr ? nullptr : import.document.attribute(*address, "address");
+  if (located_at != nullptr && located_at->raw.starts_with("%")) {
     import.out.word(" AT ");
-    import.out.add(import.document, *place);
+    import.out.add(import.document, *located_at);
   }
   import.out.word(" : ");
   const xml::Element* type = import.document.child(variable, "Type");
@@ -211,9 +211,9 @@ void writeTypeDecl(Import& import, const xml::Element& declaration) {
 
 void writeVarList(Import& import, const xml::Element& list, std::string_view word) {
   import.out.put(list.loc, word);
-  static constexpr std::pair<std::string_view, std::string_view> kWords[] = {
+  static constexpr std::pair<std::string_view, std::string_view> kKeywords[] = {
       {"constant", " CONSTANT"}, {"retain", " RETAIN"}, {"nonRetain", " NON_RETAIN"}};
-  for (const auto& [attribute, text] : kWords)
+  for (const auto& [attribute, text] : kKeywords)
     if (isTrue(import, list, attribute)) import.out.word(text);
   import.out.word("\n");
   for (const xml::Element* e = import.document.firstChild(list); e != nullptr; e = import.document.next(*e))

@@ -11,17 +11,17 @@
 namespace rung::iec10 {
 namespace {
 
-struct PouWords {
+struct PouKeywords {
   std::string_view element, begin, end;
 };
-constexpr PouWords kPous[] = {
+constexpr PouKeywords kPous[] = {
     {"Program", "PROGRAM ", "END_PROGRAM"},       {"FunctionBlock", "FUNCTION_BLOCK ", "END_FUNCTION_BLOCK"},
     {"Function", "FUNCTION ", "END_FUNCTION"},    {"Class", "CLASS ", "END_CLASS"},
     {"Interface", "INTERFACE ", "END_INTERFACE"}, {"Method", "METHOD ", "END_METHOD"}};
 
-const PouWords* wordsOf(std::string_view element) {
-  const auto* found =
-      std::find_if(std::begin(kPous), std::end(kPous), [&](const PouWords& words) { return words.element == element; });
+const PouKeywords* keywordsOf(std::string_view element) {
+  const auto* found = std::find_if(std::begin(kPous), std::end(kPous),
+                                   [&](const PouKeywords& keywords) { return keywords.element == element; });
   return found == std::end(kPous) ? nullptr : found;
 }
 
@@ -36,7 +36,7 @@ class ProjectReader {
 
   void writeNamespace(const Element& space);
   void writePou(const Element& pou, const std::string& owner);
-  bool writeHeader(const Element& pou, const PouWords& words);
+  bool writeHeader(const Element& pou, const PouKeywords& keywords);
   void writeConfiguration(const Element& configuration);
   void writeResource(const Element& resource);
   void writeTask(const Element& task);
@@ -66,7 +66,7 @@ const xml::Element* ProjectReader::plainText(const Element& pou) const {
 }
 
 // FUNCTION_BLOCK FINAL name EXTENDS a IMPLEMENTS b, c : INT and the sections. False: it has no name.
-bool ProjectReader::writeHeader(const Element& pou, const PouWords& words) {
+bool ProjectReader::writeHeader(const Element& pou, const PouKeywords& keywords) {
   if (const Element* plain = plainText(pou)) {
     import_.out.put(plain->loc, "");
     plcopen::writeText(import_, *plain);
@@ -74,8 +74,8 @@ bool ProjectReader::writeHeader(const Element& pou, const PouWords& words) {
     return true;
   }
   if (!plcopen::checkName(import_, pou)) return false;
-  import_.out.put(pou.loc, words.begin);
-  if (words.element == "Method" && plcopen::hasName(import_, pou, "accessSpecifier"))
+  import_.out.put(pou.loc, keywords.begin);
+  if (keywords.element == "Method" && plcopen::hasName(import_, pou, "accessSpecifier"))
     import_.out.word(plcopen::upper(document_.value(pou, "accessSpecifier")) + " ");
   for (const std::string_view modifier : {"abstract", "final", "override"})
     if (plcopen::isTrue(import_, pou, modifier)) import_.out.word(plcopen::upper(modifier) + " ");
@@ -99,13 +99,13 @@ bool ProjectReader::writeHeader(const Element& pou, const PouWords& words) {
 
 // declaration {METHOD … END_METHOD} body END_…
 void ProjectReader::writePou(const Element& pou, const std::string& owner) {
-  const PouWords& words = *wordsOf(pou.name);
-  if (!writeHeader(pou, words)) return;
+  const PouKeywords& keywords = *keywordsOf(pou.name);
+  if (!writeHeader(pou, keywords)) return;
   const std::string name = owner + document_.value(pou, "name");
   forEach(pou, "Method", [&](const Element& method) { writePou(method, name + "."); });
   for (const std::string_view body : {"MainBody", "Body"})
     if (const Element* found = document_.child(pou, body)) writeMainBody(import_, *found, name);
-  import_.out.put(pou.end, words.end);
+  import_.out.put(pou.end, keywords.end);
   import_.out.word("\n");
 }
 
@@ -123,7 +123,7 @@ void ProjectReader::writeNamespace(const Element& space) {
       writeNamespace(*e);
     else if (e->name == "DataTypeDecl")
       writeTypeDecl(import_, *e);
-    else if (wordsOf(e->name) != nullptr && e->name != "Method")
+    else if (keywordsOf(e->name) != nullptr && e->name != "Method")
       writePou(*e, {});
   }
   if (named) import_.out.put(space.end, "END_NAMESPACE\n");
@@ -214,7 +214,7 @@ void ProjectReader::writeConfiguration(const Element& configuration) {
 
 void ProjectReader::run() {
   const Element& root = document_.elements[0];
-  if (wordsOf(root.name) != nullptr) return writePou(root, {});
+  if (keywordsOf(root.name) != nullptr) return writePou(root, {});
   forEach(root, "Types", [&](const Element& types) { writeNamespace(types); });
   forEach(root, "Instances", [&](const Element& instances) {
     forEach(instances, "Configuration", [&](const Element& configuration) { writeConfiguration(configuration); });
@@ -230,7 +230,7 @@ bool isIec10(std::string_view text) {
 FileId readProject(Sources& sources, FileId file, Diagnostics& diagnostics) {
   xml::Document document;
   if (!xml::read(sources, file, diagnostics, document)) return {};
-  xml::Assembly program(sources);
+  xml::SourceMappedText program(sources);
   Import import{sources, document, diagnostics, program};
   ProjectReader(import).run();
   return program.finish(sources, file);

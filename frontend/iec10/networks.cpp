@@ -21,20 +21,20 @@ using plcopen::isTrue;
 bool isName(std::string_view text) { return !text.empty() && plcopen::identifierOf(text) == text; }
 
 // The names of objects and what the notation calls them.
-constexpr std::pair<std::string_view, std::string_view> kWords[] = {{"LeftPowerRail", "rail"},
-                                                                    {"RightPowerRail", "right_rail"},
-                                                                    {"Contact", "contact"},
-                                                                    {"Coil", "coil"},
-                                                                    {"Block", "box"},
-                                                                    {"DataSource", "input"},
-                                                                    {"DataSink", "output"},
-                                                                    {"Jump", "jump"},
-                                                                    {"CfcJump", "jump"},
-                                                                    {"CfcLabel", "label"},
-                                                                    {"Return", "return"},
-                                                                    {"Connector", "connector"},
-                                                                    {"Continuation", "continuation"},
-                                                                    {"Comment", "comment"}};
+constexpr std::pair<std::string_view, std::string_view> kKeywords[] = {{"LeftPowerRail", "rail"},
+                                                                       {"RightPowerRail", "right_rail"},
+                                                                       {"Contact", "contact"},
+                                                                       {"Coil", "coil"},
+                                                                       {"Block", "box"},
+                                                                       {"DataSource", "input"},
+                                                                       {"DataSink", "output"},
+                                                                       {"Jump", "jump"},
+                                                                       {"CfcJump", "jump"},
+                                                                       {"CfcLabel", "label"},
+                                                                       {"Return", "return"},
+                                                                       {"Connector", "connector"},
+                                                                       {"Continuation", "continuation"},
+                                                                       {"Comment", "comment"}};
 
 // Of a pin that the file does not name: IN1, IN2, OUT, OUT2.
 std::string otherName(std::string_view kind, size_t count) {
@@ -64,14 +64,14 @@ class Networks {
   void writePin(const Element& pin, std::string_view other, bool input, bool output);
   void writeWires(const Element& point);
   void writeInput(const Element& e);
-  void writeMarks(const Element& e);
-  void writePlace(const Element& e);
+  void writeModifiers(const Element& e);
+  void writePosition(const Element& e);
   void writeOrder(const Element& e);
   void writeReference(const Element& e, std::string_view attribute);
   const Element* data(const Element& e, std::string_view name) const;
-  std::string_view wordOf(const Element& e) const {
+  std::string_view keywordOf(const Element& e) const {
     const std::string type = typeOf(import_, e);
-    for (const auto& [name, word] : kWords)
+    for (const auto& [name, word] : kKeywords)
       if (type == name) return word;
     return {};
   }
@@ -80,7 +80,7 @@ class Networks {
   const xml::Document& document_;
   const std::string& name_;
   uint64_t last_element_ = 0, last_network_ = 0;
-  uint64_t first_turn_ = 1, turns_end_ = 1;          // of the network at hand
+  uint64_t first_order_ = 1, order_end_ = 1;         // of the network at hand
   std::unordered_map<std::string, Source> sources_;  // by id, of the network at hand
   std::vector<std::pair<const Element*, uint64_t>> objects_;
 };
@@ -110,10 +110,10 @@ void Networks::addOutput(const Element& owner, const Source& source) {
 // Forbids a wire from a point that the network does not have. IEC 61131-10, Connection.
 //   fails   <Connection refConnectionPointOutId="7"/>          E1001
 bool Networks::checkWires(const Element& owner) {
-  bool good = true;
+  bool ok = true;
   for (const Element* e = document_.firstChild(owner); e != nullptr; e = document_.next(*e)) {
     if (e->name != "Connection" && e->name != "FeedbackConnection") {
-      good = checkWires(*e) && good;
+      ok = checkWires(*e) && ok;
       continue;
     }
     const xml::Attribute* from = document_.attribute(*e, "refConnectionPointOutId");
@@ -121,9 +121,9 @@ bool Networks::checkWires(const Element& owner) {
     if (from != nullptr && sources_.count(id) != 0) continue;
     import_.diagnostics.report(diag::WireFromNothing, from == nullptr ? e->loc : from->loc,
                                {"with the connectionPointOutId " + id});
-    good = false;
+    ok = false;
   }
-  return good;
+  return ok;
 }
 
 // Numbers the objects of a network and finds their outputs.
@@ -131,15 +131,15 @@ bool Networks::checkWires(const Element& owner) {
 bool Networks::collect(const Element& network) {
   sources_.clear();
   objects_.clear();
-  bool good = true;
+  bool ok = true;
   for (const Element* e : childrenOf(network, {"LdObject", "FbdObject", "CommonObject"})) {
     const std::string type = typeOf(import_, *e);
     if (type == "Unconnected") continue;
-    if (wordOf(*e).empty()) {
-      const xml::Attribute* said = document_.attribute(*e, "type");
-      import_.diagnostics.report(diag::ArchiveObject, said == nullptr ? e->loc : said->loc,
+    if (keywordOf(*e).empty()) {
+      const xml::Attribute* type_attribute = document_.attribute(*e, "type");
+      import_.diagnostics.report(diag::ArchiveObject, type_attribute == nullptr ? e->loc : type_attribute->loc,
                                  {type.empty() ? e->name : type, "FBD or LD", name_});
-      good = false;
+      ok = false;
       continue;
     }
     const uint64_t number = ++last_element_;
@@ -159,7 +159,7 @@ bool Networks::collect(const Element& network) {
         for (const Element* point : childrenOf(*eno, {"ConnectionPointOut"}))
           sources_[document_.value(*point, "connectionPointOutId")] = {number, nullptr, "ENO"};
   }
-  return checkWires(network) && good;
+  return checkWires(network) && ok;
 }
 
 void Networks::writeWires(const Element& point) {
@@ -191,7 +191,7 @@ void Networks::writeInput(const Element& e) {
   }
 }
 
-void Networks::writeMarks(const Element& e) {
+void Networks::writeModifiers(const Element& e) {
   bool negated = isTrue(import_, e, "negated");
   if (const Element* own = data(e, "Negation"))
     negated = negated || isTrue(import_, *own, "inNegated") || isTrue(import_, *own, "outNegated");
@@ -209,16 +209,16 @@ void Networks::writeMarks(const Element& e) {
 // Bachmann counts turns from 0 in each network.
 void Networks::writeOrder(const Element& e) {
   const Element* priority = data(e, "EvaluationPriority");
-  const xml::Attribute* turn = priority == nullptr ? nullptr : document_.attribute(*priority, "priorityInNetwork");
+  const xml::Attribute* order = priority == nullptr ? nullptr : document_.attribute(*priority, "priorityInNetwork");
   uint32_t number = 0;
-  if (turn == nullptr) return;
-  const auto [end, error] = std::from_chars(turn->raw.data(), turn->raw.data() + turn->raw.size(), number);
+  if (order == nullptr) return;
+  const auto [end, error] = std::from_chars(order->raw.data(), order->raw.data() + order->raw.size(), number);
   if (error != std::errc{} || number > 1'000'000'000) return;
-  turns_end_ = std::max(turns_end_, first_turn_ + number + 1);
-  import_.out.put(turn->loc, " ORDER " + std::to_string(first_turn_ + number));
+  order_end_ = std::max(order_end_, first_order_ + number + 1);
+  import_.out.put(order->loc, " ORDER " + std::to_string(first_order_ + number));
 }
 
-void Networks::writePlace(const Element& e) {
+void Networks::writePosition(const Element& e) {
   const Element* position = document_.child(e, "RelPosition");
   if (position == nullptr) return;
   const auto number = [&](const Element& from, std::string_view name) {
@@ -227,9 +227,10 @@ void Networks::writePlace(const Element& e) {
     if (std::from_chars(text.data(), text.data() + text.size(), v).ec != std::errc{} || !std::isfinite(v)) v = 0;
     return std::to_string(std::lround(std::clamp(v, -1e9, 1e9)));
   };
-  std::string place = " AT " + number(*position, "x") + ", " + number(*position, "y");
-  if (const Element* size = document_.child(e, "Size")) place += ", " + number(*size, "x") + ", " + number(*size, "y");
-  import_.out.put(position->loc, place);
+  std::string position_clause = " AT " + number(*position, "x") + ", " + number(*position, "y");
+  if (const Element* size = document_.child(e, "Size"))
+    position_clause += ", " + number(*size, "x") + ", " + number(*size, "y");
+  import_.out.put(position->loc, position_clause);
 }
 
 // Connectors are called as their author likes: in the notation by a name that stands for it.
@@ -238,12 +239,12 @@ void Networks::writeReference(const Element& e, std::string_view attribute) {
   if (name == nullptr || name->raw.empty()) return;
   import_.out.word(" ");
   if (isName(name->raw)) return import_.out.add(document_, *name);
-  std::string made = "n";
+  std::string created = "n";
   for (const char c : name->raw) {
     const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    made += plain ? std::string(1, c) : std::to_string(static_cast<unsigned char>(c)) + "x";
+    created += plain ? std::string(1, c) : std::to_string(static_cast<unsigned char>(c)) + "x";
   }
-  import_.out.put(name->loc, made);
+  import_.out.put(name->loc, created);
 }
 
 void Networks::writePin(const Element& pin, std::string_view other, bool input, bool output) {
@@ -252,7 +253,7 @@ void Networks::writePin(const Element& pin, std::string_view other, bool input, 
     import_.out.add(document_, *name);
   else
     import_.out.put(pin.loc, other);
-  writeMarks(pin);
+  writeModifiers(pin);
   if (input) {
     import_.out.word(" := ");
     for (const Element* point : childrenOf(pin, {"ConnectionPointIn"})) writeWires(*point);
@@ -272,7 +273,7 @@ void Networks::writeBox(const Element& e) {
     import_.out.word(")");
   }
   writeOrder(e);
-  writePlace(e);
+  writePosition(e);
   import_.out.word(" [");
   bool first = true;
   const auto separate = [&] {
@@ -328,16 +329,16 @@ void Networks::writeObject(const Element& e, std::string_view word, uint64_t num
       if (operand != nullptr) import_.out.add(document_, *operand);
       import_.out.word(")");
     }
-    if (variable || word == "jump" || word == "return") writeMarks(e);
+    if (variable || word == "jump" || word == "return") writeModifiers(e);
     if (word != "input") writeOrder(e);
-    writePlace(e);
+    writePosition(e);
     if (word != "rail" && word != "input" && word != "continuation" && word != "label") writeInput(e);
   }
   import_.out.word(";\n");
 }
 
 void Networks::writeNetwork(const Element& network) {
-  first_turn_ = turns_end_;
+  first_order_ = order_end_;
   if (!collect(network)) return;
   import_.out.put(network.loc, "NETWORK " + std::to_string(++last_network_) + ";\n");
   if (plcopen::hasName(import_, network, "label")) {
@@ -345,7 +346,7 @@ void Networks::writeNetwork(const Element& network) {
     writeReference(network, "label");
     import_.out.word(";\n");
   }
-  for (const auto& [e, number] : objects_) writeObject(*e, wordOf(*e), number);
+  for (const auto& [e, number] : objects_) writeObject(*e, keywordOf(*e), number);
 }
 
 uint64_t orderOf(const Import& import, const Element& element) {
@@ -389,8 +390,9 @@ void writeMainBody(Import& import, const xml::Element& body, const std::string& 
     const bool text = type == "ST" || type == "IL";
     const bool networks = type == "LD" || type == "FBD" || type == "LdSection";
     if (!text && !networks) {
-      const xml::Attribute* said = import.document.attribute(*e, "type");
-      import.diagnostics.report(diag::XmlBodyLanguage, said == nullptr ? e->loc : said->loc, {name, type});
+      const xml::Attribute* type_attribute = import.document.attribute(*e, "type");
+      import.diagnostics.report(diag::XmlBodyLanguage, type_attribute == nullptr ? e->loc : type_attribute->loc,
+                                {name, type});
       return;
     }
     drawn = drawn || networks;

@@ -23,7 +23,7 @@ class Arranger {
     std::vector<uint32_t> attached;
     uint32_t host = kNone;  // where it is attached
     uint32_t column = 0;
-    uint32_t first = 0, turn = 0;  // in `order_`: where what leads to it begins, and where it stands
+    uint32_t first = 0, rank = 0;  // in `order_`: where what leads to it begins, and where it stands
     bool joins = false;            // of a walk's root: something that leads to it was found by an earlier walk
     Rect cluster;                  // with what is attached
     enum class State : uint8_t { New, Open, Done } state = State::New;
@@ -31,14 +31,14 @@ class Arranger {
   const DiagramElement& element(uint32_t item) const { return body_.elements[plan_.items[item].element]; }
   bool isNode(uint32_t item) const;
   // Has lines of its own: nothing stands beside it.
-  bool standsAlone(uint32_t item) const {
+  bool isIsolated(uint32_t item) const {
     return element(item).kind == ElementKind::Label || element(item).kind == ElementKind::Comment;
   }
   bool ladder() const { return body_.diagram.language == NetworkLanguage::Ladder; }
   void attach();
   void walk(uint32_t root);
   void setColumns();
-  void place(uint32_t item);
+  void placeItem(uint32_t item);
   void reserve(uint32_t item);
   void moveDown(uint32_t first, uint32_t end, int32_t by);
   uint32_t alignedLink(uint32_t item) const;
@@ -103,7 +103,7 @@ void Arranger::walk(uint32_t root) {
     Node& node = nodes_[top.item];
     if (top.next == node.in.size()) {
       node.state = Node::State::Done;
-      node.turn = static_cast<uint32_t>(order_.size());
+      node.rank = static_cast<uint32_t>(order_.size());
       order_.push_back(top.item);
       stack.pop_back();
       continue;
@@ -111,7 +111,7 @@ void Arranger::walk(uint32_t root) {
     const uint32_t link = node.in[top.next++];
     const uint32_t from = plan_.links[link].from.item;
     if (nodes_[from].state == Node::State::Done) {
-      if (nodes_[from].turn < nodes_[root].first) nodes_[root].joins = true;
+      if (nodes_[from].rank < nodes_[root].first) nodes_[root].joins = true;
     } else if (nodes_[from].state == Node::State::Open) {
       feedback_[link] = true;
     } else {
@@ -148,7 +148,7 @@ void Arranger::setColumns() {
 void Arranger::reserve(uint32_t item) {
   for (const uint32_t k : nodes_[item].out) {
     const Link& link = plan_.links[k];
-    const int32_t below = plan_.place(link.from).y + kGrid;
+    const int32_t below = plan_.point(link.from).y + kGrid;
     for (uint32_t c = nodes_[item].column + 1; c < nodes_[link.to.item].column; ++c)
       skyline_[c] = std::max(skyline_[c], below);
   }
@@ -180,16 +180,16 @@ uint32_t Arranger::alignedLink(uint32_t item) const {
   return best;
 }
 
-void Arranger::place(uint32_t item) {
+void Arranger::placeItem(uint32_t item) {
   Node& node = nodes_[item];
   Item& it = plan_.items[item];
   int32_t y = skyline_[node.column] - node.cluster.y;
   if (const uint32_t link = alignedLink(item); link != kNone) {
-    const int32_t wanted = plan_.place(plan_.links[link].from).y - plan_.terminal(plan_.links[link].to).at.y;
+    const int32_t wanted = plan_.point(plan_.links[link].from).y - plan_.terminal(plan_.links[link].to).at.y;
     if (wanted >= y)
       y = wanted;
-    else if (nodes_[plan_.links[link].from.item].turn >= node.first)
-      moveDown(node.first, node.turn, y - wanted);
+    else if (nodes_[plan_.links[link].from.item].rank >= node.first)
+      moveDown(node.first, node.rank, y - wanted);
   }
   it.origin.y = y;
   skyline_[node.column] = node.cluster.at(it.origin).bottom() + kElementGap;
@@ -202,7 +202,7 @@ void Arranger::setX() {
   std::vector<int32_t> left(columns), right(columns), lanes(columns + 1);
   for (const uint32_t item : order_) {
     const Node& node = nodes_[item];
-    if (standsAlone(item)) continue;
+    if (isIsolated(item)) continue;
     left[node.column] = std::max(left[node.column], -node.cluster.x);
     right[node.column] = std::max(right[node.column], node.cluster.right());
   }
@@ -210,7 +210,7 @@ void Arranger::setX() {
   for (uint32_t k = 0; k < plan_.links.size(); ++k) {
     const Link& link = plan_.links[k];
     if (!isNode(link.to.item) || !isNode(link.from.item)) continue;
-    if (!feedback_[k] && plan_.place(link.from).y == plan_.place(link.to).y) continue;
+    if (!feedback_[k] && plan_.point(link.from).y == plan_.point(link.to).y) continue;
     const auto count = [&](uint32_t channel) {
       if (last[channel] == link.from) return;
       last[channel] = link.from;
@@ -228,7 +228,7 @@ void Arranger::setX() {
   }
   x += kElementGap + lanes[columns] * kGrid;
   for (const uint32_t item : order_)
-    plan_.items[item].origin.x = standsAlone(item) ? (ladder() ? kElementGap : 0) : at[nodes_[item].column];
+    plan_.items[item].origin.x = isIsolated(item) ? (ladder() ? kElementGap : 0) : at[nodes_[item].column];
   setAttached();
   fitRails(plan_, 0, x);
 }
@@ -237,11 +237,11 @@ void Arranger::setAttached() {
   for (const Link& link : plan_.links) {
     const uint32_t from = link.from.item, to = link.to.item;
     if (nodes_[from].host == to) {
-      const Point end = plan_.place(link.to);
+      const Point end = plan_.point(link.to);
       plan_.items[from].origin = {end.x - kGrid - plan_.terminal(link.from).at.x,
                                   end.y - plan_.terminal(link.from).at.y};
     } else if (nodes_[to].host == from) {
-      const Point end = plan_.place(link.from);
+      const Point end = plan_.point(link.from);
       plan_.items[to].origin = {end.x + kGrid - plan_.terminal(link.to).at.x, end.y - plan_.terminal(link.to).at.y};
     }
   }
@@ -278,15 +278,15 @@ void Arranger::run() {
   }
   setAttached();
   for (const uint32_t item : order_)
-    for (const uint32_t guest : nodes_[item].attached) nodes_[item].cluster.include(plan_.items[guest].place());
+    for (const uint32_t guest : nodes_[item].attached) nodes_[item].cluster.include(plan_.items[guest].bounds());
   size_t tree = 0;
   for (uint32_t k = 0; k < order_.size(); ++k) {
     if (k == 0 || k == ends[tree]) {
       if (k > 0) ++tree;
-      if (apart[tree] || standsAlone(order_[k - 1]))
+      if (apart[tree] || isIsolated(order_[k - 1]))
         std::fill(skyline_.begin(), skyline_.end(), *std::max_element(skyline_.begin(), skyline_.end()));
     }
-    place(order_[k]);
+    placeItem(order_[k]);
   }
   setX();
 }

@@ -49,7 +49,7 @@ class ChartText {
   StepText step(uint32_t index) const;
   std::vector<std::string> condition(uint32_t index) const;  // with the name, where it has one
   std::string priority(uint32_t index) const;
-  std::string_view name(NameId id) const { return names_.text(id); }
+  std::string_view name(NameId id) const { return names_.string(id); }
 
  private:
   std::string exprText(ExprId e) const { return e ? printSt(tree_, names_, e) : std::string(); }
@@ -62,16 +62,16 @@ class ChartText {
 
 StepText ChartText::step(uint32_t index) const {
   const SfcStep& s = tree_.list(pou_.steps)[index];
-  StepText text{std::string(names_.text(s.name.name)), {}, {}, 0, 0, 0, 0, 0};
+  StepText text{std::string(names_.string(s.name.name)), {}, {}, 0, 0, 0, 0, 0};
   if (s.min.value) text.times += "min " + exprText(s.min.value);
   if (s.max.value) text.times += (text.times.empty() ? "max " : ", max ") + exprText(s.max.value);
   for (const SfcAssociation& a : tree_.list(s.actions)) {
-    Action action{std::string(a.word ? names_.text(a.word) : defaultWord(a.qualifier)),
-                  std::string(names_.text(a.action.name)),
+    Action action{std::string(a.word ? names_.string(a.word) : defaultWord(a.qualifier)),
+                  std::string(names_.string(a.action.name)),
                   {}};
     if (a.time.value) action.qualifier += " " + exprText(a.time.value);
     for (const Ident& indicator : tree_.list(a.indicators))
-      action.indicator += (action.indicator.empty() ? "" : ", ") + std::string(names_.text(indicator.name));
+      action.indicator += (action.indicator.empty() ? "" : ", ") + std::string(names_.string(indicator.name));
     if (!action.indicator.empty())
       text.indicator_width = std::max(text.indicator_width, textWidth(action.indicator) + 12);
     text.qualifier_width = std::max(text.qualifier_width, textWidth(action.qualifier) + 12);
@@ -101,7 +101,7 @@ std::vector<std::string> ChartText::condition(uint32_t index) const {
   const SfcTransition& t = tree_.list(pou_.transitions)[index];
   const ExprId value = valueOf(t);
   std::vector<std::string> lines;
-  if (t.name.name || !value) lines.emplace_back(names_.text(t.name.name ? t.name.name : t.target.name));
+  if (t.name.name || !value) lines.emplace_back(names_.string(t.name.name ? t.name.name : t.target.name));
   if (!value) return lines;
   for (std::string& line : wrapped(exprText(value), kConditionWidth)) lines.push_back(std::move(line));
   return lines;

@@ -42,7 +42,7 @@ class ChartArranger {
   }
   NameId nameOf(const Edge& edge) const;
   NameId jumpName(uint32_t target) const;
-  int32_t jumpWidth(NameId name) const { return textWidth(names_.text(name)) + 10; }
+  int32_t jumpWidth(NameId name) const { return textWidth(names_.string(name)) + 10; }
   void arrange(uint32_t node);
   void addBranches(uint32_t node, Block& block, bool side_by_side_only);
   void addMeeting(uint32_t node, Block& block);
@@ -172,14 +172,14 @@ void ChartArranger::addBranches(uint32_t node, Block& block, bool side_by_side_o
     x += right;
   }
   const int32_t middle = side_by_side_only ? 0 : (at.front() + at.back()) / 2;
-  for (int32_t& place : at) place -= middle;
+  for (int32_t& column : at) column -= middle;
   if (!side_by_side_only) block.lines.push_back({{0, begin}, {0, bar}});
   if (several && !side_by_side_only) {
     const int32_t more = doubled ? 10 : 0;
     block.lines.push_back({{at.front() - more, bar}, {at.back() + more, bar}, doubled});
     block.left = std::min(block.left, at.front() - more);
     block.right = std::max(block.right, at.back() + more);
-    for (const int32_t place : at) block.lines.push_back({{place, bar + (doubled ? kDouble : 0)}, {place, top}});
+    for (const int32_t column : at) block.lines.push_back({{column, bar + (doubled ? kDouble : 0)}, {column, top}});
   }
   for (size_t k = 0; k < edges.size(); ++k) {
     const Point p{at[k], top};
@@ -335,7 +335,7 @@ std::vector<std::vector<ChartEdge>> edgesOf(const Tree& tree, const Names& names
 }
 
 void planChart(const Tree& tree, const Names& names, const PouDecl& pou, ChartPlan& plan) {
-  if (!takeChartPlaces(tree, names, pou, plan)) ChartArranger(tree, names, pou, plan).run();
+  if (!takeChartPositions(tree, names, pou, plan)) ChartArranger(tree, names, pou, plan).run();
 }
 
 }  // namespace rung::picture

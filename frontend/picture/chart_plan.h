@@ -1,5 +1,5 @@
 // The plan of a chart: where its steps, transitions, lines and jumps stand. In: steps and transitions as the parser
-// leaves them. chart_places.cpp takes the places of the file; chart_plan.cpp finds the branches and lays them out;
+// leaves them. chart_positions.cpp takes the places of the file; chart_plan.cpp finds the branches and lays them out;
 // chart_picture.cpp measures and draws.
 // Private to frontend/picture.
 #pragma once
@@ -52,7 +52,7 @@ std::vector<std::vector<ChartEdge>> edgesOf(const Tree& tree, const Names& names
                                             const ChartPlan& plan);
 
 // Takes the places of the file, where it has them and lines can be led between them.
-bool takeChartPlaces(const Tree& tree, const Names& names, const PouDecl& pou, ChartPlan& plan);
+bool takeChartPositions(const Tree& tree, const Names& names, const PouDecl& pou, ChartPlan& plan);
 // `nodes` are measured; the rest is filled.
 void planChart(const Tree& tree, const Names& names, const PouDecl& pou, ChartPlan& plan);
 // Steps and transitions with their sizes.

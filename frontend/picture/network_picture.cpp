@@ -14,7 +14,7 @@ constexpr int32_t kLeastPage = 300;  // an element and the marks beside it
 
 // CODESYS puts a connector without a name into each wire.
 bool isJoint(const DiagramElement& e) { return e.kind == ElementKind::Connector && !e.name.name; }
-constexpr uint32_t kMostJoints = 1000;  // on the ways to one pin: they may stand in a circle
+constexpr uint32_t kMaxJoints = 1000;  // on the ways to one pin: they may stand in a circle
 
 class Planner {
  public:
@@ -117,7 +117,7 @@ Plan Planner::items(std::span<const uint32_t> elements, bool one_rail) {
 void Planner::addLinks(Plan& plan, const DiagramWire& wire, const End& to, uint32_t& joints) {
   if (wire.from == kNoElement) return;
   if (isJoint(body_.elements[wire.from])) {
-    if (++joints > kMostJoints) return;
+    if (++joints > kMaxJoints) return;
     for (const DiagramPin& pin : body_.tree.list(body_.elements[wire.from].pins))
       for (const DiagramWire& before : body_.tree.list(pin.wires)) addLinks(plan, before, to, joints);
     return;
@@ -166,16 +166,16 @@ void addTo(std::vector<Plan>& all, std::vector<Plan> more) {
 
 std::vector<Plan> Planner::plan(std::span<const uint32_t> elements, int32_t page) {
   std::vector<Plan> bands;
-  uint32_t marks = 0;
+  uint32_t continuations = 0;
   Plan placed = items(elements, false);
   addLinks(placed);
-  placed_ = takePlaces(body_, placed);
+  placed_ = takeFilePositions(body_, placed);
   if (placed_) {
     // A CFC is a plane, not a line of text: it keeps its places.
-    if (body_.diagram.language == NetworkLanguage::Continuous || placesOf(placed).width <= page)
+    if (body_.diagram.language == NetworkLanguage::Continuous || boundsOf(placed).width <= page)
       bands.push_back(std::move(placed));
     else
-      for (Plan& rows : splitByRows(placed)) addTo(bands, wrap(body_, std::move(rows), page, marks));
+      for (Plan& rows : splitByRows(placed)) addTo(bands, wrap(body_, std::move(rows), page, continuations));
     return bands;
   }
   Plan free = items(elements, true);
@@ -183,13 +183,13 @@ std::vector<Plan> Planner::plan(std::span<const uint32_t> elements, int32_t page
   if (ladder()) addRightRail(free);
   Plan whole = free;
   arrange(body_, whole);
-  if (placesOf(whole).width <= page) {
+  if (boundsOf(whole).width <= page) {
     bands.push_back(std::move(whole));
     return bands;
   }
   for (Plan& part : splitByWires(free)) {
     arrange(body_, part);
-    addTo(bands, wrap(body_, std::move(part), page, marks));
+    addTo(bands, wrap(body_, std::move(part), page, continuations));
   }
   return bands;
 }
@@ -221,7 +221,7 @@ void alignRightRails(std::vector<std::vector<Plan>>& networks, const Body& body)
   for (const std::vector<Plan>& bands : networks)
     for (const Plan& plan : bands)
       for (const Item& item : plan.items)
-        if (rightRail(item) || item.mark != 0) right = std::max(right, item.place().right());
+        if (rightRail(item) || item.continuation != 0) right = std::max(right, item.bounds().right());
   for (std::vector<Plan>& bands : networks)
     for (Plan& plan : bands) {
       const auto rail = std::find_if(plan.items.begin(), plan.items.end(), rightRail);
@@ -241,7 +241,7 @@ void alignRightRails(std::vector<std::vector<Plan>>& networks, const Body& body)
 Plan stacked(std::vector<Plan>& bands) {
   Plan all;
   for (Plan& plan : bands) {
-    leadWires(plan);
+    routeWires(plan);
     if (all.items.empty()) {
       all = std::move(plan);
       continue;
@@ -308,7 +308,7 @@ std::string drawNetworks(const Tree& tree, const Names& names, const Diagram& di
     right = std::max(right, plan.bounds.right());
     if (k > 0) {
       const DiagramNetwork& network = tree.list(diagram.networks)[k - 1];
-      std::string title(body.text(network.title, network.title_length));
+      std::string title(body.string(network.title, network.title_length));
       if (network.disabled) title += title.empty() ? "(disabled)" : " (disabled)";
       svg.rect({0, top, kStrip, y - top}, "n");
       svg.text({kStrip / 2, top + 20}, Anchor::Middle, std::to_string(network.number), "b");

@@ -1,5 +1,5 @@
 // The plan of a picture of networks: elements with their sizes, places and pins, and the wires between them. In: the
-// elements of a body as the parser leaves them. symbols.cpp measures and draws elements, arrange.cpp and places.cpp
+// elements of a body as the parser leaves them. symbols.cpp measures and draws elements, arrange.cpp and positions.cpp
 // give them places, wrap.cpp cuts what is too wide, route.cpp leads the wires; network_picture.cpp does all of it in
 // turn. Private to frontend/picture.
 #pragma once
@@ -29,7 +29,7 @@ struct Body {
   const Diagram& diagram;
   std::span<const DiagramElement> elements;
 
-  std::string_view text(uint32_t first, uint32_t length) const { return tree.text({first, length}); }
+  std::string_view string(uint32_t first, uint32_t length) const { return tree.string({first, length}); }
 };
 
 // Where a wire ends. `at` counts from the item's origin and lies on the grid, like every place in a plan.
@@ -47,9 +47,9 @@ struct Item {
   Rect frame;        // of what is drawn as a box
   Point origin;
   std::vector<Terminal> terminals;
-  uint32_t mark = 0;  // where a wire goes on in another band: the number; no element
+  uint32_t continuation = 0;  // where a wire goes on in another band: the number; no element
 
-  Rect place() const { return area.at(origin); }
+  Rect bounds() const { return area.at(origin); }
 };
 
 struct End {
@@ -73,7 +73,7 @@ struct Plan {
   std::vector<Net> nets;
   Rect bounds;  // of all of it
 
-  Point place(const End& end) const {
+  Point point(const End& end) const {
     const Item& item = items[end.item];
     return item.origin + item.terminals[end.terminal].at;
   }
@@ -87,21 +87,21 @@ void drawItem(Svg& svg, const Body& body, const Item& item);
 // Gives places by data flow, from left to right.
 void arrange(const Body& body, Plan& plan);
 // Gives the places of the file, stretched where names need it. False: it has none, or two elements share one.
-bool takePlaces(const Body& body, Plan& plan);
+bool takeFilePositions(const Body& body, Plan& plan);
 
-// Cuts what is wider than `page` into bands; `marks` counts the numbers at their ends.
-std::vector<Plan> wrap(const Body& body, Plan plan, int32_t page, uint32_t& marks);
+// Cuts what is wider than `page` into bands; `continuations` counts the numbers at their ends.
+std::vector<Plan> wrap(const Body& body, Plan plan, int32_t page, uint32_t& continuations);
 // What no wires connect, each by itself: before it has places, and of what stands above each other.
 std::vector<Plan> splitByWires(const Plan& plan);
 std::vector<Plan> splitByRows(const Plan& plan);
 // Rails go from above their first wire to below the last.
 void fitRails(Plan& plan, int32_t left, int32_t right);
-Rect placesOf(const Plan& plan);
+Rect boundsOf(const Plan& plan);
 
 // What the links connect.
 void makeNets(Plan& plan);
 // Makes nets of the links and leads them around the elements; `bounds` becomes what elements and wires take.
-void leadWires(Plan& plan);
+void routeWires(Plan& plan);
 
 // One for each network behind what stands in none, each in coordinates of its own; empty where nothing does.
 // `page`: as wide as networks may be; 0: as wide as they are.

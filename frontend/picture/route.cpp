@@ -10,11 +10,11 @@
 namespace rung::picture {
 namespace {
 
-constexpr int32_t kMargin = 12;           // cells around the elements
-constexpr size_t kMostCells = 8'000'000;  // beyond them wires go straight, through what stands in their way
+constexpr int32_t kMargin = 12;          // cells around the elements
+constexpr size_t kMaxCells = 8'000'000;  // beyond them wires go straight, through what stands in their way
 constexpr uint32_t kCorner = 4, kCrossing = 6, kTouch = 60, kShared = 400, kThrough = 5000;
 constexpr uint32_t kCarefulSteps = 3'000'000;
-constexpr uint32_t kMostSteps = 15'000'000;  // of all searches: beyond them, too
+constexpr uint32_t kMaxSteps = 15'000'000;  // of all searches: beyond them, too
 constexpr uint32_t kRight = 0, kDown = 1, kLeft = 2, kUp = 3;
 
 // ---- nets
@@ -82,7 +82,7 @@ class Router {
   size_t indexOf(Point p) const {
     return static_cast<size_t>((p.y - top_) / kGrid) * columns_ + static_cast<size_t>((p.x - left_) / kGrid);
   }
-  Point placeOf(size_t cell) const {
+  Point pointOf(size_t cell) const {
     return {left_ + static_cast<int32_t>(cell % columns_) * kGrid,
             top_ + static_cast<int32_t>(cell / columns_) * kGrid};
   }
@@ -100,10 +100,10 @@ class Router {
   void keepPinsFree();
   const End* railOf(const Net& net) const;
   bool isConnected(const Net& net, const End& end) const;
-  bool leadStraight(uint32_t net, const End& from, const End& to);
-  void leadRows(uint32_t net);
+  bool routeStraight(uint32_t net, const End& from, const End& to);
+  void routeRows(uint32_t net);
   void lead(uint32_t net);
-  void leadBlindly(uint32_t net);
+  void routeBlindly(uint32_t net);
   void grow(Point from, Point to, uint32_t net);
   Point outside(const End& end) const;
   uint32_t stepCost(uint32_t net, size_t cell, uint32_t entered, uint32_t direction, size_t start);
@@ -125,18 +125,18 @@ class Router {
 
 // False: too large.
 bool Router::setGrid() {
-  Rect all = plan_.items[0].place();
-  for (const Item& item : plan_.items) all.include(item.place());
+  Rect all = plan_.items[0].bounds();
+  for (const Item& item : plan_.items) all.include(item.bounds());
   left_ = all.x - kMargin * kGrid;
   top_ = all.y - kMargin * kGrid;
   columns_ = static_cast<size_t>(all.width / kGrid + 2 * kMargin + 1);
   rows_ = static_cast<size_t>(all.height / kGrid + 2 * kMargin + 1);
-  if (columns_ * rows_ > kMostCells) return false;
+  if (columns_ * rows_ > kMaxCells) return false;
   cells_.resize(columns_ * rows_);
   steps_.resize(4 * cells_.size());
   tree_.resize(cells_.size());
   for (const Item& item : plan_.items) {
-    const Rect r = item.place();
+    const Rect r = item.bounds();
     for (int32_t y = r.y; y <= r.bottom(); y += kGrid)
       for (int32_t x = r.x; x <= r.right(); x += kGrid) cells_[indexOf({x, y})].blocked = true;
   }
@@ -160,7 +160,7 @@ void Router::keepPinsFree() {
 
 // The first cell of a wire outside of its element.
 Point Router::outside(const End& end) const {
-  const Point p = plan_.place(end);
+  const Point p = plan_.point(end);
   return {p.x + (plan_.terminal(end).output ? kGrid : -kGrid), p.y};
 }
 
@@ -196,8 +196,8 @@ void Router::keep(uint32_t net, const std::vector<Point>& points) {
 }
 
 // Both pins in one row and nothing between them. Where other nets end at the pin, they meet in front of it.
-bool Router::leadStraight(uint32_t net, const End& from, const End& to) {
-  Point a = plan_.place(from), b = plan_.place(to);
+bool Router::routeStraight(uint32_t net, const End& from, const End& to) {
+  Point a = plan_.point(from), b = plan_.point(to);
   if (const int32_t rail = plan_.terminal(from).length; rail > 0 && b.y > a.y && b.y < a.y + rail) a.y = b.y;
   if (const int32_t rail = plan_.terminal(to).length; rail > 0 && a.y > b.y && a.y < b.y + rail) b.y = a.y;
   if (a.y != b.y || a.x >= b.x) return false;
@@ -213,16 +213,16 @@ bool Router::leadStraight(uint32_t net, const End& from, const End& to) {
 }
 
 // Straight wires come first: all others lead around them.
-void Router::leadRows(uint32_t index) {
+void Router::routeRows(uint32_t index) {
   const Net& net = plan_.nets[index];
   const bool rail = railOf(net) != nullptr;
   for (const End& from : net.sources)
     for (const End& to : net.targets)
-      if (leadStraight(index, from, to) && !rail) return;
+      if (routeStraight(index, from, to) && !rail) return;
 }
 
 bool Router::isConnected(const Net& net, const End& end) const {
-  const Point p = plan_.place(end);
+  const Point p = plan_.point(end);
   return std::any_of(net.lines.begin(), net.lines.end(),
                      [&](const std::vector<Point>& line) { return line.front() == p || line.back() == p; });
 }
@@ -240,8 +240,8 @@ uint32_t Router::stepCost(uint32_t net, size_t cell, uint32_t entered, uint32_t 
     cost += kCrossing;
   if (entered == direction) return cost;
   cost += kCorner;
-  const Cell& turn = cells_[cell];
-  const bool touches = foreign(turn.across) || foreign(turn.down) || foreign(cells_[cell - 1].across) ||
+  const Cell& corner = cells_[cell];
+  const bool touches = foreign(corner.across) || foreign(corner.down) || foreign(cells_[cell - 1].across) ||
                        foreign(cells_[cell - columns_].down);
   return touches && cell != start ? cost + kTouch : cost;
 }
@@ -262,7 +262,7 @@ Way Router::search(uint32_t net, const End& end, Window window) {
   window.y1 = std::min(window.y1, top_ + static_cast<int32_t>(rows_ - 2) * kGrid);
   const int32_t weight = taken_ < kCarefulSteps ? 2 : 3;
   const auto distance = [&](size_t cell) {
-    const Point p = placeOf(cell);
+    const Point p = pointOf(cell);
     const int32_t dx = std::max({tree_box_.x0 - p.x, p.x - tree_box_.x1, 0});
     const int32_t dy = std::max({tree_box_.y0 - p.y, p.y - tree_box_.y1, 0});
     return static_cast<uint32_t>((dx + dy) / kGrid * weight / 2);
@@ -277,24 +277,24 @@ Way Router::search(uint32_t net, const End& end, Window window) {
     const Entry entry = open.top();
     open.pop();
     if (steps_[entry.state].cost != entry.cost) continue;
-    if (++taken_ > kMostSteps) return {};
+    if (++taken_ > kMaxSteps) return {};
     const size_t cell = entry.state / 4;
     const auto entered = static_cast<uint32_t>(entry.state % 4);
     if (tree_[cell] == stamp_) {
-      Way way{entry.cost, {placeOf(cell)}};
+      Way way{entry.cost, {pointOf(cell)}};
       for (size_t state = entry.state; steps_[state].from != kNone;) {
         const size_t back = next(state / 4, (state % 4 + 2) % 4);
-        way.points.push_back(placeOf(back));
+        way.points.push_back(pointOf(back));
         state = 4 * back + steps_[state].from;
       }
-      way.points.push_back(plan_.place(end));
+      way.points.push_back(plan_.point(end));
       std::reverse(way.points.begin(), way.points.end());
       return way;
     }
     for (uint32_t direction = 0; direction < 4; ++direction) {
       if (direction == (entered + 2) % 4) continue;
       const size_t to = next(cell, direction);
-      const Point p = placeOf(to);
+      const Point p = pointOf(to);
       if (p.x < window.x0 || p.x > window.x1 || p.y < window.y0 || p.y > window.y1) continue;
       const uint32_t cost = entry.cost + stepCost(net, cell, entered, direction, start);
       Step& step = steps_[4 * to + direction];
@@ -313,19 +313,19 @@ void Router::lead(uint32_t index) {
   tree_box_ = {};
   const End* rail = railOf(net);
   if (rail != nullptr) {
-    const Point top = plan_.place(*rail);
+    const Point top = plan_.point(*rail);
     grow(top, {top.x, top.y + plan_.terminal(*rail).length}, kNone);
   }
   for (const std::vector<Point>& line : net.lines)
     for (size_t k = 1; k < line.size(); ++k) grow(line[k - 1], line[k], index);
-  if (rail == nullptr && net.lines.empty()) keep(index, {plan_.place(net.sources[0]), outside(net.sources[0])});
+  if (rail == nullptr && net.lines.empty()) keep(index, {plan_.point(net.sources[0]), outside(net.sources[0])});
   std::vector<End> open;
   for (const std::vector<End>* ends : {&net.sources, &net.targets})
     for (const End& end : *ends)
       if ((rail == nullptr || end != *rail) && !isConnected(net, end)) open.push_back(end);
-  const Point origin = plan_.place(rail != nullptr ? *rail : net.sources[0]);
+  const Point origin = plan_.point(rail != nullptr ? *rail : net.sources[0]);
   const auto distance = [&](const End& end) {
-    const Point p = plan_.place(end);
+    const Point p = plan_.point(end);
     return std::abs(p.x - origin.x) + std::abs(p.y - origin.y);
   };
   std::stable_sort(open.begin(), open.end(), [&](const End& a, const End& b) { return distance(a) < distance(b); });
@@ -338,7 +338,7 @@ void Router::lead(uint32_t index) {
       if (Way wider = search(index, end, {INT32_MIN, INT32_MIN, INT32_MAX, INT32_MAX}); wider.cost < way.cost)
         way = std::move(wider);
     if (way.points.empty()) {
-      const Point from = plan_.place(end), out = outside(end), to = net.lines.empty() ? origin : net.lines[0].back();
+      const Point from = plan_.point(end), out = outside(end), to = net.lines.empty() ? origin : net.lines[0].back();
       way.points = {from, out, {out.x, to.y}, to};
     }
     keep(index, way.points);
@@ -346,11 +346,11 @@ void Router::lead(uint32_t index) {
 }
 
 // Without looking what stands in the way.
-void Router::leadBlindly(uint32_t index) {
+void Router::routeBlindly(uint32_t index) {
   const Net net = plan_.nets[index];
   for (const End& from : net.sources) {
     for (const End& to : net.targets) {
-      Point a = plan_.place(from), b = plan_.place(to);
+      Point a = plan_.point(from), b = plan_.point(to);
       if (plan_.terminal(from).length > 0) a.y = b.y;
       if (plan_.terminal(to).length > 0) b.y = a.y;
       const int32_t x = b.x - kGrid, back = std::max(a.y, b.y) + 2 * kGrid;
@@ -375,8 +375,8 @@ void Router::setDots(uint32_t index) {
 
 void Router::setBounds() {
   if (plan_.items.empty()) return;
-  plan_.bounds = plan_.items[0].place();
-  for (const Item& item : plan_.items) plan_.bounds.include(item.place());
+  plan_.bounds = plan_.items[0].bounds();
+  for (const Item& item : plan_.items) plan_.bounds.include(item.bounds());
   for (const Net& net : plan_.nets)
     for (const std::vector<Point>& line : net.lines)
       for (const Point p : line) plan_.bounds.include({p.x, p.y, 0, 0});
@@ -387,11 +387,11 @@ void Router::run() {
   if (nets > 0 && setGrid()) {
     ++stamp_;
     keepPinsFree();
-    for (uint32_t k = 0; k < nets; ++k) leadRows(k);
+    for (uint32_t k = 0; k < nets; ++k) routeRows(k);
     for (uint32_t k = 0; k < nets; ++k) lead(k);
     for (uint32_t k = 0; k < nets; ++k) setDots(k);
   } else {
-    for (uint32_t k = 0; k < nets; ++k) leadBlindly(k);
+    for (uint32_t k = 0; k < nets; ++k) routeBlindly(k);
   }
   std::vector<End> ends;
   for (const Net& net : plan_.nets) ends.insert(ends.end(), net.targets.begin(), net.targets.end());
@@ -426,7 +426,7 @@ void makeNets(Plan& plan) {
   }
 }
 
-void leadWires(Plan& plan) {
+void routeWires(Plan& plan) {
   makeNets(plan);
   Router(plan).run();
 }

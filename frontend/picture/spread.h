@@ -1,5 +1,5 @@
 // Places of a file in one direction, moved apart where what stands there needs more room than in its editor.
-// Private to frontend/picture: networks (places.cpp) and charts (chart_places.cpp).
+// Private to frontend/picture: networks (positions.cpp) and charts (chart_positions.cpp).
 #pragma once
 
 #include <algorithm>

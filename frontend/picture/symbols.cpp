@@ -17,19 +17,19 @@ constexpr size_t kCommentWidth = 60;  // characters
 
 std::string operandText(const Body& body, const DiagramElement& e) {
   if (e.operand) return printSt(body.tree, body.names, e.operand);
-  return std::string(body.names.text(e.name.name));
+  return std::string(body.names.string(e.name.name));
 }
 
 // A box is called by its type.
 std::string titleOf(const Body& body, const DiagramElement& e) {
   if (e.kind == ElementKind::Execute) return "EXECUTE";
   if (e.path) return printSt(body.tree, body.names, e.path);
-  return std::string(body.names.text(e.name.name));
+  return std::string(body.names.string(e.name.name));
 }
 
 std::vector<std::string> textOf(const Body& body, const DiagramElement& e) {
   if (e.kind == ElementKind::Execute) return linesOf(printSt(body.tree, body.names, e.body, 0, {}));
-  return wrapped(body.text(e.text, e.text_length), kCommentWidth);
+  return wrapped(body.string(e.comment, e.comment_length), kCommentWidth);
 }
 
 int32_t widthOf(const std::vector<std::string>& lines) {
@@ -39,7 +39,7 @@ int32_t widthOf(const std::vector<std::string>& lines) {
 }
 
 bool isEnable(const Body& body, NameId name) {
-  return sameIdentifier(body.names.text(name), "EN") || sameIdentifier(body.names.text(name), "ENO");
+  return sameIdentifier(body.names.string(name), "EN") || sameIdentifier(body.names.string(name), "ENO");
 }
 
 // The letters in a contact or coil: | / |, | P |, ( S ).
@@ -76,7 +76,7 @@ Rows rowsOf(const Body& body, const DiagramElement& e, std::span<const NameId> u
 
 int32_t labelWidth(const Body& body, const DiagramElement& e, const Terminal& t) {
   const DiagramPin* pin = pinOf(body, e, t);
-  return textWidth(body.names.text(t.name)) + (pin != nullptr && pin->edge != EdgeKind::None ? 8 : 0);
+  return textWidth(body.names.string(t.name)) + (pin != nullptr && pin->edge != EdgeKind::None ? 8 : 0);
 }
 
 void measureBox(const Body& body, const DiagramElement& e, std::span<const NameId> unlisted_outputs, Item& item) {
@@ -109,7 +109,7 @@ void measureBox(const Body& body, const DiagramElement& e, std::span<const NameI
     item.area.y -= 20;
     item.area.height += 20;
   }
-  const auto place = [&](const std::vector<Terminal>& side, int32_t x) {
+  const auto placeTerminals = [&](const std::vector<Terminal>& side, int32_t x) {
     int32_t y = kFirstPin;
     for (Terminal t : side) {
       t.at = {x, y};
@@ -118,8 +118,8 @@ void measureBox(const Body& body, const DiagramElement& e, std::span<const NameI
     }
   };
   // A name that is wider than its box keeps wires away from the pins, too.
-  place(rows.left, item.area.x);
-  place(rows.right, item.area.right());
+  placeTerminals(rows.left, item.area.x);
+  placeTerminals(rows.right, item.area.right());
 }
 
 // Elements on a line: one terminal on each side, half way down.
@@ -169,7 +169,7 @@ void drawBox(Svg& svg, const Body& body, const DiagramElement& e, const Item& it
     const DiagramPin* pin = pinOf(body, e, t);
     const int32_t inset = pin != nullptr && pin->edge != EdgeKind::None ? 12 : 4;
     svg.text({border.x + (left ? inset : -inset), end.y + 4}, left ? Anchor::Start : Anchor::End,
-             body.names.text(t.name));
+             body.names.string(t.name));
     if (pin != nullptr) drawModifiers(svg, *pin, border, left);
     below = std::max(below, end.y + kGrid);
   }
@@ -183,7 +183,7 @@ void drawBox(Svg& svg, const Body& body, const DiagramElement& e, const Item& it
 }
 
 void drawContact(Svg& svg, const Body& body, const DiagramElement& e, const Item& item) {
-  const Rect area = item.place();
+  const Rect area = item.bounds();
   const int32_t x = area.x + area.width / 2, y = item.origin.y;
   const bool coil = e.kind == ElementKind::Coil;
   const int32_t half = coil ? 9 : 6;
@@ -244,12 +244,12 @@ void drawText(Svg& svg, const Body& body, const DiagramElement& e, const Item& i
     svg.rect({frame.x, top, frame.width, bottom - top}, "x");
   }
   svg.text({frame.x + frame.width / 2, y + 4}, Anchor::Middle, shown, kind);
-  DiagramPin marks{};
-  marks.negated = e.negated;
-  marks.edge = e.edge;
-  marks.storage = e.storage;
+  DiagramPin modifiers{};
+  modifiers.negated = e.negated;
+  modifiers.edge = e.edge;
+  modifiers.storage = e.storage;
   const bool writes = e.kind == ElementKind::Output || e.kind == ElementKind::Jump || e.kind == ElementKind::Return;
-  if (!item.terminals.empty()) drawModifiers(svg, marks, {writes ? frame.x : frame.right(), y}, writes);
+  if (!item.terminals.empty()) drawModifiers(svg, modifiers, {writes ? frame.x : frame.right(), y}, writes);
   drawOrder(svg, e, {frame.right(), frame.y + 1});
 }
 
@@ -261,14 +261,14 @@ void drawComment(Svg& svg, const Body& body, const DiagramElement& e, const Item
 }
 
 // A connector as in ed. 3, 8.1.3, with a number for its name.
-void drawMark(Svg& svg, const Item& item) {
+void drawContinuation(Svg& svg, const Item& item) {
   const Rect f = item.frame.at(item.origin);
   const auto n = [](int32_t k) { return std::to_string(k); };
   const int32_t tip = f.right() - 8;
   svg.path("M" + n(f.x) + " " + n(f.y + 2) + "H" + n(tip) + "L" + n(f.right()) + " " + n(item.origin.y) + "L" + n(tip) +
                " " + n(f.bottom() - 2) + "H" + n(f.x) + "Z",
            "o");
-  svg.text({f.x + (f.width - 8) / 2 + 1, item.origin.y + 4}, Anchor::Middle, std::to_string(item.mark));
+  svg.text({f.x + (f.width - 8) / 2 + 1, item.origin.y + 4}, Anchor::Middle, std::to_string(item.continuation));
 }
 
 }  // namespace
@@ -298,7 +298,7 @@ Item measure(const Body& body, uint32_t element, std::span<const NameId> unliste
     case ElementKind::Jump:
     case ElementKind::Label:
     case ElementKind::Return: {
-      const bool marked = e.negated || e.edge != EdgeKind::None || e.storage != PinStorage::None;
+      const bool has_modifier = e.negated || e.edge != EdgeKind::None || e.storage != PinStorage::None;
       const bool form = e.kind != ElementKind::Input && e.kind != ElementKind::Output && e.kind != ElementKind::InOut &&
                         e.kind != ElementKind::Label;
       const bool boxed = body.diagram.language == NetworkLanguage::Continuous;
@@ -310,7 +310,7 @@ Item measure(const Body& body, uint32_t element, std::span<const NameId> unliste
                          e.kind != ElementKind::Return && e.kind != ElementKind::Label;
       item.frame = {0, -kGrid, width, 2 * kGrid};
       item.area = item.frame;
-      if (marked) {
+      if (has_modifier) {
         item.area.width += kGrid;
         if (!reads) item.area.x -= kGrid;
       }
@@ -336,7 +336,7 @@ Item measure(const Body& body, uint32_t element, std::span<const NameId> unliste
 }
 
 void drawItem(Svg& svg, const Body& body, const Item& item) {
-  if (item.mark != 0) return drawMark(svg, item);
+  if (item.continuation != 0) return drawContinuation(svg, item);
   if (!item.terminals.empty() && item.terminals[0].length > 0) {
     const Point top = item.origin + item.terminals[0].at;
     return svg.line(top, {top.x, top.y + item.terminals[0].length}, "t");

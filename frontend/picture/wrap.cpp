@@ -12,7 +12,7 @@ namespace {
 
 bool isRail(const Item& item) { return !item.terminals.empty() && item.terminals[0].length > 0; }
 
-Item makeMark(uint32_t number, bool begins) {
+Item makeContinuation(uint32_t number, bool begins) {
   const int32_t width = roundUp(textWidth(std::to_string(number)) + 16);
   Item item{kNone, {0, -kGrid, width, 2 * kGrid}, {0, -kGrid, width, 2 * kGrid}, {}, {}, number};
   item.terminals.push_back({{begins ? width : 0, 0}, begins, kNone, {}});
@@ -21,8 +21,13 @@ Item makeMark(uint32_t number, bool begins) {
 
 class Splitter {
  public:
-  Splitter(const Plan& plan, std::span<const uint32_t> parts, uint32_t count, uint32_t& marks)
-      : plan_(plan), parts_(parts), plans_(count), rails_(count), item_of_(plan.items.size(), kNone), marks_(marks) {
+  Splitter(const Plan& plan, std::span<const uint32_t> parts, uint32_t count, uint32_t& continuations)
+      : plan_(plan),
+        parts_(parts),
+        plans_(count),
+        rails_(count),
+        item_of_(plan.items.size(), kNone),
+        continuations_(continuations) {
     for (uint32_t k = 0; k < plan.items.size(); ++k) {
       if (isRail(plan.items[k])) continue;
       item_of_[k] = add(parts[k], plan.items[k]);
@@ -47,7 +52,7 @@ class Splitter {
   std::vector<Plan> plans_;
   std::vector<std::vector<Rail>> rails_;  // by part: those that it has already
   std::vector<uint32_t> item_of_;         // in its part
-  uint32_t& marks_;
+  uint32_t& continuations_;
 };
 
 End Splitter::railIn(uint32_t part, const End& rail) {
@@ -71,19 +76,20 @@ void Splitter::addNet(const Net& net) {
   for (const bool begins : {false, true}) {
     const std::vector<End>& near = begins ? net.targets : net.sources;
     const std::vector<End>& far = begins ? net.sources : net.targets;
-    std::vector<std::pair<uint32_t, uint32_t>> made;  // part, its mark
+    std::vector<std::pair<uint32_t, uint32_t>> created;  // part, its mark
     for (const End& end : near) {
       const uint32_t part = parts_[end.item];
       if (rail(end) || std::all_of(far.begin(), far.end(),
                                    [&](const End& other) { return rail(other) || parts_[other.item] == part; }))
         continue;
-      auto mark = std::find_if(made.begin(), made.end(), [&](const auto& known) { return known.first == part; });
-      if (mark == made.end()) {
-        if (number == 0) number = ++marks_;
-        made.emplace_back(part, add(part, makeMark(number, begins)));
-        mark = made.end() - 1;
+      auto continuation =
+          std::find_if(created.begin(), created.end(), [&](const auto& known) { return known.first == part; });
+      if (continuation == created.end()) {
+        if (number == 0) number = ++continuations_;
+        created.emplace_back(part, add(part, makeContinuation(number, begins)));
+        continuation = created.end() - 1;
       }
-      const End at{mark->second, 0};
+      const End at{continuation->second, 0};
       plans_[part].links.push_back(begins ? Link{at, inside(end)} : Link{inside(end), at});
     }
   }
@@ -97,7 +103,7 @@ std::vector<Plan> Splitter::run() {
     const End& x = a.sources[0];
     const End& y = b.sources[0];
     if (parts_[x.item] != parts_[y.item]) return parts_[x.item] < parts_[y.item];
-    return plan_.place(x).y < plan_.place(y).y;
+    return plan_.point(x).y < plan_.point(y).y;
   });
   for (const Net& net : whole.nets) addNet(net);
   return std::move(plans_);
@@ -150,11 +156,12 @@ std::vector<Column> columnsOf(const Body& body, const Plan& plan, int32_t most) 
     if (!isRail(item) && item.element != kNone && body.elements[item.element].kind != ElementKind::Comment)
       order.push_back(k);
   }
-  const auto place = [&](uint32_t k) { return plan.items[k].place(); };
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return place(a).x < place(b).x; });
+  const auto boundsOfItem = [&](uint32_t k) { return plan.items[k].bounds(); };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](uint32_t a, uint32_t b) { return boundsOfItem(a).x < boundsOfItem(b).x; });
   std::vector<Column> columns;
   for (const uint32_t k : order) {
-    const Rect r = place(k);
+    const Rect r = boundsOfItem(k);
     // A variable that stands at its pin belongs to it.
     if (columns.empty() || r.x > columns.back().right + kGrid || r.right() - columns.back().left > most)
       columns.push_back({r.x, r.right(), {}});
@@ -165,31 +172,33 @@ std::vector<Column> columnsOf(const Body& body, const Plan& plan, int32_t most) 
 }
 
 // Marks stand in the rows of their pins, where no other one does.
-void placeMarks(Plan& plan, bool begin, int32_t x) {
+void placeContinuations(Plan& plan, bool begin, int32_t x) {
   struct Wanted {
     int32_t y;
     uint32_t item;
   };
-  std::vector<Wanted> marks;
+  std::vector<Wanted> continuations;
   for (const Link& link : plan.links) {
-    const uint32_t mark = begin ? link.from.item : link.to.item;
-    if (plan.items[mark].mark == 0) continue;
-    const bool known = std::any_of(marks.begin(), marks.end(), [&](const Wanted& w) { return w.item == mark; });
-    if (!known) marks.push_back({plan.place(begin ? link.to : link.from).y, mark});
+    const uint32_t continuation = begin ? link.from.item : link.to.item;
+    if (plan.items[continuation].continuation == 0) continue;
+    const bool known = std::any_of(continuations.begin(), continuations.end(),
+                                   [&](const Wanted& w) { return w.item == continuation; });
+    if (!known) continuations.push_back({plan.point(begin ? link.to : link.from).y, continuation});
   }
-  std::stable_sort(marks.begin(), marks.end(), [](const Wanted& a, const Wanted& b) { return a.y < b.y; });
+  std::stable_sort(continuations.begin(), continuations.end(),
+                   [](const Wanted& a, const Wanted& b) { return a.y < b.y; });
   int32_t free = INT32_MIN;
-  for (const Wanted& mark : marks) {
-    const int32_t y = std::max(mark.y, free);
-    plan.items[mark.item].origin = {begin ? x : x - plan.items[mark.item].frame.width, y};
+  for (const Wanted& continuation : continuations) {
+    const int32_t y = std::max(continuation.y, free);
+    plan.items[continuation.item].origin = {begin ? x : x - plan.items[continuation.item].frame.width, y};
     free = y + kElementGap;
   }
 }
 
-int32_t marksOf(const Plan& plan, bool begin, int32_t& width) {
+int32_t continuationsOf(const Plan& plan, bool begin, int32_t& width) {
   int32_t count = 0;
   for (const Item& item : plan.items) {
-    if (item.mark == 0 || item.terminals[0].output != begin) continue;
+    if (item.continuation == 0 || item.terminals[0].output != begin) continue;
     ++count;
     width = std::max(width, item.frame.width);
   }
@@ -206,7 +215,7 @@ void fitRails(Plan& plan, int32_t left, int32_t right) {
     int32_t top = INT32_MAX, bottom = INT32_MIN;
     for (const Link& link : plan.links) {
       if ((gives ? link.from.item : link.to.item) != k) continue;
-      const int32_t y = plan.place(gives ? link.to : link.from).y;
+      const int32_t y = plan.point(gives ? link.to : link.from).y;
       top = std::min(top, y);
       bottom = std::max(bottom, y);
     }
@@ -216,10 +225,10 @@ void fitRails(Plan& plan, int32_t left, int32_t right) {
   }
 }
 
-Rect placesOf(const Plan& plan) {
+Rect boundsOf(const Plan& plan) {
   if (plan.items.empty()) return {};
-  Rect all = plan.items[0].place();
-  for (const Item& item : plan.items) all.include(item.place());
+  Rect all = plan.items[0].bounds();
+  for (const Item& item : plan.items) all.include(item.bounds());
   return all;
 }
 
@@ -235,8 +244,8 @@ std::vector<Plan> splitByWires(const Plan& plan) {
       if (!isRail(plan.items[k]) && leads_on[k] != ends && first[part[k]] == INT64_MAX)
         first[part[k]] = plan.items[k].element == kNone ? 0 : static_cast<int64_t>(plan.items[k].element);
   const uint32_t count = renumber(part, first);
-  uint32_t marks = 0;
-  return Splitter(plan, part, count, marks).run();
+  uint32_t continuations = 0;
+  return Splitter(plan, part, count, continuations).run();
 }
 
 std::vector<Plan> splitByRows(const Plan& plan) {
@@ -249,8 +258,8 @@ std::vector<Plan> splitByRows(const Plan& plan) {
   for (uint32_t k = 0; k < plan.items.size(); ++k) {
     if (isRail(plan.items[k])) continue;
     Rows& r = rows[part[k]];
-    r.top = std::min(r.top, plan.items[k].place().y);
-    r.bottom = std::max(r.bottom, plan.items[k].place().bottom());
+    r.top = std::min(r.top, plan.items[k].bounds().y);
+    r.bottom = std::max(r.bottom, plan.items[k].bounds().bottom());
     r.part = part[k];
   }
   std::erase_if(rows, [](const Rows& r) { return r.top > r.bottom; });
@@ -264,8 +273,8 @@ std::vector<Plan> splitByRows(const Plan& plan) {
     first[r.part] = now;
   }
   const uint32_t count = renumber(part, first);
-  uint32_t marks = 0;
-  std::vector<Plan> plans = Splitter(plan, part, count, marks).run();
+  uint32_t continuations = 0;
+  std::vector<Plan> plans = Splitter(plan, part, count, continuations).run();
   int32_t left = 0, right = 0;
   for (const Item& item : plan.items)
     if (isRail(item)) (item.terminals[0].output ? left : right) = item.origin.x;
@@ -273,18 +282,18 @@ std::vector<Plan> splitByRows(const Plan& plan) {
   return plans;
 }
 
-std::vector<Plan> wrap(const Body& body, Plan plan, int32_t page, uint32_t& marks) {
-  if (placesOf(plan).width <= page) {
+std::vector<Plan> wrap(const Body& body, Plan plan, int32_t page, uint32_t& continuations) {
+  if (boundsOf(plan).width <= page) {
     std::vector<Plan> whole;
     whole.push_back(std::move(plan));
     return whole;
   }
-  constexpr int32_t kForMarks = 2 * kElementGap + 30;  // on each side
-  const std::vector<Column> columns = columnsOf(body, plan, page - 2 * kForMarks);
+  constexpr int32_t kForContinuations = 2 * kElementGap + 30;  // on each side
+  const std::vector<Column> columns = columnsOf(body, plan, page - 2 * kForContinuations);
   std::vector<uint32_t> band(plan.items.size());
   std::vector<int32_t> begins;
   for (const Column& column : columns) {
-    if (begins.empty() || column.right - begins.back() > page - (begins.size() > 1 ? 2 : 1) * kForMarks)
+    if (begins.empty() || column.right - begins.back() > page - (begins.size() > 1 ? 2 : 1) * kForContinuations)
       begins.push_back(column.left);
     for (const uint32_t k : column.items) band[k] = static_cast<uint32_t>(begins.size() - 1);
   }
@@ -294,27 +303,27 @@ std::vector<Plan> wrap(const Body& body, Plan plan, int32_t page, uint32_t& mark
     for (uint32_t b = 0; b < begins.size(); ++b)
       if (item.origin.x >= begins[b]) band[k] = b;
   }
-  std::vector<Plan> bands = Splitter(plan, band, static_cast<uint32_t>(begins.size()), marks).run();
-  const int32_t origin = placesOf(plan).x;
+  std::vector<Plan> bands = Splitter(plan, band, static_cast<uint32_t>(begins.size()), continuations).run();
+  const int32_t origin = boundsOf(plan).x;
   for (uint32_t b = 0; b < bands.size(); ++b) {
     Plan& p = bands[b];
     int32_t width = 0;
-    const int32_t in = marksOf(p, true, width);
+    const int32_t in = continuationsOf(p, true, width);
     const bool railed = std::any_of(p.items.begin(), p.items.end(),
                                     [](const Item& item) { return isRail(item) && item.terminals[0].output; });
-    const int32_t mark_x = railed ? kElementGap : 0;
+    const int32_t continuation_x = railed ? kElementGap : 0;
     const int32_t begin =
-        b == 0 && in == 0 ? begins[0] - origin : mark_x + width + kElementGap + std::min(in, 20) * kGrid;
+        b == 0 && in == 0 ? begins[0] - origin : continuation_x + width + kElementGap + std::min(in, 20) * kGrid;
     for (Item& item : p.items)
-      if (item.mark == 0 && !isRail(item)) item.origin.x += begin - begins[b];
+      if (item.continuation == 0 && !isRail(item)) item.origin.x += begin - begins[b];
     int32_t end = 0;
     for (const Item& item : p.items)
-      if (item.mark == 0 && !isRail(item)) end = std::max(end, item.place().right());
+      if (item.continuation == 0 && !isRail(item)) end = std::max(end, item.bounds().right());
     width = 0;
-    const int32_t out = marksOf(p, false, width);
+    const int32_t out = continuationsOf(p, false, width);
     end = roundUp(std::max(end + kElementGap + std::min(out, 20) * kGrid + width, out > 0 ? page : 0));
-    placeMarks(p, true, mark_x);
-    placeMarks(p, false, end);
+    placeContinuations(p, true, continuation_x);
+    placeContinuations(p, false, end);
     fitRails(p, 0, end);
   }
   return bands;

@@ -78,7 +78,7 @@ void writeControls(Import& import, const xml::Element& pou) {
   });
 }
 
-void writeActionCalls(const xml::Document& document, const xml::Element& body, xml::Assembly& out) {
+void writeActionCalls(const xml::Document& document, const xml::Element& body, xml::SourceMappedText& out) {
   std::vector<const xml::Attribute*> called;
   forEachAction(document, body, [&](const xml::Element& block, const xml::Element& action) {
     const xml::Attribute* name = nameOf(document, action);

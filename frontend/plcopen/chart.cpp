@@ -51,7 +51,7 @@ void Chart::readNodes() {
     const auto index = static_cast<uint32_t>(nodes_.size());
     nodes_.push_back({e, kind, 0, 0});
     const bool is_step = kind == NodeKind::Step || kind == NodeKind::MacroStep || kind == NodeKind::Jump;
-    if (is_step && !checkName(import_, *e, kind == NodeKind::Jump ? "targetName" : "name")) good_ = false;
+    if (is_step && !checkName(import_, *e, kind == NodeKind::Jump ? "targetName" : "name")) ok_ = false;
     const xml::Attribute* id = document_.attribute(*e, "localId");
     if (id == nullptr) continue;
     const auto [known, fresh] = by_id_.emplace(id->raw, index);
@@ -135,7 +135,7 @@ std::vector<ChartWire> Chart::wiresOf(const xml::Element& holder) {
   const auto add = [&](const xml::Element& connection) {
     const xml::Attribute* id = document_.attribute(connection, "refLocalId");
     if (id == nullptr) {
-      good_ = checkName(import_, connection, "refLocalId") && good_;
+      ok_ = checkName(import_, connection, "refLocalId") && ok_;
       return;
     }
     const auto found = by_id_.find(id->raw);
@@ -178,7 +178,7 @@ void Chart::connectActionBlocks() {
       action_blocks_[wires_[w].from].push_back(i);
       found = true;
     }
-    if (!found && good_) report(diag::ChartNoStepBefore, nodes_[i].element->loc, {nameOf(i)});
+    if (!found && ok_) report(diag::ChartNoStepBefore, nodes_[i].element->loc, {nameOf(i)});
   }
 }
 
@@ -186,9 +186,8 @@ void Chart::connectActionBlocks() {
 bool Chart::spend(uint32_t node, size_t steps) {
   spent_ += steps + 1;
   if (spent_ <= kMaxSteps) return true;
-  if (good_)
-    report(diag::XmlTooLarge, nodes_[node].element->loc, {std::to_string(kMaxSteps), "paths through one chart"});
-  good_ = false;
+  if (ok_) report(diag::XmlTooLarge, nodes_[node].element->loc, {std::to_string(kMaxSteps), "paths through one chart"});
+  ok_ = false;
   return false;
 }
 
@@ -315,7 +314,7 @@ void Chart::after(uint32_t node, uint32_t transition, uint32_t depth) {
         report(diag::ChartNoStepBetween, nodes_[next].element->loc, {nameOf(node), nameOf(next)});
         break;
     }
-    if (!good_) return;
+    if (!ok_) return;
   }
   if (!any) report(diag::ChartLeadsNowhere, nodes_[node].element->loc, {nameOf(node)});
 }
@@ -338,9 +337,9 @@ void Chart::connect() {
   readNodes();
   connectActionBlocks();
   checkOrder();
-  for (uint32_t i = 0; i < nodes_.size() && good_; ++i)
+  for (uint32_t i = 0; i < nodes_.size() && ok_; ++i)
     if (nodes_[i].kind == NodeKind::Transition) connectTransition(i);
-  for (uint32_t i = 0; i < nodes_.size() && good_; ++i)
+  for (uint32_t i = 0; i < nodes_.size() && ok_; ++i)
     if (nodes_[i].kind == NodeKind::MacroStep) connectMacro(i);
 }
 

@@ -93,7 +93,7 @@ class Chart {
   };
 
   Report report(Diag diag, Loc loc, std::initializer_list<std::string_view> args) {
-    good_ = false;
+    ok_ = false;
     return import_.diagnostics.report(diag, loc, args);
   }
   std::string_view raw(const xml::Element& element, std::string_view attribute) const {
@@ -128,7 +128,7 @@ class Chart {
   void writeStep(uint32_t node);
   void writeStepName(uint32_t node);
   void writeStepTimes(const xml::Element& step);
-  void writePlace(const xml::Element& element);
+  void writePosition(const xml::Element& element);
   void writeStepFlags();
   void writeStepActions(uint32_t node);
   void writeAction(const xml::Element& action);
@@ -156,7 +156,7 @@ class Chart {
   const std::string& name_;
   Chart* outer_ = nullptr;  // of a macro step's chart
   std::string own_prefix_;  // in the names of steps and conditions that have none: macro steps share the chart's names
-  bool good_ = true;
+  bool ok_ = true;
   size_t spent_ = 0;  // steps in all Ways
   std::vector<ChartNode> nodes_;
   std::vector<ChartWire> wires_;

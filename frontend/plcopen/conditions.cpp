@@ -18,12 +18,12 @@ constexpr uint32_t kMaxContacts = 1000;   // in a row
 // Where the code of an ST text is: comments, strings and pragmas are passed over.
 class Scanner {
  public:
-  explicit Scanner(std::string_view text) : text_(text) {}
+  explicit Scanner(std::string_view text) : source_(text) {}
 
   // The next character of code that is no blank; '\0' at the end.
   char next() {
-    for (; at_ < text_.size(); ++at_) {
-      const std::string_view rest = text_.substr(at_);
+    for (; at_ < source_.size(); ++at_) {
+      const std::string_view rest = source_.substr(at_);
       if (rest.starts_with("(*")) {
         skipTo("*)");
       } else if (rest.starts_with("/*")) {
@@ -36,12 +36,12 @@ class Scanner {
         break;
       }
     }
-    if (at_ >= text_.size()) return '\0';
+    if (at_ >= source_.size()) return '\0';
     begin_ = at_;
-    const char c = text_[at_++];
+    const char c = source_[at_++];
     if (c == '\'' || c == '"') {
-      while (at_ < text_.size() && text_[at_] != c) at_ += text_[at_] == '$' ? 2 : 1;
-      at_ = std::min(at_ + 1, text_.size());
+      while (at_ < source_.size() && source_[at_] != c) at_ += source_[at_] == '$' ? 2 : 1;
+      at_ = std::min(at_ + 1, source_.size());
     }
     return c;
   }
@@ -50,11 +50,11 @@ class Scanner {
 
  private:
   void skipTo(std::string_view word) {
-    const size_t found = text_.find(word, at_ + 1);
-    at_ = found == std::string_view::npos ? text_.size() : found + word.size() - 1;
+    const size_t found = source_.find(word, at_ + 1);
+    at_ = found == std::string_view::npos ? source_.size() : found + word.size() - 1;
   }
 
-  std::string_view text_;
+  std::string_view source_;
   size_t begin_ = 0, at_ = 0;
 };
 
@@ -180,9 +180,9 @@ bool Chart::readCondition(uint32_t node, Condition& out) {
     return true;
   }
   if (const xml::Element* inline_body = document_.child(*condition, "inline")) return readBody(*inline_body, own, out);
-  const bool were_good = good_;
+  const bool was_ok = ok_;
   for (const ChartWire& wire : wiresOf(*condition)) out.wires.push_back(wire.from);
-  if (were_good && !good_) return false;
+  if (was_ok && !ok_) return false;
   if (out.wires.empty()) {
     report(diag::ChartNoCondition, condition->loc, {});
     return false;
@@ -281,8 +281,8 @@ void Chart::writeTransition(uint32_t node) {
       writeName(import_, *named);
       import_.out.word(" ");
     }
-    if (const std::string place = placeOf(document_, transition); !place.empty())
-      import_.out.put(transition.loc, place.substr(1) + " ");
+    if (const std::string position = positionOf(document_, transition); !position.empty())
+      import_.out.put(transition.loc, position.substr(1) + " ");
     if (hasName(import_, transition, "priority") && raw(transition, "priority") != "0") {
       import_.out.word("(PRIORITY := ");
       writeName(import_, transition, "priority");

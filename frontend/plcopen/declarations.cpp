@@ -98,9 +98,9 @@ void writeVariables(Import& import, const xml::Element& list, uint32_t depth) {
 void writeSection(Import& import, const xml::Element& list, std::string_view word) {
   writeAttributes(import, list);
   import.out.put(list.loc, word);
-  static constexpr std::pair<std::string_view, std::string_view> kWords[] = {
+  static constexpr std::pair<std::string_view, std::string_view> kKeywords[] = {
       {"constant", " CONSTANT"}, {"retain", " RETAIN"}, {"nonretain", " NON_RETAIN"}, {"persistent", " PERSISTENT"}};
-  for (const auto& [attribute, text] : kWords)
+  for (const auto& [attribute, text] : kKeywords)
     if (isTrue(import, list, attribute)) import.out.word(text);
   import.out.word("\n");
   writeVariables(import, list);

@@ -59,7 +59,7 @@ class PouExport {
   void accessor(DeclId accessor, std::string_view element, const PropertyDecl& of);
   void actions();
   std::string header(const PouDecl& pou) const;
-  std::string words(const PouDecl& pou) const;
+  std::string documentationOf(const PouDecl& pou) const;
   size_t endOfHeader(const PouDecl& pou) const;
   size_t beginOf(DeclId member) const;
   std::string sections(const PouDecl& pou) const;
@@ -108,7 +108,7 @@ std::string PouExport::header(const PouDecl& pou) const {
   return std::string(text);
 }
 
-std::string PouExport::words(const PouDecl& pou) const {
+std::string PouExport::documentationOf(const PouDecl& pou) const {
   const size_t begin = source_.at(pou.begin);
   return source_.comments(source_.commentsBefore(begin), begin);
 }
@@ -137,9 +137,9 @@ void PouExport::interfaceOf(const PouDecl& pou) {
   for (const DeclId id : to_.tree.list(pou.sections)) {
     const auto& section = to_.tree.as<SectionDecl>(id);
     if (!source_.wordFollows(source_.at(section.h.loc), "VAR")) continue;
-    if (section.section == SectionKind::Stat || section.section == SectionKind::Inst) to_.says_all = false;
+    if (section.section == SectionKind::Stat || section.section == SectionKind::Inst) to_.is_lossless = false;
     if (section.section == SectionKind::Access || section.section == SectionKind::Config) {
-      to_.says_all = false;
+      to_.is_lossless = false;
       continue;
     }
     exportSection(to_, id, sectionElement(section.section));
@@ -173,7 +173,7 @@ void PouExport::inheritance(AddData& data) {
     for (const TypeExprId id : to_.tree.list(list)) {
       std::string name;
       for (const Ident& part : to_.tree.list(to_.tree.as<NamedTypeExpr>(id).path))
-        name += (name.empty() ? "" : ".") + std::string(to_.text(part.name));
+        name += (name.empty() ? "" : ".") + std::string(to_.string(part.name));
       to_.xml.element(element, name);
     }
   }
@@ -182,8 +182,8 @@ void PouExport::inheritance(AddData& data) {
 }
 
 void PouExport::method(const PouDecl& method) {
-  to_.says_all = method.usings.empty();
-  to_.xml.open("Method").attribute("name", to_.text(method.name));
+  to_.is_lossless = method.usings.empty();
+  to_.xml.open("Method").attribute("name", to_.string(method.name));
   interfaceOf(method);
   if (pou_.pou_kind != PouKind::Interface) exportBody(to_, method);
   if (hasOwnText(method)) {
@@ -192,9 +192,9 @@ void PouExport::method(const PouDecl& method) {
     AddData data(to_);
     exportAttributes(to_, method.h.pragmas, data);
     modifiers(method.access, method.modifiers, data);
-    if (!to_.says_all) exportPlainText(to_, header(method), data);
+    if (!to_.is_lossless) exportPlainText(to_, header(method), data);
   }
-  to_.documentation(words(method));
+  to_.documentation(documentationOf(method));
   to_.xml.close();
 }
 
@@ -210,13 +210,13 @@ void PouExport::ownText(const PouDecl& pou) {
 void PouExport::accessor(DeclId id, std::string_view element, const PropertyDecl& of) {
   if (!id) return;
   const auto& accessor = to_.tree.as<PouDecl>(id);
-  to_.says_all = true;
+  to_.is_lossless = true;
   to_.xml.open(element);
   to_.xml.open("interface");
   for (const DeclId s : to_.tree.list(accessor.sections)) {
     const auto& section = to_.tree.as<SectionDecl>(s);
     if (!source_.wordFollows(source_.at(section.h.loc), "VAR")) continue;
-    if (section.section == SectionKind::Stat || section.section == SectionKind::Inst) to_.says_all = false;
+    if (section.section == SectionKind::Stat || section.section == SectionKind::Inst) to_.is_lossless = false;
     exportSection(to_, s, sectionElement(section.section));
     to_.xml.close();
   }
@@ -226,27 +226,27 @@ void PouExport::accessor(DeclId id, std::string_view element, const PropertyDecl
     AddData data(to_);
     if (accessor.access != of.access || accessor.modifiers != of.modifiers)
       modifiers(accessor.access, accessor.modifiers, data);
-    if (!to_.says_all) exportPlainText(to_, sections(accessor), data);
+    if (!to_.is_lossless) exportPlainText(to_, sections(accessor), data);
   }
   to_.xml.close();
 }
 
 void PouExport::property(const PropertyDecl& property) {
-  to_.says_all = true;
+  to_.is_lossless = true;
   const size_t name = source_.at(property.h.loc);
-  to_.xml.open("Property").attribute("name", to_.text(property.name));
+  to_.xml.open("Property").attribute("name", to_.string(property.name));
   to_.xml.open("interface").open("returnType");
   exportType(to_, property.type);
   to_.xml.close();
   to_.xml.close();
-  const bool says_all = to_.says_all;
+  const bool is_lossless = to_.is_lossless;
   accessor(property.get, "GetAccessor", property);
   accessor(property.set, "SetAccessor", property);
   {
     AddData data(to_);
     exportAttributes(to_, property.h.pragmas, data);
     modifiers(property.access, property.modifiers, data);
-    if (!says_all) {
+    if (!is_lossless) {
       size_t end = source_.endOfWord(name, "END_PROPERTY");
       end = source_.wordBefore(end, "END_PROPERTY");
       for (const DeclId id : {property.get, property.set})
@@ -281,25 +281,25 @@ void PouExport::actions() {
     const auto& action = to_.tree.as<PouDecl>(member);
     if (!any) to_.xml.open("actions");
     any = true;
-    to_.xml.open("action").attribute("name", to_.text(action.name));
+    to_.xml.open("action").attribute("name", to_.string(action.name));
     exportBody(to_, action);
     ownText(action);
-    to_.documentation(words(action));
+    to_.documentation(documentationOf(action));
     to_.xml.close();
   }
   if (any) to_.xml.close();
 }
 
 void PouExport::run() {
-  to_.says_all = pou_.usings.empty();
-  to_.xml.open("pou").attribute("name", to_.text(pou_.name));
+  to_.is_lossless = pou_.usings.empty();
+  to_.xml.open("pou").attribute("name", to_.string(pou_.name));
   to_.xml.attribute("pouType", pou_.pou_kind == PouKind::Function  ? "function"
                                : pou_.pou_kind == PouKind::Program ? "program"
                                                                    : "functionBlock");
   const bool is_class = pou_.pou_kind == PouKind::Class;
   if (is_class) to_.onlyRung(pou_.h.loc, "classes");
   interfaceOf(pou_);
-  const bool says_all = to_.says_all;
+  const bool is_lossless = to_.is_lossless;
   actions();
   exportTransitions(to_, pou_);
   if (!is_class) exportBody(to_, pou_);
@@ -310,31 +310,31 @@ void PouExport::run() {
       to_.xml.open("kind").attribute("pouType", "class").close();
       data.close();
     }
-    to_.says_all = says_all;
+    to_.is_lossless = is_lossless;
     exportAttributes(to_, pou_.h.pragmas, data);
-    const bool attributes_say_all = to_.says_all;
+    const bool attributes_are_lossless = to_.is_lossless;
     inheritance(data);
     modifiers(pou_.access, pou_.modifiers, data);
     members(data);
-    if (!attributes_say_all) exportPlainText(to_, header(pou_), data);
+    if (!attributes_are_lossless) exportPlainText(to_, header(pou_), data);
   }
-  to_.documentation(words(pou_));
+  to_.documentation(documentationOf(pou_));
   to_.xml.close();
 }
 
 void PouExport::interface() {
-  to_.says_all = pou_.usings.empty();
-  to_.xml.open("Interface").attribute("name", to_.text(pou_.name));
+  to_.is_lossless = pou_.usings.empty();
+  to_.xml.open("Interface").attribute("name", to_.string(pou_.name));
   {
     AddData data(to_);
     exportAttributes(to_, pou_.h.pragmas, data);
-    const bool says_all = to_.says_all;
+    const bool is_lossless = to_.is_lossless;
     inheritance(data);
     modifiers(pou_.access, pou_.modifiers, data);
     members(data);
-    if (!says_all) exportPlainText(to_, header(pou_), data);
+    if (!is_lossless) exportPlainText(to_, header(pou_), data);
   }
-  to_.documentation(words(pou_));
+  to_.documentation(documentationOf(pou_));
   to_.xml.close();
 }
 
@@ -371,7 +371,7 @@ class ProjectExport {
 // Forbids what XML cannot hold: bytes that are no UTF-8, and control characters. XML 1.0, 2.2.
 void ProjectExport::checkTexts() {
   for (const FileUnit& unit : files_) {
-    const std::string_view text = to_.sources.text(unit.file);
+    const std::string_view text = to_.sources.sourceText(unit.file);
     size_t bad = std::min(findInvalidUtf8(text), text.size());
     for (size_t p = 0; p < bad; ++p)
       if (static_cast<unsigned char>(text[p]) < ' ' && text[p] != '\t' && text[p] != '\n' && text[p] != '\r') bad = p;
@@ -406,12 +406,13 @@ void ProjectExport::globals(AddData& data) {
     if (file != of) list = listNameOf(to_.sources.path(of));
     file = of;
     for (const Pragma& pragma : to_.tree.list(section.h.pragmas))
-      if (sameIdentifier(to_.text(pragma.name), "list") && pragma.value.length != 0) list = to_.tree.text(pragma.value);
-    to_.says_all = section.section == SectionKind::Global;
+      if (sameIdentifier(to_.string(pragma.name), "list") && pragma.value.length != 0)
+        list = to_.tree.string(pragma.value);
+    to_.is_lossless = section.section == SectionKind::Global;
     data.open("globalvars");
     size_t begin = to_.source->at(section.h.loc);
     const size_t end = to_.source->endOfWord(begin, "END_VAR");
-    if (to_.says_all) {
+    if (to_.is_lossless) {
       exportSection(to_, id, "globalVars", list);
     } else {
       to_.xml.open("globalVars").attribute("name", list);
@@ -420,8 +421,8 @@ void ProjectExport::globals(AddData& data) {
       AddData inner(to_);
       exportAttributes(to_, section.h.pragmas, inner);
       for (const Pragma& pragma : to_.tree.list(section.h.pragmas))
-        if (to_.text(pragma.name) != "list") begin = std::min(begin, to_.source->at(pragma.loc));
-      if (!to_.says_all) exportPlainText(to_, to_.source->cut(begin, end), inner);
+        if (to_.string(pragma.name) != "list") begin = std::min(begin, to_.source->at(pragma.loc));
+      if (!to_.is_lossless) exportPlainText(to_, to_.source->cut(begin, end), inner);
     }
     to_.documentation(to_.source->comments(to_.source->commentsBefore(begin), begin));
     to_.xml.close();
@@ -442,7 +443,7 @@ size_t ProjectExport::endOf(DeclId space) const {
 void ProjectExport::ownTexts(AddData& data) {
   forEach(DeclKind::Using, [&](DeclId id, FileId) {
     const Loc loc = to_.tree.loc(id);
-    if (files_.size() > 1) return to_.cannotSay(loc, "USING for one of several files");
+    if (files_.size() > 1) return to_.reportInexpressible(loc, "USING for one of several files");
     to_.onlyRung(loc, "USING");
     const size_t begin = to_.source->wordBefore(to_.source->at(loc) + 1, "USING");
     const std::string_view rest = to_.source->cut(begin, std::string_view::npos);

@@ -45,7 +45,7 @@ class ChartExport {
   }
   void open(std::string_view element, uint64_t id);
   void position(int column, int row);
-  void position(const SfcPlace& place);
+  void position(const SfcPosition& given);
   void wire(uint64_t from) {
     to_.xml.open("connectionPointIn").open("connection").attribute("refLocalId", std::to_string(from)).close();
     to_.xml.close();
@@ -53,9 +53,9 @@ class ChartExport {
   void outputs(size_t count) {
     for (size_t i = 0; i < count; ++i) to_.xml.open("connectionPointOut").attribute("formalParameter", "sfc").close();
   }
-  void size(const SfcPlace& place) {
-    if (place.width == 0 && place.height == 0) return;
-    to_.xml.attribute("height", std::to_string(place.height)).attribute("width", std::to_string(place.width));
+  void size(const SfcPosition& given) {
+    if (given.width == 0 && given.height == 0) return;
+    to_.xml.attribute("height", std::to_string(given.height)).attribute("width", std::to_string(given.width));
   }
   void step(uint32_t i);
   void actions(uint32_t i);
@@ -125,9 +125,9 @@ void ChartExport::position(int column, int row) {
 }
 
 // Of the file that the chart came from; else below what stands before.
-void ChartExport::position(const SfcPlace& place) {
-  if (!place.placed) return position(0, row_);
-  to_.xml.open("position").attribute("x", std::to_string(place.x)).attribute("y", std::to_string(place.y)).close();
+void ChartExport::position(const SfcPosition& given) {
+  if (!given.placed) return position(0, row_);
+  to_.xml.open("position").attribute("x", std::to_string(given.x)).attribute("y", std::to_string(given.y)).close();
 }
 
 void ChartExport::ownActions(const SfcStep& step) {
@@ -146,7 +146,7 @@ void ChartExport::ownActions(const SfcStep& step) {
     const bool own =
         a.qualifier == SfcQualifier::Entry || a.qualifier == SfcQualifier::Active || a.qualifier == SfcQualifier::Exit;
     if (!own) continue;
-    if (any && a.qualifier == last) to_.cannotSay(a.action.loc, "two actions of this kind in one step");
+    if (any && a.qualifier == last) to_.reportInexpressible(a.action.loc, "two actions of this kind in one step");
     last = a.qualifier;
     if (!any) {
       data.open("sfc/element");
@@ -157,7 +157,7 @@ void ChartExport::ownActions(const SfcStep& step) {
         .attribute("guid", a.qualifier == SfcQualifier::Entry    ? kEntry
                            : a.qualifier == SfcQualifier::Active ? kActive
                                                                  : kExit);
-    to_.xml.text(to_.text(a.action.name));
+    to_.xml.text(to_.string(a.action.name));
     to_.xml.close();
   }
   if (!any) return;
@@ -196,15 +196,15 @@ void ChartExport::actions(uint32_t i) {
     to_.xml.attribute("qualifier", word);
     if (a.time.value) to_.xml.attribute("duration", text(a.time));
     const std::span<const Ident> indicators = to_.tree.list(a.indicators);
-    if (!indicators.empty()) to_.xml.attribute("indicator", to_.text(indicators[0].name));
+    if (!indicators.empty()) to_.xml.attribute("indicator", to_.string(indicators[0].name));
     to_.xml.open("relPosition").attribute("x", "0").attribute("y", std::to_string(20 * row++)).close();
-    to_.xml.open("reference").attribute("name", to_.text(a.action.name)).close();
+    to_.xml.open("reference").attribute("name", to_.string(a.action.name)).close();
     if (indicators.size() > 1) {
       AddData data(to_);
       data.openOwn();
       to_.xml.open("action");
       for (const Ident& more : indicators.subspan(1))
-        to_.xml.open("indicator").attribute("name", to_.text(more.name)).close();
+        to_.xml.open("indicator").attribute("name", to_.string(more.name)).close();
       to_.xml.close();
       data.close();
     }
@@ -224,10 +224,10 @@ void ChartExport::step(uint32_t i) {
     to_.xml.close();
   }
   open("step", step_id_[i]);
-  size(step.place);
-  to_.xml.attribute("name", to_.text(step.name.name));
+  size(step.position);
+  to_.xml.attribute("name", to_.string(step.name.name));
   if (step.initial) to_.xml.attribute("initialStep", "true");
-  position(step.place);
+  position(step.position);
   if (from != 0) wire(from);
   to_.xml.open("connectionPointOut").attribute("formalParameter", "sfc").close();
   to_.xml.open("connectionPointOutAction").attribute("formalParameter", "").close();
@@ -253,7 +253,7 @@ void ChartExport::condition(const SfcTransition& t) {
     to_.xml.formatted("ST", text(t.condition));
     to_.xml.close();
   } else {
-    to_.xml.open("reference").attribute("name", to_.text(t.name.name)).close();
+    to_.xml.open("reference").attribute("name", to_.string(t.name.name)).close();
   }
   to_.xml.close();
 }
@@ -271,9 +271,9 @@ void ChartExport::transition(uint32_t i) {
     to_.xml.close();
   }
   open("transition", transition_id_[i]);
-  size(t.place);
+  size(t.position);
   if (t.has_priority) to_.xml.attribute("priority", std::to_string(t.priority));
-  position(t.place);
+  position(t.position);
   ++row_;
   wire(from);
   to_.xml.leaf("connectionPointOut");
@@ -281,7 +281,7 @@ void ChartExport::transition(uint32_t i) {
   if (t.name.name && t.condition.value && !t.body) {
     AddData data(to_);
     data.openOwn();
-    to_.xml.open("transition").attribute("name", to_.text(t.name.name)).close();
+    to_.xml.open("transition").attribute("name", to_.string(t.name.name)).close();
     data.close();
   }
   to_.xml.close();
@@ -296,7 +296,7 @@ void ChartExport::transition(uint32_t i) {
   for (const Target& target : targets_[i]) {
     if (target.jumps) {
       open("jumpStep", ++next_id_);
-      to_.xml.attribute("targetName", to_.text(steps_[target.step].name.name));
+      to_.xml.attribute("targetName", to_.string(steps_[target.step].name.name));
       position(column, row_);
       wire(split_id_[i] != 0 ? split_id_[i] : transition_id_[i]);
       to_.xml.close();
@@ -349,7 +349,7 @@ void exportTransitions(Export& to, const PouDecl& pou) {
     if (!t.body || !t.name.name) continue;
     if (!any) to.xml.open("transitions");
     any = true;
-    to.xml.open("transition").attribute("name", to.text(t.name.name));
+    to.xml.open("transition").attribute("name", to.string(t.name.name));
     exportBody(to, to.tree.as<PouDecl>(t.body));
     to.xml.close();
   }

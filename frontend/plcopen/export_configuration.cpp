@@ -37,7 +37,7 @@ bool ConfigurationExport::isTime(ExprId value) const {
 // PT0.05S, of a literal; else as it is written.
 void ConfigurationExport::time(std::string_view attribute, ExprId value) {
   if (!isTime(value)) {
-    to_.says_all = false;
+    to_.is_lossless = false;
     to_.xml.attribute(attribute, to_.printed(value));
     return;
   }
@@ -54,7 +54,7 @@ void ConfigurationExport::time(std::string_view attribute, ExprId value) {
 void ConfigurationExport::task(const TaskDecl& task, std::span<const DeclId> members) {
   ExprId interval, priority, single, kind, trigger, watchdog, sensitivity;
   for (const Argument& setting : to_.tree.list(task.settings)) {
-    const std::string_view name = to_.text(setting.pin.name);
+    const std::string_view name = to_.string(setting.pin.name);
     ExprId* const slot = sameIdentifier(name, "INTERVAL")      ? &interval
                          : sameIdentifier(name, "PRIORITY")    ? &priority
                          : sameIdentifier(name, "SINGLE")      ? &single
@@ -64,7 +64,7 @@ void ConfigurationExport::task(const TaskDecl& task, std::span<const DeclId> mem
                          : sameIdentifier(name, "SENSITIVITY") ? &sensitivity
                                                                : nullptr;
     if (slot == nullptr || !setting.value)
-      to_.says_all = false;
+      to_.is_lossless = false;
     else
       *slot = setting.value;
   }
@@ -72,14 +72,15 @@ void ConfigurationExport::task(const TaskDecl& task, std::span<const DeclId> mem
   const bool freewheeling = sameIdentifier(word, "FREEWHEELING"), status = sameIdentifier(word, "STATUS"),
              external = sameIdentifier(word, "EXTERNAL");
   const bool plain = !kind && !trigger;
-  if (plain ? interval == ExprId{} && single == ExprId{} : !(freewheeling || status || external)) to_.says_all = false;
-  if (interval && (single || kind)) to_.says_all = false;
-  to_.xml.open("task").attribute("name", to_.text(task.name));
+  if (plain ? interval == ExprId{} && single == ExprId{} : !(freewheeling || status || external))
+    to_.is_lossless = false;
+  if (interval && (single || kind)) to_.is_lossless = false;
+  to_.xml.open("task").attribute("name", to_.string(task.name));
   if (single) to_.xml.attribute("single", to_.printed(single));
   if (interval) time("interval", interval);
   // The schema wants a priority; 1 is that of a task that names none.
   const bool is_number = priority && to_.tree.kind(priority) == ExprKind::Literal;
-  if (priority && !is_number) to_.says_all = false;
+  if (priority && !is_number) to_.is_lossless = false;
   to_.xml.attribute("priority", is_number ? to_.printed(priority) : "1");
   bool any = false;
   for (const DeclId id : members) {
@@ -90,7 +91,7 @@ void ConfigurationExport::task(const TaskDecl& task, std::span<const DeclId> mem
     programs_.push_back(id);
     any = true;
   }
-  if (!any) to_.says_all = false;
+  if (!any) to_.is_lossless = false;
   if (!plain || watchdog) {
     AddData data(to_);
     data.open("tasksettings");
@@ -114,16 +115,16 @@ void ConfigurationExport::task(const TaskDecl& task, std::span<const DeclId> mem
     to_.xml.close();
     data.close();
   }
-  if (sensitivity && !watchdog) to_.says_all = false;
+  if (sensitivity && !watchdog) to_.is_lossless = false;
   to_.xml.close();
 }
 
 void ConfigurationExport::program(const ProgramInstanceDecl& program) {
   std::string type;
   for (const Ident& part : to_.tree.list(program.type))
-    type += (type.empty() ? "" : ".") + std::string(to_.text(part.name));
-  if (!program.arguments.empty() || !program.block_tasks.empty() || program.section_bits != 0) to_.says_all = false;
-  to_.xml.open("pouInstance").attribute("name", to_.text(program.name)).attribute("typeName", type).close();
+    type += (type.empty() ? "" : ".") + std::string(to_.string(part.name));
+  if (!program.arguments.empty() || !program.block_tasks.empty() || program.section_bits != 0) to_.is_lossless = false;
+  to_.xml.open("pouInstance").attribute("name", to_.string(program.name)).attribute("typeName", type).close();
 }
 
 void ConfigurationExport::globals(Slice<DeclId> members) {
@@ -149,7 +150,7 @@ void ConfigurationExport::resource(std::string_view name, Slice<DeclId> members)
     if (to_.tree.kind(id) == DeclKind::Task) task(to_.tree.as<TaskDecl>(id), list);
     if (to_.tree.kind(id) == DeclKind::ProgramInstance) declared.push_back(id);
     if (to_.tree.kind(id) == DeclKind::Section && to_.tree.as<SectionDecl>(id).section != SectionKind::Global)
-      to_.says_all = false;
+      to_.is_lossless = false;
   }
   globals(members);
   for (const DeclId id : declared) {
@@ -158,7 +159,7 @@ void ConfigurationExport::resource(std::string_view name, Slice<DeclId> members)
     this->program(program);
     programs_.push_back(id);
   }
-  if (programs_ != declared) to_.says_all = false;
+  if (programs_ != declared) to_.is_lossless = false;
   programs_.clear();
   to_.xml.close();
 }
@@ -182,17 +183,17 @@ void ConfigurationExport::paths(Slice<DeclId> members, SectionKind kind) {
     if (section.section != kind) continue;
     if (!any) to_.xml.open(access ? "accessVars" : "configVars");
     any = true;
-    if (!section.h.pragmas.empty() || section.h.bits != 0) to_.says_all = false;
+    if (!section.h.pragmas.empty() || section.h.bits != 0) to_.is_lossless = false;
     for (const DeclId v : to_.tree.list(section.vars)) {
       const auto& var = to_.tree.as<VarDecl>(v);
       if (var.names.empty()) {
-        to_.says_all = false;
+        to_.is_lossless = false;
         continue;
       }
       to_.xml.open(access ? "accessVariable" : "configVariable");
       if (access) {
-        if (var.located) to_.says_all = false;
-        to_.xml.attribute("alias", to_.text(to_.tree.list(var.names)[0].name));
+        if (var.located) to_.is_lossless = false;
+        to_.xml.attribute("alias", to_.string(to_.tree.list(var.names)[0].name));
         to_.xml.attribute("instancePathAndName", var.init ? to_.printed(var.init) : "?");
         to_.xml.attribute("direction", var.h.bits == 0 ? "readWrite" : "readOnly");
       } else {
@@ -214,19 +215,19 @@ void ConfigurationExport::paths(Slice<DeclId> members, SectionKind kind) {
 
 void ConfigurationExport::run(DeclId id) {
   const auto& configuration = to_.tree.as<ConfigurationDecl>(id);
-  to_.says_all = true;
-  to_.xml.open("configuration").attribute("name", to_.text(configuration.name));
+  to_.is_lossless = true;
+  to_.xml.open("configuration").attribute("name", to_.string(configuration.name));
   bool own = false;  // tasks and programs without a resource
   for (const DeclId member : to_.tree.list(configuration.members)) {
     const DeclKind kind = to_.tree.kind(member);
     if (kind == DeclKind::Resource) {
       const auto& resource = to_.tree.as<ResourceDecl>(member);
-      this->resource(to_.text(resource.name), resource.members);
+      this->resource(to_.string(resource.name), resource.members);
     }
     own = own || kind == DeclKind::Task || kind == DeclKind::ProgramInstance;
   }
   if (own) {
-    to_.says_all = false;
+    to_.is_lossless = false;
     const std::span<const DeclId> members = to_.tree.list(configuration.members);
     to_.xml.open("resource").attribute("name", "Resource");
     for (const DeclId member : members)
@@ -243,7 +244,7 @@ void ConfigurationExport::run(DeclId id) {
   paths(configuration.members, SectionKind::Config);
   const SourceText& source = *to_.source;
   const size_t name = source.at(configuration.h.loc), begin = source.wordBefore(name, "CONFIGURATION");
-  if (!to_.says_all) {
+  if (!to_.is_lossless) {
     AddData data(to_);
     exportPlainText(to_, source.cut(begin, source.endOfWord(name, "END_CONFIGURATION")), data);
   }

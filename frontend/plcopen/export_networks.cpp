@@ -51,31 +51,31 @@ class NetworkExport {
   void run();
 
  private:
-  struct Place {
+  struct Position {
     int64_t x, y;
   };
   void number();
-  void place();
+  void computePositions();
   bool isLeftOut(const DiagramElement& e) const;
   void network(uint32_t network);
   void element(uint32_t k);
   void pins(const DiagramElement& e);
   void pinList(std::string_view list, const DiagramElement& e, PinDirection direction);
-  void marks(bool negated, EdgeKind edge, PinStorage storage, std::string_view suffix = {});
+  void modifiers(bool negated, EdgeKind edge, PinStorage storage, std::string_view suffix = {});
   void wires(const DiagramPin& pin);
   void input(const DiagramElement& e);
   void data(const DiagramElement& e);
   std::string pathOf(ExprId path) const;
   std::string operand(const DiagramElement& e) const;
   std::string statements(const DiagramElement& e) const;
-  std::string words(uint32_t first, uint32_t length) const;
+  std::string plainText(uint32_t first, uint32_t length) const;
 
   Export& to_;
   const Diagram& diagram_;
   std::span<const DiagramElement> elements_;
-  std::vector<uint64_t> numbers_;  // by element
-  std::vector<Place> places_;      // by element
-  std::vector<uint64_t> titles_;   // by network: the number of the element that shows its title
+  std::vector<uint64_t> numbers_;    // by element
+  std::vector<Position> positions_;  // by element
+  std::vector<uint64_t> titles_;     // by network: the number of the element that shows its title
 };
 
 bool NetworkExport::isLeftOut(const DiagramElement& e) const {
@@ -109,15 +109,15 @@ void NetworkExport::number() {
 }
 
 // Where some have a place, the others have none: a place made up would change the order in which they act.
-void NetworkExport::place() {
-  places_.resize(elements_.size(), {0, 0});
+void NetworkExport::computePositions() {
+  positions_.resize(elements_.size(), {0, 0});
   const bool any = std::any_of(elements_.begin(), elements_.end(), [](const DiagramElement& e) { return e.placed; });
   std::vector<uint32_t> depth(elements_.size(), 0), rows;
   int64_t row = 0;
   for (uint32_t k = 0; k < elements_.size(); ++k) {
     const DiagramElement& e = elements_[k];
     if (any) {
-      if (e.placed) places_[k] = {e.x, e.y};
+      if (e.placed) positions_[k] = {e.x, e.y};
       continue;
     }
     for (const DiagramPin& pin : to_.tree.list(e.pins))
@@ -125,7 +125,7 @@ void NetworkExport::place() {
         if (wire.from < k) depth[k] = std::max(depth[k], depth[wire.from] + 1);
     if (rows.size() <= depth[k]) rows.resize(depth[k] + 1, 0);
     const uint32_t height = 1 + e.pins.count;
-    places_[k] = {static_cast<int64_t>(depth[k]) * kElementColumn, (row + rows[depth[k]]) * kElementRow};
+    positions_[k] = {static_cast<int64_t>(depth[k]) * kElementColumn, (row + rows[depth[k]]) * kElementRow};
     rows[depth[k]] += height;
     const bool ends = e.kind == ElementKind::Coil || e.kind == ElementKind::Output || e.kind == ElementKind::Box ||
                       e.kind == ElementKind::Execute || e.kind == ElementKind::Jump || e.kind == ElementKind::Return ||
@@ -138,9 +138,9 @@ void NetworkExport::place() {
 
 std::string NetworkExport::pathOf(ExprId path) const {
   if (!path) return {};
-  if (to_.tree.kind(path) == ExprKind::Name) return std::string(to_.text(to_.tree.as<NameExpr>(path).name));
+  if (to_.tree.kind(path) == ExprKind::Name) return std::string(to_.string(to_.tree.as<NameExpr>(path).name));
   const auto& member = to_.tree.as<MemberExpr>(path);
-  return pathOf(member.base) + "." + std::string(to_.text(member.member));
+  return pathOf(member.base) + "." + std::string(to_.string(member.member));
 }
 
 // Between the parentheses of the element, as it is written.
@@ -162,9 +162,9 @@ std::string NetworkExport::statements(const DiagramElement& e) const {
   return std::string(text.substr(begin, std::min(text.rfind("{end_network"), text.size()) - begin));
 }
 
-std::string NetworkExport::words(uint32_t first, uint32_t length) const {
+std::string NetworkExport::plainText(uint32_t first, uint32_t length) const {
   std::string out;
-  const std::string_view text = to_.tree.text({first, length});
+  const std::string_view text = to_.tree.string({first, length});
   for (size_t p = 0; p < text.size(); ++p) {
     if (text[p] == '$' && p + 1 < text.size()) ++p;
     out += text[p];
@@ -172,7 +172,7 @@ std::string NetworkExport::words(uint32_t first, uint32_t length) const {
   return out;
 }
 
-void NetworkExport::marks(bool negated, EdgeKind edge, PinStorage storage, std::string_view suffix) {
+void NetworkExport::modifiers(bool negated, EdgeKind edge, PinStorage storage, std::string_view suffix) {
   const std::string end(suffix);
   if (negated) to_.xml.attribute("negated" + end, "true");
   if (edge != EdgeKind::None) to_.xml.attribute("edge" + end, edge == EdgeKind::Rising ? "rising" : "falling");
@@ -183,7 +183,7 @@ void NetworkExport::wires(const DiagramPin& pin) {
   to_.xml.open("connectionPointIn");
   for (const DiagramWire& wire : to_.tree.list(pin.wires)) {
     to_.xml.open("connection").attribute("refLocalId", std::to_string(numbers_[wire.from]));
-    if (wire.pin.name) to_.xml.attribute("formalParameter", to_.text(wire.pin.name));
+    if (wire.pin.name) to_.xml.attribute("formalParameter", to_.string(wire.pin.name));
     to_.xml.close();
   }
   to_.xml.close();
@@ -197,8 +197,8 @@ void NetworkExport::pinList(std::string_view list, const DiagramElement& e, PinD
   to_.xml.open(list);
   for (const DiagramPin& pin : to_.tree.list(e.pins)) {
     if (pin.direction != direction) continue;
-    to_.xml.open("variable").attribute("formalParameter", to_.text(pin.name.name));
-    marks(pin.negated, pin.edge, pin.storage);
+    to_.xml.open("variable").attribute("formalParameter", to_.string(pin.name.name));
+    modifiers(pin.negated, pin.edge, pin.storage);
     if (direction != PinDirection::Output) wires(pin);
     if (direction != PinDirection::Input) to_.xml.leaf("connectionPointOut");
     to_.xml.close();
@@ -251,18 +251,18 @@ void NetworkExport::element(uint32_t k) {
     if (e.operand) to_.xml.attribute("instanceName", operand(e));
   }
   if (e.kind == ElementKind::Connector || e.kind == ElementKind::Continuation)
-    to_.xml.attribute("name", e.name.name ? to_.text(e.name.name) : "");
-  if (e.kind == ElementKind::Jump || e.kind == ElementKind::Label) to_.xml.attribute("label", to_.text(e.name.name));
+    to_.xml.attribute("name", e.name.name ? to_.string(e.name.name) : "");
+  if (e.kind == ElementKind::Jump || e.kind == ElementKind::Label) to_.xml.attribute("label", to_.string(e.name.name));
   const bool linked = e.kind == ElementKind::Connector || e.kind == ElementKind::Continuation;
   if (e.order != 0 && !linked && e.kind != ElementKind::Comment)
     to_.xml.attribute("executionOrderId", std::to_string(e.order));
   if (e.kind == ElementKind::Contact || e.kind == ElementKind::Coil || e.kind == ElementKind::Input ||
       e.kind == ElementKind::Output)
-    marks(e.negated, e.edge, e.storage);
-  if (e.kind == ElementKind::InOut) marks(e.negated, e.edge, e.storage, "In");
+    modifiers(e.negated, e.edge, e.storage);
+  if (e.kind == ElementKind::InOut) modifiers(e.negated, e.edge, e.storage, "In");
   to_.xml.open("position")
-      .attribute("x", std::to_string(places_[k].x))
-      .attribute("y", std::to_string(places_[k].y))
+      .attribute("x", std::to_string(positions_[k].x))
+      .attribute("y", std::to_string(positions_[k].y))
       .close();
   if (box || structure) {
     if (structure) to_.xml.formatted("alternativeText", pathOf(e.path));
@@ -284,7 +284,7 @@ void NetworkExport::element(uint32_t k) {
       break;
     case ElementKind::Output: to_.xml.element("expression", operand(e)); break;
     case ElementKind::Continuation: to_.xml.leaf("connectionPointOut"); break;
-    case ElementKind::Comment: to_.xml.formatted("content", words(e.text, e.text_length)); break;
+    case ElementKind::Comment: to_.xml.formatted("content", plainText(e.comment, e.comment_length)); break;
     case ElementKind::RightRail:
     case ElementKind::Box:
     case ElementKind::Connector:
@@ -309,7 +309,7 @@ void NetworkExport::network(uint32_t index) {
   if (n.title_length == 0) return;
   to_.xml.open("vendorElement").attribute("localId", std::to_string(titles_[index]));
   to_.xml.open("position").attribute("x", "0").attribute("y", "0").close();
-  to_.xml.formatted("alternativeText", words(n.title, n.title_length));
+  to_.xml.formatted("alternativeText", plainText(n.title, n.title_length));
   {
     AddData data(to_);
     data.open("fbdelementtype");
@@ -321,7 +321,7 @@ void NetworkExport::network(uint32_t index) {
 
 void NetworkExport::run() {
   number();
-  place();
+  computePositions();
   const bool cfc = diagram_.language == NetworkLanguage::Continuous;
   const bool ladder =
       diagram_.language == NetworkLanguage::Ladder ||

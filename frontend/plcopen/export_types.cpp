@@ -13,7 +13,7 @@ constexpr std::string_view kElementary[] = {"BOOL",  "BYTE", "WORD",  "DWORD", "
 
 std::string pathOf(const Export& to, Slice<Ident> path) {
   std::string text;
-  for (const Ident& part : to.tree.list(path)) text += (text.empty() ? "" : ".") + std::string(to.text(part.name));
+  for (const Ident& part : to.tree.list(path)) text += (text.empty() ? "" : ".") + std::string(to.string(part.name));
   return text;
 }
 
@@ -35,7 +35,7 @@ void exportHeld(Export& to, std::string_view holder, TypeExprId type) {
 void exportEnum(Export& to, const EnumTypeExpr& type) {
   to.xml.open("enum").open("values");
   for (const EnumItem& item : to.tree.list(type.items)) {
-    to.xml.open("value").attribute("name", to.text(item.item.name));
+    to.xml.open("value").attribute("name", to.string(item.item.name));
     if (item.value) to.xml.attribute("value", to.printed(item.value));
     to.xml.close();
   }
@@ -82,7 +82,7 @@ void exportValue(Export& to, ExprId value) {
   if (to.tree.kind(value) == ExprKind::StructInit) {
     to.xml.open("structValue");
     for (const FieldInit& field : to.tree.list(to.tree.as<StructInitExpr>(value).fields)) {
-      to.xml.open("value").attribute("member", to.text(field.field.name));
+      to.xml.open("value").attribute("member", to.string(field.field.name));
       exportValue(to, field.value);
       to.xml.close();
     }
@@ -107,11 +107,11 @@ void exportValue(Export& to, ExprId value) {
 // The comments of a variable: those above it, in it, and behind it on its line.
 std::string commentsOf(const Export& to, size_t begin, size_t name) {
   const size_t end = to.source->endOfDeclaration(name);
-  return to.source->comments(to.source->commentsBefore(begin), to.source->commentsBehind(end));
+  return to.source->comments(to.source->commentsBefore(begin), to.source->commentsAfter(end));
 }
 
 void exportVariable(Export& to, const VarDecl& var, const Ident& name, bool first) {
-  to.xml.open("variable").attribute("name", to.text(name.name));
+  to.xml.open("variable").attribute("name", to.string(name.name));
   if (var.located) {
     const size_t begin = to.source->at(var.address_loc);
     size_t end = begin;
@@ -123,7 +123,7 @@ void exportVariable(Export& to, const VarDecl& var, const Ident& name, bool firs
   }
   exportHeld(to, "type", var.type);
   if (var.init) exportInitialValue(to, var.init, var.type);
-  if (var.edge != EdgeKind::None) to.says_all = false;
+  if (var.edge != EdgeKind::None) to.is_lossless = false;
   {
     AddData data(to);
     exportAttributes(to, var.h.pragmas, data);
@@ -145,16 +145,16 @@ void exportType(Export& to, TypeExprId id) {
     case TypeExprKind::Error: to.xml.leaf("INT"); return;
     case TypeExprKind::Named: {
       const auto& type = to.tree.as<NamedTypeExpr>(id);
-      if (type.has_arguments || !type.elements.empty()) to.says_all = false;  // of FB_Init
+      if (type.has_arguments || !type.elements.empty()) to.is_lossless = false;  // of FB_Init
       return exportNamed(to, pathOf(to, type.path));
     }
-    case TypeExprKind::Text: {
-      const auto& type = to.tree.as<TextTypeExpr>(id);
-      if (type.code == TextCode::Utf8) {  // TC6 has no USTRING, so its length stands in the text only
-        to.says_all = false;
+    case TypeExprKind::String: {
+      const auto& type = to.tree.as<StringTypeExpr>(id);
+      if (type.code == StringEncoding::Utf8) {  // TC6 has no USTRING, so its length stands in the text only
+        to.is_lossless = false;
         return exportNamed(to, spelling(type.code));
       }
-      to.xml.open(type.code == TextCode::Wide ? "wstring" : "string");
+      to.xml.open(type.code == StringEncoding::Wide ? "wstring" : "string");
       if (type.length) to.xml.attribute("length", to.printed(type.length));
       to.xml.close();
       return;
@@ -165,7 +165,7 @@ void exportType(Export& to, TypeExprId id) {
       const auto& type = to.tree.as<ArrayTypeExpr>(id);
       to.xml.open("array");
       for (const ArrayBound& bound : to.tree.list(type.bounds)) {
-        if (!bound.low) to.says_all = false;
+        if (!bound.low) to.is_lossless = false;
         exportRange(to, "dimension", bound.low, bound.high);
       }
       exportHeld(to, "baseType", type.element);
@@ -174,7 +174,7 @@ void exportType(Export& to, TypeExprId id) {
     }
     case TypeExprKind::Struct: {
       const auto& type = to.tree.as<StructTypeExpr>(id);
-      if (type.is_union || type.overlaps) to.says_all = false;
+      if (type.is_union || type.overlaps) to.is_lossless = false;
       to.xml.open("struct");
       exportVariables(to, type.fields);
       to.xml.close();
@@ -182,7 +182,7 @@ void exportType(Export& to, TypeExprId id) {
     }
     case TypeExprKind::Pointer: {
       const auto& type = to.tree.as<PointerTypeExpr>(id);
-      if (type.form != PointerForm::Pointer) to.says_all = false;
+      if (type.form != PointerForm::Pointer) to.is_lossless = false;
       to.xml.open("pointer");
       exportHeld(to, "baseType", type.target);
       to.xml.close();
@@ -193,9 +193,9 @@ void exportType(Export& to, TypeExprId id) {
 
 // Beremiz keeps texts without quotes, and so a text in this version is a literal, never the name of a constant.
 void exportInitialValue(Export& to, ExprId value, TypeExprId type) {
-  if (type && to.tree.kind(type) == TypeExprKind::Text) {
-    const char quote = to.tree.as<TextTypeExpr>(type).code == TextCode::Wide ? '"' : '\'';
-    if (to.printed(value).find(quote) == std::string::npos) to.says_all = false;
+  if (type && to.tree.kind(type) == TypeExprKind::String) {
+    const char quote = to.tree.as<StringTypeExpr>(type).code == StringEncoding::Wide ? '"' : '\'';
+    if (to.printed(value).find(quote) == std::string::npos) to.is_lossless = false;
   }
   to.xml.open("initialValue");
   exportValue(to, value);
@@ -205,7 +205,7 @@ void exportInitialValue(Export& to, ExprId value, TypeExprId type) {
 void exportVariables(Export& to, Slice<DeclId> vars) {
   for (const DeclId id : to.tree.list(vars)) {
     const auto& var = to.tree.as<VarDecl>(id);
-    if (var.names.empty()) to.says_all = false;  // AT %QX0.0 : BOOL;
+    if (var.names.empty()) to.is_lossless = false;  // AT %QX0.0 : BOOL;
     bool first = true;
     for (const Ident& name : to.tree.list(var.names)) {
       exportVariable(to, var, name, first);
@@ -216,7 +216,7 @@ void exportVariables(Export& to, Slice<DeclId> vars) {
 
 void exportSection(Export& to, DeclId id, std::string_view element, std::string_view name) {
   const auto& section = to.tree.as<SectionDecl>(id);
-  if (section.access != AccessLevel::None) to.says_all = false;
+  if (section.access != AccessLevel::None) to.is_lossless = false;
   to.xml.open(element);
   if (!name.empty()) to.xml.attribute("name", name);
   if ((section.h.bits & kConstant) != 0) to.xml.attribute("constant", "true");
@@ -246,11 +246,11 @@ std::string_view sectionElement(SectionKind kind) {
 void exportAttributes(Export& to, Slice<Pragma> pragmas, AddData& data) {
   bool any = false;
   for (const Pragma& pragma : to.tree.list(pragmas)) {
-    const std::string_view name = to.text(pragma.name), value = to.tree.text(pragma.value);
+    const std::string_view name = to.string(pragma.name), value = to.tree.string(pragma.value);
     if (name == "list") continue;
     // What an attribute in quotes cannot hold.
     if (name.empty() || value.find_first_of("'{}\n") != std::string_view::npos) {
-      to.says_all = false;
+      to.is_lossless = false;
       continue;
     }
     if (!any) {
@@ -274,10 +274,10 @@ void exportPlainText(Export& to, std::string_view text, AddData& data) {
 void exportDataType(Export& to, DeclId id) {
   const auto& decl = to.tree.as<TypeDecl>(id);
   const SourceText& source = *to.source;
-  to.says_all = (decl.h.bits & kInternal) == 0;
+  to.is_lossless = (decl.h.bits & kInternal) == 0;
   for (const std::string_view word : {"PUBLIC", "INTERNAL", "ABSTRACT", "FINAL"})  // words before names, behind TYPE
-    if (sameIdentifier(to.text(decl.name), word)) to.says_all = false;
-  to.xml.open("dataType").attribute("name", to.text(decl.name));
+    if (sameIdentifier(to.string(decl.name), word)) to.is_lossless = false;
+  to.xml.open("dataType").attribute("name", to.string(decl.name));
   exportHeld(to, "baseType", decl.type);
   if (decl.init) exportInitialValue(to, decl.init, decl.type);
   const size_t name = source.at(decl.h.loc), end = source.endOfDeclaration(name);
@@ -293,7 +293,7 @@ void exportDataType(Export& to, DeclId id) {
       to.xml.close();
       data.close();
     }
-    if (!to.says_all) {
+    if (!to.is_lossless) {
       std::string text = "TYPE\n";
       for (const Pragma& pragma : to.tree.list(decl.h.pragmas)) {
         const size_t begin = source.at(pragma.loc);
@@ -308,12 +308,12 @@ void exportDataType(Export& to, DeclId id) {
   const bool is_first = source.wordBefore(begin, "TYPE") < begin && source.commentsBefore(begin, true) == begin &&
                         source.cut(source.wordBefore(begin, "TYPE"), begin).find(';') == std::string_view::npos;
   if (is_first) begin = source.wordBefore(begin, "TYPE");
-  std::string words = source.comments(source.commentsBefore(begin), begin);
+  std::string content = source.comments(source.commentsBefore(begin), begin);
   if (to.tree.kind(decl.type) != TypeExprKind::Struct) {  // of a structure, its members have the others
-    const std::string own = source.comments(name, source.commentsBehind(end));
-    words += (words.empty() || own.empty() ? "" : "\n") + own;
+    const std::string own = source.comments(name, source.commentsAfter(end));
+    content += (content.empty() || own.empty() ? "" : "\n") + own;
   }
-  to.documentation(words);
+  to.documentation(content);
   to.xml.close();
 }
 

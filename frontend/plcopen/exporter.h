@@ -20,19 +20,19 @@ struct Export {
   Diagnostics& diagnostics;
   xml::Writer xml = {};
   const SourceText* source = nullptr;  // of the file at hand
-  bool says_all = true;                // false: the declaration at hand is to stand as text, too
+  bool is_lossless = true;             // false: the declaration at hand is to stand as text, too
 
-  std::string_view text(NameId name) const { return names.text(name); }
+  std::string_view string(NameId name) const { return names.string(name); }
   std::string printed(ExprId expr) const { return printExpr(expr); }
   std::string printExpr(ExprId expr) const;
-  void cannotSay(Loc loc, std::string_view what) { diagnostics.report(diag::XmlCannotSay, loc, {what}); }
+  void reportInexpressible(Loc loc, std::string_view what) { diagnostics.report(diag::XmlCannotSay, loc, {what}); }
   // What stands in Rung's own addData: other tools pass it over.
   void onlyRung(Loc loc, std::string_view what) { diagnostics.report(diag::XmlOnlyRung, loc, {what}); }
   // <data name="…" handleUnknown="…">, closed by its caller.
   void openData(std::string_view name, std::string_view unknown = "implementation");
   void openVendorData(std::string_view kind);  // of the 3S family
-  void documentation(const std::string& words) {
-    if (!words.empty()) xml.formatted("documentation", words);
+  void documentation(const std::string& content) {
+    if (!content.empty()) xml.formatted("documentation", content);
   }
 };
 

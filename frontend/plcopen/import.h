@@ -1,6 +1,6 @@
 // What the parts of the import share, and how they write into the text. Private to frontend/plcopen: plcopen.cpp (the
 // project), types.cpp, declarations.cpp, pous.cpp, configuration.cpp, sfc.cpp, networks.h. Names and texts of the XML
-// (text.cpp) serve frontend/iec10 as well.
+// (content.cpp) serve frontend/iec10 as well.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "frontend/source/diagnostics.h"
-#include "frontend/xml/assembly.h"
+#include "frontend/xml/source_mapped_text.h"
 
 namespace rung::plcopen {
 
@@ -33,8 +33,8 @@ struct Import {
   const Sources& sources;
   const xml::Document& document;
   Diagnostics& diagnostics;
-  xml::Assembly& out;
-  bool bare_texts = false;  // TC6 1.01 and 2.01, in which Beremiz keeps texts without quotes
+  xml::SourceMappedText& out;
+  bool unquoted_strings = false;  // TC6 1.01 and 2.01, in which Beremiz keeps texts without quotes
   // Names of the library Beremiz that this file uses and does not declare; none in files of other tools.
   std::vector<std::string_view> beremiz_names = {};
   // FB_Init of the blocks that declare it, by the block's name in upper case, sorted.
@@ -56,7 +56,7 @@ struct Import {
   bool isLeftOut(const xml::Element& resource) const { return left_out.count(&resource) != 0; }
 };
 
-// ---- text.cpp: reading and writing names, values and texts
+// ---- content.cpp: reading and writing names, values and texts
 
 // The <text> of Rung's own addData, which says all of `owner`; null: there is none.
 const xml::Element* ownTextOf(const Import& import, const xml::Element& owner);

@@ -39,9 +39,9 @@ void Chart::connectMacro(uint32_t node) {
   macro.node = node;
   macro.chart.reset(new Chart(*this, *inner, node));
   macro.chart->connect();
-  good_ &= macro.chart->good_;
+  ok_ &= macro.chart->ok_;
   for (const bool entry : {true, false})
-    if (good_) findEnd(macro, entry);
+    if (ok_) findEnd(macro, entry);
 }
 
 // MACRO_STEP name (ENTRY := a, EXIT := b): elements END_MACRO_STEP
@@ -58,7 +58,7 @@ void Chart::writeMacro(const Macro& macro) {
   }
   import_.out.word(before[0] == ',' ? "):\n" : ":\n");
   macro.chart->writeElements();
-  good_ &= macro.chart->good_;
+  ok_ &= macro.chart->ok_;
   import_.out.put(element.end, "END_MACRO_STEP\n");
 }
 

@@ -50,7 +50,7 @@ std::string quoted(std::string_view text) {
 
 class Writer {
  public:
-  Writer(const Sources& sources, const xml::Document& document, xml::Assembly& out)
+  Writer(const Sources& sources, const xml::Document& document, xml::SourceMappedText& out)
       : sources_(sources), document_(document), out_(out) {}
 
   void writeBody(const DrawnBody& diagram);
@@ -70,9 +70,9 @@ class Writer {
   void writeWires(const Element& point);
   void writeInput(const Element& e);
   void writeOperand(const Element& e);
-  void writeMarks(const Element& e, std::string_view negated = "negated");
+  void writePinModifiers(const Element& e, std::string_view negated = "negated");
   void writeOrder(const Element& e);
-  void writePlace(const Element& e);
+  void writePosition(const Element& e);
   void writeNumber(const Element& e);
   void writeText(const Element& e, const Element* content);
   void writeReference(const Element& e, std::string_view attribute);
@@ -90,7 +90,7 @@ class Writer {
 
   const Sources& sources_;
   const xml::Document& document_;
-  xml::Assembly& out_;
+  xml::SourceMappedText& out_;
   std::unordered_map<uint64_t, const Element*> by_number_;
   std::vector<const Element*> elements_;
   uint64_t network_ = 0;  // of CODESYS, by the numbers of elements
@@ -132,7 +132,7 @@ bool Writer::negatedByVendor(const Element& e) const {
 }
 
 void Writer::collect(const Element& body) {
-  std::vector<uint64_t> turns;
+  std::vector<uint64_t> execution_orders;
   for (const Element* e = document_.firstChild(body); e != nullptr; e = document_.next(*e)) {
     if (e->name == "step") by_number_.emplace(numberOf(*e), e);
     if (!isElement(e->name)) continue;
@@ -140,15 +140,16 @@ void Writer::collect(const Element& body) {
     by_number_.emplace(numberOf(*e), e);
     const bool acts = e->name == "block" || e->name == "outVariable" || e->name == "jump" || e->name == "return" ||
                       e->name == "label";
-    uint64_t turn = 0;
+    uint64_t execution_order = 0;
     const std::string order = value(*e, "executionOrderId");
-    if (acts && std::from_chars(order.data(), order.data() + order.size(), turn).ec == std::errc{})
-      turns.push_back(turn);
+    if (acts && std::from_chars(order.data(), order.data() + order.size(), execution_order).ec == std::errc{})
+      execution_orders.push_back(execution_order);
   }
   // Editors that number every element begin with 0; in others 0 means none.
-  std::sort(turns.begin(), turns.end());
-  counts_from_zero_ = turns.size() > 1 && turns[0] == 0;
-  for (size_t k = 1; k < turns.size(); ++k) counts_from_zero_ = counts_from_zero_ && turns[k] > turns[k - 1];
+  std::sort(execution_orders.begin(), execution_orders.end());
+  counts_from_zero_ = execution_orders.size() > 1 && execution_orders[0] == 0;
+  for (size_t k = 1; k < execution_orders.size(); ++k)
+    counts_from_zero_ = counts_from_zero_ && execution_orders[k] > execution_orders[k - 1];
 }
 
 bool Writer::hasOutput(const Element& box, std::string_view pin) const {
@@ -223,7 +224,7 @@ void Writer::writeInput(const Element& e) {
   writeWires(*point);
 }
 
-void Writer::writeMarks(const Element& e, std::string_view negated) {
+void Writer::writePinModifiers(const Element& e, std::string_view negated) {
   if (isSet(e, negated)) out_.word(" NOT");
   const std::string edge = value(e, "edge"), storage = value(e, "storage");
   if (edge == "rising" || edge == "falling") out_.word(edge == "rising" ? " RISING" : " FALLING");
@@ -232,15 +233,16 @@ void Writer::writeMarks(const Element& e, std::string_view negated) {
 
 void Writer::writeOrder(const Element& e) {
   const xml::Attribute* order = document_.attribute(e, "executionOrderId");
-  uint64_t turn = 0;
+  uint64_t execution_order = 0;
   const std::string text = value(e, "executionOrderId");
-  if (order == nullptr || std::from_chars(text.data(), text.data() + text.size(), turn).ec != std::errc{}) return;
-  if (counts_from_zero_) ++turn;
-  if (turn != 0) out_.put(order->loc, " ORDER " + std::to_string(turn));
+  if (order == nullptr || std::from_chars(text.data(), text.data() + text.size(), execution_order).ec != std::errc{})
+    return;
+  if (counts_from_zero_) ++execution_order;
+  if (execution_order != 0) out_.put(order->loc, " ORDER " + std::to_string(execution_order));
 }
 
-void Writer::writePlace(const Element& e) {
-  if (const std::string place = placeOf(document_, e); !place.empty()) out_.put(e.loc, place);
+void Writer::writePosition(const Element& e) {
+  if (const std::string position = positionOf(document_, e); !position.empty()) out_.put(e.loc, position);
 }
 
 // ( expression )
@@ -272,14 +274,14 @@ void Writer::writeReference(const Element& e, std::string_view attribute) {
     return;
   }
   // Of a label: a name that stands for it.
-  std::string made = "n";
+  std::string created = "n";
   for (const char c : value(e, attribute)) {
     if (isNameChar(c))
-      made += c;
+      created += c;
     else
-      made += std::to_string(static_cast<unsigned char>(c)) + "x";
+      created += std::to_string(static_cast<unsigned char>(c)) + "x";
   }
-  out_.put(name->loc, made);
+  out_.put(name->loc, created);
 }
 
 void Writer::writePin(const Element& pin, std::string_view fallback, bool input, bool output) {
@@ -288,7 +290,7 @@ void Writer::writePin(const Element& pin, std::string_view fallback, bool input,
     out_.add(document_, *name);
   else
     out_.put(pin.loc, fallback);
-  writeMarks(pin);
+  writePinModifiers(pin);
   if (input) {
     out_.word(" := ");
     if (const Element* point = document_.child(pin, "connectionPointIn")) writeWires(*point);
@@ -363,7 +365,7 @@ void Writer::writeBox(const Element& e) {
   writeNumber(e);
   if (!execute) writeBoxName(e);
   writeOrder(e);
-  writePlace(e);
+  writePosition(e);
   writePins(e);
   if (!execute) return;
   out_.word(" {network ST}\n");
@@ -393,7 +395,7 @@ void Writer::writeElement(const Element& e) {
     out_.word(" ");
     if (const Element* name = document_.child(e, "alternativeText")) out_.add(document_, *name);
     writeOrder(e);
-    writePlace(e);
+    writePosition(e);
     writePins(e);
     out_.word(";\n");
     return;
@@ -404,7 +406,7 @@ void Writer::writeElement(const Element& e) {
     writeNumber(e);
     out_.word(" (" + wireOf(document_, e) + ")");
     writeOrder(e);
-    writePlace(e);
+    writePosition(e);
     writeInput(e);
     out_.word(";\n");
     return;
@@ -422,20 +424,20 @@ void Writer::writeElement(const Element& e) {
     out_.word(";\n");
     return;
   }
-  static constexpr std::pair<std::string_view, std::string_view> kWords[] = {{"leftPowerRail", "rail "},
-                                                                             {"rightPowerRail", "right_rail "},
-                                                                             {"contact", "contact "},
-                                                                             {"coil", "coil "},
-                                                                             {"inVariable", "input "},
-                                                                             {"outVariable", "output "},
-                                                                             {"inOutVariable", "inout "},
-                                                                             {"connector", "connector "},
-                                                                             {"continuation", "continuation "},
-                                                                             {"jump", "jump "},
-                                                                             {"label", "label "},
-                                                                             {"return", "return "},
-                                                                             {"comment", "comment "}};
-  for (const auto& [name, word] : kWords)
+  static constexpr std::pair<std::string_view, std::string_view> kKeywords[] = {{"leftPowerRail", "rail "},
+                                                                                {"rightPowerRail", "right_rail "},
+                                                                                {"contact", "contact "},
+                                                                                {"coil", "coil "},
+                                                                                {"inVariable", "input "},
+                                                                                {"outVariable", "output "},
+                                                                                {"inOutVariable", "inout "},
+                                                                                {"connector", "connector "},
+                                                                                {"continuation", "continuation "},
+                                                                                {"jump", "jump "},
+                                                                                {"label", "label "},
+                                                                                {"return", "return "},
+                                                                                {"comment", "comment "}};
+  for (const auto& [name, word] : kKeywords)
     if (kind == name) out_.word(word);
   writeNumber(e);
   if (kind == "comment") {
@@ -449,15 +451,15 @@ void Writer::writeElement(const Element& e) {
     writeReference(e, "name");
   } else if (kind == "contact" || kind == "coil" || kind == "inVariable" || kind == "outVariable") {
     writeOperand(e);
-    writeMarks(e);
+    writePinModifiers(e);
     const Element* own = kind == "coil" ? data(e, "extension") : nullptr;  // of Rung's own export
     if (own != nullptr && isSet(*own, "holding")) out_.word(" HOLDING");
   } else if (kind == "inOutVariable") {
     writeOperand(e);
-    writeMarks(e, "negatedIn");
+    writePinModifiers(e, "negatedIn");
   }
   if (kind != "inVariable") writeOrder(e);
-  writePlace(e);
+  writePosition(e);
   if (kind == "rightPowerRail") {  // ends wires, whose turns it does not change
     out_.word(";\n");
     return;
@@ -532,7 +534,7 @@ void Writer::writeCondition(const DrawnBody& diagram) {
 
 }  // namespace
 
-std::string placeOf(const xml::Document& document, const xml::Element& e) {
+std::string positionOf(const xml::Document& document, const xml::Element& e) {
   const xml::Element* position = document.child(e, "position");
   if (position == nullptr) return {};
   const auto number = [&](const xml::Element& from, std::string_view name) {
@@ -547,7 +549,7 @@ std::string placeOf(const xml::Document& document, const xml::Element& e) {
 }
 
 void writeNetworks(const Sources& sources, const xml::Document& document, const DrawnBody& diagram,
-                   xml::Assembly& out) {
+                   xml::SourceMappedText& out) {
   Writer writer(sources, document, out);
   if (diagram.condition != nullptr || !diagram.ends.empty())
     writer.writeCondition(diagram);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "frontend/syntax/diagram.h"
-#include "frontend/xml/assembly.h"
+#include "frontend/xml/source_mapped_text.h"
 
 namespace rung::plcopen {
 
@@ -25,13 +25,14 @@ struct DrawnBody {
 };
 
 // ` AT 100, 40, 60, 30`; empty where the element has no place.
-std::string placeOf(const xml::Document& document, const xml::Element& element);
+std::string positionOf(const xml::Document& document, const xml::Element& element);
 
 // Of an action block in a network: the variable that its wire is stored in; and, for the end of its body, the
 // statements that call all of them. (action_blocks.cpp)
 std::string wireOf(const xml::Document& document, const xml::Element& block);
-void writeActionCalls(const xml::Document& document, const xml::Element& body, xml::Assembly& out);
+void writeActionCalls(const xml::Document& document, const xml::Element& body, xml::SourceMappedText& out);
 
-void writeNetworks(const Sources& sources, const xml::Document& document, const DrawnBody& diagram, xml::Assembly& out);
+void writeNetworks(const Sources& sources, const xml::Document& document, const DrawnBody& diagram,
+                   xml::SourceMappedText& out);
 
 }  // namespace rung::plcopen

@@ -30,7 +30,7 @@ class ProjectReader {
   const xml::Element* resourceOf(const xml::Element& element) const;
   void findBeremizNames();
   void findInitialisers();
-  void leaveOutApplications();
+  void excludeApplications();
   void addLibraries(const xml::Element& libraries);
   void noteExtensions();
   bool holdsProgram(const xml::Element& configuration) const;
@@ -68,7 +68,7 @@ const xml::Element* ProjectReader::resourceOf(const xml::Element& element) const
 void ProjectReader::findBeremizNames() {
   static constexpr std::string_view kNames[] = {"DERIVATIVE", "HYSTERESIS", "INTEGRAL", "LOGGER",
                                                 "LOGLEVEL",   "PID",        "RAMP"};
-  if (!import_.bare_texts) return;
+  if (!import_.unquoted_strings) return;
   std::vector<std::string_view>& names = import_.beremiz_names;
   names.assign(std::begin(kNames), std::end(kNames));
   for (const xml::Element& e : import_.document.elements) {
@@ -92,7 +92,7 @@ void ProjectReader::findInitialisers() {
 
 // A project of CODESYS may hold applications for several devices, each with a PLC_PRG of its own: the first one counts,
 // and those that repeat a name of it are left out.
-void ProjectReader::leaveOutApplications() {
+void ProjectReader::excludeApplications() {
   std::unordered_map<std::string, const xml::Element*> resource_of_name;
   for (const xml::Element& element : import_.document.elements) {
     const Part part = partOf(element);
@@ -200,10 +200,10 @@ void ProjectReader::noteExtensions() {
 
 void ProjectReader::run() {
   const xml::Attribute* space = import_.document.attribute(import_.document.elements[0], "xmlns");
-  import_.bare_texts = space == nullptr || !space->raw.ends_with("0200");
+  import_.unquoted_strings = space == nullptr || !space->raw.ends_with("0200");
   findBeremizNames();
   findInitialisers();
-  leaveOutApplications();
+  excludeApplications();
   forEachData(import_, import_.document.elements[0], "extension", [&](const xml::Element& data) {
     const xml::Element* text = import_.document.child(data, "text");  // namespaces, of Rung's own export
     if (text == nullptr) return;
@@ -248,7 +248,7 @@ bool isPlcopen(std::string_view text) {
 FileId readProject(Sources& sources, FileId file, Diagnostics& diagnostics, std::vector<Library>& libraries) {
   xml::Document document;
   if (!xml::read(sources, file, diagnostics, document)) return {};
-  xml::Assembly program(sources);
+  xml::SourceMappedText program(sources);
   Import import{sources, document, diagnostics, program};
   ProjectReader(import, libraries).run();
   return program.finish(sources, file);

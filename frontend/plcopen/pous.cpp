@@ -13,23 +13,23 @@
 namespace rung::plcopen {
 namespace {
 
-struct PouWords {
+struct PouKeywords {
   std::string_view type, begin, end;
 };
-constexpr PouWords kPous[] = {{"function", "FUNCTION ", "END_FUNCTION"},
-                              {"functionBlock", "FUNCTION_BLOCK ", "END_FUNCTION_BLOCK"},
-                              {"program", "PROGRAM ", "END_PROGRAM"},
-                              {"class", "CLASS ", "END_CLASS"},
-                              {"interface", "INTERFACE ", "END_INTERFACE"}};
+constexpr PouKeywords kPous[] = {{"function", "FUNCTION ", "END_FUNCTION"},
+                                 {"functionBlock", "FUNCTION_BLOCK ", "END_FUNCTION_BLOCK"},
+                                 {"program", "PROGRAM ", "END_PROGRAM"},
+                                 {"class", "CLASS ", "END_CLASS"},
+                                 {"interface", "INTERFACE ", "END_INTERFACE"}};
 
 // Forbids what is no kind of POU. TC6, pouType.
 //   fails   <pou name="P" pouType="programm">          E1052
-const PouWords* wordsOf(Import& import, const xml::Element& pou) {
+const PouKeywords* keywordsOf(Import& import, const xml::Element& pou) {
   const xml::Attribute* type = import.document.attribute(pou, "pouType");
   if (const xml::Element* own = dataOf(import, pou, "extension"))  // of Rung's own export: class
     if (const xml::Attribute* named = import.document.attribute(*own, "pouType")) type = named;
-  for (const PouWords& words : kPous)
-    if (type != nullptr && sameIdentifier(type->raw, words.type)) return &words;
+  for (const PouKeywords& keywords : kPous)
+    if (type != nullptr && sameIdentifier(type->raw, keywords.type)) return &keywords;
   if (type == nullptr)
     import.diagnostics.report(diag::XmlNoName, pou.loc, {pou.name, "pouType"});
   else
@@ -206,7 +206,7 @@ bool writeBody(Import& import, const xml::Element& body, const xml::Element& pou
     return true;
   }
   if (writeOwnText(import, body)) return true;
-  bool good = true;
+  bool ok = true;
   for (const xml::Element* e = import.document.firstChild(body); e != nullptr; e = import.document.next(*e)) {
     if (e->name == "ST" || e->name == "IL") {
       import.out.put(e->loc, "");
@@ -222,10 +222,10 @@ bool writeBody(Import& import, const xml::Element& body, const xml::Element& pou
       writeChart(import, *e, pou, name);
     } else if (e->name != "addData" && e->name != "documentation") {
       import.diagnostics.report(diag::XmlBodyLanguage, e->loc, {name, e->name});
-      good = false;
+      ok = false;
     }
   }
-  return good;
+  return ok;
 }
 
 void writeBodies(Import& import, const xml::Element& owner, const xml::Element& pou, const std::string& name) {
@@ -234,9 +234,9 @@ void writeBodies(Import& import, const xml::Element& owner, const xml::Element& 
 }
 
 void writePou(Import& import, const xml::Element& pou) {
-  const PouWords* words = wordsOf(import, pou);
-  if (words == nullptr) return;
-  if (!writeHeader(import, pou, words->begin, "pouinheritance")) return;
+  const PouKeywords* keywords = keywordsOf(import, pou);
+  if (keywords == nullptr) return;
+  if (!writeHeader(import, pou, keywords->begin, "pouinheritance")) return;
   writeFlags(import, pou);
   writeControls(import, pou);
   findSteps(import, pou);
@@ -245,7 +245,7 @@ void writePou(Import& import, const xml::Element& pou) {
   writeMembers(import, pou);
   writeBodies(import, pou, pou, nameOf(import, pou));
   writeOwnActions(import, pou, nameOf(import, pou));
-  import.out.put(pou.end, words->end);
+  import.out.put(pou.end, keywords->end);
   import.out.word("\n");
 }
 

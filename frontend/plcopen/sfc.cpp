@@ -128,7 +128,7 @@ void Chart::writeStep(uint32_t node) {
   const bool is_initial = nodes_[node].kind == NodeKind::Step && isTrue(import_, step, "initialStep");
   import_.out.put(step.loc, is_initial ? "INITIAL_STEP " : "STEP ");
   writeStepName(node);
-  if (nodes_[node].kind == NodeKind::Step) writePlace(step);
+  if (nodes_[node].kind == NodeKind::Step) writePosition(step);
   writeStepTimes(step);
   import_.out.word(":\n");
   if (nodes_[node].kind == NodeKind::Step) writeStepActions(node);
@@ -136,9 +136,10 @@ void Chart::writeStep(uint32_t node) {
 }
 
 // What stands in a macro step has a drawing of its own: such charts are laid out anew.
-void Chart::writePlace(const xml::Element& element) {
+void Chart::writePosition(const xml::Element& element) {
   if (outer_ != nullptr || !macros_.empty()) return;
-  if (const std::string place = placeOf(document_, element); !place.empty()) import_.out.put(element.loc, place);
+  if (const std::string position = positionOf(document_, element); !position.empty())
+    import_.out.put(element.loc, position);
 }
 
 void Chart::writeStepName(uint32_t node) {
@@ -152,7 +153,7 @@ void Chart::writeStepName(uint32_t node) {
 // A chart with a mistake in its graph is not written at all: what follows from it needs no messages.
 void Chart::write() {
   connect();
-  if (good_) writeElements();
+  if (ok_) writeElements();
 }
 
 void Chart::writeElements() {

@@ -32,33 +32,33 @@ size_t endOfComment(std::string_view text, size_t p) {
 }  // namespace
 
 SourceText::SourceText(const Sources& sources, FileId file)
-    : text_(sources.text(file)), base_(sources.begin(file).offset) {
-  for (size_t p = 0; p < text_.size();) {
-    const char c = text_[p];
-    const std::string_view two = text_.substr(p, 2);
+    : source_(sources.sourceText(file)), base_(sources.begin(file).offset) {
+  for (size_t p = 0; p < source_.size();) {
+    const char c = source_[p];
+    const std::string_view two = source_.substr(p, 2);
     size_t end = p + 1;
-    Kind kind = Kind::Mark;
+    Kind kind = Kind::Punctuation;
     if (static_cast<unsigned char>(c) <= ' ') {
       ++p;
       continue;
     }
     if (two == "//") {
       kind = Kind::Comment;
-      end = std::min(text_.find('\n', p), text_.size());
-      if (text_[end - 1] == '\r') --end;
+      end = std::min(source_.find('\n', p), source_.size());
+      if (source_[end - 1] == '\r') --end;
     } else if (two == "(*" || two == "/*") {
       kind = Kind::Comment;
-      end = endOfComment(text_, p);
+      end = endOfComment(source_, p);
     } else if (c == '{') {
       kind = Kind::Pragma;
-      end = std::min(text_.find('}', p), text_.size() - 1) + 1;
+      end = std::min(source_.find('}', p), source_.size() - 1) + 1;
     } else if (c == '\'' || c == '"') {
       kind = Kind::Text;
-      while (end < text_.size() && text_[end] != c) end += text_[end] == '$' ? 2 : 1;
-      end = std::min(end + 1, text_.size());
+      while (end < source_.size() && source_[end] != c) end += source_[end] == '$' ? 2 : 1;
+      end = std::min(end + 1, source_.size());
     } else if (isWordChar(c)) {
       kind = Kind::Word;
-      while (end < text_.size() && isWordChar(text_[end])) ++end;
+      while (end < source_.size() && isWordChar(source_[end])) ++end;
     }
     units_.push_back({static_cast<uint32_t>(p), static_cast<uint32_t>(end), kind});
     p = end;
@@ -80,7 +80,7 @@ size_t SourceText::commentsBefore(size_t p, bool all) const {
   return first == end ? p : units_[first].begin;
 }
 
-size_t SourceText::commentsBehind(size_t p) const {
+size_t SourceText::commentsAfter(size_t p) const {
   size_t end = p;
   for (size_t i = unitAt(p); i < units_.size() && units_[i].kind == Kind::Comment; ++i) {
     if (lineEnds(end, units_[i].begin)) break;
@@ -127,7 +127,7 @@ std::string SourceText::comments(size_t begin, size_t end) const {
 size_t SourceText::endOfWord(size_t p, std::string_view word) const {
   for (size_t i = unitAt(p); i < units_.size(); ++i)
     if (units_[i].kind == Kind::Word && sameIdentifier(textOf(units_[i]), word)) return units_[i].end;
-  return text_.size();
+  return source_.size();
 }
 
 size_t SourceText::wordBefore(size_t p, std::string_view word) const {
@@ -152,12 +152,12 @@ size_t SourceText::endOfDeclaration(size_t p) const {
         if (structures == 0) return end;
         if (--structures == 0) {  // a `;` or a value may follow
           const bool more =
-              i + 1 < units_.size() && (text_[units_[i + 1].begin] == ';' || text_[units_[i + 1].begin] == ':');
+              i + 1 < units_.size() && (source_[units_[i + 1].begin] == ';' || source_[units_[i + 1].begin] == ':');
           if (!more) return unit.end;
         }
       }
       if (structures == 0 && (sameIdentifier(text, "END_VAR") || sameIdentifier(text, "END_TYPE"))) return end;
-    } else if (unit.kind == Kind::Mark && text == ";" && structures == 0) {
+    } else if (unit.kind == Kind::Punctuation && text == ";" && structures == 0) {
       return unit.end;
     }
     if (unit.kind != Kind::Comment) end = unit.end;
@@ -173,8 +173,8 @@ size_t SourceText::endOfPragma(size_t p) const {
 SourceText::Span SourceText::parenthesesAround(size_t from, size_t p) const {
   size_t depth = 0, open = 0;
   for (size_t i = unitAt(from); i < units_.size(); ++i) {
-    if (units_[i].kind != Kind::Mark) continue;
-    const char c = text_[units_[i].begin];
+    if (units_[i].kind != Kind::Punctuation) continue;
+    const char c = source_[units_[i].begin];
     if (c == '(' || c == '[') {
       if (depth++ == 0) open = units_[i].begin;
     } else if ((c == ')' || c == ']') && depth > 0 && --depth == 0) {

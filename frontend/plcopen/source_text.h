@@ -16,13 +16,13 @@ class SourceText {
   SourceText(const Sources& sources, FileId file);
 
   size_t at(Loc loc) const { return loc.offset - base_; }
-  std::string_view cut(size_t begin, size_t end) const { return text_.substr(begin, end - begin); }
+  std::string_view cut(size_t begin, size_t end) const { return source_.substr(begin, end - begin); }
 
   // Where the comments begin that stand before `p` with only blanks between; `p` where none do. Those behind something
   // on its line belong to that, and count only for `all`.
   size_t commentsBefore(size_t p, bool all = false) const;
   // Where the comments end that stand behind `p` on its line.
-  size_t commentsBehind(size_t p) const;
+  size_t commentsAfter(size_t p) const;
   // Where the comments end that stand behind `p` and before an END_…; `p` where there are none.
   size_t endWithComments(size_t p) const;
   // The words of the comments in [begin, end), line by line.
@@ -47,7 +47,7 @@ class SourceText {
   Span parenthesesAround(size_t from, size_t p) const;
 
  private:
-  enum class Kind : uint8_t { Comment, Pragma, Text, Word, Mark };
+  enum class Kind : uint8_t { Comment, Pragma, Text, Word, Punctuation };
   struct Unit {
     uint32_t begin, end;
     Kind kind;
@@ -56,7 +56,7 @@ class SourceText {
   std::string_view textOf(const Unit& unit) const { return cut(unit.begin, unit.end); }
   bool lineEnds(size_t begin, size_t end) const { return cut(begin, end).find('\n') != std::string_view::npos; }
 
-  std::string_view text_;
+  std::string_view source_;
   uint32_t base_;
   std::vector<Unit> units_;
 };

@@ -115,9 +115,9 @@ void writeValue(Import& import, const xml::Element& value, const xml::Element* t
   if (value.name != "simpleValue") return writeValues(import, value, depth + 1);
   const xml::Attribute* text = import.document.attribute(value, "value");
   const bool is_wide = type != nullptr && sameIdentifier(type->name, "wstring");
-  const bool is_text = is_wide || (type != nullptr && sameIdentifier(type->name, "string"));
+  const bool is_string = is_wide || (type != nullptr && sameIdentifier(type->name, "string"));
   const std::string_view quote = is_wide ? "\"" : "'";
-  const bool bare = import.bare_texts && is_text &&
+  const bool bare = import.unquoted_strings && is_string &&
                     (text == nullptr || import.document.decoded(*text).find(quote) == std::string::npos);
   if (bare) import.out.put(value.loc, quote);
   if (text != nullptr) import.out.add(import.document, *text);
@@ -163,8 +163,8 @@ void writeInitialValue(Import& import, const xml::Element& declared, const xml::
   const xml::Element* value = holder == nullptr ? nullptr : valueIn(import, *holder);
   if (value == nullptr) return;
   const xml::Element* of = type == nullptr ? nullptr : typeIn(import, *type);
-  const bool is_text = of != nullptr && (sameIdentifier(of->name, "string") || sameIdentifier(of->name, "wstring"));
-  const bool may_be_empty = import.bare_texts && is_text;
+  const bool is_string = of != nullptr && (sameIdentifier(of->name, "string") || sameIdentifier(of->name, "wstring"));
+  const bool may_be_empty = import.unquoted_strings && is_string;
   if (value->name == "simpleValue" && !may_be_empty && !hasName(import, *value, "value")) return;
   import.out.word(" := ");
   writeValue(import, *value, of, 0);

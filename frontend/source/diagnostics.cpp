@@ -24,8 +24,8 @@ void appendArgument(std::string& out, std::string_view argument) {
 std::string format(const char* text, std::initializer_list<std::string_view> args) {
   std::string out;
   for (const char* at = text; *at != '\0'; ++at) {
-    const bool place = at[0] == '{' && at[1] >= '0' && at[1] <= '9' && at[2] == '}';
-    if (!place) {
+    const bool placeholder = at[0] == '{' && at[1] >= '0' && at[1] <= '9' && at[2] == '}';
+    if (!placeholder) {
       out += *at;
       continue;
     }
@@ -97,7 +97,7 @@ Report Diagnostics::report(Diag diag, Loc loc, std::initializer_list<std::string
   if (!closed_lines_.empty() && loc &&
       std::binary_search(closed_lines_.begin(), closed_lines_.end(), lineKey(sources_, loc)))
     return Report(nullptr);
-  if (!enabled(diag) || !firstAt(diag, sources_.written(loc))) return Report(nullptr);
+  if (!enabled(diag) || !firstAt(diag, sources_.originalLocation(loc))) return Report(nullptr);
   const DiagInfo& info = diagInfo(diag);
   Severity severity = info.severity;
   if (severity == Severity::Warning && warnings_are_errors) severity = Severity::Error;
@@ -141,9 +141,9 @@ bool Diagnostics::firstAt(Diag diag, Loc loc) {
 
 void Diagnostics::sort() {
   // Locations grow with files in the order of adding; paths decide between what has no location.
-  for (Diagnostic& diagnostic : list_) diagnostic.written = sources_.written(diagnostic.loc);
+  for (Diagnostic& diagnostic : list_) diagnostic.original_loc = sources_.originalLocation(diagnostic.loc);
   std::stable_sort(list_.begin(), list_.end(), [](const Diagnostic& a, const Diagnostic& b) {
-    return a.written != b.written ? a.written < b.written : a.path < b.path;
+    return a.original_loc != b.original_loc ? a.original_loc < b.original_loc : a.path < b.path;
   });
 }
 

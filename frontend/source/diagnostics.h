@@ -67,7 +67,7 @@ struct Diagnostic {
   Diag diag;
   Severity severity;
   Loc loc;
-  Loc written;          // the place of `loc` in the file on disk; filled by sort()
+  Loc original_loc;     // the place of `loc` in the file on disk; filled by sort()
   std::string path;     // used when loc is nowhere: a file that could not be read, say
   uint32_t length = 0;  // bytes to underline; 0: the token at loc
   std::string message;

@@ -26,54 +26,55 @@ bool isWordChar(char c) {
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
-bool isAscii(std::string_view text) {
+bool isAscii(std::string_view source) {
   constexpr uint64_t kHigh = 0x8080808080808080u;
   size_t i = 0;
-  for (; i + 8 <= text.size(); i += 8) {
+  for (; i + 8 <= source.size(); i += 8) {
     uint64_t word = 0;
-    std::memcpy(&word, text.data() + i, 8);
+    std::memcpy(&word, source.data() + i, 8);
     if (word & kHigh) return false;
   }
-  for (; i < text.size(); ++i) {
-    if (static_cast<unsigned char>(text[i]) >= 0x80) return false;
+  for (; i < source.size(); ++i) {
+    if (static_cast<unsigned char>(source[i]) >= 0x80) return false;
   }
   return true;
 }
 
 // LF, CR LF and a lone CR each end a line.
-std::vector<uint32_t> findLineStarts(std::string_view text) {
+std::vector<uint32_t> findLineStarts(std::string_view source) {
   std::vector<uint32_t> starts = {0};
-  starts.reserve(text.size() / 24 + 1);
-  for (uint32_t i = 0; i < text.size(); ++i) {
-    if (text[i] > '\r') continue;
-    if (text[i] == '\n' || (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n'))) starts.push_back(i + 1);
+  starts.reserve(source.size() / 24 + 1);
+  for (uint32_t i = 0; i < source.size(); ++i) {
+    if (source[i] > '\r') continue;
+    if (source[i] == '\n' || (source[i] == '\r' && (i + 1 == source.size() || source[i + 1] != '\n')))
+      starts.push_back(i + 1);
   }
   return starts;
 }
 
 // The length of a word and, where `#` follows it, of the literal that it begins: INT#5, 16#ff, T#1s500ms,
 // DT#1970-01-01-00:00:00.
-size_t literalLength(std::string_view text) {
+size_t literalLength(std::string_view source) {
   size_t n = 0;
-  const bool number = isDigit(text[0]);
-  while (n < text.size() && isWordChar(text[n])) ++n;
-  if (number && n + 1 < text.size() && text[n] == '.' && isDigit(text[n + 1])) {
+  const bool number = isDigit(source[0]);
+  while (n < source.size() && isWordChar(source[n])) ++n;
+  if (number && n + 1 < source.size() && source[n] == '.' && isDigit(source[n + 1])) {
     ++n;
-    while (n < text.size() && isWordChar(text[n])) ++n;
+    while (n < source.size() && isWordChar(source[n])) ++n;
   }
-  if (number && n + 1 < text.size() && (text[n] == '+' || text[n] == '-') && (text[n - 1] | 0x20) == 'e' &&
-      isDigit(text[n + 1])) {
+  if (number && n + 1 < source.size() && (source[n] == '+' || source[n] == '-') && (source[n - 1] | 0x20) == 'e' &&
+      isDigit(source[n + 1])) {
     ++n;
-    while (n < text.size() && isWordChar(text[n])) ++n;
+    while (n < source.size() && isWordChar(source[n])) ++n;
   }
-  if (n < text.size() && text[n] == '#') {
-    const std::string_view prefix = text.substr(0, n);
+  if (n < source.size() && source[n] == '#') {
+    const std::string_view prefix = source.substr(0, n);
     const bool date = prefix.find_first_of("dDlLtT") == 0 && prefix.find_first_of("dD") != std::string_view::npos;
     ++n;
-    if (n < text.size() && (text[n] == '-' || text[n] == '+')) ++n;
-    while (n < text.size()) {
-      const bool inside = isWordChar(text[n]) || (date && (text[n] == '-' || text[n] == ':')) ||
-                          (text[n] == '.' && n + 1 < text.size() && isDigit(text[n + 1]));
+    if (n < source.size() && (source[n] == '-' || source[n] == '+')) ++n;
+    while (n < source.size()) {
+      const bool inside = isWordChar(source[n]) || (date && (source[n] == '-' || source[n] == ':')) ||
+                          (source[n] == '.' && n + 1 < source.size() && isDigit(source[n + 1]));
       if (!inside) break;
       ++n;
     }
@@ -81,20 +82,20 @@ size_t literalLength(std::string_view text) {
   return n;
 }
 
-size_t quotedLength(std::string_view text) {
-  for (size_t n = 1; n < text.size() && text[n] != '\n' && text[n] != '\r'; ++n) {
-    if (text[n] == '$') {
+size_t quotedLength(std::string_view source) {
+  for (size_t n = 1; n < source.size() && source[n] != '\n' && source[n] != '\r'; ++n) {
+    if (source[n] == '$') {
       ++n;
-    } else if (text[n] == text[0]) {
+    } else if (source[n] == source[0]) {
       return n + 1;
     }
   }
   return 1;
 }
 
-size_t addressLength(std::string_view text) {
+size_t addressLength(std::string_view source) {
   size_t n = 1;
-  while (n < text.size() && (isWordChar(text[n]) || text[n] == '.' || text[n] == '*')) ++n;
+  while (n < source.size() && (isWordChar(source[n]) || source[n] == '.' || source[n] == '*')) ++n;
   return n;
 }
 
@@ -106,29 +107,30 @@ uint32_t countCharacters(std::string_view utf8) {
 
 Sources::Sources() { files_.push_back({{}, {}, 0, {}, {}, {}, true}); }
 
-FileId Sources::add(std::string path, std::string text) {
-  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
-  return addAssembled(std::move(path), std::move(text), {});
+FileId Sources::add(std::string path, std::string source) {
+  if (source.starts_with("\xef\xbb\xbf")) source.erase(0, 3);
+  return addSourceMapped(std::move(path), std::move(source), {});
 }
 
-FileId Sources::addAssembled(std::string path, std::string text, std::vector<Segment> segments) {
+FileId Sources::addSourceMapped(std::string path, std::string source, std::vector<Segment> segments) {
   const File& last = files_.back();
-  const uint64_t base = uint64_t{last.base} + last.text.size() + 1;  // one past the NUL: the end of a file is its own
-  if (base + text.size() + 1 > UINT32_MAX) return {};
-  files_.push_back({std::move(path), std::move(text), static_cast<uint32_t>(base), std::move(segments), {}, {}, false});
+  const uint64_t base = uint64_t{last.base} + last.source.size() + 1;  // one past the NUL: the end of a file is its own
+  if (base + source.size() + 1 > UINT32_MAX) return {};
+  files_.push_back(
+      {std::move(path), std::move(source), static_cast<uint32_t>(base), std::move(segments), {}, {}, false});
   return {static_cast<uint32_t>(files_.size() - 1)};
 }
 
-void Sources::activate(FileId file, std::string text) {
+void Sources::activate(FileId file, std::string source) {
   File& of = files_[file.index];
-  RUNG_INVARIANT(text.size() == of.text.size(), "content is replaced by content of the same length");
-  of.active = std::move(text);
+  RUNG_INVARIANT(source.size() == of.source.size(), "content is replaced by content of the same length");
+  of.active = std::move(source);
 }
 
 FileId Sources::fileOf(Loc loc) const {
   if (!loc) return {};
   const auto holds = [&](uint32_t i) {
-    return loc.offset >= files_[i].base && loc.offset - files_[i].base <= files_[i].text.size();
+    return loc.offset >= files_[i].base && loc.offset - files_[i].base <= files_[i].source.size();
   };
   if (last_file_ != 0 && holds(last_file_)) return {last_file_};
   const auto after = std::upper_bound(files_.begin() + 1, files_.end(), loc.offset,
@@ -139,7 +141,7 @@ FileId Sources::fileOf(Loc loc) const {
   return {index};
 }
 
-Loc Sources::written(Loc loc) const {
+Loc Sources::originalLocation(Loc loc) const {
   const FileId id = fileOf(loc);
   if (!id || files_[id.index].segments.empty()) return loc;
   const std::vector<Segment>& segments = files_[id.index].segments;
@@ -147,13 +149,14 @@ Loc Sources::written(Loc loc) const {
   const auto after = std::upper_bound(segments.begin() + 1, segments.end(), at,
                                       [](uint32_t offset, const Segment& segment) { return offset < segment.at; });
   const Segment& segment = *(after - 1);
-  return written({segment.from.offset + (segment.verbatim ? at - segment.at : 0)});  // which may be assembled, too
+  return originalLocation(
+      {segment.from.offset + (segment.verbatim ? at - segment.at : 0)});  // which may be assembled, too
 }
 
 const std::vector<uint32_t>& Sources::lineStarts(const File& file) const {
   if (file.line_starts.empty()) {
-    file.line_starts = findLineStarts(file.text);
-    file.ascii = isAscii(file.text);
+    file.line_starts = findLineStarts(file.source);
+    file.ascii = isAscii(file.source);
   }
   return file.line_starts;
 }
@@ -162,7 +165,7 @@ uint32_t Sources::lineNumber(Loc loc) const {
   const FileId id = fileOf(loc);
   if (!id) return 0;
   const File& file = files_[id.index];
-  if (!file.segments.empty()) return lineNumber(written(loc));
+  if (!file.segments.empty()) return lineNumber(originalLocation(loc));
   const std::vector<uint32_t>& starts = lineStarts(file);
   const uint32_t at = loc.offset - file.base;
   // Places are mostly asked for in order: try the last line and the next one before searching.
@@ -172,8 +175,8 @@ uint32_t Sources::lineNumber(Loc loc) const {
   return last_line_ = static_cast<uint32_t>(std::upper_bound(starts.begin(), starts.end(), at) - starts.begin());
 }
 
-Place Sources::place(Loc loc) const {
-  loc = written(loc);
+SourceLocation Sources::location(Loc loc) const {
+  loc = originalLocation(loc);
   const uint32_t line = lineNumber(loc);
   if (line == 0) return {};
   const FileId id{last_file_};
@@ -182,36 +185,37 @@ Place Sources::place(Loc loc) const {
   const uint32_t at = loc.offset - file.base;
   if (file.ascii) return {id, line, at - start + 1};
   // Counting goes on from the last place of the same line, so that one very long line does not cost its square.
-  const bool resume = last_place_.file == id && last_place_.line == line && last_place_at_ <= at;
-  const uint32_t from = resume ? last_place_at_ : start;
-  const uint32_t column = resume ? last_place_.column : 1;
-  last_place_ = {id, line, column + countCharacters(std::string_view(file.text).substr(from, at - from))};
-  last_place_at_ = at;
-  return last_place_;
+  const bool resume = last_location_.file == id && last_location_.line == line && last_location_at_ <= at;
+  const uint32_t from = resume ? last_location_at_ : start;
+  const uint32_t column = resume ? last_location_.column : 1;
+  last_location_ = {id, line, column + countCharacters(std::string_view(file.source).substr(from, at - from))};
+  last_location_at_ = at;
+  return last_location_;
 }
 
 std::string_view Sources::line(FileId id, uint32_t line) const {
   const File& file = files_[id.index];
   const std::vector<uint32_t>& starts = lineStarts(file);
   if (line == 0 || line > starts.size()) return {};
-  std::string_view text = file.text;
-  text = text.substr(starts[line - 1], line < starts.size() ? starts[line] - starts[line - 1] : std::string_view::npos);
-  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.remove_suffix(1);
-  return text;
+  std::string_view source = file.source;
+  source =
+      source.substr(starts[line - 1], line < starts.size() ? starts[line] - starts[line - 1] : std::string_view::npos);
+  while (!source.empty() && (source.back() == '\n' || source.back() == '\r')) source.remove_suffix(1);
+  return source;
 }
 
 std::string_view Sources::tokenAt(Loc loc) const {
   const FileId id = fileOf(loc);
   if (!id) return {};
-  const std::string_view text = std::string_view(files_[id.index].text).substr(loc.offset - files_[id.index].base);
-  if (text.empty() || text[0] == '\n' || text[0] == '\r') return {};
-  if (isWordChar(text[0])) return text.substr(0, literalLength(text));
-  if (text[0] == '\'' || text[0] == '"') return text.substr(0, quotedLength(text));
-  if (text[0] == '%') return text.substr(0, addressLength(text));
+  const std::string_view source = std::string_view(files_[id.index].source).substr(loc.offset - files_[id.index].base);
+  if (source.empty() || source[0] == '\n' || source[0] == '\r') return {};
+  if (isWordChar(source[0])) return source.substr(0, literalLength(source));
+  if (source[0] == '\'' || source[0] == '"') return source.substr(0, quotedLength(source));
+  if (source[0] == '%') return source.substr(0, addressLength(source));
   for (const std::string_view op : {":=", "=>", "<=", ">=", "<>", "**", "..", "?=", "(*", "*)", "//", "/*", "*/"}) {
-    if (text.starts_with(op)) return text.substr(0, op.size());
+    if (source.starts_with(op)) return source.substr(0, op.size());
   }
-  return text.substr(0, 1);
+  return source.substr(0, 1);
 }
 
 ReadResult readFile(const std::string& path) {
@@ -225,10 +229,10 @@ ReadResult readFile(const std::string& path) {
   const bool regular = ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
   size_t used = 0;
   // One byte more than the size: the read that fills it not is also the one that sees the end.
-  result.text.resize(regular ? std::min(static_cast<size_t>(info.st_size), kMaxFileBytes) + 1 : 64 * 1024);
+  result.content.resize(regular ? std::min(static_cast<size_t>(info.st_size), kMaxFileBytes) + 1 : 64 * 1024);
   for (;;) {
-    if (used == result.text.size()) result.text.resize(used * 2);
-    const ssize_t n = ::read(fd, result.text.data() + used, result.text.size() - used);
+    if (used == result.content.size()) result.content.resize(used * 2);
+    const ssize_t n = ::read(fd, result.content.data() + used, result.content.size() - used);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) result.error = std::strerror(errno);
     if (n <= 0) break;
@@ -239,7 +243,7 @@ ReadResult readFile(const std::string& path) {
     }
   }
   ::close(fd);
-  result.text.resize(result.error.empty() ? used : 0);
+  result.content.resize(result.error.empty() ? used : 0);
   return result;
 }
 
@@ -262,53 +266,53 @@ void appendUtf8(std::string& out, uint32_t c) {
   }
 }
 
-bool decodeUtf16(std::string& text) {
-  const bool little = text.starts_with("\xff\xfe");
-  if (!little && !text.starts_with("\xfe\xff")) return true;
-  if (text.size() % 2 != 0) return false;
+bool decodeUtf16(std::string& source) {
+  const bool little = source.starts_with("\xff\xfe");
+  if (!little && !source.starts_with("\xfe\xff")) return true;
+  if (source.size() % 2 != 0) return false;
   std::string out;
-  out.reserve(text.size());
+  out.reserve(source.size());
   const auto unit = [&](size_t i) {
-    const auto first = static_cast<unsigned char>(text[i]), second = static_cast<unsigned char>(text[i + 1]);
+    const auto first = static_cast<unsigned char>(source[i]), second = static_cast<unsigned char>(source[i + 1]);
     return static_cast<uint32_t>(little ? first | second << 8 : first << 8 | second);
   };
-  for (size_t i = 2; i < text.size(); i += 2) {
+  for (size_t i = 2; i < source.size(); i += 2) {
     uint32_t c = unit(i);
     if (c >= 0xd800 && c < 0xe000) {
-      const uint32_t low = i + 2 < text.size() ? unit(i + 2) : 0;
+      const uint32_t low = i + 2 < source.size() ? unit(i + 2) : 0;
       if (c >= 0xdc00 || low < 0xdc00 || low >= 0xe000) return false;
       c = 0x10000 + ((c - 0xd800) << 10) + (low - 0xdc00);
       i += 2;
     }
     appendUtf8(out, c);
   }
-  text = std::move(out);
+  source = std::move(out);
   return true;
 }
 
-size_t findInvalidUtf8(std::string_view text) {
+size_t findInvalidUtf8(std::string_view source) {
   constexpr uint64_t kHigh = 0x8080808080808080u;
   size_t i = 0;
-  while (i < text.size()) {
-    if (i + 8 <= text.size()) {
+  while (i < source.size()) {
+    if (i + 8 <= source.size()) {
       uint64_t word = 0;
-      std::memcpy(&word, text.data() + i, 8);
+      std::memcpy(&word, source.data() + i, 8);
       if ((word & kHigh) == 0) {
         i += 8;
         continue;
       }
     }
-    const auto lead = static_cast<unsigned char>(text[i]);
+    const auto lead = static_cast<unsigned char>(source[i]);
     if (lead < 0x80) {
       ++i;
       continue;
     }
     const size_t size = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-    if (lead < 0xc2 || lead > 0xf4 || text.size() - i < size) return i;
+    if (lead < 0xc2 || lead > 0xf4 || source.size() - i < size) return i;
     for (size_t k = 1; k < size; ++k) {
-      if (!isContinuation(text[i + k])) return i;
+      if (!isContinuation(source[i + k])) return i;
     }
-    const auto second = static_cast<unsigned char>(text[i + 1]);
+    const auto second = static_cast<unsigned char>(source[i + 1]);
     const bool overlong = (lead == 0xe0 && second < 0xa0) || (lead == 0xf0 && second < 0x90);
     const bool surrogate = lead == 0xed && second >= 0xa0;
     const bool beyond = lead == 0xf4 && second >= 0x90;

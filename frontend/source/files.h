@@ -25,7 +25,7 @@ struct FileId {
   friend bool operator==(FileId, FileId) = default;
 };
 
-struct Place {
+struct SourceLocation {
   FileId file;
   uint32_t line = 0;    // from 1
   uint32_t column = 0;  // from 1, in characters (UTF-8 code points)
@@ -47,34 +47,36 @@ class Sources {
 
   // Adds a text under the path that diagnostics print (relative to the project root where it is below it).
   // A BOM is dropped. Returns no file when the 32-bit space is full.
-  FileId add(std::string path, std::string text);
+  FileId add(std::string path, std::string source);
 
   // Adds a text that was put together from parts of other files: the program that a vendor's XML holds, say. Its
   // locations are places of those files, in every question below. Segments are sorted by `at`, the first has `at` 0.
-  FileId addAssembled(std::string path, std::string text, std::vector<Segment> segments);
+  FileId addSourceMapped(std::string path, std::string source, std::vector<Segment> segments);
 
   // Messages name the file so, where that is not its path.
-  void showAs(FileId file, std::string shown) { files_[file.index].shown = std::move(shown); }
+  void setDisplayPath(FileId file, std::string display_path) {
+    files_[file.index].display_path = std::move(display_path);
+  }
 
   Loc begin(FileId file) const { return {files_[file.index].base}; }
   std::string_view path(FileId file) const { return files_[file.index].path; }
-  std::string_view shown(FileId file) const {
+  std::string_view displayPath(FileId file) const {
     const File& f = files_[file.index];
-    return f.shown.empty() ? f.path : f.shown;
+    return f.display_path.empty() ? f.path : f.display_path;
   }
   // What is parsed: the file as it is, or what activate() made of it. text().data()[size()] is NUL.
-  std::string_view text(FileId file) const {
+  std::string_view sourceText(FileId file) const {
     const File& of = files_[file.index];
-    return of.active.empty() ? of.text : of.active;
+    return of.active.empty() ? of.source : of.active;
   }
-  std::string_view original(FileId file) const { return files_[file.index].text; }
+  std::string_view original(FileId file) const { return files_[file.index].source; }
   // A text of the same length to parse instead: conditional pragmas leave some out. Messages show the original.
-  void activate(FileId file, std::string text);
+  void activate(FileId file, std::string source);
   uint32_t fileCount() const { return static_cast<uint32_t>(files_.size()) - 1; }
 
   FileId fileOf(Loc loc) const;
-  Loc written(Loc loc) const;  // where the file on disk has it: another place only for assembled texts
-  Place place(Loc loc) const;
+  Loc originalLocation(Loc loc) const;  // where the file on disk has it: another place only for assembled texts
+  SourceLocation location(Loc loc) const;
   uint32_t lineNumber(Loc loc) const;  // place(loc).line without the counting of columns; 0: nowhere
   std::string_view line(FileId file, uint32_t line) const;  // without its line end
 
@@ -84,10 +86,10 @@ class Sources {
  private:
   struct File {
     std::string path;
-    std::string text;
+    std::string source;
     uint32_t base;
     std::vector<Segment> segments;  // of an assembled text
-    std::string shown;
+    std::string display_path;
     mutable std::vector<uint32_t> line_starts;  // filled when first asked for
     mutable bool ascii;                         // known once line_starts is
     std::string active = {};
@@ -96,25 +98,25 @@ class Sources {
 
   std::deque<File> files_;
   mutable uint32_t last_file_ = 0, last_line_ = 0;  // where the last questions led: the next is likely near
-  mutable Place last_place_;
-  mutable uint32_t last_place_at_ = 0;
+  mutable SourceLocation last_location_;
+  mutable uint32_t last_location_at_ = 0;
 };
 
 // A text that begins with a UTF-16 byte order mark becomes UTF-8. False: it is no UTF-16 behind that mark.
-[[nodiscard]] bool decodeUtf16(std::string& text);
+[[nodiscard]] bool decodeUtf16(std::string& source);
 
 void appendUtf8(std::string& out, uint32_t c);
 uint32_t countCharacters(std::string_view utf8);
 
 // Reads a whole file. The error says what the system said ("No such file or directory").
 struct ReadResult {
-  std::string text;
+  std::string content;
   std::string error;  // empty: read
 };
 [[nodiscard]] ReadResult readFile(const std::string& path);
 
 // First byte that is not UTF-8, or npos. Vendor exports in Latin-1 are told apart by it.
-size_t findInvalidUtf8(std::string_view text);
-inline bool isUtf8(std::string_view text) { return findInvalidUtf8(text) == std::string_view::npos; }
+size_t findInvalidUtf8(std::string_view source);
+inline bool isUtf8(std::string_view source) { return findInvalidUtf8(source) == std::string_view::npos; }
 
 }  // namespace rung

@@ -25,14 +25,14 @@ uint64_t loadShort(const char* at, size_t count) {
 }
 
 // Setting bit 5 of every byte folds letters; that it also joins some other characters costs collisions, not answers.
-uint32_t foldedHash(std::string_view text) {
+uint32_t foldedHash(std::string_view spelling) {
   constexpr uint64_t kFold = 0x2020202020202020u;
   const auto mix = [](uint64_t hash, uint64_t word) {
     hash = (hash ^ (word | kFold)) * 0xff51afd7ed558ccdu;
     return hash ^ hash >> 32;
   };
-  const char* at = text.data();
-  const size_t size = text.size();
+  const char* at = spelling.data();
+  const size_t size = spelling.size();
   uint64_t hash = size * 0x9e3779b97f4a7c15u;
   if (size < 8) {
     hash = mix(hash, loadShort(at, size));
@@ -55,8 +55,8 @@ bool sameIdentifier(std::string_view a, std::string_view b) {
   return true;
 }
 
-std::string foldedIdentifier(std::string_view text) {
-  std::string result(text);
+std::string foldedIdentifier(std::string_view spelling) {
+  std::string result(spelling);
   for (char& c : result) c = foldedCharacter(c);
   return result;
 }
@@ -69,9 +69,9 @@ NameId Names::intern(std::string_view spelling) {
   NameId key;
   for (uint32_t i = buckets_[hash & (buckets_.size() - 1)]; i != 0; i = entries_[i].next) {
     const Entry& entry = entries_[i];
-    if (entry.hash != hash || entry.text.size() != spelling.size()) continue;
-    if (std::memcmp(entry.text.data(), spelling.data(), spelling.size()) == 0) return {i};
-    if (!key && sameIdentifier(entry.text, spelling)) key = entry.key;
+    if (entry.hash != hash || entry.spelling.size() != spelling.size()) continue;
+    if (std::memcmp(entry.spelling.data(), spelling.data(), spelling.size()) == 0) return {i};
+    if (!key && sameIdentifier(entry.spelling, spelling)) key = entry.key;
   }
 
   if (entries_.size() > buckets_.size()) grow();
@@ -86,7 +86,7 @@ NameId Names::find(std::string_view spelling) const {
   if (spelling.empty()) return {};
   const uint32_t hash = foldedHash(spelling);
   for (uint32_t i = buckets_[hash & (buckets_.size() - 1)]; i != 0; i = entries_[i].next) {
-    if (entries_[i].hash == hash && sameIdentifier(entries_[i].text, spelling)) return entries_[i].key;
+    if (entries_[i].hash == hash && sameIdentifier(entries_[i].spelling, spelling)) return entries_[i].key;
   }
   return {};
 }
@@ -118,8 +118,8 @@ std::string listNameOf(std::string_view path) {
   if (dot != std::string_view::npos && dot > 0) path = path.substr(0, dot);
   std::string name;
   for (const char c : path) {
-    const bool good = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    name += good ? c : '_';
+    const bool ok = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    name += ok ? c : '_';
   }
   if (name.empty() || (name[0] >= '0' && name[0] <= '9')) name = "globals_" + name;
   return name;

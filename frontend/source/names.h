@@ -28,7 +28,7 @@ class Names {
   // The id of this exact spelling's identifier if any spelling of it was interned, else none.
   NameId find(std::string_view spelling) const;
 
-  std::string_view text(NameId id) const { return entries_[id.index].text; }
+  std::string_view string(NameId id) const { return entries_[id.index].spelling; }
 
   // One id for all spellings of an identifier: the first that was interned.
   NameId key(NameId id) const { return entries_[id.index].key; }
@@ -38,7 +38,7 @@ class Names {
 
  private:
   struct Entry {
-    std::string_view text;
+    std::string_view spelling;
     NameId key;
     uint32_t hash;  // of the folded spelling
     uint32_t next;  // chain in the bucket, 0: end
@@ -56,7 +56,7 @@ constexpr char foldedCharacter(char c) { return c >= 'A' && c <= 'Z' ? static_ca
 // True when the two texts are the same IEC identifier (ASCII case folded).
 bool sameIdentifier(std::string_view a, std::string_view b);
 // The text in small letters: equal for equal identifiers, and so the order of names that the dialects mean.
-std::string foldedIdentifier(std::string_view text);
+std::string foldedIdentifier(std::string_view spelling);
 // The name of the global list that a file is: the stem of its path, as an identifier.
 std::string listNameOf(std::string_view path);
 

@@ -31,7 +31,7 @@ size_t characterLength(std::string_view text) {
 }
 
 // Characters that change how the text around them is shown: C1 controls and bidirectional overrides.
-bool isTreacherous(std::string_view character) {
+bool isConfusable(std::string_view character) {
   const auto byte = [&](size_t i) { return static_cast<unsigned char>(character[i]); };
   if (character.size() == 2) return byte(0) == 0xc2 && byte(1) < 0xa0;
   if (character.size() != 3 || byte(0) != 0xe2) return false;
@@ -55,7 +55,7 @@ Shown appendVisible(std::string& out, std::string_view text) {
     return {1, 1};
   }
   const size_t length = characterLength(text);
-  if (length < 2 || isTreacherous(text.substr(0, length))) {
+  if (length < 2 || isConfusable(text.substr(0, length))) {
     const size_t bytes = std::max<size_t>(length, 1);
     for (size_t i = 0; i < bytes; ++i) appendHex(out, "\\x", static_cast<unsigned char>(text[i]), 2);
     return {bytes, 4 * bytes};
@@ -74,7 +74,7 @@ std::string visible(std::string_view text) {
 
 struct Range {
   std::string_view path;
-  Place place;              // line 0: the whole file, or no file
+  SourceLocation location;  // line 0: the whole file, or no file
   uint32_t bytes = 0;       // marked
   uint32_t end_column = 0;  // exclusive
   std::string_view line;    // the source line
@@ -85,16 +85,17 @@ Range rangeOf(const Sources& sources, Loc loc, uint32_t length, std::string_view
   Range range;
   range.path = path;
   if (!loc) return range;
-  range.place = sources.place(loc);
-  if (!range.place.file) return range;
-  range.path = sources.shown(range.place.file);
-  range.line = sources.line(range.place.file, range.place.line);
-  const uint32_t offset = sources.written(loc).offset - sources.begin(range.place.file).offset;
-  const auto line_start = static_cast<size_t>(range.line.data() - sources.original(range.place.file).data());
+  range.location = sources.location(loc);
+  if (!range.location.file) return range;
+  range.path = sources.displayPath(range.location.file);
+  range.line = sources.line(range.location.file, range.location.line);
+  const uint32_t offset = sources.originalLocation(loc).offset - sources.begin(range.location.file).offset;
+  const auto line_start = static_cast<size_t>(range.line.data() - sources.original(range.location.file).data());
   range.line_at = std::min<size_t>(offset - line_start, range.line.size());
   const size_t wanted = length != 0 ? length : sources.tokenAt(loc).size();
   range.bytes = static_cast<uint32_t>(std::min(wanted, range.line.size() - range.line_at));
-  range.end_column = range.place.column + std::max(1u, countCharacters(range.line.substr(range.line_at, range.bytes)));
+  range.end_column =
+      range.location.column + std::max(1u, countCharacters(range.line.substr(range.line_at, range.bytes)));
   return range;
 }
 
@@ -138,8 +139,8 @@ class TextRenderer {
     out_ += colors_.bold;
     if (!range.path.empty()) {
       out_ += visible(range.path);
-      if (range.place.line != 0) {
-        out_ += ':' + std::to_string(range.place.line) + ':' + std::to_string(range.place.column);
+      if (range.location.line != 0) {
+        out_ += ':' + std::to_string(range.location.line) + ':' + std::to_string(range.location.column);
       }
     } else {
       out_ += "rung";
@@ -161,46 +162,46 @@ class TextRenderer {
 
   // The source line and below it the mark. A long line is cut on both sides of the mark.
   void excerpt(const Range& range) {
-    if (range.place.line == 0) return;
+    if (range.location.line == 0) return;
     size_t first = 0;
     if (range.line.size() > kMaxColumns && range.line_at > kCaretContext) {
       first = range.line_at - kCaretContext;
       while (first > 0 && (static_cast<unsigned char>(range.line[first]) & 0xc0) == 0x80) --first;
     }
-    std::string text, mark;
+    std::string text, underline;
     if (first > 0) {
       text = "...";
-      mark = "   ";
+      underline = "   ";
     }
-    const size_t mark_end = range.line_at + range.bytes;
+    const size_t underline_end = range.line_at + range.bytes;
     size_t columns = 0, i = first;
     while (i < range.line.size() && columns < kMaxColumns) {
       if (range.line[i] == '\t') {  // kept, so that the mark stands right whatever a tab is worth
         text += '\t';
-        if (i < range.line_at) mark += '\t';
-        if (i >= range.line_at && i < mark_end) mark += i == range.line_at ? '^' : '~';
+        if (i < range.line_at) underline += '\t';
+        if (i >= range.line_at && i < underline_end) underline += i == range.line_at ? '^' : '~';
         ++i;
         ++columns;
         continue;
       }
       const Shown shown = appendVisible(text, range.line.substr(i));
       if (i < range.line_at) {
-        mark.append(shown.columns, ' ');
-      } else if (i < mark_end) {
-        mark += i == range.line_at ? '^' : '~';
-        mark.append(shown.columns - 1, '~');
+        underline.append(shown.columns, ' ');
+      } else if (i < underline_end) {
+        underline += i == range.line_at ? '^' : '~';
+        underline.append(shown.columns - 1, '~');
       }
       i += shown.bytes;
       columns += shown.columns;
     }
     if (i < range.line.size()) text += "...";
-    if (range.bytes == 0) mark += '^';
-    const std::string number = std::to_string(range.place.line);
+    if (range.bytes == 0) underline += '^';
+    const std::string number = std::to_string(range.location.line);
     out_ += ' ' + number + " | " + text + '\n';
     out_.append(number.size() + 2, ' ');
     out_ += "| ";
     out_ += colors_.caret;
-    out_ += mark;
+    out_ += underline;
     out_ += colors_.off;
     out_ += '\n';
   }
@@ -228,11 +229,11 @@ void appendField(std::string& out, const char* name, std::string_view value) {
   out += std::string(",\"") + name + "\":" + jsonQuote(value);
 }
 
-void appendJsonPlace(std::string& out, const Range& range) {
+void appendJsonLocation(std::string& out, const Range& range) {
   if (!range.path.empty()) appendField(out, "path", range.path);
-  if (range.place.line == 0) return;
-  appendField(out, "line", range.place.line);
-  appendField(out, "column", range.place.column);
+  if (range.location.line == 0) return;
+  appendField(out, "line", range.location.line);
+  appendField(out, "column", range.location.column);
   appendField(out, "endColumn", range.end_column);
 }
 
@@ -246,13 +247,13 @@ std::string renderJson(const Diagnostics& diagnostics, const Sources& sources) {
     out += std::string("{\"code\":\"") + diagInfo(diagnostic.diag).code + "\"";
     appendField(out, "severity", std::string_view(severityName(diagnostic.severity)));
     appendField(out, "message", diagnostic.message);
-    appendJsonPlace(out, range);
+    appendJsonLocation(out, range);
     if (!diagnostic.element.empty()) appendField(out, "element", diagnostic.element);
     out += ",\"notes\":[";
     for (const Diagnostic::Attached& note : diagnostic.notes) {
       if (&note != diagnostic.notes.data()) out += ',';
       out += "{\"message\":" + jsonQuote(note.message);
-      appendJsonPlace(out, note.loc ? rangeOf(sources, note.loc, 0, {}) : range);
+      appendJsonLocation(out, note.loc ? rangeOf(sources, note.loc, 0, {}) : range);
       out += '}';
     }
     out += "]}";
@@ -284,9 +285,9 @@ std::string uriOf(std::string_view path) {
 std::string sarifLocation(const Range& range) {
   if (range.path.empty()) return {};
   std::string out = "\"physicalLocation\":{\"artifactLocation\":{\"uri\":" + jsonQuote(uriOf(range.path)) + "}";
-  if (range.place.line != 0) {
-    out += ",\"region\":{\"startLine\":" + std::to_string(range.place.line) +
-           ",\"startColumn\":" + std::to_string(range.place.column) +
+  if (range.location.line != 0) {
+    out += ",\"region\":{\"startLine\":" + std::to_string(range.location.line) +
+           ",\"startColumn\":" + std::to_string(range.location.column) +
            ",\"endColumn\":" + std::to_string(range.end_column) + "}";
   }
   return out + "}";

@@ -63,16 +63,16 @@ struct DiagramElement {
   ExprId operand;
   Slice<DiagramPin> pins;  // inputs, in-outs and outputs as the file orders them
   Slice<StmtId> body;
-  uint32_t text, text_length;  // TextId
-  uint64_t number;             // localId
-  Loc loc, end;                // the number; one past the element's text
+  uint32_t comment, comment_length;  // StringId
+  uint64_t number;                   // localId
+  Loc loc, end;                      // the number; one past the element's text
   int32_t x, y, width, height;
   bool placed;   // x and y are given
   bool holding;  // a coil of a variable that is kept: M, SM, RM of the TM/TP manual
 };
 struct DiagramNetwork {
   uint32_t number;
-  uint32_t title, title_length;  // TextId
+  uint32_t title, title_length;  // StringId
   Loc loc;
   bool disabled;  // nothing in it runs
 };

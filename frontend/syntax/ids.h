@@ -66,7 +66,7 @@ enum class EntityKind : uint8_t {
 struct Entity {
   uint32_t kind : 4 = 0;
   uint32_t index : 28 = 0;
-  EntityKind what() const { return static_cast<EntityKind>(kind); }
+  EntityKind entityKind() const { return static_cast<EntityKind>(kind); }
   static Entity of(EntityKind kind, uint32_t index) {
     Entity e;
     e.kind = static_cast<uint32_t>(kind) & 15u;

@@ -22,7 +22,7 @@ struct SfcExpr {
   ExprId value;  // none: not written
   Loc begin, end;
 };
-struct SfcPlace {  // AT 100, 40, 60, 30: in the file that the chart was drawn in
+struct SfcPosition {  // AT 100, 40, 60, 30: in the file that the chart was drawn in
   bool placed;
   int32_t x, y, width, height;
 };
@@ -39,7 +39,7 @@ struct SfcStep {
   bool initial;
   SfcExpr min, max;  // STEP s (TMIN := T#1s, TMAX := T#5s):
   Slice<SfcAssociation> actions;
-  SfcPlace place;
+  SfcPosition position;
 };
 struct SfcTransition {
   Ident name;  // none: it has none
@@ -51,7 +51,7 @@ struct SfcTransition {
   DeclId body;            // an action that assigns the condition to `target`; none: see `condition`
   Ident target;
   Loc begin, end;  // the text from TRANSITION to END_TRANSITION
-  SfcPlace place;
+  SfcPosition position;
 };
 
 }  // namespace rung

@@ -39,7 +39,7 @@ class StPrinter {
  public:
   StPrinter(const Tree& tree, const Names& names, std::span<const StComment> comments)
       : tree_(tree), names_(names), comments_(comments) {}
-  std::string text;
+  std::string out;
 
   void stmts(Slice<StmtId> list, uint32_t indent) {
     for (const StmtId id : tree_.list(list)) stmt(id, indent);
@@ -48,8 +48,8 @@ class StPrinter {
   void expr(ExprId id, int least);
 
  private:
-  void line(uint32_t indent) { text.append(indent, ' '); }
-  void name(NameId id) { text += names_.text(id); }
+  void line(uint32_t indent) { out.append(indent, ' '); }
+  void name(NameId id) { out += names_.string(id); }
   void comments(Loc before, uint32_t indent);
   void stmt(StmtId id, uint32_t indent);
   void ifStmt(const IfStmt& s, uint32_t indent);
@@ -76,7 +76,7 @@ class StPrinter {
 
 void StPrinter::quoted(std::string_view s, char quote) {
   static const char* const kHex = "0123456789ABCDEF";
-  text += quote;
+  out += quote;
   size_t bad = std::min(findInvalidUtf8(s), s.size());
   for (size_t k = 0; k < s.size(); ++k) {
     const char c = s[k];
@@ -84,23 +84,23 @@ void StPrinter::quoted(std::string_view s, char quote) {
     const bool is_bad = k == bad;
     if (is_bad) bad = std::min(findInvalidUtf8(s.substr(k + 1)), s.size() - k - 1) + k + 1;
     if (c == quote || c == '$') {
-      text += '$';
-      text += c;
+      out += '$';
+      out += c;
     } else if (byte < 0x20 || byte == 0x7f || is_bad) {
-      text += quote == '"' ? "$00" : "$";
-      text += kHex[byte >> 4];
-      text += kHex[byte & 15];
+      out += quote == '"' ? "$00" : "$";
+      out += kHex[byte >> 4];
+      out += kHex[byte & 15];
     } else {
-      text += c;
+      out += c;
     }
   }
-  text += quote;
+  out += quote;
 }
 
 void StPrinter::padded(uint64_t n, int width) {
   const std::string digits = std::to_string(n);
-  for (int k = static_cast<int>(digits.size()); k < width; ++k) text += '0';
-  text += digits;
+  for (int k = static_cast<int>(digits.size()); k < width; ++k) out += '0';
+  out += digits;
 }
 
 void StPrinter::date(int64_t days) {
@@ -113,43 +113,43 @@ void StPrinter::date(int64_t days) {
   const int64_t month = (5 * of_year + 2) / 153;
   const int64_t day = of_year - (153 * month + 2) / 5 + 1;
   padded(static_cast<uint64_t>(year_of_era + era * 400 + (month >= 10 ? 1 : 0)), 4);
-  text += '-';
+  out += '-';
   padded(static_cast<uint64_t>(month < 10 ? month + 3 : month - 9), 2);
-  text += '-';
+  out += '-';
   padded(static_cast<uint64_t>(day), 2);
 }
 
 void StPrinter::clock(uint64_t ns) {
   const uint64_t seconds = ns / 1'000'000'000;
   padded(seconds / 3600, 2);
-  text += ':';
+  out += ':';
   padded(seconds / 60 % 60, 2);
-  text += ':';
+  out += ':';
   padded(seconds % 60, 2);
   uint64_t rest = ns % 1'000'000'000;
   if (rest == 0) return;
   int digits = 9;
   for (; rest % 10 == 0; rest /= 10) --digits;
-  text += '.';
+  out += '.';
   padded(rest, digits);
 }
 
 void StPrinter::time(const LiteralExpr& e) {
   constexpr int64_t kDay = 86'400'000'000'000;
-  if ((e.h.bits & kLiteralLong) != 0) text += 'L';
+  if ((e.h.bits & kLiteralLong) != 0) out += 'L';
   const auto value = static_cast<int64_t>(e.value());
   if (e.literal() == LiteralKind::Date) {
-    text += "D#";
+    out += "D#";
     return date(value / kDay);
   }
   if (e.literal() == LiteralKind::TimeOfDay) {
-    text += "TOD#";
+    out += "TOD#";
     return clock(static_cast<uint64_t>(value));
   }
   if (e.literal() == LiteralKind::DateTime) {
-    text += "DT#";
+    out += "DT#";
     date(value / kDay);
-    text += '-';
+    out += '-';
     return clock(static_cast<uint64_t>(value % kDay));
   }
   struct Unit {
@@ -163,16 +163,16 @@ void StPrinter::time(const LiteralExpr& e) {
                                     {1'000'000, "ms"},
                                     {1'000, "us"},
                                     {1, "ns"}};
-  text += "T#";
+  out += "T#";
   uint64_t rest = e.value();
   if ((e.h.bits & kLiteralNegative) != 0) {
-    text += '-';
+    out += '-';
     rest = -rest;
   }
-  if (rest == 0) text += "0s";
+  if (rest == 0) out += "0s";
   for (const Unit& unit : kUnits) {
     if (rest < unit.ns) continue;
-    text += std::to_string(rest / unit.ns) + unit.name;
+    out += std::to_string(rest / unit.ns) + unit.name;
     rest %= unit.ns;
   }
 }
@@ -180,17 +180,17 @@ void StPrinter::time(const LiteralExpr& e) {
 void StPrinter::literal(const LiteralExpr& e) {
   if (e.prefix) {
     name(e.prefix);
-    text += '#';
+    out += '#';
   }
   switch (e.literal()) {
-    case LiteralKind::Bool: text += e.value() != 0 ? "TRUE" : "FALSE"; return;
+    case LiteralKind::Bool: out += e.value() != 0 ? "TRUE" : "FALSE"; return;
     case LiteralKind::Integer: {
-      if ((e.h.bits & kLiteralNegative) != 0) text += '-';
+      if ((e.h.bits & kLiteralNegative) != 0) out += '-';
       char digits[20];
       const bool based = (e.h.bits & kLiteralBased) != 0;
       const auto end = std::to_chars(digits, digits + sizeof digits, e.value(), based ? 16 : 10).ptr;
-      if (based) text += "16#";
-      for (const char* d = digits; d != end; ++d) text += *d >= 'a' ? static_cast<char>(*d - 32) : *d;
+      if (based) out += "16#";
+      for (const char* d = digits; d != end; ++d) out += *d >= 'a' ? static_cast<char>(*d - 32) : *d;
       return;
     }
     case LiteralKind::Real: {
@@ -198,31 +198,31 @@ void StPrinter::literal(const LiteralExpr& e) {
       const auto end = std::to_chars(digits, digits + sizeof digits, std::bit_cast<double>(e.value())).ptr;
       const std::string_view shown(digits, static_cast<size_t>(end - digits));
       const size_t exponent = shown.find('e');
-      text += shown.substr(0, exponent);
-      if (shown.find('.') == std::string_view::npos) text += ".0";
-      if (exponent != std::string_view::npos) text.append("E").append(shown.substr(exponent + 1));
+      out += shown.substr(0, exponent);
+      if (shown.find('.') == std::string_view::npos) out += ".0";
+      if (exponent != std::string_view::npos) out.append("E").append(shown.substr(exponent + 1));
       return;
     }
-    case LiteralKind::String: return quoted(tree_.text(e.text()), '\'');
-    case LiteralKind::WString: return quoted(tree_.text(e.text()), '"');
+    case LiteralKind::String: return quoted(tree_.string(e.string()), '\'');
+    case LiteralKind::WString: return quoted(tree_.string(e.string()), '"');
     case LiteralKind::Duration:
     case LiteralKind::Date:
     case LiteralKind::TimeOfDay:
     case LiteralKind::DateTime: return time(e);
-    case LiteralKind::Null: text += "NULL"; return;
+    case LiteralKind::Null: out += "NULL"; return;
   }
 }
 
 void StPrinter::address(const DirectAddress& a) {
-  text += '%';
-  text += a.area == ImageArea::Input ? 'I' : a.area == ImageArea::Output ? 'Q' : 'M';
-  if (a.size_given) text += a.size;
-  if (a.incomplete) text += '*';
+  out += '%';
+  out += a.area == ImageArea::Input ? 'I' : a.area == ImageArea::Output ? 'Q' : 'M';
+  if (a.size_given) out += a.size;
+  if (a.incomplete) out += '*';
   bool first = true;
   for (const uint32_t n : tree_.list(a.path)) {
-    if (!first) text += '.';
+    if (!first) out += '.';
     first = false;
-    text += std::to_string(n);
+    out += std::to_string(n);
   }
 }
 
@@ -231,34 +231,34 @@ void StPrinter::address(const DirectAddress& a) {
 void StPrinter::list(Slice<ExprId> ids) {
   bool first = true;
   for (const ExprId id : tree_.list(ids)) {
-    if (!first) text += ", ";
+    if (!first) out += ", ";
     first = false;
     expr(id, 0);
   }
 }
 
 void StPrinter::arguments(Slice<Argument> list) {
-  text += '(';
+  out += '(';
   bool first = true;
   for (const Argument& a : tree_.list(list)) {
-    if (!first) text += ", ";
+    if (!first) out += ", ";
     first = false;
     if (a.pin.name) {
-      if (a.negated) text += "NOT ";
+      if (a.negated) out += "NOT ";
       name(a.pin.name);
-      text += a.is_output ? " => " : " := ";
+      out += a.is_output ? " => " : " := ";
     }
     if (a.value) expr(a.value, 0);
   }
-  text += ')';
+  out += ')';
 }
 
 // In parentheses where it binds weaker than `least`, or always.
 void StPrinter::operand(ExprId id, int least, bool always) {
   if (always) {
-    text += '(';
+    out += '(';
     expr(id, 0);
-    text += ')';
+    out += ')';
   } else {
     expr(id, least);
   }
@@ -266,24 +266,24 @@ void StPrinter::operand(ExprId id, int least, bool always) {
 
 // __NEW takes a type by its name, or a text.
 void StPrinter::newExpr(const NewExpr& e) {
-  text += "__NEW(";
-  if (tree_.kind(e.what) == TypeExprKind::Text) {
-    const auto& type = tree_.as<TextTypeExpr>(e.what);
-    text += spelling(type.code);
+  out += "__NEW(";
+  if (tree_.kind(e.allocated) == TypeExprKind::String) {
+    const auto& type = tree_.as<StringTypeExpr>(e.allocated);
+    out += spelling(type.code);
     if (type.length) operand(type.length, 0, true);
-  } else if (tree_.kind(e.what) == TypeExprKind::Named) {
-    const auto& type = tree_.as<NamedTypeExpr>(e.what);
+  } else if (tree_.kind(e.allocated) == TypeExprKind::Named) {
+    const auto& type = tree_.as<NamedTypeExpr>(e.allocated);
     for (uint32_t i = 0; i < type.path.count; ++i) {
-      if (i > 0) text += '.';
+      if (i > 0) out += '.';
       name(tree_.list(type.path)[i].name);
     }
     if (type.has_arguments) arguments(type.arguments);
   }
   if (e.count) {
-    text += ", ";
+    out += ", ";
     expr(e.count, 0);
   }
-  text += ')';
+  out += ')';
 }
 
 void StPrinter::expr(ExprId id, int least) {
@@ -293,42 +293,42 @@ void StPrinter::expr(ExprId id, int least) {
     case ExprKind::TypedName: {
       const auto& e = tree_.as<TypedNameExpr>(id);
       name(e.type_name.name);
-      text += '#';
+      out += '#';
       return name(e.item.name);
     }
     case ExprKind::Member: {
       const auto& e = tree_.as<MemberExpr>(id);
       expr(e.base, kPrimary);
-      text += '.';
+      out += '.';
       return name(e.member);
     }
     case ExprKind::Index: {
       const auto& e = tree_.as<IndexExpr>(id);
       expr(e.base, kPrimary);
-      text += '[';
+      out += '[';
       list(e.indices);
-      text += ']';
+      out += ']';
       return;
     }
     case ExprKind::Deref:
       expr(tree_.as<DerefExpr>(id).base, kPrimary);
-      text += '^';
+      out += '^';
       return;
-    case ExprKind::This: text += "THIS"; return;
-    case ExprKind::Super: text += "SUPER"; return;
+    case ExprKind::This: out += "THIS"; return;
+    case ExprKind::Super: out += "SUPER"; return;
     case ExprKind::BitAccess: {
       const auto& e = tree_.as<BitAccessExpr>(id);
       expr(e.base, kPrimary);
-      text += e.width == 8 ? ".%B" : e.width == 16 ? ".%W" : e.width == 32 ? ".%D" : ".";
-      text += std::to_string(e.position);
+      out += e.width == 8 ? ".%B" : e.width == 16 ? ".%W" : e.width == 32 ? ".%D" : ".";
+      out += std::to_string(e.position);
       return;
     }
     case ExprKind::Address: return address(tree_.as<AddressExpr>(id).address);
     case ExprKind::Unary: {
       const auto& e = tree_.as<UnaryExpr>(id);
       if (least > kUnary) return operand(id, 0, true);
-      text += spelling(e.op());
-      if (e.op() == UnaryOp::Not) text += ' ';
+      out += spelling(e.op());
+      if (e.op() == UnaryOp::Not) out += ' ';
       const ExprKind inner = tree_.kind(e.operand);
       return operand(e.operand, kPrimary, inner == ExprKind::Binary || inner == ExprKind::Unary);
     }
@@ -344,7 +344,7 @@ void StPrinter::expr(ExprId id, int least) {
         return own <= 5 && op != e.op() && precedenceOf(op) <= 5;
       };
       operand(e.left, own, apart(e.left, false));
-      text.append(" ").append(spelling(e.op())).append(" ");
+      out.append(" ").append(spelling(e.op())).append(" ");
       return operand(e.right, own + 1, apart(e.right, true));
     }
     case ExprKind::Call: {
@@ -357,33 +357,33 @@ void StPrinter::expr(ExprId id, int least) {
     case ExprKind::Range: {
       const auto& e = tree_.as<RangeExpr>(id);
       expr(e.low, 0);
-      text += "..";
+      out += "..";
       return expr(e.high, 0);
     }
     case ExprKind::ArrayInit:
-      text += '[';
+      out += '[';
       list(tree_.as<ArrayInitExpr>(id).elements);
-      text += ']';
+      out += ']';
       return;
     case ExprKind::Repeat: {
       const auto& e = tree_.as<RepeatExpr>(id);
       expr(e.count, kPrimary);
-      text += '(';
+      out += '(';
       list(e.elements);
-      text += ')';
+      out += ')';
       return;
     }
     case ExprKind::StructInit: {
       bool first = true;
-      text += '(';
+      out += '(';
       for (const FieldInit& field : tree_.list(tree_.as<StructInitExpr>(id).fields)) {
-        if (!first) text += ", ";
+        if (!first) out += ", ";
         first = false;
         name(field.field.name);
-        text += " := ";
+        out += " := ";
         expr(field.value, 0);
       }
-      text += ')';
+      out += ')';
       return;
     }
     case ExprKind::Error:
@@ -400,8 +400,8 @@ void StPrinter::expr(ExprId id, int least) {
 void StPrinter::comments(Loc before, uint32_t indent) {
   while (!comments_.empty() && comments_.front().at <= before) {
     line(indent);
-    text += comments_.front().text;
-    text += '\n';
+    out += comments_.front().text;
+    out += '\n';
     comments_ = comments_.subspan(1);
   }
 }
@@ -412,106 +412,106 @@ void StPrinter::ifStmt(const IfStmt& s, uint32_t indent) {
   const StmtKind first = body.empty() ? StmtKind::Empty : tree_.kind(tree_.list(body)[0]);
   const bool leaves = first == StmtKind::Jump || first == StmtKind::Call || first == StmtKind::Return;
   if (s.h.op == kConditionalOp && body.count == 1 && leaves && s.otherwise.empty()) {  // IF full THEN JMP done; END_IF
-    text += "IF ";
+    out += "IF ";
     expr(branches[0].condition, 0);
-    text += " THEN ";
+    out += " THEN ";
     stmt(tree_.list(body)[0], 0);
-    text.back() = ' ';
-    text += "END_IF\n";
+    out.back() = ' ';
+    out += "END_IF\n";
     return;
   }
   for (size_t k = 0; k < branches.size(); ++k) {
     if (k > 0) line(indent);
-    text += k == 0 ? "IF " : "ELSIF ";
+    out += k == 0 ? "IF " : "ELSIF ";
     expr(branches[k].condition, 0);
-    text += " THEN\n";
+    out += " THEN\n";
     stmts(branches[k].body, indent + 2);
   }
   if (!s.otherwise.empty()) {
     line(indent);
-    text += "ELSE\n";
+    out += "ELSE\n";
     stmts(s.otherwise, indent + 2);
   }
   line(indent);
-  text += "END_IF\n";
+  out += "END_IF\n";
 }
 
 void StPrinter::caseStmt(const CaseStmt& s, uint32_t indent) {
-  text += "CASE ";
+  out += "CASE ";
   expr(s.selector, 0);
-  text += " OF\n";
+  out += " OF\n";
   for (const CaseBranch& branch : tree_.list(s.branches)) {
     line(indent + 2);
     list(branch.labels);
-    text += ":\n";
+    out += ":\n";
     stmts(branch.body, indent + 4);
   }
   if (s.has_else) {
     line(indent + 2);
-    text += "ELSE\n";
+    out += "ELSE\n";
     stmts(s.otherwise, indent + 4);
   }
   line(indent);
-  text += "END_CASE\n";
+  out += "END_CASE\n";
 }
 
 void StPrinter::loops(StmtId id, uint32_t indent) {
   if (tree_.kind(id) == StmtKind::For) {
     const auto& s = tree_.as<ForStmt>(id);
-    text += "FOR ";
+    out += "FOR ";
     expr(s.control, 0);
-    text += " := ";
+    out += " := ";
     expr(s.from, 0);
-    text += " TO ";
+    out += " TO ";
     expr(s.to, 0);
     if (s.step) {
-      text += " BY ";
+      out += " BY ";
       expr(s.step, 0);
     }
-    text += " DO\n";
+    out += " DO\n";
     stmts(s.body, indent + 2);
     line(indent);
-    text += "END_FOR\n";
+    out += "END_FOR\n";
   } else if (tree_.kind(id) == StmtKind::While) {
     const auto& s = tree_.as<WhileStmt>(id);
-    text += "WHILE ";
+    out += "WHILE ";
     expr(s.condition, 0);
-    text += " DO\n";
+    out += " DO\n";
     stmts(s.body, indent + 2);
     line(indent);
-    text += "END_WHILE\n";
+    out += "END_WHILE\n";
   } else if (tree_.kind(id) == StmtKind::Repeat) {
     const auto& s = tree_.as<RepeatStmt>(id);
-    text += "REPEAT\n";
+    out += "REPEAT\n";
     stmts(s.body, indent + 2);
     line(indent);
-    text += "UNTIL ";
+    out += "UNTIL ";
     expr(s.until, 0);
-    text += '\n';
+    out += '\n';
     line(indent);
-    text += "END_REPEAT\n";
+    out += "END_REPEAT\n";
   } else {
     const auto& s = tree_.as<TryStmt>(id);
-    text += "__TRY\n";
+    out += "__TRY\n";
     stmts(s.body, indent + 2);
     if (s.catches) {
       line(indent);
-      text += "__CATCH";
+      out += "__CATCH";
       if (s.code) {
-        text += '(';
+        out += '(';
         expr(s.code, 0);
-        text += ')';
+        out += ')';
       }
-      text += '\n';
+      out += '\n';
       stmts(s.handler, indent + 2);
     }
     if (!s.finally.empty()) {
       line(indent);
-      text += "__FINALLY\n";
+      out += "__FINALLY\n";
       stmts(s.finally, indent + 2);
     }
     line(indent);
-    text += "__ENDTRY\n";
+    out += "__ENDTRY\n";
   }
 }
 
@@ -520,18 +520,18 @@ void StPrinter::stmt(StmtId id, uint32_t indent) {
   line(indent);
   switch (tree_.kind(id)) {
     case StmtKind::Error:
-    case StmtKind::Empty: text += ";\n"; return;
+    case StmtKind::Empty: out += ";\n"; return;
     case StmtKind::Assign: {
       const auto& s = tree_.as<AssignStmt>(id);
       expr(s.target, 0);
-      text.append(" ").append(spelling(s.op())).append(" ");
+      out.append(" ").append(spelling(s.op())).append(" ");
       expr(s.value, 0);
-      text += ";\n";
+      out += ";\n";
       return;
     }
     case StmtKind::Call:
       expr(tree_.as<CallStmt>(id).call, 0);
-      text += ";\n";
+      out += ";\n";
       return;
     case StmtKind::If: return ifStmt(tree_.as<IfStmt>(id), indent);
     case StmtKind::Case: return caseStmt(tree_.as<CaseStmt>(id), indent);
@@ -539,17 +539,17 @@ void StPrinter::stmt(StmtId id, uint32_t indent) {
     case StmtKind::While:
     case StmtKind::Repeat:
     case StmtKind::Try: return loops(id, indent);
-    case StmtKind::Exit: text += "EXIT;\n"; return;
-    case StmtKind::Continue: text += "CONTINUE;\n"; return;
-    case StmtKind::Return: text += "RETURN;\n"; return;
+    case StmtKind::Exit: out += "EXIT;\n"; return;
+    case StmtKind::Continue: out += "CONTINUE;\n"; return;
+    case StmtKind::Return: out += "RETURN;\n"; return;
     case StmtKind::Jump:
-      text += "JMP ";
+      out += "JMP ";
       name(tree_.as<JumpStmt>(id).label.name);
-      text += ";\n";
+      out += ";\n";
       return;
     case StmtKind::Label:
       name(tree_.as<LabelStmt>(id).label.name);
-      text += ":\n";
+      out += ":\n";
       return;
   }
 }
@@ -561,13 +561,13 @@ std::string printSt(const Tree& tree, const Names& names, Slice<StmtId> statemen
   StPrinter printer(tree, names, comments);
   printer.stmts(statements, indent);
   printer.rest(indent);
-  return std::move(printer.text);
+  return std::move(printer.out);
 }
 
 std::string printSt(const Tree& tree, const Names& names, ExprId expr) {
   StPrinter printer(tree, names, {});
   printer.expr(expr, 0);
-  return std::move(printer.text);
+  return std::move(printer.out);
 }
 
 }  // namespace rung

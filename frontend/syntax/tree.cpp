@@ -101,9 +101,9 @@ Loc Tree::begin(ExprId id) const {
   }
 }
 
-TextId Tree::addText(std::string_view text) {
-  const TextId id{static_cast<uint32_t>(text_.size()), static_cast<uint32_t>(text.size())};
-  text_.insert(text_.end(), text.begin(), text.end());
+StringId Tree::addString(std::string_view text) {
+  const StringId id{static_cast<uint32_t>(strings_.size()), static_cast<uint32_t>(text.size())};
+  strings_.insert(strings_.end(), text.begin(), text.end());
   return id;
 }
 

@@ -38,14 +38,14 @@ enum class DeclKind : uint8_t {
 };
 
 // Text stored in the tree: strings of literals (decoded) and values of pragmas. WSTRING text is UTF-8 too.
-struct TextId {
+struct StringId {
   uint32_t first = 0, length = 0;
 };
 
 // {name 'value'}, {name := 'value'}, {attribute 'name' := 'value'}: one form. The parser lower-cases nothing.
 struct Pragma {
   NameId name;
-  TextId value;
+  StringId value;
   Loc loc;
 };
 
@@ -107,10 +107,10 @@ enum LiteralBits : uint8_t { kLiteralLong = 1, kLiteralNegative = 2, kLiteralBas
 struct LiteralExpr {
   ExprHeader h;        // op: LiteralKind, bits: LiteralBits
   NameId prefix;       // INT in INT#5; none for untyped and for T#, D#, …
-  uint32_t low, high;  // value, or TextId for strings
+  uint32_t low, high;  // value, or StringId for strings
   LiteralKind literal() const { return static_cast<LiteralKind>(h.op); }
   uint64_t value() const { return low | (static_cast<uint64_t>(high) << 32); }
-  TextId text() const { return {low, high}; }
+  StringId string() const { return {low, high}; }
   void setValue(uint64_t v) {
     low = static_cast<uint32_t>(v);
     high = static_cast<uint32_t>(v >> 32);
@@ -238,7 +238,7 @@ struct AnyValueExpr {  // h.type: __SYSTEM.AnyType, or with `facts` __SYSTEM.VAR
 };
 struct NewExpr {  // __NEW(what), __NEW(what, count)
   ExprHeader h;
-  TypeExprId what;
+  TypeExprId allocated;
   ExprId count;        // none: one
   CallId constructor;  // sema: the arguments of FB_Init
   CallId memory;       // sema: a call of __SYSTEM.Allocate, without its arguments
@@ -247,7 +247,7 @@ struct NewExpr {  // __NEW(what), __NEW(what, count)
 // fault though nothing is read there.
 struct AddressOfExpr {
   ExprHeader h;
-  ExprId place;
+  ExprId lvalue;
 };
 
 // ---- statements -----------------------------------------------------------------------------------------------
@@ -354,16 +354,16 @@ struct NamedTypeExpr {
   Slice<Ident> path;
   Slice<Argument> arguments;  // of FB_Init
   bool has_arguments;
-  Slice<ExprId> elements;                             // of an array's elements, a CallExpr without callee each
-};                                                    // Lib.Motor   Pump(3, x := 4)   ARRAY[0..1] OF Pump[(3), (4)]
-enum class TextCode : uint8_t { Bytes, Wide, Utf8 };  // STRING, WSTRING, USTRING
-struct TextTypeExpr {
+  Slice<ExprId> elements;  // of an array's elements, a CallExpr without callee each
+};                         // Lib.Motor   Pump(3, x := 4)   ARRAY[0..1] OF Pump[(3), (4)]
+enum class StringEncoding : uint8_t { Bytes, Wide, Utf8 };  // STRING, WSTRING, USTRING
+struct StringTypeExpr {
   TypeExprHeader h;
   ExprId length;  // none: default
-  TextCode code;
+  StringEncoding code;
 };
-inline const char* spelling(TextCode code) {
-  return code == TextCode::Wide ? "WSTRING" : code == TextCode::Utf8 ? "USTRING" : "STRING";
+inline const char* spelling(StringEncoding code) {
+  return code == StringEncoding::Wide ? "WSTRING" : code == StringEncoding::Utf8 ? "USTRING" : "STRING";
 }
 struct SubrangeTypeExpr {
   TypeExprHeader h;
@@ -623,8 +623,8 @@ class Tree {
   template <class T>
   std::span<const T> list(Slice<T> slice) const;
 
-  TextId addText(std::string_view text);
-  std::string_view text(TextId id) const { return {text_.data() + id.first, id.length}; }
+  StringId addString(std::string_view text);
+  std::string_view string(StringId id) const { return {strings_.data() + id.first, id.length}; }
 
   std::vector<FileUnit> files;
   bool lost_names = false;  // likewise of types and globals: names of the whole project
@@ -639,7 +639,7 @@ class Tree {
 
   std::vector<uint32_t*> chunks_;  // owned
   uint32_t next_word_ = 1;
-  std::vector<char> text_;
+  std::vector<char> strings_;
   // One vector per element type of addList.
   std::vector<ExprId> expr_ids_;
   std::vector<StmtId> stmt_ids_;

@@ -11,53 +11,53 @@ namespace rung {
 namespace {
 
 const char* word(ExprKind kind) {
-  static const char* const kWords[] = {
+  static const char* const kKeywords[] = {
 #define RUNG_EXPR(kind, word) word,
 #include "frontend/syntax/nodes.def"
   };
-  return kWords[static_cast<size_t>(kind)];
+  return kKeywords[static_cast<size_t>(kind)];
 }
 const char* word(StmtKind kind) {
-  static const char* const kWords[] = {
+  static const char* const kKeywords[] = {
 #define RUNG_STMT(kind, word) word,
 #include "frontend/syntax/nodes.def"
   };
-  return kWords[static_cast<size_t>(kind)];
+  return kKeywords[static_cast<size_t>(kind)];
 }
 const char* word(TypeExprKind kind) {
-  static const char* const kWords[] = {
+  static const char* const kKeywords[] = {
 #define RUNG_TYPE_EXPR(kind, word) word,
 #include "frontend/syntax/nodes.def"
   };
-  return kWords[static_cast<size_t>(kind)];
+  return kKeywords[static_cast<size_t>(kind)];
 }
 const char* word(DeclKind kind) {
-  static const char* const kWords[] = {
+  static const char* const kKeywords[] = {
 #define RUNG_DECL(kind, word) word,
 #include "frontend/syntax/nodes.def"
   };
-  return kWords[static_cast<size_t>(kind)];
+  return kKeywords[static_cast<size_t>(kind)];
 }
 
 class Printer {
  public:
   Printer(const Tree& tree, const Names& names) : tree_(tree), names_(names) {}
-  std::string text;
+  std::string out;
 
   void decl(DeclId id, int depth);
 
  private:
   void line(int depth) {
-    if (!text.empty()) text += '\n';
-    text.append(static_cast<size_t>(depth) * 2, ' ');
+    if (!out.empty()) out += '\n';
+    out.append(static_cast<size_t>(depth) * 2, ' ');
   }
-  void name(NameId id) { text += names_.text(id); }
-  void number(uint64_t n) { text += std::to_string(n); }
+  void name(NameId id) { out += names_.string(id); }
+  void number(uint64_t n) { out += std::to_string(n); }
   void quoted(std::string_view s);
   void path(Slice<Ident> idents, const char* between) {
     bool first = true;
     for (const Ident& ident : tree_.list(idents)) {
-      if (!first) text += between;
+      if (!first) out += between;
       first = false;
       name(ident.name);
     }
@@ -70,7 +70,7 @@ class Printer {
   void expr(ExprId id, int depth = 0);
   void exprs(Slice<ExprId> list, int depth) {
     for (ExprId e : tree_.list(list)) {
-      text += ' ';
+      out += ' ';
       expr(e, depth + 1);
     }
   }
@@ -81,8 +81,8 @@ class Printer {
   void stmt(StmtId id, int depth);
   void instructions(Slice<IlInstruction> list, int depth);
   void element(const Diagram& diagram, const DiagramElement& e, int depth);
-  template <class Marked>
-  void marks(const Marked& marked);
+  template <class Modifiable>
+  void modifiers(const Modifiable& element);
   void chart(const PouDecl& d, int depth);
   void idents(const char* before, Slice<Ident> list);
   void typeExpr(TypeExprId id, int depth);
@@ -93,58 +93,58 @@ class Printer {
 
 void Printer::quoted(std::string_view s) {
   static const char* const kHex = "0123456789ABCDEF";
-  text += '\'';
+  out += '\'';
   for (char c : s) {
     const auto byte = static_cast<unsigned char>(c);
     if (c == '\'' || c == '$') {
-      text += '$';
-      text += c;
+      out += '$';
+      out += c;
     } else if (byte < 0x20 || byte == 0x7f) {
-      text += '$';
-      text += kHex[byte >> 4];
-      text += kHex[byte & 15];
+      out += '$';
+      out += kHex[byte >> 4];
+      out += kHex[byte & 15];
     } else {
-      text += c;
+      out += c;
     }
   }
-  text += '\'';
+  out += '\'';
 }
 
 void Printer::modifiers(AccessLevel access, uint8_t bits) {
   static const char* const kAccess[] = {"", " public", " private", " protected", " internal"};
-  text += kAccess[static_cast<size_t>(access)];
-  if ((bits & kAbstract) != 0) text += " abstract";
-  if ((bits & kFinal) != 0) text += " final";
-  if ((bits & kOverride) != 0) text += " override";
+  out += kAccess[static_cast<size_t>(access)];
+  if ((bits & kAbstract) != 0) out += " abstract";
+  if ((bits & kFinal) != 0) out += " final";
+  if ((bits & kOverride) != 0) out += " override";
 }
 
 void Printer::typeList(const char* what, Slice<TypeExprId> list, int depth) {
   if (list.empty()) return;
   line(depth + 1);
-  text += what;
+  out += what;
   for (TypeExprId type : tree_.list(list)) typeExpr(type, depth + 2);
 }
 
 void Printer::pragmas(const DeclHeader& h) {
   for (const Pragma& p : tree_.list(h.pragmas)) {
-    text += " {";
+    out += " {";
     name(p.name);
     if (p.value.length > 0) {
-      text += ' ';
-      quoted(tree_.text(p.value));
+      out += ' ';
+      quoted(tree_.string(p.value));
     }
-    text += '}';
+    out += '}';
   }
 }
 
 void Printer::address(const DirectAddress& a) {
-  text += '%';
-  text += a.area == ImageArea::Input ? 'I' : a.area == ImageArea::Output ? 'Q' : 'M';
-  if (a.size_given) text += a.size;
-  if (a.incomplete) text += '*';
+  out += '%';
+  out += a.area == ImageArea::Input ? 'I' : a.area == ImageArea::Output ? 'Q' : 'M';
+  if (a.size_given) out += a.size;
+  if (a.incomplete) out += '*';
   bool first = true;
   for (uint32_t n : tree_.list(a.path)) {
-    if (!first) text += '.';
+    if (!first) out += '.';
     first = false;
     number(n);
   }
@@ -153,21 +153,21 @@ void Printer::address(const DirectAddress& a) {
 void Printer::literal(const LiteralExpr& e) {
   if (e.prefix) {
     name(e.prefix);
-    text += '#';
+    out += '#';
   }
   const bool negative = (e.h.bits & kLiteralNegative) != 0;
   const auto nanoseconds = [&](const char* short_prefix, const char* long_prefix) {
-    text += (e.h.bits & kLiteralLong) != 0 ? long_prefix : short_prefix;
+    out += (e.h.bits & kLiteralLong) != 0 ? long_prefix : short_prefix;
     if (e.literal() == LiteralKind::Duration && !negative)
       number(e.value());
     else
-      text += std::to_string(static_cast<int64_t>(e.value()));
-    text += "ns";
+      out += std::to_string(static_cast<int64_t>(e.value()));
+    out += "ns";
   };
   switch (e.literal()) {
-    case LiteralKind::Bool: text += e.value() != 0 ? "TRUE" : "FALSE"; break;
+    case LiteralKind::Bool: out += e.value() != 0 ? "TRUE" : "FALSE"; break;
     case LiteralKind::Integer:
-      if (negative) text += '-';
+      if (negative) out += '-';
       number(e.value());
       break;
     case LiteralKind::Real: {
@@ -177,62 +177,62 @@ void Printer::literal(const LiteralExpr& e) {
       char buffer[40];
       const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
       const std::string_view shown(buffer, static_cast<size_t>(end - buffer));
-      text += shown;
-      if (shown.find_first_of(".en") == std::string_view::npos) text += ".0";
+      out += shown;
+      if (shown.find_first_of(".en") == std::string_view::npos) out += ".0";
       break;
     }
-    case LiteralKind::String: quoted(tree_.text(e.text())); break;
+    case LiteralKind::String: quoted(tree_.string(e.string())); break;
     case LiteralKind::WString:
-      text += 'w';
-      quoted(tree_.text(e.text()));
+      out += 'w';
+      quoted(tree_.string(e.string()));
       break;
     case LiteralKind::Duration: nanoseconds("t#", "lt#"); break;
     case LiteralKind::Date: nanoseconds("d#", "ld#"); break;
     case LiteralKind::TimeOfDay: nanoseconds("tod#", "ltod#"); break;
     case LiteralKind::DateTime: nanoseconds("dt#", "ldt#"); break;
-    case LiteralKind::Null: text += "NULL"; break;
+    case LiteralKind::Null: out += "NULL"; break;
   }
 }
 
 void Printer::arguments(Slice<Argument> list, int depth) {
   for (const Argument& a : tree_.list(list)) {
-    text += ' ';
+    out += ' ';
     if (a.pin.name) {
-      if (a.negated) text += "NOT ";
+      if (a.negated) out += "NOT ";
       name(a.pin.name);
-      text += a.is_output ? " => " : " := ";
+      out += a.is_output ? " => " : " := ";
     }
     if (a.value)
       expr(a.value, depth + 1);
     else
-      text += "open";
+      out += "open";
   }
 }
 
 void Printer::expr(ExprId id, int depth) {
   if (!id) {
-    text += "none";
+    out += "none";
     return;
   }
   if (depth > 5000) {  // left-deep chains; the parser limits them
-    text += "...";
+    out += "...";
     return;
   }
-  text += '(';
-  text += word(tree_.kind(id));
-  text += ' ';
+  out += '(';
+  out += word(tree_.kind(id));
+  out += ' ';
   switch (tree_.kind(id)) {
-    case ExprKind::Error: text.pop_back(); break;
+    case ExprKind::Error: out.pop_back(); break;
     case ExprKind::Literal: literal(tree_.as<LiteralExpr>(id)); break;
     case ExprKind::Name: name(tree_.as<NameExpr>(id).name); break;
     case ExprKind::TypedName:
       name(tree_.as<TypedNameExpr>(id).type_name.name);
-      text += '#';
+      out += '#';
       name(tree_.as<TypedNameExpr>(id).item.name);
       break;
     case ExprKind::Member:
       expr(tree_.as<MemberExpr>(id).base, depth + 1);
-      text += ' ';
+      out += ' ';
       name(tree_.as<MemberExpr>(id).member);
       break;
     case ExprKind::Index:
@@ -245,21 +245,21 @@ void Printer::expr(ExprId id, int depth) {
     case ExprKind::BitAccess: {
       const auto& e = tree_.as<BitAccessExpr>(id);
       expr(e.base, depth + 1);
-      text += e.width == 1 ? " bit " : e.width == 8 ? " byte " : e.width == 16 ? " word " : " dword ";
+      out += e.width == 1 ? " bit " : e.width == 8 ? " byte " : e.width == 16 ? " word " : " dword ";
       number(e.position);
       break;
     }
     case ExprKind::Address: address(tree_.as<AddressExpr>(id).address); break;
     case ExprKind::Unary:
-      text += spelling(tree_.as<UnaryExpr>(id).op());
-      text += ' ';
+      out += spelling(tree_.as<UnaryExpr>(id).op());
+      out += ' ';
       expr(tree_.as<UnaryExpr>(id).operand, depth + 1);
       break;
     case ExprKind::Binary:
-      text += spelling(tree_.as<BinaryExpr>(id).op());
-      text += ' ';
+      out += spelling(tree_.as<BinaryExpr>(id).op());
+      out += ' ';
       expr(tree_.as<BinaryExpr>(id).left, depth + 1);
-      text += ' ';
+      out += ' ';
       expr(tree_.as<BinaryExpr>(id).right, depth + 1);
       break;
     case ExprKind::Call:
@@ -268,11 +268,11 @@ void Printer::expr(ExprId id, int depth) {
       break;
     case ExprKind::Range:
       expr(tree_.as<RangeExpr>(id).low, depth + 1);
-      text += ' ';
+      out += ' ';
       expr(tree_.as<RangeExpr>(id).high, depth + 1);
       break;
     case ExprKind::ArrayInit:
-      text.pop_back();
+      out.pop_back();
       exprs(tree_.as<ArrayInitExpr>(id).elements, depth);
       break;
     case ExprKind::Repeat:
@@ -280,11 +280,11 @@ void Printer::expr(ExprId id, int depth) {
       exprs(tree_.as<RepeatExpr>(id).elements, depth);
       break;
     case ExprKind::StructInit:
-      text.pop_back();
+      out.pop_back();
       for (const FieldInit& f : tree_.list(tree_.as<StructInitExpr>(id).fields)) {
-        text += ' ';
+        out += ' ';
         name(f.field.name);
-        text += " := ";
+        out += " := ";
         expr(f.value, depth + 1);
       }
       break;
@@ -292,20 +292,20 @@ void Printer::expr(ExprId id, int depth) {
     case ExprKind::Bound: expr(tree_.as<BoundExpr>(id).array, depth + 1); break;
     case ExprKind::AnyValue: expr(tree_.as<AnyValueExpr>(id).value, depth + 1); break;
     case ExprKind::New:
-      typeExpr(tree_.as<NewExpr>(id).what, depth + 1);
+      typeExpr(tree_.as<NewExpr>(id).allocated, depth + 1);
       if (tree_.as<NewExpr>(id).count) expr(tree_.as<NewExpr>(id).count, depth + 1);
       break;
-    case ExprKind::AddressOf: expr(tree_.as<AddressOfExpr>(id).place, depth + 1); break;
+    case ExprKind::AddressOf: expr(tree_.as<AddressOfExpr>(id).lvalue, depth + 1); break;
   }
-  text += ')';
+  out += ')';
 }
 
 void Printer::stmt(StmtId id, int depth) {
   line(depth);
-  text += word(tree_.kind(id));
+  out += word(tree_.kind(id));
   const auto block = [&](const char* label, Slice<StmtId> list) {
     line(depth + 1);
-    text += label;
+    out += label;
     stmts(list, depth + 2);
   };
   switch (tree_.kind(id)) {
@@ -316,23 +316,23 @@ void Printer::stmt(StmtId id, int depth) {
     case StmtKind::Return: break;
     case StmtKind::Assign: {
       const auto& s = tree_.as<AssignStmt>(id);
-      text += ' ';
-      text += spelling(s.op());
-      text += ' ';
+      out += ' ';
+      out += spelling(s.op());
+      out += ' ';
       expr(s.target);
-      text += ' ';
+      out += ' ';
       expr(s.value);
       break;
     }
     case StmtKind::Call:
-      text += ' ';
+      out += ' ';
       expr(tree_.as<CallStmt>(id).call);
       break;
     case StmtKind::If: {
       const auto& s = tree_.as<IfStmt>(id);
       for (const IfBranch& b : tree_.list(s.branches)) {
         line(depth + 1);
-        text += "then ";
+        out += "then ";
         expr(b.condition);
         stmts(b.body, depth + 2);
       }
@@ -341,11 +341,11 @@ void Printer::stmt(StmtId id, int depth) {
     }
     case StmtKind::Case: {
       const auto& s = tree_.as<CaseStmt>(id);
-      text += ' ';
+      out += ' ';
       expr(s.selector);
       for (const CaseBranch& b : tree_.list(s.branches)) {
         line(depth + 1);
-        text += "of";
+        out += "of";
         exprs(b.labels, 0);
         stmts(b.body, depth + 2);
       }
@@ -354,26 +354,26 @@ void Printer::stmt(StmtId id, int depth) {
     }
     case StmtKind::For: {
       const auto& s = tree_.as<ForStmt>(id);
-      text += ' ';
+      out += ' ';
       expr(s.control);
-      text += ' ';
+      out += ' ';
       expr(s.from);
-      text += ' ';
+      out += ' ';
       expr(s.to);
       if (s.step) {
-        text += " by ";
+        out += " by ";
         expr(s.step);
       }
       stmts(s.body, depth + 1);
       break;
     }
     case StmtKind::While:
-      text += ' ';
+      out += ' ';
       expr(tree_.as<WhileStmt>(id).condition);
       stmts(tree_.as<WhileStmt>(id).body, depth + 1);
       break;
     case StmtKind::Repeat:
-      text += " until ";
+      out += " until ";
       expr(tree_.as<RepeatStmt>(id).until);
       stmts(tree_.as<RepeatStmt>(id).body, depth + 1);
       break;
@@ -382,26 +382,26 @@ void Printer::stmt(StmtId id, int depth) {
       stmts(s.body, depth + 1);
       if (s.catches) {
         line(depth + 1);
-        text += "catch";
+        out += "catch";
         if (s.code) {
-          text += ' ';
+          out += ' ';
           expr(s.code);
         }
         stmts(s.handler, depth + 2);
       }
       if (!s.finally.empty()) {
         line(depth + 1);
-        text += "finally";
+        out += "finally";
         stmts(s.finally, depth + 2);
       }
       break;
     }
     case StmtKind::Jump:
-      text += ' ';
+      out += ' ';
       name(tree_.as<JumpStmt>(id).label.name);
       break;
     case StmtKind::Label:
-      text += ' ';
+      out += ' ';
       name(tree_.as<LabelStmt>(id).label.name);
       break;
   }
@@ -413,27 +413,27 @@ void Printer::instructions(Slice<IlInstruction> list, int depth) {
     line(depth);
     if (i.label.name) {
       name(i.label.name);
-      text += i.kind == IlKind::Label ? ":" : ": ";
+      out += i.kind == IlKind::Label ? ":" : ": ";
     }
     if (i.kind == IlKind::Label) continue;
     if (i.kind == IlKind::Close) {
-      text += ')';
+      out += ')';
       continue;
     }
     name(i.word);
-    if ((i.flags & kIlDeferred) != 0) text += '(';
+    if ((i.flags & kIlDeferred) != 0) out += '(';
     if (i.target.name) {
-      text += ' ';
+      out += ' ';
       name(i.target.name);
     }
     if (i.callee) {
-      text += ' ';
+      out += ' ';
       expr(i.callee);
     }
     arguments(i.operands, 0);
     for (const IlNested& nested : tree_.list(i.nested)) {
       line(depth + 1);
-      text += "operand ";
+      out += "operand ";
       number(nested.operand);
       instructions(nested.list, depth + 2);
     }
@@ -443,31 +443,31 @@ void Printer::instructions(Slice<IlInstruction> list, int depth) {
 void Printer::typeExpr(TypeExprId id, int depth) {
   if (!id) return;
   line(depth);
-  text += word(tree_.kind(id));
+  out += word(tree_.kind(id));
   switch (tree_.kind(id)) {
     case TypeExprKind::Error: break;
     case TypeExprKind::Named:
-      text += ' ';
+      out += ' ';
       path(tree_.as<NamedTypeExpr>(id).path, ".");
       if (tree_.as<NamedTypeExpr>(id).has_arguments) arguments(tree_.as<NamedTypeExpr>(id).arguments, 0);
       for (ExprId element : tree_.list(tree_.as<NamedTypeExpr>(id).elements))
         arguments(tree_.as<CallExpr>(element).arguments, 0);
       break;
-    case TypeExprKind::Text: {
-      const auto& t = tree_.as<TextTypeExpr>(id);
-      text += ' ';
-      text += spelling(t.code);
+    case TypeExprKind::String: {
+      const auto& t = tree_.as<StringTypeExpr>(id);
+      out += ' ';
+      out += spelling(t.code);
       if (t.length) {
-        text += ' ';
+        out += ' ';
         expr(t.length);
       }
       break;
     }
     case TypeExprKind::Subrange: {
       const auto& t = tree_.as<SubrangeTypeExpr>(id);
-      text += ' ';
+      out += ' ';
       expr(t.low);
-      text += ' ';
+      out += ' ';
       expr(t.high);
       typeExpr(t.base, depth + 1);
       break;
@@ -476,10 +476,10 @@ void Printer::typeExpr(TypeExprId id, int depth) {
       const auto& t = tree_.as<EnumTypeExpr>(id);
       for (const EnumItem& item : tree_.list(t.items)) {
         line(depth + 1);
-        text += "item ";
+        out += "item ";
         name(item.item.name);
         if (item.value) {
-          text += ' ';
+          out += ' ';
           expr(item.value);
         }
       }
@@ -489,26 +489,26 @@ void Printer::typeExpr(TypeExprId id, int depth) {
     case TypeExprKind::Array: {
       const auto& t = tree_.as<ArrayTypeExpr>(id);
       for (const ArrayBound& b : tree_.list(t.bounds)) {
-        text += " [";
+        out += " [";
         if (b.low) {
           expr(b.low);
-          text += ' ';
+          out += ' ';
           expr(b.high);
         } else {
-          text += '*';
+          out += '*';
         }
-        text += ']';
+        out += ']';
       }
       typeExpr(t.element, depth + 1);
       break;
     }
     case TypeExprKind::Struct: {
       const auto& t = tree_.as<StructTypeExpr>(id);
-      if (t.is_union) text += " union";
-      if (t.overlaps) text += " overlap";
+      if (t.is_union) out += " union";
+      if (t.overlaps) out += " overlap";
       if (t.base) {
         line(depth + 1);
-        text += "extends";
+        out += "extends";
         typeExpr(t.base, depth + 2);
       }
       for (DeclId d : tree_.list(t.fields)) decl(d, depth + 1);
@@ -516,7 +516,7 @@ void Printer::typeExpr(TypeExprId id, int depth) {
     }
     case TypeExprKind::Pointer: {
       const auto& t = tree_.as<PointerTypeExpr>(id);
-      text += t.form == PointerForm::Pointer ? " pointer" : t.form == PointerForm::Reference ? " reference" : " ref_to";
+      out += t.form == PointerForm::Pointer ? " pointer" : t.form == PointerForm::Reference ? " reference" : " ref_to";
       typeExpr(t.target, depth + 1);
       break;
     }
@@ -525,23 +525,23 @@ void Printer::typeExpr(TypeExprId id, int depth) {
 
 void Printer::decl(DeclId id, int depth) {
   line(depth);
-  text += word(tree_.kind(id));
+  out += word(tree_.kind(id));
   const DeclHeader& h = tree_.decl(id);
   const auto bits = [&](uint8_t b) {
-    if ((b & kConstant) != 0) text += " constant";
-    if ((b & kRetain) != 0) text += " retain";
-    if ((b & kPersistent) != 0) text += " persistent";
-    if ((b & kNonRetain) != 0) text += " non_retain";
+    if ((b & kConstant) != 0) out += " constant";
+    if ((b & kRetain) != 0) out += " retain";
+    if ((b & kPersistent) != 0) out += " persistent";
+    if ((b & kNonRetain) != 0) out += " non_retain";
   };
   switch (h.kind) {
     case DeclKind::Type: {
       const auto& d = tree_.as<TypeDecl>(id);
-      text += ' ';
+      out += ' ';
       name(d.name);
-      if ((h.bits & kInternal) != 0) text += " internal";
+      if ((h.bits & kInternal) != 0) out += " internal";
       pragmas(h);
       if (d.init) {
-        text += " := ";
+        out += " := ";
         expr(d.init);
       }
       typeExpr(d.type, depth + 1);
@@ -551,47 +551,47 @@ void Printer::decl(DeclId id, int depth) {
       const auto& d = tree_.as<PouDecl>(id);
       static const char* const kKinds[] = {" function ",  " function_block ", " program ", " class ",
                                            " interface ", " method ",         " action "};
-      text += kKinds[static_cast<size_t>(d.pou_kind)];
+      out += kKinds[static_cast<size_t>(d.pou_kind)];
       name(d.name);
       modifiers(d.access, d.modifiers);
       pragmas(h);
-      if (!d.closed) text += " open";
+      if (!d.closed) out += " open";
       typeList("extends", d.bases, depth);
       typeList("implements", d.implements, depth);
       for (DeclId u : tree_.list(d.usings)) decl(u, depth + 1);
       if (d.result) {
         line(depth + 1);
-        text += "result";
+        out += "result";
         typeExpr(d.result, depth + 2);
       }
       for (DeclId s : tree_.list(d.sections)) decl(s, depth + 1);
       if (d.body_kind == BodyKind::Native) {
         line(depth + 1);
-        text += "native";
+        out += "native";
       }
       if (d.body_kind == BodyKind::Cpp) {
         line(depth + 1);
-        text += "cpp";
+        out += "cpp";
       }
       if (d.body_kind == BodyKind::Il) {
         line(depth + 1);
-        text += "instructions";
+        out += "instructions";
         instructions(d.il, depth + 2);
       }
       if (d.body_kind == BodyKind::Sfc) {
         line(depth + 1);
-        text += "chart";
+        out += "chart";
         chart(d, depth + 2);
       }
       if (d.body_kind == BodyKind::Network) {
         static const char* const kLanguages[] = {"networks ld", "networks fbd", "networks cfc"};
         line(depth + 1);
-        text += kLanguages[static_cast<size_t>(d.diagram.language)];
+        out += kLanguages[static_cast<size_t>(d.diagram.language)];
         for (const DiagramElement& e : tree_.list(d.diagram.elements)) element(d.diagram, e, depth + 2);
       }
       if (!d.body.empty()) {
         line(depth + 1);
-        text += "body";
+        out += "body";
         stmts(d.body, depth + 2);
       }
       for (DeclId m : tree_.list(d.members)) decl(m, depth + 1);
@@ -599,7 +599,7 @@ void Printer::decl(DeclId id, int depth) {
     }
     case DeclKind::Property: {
       const auto& d = tree_.as<PropertyDecl>(id);
-      text += ' ';
+      out += ' ';
       name(d.name);
       modifiers(d.access, d.modifiers);
       pragmas(h);
@@ -607,28 +607,28 @@ void Printer::decl(DeclId id, int depth) {
       for (const DeclId accessor : {d.get, d.set}) {
         if (!accessor) continue;
         line(depth + 1);
-        text += accessor == d.get ? "get" : "set";
+        out += accessor == d.get ? "get" : "set";
         decl(accessor, depth + 2);
       }
       break;
     }
     case DeclKind::Namespace: {
       const auto& d = tree_.as<NamespaceDecl>(id);
-      text += ' ';
+      out += ' ';
       path(d.path, ".");
-      if ((h.bits & kInternal) != 0) text += " internal";
+      if ((h.bits & kInternal) != 0) out += " internal";
       for (DeclId m : tree_.list(d.decls)) decl(m, depth + 1);
       break;
     }
     case DeclKind::Using:
-      text += ' ';
+      out += ' ';
       path(tree_.as<UsingDecl>(id).path, ".");
       break;
     case DeclKind::Section: {
       const auto& d = tree_.as<SectionDecl>(id);
       static const char* const kSections[] = {" local",  " input", " output", " in_out", " temp",  " external",
                                               " global", " stat",  " inst",   " access", " config"};
-      text += kSections[static_cast<size_t>(d.section)];
+      out += kSections[static_cast<size_t>(d.section)];
       bits(h.bits);
       modifiers(d.access, 0);
       pragmas(h);
@@ -637,16 +637,16 @@ void Printer::decl(DeclId id, int depth) {
     }
     case DeclKind::Var: {
       const auto& d = tree_.as<VarDecl>(id);
-      if (!d.names.empty()) text += ' ';
+      if (!d.names.empty()) out += ' ';
       path(d.names, ", ");
       if (d.located) {
-        text += " at ";
+        out += " at ";
         address(d.address);
       }
-      if (d.edge != EdgeKind::None) text += d.edge == EdgeKind::Rising ? " r_edge" : " f_edge";
+      if (d.edge != EdgeKind::None) out += d.edge == EdgeKind::Rising ? " r_edge" : " f_edge";
       pragmas(h);
       if (d.init) {
-        text += " := ";
+        out += " := ";
         expr(d.init);
       }
       typeExpr(d.type, depth + 1);
@@ -654,37 +654,37 @@ void Printer::decl(DeclId id, int depth) {
     }
     case DeclKind::Configuration: {
       const auto& d = tree_.as<ConfigurationDecl>(id);
-      text += ' ';
+      out += ' ';
       name(d.name);
       for (DeclId m : tree_.list(d.members)) decl(m, depth + 1);
       break;
     }
     case DeclKind::Resource: {
       const auto& d = tree_.as<ResourceDecl>(id);
-      text += ' ';
+      out += ' ';
       name(d.name);
-      text += " on ";
+      out += " on ";
       name(d.target);
       for (DeclId m : tree_.list(d.members)) decl(m, depth + 1);
       break;
     }
     case DeclKind::Task: {
       const auto& d = tree_.as<TaskDecl>(id);
-      text += ' ';
+      out += ' ';
       name(d.name);
       arguments(d.settings, 0);
       break;
     }
     case DeclKind::ProgramInstance: {
       const auto& d = tree_.as<ProgramInstanceDecl>(id);
-      text += ' ';
+      out += ' ';
       name(d.name);
       bits(d.section_bits);
       if (d.task.name) {
-        text += " with ";
+        out += " with ";
         name(d.task.name);
       }
-      text += " of ";
+      out += " of ";
       path(d.type, ".");
       arguments(d.arguments, 0);
       break;
@@ -693,10 +693,10 @@ void Printer::decl(DeclId id, int depth) {
 }
 
 void Printer::idents(const char* before, Slice<Ident> list) {
-  text += before;
+  out += before;
   for (const Ident& ident : tree_.list(list)) {
-    text += ' ';
-    text += names_.text(ident.name);
+    out += ' ';
+    out += names_.string(ident.name);
   }
 }
 
@@ -705,20 +705,20 @@ void Printer::chart(const PouDecl& d, int depth) {
                                             "p1", "sd", "ds", "sl", "entry", "active", "exit"};
   for (const SfcStep& step : tree_.list(d.steps)) {
     line(depth);
-    text += step.initial ? "initial_step " : "step ";
-    text += names_.text(step.name.name);
+    out += step.initial ? "initial_step " : "step ";
+    out += names_.string(step.name.name);
     for (const SfcExpr* limit : {&step.min, &step.max}) {
       if (!limit->value) continue;
-      text += limit == &step.min ? " min " : " max ";
+      out += limit == &step.min ? " min " : " max ";
       expr(limit->value);
     }
     for (const SfcAssociation& a : tree_.list(step.actions)) {
       line(depth + 1);
-      text += kQualifiers[static_cast<size_t>(a.qualifier)];
-      text += ' ';
-      text += names_.text(a.action.name);
+      out += kQualifiers[static_cast<size_t>(a.qualifier)];
+      out += ' ';
+      out += names_.string(a.action.name);
       if (a.time.value) {
-        text += ' ';
+        out += ' ';
         expr(a.time.value);
       }
       if (!a.indicators.empty()) idents(" shows", a.indicators);
@@ -726,55 +726,55 @@ void Printer::chart(const PouDecl& d, int depth) {
   }
   for (const SfcTransition& t : tree_.list(d.transitions)) {
     line(depth);
-    text += "transition";
+    out += "transition";
     if (t.name.name) {
-      text += ' ';
-      text += names_.text(t.name.name);
+      out += ' ';
+      out += names_.string(t.name.name);
     }
-    if (t.has_priority) text += " priority " + std::to_string(t.priority);
+    if (t.has_priority) out += " priority " + std::to_string(t.priority);
     idents(" from", t.from);
     idents(" to", t.to);
     if (!t.condition.value) continue;
-    text += ' ';
+    out += ' ';
     expr(t.condition.value);
   }
 }
 
-template <class Marked>
-void Printer::marks(const Marked& marked) {
-  if (marked.negated) text += " not";
-  if (marked.edge != EdgeKind::None) text += marked.edge == EdgeKind::Rising ? " rising" : " falling";
-  if (marked.storage != PinStorage::None) text += marked.storage == PinStorage::Set ? " set" : " reset";
+template <class Modifiable>
+void Printer::modifiers(const Modifiable& element) {
+  if (element.negated) out += " not";
+  if (element.edge != EdgeKind::None) out += element.edge == EdgeKind::Rising ? " rising" : " falling";
+  if (element.storage != PinStorage::None) out += element.storage == PinStorage::Set ? " set" : " reset";
 }
 
 // A wire is the number of the element that it comes from.
 void Printer::element(const Diagram& diagram, const DiagramElement& e, int depth) {
-  static const char* const kWords[] = {"rail",   "right_rail", "contact",   "coil",         "box",    "input",
-                                       "output", "inout",      "connector", "continuation", "jump",   "label",
-                                       "return", "execute",    "compose",   "select",       "comment"};
+  static const char* const kKeywords[] = {"rail",   "right_rail", "contact",   "coil",         "box",    "input",
+                                          "output", "inout",      "connector", "continuation", "jump",   "label",
+                                          "return", "execute",    "compose",   "select",       "comment"};
   line(depth);
-  text += kWords[static_cast<size_t>(e.kind)];
-  text += ' ' + std::to_string(e.number);
-  if (e.network != 0) text += " network " + std::to_string(tree_.list(diagram.networks)[e.network - 1].number);
-  if (e.order != 0) text += " order " + std::to_string(e.order);
+  out += kKeywords[static_cast<size_t>(e.kind)];
+  out += ' ' + std::to_string(e.number);
+  if (e.network != 0) out += " network " + std::to_string(tree_.list(diagram.networks)[e.network - 1].number);
+  if (e.order != 0) out += " order " + std::to_string(e.order);
   for (const ExprId part : {e.path, e.operand}) {
     if (!part) continue;
-    text += ' ';
+    out += ' ';
     expr(part);
   }
-  marks(e);
+  modifiers(e);
   for (const DiagramPin& pin : tree_.list(e.pins)) {
     static const char* const kDirections[] = {"in", "out", "in_out"};
     line(depth + 1);
-    text += kDirections[static_cast<size_t>(pin.direction)];
+    out += kDirections[static_cast<size_t>(pin.direction)];
     if (pin.name.name) {
-      text += ' ';
+      out += ' ';
       name(pin.name.name);
     }
-    marks(pin);
+    modifiers(pin);
     for (const DiagramWire& wire : tree_.list(pin.wires)) {
-      text += " from " + std::to_string(tree_.list(diagram.elements)[wire.from].number);
-      if (wire.pin.name) text += '.' + std::string(names_.text(wire.pin.name));
+      out += " from " + std::to_string(tree_.list(diagram.elements)[wire.from].number);
+      if (wire.pin.name) out += '.' + std::string(names_.string(wire.pin.name));
     }
   }
   if (!e.body.empty()) stmts(e.body, depth + 1);
@@ -785,8 +785,8 @@ void Printer::element(const Diagram& diagram, const DiagramElement& e, int depth
 std::string printTree(const Tree& tree, const Names& names, const FileUnit& unit) {
   Printer printer(tree, names);
   for (DeclId d : tree.list(unit.decls)) printer.decl(d, 0);
-  printer.text += '\n';
-  return std::move(printer.text);
+  printer.out += '\n';
+  return std::move(printer.out);
 }
 
 }  // namespace rung

@@ -108,7 +108,7 @@ const Declared::Row* Declared::find(std::string_view kind, std::string_view name
 
 bool Declared::hasAttribute(const Row& row, std::string_view attribute) const {
   for (const Pragma& pragma : tree_.list(row.pragmas))
-    if (sameIdentifier(names_.text(pragma.name), attribute)) return true;
+    if (sameIdentifier(names_.string(pragma.name), attribute)) return true;
   return false;
 }
 
@@ -130,7 +130,7 @@ class FileConditions {
  public:
   FileConditions(std::string_view text, Loc base, std::vector<Define> defines, Dialect dialect,
                  const Declared* declared, Diagnostics& diagnostics)
-      : text_(text),
+      : source_(text),
         base_(base),
         defines_(std::move(defines)),
         dialect_(dialect),
@@ -174,7 +174,7 @@ class FileConditions {
   bool quoted(std::string_view& out);
   Truth failed();
 
-  std::string_view text_;
+  std::string_view source_;
   Loc base_;
   std::vector<Define> defines_;
   Dialect dialect_;
@@ -191,10 +191,10 @@ constexpr uint32_t kMaxConditionDepth = 100;
 
 void FileConditions::run() {
   size_t at = 0;
-  while (at < text_.size()) {
-    const char c = text_[at], next = at + 1 < text_.size() ? text_[at + 1] : '\0';
+  while (at < source_.size()) {
+    const char c = source_[at], next = at + 1 < source_.size() ? source_[at + 1] : '\0';
     if (c == '/' && next == '/') {
-      at = std::min(text_.find('\n', at), text_.size());
+      at = std::min(source_.find('\n', at), source_.size());
     } else if ((c == '(' || c == '/') && next == '*') {
       at = skipComment(at);
     } else if (c == '\'' || c == '"') {
@@ -206,46 +206,46 @@ void FileConditions::run() {
     }
   }
   for (const Open& open : open_) diagnostics_.report(diag::ConditionNotClosed, loc(open.at)).length(1);
-  if (!reads()) blanks.push_back({static_cast<uint32_t>(blank_from_), static_cast<uint32_t>(text_.size())});
+  if (!reads()) blanks.push_back({static_cast<uint32_t>(blank_from_), static_cast<uint32_t>(source_.size())});
 }
 
 size_t FileConditions::skipComment(size_t at) const {
-  const char open = text_[at], close = open == '(' ? ')' : '/';
+  const char open = source_[at], close = open == '(' ? ')' : '/';
   uint32_t depth = 0;
-  while (at + 1 < text_.size()) {
-    if (text_[at] == open && text_[at + 1] == '*' && (depth == 0 || dialect_ != Dialect::Iec2)) {
+  while (at + 1 < source_.size()) {
+    if (source_[at] == open && source_[at + 1] == '*' && (depth == 0 || dialect_ != Dialect::Iec2)) {
       ++depth;
       at += 2;
-    } else if (text_[at] == '*' && text_[at + 1] == close) {
+    } else if (source_[at] == '*' && source_[at + 1] == close) {
       at += 2;
       if (--depth == 0) return at;
     } else {
       ++at;
     }
   }
-  return text_.size();
+  return source_.size();
 }
 
 // A text ends on its line; `$'` does not end it.
 size_t FileConditions::skipQuoted(size_t at) const {
-  const char quote = text_[at++];
-  while (at < text_.size() && text_[at] != quote && text_[at] != '\n') at += text_[at] == '$' ? 2 : 1;
-  return std::min(at < text_.size() && text_[at] == '\n' ? at : at + 1, text_.size());
+  const char quote = source_[at++];
+  while (at < source_.size() && source_[at] != quote && source_[at] != '\n') at += source_[at] == '$' ? 2 : 1;
+  return std::min(at < source_.size() && source_[at] == '\n' ? at : at + 1, source_.size());
 }
 
 // Gives the place behind it.
 size_t FileConditions::pragma(size_t at) {
-  size_t end = endOfDoubleBrace(text_, at);
+  size_t end = endOfDoubleBrace(source_, at);
   if (end != std::string_view::npos) return end;
   end = at + 1;
-  while (end < text_.size() && text_[end] != '}') {
-    if (text_[end] == '\'' || text_[end] == '"') {
-      const size_t close = text_.find_first_of(std::string_view(text_[end] == '"' ? "\"\n" : "'\n", 2), end + 1);
-      if (close != std::string_view::npos && text_[close] == text_[end]) end = close;
+  while (end < source_.size() && source_[end] != '}') {
+    if (source_[end] == '\'' || source_[end] == '"') {
+      const size_t close = source_.find_first_of(std::string_view(source_[end] == '"' ? "\"\n" : "'\n", 2), end + 1);
+      if (close != std::string_view::npos && source_[close] == source_[end]) end = close;
     }
     ++end;
   }
-  if (end >= text_.size()) return at + 1;  // the lexer says so
+  if (end >= source_.size()) return at + 1;  // the lexer says so
   p_ = at + 1;
   pragma_end_ = end;
   const bool read = reads();
@@ -267,7 +267,7 @@ void FileConditions::choose(Open& open, Truth value) {
 // False: a pragma of another kind, which stays.
 bool FileConditions::directive(uint32_t at) {
   const std::string_view name = word();
-  if (holdsC(text_.substr(at + 1, pragma_end_ - at - 1)) && !sameIdentifier(name, "define")) return false;
+  if (holdsC(source_.substr(at + 1, pragma_end_ - at - 1)) && !sameIdentifier(name, "define")) return false;
   const bool is_if = sameIdentifier(name, "IF"), is_elsif = sameIdentifier(name, "ELSIF"),
              is_else = sameIdentifier(name, "ELSE"), is_end = sameIdentifier(name, "END_IF"),
              is_define = sameIdentifier(name, "define"), is_undefine = sameIdentifier(name, "undefine");
@@ -304,7 +304,7 @@ void FileConditions::define(bool set) {
   const std::string_view name = word();
   skipBlanks();
   std::string_view value;
-  if (!quoted(value)) value = text_.substr(p_, pragma_end_ - p_);
+  if (!quoted(value)) value = source_.substr(p_, pragma_end_ - p_);
   while (!value.empty() && static_cast<unsigned char>(value.back()) <= ' ') value.remove_suffix(1);
   if (name.empty()) {
     failed();
@@ -323,29 +323,29 @@ const Define* FileConditions::find(std::string_view name) const {
 // ---- conditions
 
 void FileConditions::skipBlanks() {
-  while (p_ < pragma_end_ && static_cast<unsigned char>(text_[p_]) <= ' ') ++p_;
+  while (p_ < pragma_end_ && static_cast<unsigned char>(source_[p_]) <= ' ') ++p_;
 }
 
 std::string_view FileConditions::word() {
   skipBlanks();
   const size_t begin = p_;
-  while (p_ < pragma_end_ && isWordChar(text_[p_])) ++p_;
-  return text_.substr(begin, p_ - begin);
+  while (p_ < pragma_end_ && isWordChar(source_[p_])) ++p_;
+  return source_.substr(begin, p_ - begin);
 }
 
 bool FileConditions::accept(char c) {
   skipBlanks();
-  if (p_ >= pragma_end_ || text_[p_] != c) return false;
+  if (p_ >= pragma_end_ || source_[p_] != c) return false;
   ++p_;
   return true;
 }
 
 bool FileConditions::quoted(std::string_view& out) {
   skipBlanks();
-  if (p_ >= pragma_end_ || (text_[p_] != '\'' && text_[p_] != '"')) return false;
-  const size_t close = text_.find(text_[p_], p_ + 1);
+  if (p_ >= pragma_end_ || (source_[p_] != '\'' && source_[p_] != '"')) return false;
+  const size_t close = source_.find(source_[p_], p_ + 1);
   if (close >= pragma_end_) return false;
-  out = text_.substr(p_ + 1, close - p_ - 1);
+  out = source_.substr(p_ + 1, close - p_ - 1);
   p_ = close + 1;
   return true;
 }
@@ -480,11 +480,11 @@ void applyConditions(Sources& sources, std::span<const FileId> files, std::span<
                      Diagnostics& diagnostics) {
   std::vector<FileId> with;
   for (const FileId file : files)
-    if (mayHaveConditions(sources.text(file))) with.push_back(file);
+    if (mayHaveConditions(sources.sourceText(file))) with.push_back(file);
   if (with.empty()) return;
 
   const auto evaluate = [&](FileId file, const Declared* declared, Diagnostics& to) {
-    FileConditions conditions(sources.text(file), sources.begin(file), {defines.begin(), defines.end()}, dialect,
+    FileConditions conditions(sources.sourceText(file), sources.begin(file), {defines.begin(), defines.end()}, dialect,
                               declared, to);
     conditions.run();
     return conditions;
@@ -496,14 +496,14 @@ void applyConditions(Sources& sources, std::span<const FileId> files, std::span<
   for (const FileId file : with) {
     const FileConditions conditions = evaluate(file, nullptr, silent);
     asked |= conditions.asked;
-    texts[file.index] = blanked(sources.text(file), conditions.blanks);
+    texts[file.index] = blanked(sources.sourceText(file), conditions.blanks);
   }
   Sources scratch;  // the same files at the same places
   Tree tree;
   Names names;
   if (asked) {
     for (uint32_t i = 1; i < texts.size(); ++i) {
-      if (texts[i].empty()) texts[i] = sources.text(FileId{i});
+      if (texts[i].empty()) texts[i] = sources.sourceText(FileId{i});
       scratch.add(std::string(sources.path(FileId{i})), std::move(texts[i]));
     }
     Diagnostics dropped(scratch);
@@ -512,7 +512,7 @@ void applyConditions(Sources& sources, std::span<const FileId> files, std::span<
   const Declared declared(tree, names, scratch);
   for (const FileId file : with) {
     const FileConditions conditions = evaluate(file, &declared, diagnostics);
-    sources.activate(file, blanked(sources.text(file), conditions.blanks));
+    sources.activate(file, blanked(sources.sourceText(file), conditions.blanks));
   }
 }
 

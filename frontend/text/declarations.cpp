@@ -48,7 +48,7 @@ Slice<Pragma> Parser::takePragmas() {
   if ((t_->flags & kPragma) == 0) return {};
   const auto& all = stream_.pragmas;
   auto it = std::lower_bound(all.begin(), all.end(), t_->offset,
-                             [](const PragmaText& p, uint32_t offset) { return p.token_offset < offset; });
+                             [](const PragmaRange& p, uint32_t offset) { return p.token_offset < offset; });
   std::vector<Pragma> list;
   for (; it != all.end() && it->token_offset == t_->offset; ++it) list.push_back(readPragma(*it));
   return tree_.addList<Pragma>(list);
@@ -56,8 +56,8 @@ Slice<Pragma> Parser::takePragmas() {
 
 // {name}  {name 'value'}  {name := 'value'}  {name: "value"}  {attribute 'name' := 'value'}; anything else is a name
 // and the rest as it stands.
-Pragma Parser::readPragma(const PragmaText& pragma) {
-  std::string_view rest = text_.substr(pragma.begin + 1, pragma.end - pragma.begin - 2);
+Pragma Parser::readPragma(const PragmaRange& pragma) {
+  std::string_view rest = source_.substr(pragma.begin + 1, pragma.end - pragma.begin - 2);
   const auto skip = [&] {
     while (!rest.empty() && (static_cast<unsigned char>(rest.front()) <= ' ')) rest.remove_prefix(1);
     while (!rest.empty() && (static_cast<unsigned char>(rest.back()) <= ' ')) rest.remove_suffix(1);
@@ -96,12 +96,12 @@ Pragma Parser::readPragma(const PragmaText& pragma) {
     skip();
   }
   if (!quoted(value)) value = rest;
-  return {names_.intern(name), tree_.addText(value), Loc{base_ + pragma.begin}};
+  return {names_.intern(name), tree_.addString(value), Loc{base_ + pragma.begin}};
 }
 
 bool Parser::pragmaNamed(Slice<Pragma> pragmas, std::string_view name) const {
   for (const Pragma& p : const_cast<const Tree&>(tree_).list(pragmas))
-    if (sameIdentifier(names_.text(p.name), name)) return true;
+    if (sameIdentifier(names_.string(p.name), name)) return true;
   return false;
 }
 
@@ -109,15 +109,15 @@ Loc Parser::takeDoc() {
   if ((t_->flags & kDoc) == 0) return {};
   const auto& all = stream_.docs;
   const auto it = std::lower_bound(all.begin(), all.end(), t_->offset,
-                                   [](const DocText& d, uint32_t offset) { return d.token_offset < offset; });
+                                   [](const DocRange& d, uint32_t offset) { return d.token_offset < offset; });
   return it != all.end() && it->token_offset == t_->offset ? Loc{base_ + it->begin} : Loc{};
 }
 
-Loc Parser::docBehind(const Token* t) const {
+Loc Parser::docAfter(const Token* t) const {
   if ((t->flags & kDocAfter) == 0) return {};
   const auto& all = stream_.docs_after;
   const auto it = std::lower_bound(all.begin(), all.end(), t->offset,
-                                   [](const DocText& d, uint32_t offset) { return d.token_offset < offset; });
+                                   [](const DocRange& d, uint32_t offset) { return d.token_offset < offset; });
   return it != all.end() && it->token_offset == t->offset ? Loc{base_ + it->begin} : Loc{};
 }
 
@@ -195,8 +195,8 @@ DeclId Parser::parseSection() {
   }
   // CONSTNAT on the line of the section
   if (at(Tok::Ident) && !atLineStart() && (t_[1].flags & kLineStart) != 0) {
-    static constexpr Tok kWords[] = {Tok::Constant, Tok::Retain, Tok::NonRetain, Tok::Persistent};
-    if (const Tok meant = nearKeyword(t_, kWords); meant != Tok::End) {
+    static constexpr Tok kKeywords[] = {Tok::Constant, Tok::Retain, Tok::NonRetain, Tok::Persistent};
+    if (const Tok meant = nearKeyword(t_, kKeywords); meant != Tok::End) {
       respell(meant);
       d.h.bits |= meant == Tok::Constant     ? kConstant
                   : meant == Tok::Retain     ? kRetain
@@ -210,7 +210,7 @@ DeclId Parser::parseSection() {
   if (accept(Tok::EndVar)) {
     accept(Tok::Semicolon);
   } else {
-    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    const std::string line = std::to_string(sources_.location(loc(open)).line);
     missing(diag::MissingEnd, {"END_VAR", spelling(open->kind), line});
   }
   d.vars = listFrom(decls_, first);
@@ -276,8 +276,8 @@ DeclId Parser::parseVar(SectionKind section) {
     if (at(Tok::Address) && in_structure_) {
       // AT %I*: a place in the image that nobody has named; AT %B0: a place in the structure
       if (dialect_ == Dialect::Codesys && textOf(t_).ends_with('*')) {
-        if (!address_told_) diagnostics_.report(diag::OpenAddressInStructure, here(), {textOf(t_)});
-        address_told_ = true;
+        if (!address_reported_) diagnostics_.report(diag::OpenAddressInStructure, here(), {textOf(t_)});
+        address_reported_ = true;
       } else if (textOf(t_).ends_with('*')) {
         d.located = true;
         d.address_loc = here();
@@ -351,14 +351,14 @@ DeclId Parser::parseVar(SectionKind section) {
       d.init = parseInit();
     } else if (accept(Tok::Assign)) {
       d.init = parseDeclaredInit(d.type);
-    } else if ((at(Tok::Number) || at(Tok::True) || at(Tok::False) || at(Tok::Text) || at(Tok::Duration)) &&
+    } else if ((at(Tok::Number) || at(Tok::True) || at(Tok::False) || at(Tok::StringLiteral) || at(Tok::Duration)) &&
                !atLineStart()) {
       slip(diag::MissingToken, t_, {":=", describe(t_)});
       d.init = parseInit();
     }
   }
   if (!panic_ && at(Tok::Semicolon)) {
-    if (!d.h.doc) d.h.doc = docBehind(t_);
+    if (!d.h.doc) d.h.doc = docAfter(t_);
     advance();
   } else {
     if (!panic_) {
@@ -399,19 +399,19 @@ void Parser::readRelativeAddress(VarDecl& d) {
   d.address_loc = here();
   d.address.size = text.size() > 1 ? static_cast<char>(text[1] & ~0x20) : ' ';
   numbers_.clear();
-  bool good = std::string_view("XBWDL").find(d.address.size) != std::string_view::npos && text.size() > 2;
-  for (size_t i = 2; good && i < text.size();) {
+  bool ok = std::string_view("XBWDL").find(d.address.size) != std::string_view::npos && text.size() > 2;
+  for (size_t i = 2; ok && i < text.size();) {
     uint32_t number = 0;
     const auto read = std::from_chars(text.data() + i, text.data() + text.size(), number);
-    good = read.ec == std::errc{} && number < (1u << 24);
+    ok = read.ec == std::errc{} && number < (1u << 24);
     numbers_.push_back(number);
     i = static_cast<size_t>(read.ptr - text.data());
     if (i == text.size()) break;
-    good = good && text[i] == '.' && ++i < text.size();
+    ok = ok && text[i] == '.' && ++i < text.size();
   }
   const bool bit = d.address.size == 'X';
-  good = good && !numbers_.empty() && numbers_.size() <= (bit ? 2u : 1u) && (numbers_.size() < 2 || numbers_[1] < 8);
-  if (!good) {
+  ok = ok && !numbers_.empty() && numbers_.size() <= (bit ? 2u : 1u) && (numbers_.size() < 2 || numbers_[1] < 8);
+  if (!ok) {
     fail(diag::RelativeAddress, t_, {text});
     return;
   }

@@ -149,8 +149,8 @@ ExprId Parser::parsePrimary() {
   height_ = 1;
   switch (static_cast<int>(kind())) {
     case static_cast<int>(Tok::Number): return parseNumber({}, false, start);
-    case static_cast<int>(Tok::Text):
-    case static_cast<int>(Tok::WideText): return parseText({}, start);
+    case static_cast<int>(Tok::StringLiteral):
+    case static_cast<int>(Tok::WideStringLiteral): return parseStringLiteral({}, start);
     case static_cast<int>(Tok::Duration):
     case static_cast<int>(Tok::Date):
     case static_cast<int>(Tok::TimeOfDay):
@@ -260,17 +260,17 @@ ExprId Parser::parsePostfix(ExprId base, bool calls) {
           const char size = part.size() > 2 ? static_cast<char>(part[1] & ~0x20) : '\0';
           const uint32_t width = size == 'X' ? 1 : size == 'B' ? 8 : size == 'W' ? 16 : size == 'D' ? 32 : 0;
           uint32_t position = 0;
-          bool good = width != 0 && part.size() <= 4;
-          for (char c : part.substr(good ? 2 : part.size())) {
-            good = good && c >= '0' && c <= '9';
+          bool ok = width != 0 && part.size() <= 4;
+          for (char c : part.substr(ok ? 2 : part.size())) {
+            ok = ok && c >= '0' && c <= '9';
             position = position * 10 + static_cast<uint32_t>(c - '0');
           }
-          good = good && bit.size() <= 2 && bit.find_first_not_of("0123456789") == std::string_view::npos;
-          good = good && token.size() == part.size() + (bit.empty() ? 0 : bit.size() + 1);
-          if (!good) fail(diag::AddressForm, t_, {token});
-          base = tree_.add<ExprId>(BitAccessExpr{exprHeader(ExprKind::BitAccess, at_member), base, good ? position : 0,
-                                                 static_cast<uint8_t>(good ? width : 1)});
-          if (good && !bit.empty()) {
+          ok = ok && bit.size() <= 2 && bit.find_first_not_of("0123456789") == std::string_view::npos;
+          ok = ok && token.size() == part.size() + (bit.empty() ? 0 : bit.size() + 1);
+          if (!ok) fail(diag::AddressForm, t_, {token});
+          base = tree_.add<ExprId>(BitAccessExpr{exprHeader(ExprKind::BitAccess, at_member), base, ok ? position : 0,
+                                                 static_cast<uint8_t>(ok ? width : 1)});
+          if (ok && !bit.empty()) {
             uint32_t number = 0;
             for (const char c : bit) number = number * 10 + static_cast<uint32_t>(c - '0');
             const Loc at_bit = Loc{at_member.offset + static_cast<uint32_t>(part.size()) + 1};
@@ -334,7 +334,8 @@ ExprId Parser::parsePostfix(ExprId base, bool calls) {
 }
 
 bool Parser::isNew(ExprId callee) const {
-  return tree_.kind(callee) == ExprKind::Name && sameIdentifier(names_.text(tree_.as<NameExpr>(callee).name), "__NEW");
+  return tree_.kind(callee) == ExprKind::Name &&
+         sameIdentifier(names_.string(tree_.as<NameExpr>(callee).name), "__NEW");
 }
 
 // new = "__NEW" "(" type ["," expr] ")"
@@ -344,7 +345,7 @@ ExprId Parser::parseNew(ExprId callee) {
   advance();
   const bool was_in_variable = in_variable_;
   in_variable_ = true;  // what stands behind a block's name are arguments of FB_Init
-  node.what = parseType();
+  node.allocated = parseType();
   in_variable_ = was_in_variable;
   if (!panic_ && accept(Tok::Comma)) node.count = parseExpr();
   closeParen(Tok::RightParen, false);
@@ -549,7 +550,7 @@ ExprId Parser::parseTyped() {
     advance();
   }
   if (at(Tok::Number)) return parseNumber(prefix, negative, start);
-  if (at(Tok::Text) || at(Tok::WideText)) return parseText(prefix, start);
+  if (at(Tok::StringLiteral) || at(Tok::WideStringLiteral)) return parseStringLiteral(prefix, start);
   if (at(Tok::True) || at(Tok::False)) {
     const bool value = at(Tok::True);
     if (isTypeWord(type->kind) && type->kind != Tok::Bool) {
@@ -610,39 +611,39 @@ ExprId Parser::parseNumber(NameId prefix, bool negative, Loc start) {
 }
 
 // The texts of edition 4 and its short prefixes, with the word whose quotes they take.
-struct TextPrefix {
+struct StringPrefix {
   const char* word;
   const char* type;
   Tok quotes;
 };
-static constexpr TextPrefix kTextPrefixes[] = {
+static constexpr StringPrefix kStringPrefixes[] = {
     {"S", "STRING", Tok::String},  {"W", "WSTRING", Tok::Wstring},      {"U", "USTRING", Tok::String},
     {"C", "CHAR", Tok::Char},      {"WC", "WCHAR", Tok::Wchar},         {"UC", "UCHAR", Tok::Char},
     {"UCHAR", "UCHAR", Tok::Char}, {"USTRING", "USTRING", Tok::String},
 };
 
-ExprId Parser::parseText(NameId prefix, Loc start) {
+ExprId Parser::parseStringLiteral(NameId prefix, Loc start) {
   const Token* token = t_;
   advance();
-  bool wide = token->kind == Tok::WideText;
+  bool wide = token->kind == Tok::WideStringLiteral;
   if ((token->flags & kReported) != 0) last_error_ = token;
   if (prefix) {
     Tok type = token[-2].kind;
-    for (const TextPrefix& row : kTextPrefixes) {
+    for (const StringPrefix& row : kStringPrefixes) {
       if (!is(token - 2, row.word)) continue;
       prefix = names_.intern(row.type);
       type = row.quotes;
     }
     const bool double_byte = type == Tok::Wstring || type == Tok::Wchar;  // with either quote: ed. 3 table 6, 4c and 4d
-    const bool good = type == Tok::String || type == Tok::Char ? !wide : double_byte || !isTypeWord(type);
+    const bool ok = type == Tok::String || type == Tok::Char ? !wide : double_byte || !isTypeWord(type);
     wide = wide || double_byte;
-    if (!good) {
+    if (!ok) {
       slip(diag::LiteralPrefix, token, {textOf(token), textOf(token - 2)});
       return errorExpr(start);
     }
   }
   readString(textOf(token), wide, loc(token), diagnostics_, buffer_);
-  const TextId text = tree_.addText(buffer_);
+  const StringId text = tree_.addString(buffer_);
   return tree_.add<ExprId>(LiteralExpr{
       exprHeader(ExprKind::Literal, start, static_cast<uint8_t>(wide ? LiteralKind::WString : LiteralKind::String)),
       prefix, text.first, text.length});
@@ -652,14 +653,14 @@ ExprId Parser::parseTime() {
   const Token* token = t_;
   advance();
   TimeValue value;
-  bool good = false;
+  bool ok = false;
   switch (static_cast<int>(token->kind)) {
-    case static_cast<int>(Tok::Duration): good = readDuration(textOf(token), loc(token), diagnostics_, value); break;
-    case static_cast<int>(Tok::Date): good = readDate(textOf(token), loc(token), diagnostics_, value); break;
-    case static_cast<int>(Tok::TimeOfDay): good = readTimeOfDay(textOf(token), loc(token), diagnostics_, value); break;
-    default: good = readDateTime(textOf(token), loc(token), diagnostics_, value); break;
+    case static_cast<int>(Tok::Duration): ok = readDuration(textOf(token), loc(token), diagnostics_, value); break;
+    case static_cast<int>(Tok::Date): ok = readDate(textOf(token), loc(token), diagnostics_, value); break;
+    case static_cast<int>(Tok::TimeOfDay): ok = readTimeOfDay(textOf(token), loc(token), diagnostics_, value); break;
+    default: ok = readDateTime(textOf(token), loc(token), diagnostics_, value); break;
   }
-  if (!good) {
+  if (!ok) {
     last_error_ = token;
     return errorExpr(loc(token));
   }

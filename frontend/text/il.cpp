@@ -255,12 +255,12 @@ void Parser::parseInstruction() {
     fail(diag::NotAnInstruction, t_, {describe(t_)});
     i.kind = IlKind::Load;  // of what nobody knows
   }
-  if (panic_) mend(i);
+  if (panic_) resynchronize(i);
   if (i.kind != IlKind::Label || i.label.name) il_.push_back(i);
 }
 
 // What is wrong in it has been said; what follows from it is no second mistake.
-void Parser::mend(IlInstruction& i) {
+void Parser::resynchronize(IlInstruction& i) {
   if (i.kind == IlKind::Jump || i.kind == IlKind::Call) i.kind = IlKind::Label;  // its label is one all the same
   if (i.kind == IlKind::Label || !i.operands.empty() || (i.flags & kIlDeferred) != 0) return;
   Argument a{};
@@ -273,8 +273,8 @@ void Parser::mend(IlInstruction& i) {
 void Parser::endInstruction() {
   if (!panic_ && !atLineStart() && !atBlockEnd() && !at(Tok::RightParen)) {
     if (isPlainInstruction(t_) || (il_open_.size() > 0 && isInstruction(t_))) {
-      if (!il_line_told_) diagnostics_.report(diag::InstructionsOnLine, here());
-      il_line_told_ = true;
+      if (!il_line_reported_) diagnostics_.report(diag::InstructionsOnLine, here());
+      il_line_reported_ = true;
       return;
     }
     if (isInfix(kind()))

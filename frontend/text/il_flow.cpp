@@ -8,12 +8,12 @@
 namespace rung::text {
 
 // Whether the accumulator is the first argument. It is none of f(a, b) where that is all that f takes.
-bool takesAccumulator(Shapes& shapes, const IlInstruction& i) {
+bool takesAccumulator(Signatures& signatures, const IlInstruction& i) {
   if ((i.flags & kIlFormal) != 0) return false;
-  const Shape shape = shapes.of(i.callee);
-  if (shape.kind != ShapeKind::Function && shape.kind != ShapeKind::Method) return true;
+  const Signature signature = signatures.of(i.callee);
+  if (signature.kind != SignatureKind::Function && signature.kind != SignatureKind::Method) return true;
   uint32_t inputs = 0;
-  for (const PinShape& pin : shape.pins) {
+  for (const PinSignature& pin : signature.pins) {
     if (pin.extensible) return true;
     if (pin.direction != PinDirection::Output) ++inputs;
   }
@@ -22,7 +22,7 @@ bool takesAccumulator(Shapes& shapes, const IlInstruction& i) {
 }
 
 // `CU counter`: the input of an instance that a function's name, or LD, S or R, stands for. Null: it is none.
-const NameId* inputOperator(const Tree& tree, const Names& names, Shapes& shapes, const IlInstruction& i) {
+const NameId* inputOperator(const Tree& tree, const Names& names, Signatures& signatures, const IlInstruction& i) {
   if (i.operands.count != 1 || (i.flags & ~kIlInParens) != 0) return nullptr;
   const NameId* pin = nullptr;
   if (i.kind == IlKind::Function && tree.kind(i.callee) == ExprKind::Name)
@@ -30,19 +30,19 @@ const NameId* inputOperator(const Tree& tree, const Names& names, Shapes& shapes
   else if (i.kind == IlKind::Load || i.kind == IlKind::Set || i.kind == IlKind::Reset)
     pin = &i.word;
   if (pin == nullptr) return nullptr;
-  const Shape shape = shapes.of(tree.list(i.operands)[0].value);
-  return shape.kind == ShapeKind::Instance && shape.find(names, *pin) != nullptr ? pin : nullptr;
+  const Signature signature = signatures.of(tree.list(i.operands)[0].value);
+  return signature.kind == SignatureKind::Instance && signature.find(names, *pin) != nullptr ? pin : nullptr;
 }
 
 namespace {
 
 enum class Effect : uint8_t { Passes, Reads, Replaces, Leaves, Goes };
 
-Effect effectOf(const Tree& tree, const Names& names, Shapes& shapes, const IlInstruction& i) {
+Effect effectOf(const Tree& tree, const Names& names, Signatures& signatures, const IlInstruction& i) {
   const bool conditional = (i.flags & kIlConditional) != 0;
   switch (i.kind) {
     case IlKind::Label: return Effect::Passes;
-    case IlKind::Load: return inputOperator(tree, names, shapes, i) != nullptr ? Effect::Reads : Effect::Replaces;
+    case IlKind::Load: return inputOperator(tree, names, signatures, i) != nullptr ? Effect::Reads : Effect::Replaces;
     case IlKind::Store:
     case IlKind::Set:
     case IlKind::Reset:
@@ -53,10 +53,10 @@ Effect effectOf(const Tree& tree, const Names& names, Shapes& shapes, const IlIn
     case IlKind::Return: return conditional ? Effect::Reads : Effect::Leaves;
     case IlKind::Call:
       if (conditional) return Effect::Reads;
-      return shapes.of(i.callee).has_result ? Effect::Replaces : Effect::Passes;
+      return signatures.of(i.callee).has_result ? Effect::Replaces : Effect::Passes;
     case IlKind::Function:
-      if ((i.flags & kIlFormal) != 0 && shapes.of(i.callee).kind == ShapeKind::Instance) return Effect::Passes;
-      return takesAccumulator(shapes, i) ? Effect::Reads : Effect::Replaces;
+      if ((i.flags & kIlFormal) != 0 && signatures.of(i.callee).kind == SignatureKind::Instance) return Effect::Passes;
+      return takesAccumulator(signatures, i) ? Effect::Reads : Effect::Replaces;
   }
   return Effect::Passes;
 }
@@ -72,7 +72,7 @@ void collectLabels(const Tree& tree, const Names& names, Diagnostics& diagnostic
   for (size_t n = 1; n < flow.labels.size(); ++n) {
     if (!twice(flow.labels[n - 1], flow.labels[n])) continue;
     const Ident second = tree.list(list)[flow.labels[n].second].label;
-    diagnostics.report(diag::JumpLabelTwice, second.loc, {names.text(second.name)})
+    diagnostics.report(diag::JumpLabelTwice, second.loc, {names.string(second.name)})
         .note(tree.list(list)[flow.labels[n - 1].second].label.loc, diag::DeclaredHere);
   }
   flow.labels.erase(std::unique(flow.labels.begin(), flow.labels.end(), twice), flow.labels.end());
@@ -88,8 +88,8 @@ uint32_t IlFlow::labelOf(const Names& names, const Ident& target) const {
 
 // Each instruction that neither reads nor replaces the accumulator leads to one other, so that the answers are found by
 // following that chain, each link once.
-IlFlow flowOf(const Tree& tree, const Names& names, Diagnostics& diagnostics, Shapes& shapes, Slice<IlInstruction> list,
-              bool nested) {
+IlFlow flowOf(const Tree& tree, const Names& names, Diagnostics& diagnostics, Signatures& signatures,
+              Slice<IlInstruction> list, bool nested) {
   constexpr uint32_t kOpen = kNoInstruction - 1, kBusy = kNoInstruction - 2;
   IlFlow flow;
   collectLabels(tree, names, diagnostics, list, flow);
@@ -116,7 +116,7 @@ IlFlow flowOf(const Tree& tree, const Names& names, Diagnostics& diagnostics, Sh
   for (uint32_t k = 0; k < list.count; ++k) {
     const IlInstruction i = tree.list(list)[k];
     const uint32_t target = i.kind == IlKind::Jump ? flow.labelOf(names, i.target) : kNoInstruction;
-    switch (effectOf(tree, names, shapes, i)) {
+    switch (effectOf(tree, names, signatures, i)) {
       case Effect::Reads: flow.reader[k] = k; break;
       case Effect::Replaces:
       case Effect::Leaves: flow.reader[k] = kNoInstruction; break;

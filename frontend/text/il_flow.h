@@ -1,5 +1,5 @@
 // Where the accumulator of an instruction list is read, which instructions are reached, and where labels are. In: the
-// instructions, and the shapes of what they call. Called by il_schedule.cpp before it makes statements of them.
+// instructions, and the signatures of what they call. Called by il_schedule.cpp before it makes statements of them.
 #pragma once
 
 #include <utility>
@@ -7,7 +7,7 @@
 
 #include "frontend/source/diagnostics.h"
 #include "frontend/syntax/il.h"
-#include "frontend/syntax/shapes.h"
+#include "frontend/syntax/signatures.h"
 #include "frontend/syntax/tree.h"
 
 namespace rung::text {
@@ -27,12 +27,12 @@ struct IlFlow {
 };
 
 // Reports labels that stand twice.
-IlFlow flowOf(const Tree& tree, const Names& names, Diagnostics& diagnostics, Shapes& shapes, Slice<IlInstruction> list,
-              bool nested);
+IlFlow flowOf(const Tree& tree, const Names& names, Diagnostics& diagnostics, Signatures& signatures,
+              Slice<IlInstruction> list, bool nested);
 
 // Whether the accumulator is the first argument of a function.
-bool takesAccumulator(Shapes& shapes, const IlInstruction& i);
+bool takesAccumulator(Signatures& signatures, const IlInstruction& i);
 // `CU counter`: the input of an instance that a function's name, or LD, S or R, stands for. Null: it is none.
-const NameId* inputOperator(const Tree& tree, const Names& names, Shapes& shapes, const IlInstruction& i);
+const NameId* inputOperator(const Tree& tree, const Names& names, Signatures& signatures, const IlInstruction& i);
 
 }  // namespace rung::text

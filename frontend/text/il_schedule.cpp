@@ -23,8 +23,8 @@ constexpr uint16_t kMaxHeight = 200;
 
 class IlScheduler {
  public:
-  IlScheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Shapes& shapes, bool short_circuit)
-      : tree_(tree), names_(names), diagnostics_(diagnostics), shapes_(shapes), short_circuit_(short_circuit) {}
+  IlScheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures, bool short_circuit)
+      : tree_(tree), names_(names), diagnostics_(diagnostics), signatures_(signatures), short_circuit_(short_circuit) {}
 
   IlStatements run(Slice<IlInstruction> list);
 
@@ -57,7 +57,7 @@ class IlScheduler {
   // ---- instructions
   Value runList(Slice<IlInstruction> list, bool nested);
   void step(const IlInstruction& i);
-  void skip(const IlInstruction& i, bool& told);
+  void skip(const IlInstruction& i, bool& reported);
   void label(const IlInstruction& i);
   void store(const IlInstruction& i);
   void binary(const IlInstruction& i);
@@ -78,7 +78,7 @@ class IlScheduler {
   Value called(ExprId callee, std::vector<Argument>& arguments, Loc loc, uint16_t height);
   void fillNested(const IlInstruction& i, std::vector<Argument>& arguments);
   void spill(Value& value);
-  void settleOpen();
+  void finalizeOpen();
   void limit(Value& value);
   void drop();
   void keepOrDrop();
@@ -94,7 +94,7 @@ class IlScheduler {
   }
   ExprId copy(ExprId constant);
   void emit(StmtId statement) {
-    settleOpen();
+    finalizeOpen();
     out_.push_back(statement);
   }
   void assign(ExprId target, ExprId value, Loc loc, AssignOp op = AssignOp::Assign) {
@@ -111,12 +111,12 @@ class IlScheduler {
   Tree& tree_;
   Names& names_;
   Diagnostics& diagnostics_;
-  Shapes& shapes_;
+  Signatures& signatures_;
   bool short_circuit_;
 
   std::vector<StmtId> out_;
   std::vector<Open> open_;
-  size_t settled_ = 0;  // of open_: the first ones, whose values cost nothing to keep
+  size_t finalized_ = 0;  // of open_: the first ones, whose values cost nothing to keep
   std::vector<DeclId> temporaries_;
   uint32_t next_temporary_ = 1;
   Value acc_;
@@ -146,7 +146,7 @@ NameId IlScheduler::newTemporary(Loc loc) {
     if (next_temporary_ > 1) name += std::to_string(next_temporary_);
     ++next_temporary_;
     ident.name = names_.intern(name);
-  } while (shapes_.of(ident.name).kind != ShapeKind::Unknown);
+  } while (signatures_.of(ident.name).kind != SignatureKind::Unknown);
   VarDecl decl{{DeclKind::Var, 0, 0, loc, {}, {}}, {}, {}, {}, EdgeKind::None, false, {}, {}};
   decl.names = tree_.addList<Ident>({&ident, 1});
   temporaries_.push_back(tree_.add<DeclId>(decl));
@@ -185,14 +185,14 @@ void IlScheduler::spill(Value& value) {
 }
 
 // What stands in front of open parentheses is evaluated before the statement that follows.
-void IlScheduler::settleOpen() {
-  for (; settled_ < open_.size(); ++settled_) spill(open_[settled_].left);
+void IlScheduler::finalizeOpen() {
+  for (; finalized_ < open_.size(); ++finalized_) spill(open_[finalized_].left);
 }
 
 // A temporary for literals alone would give them a type before their time.
 void IlScheduler::limit(Value& value) {
   if (value.height < kMaxHeight || value.literals) return;
-  settleOpen();
+  finalizeOpen();
   spill(value);
 }
 
@@ -202,7 +202,7 @@ void IlScheduler::require(Value& value, const IlInstruction& reader) {
   if (value.state != State::Empty) return;
   value.state = State::Broken;
   diagnostics_.report(diag::AccumulatorEmpty, reader.loc,
-                      {reader.word ? names_.text(reader.word) : std::string_view(")")});
+                      {reader.word ? names_.string(reader.word) : std::string_view(")")});
 }
 
 // The value as an expression of the tree.
@@ -216,7 +216,7 @@ ExprId IlScheduler::take(Value& value, Loc reader) {
 // The accumulator for an instruction that leaves it as it is.
 ExprId IlScheduler::use(const IlInstruction& reader) {
   if (isLive(at_ + 1)) {
-    settleOpen();
+    finalizeOpen();
     spill(acc_);
   }
   return take(acc_, reader.loc);
@@ -237,7 +237,7 @@ IlScheduler::Value IlScheduler::negated(Value value, Loc loc) {
 IlScheduler::Value IlScheduler::combined(Value left, BinaryOp op, Value right, Loc loc) {
   const bool logical = op == BinaryOp::And || op == BinaryOp::Or;
   if (short_circuit_ && logical && right.calls) {
-    settleOpen();
+    finalizeOpen();
     spill(left);
     spill(right);
   }
@@ -263,7 +263,7 @@ void IlScheduler::drop() {
   diagnostics_.report(diag::AccumulatorUnused, value.loc);
   if (value.constant) return;
   acc_ = value;
-  settleOpen();
+  finalizeOpen();
   spill(acc_);
   acc_ = {};
 }
@@ -271,7 +271,7 @@ void IlScheduler::drop() {
 // Before a call that has no use for the accumulator.
 void IlScheduler::keepOrDrop() {
   if (!isLive(at_ + 1)) return drop();
-  settleOpen();
+  finalizeOpen();
   spill(acc_);
 }
 
@@ -279,7 +279,7 @@ void IlScheduler::keepOrDrop() {
 
 template <class Body>
 void IlScheduler::conditional(ExprId condition, Loc loc, Body body) {
-  settleOpen();
+  finalizeOpen();
   const size_t first = out_.size();
   body();
   IfBranch branch{condition, tree_.addList<StmtId>(std::span<const StmtId>(out_).subspan(first))};
@@ -294,27 +294,27 @@ bool IlScheduler::allowed(const IlInstruction& i) {
   const bool states =
       i.kind == IlKind::Store || i.kind == IlKind::Set || i.kind == IlKind::Reset || i.kind == IlKind::Call;
   if (!(leaves && open_.size() > first_open_) && !(nested_ && (leaves || states))) return true;
-  const std::string shown = "`" + std::string(names_.text(i.word)) + "`";
+  const std::string shown = "`" + std::string(names_.string(i.word)) + "`";
   diagnostics_.report(diag::IlInsideParens, i.loc, {shown});
   return false;
 }
 
 // The accumulator that a list leaves.
 IlScheduler::Value IlScheduler::runList(Slice<IlInstruction> list, bool nested) {
-  IlFlow flow = flowOf(tree_, names_, diagnostics_, shapes_, list, nested);
+  IlFlow flow = flowOf(tree_, names_, diagnostics_, signatures_, list, nested);
   IlFlow* const outer_flow = std::exchange(flow_, &flow);
   const uint32_t outer_at = at_;
   const size_t outer_open = std::exchange(first_open_, open_.size());
   const bool outer_nested = std::exchange(nested_, nested);
   const Value outer_acc = std::exchange(acc_, {});
-  bool told = false;
+  bool reported = false;
   for (at_ = 0; at_ < list.count; ++at_) {
     const IlInstruction i = tree_.list(list)[at_];
     if (!flow.reached[at_]) {
-      skip(i, told);
+      skip(i, reported);
       continue;
     }
-    told = false;
+    reported = false;
     if (i.label.name) label(i);
     step(i);
   }
@@ -322,7 +322,7 @@ IlScheduler::Value IlScheduler::runList(Slice<IlInstruction> list, bool nested) 
     const EmptyWay& way = empty_ways_[k];
     const IlInstruction reader = tree_.list(list)[flow.reader[way.label]];
     diagnostics_
-        .report(diag::AccumulatorEmpty, reader.loc, {reader.word ? names_.text(reader.word) : std::string_view(")")})
+        .report(diag::AccumulatorEmpty, reader.loc, {reader.word ? names_.string(reader.word) : std::string_view(")")})
         .note(way.from, diag::WayWithoutValue);
   }
   if (!nested) drop();
@@ -336,7 +336,7 @@ IlScheduler::Value IlScheduler::runList(Slice<IlInstruction> list, bool nested) 
 // Where ways meet, the accumulator is a temporary that each of them sets. A label that nothing jumps to is none.
 void IlScheduler::label(const IlInstruction& i) {
   if (open_.size() > first_open_ || nested_) {
-    const std::string shown = "the label `" + std::string(names_.text(i.label.name)) + "`";
+    const std::string shown = "the label `" + std::string(names_.string(i.label.name)) + "`";
     diagnostics_.report(diag::IlInsideParens, i.label.loc, {shown});
     return;
   }
@@ -358,10 +358,10 @@ void IlScheduler::label(const IlInstruction& i) {
 }
 
 // An instruction that is never reached. Its parentheses count, so that a label inside of them is seen to be there.
-void IlScheduler::skip(const IlInstruction& i, bool& told) {
-  if (!told && i.kind != IlKind::Label) {
+void IlScheduler::skip(const IlInstruction& i, bool& reported) {
+  if (!reported && i.kind != IlKind::Label) {
     diagnostics_.report(diag::Unreachable, i.loc);
-    told = true;
+    reported = true;
   }
   if ((i.flags & kIlDeferred) != 0) {
     open_.push_back({i, {}});
@@ -369,12 +369,13 @@ void IlScheduler::skip(const IlInstruction& i, bool& told) {
   }
   if (i.kind != IlKind::Close) return;
   open_.pop_back();
-  settled_ = std::min(settled_, open_.size());
+  finalized_ = std::min(finalized_, open_.size());
 }
 
 void IlScheduler::step(const IlInstruction& i) {
   if (!allowed(i)) return;
-  if (const NameId* pin = inputOperator(tree_, names_, shapes_, i)) {  // the call of the instance with this one input
+  if (const NameId* pin =
+          inputOperator(tree_, names_, signatures_, i)) {  // the call of the instance with this one input
     require(acc_, i);
     Argument argument{{*pin, i.loc}, use(i), false, false, i.loc};
     std::vector<Argument> arguments{argument};
@@ -433,7 +434,7 @@ void IlScheduler::close(const IlInstruction& i) {
   require(acc_, i);
   const Open open = open_.back();
   open_.pop_back();
-  settled_ = std::min(settled_, open_.size());
+  finalized_ = std::min(finalized_, open_.size());
   const IlInstruction& op = open.instruction;
   if (op.kind == IlKind::Function) {
     Value left = open.left;
@@ -475,7 +476,7 @@ void IlScheduler::fillNested(const IlInstruction& i, std::vector<Argument>& argu
 }
 
 void IlScheduler::function(const IlInstruction& i) {
-  const Shape shape = shapes_.of(i.callee);
+  const Signature signature = signatures_.of(i.callee);
   if ((i.flags & kIlDeferred) != 0) {
     open_.push_back({i, std::exchange(acc_, {})});
     if (!i.operands.empty()) acc_ = valueOf(operand(i, 0).value, i.loc);
@@ -483,13 +484,13 @@ void IlScheduler::function(const IlInstruction& i) {
   }
   std::vector<Argument> arguments;
   uint16_t height = 1;
-  const bool block = shape.kind == ShapeKind::Instance && (i.flags & kIlFormal) != 0;
+  const bool block = signature.kind == SignatureKind::Instance && (i.flags & kIlFormal) != 0;
   if (block) {  // timer(IN := a): CAL is left out
     keepOrDrop();
-  } else if (takesAccumulator(shapes_, i)) {
+  } else if (takesAccumulator(signatures_, i)) {
     // Of a name that is not declared nothing more is said.
     const bool listed =
-        acc_.state == State::Empty && ((i.flags & kIlInParens) != 0 || shape.kind == ShapeKind::Unknown);
+        acc_.state == State::Empty && ((i.flags & kIlInParens) != 0 || signature.kind == SignatureKind::Unknown);
     if (!listed) {
       require(acc_, i);
       height = acc_.height;
@@ -501,8 +502,8 @@ void IlScheduler::function(const IlInstruction& i) {
   fillNested(i, arguments);
   const Value result = called(i.callee, arguments, i.loc, height);
   if (block) return callStatement(result.expr);
-  const bool known = shape.kind == ShapeKind::Function || shape.kind == ShapeKind::Method;
-  if (known && !shape.has_result) {
+  const bool known = signature.kind == SignatureKind::Function || signature.kind == SignatureKind::Method;
+  if (known && !signature.has_result) {
     acc_ = {};
     return callStatement(result.expr);
   }
@@ -523,7 +524,7 @@ void IlScheduler::call(const IlInstruction& i) {
     conditional(condition, i.loc, [&] { callStatement(make().expr); });
     return;
   }
-  if (shapes_.of(i.callee).has_result) {
+  if (signatures_.of(i.callee).has_result) {
     drop();
     acc_ = make();
     return;
@@ -601,9 +602,9 @@ IlStatements IlScheduler::run(Slice<IlInstruction> list) {
 
 }  // namespace
 
-IlStatements scheduleIl(Tree& tree, Names& names, Diagnostics& diagnostics, Shapes& shapes,
+IlStatements scheduleIl(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
                         Slice<IlInstruction> instructions, bool short_circuit) {
-  return IlScheduler(tree, names, diagnostics, shapes, short_circuit).run(instructions);
+  return IlScheduler(tree, names, diagnostics, signatures, short_circuit).run(instructions);
 }
 
 }  // namespace rung::text

@@ -21,7 +21,7 @@ class Structurer {
   void run();
 
  private:
-  struct Settled {
+  struct Resolved {
     StmtId statement;
     uint32_t depth;
   };
@@ -30,7 +30,7 @@ class Structurer {
   const Ident* jumpAt(StmtId statement) const {
     return tree_.kind(statement) == StmtKind::Jump ? &tree_.as<JumpStmt>(statement).label : nullptr;
   }
-  void settle(StmtId statement);
+  void flushPending(StmtId statement);
   size_t findLabel(const Ident& label) const;
   void left(const Ident& label, size_t at);
   Slice<StmtId> takeUpTo(size_t at, uint32_t& depth);
@@ -38,7 +38,7 @@ class Structurer {
   Tree& tree_;
   const Names& names_;
   std::vector<StmtId>& from_;
-  std::vector<Settled> out_;                      // backwards: the last one is the next to run
+  std::vector<Resolved> out_;                     // backwards: the last one is the next to run
   std::unordered_map<uint32_t, uint32_t> jumps_;  // by label
 };
 
@@ -83,7 +83,7 @@ Slice<StmtId> Structurer::takeUpTo(size_t at, uint32_t& depth) {
   return tree_.addList<StmtId>(list);
 }
 
-void Structurer::settle(StmtId statement) {
+void Structurer::flushPending(StmtId statement) {
   if (const Ident* label = jumpAt(statement)) {
     const size_t at = findLabel(*label);
     if (at < out_.size() && at + 1 == out_.size()) return left(Ident(*label), at);
@@ -110,30 +110,30 @@ void Structurer::settle(StmtId statement) {
   body.pop_back();
   depth = 0;
   const Slice<StmtId> skipped = takeUpTo(at, depth);
-  IfBranch made = branch;
+  IfBranch created = branch;
   node.otherwise = {};
   if (body.empty()) {
     const Loc loc = tree_.loc(branch.condition);
     if (tree_.kind(branch.condition) == ExprKind::Unary && tree_.as<UnaryExpr>(branch.condition).op() == UnaryOp::Not)
-      made.condition = tree_.as<UnaryExpr>(branch.condition).operand;
+      created.condition = tree_.as<UnaryExpr>(branch.condition).operand;
     else
-      made.condition = tree_.add<ExprId>(
+      created.condition = tree_.add<ExprId>(
           UnaryExpr{{ExprKind::Unary, 0, 0, 0, static_cast<uint8_t>(UnaryOp::Not), 0, loc, {}}, branch.condition});
-    made.body = skipped;
+    created.body = skipped;
   } else {
-    made.body = tree_.addList<StmtId>(body);
+    created.body = tree_.addList<StmtId>(body);
     node.otherwise = skipped;
   }
   left(label, at);
-  node.branches = tree_.addList<IfBranch>({&made, 1});
-  settle(tree_.add<StmtId>(node));
+  node.branches = tree_.addList<IfBranch>({&created, 1});
+  flushPending(tree_.add<StmtId>(node));
   out_.back().depth = depth + 1;
 }
 
 void Structurer::run() {
   if (!countJumps() || jumps_.empty()) return;
   out_.reserve(from_.size());
-  for (size_t i = from_.size(); i-- > 0;) settle(from_[i]);
+  for (size_t i = from_.size(); i-- > 0;) flushPending(from_[i]);
   from_.clear();
   for (size_t i = out_.size(); i-- > 0;) from_.push_back(out_[i].statement);
 }

@@ -98,7 +98,7 @@ Tok findKeyword(const char* s, uint32_t n) {
 }
 
 // Words that open, divide or close blocks; recover.cpp checks that they balance.
-constexpr std::array<bool, kTokCount> makeBlockWords() {
+constexpr std::array<bool, kTokCount> makeBlockKeywords() {
   std::array<bool, kTokCount> b{};
   for (
       Tok t :
@@ -114,7 +114,7 @@ constexpr std::array<bool, kTokCount> makeBlockWords() {
     b[static_cast<size_t>(t)] = true;
   return b;
 }
-constexpr std::array<bool, kTokCount> kBlockWord = makeBlockWords();
+constexpr std::array<bool, kTokCount> kBlockKeyword = makeBlockKeywords();
 
 bool isLongType(Tok kind) { return kind == Tok::Ltime || kind == Tok::Ldate || kind == Tok::Ltod || kind == Tok::Ldt; }
 
@@ -153,7 +153,7 @@ class Lexer {
         dialect_(dialect),
         diagnostics_(diagnostics),
         base_(sources.begin(file).offset),
-        text_(sources.text(file)),
+        source_(sources.sourceText(file)),
         path_(sources.path(file)),
         names_seen_(names.count()) {}
 
@@ -162,7 +162,7 @@ class Lexer {
  private:
   using Byte = unsigned char;
 
-  uint32_t at(const char* p) const { return static_cast<uint32_t>(p - text_.data()); }
+  uint32_t at(const char* p) const { return static_cast<uint32_t>(p - source_.data()); }
   Loc loc(const char* p) const { return {base_ + at(p)}; }
   void push(Tok kind, const char* begin, uint32_t value) {
     out_.tokens.push_back({at(begin), value, kind, flags_, 0});
@@ -187,7 +187,7 @@ class Lexer {
   void message(const char* begin, const char* end);
   void checkPragma(std::string_view word, const char* rest, const char* end);
   void checkUnderscores(const char* begin, const char* end);
-  void settleLongTypes();
+  void resolveLongTypes();
   Tok last() const { return out_.tokens.empty() ? Tok::End : out_.tokens.back().kind; }
 
   TokenStream& out_;
@@ -196,7 +196,7 @@ class Lexer {
   bool nests_ = true;  // of CODESYS 2.3: comments nest in the object at hand
   Diagnostics& diagnostics_;
   uint32_t base_;
-  std::string_view text_;
+  std::string_view source_;
   std::string_view path_;
   const char* end_ = nullptr;
   uint32_t names_seen_;
@@ -207,14 +207,14 @@ class Lexer {
 };
 
 void Lexer::run(uint32_t begin, uint32_t end) {
-  const char* p = text_.data() + begin;
-  end_ = text_.data() + end;
+  const char* p = source_.data() + begin;
+  end_ = source_.data() + end;
   out_.tokens.reserve((end - begin) / 4 + 16);
   if (const void* nul = std::memchr(p, 0, end - begin); nul != nullptr) {
     diagnostics_.report(diag::BinaryFile, loc(static_cast<const char*>(nul)), {path_});
     end_ = p;
   }
-  const auto settle = [&] {
+  const auto flushPending = [&] {
     // Pragmas and docs wait for the token that follows them.
     const uint32_t offset = at(p);
     if (pending_pragmas_ > 0) {
@@ -254,7 +254,7 @@ void Lexer::run(uint32_t begin, uint32_t end) {
         continue;
       }
     }
-    if ((pending_pragmas_ | doc_) != 0) settle();
+    if ((pending_pragmas_ | doc_) != 0) flushPending();
     switch (cls) {
       case kLetter: p = word(p); break;
       case kDigit: p = number(p); break;
@@ -267,10 +267,10 @@ void Lexer::run(uint32_t begin, uint32_t end) {
     }
   }
   p = end_;
-  settle();
+  flushPending();
   flags_ |= kLineStart;
   for (uint32_t i = 0; i < kLookahead; ++i) out_.tokens.push_back({at(end_), 0, Tok::End, flags_, 0});
-  if (long_types_ && dialect_ == Dialect::Codesys) settleLongTypes();
+  if (long_types_ && dialect_ == Dialect::Codesys) resolveLongTypes();
 }
 
 const char* Lexer::word(const char* begin) {
@@ -281,7 +281,7 @@ const char* Lexer::word(const char* begin) {
   if (*p == '#' && p < end_)
     if (const Prefix prefix = prefixOf({begin, length}); prefix != Prefix::None) return prefixed(begin, p + 1, prefix);
   const Tok kind = findKeyword(begin, length);
-  if (kBlockWord[static_cast<size_t>(kind)]) out_.blocks.push_back(static_cast<uint32_t>(out_.tokens.size()));
+  if (kBlockKeyword[static_cast<size_t>(kind)]) out_.blocks.push_back(static_cast<uint32_t>(out_.tokens.size()));
   if (isReserved(kind)) {
     push(kind, begin, length);
     return p;
@@ -298,7 +298,7 @@ const char* Lexer::word(const char* begin) {
 
 // CODESYS 2.3 had no LTIME, LDATE, LTOD and LDT. In a text that declares a variable of such a name, the word is that
 // name wherever no type can stand.
-void Lexer::settleLongTypes() {
+void Lexer::resolveLongTypes() {
   std::vector<Token>& tokens = out_.tokens;
   bool declared[kTokCount] = {};
   for (size_t i = 0; i < tokens.size(); ++i)
@@ -375,14 +375,14 @@ const char* Lexer::quoted(const char* begin) {
       diagnostics_.report(diag::UnterminatedString, loc(begin), {std::string_view(&quote, 1)})
           .length(static_cast<uint32_t>(p - begin));
       flags_ |= kReported;
-      push(quote == '\'' ? Tok::Text : Tok::WideText, begin, static_cast<uint32_t>(p - begin));
+      push(quote == '\'' ? Tok::StringLiteral : Tok::WideStringLiteral, begin, static_cast<uint32_t>(p - begin));
       return p;
     }
     if (*p == '$' && p[1] != '\n' && p[1] != '\r' && p + 1 < end_) ++p;
     ++p;
   }
   ++p;
-  push(quote == '\'' ? Tok::Text : Tok::WideText, begin, static_cast<uint32_t>(p - begin));
+  push(quote == '\'' ? Tok::StringLiteral : Tok::WideStringLiteral, begin, static_cast<uint32_t>(p - begin));
   return p;
 }
 
@@ -460,13 +460,13 @@ const char* Lexer::blockComment(const char* begin, bool slash) {
   const char open = slash ? '/' : '(', close = slash ? '/' : ')';
   const char* p = begin + 2;
   const bool nests = dialect_ != Dialect::Iec2 && nests_;
-  bool told = false;
+  bool reported = false;
   uint32_t depth = 1;
   for (; p < end_; ++p) {
     if (*p == '*' && p[1] == close) {
       p += 2;
       if (--depth == 0) {
-        if (const char* const said = nestingOf({begin, static_cast<size_t>(p - begin)})) nests_ = *said == 'Y';
+        if (const char* const nesting = nestingOf({begin, static_cast<size_t>(p - begin)})) nests_ = *nesting == 'Y';
         return p;
       }
       --p;
@@ -476,8 +476,8 @@ const char* Lexer::blockComment(const char* begin, bool slash) {
         ++depth;
         ++p;
       } else if (nests_ && p[2] != close) {
-        if (!told) diagnostics_.report(diag::NestedComment, loc(p), {std::string_view(p, 2)}).length(2);
-        told = true;
+        if (!reported) diagnostics_.report(diag::NestedComment, loc(p), {std::string_view(p, 2)}).length(2);
+        reported = true;
         ++depth;  // most likely it is closed as well
         ++p;
       }
@@ -503,7 +503,7 @@ const char* Lexer::cppBody(const char* begin) {
 }
 
 // {network}, {network CFC}, {end_network}: the marks around a body of networks. End: another pragma.
-Tok networkMark(std::string_view text) {
+Tok networkKeyword(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t'; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
   const size_t length = static_cast<size_t>(std::find_if(text.begin(), text.end(), blank) - text.begin());
@@ -534,7 +534,7 @@ const char* Lexer::pragma(const char* begin) {
     while (p < end_ && *p != '\n') ++p;
     return p;
   }
-  if (const Tok network = networkMark({begin + 1, static_cast<size_t>(p - begin - 1)}); network != Tok::End) {
+  if (const Tok network = networkKeyword({begin + 1, static_cast<size_t>(p - begin - 1)}); network != Tok::End) {
     push(network, begin, static_cast<uint32_t>(p + 1 - begin));
     return p + 1;
   }
@@ -590,10 +590,10 @@ void Lexer::message(const char* begin, const char* end) {
   skip();
   if (begin == end || (*begin != '\'' && *begin != '"')) return;  // {warning disable C0195}
   const char quote = *begin++;
-  const char* text_end = end;
-  while (text_end > begin && text_end[-1] != quote) --text_end;
-  if (text_end > begin) --text_end;
-  const std::string_view text(begin, static_cast<size_t>(text_end - begin));
+  const char* string_end = end;
+  while (string_end > begin && string_end[-1] != quote) --string_end;
+  if (string_end > begin) --string_end;
+  const std::string_view text(begin, static_cast<size_t>(string_end - begin));
   const Diag diag = info ? diag::PragmaInfo : warning ? diag::PragmaWarning : diag::PragmaError;
   diagnostics_.report(diag, loc(word_begin), {text});
 }

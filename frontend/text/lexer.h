@@ -28,7 +28,7 @@ constexpr uint32_t kTokCount = static_cast<uint32_t>(Tok::EndSlip) + 1;
 // Usable as a name: an identifier, or a word that is no keyword here.
 inline bool isName(Tok kind) { return kind == Tok::Ident || kind >= Tok::At; }
 inline bool isTypeWord(Tok kind) { return kind >= Tok::Bool && kind <= Tok::Wstring; }
-// Words that begin the declaration of an object where a name follows, and are names elsewhere (settleObjectWords).
+// Words that begin the declaration of an object where a name follows, and are names elsewhere (resolveObjectKeywords).
 inline bool isObjectWord(Tok kind) {
   return kind == Tok::Method || kind == Tok::Property || kind == Tok::Action || kind == Tok::Interface ||
          kind == Tok::Class || kind == Tok::Namespace;
@@ -56,11 +56,11 @@ struct Token {
 };
 
 // Pragmas and doc comments are found by the token they belong to.
-struct PragmaText {
+struct PragmaRange {
   uint32_t token_offset;  // of the token that follows
   uint32_t begin, end;    // with its braces
 };
-struct DocText {
+struct DocRange {
   uint32_t token_offset;  // of the token that follows, or, when it stands behind, that precedes
   uint32_t begin;
 };
@@ -69,9 +69,9 @@ constexpr uint32_t kLookahead = 4;
 
 struct TokenStream {
   std::vector<Token> tokens;
-  std::vector<PragmaText> pragmas;
-  std::vector<DocText> docs;
-  std::vector<DocText> docs_after;
+  std::vector<PragmaRange> pragmas;
+  std::vector<DocRange> docs;
+  std::vector<DocRange> docs_after;
   std::vector<uint32_t> blocks;  // indices of the words that open or close blocks, for recover.h
 };
 
@@ -84,6 +84,6 @@ void lex(TokenStream& out, Names& names, const Sources& sources, FileId file, ui
 bool beginsIl(Tok kind, std::string_view text, const Token& next);
 
 // Makes names of the object words that begin no declaration (objects.cpp).
-void settleObjectWords(TokenStream& stream);
+void resolveObjectKeywords(TokenStream& stream);
 
 }  // namespace rung::text

@@ -49,7 +49,7 @@ bool take(std::string_view& text, char c) {
   return true;
 }
 
-std::string_view behindHash(std::string_view text) { return text.substr(text.find('#') + 1); }
+std::string_view afterHash(std::string_view text) { return text.substr(text.find('#') + 1); }
 bool isLong(std::string_view text) { return lower(text.front()) == 'l'; }
 
 // A fraction ".25" of a unit in nanoseconds, cut at the nanosecond.
@@ -89,10 +89,10 @@ bool takeDate(std::string_view& text, std::string_view whole, const char* sample
   static constexpr unsigned kLengths[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
   const bool leap = (y % 4 == 0 && y % 100 != 0) || y % 400 == 0;
   // The range of 64 bits of nanoseconds, by whole years.
-  const bool good =
+  const bool ok =
       y >= 1678 && y <= 2261 && m >= 1 && m <= 12 && d >= 1 && d <= kLengths[m - 1] + (m == 2 && leap ? 1u : 0u);
-  if (!good) {
-    diagnostics.report(diag::NoSuchDay, loc, {behindHash(whole).substr(0, behindHash(whole).size() - text.size())});
+  if (!ok) {
+    diagnostics.report(diag::NoSuchDay, loc, {afterHash(whole).substr(0, afterHash(whole).size() - text.size())});
     return false;
   }
   days = daysFromCivil(static_cast<int64_t>(y), static_cast<unsigned>(m), static_cast<unsigned>(d));
@@ -103,18 +103,18 @@ bool takeDate(std::string_view& text, std::string_view whole, const char* sample
 bool takeTime(std::string_view text, std::string_view whole, const char* sample, bool hours_free, Loc loc,
               Diagnostics& diagnostics, uint64_t& nanoseconds) {
   uint64_t h = 0, m = 0, s = 0, fraction = 0;
-  bool good = takeNumber(text, h) && take(text, ':') && takeNumber(text, m);
-  if (good && take(text, ':')) {
-    good = takeNumber(text, s);
-    if (good && take(text, '.')) {
+  bool ok = takeNumber(text, h) && take(text, ':') && takeNumber(text, m);
+  if (ok && take(text, ':')) {
+    ok = takeNumber(text, s);
+    if (ok && take(text, '.')) {
       size_t n = 0;
       while (n < text.size() && (isDigit(text[n]) || text[n] == '_')) ++n;
       fraction = fractionOf(text.substr(0, n), kSecond);
-      good = n > 0;
+      ok = n > 0;
       text.remove_prefix(n);
     }
   }
-  if (!good || !text.empty() || m > 59 || s > 59 || h > (hours_free ? 1193u : 23u)) {
+  if (!ok || !text.empty() || m > 59 || s > 59 || h > (hours_free ? 1193u : 23u)) {
     diagnostics.report(diag::TimeOfDayForm, loc, {whole, sample});
     return false;
   }
@@ -137,18 +137,18 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
     }
   }
   if (const size_t hash = text.find('#'); hash != std::string_view::npos) {
-    const std::string_view base_text = text.substr(0, hash), digits = text.substr(hash + 1);
-    const uint32_t base = base_text == "2"    ? 2
-                          : base_text == "8"  ? 8
-                          : base_text == "16" ? 16
-                          : base_text == "10" ? 10
-                                              : 0;
+    const std::string_view base_digits = text.substr(0, hash), digits = text.substr(hash + 1);
+    const uint32_t base = base_digits == "2"    ? 2
+                          : base_digits == "8"  ? 8
+                          : base_digits == "16" ? 16
+                          : base_digits == "10" ? 10
+                                                : 0;
     if (base == 0) {
       diagnostics.report(diag::NumberBase, loc, {text});
       return false;
     }
     if (digits.empty()) {
-      diagnostics.report(diag::NumberDigit, loc, {text, base_text});
+      diagnostics.report(diag::NumberDigit, loc, {text, base_digits});
       return false;
     }
     value.is_based = true;
@@ -156,7 +156,7 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
       if (c == '_') continue;
       const int digit = hexDigit(c);
       if (digit < 0 || digit >= static_cast<int>(base)) {
-        diagnostics.report(diag::NumberDigit, loc, {std::string_view(&c, 1), base_text});
+        diagnostics.report(diag::NumberDigit, loc, {std::string_view(&c, 1), base_digits});
         return false;
       }
       if (__builtin_mul_overflow(value.integer, static_cast<uint64_t>(base), &value.integer) ||
@@ -210,7 +210,7 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
 bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value) {
   value.kind = LiteralKind::Duration;
   value.is_long = isLong(text);
-  std::string_view rest = behindHash(text);
+  std::string_view rest = afterHash(text);
   const auto at = [&] { return Loc{loc.offset + static_cast<uint32_t>(text.size() - rest.size())}; };
   value.is_negative = take(rest, '-');
   if (!value.is_negative) take(rest, '+');
@@ -286,7 +286,7 @@ bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, Time
 bool readDate(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value) {
   value.kind = LiteralKind::Date;
   value.is_long = isLong(text);
-  std::string_view rest = behindHash(text);
+  std::string_view rest = afterHash(text);
   int64_t days = 0;
   if (!takeDate(rest, text, "D#2026-12-31", loc, diagnostics, days)) return false;
   if (!rest.empty()) {
@@ -300,14 +300,14 @@ bool readDate(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValu
 bool readTimeOfDay(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value) {
   value.kind = LiteralKind::TimeOfDay;
   value.is_long = isLong(text);
-  return takeTime(behindHash(text), text, "TOD#23:59:59.999", !value.is_long, loc, diagnostics, value.value);
+  return takeTime(afterHash(text), text, "TOD#23:59:59.999", !value.is_long, loc, diagnostics, value.value);
 }
 
 bool readDateTime(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value) {
   static const char* const kSample = "DT#2026-12-31-23:59:59";
   value.kind = LiteralKind::DateTime;
   value.is_long = isLong(text);
-  std::string_view rest = behindHash(text);
+  std::string_view rest = afterHash(text);
   int64_t days = 0;
   uint64_t time = 0;
   if (!takeDate(rest, text, kSample, loc, diagnostics, days)) return false;
@@ -324,7 +324,7 @@ bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnost
   std::string_view inner = text.substr(1);
   if (!inner.empty() && inner.back() == text.front()) inner.remove_suffix(1);
   value.clear();
-  bool good = true;
+  bool ok = true;
   uint32_t high_surrogate = 0;
   for (size_t i = 0; i < inner.size(); ++i) {
     const char c = inner[i];
@@ -369,7 +369,7 @@ bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnost
         const std::string_view shown = inner.substr(start, end + 1 - start);
         diagnostics.report(diag::NoCodePoint, Loc{loc.offset + 1 + static_cast<uint32_t>(start)}, {shown})
             .length(static_cast<uint32_t>(shown.size()));
-        good = false;
+        ok = false;
       }
       i = end;
       continue;
@@ -380,7 +380,7 @@ bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnost
           .report(diag::StringEscape, Loc{loc.offset + 1 + static_cast<uint32_t>(start)},
                   {shown, wide ? "four" : "two"})
           .length(static_cast<uint32_t>(shown.size()));
-      good = false;
+      ok = false;
       continue;
     }
     i = start + digits;
@@ -395,7 +395,7 @@ bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnost
       appendUtf8(value, code);
     }
   }
-  return good;
+  return ok;
 }
 
 // %area [size] (number {. number} | *)
@@ -405,11 +405,11 @@ bool readAddress(std::string_view text, Loc loc, Diagnostics& diagnostics, Direc
   path.clear();
   std::string_view rest = text.substr(1);
   const char area = rest.empty() ? '\0' : lower(rest.front());
-  bool good = area == 'i' || area == 'q' || area == 'm';
+  bool ok = area == 'i' || area == 'q' || area == 'm';
   address.area = area == 'i' ? ImageArea::Input : area == 'q' ? ImageArea::Output : ImageArea::Memory;
   address.size = 'X';
-  if (good) rest.remove_prefix(1);
-  if (good && !rest.empty()) {
+  if (ok) rest.remove_prefix(1);
+  if (ok && !rest.empty()) {
     const char size = lower(rest.front());
     if (size == 'x' || size == 'b' || size == 'w' || size == 'd' || size == 'l') {
       address.size = static_cast<char>(size & ~0x20);
@@ -417,19 +417,19 @@ bool readAddress(std::string_view text, Loc loc, Diagnostics& diagnostics, Direc
       rest.remove_prefix(1);
     }
   }
-  if (good && take(rest, '*')) {
+  if (ok && take(rest, '*')) {
     address.incomplete = true;
-    good = rest.empty();
-  } else if (good) {
+    ok = rest.empty();
+  } else if (ok) {
     do {
       uint64_t number = 0;
-      good = takeNumber(rest, number) && number <= 0xffffffffu;
+      ok = takeNumber(rest, number) && number <= 0xffffffffu;
       path.push_back(static_cast<uint32_t>(number));
-    } while (good && take(rest, '.'));
-    good = good && rest.empty();
+    } while (ok && take(rest, '.'));
+    ok = ok && rest.empty();
   }
-  if (!good) diagnostics.report(diag::AddressForm, loc, {text});
-  return good;
+  if (!ok) diagnostics.report(diag::AddressForm, loc, {text});
+  return ok;
 }
 
 }  // namespace rung::text

@@ -90,7 +90,7 @@ bool Parser::takeNumber(uint64_t& out) {
   return true;
 }
 
-bool Parser::takePlace(int32_t& out) {
+bool Parser::takeCoordinate(int32_t& out) {
   const bool minus = accept(Tok::Minus);
   uint64_t value = 0;
   if (!takeNumber(value)) return false;
@@ -100,8 +100,8 @@ bool Parser::takePlace(int32_t& out) {
 }
 
 // NOT, RISING, FALLING, SET, RESET
-template <class Marked>
-bool Parser::takeMark(Marked& out) {
+template <class Modifiable>
+bool Parser::takeModifier(Modifiable& out) {
   if (at(Tok::Not)) {
     out.negated = !out.negated;
   } else if (is(t_, "RISING")) {
@@ -139,7 +139,7 @@ void Parser::parsePins(std::vector<DiagramPin>& out) {
   while (!panic_ && !at(Tok::RightBracket)) {
     DiagramPin pin{};
     if (!takeWord(pin.name)) return;
-    while (takeMark(pin)) {
+    while (takeModifier(pin)) {
     }
     if (accept(Tok::Arrow)) {
       pin.direction = PinDirection::Output;
@@ -185,12 +185,12 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
   const bool attribute = is(t_, "AT") || is(t_, "ORDER");
   if (isNamed(e.kind) && (isName(kind()) || nameReserved(t_)) && !(attribute && peek() == Tok::Number))
     e.path = parseElementPath(e.name);
-  if ((e.kind == ElementKind::Connector || e.kind == ElementKind::Continuation) && at(Tok::Text)) {
+  if ((e.kind == ElementKind::Connector || e.kind == ElementKind::Continuation) && at(Tok::StringLiteral)) {
     e.name = {names_.intern(plainText(textOf(t_))), here()};  // connectors are called as their author likes
     advance();
   }
   while (!panic_ && !at(Tok::Semicolon) && !at(Tok::End)) {
-    if (takeMark(e)) continue;
+    if (takeModifier(e)) continue;
     if (e.kind == ElementKind::Coil && is(t_, "HOLDING")) {
       e.holding = true;
       advance();
@@ -202,9 +202,9 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
       if (takeNumber(order)) e.order = static_cast<uint32_t>(std::min<uint64_t>(order, UINT32_MAX));
     } else if (is(t_, "AT") && (peek() == Tok::Number || peek() == Tok::Minus)) {
       advance();
-      int32_t* const places[] = {&e.x, &e.y, &e.width, &e.height};
-      for (int32_t* const place : places)
-        if (!takePlace(*place) || !accept(Tok::Comma)) break;
+      int32_t* const coordinates[] = {&e.x, &e.y, &e.width, &e.height};
+      for (int32_t* const coordinate : coordinates)
+        if (!takeCoordinate(*coordinate) || !accept(Tok::Comma)) break;
       e.placed = true;
     } else if (at(Tok::LeftParen)) {
       advance();
@@ -227,10 +227,10 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
       --stmt_depth_;
       panic_ = false;
       expect(Tok::EndNetwork);
-    } else if (at(Tok::Text)) {
-      const TextId text = tree_.addText(plainText(textOf(t_)));
-      e.text = text.first;
-      e.text_length = text.length;
+    } else if (at(Tok::StringLiteral)) {
+      const StringId text = tree_.addString(plainText(textOf(t_)));
+      e.comment = text.first;
+      e.comment_length = text.length;
       advance();
     } else {
       fail(diag::NoPartOfElement, t_, {describe(t_), known->word});
@@ -275,11 +275,11 @@ void Parser::connectWires(const std::vector<DiagramElement>& elements, uint32_t 
 
 void Parser::parseNetworks(PouDecl& d) {
   const Token* open = t_;
-  const std::string_view mark = textOf(t_);
+  const std::string_view opener = textOf(t_);
   d.body_kind = BodyKind::Network;
-  d.diagram.language = mark.find("CFC") != std::string_view::npos   ? NetworkLanguage::Continuous
-                       : mark.find("FBD") != std::string_view::npos ? NetworkLanguage::Blocks
-                                                                    : NetworkLanguage::Ladder;
+  d.diagram.language = opener.find("CFC") != std::string_view::npos   ? NetworkLanguage::Continuous
+                       : opener.find("FBD") != std::string_view::npos ? NetworkLanguage::Blocks
+                                                                      : NetworkLanguage::Ladder;
   advance();
   const uint32_t errors = diagnostics_.errorCount();
   const uint32_t first_wire = tree_.addList<DiagramWire>({}).first;
@@ -299,8 +299,8 @@ void Parser::parseNetworks(PouDecl& d) {
           n.disabled = true;
           advance();
         }
-        if (at(Tok::Text)) {
-          const TextId title = tree_.addText(plainText(textOf(t_)));
+        if (at(Tok::StringLiteral)) {
+          const StringId title = tree_.addString(plainText(textOf(t_)));
           n.title = title.first;
           n.title_length = title.length;
           advance();
@@ -320,7 +320,7 @@ void Parser::parseNetworks(PouDecl& d) {
   panic_ = false;
   const bool cut_off = at(Tok::End) && diagnostics_.errorCount() != errors;  // which was reported
   if (!accept(Tok::EndNetwork) && !cut_off) {
-    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    const std::string line = std::to_string(sources_.location(loc(open)).line);
     missing(diag::MissingEnd, {"{end_network}", "{network}", line});
   }
   if (diagnostics_.errorCount() == errors) connectWires(elements, first_wire);

@@ -8,7 +8,7 @@ namespace rung::text {
 
 // Words that are names unless a declaration begins with them: `METHOD Start`. What is none becomes a name, so that the
 // parser and the block repair need no further look; PROPERTY_GET and PROPERTY_SET are one kind with PROPERTY.
-void settleObjectWords(TokenStream& stream) {
+void resolveObjectKeywords(TokenStream& stream) {
   std::vector<Token>& tokens = stream.tokens;
   size_t kept = 0;
   for (const uint32_t i : stream.blocks) {
@@ -168,7 +168,7 @@ DeclId Parser::parseProperty() {
   if (accept(Tok::EndProperty)) {
     accept(Tok::Semicolon);
   } else if (dialect_ != Dialect::Codesys) {
-    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    const std::string line = std::to_string(sources_.location(loc(open)).line);
     missing(diag::MissingEnd, {"END_PROPERTY", "PROPERTY", line});
   }
   return tree_.add<DeclId>(d);
@@ -188,7 +188,7 @@ void Parser::parseHalfProperty(std::vector<DeclId>& out) {
   accessor.begin = here();
   (is_set ? d.set : d.get) = parseAccessorBody(accessor, name, d, is_set, Tok::EndProperty);
   if (t_[-1].kind != Tok::EndProperty && t_[-1].kind != Tok::Semicolon) {
-    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    const std::string line = std::to_string(sources_.location(loc(open)).line);
     missing(diag::MissingEnd, {"END_PROPERTY", is_set ? "PROPERTY_SET" : "PROPERTY_GET", line});
   }
   for (const DeclId known : out) {
@@ -266,7 +266,7 @@ DeclId Parser::parseNamespace() {
   if (accept(Tok::EndNamespace)) {
     accept(Tok::Semicolon);
   } else {
-    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    const std::string line = std::to_string(sources_.location(loc(open)).line);
     missing(diag::MissingEnd, {"END_NAMESPACE", "NAMESPACE", line});
   }
   return tree_.add<DeclId>(d);

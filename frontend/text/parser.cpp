@@ -17,7 +17,7 @@ Parser::Parser(Tree& tree, Names& names, const Sources& sources, FileId file, Di
       dialect_(dialect),
       diagnostics_(diagnostics),
       base_(sources.begin(file).offset),
-      text_(sources.text(file)) {
+      source_(sources.sourceText(file)) {
   eno_ = names.intern("ENO");
   const std::string_view path = sources.path(file);
   il_file_ = path.size() > 3 && sameIdentifier(path.substr(path.size() - 3), ".il");
@@ -25,7 +25,7 @@ Parser::Parser(Tree& tree, Names& names, const Sources& sources, FileId file, Di
 
 void Parser::read(uint32_t begin, uint32_t end) {
   lex(stream_, names_, sources_, file_, begin, end, dialect_, diagnostics_);
-  settleObjectWords(stream_);
+  resolveObjectKeywords(stream_);
   balanceBlocks(stream_, names_, sources_, file_, dialect_, diagnostics_);
   tokens_ = std::move(stream_.tokens);
   t_ = tokens_.data();
@@ -35,7 +35,7 @@ void Parser::read(uint32_t begin, uint32_t end) {
 
 uint32_t Parser::lengthOf(const Token* t) const {
   if (isName(t->kind) || isTypeWord(t->kind))
-    return (t->flags & kSynthetic) != 0 ? 0 : static_cast<uint32_t>(names_.text({t->value}).size());
+    return (t->flags & kSynthetic) != 0 ? 0 : static_cast<uint32_t>(names_.string({t->value}).size());
   return t->value;
 }
 
@@ -200,9 +200,9 @@ void Parser::parseTopLevel(std::vector<DeclId>& out) {
     default: break;
   }
   if (at(Tok::Ident)) {
-    static constexpr Tok kWords[] = {Tok::Function, Tok::FunctionBlock, Tok::Program,
-                                     Tok::Type,     Tok::Configuration, Tok::VarGlobal};
-    if (const Tok meant = nearKeyword(t_, kWords);
+    static constexpr Tok kKeywords[] = {Tok::Function, Tok::FunctionBlock, Tok::Program,
+                                        Tok::Type,     Tok::Configuration, Tok::VarGlobal};
+    if (const Tok meant = nearKeyword(t_, kKeywords);
         meant != Tok::End && (isName(peek()) || (t_[1].flags & kLineStart) != 0)) {
       respell(meant);
       return;
@@ -242,21 +242,21 @@ DeclId Parser::parsePou() {
   PouDecl d{};
   d.h = {DeclKind::Pou, 0, 0, here(), takeDoc(), takePragmas()};
   const Tok word = kind();
-  struct Words {
+  struct PouKeywords {
     Tok word, end;
     PouKind kind;
   };
-  static constexpr Words kWords[] = {{Tok::Function, Tok::EndFunction, PouKind::Function},
-                                     {Tok::FunctionBlock, Tok::EndFunctionBlock, PouKind::FunctionBlock},
-                                     {Tok::Program, Tok::EndProgram, PouKind::Program},
-                                     {Tok::Class, Tok::EndClass, PouKind::Class},
-                                     {Tok::Interface, Tok::EndInterface, PouKind::Interface},
-                                     {Tok::Method, Tok::EndMethod, PouKind::Method},
-                                     {Tok::Action, Tok::EndAction, PouKind::Action}};
-  const Words* words = kWords;
-  while (words->word != word) ++words;
-  d.pou_kind = words->kind;
-  const Tok end = words->end;
+  static constexpr PouKeywords kKeywords[] = {{Tok::Function, Tok::EndFunction, PouKind::Function},
+                                              {Tok::FunctionBlock, Tok::EndFunctionBlock, PouKind::FunctionBlock},
+                                              {Tok::Program, Tok::EndProgram, PouKind::Program},
+                                              {Tok::Class, Tok::EndClass, PouKind::Class},
+                                              {Tok::Interface, Tok::EndInterface, PouKind::Interface},
+                                              {Tok::Method, Tok::EndMethod, PouKind::Method},
+                                              {Tok::Action, Tok::EndAction, PouKind::Action}};
+  const PouKeywords* keywords = kKeywords;
+  while (keywords->word != word) ++keywords;
+  d.pou_kind = keywords->kind;
+  const Tok end = keywords->end;
   d.begin = here();
   for (const Pragma& p : tree_.list(d.h.pragmas)) {
     d.begin = p.loc;
@@ -338,7 +338,7 @@ DeclId Parser::parsePou() {
         accept(end);
       }
     } else if (dialect_ != Dialect::Codesys) {
-      const std::string line = std::to_string(sources_.place(loc(open)).line);
+      const std::string line = std::to_string(sources_.location(loc(open)).line);
       missing(diag::MissingEnd, {spelling(end), spelling(word), line});
     }
   }
@@ -409,7 +409,7 @@ DeclId Parser::parseConfiguration() {
   if (accept(Tok::EndConfiguration)) {
     accept(Tok::Semicolon);
   } else {
-    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    const std::string line = std::to_string(sources_.location(loc(open)).line);
     missing(diag::MissingEnd, {"END_CONFIGURATION", "CONFIGURATION", line});
   }
   d.members = listFrom(decls_, first);
@@ -432,9 +432,9 @@ void Parser::parseMembers(Tok end, std::vector<DeclId>& out) {
     } else if (at(Tok::Program)) {
       member = parseProgramInstance();
     } else {
-      static constexpr Tok kWords[] = {Tok::Resource, Tok::Task, Tok::Program, Tok::VarGlobal};
+      static constexpr Tok kKeywords[] = {Tok::Resource, Tok::Task, Tok::Program, Tok::VarGlobal};
       if (at(Tok::Ident) && isName(peek())) {
-        if (const Tok meant = nearKeyword(t_, kWords); meant != Tok::End) {
+        if (const Tok meant = nearKeyword(t_, kKeywords); meant != Tok::End) {
           respell(meant);
           continue;
         }
@@ -483,7 +483,7 @@ DeclId Parser::parseResource() {
   if (accept(Tok::EndResource)) {
     accept(Tok::Semicolon);
   } else {
-    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    const std::string line = std::to_string(sources_.location(loc(open)).line);
     missing(diag::MissingEnd, {"END_RESOURCE", "RESOURCE", line});
   }
   d.members = listFrom(decls_, first);
@@ -549,7 +549,7 @@ DeclId Parser::parseProgramInstance() {
 FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                    Diagnostics& diagnostics) {
   Parser parser(tree, names, sources, file, dialect, diagnostics);
-  parser.read(0, static_cast<uint32_t>(sources.text(file).size()));
+  parser.read(0, static_cast<uint32_t>(sources.sourceText(file).size()));
   const FileUnit unit{file, parser.parseDecls()};
   tree.files.push_back(unit);
   return unit;
@@ -567,21 +567,21 @@ Slice<DeclId> parseDeclarations(Tree& tree, Names& names, const Sources& sources
 Slice<DeclId> parseSections(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                             Diagnostics& diagnostics) {
   Parser parser(tree, names, sources, file, dialect, diagnostics);
-  parser.read(0, static_cast<uint32_t>(sources.text(file).size()));
+  parser.read(0, static_cast<uint32_t>(sources.sourceText(file).size()));
   return parser.parseLoneSections();
 }
 
 Slice<StmtId> parseStatements(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                               Diagnostics& diagnostics) {
   Parser parser(tree, names, sources, file, dialect, diagnostics);
-  parser.read(0, static_cast<uint32_t>(sources.text(file).size()));
+  parser.read(0, static_cast<uint32_t>(sources.sourceText(file).size()));
   return parser.parseLoneStatements();
 }
 
 ExprId parseExpression(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                        Diagnostics& diagnostics) {
   Parser parser(tree, names, sources, file, dialect, diagnostics);
-  parser.read(0, static_cast<uint32_t>(sources.text(file).size()));
+  parser.read(0, static_cast<uint32_t>(sources.sourceText(file).size()));
   return parser.parseLoneExpression();
 }
 

@@ -53,7 +53,7 @@ class Parser {
   NameId nameOf(const Token* t) const { return {t->value}; }
   Ident ident(const Token* t) const { return {nameOf(t), loc(t)}; }
   uint32_t lengthOf(const Token* t) const;
-  std::string_view textOf(const Token* t) const { return text_.substr(t->offset, lengthOf(t)); }
+  std::string_view textOf(const Token* t) const { return source_.substr(t->offset, lengthOf(t)); }
   Loc endOf(const Token* t) const { return {base_ + t->offset + lengthOf(t)}; }
   bool is(const Token* t, std::string_view word) const { return sameIdentifier(textOf(t), word); }
   std::string describe(const Token* t) const;  // "`x`", "the end of the file"
@@ -128,9 +128,9 @@ class Parser {
   ExprId parseArrayInit();
   ExprId parseStructInit();
   Slice<Pragma> takePragmas();
-  Pragma readPragma(const PragmaText& pragma);
+  Pragma readPragma(const PragmaRange& pragma);
   Loc takeDoc();
-  Loc docBehind(const Token* t) const;
+  Loc docAfter(const Token* t) const;
   bool pragmaNamed(Slice<Pragma> pragmas, std::string_view name) const;
 
   // ---- statements (statements.cpp)
@@ -171,7 +171,7 @@ class Parser {
   bool isInstruction(const Token* t) const;
   bool isPlainInstruction(const Token* t) const;
   void parseInstruction();
-  void mend(IlInstruction& i);
+  void resynchronize(IlInstruction& i);
   void endInstruction();
   void parseOperands(IlInstruction& i, const Token* op);
   void parseIlList(IlInstruction& i, const Token* op);
@@ -191,12 +191,12 @@ class Parser {
   void parsePins(std::vector<DiagramPin>& out);
   void parseWires(DiagramPin& pin);
   ExprId parseElementPath(Ident& name);
-  template <class Marked>
-  bool takeMark(Marked& out);
+  template <class Modifiable>
+  bool takeModifier(Modifiable& out);
   bool takeWord(Ident& out);
   bool takeNumber(uint64_t& out);
-  bool takePlace(int32_t& out);
-  void parsePlace(SfcPlace& place);
+  bool takeCoordinate(int32_t& out);
+  void parsePosition(SfcPosition& position);
   void connectWires(const std::vector<DiagramElement>& elements, uint32_t first_wire);
 
   // ---- Sequential Function Chart (sfc.cpp)
@@ -237,7 +237,7 @@ class Parser {
   ExprId parsePrimary();
   ExprId parseTyped();
   ExprId parseNumber(NameId prefix, bool negative, Loc loc);
-  ExprId parseText(NameId prefix, Loc loc);
+  ExprId parseStringLiteral(NameId prefix, Loc loc);
   ExprId parseTime();
   ExprId parseAddress();
   Slice<Argument> parseArguments(Loc& end);
@@ -264,7 +264,7 @@ class Parser {
   Dialect dialect_;
   Diagnostics& diagnostics_;
   uint32_t base_;
-  std::string_view text_;
+  std::string_view source_;
   TokenStream stream_;
   std::vector<Token> tokens_;
   Token* t_ = nullptr;
@@ -275,10 +275,10 @@ class Parser {
   bool in_program_instance_ = false;  // PROGRAM p : Main (…) of a resource is being read
   std::vector<Ident> block_tasks_;    // its blocks with tasks of their own, each followed by the task
   bool in_structure_ = false;         // a STRUCT or UNION is being read
-  bool address_told_ = false;         // said once for a structure
+  bool address_reported_ = false;     // said once for a structure
   bool in_il_ = false;                // instructions are being read
   bool il_file_ = false;              // the file is called .il
-  bool il_line_told_ = false;         // said once for a file
+  bool il_line_reported_ = false;     // said once for a file
   NameId eno_;
   bool eno_used_ = false;   // ENO is an operand in the POU at hand
   bool lost_ = false;       // declarations of the POU or TYPE entry at hand could not be read

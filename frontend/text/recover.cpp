@@ -82,7 +82,7 @@ class Balancer {
         dialect_(dialect),
         diagnostics_(diagnostics),
         base_(sources.begin(file).offset),
-        text_(sources.text(file)),
+        source_(sources.sourceText(file)),
         count_(static_cast<uint32_t>(tokens_.size()) - kLookahead) {}
 
   void run();
@@ -146,14 +146,14 @@ class Balancer {
   }
   std::string_view textOf(uint32_t i) const {
     const Token& t = tokens_[i];
-    const size_t length = isName(t.kind) || isTypeWord(t.kind) ? names_.text({t.value}).size() : t.value;
-    return text_.substr(t.offset, length);
+    const size_t length = isName(t.kind) || isTypeWord(t.kind) ? names_.string({t.value}).size() : t.value;
+    return source_.substr(t.offset, length);
   }
   Loc loc(uint32_t i) const { return {base_ + tokens_[i].offset}; }
   uint32_t columnOf(uint32_t i) const {
     uint32_t offset = tokens_[i].offset;
     const uint32_t end = offset;
-    while (offset > 0 && text_[offset - 1] != '\n') --offset;
+    while (offset > 0 && source_[offset - 1] != '\n') --offset;
     return end - offset;
   }
   std::string describe(uint32_t i) const {
@@ -163,7 +163,7 @@ class Balancer {
     shown += '`';
     return shown;
   }
-  std::string lineOf(const Open& open) const { return std::to_string(sources_.place(loc(open.index)).line); }
+  std::string lineOf(const Open& open) const { return std::to_string(sources_.location(loc(open.index)).line); }
 
   // ---- the two passes over a region
   bool balanced(size_t first_block, size_t end_block);
@@ -196,7 +196,7 @@ class Balancer {
   Dialect dialect_;
   Diagnostics& diagnostics_;
   uint32_t base_;
-  std::string_view text_;
+  std::string_view source_;
   uint32_t count_;
   bool in_configuration_ = false;
   std::vector<Tok> members_closed_;  // METHOD, PROPERTY, ACTION whose END_… the file writes (all of them in iec)
@@ -294,12 +294,12 @@ Loc Balancer::gapBefore(uint32_t i, uint32_t& length) const {
   if (i > 0) {
     const Token& before = tokens_[i - 1];
     uint32_t p = before.offset + static_cast<uint32_t>(textOf(i - 1).size());
-    while (p < tokens_[i].offset && text_[p] != '\n') ++p;
+    while (p < tokens_[i].offset && source_[p] != '\n') ++p;
     if (p < tokens_[i].offset) {
       ++p;
       const uint32_t line = p;
-      while (p < tokens_[i].offset && (text_[p] == ' ' || text_[p] == '\t')) ++p;
-      if (p < text_.size() && (text_[p] == '\n' || text_[p] == '\r')) return {base_ + (p > line ? p - 1 : p)};
+      while (p < tokens_[i].offset && (source_[p] == ' ' || source_[p] == '\t')) ++p;
+      if (p < source_.size() && (source_[p] == '\n' || source_[p] == '\r')) return {base_ + (p > line ? p - 1 : p)};
     }
   }
   if (tokens_[i].kind != Tok::End) {
@@ -475,9 +475,9 @@ void Balancer::close(uint32_t i, Tok closer) {
   if (!top_matches && !stack_.empty() && !(isPouOpener(stack_.back().kind) && !isPouCloser(closer))) {
     Open& top = stack_.back();
     const bool found_by_column = found > 0 && stack_[found - 1].column == line_column_;
-    const bool wrong_word =
+    const bool misplaced_keyword =
         isPouOpener(top.kind) || (line_start && top.line_start && top.column == line_column_ && !found_by_column);
-    if (wrong_word && (found == 0 || !isPouOpener(top.kind))) {
+    if (misplaced_keyword && (found == 0 || !isPouOpener(top.kind))) {
       const std::span<const Tok> openers = openersFor(closer);
       const bool function_without_result = top.kind == Tok::Function && tokens_[top.index + 2].kind != Tok::Colon;
       if ((isStatementOpener(top.kind) && !belongs(top.connective, top.kind) && belongs(top.connective, openers[0])) ||
@@ -544,8 +544,8 @@ void Balancer::leaveOpen(const Open& open, uint32_t forced) {
   }
   const uint32_t at = open.suspect != 0 && open.suspect < forced ? open.suspect : forced;
   uint32_t length = 1;
-  const Loc place = gapBefore(at, length);
-  diagnostics_.report(diag::MissingEnd, place, {spelling(closer), textOf(open.index), lineOf(open)}).length(length);
+  const Loc gap = gapBefore(at, length);
+  diagnostics_.report(diag::MissingEnd, gap, {spelling(closer), textOf(open.index), lineOf(open)}).length(length);
   markReported(at);
   if (at == count_ && at > 0) markReported(at - 1);
   edit(at, EditKind::Insert, closer);
@@ -686,9 +686,9 @@ void Balancer::stray(uint32_t i, Tok closer) {
 void Balancer::missingOpener(uint32_t at, Tok word) {
   uint32_t length = static_cast<uint32_t>(textOf(at).size());
   // What has its name beside it is missing on this line, the others on the blank line above.
-  const Loc place =
+  const Loc gap =
       isPouOpener(word) || word == Tok::Configuration || word == Tok::Resource ? loc(at) : gapBefore(at, length);
-  diagnostics_.report(diag::MissingOpener, place, {spelling(word), describe(at)}).length(length);
+  diagnostics_.report(diag::MissingOpener, gap, {spelling(word), describe(at)}).length(length);
   markReported(at);
   edit(at, EditKind::Insert, word);
 }
@@ -768,16 +768,16 @@ void balanceBlocks(TokenStream& stream, const Names& names, const Sources& sourc
 }
 
 Tok nearestKeyword(std::string_view written, std::span<const Tok> candidates) {
-  std::vector<std::string_view> words;
-  words.reserve(candidates.size());
-  for (Tok t : candidates) words.push_back(spelling(t));
+  std::vector<std::string_view> spellings;
+  spellings.reserve(candidates.size());
+  for (Tok t : candidates) spellings.push_back(spelling(t));
   const std::string upper = [&] {
     std::string s(written);
     for (char& c : s)
       if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
     return s;
   }();
-  const std::string_view found = nearest(upper, words);
+  const std::string_view found = nearest(upper, spellings);
   if (found.empty()) return Tok::End;
   for (Tok t : candidates)
     if (found == spelling(t)) return t;

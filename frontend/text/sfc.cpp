@@ -105,7 +105,7 @@ void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members, std::vector<SfcT
     }
   }
   if (!open.empty()) {
-    const std::string line = std::to_string(sources_.place(loc(macros[open.back()].open)).line);
+    const std::string line = std::to_string(sources_.location(loc(macros[open.back()].open)).line);
     missing(diag::MissingEnd, {"END_MACRO_STEP", "MACRO_STEP", line});
   } else if (diagnostics_.errorCount() == errors) {
     inlineMacros(macros, steps, transitions);
@@ -139,7 +139,7 @@ void Parser::parseStep(std::vector<SfcStep>& out) {
   advance();
   std::vector<SfcAssociation> actions;
   if (parseName(step.name)) {
-    parsePlace(step.place);
+    parsePosition(step.position);
     if (at(Tok::LeftParen)) parseStepTimes(step);
     if (!panic_) expect(Tok::Colon);
     while (!panic_ && !at(Tok::EndStep) && !atBlockEnd() && !atSfc() && !atMacroEnd())
@@ -151,7 +151,7 @@ void Parser::parseStep(std::vector<SfcStep>& out) {
   }
   if (panic_) syncChart(Tok::EndStep);
   if (!accept(Tok::EndStep)) {
-    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    const std::string line = std::to_string(sources_.location(loc(open)).line);
     missing(diag::MissingEnd, {"END_STEP", textOf(open), line});
   }
   if (!step.name.name) return;
@@ -159,13 +159,13 @@ void Parser::parseStep(std::vector<SfcStep>& out) {
   out.push_back(step);
 }
 
-void Parser::parsePlace(SfcPlace& place) {
+void Parser::parsePosition(SfcPosition& position) {
   if (!is(t_, "AT") || (peek() != Tok::Number && peek() != Tok::Minus)) return;
   advance();
-  int32_t* const numbers[] = {&place.x, &place.y, &place.width, &place.height};
+  int32_t* const numbers[] = {&position.x, &position.y, &position.width, &position.height};
   for (int32_t* const number : numbers)
-    if (!takePlace(*number) || !accept(Tok::Comma)) break;
-  place.placed = true;
+    if (!takeCoordinate(*number) || !accept(Tok::Comma)) break;
+  position.placed = true;
 }
 
 // "(" TMIN ":=" expression ["," TMAX ":=" expression] ")"
@@ -271,7 +271,7 @@ bool Parser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId
     t.loc = here();
     advance();
   }
-  parsePlace(t.place);
+  parsePosition(t.position);
   if (at(Tok::LeftParen)) {
     advance();
     if (is(t_, "PRIORITY")) advance();
@@ -298,15 +298,15 @@ bool Parser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId
     fail(diag::WrongWord, t_, {textOf(t_), "FROM"});
   }
   if (!panic_) parseCondition(t, members);
-  const bool good = !panic_;
+  const bool ok = !panic_;
   if (panic_) syncChart(Tok::EndTransition);
   if (!accept(Tok::EndTransition)) {
-    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    const std::string line = std::to_string(sources_.location(loc(open)).line);
     missing(diag::MissingEnd, {"END_TRANSITION", "TRANSITION", line});
   }
   t.end = endOf(t_ - 1);
-  if (good) out.push_back(t);
-  return good;
+  if (ok) out.push_back(t);
+  return ok;
 }
 
 // ":=" expression [";"] | ":" statements | ":" instructions | nothing: that of the transition or variable of its name
@@ -319,7 +319,7 @@ void Parser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
   if (t.name.name) {
     t.target = t.name;
   } else {  // of a body in IL, or of networks
-    t.target = {names_.intern("Transition_" + std::to_string(sources_.place(t.loc).line)), t.loc};
+    t.target = {names_.intern("Transition_" + std::to_string(sources_.location(t.loc).line)), t.loc};
   }
   const auto target = [&] {
     return tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, t.target.loc), t.target.name, {}});
@@ -375,7 +375,7 @@ void Parser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
     }
     return;
   }
-  d.name = names_.intern(std::string(names_.text(t.target.name)) + "_condition");
+  d.name = names_.intern(std::string(names_.string(t.target.name)) + "_condition");
   d.begin = d.body_begin;
   d.end = d.body_end;
   t.body = tree_.add<DeclId>(d);

@@ -18,7 +18,7 @@ uint32_t StepIndex::of(NameId name) const {
   return found != by_name_.end() && found->first == key ? found->second : count_;
 }
 
-const char* wordOf(SfcQualifier q) {
+const char* keywordOf(SfcQualifier q) {
   switch (q) {
     case SfcQualifier::N: return "N";
     case SfcQualifier::R: return "R";
@@ -45,10 +45,10 @@ std::string literalOf(uint64_t word) {
   return "LWORD#16#" + digits;
 }
 
-Chart::Chart(const Charts& charts, const PouDecl& pou, const ChartPlace& place)
+Chart::Chart(const Charts& charts, const PouDecl& pou, const ChartContext& context)
     : charts_(charts),
       pou_(pou),
-      place_(place),
+      context_(context),
       steps_(charts.tree.list(pou.steps)),
       transitions_(charts.tree.list(pou.transitions)),
       index_(charts, pou) {
@@ -93,38 +93,38 @@ std::string Chart::initialSteps() const {
   return list;
 }
 
-const char* wordOf(SfcFlag flag) {
-  static const char* const kWords[kSfcFlags] = {"SFCInit",
-                                                "SFCReset",
-                                                "SFCError",
-                                                "SFCEnableLimit",
-                                                "SFCErrorStep",
-                                                "SFCErrorPOU",
-                                                "SFCErrorAnalyzation",
-                                                "SFCErrorAnalyzationTable",
-                                                "SFCQuitError",
-                                                "SFCPause",
-                                                "SFCTrans",
-                                                "SFCCurrentStep",
-                                                "SFCTipMode",
-                                                "SFCTip"};
-  return kWords[static_cast<size_t>(flag)];
+const char* keywordOf(SfcFlag flag) {
+  static const char* const kKeywords[kSfcFlags] = {"SFCInit",
+                                                   "SFCReset",
+                                                   "SFCError",
+                                                   "SFCEnableLimit",
+                                                   "SFCErrorStep",
+                                                   "SFCErrorPOU",
+                                                   "SFCErrorAnalyzation",
+                                                   "SFCErrorAnalyzationTable",
+                                                   "SFCQuitError",
+                                                   "SFCPause",
+                                                   "SFCTrans",
+                                                   "SFCCurrentStep",
+                                                   "SFCTipMode",
+                                                   "SFCTip"};
+  return kKeywords[static_cast<size_t>(flag)];
 }
 
 // Those of a block, inherited and global ones among them, act on its own chart; where its body is none, on the charts
 // of its actions. A chart in an action or method of a block with a chart has those that are declared with it.
-void Chart::findFlags(Shapes& shapes) {
+void Chart::findFlags(Signatures& signatures) {
   const Tree& tree = charts_.tree;
   for (size_t i = 0; i < kSfcFlags; ++i) {
-    const NameId word = charts_.names.find(wordOf(static_cast<SfcFlag>(i)));
+    const NameId word = charts_.names.find(keywordOf(static_cast<SfcFlag>(i)));
     if (!word) continue;
     for (const DeclId section : tree.list(pou_.sections))
       for (const DeclId var : tree.list(tree.as<SectionDecl>(section).vars))
         for (const Ident& name : tree.list(tree.as<VarDecl>(var).names))
           if (charts_.names.same(name.name, word)) flags_[i] = name;
-    const bool sees_block = place_.around.empty() || place_.around.back()->steps.empty();
-    if (!flags_[i] && sees_block && shapes.of(word).kind == ShapeKind::Value)
-      flags_[i] = Ident{charts_.names.intern(wordOf(static_cast<SfcFlag>(i))), pou_.body_begin};
+    const bool sees_block = context_.around.empty() || context_.around.back()->steps.empty();
+    if (!flags_[i] && sees_block && signatures.of(word).kind == SignatureKind::Value)
+      flags_[i] = Ident{charts_.names.intern(keywordOf(static_cast<SfcFlag>(i))), pou_.body_begin};
   }
 }
 

@@ -13,7 +13,7 @@ namespace rung::text {
 
 constexpr uint32_t kWord = 64;  // bits of a set's word
 
-const char* wordOf(SfcQualifier q);
+const char* keywordOf(SfcQualifier q);
 inline bool isControlled(SfcQualifier q) { return q < SfcQualifier::Entry; }
 
 std::string literalOf(uint64_t word);
@@ -22,9 +22,9 @@ inline std::string maskOf(uint32_t index) { return literalOf(uint64_t{1} << (ind
 // A text in ST of which each byte knows its place in the chart.
 class Writer {
  public:
-  Writer(const Charts& charts, Loc place) : charts_(charts), place_(place) {}
+  Writer(const Charts& charts, Loc loc) : charts_(charts), loc_(loc) {}
 
-  void at(Loc place) { place_ = place; }
+  void at(Loc loc) { loc_ = loc; }
   template <class... Parts>
   void line(uint32_t depth, const Parts&... parts) {
     if (depth > 0) put(std::string(2 * depth, ' '));
@@ -32,34 +32,34 @@ class Writer {
     put("\n");
   }
   void put(std::string_view text) {
-    if (segments_.empty() || segments_.back().verbatim || segments_.back().from != place_)
-      segments_.push_back({static_cast<uint32_t>(text_.size()), place_, false});
-    text_ += text;
+    if (segments_.empty() || segments_.back().verbatim || segments_.back().from != loc_)
+      segments_.push_back({static_cast<uint32_t>(source_.size()), loc_, false});
+    source_ += text;
   }
-  void put(const Ident& name) { put(charts_.names.text(name.name)); }
+  void put(const Ident& name) { put(charts_.names.string(name.name)); }
   void put(const SfcExpr& quoted) {
-    segments_.push_back({static_cast<uint32_t>(text_.size()), quoted.begin, true});
-    text_ += textOf(quoted);
+    segments_.push_back({static_cast<uint32_t>(source_.size()), quoted.begin, true});
+    source_ += textOf(quoted);
   }
   std::string_view textOf(const SfcExpr& e) const {
     const FileId file = charts_.sources.fileOf(e.begin);
-    return charts_.sources.text(file).substr(e.begin.offset - charts_.sources.begin(file).offset,
-                                             e.end.offset - e.begin.offset);
+    return charts_.sources.sourceText(file).substr(e.begin.offset - charts_.sources.begin(file).offset,
+                                                   e.end.offset - e.begin.offset);
   }
-  bool empty() const { return text_.empty(); }
+  bool empty() const { return source_.empty(); }
   FileId finish() {
-    const FileId file = charts_.sources.fileOf(place_);
-    if (segments_.empty()) segments_.push_back({0, place_, false});
-    const FileId made =
-        charts_.sources.addAssembled(std::string(charts_.sources.path(file)), std::move(text_), std::move(segments_));
-    if (made) charts_.sources.showAs(made, std::string(charts_.sources.shown(file)));
-    return made;
+    const FileId file = charts_.sources.fileOf(loc_);
+    if (segments_.empty()) segments_.push_back({0, loc_, false});
+    const FileId created = charts_.sources.addSourceMapped(std::string(charts_.sources.path(file)), std::move(source_),
+                                                           std::move(segments_));
+    if (created) charts_.sources.setDisplayPath(created, std::string(charts_.sources.displayPath(file)));
+    return created;
   }
 
  private:
   const Charts& charts_;
-  Loc place_;
-  std::string text_;
+  Loc loc_;
+  std::string source_;
   std::vector<Segment> segments_;
 };
 
@@ -81,19 +81,19 @@ enum class SfcFlag : uint8_t {
   Tip
 };
 constexpr size_t kSfcFlags = 14;
-const char* wordOf(SfcFlag flag);
+const char* keywordOf(SfcFlag flag);
 
 // What both parts of the schedule know of a chart.
 class Chart {
  public:
-  Chart(const Charts& charts, const PouDecl& pou, const ChartPlace& place);
+  Chart(const Charts& charts, const PouDecl& pou, const ChartContext& context);
 
-  std::string_view text(NameId name) const { return charts_.names.text(name); }
-  std::string_view name(uint32_t step) const { return text(steps_[step].name.name); }
+  std::string_view string(NameId name) const { return charts_.names.string(name); }
+  std::string_view name(uint32_t step) const { return string(steps_[step].name.name); }
   uint32_t words(size_t count) const { return static_cast<uint32_t>((count + kWord - 1) / kWord); }
   uint32_t actionOf(NameId name) const;
   // Looks for the flags among the variables that the chart sees; before, there are none.
-  void findFlags(Shapes& shapes);
+  void findFlags(Signatures& signatures);
   const Ident* flag(SfcFlag word) const {
     const std::optional<Ident>& found = flags_[static_cast<size_t>(word)];
     return found ? &*found : nullptr;
@@ -103,7 +103,7 @@ class Chart {
 
   const Charts& charts_;
   const PouDecl& pou_;
-  const ChartPlace& place_;
+  const ChartContext& context_;
   std::span<const SfcStep> steps_;
   std::span<const SfcTransition> transitions_;
   StepIndex index_;

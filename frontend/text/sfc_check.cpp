@@ -18,11 +18,11 @@ using Region = std::vector<uint32_t>;  // branches, sorted
 
 class Checker {
  public:
-  Checker(const Charts& charts, Shapes& shapes, const PouDecl& pou, const ChartPlace& place)
+  Checker(const Charts& charts, Signatures& signatures, const PouDecl& pou, const ChartContext& context)
       : charts_(charts),
-        shapes_(shapes),
+        signatures_(signatures),
         pou_(pou),
-        place_(place),
+        context_(context),
         steps_(charts.tree.list(pou.steps)),
         index_(charts, pou) {}
 
@@ -39,10 +39,10 @@ class Checker {
   };
 
   Report report(Diag diag, Loc loc, std::initializer_list<std::string_view> args) {
-    good_ = false;
+    ok_ = false;
     return charts_.diagnostics.report(diag, loc, args);
   }
-  std::string_view text(NameId name) const { return charts_.names.text(name); }
+  std::string_view string(NameId name) const { return charts_.names.string(name); }
   void checkInitial();
   void checkSteps(Slice<Ident> list);
   void checkActions();
@@ -56,12 +56,12 @@ class Checker {
   uint32_t splitOf(const SfcTransition& t, const Region& parent);
 
   const Charts& charts_;
-  Shapes& shapes_;
+  Signatures& signatures_;
   const PouDecl& pou_;
-  const ChartPlace& place_;
+  const ChartContext& context_;
   std::span<const SfcStep> steps_;
   StepIndex index_;
-  bool good_ = true;
+  bool ok_ = true;
   std::vector<Region> regions_;  // by step; empty: not reached
   std::vector<Split> splits_;
   std::vector<Branch> branches_;
@@ -100,13 +100,13 @@ void Checker::checkInitial() {
       first = i;
       continue;
     }
-    report(diag::SfcSeveralInitial, steps_[i].name.loc, {text(steps_[i].name.name)})
+    report(diag::SfcSeveralInitial, steps_[i].name.loc, {string(steps_[i].name.name)})
         .note(steps_[first].name.loc, diag::AlsoDeclaredHere);
     return;
   }
   if (!any)
     report(diag::SfcNoInitial, steps_.empty() ? pou_.body_begin : steps_[0].name.loc,
-           {text(pou_.name), steps_.empty() ? "Start" : text(steps_[0].name.name)});
+           {string(pou_.name), steps_.empty() ? "Start" : string(steps_[0].name.name)});
 }
 
 // Forbids transitions from and to what is no step. IEC 61131-3 ed. 3, 6.7.3.
@@ -115,8 +115,8 @@ void Checker::checkSteps(Slice<Ident> list) {
   for (const Ident& step : charts_.tree.list(list)) {
     if (index_.of(step.name) < steps_.size()) continue;
     std::vector<std::string_view> candidates;
-    for (const SfcStep& known : steps_) candidates.push_back(text(known.name.name));
-    report(diag::SfcUnknownStep, step.loc, {text(step.name)}).didYouMean(nearest(text(step.name), candidates));
+    for (const SfcStep& known : steps_) candidates.push_back(string(known.name.name));
+    report(diag::SfcUnknownStep, step.loc, {string(step.name)}).didYouMean(nearest(string(step.name), candidates));
   }
 }
 
@@ -125,17 +125,17 @@ void Checker::checkSteps(Slice<Ident> list) {
 void Checker::checkActions() {
   for (const SfcStep& step : steps_) {
     for (const SfcAssociation& a : charts_.tree.list(step.actions)) {
-      const ShapeKind kind = shapes_.of(a.action.name).kind;
-      if (kind == ShapeKind::Method || kind == ShapeKind::Value || kind == ShapeKind::Instance) continue;
+      const SignatureKind kind = signatures_.of(a.action.name).kind;
+      if (kind == SignatureKind::Method || kind == SignatureKind::Value || kind == SignatureKind::Instance) continue;
       std::vector<std::string_view> candidates;
       std::vector<const PouDecl*> seen = {&pou_};
-      seen.insert(seen.end(), place_.around.begin(), place_.around.end());
+      seen.insert(seen.end(), context_.around.begin(), context_.around.end());
       for (const PouDecl* pou : seen)
         for (const DeclId member : charts_.tree.list(pou->members))
           if (charts_.tree.kind(member) == DeclKind::Pou)
-            candidates.push_back(text(charts_.tree.as<PouDecl>(member).name));
-      report(diag::SfcUnknownAction, a.action.loc, {text(a.action.name)})
-          .didYouMean(nearest(text(a.action.name), candidates));
+            candidates.push_back(string(charts_.tree.as<PouDecl>(member).name));
+      report(diag::SfcUnknownAction, a.action.loc, {string(a.action.name)})
+          .didYouMean(nearest(string(a.action.name), candidates));
     }
   }
 }
@@ -193,7 +193,7 @@ bool Checker::unite(const SfcTransition& t, Region& region) {
       for (const uint32_t a : own) {
         for (const uint32_t b : regions_[index_.of(from[k].name)]) {
           if (concurrent(a, b)) continue;
-          report(diag::SfcNeverTogether, from[i].loc, {text(from[k].name), text(from[i].name)});
+          report(diag::SfcNeverTogether, from[i].loc, {string(from[k].name), string(from[i].name)});
           return false;
         }
       }
@@ -212,7 +212,7 @@ bool Checker::enter(const Ident& step, const Region& region) {
   Region& own = regions_[index_.of(step.name)];
   if (own.empty()) own = region;
   if (own == region) return true;
-  report(diag::SfcBranchCrossed, step.loc, {text(step.name)});
+  report(diag::SfcBranchCrossed, step.loc, {string(step.name)});
   return false;
 }
 
@@ -279,7 +279,7 @@ void Checker::checkRegions() {
   if (charts_.diagnostics.hasErrors()) return;  // ways may have been lost
   for (size_t i = 0; i < steps_.size(); ++i)
     if (regions_[i].empty())
-      charts_.diagnostics.report(diag::SfcUnreachable, steps_[i].name.loc, {text(steps_[i].name.name)});
+      charts_.diagnostics.report(diag::SfcUnreachable, steps_[i].name.loc, {string(steps_[i].name.name)});
 }
 
 bool Checker::run() {
@@ -291,17 +291,17 @@ bool Checker::run() {
     // Forbids a transition to the step that it leaves, in codesys. TM/TP manual 5.5.2.4.
     if (charts_.dialect == Dialect::Codesys && from.size() == 1 && to.size() == 1 &&
         charts_.names.same(from[0].name, to[0].name))
-      charts_.diagnostics.report(diag::SfcSameStep, to[0].loc, {text(to[0].name)});
+      charts_.diagnostics.report(diag::SfcSameStep, to[0].loc, {string(to[0].name)});
   }
   checkActions();
-  if (good_) checkRegions();
-  return good_;
+  if (ok_) checkRegions();
+  return ok_;
 }
 
 }  // namespace
 
-bool checkSfc(const Charts& charts, Shapes& shapes, const PouDecl& pou, const ChartPlace& place) {
-  return Checker(charts, shapes, pou, place).run();
+bool checkSfc(const Charts& charts, Signatures& signatures, const PouDecl& pou, const ChartContext& context) {
+  return Checker(charts, signatures, pou, context).run();
 }
 
 }  // namespace rung::text

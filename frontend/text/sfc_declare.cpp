@@ -15,7 +15,7 @@ void writeSections(const Chart& chart, Writer& out) {
       out.line(1, name, " : ARRAY[0..", std::to_string(words - 1), "] OF LWORD", initial.empty() ? "" : " := [",
                initial, initial.empty() ? ";" : "];");
   };
-  out.line(0, chart.place_.around.empty() ? "VAR" : "VAR_INST");
+  out.line(0, chart.context_.around.empty() ? "VAR" : "VAR_INST");
   for (uint32_t i = 0; i < chart.steps_.size(); ++i) {
     const SfcStep& step = chart.steps_[i];
     out.at(step.name.loc);
@@ -23,7 +23,7 @@ void writeSections(const Chart& chart, Writer& out) {
   }
   for (const Ident& action : chart.actions_) {
     out.at(action.loc);
-    out.line(1, "_", action, " : SFCActionControl", chart.place_.final_scan ? ";" : " := (final_scan := FALSE);");
+    out.line(1, "_", action, " : SFCActionControl", chart.context_.final_scan ? ";" : " := (final_scan := FALSE);");
   }
   for (size_t i = 0; i < chart.transitions_.size(); ++i) {
     const SfcTransition& t = chart.transitions_[i];
@@ -52,15 +52,15 @@ void writeSections(const Chart& chart, Writer& out) {
 
 }  // namespace
 
-void declareSfc(const Charts& charts, PouDecl& pou, const ChartPlace& place) {
-  const Chart chart(charts, pou, place);
+void declareSfc(const Charts& charts, PouDecl& pou, const ChartContext& context) {
+  const Chart chart(charts, pou, context);
   Writer out(charts, pou.body_begin);
   writeSections(chart, out);
   pou.chart_sections = out.finish();
   std::vector<DeclId> sections(charts.tree.list(pou.sections).begin(), charts.tree.list(pou.sections).end());
-  const Slice<DeclId> made =
+  const Slice<DeclId> created =
       parseSections(charts.tree, charts.names, charts.sources, pou.chart_sections, charts.dialect, charts.diagnostics);
-  for (const DeclId section : charts.tree.list(made)) sections.push_back(section);
+  for (const DeclId section : charts.tree.list(created)) sections.push_back(section);
   pou.sections = charts.tree.addList<DeclId>(sections);
 }
 

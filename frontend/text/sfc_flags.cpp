@@ -7,7 +7,7 @@
 namespace rung::text {
 
 namespace {
-constexpr size_t kTextLength = 80;
+constexpr size_t kMaxStringLength = 80;
 }  // namespace
 
 // As before the first cycle.
@@ -64,9 +64,9 @@ void SfcScheduler::flags() {
   const Ident* quit = chart_.flag(SfcFlag::QuitError);
   const Ident* pause = chart_.flag(SfcFlag::Pause);
   if (quit != nullptr || pause != nullptr) {
-    const std::string_view first = chart_.text((quit != nullptr ? quit : pause)->name);
+    const std::string_view first = chart_.string((quit != nullptr ? quit : pause)->name);
     const std::string second =
-        quit == nullptr || pause == nullptr ? "" : " OR " + std::string(chart_.text(pause->name));
+        quit == nullptr || pause == nullptr ? "" : " OR " + std::string(chart_.string(pause->name));
     out_.line(0, "IF ", first, second, " THEN");
     out_.line(1, "sfc_paused := sfc_paused + (sfc_now - sfc_last);");
     out_.line(0, "END_IF");
@@ -97,8 +97,8 @@ void SfcScheduler::flags() {
   }
   if (chart_.flag(SfcFlag::TipMode) != nullptr) {
     const Ident* tip = chart_.flag(SfcFlag::Tip);
-    out_.line(0, "sfc_tip := ", tip != nullptr ? chart_.text(tip->name) : "FALSE", " AND NOT sfc_tip_before;");
-    out_.line(0, "sfc_tip_before := ", tip != nullptr ? chart_.text(tip->name) : "FALSE", ";");
+    out_.line(0, "sfc_tip := ", tip != nullptr ? chart_.string(tip->name) : "FALSE", " AND NOT sfc_tip_before;");
+    out_.line(0, "sfc_tip_before := ", tip != nullptr ? chart_.string(tip->name) : "FALSE", ";");
   }
 }
 
@@ -107,7 +107,7 @@ std::string SfcScheduler::quoted(std::string_view text) {
   std::string out;
   size_t length = 0;
   for (const char c : text) {
-    if (++length > kTextLength) break;
+    if (++length > kMaxStringLength) break;
     if (c == '\'' || c == '$') out += '$';
     out += c == '\n' || c == '\r' || c == '\t' ? ' ' : c;
   }
@@ -189,18 +189,18 @@ void SfcScheduler::timeLimit(const SfcStep& step, uint32_t depth) {
   if (!step.max.value || error == nullptr) return;
   out_.at(step.max.begin);
   out_.line(depth, "IF ", step.name, ".t > ", step.max, " AND NOT ", *error, enabled != nullptr ? " AND " : "",
-            enabled != nullptr ? chart_.text(enabled->name) : "", " THEN");
+            enabled != nullptr ? chart_.string(enabled->name) : "", " THEN");
   out_.line(depth + 1, *error, " := TRUE;");
   if (const Ident* flag = chart_.flag(SfcFlag::ErrorStep)) out_.line(depth + 1, *flag, " := '", step.name, "';");
   if (const Ident* flag = chart_.flag(SfcFlag::ErrorPou))
     out_.line(depth + 1, *flag, " := '",
-              chart_.place_.around.empty() ? "" : chart_.text(chart_.place_.around.back()->name),
-              chart_.place_.around.empty() ? "" : ".", chart_.text(chart_.pou_.name), "';");
+              chart_.context_.around.empty() ? "" : chart_.string(chart_.context_.around.back()->name),
+              chart_.context_.around.empty() ? "" : ".", chart_.string(chart_.pou_.name), "';");
   if (const Ident* flag = chart_.flag(SfcFlag::ErrorAnalyzation)) {
     std::string blocking;
     for (const SfcTransition* t : leaving(step)) {
       if (!blocking.empty()) blocking += " | ";
-      blocking += t->condition.value && !t->name.name ? out_.textOf(t->condition) : chart_.text(t->name.name);
+      blocking += t->condition.value && !t->name.name ? out_.textOf(t->condition) : chart_.string(t->name.name);
     }
     out_.line(depth + 1, *flag, " := '", quoted(blocking), "';");
   }
@@ -213,7 +213,7 @@ void SfcScheduler::timeLimit(const SfcStep& step, uint32_t depth) {
       if (own.condition.value && !chart_.keepsCondition(own))
         analyse(own.condition, true, depth + 1);
       else
-        analyseLeaf(t->name.name ? t->name : own.target, chart_.text(t->name.name ? t->name.name : own.target.name),
+        analyseLeaf(t->name.name ? t->name : own.target, chart_.string(t->name.name ? t->name.name : own.target.name),
                     true, depth + 1);
     }
     out_.at(step.max.begin);

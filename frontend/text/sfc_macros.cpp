@@ -48,7 +48,7 @@ void Parser::closeMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& op
   macro.end_step = static_cast<uint32_t>(steps.size());
   if (macro.first_step == macro.end_step) {
     if (macro.name.name && diagnostics_.errorCount() == macro.errors)
-      diagnostics_.report(diag::MacroEmpty, macro.name.loc, {names_.text(macro.name.name)});
+      diagnostics_.report(diag::MacroEmpty, macro.name.loc, {names_.string(macro.name.name)});
     return;
   }
   // A macro inside has its own entry and exit; of two that begin together the outer one stands first.
@@ -63,9 +63,9 @@ void Parser::closeMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& op
     for (uint32_t i = macro.first_step; i < macro.end_step; ++i) found |= names_.same(steps[i].name.name, end->name);
     if (found) continue;
     std::vector<std::string_view> candidates;
-    for (const SfcStep& step : steps.subspan(macro.first_step)) candidates.push_back(names_.text(step.name.name));
-    diagnostics_.report(diag::MacroStepUnknown, end->loc, {names_.text(end->name), names_.text(macro.name.name)})
-        .didYouMean(nearest(names_.text(end->name), candidates));
+    for (const SfcStep& step : steps.subspan(macro.first_step)) candidates.push_back(names_.string(step.name.name));
+    diagnostics_.report(diag::MacroStepUnknown, end->loc, {names_.string(end->name), names_.string(macro.name.name)})
+        .didYouMean(nearest(names_.string(end->name), candidates));
     *end = {};
   }
   if (!macro.entry.name) {
@@ -90,7 +90,7 @@ void Parser::inlineMacros(std::span<const SfcMacro> macros, std::span<const SfcS
     return found == by_name.end() ? nullptr : found->second;
   };
   const auto reportTwice = [&](const Ident& name, Loc first) {
-    diagnostics_.report(diag::DeclaredTwice, name.loc, {names_.text(name.name)}).note(first, diag::AlsoDeclaredHere);
+    diagnostics_.report(diag::DeclaredTwice, name.loc, {names_.string(name.name)}).note(first, diag::AlsoDeclaredHere);
   };
   for (const SfcMacro& macro : macros) {
     if (const SfcMacro* first = find(macro.name.name)) return reportTwice(macro.name, first->name.loc);
@@ -100,15 +100,15 @@ void Parser::inlineMacros(std::span<const SfcMacro> macros, std::span<const SfcS
     if (const SfcMacro* macro = find(step.name.name)) return reportTwice(macro->name, step.name.loc);
   // An entry may be a macro inside, whose entry may be one again.
   const auto resolve = [&](Slice<Ident>& list, bool entry) {
-    std::vector<Ident> made(tree_.list(list).begin(), tree_.list(list).end());
+    std::vector<Ident> created(tree_.list(list).begin(), tree_.list(list).end());
     bool changed = false;
-    for (Ident& step : made) {
+    for (Ident& step : created) {
       while (const SfcMacro* macro = find(step.name)) {
         step.name = (entry ? macro->entry : macro->exit).name;
         changed = true;
       }
     }
-    if (changed) list = tree_.addList<Ident>(made);
+    if (changed) list = tree_.addList<Ident>(created);
   };
   for (SfcTransition& t : transitions) {
     resolve(t.from, false);

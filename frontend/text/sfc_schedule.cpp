@@ -95,7 +95,7 @@ void SfcScheduler::activeStep(uint32_t i, uint32_t depth) {
   for (const SfcAssociation& a : tree_.list(step.actions)) {
     if (!isControlled(a.qualifier)) continue;
     out_.at(a.loc);
-    out_.line(depth, "_", a.action, ".", wordOf(a.qualifier), " := TRUE;");
+    out_.line(depth, "_", a.action, ".", keywordOf(a.qualifier), " := TRUE;");
     if (a.time.value) {
       out_.line(depth, "_", a.action, ".T := ", a.time, ";");
       out_.at(a.loc);
@@ -142,7 +142,7 @@ const SfcTransition& SfcScheduler::conditionOf(const SfcTransition& t) const {
   if (t.body || t.condition.value) return t;
   for (const SfcTransition& other : chart_.transitions_)
     if (other.body && charts_.names.same(other.name.name, t.name.name)) return other;
-  for (const PouDecl* pou : chart_.place_.around)
+  for (const PouDecl* pou : chart_.context_.around)
     for (const SfcTransition& other : tree_.list(pou->transitions))
       if (other.body && charts_.names.same(other.name.name, t.name.name)) return other;
   return t;
@@ -152,7 +152,7 @@ void SfcScheduler::prepare(uint32_t way, uint32_t depth) {
   const SfcTransition& t = conditionOf(chart_.transitions_[way]);
   out_.at(t.loc);
   if (t.body)
-    out_.line(depth, chart_.text(tree_.as<PouDecl>(t.body).name), "();");
+    out_.line(depth, chart_.string(tree_.as<PouDecl>(t.body).name), "();");
   else if (chart_.keepsCondition(t))
     out_.line(depth, t.target, " := ", t.condition, ";");
 }
@@ -165,11 +165,12 @@ void SfcScheduler::condition(uint32_t way) {
   out_.at(own.loc);
   std::string before;
   for (size_t i = 1; i < from.size(); ++i) {
-    before += std::string(chart_.text(from[i].name)) + ".x AND " + std::string(chart_.text(from[i].name)) + "._x AND ";
+    before +=
+        std::string(chart_.string(from[i].name)) + ".x AND " + std::string(chart_.string(from[i].name)) + "._x AND ";
   }
   const bool quoted = t.condition.value && !chart_.keepsCondition(t);
   if (quoted && tree_.kind(t.condition.value) == ExprKind::Literal && before.empty() && !tips)
-    before = std::string(chart_.text(from[0].name)) + ".x AND ";  // no IF on a constant
+    before = std::string(chart_.string(from[0].name)) + ".x AND ";  // no IF on a constant
   out_.put(before);
   for (size_t i = 1; i < from.size(); ++i) {
     const SfcStep& step = chart_.steps_[chart_.index_.of(from[i].name)];
@@ -311,12 +312,12 @@ static bool namesDiffer(const Charts& charts, const PouDecl& pou) {
   return std::adjacent_find(keys.begin(), keys.end()) == keys.end();
 }
 
-bool scheduleSfc(const Charts& charts, Shapes& shapes, PouDecl& pou, const ChartPlace& place) {
-  if (!checkSfc(charts, shapes, pou, place) || !namesDiffer(charts, pou)) return false;
-  Chart chart(charts, pou, place);
-  chart.findFlags(shapes);
+bool scheduleSfc(const Charts& charts, Signatures& signatures, PouDecl& pou, const ChartContext& context) {
+  if (!checkSfc(charts, signatures, pou, context) || !namesDiffer(charts, pou)) return false;
+  Chart chart(charts, pou, context);
+  chart.findFlags(signatures);
   Writer out(charts, pou.body_begin);
-  SfcScheduler(chart, shapes, out).run();
+  SfcScheduler(chart, signatures, out).run();
   out.at(pou.body_begin);
   pou.chart_body = out.finish();
   pou.body =

@@ -14,7 +14,7 @@
 
 #include "frontend/source/diagnostics.h"
 #include "frontend/source/dialect.h"
-#include "frontend/syntax/shapes.h"
+#include "frontend/syntax/signatures.h"
 #include "frontend/syntax/tree.h"
 #include "frontend/text/parse.h"
 
@@ -29,7 +29,7 @@ struct Charts {
 };
 
 // Where a chart stands.
-struct ChartPlace {
+struct ChartContext {
   bool final_scan = true;  // actions run once more when they end
   // Of a chart in an action or method: the charts of actions around it, then the block; else empty.
   std::vector<const PouDecl*> around;
@@ -37,11 +37,11 @@ struct ChartPlace {
 
 // Appends the sections of the chart's variables to those of the POU. Of a POU without a chart those of its conditions,
 // which charts of its actions use.
-void declareSfc(const Charts& charts, PouDecl& pou, const ChartPlace& place);
+void declareSfc(const Charts& charts, PouDecl& pou, const ChartContext& context);
 // Fills the POU's statements. False: the chart is wrong, which was reported.
-bool scheduleSfc(const Charts& charts, Shapes& shapes, PouDecl& pou, const ChartPlace& place);
+bool scheduleSfc(const Charts& charts, Signatures& signatures, PouDecl& pou, const ChartContext& context);
 // The rules for charts as a whole (sfc_check.cpp).
-bool checkSfc(const Charts& charts, Shapes& shapes, const PouDecl& pou, const ChartPlace& place);
+bool checkSfc(const Charts& charts, Signatures& signatures, const PouDecl& pou, const ChartContext& context);
 
 // The steps of a chart by name.
 class StepIndex {

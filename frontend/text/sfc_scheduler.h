@@ -10,8 +10,8 @@ namespace rung::text {
 
 class SfcScheduler {
  public:
-  SfcScheduler(const Chart& chart, Shapes& shapes, Writer& out)
-      : chart_(chart), charts_(chart.charts_), tree_(chart.charts_.tree), shapes_(shapes), out_(out) {}
+  SfcScheduler(const Chart& chart, Signatures& signatures, Writer& out)
+      : chart_(chart), charts_(chart.charts_), tree_(chart.charts_.tree), signatures_(signatures), out_(out) {}
 
   void run();
 
@@ -31,9 +31,9 @@ class SfcScheduler {
     return [this](uint32_t i) { return chart_.name(i); };
   }
   auto actionNames() const {
-    return [this](uint32_t i) { return chart_.text(chart_.actions_[i].name); };
+    return [this](uint32_t i) { return chart_.string(chart_.actions_[i].name); };
   }
-  bool callsAction(const Ident& action) const { return shapes_.of(action.name).kind != ShapeKind::Value; }
+  bool callsAction(const Ident& action) const { return signatures_.of(action.name).kind != SignatureKind::Value; }
   void run(uint32_t depth, const SfcStep& step, SfcQualifier when);
   void flags();
   void reset(uint32_t depth);
@@ -59,7 +59,7 @@ class SfcScheduler {
   const Chart& chart_;
   const Charts& charts_;
   const Tree& tree_;
-  Shapes& shapes_;
+  Signatures& signatures_;
   Writer& out_;
 };
 

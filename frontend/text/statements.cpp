@@ -232,12 +232,14 @@ void Parser::parseExprStatement() {
           is_assign = false;
         }
         break;
-      case static_cast<int>(Tok::SetMark):
-      case static_cast<int>(Tok::ResetMark):
-      case static_cast<int>(Tok::RefMark):
+      case static_cast<int>(Tok::SetModifier):
+      case static_cast<int>(Tok::ResetModifier):
+      case static_cast<int>(Tok::RefModifier):
         is_assign = peek() == Tok::Equal && t_[1].offset == t_->offset + lengthOf(t_) && !atLineStart();
         if (is_assign) {
-          assign = at(Tok::SetMark) ? AssignOp::Set : at(Tok::ResetMark) ? AssignOp::Reset : AssignOp::Reference;
+          assign = at(Tok::SetModifier)     ? AssignOp::Set
+                   : at(Tok::ResetModifier) ? AssignOp::Reset
+                                            : AssignOp::Reference;
           advance();
           advance();
         }
@@ -279,7 +281,7 @@ void Parser::parseExprStatement() {
   stmts_.push_back(tree_.add<StmtId>(ErrorStmt{header(StmtKind::Error, loc(first))}));
   const bool ends = at(Tok::Semicolon) || atLineStart() || atBlockEnd() || startsStatement(t_);
   if (ends) {
-    const std::string shown(text_.substr(first->offset, (t_ - 1)->offset + lengthOf(t_ - 1) - first->offset));
+    const std::string shown(source_.substr(first->offset, (t_ - 1)->offset + lengthOf(t_ - 1) - first->offset));
     slip(diag::NoEffect, first, {shown.size() > 60 ? textOf(first) : std::string_view(shown)});
     if (at(Tok::Semicolon)) advance();
     return;
@@ -497,7 +499,7 @@ void Parser::closeBlock(const Token* open, Tok end) {
     accept(Tok::Semicolon);
     return;
   }
-  const std::string line = std::to_string(sources_.place(loc(open)).line);
+  const std::string line = std::to_string(sources_.location(loc(open)).line);
   missing(diag::MissingEnd, {spelling(end), spelling(open->kind), line});
 }
 
@@ -532,8 +534,8 @@ bool Parser::atCaseLabel() const {
     case static_cast<int>(Tok::Minus):
     case static_cast<int>(Tok::Plus):
     case static_cast<int>(Tok::LeftParen):
-    case static_cast<int>(Tok::Text):
-    case static_cast<int>(Tok::WideText):
+    case static_cast<int>(Tok::StringLiteral):
+    case static_cast<int>(Tok::WideStringLiteral):
     case static_cast<int>(Tok::True):
     case static_cast<int>(Tok::False):
     case static_cast<int>(Tok::Colon):

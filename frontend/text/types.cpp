@@ -28,7 +28,7 @@ void Parser::parseTypes(std::vector<DeclId>& out) {
       return;
     }
     if (endsDeclarations(kind())) {
-      const std::string line = std::to_string(sources_.place(loc(open)).line);
+      const std::string line = std::to_string(sources_.location(loc(open)).line);
       missing(diag::MissingEnd, {"END_TYPE", "TYPE", line});
       return;
     }
@@ -149,8 +149,10 @@ TypeExprId Parser::parseNamedType() {
   // USTRING came late to be a keyword: a type of the project may have its name.
   const bool is_utf8 = at(Tok::Ident) && is(t_, "USTRING") && (peek() == Tok::LeftBracket || peek() == Tok::LeftParen);
   if (at(Tok::String) || at(Tok::Wstring) || is_utf8) {
-    const TextCode code = is_utf8 ? TextCode::Utf8 : at(Tok::Wstring) ? TextCode::Wide : TextCode::Bytes;
-    TextTypeExpr d{{TypeExprKind::Text, 0, 0, start, {}}, {}, code};
+    const StringEncoding code = is_utf8            ? StringEncoding::Utf8
+                                : at(Tok::Wstring) ? StringEncoding::Wide
+                                                   : StringEncoding::Bytes;
+    StringTypeExpr d{{TypeExprKind::String, 0, 0, start, {}}, {}, code};
     advance();
     if (at(Tok::LeftBracket) || at(Tok::LeftParen)) {
       const Tok close = at(Tok::LeftBracket) ? Tok::RightBracket : Tok::RightParen;
@@ -241,11 +243,11 @@ TypeExprId Parser::parseStruct() {
   }
   const size_t first = decls_.size();
   const bool outer = std::exchange(in_structure_, true);
-  address_told_ = false;
+  address_reported_ = false;
   parseVars(SectionKind::Local, end, decls_);
   in_structure_ = outer;
   if (!accept(end)) {
-    const std::string line = std::to_string(sources_.place(loc(open)).line);
+    const std::string line = std::to_string(sources_.location(loc(open)).line);
     missing(diag::MissingEnd, {spelling(end), spelling(open->kind), line});
   }
   d.fields = listFrom(decls_, first);

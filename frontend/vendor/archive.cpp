@@ -73,14 +73,14 @@ uint64_t Archive::number(const xml::Element& owner, std::string_view name) const
   return number;
 }
 
-Loc Archive::placeOf(const xml::Element& value) const {
+Loc Archive::locOf(const xml::Element& value) const {
   if (value.first_run == value.end_run) return value.loc;
   const xml::Run& run = document_.runs[value.first_run];
   const bool quoted = run.character == 0 && run.length > 1 && document_.text(value, sources_).front() == '"';
   return {run.loc.offset + (quoted ? 1u : 0u)};
 }
 
-void Archive::write(const xml::Element& value, xml::Assembly& out) const {
+void Archive::write(const xml::Element& value, xml::SourceMappedText& out) const {
   const std::string all = document_.text(value, sources_);
   const bool quoted = all.size() >= 2 && all.front() == '"' && all.back() == '"';
   for (uint32_t r = value.first_run; r < value.end_run; ++r) {
@@ -95,7 +95,7 @@ void Archive::write(const xml::Element& value, xml::Assembly& out) const {
   }
 }
 
-void Archive::writeString(const xml::Element& owner, std::string_view name, xml::Assembly& out) const {
+void Archive::writeString(const xml::Element& owner, std::string_view name, xml::SourceMappedText& out) const {
   const xml::Element* value = member(owner, name);
   std::string text = value == nullptr ? std::string() : this->text(*value);
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();

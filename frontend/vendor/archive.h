@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "frontend/source/diagnostics.h"
-#include "frontend/xml/assembly.h"
+#include "frontend/xml/source_mapped_text.h"
 
 namespace rung::vendor {
 
@@ -35,11 +35,11 @@ class Archive {
   bool isTrue(const xml::Element& owner, std::string_view name) const;
   uint64_t number(const xml::Element& owner, std::string_view name) const;  // 82 for 82L; 0 where there is none
   // Where the text begins.
-  Loc placeOf(const xml::Element& value) const;
+  Loc locOf(const xml::Element& value) const;
   // Writes the text as it stands in the file.
-  void write(const xml::Element& value, xml::Assembly& out) const;
+  void write(const xml::Element& value, xml::SourceMappedText& out) const;
   // Writes it as a string of the notation of networks: ` 'text'`; nothing where it is empty.
-  void writeString(const xml::Element& owner, std::string_view name, xml::Assembly& out) const;
+  void writeString(const xml::Element& owner, std::string_view name, xml::SourceMappedText& out) const;
 
  private:
   const Sources& sources_;
@@ -52,16 +52,16 @@ bool isPath(std::string_view text);
 // The body below `body`, an <NWL>, <CFC> or <SFC>; `name` is what messages call it. What cannot be read is reported,
 // and nothing is written.
 void writeNwl(const Archive& archive, const xml::Element& body, const std::string& name, Diagnostics& diagnostics,
-              xml::Assembly& out);
+              xml::SourceMappedText& out);
 void writeCfc(const Archive& archive, const xml::Element& body, const std::string& name, Diagnostics& diagnostics,
-              xml::Assembly& out);
+              xml::SourceMappedText& out);
 void writeSfc(const Archive& archive, const xml::Element& body, const std::string& name, Diagnostics& diagnostics,
-              xml::Assembly& out);
+              xml::SourceMappedText& out);
 
 // Whether the chart below `body` has a step of this name.
 bool hasStep(const Archive& archive, const xml::Element& body, std::string_view name);
 // The variables that the settings of a chart declare, in the <ObjectProperties> of `pou`.
-void writeSfcFlags(const Archive& archive, const xml::Element& pou, xml::Assembly& out);
+void writeSfcFlags(const Archive& archive, const xml::Element& pou, xml::SourceMappedText& out);
 
 // Of an action with the name of a step: in the text, members of a block have one name space.
 constexpr std::string_view kActionSuffix = "_action";

@@ -24,18 +24,18 @@ struct Pin {
 struct Word {
   std::string_view type, word;
 };
-constexpr Word kWords[] = {{"CFCInputElement", "input"},
-                           {"CFCOutputElement", "output"},
-                           {"CFCBoxElement", "box"},
-                           {"CFCComposerElement", "compose"},
-                           {"CFCSelectorElement", "select"},
-                           {"CFCSourceConnectionMark", "connector"},
-                           {"CFCSinkConnectionMark", "continuation"},
-                           {"CFCCommentElement", "comment"}};
+constexpr Word kKeywords[] = {{"CFCInputElement", "input"},
+                              {"CFCOutputElement", "output"},
+                              {"CFCBoxElement", "box"},
+                              {"CFCComposerElement", "compose"},
+                              {"CFCSelectorElement", "select"},
+                              {"CFCSourceConnectionMark", "connector"},
+                              {"CFCSinkConnectionMark", "continuation"},
+                              {"CFCCommentElement", "comment"}};
 
 class CfcReader {
  public:
-  CfcReader(const Archive& archive, const std::string& name, Diagnostics& diagnostics, xml::Assembly& out)
+  CfcReader(const Archive& archive, const std::string& name, Diagnostics& diagnostics, xml::SourceMappedText& out)
       : archive_(archive), name_(name), diagnostics_(diagnostics), out_(out) {}
 
   void run(const xml::Element& body);
@@ -49,9 +49,9 @@ class CfcReader {
   std::vector<const Element*> textsOf(const Element& item) const;
   void write(const Element& item, std::string_view word, uint64_t number);
   void writePins(const Element& item);
-  void writeMarks(const Element& pin);
+  void writeModifiers(const Element& pin);
   void writeWires(const Element& pin);
-  void writePlace(const Element& item);
+  void writePosition(const Element& item);
   void writeName(const Element& item, const Element* text);
   bool isBox(std::string_view type) const {
     return type == "CFCBoxElement" || type == "CFCComposerElement" || type == "CFCSelectorElement";
@@ -63,7 +63,7 @@ class CfcReader {
   const Archive& archive_;
   const std::string& name_;
   Diagnostics& diagnostics_;
-  xml::Assembly& out_;
+  xml::SourceMappedText& out_;
   std::unordered_map<uint64_t, Pin> pins_;                           // by id
   std::unordered_map<uint64_t, std::vector<const Element*>> wires_;  // by the id of where they end
 };
@@ -94,9 +94,9 @@ bool CfcReader::collect(const Element& item, uint64_t number) {
     wires_[archive_.number(item, "DestPinId")].push_back(&item);
     return true;
   }
-  if (std::none_of(std::begin(kWords), std::end(kWords), [&](const Word& word) { return word.type == type; })) {
-    const xml::Attribute* said = archive_.document().attribute(item, "t");
-    diagnostics_.report(diag::ArchiveObject, said == nullptr ? item.loc : said->loc,
+  if (std::none_of(std::begin(kKeywords), std::end(kKeywords), [&](const Word& word) { return word.type == type; })) {
+    const xml::Attribute* type_attribute = archive_.document().attribute(item, "t");
+    diagnostics_.report(diag::ArchiveObject, type_attribute == nullptr ? item.loc : type_attribute->loc,
                         {type.empty() ? "?" : type, "CFC", name_});
     return false;
   }
@@ -111,7 +111,7 @@ bool CfcReader::collect(const Element& item, uint64_t number) {
     texts.clear();
   }
   size_t at = 0;
-  bool good = true;
+  bool ok = true;
   for (const bool output : {false, true}) {
     size_t count = 0;
     for (const Element* pin : pinsOf(item, output ? "Output" : "Input", output ? "Outputs" : "Inputs")) {
@@ -124,10 +124,10 @@ bool CfcReader::collect(const Element& item, uint64_t number) {
       const std::string how = stores == nullptr ? std::string("None") : archive_.text(*stores);
       if (how == "None" || how == "Set" || how == "Reset") continue;
       diagnostics_.report(diag::ArchiveObject, stores->loc, {how, "CFC", name_});
-      good = false;
+      ok = false;
     }
   }
-  return good;
+  return ok;
 }
 
 // Forbids a connection from a pin that no element has.
@@ -136,12 +136,12 @@ bool CfcReader::checkConnection(const Element& connection) {
   const uint64_t id = archive_.number(connection, "SourcePinId");
   if (pins_.count(id) != 0) return true;
   const Element* source = archive_.member(connection, "SourcePinId");
-  diagnostics_.report(diag::WireFromNothing, source == nullptr ? connection.loc : archive_.placeOf(*source),
+  diagnostics_.report(diag::WireFromNothing, source == nullptr ? connection.loc : archive_.locOf(*source),
                       {"with the pin " + std::to_string(id)});
   return false;
 }
 
-void CfcReader::writeMarks(const Element& pin) {
+void CfcReader::writeModifiers(const Element& pin) {
   if (archive_.isTrue(pin, "Negated")) out_.word(" NOT");
   const std::string how = archive_.text(pin, "SetReset");
   if (how == "Set" || how == "Reset") out_.word(how == "Set" ? " SET" : " RESET");
@@ -167,7 +167,7 @@ void CfcReader::writeWires(const Element& pin) {
 }
 
 // "x, y, width, height"
-void CfcReader::writePlace(const Element& item) {
+void CfcReader::writePosition(const Element& item) {
   const Element* bounds = archive_.member(item, "Bounds");
   if (bounds == nullptr) return;
   const std::string text = archive_.text(*bounds);
@@ -181,21 +181,21 @@ void CfcReader::writePlace(const Element& item) {
     at = next;
   }
   if (values[2] == 0 && values[3] == 0) return;
-  std::string place = " AT ";
-  for (int k = 0; k < 4; ++k) place += (k == 0 ? "" : ", ") + std::to_string(values[k]);
-  out_.put(bounds->loc, place);
+  std::string position = " AT ";
+  for (int k = 0; k < 4; ++k) position += (k == 0 ? "" : ", ") + std::to_string(values[k]);
+  out_.put(bounds->loc, position);
 }
 
 // Marks are called as their author likes: in the notation by a name that stands for it.
 void CfcReader::writeName(const Element& item, const Element* text) {
   out_.word(" ");
   if (text != nullptr && isPath(archive_.text(*text))) return archive_.write(*text, out_);
-  std::string made = "n";
+  std::string created = "n";
   for (const char c : text == nullptr ? std::string() : archive_.text(*text)) {
     const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    made += plain ? std::string(1, c) : std::to_string(static_cast<unsigned char>(c)) + "x";
+    created += plain ? std::string(1, c) : std::to_string(static_cast<unsigned char>(c)) + "x";
   }
-  out_.put(text == nullptr ? item.loc : text->loc, made);
+  out_.put(text == nullptr ? item.loc : text->loc, created);
 }
 
 void CfcReader::writePins(const Element& item) {
@@ -209,7 +209,7 @@ void CfcReader::writePins(const Element& item) {
       archive_.write(*named.name, out_);
     else
       out_.put(pin.loc, named.other);
-    writeMarks(pin);
+    writeModifiers(pin);
   };
   for (const Element* pin : pinsOf(item, "Input", "Inputs")) {
     writeNameOf(*pin);
@@ -243,12 +243,12 @@ void CfcReader::write(const Element& item, std::string_view word, uint64_t numbe
       out_.word(")");
     }
     out_.word(" ORDER " + std::to_string(number));
-    writePlace(item);
+    writePosition(item);
     writePins(item);
   } else if (word == "comment") {
     if (const Element* text = archive_.member(item, "Text"))
       archive_.writeString(archive_.member(*text, "Text") != nullptr ? *text : item, "Text", out_);
-    writePlace(item);
+    writePosition(item);
   } else {
     const bool mark = word == "connector" || word == "continuation";
     const std::vector<const Element*> inputs = pinsOf(item, "Input", "Inputs");
@@ -260,10 +260,10 @@ void CfcReader::write(const Element& item, std::string_view word, uint64_t numbe
       if (last != nullptr) archive_.write(*last, out_);
       out_.word(")");
     }
-    for (const Element* pin : inputs) writeMarks(*pin);
-    for (const Element* pin : outputs) writeMarks(*pin);
+    for (const Element* pin : inputs) writeModifiers(*pin);
+    for (const Element* pin : outputs) writeModifiers(*pin);
     if (word == "output") out_.word(" ORDER " + std::to_string(number));
-    writePlace(item);
+    writePosition(item);
     if (!inputs.empty() && wires_.count(archive_.number(*inputs[0], "Id")) != 0) {
       out_.word(" := ");
       writeWires(*inputs[0]);
@@ -276,19 +276,19 @@ void CfcReader::run(const Element& body) {
   const Element* list = archive_.member(body, "Items");
   const Element* items = list == nullptr ? nullptr : archive_.member(*list, "InnerList");
   uint64_t number = 0;
-  bool good = true;
+  bool ok = true;
   for (const Element* e = archive_.first(items); e != nullptr; e = archive_.next(*e))
-    if (!Archive::isNothing(*e)) good = collect(*e, ++number) && good;
+    if (!Archive::isNothing(*e)) ok = collect(*e, ++number) && ok;
   for (const auto& [end, connections] : wires_)
-    for (const Element* connection : connections) good = checkConnection(*connection) && good;
-  if (!good) return;
+    for (const Element* connection : connections) ok = checkConnection(*connection) && ok;
+  if (!ok) return;
   out_.put(body.loc, "{network CFC}\n");
   number = 0;
   for (const Element* e = archive_.first(items); e != nullptr; e = archive_.next(*e)) {
     if (Archive::isNothing(*e)) continue;
     ++number;
     const std::string type = archive_.typeOf(*e);
-    for (const Word& word : kWords)
+    for (const Word& word : kKeywords)
       if (word.type == type) write(*e, word.word, number);
   }
   out_.put(body.end, "{end_network}\n");
@@ -297,7 +297,7 @@ void CfcReader::run(const Element& body) {
 }  // namespace
 
 void writeCfc(const Archive& archive, const xml::Element& body, const std::string& name, Diagnostics& diagnostics,
-              xml::Assembly& out) {
+              xml::SourceMappedText& out) {
   const xml::Element* object = archive.root(body, "CFCImplementationObject");
   if (object == nullptr) {
     diagnostics.report(diag::ArchiveEmpty, body.loc, {name, "CFCImplementationObject"});

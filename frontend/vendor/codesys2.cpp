@@ -6,8 +6,8 @@
 #include "frontend/source/names.h"
 #include "frontend/vendor/diagnostics.h"
 #include "frontend/vendor/readers.h"
-#include "frontend/vendor/words.h"
-#include "frontend/xml/assembly.h"
+#include "frontend/vendor/scanner.h"
+#include "frontend/xml/source_mapped_text.h"
 
 namespace rung::vendor {
 namespace {
@@ -24,40 +24,43 @@ bool isForeign(std::string_view word) {
 class Codesys2Reader {
  public:
   Codesys2Reader(const Sources& sources, FileId file, Diagnostics& diagnostics)
-      : diagnostics_(diagnostics), text_(sources.text(file)), base_(sources.begin(file).offset), program_(sources) {}
+      : diagnostics_(diagnostics),
+        source_(sources.sourceText(file)),
+        base_(sources.begin(file).offset),
+        program_(sources) {}
 
   // False: nothing had to be moved or left out.
   bool run() {
-    Words words(text_);
-    while (words.next()) {
-      const size_t begin = words.begin();
-      std::string_view word = words.word();
+    Scanner scanner(source_);
+    while (scanner.next()) {
+      const size_t begin = scanner.begin();
+      std::string_view word = scanner.word();
       if (sameIdentifier(word, "FUNCTIONBLOCK")) {  // taken by that compiler
         keep(begin);
         word = "FUNCTION_BLOCK";
-        program_.replace(loc(begin), loc(words.end()), word);
-        kept_ = words.end();
+        program_.replace(loc(begin), loc(scanner.end()), word);
+        kept_ = scanner.end();
         changed_ = true;
       }
       if (sameIdentifier(word, "TYPE")) {
-        words.moveTo(endOfObject(words, "END_TYPE"));
+        scanner.moveTo(endOfObject(scanner, "END_TYPE"));
       } else if (sameIdentifier(word, "VAR_GLOBAL") || sameIdentifier(word, "VAR_CONFIG")) {
-        words.moveTo(endOfObject(words, "END_VAR"));
+        scanner.moveTo(endOfObject(scanner, "END_VAR"));
       } else if (!endWordOf(word).empty()) {
-        words.moveTo(endOfPou(words, endWordOf(word)));
+        scanner.moveTo(endOfPou(scanner, endWordOf(word)));
       } else if (isForeign(word)) {
-        size_t next = text_.find("(* @NESTEDCOMMENTS", begin);
-        if (next == std::string_view::npos) next = text_.size();
-        leaveOut(begin, next);
-        words.moveTo(next);
+        size_t next = source_.find("(* @NESTEDCOMMENTS", begin);
+        if (next == std::string_view::npos) next = source_.size();
+        exclude(begin, next);
+        scanner.moveTo(next);
       }
     }
     if (!changed_) return false;
-    keep(text_.size());
+    keep(source_.size());
     return true;
   }
 
-  xml::Assembly& program() { return program_; }
+  xml::SourceMappedText& program() { return program_; }
 
  private:
   Loc loc(size_t at) const { return {base_ + static_cast<uint32_t>(at)}; }
@@ -65,42 +68,42 @@ class Codesys2Reader {
     if (to > kept_) program_.add(loc(kept_), loc(to));
     kept_ = to;
   }
-  void leaveOut(size_t begin, size_t end) {
+  void exclude(size_t begin, size_t end) {
     keep(begin);
     kept_ = end;
     changed_ = true;
   }
 
-  static size_t endOfObject(Words& words, std::string_view closing) {
-    while (words.next())
-      if (sameIdentifier(words.word(), closing)) break;
-    return words.end();
+  static size_t endOfObject(Scanner& scanner, std::string_view closing) {
+    while (scanner.next())
+      if (sameIdentifier(scanner.word(), closing)) break;
+    return scanner.end();
   }
 
   // The POU or action whose first word has been read: passes over it, leaving out a body that is drawn. Its end.
-  size_t endOfPou(Words& words, std::string_view closing) {
+  size_t endOfPou(Scanner& scanner, std::string_view closing) {
     std::string_view name;
-    while (words.next()) {
-      const std::string_view word = words.word();
+    while (scanner.next()) {
+      const std::string_view word = scanner.word();
       if (name.empty()) name = word;
       if (sameIdentifier(word, closing)) break;
-      if (!word.starts_with("_") || !word.ends_with("_BODY") || !words.atLineStart()) continue;
+      if (!word.starts_with("_") || !word.ends_with("_BODY") || !scanner.atLineStart()) continue;
       const std::string how = "drawn in " + std::string(word.substr(1, word.size() - 6));
-      diagnostics_.report(diag::NetworkBody, loc(words.begin()), {name, how})
+      diagnostics_.report(diag::NetworkBody, loc(scanner.begin()), {name, how})
           .length(static_cast<uint32_t>(word.size()));
       // Its texts follow no rules of ST: the line that closes the POU is what can be found.
-      size_t end = text_.find("\n" + std::string(closing), words.begin());
-      end = end == std::string_view::npos ? text_.size() : end + 1;
-      leaveOut(words.begin(), end);
-      words.moveTo(end);
+      size_t end = source_.find("\n" + std::string(closing), scanner.begin());
+      end = end == std::string_view::npos ? source_.size() : end + 1;
+      exclude(scanner.begin(), end);
+      scanner.moveTo(end);
     }
-    return words.end();
+    return scanner.end();
   }
 
   Diagnostics& diagnostics_;
-  std::string_view text_;
+  std::string_view source_;
   uint32_t base_;
-  xml::Assembly program_;
+  xml::SourceMappedText program_;
   size_t kept_ = 0;  // everything before is taken over or left out
   bool changed_ = false;
 };

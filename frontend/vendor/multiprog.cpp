@@ -4,15 +4,15 @@
 
 #include "frontend/vendor/diagnostics.h"
 #include "frontend/vendor/readers.h"
-#include "frontend/vendor/words.h"
-#include "frontend/xml/assembly.h"
+#include "frontend/vendor/scanner.h"
+#include "frontend/xml/source_mapped_text.h"
 
 namespace rung::vendor {
 namespace {
 
 // The value of `KEY: value` on a line of its own in a comment; its place is that of the value.
-std::string_view valueOf(std::string_view text, size_t comment, size_t end, std::string_view key) {
-  const std::string_view inside = text.substr(comment, end - comment);
+std::string_view valueOf(std::string_view source, size_t comment, size_t end, std::string_view key) {
+  const std::string_view inside = source.substr(comment, end - comment);
   const size_t found = inside.find(key);
   if (found == std::string_view::npos) return {};
   std::string_view value = inside.substr(found + key.size());
@@ -23,41 +23,41 @@ std::string_view valueOf(std::string_view text, size_t comment, size_t end, std:
 }  // namespace
 
 FileId readMultiprog(Sources& sources, FileId file, Diagnostics& diagnostics) {
-  const std::string_view text = sources.text(file);
+  const std::string_view source = sources.sourceText(file);
   const uint32_t base = sources.begin(file).offset;
   const auto loc = [&](size_t at) { return Loc{base + static_cast<uint32_t>(at)}; };
-  xml::Assembly program(sources);
+  xml::SourceMappedText program(sources);
   size_t kept = 0;  // everything before is taken over or left out
   // Leaves out what stands before the comment that holds `closing`.
-  const auto leaveOut = [&](size_t begin, std::string_view closing) {
-    const size_t word = std::min(text.find(closing, begin), text.size());
-    const size_t comment = text.substr(begin, word - begin).rfind("(*");
+  const auto exclude = [&](size_t begin, std::string_view closing) {
+    const size_t word = std::min(source.find(closing, begin), source.size());
+    const size_t comment = source.substr(begin, word - begin).rfind("(*");
     program.add(loc(kept), loc(begin));
     kept = comment == std::string_view::npos ? word : begin + comment;
     return kept;
   };
-  for (size_t p = text.find("(*"); p != std::string_view::npos; p = text.find("(*", p)) {
-    const std::string_view rest = text.substr(p);
-    const size_t end = endOfComment(text, p);
+  for (size_t p = source.find("(*"); p != std::string_view::npos; p = source.find("(*", p)) {
+    const std::string_view rest = source.substr(p);
+    const size_t end = endOfComment(source, p);
     if (rest.starts_with("(*@KEY@:DESCRIPTION") || rest.starts_with("(*@KEY@: DESCRIPTION")) {
-      p = leaveOut(end, "END_DESCRIPTION");
+      p = exclude(end, "END_DESCRIPTION");
       continue;
     }
     if (rest.starts_with("(*@KEY@: WORKSHEET") || rest.starts_with("(*@KEY@:WORKSHEET")) {
-      const std::string_view language = valueOf(text, p, end, "IEC_LANGUAGE:");
+      const std::string_view language = valueOf(source, p, end, "IEC_LANGUAGE:");
       if (!language.empty() && language != "ST" && language != "IL") {
-        const std::string_view name = valueOf(text, p, end, "NAME:");
+        const std::string_view name = valueOf(source, p, end, "NAME:");
         const std::string how = "drawn in " + std::string(language);
-        diagnostics.report(diag::NetworkBody, loc(static_cast<size_t>(language.data() - text.data())), {name, how})
+        diagnostics.report(diag::NetworkBody, loc(static_cast<size_t>(language.data() - source.data())), {name, how})
             .length(static_cast<uint32_t>(language.size()));
-        p = leaveOut(end, "END_WORKSHEET");
+        p = exclude(end, "END_WORKSHEET");
         continue;
       }
     }
     p = end;
   }
   if (kept == 0) return file;
-  program.add(loc(kept), loc(text.size()));
+  program.add(loc(kept), loc(source.size()));
   return program.finish(sources, file);
 }
 

@@ -34,7 +34,7 @@ struct Wires {  // several are joined: OR
 
 class NetworkReader {
  public:
-  NetworkReader(const Archive& archive, const std::string& name, Diagnostics& diagnostics, xml::Assembly& out)
+  NetworkReader(const Archive& archive, const std::string& name, Diagnostics& diagnostics, xml::SourceMappedText& out)
       : archive_(archive), name_(name), diagnostics_(diagnostics), out_(out) {}
 
   void run(const xml::Element& body);
@@ -97,7 +97,7 @@ class NetworkReader {
   const Archive& archive_;
   const std::string& name_;
   Diagnostics& diagnostics_;
-  xml::Assembly& out_;
+  xml::SourceMappedText& out_;
   bool ladder_ = false;
   bool quiet_ = false;  // a disabled network: nothing in it is a mistake
   uint64_t last_ = 0;   // number of an element
@@ -115,7 +115,7 @@ bool NetworkReader::checkOperand(const Element* operand, bool returns) {
   if (text == nullptr || returns) return true;
   if (quiet_) return isPlainOrNothing(text);
   if (archive_.text(*text) != kMissing) return true;
-  diagnostics_.report(diag::ArchiveOpen, archive_.placeOf(*text)).length(kMissing.size());
+  diagnostics_.report(diag::ArchiveOpen, archive_.locOf(*text)).length(kMissing.size());
   return false;
 }
 
@@ -125,24 +125,23 @@ bool NetworkReader::checkOperand(const Element* operand, bool returns) {
 bool NetworkReader::checkTree(const Element& tree) {
   if (Archive::isNothing(tree)) return true;
   const std::string type = archive_.typeOf(tree);
-  bool good = true;
-  const auto inner = [&](const Element* e) { good = (e == nullptr || checkTree(*e)) && good; };
+  bool ok = true;
+  const auto inner = [&](const Element* e) { ok = (e == nullptr || checkTree(*e)) && ok; };
   if (type == "BoxTreeOperand") return checkOperand(archive_.member(tree, "Operand"));
   if (type == "BoxTreeAssign") {
     inner(archive_.member(tree, "RValue"));
     for (const Element* target : itemsOf(listOf(tree, "OutputItems", "OutputItems")))
-      good = checkOperand(target, ((flagsOf(*target) | flagsOf(tree)) & kReturn) != 0) && good;
+      ok = checkOperand(target, ((flagsOf(*target) | flagsOf(tree)) & kReturn) != 0) && ok;
   } else if (type == "BoxTreeBox") {
     const Element* called = archive_.member(tree, "BoxType");
     if (quiet_ && (archive_.isTrue(tree, "ProvidesSTSnippet") || !isPlainOrNothing(called))) return false;
     if (called != nullptr && archive_.text(*called) == kMissing) {
-      diagnostics_.report(diag::ArchiveOpen, archive_.placeOf(*called)).length(kMissing.size());
+      diagnostics_.report(diag::ArchiveOpen, archive_.locOf(*called)).length(kMissing.size());
       return false;
     }
-    good = checkOperand(archive_.member(tree, "Instance"));
+    ok = checkOperand(archive_.member(tree, "Instance"));
     for (const Element* item : itemsOf(archive_.member(tree, "InputItems"))) inner(item);
-    for (const Element* target : itemsOf(listOf(tree, "OutputItems", "OutputItems")))
-      good = checkOperand(target) && good;
+    for (const Element* target : itemsOf(listOf(tree, "OutputItems", "OutputItems"))) ok = checkOperand(target) && ok;
   } else if (type == "BoxTreeDemux") {
     const Element* input = archive_.member(tree, "Input");
     const uint64_t branch = archive_.number(tree, "VarId");
@@ -159,12 +158,12 @@ bool NetworkReader::checkTree(const Element& tree) {
     for (const Element* item : itemsOf(archive_.member(tree, "Trees"))) inner(item);
   } else {
     if (quiet_) return false;
-    const xml::Attribute* said = archive_.document().attribute(tree, "t");
-    diagnostics_.report(diag::ArchiveObject, said == nullptr ? tree.loc : said->loc,
+    const xml::Attribute* type_attribute = archive_.document().attribute(tree, "t");
+    diagnostics_.report(diag::ArchiveObject, type_attribute == nullptr ? tree.loc : type_attribute->loc,
                         {type.empty() ? "?" : type, "FBD or LD", name_});
     return false;
   }
-  return good;
+  return ok;
 }
 
 // Forbids a network whose only form is IL.
@@ -176,9 +175,9 @@ bool NetworkReader::check(const Element& network, uint32_t number) {
     diagnostics_.report(diag::ArchiveIl, lines->loc, {std::to_string(number), name_});
     return false;
   }
-  bool good = !quiet_ || isPlainOrNothing(archive_.member(network, "Label"));
-  for (const Element* item : itemsOf(archive_.member(network, "NetworkItems"))) good = checkTree(*item) && good;
-  return good;
+  bool ok = !quiet_ || isPlainOrNothing(archive_.member(network, "Label"));
+  for (const Element* item : itemsOf(archive_.member(network, "NetworkItems"))) ok = checkTree(*item) && ok;
+  return ok;
 }
 
 // ---- writing
@@ -187,13 +186,13 @@ void NetworkReader::run(const Element& body) {
   ladder_ = sameIdentifier(archive_.text(body, "DefaultViewMode"), "Ld");
   const std::vector<const Element*> networks = itemsOf(archive_.member(body, "NetworkList"));
   std::vector<bool> readable;
-  bool good = true;
+  bool ok = true;
   for (const Element* network : networks) {
     quiet_ = isDisabled(*network);
     readable.push_back(check(*network, static_cast<uint32_t>(readable.size()) + 1));
-    good = good && (readable.back() || quiet_);
+    ok = ok && (readable.back() || quiet_);
   }
-  if (!good) return;
+  if (!ok) return;
   out_.put(body.loc, ladder_ ? "{network LD}\n" : "{network FBD}\n");
   for (uint32_t k = 0; k < networks.size(); ++k) writeNetwork(*networks[k], k + 1, readable[k]);
   out_.put(body.end, "{end_network}\n");
@@ -242,7 +241,7 @@ void NetworkReader::writeWires(const Wires& wires) {
   }
 }
 
-void writeMarks(uint64_t flags, xml::Assembly& out) {
+void writeModifiers(uint64_t flags, xml::SourceMappedText& out) {
   if ((flags & kNegation) != 0) out.word(" NOT");
   if ((flags & kRising) != 0) out.word(" RISING");
   if ((flags & kFalling) != 0) out.word(" FALLING");
@@ -296,7 +295,7 @@ void NetworkReader::assign(const Element& target, uint64_t flags, const Wires& w
     if (!jump) out_.word(")");
   }
   const uint64_t own = stores ? 0 : flags & kNegation;
-  writeMarks((own ^ (wires.flags & kNegation)) | ((flags | wires.flags) & (kRising | kFalling)), out_);
+  writeModifiers((own ^ (wires.flags & kNegation)) | ((flags | wires.flags) & (kRising | kFalling)), out_);
   if (stores) out_.word((flags & kNegation) != 0 ? " RESET" : " SET");
   if (!wires.all.empty()) {
     out_.word(" := ");
@@ -334,7 +333,7 @@ void NetworkReader::writeInstance(const Element& tree) {
 Wires NetworkReader::box(const Element& tree) {
   const std::vector<const Element*> items = itemsOf(archive_.member(tree, "InputItems"));
   const std::vector<const Element*> names = itemsOf(listOf(tree, "InputParam", "Names"));
-  const std::vector<const Element*> marks = itemsOf(archive_.member(tree, "InputFlags"));
+  const std::vector<const Element*> input_flags = itemsOf(archive_.member(tree, "InputFlags"));
   const std::vector<const Element*> targets = itemsOf(listOf(tree, "OutputItems", "OutputItems"));
   const std::vector<const Element*> results = itemsOf(listOf(tree, "OutputParam", "Names"));
   const auto named = [&](const std::vector<const Element*>& list, size_t k) {
@@ -345,7 +344,8 @@ Wires NetworkReader::box(const Element& tree) {
     const bool reads = !inputs.empty() && !Archive::isNothing(*item) && archive_.typeOf(*item) == "BoxTreeOperand";
     inputs.push_back(reads ? operand(*item) : value(*item));
   }
-  for (size_t k = 0; k < inputs.size() && k < marks.size(); ++k) inputs[k].flags ^= archive_.number(*marks[k], "Flags");
+  for (size_t k = 0; k < inputs.size() && k < input_flags.size(); ++k)
+    inputs[k].flags ^= archive_.number(*input_flags[k], "Flags");
 
   // The output that the tree around the box reads is the one without a place of its own.
   size_t main = targets.size();
@@ -374,7 +374,7 @@ Wires NetworkReader::box(const Element& tree) {
       archive_.write(*name, out_);
     else
       out_.put(items[k]->loc, "IN" + std::to_string(unnamed));
-    writeMarks(inputs[k].flags, out_);
+    writeModifiers(inputs[k].flags, out_);
     out_.word(" := ");
     writeWires(inputs[k]);
   }
@@ -406,7 +406,7 @@ Wires NetworkReader::boxOf(std::string_view type, const std::vector<Wires>& inpu
   out_.word(" " + std::string(type) + " [");
   for (size_t k = 0; k < inputs.size(); ++k) {
     out_.put(loc, (k == 0 ? "IN" : ", IN") + std::to_string(k + 1));
-    writeMarks(inputs[k].flags, out_);
+    writeModifiers(inputs[k].flags, out_);
     out_.word(" := ");
     writeWires(inputs[k]);
   }
@@ -425,10 +425,10 @@ Wires NetworkReader::demux(const Element& tree) {
     return wires;
   }
   Wires wires = value(*input);
-  const bool settled = wires.all.empty() || archive_.typeOf(*input) == "BoxTreeDemux" ||
-                       archive_.typeOf(*input) == "BoxTreeTerminator" ||
-                       (archive_.typeOf(*input) == "BoxTreeBox" && !(ladder_ && isSeries(*input, true)));
-  if (!settled || wires.flags != 0) wires = boxOf("MOVE", {wires}, tree.loc);
+  const bool resolved = wires.all.empty() || archive_.typeOf(*input) == "BoxTreeDemux" ||
+                        archive_.typeOf(*input) == "BoxTreeTerminator" ||
+                        (archive_.typeOf(*input) == "BoxTreeBox" && !(ladder_ && isSeries(*input, true)));
+  if (!resolved || wires.flags != 0) wires = boxOf("MOVE", {wires}, tree.loc);
   return branches_[branch] = wires;
 }
 
@@ -491,7 +491,7 @@ Wires NetworkReader::series(const Element& tree, Wires from) {
     out_.word(" (");
     archive_.write(text, out_);
     out_.word(")");
-    writeMarks(flagsOf(held) | flagsOf(tree), out_);
+    writeModifiers(flagsOf(held) | flagsOf(tree), out_);
     out_.word(" := ");
     writeWires(from);
     out_.word(";\n");
@@ -520,7 +520,7 @@ Wires NetworkReader::series(const Element& tree, Wires from) {
 }  // namespace
 
 void writeNwl(const Archive& archive, const xml::Element& body, const std::string& name, Diagnostics& diagnostics,
-              xml::Assembly& out) {
+              xml::SourceMappedText& out) {
   const xml::Element* object = archive.root(body, "NWLImplementationObject");
   if (object == nullptr) {
     diagnostics.report(diag::ArchiveEmpty, body.loc, {name, "NWLImplementationObject"});

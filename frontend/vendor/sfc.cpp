@@ -68,7 +68,7 @@ void forEachStep(const Archive& archive, const Element& segment, Visit visit) {
 
 class ChartReader {
  public:
-  ChartReader(const Archive& archive, const std::string& name, Diagnostics& diagnostics, xml::Assembly& out)
+  ChartReader(const Archive& archive, const std::string& name, Diagnostics& diagnostics, xml::SourceMappedText& out)
       : archive_(archive), name_(name), diagnostics_(diagnostics), out_(out) {}
 
   void run(const Element& root);
@@ -76,7 +76,7 @@ class ChartReader {
  private:
   template <class... Args>
   void report(Diag diag, Loc loc, Args... args) {
-    good_ = false;
+    ok_ = false;
     diagnostics_.report(diag, loc, {args...});
   }
   std::string called(const Element& element) const;
@@ -101,8 +101,8 @@ class ChartReader {
   const Archive& archive_;
   const std::string& name_;
   Diagnostics& diagnostics_;
-  xml::Assembly& out_;
-  bool good_ = true;
+  xml::SourceMappedText& out_;
+  bool ok_ = true;
   Steps steps_;
   std::vector<Transition> transitions_;
   std::vector<std::pair<bool, size_t>> written_;  // in the order of the chart: a step, or a transition
@@ -122,7 +122,7 @@ std::string ChartReader::before(const Front& front) const {
 
 Loc ChartReader::locOf(const Element& element) const {
   const Element* name = attributeOf(archive_, element, kName);
-  return name == nullptr ? element.loc : archive_.placeOf(*name);
+  return name == nullptr ? element.loc : archive_.locOf(*name);
 }
 
 // Forbids a step behind a step.
@@ -164,10 +164,10 @@ void ChartReader::branch(const Element& element, Front& front) {
   const Front incoming = front;
   front = {};
   std::vector<Steps> united = {{}};
-  for (const Element* e = archive_.first(innerList(archive_, element)); e != nullptr && good_; e = archive_.next(*e)) {
+  for (const Element* e = archive_.first(innerList(archive_, element)); e != nullptr && ok_; e = archive_.next(*e)) {
     Front line = incoming;
     walk(*e, line);
-    if (!good_) return;
+    if (!ok_) return;
     if (!parallel) {
       front.steps.insert(front.steps.end(), line.steps.begin(), line.steps.end());
       front.transitions.insert(front.transitions.end(), line.transitions.begin(), line.transitions.end());
@@ -191,7 +191,7 @@ void ChartReader::branch(const Element& element, Front& front) {
 
 //   fails   <o t="SFCMacro">          E1087
 void ChartReader::walk(const Element& segment, Front& front) {
-  for (const Element* e = archive_.first(innerList(archive_, segment)); e != nullptr && good_; e = archive_.next(*e)) {
+  for (const Element* e = archive_.first(innerList(archive_, segment)); e != nullptr && ok_; e = archive_.next(*e)) {
     if (Archive::isNothing(*e)) continue;
     const std::string type = archive_.typeOf(*e);
     if (type == "SFCStep") {
@@ -203,9 +203,9 @@ void ChartReader::walk(const Element& segment, Front& front) {
     } else if (type == "SFCBranch") {
       branch(*e, front);
     } else {
-      const xml::Attribute* said = archive_.document().attribute(*e, "t");
-      report(diag::ArchiveObject, said == nullptr ? e->loc : said->loc, type.empty() ? std::string("?") : type,
-             std::string("SFC"), name_);
+      const xml::Attribute* type_attribute = archive_.document().attribute(*e, "t");
+      report(diag::ArchiveObject, type_attribute == nullptr ? e->loc : type_attribute->loc,
+             type.empty() ? std::string("?") : type, std::string("SFC"), name_);
     }
   }
 }
@@ -281,8 +281,8 @@ void ChartReader::run(const Element& root) {
   front.begins = true;
   walk(root, front);
   for (const Transition& t : transitions_)
-    if (good_ && t.to.empty()) report(diag::ChartLeadsNowhere, locOf(*t.element), called(*t.element));
-  if (!good_) return;
+    if (ok_ && t.to.empty()) report(diag::ChartLeadsNowhere, locOf(*t.element), called(*t.element));
+  if (!ok_) return;
   for (const auto& [is_step, at] : written_) {
     if (is_step)
       writeStep(*steps_[at]);
@@ -294,7 +294,7 @@ void ChartReader::run(const Element& root) {
 }  // namespace
 
 void writeSfc(const Archive& archive, const xml::Element& body, const std::string& name, Diagnostics& diagnostics,
-              xml::Assembly& out) {
+              xml::SourceMappedText& out) {
   const xml::Element* object = archive.root(body, "SFCImplementationObject");
   const xml::Element* root = object == nullptr ? nullptr : archive.member(*object, "Root");
   if (root == nullptr) {
@@ -317,7 +317,7 @@ bool hasStep(const Archive& archive, const xml::Element& body, std::string_view 
 }
 
 // <d2 n="Flags"> <v>Init</v> <o> <v n="Use">true</v> … The chart reads and writes the variables that are declared.
-void writeSfcFlags(const Archive& archive, const xml::Element& pou, xml::Assembly& out) {
+void writeSfcFlags(const Archive& archive, const xml::Element& pou, xml::SourceMappedText& out) {
   static constexpr std::pair<std::string_view, std::string_view> kFlags[] = {
       {"Init", "VAR_INPUT SFCInit : BOOL"},
       {"Reset", "VAR_INPUT SFCReset : BOOL"},

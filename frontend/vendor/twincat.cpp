@@ -7,9 +7,9 @@
 #include "frontend/vendor/archive.h"
 #include "frontend/vendor/diagnostics.h"
 #include "frontend/vendor/readers.h"
+#include "frontend/vendor/scanner.h"
 #include "frontend/vendor/vendor.h"
-#include "frontend/vendor/words.h"
-#include "frontend/xml/assembly.h"
+#include "frontend/xml/source_mapped_text.h"
 
 namespace rung::vendor {
 namespace {
@@ -33,7 +33,7 @@ class TwinCatReader {
         diagnostics_(diagnostics),
         program_(sources) {}
 
-  xml::Assembly& run() {
+  xml::SourceMappedText& run() {
     for (const xml::Element* e = document_.firstChild(document_.elements[0]); e != nullptr; e = document_.next(*e)) {
       if (e->name == "POU" || e->name == "Itf") {
         readPou(*e);
@@ -180,7 +180,7 @@ class TwinCatReader {
   const Sources& sources_;
   Archive archive_;
   Diagnostics& diagnostics_;
-  xml::Assembly program_;
+  xml::SourceMappedText program_;
   const xml::Element* chart_ = nullptr;  // the <SFC> of the POU at hand
 };
 

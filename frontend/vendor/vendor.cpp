@@ -2,8 +2,8 @@
 #include "frontend/vendor/vendor.h"
 
 #include "frontend/vendor/readers.h"
-#include "frontend/vendor/words.h"
-#include "frontend/xml/assembly.h"
+#include "frontend/vendor/scanner.h"
+#include "frontend/xml/source_mapped_text.h"
 
 namespace rung::vendor {
 namespace {
@@ -11,49 +11,49 @@ namespace {
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 // The name of the first element of an XML text.
-std::string_view rootName(std::string_view text) {
-  for (size_t p = text.find('<'); p != std::string_view::npos; p = text.find('<', p)) {
-    const bool comment = text.substr(p, 4) == "<!--";
-    if (!comment && text.substr(p, 2) != "<?" && text.substr(p, 2) != "<!") {
+std::string_view rootName(std::string_view source) {
+  for (size_t p = source.find('<'); p != std::string_view::npos; p = source.find('<', p)) {
+    const bool comment = source.substr(p, 4) == "<!--";
+    if (!comment && source.substr(p, 2) != "<?" && source.substr(p, 2) != "<!") {
       size_t end = p + 1;
-      while (end < text.size() && !isBlank(text[end]) && text[end] != '>' && text[end] != '/') ++end;
-      return text.substr(p + 1, end - p - 1);
+      while (end < source.size() && !isBlank(source[end]) && source[end] != '>' && source[end] != '/') ++end;
+      return source.substr(p + 1, end - p - 1);
     }
-    p = text.find(comment ? "-->" : ">", p);
+    p = source.find(comment ? "-->" : ">", p);
   }
   return {};
 }
 
 // The `@WORD` with which a comment of a tool begins: `(* @PATH := …`, `(*@KEY@: …`.
-std::string_view markOf(std::string_view text, size_t comment) {
+std::string_view tagOf(std::string_view source, size_t comment) {
   size_t p = comment + 2;
-  while (p < text.size() && (text[p] == ' ' || text[p] == '\t')) ++p;
-  if (p == text.size() || text[p] != '@') return {};
+  while (p < source.size() && (source[p] == ' ' || source[p] == '\t')) ++p;
+  if (p == source.size() || source[p] != '@') return {};
   const size_t begin = p++;
-  while (p < text.size() && ((text[p] >= 'A' && text[p] <= 'Z') || text[p] == '_')) ++p;
-  return text.substr(begin, p - begin);
+  while (p < source.size() && ((source[p] >= 'A' && source[p] <= 'Z') || source[p] == '_')) ++p;
+  return source.substr(begin, p - begin);
 }
 
 }  // namespace
 
-Format formatOf(std::string_view text) {
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+Format formatOf(std::string_view source) {
+  if (source.starts_with("\xef\xbb\xbf")) source.remove_prefix(3);
   size_t p = 0;
-  while (p < text.size() && isBlank(text[p])) ++p;
-  if (text.substr(p).starts_with("<")) {
-    const std::string_view root = rootName(text);
+  while (p < source.size() && isBlank(source[p])) ++p;
+  if (source.substr(p).starts_with("<")) {
+    const std::string_view root = rootName(source);
     if (root == "TcPlcObject") return Format::TwinCat;
     const bool build =
-        root == "Project" && text.find("schemas.microsoft.com/developer/msbuild") != std::string_view::npos;
+        root == "Project" && source.find("schemas.microsoft.com/developer/msbuild") != std::string_view::npos;
     return build ? Format::TwinCatProject : Format::None;
   }
-  while (text.substr(p).starts_with("(*")) {
-    const std::string_view mark = markOf(text, p);
-    if (mark == "@PROPERTIES_EX" || mark == "@KEY") return Format::Multiprog;
-    if (mark == "@NESTEDCOMMENTS" || mark == "@PATH" || mark == "@OBJECTFLAGS" || mark == "@GLOBAL_VARIABLE_LIST")
+  while (source.substr(p).starts_with("(*")) {
+    const std::string_view tag = tagOf(source, p);
+    if (tag == "@PROPERTIES_EX" || tag == "@KEY") return Format::Multiprog;
+    if (tag == "@NESTEDCOMMENTS" || tag == "@PATH" || tag == "@OBJECTFLAGS" || tag == "@GLOBAL_VARIABLE_LIST")
       return Format::Codesys2;
-    p = endOfComment(text, p);
-    while (p < text.size() && isBlank(text[p])) ++p;
+    p = endOfComment(source, p);
+    while (p < source.size() && isBlank(source[p])) ++p;
   }
   return Format::None;
 }
@@ -85,23 +85,23 @@ std::string pairName(std::string_view path) {
 }
 
 FileId joinPair(Sources& sources, FileId declaration, FileId body) {
-  xml::Assembly program(sources);
+  xml::SourceMappedText program(sources);
   const auto whole = [&](FileId file) {
     const Loc begin = sources.begin(file);
-    program.add(begin, {begin.offset + static_cast<uint32_t>(sources.text(file).size())});
+    program.add(begin, {begin.offset + static_cast<uint32_t>(sources.sourceText(file).size())});
     program.word("\n");
   };
   whole(declaration);
-  const std::string_view end = endWordOf(firstWord(sources.text(declaration)));
+  const std::string_view end = endWordOf(firstWord(sources.sourceText(declaration)));
   whole(body);
   program.word(end);
   return program.finish(sources, declaration);
 }
 
-std::string firstWord(std::string_view text) {
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  Words words(text);
-  return words.next() && !words.passedOther() ? upper(words.word()) : std::string();
+std::string firstWord(std::string_view source) {
+  if (source.starts_with("\xef\xbb\xbf")) source.remove_prefix(3);
+  Scanner scanner(source);
+  return scanner.next() && !scanner.skippedOther() ? upper(scanner.word()) : std::string();
 }
 
 }  // namespace rung::vendor

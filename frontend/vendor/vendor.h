@@ -24,7 +24,7 @@ enum class Format : uint8_t {
 };
 
 // By content alone.
-Format formatOf(std::string_view text);
+Format formatOf(std::string_view source);
 
 // The program that `file` holds, as a file of its own; `file` itself where it can be parsed as it stands. No file: an
 // error has been reported.
@@ -51,6 +51,6 @@ struct Project {
 [[nodiscard]] bool readProject(const Sources& sources, FileId file, Diagnostics& diagnostics, Project& out);
 
 // The first word of an ST text behind blanks, comments and pragmas, in upper case: FUNCTION_BLOCK.
-std::string firstWord(std::string_view text);
+std::string firstWord(std::string_view source);
 
 }  // namespace rung::vendor

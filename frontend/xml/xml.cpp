@@ -59,30 +59,30 @@ class Reader {
       : sources_(sources),
         diagnostics_(diagnostics),
         out_(out),
-        text_(sources.text(file)),
+        source_(sources.sourceText(file)),
         base_(sources.begin(file).offset) {}
 
   bool run();
 
  private:
   Loc loc(size_t at) const { return {base_ + static_cast<uint32_t>(at)}; }
-  bool at(std::string_view word) const { return text_.substr(p_, word.size()) == word; }
+  bool at(std::string_view word) const { return source_.substr(p_, word.size()) == word; }
   bool broken(size_t at, std::string_view what) {
     diagnostics_.report(diag::XmlSyntax, loc(at), {what}).length(1);
     return false;
   }
   void skipBlanks() {
-    while (p_ < text_.size() && isBlank(text_[p_])) ++p_;
+    while (p_ < source_.size() && isBlank(source_[p_])) ++p_;
   }
   std::string_view name() {
     const size_t begin = p_;
-    if (p_ < text_.size() && beginsName(text_[p_]))
-      while (p_ < text_.size() && inName(text_[p_])) ++p_;
-    return text_.substr(begin, p_ - begin);
+    if (p_ < source_.size() && beginsName(source_[p_]))
+      while (p_ < source_.size() && inName(source_[p_])) ++p_;
+    return source_.substr(begin, p_ - begin);
   }
   // Passes over what begins at p_ and ends with `end`.
   bool skipTo(std::string_view end, std::string_view what) {
-    const size_t found = text_.find(end, p_);
+    const size_t found = source_.find(end, p_);
     if (found == std::string_view::npos) return broken(p_, what);
     p_ = found + end.size();
     return true;
@@ -108,7 +108,7 @@ class Reader {
   const Sources& sources_;
   Diagnostics& diagnostics_;
   Document& out_;
-  std::string_view text_;
+  std::string_view source_;
   uint32_t base_;
   size_t p_ = 0;
   uint32_t open_ = kNone;  // the innermost open element
@@ -118,9 +118,9 @@ class Reader {
 };
 
 bool Reader::run() {
-  while (p_ < text_.size()) {
-    const bool good = text_[p_] == '<' ? readMarkup() : readText();
-    if (!good) return false;
+  while (p_ < source_.size()) {
+    const bool ok = source_[p_] == '<' ? readMarkup() : readText();
+    if (!ok) return false;
   }
   if (open_ != kNone) {
     const Element& element = out_.elements[open_];
@@ -150,10 +150,10 @@ bool Reader::readMarkup() {
 // <!-- … -->, without `--` inside.
 bool Reader::skipComment() {
   const size_t begin = p_;
-  const size_t dashes = text_.find("--", begin + 4);
-  if (text_.find("-->", begin + 4) == std::string_view::npos)
+  const size_t dashes = source_.find("--", begin + 4);
+  if (source_.find("-->", begin + 4) == std::string_view::npos)
     return broken(begin, "expected `-->` to close this comment");
-  if (text_[dashes + 2] != '>') return broken(dashes, "`--` is not allowed in a comment");
+  if (source_[dashes + 2] != '>') return broken(dashes, "`--` is not allowed in a comment");
   p_ = dashes + 3;
   return true;
 }
@@ -167,7 +167,7 @@ bool Reader::readInstruction() {
   if (!skipTo("?>", "expected `?>` to close this instruction")) return false;
   if (target.size() != 3 || !sameIdentifier(target, "xml")) return true;
   if (begin != 0) return broken(begin, "the XML declaration must be at the very beginning");
-  return checkEncoding(text_.substr(0, p_));
+  return checkEncoding(source_.substr(0, p_));
 }
 
 // UTF-16 was decoded when the file was read; Latin-1 stands in comments and strings at most, which the lexer judges.
@@ -181,7 +181,7 @@ bool Reader::checkEncoding(std::string_view declaration) {
   for (const std::string_view known : {"utf-8", "utf8", "utf-16", "utf-16le", "utf-16be", "us-ascii", "ascii",
                                        "iso-8859-1", "iso-8859-15", "windows-1250", "windows-1252"})
     if (sameIdentifier(encoding, known)) return true;
-  for (const char c : text_)
+  for (const char c : source_)
     if (static_cast<unsigned char>(c) >= 0x80) return broken(open + 1, "unsupported encoding; save the file as UTF-8");
   return true;
 }
@@ -218,7 +218,7 @@ bool Reader::readStart() {
   open_ = index;
   ++depth_;
   if (!readAttributes() || !checkTwice()) return false;
-  if (text_[p_] == '/') {
+  if (source_[p_] == '/') {
     close(p_);
     p_ += 2;
   } else {
@@ -233,16 +233,17 @@ bool Reader::checkTwice() {
   std::sort(attribute_names_.begin(), attribute_names_.end());
   for (size_t i = 1; i < attribute_names_.size(); ++i)
     if (attribute_names_[i] == attribute_names_[i - 1])
-      return broken(static_cast<size_t>(attribute_names_[i].data() - text_.data()), "duplicate attribute in this tag");
+      return broken(static_cast<size_t>(attribute_names_[i].data() - source_.data()),
+                    "duplicate attribute in this tag");
   return true;
 }
 
 // Forbids control characters, and `]]>` outside of CDATA.
 bool Reader::checkCharacters(size_t begin, size_t end) {
   for (size_t i = begin; i < end; ++i) {
-    const auto c = static_cast<unsigned char>(text_[i]);
-    if (c < 0x20 && !isBlank(text_[i])) return broken(i, "control characters are not allowed in XML");
-    if (c == ']' && text_.substr(i, 3) == "]]>")
+    const auto c = static_cast<unsigned char>(source_[i]);
+    if (c < 0x20 && !isBlank(source_[i])) return broken(i, "control characters are not allowed in XML");
+    if (c == ']' && source_.substr(i, 3) == "]]>")
       return broken(i, "`]]>` does not close a CDATA section; write `]]&gt;`");
   }
   return true;
@@ -254,8 +255,8 @@ bool Reader::readAttributes() {
   for (;;) {
     const size_t before = p_;
     skipBlanks();
-    if (p_ == text_.size()) return broken(p_, "the file ends inside a tag");
-    if (text_[p_] == '>' || at("/>")) return true;
+    if (p_ == source_.size()) return broken(p_, "the file ends inside a tag");
+    if (source_[p_] == '>' || at("/>")) return true;
     const size_t name_at = p_;
     const std::string_view full = name();
     if (full.empty()) return broken(p_, "expected an attribute, `>` or `/>`");
@@ -266,13 +267,13 @@ bool Reader::readAttributes() {
     skipBlanks();
     if (!at("\"") && !at("'")) return broken(p_, "the value of an attribute needs quotes");
     const size_t begin = p_ + 1;
-    const size_t end = text_.find(text_[p_], begin);
+    const size_t end = source_.find(source_[p_], begin);
     if (end == std::string_view::npos) return broken(p_, "this quote is not closed");
-    if (const size_t open = text_.substr(begin, end - begin).find('<'); open != std::string_view::npos)
+    if (const size_t open = source_.substr(begin, end - begin).find('<'); open != std::string_view::npos)
       return broken(begin + open, "`<` is not allowed in a value; write `&lt;`, or close the quote before it");
     if (!checkEntities(begin, end)) return false;
     attribute_names_.push_back(full);
-    out_.attributes.push_back({withoutPrefix(full), text_.substr(begin, end - begin), loc(begin)});
+    out_.attributes.push_back({withoutPrefix(full), source_.substr(begin, end - begin), loc(begin)});
     ++out_.elements[open_].attribute_count;
     p_ = end + 1;
   }
@@ -296,7 +297,7 @@ bool Reader::readEnd() {
   if (open_ == kNone || withoutPrefix(full) != out_.elements[open_].name) {
     if (open_ == kNone) return broken(begin, "unmatched end tag");
     const Element& element = out_.elements[open_];
-    const std::string line = std::to_string(sources_.place(element.loc).line);
+    const std::string line = std::to_string(sources_.location(element.loc).line);
     diagnostics_.report(diag::XmlWrongEnd, loc(begin + 2), {full, element.name, line});
     return false;
   }
@@ -306,9 +307,9 @@ bool Reader::readEnd() {
 
 // The entity at p_, which ends before `end`.
 bool Reader::readEntity(size_t end, char32_t& character, uint32_t& length) {
-  const size_t stop = text_.substr(0, std::min(end, p_ + 12)).find(';', p_);
+  const size_t stop = source_.substr(0, std::min(end, p_ + 12)).find(';', p_);
   const std::string_view entity =
-      stop == std::string_view::npos ? std::string_view{} : text_.substr(p_ + 1, stop - p_ - 1);
+      stop == std::string_view::npos ? std::string_view{} : source_.substr(p_ + 1, stop - p_ - 1);
   character = characterOf(entity);
   length = static_cast<uint32_t>(entity.size() + 2);
   if (character != 0) return true;
@@ -320,7 +321,7 @@ bool Reader::readEntity(size_t end, char32_t& character, uint32_t& length) {
 bool Reader::checkEntities(size_t begin, size_t end) {
   char32_t character;
   uint32_t length;
-  while ((begin = text_.substr(0, end).find('&', begin)) != std::string_view::npos) {
+  while ((begin = source_.substr(0, end).find('&', begin)) != std::string_view::npos) {
     p_ = begin;
     if (!readEntity(end, character, length)) return false;
     begin += length;
@@ -330,8 +331,8 @@ bool Reader::checkEntities(size_t begin, size_t end) {
 
 bool Reader::readText() {
   const size_t begin = p_;
-  size_t end = text_.find('<', p_);
-  if (end == std::string_view::npos) end = text_.size();
+  size_t end = source_.find('<', p_);
+  if (end == std::string_view::npos) end = source_.size();
   if (open_ == kNone) {
     skipBlanks();
     return p_ >= end ||
@@ -340,9 +341,9 @@ bool Reader::readText() {
   if (!checkCharacters(begin, end)) return false;
   size_t plain = begin;
   for (size_t i = begin; i < end;) {
-    const void* ampersand = memchr(text_.data() + i, '&', end - i);
+    const void* ampersand = memchr(source_.data() + i, '&', end - i);
     if (ampersand == nullptr) break;
-    i = static_cast<size_t>(static_cast<const char*>(ampersand) - text_.data());
+    i = static_cast<size_t>(static_cast<const char*>(ampersand) - source_.data());
     addRun(plain, i);
     p_ = i;
     Run run{loc(i), 0, 0};
@@ -399,7 +400,7 @@ std::string Document::text(const Element& element, const Sources& sources) const
     if (runs[i].character != 0)
       appendUtf8(out, runs[i].character);
     else
-      out += sources.text(file).substr(runs[i].loc.offset - base, runs[i].length);
+      out += sources.sourceText(file).substr(runs[i].loc.offset - base, runs[i].length);
   }
   return out;
 }

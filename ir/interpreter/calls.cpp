@@ -15,7 +15,7 @@ NativeThunk BodyTranslator::findNative(const Body& callee) {
       std::lower_bound(options_.natives.begin(), options_.natives.end(), name,
                        [](const Native& native, const std::string& wanted) { return native.name < wanted; });
   if (at != options_.natives.end() && name == at->name) return at->call;
-  if (code_.missing.empty()) code_.missing = module_.names.text(callee.spelling ? callee.spelling : callee.name);
+  if (code_.missing.empty()) code_.missing = module_.names.string(callee.spelling ? callee.spelling : callee.name);
   return nullptr;
 }
 
@@ -51,14 +51,14 @@ void BodyTranslator::passArgument(Argument& argument, Ref to) {
     // Bits and views of the image are no variables in memory: copied in, and back after the call.
     argument.copied = true;
     argument.copy = {Base::Frame, slot(info(parameter.type).size, info(parameter.type).align), 0, 0, kNoBit};
-    if (isAggregate(e.type) || isText(e.type)) {
+    if (isAggregate(e.type) || isString(e.type)) {
       copyAggregate(argument.copy, place(argument.operand), info(e.type).size);
     } else {
       valueInto(argument.operand, direct(argument.copy));
     }
     return pointerInto(argument.copy, to);
   }
-  if (isText(parameter.type) && parameter.kind == LocalKind::Input) return pointerInto(text(argument.operand), to);
+  if (isString(parameter.type) && parameter.kind == LocalKind::Input) return pointerInto(string(argument.operand), to);
   pointerInto(place(argument.operand), to);
 }
 
@@ -72,13 +72,13 @@ void BodyTranslator::passArguments(std::vector<Argument>& arguments) {
     for (Argument& argument : arguments) passArgument(argument, argument.to);
     return;
   }
-  std::vector<Ref> made;
+  std::vector<Ref> created;
   for (Argument& argument : arguments) {
-    made.push_back(slot());
-    passArgument(argument, made.back());
+    created.push_back(slot());
+    passArgument(argument, created.back());
   }
   for (size_t i = 0; i < arguments.size(); ++i) {
-    move(Scalar::U64, {Mode::Frame, made[i], 0}, {Mode::Frame, arguments[i].to, 0});
+    move(Scalar::U64, {Mode::Frame, created[i], 0}, {Mode::Frame, arguments[i].to, 0});
   }
 }
 
@@ -90,8 +90,9 @@ void BodyTranslator::traceCall(BodyId id, const Address* self) {
   if (code_.called.size() <= id.index) code_.called.resize(module_.bodies.size());
   const char*& name = code_.called[id.index];
   if (name == nullptr) {
-    code_.texts.push_back(callee.self ? types_.spell(callee.self) : std::string(module_.names.text(callee.spelling)));
-    name = code_.texts.back().c_str();
+    code_.strings.push_back(callee.self ? types_.toString(callee.self)
+                                        : std::string(module_.names.string(callee.spelling)));
+    name = code_.strings.back().c_str();
   }
   Ref instance = slot();
   if (self != nullptr) {
@@ -153,14 +154,14 @@ Operand BodyTranslator::callExpression(const Expr& e, const Operand* want) {
   return to;
 }
 
-Address BodyTranslator::callText(const Expr& e) {
+Address BodyTranslator::callString(const Expr& e) {
   const BodyId id{e.a};
   const Body& callee = module_.body(id);
   std::vector<Argument> passed = arguments(callee, e.b, e.c, headerSize(callee));
   traceCall(id, nullptr);
   passArguments(passed);
   const Ref result{headerSize(callee) + 8 * static_cast<uint32_t>(passed.size()), true};
-  const Address to = textBuffer(callee.result);
+  const Address to = stringBuffer(callee.result);
   pointerInto(to, result);
   if (callee.native) {
     native_slots_ = std::max(native_slots_, slotsOf(callee, passed.size()));
@@ -204,7 +205,7 @@ void BodyTranslator::callStatement(const Stmt& stmt) {
         const Expr& other = expr(rootOf(*body_, argument.operand));
         direct_result = !(other.kind == ExprKind::Local && other.a == root.a);
       }
-      if (isText(callee.result)) {
+      if (isString(callee.result)) {
         if (!callee.native && capacityOf(type) < capacityOf(callee.result)) direct_result = false;
         if (isWide(type) != isWide(callee.result)) direct_result = false;
       }
@@ -212,7 +213,7 @@ void BodyTranslator::callStatement(const Stmt& stmt) {
     const TypeId type = direct_result ? expr(to).type : callee.result;
     memory = direct_result ? place(to) : Address{Base::Frame, slot(info(type).size, info(type).align), 0, 0, kNoBit};
     pointerInto(memory, result);
-    if (callee.native && isText(callee.result)) {
+    if (callee.native && isString(callee.result)) {
       emit(moveHandler(Scalar::U64, Mode::Constant, Mode::Frame), {result.offset + 8, true}, {}, {}, 0,
            capacityOf(type));
     }
@@ -230,8 +231,8 @@ void BodyTranslator::callStatement(const Stmt& stmt) {
 
   if (to && by_reference && !direct_result) {
     const TypeId type = expr(to).type;
-    if (isText(type)) {
-      copyText(place(to), capacityOf(type), isWide(type), memory, callee.result);
+    if (isString(type)) {
+      copyString(place(to), capacityOf(type), isWide(type), memory, callee.result);
     } else {
       copyAggregate(place(to), memory, info(type).size);
     }
@@ -247,7 +248,7 @@ void BodyTranslator::callStatement(const Stmt& stmt) {
   for (const Argument& argument : passed) {
     if (!argument.copied || argument.parameter->kind == LocalKind::Input) continue;
     const Expr& e = expr(argument.operand);
-    if (isAggregate(e.type) || isText(e.type)) {
+    if (isAggregate(e.type) || isString(e.type)) {
       copyAggregate(place(argument.operand), argument.copy, info(e.type).size);
     } else {
       write(place(argument.operand), scalarOf(argument.operand), direct(argument.copy));

@@ -122,7 +122,7 @@ Operand BodyTranslator::value(ExprId id, const Operand* want) {
       pointerInto(place(ExprId{e.a}), to.ref);
       return to;
     }
-    case ExprKind::Text:
+    case ExprKind::String:
     case ExprKind::Data: break;
   }
   return {Mode::Frame, pointerTo(place(id)), 0};
@@ -175,11 +175,11 @@ Operand BodyTranslator::binary(const Expr& e, const Operand* want) {
     at = site(e.loc);
     if (isReal(type)) {
       const Operand divisor = inMemory(right, type), zero = temp();
-      const Label good = newLabel();
-      jumpTo(emit(branchHandler(Op::Eq, type, divisor.mode, Mode::Constant, false), divisor.ref), good);
+      const Label ok = newLabel();
+      jumpTo(emit(branchHandler(Op::Eq, type, divisor.mode, Mode::Constant, false), divisor.ref), ok);
       move(Scalar::U64, {}, zero);
       emit(raiseHandler(), {RUNG_FAULT_DIV, false}, zero.ref, {}, at);
-      place(good);
+      place(ok);
     }
   }
   if ((e.checks & kCheckOverflow) != 0 && overflowHandler(e.op, type) != nullptr && type != Scalar::Bool) {
@@ -196,8 +196,8 @@ Operand BodyTranslator::binary(const Expr& e, const Operand* want) {
 
 Operand BodyTranslator::comparison(const Expr& e, const Operand* want) {
   const Operand to = target(want);
-  if (isText(expr(ExprId{e.a}).type)) {
-    const Operand order = textOrder(ExprId{e.a}, ExprId{e.b});
+  if (isString(expr(ExprId{e.a}).type)) {
+    const Operand order = stringOrder(ExprId{e.a}, ExprId{e.b});
     emit(compareHandler(e.op, Scalar::I32, order.mode, Mode::Constant, to.mode), to.ref, order.ref);
     return to;
   }
@@ -293,8 +293,8 @@ void BodyTranslator::branch(ExprId id, bool sense, Label to) {
       return;
     }
     if (types::isComparison(e.op)) {
-      if (isText(expr(a).type)) {
-        const Operand order = textOrder(a, b);
+      if (isString(expr(a).type)) {
+        const Operand order = stringOrder(a, b);
         jumpTo(emit(branchHandler(e.op, Scalar::I32, order.mode, Mode::Constant, sense), order.ref), to);
         return;
       }
@@ -342,7 +342,7 @@ Operand BodyTranslator::wideBits(ExprId id) {
 void BodyTranslator::convertChecks(const Expr& e, const Operand& from) {
   const ExprId a{e.a};
   const TypeKind source = kindOf(a), target_kind = types_.plainKind(e.type);
-  if (TypeTable::isText(source) || TypeTable::isText(target_kind)) return;
+  if (TypeTable::isString(source) || TypeTable::isString(target_kind)) return;
   const Scalar type = scalarOf(a);
   const TypeInfo& to = info(e.type);
   const uint32_t width = TypeTable::bitWidth(target_kind);
@@ -391,10 +391,10 @@ Operand BodyTranslator::convert(ExprId id, const Operand* want) {
   const bool clamps = to_info.kind == TypeKind::Subrange && types_.resolve(expr(a).type) != types_.resolve(e.type);
 
   Operand result;
-  if (TypeTable::isText(source)) {
-    const Ref pointer = pointerTo(text(a));
+  if (TypeTable::isString(source)) {
+    const Ref pointer = pointerTo(string(a));
     const Operand bits = temp();
-    emit(scalarOfTextHandler(source == TypeKind::WString), bits.ref, pointer, {},
+    emit(scalarOfStringHandler(source == TypeKind::WString), bits.ref, pointer, {},
          static_cast<uint32_t>(hostKind(types_, e.type)));
     result = to == Scalar::F32 ? converted(bits, Scalar::F64, Scalar::F32, nullptr) : bits;
   } else {

@@ -63,7 +63,7 @@ FunctionResult runFunction(const Module& module, BodyId function, std::span<cons
                            std::span<const Native> natives, int64_t budget, Names& names) {
   FunctionResult result;
   const MemoryBlocks blocks(module);
-  TextPool pool;
+  StringPool pool;
   Code code;
   TranslateOptions options;
   options.natives = natives;
@@ -101,22 +101,22 @@ FunctionResult runFunction(const Module& module, BodyId function, std::span<cons
     uint64_t bits = 0;
     types::Value value;
     if (takes && next < arguments.size()) value = arguments[next++];
-    const bool is_text = TypeTable::isText(module.types.kind(local.type));
-    if (!is_text) bits = memoryBits(module.types, local.type, value);
+    const bool is_string = TypeTable::isString(module.types.kind(local.type));
+    if (!is_string) bits = memoryBits(module.types, local.type, value);
     if (local.by_reference) {
       uint64_t* const cell = room(local.type);
-      if (is_text && value.type) {
+      if (is_string && value.type) {
         auto* const to = reinterpret_cast<char*>(cell);
         const uint32_t capacity = module.types.info(module.types.resolve(local.type)).length;
-        const std::string text(names.text(NameId{static_cast<uint32_t>(value.bits)}));
+        const std::string text(names.string(NameId{static_cast<uint32_t>(value.bits)}));
         if (module.types.kind(local.type) == TypeKind::WString) {
-          rung_wtext_of_text(reinterpret_cast<char16_t*>(to), capacity, text.c_str());
+          rung_wstring_of_string(reinterpret_cast<char16_t*>(to), capacity, text.c_str());
         } else if (module.types.kind(local.type) == TypeKind::UString) {
-          rung_utext_assign(to, capacity, text.c_str());
+          rung_ustring_assign(to, capacity, text.c_str());
         } else {
-          rung_text_assign(to, capacity, text.c_str());
+          rung_string_assign(to, capacity, text.c_str());
         }
-      } else if (!is_text && module.types.info(module.types.resolve(local.type)).size <= 8) {
+      } else if (!is_string && module.types.info(module.types.resolve(local.type)).size <= 8) {
         cell[0] = bits;
       }
       bits = reinterpret_cast<uintptr_t>(cell);
@@ -164,7 +164,7 @@ FunctionResult runFunction(const Module& module, BodyId function, std::span<cons
   } else if (body.result && module.types.kind(body.result) == TypeKind::WString) {
     const uint32_t capacity = module.types.info(module.types.resolve(body.result)).length;
     std::string text(size_t{capacity} * 3 + 1, '\0');
-    rung_text_of_wtext(text.data(), capacity * 3, reinterpret_cast<const char16_t*>(result_memory));
+    rung_string_of_wstring(text.data(), capacity * 3, reinterpret_cast<const char16_t*>(result_memory));
     result.value = {body.result, names.intern(text.c_str()).index};
   }
   return result;

@@ -64,13 +64,13 @@ Handler imageHandler();                   // slot a := address of image b
 Handler selectHandler(Scalar type);       // a := d ? b : c, all in the frame
 Handler compareMemoryHandler();           // truth a := c bytes at (slot b) equal those at (slot d)
 
-// ---- handlers_text.cpp. Addresses of texts; capacity in c.
-Handler assignTextHandler(bool wide, bool from_wide, Base to, Base from);  // a := b
-Handler assignUtf8Handler(Base to, Base from);                             // of two USTRINGs
-Handler compareTextHandler(bool wide, Base left, Base right);              // I32 a := order of b and c
-Handler emptyTextHandler(bool wide, Base to);                              // a
-Handler textOfScalarHandler(bool wide);  // text at (slot a) of the bits in slot b, kind d
-Handler scalarOfTextHandler(bool wide);  // slot a := bits of the text at (slot b), kind d
+// ---- handlers_string.cpp. Addresses of texts; capacity in c.
+Handler assignStringHandler(bool wide, bool from_wide, Base to, Base from);  // a := b
+Handler assignUtf8Handler(Base to, Base from);                               // of two USTRINGs
+Handler compareStringHandler(bool wide, Base left, Base right);              // I32 a := order of b and c
+Handler emptyStringHandler(bool wide, Base to);                              // a
+Handler stringOfScalarHandler(bool wide);  // text at (slot a) of the bits in slot b, kind d
+Handler scalarOfStringHandler(bool wide);  // slot a := bits of the text at (slot b), kind d
 
 // ---- handlers_control.cpp
 Handler jumpHandler();
@@ -96,8 +96,8 @@ Handler raiseHandler();    // fault a at site d, value in the frame at b
 Handler tickHandler();     // where runs are bounded
 Handler countHandler();    // imm: uint64_t*
 Handler calledHandler();   // tells the host: imm the POU's name, slot b the address of its instance or null
-// Assertions. Slot b and those behind: see handlers_control.cpp; imm: const AssertionPlace*.
-struct AssertionPlace {
+// Assertions. Slot b and those behind: see handlers_control.cpp; imm: const AssertionSite*.
+struct AssertionSite {
   rung_assertion is;
   uint8_t kind;  // of the values
 };

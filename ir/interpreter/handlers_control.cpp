@@ -101,17 +101,17 @@ void called(RUNG_HANDLER_PARAMETERS) {
 
 template <AssertionKind K>
 void assertion(RUNG_HANDLER_PARAMETERS) {
-  const AssertionPlace& place = *reinterpret_cast<const AssertionPlace*>(ip->imm);
+  const AssertionSite& site = *reinterpret_cast<const AssertionSite*>(ip->imm);
   const uint8_t* const slots = fp + ip->b;
   if constexpr (K == AssertionKind::Truth) {
-    rung_assert(m->ctx, &place.is, load<uint8_t>(slots) != 0);
+    rung_assert(m->ctx, &site.is, load<uint8_t>(slots) != 0);
   } else if constexpr (K == AssertionKind::Compared) {
-    rung_assert_compared(m->ctx, &place.is, load<uint8_t>(slots) != 0, place.kind, load<uint64_t>(slots + 8),
+    rung_assert_compared(m->ctx, &site.is, load<uint8_t>(slots) != 0, site.kind, load<uint64_t>(slots + 8),
                          load<uint64_t>(slots + 16));
   } else if constexpr (K == AssertionKind::Equal) {
-    rung_assert_equal(m->ctx, &place.is, place.kind, load<uint64_t>(slots), load<uint64_t>(slots + 8));
+    rung_assert_equal(m->ctx, &site.is, site.kind, load<uint64_t>(slots), load<uint64_t>(slots + 8));
   } else {
-    rung_assert_near(m->ctx, &place.is, place.kind, load<double>(slots), load<double>(slots + 8),
+    rung_assert_near(m->ctx, &site.is, site.kind, load<double>(slots), load<double>(slots + 8),
                      load<double>(slots + 16));
   }
   RUNG_NEXT;

@@ -115,7 +115,7 @@ Address BodyTranslator::place(ExprId id) {
     }
     case ExprKind::Data: return {Base::Constant, {}, 0, reinterpret_cast<int64_t>(code_.data_of_module[e.a]), kNoBit};
     case ExprKind::Zero: {
-      if (isText(e.type)) return text(id);
+      if (isString(e.type)) return string(id);
       const Ref memory = slot(info(e.type).size, info(e.type).align);
       emit(clearHandler(Base::Frame), memory, {}, {static_cast<uint32_t>(info(e.type).size), false});
       return {Base::Frame, memory, 0, 0, kNoBit};
@@ -124,14 +124,14 @@ Address BodyTranslator::place(ExprId id) {
       const Operand to = temp();
       const Label otherwise = newLabel(), end = newLabel();
       branch(ExprId{e.a}, false, otherwise);
-      pointerInto(isText(e.type) ? text(ExprId{e.b}) : place(ExprId{e.b}), to.ref);
+      pointerInto(isString(e.type) ? string(ExprId{e.b}) : place(ExprId{e.b}), to.ref);
       jump(end);
       place(otherwise);
-      pointerInto(isText(e.type) ? text(ExprId{e.c}) : place(ExprId{e.c}), to.ref);
+      pointerInto(isString(e.type) ? string(ExprId{e.c}) : place(ExprId{e.c}), to.ref);
       place(end);
       return {Base::Pointer, to.ref, 0, 0, kNoBit};
     }
-    case ExprKind::Text: return literal(e);
+    case ExprKind::String: return literal(e);
     case ExprKind::None:
     case ExprKind::Const:
     case ExprKind::Unary:
@@ -140,7 +140,7 @@ Address BodyTranslator::place(ExprId id) {
     case ExprKind::Call:
     case ExprKind::Address: break;
   }
-  if (isText(e.type)) return text(id);
+  if (isString(e.type)) return string(id);
   return {Base::Frame, inFrame(value(id), scalarOf(id)).ref, 0, 0, kNoBit};
 }
 
@@ -208,7 +208,7 @@ int64_t rangeOf(const Dimension& dimension) {
 
 bool BodyTranslator::loadOfTwo(ExprId id, const Operand* want, Operand& to) {
   const Expr& e = expr(id);
-  if (e.c != 2 || isText(e.type) || isAggregate(e.type)) return false;
+  if (e.c != 2 || isString(e.type) || isAggregate(e.type)) return false;
   const ExprId first = body_->operands[e.b], second = body_->operands[e.b + 1];
   const Scalar type = scalarOf(first);
   if (expr(first).kind == ExprKind::Const || expr(second).kind == ExprKind::Const || type != scalarOf(second) ||
@@ -234,7 +234,7 @@ bool BodyTranslator::loadOfTwo(ExprId id, const Operand* want, Operand& to) {
 }
 
 bool BodyTranslator::element(const Expr& e, Element& out) {
-  if (e.kind != ExprKind::Index || isText(e.type) || isAggregate(e.type)) return false;
+  if (e.kind != ExprKind::Index || isString(e.type) || isAggregate(e.type)) return false;
   const Dimension& dimension = info(expr(ExprId{e.a}).type).dimensions[e.c - 1];
   const ExprId last = body_->operands[e.b + e.c - 1];
   if (expr(last).kind == ExprKind::Const) return false;

@@ -61,15 +61,15 @@ struct Program::Parts {
   uint32_t siteOf(uintptr_t insn) const {
     if (!isInsn(insn)) return RUNG_NONE;
     const uintptr_t index = (insn - reinterpret_cast<uintptr_t>(code.insns.data())) / sizeof(Insn);
-    auto mark = std::upper_bound(code.marks.begin(), code.marks.end(), index,
-                                 [](uintptr_t at, const Code::Mark& it) { return at < it.insn; });
-    if (mark == code.marks.begin()) return RUNG_NONE;
-    --mark;
+    auto entry = std::upper_bound(code.line_table.begin(), code.line_table.end(), index,
+                                  [](uintptr_t at, const Code::LineEntry& it) { return at < it.insn; });
+    if (entry == code.line_table.begin()) return RUNG_NONE;
+    --entry;
     rung_site& site = *spare_site;
-    site.pou = mark->pou;
-    site.file = mark->file;
-    site.line = mark->line;
-    site.column = mark->column;
+    site.pou = entry->pou;
+    site.file = entry->file;
+    site.line = entry->line;
+    site.column = entry->column;
     return static_cast<uint32_t>(spare_site - code.sites.data());
   }
 
@@ -96,13 +96,13 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
   translate_options.natives = options.natives;
   translate_options.coverage = options.coverage;
   translate_options.trace_calls = options.trace_calls;
-  BodyTranslator translator(module, blocks, description->text, translate_options, code);
+  BodyTranslator translator(module, blocks, description->strings, translate_options, code);
   code.bodies.resize(module.bodies.size());
   translateData(module, code);
   translateDispatches(module, code);
   for (uint32_t i = 1; i < module.bodies.size(); ++i) {
     if (module.bodies[i].native || module.bodies[i].abstract) continue;
-    const std::string_view body_name = module.names.text(module.bodies[i].name);
+    const std::string_view body_name = module.names.string(module.bodies[i].name);
     setPhaseSubject(body_name.data(), body_name.size());
     translator.translate(BodyId{i});
   }
@@ -172,7 +172,7 @@ void Program::Parts::translate(const Module& module, const MemoryBlocks& blocks,
   if (!code.missing.empty()) refusal = "the native function `" + code.missing + "` is not part of rung";
   if (!module.cpp_bodies.empty()) {
     const Body& body = module.body(module.cpp_bodies.front().body);
-    refusal = "`" + std::string(module.names.text(body.spelling)) + "` has a C++ body";
+    refusal = "`" + std::string(module.names.string(body.spelling)) + "` has a C++ body";
   }
 }
 
@@ -191,7 +191,7 @@ void Program::Parts::describe() {
   is.pointer_size = sizeof(void*);
   is.name = name.c_str();
   is.compiler = "rung";
-  is.text = from.text.bytes().c_str();
+  is.strings = from.strings.bytes().c_str();
   is.layout_hash = from.layout_hash;
   const auto table = [](const auto& rows, auto& to, uint32_t& count) {
     to = rows.data();

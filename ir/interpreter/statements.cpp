@@ -28,24 +28,24 @@ void BodyTranslator::block(StmtId first) {
 void BodyTranslator::count(Loc loc, const char* function) {
   if (!options_.coverage || !body_->counted || !loc) return;
   if (function == nullptr && loc == body_->loc) return;  // made for the header: no statement of the source
-  const SourcePlace place = sourcePlace(module_, *body_, loc);
+  const FilePosition position = filePosition(module_, *body_, loc);
   const char* file = code_.counters.empty() ? nullptr : code_.counters.back().file;
-  if (file == nullptr || place.path != file) file = code_.texts.emplace_back(place.path).c_str();
-  code_.counters.push_back({file, function, place.line, 0});
+  if (file == nullptr || position.path != file) file = code_.strings.emplace_back(position.path).c_str();
+  code_.counters.push_back({file, function, position.line, 0});
   emit(countHandler(), {}, {}, {}, 0, reinterpret_cast<int64_t>(&code_.counters.back().count));
 }
 
-void BodyTranslator::mark(Loc loc) {
-  if (!loc || (!code_.marks.empty() && marked_ == loc)) return;
-  marked_ = loc;
-  const SourcePlace at = sourcePlace(module_, *body_, loc);
+void BodyTranslator::recordLocation(Loc loc) {
+  if (!loc || (!code_.line_table.empty() && recorded_loc_ == loc)) return;
+  recorded_loc_ = loc;
+  const FilePosition at = filePosition(module_, *body_, loc);
   const NameId pou = body_->spelling ? body_->spelling : body_->name;
-  code_.marks.push_back({static_cast<uint32_t>(code_.insns.size()), pool_.add(module_.names.text(pou)),
-                         pool_.add(at.path), at.line, at.column});
+  code_.line_table.push_back({static_cast<uint32_t>(code_.insns.size()), pool_.add(module_.names.string(pou)),
+                              pool_.add(at.path), at.line, at.column});
 }
 
 void BodyTranslator::statement(const Stmt& stmt) {
-  mark(stmt.loc);
+  recordLocation(stmt.loc);
   if (stmt.kind != StmtKind::Label) count(stmt.loc, nullptr);
   switch (stmt.kind) {
     case StmtKind::None: return;
@@ -54,7 +54,7 @@ void BodyTranslator::statement(const Stmt& stmt) {
       const Expr& field = expr(ExprId{stmt.a});
       const Address to = fieldMemory(field);
       if (stmt.b == 0) return write(to, Scalar::U64, {Mode::Constant, {}, 0});
-      const Address variable = isText(field.type) ? text(ExprId{stmt.b}) : place(ExprId{stmt.b});
+      const Address variable = isString(field.type) ? string(ExprId{stmt.b}) : place(ExprId{stmt.b});
       return write(to, Scalar::U64, {Mode::Frame, pointerTo(variable), 0});
     }
     case StmtKind::Call: return callStatement(stmt);
@@ -99,8 +99,8 @@ void BodyTranslator::statement(const Stmt& stmt) {
     case StmtKind::Assert: return assertStatement(stmt);
     case StmtKind::Evaluate: {
       const TypeId type = expr(ExprId{stmt.a}).type;
-      if (isText(type)) {
-        text(ExprId{stmt.a});
+      if (isString(type)) {
+        string(ExprId{stmt.a});
       } else if (isAggregate(type)) {
         place(ExprId{stmt.a});
       } else {
@@ -125,9 +125,9 @@ void BodyTranslator::copyAggregate(const Address& to, const Address& from, uint6
 void BodyTranslator::assign(const Stmt& stmt) {
   const ExprId to{stmt.a}, from{stmt.b};
   const TypeId type = expr(to).type;
-  if (isText(type)) {
+  if (isString(type)) {
     const Address at = place(to);
-    return assignText(at, capacityOf(type), isWide(type), from);
+    return assignString(at, capacityOf(type), isWide(type), from);
   }
   if (isAggregate(type)) {
     const Address at = place(to);
@@ -144,9 +144,9 @@ void BodyTranslator::assign(const Stmt& stmt) {
   Element element_at;
   if (expr(to).kind == ExprKind::Index && !mayFault(from) && !contains(from, ExprKind::Call) &&
       element(expr(to), element_at)) {
-    const Operand made = inMemory(value(from), scalar);
-    emit(storeElementHandler(scalar, element_at.index_type, element_at.base.base, element_at.index.mode, made.mode),
-         made.ref, element_at.base.ref, element_at.index.ref, element_at.site, element_at.range);
+    const Operand created = inMemory(value(from), scalar);
+    emit(storeElementHandler(scalar, element_at.index_type, element_at.base.base, element_at.index.mode, created.mode),
+         created.ref, element_at.base.ref, element_at.index.ref, element_at.site, element_at.range);
     return;
   }
   const Address at = place(to);
@@ -234,7 +234,7 @@ bool BodyTranslator::isExitTest(StmtId id) const {
 // The test of a WHILE stands behind its body, so that a turn takes one branch.
 void BodyTranslator::loopStatement(const Stmt& stmt) {
   const auto depth = static_cast<uint32_t>(tries_.size());
-  const Label turn = newLabel(), on_continue = newLabel(), end = newLabel();
+  const Label iteration = newLabel(), on_continue = newLabel(), end = newLabel();
   loops_.push_back({end, on_continue, depth});
   StmtId first{stmt.a};
   const StmtId next{stmt.b};
@@ -244,17 +244,17 @@ void BodyTranslator::loopStatement(const Stmt& stmt) {
     first = body_->stmt(first).next;
     jump(on_continue);
   }
-  place(turn);
+  place(iteration);
   if (options_.bounded) emit(tickHandler());
   block(first);
   place(on_continue);
   if (tests_first) {
-    branch(ExprId{body_->stmt(test).a}, false, turn);
+    branch(ExprId{body_->stmt(test).a}, false, iteration);
   } else if (next && isExitTest(next) && !body_->stmt(next).next) {  // REPEAT
-    branch(ExprId{body_->stmt(next).a}, false, turn);
+    branch(ExprId{body_->stmt(next).a}, false, iteration);
   } else {
     block(next);
-    jump(turn);
+    jump(iteration);
   }
   place(end);
   loops_.pop_back();
@@ -266,7 +266,7 @@ void BodyTranslator::forStatement(const Stmt& stmt) {
   const Scalar type = scalarOf(control);
   const auto step = static_cast<int64_t>(expr(ExprId{stmt.d}).bits());
   const bool up = step > 0;
-  const Label turn = newLabel(), on_continue = newLabel(), end = newLabel();
+  const Label iteration = newLabel(), on_continue = newLabel(), end = newLabel();
 
   const Address at = place(control);
   const Operand begin = temp(), limit = temp();
@@ -287,20 +287,20 @@ void BodyTranslator::forStatement(const Stmt& stmt) {
            end);
   }
   loops_.push_back({end, on_continue, depth});
-  place(turn);
+  place(iteration);
   if (options_.bounded) emit(tickHandler());
   block(StmtId{stmt.e});
   place(on_continue);
   if (is_direct) {
     const Operand counter = direct(at);
-    jumpTo(emit(forHandler(type, up, counter.mode), counter.ref, limit.ref, {}, 0, step), turn);
+    jumpTo(emit(forHandler(type, up, counter.mode), counter.ref, limit.ref, {}, 0, step), iteration);
   } else {
     const Operand counter = temp(), more = temp();
     const Address again = place(control);
     move(type, read(again, type, &counter), counter);
     emit(forFlagHandler(type, up), counter.ref, limit.ref, more.ref, 0, step);
     write(again, type, counter);
-    jumpTo(emit(branchTruthHandler(Mode::Frame, true), more.ref), turn);
+    jumpTo(emit(branchTruthHandler(Mode::Frame, true), more.ref), iteration);
   }
   place(end);
   loops_.pop_back();
@@ -348,8 +348,8 @@ void BodyTranslator::tryStatement(const Stmt& stmt) {
   };
   std::vector<Exit> exits = guarded(StmtId{stmt.a});
   if (has_catch) {
-    const Label good = newLabel();
-    jumpTo(emit(branchHandler(Op::Eq, Scalar::U8, Mode::Frame, Mode::Constant, true), fault.ref), good);
+    const Label ok = newLabel();
+    jumpTo(emit(branchHandler(Op::Eq, Scalar::U8, Mode::Frame, Mode::Constant, true), fault.ref), ok);
     if (stmt.d != 0) {
       const Scalar type = scalarOf(ExprId{stmt.d});
       const Operand number = converted(fault, Scalar::U8, type, nullptr);
@@ -368,7 +368,7 @@ void BodyTranslator::tryStatement(const Stmt& stmt) {
     } else {
       block(StmtId{stmt.b});
     }
-    place(good);
+    place(ok);
   }
   if (has_finally) block(StmtId{stmt.c});
   if (!has_catch || has_finally) emit(rethrowHandler(), fault.ref);
@@ -385,24 +385,24 @@ void BodyTranslator::tryStatement(const Stmt& stmt) {
 // ---- tests
 
 void BodyTranslator::assertStatement(const Stmt& stmt) {
-  AssertionTexts texts = assertionTexts(module_, *body_, stmt);
+  AssertionReport report = assertionReport(module_, *body_, stmt);
   const auto keep = [&](std::string_view text) -> const char* {
     if (text.empty()) return nullptr;
-    code_.texts.emplace_back(text);
-    return code_.texts.back().c_str();
+    code_.strings.emplace_back(text);
+    return code_.strings.back().c_str();
   };
-  AssertionPlace made{};
-  made.is = {keep(texts.place.path), texts.place.line,  texts.place.column, keep(texts.source),
-             keep(texts.text),       keep(texts.shown), keep(texts.items)};
+  AssertionSite created{};
+  created.is = {keep(report.position.path), report.position.line, report.position.column, keep(report.source),
+                keep(report.message),       keep(report.shown),   keep(report.items)};
   const Ref slots = slot(24);
   const auto put = [&](ExprId id, uint32_t number) {
     const Ref to{slots.offset + 8 * number, false};
-    if (isText(expr(id).type)) return pointerInto(text(id), to);
+    if (isString(expr(id).type)) return pointerInto(string(id), to);
     move(Scalar::U64, wideBits(id), {Mode::Frame, to, 0});
   };
   AssertionKind kind = AssertionKind::Truth;
   const ExprId first{stmt.a}, second{stmt.b}, third{stmt.c};
-  if (second) made.kind = assertedKind(types_, expr(second).type);
+  if (second) created.kind = assertedKind(types_, expr(second).type);
   switch (static_cast<Assertion>(stmt.op)) {
     case Assertion::Assert:
       move(Scalar::Bool, value(first), {Mode::Frame, slots, 0});
@@ -422,7 +422,7 @@ void BodyTranslator::assertStatement(const Stmt& stmt) {
     }
     case Assertion::AssertEq: {
       const TypeId type = expr(second).type;
-      if (isAggregate(type) && !isText(type)) {
+      if (isAggregate(type) && !isString(type)) {
         const Ref a = pointerTo(place(first)), b = pointerTo(place(second));
         emit(compareMemoryHandler(), slots, a, {static_cast<uint32_t>(info(type).size), false}, b.offset);
       } else {
@@ -433,7 +433,7 @@ void BodyTranslator::assertStatement(const Stmt& stmt) {
       break;
     }
   }
-  code_.assertions.push_back(made);
+  code_.assertions.push_back(created);
   emit(assertHandler(kind), {}, slots, {}, 0, reinterpret_cast<int64_t>(&code_.assertions.back()));
 }
 

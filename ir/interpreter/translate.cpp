@@ -124,16 +124,16 @@ void BodyTranslator::clearVariables() {
   }
   for (size_t i = 0; i < body_->locals.size(); ++i) {
     const Local& local = body_->locals[i];
-    if (is_set[i] || local.by_reference || isAggregate(local.type) || isText(local.type)) continue;
+    if (is_set[i] || local.by_reference || isAggregate(local.type) || isString(local.type)) continue;
     if (local.kind != LocalKind::Variable && local.kind != LocalKind::Result) continue;
     emit(moveHandler(Scalar::U64, Mode::Constant, Mode::Frame), {local_offset_[i], false});
   }
 }
 
 uint32_t BodyTranslator::site(Loc loc, int64_t low, int64_t high) {
-  const SourcePlace at = sourcePlace(module_, *body_, loc);
+  const FilePosition at = filePosition(module_, *body_, loc);
   const NameId pou = body_->spelling ? body_->spelling : body_->name;
-  code_.sites.push_back({pool_.add(module_.names.text(pou)), pool_.add(at.path), at.line, at.column, low, high});
+  code_.sites.push_back({pool_.add(module_.names.string(pou)), pool_.add(at.path), at.line, at.column, low, high});
   return static_cast<uint32_t>(code_.sites.size());
 }
 
@@ -147,8 +147,8 @@ void BodyTranslator::translate(BodyId id) {
   if (body_->has_labels) noteLabels(body_->first, 0);
   if (options_.bounded) emit(tickHandler());
   if (options_.coverage && body_->counted) {
-    code_.texts.emplace_back(module_.names.text(body_->spelling ? body_->spelling : body_->name));
-    count(body_->loc, code_.texts.back().c_str());
+    code_.strings.emplace_back(module_.names.string(body_->spelling ? body_->spelling : body_->name));
+    count(body_->loc, code_.strings.back().c_str());
   }
   loadBases();
   clearVariables();

@@ -24,17 +24,17 @@ struct Code {
   std::vector<Entry> bodies;  // by BodyId
   std::vector<rung_site> sites;
   // Where each statement begins, for what happens without a check: the instruction, and its place. Sorted.
-  struct Mark {
+  struct LineEntry {
     uint32_t insn, pou, file, line, column;  // texts as in rung_site
   };
-  std::vector<Mark> marks;
+  std::vector<LineEntry> line_table;
   // What instructions point to; deques keep it in place.
-  std::deque<std::string> texts;
-  std::deque<std::u16string> wide_texts;
+  std::deque<std::string> strings;
+  std::deque<std::u16string> wide_strings;
   std::deque<std::vector<uint64_t>> data;  // constant bytes, aligned
   std::deque<std::vector<int32_t>> tables;
   std::deque<std::vector<SwitchRange>> ranges;
-  std::deque<AssertionPlace> assertions;
+  std::deque<AssertionSite> assertions;
   std::deque<Counter> counters;
   std::vector<const char*> called;                    // by BodyId: the name that traced calls give, or null
   std::vector<const uint64_t*> data_of_module;        // by index of Module::data
@@ -73,7 +73,7 @@ struct Address {
 
 class BodyTranslator {
  public:
-  BodyTranslator(const Module& module, const MemoryBlocks& blocks, TextPool& pool, const TranslateOptions& options,
+  BodyTranslator(const Module& module, const MemoryBlocks& blocks, StringPool& pool, const TranslateOptions& options,
                  Code& code)
       : module_(module), types_(module.types), blocks_(blocks), pool_(pool), options_(options), code_(code) {}
 
@@ -159,13 +159,13 @@ class BodyTranslator {
   void pointerInto(const Address& a, Ref to);
   bool isImage(ExprId id) const;
 
-  // ---- texts.cpp
-  Address text(ExprId id);
-  void assignText(const Address& to, uint32_t capacity, bool wide, ExprId from);
-  void copyText(const Address& to, uint32_t capacity, bool wide, const Address& from, TypeId type);
-  Operand textOrder(ExprId left, ExprId right);
+  // ---- strings.cpp
+  Address string(ExprId id);
+  void assignString(const Address& to, uint32_t capacity, bool wide, ExprId from);
+  void copyString(const Address& to, uint32_t capacity, bool wide, const Address& from, TypeId type);
+  Operand stringOrder(ExprId left, ExprId right);
   Address literal(const Expr& e);
-  Address textBuffer(TypeId type);
+  Address stringBuffer(TypeId type);
 
   // ---- statements.cpp
   void block(StmtId first);
@@ -182,13 +182,13 @@ class BodyTranslator {
   void noteLabels(StmtId first, uint32_t depth);
 
   void count(Loc loc, const char* function);
-  void mark(Loc loc);
+  void recordLocation(Loc loc);
 
   // ---- calls.cpp
   void traceCall(BodyId callee, const Address* self);
   void callStatement(const Stmt& stmt);
   Operand callExpression(const Expr& e, const Operand* want);
-  Address callText(const Expr& e);
+  Address callString(const Expr& e);
   struct Argument {
     const Local* parameter;
     ExprId operand;
@@ -207,7 +207,7 @@ class BodyTranslator {
   types::TypeKind kindOf(ExprId id) const { return types_.plainKind(expr(id).type); }
   Scalar scalarOf(TypeId type) const;
   Scalar scalarOf(ExprId id) const { return scalarOf(expr(id).type); }
-  bool isText(TypeId type) const { return types::TypeTable::isText(types_.kind(type)); }
+  bool isString(TypeId type) const { return types::TypeTable::isString(types_.kind(type)); }
   bool isWide(TypeId type) const { return types_.kind(type) == types::TypeKind::WString; }
   bool isAggregate(TypeId type) const {
     const types::TypeKind kind = types_.kind(type);
@@ -219,11 +219,11 @@ class BodyTranslator {
   const Module& module_;
   const types::TypeTable& types_;
   const MemoryBlocks& blocks_;
-  TextPool& pool_;
+  StringPool& pool_;
   const TranslateOptions& options_;
   Code& code_;
 
-  Loc marked_;  // the last one of code_.marks
+  Loc recorded_loc_;  // the last one of code_.marks
   const Body* body_ = nullptr;
   std::vector<uint32_t> local_offset_;
   Ref result_slot_;

@@ -6,46 +6,46 @@
 namespace rung::ir {
 
 void ModuleLowering::addActivations() {
-  using Place = sema::InstancePlace;
-  if (project.instance_places.empty()) {
+  using Path = sema::InstancePath;
+  if (project.instance_paths.empty()) {
     for (uint32_t i = 0; i < project.instances.size(); ++i)
       if (program_of_instance_[i] != 0 && project.instances[i].connections)
         addActivation(program_of_instance_[i] - 1, &project.instances[i], {});
     return;
   }
-  auto placesOf = [&](uint32_t instance, sema::PouId program) {
-    std::vector<Place> own;
-    for (const Place& place : project.instance_places) {
-      bool is_global = place.instance == Place::kNone && !place.program;
-      if (is_global || (place.instance == instance && place.program == program)) own.push_back(place);
+  auto pathsOf = [&](uint32_t instance, sema::PouId program) {
+    std::vector<Path> own;
+    for (const Path& path : project.instance_paths) {
+      bool is_global = path.instance == Path::kNone && !path.program;
+      if (is_global || (path.instance == instance && path.program == program)) own.push_back(path);
     }
     return own;
   };
   for (uint32_t i = 0; i < project.instances.size(); ++i)
     if (program_of_instance_[i] != 0)
-      addActivation(program_of_instance_[i] - 1, &project.instances[i], placesOf(i, project.instances[i].program));
+      addActivation(program_of_instance_[i] - 1, &project.instances[i], pathsOf(i, project.instances[i].program));
   for (uint32_t i = 1; i < project.pous.size(); ++i)
-    if (project.pous[i].test && !project.pous[i].left_out && project.pous[i].record)
-      addActivation(instanceOf({i}), nullptr, placesOf(Place::kNone, {i}));
+    if (project.pous[i].test && !project.pous[i].excluded && project.pous[i].record)
+      addActivation(instanceOf({i}), nullptr, pathsOf(Path::kNone, {i}));
 }
 
 void ModuleLowering::addActivation(uint32_t program, const sema::ProgramInstance* instance,
-                                   std::span<const sema::InstancePlace> places) {
+                                   std::span<const sema::InstancePath> paths) {
   rung::ExprId call = instance != nullptr ? instance->connections : rung::ExprId{};
   bool copies = false, sets = false;
-  for (const sema::InstancePlace& place : places) {
-    copies = copies || place.located;
-    sets = sets || place.init || (place.located && project.var(place.var).init);
+  for (const sema::InstancePath& path : paths) {
+    copies = copies || path.located;
+    sets = sets || path.init || (path.located && project.var(path.var).init);
   }
   auto make = [&](const char* what) {
     const BodyId code = module.programs[program].body;
     module.bodies.emplace_back();
     const BodyId id{static_cast<uint32_t>(module.bodies.size() - 1)};
     Body& body = module.bodies.back();
-    const std::string name = std::string(module.names.text(module.programs[program].name));
+    const std::string name = std::string(module.names.string(module.programs[program].name));
     std::string unique = name + what;
     if (NameId resource = module.programs[program].resource)
-      unique = std::string(module.names.text(resource)) + "__" + unique;
+      unique = std::string(module.names.string(resource)) + "__" + unique;
     body.name = module.names.intern(unique);
     body.spelling = module.programs[program].name;
     body.kind = BodyKind::Function;
@@ -56,13 +56,13 @@ void ModuleLowering::addActivation(uint32_t program, const sema::ProgramInstance
   if (call || copies) {
     const BodyId id = make("__run");
     BodyLowering lowering(*this, module.body(id), {});
-    lowering.lowerActivation(program, module.programs[program].body, call, places);
+    lowering.lowerActivation(program, module.programs[program].body, call, paths);
     module.programs[program].run = id;
   }
   if (sets) {
     const BodyId id = make("__setup");
     BodyLowering lowering(*this, module.body(id), {});
-    lowering.lowerSetup(program, places);
+    lowering.lowerSetup(program, paths);
     module.programs[program].setup = id;
   }
 }
@@ -75,10 +75,10 @@ void ModuleLowering::addBlockTasks() {
     module.bodies.emplace_back();
     const BodyId id{static_cast<uint32_t>(module.bodies.size() - 1)};
     Body& body = module.bodies.back();
-    std::string unique(module.names.text(module.programs[program].name));
-    unique.append("__").append(module.names.text(block.name)).append("__run");
+    std::string unique(module.names.string(module.programs[program].name));
+    unique.append("__").append(module.names.string(block.name)).append("__run");
     if (NameId resource = module.programs[program].resource)
-      unique = std::string(module.names.text(resource)) + "__" + unique;
+      unique = std::string(module.names.string(resource)) + "__" + unique;
     body.name = module.names.intern(unique);
     body.spelling = block.name;
     body.kind = BodyKind::Function;
@@ -93,9 +93,9 @@ void ModuleLowering::addBlockTasks() {
 void BodyLowering::lowerBlockTask(uint32_t program, sema::VarId block) {
   const Loc loc = body_.loc;
   const sema::Var& var = project_.var(block);
-  const ExprId place = field(asBase(programPlace(program, loc), var.pou, loc), var.field, strip(var.type), loc);
+  const ExprId instance = field(asBase(programPlace(program, loc), var.pou, loc), var.field, strip(var.type), loc);
   const BodyId code = in_.bodyOf(in_.pouOfRecord(strip(var.type)));
-  append({.kind = StmtKind::Call, .loc = loc, .a = code.index, .b = place.index});
+  append({.kind = StmtKind::Call, .loc = loc, .a = code.index, .b = instance.index});
   body_.first = block_.first;
   finish();
 }
@@ -113,10 +113,10 @@ ExprId BodyLowering::imagePlace(const sema::ImageView& view, TypeId type, Loc lo
               .c = view.is_bit ? view.bit : kNoBit});
 }
 
-ExprId BodyLowering::instancePlace(uint32_t program, const sema::InstancePlace& place) {
+ExprId BodyLowering::instancePlace(uint32_t program, const sema::InstancePath& path) {
   const Loc loc = body_.loc;
-  ExprId at = place.program ? programPlace(program, loc) : ExprId{};
-  for (const sema::PathStep& step : place.path) {
+  ExprId at = path.program ? programPlace(program, loc) : ExprId{};
+  for (const sema::PathStep& step : path.path) {
     if (step.var && !at) {
       at = varPlace(step.var, loc);
     } else if (step.var) {
@@ -147,12 +147,12 @@ ExprId BodyLowering::instancePlace(uint32_t program, const sema::InstancePlace& 
 }
 
 void BodyLowering::lowerActivation(uint32_t program, BodyId code, rung::ExprId call,
-                                   std::span<const sema::InstancePlace> places) {
+                                   std::span<const sema::InstancePath> paths) {
   const Loc loc = body_.loc;
-  for (const sema::InstancePlace& place : places) {
-    if (!place.located || place.image.area == ImageArea::Output) continue;
-    const TypeId type = project_.var(place.var).type;
-    assign(instancePlace(program, place), imagePlace(place.image, type, loc), loc);
+  for (const sema::InstancePath& path : paths) {
+    if (!path.located || path.image.area == ImageArea::Output) continue;
+    const TypeId type = project_.var(path.var).type;
+    assign(instancePlace(program, path), imagePlace(path.image, type, loc), loc);
   }
   if (call) {
     const CallExpr& node = tree_.as<CallExpr>(call);
@@ -160,23 +160,23 @@ void BodyLowering::lowerActivation(uint32_t program, BodyId code, rung::ExprId c
   } else {
     append({.kind = StmtKind::Call, .loc = loc, .a = code.index, .b = programPlace(program, loc).index});
   }
-  for (const sema::InstancePlace& place : places) {
-    if (!place.located || place.image.area == ImageArea::Input) continue;
-    const TypeId type = project_.var(place.var).type;
-    assign(imagePlace(place.image, type, loc), instancePlace(program, place), loc);
+  for (const sema::InstancePath& path : paths) {
+    if (!path.located || path.image.area == ImageArea::Input) continue;
+    const TypeId type = project_.var(path.var).type;
+    assign(imagePlace(path.image, type, loc), instancePlace(program, path), loc);
   }
   body_.first = block_.first;
   finish();
 }
 
-void BodyLowering::lowerSetup(uint32_t program, std::span<const sema::InstancePlace> places) {
+void BodyLowering::lowerSetup(uint32_t program, std::span<const sema::InstancePath> paths) {
   const Loc loc = body_.loc;
-  for (const sema::InstancePlace& place : places) {
-    const sema::Var& var = project_.var(place.var);
-    if (place.init) storeInitial(instancePlace(program, place), var.type, place.init, false);
+  for (const sema::InstancePath& path : paths) {
+    const sema::Var& var = project_.var(path.var);
+    if (path.init) storeInitial(instancePlace(program, path), var.type, path.init, false);
     // What the image holds counts where there is no initial value.
-    if (place.located && (place.init || var.init))
-      assign(imagePlace(place.image, var.type, loc), instancePlace(program, place), loc);
+    if (path.located && (path.init || var.init))
+      assign(imagePlace(path.image, var.type, loc), instancePlace(program, path), loc);
   }
   body_.first = block_.first;
   finish();

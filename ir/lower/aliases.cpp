@@ -10,11 +10,11 @@ sema::VarId BodyLowering::rootVar(rung::ExprId id) const {
   while (true) {
     if (tree_.kind(id) == rung::ExprKind::Name) {
       Entity entity = tree_.as<NameExpr>(id).entity;
-      return entity.what() == EntityKind::Var ? sema::VarId{entity.index} : sema::VarId{};
+      return entity.entityKind() == EntityKind::Var ? sema::VarId{entity.index} : sema::VarId{};
     }
     if (tree_.kind(id) != rung::ExprKind::Member) return {};
     const MemberExpr& node = tree_.as<MemberExpr>(id);
-    if (node.entity.what() != EntityKind::Var) return {};
+    if (node.entity.entityKind() != EntityKind::Var) return {};
     TypeId base = strip(tree_.expr(node.base).type);
     if (!base || types_.kind(base) != TypeKind::Record) return sema::VarId{node.entity.index};
     id = node.base;
@@ -43,7 +43,7 @@ bool BodyLowering::areApart(sema::VarId a, sema::VarId b) const {
   // An instance may hold the memory of this call's own.
   auto holdsNoInstance = [&](const sema::Var& var) {
     TypeKind kind = types_.plainKind(strip(var.type));
-    return TypeTable::isScalar(kind) || TypeTable::isText(kind);
+    return TypeTable::isScalar(kind) || TypeTable::isString(kind);
   };
   return holdsNoInstance(x) && holdsNoInstance(y);
 }

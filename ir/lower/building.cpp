@@ -70,7 +70,7 @@ ExprId BodyLowering::add(Expr expr) {
       case ExprKind::Select: operands = 3; break;
       case ExprKind::None:
       case ExprKind::Const:
-      case ExprKind::Text:
+      case ExprKind::String:
       case ExprKind::Data:
       case ExprKind::Zero:
       case ExprKind::Local:
@@ -97,13 +97,13 @@ ExprId BodyLowering::constant(TypeId type, uint64_t bits, Loc loc) {
               .b = static_cast<uint32_t>(bits >> 32)});
 }
 
-ExprId BodyLowering::textConstant(TypeId type, NameId text, Loc loc) {
-  return add({.kind = ExprKind::Text, .type = strip(type), .loc = loc, .a = text.index});
+ExprId BodyLowering::stringConstant(TypeId type, NameId string, Loc loc) {
+  return add({.kind = ExprKind::String, .type = strip(type), .loc = loc, .a = string.index});
 }
 
 ExprId BodyLowering::ofValue(const Value& value, Loc loc) {
-  if (TypeTable::isText(types_.plainKind(value.type)))
-    return textConstant(value.type, NameId{static_cast<uint32_t>(value.bits)}, loc);
+  if (TypeTable::isString(types_.plainKind(value.type)))
+    return stringConstant(value.type, NameId{static_cast<uint32_t>(value.bits)}, loc);
   return constant(value.type, value.bits, loc);
 }
 
@@ -115,7 +115,7 @@ ExprId BodyLowering::zero(TypeId type, Loc loc) {
 
 bool BodyLowering::isAggregate(TypeId type) const {
   TypeKind kind = types_.kind(type);
-  return kind == TypeKind::Array || kind == TypeKind::Record || TypeTable::isText(kind);
+  return kind == TypeKind::Array || kind == TypeKind::Record || TypeTable::isString(kind);
 }
 
 ExprId BodyLowering::local(uint32_t index, Loc loc) {

@@ -111,9 +111,9 @@ ExprId BodyLowering::lowerArithmeticOperator(const sema::Call& call, const CallE
     }
   std::vector<ExprId> operands;
   for (const sema::Binding& binding : call.bindings) {
-    Mark mark = here();
+    InsertionPoint point = here();
     ExprId operand = operandOr0(binding, operand_type, loc);
-    for (size_t i = operands.size(); i-- > 0;) spill(mark, {&operands[i]});
+    for (size_t i = operands.size(); i-- > 0;) spill(point, {&operands[i]});
     operands.push_back(operand);
   }
   if (types::operandCount(op) == 1) return unary(op, type, operands[0], loc);
@@ -141,17 +141,17 @@ ExprId BodyLowering::lowerSelect(const sema::Call& call, const CallExpr& node) {
   ExprId selector = operandOr0(call.bindings[0], types::kBool, loc);
   if (guard_ && mayFault(selector)) selector = toTemp(selector, loc);
   Block outer = block_;
-  auto branch = [&](const sema::Binding& binding, Block& made) {
+  auto branch = [&](const sema::Binding& binding, Block& created) {
     block_ = {};
     ExprId value = convertValue(operandOr0(binding, type, loc), type, loc);
-    made = block_;
+    created = block_;
     block_ = outer;
     return value;
   };
-  Block made0, made1;
-  ExprId value0 = branch(call.bindings[1], made0);
-  ExprId value1 = branch(call.bindings[2], made1);
-  bool plain = !made0.first && !made1.first && !mayFault(value0) && !mayFault(value1);
+  Block created0, created1;
+  ExprId value0 = branch(call.bindings[1], created0);
+  ExprId value1 = branch(call.bindings[2], created1);
+  bool plain = !created0.first && !created1.first && !mayFault(value0) && !mayFault(value1);
   if (plain && !isAggregate(type))
     return add({.kind = ExprKind::Select,
                 .type = type,
@@ -160,15 +160,15 @@ ExprId BodyLowering::lowerSelect(const sema::Call& call, const CallExpr& node) {
                 .b = value1.index,
                 .c = value0.index});
   ExprId result = temp(type, loc);
-  auto finish = [&](Block made, ExprId value) {
-    block_ = made;
+  auto finish = [&](Block created, ExprId value) {
+    block_ = created;
     assign(result, value, loc);
     StmtId first = block_.first;
     block_ = outer;
     return first;
   };
-  StmtId when_true = finish(made1, value1);
-  StmtId when_false = finish(made0, value0);
+  StmtId when_true = finish(created1, value1);
+  StmtId when_false = finish(created0, value0);
   append({.kind = StmtKind::If, .loc = loc, .a = selector.index, .b = when_true.index, .c = when_false.index});
   return result;
 }
@@ -218,9 +218,9 @@ ExprId BodyLowering::defaultArgument(sema::VarId pin_id, Loc loc) {
 // The place of a by-reference input: the variable itself when nothing can change it during the call, else a copy.
 ExprId BodyLowering::argumentPlace(ExprId value, TypeId pin_type, bool may_alias, Loc loc) {
   const Expr expr = body_.expr(value);
-  bool constant_memory = expr.kind == ExprKind::Text || expr.kind == ExprKind::Data || expr.kind == ExprKind::Zero;
+  bool constant_memory = expr.kind == ExprKind::String || expr.kind == ExprKind::Data || expr.kind == ExprKind::Zero;
   bool is_value = expr.kind == ExprKind::Convert || expr.kind == ExprKind::Select || expr.kind == ExprKind::Call;
-  bool same = typeOf(value) == strip(pin_type) || TypeTable::isText(types_.kind(pin_type));
+  bool same = typeOf(value) == strip(pin_type) || TypeTable::isString(types_.kind(pin_type));
   if (constant_memory || (same && !is_value && !may_alias)) return value;
   if (expr.kind == ExprKind::Local && body_.locals[expr.a].kind == LocalKind::Temp) return value;
   ExprId copy = temp(same ? typeOf(value) : strip(pin_type), expr.loc);
@@ -286,9 +286,9 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
   std::vector<ExprId> arguments, hidden;
   std::vector<AfterCall> after;
   std::vector<bool> is_variable;  // an in-out: the variable itself, reached through temporaries only
-  auto spillArguments = [&](Mark mark) {
+  auto spillArguments = [&](InsertionPoint point) {
     for (size_t i = 0; i < arguments.size(); ++i)
-      if (!is_variable[i]) spill(mark, {&arguments[i]});
+      if (!is_variable[i]) spill(point, {&arguments[i]});
   };
   bool callee_is_pure = in_.module.body(callee_id).pure;
   bool has_reference_outputs = false;
@@ -299,20 +299,20 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
 
   // A native text function writes straight into the target: it copes with inputs that are the target itself.
   TypeId result_type = pou.result ? strip(pou.result) : TypeId{};
-  bool makes_text = result_type && pou.native && TypeTable::isText(types_.kind(result_type));
+  bool makes_string = result_type && pou.native && TypeTable::isString(types_.kind(result_type));
   Target own;
-  if (target && makes_text) {
+  if (target && makes_string) {
     TypeId type = target->place ? typeOf(target->place) : strip(tree_.expr(target->expr).type);
     if (types_.kind(type) != types_.kind(result_type)) target = nullptr;
   }
-  if (!makes_text || !target) {
+  if (!makes_string || !target) {
     target = nullptr;
-    if (makes_text) {
+    if (makes_string) {
       own = {.place = temp(result_type, loc), .early = true};
       target = &own;
     }
   }
-  bool chains = makes_text && callee_is_pure && target->early && placeOf(*target) && mayChain(call, *target);
+  bool chains = makes_string && callee_is_pure && target->early && placeOf(*target) && mayChain(call, *target);
 
   size_t next_binding = 0;
   for (sema::VarId pin_id : pou.vars) {
@@ -331,7 +331,7 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
     }
     bool open = binding == nullptr || !binding->value;
     TypeId pin_type = strip(pin.type);
-    Mark mark = here();
+    InsertionPoint point = here();
     ExprId argument;
     if (types_.isOpenArray(pin_type)) {
       OpenArray array =
@@ -354,7 +354,7 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
         }
         Loc at = tree_.loc(binding->value);
         // A body in ST sees no more of a text than its pin takes; the library's C functions take any length.
-        bool cut = !pou.native && TypeTable::isText(types_.kind(pin_type)) &&
+        bool cut = !pou.native && TypeTable::isString(types_.kind(pin_type)) &&
                    types_.info(typeOf(value)).length > types_.info(pin_type).length;
         if (cut) {
           argument = temp(pin_type, at);
@@ -380,7 +380,7 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
       argument = temp(pin_type, loc);
       after.push_back({binding->value, argument, binding->negated});
     }
-    spillArguments(mark);
+    spillArguments(point);
     arguments.push_back(argument);
     is_variable.push_back(pin.section == SectionKind::InOut && !types_.isOpenArray(pin_type));
   }
@@ -390,10 +390,10 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
   }
 
   ExprId result;
-  if (makes_text) {
-    Mark mark = here();
+  if (makes_string) {
+    InsertionPoint point = here();
     result = placeOf(*target);
-    spillArguments(mark);
+    spillArguments(point);
     target->stored = true;
   }
   uint32_t first = static_cast<uint32_t>(body_.operands.size());
@@ -492,7 +492,7 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
 namespace {
 
 // One line, without blanks at its ends and without parentheses that open or close outside of it.
-std::string tidied(std::string_view text) {
+std::string collapseBlanks(std::string_view text) {
   std::string out;
   for (const char c : text) {
     const bool blank = c == ' ' || c == '\t' || c == '\r' || c == '\n';
@@ -508,24 +508,24 @@ std::string tidied(std::string_view text) {
 }  // namespace
 
 // The condition, its left and its right side as they are written, a line each; a literal's side is empty.
-NameId BodyLowering::shownText(const CallExpr& node, const BinaryExpr& condition) {
+NameId BodyLowering::comparedOperands(const CallExpr& node, const BinaryExpr& condition) {
   const Sources& sources = project_.sources;
   const FileId file = sources.fileOf(node.h.loc);
-  const std::string_view source = sources.text(file);
+  const std::string_view source = sources.sourceText(file);
   const uint32_t base = sources.begin(file).offset;
   const size_t open = source.find('(', tree_.begin(node.callee).offset - base);
   const size_t at = condition.h.loc.offset - base, op_size = sources.tokenAt(condition.h.loc).size();
   size_t end = node.end.offset - base;
   if (node.arguments.count > 1) end = source.rfind(',', tree_.begin(tree_.list(node.arguments)[1].value).offset - base);
   if (end == std::string_view::npos || open >= at || at + op_size > end || end > source.size()) return {};
-  const std::string left = tidied(source.substr(open + 1, at - open - 1)), op(source.substr(at, op_size)),
-                    right = tidied(source.substr(at + op_size, end - at - op_size));
+  const std::string left = collapseBlanks(source.substr(open + 1, at - open - 1)), op(source.substr(at, op_size)),
+                    right = collapseBlanks(source.substr(at + op_size, end - at - op_size));
   const auto name = [&](rung::ExprId side, const std::string& text) {
     while (tree_.kind(side) == rung::ExprKind::Convert) side = tree_.as<ConvertExpr>(side).operand;
     const TypeKind kind = types_.info(strip(tree_.expr(side).type)).kind;
-    const bool says_its_value =
+    const bool is_self_explanatory =
         tree_.kind(side) == rung::ExprKind::Literal || (kind == TypeKind::Enum && constantOf(project_, side));
-    return says_its_value ? std::string() : text;
+    return is_self_explanatory ? std::string() : text;
   };
   const std::string left_name = name(condition.left, left), right_name = name(condition.right, right);
   if (left_name.empty() && right_name.empty()) return {};
@@ -543,7 +543,7 @@ void BodyLowering::lowerAssertion(const sema::Call& call, const CallExpr& node) 
     const BinaryOp op = node_of.op();
     const TypeId type = strip(tree_.expr(node_of.left).type);
     const bool compares = op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual;
-    if (compares && assertedKind(types_, type) != RUNG_POINTER) stmt.e = shownText(node, node_of).index;
+    if (compares && assertedKind(types_, type) != RUNG_POINTER) stmt.e = comparedOperands(node, node_of).index;
   }
   ExprId a, b, c;
   if (stmt.e != 0) {

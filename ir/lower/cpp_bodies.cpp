@@ -12,8 +12,8 @@ void ModuleLowering::lowerCpp(sema::PouId id) {
   const uint32_t base = project.sources.begin(pou.file).offset;
   constexpr uint32_t kOpen = 5, kClose = 9;  // {C++}, {END_C++}
   cpp.loc = {decl.body_begin.offset + kOpen};
-  cpp.text =
-      project.sources.text(pou.file).substr(cpp.loc.offset - base, decl.body_end.offset - kClose - cpp.loc.offset);
+  cpp.source = project.sources.sourceText(pou.file).substr(cpp.loc.offset - base,
+                                                           decl.body_end.offset - kClose - cpp.loc.offset);
   for (sema::VarId var_id : pou.vars) {
     const sema::Var& own = project.var(var_id);
     if (!own.name) continue;
@@ -27,8 +27,8 @@ void ModuleLowering::lowerCpp(sema::PouId id) {
     } else if (var.storage == sema::Storage::Local && var.init) {
       const auto value = constantOf(project, var.init);
       if (!value) continue;
-      const bool is_text = TypeTable::isText(types.plainKind(type));
-      cpp.initial.push_back({own.name, type, is_text ? value->bits : types::convert(types, *value, type).value.bits});
+      const bool is_string = TypeTable::isString(types.plainKind(type));
+      cpp.initial.push_back({own.name, type, is_string ? value->bits : types::convert(types, *value, type).value.bits});
     }
   }
   for (sema::PouId function : pou.cpp_calls) cpp.functions.push_back(bodyOf(function));

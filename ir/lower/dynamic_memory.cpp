@@ -42,9 +42,9 @@ ExprId BodyLowering::lowerNew(rung::ExprId id) {
       storeInitial(place, declared, {}, true);
       return;
     }
-    constexpr uint64_t kMostBytes = uint64_t{1} << 30;
+    constexpr uint64_t kMaxBytes = uint64_t{1} << 30;
     const uint64_t bytes = std::max<uint64_t>(1, types_.info(type).size);
-    const types::Dimension all{0, static_cast<int64_t>(kMostBytes / bytes) - 1};
+    const types::Dimension all{0, static_cast<int64_t>(kMaxBytes / bytes) - 1};
     const TypeId row = types_.array(type, {&all, 1}), to_row = types_.pointer(row);
     types_.layout(row);
     types_.layout(to_row);
@@ -79,14 +79,14 @@ void BodyLowering::lowerDelete(const sema::Call& call, Loc loc) {
   const ExprId pointer = toTemp(place, loc);
   const TypeId bytes = strip(project_.var(project_.pou(call.pou).vars.front()).type);
   const auto memory = [&] { return convertValue(pointer, bytes, loc); };
-  const auto require = [&](ExprId good) {
+  const auto require = [&](ExprId ok) {
     if ((in_.options.checks & kCheckNull) == 0) return;
-    const ExprId wrong = unary(Op::Not, types::kBool, good, loc);
+    const ExprId failed = unary(Op::Not, types::kBool, ok, loc);
     const ExprId value = convert(pointer, types::kLInt, loc);
     const StmtId fault = block([&] {
       append({.kind = StmtKind::Fault, .op = static_cast<uint8_t>(types::Fault::Null), .loc = loc, .a = value.index});
     });
-    append({.kind = StmtKind::If, .loc = loc, .a = wrong.index, .b = fault.index});
+    append({.kind = StmtKind::If, .loc = loc, .a = failed.index, .b = fault.index});
   };
   const StmtId then = block([&] {
     const sema::PouId object = in_.pouOfRecord(type);

@@ -25,15 +25,15 @@ BodyId ModuleLowering::exitOf(TypeId record) {
   const auto known = exit_of_.find(record.index);
   if (known != exit_of_.end()) return known->second;
   const sema::PouId pou = pouOfRecord(record);
-  const BodyId made = addHelper(pou ? project.pou(pou).unique_name : types.info(record).name, pou, "~");
-  exit_of_[record.index] = made;
-  Body& body = module.body(made);
+  const BodyId created = addHelper(pou ? project.pou(pou).unique_name : types.info(record).name, pou, "~");
+  exit_of_[record.index] = created;
+  Body& body = module.body(created);
   body.self = record;
   BodyLowering lowering(*this, body, {});
   lowering.lowerExit(lowering.self(body.loc), record);
   body.first = lowering.block_.first;
   lowering.finish();
-  return made;
+  return created;
 }
 
 BodyId ModuleLowering::exitCallOf(sema::PouId object) {
@@ -41,10 +41,10 @@ BodyId ModuleLowering::exitCallOf(sema::PouId object) {
   if (const BodyId body = exitOf(record)) return body;
   const auto known = exit_of_.find(record.index);  // the empty one of an object that only others extend with FB_Exit
   if (known != exit_of_.end()) return known->second;
-  const BodyId made = addHelper(project.pou(object).unique_name, object, "~");
-  exit_of_[record.index] = made;
-  module.body(made).self = record;
-  return made;
+  const BodyId created = addHelper(project.pou(object).unique_name, object, "~");
+  exit_of_[record.index] = created;
+  module.body(created).self = record;
+  return created;
 }
 
 // A function without parameters that ends the objects of such lists and programs, the last first; none when there are
@@ -62,10 +62,10 @@ BodyId ModuleLowering::endsOf(NameId name, const char* suffix, std::span<const u
   for (const uint32_t p : programs)
     if (hasExit(module.programs[p].record)) ends.push_back({ExprKind::Program, p, module.programs[p].record});
   if (ends.empty()) return {};
-  const BodyId made = addHelper(name, {}, suffix);
+  const BodyId created = addHelper(name, {}, suffix);
   std::vector<BodyId> bodies;  // before the lowering begins: they make bodies
   for (const End& end : ends) bodies.push_back(exitOf(end.record));
-  Body& body = module.body(made);
+  Body& body = module.body(created);
   BodyLowering lowering(*this, body, {});
   for (size_t i = ends.size(); i-- > 0;) {
     const ExprId place =
@@ -74,7 +74,7 @@ BodyId ModuleLowering::endsOf(NameId name, const char* suffix, std::span<const u
   }
   body.first = lowering.block_.first;
   lowering.finish();
-  return made;
+  return created;
 }
 
 void ModuleLowering::addExit() {

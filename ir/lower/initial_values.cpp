@@ -14,23 +14,23 @@ uint64_t elementCount(const TypeInfo& array) {
   return count;
 }
 
-bool storeText(const TypeTable& types, TypeId type, std::string_view text, uint8_t* to) {
+bool storeString(const TypeTable& types, TypeId type, std::string_view string, uint8_t* to) {
   const TypeInfo& info = types.info(types.resolve(type));
   if (info.kind != TypeKind::WString) {
-    size_t length = std::min<size_t>(text.size(), info.length);
-    if (info.kind == TypeKind::UString && length < text.size())  // cut between characters
-      while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0) == 0x80) --length;
-    std::memcpy(to, text.data(), length);
+    size_t length = std::min<size_t>(string.size(), info.length);
+    if (info.kind == TypeKind::UString && length < string.size())  // cut between characters
+      while (length > 0 && (static_cast<unsigned char>(string[length]) & 0xc0) == 0x80) --length;
+    std::memcpy(to, string.data(), length);
     return true;
   }
   uint32_t unit = 0;
-  for (size_t i = 0; i < text.size() && unit < info.length;) {
-    unsigned char lead = static_cast<unsigned char>(text[i]);
+  for (size_t i = 0; i < string.size() && unit < info.length;) {
+    unsigned char lead = static_cast<unsigned char>(string[i]);
     uint32_t code = lead;
     size_t extra = lead >= 0xf0 ? 3 : lead >= 0xe0 ? 2 : lead >= 0xc0 ? 1 : 0;
     if (extra > 0) code = lead & (0x3fu >> extra);
-    for (size_t k = 1; k <= extra && i + k < text.size(); ++k)
-      code = (code << 6) | (static_cast<unsigned char>(text[i + k]) & 0x3fu);
+    for (size_t k = 1; k <= extra && i + k < string.size(); ++k)
+      code = (code << 6) | (static_cast<unsigned char>(string[i + k]) & 0x3fu);
     i += extra + 1;
     auto put = [&](uint32_t value) {
       to[2 * unit] = static_cast<uint8_t>(value);
@@ -95,7 +95,7 @@ bool BodyLowering::writeDefault(TypeId declared, uint8_t* to) {
   }
   if (types_.plainKind(type) == TypeKind::Pointer || types_.plainKind(type) == TypeKind::Reference) return true;
   Value value = types::defaultValue(types_, in_.module.names, type);
-  if (TypeTable::isText(types_.plainKind(type))) return true;
+  if (TypeTable::isString(types_.plainKind(type))) return true;
   return storeScalar(types_, value, type, to);
 }
 
@@ -116,8 +116,8 @@ bool BodyLowering::writeBytes(TypeId type, rung::ExprId init, uint8_t* to) {
   }
   auto value = constantOf(project_, init);
   if (!value) return false;
-  if (TypeTable::isText(types_.plainKind(type)))
-    return storeText(types_, type, project_.names.text(NameId{static_cast<uint32_t>(value->bits)}), to);
+  if (TypeTable::isString(types_.plainKind(type)))
+    return storeString(types_, type, project_.names.string(NameId{static_cast<uint32_t>(value->bits)}), to);
   if (!TypeTable::isScalar(types_.plainKind(type))) return false;
   return storeScalar(types_, types::convert(types_, *value, type).value, type, to);
 }
@@ -129,36 +129,37 @@ bool BodyLowering::writeArray(TypeId type, rung::ExprId init, uint8_t* to) {
   TypeId element = info.base;
   const uint64_t size = types_.info(strip(element)).size, count = elementCount(info);
   uint64_t next = 0;
-  bool good = true;
+  bool ok = true;
   auto fill = [&](auto& self_fill, std::span<const rung::ExprId> elements) -> void {
     for (rung::ExprId item : elements) {
-      if (!good || next >= count) return;
+      if (!ok || next >= count) return;
       if (tree_.kind(item) == rung::ExprKind::Repeat) {
         const RepeatExpr& repeat = tree_.as<RepeatExpr>(item);
         auto times = constantOf(project_, repeat.count);
         if (!times) {
-          good = false;
+          ok = false;
           return;
         }
         uint64_t begin = next;
-        uint64_t turns = times->bits;
+        uint64_t repetitions = times->bits;
         if (repeat.elements.empty()) {
-          for (uint64_t i = 0; i < turns && next < count && good; ++i) good = writeDefault(element, to + next++ * size);
+          for (uint64_t i = 0; i < repetitions && next < count && ok; ++i)
+            ok = writeDefault(element, to + next++ * size);
           continue;
         }
-        if (turns == 0) continue;
+        if (repetitions == 0) continue;
         self_fill(self_fill, tree_.list(repeat.elements));
         uint64_t group = next - begin;
-        for (uint64_t i = group; i < group * turns && next < count; ++i, ++next)
+        for (uint64_t i = group; i < group * repetitions && next < count; ++i, ++next)
           std::memcpy(to + next * size, to + (next - group) * size, size);
         continue;
       }
-      good = writeBytes(element, item, to + next++ * size);
+      ok = writeBytes(element, item, to + next++ * size);
     }
   };
   fill(fill, tree_.list(tree_.as<ArrayInitExpr>(init).elements));
-  for (; good && next < count; ++next) good = writeDefault(element, to + next * size);
-  return good;
+  for (; ok && next < count; ++next) ok = writeDefault(element, to + next * size);
+  return ok;
 }
 
 void BodyLowering::forEachElement(ExprId array, TypeId type, Loc loc, uint32_t dimension, std::vector<ExprId>& indices,

@@ -82,7 +82,7 @@ struct ModuleLowering {
   void addTasks();
   void addActivations();
   void addActivation(uint32_t program, const sema::ProgramInstance* instance,
-                     std::span<const sema::InstancePlace> places);
+                     std::span<const sema::InstancePath> places);
   void addLocated();
   void addAccessPaths();
   void addBlockTasks();
@@ -118,8 +118,8 @@ class BodyLowering {
   // For Init bodies: code that gives `place` the initial value of a variable of `type` declared with `init` (or none).
   void storeInitial(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero);
   // activation.cpp: the code of ProgramInstance::run and setup. `call` is none without connections.
-  void lowerActivation(uint32_t program, BodyId code, rung::ExprId call, std::span<const sema::InstancePlace> places);
-  void lowerSetup(uint32_t program, std::span<const sema::InstancePlace> places);
+  void lowerActivation(uint32_t program, BodyId code, rung::ExprId call, std::span<const sema::InstancePath> places);
+  void lowerSetup(uint32_t program, std::span<const sema::InstancePath> places);
 
   // A call of the block in a field of a program instance.
   void lowerBlockTask(uint32_t program, sema::VarId block);
@@ -128,7 +128,7 @@ class BodyLowering {
   ExprId add(Expr expr);
   ExprId constant(TypeId type, uint64_t bits, Loc loc);
   ExprId constantBool(bool value, Loc loc) { return constant(types::kBool, value ? 1 : 0, loc); }
-  ExprId textConstant(TypeId type, NameId text, Loc loc);
+  ExprId stringConstant(TypeId type, NameId string, Loc loc);
   ExprId ofValue(const Value& value, Loc loc);
   ExprId zero(TypeId type, Loc loc);  // a scalar's 0, else all bytes zero
   ExprId local(uint32_t index, Loc loc);
@@ -166,7 +166,7 @@ class BodyLowering {
 
   // places.cpp
   ExprId lowerPlace(rung::ExprId expr);
-  ExprId characters(ExprId text, TypeId unit, bool writes);
+  ExprId characters(ExprId string, TypeId unit, bool writes);
   ExprId varPlace(sema::VarId var, Loc loc);
   ExprId memberPlace(rung::ExprId expr);
   // What the field of a variable is: a member of type BIT has a byte.
@@ -217,31 +217,31 @@ class BodyLowering {
   ExprId callPool(sema::PouId function, std::initializer_list<ExprId> arguments, Loc loc);
   ExprId convertValue(ExprId value, TypeId to, Loc loc);
   // A position in the open block. `effects` tells whether what came since could change a variable.
-  struct Mark {
+  struct InsertionPoint {
     StmtId last;
     uint32_t effects;
   };
-  Mark here() const { return {block_.last, effects_}; }
+  InsertionPoint here() const { return {block_.last, effects_}; }
   // Lowers `next`; when the statements that it emitted could change what `before` reads, or must not run when `before`
   // faults, `before` moves to a temporary in front of them.
   template <class Lower>
   ExprId lowerAfter(std::initializer_list<ExprId*> before, Lower next) {
-    Mark mark = here();
+    InsertionPoint point = here();
     ExprId value = next();
-    spill(mark, before);
+    spill(point, before);
     return value;
   }
-  void spill(Mark mark, std::initializer_list<ExprId*> values);
-  void spillPlace(Mark mark, ExprId& place);  // the place stays one: what it is reached by moves
-  bool mustSpill(Mark mark, ExprId value) const;
+  void spill(InsertionPoint point, std::initializer_list<ExprId*> values);
+  void spillPlace(InsertionPoint point, ExprId& place);  // the place stays one: what it is reached by moves
+  bool mustSpill(InsertionPoint point, ExprId value) const;
   bool hasEffect(const Stmt& stmt) const;  // of its own, without its blocks
   bool isTemp(ExprId place) const;         // a compiler temporary or a part of one
-  // Emits at `mark` instead of at the end of the block.
+  // Emits at `point` instead of at the end of the block.
   template <class Fill>
-  void insertAt(Mark mark, Fill fill) {
-    Block rest = mark.last ? Block{body_.stmt(mark.last).next, block_.last} : block_;
-    block_ = {mark.last ? block_.first : StmtId{}, mark.last};
-    if (mark.last) body_.stmt(mark.last).next = {};
+  void insertAt(InsertionPoint point, Fill fill) {
+    Block rest = point.last ? Block{body_.stmt(point.last).next, block_.last} : block_;
+    block_ = {point.last ? block_.first : StmtId{}, point.last};
+    if (point.last) body_.stmt(point.last).next = {};
     fill();
     if (block_.last)
       body_.stmt(block_.last).next = rest.first;
@@ -277,7 +277,7 @@ class BodyLowering {
   ExprId isKindOf(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc);
   void lowerBlockCall(const sema::Call& call, const CallExpr& node, ExprId instance);
   void lowerAssertion(const sema::Call& call, const CallExpr& node);
-  NameId shownText(const CallExpr& node, const BinaryExpr& condition);
+  NameId comparedOperands(const CallExpr& node, const BinaryExpr& condition);
   ExprId argumentPlace(ExprId value, TypeId pin_type, bool may_alias, Loc loc);
   ExprId inOutPlace(rung::ExprId argument, TypeId pin_type);
   bool isPlainCall(rung::ExprId expr) const;
@@ -297,7 +297,8 @@ class BodyLowering {
   void lowerFor(const ForStmt& stmt);
   void lowerForOfSubrange(const ForStmt& stmt, ExprId control, ExprId from, ExprId to,
                           const std::optional<Value>& step);
-  void lowerForWithVariableStep(const ForStmt& stmt, ExprId control, ExprId from, ExprId to, FunctionRef<void()> turn);
+  void lowerForWithVariableStep(const ForStmt& stmt, ExprId control, ExprId from, ExprId to,
+                                FunctionRef<void()> iteration);
   void lowerWhile(const WhileStmt& stmt);
   void lowerRepeat(const RepeatStmt& stmt);
   void lowerTry(const TryStmt& stmt);
@@ -306,7 +307,7 @@ class BodyLowering {
 
   // activation.cpp
   ExprId programPlace(uint32_t program, Loc loc);
-  ExprId instancePlace(uint32_t program, const sema::InstancePlace& place);
+  ExprId instancePlace(uint32_t program, const sema::InstancePath& place);
   ExprId imagePlace(const sema::ImageView& view, TypeId type, Loc loc);
 
   // exits.cpp

@@ -37,7 +37,7 @@ void ModuleLowering::run() {
     const sema::Pou& pou = project.pous[i];
     if (pou.generic || pou.operator_kind != sema::Pou::Operator::None) continue;
     if (pou.kind == PouKind::Interface) continue;
-    if (pou.left_out || (pou.library && !(options.used_of_libraries && pou.used))) continue;  // follows when called
+    if (pou.excluded || (pou.library && !(options.used_of_libraries && pou.used))) continue;  // follows when called
     bodyOf({i});
   }
   std::sort(module.tests.begin(), module.tests.end(), [&](BodyId a, BodyId b) {  // as they are written
@@ -76,7 +76,7 @@ sema::PouId ModuleLowering::lowerBodies() {
       lowerCpp(id);
       continue;
     }
-    std::string_view name = project.names.text(pou.name);
+    std::string_view name = project.names.string(pou.name);
     setPhaseSubject(name.data(), name.size());
     Body& body = module.body(body_of_[id.index]);
     BodyLowering lowering(*this, body, id);
@@ -108,8 +108,8 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
   body.spelling = pou.name;
   body.kind = pou.kind == PouKind::Function || pou.owner ? BodyKind::Function : BodyKind::Block;
   if (pou.owner) {
-    std::string spelling(project.names.text(project.pou(pou.owner).name));
-    spelling.append(".").append(project.names.text(pou.name));
+    std::string spelling(project.names.string(project.pou(pou.owner).name));
+    spelling.append(".").append(project.names.string(pou.name));
     body.spelling = module.names.intern(spelling);
     body.abstract = (pou.modifiers & kAbstract) != 0;
   }
@@ -155,7 +155,7 @@ BodyId ModuleLowering::bodyOf(sema::PouId id) {
     for (Record& record : module.records)
       if (record.type == pou.record) record.body = known;
   }
-  if (pou.test && !pou.left_out) module.tests.push_back(known);
+  if (pou.test && !pou.excluded) module.tests.push_back(known);
   return known;
 }
 
@@ -215,8 +215,8 @@ void ModuleLowering::addRecord(TypeId type) {
   if (info.record_kind == types::RecordKind::Interface) return;
   if (sema::PouId pou = pou_of_record_[type.index]) {
     BodyId body = bodyOf(pou);
-    for (Record& made : module.records)
-      if (made.type == type) made.body = body;
+    for (Record& created : module.records)
+      if (created.type == type) created.body = body;
   }
 }
 
@@ -406,7 +406,7 @@ void ModuleLowering::addLists() {
   std::vector<std::pair<std::string, uint32_t>> order;
   for (uint32_t i = 1; i < project.global_lists.size(); ++i)
     if (project.global_lists[i].record)
-      order.push_back({foldedIdentifier(project.names.text(project.global_lists[i].name)), i});
+      order.push_back({foldedIdentifier(project.names.string(project.global_lists[i].name)), i});
   std::sort(order.begin(), order.end());
   for (const auto& [name, index] : order) {
     const sema::GlobalList& list = project.global_lists[index];
@@ -437,18 +437,18 @@ void ModuleLowering::addPrograms() {
     program_of_instance_[static_cast<size_t>(&instance - project.instances.data())] =
         static_cast<uint32_t>(module.programs.size()) + 1;
     const sema::Pou& pou = project.pou(instance.program);
-    ProgramInstance made;
-    made.name = instance.name;
-    made.record = pou.record;
-    made.task = instance.task;
-    made.resource = instance.resource;
-    made.configuration = instance.configuration;
+    ProgramInstance created;
+    created.name = instance.name;
+    created.record = pou.record;
+    created.task = instance.task;
+    created.resource = instance.resource;
+    created.configuration = instance.configuration;
     instance_of_.insert({instance.program.index, static_cast<uint32_t>(module.programs.size())});
-    module.programs.push_back(made);
+    module.programs.push_back(created);
     module.programs.back().body = bodyOf(instance.program);
   }
   for (uint32_t i = 1; i < project.pous.size(); ++i)
-    if (project.pous[i].test && !project.pous[i].left_out && project.pous[i].record) instanceOf({i});
+    if (project.pous[i].test && !project.pous[i].excluded && project.pous[i].record) instanceOf({i});
 }
 
 uint32_t ModuleLowering::instanceOf(sema::PouId program) {
@@ -457,10 +457,10 @@ uint32_t ModuleLowering::instanceOf(sema::PouId program) {
   const sema::Pou& pou = project.pou(program);
   uint32_t index = static_cast<uint32_t>(module.programs.size());
   instance_of_[program.index] = index;
-  ProgramInstance made;
-  made.name = pou.name;
-  made.record = pou.record;
-  module.programs.push_back(made);
+  ProgramInstance created;
+  created.name = pou.name;
+  created.record = pou.record;
+  module.programs.push_back(created);
   BodyId body = bodyOf(program);
   module.programs[index].body = body;
   module.programs[index].is_test = pou.test;
@@ -471,64 +471,64 @@ std::string ModuleLowering::pathOf(sema::VarId id) {
   const sema::Var& var = project.var(id);
   std::string path;
   if (var.pou) {
-    path = project.names.text(module.programs[instanceOf(var.pou)].name);
+    path = project.names.string(module.programs[instanceOf(var.pou)].name);
     path += '.';
   }
-  path += project.names.text(var.name);
+  path += project.names.string(var.name);
   return path;
 }
 
 void ModuleLowering::addTasks() {
   for (const sema::Task& task : project.tasks) {
-    Task made;
-    made.name = task.name;
-    made.kind = static_cast<TaskKind>(task.kind);
-    made.interval_ns = task.interval_ns;
-    made.priority = task.priority;
-    if (task.trigger) made.trigger = pathOf(task.trigger);
-    made.external_event = task.external_event;
-    made.watchdog_ns = task.watchdog_ns;
-    made.sensitivity = task.sensitivity;
-    module.tasks.push_back(made);
+    Task created;
+    created.name = task.name;
+    created.kind = static_cast<TaskKind>(task.kind);
+    created.interval_ns = task.interval_ns;
+    created.priority = task.priority;
+    if (task.trigger) created.trigger = pathOf(task.trigger);
+    created.external_event = task.external_event;
+    created.watchdog_ns = task.watchdog_ns;
+    created.sensitivity = task.sensitivity;
+    module.tasks.push_back(created);
   }
 }
 
 void ModuleLowering::addAccessPaths() {
   for (const sema::AccessPath& path : project.access_paths) {
     if (path.root == sema::AccessPath::Root::Instance && program_of_instance_[path.index] == 0) continue;
-    AccessPath made;
-    made.name = path.name;
-    made.prefix = path.prefix;
-    made.configuration = path.configuration;
-    made.type = types.resolve(path.type);
-    made.read_only = path.read_only;
+    AccessPath created;
+    created.name = path.name;
+    created.prefix = path.prefix;
+    created.configuration = path.configuration;
+    created.type = types.resolve(path.type);
+    created.read_only = path.read_only;
     if (path.located) {
-      made.index = static_cast<uint32_t>(path.image.area);
-      made.offset = path.image.byte;
-      if (path.image.is_bit) made.bit = path.image.bit;
+      created.index = static_cast<uint32_t>(path.image.area);
+      created.offset = path.image.byte;
+      if (path.image.is_bit) created.bit = path.image.bit;
     } else {
       const bool of_list = path.root == sema::AccessPath::Root::List;
-      made.root = of_list ? AccessPath::Root::List : AccessPath::Root::Program;
-      made.index = of_list ? listIndex({path.index}) : programOfInstance(path.index);
-      made.offset = path.offset;
-      if (path.bit >= 0) made.bit = static_cast<uint32_t>(path.bit);
+      created.root = of_list ? AccessPath::Root::List : AccessPath::Root::Program;
+      created.index = of_list ? listIndex({path.index}) : programOfInstance(path.index);
+      created.offset = path.offset;
+      if (path.bit >= 0) created.bit = static_cast<uint32_t>(path.bit);
     }
-    module.access_paths.push_back(made);
+    module.access_paths.push_back(created);
   }
 }
 
 void ModuleLowering::addLocated() {
   for (const sema::Var& var : project.vars) {
     if (var.storage != sema::Storage::Image || !var.name || var.external) continue;
-    if (var.pou && project.pou(var.pou).left_out && !body_of_[var.pou.index]) continue;
-    Located made;
-    made.name = var.name;
-    made.type = types.resolve(var.type);
-    made.area = static_cast<uint8_t>(var.image.area);
-    made.byte = var.image.byte;
-    made.bit = var.image.is_bit ? var.image.bit : kNoBit;
-    if (var.pou && project.pou(var.pou).kind == PouKind::Program) made.owner_program = instanceOf(var.pou) + 1;
-    module.located.push_back(made);
+    if (var.pou && project.pou(var.pou).excluded && !body_of_[var.pou.index]) continue;
+    Located created;
+    created.name = var.name;
+    created.type = types.resolve(var.type);
+    created.area = static_cast<uint8_t>(var.image.area);
+    created.byte = var.image.byte;
+    created.bit = var.image.is_bit ? var.image.bit : kNoBit;
+    if (var.pou && project.pou(var.pou).kind == PouKind::Program) created.owner_program = instanceOf(var.pou) + 1;
+    module.located.push_back(created);
   }
 }
 

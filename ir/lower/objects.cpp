@@ -16,7 +16,7 @@ std::vector<sema::PouId> ModuleLowering::lifeMethodsOf(sema::PouId object, std::
   std::vector<sema::PouId> out;
   for (sema::PouId at = object; at; at = project.pou(at).base)
     for (sema::PouId member : project.pou(at).members)
-      if (sameIdentifier(project.names.text(project.pou(member).name), name) &&
+      if (sameIdentifier(project.names.string(project.pou(member).name), name) &&
           (project.pou(member).modifiers & kAbstract) == 0)
         out.insert(out.begin(), member);
   return out;
@@ -33,7 +33,7 @@ void ModuleLowering::addClasses() {
   for (const Record& record : module.records)
     if (sema::PouId pou = pou_of_record_[record.type.index])
       if (project.pou(pou).dispatched && project.pou(pou).kind != PouKind::Interface)
-        order.push_back({foldedIdentifier(project.names.text(project.pou(pou).unique_name)), pou});
+        order.push_back({foldedIdentifier(project.names.string(project.pou(pou).unique_name)), pou});
   std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<uint32_t> number_of(types.count());
   auto baseOf = [&](sema::PouId pou) {
@@ -82,8 +82,8 @@ void ModuleLowering::addDispatches() {
   const std::vector<std::pair<sema::PouId, BodyId>> block_calls = block_calls_;  // more are made below
   for (uint32_t i = 1; i < called.size(); ++i) {
     if (!called[i]) continue;
-    Dispatch made;
-    made.method = {i};
+    Dispatch created;
+    created.method = {i};
     sema::PouId block;  // whose body is called, or whose end; else a method is
     for (const auto& [pou, body] : block_calls)
       if (body.index == i) block = pou;
@@ -93,18 +93,18 @@ void ModuleLowering::addDispatches() {
     for (uint32_t c = 0; c < module.classes.size(); ++c) {
       const sema::PouId object = pou_of_record_[module.classes[c].record.index];
       if (!isKindOf(object, owner)) continue;
-      if (made.bodies.empty()) made.first = c + 1;
-      made.bodies.resize(c + 1 - made.first);
+      if (created.bodies.empty()) created.first = c + 1;
+      created.bodies.resize(c + 1 - created.first);
       if (block) {
-        made.bodies.push_back(blockCallOf(object));
+        created.bodies.push_back(blockCallOf(object));
       } else if (ended) {
-        made.bodies.push_back(exitCallOf(object));
+        created.bodies.push_back(exitCallOf(object));
       } else {
         const sema::PouId found = implementation(object, method_of[i]);
-        made.bodies.push_back(found ? bodyOf(found) : BodyId{});
+        created.bodies.push_back(found ? bodyOf(found) : BodyId{});
       }
     }
-    module.dispatches.push_back(std::move(made));
+    module.dispatches.push_back(std::move(created));
   }
 }
 
@@ -121,7 +121,7 @@ BodyId ModuleLowering::addHelper(NameId name, sema::PouId object, const char* su
   const sema::Pou& pou = project.pou(object);
   module.bodies.emplace_back();
   Body& body = module.bodies.back();
-  body.name = body.spelling = module.names.intern(std::string(project.names.text(name)) + suffix);
+  body.name = body.spelling = module.names.intern(std::string(project.names.string(name)) + suffix);
   body.kind = BodyKind::Function;
   body.library = pou.library;
   body.library_name = pou.library_name;
@@ -135,28 +135,28 @@ BodyId ModuleLowering::blockCallOf(sema::PouId block) {
   for (const auto& [pou, body] : block_calls_)
     if (pou == block) return body;
   const BodyId code = bodyOf(block);
-  const BodyId made = addHelper(project.pou(block).unique_name, block, "()");
-  block_calls_.push_back({block, made});
-  Body& body = module.body(made);
+  const BodyId created = addHelper(project.pou(block).unique_name, block, "()");
+  block_calls_.push_back({block, created});
+  Body& body = module.body(created);
   body.self = project.pou(block).record;
   BodyLowering lowering(*this, body, {});
   lowering.append({.kind = StmtKind::Call, .loc = body.loc, .a = code.index, .b = lowering.self(body.loc).index});
   body.first = lowering.block_.first;
   lowering.finish();
-  return made;
+  return created;
 }
 
 BodyId ModuleLowering::kindTestOf(sema::PouId wanted) {
   for (const auto& [pou, body] : kind_tests_)
     if (pou == wanted) return body;
-  const BodyId made = addHelper(project.pou(wanted).unique_name, wanted, "?");
-  kind_tests_.push_back({wanted, made});
-  Body& body = module.body(made);
+  const BodyId created = addHelper(project.pou(wanted).unique_name, wanted, "?");
+  kind_tests_.push_back({wanted, created});
+  Body& body = module.body(created);
   body.pure = true;
   body.result = types::kBool;
   body.locals.push_back({module.names.intern("id"), types::kUDInt, LocalKind::Input, false, body.loc});
   body.locals.push_back({module.names.intern("is"), types::kBool, LocalKind::Result, false, body.loc});
-  return made;
+  return created;
 }
 
 // Numbers of one line of descent follow each other, so that a kind is one run of numbers or a few.

@@ -7,7 +7,7 @@ namespace rung::ir {
 
 namespace {
 
-constexpr uint64_t kMostBytes = uint64_t{1} << 30;
+constexpr uint64_t kMaxBytes = uint64_t{1} << 30;
 
 }  // namespace
 
@@ -35,9 +35,9 @@ ExprId BodyLowering::openArrayElement(const IndexExpr& node) {
   ExprId offset;  // of the element, counted in elements
   std::vector<ExprId> indices;
   for (rung::ExprId index : tree_.list(node.indices)) {
-    Mark mark = here();
+    InsertionPoint point = here();
     ExprId value = lowerValue(index);
-    for (ExprId& earlier : indices) spill(mark, {&earlier});
+    for (ExprId& earlier : indices) spill(point, {&earlier});
     indices.push_back(value);
   }
   for (uint32_t i = 0; i < indices.size(); ++i) {
@@ -66,7 +66,7 @@ ExprId BodyLowering::openArrayElement(const IndexExpr& node) {
     offset = binary(Op::Add, number, binary(Op::Mul, number, offset, count, loc), step, loc);
   }
   const uint64_t size = std::max<uint64_t>(1, types_.info(element).size);
-  const types::Dimension all{0, static_cast<int64_t>(kMostBytes / size) - 1};
+  const types::Dimension all{0, static_cast<int64_t>(kMaxBytes / size) - 1};
   const TypeId row = types_.array(element, {&all, 1});
   types_.layout(row);
   const ExprId pointer = convert(openArrayPointer(node.base, loc), types_.pointer(row), loc);

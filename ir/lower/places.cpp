@@ -42,14 +42,14 @@ ExprId BodyLowering::varPlace(sema::VarId id, Loc loc) {
 
 ExprId BodyLowering::memberPlace(rung::ExprId id) {
   const MemberExpr& node = tree_.as<MemberExpr>(id);
-  if (node.entity.what() != EntityKind::Var) return lowerValue(id);
+  if (node.entity.entityKind() != EntityKind::Var) return lowerValue(id);
   sema::VarId var_id{node.entity.index};
   const sema::Var& var = project_.var(var_id);
   TypeId base_type = strip(tree_.expr(node.base).type);
   bool of_record = base_type && types_.kind(base_type) == TypeKind::Record && var.storage == sema::Storage::Field;
   if (!of_record && tree_.kind(node.base) == rung::ExprKind::Name) {  // `two.limit` of a program's second instance
     const NameExpr& name = tree_.as<NameExpr>(node.base);
-    of_record = name.entity.what() == EntityKind::Program && var.storage == sema::Storage::Field;
+    of_record = name.entity.entityKind() == EntityKind::Program && var.storage == sema::Storage::Field;
   }
   if (!of_record) return varPlace(var_id, node.h.loc);
   ExprId base = lowerPlace(node.base);
@@ -67,18 +67,18 @@ ExprId BodyLowering::pinPlace(ExprId instance, const sema::Var& pin, Loc loc) {
 
 // A text as the array of its bytes or words, with the zero at its end where it is only read; or of its characters,
 // which count from 1.
-ExprId BodyLowering::characters(ExprId text, TypeId unit, bool writes) {
-  const Expr place = body_.expr(text);
+ExprId BodyLowering::characters(ExprId string, TypeId unit, bool writes) {
+  const Expr place = body_.expr(string);
   const types::TypeInfo& info = types_.info(types_.resolve(place.type));
   const bool from_one = types_.kind(unit) == TypeKind::Char || types_.kind(unit) == TypeKind::WChar;
   const types::Dimension range{from_one ? 1 : 0, int64_t{info.length} - (writes && !from_one ? 1 : 0)};
-  if (!isPlace(place.kind)) text = toTemp(text, place.loc);
+  if (!isPlace(place.kind)) string = toTemp(string, place.loc);
   const TypeId array = types_.array(unit, {&range, 1});
   const TypeId pointer = types_.pointer(array);
   types_.layout(array);
   types_.layout(pointer);
-  text = add({.kind = ExprKind::Address, .type = pointer, .loc = place.loc, .a = text.index});
-  return add({.kind = ExprKind::Deref, .type = array, .loc = place.loc, .a = text.index});
+  string = add({.kind = ExprKind::Address, .type = pointer, .loc = place.loc, .a = string.index});
+  return add({.kind = ExprKind::Deref, .type = array, .loc = place.loc, .a = string.index});
 }
 
 ExprId BodyLowering::lowerPlace(rung::ExprId id) {
@@ -86,7 +86,7 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
   switch (tree_.kind(id)) {
     case rung::ExprKind::Name: {
       const NameExpr& node = tree_.as<NameExpr>(id);
-      switch (node.entity.what()) {
+      switch (node.entity.entityKind()) {
         case EntityKind::Var: {
           sema::VarId var{node.entity.index};
           if (result_local_ != kNoBit && var == project_.pou(pou_).result_var) return local(result_local_, loc);
@@ -94,8 +94,8 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
         }
         case EntityKind::Pou:
         case EntityKind::Program: {
-          uint32_t instance = node.entity.what() == EntityKind::Program ? in_.programOfInstance(node.entity.index)
-                                                                        : in_.instanceOf({node.entity.index});
+          uint32_t instance = node.entity.entityKind() == EntityKind::Program ? in_.programOfInstance(node.entity.index)
+                                                                              : in_.instanceOf({node.entity.index});
           TypeId record = in_.module.programs[instance].record;
           return add({.kind = ExprKind::Program, .type = record, .loc = loc, .a = instance});
         }
@@ -114,14 +114,14 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
       const IndexExpr& node = tree_.as<IndexExpr>(id);
       if (isOpenArray(types_, tree_.expr(node.base).type)) return openArrayElement(node);
       ExprId base = lowerPlace(node.base);
-      if (TypeTable::isText(types_.kind(body_.expr(base).type)))
+      if (TypeTable::isString(types_.kind(body_.expr(base).type)))
         base = characters(base, strip(node.h.type), (node.h.bits & kWritesCharacter) != 0);
       std::vector<ExprId> indices;
       for (rung::ExprId index : tree_.list(node.indices)) {
-        Mark mark = here();
+        InsertionPoint point = here();
         ExprId value = lowerValue(index);
-        spillPlace(mark, base);
-        for (ExprId& earlier : indices) spill(mark, {&earlier});
+        spillPlace(point, base);
+        for (ExprId& earlier : indices) spill(point, {&earlier});
         indices.push_back(value);
       }
       uint32_t first = static_cast<uint32_t>(body_.operands.size());
@@ -200,7 +200,7 @@ bool BodyLowering::isStable(ExprId id) const {
   switch (expr.kind) {
     case ExprKind::None:
     case ExprKind::Const:
-    case ExprKind::Text:
+    case ExprKind::String:
     case ExprKind::Data:
     case ExprKind::Zero:
     case ExprKind::Self:
@@ -241,16 +241,16 @@ ExprId BodyLowering::stable(ExprId place) {
         ExprId index = body_.operands[expr.b + i];
         indices.push_back(isStable(index) ? index : toTemp(index, expr.loc));
       }
-      auto made = [&] {  // with a slice of its own
+      auto created = [&] {  // with a slice of its own
         copy.b = static_cast<uint32_t>(body_.operands.size());
         body_.operands.insert(body_.operands.end(), indices.begin(), indices.end());
         return add(copy);
       };
       if (copy.checks != 0) {  // checked once, here
-        append({.kind = StmtKind::Evaluate, .loc = expr.loc, .a = made().index});
+        append({.kind = StmtKind::Evaluate, .loc = expr.loc, .a = created().index});
         copy.checks = 0;
       }
-      return made();
+      return created();
     }
     case ExprKind::Deref: {
       Expr copy = expr;
@@ -264,7 +264,7 @@ ExprId BodyLowering::stable(ExprId place) {
     }
     case ExprKind::None:
     case ExprKind::Const:
-    case ExprKind::Text:
+    case ExprKind::String:
     case ExprKind::Data:
     case ExprKind::Zero:
     case ExprKind::Local:
@@ -297,7 +297,7 @@ bool BodyLowering::mayFault(ExprId id) const {
   switch (expr.kind) {
     case ExprKind::None:
     case ExprKind::Const:
-    case ExprKind::Text:
+    case ExprKind::String:
     case ExprKind::Data:
     case ExprKind::Zero:
     case ExprKind::Local:

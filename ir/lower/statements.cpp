@@ -107,12 +107,12 @@ void BodyLowering::lowerAssign(const AssignStmt& stmt) {
       if (tree_.kind(source) == rung::ExprKind::Convert) {
         rung::ExprId operand = tree_.as<ConvertExpr>(source).operand;
         bool same = strip(tree_.expr(source).type) == strip(tree_.expr(stmt.target).type);
-        bool text = TypeTable::isText(types_.kind(tree_.expr(operand).type));  // the assignment itself cuts it
-        if (tree_.kind(operand) == rung::ExprKind::Call && (same || text)) source = operand;
+        bool string = TypeTable::isString(types_.kind(tree_.expr(operand).type));  // the assignment itself cuts it
+        if (tree_.kind(operand) == rung::ExprKind::Call && (same || string)) source = operand;
       }
       if (tree_.kind(source) == rung::ExprKind::Call) {
-        bool text = TypeTable::isText(types_.kind(tree_.expr(source).type));
-        if (text || !isPlainCall(source)) {
+        bool string = TypeTable::isString(types_.kind(tree_.expr(source).type));
+        if (string || !isPlainCall(source)) {
           Target target{.expr = stmt.target, .early = isPlainPlace(stmt.target)};
           ExprId value = lowerCall(source, &target);
           if (target.stored) return;
@@ -193,7 +193,7 @@ void BodyLowering::lowerCase(const CaseStmt& stmt) {
   for (uint32_t i = 0; i < stmt.branches.count; ++i) {
     const CaseBranch branch = tree_.list(stmt.branches)[i];
     StmtId body = block([&] { lowerStatements(branch.body); });
-    Case made{static_cast<uint32_t>(body_.ranges.size()), 0, body};
+    Case created{static_cast<uint32_t>(body_.ranges.size()), 0, body};
     for (rung::ExprId label : tree_.list(branch.labels)) {
       rung::ExprId low = label, high = label;
       if (tree_.kind(label) == rung::ExprKind::Range) {
@@ -203,9 +203,9 @@ void BodyLowering::lowerCase(const CaseStmt& stmt) {
       auto from = constantOf(project_, low), to = constantOf(project_, high);
       RUNG_INVARIANT(from && to, "a CASE label is constant");
       body_.ranges.push_back({from->asSigned(), to->asSigned()});
-      ++made.range_count;
+      ++created.range_count;
     }
-    cases.push_back(made);
+    cases.push_back(created);
   }
   StmtId otherwise = block([&] { lowerStatements(stmt.otherwise); });
   uint32_t first = static_cast<uint32_t>(body_.cases.size());
@@ -257,12 +257,12 @@ void BodyLowering::lowerForOfSubrange(const ForStmt& stmt, ExprId control, ExprI
             .a = control.index,
             .b = add({.kind = ExprKind::Convert, .type = type, .loc = loc, .a = value.index}).index});
   };
-  auto turn = [&] {
+  auto iteration = [&] {
     store(count);
     lowerStatements(stmt.body);
   };
   if (step) {
-    StmtId body = block(turn);
+    StmtId body = block(iteration);
     append({.kind = StmtKind::For,
             .loc = loc,
             .a = count.index,
@@ -271,7 +271,7 @@ void BodyLowering::lowerForOfSubrange(const ForStmt& stmt, ExprId control, ExprI
             .d = constant(plain, step->bits, loc).index,
             .e = body.index});
   } else {
-    lowerForWithVariableStep(stmt, count, first, last, turn);
+    lowerForWithVariableStep(stmt, count, first, last, iteration);
   }
   const TypeInfo& range = types_.info(type);
   auto bound = [&](int64_t value) { return constant(plain, static_cast<uint64_t>(value), loc); };
@@ -285,7 +285,7 @@ void BodyLowering::lowerForOfSubrange(const ForStmt& stmt, ExprId control, ExprI
 // FOR with a step that is only known at run time: the direction is tested in each turn, and the loop ends when the next
 // value does not fit the type (design §8).
 void BodyLowering::lowerForWithVariableStep(const ForStmt& stmt, ExprId control, ExprId from, ExprId to,
-                                            FunctionRef<void()> turn) {
+                                            FunctionRef<void()> iteration) {
   Loc loc = stmt.h.loc;
   TypeId type = typeOf(control);
   from = toTemp(from, loc);
@@ -311,7 +311,7 @@ void BodyLowering::lowerForWithVariableStep(const ForStmt& stmt, ExprId control,
     ExprId past =
         chosen(binary(Op::Gt, types::kBool, control, to, loc), binary(Op::Lt, types::kBool, control, to, loc));
     append({.kind = StmtKind::If, .loc = loc, .a = past.index, .b = leave.index});
-    turn();
+    iteration();
   });
   StmtId advance = block([&] {
     assign(next, binary(Op::Add, type, control, step, loc), loc);

@@ -16,11 +16,11 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
       Entity entity = tree.kind(id) == rung::ExprKind::Name     ? tree.as<NameExpr>(id).entity
                       : tree.kind(id) == rung::ExprKind::Member ? tree.as<MemberExpr>(id).entity
                                                                 : tree.as<TypedNameExpr>(id).entity;
-      if (entity.what() == EntityKind::EnumValue) {
+      if (entity.entityKind() == EntityKind::EnumValue) {
         const sema::EnumValue& value = project.enum_values[entity.index];
         return Value{types.resolve(value.type), static_cast<uint64_t>(value.value)};
       }
-      if (entity.what() != EntityKind::Var) return std::nullopt;
+      if (entity.entityKind() != EntityKind::Var) return std::nullopt;
       const sema::Var* var = &project.vars[entity.index];
       if (var->external) var = &project.var(var->external);
       if (!var->constant || !var->has_value) return std::nullopt;
@@ -30,10 +30,10 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
       auto operand = constantOf(project, tree.as<ConvertExpr>(id).operand);
       if (!operand) return std::nullopt;
       TypeId to = types.resolve(tree.expr(id).type);
-      bool from_text = TypeTable::isText(types.plainKind(operand->type));
-      if (from_text) {
+      bool from_string = TypeTable::isString(types.plainKind(operand->type));
+      if (from_string) {
         if (types.plainKind(to) != types.plainKind(operand->type)) return std::nullopt;
-        std::string_view text = project.names.text(NameId{static_cast<uint32_t>(operand->bits)});
+        std::string_view text = project.names.string(NameId{static_cast<uint32_t>(operand->bits)});
         if (text.size() > types.info(types.plain(to)).length) return std::nullopt;
         return Value{to, operand->bits};
       }
@@ -109,26 +109,26 @@ bool BodyLowering::hasEffect(const Stmt& stmt) const {
   return true;
 }
 
-bool BodyLowering::mustSpill(Mark mark, ExprId value) const {
-  if (!value || block_.last.index == mark.last.index || isStable(value)) return false;
-  return effects_ != mark.effects || mayFault(value);
+bool BodyLowering::mustSpill(InsertionPoint point, ExprId value) const {
+  if (!value || block_.last.index == point.last.index || isStable(value)) return false;
+  return effects_ != point.effects || mayFault(value);
 }
 
-void BodyLowering::spill(Mark mark, std::initializer_list<ExprId*> values) {
+void BodyLowering::spill(InsertionPoint point, std::initializer_list<ExprId*> values) {
   bool any = false;
-  for (ExprId* value : values) any = any || mustSpill(mark, *value);
+  for (ExprId* value : values) any = any || mustSpill(point, *value);
   if (!any) return;
   std::vector<ExprId*> moved;
   for (ExprId* value : values)
-    if (mustSpill(mark, *value)) moved.push_back(value);
-  insertAt(mark, [&] {
+    if (mustSpill(point, *value)) moved.push_back(value);
+  insertAt(point, [&] {
     for (ExprId* value : moved) *value = toTemp(*value, body_.expr(*value).loc);
   });
 }
 
-void BodyLowering::spillPlace(Mark mark, ExprId& place) {
-  if (!mustSpill(mark, place)) return;
-  insertAt(mark, [&] { place = stable(place); });
+void BodyLowering::spillPlace(InsertionPoint point, ExprId& place) {
+  if (!mustSpill(point, place)) return;
+  insertAt(point, [&] { place = stable(place); });
 }
 
 ExprId BodyLowering::toTemp(ExprId value, Loc loc) {
@@ -151,7 +151,7 @@ ExprId BodyLowering::lowerValue(rung::ExprId id) {
       if (tree_.kind(id) == rung::ExprKind::Member) {
         // lowerPlace comes back here only for what is no place.
         const MemberExpr& node = tree_.as<MemberExpr>(id);
-        RUNG_INVARIANT(node.entity.what() == EntityKind::Var, "a member is a variable or a constant");
+        RUNG_INVARIANT(node.entity.entityKind() == EntityKind::Var, "a member is a variable or a constant");
       }
       return lowerPlace(id);
     }
@@ -226,7 +226,7 @@ bool BodyLowering::callsFunction(rung::ExprId id) const {
     case rung::ExprKind::Bound: return false;
     case rung::ExprKind::New: return true;
     case rung::ExprKind::AnyValue: return callsFunction(tree_.as<AnyValueExpr>(id).value);
-    case rung::ExprKind::AddressOf: return callsFunction(tree_.as<AddressOfExpr>(id).place);
+    case rung::ExprKind::AddressOf: return callsFunction(tree_.as<AddressOfExpr>(id).lvalue);
     case rung::ExprKind::BitAccess: return callsFunction(tree_.as<BitAccessExpr>(id).base);
     case rung::ExprKind::Binary:
       return callsFunction(tree_.as<BinaryExpr>(id).left) || callsFunction(tree_.as<BinaryExpr>(id).right);
@@ -322,12 +322,12 @@ ExprId BodyLowering::lowerConvert(rung::ExprId id) {
 ExprId BodyLowering::lowerAddressOf(rung::ExprId id) {
   const AddressOfExpr& node = tree_.as<AddressOfExpr>(id);
   const TypeId type = strip(node.h.type);
-  if (isOpenArray(types_, tree_.expr(node.place).type))
-    return convertValue(openArrayPointer(node.place, node.h.loc), type, node.h.loc);
+  if (isOpenArray(types_, tree_.expr(node.lvalue).type))
+    return convertValue(openArrayPointer(node.lvalue, node.h.loc), type, node.h.loc);
   // ADR(p^) is p, also where p leads nowhere; what p[i] is made of is a place that will be used.
-  if (tree_.kind(node.place) == rung::ExprKind::Deref && (node.h.bits & kMustLeadSomewhere) == 0)
-    return convertValue(lowerValue(tree_.as<DerefExpr>(node.place).base), type, node.h.loc);
-  const ExprId place = lowerPlace(node.place);
+  if (tree_.kind(node.lvalue) == rung::ExprKind::Deref && (node.h.bits & kMustLeadSomewhere) == 0)
+    return convertValue(lowerValue(tree_.as<DerefExpr>(node.lvalue).base), type, node.h.loc);
+  const ExprId place = lowerPlace(node.lvalue);
   if (body_.expr(place).kind == ExprKind::Field) body_.expr(place).checks = 0;  // an in-out that is not bound: null
   return add({.kind = ExprKind::Address, .type = type, .loc = node.h.loc, .a = place.index});
 }

@@ -27,7 +27,7 @@ class Folder {
         case ExprKind::Index: index(e); break;
         case ExprKind::None:
         case ExprKind::Const:
-        case ExprKind::Text:
+        case ExprKind::String:
         case ExprKind::Data:
         case ExprKind::Zero:
         case ExprKind::Local:
@@ -88,7 +88,7 @@ class Folder {
     const Expr& b = at(e.b);
     const TypeKind kind = types_.plainKind(a.type);
     if ((isScalarConst(a) && isScalarConst(b)) ||
-        (a.kind == ExprKind::Text && b.kind == ExprKind::Text && types::isComparison(e.op))) {
+        (a.kind == ExprKind::String && b.kind == ExprKind::String && types::isComparison(e.op))) {
       if (take(e, types::apply(types_, names_, e.op, valueOf(a), valueOf(b)))) return;
     }
     if (isScalarConst(b) && !TypeTable::isReal(kind) && b.bits() != 0 && (e.op == Op::Div || e.op == Op::Mod))
@@ -252,9 +252,9 @@ class Folder {
       take(e, types::convert(types_, valueOf(a), e.type));
       return;
     }
-    if (a.kind == ExprKind::Text && types_.kind(a.type) == types_.kind(e.type)) {
+    if (a.kind == ExprKind::String && types_.kind(a.type) == types_.kind(e.type)) {
       // The bytes of a text are at least as many as its characters, so what fits in bytes is not cut.
-      if (names_.text(NameId{a.a}).size() > types_.info(e.type).length) return;
+      if (names_.string(NameId{a.a}).size() > types_.info(e.type).length) return;
       const TypeId type = e.type;
       e = a;
       e.type = type;

@@ -44,8 +44,8 @@ class Privatizer {
   }
 
   void tryLoop(StmtId loop) {
-    uint64_t last_turn = 0;
-    if (!lastTurn(body_.stmt(loop), last_turn)) return;
+    uint64_t last_iteration = 0;
+    if (!lastIteration(body_.stmt(loop), last_iteration)) return;
     const StmtId first{body_.stmt(loop).e};
     StmtId last = first;
     bool has_inner_loop = false;
@@ -68,7 +68,7 @@ class Privatizer {
     builder.loc = store.loc;
     const TypeId type = body_.exprs[store.b].type;
     const ExprId variable = builder.copy(ExprId{store.b}), stored = builder.copy(ExprId{store.a});
-    atLastTurn(stored.index, control, last_turn);
+    atLastIteration(stored.index, control, last_iteration);
     const uint32_t temp = builder.temp(type);
     rename(first, value, temp);
     const Block outer = builder.open();
@@ -80,14 +80,13 @@ class Privatizer {
   }
 
   // The control's value in the last turn, where there is one.
-  bool lastTurn(const Stmt& loop, uint64_t& value) const {
+  bool lastIteration(const Stmt& loop, uint64_t& value) const {
     const Expr &from = body_.exprs[loop.b], &to = body_.exprs[loop.c], &step = body_.exprs[loop.d];
     if (!isConst(from) || !isConst(to) || !isConst(step)) return false;
     const auto low = static_cast<int64_t>(from.bits()), high = static_cast<int64_t>(to.bits()),
                by = static_cast<int64_t>(step.bits());
-    constexpr int64_t kMost = int64_t{1} << 40;  // far from any limit
-    if (low < -kMost || low > kMost || high < -kMost || high > kMost || by < -kMost || by > kMost || by == 0)
-      return false;
+    constexpr int64_t kMax = int64_t{1} << 40;  // far from any limit
+    if (low < -kMax || low > kMax || high < -kMax || high > kMax || by < -kMax || by > kMax || by == 0) return false;
     if (by > 0 ? low > high : low < high) return false;
     value = static_cast<uint64_t>(low + (high - low) / by * by);
     return true;
@@ -113,7 +112,7 @@ class Privatizer {
     switch (e.kind) {
       case ExprKind::None:
       case ExprKind::Const:
-      case ExprKind::Text:
+      case ExprKind::String:
       case ExprKind::Data:
       case ExprKind::Zero:
       case ExprKind::Self:
@@ -186,10 +185,10 @@ class Privatizer {
     return fixed;
   }
 
-  void atLastTurn(uint32_t id, const Scalar& control, uint64_t value) {
+  void atLastIteration(uint32_t id, const Scalar& control, uint64_t value) {
     Expr& e = body_.exprs[id];
     if (scalarAt(id) == control) return becomeConst(e, e.type, value);
-    forEachSlot(body_, e, [&](uint32_t& slot) { atLastTurn(slot, control, value); });
+    forEachSlot(body_, e, [&](uint32_t& slot) { atLastIteration(slot, control, value); });
   }
   void renameIn(uint32_t id, const Scalar& of, uint32_t temp) {
     Expr& e = body_.exprs[id];

@@ -11,7 +11,7 @@ using types::TypeTable;
 namespace {
 
 struct Known {
-  enum class What : uint8_t { Nothing, Constant, Copy } what = What::Nothing;
+  enum class Kind : uint8_t { Nothing, Constant, Copy } kind = Kind::Nothing;
   uint32_t of = 0;  // Copy: the local, and its version then
   uint32_t version = 0;
   uint64_t bits = 0;  // Constant
@@ -102,10 +102,10 @@ class Propagator {
   }
   void replace(Expr& e) {
     const Known& known = known_[e.a];
-    if (known.what == Known::What::Constant) {
+    if (known.kind == Known::Kind::Constant) {
       becomeConst(e, e.type, known.bits);
       changed_ = true;
-    } else if (known.what == Known::What::Copy && version_[known.of] == known.version) {
+    } else if (known.kind == Known::Kind::Copy && version_[known.of] == known.version) {
       e.a = known.of;
       changed_ = true;
     }
@@ -188,10 +188,10 @@ class Propagator {
     const Expr& value = body_.exprs[s.b];
     Known known;
     if (value.kind == ExprKind::Const && TypeTable::isScalar(types_.plainKind(place.type))) {
-      known.what = Known::What::Constant;
+      known.kind = Known::Kind::Constant;
       known.bits = value.bits();
     } else if (value.kind == ExprKind::Local && private_[value.a] && value.a != place.a && value.type == place.type) {
-      known.what = Known::What::Copy;
+      known.kind = Known::Kind::Copy;
       known.of = value.a;
       known.version = version_[value.a];
     }

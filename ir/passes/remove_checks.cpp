@@ -77,10 +77,10 @@ class Analysis {
     dividend.a = signed_one.a;
     division.a = add(dividend);
     division.b = add(body_.exprs[signed_one.b]);
-    const uint32_t made = add(division);
+    const uint32_t created = add(division);
     Expr& e = body_.expr(id);
     e.kind = ExprKind::Convert;
-    e.a = made;
+    e.a = created;
     e.b = 0;
     changed_ = true;
   }
@@ -303,12 +303,12 @@ class Analysis {
       }
       case StmtKind::Switch: return switchStmt(s);
       case StmtKind::Loop: {
-        Turns loop{StmtId{s.a}, StmtId{s.b}, {}};
+        LoopState loop{StmtId{s.a}, StmtId{s.b}, {}};
         const size_t mark = trail_.size();
         effectsIn(loop.body);
         effectsIn(loop.next);
         watch(loop, mark, kNone);
-        takeTurns(loop, [] {});
+        iterate(loop, [] {});
         for (const Watch& one : loop.watches)
           if (one.at_exit.known) setInterval(one.variable, one.at_exit.interval);
         return true;
@@ -343,15 +343,15 @@ class Analysis {
     Fact at_end = {}, at_exit = {};  // joined over all ends of a turn, over all breaks
     bool is_narrowed = false;
   };
-  struct Turns {
+  struct LoopState {
     StmtId body, next;
     std::vector<Watch> watches;
   };
-  static constexpr int kMostRounds = 6, kMostTrials = 2;  // walks of a loop, loops in loops that are tried
+  static constexpr int kMaxRounds = 6, kMaxTrials = 2;  // walks of a loop, loops in loops that are tried
 
   void note(Fact Watch::*where) {
-    if (turns_.empty()) return;
-    for (Watch& one : turns_.back()->watches) {
+    if (loops_.empty()) return;
+    for (Watch& one : loops_.back()->watches) {
       Fact& fact = one.*where;
       const Interval now = current(one.variable);
       fact.interval = fact.known ? join(fact.interval, now) : now;
@@ -370,8 +370,8 @@ class Analysis {
     return has_checks && !has_try;
   }
   // The variables whose facts went into the trail from `mark` on, because the loop writes them.
-  void watch(Turns& loop, size_t mark, uint32_t control) {
-    if (trials_ == kMostTrials || mark == trail_.size()) return;
+  void watch(LoopState& loop, size_t mark, uint32_t control) {
+    if (trials_ == kMaxTrials || mark == trail_.size()) return;
     if (!isWorthWatching(loop.body) && !isWorthWatching(loop.next)) return;
     const uint32_t now = ++stamps_;
     for (size_t i = mark; i < trail_.size(); ++i) {
@@ -386,10 +386,10 @@ class Analysis {
   }
 
   template <class Before>
-  void turn(Turns& loop, Before&& before) {
+  void iterateOnce(LoopState& loop, Before&& before) {
     for (Watch& one : loop.watches) one.at_end.known = one.at_exit.known = false;
     const size_t mark = trail_.size(), touched = touched_.size();
-    turns_.push_back(&loop);
+    loops_.push_back(&loop);
     for (const Watch& one : loop.watches) setInterval(one.variable, one.head);
     before();
     if (block(loop.body)) note(&Watch::at_end);
@@ -402,7 +402,7 @@ class Analysis {
       if (block(loop.next)) note(&Watch::at_end);
       undo(mark);
     }
-    turns_.pop_back();
+    loops_.pop_back();
     touched_.resize(touched);
   }
   // The next guess for a variable whose turns leave `left`; false: this one stays. A counter that a test stops at 7
@@ -423,21 +423,21 @@ class Analysis {
     return true;
   }
   template <class Before>
-  void takeTurns(Turns& loop, Before&& before) {
+  void iterate(LoopState& loop, Before&& before) {
     const bool outer = asking_;
     asking_ = true;
     ++trials_;
     bool has_agreed = false;
     for (int round = 0; !loop.watches.empty(); ++round) {
-      if (round < kMostRounds) turn(loop, before);
-      bool holds = round < kMostRounds, changed = false;
+      if (round < kMaxRounds) iterateOnce(loop, before);
+      bool holds = round < kMaxRounds, changed = false;
       for (const Watch& one : loop.watches)
         holds = holds && (!one.at_end.known || one.at_end.interval.within(one.head));
       if (!holds && has_agreed) {
         for (Watch& one : loop.watches) one.head = one.agreed;
         break;
       }
-      if (round == kMostRounds) {
+      if (round == kMaxRounds) {
         loop.watches.clear();
         break;
       }
@@ -450,7 +450,7 @@ class Analysis {
     }
     --trials_;
     asking_ = outer;
-    turn(loop, before);
+    iterateOnce(loop, before);
   }
 
   bool switchStmt(Stmt& s) {
@@ -488,13 +488,13 @@ class Analysis {
     const size_t mark = trail_.size();
     effectsIn(StmtId{s.e});
     const bool is_kept = control != kNone && facts_[control].known && (control < self_first_ || epoch_ == epoch_before);
-    Turns loop{StmtId{s.e}, {}, {}};
+    LoopState loop{StmtId{s.e}, {}, {}};
     watch(loop, mark, control);
     written(ExprId{s.a});
     const bool up =
         static_cast<int64_t>(body_.exprs[s.d].bits()) > 0 || !types_.isSigned(types_.plainKind(body_.exprs[s.d].type));
     const Interval bounds = up ? Interval{from.low, to.high} : Interval{to.low, from.high};
-    takeTurns(loop, [&] {
+    iterate(loop, [&] {
       if (is_kept && !bounds.isEmpty()) narrow(control, bounds);
     });
     for (const Watch& one : loop.watches)
@@ -668,7 +668,7 @@ class Analysis {
         return join(yes, no);
       }
       case ExprKind::None:
-      case ExprKind::Text:
+      case ExprKind::String:
       case ExprKind::Data:
       case ExprKind::Zero:
       case ExprKind::Self:
@@ -695,7 +695,7 @@ class Analysis {
   std::vector<uint32_t> stamp_, stamp_entry_;
   std::vector<Change> trail_;
   std::vector<Touched> touched_;
-  std::vector<Turns*> turns_;  // of the loops at hand
+  std::vector<LoopState*> loops_;  // of the loops at hand
   uint32_t self_first_ = 0;
   uint32_t epoch_ = 0, stamps_ = 0;
   int trials_ = 0;

@@ -24,7 +24,7 @@ inline void becomeConst(Expr& e, TypeId type, uint64_t bits) {
   e.c = 0;
 }
 inline bool isConst(const Expr& e) { return e.kind == ExprKind::Const; }
-inline types::Value valueOf(const Expr& e) { return {e.type, e.kind == ExprKind::Text ? e.a : e.bits()}; }
+inline types::Value valueOf(const Expr& e) { return {e.type, e.kind == ExprKind::String ? e.a : e.bits()}; }
 
 // f(ExprId place): what a statement itself (not the ones in its blocks) writes or may write.
 template <class F>

@@ -13,7 +13,7 @@ static _Alignas(8) unsigned char images[3][1024];
 static void *blocks[MAX_BLOCKS];
 
 /* Puts each block at its alignment; 0 when the memory is too small. */
-static int place_blocks(const rung_module *module) {
+static int allocate_blocks(const rung_module *module) {
   size_t next = 0;
   for (uint32_t i = 0; i < module->block_count; ++i) {
     const rung_block *block = &module->blocks[i];
@@ -28,7 +28,7 @@ static int place_blocks(const rung_module *module) {
 
 int main(void) {
   const rung_module *module = plant_module();
-  if (module->abi != RUNG_MODULE_ABI || !place_blocks(module)) return 2;
+  if (module->abi != RUNG_MODULE_ABI || !allocate_blocks(module)) return 2;
 
   rung_context context = {.blocks = blocks, .image = {images[0], images[1], images[2]}, .module = module};
   module->init(&context);
@@ -39,7 +39,7 @@ int main(void) {
       context.now_ns = cycle * module->tasks[t].interval_ns;
       if (rung_guarded(&context, module->tasks[t].run) != RUNG_FAULT_NONE) {
         const rung_site *site = &module->sites[context.fault.site];
-        printf("fault in %s, line %u\n", module->text + site->pou, (unsigned)site->line);
+        printf("fault in %s, line %u\n", module->strings + site->pou, (unsigned)site->line);
         memset(images[1], 0, sizeof images[1]); /* safe outputs */
         return 3;
       }

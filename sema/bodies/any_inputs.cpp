@@ -73,13 +73,13 @@ uint32_t typeClassOf(const Context& context, TypeId type) {
 
 void bindAny(Context& context, const Pou& pou, const Var& pin, ExprId& value) {
   TypeId type = check(context, value, {}, Access::Address);
-  if (isUntyped(context, type)) type = settle(context, value);
+  if (isUntyped(context, type)) type = finalizeUntyped(context, value);
   if (!type || type == types::kError || pin.type == types::kError) return;
   if (context.types().resolve(type) == context.types().resolve(pin.type)) return;  // an ANY input passed on
   const Loc loc = context.tree().begin(value);
   if (context.types().isOpenArray(type) || !belongs(context, type, context.types().kind(pin.any))) {
     context.report(diag::NotOfGeneric, loc,
-                   {context.types().spell(type), text(context, pou.name), context.types().spell(pin.any)});
+                   {context.types().toString(type), string(context, pou.name), context.types().toString(pin.any)});
     return;
   }
   if (const PouId record = pouOf(context, type)) resolvePou(context, record);

@@ -7,17 +7,17 @@
 namespace rung::sema {
 
 std::optional<Assertion> assertionOf(const Names& names, NameId name) {
-  const std::string_view spelled = names.text(name);
-  if (sameIdentifier(spelled, "ASSERT")) return Assertion::Assert;
-  if (sameIdentifier(spelled, "ASSERT_EQ")) return Assertion::AssertEq;
-  if (sameIdentifier(spelled, "ASSERT_NEAR")) return Assertion::AssertNear;
+  const std::string_view spelling = names.string(name);
+  if (sameIdentifier(spelling, "ASSERT")) return Assertion::Assert;
+  if (sameIdentifier(spelling, "ASSERT_EQ")) return Assertion::AssertEq;
+  if (sameIdentifier(spelling, "ASSERT_NEAR")) return Assertion::AssertNear;
   return std::nullopt;
 }
 
 TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   const uint32_t needed = assertion == Assertion::Assert ? 1 : assertion == Assertion::AssertEq ? 2 : 3;
-  const std::string_view name = text(context, context.tree().as<NameExpr>(node.callee).name);
+  const std::string_view name = string(context, context.tree().as<NameExpr>(node.callee).name);
   std::vector<ExprId> operands;
   for (uint32_t i = 0; i < node.arguments.count; ++i) {
     const Argument argument = context.tree().list(node.arguments)[i];
@@ -30,56 +30,56 @@ TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion) {
     checkLooseArguments(context, node);
     return node.h.type = types::kError;
   }
-  bool good = true;
+  bool ok = true;
   if (assertion == Assertion::Assert) {
-    good = checkAs(context, operands[0], types::kBool, Purpose{"used as the condition of ASSERT", {}, {}});
+    ok = checkAs(context, operands[0], types::kBool, Purpose{"used as the condition of ASSERT", {}, {}});
   } else {
     const TypeId first = check(context, operands[0], {}, Access::Read);
     const TypeId hint = isUntyped(context, first) ? TypeId{} : first;
     const TypeId second = check(context, operands[1], hint, Access::Read);
     if (second != types::kError && !isUntyped(context, second) && first != second && first != types::kError &&
-        (entityOf(context, operands[0]).what() == EntityKind::EnumValue ||
+        (entityOf(context, operands[0]).entityKind() == EntityKind::EnumValue ||
          context.tree().kind(operands[0]) == ExprKind::Literal)) {
       check(context, operands[0], second, Access::Read);  // T#1s beside an LTIME, an item of the other's enumeration
     }
     if (assertion == Assertion::AssertNear) {
       check(context, operands[2], first, Access::Read);
       for (uint32_t i = 0; i < 3; ++i) {
-        good = good && context.tree().expr(operands[i]).type != types::kError;
+        ok = ok && context.tree().expr(operands[i]).type != types::kError;
       }
       TypeId common = types::kReal;
-      for (uint32_t i = 0; good && i < 3; ++i) {
+      for (uint32_t i = 0; ok && i < 3; ++i) {
         const TypeId type = context.tree().expr(operands[i]).type;
         if (isUntyped(context, type)) continue;
         const TypeId with = commonNumber(context, common, type);
         if (!with) {
-          context.report(diag::OperandType, context.tree().loc(operands[i]), {name, context.types().spell(type)});
-          good = false;
+          context.report(diag::OperandType, context.tree().loc(operands[i]), {name, context.types().toString(type)});
+          ok = false;
         } else {
           common = with;
         }
       }
       if (!types::TypeTable::isReal(context.types().plainKind(common))) common = types::kLReal;
-      for (uint32_t i = 0; good && i < 3; ++i)
-        good = convert(context, operands[i], common, Purpose{"compared by ASSERT_NEAR", {}, {}});
+      for (uint32_t i = 0; ok && i < 3; ++i)
+        ok = convert(context, operands[i], common, Purpose{"compared by ASSERT_NEAR", {}, {}});
     } else {
-      good = unify(context, std::span(operands).first(2), Operands::Equatable, {}, name, node.h.loc) != types::kError;
+      ok = unify(context, std::span(operands).first(2), Operands::Equatable, {}, name, node.h.loc) != types::kError;
     }
   }
   if (operands.size() > needed) {
-    ExprId& words = operands[needed];
-    const bool literal = context.tree().kind(words) == ExprKind::Literal &&
-                         context.tree().as<LiteralExpr>(words).literal() == LiteralKind::String;
+    ExprId& message = operands[needed];
+    const bool literal = context.tree().kind(message) == ExprKind::Literal &&
+                         context.tree().as<LiteralExpr>(message).literal() == LiteralKind::String;
     if (!literal) {
-      check(context, words, {}, Access::Read);
-      context.report(diag::AssertionText, context.tree().begin(words), {name});
-      good = false;
+      check(context, message, {}, Access::Read);
+      context.report(diag::AssertionText, context.tree().begin(message), {name});
+      ok = false;
     } else {
-      check(context, words, {}, Access::Read);
+      check(context, message, {}, Access::Read);
     }
   }
   for (uint32_t i = 0; i < node.arguments.count; ++i) context.tree().list(node.arguments)[i].value = operands[i];
-  if (!good) return node.h.type = types::kError;
+  if (!ok) return node.h.type = types::kError;
   Call call;
   call.kind = CallKind::Assertion;
   call.assertion = assertion;

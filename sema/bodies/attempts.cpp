@@ -10,7 +10,7 @@ namespace rung::sema {
 
 namespace {
 
-constexpr const char* kObjectWords = "an interface, a block, or a pointer or reference to a block";
+constexpr const char* kObjectKinds = "an interface, a block, or a pointer or reference to a block";
 
 // The object behind a pointer type; none where it points to something else.
 PouId pointedObject(Context& context, TypeId type) {
@@ -31,12 +31,12 @@ PouId checkSource(Context& context, ExprId& source, std::string_view word) {
     address.h.kind = ExprKind::AddressOf;
     address.h.loc = context.tree().loc(source);
     address.h.type = context.types().pointer(type);
-    address.place = source;
+    address.lvalue = source;
     source = context.tree().add<ExprId>(address);
     return object;
   }
   context.report(diag::AttemptNeedsObject, context.tree().begin(source),
-                 {word, kObjectWords, context.types().spell(type)});
+                 {word, kObjectKinds, context.types().toString(type)});
   return {};
 }
 
@@ -54,7 +54,8 @@ TypeId checkTaker(Context& context, ExprId& target) {
 
 void refuseTaker(Context& context, ExprId target, TypeId type, std::string_view word, std::string_view wanted) {
   if (type == types::kError) return;
-  context.report(diag::AttemptNeedsObject, context.tree().begin(target), {word, wanted, context.types().spell(type)});
+  context.report(diag::AttemptNeedsObject, context.tree().begin(target),
+                 {word, wanted, context.types().toString(type)});
 }
 
 // `wanted`: what the object must be; none: any.
@@ -86,7 +87,7 @@ ExprId makeAttempt(Context& context, ExprId source, PouId given, ExprId target, 
 void checkAttempt(Context& context, AssignStmt& node) {
   const TypeId type = checkTaker(context, node.target);
   const PouId wanted = type == types::kError ? PouId{} : pointedObject(context, type);
-  if (!wanted) refuseTaker(context, node.target, type, "?=", kObjectWords);
+  if (!wanted) refuseTaker(context, node.target, type, "?=", kObjectKinds);
   const PouId given = checkSource(context, node.value, "?=");
   if (!wanted || !given) return;
   const ExprId call = makeAttempt(context, node.value, given, node.target, wanted, node.h.loc);
@@ -100,18 +101,19 @@ TypeId checkQueryCall(Context& context, ExprId& expr, NameId name) {
   const CallExpr node = context.tree().as<CallExpr>(expr);
   const std::span<const Argument> arguments = context.tree().list(node.arguments);
   if (arguments.size() != 2 || !arguments[0].value || !arguments[1].value) {
-    context.report(diag::WrongArgumentCount, node.h.loc, {text(context, name), "2", std::to_string(arguments.size())});
+    context.report(diag::WrongArgumentCount, node.h.loc,
+                   {string(context, name), "2", std::to_string(arguments.size())});
     checkLooseArguments(context, node);
     return context.tree().expr(expr).type = types::kError;
   }
   ExprId source = arguments[0].value, target = arguments[1].value;
-  const PouId given = checkSource(context, source, text(context, name));
+  const PouId given = checkSource(context, source, string(context, name));
   const TypeId type = checkTaker(context, target);
   const PouId wanted = type == types::kError ? PouId{} : pointedObject(context, type);
   const bool is_interface = wanted && context.symbols.pou(wanted).kind == PouKind::Interface;
   const bool is_pointer = type != types::kError && context.types().kind(type) == TypeKind::Pointer;
   if (to_pointer ? is_interface || !is_pointer : !is_interface) {
-    refuseTaker(context, target, type, text(context, name), to_pointer ? "a pointer" : "an interface variable");
+    refuseTaker(context, target, type, string(context, name), to_pointer ? "a pointer" : "an interface variable");
     return context.tree().expr(expr).type = types::kError;
   }
   if (!given) return context.tree().expr(expr).type = types::kError;

@@ -25,10 +25,10 @@ enum class Access : uint8_t {
 
 // What a value is wanted for, in words only when there is a message: "assigned to `x`".
 struct Purpose {
-  std::string_view words;  // "assigned to", "used as the condition of IF"
-  NameId name;             // `x`
-  NameId of;               // of `TON`
-  std::string spell(const Context& context) const;
+  std::string_view phrase;  // "assigned to", "used as the condition of IF"
+  NameId name;              // `x`
+  NameId of;                // of `TON`
+  std::string toString(const Context& context) const;
 };
 
 // The statements of one body.
@@ -89,7 +89,7 @@ inline bool isUntyped(const Context& context, TypeId type) {
   return kind == TypeKind::IntegerLiteral || kind == TypeKind::RealLiteral;
 }
 // A literal without a prefix, of a character or text, as one of the kind of `wanted`, where its quotes allow that.
-void retypeText(Context& context, LiteralExpr& node, TypeId wanted);
+void retypeString(Context& context, LiteralExpr& node, TypeId wanted);
 TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected);
 // The type that an untyped expression has when nothing around it gives one: INT, DINT, LINT, ULINT; REAL.
 TypeId defaultType(Context& context, ExprId expr);
@@ -100,7 +100,7 @@ bool untypedFits(Context& context, ExprId expr, TypeId to);
 // Gives an untyped expression a type; reports what does not fit.
 bool adapt(Context& context, ExprId& expr, TypeId to, const Purpose& purpose);
 // Gives it its default type, or the expected one where that is a number.
-TypeId settle(Context& context, ExprId& expr, TypeId expected = {});
+TypeId finalizeUntyped(Context& context, ExprId& expr, TypeId expected = {});
 
 // ---- conversions.cpp
 enum class Fit : uint8_t {
@@ -120,7 +120,7 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose);
 bool checkAs(Context& context, ExprId& expr, TypeId to, const Purpose& purpose);
 void wrapConvert(Context& context, ExprId& expr, TypeId to);
 // The BOOL of IF, WHILE, UNTIL.
-void checkCondition(Context& context, ExprId& expr, std::string_view words);
+void checkCondition(Context& context, ExprId& expr, std::string_view phrase);
 // The type both sides are brought to; none when they do not combine.
 TypeId commonNumber(const Context& context, TypeId a, TypeId b);
 // Error or warning as the fit demands; false for an error.
@@ -152,7 +152,7 @@ struct Arguments {
   std::vector<uint32_t> slots;
   uint32_t en = 0, eno = 0;  // index + 1
   uint32_t positional = 0;   // how many have no name
-  bool good = true;
+  bool ok = true;
   bool checked = false;  // but for literals: chooseOverload
 };
 Arguments matchArguments(Context& context, const CallExpr& node, PouId pou);
@@ -204,10 +204,10 @@ TypeId checkPointerIndex(Context& context, ExprId& expr);
 // p + n, p - n, p - q, and pointers as numbers. None when the types do not combine so.
 TypeId combinePointers(Context& context, ExprId& self, TypeId expected);
 
-// ---- text_places.cpp: the hidden constant that holds a text, so that it has an address
-ExprId placeOfText(Context& context, ExprId literal);
+// ---- literal_storage.cpp: the hidden constant that holds a text, so that it has an address
+ExprId storageOfLiteral(Context& context, ExprId literal);
 
-// ---- made_nodes.cpp: nodes that need not be checked again; makeLiteral is in context.h
+// ---- synthesized_nodes.cpp: nodes that need not be checked again; makeLiteral is in context.h
 ExprId makeBinary(Context& context, BinaryOp op, ExprId left, ExprId right, TypeId type, Loc loc);
 ExprId makeDeref(Context& context, ExprId pointer, TypeId target, Loc loc);
 
@@ -250,10 +250,10 @@ inline NameId nameOf(const Context& context, ExprId expr) {
   if (context.tree().kind(expr) == ExprKind::Member) return context.tree().as<MemberExpr>(expr).member;
   return {};
 }
-inline std::string_view text(const Context& context, NameId name) { return context.names().text(name); }
+inline std::string_view string(const Context& context, NameId name) { return context.names().string(name); }
 inline bool isNamed(const Context& context, NameId name, std::string_view word) {
-  const std::string_view spelled = text(context, name);
-  return spelled.size() == word.size() && sameIdentifier(spelled, word);
+  const std::string_view spelling = string(context, name);
+  return spelling.size() == word.size() && sameIdentifier(spelling, word);
 }
 // A constant integer that costs nothing to know, or evaluates. None when the expression is no constant.
 std::optional<int64_t> constantInteger(Context& context, ExprId expr);

@@ -20,15 +20,15 @@ bool isPin(SectionKind section) {
   return section == SectionKind::Input || section == SectionKind::InOut || section == SectionKind::Output;
 }
 
-const char* wordOf(SectionKind section) {
+const char* kindName(SectionKind section) {
   if (section == SectionKind::Input) return "an input";
   return section == SectionKind::Output ? "an output" : "an in-out";
 }
 
 std::string_view nearestPin(Context& context, PouId pou, NameId written) {
   std::vector<std::string_view> candidates;
-  for (const VarId pin : pinsOf(context, pou)) candidates.push_back(text(context, context.symbols.var(pin).name));
-  return nearest(text(context, written), candidates);
+  for (const VarId pin : pinsOf(context, pou)) candidates.push_back(string(context, context.symbols.var(pin).name));
+  return nearest(string(context, written), candidates);
 }
 
 // The slot of `IN5` of a function whose last input, {extensible}, is `IN2`; -1 for another name.
@@ -37,7 +37,7 @@ int extensibleSlot(Context& context, PouId pou, NameId written) {
   for (size_t i = 0; i < pins.size(); ++i) {
     const Var& pin = context.symbols.var(pins[i]);
     if (!pin.extensible) continue;
-    const std::string_view own = text(context, pin.name), other = text(context, written);
+    const std::string_view own = string(context, pin.name), other = string(context, written);
     size_t stem = own.size();
     while (stem > 0 && own[stem - 1] >= '0' && own[stem - 1] <= '9') --stem;
     if (other.size() <= stem || other.size() > stem + 4 ||
@@ -68,8 +68,8 @@ struct Slots {
       const Argument& first = context.tree().list(node.arguments)[out.slots[slot] - 1];
       const Ident& pin = argument.pin.name ? argument.pin : first.pin;
       context.report(diag::PinGivenTwice, argument.pin.name ? argument.pin.loc : argument.loc,
-                     {text(context, pin.name)});
-      out.good = false;
+                     {string(context, pin.name)});
+      out.ok = false;
       return false;
     }
     out.slots[slot] = index + 1;
@@ -85,7 +85,7 @@ bool isMistypedBinding(Context& context, PouId pou, ExprId value) {
     return false;
   const NameId name = context.tree().as<NameExpr>(node.left).name;
   if (!findPin(context, pou, name) || lookUp(context, name)) return false;
-  context.report(diag::BindingWithEqual, node.h.loc, {text(context, name)});
+  context.report(diag::BindingWithEqual, node.h.loc, {string(context, name)});
   return true;
 }
 
@@ -94,7 +94,7 @@ void checkLoose(Context& context, const CallExpr& node, uint32_t index) {
   if (!argument.value) return;
   ExprId value = argument.value;
   if (isUntyped(context, check(context, value, {}, argument.is_output ? Access::Write : Access::Read))) {
-    settle(context, value);
+    finalizeUntyped(context, value);
   }
   context.tree().list(node.arguments)[index].value = value;
 }
@@ -112,14 +112,14 @@ bool sameInOut(const Context& context, TypeId pin, TypeId actual) {
     const PouId base = pouOf(here, pin), object = pouOf(here, actual);
     if (base && object && isKindOf(here, object, base)) return true;
   }
-  if (types::TypeTable::isText(wanted.kind) && wanted.kind == given.kind) return wanted.length <= given.length;
+  if (types::TypeTable::isString(wanted.kind) && wanted.kind == given.kind) return wanted.length <= given.length;
   return sameType(context, pin, actual);
 }
 
 void checkOpenArgument(Context& context, const Var& pin, ExprId value, TypeId actual, const Purpose& purpose) {
   if (actual == types::kError || sameInOut(context, pin.type, actual)) return;
   context.report(diag::WrongType, context.tree().begin(value),
-                 {context.types().spell(actual), purpose.spell(context), context.types().spell(pin.type)});
+                 {context.types().toString(actual), purpose.toString(context), context.types().toString(pin.type)});
 }
 
 // The type of an argument, which the choice of an overload may have checked already; a literal depends on the pin.
@@ -133,19 +133,19 @@ void bindOutput(Context& context, const Pou& pou, const Var& pin, Binding& bindi
   binding.is_output = true;
   binding.negated = argument.negated;
   const Purpose purpose{"bound to output", pin.name, pou.name};
-  const TypeId place =
+  const TypeId actual =
       checkArgument(context, binding.value, pin.type, Access::Write, checked);  // temporaries take its type
-  if (place == types::kError || !checkWritable(context, binding.value, purpose)) return;
+  if (actual == types::kError || !checkWritable(context, binding.value, purpose)) return;
   if (context.types().isOpenArray(pin.type)) {
-    checkOpenArgument(context, pin, binding.value, place, purpose);
+    checkOpenArgument(context, pin, binding.value, actual, purpose);
     return;
   }
   if (argument.negated && context.types().plainKind(pin.type) != TypeKind::Bool) {
-    context.report(diag::NegatedPin, argument.pin.loc, {text(context, pin.name), context.types().spell(pin.type)});
+    context.report(diag::NegatedPin, argument.pin.loc, {string(context, pin.name), context.types().toString(pin.type)});
     return;
   }
   // The value flows from the pin to the place; lowering converts it there.
-  reportFit(context, fit(context, pin.type, place), binding.value, pin.type, place,
+  reportFit(context, fit(context, pin.type, actual), binding.value, pin.type, actual,
             Purpose{"copied from output", pin.name, pou.name});
 }
 
@@ -153,7 +153,7 @@ void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& bindin
   const Purpose purpose{"bound to in-out", pin.name, pou.name};
   const TypeId actual = checkArgument(context, binding.value, pin.type, Access::ReadWrite, checked);
   if (actual == types::kError || pin.type == types::kError) return;
-  if (isUntyped(context, actual)) settle(context, binding.value);
+  if (isUntyped(context, actual)) finalizeUntyped(context, binding.value);
   if (pin.constant && !context.types().isOpenArray(pin.type)) {  // VAR_IN_OUT CONSTANT takes any value of the type
     convert(context, binding.value, pin.type, purpose);
     return;
@@ -168,8 +168,8 @@ void bindInOut(Context& context, const Pou& pou, const Var& pin, Binding& bindin
   if (!pin.constant && !checkWritable(context, binding.value, purpose)) return;
   if (!sameInOut(context, pin.type, actual)) {
     context.report(diag::OtherInOutType, context.tree().loc(binding.value),
-                   {context.types().spell(actual), text(context, pin.name), text(context, pou.name),
-                    context.types().spell(pin.type)});
+                   {context.types().toString(actual), string(context, pin.name), string(context, pou.name),
+                    context.types().toString(pin.type)});
   }
 }
 
@@ -214,10 +214,10 @@ TypeId callFunction(Context& context, ExprId& expr, PouId pou, TypeId expected, 
     call.eno = binding.value;
     call.eno_is_pin = true;
   }
-  if (arguments.good) checkRequiredPins(context, node, pou, arguments);
+  if (arguments.ok) checkRequiredPins(context, node, pou, arguments);
   node.call = addCall(context, std::move(call));
   if (!callee.result && !as_statement) {
-    context.report(diag::NoResult, node.h.loc, {text(context, callee.name)});
+    context.report(diag::NoResult, node.h.loc, {string(context, callee.name)});
     return node.h.type = types::kError;
   }
   return node.h.type = callee.result;
@@ -238,10 +238,10 @@ TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool a
   }
   bindControlPins(context, node, arguments, call);
   bindArguments(context, node, pou, arguments, call);
-  if (arguments.good) checkRequiredPins(context, node, pou, arguments);
+  if (arguments.ok) checkRequiredPins(context, node, pou, arguments);
   node.call = addCall(context, std::move(call));
   if (!as_statement) {
-    context.report(diag::BlockCallAsValue, node.h.loc, {text(context, context.symbols.pou(pou).name)});
+    context.report(diag::BlockCallAsValue, node.h.loc, {string(context, context.symbols.pou(pou).name)});
     return node.h.type = types::kError;
   }
   return node.h.type = {};
@@ -266,12 +266,12 @@ TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool 
     case PouKind::FunctionBlock:
     case PouKind::Class:
     case PouKind::Interface:
-      context.report(diag::CallOfBlockType, node.h.loc, {text(context, callee.name)});
+      context.report(diag::CallOfBlockType, node.h.loc, {string(context, callee.name)});
       return refuse(context, node);
     case PouKind::Program:
       if (context.iec()) {
         context.symbols.pou(pou).used = true;  // what is refused here is no program that nobody calls
-        context.report(diag::CallOfProgram, node.h.loc, {text(context, callee.name)});
+        context.report(diag::CallOfProgram, node.h.loc, {string(context, callee.name)});
         return refuse(context, node);
       }
       return callBlock(context, expr, pou, CallKind::Program, as_statement);
@@ -289,9 +289,10 @@ TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement)
   }
   const NameId name = nameOf(context, node.callee);
   const Entity called = entityOf(context, node.callee);
-  Report report = context.report(diag::NotCallable, node.h.loc,
-                                 {name ? text(context, name) : std::string_view("this"), context.types().spell(type)});
-  if (called.what() == EntityKind::Var) report.note(context.symbols.vars[called.index].loc, diag::DeclaredHere);
+  Report report =
+      context.report(diag::NotCallable, node.h.loc,
+                     {name ? string(context, name) : std::string_view("this"), context.types().toString(type)});
+  if (called.entityKind() == EntityKind::Var) report.note(context.symbols.vars[called.index].loc, diag::DeclaredHere);
   return refuse(context, node);
 }
 
@@ -300,7 +301,7 @@ TypeId sizeOf(Context& context, ExprId& expr) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (node.arguments.count != 1) {
     context.report(diag::WrongArgumentCount, node.h.loc,
-                   {text(context, nameOf(context, node.callee)), "1", std::to_string(node.arguments.count)});
+                   {string(context, nameOf(context, node.callee)), "1", std::to_string(node.arguments.count)});
     return refuse(context, node);
   }
   ExprId operand = context.tree().list(node.arguments)[0].value;
@@ -309,7 +310,7 @@ TypeId sizeOf(Context& context, ExprId& expr) {
     type = context.types().elementary(context.tree().as<NameExpr>(operand).name);
   }
   if (!type) type = check(context, operand, {}, Access::Address);
-  if (isUntyped(context, type)) type = settle(context, operand);
+  if (isUntyped(context, type)) type = finalizeUntyped(context, operand);
   if (!type || type == types::kError) return node.h.type = types::kError;
   if (const PouId pou = pouOf(context, type)) resolvePou(context, pou);
   if (!context.types().layout(type)) return node.h.type = types::kError;
@@ -325,16 +326,16 @@ TypeId lengthLimit(Context& context, ExprId& expr) {
   const NameId name = nameOf(context, node.callee);
   if (node.arguments.count != 1) {
     context.report(diag::WrongArgumentCount, node.h.loc,
-                   {text(context, name), "1", std::to_string(node.arguments.count)});
+                   {string(context, name), "1", std::to_string(node.arguments.count)});
     return refuse(context, node);
   }
   ExprId operand = context.tree().list(node.arguments)[0].value;
   const TypeId type = check(context, operand, {}, Access::Address);
   if (!type || type == types::kError) return node.h.type = types::kError;
   const types::TypeInfo& info = context.types().info(context.types().resolve(type));
-  if (!types::TypeTable::isText(info.kind)) {
+  if (!types::TypeTable::isString(info.kind)) {
     context.report(diag::NotOfGeneric, context.tree().loc(operand),
-                   {context.types().spell(type), text(context, name), "ANY_STRING"});
+                   {context.types().toString(type), string(context, name), "ANY_STRING"});
     return node.h.type = types::kError;
   }
   const TypeId untyped = types::idOf(TypeKind::IntegerLiteral);
@@ -353,8 +354,8 @@ TypeId callUnknown(Context& context, ExprId& expr, NameId name, TypeId expected,
   if (const TypeId type = checkQueryCall(context, expr, name)) return type;
   if (const TypeId type = checkDeleteCall(context, expr, name, as_statement)) return type;
   if (const TypeId type = checkKnownCall(context, expr, name)) return type;
-  if (sayUnknown(context, name))
-    context.report(diag::UnknownName, node.h.loc, {text(context, name)}).didYouMean(nearestName(context, name));
+  if (isFirstReport(context, name))
+    context.report(diag::UnknownName, node.h.loc, {string(context, name)}).didYouMean(nearestName(context, name));
   context.tree().as<NameExpr>(node.callee).entity = Entity::of(EntityKind::Error, 0);
   return refuse(context, node);
 }
@@ -444,7 +445,7 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
     const Argument argument = context.tree().list(node.arguments)[i];
     if (!argument.pin.name) {
       if (isMistypedBinding(context, pou, argument.value)) {
-        out.good = false;
+        out.ok = false;
         continue;
       }
       ++out.positional;
@@ -462,15 +463,15 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
         slots.put(output++, i);
         continue;
       }
-      if (out.good) {
+      if (out.ok) {
         size_t inputs = 0;
         for (size_t p = 0; p < pins.size(); ++p) inputs += isOutput(p) ? 0 : 1;
         const Loc loc = argument.value ? context.tree().begin(argument.value) : argument.loc;
         if (!isBroken(context, pou))
           context.report(diag::TooManyArguments, loc,
-                         {text(context, context.symbols.pou(pou).name), std::to_string(inputs)});
+                         {string(context, context.symbols.pou(pou).name), std::to_string(inputs)});
       }
-      out.good = false;
+      out.ok = false;
       checkLoose(context, node, i);
       continue;
     }
@@ -494,11 +495,11 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
         if (!slots.put(static_cast<size_t>(more), i)) checkLoose(context, node, i);
         continue;
       }
-      out.good = false;
+      out.ok = false;
       if (!isBroken(context, pou))
         context
             .report(diag::UnknownPin, argument.pin.loc,
-                    {text(context, context.symbols.pou(pou).name), text(context, argument.pin.name)})
+                    {string(context, context.symbols.pou(pou).name), string(context, argument.pin.name)})
             .didYouMean(nearestPin(context, pou, argument.pin.name));
       checkLoose(context, node, i);
       continue;
@@ -506,9 +507,10 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
     next = slot + 1;
     const Var& pin = context.symbols.var(pins[slot]);
     if (argument.is_output != (pin.section == SectionKind::Output)) {
-      out.good = false;
-      context.report(argument.is_output ? diag::ArrowToInput : diag::AssignToOutputPin, argument.pin.loc,
-                     {text(context, pin.name), text(context, context.symbols.pou(pou).name), wordOf(pin.section)});
+      out.ok = false;
+      context.report(
+          argument.is_output ? diag::ArrowToInput : diag::AssignToOutputPin, argument.pin.loc,
+          {string(context, pin.name), string(context, context.symbols.pou(pou).name), kindName(pin.section)});
       checkLoose(context, node, i);
       continue;
     }
@@ -545,17 +547,17 @@ namespace {
 bool isBareCall(Context& context, const CallExpr& node) {
   if (context.tree().kind(node.callee) == ExprKind::Name) {
     const Entity found = lookUp(context, context.tree().as<NameExpr>(node.callee).name);
-    if (found.what() == EntityKind::Pou && context.symbols.pous[found.index].owner) return true;
+    if (found.entityKind() == EntityKind::Pou && context.symbols.pous[found.index].owner) return true;
   } else {
     ExprId callee = node.callee;
     const uint32_t errors = context.symbols.diagnostics.errorCount();
     check(context, callee, {}, Access::Qualifier);
     const Entity found = entityOf(context, node.callee);
-    if (found.what() == EntityKind::Pou && context.symbols.pous[found.index].owner) return true;
+    if (found.entityKind() == EntityKind::Pou && context.symbols.pous[found.index].owner) return true;
     if (context.symbols.diagnostics.errorCount() != errors) return false;
   }
   const Loc begin = context.tree().begin(node.callee);
-  const std::string_view source = context.symbols.sources.text(context.symbols.sources.fileOf(begin));
+  const std::string_view source = context.symbols.sources.sourceText(context.symbols.sources.fileOf(begin));
   const uint32_t from = begin.offset - context.symbols.sources.begin(context.symbols.sources.fileOf(begin)).offset;
   const std::string shown(source.substr(from, node.end.offset - begin.offset));
   context.report(diag::NoEffect, begin, {shown});
@@ -570,7 +572,7 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
   if (context.tree().kind(node.callee) == ExprKind::Name) {
     NameExpr& callee = context.tree().as<NameExpr>(node.callee);
     callee.entity = lookUp(context, callee.name, callee.h.loc);
-    switch (callee.entity.what()) {
+    switch (callee.entity.entityKind()) {
       case EntityKind::None: return callUnknown(context, expr, callee.name, expected, as_statement);
       case EntityKind::Pou: {
         const PouId pou{callee.entity.index};
@@ -598,11 +600,11 @@ TypeId checkCall(Context& context, ExprId& expr, TypeId expected, bool as_statem
     TypeId type = check(context, node.callee, {}, Access::Qualifier);
     type = throughObject(context, node.callee, type);
     const Entity entity = entityOf(context, node.callee);
-    if (!type && entity.what() == EntityKind::Pou) {
+    if (!type && entity.entityKind() == EntityKind::Pou) {
       return callPou(context, expr, PouId{entity.index}, expected, as_statement);
     }
     if (!type) return refuse(context, node);
-    if (entity.what() == EntityKind::Var) markAccess(context, VarId{entity.index}, Access::ReadWrite);
+    if (entity.entityKind() == EntityKind::Var) markAccess(context, VarId{entity.index}, Access::ReadWrite);
     return callValue(context, expr, type, as_statement);
   }
   const TypeId type = check(context, node.callee, {}, Access::ReadWrite);

@@ -27,7 +27,7 @@ TypeId typeNamed(Context& context, std::string_view word) {
     return TypeTable::isGeneric(context.types().info(type).kind) ? TypeId{} : type;
   }
   const Entity entity = lookUp(context, name);
-  if (entity.what() != EntityKind::Type) return {};
+  if (entity.entityKind() != EntityKind::Type) return {};
   const TypeKind plain = context.types().plainKind(TypeId{entity.index});
   return TypeTable::isElementary(plain) ? TypeId{entity.index} : TypeId{};
 }
@@ -64,7 +64,7 @@ struct OneInput {
   ExprId value;
   uint32_t index = 0;
   ExprId en, eno;
-  bool good = false;
+  bool ok = false;
 };
 
 OneInput oneInput(Context& context, const CallExpr& node, NameId name) {
@@ -72,13 +72,13 @@ OneInput oneInput(Context& context, const CallExpr& node, NameId name) {
   uint32_t inputs = 0;
   for (uint32_t i = 0; i < node.arguments.count; ++i) {
     const Argument argument = context.tree().list(node.arguments)[i];
-    const std::string_view pin = argument.pin.name ? text(context, argument.pin.name) : std::string_view();
+    const std::string_view pin = argument.pin.name ? string(context, argument.pin.name) : std::string_view();
     if (sameIdentifier(pin, "EN") && !argument.is_output) {
       out.en = argument.value;
     } else if (sameIdentifier(pin, "ENO") && argument.is_output) {
       out.eno = argument.value;
     } else if (!pin.empty() && !sameIdentifier(pin, "IN")) {
-      context.report(diag::UnknownPin, argument.pin.loc, {text(context, name), pin}).didYouMean("IN");
+      context.report(diag::UnknownPin, argument.pin.loc, {string(context, name), pin}).didYouMean("IN");
       return out;
     } else {
       ++inputs;
@@ -86,9 +86,9 @@ OneInput oneInput(Context& context, const CallExpr& node, NameId name) {
       out.index = i;
     }
   }
-  out.good = inputs == 1 && out.value;
-  if (!out.good) {
-    context.report(diag::WrongArgumentCount, node.h.loc, {text(context, name), "1", std::to_string(inputs)});
+  out.ok = inputs == 1 && out.value;
+  if (!out.ok) {
+    context.report(diag::WrongArgumentCount, node.h.loc, {string(context, name), "1", std::to_string(inputs)});
   }
   return out;
 }
@@ -98,8 +98,8 @@ TypeId callLibrary(Context& context, ExprId& expr, std::string_view function, Ty
   CallExpr& node = context.tree().as<CallExpr>(expr);
   NameExpr& callee = context.tree().as<NameExpr>(node.callee);
   const NameId name = context.names().intern(function);
-  if (lookUp(context, name).what() != EntityKind::Pou) {
-    context.report(diag::UnknownName, node.h.loc, {text(context, written)});
+  if (lookUp(context, name).entityKind() != EntityKind::Pou) {
+    context.report(diag::UnknownName, node.h.loc, {string(context, written)});
     return node.h.type = types::kError;
   }
   callee.name = name;
@@ -118,17 +118,17 @@ bool operandAs(Context& context, ExprId& value, TypeId type, NameId function) {
 std::string libraryConversion(Context& context, TypeKind from, TypeKind to) {
   if (!context.iec()) return {};
   if (TypeTable::isReal(from) == TypeTable::isReal(to) && (to != TypeKind::Bool || from == TypeKind::Bool)) return {};
-  std::string function(text(context, context.types().info(types::idOf(from)).name));
-  function.append("_TO_").append(text(context, context.types().info(types::idOf(to)).name));
+  std::string function(string(context, context.types().info(types::idOf(from)).name));
+  function.append("_TO_").append(string(context, context.types().info(types::idOf(to)).name));
   const Entity entity = lookUp(context, context.names().intern(function));
-  return entity.what() == EntityKind::Pou && context.symbols.pou(PouId{entity.index}).library ? function
-                                                                                              : std::string();
+  return entity.entityKind() == EntityKind::Pou && context.symbols.pou(PouId{entity.index}).library ? function
+                                                                                                    : std::string();
 }
 
 TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& rule, TypeId expected) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   const OneInput input = oneInput(context, node, name);
-  if (!input.good) {
+  if (!input.ok) {
     checkLooseArguments(context, node);
     return node.h.type = types::kError;
   }
@@ -142,7 +142,7 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
     from = check(context, value, {}, Access::Read);
     if (isUntyped(context, from)) {
       const bool direct = untypedFits(context, value, rule.to) && rule.kind == Rule::Kind::Convert;
-      from = settle(context, value, direct ? rule.to : TypeId{});
+      from = finalizeUntyped(context, value, direct ? rule.to : TypeId{});
     }
     if (from == types::kError) return node.h.type = types::kError;
   }
@@ -151,31 +151,32 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
     wrapConvert(context, value, from);
   }
   const TypeKind source = context.types().plainKind(from), target = context.types().plainKind(rule.to);
-  const bool text_source = TypeTable::isText(source) || TypeTable::isCharacter(source);
-  const bool text_target = TypeTable::isText(target) || TypeTable::isCharacter(target);
+  const bool source_is_string = TypeTable::isString(source) || TypeTable::isCharacter(source);
+  const bool target_is_string = TypeTable::isString(target) || TypeTable::isCharacter(target);
   if (!TypeTable::isElementary(source)) {
     context.report(diag::NotOfGeneric, context.tree().loc(value),
-                   {context.types().spell(from), text(context, name), "ANY_ELEMENTARY"});
+                   {context.types().toString(from), string(context, name), "ANY_ELEMENTARY"});
     return node.h.type = types::kError;
   }
   const auto replaceArgument = [&] {
     if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.tree().expr(value).type);
     context.tree().list(node.arguments)[input.index].value = value;
   };
-  if (text_target && rule.kind == Rule::Kind::Convert) {
+  if (target_is_string && rule.kind == Rule::Kind::Convert) {
     if (source == target) {
       expr = value;
       return context.tree().expr(expr).type;
     }
     replaceArgument();
-    return callLibrary(context, expr,
-                       std::string("TO_") + std::string(text(context, context.types().info(types::idOf(target)).name)),
-                       expected, name);
+    return callLibrary(
+        context, expr,
+        std::string("TO_") + std::string(string(context, context.types().info(types::idOf(target)).name)), expected,
+        name);
   }
-  if (text_source && rule.kind == Rule::Kind::Convert) {
-    const std::string function = std::string(text(context, context.types().info(types::idOf(source)).name)) + "_TO_" +
-                                 std::string(text(context, context.types().info(types::idOf(target)).name));
-    if (sameIdentifier(function, text(context, name))) return {};  // the library has no such function
+  if (source_is_string && rule.kind == Rule::Kind::Convert) {
+    const std::string function = std::string(string(context, context.types().info(types::idOf(source)).name)) + "_TO_" +
+                                 std::string(string(context, context.types().info(types::idOf(target)).name));
+    if (sameIdentifier(function, string(context, name))) return {};  // the library has no such function
     replaceArgument();
     return callLibrary(context, expr, function, expected, name);
   }
@@ -183,10 +184,10 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
     const Entity trunc = lookUp(context, context.names().intern("TRUNC"));
     if (!TypeTable::isReal(source) || !(TypeTable::isInteger(target) || TypeTable::isBits(target))) {
       context.report(diag::NotOfGeneric, context.tree().loc(value),
-                     {context.types().spell(from), text(context, name), "ANY_REAL"});
+                     {context.types().toString(from), string(context, name), "ANY_REAL"});
       return node.h.type = types::kError;
     }
-    if (trunc.what() != EntityKind::Pou) return {};
+    if (trunc.entityKind() != EntityKind::Pou) return {};
     replaceArgument();
     return checkGenericCall(context, expr, PouId{trunc.index}, expected, rule.to);
   }
@@ -228,7 +229,7 @@ TypeId checkTypedCall(Context& context, ExprId& expr, std::string_view name, Typ
     at = end + 1;
   }
   const Entity entity = lookUp(context, function);
-  if (entity.what() != EntityKind::Pou || operand_types.empty()) return {};
+  if (entity.entityKind() != EntityKind::Pou || operand_types.empty()) return {};
   const PouId id{entity.index};
   const Pou& pou = context.symbols.pou(id);
   if (pou.kind != PouKind::Function || (pou.operator_kind == Pou::Operator::None && !pou.generic)) return {};
@@ -241,9 +242,9 @@ TypeId checkTypedCall(Context& context, ExprId& expr, std::string_view name, Typ
     for (uint32_t i = 0; i < node.arguments.count && i < operand_types.size(); ++i) {
       ExprId value = context.tree().list(node.arguments)[i].value;
       if (!value) continue;
-      const bool good = operandAs(context, value, operand_types[i], function);
+      const bool ok = operandAs(context, value, operand_types[i], function);
       context.tree().list(node.arguments)[i].value = value;
-      if (!good) return node.h.type = types::kError;
+      if (!ok) return node.h.type = types::kError;
     }
   }
   if (pou.operator_kind != Pou::Operator::None) return checkOperatorCall(context, expr, id, expected, forced);
@@ -257,7 +258,7 @@ TypeId guardValue(Context& context, ExprId& expr, ExprId value) {
   if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.tree().expr(value).type);
   std::vector<Argument> arguments;
   for (const Argument& argument : context.tree().list(node.arguments)) {
-    const std::string_view pin = argument.pin.name ? text(context, argument.pin.name) : std::string_view();
+    const std::string_view pin = argument.pin.name ? string(context, argument.pin.name) : std::string_view();
     if (sameIdentifier(pin, argument.is_output ? "ENO" : "EN")) arguments.push_back(argument);
   }
   arguments.push_back(Argument{{}, value, false, false, node.h.loc});
@@ -267,15 +268,15 @@ TypeId guardValue(Context& context, ExprId& expr, ExprId value) {
 }
 
 TypeId checkRuleCall(Context& context, ExprId& expr, NameId name, TypeId expected) {
-  const std::string spelled = upper(text(context, name));
-  if (spelled.find('_') == std::string::npos) return {};
-  const Rule rule = ruleOf(context, spelled);
+  const std::string spelling = upper(string(context, name));
+  if (spelling.find('_') == std::string::npos) return {};
+  const Rule rule = ruleOf(context, spelling);
   if (rule.kind != Rule::Kind::None) {
     const TypeId type = checkConversion(context, expr, name, rule, expected);
     if (type) context.tree().expr(expr).type = type;
     return type;
   }
-  return checkTypedCall(context, expr, spelled, expected);
+  return checkTypedCall(context, expr, spelling, expected);
 }
 
 }  // namespace rung::sema

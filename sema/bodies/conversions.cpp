@@ -38,11 +38,11 @@ bool sameQuantity(TypeKind a, TypeKind b) {
 std::string conversionName(const Context& context, TypeId from, TypeId to) {
   const auto word = [&](TypeId type) -> std::string {
     const types::TypeInfo& own = context.types().info(context.types().resolve(type));
-    if (own.kind == TypeKind::Enum) return own.name ? std::string(text(context, own.name)) : std::string("ANY");
+    if (own.kind == TypeKind::Enum) return own.name ? std::string(string(context, own.name)) : std::string("ANY");
     const TypeId plain = context.types().plain(type);
     const TypeKind kind = context.types().info(plain).kind;
     if (!TypeTable::isElementary(kind)) return {};
-    return std::string(text(context, context.types().info(types::idOf(kind)).name));
+    return std::string(string(context, context.types().info(types::idOf(kind)).name));
   };
   const std::string source = word(from), target = word(to);
   if (source.empty() || target.empty() || source == target) return {};
@@ -51,10 +51,10 @@ std::string conversionName(const Context& context, TypeId from, TypeId to) {
 
 }  // namespace
 
-std::string Purpose::spell(const Context& context) const {
-  std::string out(words);
-  if (name) out.append(" `").append(text(context, name)).append("`");
-  if (of) out.append(" of `").append(text(context, of)).append("`");
+std::string Purpose::toString(const Context& context) const {
+  std::string out(phrase);
+  if (name) out.append(" `").append(string(context, name)).append("`");
+  if (of) out.append(" of `").append(string(context, of)).append("`");
   return out;
 }
 
@@ -82,7 +82,7 @@ bool sameType(const Context& context, TypeId a, TypeId b) {
 static bool pointsAlike(const Context& context, TypeId from, TypeId to) {
   const types::TypeInfo& source = context.types().info(context.types().resolve(from));
   const types::TypeInfo& target = context.types().info(context.types().resolve(to));
-  if (TypeTable::isText(source.kind) && source.kind == target.kind) return source.length >= target.length;
+  if (TypeTable::isString(source.kind) && source.kind == target.kind) return source.length >= target.length;
   return sameType(context, from, to);
 }
 
@@ -156,7 +156,7 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
   }
   if (TypeTable::isNumber(a) && TypeTable::isNumber(b)) return fitNumbers(context, from, to);
   if (sameQuantity(a, b)) return types::isLossless(table, from, to) ? Fit::Lossless : Fit::Lossy;
-  if (TypeTable::isText(a) && a == b) return Fit::Same;  // cut to the capacity where it is stored
+  if (TypeTable::isString(a) && a == b) return Fit::Same;  // cut to the capacity where it is stored
   // An addition of edition 4.
   const bool widens =
       (a == TypeKind::String && b == TypeKind::WString) || (a == TypeKind::Char && b == TypeKind::WChar);
@@ -230,29 +230,30 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
       const std::string function = conversionName(context, from, to);
       if (context.types().info(context.types().resolve(to)).kind == TypeKind::Enum) {
         context.report(diag::NumberToEnum, loc,
-                       {context.types().spell(from), purpose.spell(context), context.types().spell(to)});
+                       {context.types().toString(from), purpose.toString(context), context.types().toString(to)});
         return true;
       }
-      context.report(context.iec() ? diag::LossyConversion : diag::MayLoseValues, loc,
-                     {context.types().spell(from), purpose.spell(context), context.types().spell(to), function});
+      context.report(
+          context.iec() ? diag::LossyConversion : diag::MayLoseValues, loc,
+          {context.types().toString(from), purpose.toString(context), context.types().toString(to), function});
       return !context.iec();
     }
     case Fit::Pointer:
       if (context.library) return true;
       context.report(context.iec() ? diag::OtherPointer : diag::PointerToOther, loc,
-                     {context.types().spell(from), purpose.spell(context), context.types().spell(to)});
+                     {context.types().toString(from), purpose.toString(context), context.types().toString(to)});
       return !context.iec();
     case Fit::Extension:
     case Fit::No: break;
   }
   const TypeKind own = context.types().plainKind(from), wanted = context.types().plainKind(to);
   if (context.tree().kind(expr) == ExprKind::Literal && !context.tree().as<LiteralExpr>(expr).prefix && own != wanted &&
-      TypeTable::isText(own) && TypeTable::isText(wanted)) {
+      TypeTable::isString(own) && TypeTable::isString(wanted)) {
     const bool wide = own == TypeKind::WString;
-    context.report(
-        diag::TextQuotes, loc,
-        {wide ? "double" : "single", wide ? "WSTRING" : "STRING",
-         text(context, context.types().info(types::idOf(wanted)).name), wide ? "single" : "double", wide ? "'" : "\""});
+    context.report(diag::TextQuotes, loc,
+                   {wide ? "double" : "single", wide ? "WSTRING" : "STRING",
+                    string(context, context.types().info(types::idOf(wanted)).name), wide ? "single" : "double",
+                    wide ? "'" : "\""});
     return false;
   }
   // BOOL_TO_TIME(FALSE) is no advice: another constant is meant.
@@ -260,10 +261,10 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
   const std::string function = truth ? std::string() : conversionName(context, from, to);
   if (function.empty()) {
     context.report(diag::WrongType, loc,
-                   {context.types().spell(from), purpose.spell(context), context.types().spell(to)});
+                   {context.types().toString(from), purpose.toString(context), context.types().toString(to)});
   } else {
     context.report(diag::NeedsConversion, loc,
-                   {context.types().spell(from), purpose.spell(context), context.types().spell(to), function});
+                   {context.types().toString(from), purpose.toString(context), context.types().toString(to), function});
   }
   return false;
 }
@@ -284,8 +285,8 @@ bool constantFits(Context& context, ExprId expr, TypeId to) {
 //   passes  actual := 1;     where Running is 1
 //   warns   actual := 7;     where no item is 7                     W0549
 //   fails   actual := 7;     the same of a strict enumeration       E0547
-// False when this does not apply; `good`: no error was reported.
-bool takeItem(Context& context, ExprId& expr, TypeId to, bool& good) {
+// False when this does not apply; `ok`: no error was reported.
+bool takeItem(Context& context, ExprId& expr, TypeId to, bool& ok) {
   if (context.iec()) return false;
   const TypeId target = context.types().resolve(to);
   const TypeId from = context.tree().expr(expr).type;
@@ -308,12 +309,12 @@ bool takeItem(Context& context, ExprId& expr, TypeId to, bool& good) {
       [&](NameId, Entity item) { is_item |= __int128{context.symbols.enum_values[item.index].value} == number; });
   const Loc loc = context.tree().begin(expr);
   if (!is_item && !context.library) {
-    const std::string spelled = number < 0 ? "-" + std::to_string(static_cast<uint64_t>(-number))
-                                           : std::to_string(static_cast<uint64_t>(number));
-    context.report(info.strict ? diag::NoItemOfStrict : diag::NoItem, loc, {spelled, context.types().spell(to)});
+    const std::string spelling = number < 0 ? "-" + std::to_string(static_cast<uint64_t>(-number))
+                                            : std::to_string(static_cast<uint64_t>(number));
+    context.report(info.strict ? diag::NoItemOfStrict : diag::NoItem, loc, {spelling, context.types().toString(to)});
     if (info.strict) {
       context.tree().expr(expr).type = types::kError;
-      good = false;
+      ok = false;
       return true;
     }
     if (!types::convert(context.types(), {types::kLInt, static_cast<uint64_t>(number)}, info.base).overflow)
@@ -337,7 +338,7 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
     expr = makeLiteral(context, LiteralKind::Null, to, 0, context.tree().loc(expr));
     return true;
   }
-  if (bool good = true; takeItem(context, expr, to, good)) return good;
+  if (bool ok = true; takeItem(context, expr, to, ok)) return ok;
   if (isUntyped(context, from)) return adapt(context, expr, to, purpose);
   Fit fitness = fit(context, from, to);
   if (fitness == Fit::Lossy && constantFits(context, expr, to)) fitness = Fit::Lossless;
@@ -353,16 +354,16 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
     if (!checkCopied(context, expr, to)) return false;
     if (context.types().info(from).kind == TypeKind::NullLiteral) context.tree().expr(expr).type = to;
     const types::TypeInfo& info = context.types().info(context.types().resolve(to));
-    if (TypeTable::isText(info.kind) && context.tree().kind(expr) == ExprKind::Literal &&
+    if (TypeTable::isString(info.kind) && context.tree().kind(expr) == ExprKind::Literal &&
         context.types().info(context.types().resolve(from)).length > info.length) {
       context.report(diag::TextTooLong, context.tree().loc(expr),
                      {std::to_string(context.types().info(context.types().resolve(from)).length),
-                      context.types().spell(to), std::to_string(info.length)});
+                      context.types().toString(to), std::to_string(info.length)});
     }
     return true;
   }
   if (context.types().kind(from) == TypeKind::Record)  // an object as an interface, which may change it
-    if (const Entity object = entityOf(context, expr); object.what() == EntityKind::Var)
+    if (const Entity object = entityOf(context, expr); object.entityKind() == EntityKind::Var)
       markAccess(context, VarId{object.index}, Access::Address);
   wrapConvert(context, expr, to);
   return true;
@@ -378,8 +379,8 @@ bool checkExprAs(Context& context, ExprId& expr, TypeId to, std::string_view wha
   return checkAs(context, expr, to, Purpose{what, {}, {}});
 }
 
-void checkCondition(Context& context, ExprId& expr, std::string_view words) {
-  checkAs(context, expr, types::kBool, Purpose{words, {}, {}});
+void checkCondition(Context& context, ExprId& expr, std::string_view phrase) {
+  checkAs(context, expr, types::kBool, Purpose{phrase, {}, {}});
 }
 
 }  // namespace rung::sema

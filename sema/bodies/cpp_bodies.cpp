@@ -25,7 +25,7 @@ const char* whyNot(Context& context, const Var& var) {
   if (is_record && types.info(element).record_kind == types::RecordKind::Union) return "a union";
   if (is_record && types.info(element).record_kind == types::RecordKind::Interface) return "an interface";
   if (var.storage == Storage::Constant && !types::TypeTable::isScalar(types.plainKind(type)) &&
-      !types::TypeTable::isText(types.plainKind(type)))
+      !types::TypeTable::isString(types.plainKind(type)))
     return "a constant that is not a single value";
   const bool is_pin =
       var.section == SectionKind::Input || var.section == SectionKind::Output || var.section == SectionKind::InOut;
@@ -54,9 +54,9 @@ bool noteMember(Context& context, std::string_view word, Loc loc) {
   const NameId name = context.names().find(word);
   if (!object || !name) return false;
   const Entity found = findInObject(context, object, name);
-  if (found.what() != EntityKind::Pou || found.index == context.pou.index) return false;
+  if (found.entityKind() != EntityKind::Pou || found.index == context.pou.index) return false;
   const PouId member{found.index};
-  if (text(context, context.symbols.pou(member).name) != word) return false;
+  if (string(context, context.symbols.pou(member).name) != word) return false;
   if ((context.symbols.pou(member).modifiers & kAbstract) == 0) noteUse(context, member, loc);
   return true;
 }
@@ -74,7 +74,7 @@ void noteFunctions(Context& context, std::string_view text, Loc loc) {
     if (!(word[0] >= 'A' && word[0] <= 'Z')) continue;
     if (std::any_of(word.begin(), word.end(), isLower)) continue;
     const Entity found = lookUp(context, context.names().intern(word));
-    if (found.what() != EntityKind::Pou || found.index == context.pou.index) continue;
+    if (found.entityKind() != EntityKind::Pou || found.index == context.pou.index) continue;
     const PouId function{found.index};
     const Pou& callee = context.symbols.pou(function);
     if (callee.kind != PouKind::Function || callee.generic || callee.operator_kind != Pou::Operator::None) continue;
@@ -92,9 +92,9 @@ void checkCppBody(Context& context, const PouDecl& decl) {
     if (var->external) var = &context.symbols.var(var->external);
     if (!named.name || !var->type || context.types().kind(var->type) == TypeKind::Error) continue;
     if (const char* why = whyNot(context, *var))
-      context.report(diag::CppVariable, named.loc, {text(context, named.name), why});
+      context.report(diag::CppVariable, named.loc, {string(context, named.name), why});
   }
-  const std::string_view text = context.symbols.sources.text(pou.file);
+  const std::string_view text = context.symbols.sources.sourceText(pou.file);
   const uint32_t base = context.symbols.sources.begin(pou.file).offset;
   const Loc begin{decl.body_begin.offset + 5};
   noteFunctions(context, text.substr(begin.offset - base, decl.body_end.offset - 9 - begin.offset), begin);

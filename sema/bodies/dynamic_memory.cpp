@@ -18,7 +18,7 @@ namespace {
 CallId poolCall(Context& context, const char* name, Loc loc) {
   const Entity size = lookUpSystem(context, "POOL_UNITS");
   const Options& options = context.project.options;
-  if (size.what() == EntityKind::Var && options.pool_bytes != 0) {
+  if (size.entityKind() == EntityKind::Var && options.pool_bytes != 0) {
     Var& var = context.symbols.vars[size.index];
     ensureInitialValue(context, VarId{size.index});
     const ExprId init = var.init;
@@ -29,7 +29,7 @@ CallId poolCall(Context& context, const char* name, Loc loc) {
     }
   }
   const Entity found = lookUpSystem(context, name);
-  if (found.what() != EntityKind::Pou) return {};
+  if (found.entityKind() != EntityKind::Pou) return {};
   const PouId pou{found.index};
   resolvePou(context, pou);
   noteCall(context, pou, loc);
@@ -39,7 +39,7 @@ CallId poolCall(Context& context, const char* name, Loc loc) {
   return addCall(context, std::move(call));
 }
 
-bool mayBeMade(Context& context, TypeId type, TypeExprId what) {
+bool mayBeAllocated(Context& context, TypeId type, TypeExprId what) {
   const Loc loc = context.tree().loc(what);
   if (context.types().isOpenArray(type)) {
     context.report(diag::OpenArray, loc);
@@ -47,7 +47,7 @@ bool mayBeMade(Context& context, TypeId type, TypeExprId what) {
   }
   const PouId pou = pouOf(context, type);
   if (pou && context.symbols.pou(pou).kind == PouKind::Program) {
-    context.report(diag::NotNewable, loc, {context.types().spell(type)});
+    context.report(diag::NotNewable, loc, {context.types().toString(type)});
     return false;
   }
   return checkNotAbstract(context, type, loc);
@@ -62,16 +62,16 @@ TypeId checkNew(Context& context, ExprId& expr) {
   NewExpr& node = context.tree().as<NewExpr>(expr);
   if (node.h.type) return node.h.type;                    // checked before
   if (context.iec()) return node.h.type = types::kError;  // the lexer has refused the name
-  TypeId type = resolveType(context, node.what);
+  TypeId type = resolveType(context, node.allocated);
   if (node.count) checkExprAs(context, node.count, types::kLInt, "used as the number of elements");
-  if (type == types::kError || !mayBeMade(context, type, node.what)) return node.h.type = types::kError;
+  if (type == types::kError || !mayBeAllocated(context, type, node.allocated)) return node.h.type = types::kError;
   if (const PouId pou = pouOf(context, type)) resolvePou(context, pou);
   if (!ensureLayout(context, type)) {
-    context.report(diag::TypeTooLarge, context.tree().loc(node.what), {context.types().spell(type)});
+    context.report(diag::TypeTooLarge, context.tree().loc(node.allocated), {context.types().toString(type)});
     return node.h.type = types::kError;
   }
   uint32_t elements = 0;
-  node.constructor = checkConstructor(context, node.what, elements);
+  node.constructor = checkConstructor(context, node.allocated, elements);
   node.memory = poolCall(context, "Allocate", node.h.loc);
   node.h.type = node.memory.index != 0 ? context.types().pointer(type) : types::kError;
   context.types().layout(node.h.type);
@@ -87,7 +87,7 @@ TypeId checkDeleteCall(Context& context, ExprId& expr, NameId name, bool as_stat
   if (context.iec()) return fail();  // the lexer has refused the name
   if (node.arguments.count != 1 || !context.tree().list(node.arguments)[0].value) {
     context.report(diag::WrongArgumentCount, node.h.loc,
-                   {text(context, name), "1", std::to_string(node.arguments.count)});
+                   {string(context, name), "1", std::to_string(node.arguments.count)});
     checkLooseArguments(context, node);
     return fail();
   }
@@ -95,13 +95,13 @@ TypeId checkDeleteCall(Context& context, ExprId& expr, NameId name, bool as_stat
   const TypeId type = check(context, pointer, {}, Access::ReadWrite);
   if (!type || type == types::kError) return fail();
   if (context.types().kind(type) != TypeKind::Pointer) {
-    context.report(diag::DeleteOfValue, context.tree().begin(pointer), {context.types().spell(type)});
+    context.report(diag::DeleteOfValue, context.tree().begin(pointer), {context.types().toString(type)});
     return fail();
   }
   const bool is_this = context.tree().kind(pointer) == ExprKind::This;
   if (!is_this && !checkWritable(context, pointer, Purpose{"deleted", {}, {}})) return fail();
   if (!as_statement) {
-    context.report(diag::NoResult, node.h.loc, {text(context, name)});
+    context.report(diag::NoResult, node.h.loc, {string(context, name)});
     return fail();
   }
   const TypeId target = context.types().info(context.types().resolve(type)).base;

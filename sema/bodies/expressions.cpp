@@ -18,20 +18,20 @@ using types::TypeTable;
 // An integer; reports what is none.
 TypeId checkIndexValue(Context& context, ExprId& index) {
   TypeId type = check(context, index, {}, Access::Read);
-  if (isUntyped(context, type)) type = settle(context, index);
+  if (isUntyped(context, type)) type = finalizeUntyped(context, index);
   const TypeKind kind = context.types().plainKind(type);
   const bool enumeration = context.types().kind(type) == TypeKind::Enum;
   if (type == types::kError) return type;
   if ((TypeTable::isInteger(kind) || TypeTable::isBits(kind)) && !(enumeration && context.iec())) return type;
-  context.report(diag::IndexNotInteger, context.tree().loc(index), {context.types().spell(type)});
+  context.report(diag::IndexNotInteger, context.tree().loc(index), {context.types().toString(type)});
   return types::kError;
 }
 
 // s[i]: in codesys the bytes of a STRING and the words of a WSTRING, from 0. The zero behind the last one that fits can
 // be read, so that a loop finds the end of a full text; written it would be no end any more. In edition 3 characters,
 // CHAR and WCHAR, from 1 (6.4.2.2).
-TypeId checkCharacter(Context& context, IndexExpr& node, TypeId text_type, Access access) {
-  const types::TypeInfo& info = context.types().info(context.types().resolve(text_type));
+TypeId checkCharacter(Context& context, IndexExpr& node, TypeId string_type, Access access) {
+  const types::TypeInfo& info = context.types().info(context.types().resolve(string_type));
   if (info.kind == TypeKind::UString) {
     checkIndexValue(context, context.tree().list(node.indices)[0]);
     context.report(diag::CharacterOfUtf8, context.tree().begin(context.tree().list(node.indices)[0]));
@@ -43,7 +43,7 @@ TypeId checkCharacter(Context& context, IndexExpr& node, TypeId text_type, Acces
   ExprId& index = context.tree().list(node.indices)[0];
   const TypeId type = checkIndexValue(context, index);
   if (type == types::kError) return type;
-  checkConstantIndex(context, index, &characters, text_type);
+  checkConstantIndex(context, index, &characters, string_type);
   if (!reads) node.h.bits |= kWritesCharacter;
   node.h.writable = context.tree().expr(node.base).writable;
   if (from_one) return types::idOf(info.kind == TypeKind::WString ? TypeKind::WChar : TypeKind::Char);
@@ -57,30 +57,30 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   const types::TypeInfo* info = &context.types().info(context.types().resolve(base));
   if (info->kind == TypeKind::Pointer && count == 1) return checkPointerIndex(context, expr);
   const bool edition2 = context.iec() && context.symbols.dialect == Dialect::Iec2;
-  if (TypeTable::isText(info->kind) && count == 1 && !edition2) {
+  if (TypeTable::isString(info->kind) && count == 1 && !edition2) {
     return node.h.type = checkCharacter(context, node, base, access);
   }
   const bool array = info->kind == TypeKind::Array;
   const uint32_t dimensions = info->dimensions.empty() ? info->length : static_cast<uint32_t>(info->dimensions.size());
   if (!array && base != types::kError) {
-    context.report(diag::NotAnArray, node.h.loc, {context.types().spell(base)});
+    context.report(diag::NotAnArray, node.h.loc, {context.types().toString(base)});
   } else if (array && dimensions != count) {
     // The first index too many, or the last one, behind which some are missing.
     const uint32_t marked = std::min(dimensions, count - 1);
     context.report(diag::WrongIndexCount, context.tree().loc(context.tree().list(node.indices)[marked]),
-                   {context.types().spell(base), std::to_string(dimensions), std::to_string(count)});
+                   {context.types().toString(base), std::to_string(dimensions), std::to_string(count)});
   }
-  bool good = array && dimensions == count;
+  bool ok = array && dimensions == count;
   for (uint32_t i = 0; i < count; ++i) {
     ExprId index = context.tree().list(node.indices)[i];
     if (checkIndexValue(context, index) == types::kError) {
-      good = false;
-    } else if (good) {
+      ok = false;
+    } else if (ok) {
       checkConstantIndex(context, index, info->dimensions.empty() ? nullptr : &info->dimensions[i], base);
     }
     context.tree().list(node.indices)[i] = index;
   }
-  if (!good) return node.h.type = types::kError;
+  if (!ok) return node.h.type = types::kError;
   node.h.writable = context.tree().expr(node.base).writable;
   return node.h.type = info->base;
 }
@@ -92,7 +92,7 @@ TypeId checkDeref(Context& context, ExprId& expr) {
   if (base == types::kError) return node.h.type = types::kError;
   const types::TypeInfo& info = context.types().info(context.types().resolve(base));
   if (info.kind != TypeKind::Pointer) {
-    context.report(diag::NotAPointer, node.h.loc, {context.types().spell(base)});
+    context.report(diag::NotAPointer, node.h.loc, {context.types().toString(base)});
     return node.h.type = types::kError;
   }
   node.h.writable = 1;
@@ -173,16 +173,16 @@ TypeId checkBitOf(Context& context, ExprId expr) {
   const TypeKind kind = context.types().plainKind(base);
   const bool integer = TypeTable::isInteger(kind);
   if ((!TypeTable::isBits(kind) && !integer) || (integer && context.iec())) {
-    context.report(diag::NoBits, node.h.loc, {context.types().spell(base)});
+    context.report(diag::NoBits, node.h.loc, {context.types().toString(base)});
     return node.h.type = types::kError;
   }
   const uint32_t count = TypeTable::bitWidth(kind) / node.width;
   if (node.position >= count) {
     if (count == 0) {
-      context.report(diag::NoBits, node.h.loc, {context.types().spell(base)});
+      context.report(diag::NoBits, node.h.loc, {context.types().toString(base)});
     } else {
       context.report(diag::BitOutOfRange, node.h.loc,
-                     {std::to_string(node.position), context.types().spell(base), std::to_string(count - 1)});
+                     {std::to_string(node.position), context.types().toString(base), std::to_string(count - 1)});
     }
     return node.h.type = types::kError;
   }
@@ -210,10 +210,10 @@ TypeId check(Context& context, ExprId& expr, TypeId expected, Access access) {
 
 TypeId checkExpr(Context& context, ExprId& expr, TypeId expected) {
   const TypeId type = check(context, expr, expected, Access::Read);
-  return isUntyped(context, type) ? settle(context, expr, expected) : type;
+  return isUntyped(context, type) ? finalizeUntyped(context, expr, expected) : type;
 }
 
-TypeId checkPlace(Context& context, ExprId& expr, std::string_view what) {
+TypeId checkLvalue(Context& context, ExprId& expr, std::string_view what) {
   const TypeId type = check(context, expr, {}, Access::Write);
   if (type == types::kError || !type) return types::kError;
   return checkWritable(context, expr, Purpose{what, {}, {}}) ? type : types::kError;
@@ -229,7 +229,7 @@ std::optional<int64_t> constantInteger(Context& context, ExprId expr) {
     return (node.h.bits & kLiteralNegative) != 0 ? -value : value;
   }
   const Entity entity = entityOf(context, expr);
-  if (entity.what() == EntityKind::EnumValue) return context.symbols.enum_values[entity.index].value;
+  if (entity.entityKind() == EntityKind::EnumValue) return context.symbols.enum_values[entity.index].value;
   const std::optional<types::Value> value = evaluate(context, expr);
   if (!value || !TypeTable::isScalar(context.types().plainKind(value->type)) ||
       TypeTable::isReal(context.types().plainKind(value->type))) {

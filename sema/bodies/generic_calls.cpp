@@ -59,12 +59,12 @@ TypeId groupType(Context& context, std::span<ExprId> operands, TypeKind generic,
   }
   const bool equality = pou.operator_kind == Pou::Operator::Op && (pou.op == types::Op::Eq || pou.op == types::Op::Ne);
   const TypeId common = unify(context, operands, equality ? Operands::Equatable : classOf(generic), expected,
-                              text(context, pou.name), loc);
+                              string(context, pou.name), loc);
   if (common == types::kError) return common;
   if (!belongs(context, common, generic)) {
     context.report(
         diag::NotOfGeneric, operands.size() == 1 ? context.tree().loc(operands[0]) : loc,
-        {context.types().spell(common), text(context, pou.name), context.types().spell(types::idOf(generic))});
+        {context.types().toString(common), string(context, pou.name), context.types().toString(types::idOf(generic))});
     return types::kError;
   }
   return common;
@@ -110,8 +110,8 @@ bool checkBytes(Context& context, const CallExpr& node, const Pou& pou, std::spa
       context.types().kind(info->base) == TypeKind::Byte)
     return true;
   context.report(diag::BytesOnly, node.h.loc,
-                 {text(context, pou.name), gives ? "gives" : "takes",
-                  type ? "`" + context.types().spell(type) + "`" : std::string("a value")});
+                 {string(context, pou.name), gives ? "gives" : "takes",
+                  type ? "`" + context.types().toString(type) + "`" : std::string("a value")});
   return false;
 }
 
@@ -150,15 +150,15 @@ GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, 
                           pou.name};
     const SectionKind section = i < pins.size() ? context.symbols.var(pins[i]).section : SectionKind::Input;
     if (section == SectionKind::Output) {
-      out.good &= check(context, value, {}, Access::Write) != types::kError && checkWritable(context, value, purpose);
+      out.ok &= check(context, value, {}, Access::Write) != types::kError && checkWritable(context, value, purpose);
     } else if (!TypeTable::isGeneric(context.types().info(declared).kind)) {
-      out.good &= checked ? convert(context, value, declared, purpose) : checkAs(context, value, declared, purpose);
+      out.ok &= checked ? convert(context, value, declared, purpose) : checkAs(context, value, declared, purpose);
     } else if (forced && (!result_is_generic || declared == pou.result)) {
-      out.good &= checked ? convert(context, value, forced, purpose) : checkAs(context, value, forced, purpose);
+      out.ok &= checked ? convert(context, value, forced, purpose) : checkAs(context, value, forced, purpose);
     } else if (!checked) {
       const TypeId hint = declared == pou.result ? expected : TypeId{};
       const TypeId type = check(context, value, hint, Access::Read);
-      out.good &= type != types::kError;
+      out.ok &= type != types::kError;
       // codesys: a pointer as the number of its first byte, where anything elementary is converted
       if (!context.iec() && context.types().kind(type) == TypeKind::Pointer &&
           context.types().info(declared).kind == TypeKind::AnyElementary && !result_is_generic)
@@ -168,7 +168,7 @@ GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, 
     context.tree().list(node.arguments)[index].value = value;
     out.values[i] = value;
   }
-  if (!out.good) return out;
+  if (!out.ok) return out;
   std::vector<ExprId> operands;
   for (size_t i = 0; i < out.values.size(); ++i) {
     const TypeId generic = out.pin_types[i];
@@ -185,7 +185,7 @@ GenericOperands groupOperands(Context& context, const CallExpr& node, PouId id, 
         groupType(context, operands, kind, generic == pou.result ? expected : TypeId{}, pou, node.h.loc);
     out.groups.push_back({generic, type});
     if (type == types::kError) {
-      out.good = false;
+      out.ok = false;
       return out;
     }
     size_t at = 0;
@@ -203,11 +203,11 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   Arguments arguments = matchArguments(context, node, pou);
   const size_t declared = pinsOf(context, pou).size();
   if (arguments.slots.size() > declared) return foldCall(context, expr, pou, arguments, expected);
-  if (!arguments.good) {
+  if (!arguments.ok) {
     for (const uint32_t index : arguments.slots) {
       if (index == 0) continue;
       ExprId value = context.tree().list(node.arguments)[index - 1].value;
-      if (value && isUntyped(context, check(context, value, {}, Access::Read))) settle(context, value);
+      if (value && isUntyped(context, check(context, value, {}, Access::Read))) finalizeUntyped(context, value);
     }
     return node.h.type = types::kError;
   }
@@ -216,12 +216,12 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   bindControlPins(context, node, arguments, call);
   if (!checkRequiredPins(context, node, pou, arguments)) return node.h.type = types::kError;
   GenericOperands operands = groupOperands(context, node, pou, arguments, expected, forced, false);
-  if (!operands.good) return node.h.type = types::kError;
+  if (!operands.ok) return node.h.type = types::kError;
   // A text has its largest capacity inside: one instance serves every length. C functions know no named types.
   const bool native = context.symbols.pou(pou).native;
   const auto normal = [&](TypeId type) {
     const TypeKind kind = context.types().plainKind(type);
-    if (TypeTable::isText(kind)) return context.types().text(kind, 255);
+    if (TypeTable::isString(kind)) return context.types().string(kind, 255);
     return native ? context.types().plain(type) : type;
   };
   std::vector<TypeId> types_by_pin;

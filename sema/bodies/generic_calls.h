@@ -18,7 +18,7 @@ struct GenericOperands {
     TypeId generic, type;
   };
   std::vector<Group> groups;
-  bool good = true;
+  bool ok = true;
 
   // The type that a declared pin or result type stands for in this call.
   TypeId typeFor(const Context& context, TypeId declared) const;

@@ -28,7 +28,7 @@ Bounds boundsOf(const types::TypeTable& table, TypeKind kind) {
   return {0, (Int128{1} << width) - 1};
 }
 
-std::string spellNumber(Int128 value) {
+std::string toString(Int128 value) {
   if (value == 0) return "0";
   const bool negative = value < 0;
   std::string digits;
@@ -49,7 +49,7 @@ bool isIntegerLike(TypeKind kind) { return types::TypeTable::isInteger(kind) || 
 
 bool reportRange(Context& context, ExprId expr, Int128 value, TypeId to, Bounds bounds) {
   context.report(diag::ConstantOutOfRange, context.tree().begin(expr),
-                 {spellNumber(value), context.types().spell(to), spellNumber(bounds.low), spellNumber(bounds.high)});
+                 {toString(value), context.types().toString(to), toString(bounds.low), toString(bounds.high)});
   context.tree().expr(expr).type = types::kError;
   return false;
 }
@@ -189,7 +189,7 @@ bool adaptNegative(Context& context, ExprId& expr, TypeId to, TypeKind kind) {
   if (!untypedValue(context, expr, value) || value >= 0 || value < -(Int128{1} << (width - 1))) return false;
   const Int128 bits = (Int128{1} << width) + value;
   const Loc loc = context.tree().begin(expr);
-  context.report(diag::NegativeWithoutSign, loc, {spellNumber(value), context.types().spell(to), spellNumber(bits)});
+  context.report(diag::NegativeWithoutSign, loc, {toString(value), context.types().toString(to), toString(bits)});
   expr = makeLiteral(context, LiteralKind::Integer, to, static_cast<int64_t>(bits), loc);
   return true;
 }
@@ -207,7 +207,7 @@ bool setRealType(Context& context, ExprId& expr, TypeId to, bool whole) {
     BinaryExpr& node = tree.as<BinaryExpr>(expr);
     if (!setRealType(context, node.left, to, whole)) return false;
     if (node.op() == BinaryOp::Power && tree.expr(node.right).type == types::idOf(TypeKind::IntegerLiteral)) {
-      return settle(context, node.right) != types::kError;
+      return finalizeUntyped(context, node.right) != types::kError;
     }
     return setRealType(context, node.right, to, whole);
   }
@@ -226,7 +226,7 @@ bool adaptReal(Context& context, ExprId& expr, TypeId to) {
   bool divides = false;
   if (integer && needsIntegers(context, expr, divides)) {
     if (divides) context.report(diag::IntegerDivision, header.loc);
-    if (settle(context, expr) == types::kError) return false;
+    if (finalizeUntyped(context, expr) == types::kError) return false;
     wrapConvert(context, expr, to);
     return true;
   }
@@ -249,7 +249,7 @@ uint32_t lengthOf(std::string_view value, TypeKind kind) {
 
 // '$E9' is a byte of a STRING. In texts of Unicode bytes that are no UTF-8 are the characters of these codes.
 void makeUnicode(Context& context, LiteralExpr& node) {
-  std::string_view rest = context.tree().text(node.text());
+  std::string_view rest = context.tree().string(node.string());
   if (node.literal() == LiteralKind::WString || isUtf8(rest)) return;  // those of "..." are codes of 16 bits already
   std::string out;
   for (size_t bad = findInvalidUtf8(rest); bad != std::string_view::npos; bad = findInvalidUtf8(rest)) {
@@ -258,9 +258,9 @@ void makeUnicode(Context& context, LiteralExpr& node) {
     rest.remove_prefix(bad + 1);
   }
   out.append(rest);
-  const TextId text = context.tree().addText(out);
-  node.low = text.first;
-  node.high = text.length;
+  const StringId characters = context.tree().addString(out);
+  node.low = characters.first;
+  node.high = characters.length;
 }
 
 TypeId prefixType(Context& context, LiteralExpr& node) {
@@ -269,13 +269,13 @@ TypeId prefixType(Context& context, LiteralExpr& node) {
     return own ? own : elementary;
   }
   const Entity entity = lookUp(context, node.prefix);
-  if (entity.what() == EntityKind::Type) return TypeId{entity.index};
+  if (entity.entityKind() == EntityKind::Type) return TypeId{entity.index};
   if (!entity) {
-    if (sayUnknown(context, node.prefix))
-      context.report(diag::UnknownName, node.h.loc, {text(context, node.prefix)})
+    if (isFirstReport(context, node.prefix))
+      context.report(diag::UnknownName, node.h.loc, {string(context, node.prefix)})
           .didYouMean(nearestName(context, node.prefix));
   } else {
-    context.report(diag::NotALiteralType, node.h.loc, {text(context, node.prefix)});
+    context.report(diag::NotALiteralType, node.h.loc, {string(context, node.prefix)});
   }
   return types::kError;
 }
@@ -300,20 +300,20 @@ TypeId checkTypedNumber(Context& context, ExprId& expr) {
     return node.h.type = type;
   }
   if (kind == TypeKind::Bool && node.literal() == LiteralKind::Bool) return node.h.type = type;
-  if ((types::TypeTable::isText(kind) || types::TypeTable::isCharacter(kind)) &&
+  if ((types::TypeTable::isString(kind) || types::TypeTable::isCharacter(kind)) &&
       (node.literal() == LiteralKind::String || node.literal() == LiteralKind::WString)) {
     if (kind != TypeKind::String && kind != TypeKind::Char) makeUnicode(context, node);
-    const uint32_t length = lengthOf(context.tree().text(node.text()), kind);
-    if (types::TypeTable::isText(kind)) return node.h.type = context.types().text(kind, length);
+    const uint32_t length = lengthOf(context.tree().string(node.string()), kind);
+    if (types::TypeTable::isString(kind)) return node.h.type = context.types().string(kind, length);
     if (length == 1) return node.h.type = type;
-    const uint64_t value = context.names().intern(context.tree().text(node.text())).index;
+    const uint64_t value = context.names().intern(context.tree().string(node.string())).index;
     context.report(diag::NotOneCharacter, node.h.loc,
-                   {types::spell(context.types(), context.names(),
-                                 {context.types().text(types::TypeTable::textOf(kind), 1), value}),
-                    context.types().spell(type)});
+                   {types::toString(context.types(), context.names(),
+                                    {context.types().string(types::TypeTable::stringOf(kind), 1), value}),
+                    context.types().toString(type)});
     return node.h.type = types::kError;
   }
-  context.report(diag::NotALiteralType, node.h.loc, {text(context, node.prefix)});
+  context.report(diag::NotALiteralType, node.h.loc, {string(context, node.prefix)});
   return node.h.type = types::kError;
 }
 
@@ -326,9 +326,9 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
   const bool beyond = longer == TypeKind::LTime && (node.h.bits & kLiteralNegative) == 0 && node.value() >> 63 != 0;
   if (is_long && beyond && context.types().isSigned(longer)) {
     context.report(diag::ConstantOutOfRange, node.h.loc,
-                   {context.symbols.sources.tokenAt(node.h.loc), context.types().spell(types::idOf(longer)),
-                    types::spell(context.types(), context.names(), {types::kLTime, uint64_t{1} << 63}),
-                    types::spell(context.types(), context.names(), {types::kLTime, ~uint64_t{0} >> 1})});
+                   {context.symbols.sources.tokenAt(node.h.loc), context.types().toString(types::idOf(longer)),
+                    types::toString(context.types(), context.names(), {types::kLTime, uint64_t{1} << 63}),
+                    types::toString(context.types(), context.names(), {types::kLTime, ~uint64_t{0} >> 1})});
     return node.h.type = types::kError;
   }
   if (is_long) return node.h.type = types::idOf(longer);
@@ -338,40 +338,40 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
   if (count < bounds.low || count > bounds.high || (negative && bounds.low == 0)) {
     const types::Value low{types::idOf(shorter), static_cast<uint64_t>(bounds.low)};
     const types::Value high{types::idOf(shorter), static_cast<uint64_t>(bounds.high)};
-    context.report(
-        diag::ConstantOutOfRange, node.h.loc,
-        {context.symbols.sources.tokenAt(node.h.loc), context.types().spell(types::idOf(shorter)),
-         types::spell(context.types(), context.names(), low), types::spell(context.types(), context.names(), high)});
+    context.report(diag::ConstantOutOfRange, node.h.loc,
+                   {context.symbols.sources.tokenAt(node.h.loc), context.types().toString(types::idOf(shorter)),
+                    types::toString(context.types(), context.names(), low),
+                    types::toString(context.types(), context.names(), high)});
     return node.h.type = types::kError;
   }
   return node.h.type = types::idOf(shorter);
 }
 
-TypeId checkText(Context& context, LiteralExpr& node, TypeId expected) {
+TypeId checkString(Context& context, LiteralExpr& node, TypeId expected) {
   const TypeKind own = node.literal() == LiteralKind::WString ? TypeKind::WString : TypeKind::String;
-  node.h.type = context.types().text(own, lengthOf(context.tree().text(node.text()), own));
-  if (expected) retypeText(context, node, expected);
+  node.h.type = context.types().string(own, lengthOf(context.tree().string(node.string()), own));
+  if (expected) retypeString(context, node, expected);
   return node.h.type;
 }
 
 }  // namespace
 
-void retypeText(Context& context, LiteralExpr& node, TypeId wanted) {
+void retypeString(Context& context, LiteralExpr& node, TypeId wanted) {
   const TypeKind kind = context.types().plainKind(wanted);
-  const bool is_text = types::TypeTable::isText(kind), wide = node.literal() == LiteralKind::WString;
+  const bool is_string = types::TypeTable::isString(kind), wide = node.literal() == LiteralKind::WString;
   if (node.prefix || (node.literal() != LiteralKind::String && !wide)) return;
-  if (!is_text && !types::TypeTable::isCharacter(kind)) return;
+  if (!is_string && !types::TypeTable::isCharacter(kind)) return;
   const bool is_wide_kind = kind == TypeKind::WString || kind == TypeKind::WChar;
   const bool edition2 = context.symbols.dialect == Dialect::Iec2;
   if (wide ? !is_wide_kind : is_wide_kind && edition2) return;
-  const std::string_view value = context.tree().text(node.text());
+  const std::string_view value = context.tree().string(node.string());
   if (kind != TypeKind::String && kind != TypeKind::Char && !wide && !isUtf8(value)) {
-    if (!is_text && value.size() != 1) return;
+    if (!is_string && value.size() != 1) return;
     makeUnicode(context, node);
   }
-  const uint32_t length = lengthOf(context.tree().text(node.text()), kind);
-  if (is_text)
-    node.h.type = context.types().text(kind, length);
+  const uint32_t length = lengthOf(context.tree().string(node.string()), kind);
+  if (is_string)
+    node.h.type = context.types().string(kind, length);
   else if (length == 1)
     node.h.type = wanted;
 }
@@ -387,7 +387,7 @@ TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected) {
       return node.prefix ? checkTypedNumber(context, expr) : node.h.type = types::idOf(TypeKind::RealLiteral);
     case LiteralKind::String:
     case LiteralKind::WString:
-      return node.prefix ? checkTypedNumber(context, expr) : checkText(context, node, expected);
+      return node.prefix ? checkTypedNumber(context, expr) : checkString(context, node, expected);
     case LiteralKind::Duration: return checkSpan(context, node, expected, TypeKind::Time, TypeKind::LTime, 1'000'000);
     case LiteralKind::Date: return checkSpan(context, node, expected, TypeKind::Date, TypeKind::LDate, 1'000'000'000);
     case LiteralKind::TimeOfDay:
@@ -463,7 +463,7 @@ bool adapt(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
         const Int128 high = is_signed ? Int128{info.high} : Int128{static_cast<uint64_t>(info.high)};
         if (value < low || value > high) {
           context.report(diag::OutsideSubrange, context.tree().begin(expr),
-                         {spellNumber(value), context.types().spell(to), spellNumber(low), spellNumber(high)});
+                         {toString(value), context.types().toString(to), toString(low), toString(high)});
           if (!adaptInteger(context, expr, info.base, bounds)) return false;
           wrapConvert(context, expr, to);
           return true;
@@ -484,12 +484,12 @@ bool adapt(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) {
       }
     }
   }
-  const TypeId own = settle(context, expr);
+  const TypeId own = finalizeUntyped(context, expr);
   if (own == types::kError) return false;
   return convert(context, expr, to, purpose);
 }
 
-TypeId settle(Context& context, ExprId& expr, TypeId expected) {
+TypeId finalizeUntyped(Context& context, ExprId& expr, TypeId expected) {
   const TypeId now = context.tree().expr(expr).type;
   if (!isUntyped(context, now)) return now;
   TypeId to = defaultType(context, expr);

@@ -14,7 +14,7 @@ namespace rung::sema {
 
 namespace {
 
-const char* wordOf(EntityKind kind) {
+const char* kindName(EntityKind kind) {
   switch (kind) {
     case EntityKind::Type: return "a type";
     case EntityKind::GlobalList: return "a list of globals";
@@ -30,7 +30,7 @@ const char* wordOf(EntityKind kind) {
   return "a name";
 }
 
-const char* wordOf(PouKind kind) {
+const char* kindName(PouKind kind) {
   switch (kind) {
     case PouKind::Function: return "a function; call it with `(...)`";
     case PouKind::FunctionBlock: return "a block type; declare an instance of it";
@@ -86,7 +86,7 @@ TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
   }
   if (bare && info.name && (context.iec() || info.qualified)) {
     context.report(context.iec() ? diag::BareEnumItem : diag::QualifiedEnumItem, header.loc,
-                   {text(context, item.name), text(context, context.types().info(item.type).name)});
+                   {string(context, item.name), string(context, context.types().info(item.type).name)});
     return header.type = types::kError;
   }
   return item.type;
@@ -95,7 +95,7 @@ TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
 // What an entity is as an operand; a qualifier has no type and is no value.
 TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId name, Access access, bool bare) {
   ExprHeader& header = context.tree().expr(expr);
-  switch (entity.what()) {
+  switch (entity.entityKind()) {
     case EntityKind::Var: {
       const Var& var = context.symbols.vars[entity.index];
       if (bare && var.access == AccessLevel::Private && var.pou && !mayAccess(context, var.access, var.pou, name, loc))
@@ -112,7 +112,8 @@ TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId 
       const bool is_block = pou.kind == PouKind::FunctionBlock || pou.kind == PouKind::Class;
       if (access == Access::Qualifier && is_block && !context.iec()) return header.type = {};
       if (access == Access::Address) return header.type = pou.record ? pou.record : types::kError;
-      if (sayUnknown(context, name)) context.report(diag::NotAValue, loc, {text(context, name), wordOf(pou.kind)});
+      if (isFirstReport(context, name))
+        context.report(diag::NotAValue, loc, {string(context, name), kindName(pou.kind)});
       return header.type = types::kError;
     }
     case EntityKind::Property: return useMember(context, expr, entity, {}, access);
@@ -123,7 +124,8 @@ TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId 
     case EntityKind::Namespace:
     case EntityKind::Program:
       if (access == Access::Qualifier) return header.type = {};
-      if (sayUnknown(context, name)) context.report(diag::NotAValue, loc, {text(context, name), wordOf(entity.what())});
+      if (isFirstReport(context, name))
+        context.report(diag::NotAValue, loc, {string(context, name), kindName(entity.entityKind())});
       return header.type = types::kError;
   }
   return header.type = types::kError;
@@ -137,7 +139,7 @@ TypeId checkBase(Context& context, ExprId& base, Access access) {
   if (!type || access == Access::Qualifier) return type;
   for (ExprId at = base;; at = context.tree().as<MemberExpr>(at).base) {  // of a.b.c both a and b
     const Entity entity = entityOf(context, at);
-    if (entity.what() == EntityKind::Var) markAccess(context, VarId{entity.index}, access);
+    if (entity.entityKind() == EntityKind::Var) markAccess(context, VarId{entity.index}, access);
     if (context.tree().kind(at) != ExprKind::Member) return type;
   }
 }
@@ -145,14 +147,14 @@ TypeId checkBase(Context& context, ExprId& base, Access access) {
 std::string_view nearestField(Context& context, TypeId record, NameId written) {
   const types::TypeInfo& info = context.types().info(context.types().resolve(record));
   std::vector<std::string_view> candidates;
-  for (const types::Field& field : info.fields) candidates.push_back(text(context, field.name));
-  for (const auto& item : info.items) candidates.push_back(text(context, item.first));
-  return nearest(text(context, written), candidates);
+  for (const types::Field& field : info.fields) candidates.push_back(string(context, field.name));
+  for (const auto& item : info.items) candidates.push_back(string(context, item.first));
+  return nearest(string(context, written), candidates);
 }
 
 std::string_view nearestIn(Context& context, Entity qualifier, NameId written) {
-  if (qualifier.what() == EntityKind::Type) return nearestField(context, TypeId{qualifier.index}, written);
-  if (qualifier.what() == EntityKind::GlobalList) {
+  if (qualifier.entityKind() == EntityKind::Type) return nearestField(context, TypeId{qualifier.index}, written);
+  if (qualifier.entityKind() == EntityKind::GlobalList) {
     return nearestField(context, context.symbols.global_lists[qualifier.index].record, written);
   }
   return {};
@@ -168,12 +170,12 @@ bool isBlockType(const Context& context, PouId pou) {
 Entity constantOfBlock(Context& context, PouId block, const MemberExpr& node) {
   declarePou(context, block);
   const Entity found = context.scopes.pous[block.index].names.find(keyOf(context, node.member));
-  if (found.what() == EntityKind::Var && context.symbols.var(VarId{found.index}).constant) {
+  if (found.entityKind() == EntityKind::Var && context.symbols.var(VarId{found.index}).constant) {
     ensureInitialValue(context, VarId{found.index});
     if (context.symbols.var(VarId{found.index}).has_value) return found;
   }
   context.report(diag::NotAValue, context.tree().loc(node.base),
-                 {text(context, nameOf(context, node.base)), wordOf(context.symbols.pou(block).kind)});
+                 {string(context, nameOf(context, node.base)), kindName(context.symbols.pou(block).kind)});
   return Entity::of(EntityKind::Error, 0);
 }
 
@@ -181,13 +183,13 @@ TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access acces
   MemberExpr& node = context.tree().as<MemberExpr>(expr);
   Entity found;
   TypeId record;
-  if (qualifier.what() == EntityKind::Pou && isBlockType(context, PouId{qualifier.index})) {
+  if (qualifier.entityKind() == EntityKind::Pou && isBlockType(context, PouId{qualifier.index})) {
     found = constantOfBlock(context, PouId{qualifier.index}, node);
-  } else if (qualifier.what() == EntityKind::Pou) {
+  } else if (qualifier.entityKind() == EntityKind::Pou) {
     const PouId pou{qualifier.index};
     resolvePou(context, pou);
     record = context.symbols.pou(pou).record;
-  } else if (qualifier.what() == EntityKind::Program) {
+  } else if (qualifier.entityKind() == EntityKind::Program) {
     const PouId pou = context.project.instances[qualifier.index].program;
     resolvePou(context, pou);
     record = context.symbols.pou(pou).record;
@@ -200,18 +202,18 @@ TypeId checkWhole(Context& context, ExprId& expr, Entity qualifier, Access acces
       if (const auto type = checkObjectMember(context, expr, pouOf(context, record), access)) return *type;
     }
   }
-  const bool is_unknown_type = qualifier.what() == EntityKind::Type &&
+  const bool is_unknown_type = qualifier.entityKind() == EntityKind::Type &&
                                context.types().resolve(TypeId{qualifier.index}) == types::kError;  // reported there
   if (!found) {
-    if (!is_unknown_type && (!record || sayUnknownMember(context, record, node.member)))
+    if (!is_unknown_type && (!record || isFirstReportOfMember(context, record, node.member)))
       context
           .report(diag::UnknownMember, node.h.loc,
-                  {text(context, nameOf(context, node.base)), text(context, node.member)})
+                  {string(context, nameOf(context, node.base)), string(context, node.member)})
           .didYouMean(record ? nearestField(context, record, node.member) : nearestIn(context, qualifier, node.member));
     node.entity = Entity::of(EntityKind::Error, 0);
     return node.h.type = types::kError;
   }
-  if (qualifier.what() == EntityKind::Namespace && !checkVisible(context, found, node.h.loc))
+  if (qualifier.entityKind() == EntityKind::Namespace && !checkVisible(context, found, node.h.loc))
     found = Entity::of(EntityKind::Error, 0);
   node.entity = found;
   return useEntity(context, expr, found, node.h.loc, node.member, access, false);
@@ -277,37 +279,37 @@ Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected) {
   Entity entity = lookUp(context, name, loc);
   const TypeId wanted = expected ? context.types().resolve(expected) : expected;
   if (wanted && context.types().info(wanted).kind == TypeKind::Enum) {
-    const bool other_item = entity.what() == EntityKind::EnumValue &&
+    const bool other_item = entity.entityKind() == EntityKind::EnumValue &&
                             context.types().resolve(context.symbols.enum_values[entity.index].type) != wanted;
     if (!entity || other_item) {
       if (const Entity item = lookUpIn(context, Entity::of(EntityKind::Type, wanted.index), name)) entity = item;
     }
   }
   if (entity) {
-    const bool decided = wanted && entity.what() == EntityKind::EnumValue &&
+    const bool decided = wanted && entity.entityKind() == EntityKind::EnumValue &&
                          context.types().resolve(context.symbols.enum_values[entity.index].type) == wanted;
     if (!decided && isAmbiguousItem(context, entity)) {
       const TypeId type = context.symbols.enum_values[entity.index].type;
-      context.report(diag::AmbiguousItem, loc, {text(context, name), context.types().spell(type)});
+      context.report(diag::AmbiguousItem, loc, {string(context, name), context.types().toString(type)});
       return Entity::of(EntityKind::Error, 0);
     }
     return entity;
   }
-  if (sayUnknown(context, name))
-    context.report(diag::UnknownName, loc, {text(context, name)}).didYouMean(nearestName(context, name));
+  if (isFirstReport(context, name))
+    context.report(diag::UnknownName, loc, {string(context, name)}).didYouMean(nearestName(context, name));
   return Entity::of(EntityKind::Error, 0);
 }
 
 TypeId checkName(Context& context, ExprId& expr, TypeId expected, Access access) {
   NameExpr& node = context.tree().as<NameExpr>(expr);
   node.entity = resolveName(context, node.name, node.h.loc, expected);
-  if (node.entity.what() == EntityKind::Pou && node.entity.index == context.pou.index) {
+  if (node.entity.entityKind() == EntityKind::Pou && node.entity.index == context.pou.index) {
     // The name of a function is its result inside its body.
     if (const VarId result = context.symbols.pou(context.pou).result_var) {
       node.entity = Entity::of(EntityKind::Var, result.index);
     }
   }
-  if (node.entity.what() == EntityKind::Var && context.symbols.vars[node.entity.index].temporary != 0)
+  if (node.entity.entityKind() == EntityKind::Var && context.symbols.vars[node.entity.index].temporary != 0)
     temporaryType(context, VarId{node.entity.index}, expected);
   return useEntity(context, expr, node.entity, node.h.loc, node.name, access, true);
 }
@@ -315,18 +317,18 @@ TypeId checkName(Context& context, ExprId& expr, TypeId expected, Access access)
 TypeId checkTypedName(Context& context, ExprId& expr) {
   TypedNameExpr& node = context.tree().as<TypedNameExpr>(expr);
   Entity type = lookUp(context, node.type_name.name, node.type_name.loc);
-  if (type.what() == EntityKind::Var) {  // `mode : Mode; … Mode#Idle`: before `#` no variable hides the type
+  if (type.entityKind() == EntityKind::Var) {  // `mode : Mode; … Mode#Idle`: before `#` no variable hides the type
     if (const TypeId hidden = lookUpType(context, node.type_name.name))
       type = Entity::of(EntityKind::Type, hidden.index);
   }
-  if (type.what() != EntityKind::Type) {
+  if (type.entityKind() != EntityKind::Type) {
     node.entity = Entity::of(EntityKind::Error, 0);
     if (!type && !context.types().elementary(node.type_name.name)) {
-      if (sayUnknown(context, node.type_name.name))
-        context.report(diag::UnknownName, node.type_name.loc, {text(context, node.type_name.name)})
+      if (isFirstReport(context, node.type_name.name))
+        context.report(diag::UnknownName, node.type_name.loc, {string(context, node.type_name.name)})
             .didYouMean(nearestName(context, node.type_name.name));
     } else {
-      context.report(diag::NotAnEnumeration, node.type_name.loc, {text(context, node.type_name.name)});
+      context.report(diag::NotAnEnumeration, node.type_name.loc, {string(context, node.type_name.name)});
     }
     return node.h.type = types::kError;
   }
@@ -334,16 +336,16 @@ TypeId checkTypedName(Context& context, ExprId& expr) {
   if (context.types().info(enumeration).kind != TypeKind::Enum) {
     node.entity = Entity::of(EntityKind::Error, 0);
     if (enumeration != types::kError) {
-      context.report(diag::NotAnEnumeration, node.type_name.loc, {text(context, node.type_name.name)});
+      context.report(diag::NotAnEnumeration, node.type_name.loc, {string(context, node.type_name.name)});
     }
     return node.h.type = types::kError;
   }
   node.entity = lookUpIn(context, Entity::of(EntityKind::Type, enumeration.index), node.item.name);
-  if (node.entity.what() != EntityKind::EnumValue) {
-    if (sayUnknownMember(context, enumeration, node.item.name))
+  if (node.entity.entityKind() != EntityKind::EnumValue) {
+    if (isFirstReportOfMember(context, enumeration, node.item.name))
       context
           .report(diag::UnknownMember, node.item.loc,
-                  {text(context, node.type_name.name), text(context, node.item.name)})
+                  {string(context, node.type_name.name), string(context, node.item.name)})
           .didYouMean(nearestField(context, enumeration, node.item.name));
     node.entity = Entity::of(EntityKind::Error, 0);
     return node.h.type = types::kError;
@@ -361,7 +363,7 @@ Entity hiddenEnumeration(Context& context, const MemberExpr& node, TypeId base) 
   const TypeId hidden = lookUpType(context, context.tree().as<NameExpr>(node.base).name);
   if (!hidden || context.types().info(context.types().resolve(hidden)).kind != TypeKind::Enum) return {};
   const Entity type = Entity::of(EntityKind::Type, context.types().resolve(hidden).index);
-  return lookUpIn(context, type, node.member).what() == EntityKind::EnumValue ? type : Entity{};
+  return lookUpIn(context, type, node.member).entityKind() == EntityKind::EnumValue ? type : Entity{};
 }
 
 // `status.kReady` with a constant kReady is that bit of an integer or bit string; none where it is no such access.
@@ -373,7 +375,7 @@ std::optional<TypeId> checkNamedBit(Context& context, ExprId& expr, TypeId base)
   const TypeKind kind = context.types().plainKind(base);
   if (!types::TypeTable::isInteger(kind) && !types::TypeTable::isBits(kind)) return std::nullopt;
   const Entity found = lookUp(context, node.member);
-  if (found.what() != EntityKind::Var) return std::nullopt;
+  if (found.entityKind() != EntityKind::Var) return std::nullopt;
   VarId id{found.index};
   if (context.symbols.var(id).external) id = context.symbols.var(id).external;
   ensureVarType(context, id);
@@ -390,7 +392,7 @@ std::optional<TypeId> checkNamedBit(Context& context, ExprId& expr, TypeId base)
   if (var.constant) ensureInitialValue(context, id);
   markAccess(context, VarId{found.index}, Access::Read);
   if (!var.constant || !var.has_value) {
-    context.report(diag::NamedBitNotConstant, node.h.loc, {text(context, node.member)})
+    context.report(diag::NamedBitNotConstant, node.h.loc, {string(context, node.member)})
         .note(var.loc, diag::DeclaredHere);
     return types::kError;
   }
@@ -413,8 +415,8 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   const Entity hidden = hiddenEnumeration(context, node, base);
   if (hidden && context.iec()) {
     const std::string typed =
-        std::string(text(context, nameOf(context, node.base))) + "#" + std::string(text(context, node.member));
-    context.report(diag::NotARecord, node.h.loc, {text(context, node.member), context.types().spell(base)})
+        std::string(string(context, nameOf(context, node.base))) + "#" + std::string(string(context, node.member));
+    context.report(diag::NotARecord, node.h.loc, {string(context, node.member), context.types().toString(base)})
         .didYouMean(typed);
     node.entity = Entity::of(EntityKind::Error, 0);
     return node.h.type = types::kError;
@@ -431,9 +433,9 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
     if (const auto type = checkNamedBit(context, expr, record)) return *type;
     node.entity = Entity::of(EntityKind::Error, 0);
     if (info.kind == TypeKind::Pointer) {
-      context.report(diag::MemberOfPointer, node.h.loc, {text(context, node.member)});
+      context.report(diag::MemberOfPointer, node.h.loc, {string(context, node.member)});
     } else {
-      context.report(diag::NotARecord, node.h.loc, {text(context, node.member), context.types().spell(base)});
+      context.report(diag::NotARecord, node.h.loc, {string(context, node.member), context.types().toString(base)});
     }
     return node.h.type = types::kError;
   }
@@ -451,8 +453,8 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   }
   if (!member) {
     node.entity = Entity::of(EntityKind::Error, 0);
-    if (sayUnknownMember(context, record, node.member))
-      context.report(diag::UnknownMember, node.h.loc, {context.types().spell(base), text(context, node.member)})
+    if (isFirstReportOfMember(context, record, node.member))
+      context.report(diag::UnknownMember, node.h.loc, {context.types().toString(base), string(context, node.member)})
           .didYouMean(nearestField(context, record, node.member));
     return node.h.type = types::kError;
   }

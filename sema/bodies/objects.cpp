@@ -12,7 +12,7 @@ namespace rung::sema {
 
 namespace {
 
-const char* wordOf(AccessLevel access) {
+const char* kindName(AccessLevel access) {
   switch (access) {
     case AccessLevel::Private: return "PRIVATE";
     case AccessLevel::Protected: return "PROTECTED";
@@ -44,7 +44,7 @@ void markObject(Context& context, ExprId at) {
   const Tree& tree = context.tree();
   while (at) {
     const Entity entity = entityOf(context, at);
-    if (entity.what() == EntityKind::Var) markAccess(context, VarId{entity.index}, access);
+    if (entity.entityKind() == EntityKind::Var) markAccess(context, VarId{entity.index}, access);
     const ExprKind kind = tree.kind(at);
     if (kind == ExprKind::Deref) access = Access::Read;
     at = kind == ExprKind::Member  ? tree.as<MemberExpr>(at).base
@@ -74,14 +74,14 @@ bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, L
   const bool of_interface = context.symbols.pou(owner).kind == PouKind::Interface;
   if (access == AccessLevel::None && context.iec() && !of_interface) access = AccessLevel::Protected;
   if (access == AccessLevel::None || access == AccessLevel::Public) return true;
-  const bool same_text = context.library || !context.symbols.pou(owner).library;
-  if (access == AccessLevel::Internal && same_text && isInside(context, context.scopes.pous[owner.index].region))
+  const bool same_project = context.library || !context.symbols.pou(owner).library;
+  if (access == AccessLevel::Internal && same_project && isInside(context, context.scopes.pous[owner.index].region))
     return true;
   const PouId object = objectOf(context);
   if (object == owner) return true;
   if (access == AccessLevel::Protected && object && isKindOf(context, object, owner)) return true;
   context.report(diag::NotAccessible, loc,
-                 {text(context, name), wordOf(access), text(context, context.symbols.pou(owner).name)});
+                 {string(context, name), kindName(access), string(context, context.symbols.pou(owner).name)});
   return false;
 }
 
@@ -109,7 +109,7 @@ TypeId checkSuper(Context& context, ExprId expr) {
   const PouId base = context.symbols.pou(object).base;
   if (!base) {
     if (context.tree().as<PouDecl>(context.symbols.pou(object).decl).bases.empty())
-      context.report(diag::SuperWithoutBase, header.loc, {text(context, context.symbols.pou(object).name)});
+      context.report(diag::SuperWithoutBase, header.loc, {string(context, context.symbols.pou(object).name)});
     return header.type = types::kError;
   }
   return header.type = context.types().pointer(context.symbols.pou(base).record);
@@ -124,7 +124,7 @@ TypeId checkThisOrSuper(Context& context, ExprId& expr, TypeId expected, Access 
   name.h.kind = ExprKind::Name;
   name.name = context.names().intern(is_this ? "THIS" : "SUPER");
   const Entity found = lookUp(context, name.name);
-  if (found.what() != EntityKind::Var || context.symbols.vars[found.index].type == types::kError)
+  if (found.entityKind() != EntityKind::Var || context.symbols.vars[found.index].type == types::kError)
     return is_this ? checkThis(context, expr) : checkSuper(context, expr);
   expr = context.tree().add<ExprId>(name);
   return checkName(context, expr, expected, access);
@@ -145,11 +145,13 @@ bool isExact(const Context& context, ExprId instance) {
     switch (tree.kind(instance)) {
       case ExprKind::Name: {
         const Entity entity = tree.as<NameExpr>(instance).entity;
-        return entity.what() != EntityKind::Var || context.symbols.vars[entity.index].section != SectionKind::InOut;
+        return entity.entityKind() != EntityKind::Var ||
+               context.symbols.vars[entity.index].section != SectionKind::InOut;
       }
       case ExprKind::Member: {
         const Entity entity = tree.as<MemberExpr>(instance).entity;
-        return entity.what() != EntityKind::Var || context.symbols.vars[entity.index].section != SectionKind::InOut;
+        return entity.entityKind() != EntityKind::Var ||
+               context.symbols.vars[entity.index].section != SectionKind::InOut;
       }
       case ExprKind::Index: instance = tree.as<IndexExpr>(instance).base; break;
       case ExprKind::Deref: return tree.kind(tree.as<DerefExpr>(instance).base) == ExprKind::Super;
@@ -183,7 +185,7 @@ Property accessorsOf(Context& context, uint32_t index) {
   Property property = context.symbols.properties[index];
   const auto inherit = [&](PouId base) {
     const Entity found = findInObject(context, base, property.name);
-    if (found.what() != EntityKind::Property) return;
+    if (found.entityKind() != EntityKind::Property) return;
     const Property other = accessorsOf(context, found.index);
     if (!property.get) property.get = other.get;
     if (!property.set) property.set = other.set;
@@ -201,13 +203,13 @@ Property accessorsOf(Context& context, uint32_t index) {
 TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance, Access access) {
   const Loc loc = context.tree().loc(expr);
   ExprHeader& header = context.tree().expr(expr);
-  if (member.what() == EntityKind::Pou) {
+  if (member.entityKind() == EntityKind::Pou) {
     const Pou& method = context.symbols.pou(PouId{member.index});
     if (!mayAccess(context, method.access, method.owner, method.name, loc)) return header.type = types::kError;
     if (access == Access::Qualifier) return header.type = {};
     context.report(diag::NotAValue, loc,
-                   {text(context, method.name), method.kind == PouKind::Action ? "an action; call it with `()`"
-                                                                               : "a method; call it with `(...)`"});
+                   {string(context, method.name), method.kind == PouKind::Action ? "an action; call it with `()`"
+                                                                                 : "a method; call it with `(...)`"});
     return header.type = types::kError;
   }
   const Property property = accessorsOf(context, member.index);
@@ -220,7 +222,7 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
     return header.type;
   }
   if (!property.get) {
-    context.report(diag::PropertyWithoutGet, loc, {text(context, property.name)});
+    context.report(diag::PropertyWithoutGet, loc, {string(context, property.name)});
     return header.type = types::kError;
   }
   const Pou& getter = context.symbols.pou(property.get);
@@ -242,7 +244,7 @@ std::optional<TypeId> checkObjectMember(Context& context, ExprId& expr, PouId ob
   if (!object) return std::nullopt;
   MemberExpr& node = context.tree().as<MemberExpr>(expr);
   const Entity found = method ? entity(method) : findInObject(context, object, node.member);
-  if (found.what() != EntityKind::Pou && found.what() != EntityKind::Property) return std::nullopt;
+  if (found.entityKind() != EntityKind::Pou && found.entityKind() != EntityKind::Property) return std::nullopt;
   node.entity = found;
   markObject(context, node.base);
   return useMember(context, expr, found, node.base, access);
@@ -250,24 +252,24 @@ std::optional<TypeId> checkObjectMember(Context& context, ExprId& expr, PouId ob
 
 bool checkPropertyAssign(Context& context, AssignStmt& node) {
   const Entity found = entityOf(context, node.target);
-  if (found.what() != EntityKind::Property) return false;
+  if (found.entityKind() != EntityKind::Property) return false;
   const Property property = accessorsOf(context, found.index);
   const Loc loc = context.tree().loc(node.target);
   if (!property.set) {
-    context.report(diag::PropertyWithoutSet, loc, {text(context, property.name)});
+    context.report(diag::PropertyWithoutSet, loc, {string(context, property.name)});
     checkExpr(context, node.value);
     return true;
   }
   resolvePou(context, property.set);
   const Pou& setter = context.symbols.pou(property.set);
   const VarId pin = pinsOf(context, property.set)[0];
-  const bool good = mayAccess(context, setter.access, setter.owner, property.name, loc);
+  const bool ok = mayAccess(context, setter.access, setter.owner, property.name, loc);
   const ExprId instance =
       context.tree().kind(node.target) == ExprKind::Member ? context.tree().as<MemberExpr>(node.target).base : ExprId{};
   const TypeId pin_type = context.symbols.var(pin).type;
   if (node.op() == AssignOp::Reference) {
     if (context.types().kind(pin_type) != TypeKind::Reference) {
-      context.report(diag::NotAReference, loc, {"REF=", context.types().spell(pin_type)});
+      context.report(diag::NotAReference, loc, {"REF=", context.types().toString(pin_type)});
       return true;
     }
     if (!bindReference(context, node.value, pin_type)) return true;
@@ -292,7 +294,7 @@ bool checkPropertyAssign(Context& context, AssignStmt& node) {
   } else {
     checkAs(context, node.value, context.symbols.var(pin).type, Purpose{"assigned to", property.name, {}});
   }
-  if (!good) return true;
+  if (!ok) return true;
   noteCall(context, property.set, loc);
   Binding binding;
   binding.pin = pin;
@@ -328,12 +330,12 @@ Call constructorCall(Context& context, TypeId block, PouId method, Slice<Argumen
   call.kind = CallKind::Method;
   call.pou = method;
   bindArguments(context, node, method, matched, call);
-  if (!matched.good) return call;
+  if (!matched.ok) return call;
   for (size_t i = kImplicit; i < pins.size(); ++i) {
     ensureInitialValue(context, pins[i]);
     const Var& pin = context.symbols.var(pins[i]);
     if ((i < matched.slots.size() && matched.slots[i] != 0) || pin.init || pin.section == SectionKind::Output) continue;
-    context.report(diag::MissingArgument, loc, {context.types().spell(block), text(context, pin.name)});
+    context.report(diag::MissingArgument, loc, {context.types().toString(block), string(context, pin.name)});
     break;
   }
   return call;
@@ -369,7 +371,7 @@ CallId checkConstructor(Context& context, TypeExprId type, uint32_t& elements) {
     Slice<Argument> first = written.arguments;
     if (!lists.empty()) first = tree.as<CallExpr>(lists[0]).arguments;
     if (first.count > 0)
-      context.report(diag::TooManyArguments, tree.list(first)[0].loc, {context.types().spell(resolved), "0"});
+      context.report(diag::TooManyArguments, tree.list(first)[0].loc, {context.types().toString(resolved), "0"});
     return {};
   }
   if (lists.empty())
@@ -384,8 +386,8 @@ CallId checkConstructor(Context& context, TypeExprId type, uint32_t& elements) {
     calls.push_back(constructorCall(context, resolved, method, tree.as<CallExpr>(list).arguments, tree.loc(list)));
   CallId first;
   for (Call& call : calls) {
-    const CallId made = addCall(context, std::move(call));
-    if (!first) first = made;
+    const CallId created = addCall(context, std::move(call));
+    if (!first) first = created;
   }
   elements = static_cast<uint32_t>(calls.size());
   return first;
@@ -404,16 +406,16 @@ TypeId callMethod(Context& context, ExprId& expr, PouId id, ExprId instance, boo
   resolvePou(context, has_pins);
   Arguments arguments = matchArguments(context, node, has_pins);
   arguments.checked = checked;
-  const CallId made = addMethodCall(context, id, instance, {});
-  Call call = context.symbols.call(made);
+  const CallId created = addMethodCall(context, id, instance, {});
+  Call call = context.symbols.call(created);
   bindControlPins(context, node, arguments, call);
   bindArguments(context, node, has_pins, arguments, call);
-  if (arguments.good && !is_action) checkRequiredPins(context, node, id, arguments);
-  context.symbols.call(made) = std::move(call);
-  node.call = made;
+  if (arguments.ok && !is_action) checkRequiredPins(context, node, id, arguments);
+  context.symbols.call(created) = std::move(call);
+  node.call = created;
   const Pou& callee = context.symbols.pou(id);
   if (!callee.result && !as_statement) {
-    context.report(diag::NoResult, node.h.loc, {text(context, callee.name)});
+    context.report(diag::NoResult, node.h.loc, {string(context, callee.name)});
     return node.h.type = types::kError;
   }
   return node.h.type = callee.result;

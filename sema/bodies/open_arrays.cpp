@@ -7,7 +7,7 @@
 namespace rung::sema {
 
 TypeId checkBoundCall(Context& context, ExprId& expr, NameId name) {
-  const std::string_view word = text(context, name);
+  const std::string_view word = string(context, name);
   const bool lower = sameIdentifier(word, "LOWER_BOUND"), upper = sameIdentifier(word, "UPPER_BOUND");
   if (!lower && !upper) return {};
   const CallExpr node = context.tree().as<CallExpr>(expr);
@@ -22,7 +22,7 @@ TypeId checkBoundCall(Context& context, ExprId& expr, NameId name) {
   if (checkExpr(context, number) == types::kError || type == types::kError || !type) return fail();
   const types::TypeInfo& info = context.types().info(context.types().resolve(type));
   if (info.kind != TypeKind::Array) {
-    context.report(diag::NotAnArray, context.tree().begin(array), {context.types().spell(type)});
+    context.report(diag::NotAnArray, context.tree().begin(array), {context.types().toString(type)});
     return fail();
   }
   const uint32_t dimensions = info.dimensions.empty() ? info.length : static_cast<uint32_t>(info.dimensions.size());

@@ -97,11 +97,11 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
   CallExpr& node = context.tree().as<CallExpr>(expr);
   const Pou& pou = context.symbols.pou(id);
   const Arguments arguments = matchArguments(context, node, id);
-  if (!arguments.good) {
+  if (!arguments.ok) {
     for (const uint32_t index : arguments.slots) {
       if (index == 0) continue;
       ExprId value = context.tree().list(node.arguments)[index - 1].value;
-      if (value && isUntyped(context, check(context, value, {}, Access::Read))) settle(context, value);
+      if (value && isUntyped(context, check(context, value, {}, Access::Read))) finalizeUntyped(context, value);
     }
     return node.h.type = types::kError;
   }
@@ -118,7 +118,7 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
     checked = true;
   }
   GenericOperands operands = groupOperands(context, node, id, arguments, expected, forced, checked);
-  if (!operands.good) return node.h.type = types::kError;
+  if (!operands.ok) return node.h.type = types::kError;
   TypeId result = pou.result ? operands.typeFor(context, pou.result) : types::kError;
   if (!result) result = expected ? expected : types::kDInt;
   if (pou.operator_kind == Pou::Operator::Op) {

@@ -21,7 +21,7 @@ bool isTimeKind(TypeKind k) { return TypeTable::isDuration(k) || TypeTable::isDa
 TypeId reportOperand(Context& context, std::string_view what, TypeId type, Loc loc) {
   const TypeKind kind = context.types().plainKind(type);
   const bool extension = context.iec() && (TypeTable::isBits(kind) || TypeTable::isInteger(kind));
-  context.report(extension ? diag::OperandExtension : diag::OperandType, loc, {what, context.types().spell(type)});
+  context.report(extension ? diag::OperandExtension : diag::OperandType, loc, {what, context.types().toString(type)});
   return types::kError;
 }
 
@@ -30,7 +30,7 @@ TypeId reportOperands(Context& context, std::string_view what, TypeId a, TypeId 
     const TypeKind kind = context.types().info(type).kind;
     if (kind == TypeKind::IntegerLiteral) return std::string("INT");
     if (kind == TypeKind::RealLiteral) return std::string("REAL");
-    return context.types().spell(type);
+    return context.types().toString(type);
   };
   context.report(diag::OperandTypes, loc, {what, word(a), word(b)});
   return types::kError;
@@ -49,7 +49,7 @@ TypeId join(Context& context, TypeId a, TypeId b) {
     return commonNumber(context, a, b);
   }
   const TypeId left = table.resolve(a), right = table.resolve(b);
-  if (TypeTable::isText(x) && x == y) return table.info(left).length >= table.info(right).length ? a : b;
+  if (TypeTable::isString(x) && x == y) return table.info(left).length >= table.info(right).length ? a : b;
   if (fit(context, a, b) == Fit::Lossless) return b;
   if (fit(context, b, a) == Fit::Lossless) return a;
   if (table.info(left).kind == TypeKind::NullLiteral && table.info(right).kind == TypeKind::Pointer) return b;
@@ -118,7 +118,7 @@ void typeCharacters(Context& context, std::span<const ExprId> operands) {
     if (is_literal && !context.tree().as<LiteralExpr>(operand).prefix) continue;
     for (const ExprId other : operands) {
       if (context.tree().kind(other) == ExprKind::Literal)
-        retypeText(context, context.tree().as<LiteralExpr>(other), types::idOf(kind));
+        retypeString(context, context.tree().as<LiteralExpr>(other), types::idOf(kind));
     }
     return;
   }
@@ -210,14 +210,15 @@ TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, Ty
       continue;
     }
     if (!accepts(context, accepted, type)) {
-      const Loc place = operands.size() == 2 ? loc : tree.loc(operand);
+      const Loc at = operands.size() == 2 ? loc : tree.loc(operand);
       if (common && !accepts(context, Operands::Bits, type) && accepted == Operands::Bits) {
-        return reportOperands(context, what, common, type, place);
+        return reportOperands(context, what, common, type, at);
       }
-      return reportOperand(context, what, type, place);
+      return reportOperand(context, what, type, at);
     }
     if (common && areOtherEnums(context, accepted, common, type)) {
-      context.report(diag::EnumsCompared, loc, {what, context.types().spell(common), context.types().spell(type)});
+      context.report(diag::EnumsCompared, loc,
+                     {what, context.types().toString(common), context.types().toString(type)});
       common = commonNumber(context, common, type);
       mixed_enums = true;
       continue;
@@ -253,10 +254,10 @@ TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, Ty
     }
     if (!accepts(context, accepted, common)) return reportOperand(context, what, common, loc);
   }
-  if (const TypeKind kind = context.types().plainKind(common); TypeTable::isText(kind)) {
+  if (const TypeKind kind = context.types().plainKind(common); TypeTable::isString(kind)) {
     for (ExprId& operand : operands) {
       const types::TypeInfo& own = context.types().info(context.types().resolve(tree.expr(operand).type));
-      if (own.kind != kind) wrapConvert(context, operand, context.types().text(kind, own.length));
+      if (own.kind != kind) wrapConvert(context, operand, context.types().string(kind, own.length));
     }
     return common;
   }
@@ -299,7 +300,7 @@ TypeId power(Context& context, ExprId& base_expr, ExprId& exponent_expr, TypeId 
   }
   if (context.tree().expr(exponent_expr).type == types::idOf(TypeKind::RealLiteral)) {
     if (!adapt(context, exponent_expr, base, kOperand)) return types::kError;
-  } else if (settle(context, exponent_expr) == types::kError) {
+  } else if (finalizeUntyped(context, exponent_expr) == types::kError) {
     return types::kError;
   }
   const TypeId exponent = context.types().plain(context.tree().expr(exponent_expr).type);
@@ -345,8 +346,8 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
       return node.h.type = reportOperands(context, spelling(op), left, right, loc);
     }
   }
-  if (op == BinaryOp::Add && TypeTable::isText(context.types().plainKind(left)) &&
-      TypeTable::isText(context.types().plainKind(right))) {
+  if (op == BinaryOp::Add && TypeTable::isString(context.types().plainKind(left)) &&
+      TypeTable::isString(context.types().plainKind(right))) {
     context.report(diag::TextsAdded, node.h.loc);
     return node.h.type = types::kError;
   }
@@ -387,7 +388,7 @@ TypeId checkBinary(Context& context, ExprId& expr, TypeId expected) {
   const TypeId right = check(context, node.right, comparison && !isUntyped(context, left) ? left : hint, Access::Read);
   if (comparison && left != right && left != types::kError && right != types::kError) {
     const Entity entity = entityOf(context, node.left);
-    const bool item = entity.what() == EntityKind::EnumValue && context.types().kind(right) == TypeKind::Enum;
+    const bool item = entity.entityKind() == EntityKind::EnumValue && context.types().kind(right) == TypeKind::Enum;
     if (item && context.tree().kind(node.left) == ExprKind::Name) check(context, node.left, right, Access::Read);
   }
   return combine(context, expr, expected);
@@ -412,9 +413,9 @@ TypeId checkUnary(Context& context, ExprId& expr, TypeId expected) {
     return node.h.type = type;
   }
   const TypeId plain = context.types().plain(type);
-  const bool good = node.op() == UnaryOp::Not ? accepts(context, Operands::Bits, type)
-                                              : accepts(context, Operands::NumberOrTime, type);
-  if (!good) return node.h.type = reportOperand(context, spelling(node.op()), type, node.h.loc);
+  const bool ok = node.op() == UnaryOp::Not ? accepts(context, Operands::Bits, type)
+                                            : accepts(context, Operands::NumberOrTime, type);
+  if (!ok) return node.h.type = reportOperand(context, spelling(node.op()), type, node.h.loc);
   if (plain != type) convert(context, node.operand, plain, kOperand);
   return node.h.type = plain;
 }

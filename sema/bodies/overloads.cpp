@@ -95,9 +95,9 @@ int rankOf(Context& context, const Var& pin, ExprId value) {
     return TypeTable::isReal(info.kind) == is_integer || info.kind == TypeKind::Bool ? kConverted : kLiteral;
   }
   const types::TypeInfo& given = context.types().info(context.types().resolve(actual));
-  const bool is_text = TypeTable::isText(info.kind);
-  if (is_text && given.kind == info.kind) return kExact;
-  if (context.tree().kind(value) == ExprKind::Literal && TypeTable::isText(given.kind) && given.length == 1 &&
+  const bool is_string = TypeTable::isString(info.kind);
+  if (is_string && given.kind == info.kind) return kExact;
+  if (context.tree().kind(value) == ExprKind::Literal && TypeTable::isString(given.kind) && given.length == 1 &&
       info.kind == TypeTable::characterOf(given.kind))
     return kLiteral;
   if (context.types().isOpenArray(wanted) && given.kind == TypeKind::Array) {
@@ -139,21 +139,21 @@ bool isBetter(const Candidate& one, const Candidate& other) {
 // `f(INT, REAL)`, `f(STRING[80])`
 std::string signatures(Context& context, std::span<const Candidate> candidates) {
   std::string out;
-  constexpr size_t kMost = 6;
-  for (size_t i = 0; i < candidates.size() && i < kMost; ++i) {
+  constexpr size_t kMax = 6;
+  for (size_t i = 0; i < candidates.size() && i < kMax; ++i) {
     out += i == 0 ? "`" : ", `";
-    out += text(context, context.symbols.pou(candidates[i].pou).name);
+    out += string(context, context.symbols.pou(candidates[i].pou).name);
     out += '(';
     bool first = true;
     for (const VarId pin : pinsOf(context, candidates[i].pou)) {
       const Var& var = context.symbols.var(pin);
       out += first ? "" : ", ";
       first = false;
-      out += (var.section == SectionKind::Output ? "=> " : "") + context.types().spell(var.type);
+      out += (var.section == SectionKind::Output ? "=> " : "") + context.types().toString(var.type);
     }
     out += ")`";
   }
-  return candidates.size() > kMost ? out + ", ..." : out;
+  return candidates.size() > kMax ? out + ", ..." : out;
 }
 
 }  // namespace
@@ -177,7 +177,7 @@ PouId chooseOverload(Context& context, const CallExpr& node, PouId called, bool&
   for (Candidate& candidate : all)
     if (match(context, node, candidate)) fitting.push_back(candidate);
   if (fitting.size() == 1) return fitting[0].pou;
-  const auto name = text(context, context.symbols.pou(called).name);
+  const auto name = string(context, context.symbols.pou(called).name);
   if (fitting.empty()) {
     context.report(diag::NoOverload, node.h.loc, {name, signatures(context, all)});
     checkLooseArguments(context, node);

@@ -10,48 +10,48 @@ namespace rung::sema {
 
 namespace {
 
-ExprId addressOf(Context& context, ExprId place, TypeId type, Loc loc) {
+ExprId addressOf(Context& context, ExprId lvalue, TypeId type, Loc loc) {
   AddressOfExpr node{};
   node.h.kind = ExprKind::AddressOf;
   node.h.loc = loc;
   node.h.type = type;
-  node.place = place;
+  node.lvalue = lvalue;
   return context.tree().add<ExprId>(node);
 }
 
 // ADR(x), REF(x): the type is that of the operand, so that what it is assigned to decides whether it fits.
-TypeId checkAddress(Context& context, ExprId& expr, ExprId place) {
+TypeId checkAddress(Context& context, ExprId& expr, ExprId lvalue) {
   const Loc loc = context.tree().loc(expr);
-  TypeId type = check(context, place, {}, Access::Address);
+  TypeId type = check(context, lvalue, {}, Access::Address);
   if (!type || type == types::kError) return types::kError;
-  const ExprKind kind = context.tree().kind(place);
-  if (kind == ExprKind::This || kind == ExprKind::Super) type = throughObject(context, place, type);
-  if (kind == ExprKind::BitAccess && (context.tree().expr(place).bits & kBitMember) != 0) {
+  const ExprKind kind = context.tree().kind(lvalue);
+  if (kind == ExprKind::This || kind == ExprKind::Super) type = throughObject(context, lvalue, type);
+  if (kind == ExprKind::BitAccess && (context.tree().expr(lvalue).bits & kBitMember) != 0) {
     // TwinCAT gives the byte that holds a BIT.
-    context.report(diag::AddressOfBitMember, context.tree().begin(place));
-    place = context.tree().as<BitAccessExpr>(place).base;
+    context.report(diag::AddressOfBitMember, context.tree().begin(lvalue));
+    lvalue = context.tree().as<BitAccessExpr>(lvalue).base;
     type = types::kByte;
   }
-  if (kind == ExprKind::Literal && types::TypeTable::isText(context.types().kind(type)) && !context.iec())
-    type = context.tree().expr(place = placeOfText(context, place)).type;
-  if (!checkAddressable(context, place)) return types::kError;
-  expr = addressOf(context, place, context.types().pointer(type), loc);
+  if (kind == ExprKind::Literal && types::TypeTable::isString(context.types().kind(type)) && !context.iec())
+    type = context.tree().expr(lvalue = storageOfLiteral(context, lvalue)).type;
+  if (!checkAddressable(context, lvalue)) return types::kError;
+  expr = addressOf(context, lvalue, context.types().pointer(type), loc);
   return context.tree().expr(expr).type;
 }
 
 // BITADR(x) of a located BOOL: its bit offset, with the area in the two highest bits: %M 2#01, %I 2#10, %Q 2#11.
-TypeId checkBitAddress(Context& context, ExprId& expr, ExprId place) {
+TypeId checkBitAddress(Context& context, ExprId& expr, ExprId lvalue) {
   const Loc loc = context.tree().loc(expr);
-  if (check(context, place, {}, Access::Address) == types::kError) return types::kError;
+  if (check(context, lvalue, {}, Access::Address) == types::kError) return types::kError;
   std::optional<ImageView> view;
-  if (context.tree().kind(place) == ExprKind::Address) {
-    view = resolveAddress(context, context.tree().as<AddressExpr>(place).address, loc, {});
-  } else if (const Entity entity = entityOf(context, place); entity.what() == EntityKind::Var) {
+  if (context.tree().kind(lvalue) == ExprKind::Address) {
+    view = resolveAddress(context, context.tree().as<AddressExpr>(lvalue).address, loc, {});
+  } else if (const Entity entity = entityOf(context, lvalue); entity.entityKind() == EntityKind::Var) {
     const Var& var = context.symbols.vars[entity.index];
     if (var.storage == Storage::Image && !var.hierarchical) view = var.image;
   }
   if (!view) {
-    context.report(diag::NoBitAddress, context.tree().begin(place));
+    context.report(diag::NoBitAddress, context.tree().begin(lvalue));
     return types::kError;
   }
   const uint32_t area = view->area == ImageArea::Memory ? 1 : view->area == ImageArea::Input ? 2 : 3;
@@ -77,7 +77,7 @@ TypeId checkIsValid(Context& context, ExprId& expr, ExprId operand) {
   if (!type || type == types::kError) return types::kError;
   if (context.tree().kind(operand) == ExprKind::Deref) operand = context.tree().as<DerefExpr>(operand).base;
   const TypeId own = context.tree().expr(operand).type;
-  if (const Entity entity = entityOf(context, operand); entity.what() == EntityKind::Var) {
+  if (const Entity entity = entityOf(context, operand); entity.entityKind() == EntityKind::Var) {
     // A VAR_IN_OUT of a block refers to nothing before it is bound; one of a function always refers to something.
     const Var& var = context.symbols.vars[entity.index];
     const ExprKind kind = context.tree().kind(operand);
@@ -93,7 +93,7 @@ TypeId checkIsValid(Context& context, ExprId& expr, ExprId operand) {
     }
   }
   if (context.types().kind(own) != TypeKind::Reference) {
-    context.report(diag::NotAReference, context.tree().begin(operand), {"__ISVALIDREF", context.types().spell(own)});
+    context.report(diag::NotAReference, context.tree().begin(operand), {"__ISVALIDREF", context.types().toString(own)});
     return types::kError;
   }
   const ExprId null = makeLiteral(context, LiteralKind::Null, own, 0, loc);
@@ -122,7 +122,7 @@ TypeId checkAddressCall(Context& context, ExprId& expr, NameId name) {
   const CallExpr node = context.tree().as<CallExpr>(expr);
   const Slice<Argument> arguments = node.arguments;
   if (arguments.count != 1 || !context.tree().list(arguments)[0].value) {
-    context.report(diag::WrongArgumentCount, node.h.loc, {text(context, name), "1", std::to_string(arguments.count)});
+    context.report(diag::WrongArgumentCount, node.h.loc, {string(context, name), "1", std::to_string(arguments.count)});
     checkLooseArguments(context, node);
     return context.tree().expr(expr).type = types::kError;
   }
@@ -130,35 +130,35 @@ TypeId checkAddressCall(Context& context, ExprId& expr, NameId name) {
   return context.tree().expr(expr).type = type;
 }
 
-bool bindReference(Context& context, ExprId& place, TypeId reference) {
+bool bindReference(Context& context, ExprId& lvalue, TypeId reference) {
   const TypeId wanted = context.types().info(context.types().resolve(reference)).base;
-  const bool zero = context.tree().kind(place) == ExprKind::Literal &&
-                    context.tree().as<LiteralExpr>(place).literal() == LiteralKind::Integer &&
-                    context.tree().as<LiteralExpr>(place).value() == 0;
-  const Loc loc = context.tree().loc(place);
+  const bool zero = context.tree().kind(lvalue) == ExprKind::Literal &&
+                    context.tree().as<LiteralExpr>(lvalue).literal() == LiteralKind::Integer &&
+                    context.tree().as<LiteralExpr>(lvalue).value() == 0;
+  const Loc loc = context.tree().loc(lvalue);
   if (zero) {  // REF= 0: it refers to nothing
-    place = makeLiteral(context, LiteralKind::Null, reference, 0, loc);
+    lvalue = makeLiteral(context, LiteralKind::Null, reference, 0, loc);
     return true;
   }
-  const TypeId type = check(context, place, {}, Access::Address);
+  const TypeId type = check(context, lvalue, {}, Access::Address);
   if (!type || type == types::kError || wanted == types::kError) return false;
   if (context.types().info(type).kind == TypeKind::NullLiteral) {
-    context.tree().expr(place).type = reference;
+    context.tree().expr(lvalue).type = reference;
     return true;
   }
-  if (!checkAddressable(context, place)) return false;
+  if (!checkAddressable(context, lvalue)) return false;
   const Fit fitness = fit(context, context.types().pointer(type), context.types().pointer(wanted));
   if (fitness == Fit::Lossless) {  // an object of a derived block
-    place = addressOf(context, place, context.types().pointer(type), loc);
-    wrapConvert(context, place, reference);
+    lvalue = addressOf(context, lvalue, context.types().pointer(type), loc);
+    wrapConvert(context, lvalue, reference);
     return true;
   }
   if (fitness != Fit::Same) {
-    context.report(diag::WrongType, context.tree().begin(place),
-                   {context.types().spell(type), "bound to the reference", context.types().spell(reference)});
+    context.report(diag::WrongType, context.tree().begin(lvalue),
+                   {context.types().toString(type), "bound to the reference", context.types().toString(reference)});
     return false;
   }
-  place = addressOf(context, place, reference, loc);
+  lvalue = addressOf(context, lvalue, reference, loc);
   return true;
 }
 
@@ -175,7 +175,7 @@ TypeId checkPointerIndex(Context& context, ExprId& expr) {
   const TypeId given = checkExpr(context, index);
   if (given == types::kError) return node.h.type = types::kError;
   if (!isWhole(context, given)) {
-    context.report(diag::IndexNotInteger, context.tree().loc(index), {context.types().spell(given)});
+    context.report(diag::IndexNotInteger, context.tree().loc(index), {context.types().toString(given)});
     return node.h.type = types::kError;
   }
   const TypeId target = context.types().info(context.types().resolve(type)).base;
@@ -204,8 +204,8 @@ TypeId combinePointers(Context& context, ExprId& self, TypeId expected) {
   const BinaryOp op = node.op();
   const bool comparison = op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual;
   if (context.iec() || (both && comparison)) return {};
-  if (isUntyped(context, left)) settle(context, node.left, types::kLInt);
-  if (isUntyped(context, right)) settle(context, node.right, types::kLInt);
+  if (isUntyped(context, left)) finalizeUntyped(context, node.left, types::kLInt);
+  if (isUntyped(context, right)) finalizeUntyped(context, node.right, types::kLInt);
   const bool step = !both && (op == BinaryOp::Add || (op == BinaryOp::Subtract && isPointer(context, left)));
   if (!step && !(both && op == BinaryOp::Subtract)) {  // a number like another: masks, MOD, comparisons
     for (ExprId* side : {&node.left, &node.right}) {

@@ -6,7 +6,7 @@
 #include "frontend/text/sfc_schedule.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
-#include "sema/bodies/shapes.h"
+#include "sema/bodies/signatures.h"
 #include "sema/bodies/temporaries.h"
 #include "sema/charts.h"
 #include "sema/checks/case_labels.h"
@@ -27,7 +27,7 @@ namespace rung::sema {
 namespace {
 
 // The name that a message gives a place: `a` of `a[i]`, `q` of `x.q`.
-NameId placeName(const Context& context, ExprId expr) {
+NameId lvalueName(const Context& context, ExprId expr) {
   const Tree& tree = context.tree();
   for (;;) {
     if (tree.kind(expr) == ExprKind::Index) {
@@ -44,9 +44,9 @@ NameId placeName(const Context& context, ExprId expr) {
 
 TypeId checkTarget(Context& context, ExprId& target, Access access) {
   const TypeId type = check(context, target, {}, access);
-  if (entityOf(context, target).what() == EntityKind::Property) return type;  // checkPropertyAssign
+  if (entityOf(context, target).entityKind() == EntityKind::Property) return type;  // checkPropertyAssign
   if (!type || type == types::kError) return types::kError;
-  if (isUntyped(context, type)) settle(context, target);
+  if (isUntyped(context, type)) finalizeUntyped(context, target);
   return checkWritable(context, target, Purpose{"assigned to", {}, {}}) ? type : types::kError;
 }
 
@@ -61,7 +61,7 @@ void checkReferenceAssign(Context& context, AssignStmt& node) {
   if (checkPropertyAssign(context, node)) return;
   const TypeId own = context.tree().expr(node.target).type;
   if (context.types().kind(own) != TypeKind::Reference) {
-    context.report(diag::NotAReference, context.tree().loc(node.target), {"REF=", context.types().spell(own)});
+    context.report(diag::NotAReference, context.tree().loc(node.target), {"REF=", context.types().toString(own)});
     return;
   }
   if (!checkWritable(context, node.target, Purpose{"assigned to", {}, {}})) return;
@@ -105,15 +105,15 @@ void checkCompoundAssign(Context& context, AssignStmt& node) {
   check(context, context.tree().as<BinaryExpr>(value).right, type, Access::Read);
   if (combine(context, value, type) == types::kError) return;
   if (context.tree().kind(value) == ExprKind::Binary) {
-    const BinaryExpr& made = context.tree().as<BinaryExpr>(value);
-    if (made.h.type == context.types().resolve(type) && made.left == node.target) {
-      node.value = made.right;
+    const BinaryExpr& created = context.tree().as<BinaryExpr>(value);
+    if (created.h.type == context.types().resolve(type) && created.left == node.target) {
+      node.value = created.right;
       return;
     }
   }
   node.value = value;
   node.h.op = static_cast<uint8_t>(AssignOp::Assign);
-  convert(context, node.value, type, Purpose{"assigned to", placeName(context, node.target), {}});
+  convert(context, node.value, type, Purpose{"assigned to", lvalueName(context, node.target), {}});
 }
 
 void checkAssign(Context& context, AssignStmt& node) {
@@ -126,7 +126,7 @@ void checkAssign(Context& context, AssignStmt& node) {
         return;
       }
       if (checkPropertyAssign(context, node)) return;
-      checkAs(context, node.value, type, Purpose{"assigned to", placeName(context, node.target), {}});
+      checkAs(context, node.value, type, Purpose{"assigned to", lvalueName(context, node.target), {}});
       checkDanglingAddress(context, node.target, node.value);
       return;
     }
@@ -135,7 +135,7 @@ void checkAssign(Context& context, AssignStmt& node) {
       const TypeId type = checkTarget(context, node.target, Access::ReadWrite);
       checkAs(context, node.value, types::kBool, Purpose{"used to set or reset a variable", {}, {}});
       if (type != types::kError && context.types().plainKind(type) != TypeKind::Bool) {
-        context.report(diag::SetNeedsBool, context.tree().loc(node.target), {context.types().spell(type)});
+        context.report(diag::SetNeedsBool, context.tree().loc(node.target), {context.types().toString(type)});
       }
       return;
     }
@@ -157,7 +157,7 @@ void checkCallStatement(Context& context, StmtId id) {
   checkCall(context, node.call, {}, true);
   if (context.tree().kind(node.call) == ExprKind::Call) return;
   const TypeId type = context.tree().expr(node.call).type;
-  if (isUntyped(context, type)) settle(context, node.call);
+  if (isUntyped(context, type)) finalizeUntyped(context, node.call);
   if (type != types::kError) context.report(diag::ResultUnused, node.h.loc);
   node.h.kind = StmtKind::Empty;  // a conversion: nothing happens
 }
@@ -200,7 +200,7 @@ ExprId checkLabel(Context& context, ExprId label, TypeId selector, CaseLabels& l
     return label;
   }
   *value = *known;
-  labels.good = true;
+  labels.ok = true;
   if (entityOf(context, label) || context.tree().kind(label) == ExprKind::Literal) return label;
   // Lowering need not compute it again.
   return makeLiteral(context, LiteralKind::Integer, context.tree().expr(label).type, *known,
@@ -209,10 +209,10 @@ ExprId checkLabel(Context& context, ExprId label, TypeId selector, CaseLabels& l
 
 bool checkCase(Context& context, CaseStmt& node) {
   TypeId selector = check(context, node.selector, {}, Access::Read);
-  if (isUntyped(context, selector)) selector = settle(context, node.selector);
+  if (isUntyped(context, selector)) selector = finalizeUntyped(context, node.selector);
   const TypeKind kind = context.types().plainKind(selector);
   if (selector != types::kError && !types::TypeTable::isInteger(kind) && !types::TypeTable::isBits(kind)) {
-    context.report(diag::CaseSelector, context.tree().loc(node.selector), {context.types().spell(selector)});
+    context.report(diag::CaseSelector, context.tree().loc(node.selector), {context.types().toString(selector)});
     selector = types::kError;
   }
   CaseLabels labels;
@@ -227,18 +227,18 @@ bool checkCase(Context& context, CaseStmt& node) {
       } else if (context.tree().kind(label) == ExprKind::Range) {
         RangeExpr& range = context.tree().as<RangeExpr>(label);
         int64_t low = 0, high = 0;
-        labels.good = false;
+        labels.ok = false;
         range.low = checkLabel(context, range.low, selector, labels, &low);
-        const bool good = labels.good;
-        labels.good = false;
+        const bool ok = labels.ok;
+        labels.ok = false;
         range.high = checkLabel(context, range.high, selector, labels, &high);
         range.h.type = selector;
-        if (good && labels.good) addCaseLabel(context, labels, low, high, loc, context.types().isSigned(kind));
+        if (ok && labels.ok) addCaseLabel(context, labels, low, high, loc, context.types().isSigned(kind));
       } else {
         int64_t value = 0;
-        labels.good = false;
+        labels.ok = false;
         label = checkLabel(context, label, selector, labels, &value);
-        if (labels.good) addCaseLabel(context, labels, value, value, loc, true);
+        if (labels.ok) addCaseLabel(context, labels, value, value, loc, true);
       }
       context.tree().list(branch.labels)[i] = label;
     }
@@ -270,13 +270,13 @@ TypeId stepType(Context& context, ExprId step, TypeId control) {
 
 void checkFor(Context& context, ForStmt& node) {
   const TypeId type = checkForControl(context, node);
-  const NameId name = placeName(context, node.control);
-  const auto bound = [&](ExprId& expr, TypeId wanted, std::string_view words) {
+  const NameId name = lvalueName(context, node.control);
+  const auto bound = [&](ExprId& expr, TypeId wanted, std::string_view phrase) {
     if (!expr) return;
     if (wanted == types::kError) {
       checkExpr(context, expr);
     } else {
-      checkAs(context, expr, wanted, Purpose{words, name, {}});
+      checkAs(context, expr, wanted, Purpose{phrase, name, {}});
     }
   };
   bound(node.from, type, "assigned to");
@@ -293,7 +293,7 @@ void checkFor(Context& context, ForStmt& node) {
   VarId control;
   if (context.tree().kind(node.control) == ExprKind::Name) {
     const Entity entity = context.tree().as<NameExpr>(node.control).entity;
-    if (entity.what() == EntityKind::Var) control = VarId{entity.index};
+    if (entity.entityKind() == EntityKind::Var) control = VarId{entity.index};
   }
   if (control) context.body->loop_controls.push_back({control, context.tree().loc(node.control)});
   ++context.loop_depth;
@@ -322,7 +322,7 @@ bool checkTry(Context& context, TryStmt& node) {
     const TypeKind kind = context.types().plainKind(type);
     if (type != types::kError && (types::TypeTable::bitWidth(kind) < 32 ||
                                   !(types::TypeTable::isInteger(kind) || types::TypeTable::isBits(kind))))
-      context.report(diag::ExceptionCode, context.tree().begin(node.code), {context.types().spell(type)});
+      context.report(diag::ExceptionCode, context.tree().begin(node.code), {context.types().toString(type)});
   }
   const bool handled = checkStatements(context, node.handler);
   const bool finished = checkStatements(context, node.finally);
@@ -393,16 +393,16 @@ bool checkStatements(Context& context, Slice<StmtId> list) {
   const uint32_t outer = body.block;
   body.block_parents.push_back(outer);
   body.block = static_cast<uint32_t>(body.block_parents.size());  // 0 is above all
-  bool reachable = true, told = false;
+  bool reachable = true, reported = false;
   for (uint32_t i = 0; i < list.count; ++i) {
     const StmtId id = context.tree().list(list)[i];
     const StmtKind kind = context.tree().kind(id);
     if (kind == StmtKind::Label) reachable = true;
-    if (!reachable && !told && kind != StmtKind::Empty && kind != StmtKind::Error) {
+    if (!reachable && !reported && kind != StmtKind::Empty && kind != StmtKind::Error) {
       context.report(diag::Unreachable, kind == StmtKind::Assign
                                             ? context.tree().begin(context.tree().as<AssignStmt>(id).target)
                                             : context.tree().loc(id));
-      told = true;
+      reported = true;
     }
     const bool falls = checkStatement(context, id);
     reachable = reachable && falls;
@@ -416,21 +416,21 @@ bool checkStatements(Context& context, Slice<StmtId> list) {
 static void schedule(Context& context, PouDecl& decl) {
   const BodyKind kind = decl.body_kind;
   if (kind != BodyKind::Il && kind != BodyKind::Sfc && kind != BodyKind::Network) return;
-  ProjectShapes shapes(context);
+  ProjectSignatures signatures(context);
   Tree& tree = context.tree();
   Diagnostics& diagnostics = context.symbols.diagnostics;
   decl.body_kind = BodyKind::St;
-  const auto take = [&](const auto& made) {
-    decl.body = made.body;
-    declareTemporaries(context, made.temporaries);
+  const auto take = [&](const auto& created) {
+    decl.body = created.body;
+    declareTemporaries(context, created.temporaries);
   };
   if (kind == BodyKind::Network) {
-    take(diagram::scheduleNetworks(tree, context.names(), diagnostics, shapes, decl));
+    take(diagram::scheduleNetworks(tree, context.names(), diagnostics, signatures, decl));
   } else if (kind == BodyKind::Il) {
-    take(text::scheduleIl(tree, context.names(), diagnostics, shapes, decl.il, context.iec()));
+    take(text::scheduleIl(tree, context.names(), diagnostics, signatures, decl.il, context.iec()));
   } else {
     if ((decl.h.bits & kBrokenDeclarations) != 0) return;
-    if (!text::scheduleSfc(chartsOf(context), shapes, decl, chartPlaceOf(context, context.pou))) return;
+    if (!text::scheduleSfc(chartsOf(context), signatures, decl, chartContextOf(context, context.pou))) return;
   }
   if (context.project.options.scheduled) context.project.options.scheduled(context.project, context.pou);
 }
@@ -442,7 +442,7 @@ void checkBody(Context& context, PouId id) {
   resolvePou(context, id);
   PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
   if (decl.body_kind == BodyKind::Native || pou.generic) return;
-  const std::string_view name = text(context, pou.name);
+  const std::string_view name = string(context, pou.name);
   setPhaseSubject(name.data(), name.size());
   BodyState body;
   Context inner{.symbols = context.symbols,
@@ -457,7 +457,7 @@ void checkBody(Context& context, PouId id) {
   schedule(inner, decl);
   body.statements = decl.body;
   checkStatements(inner, decl.body);
-  settleTemporaries(inner);
+  finalizeTemporaries(inner);
   checkJumpLabels(inner);
   checkResultAssigned(inner);
 }

@@ -23,7 +23,7 @@ VarId temporaryOf(Context& context, ExprId expr) {
   if (context.body == nullptr || context.body->temporaries.empty()) return {};
   if (context.tree().kind(expr) != ExprKind::Name) return {};
   const Entity entity = lookUp(context, context.tree().as<NameExpr>(expr).name);
-  const bool is_one = entity.what() == EntityKind::Var && context.symbols.vars[entity.index].temporary != 0;
+  const bool is_one = entity.entityKind() == EntityKind::Var && context.symbols.vars[entity.index].temporary != 0;
   return is_one ? VarId{entity.index} : VarId{};
 }
 
@@ -33,9 +33,9 @@ bool isNull(const Context& context, TypeId type) { return context.types().info(t
 TypeId roomFor(Context& context, TypeId type) {
   types::TypeTable& table = context.types();
   const types::TypeInfo& info = table.info(table.resolve(type));
-  if (types::TypeTable::isText(info.kind)) {
+  if (types::TypeTable::isString(info.kind)) {
     const uint32_t length = std::max(info.length, 255u);
-    type = table.text(info.kind, length);
+    type = table.string(info.kind, length);
   } else if (info.kind == TypeKind::Subrange) {
     type = table.plain(type);
   }
@@ -48,7 +48,7 @@ bool shares(Context& context, TypeId own, ExprId value) {
   TypeId type = context.tree().expr(value).type;
   if (isUntyped(context, type)) return untypedFits(context, value, own);
   if (isNull(context, type)) return table.kind(own) == TypeKind::Pointer;
-  if (types::TypeTable::isText(table.kind(own))) return table.kind(type) == table.kind(own);
+  if (types::TypeTable::isString(table.kind(own))) return table.kind(type) == table.kind(own);
   if (table.kind(type) == TypeKind::Subrange) type = table.plain(type);
   return sameType(context, own, type);
 }
@@ -68,11 +68,12 @@ void adaptValue(Context& context, const Temporary& state, AssignStmt& node) {
   }
   const TypeId own = isUntyped(context, type) ? defaultType(context, node.value) : type;
   const std::string line = std::to_string(context.symbols.sources.lineNumber(state.first));
-  context.report(diag::TypesMeet, node.h.loc, {context.types().spell(own), context.types().spell(state.type), line})
+  context
+      .report(diag::TypesMeet, node.h.loc, {context.types().toString(own), context.types().toString(state.type), line})
       .note(state.first, diag::OtherValue);
 }
 
-void settleType(Context& context, Temporary& state, TypeId type, Loc first) {
+void finalizeType(Context& context, Temporary& state, TypeId type, Loc first) {
   state.type = type == types::kError ? type : roomFor(context, type);
   state.first = first;
   context.symbols.var(state.var).type = state.type;
@@ -86,7 +87,7 @@ void checkValue(Context& context, Temporary& state, AssignStmt& node) {
   if (!type) type = types::kError;
   if (state.type) return adaptValue(context, state, node);
   state.open.push_back(&node);
-  if (!isUntyped(context, type) && !isNull(context, type)) settleType(context, state, type, node.h.loc);
+  if (!isUntyped(context, type) && !isNull(context, type)) finalizeType(context, state, type, node.h.loc);
 }
 
 // Where the body assigns to its temporaries: asked when a reader comes before a value with a type.
@@ -173,12 +174,12 @@ TypeId temporaryType(Context& context, VarId id, TypeId expected) {
   if (!state.type) lookAhead(context, state);
   if (!state.type) {
     const Loc first = state.open.empty() ? context.symbols.var(id).loc : state.open.front()->h.loc;
-    settleType(context, state, typeOfOpen(context, state, expected), first);
+    finalizeType(context, state, typeOfOpen(context, state, expected), first);
   }
   return state.type;
 }
 
-void settleTemporaries(Context& context) {
+void finalizeTemporaries(Context& context) {
   for (const Temporary& state : context.body->temporaries) temporaryType(context, state.var, {});
 }
 

@@ -16,6 +16,6 @@ bool isOpenTemporary(Context& context, ExprId expr);
 // The type of a temporary that is read.
 TypeId temporaryType(Context& context, VarId id, TypeId expected);
 // Types those that nothing reads. Called at the end of the body.
-void settleTemporaries(Context& context);
+void finalizeTemporaries(Context& context);
 
 }  // namespace rung::sema

@@ -26,7 +26,7 @@ struct Facts {
     fields.push_back({{context.names().intern(name), loc}, literal});
   }
   void add(std::string_view name, std::string_view text) {
-    fields.push_back({{context.names().intern(name), loc}, makeText(context, text, loc)});
+    fields.push_back({{context.names().intern(name), loc}, makeStringLiteral(context, text, loc)});
   }
 };
 
@@ -35,25 +35,25 @@ std::string commentOf(const Context& context, const Var& var) {
   if (!var.decl || !context.tree().decl(var.decl).doc) return {};
   const Loc doc = context.tree().decl(var.decl).doc;
   const FileId file = context.symbols.sources.fileOf(doc);
-  std::string_view text = context.symbols.sources.text(file);
+  std::string_view text = context.symbols.sources.sourceText(file);
   text.remove_prefix(doc.offset - context.symbols.sources.begin(file).offset);
   text = text.substr(0, text.find_first_of("\r\n"));
   while (!text.empty() && (text.front() == '/' || text.front() == ' ')) text.remove_prefix(1);
   return std::string(text);
 }
 
-void addPlace(Facts& facts, ExprId place) {
+void addLvalue(Facts& facts, ExprId lvalue) {
   Context& context = facts.context;
   int64_t bit = -1;
-  if (context.tree().kind(place) == ExprKind::BitAccess) {
-    const BitAccessExpr& access = context.tree().as<BitAccessExpr>(place);
+  if (context.tree().kind(lvalue) == ExprKind::BitAccess) {
+    const BitAccessExpr& access = context.tree().as<BitAccessExpr>(lvalue);
     if (access.width == 1) bit = access.position;
-    place = access.base;
+    lvalue = access.base;
   }
-  const Entity entity = entityOf(context, place);
+  const Entity entity = entityOf(context, lvalue);
   int64_t offset = 0, area = -1, bit_address = 0, memory = 5;
   std::string comment;
-  if (entity.what() == EntityKind::Var) {
+  if (entity.entityKind() == EntityKind::Var) {
     const Var* var = &context.symbols.vars[entity.index];
     if (var->external) var = &context.symbols.var(var->external);
     comment = commentOf(context, *var);
@@ -89,7 +89,7 @@ void addType(Facts& facts, TypeId type, bool is_bit) {
   };
   facts.add("BitSize", is_bit ? 1 : bits(type));
   facts.add("TypeClass", is_bit ? 1 : typeClassOf(context, type));  // TYPE_BIT
-  facts.add("TypeName", context.types().spell(type));
+  facts.add("TypeName", context.types().toString(type));
   const types::TypeInfo& info = context.types().info(context.types().resolve(type));
   if (info.kind != TypeKind::Array) return;
   int64_t count = 1;
@@ -100,15 +100,15 @@ void addType(Facts& facts, TypeId type, bool is_bit) {
 }
 
 // The byte of the image that holds a located bit; none for other places.
-ExprId byteOfImage(Context& context, ExprId place) {
-  const Entity entity = entityOf(context, place);
-  if (entity.what() != EntityKind::Var) return {};
+ExprId byteOfImage(Context& context, ExprId lvalue) {
+  const Entity entity = entityOf(context, lvalue);
+  if (entity.entityKind() != EntityKind::Var) return {};
   const Var* var = &context.symbols.vars[entity.index];
   if (var->external) var = &context.symbols.var(var->external);
   if (var->storage != Storage::Image || !var->image.is_bit) return {};
   AddressExpr byte{};
   byte.h.kind = ExprKind::Address;
-  byte.h.loc = context.tree().loc(place);
+  byte.h.loc = context.tree().loc(lvalue);
   byte.h.type = types::kByte;
   byte.address.area = var->image.area;
   byte.address.size = 'B';
@@ -118,31 +118,31 @@ ExprId byteOfImage(Context& context, ExprId place) {
   return context.tree().add<ExprId>(byte);
 }
 
-TypeId checkVarInfo(Context& context, ExprId& expr, ExprId place) {
+TypeId checkVarInfo(Context& context, ExprId& expr, ExprId lvalue) {
   const Loc loc = context.tree().loc(expr);
-  const TypeId type = check(context, place, {}, Access::Address);
+  const TypeId type = check(context, lvalue, {}, Access::Address);
   const Entity record = lookUpSystem(context, "VAR_INFO");
-  if (!type || type == types::kError || record.what() != EntityKind::Type) return types::kError;
-  const bool is_bit = context.tree().kind(place) == ExprKind::BitAccess;
-  ExprId whole = place;
-  if (is_bit) whole = context.tree().as<BitAccessExpr>(place).base;
-  if (const ExprId byte = byteOfImage(context, place)) whole = byte;
+  if (!type || type == types::kError || record.entityKind() != EntityKind::Type) return types::kError;
+  const bool is_bit = context.tree().kind(lvalue) == ExprKind::BitAccess;
+  ExprId whole = lvalue;
+  if (is_bit) whole = context.tree().as<BitAccessExpr>(lvalue).base;
+  if (const ExprId byte = byteOfImage(context, lvalue)) whole = byte;
   if (context.types().isOpenArray(type) || !hasMemory(context, whole)) {
-    context.report(diag::NotAVariable, context.tree().begin(place));
+    context.report(diag::NotAVariable, context.tree().begin(lvalue));
     return types::kError;
   }
   if (const PouId pou = pouOf(context, type)) resolvePou(context, pou);
   if (!ensureLayout(context, type)) return types::kError;
-  const Loc begin = context.tree().begin(place);
+  const Loc begin = context.tree().begin(lvalue);
   const CallExpr& call = context.tree().as<CallExpr>(expr);
   const FileId file = context.symbols.sources.fileOf(begin);
-  std::string_view written = context.symbols.sources.text(file);
+  std::string_view written = context.symbols.sources.sourceText(file);
   const uint32_t base = context.symbols.sources.begin(file).offset;
   written = written.substr(begin.offset - base, call.end.offset - begin.offset);
   while (!written.empty() && (written.back() == ' ' || written.back() == ')')) written.remove_suffix(1);
 
   Facts facts{context, loc, TypeId{record.index}, {}};
-  addPlace(facts, place);
+  addLvalue(facts, lvalue);
   addType(facts, type, is_bit);
   facts.add("Symbol", written.substr(0, 39));
   StructInitExpr init{};
@@ -163,14 +163,14 @@ TypeId checkVarInfo(Context& context, ExprId& expr, ExprId place) {
 std::string pouName(const Context& context) {
   if (!context.pou) return {};
   const Pou& pou = context.symbols.pou(context.pou);
-  const std::string own(text(context, pou.name));
-  return pou.owner ? std::string(text(context, context.symbols.pou(pou.owner).name)) + "." + own : own;
+  const std::string own(string(context, pou.name));
+  return pou.owner ? std::string(string(context, context.symbols.pou(pou.owner).name)) + "." + own : own;
 }
 
 std::string position(const Context& context, Loc loc) {
-  const Place place = context.symbols.sources.place(loc);
-  const std::string line = "Line " + std::to_string(place.line);
-  return context.body ? line + ", Column " + std::to_string(place.column) + " (Impl)" : line + " (Decl)";
+  const SourceLocation location = context.symbols.sources.location(loc);
+  const std::string line = "Line " + std::to_string(location.line);
+  return context.body ? line + ", Column " + std::to_string(location.column) + " (Impl)" : line + " (Decl)";
 }
 
 }  // namespace
@@ -183,7 +183,7 @@ TypeId checkKnownCall(Context& context, ExprId& expr, NameId name) {
   const uint32_t wanted = info ? 1 : 0;
   if (node.arguments.count != wanted || (info && !context.tree().list(node.arguments)[0].value)) {
     context.report(diag::WrongArgumentCount, node.h.loc,
-                   {text(context, name), std::to_string(wanted), std::to_string(node.arguments.count)});
+                   {string(context, name), std::to_string(wanted), std::to_string(node.arguments.count)});
     checkLooseArguments(context, node);
     return context.tree().expr(expr).type = types::kError;
   }
@@ -191,7 +191,7 @@ TypeId checkKnownCall(Context& context, ExprId& expr, NameId name) {
     const TypeId type = checkVarInfo(context, expr, context.tree().list(node.arguments)[0].value);
     return context.tree().expr(expr).type = type;
   }
-  expr = makeText(context, pou ? pouName(context) : position(context, node.h.loc), node.h.loc);
+  expr = makeStringLiteral(context, pou ? pouName(context) : position(context, node.h.loc), node.h.loc);
   return context.tree().expr(expr).type;
 }
 

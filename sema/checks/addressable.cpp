@@ -12,7 +12,7 @@ namespace rung::sema {
 namespace {
 
 // What is wrong with the variable as the root of a place, or nothing.
-const char* wrongWith(const Context& context, VarId id) {
+const char* whyNotAddressable(const Context& context, VarId id) {
   const Var* var = &context.symbols.var(id);
   if (var->external) var = &context.symbols.var(var->external);
   if (var->storage == Storage::Image && var->image.is_bit) return "one bit of the process image";
@@ -21,27 +21,27 @@ const char* wrongWith(const Context& context, VarId id) {
   return var->constant && number && var->section != SectionKind::InOut ? "a constant" : nullptr;
 }
 
-const char* wrongWith(const Context& context, ExprId place) {
+const char* whyNotAddressable(const Context& context, ExprId lvalue) {
   const Tree& tree = context.tree();
   for (;;) {
-    switch (tree.kind(place)) {
+    switch (tree.kind(lvalue)) {
       case ExprKind::Name:
       case ExprKind::Member: {
-        const Entity entity = entityOf(context, place);
-        if (entity.what() == EntityKind::EnumValue) return "a constant";
-        if (entity.what() == EntityKind::Program) return nullptr;
-        if (entity.what() == EntityKind::Pou)
+        const Entity entity = entityOf(context, lvalue);
+        if (entity.entityKind() == EntityKind::EnumValue) return "a constant";
+        if (entity.entityKind() == EntityKind::Program) return nullptr;
+        if (entity.entityKind() == EntityKind::Pou)
           return context.symbols.pou(PouId{entity.index}).kind == PouKind::Program ? nullptr : "the name of a POU";
-        if (entity.what() != EntityKind::Var) return "the name of a type";
-        if (const char* wrong = wrongWith(context, VarId{entity.index})) return wrong;
-        if (tree.kind(place) == ExprKind::Name || isWhole(context, tree.as<MemberExpr>(place))) return nullptr;
-        place = tree.as<MemberExpr>(place).base;
+        if (entity.entityKind() != EntityKind::Var) return "the name of a type";
+        if (const char* reason = whyNotAddressable(context, VarId{entity.index})) return reason;
+        if (tree.kind(lvalue) == ExprKind::Name || isWhole(context, tree.as<MemberExpr>(lvalue))) return nullptr;
+        lvalue = tree.as<MemberExpr>(lvalue).base;
         break;
       }
-      case ExprKind::Index: place = tree.as<IndexExpr>(place).base; break;
+      case ExprKind::Index: lvalue = tree.as<IndexExpr>(lvalue).base; break;
       case ExprKind::Deref: return nullptr;
-      case ExprKind::BitAccess: return tree.as<BitAccessExpr>(place).width == 1 ? "one bit" : "a part of a number";
-      case ExprKind::Address: return tree.expr(place).type == types::kBool ? "one bit of the process image" : nullptr;
+      case ExprKind::BitAccess: return tree.as<BitAccessExpr>(lvalue).width == 1 ? "one bit" : "a part of a number";
+      case ExprKind::Address: return tree.expr(lvalue).type == types::kBool ? "one bit of the process image" : nullptr;
       case ExprKind::Error: return nullptr;
       case ExprKind::Literal:
       case ExprKind::TypedName: return "a constant";
@@ -65,12 +65,12 @@ const char* wrongWith(const Context& context, ExprId place) {
 
 }  // namespace
 
-bool hasMemory(const Context& context, ExprId place) { return wrongWith(context, place) == nullptr; }
+bool hasMemory(const Context& context, ExprId lvalue) { return whyNotAddressable(context, lvalue) == nullptr; }
 
-bool checkAddressable(Context& context, ExprId place) {
-  const char* wrong = wrongWith(context, place);
-  if (wrong != nullptr) context.report(diag::NoAddress, context.tree().begin(place), {wrong});
-  return wrong == nullptr;
+bool checkAddressable(Context& context, ExprId lvalue) {
+  const char* reason = whyNotAddressable(context, lvalue);
+  if (reason != nullptr) context.report(diag::NoAddress, context.tree().begin(lvalue), {reason});
+  return reason == nullptr;
 }
 
 }  // namespace rung::sema

@@ -6,8 +6,8 @@
 namespace rung::sema {
 
 // False after a report.
-bool checkAddressable(Context& context, ExprId place);
+bool checkAddressable(Context& context, ExprId lvalue);
 // The same without a report.
-bool hasMemory(const Context& context, ExprId place);
+bool hasMemory(const Context& context, ExprId lvalue);
 
 }  // namespace rung::sema

@@ -17,9 +17,9 @@ bool less(int64_t a, int64_t b, bool is_signed) {
   return is_signed ? a < b : static_cast<uint64_t>(a) < static_cast<uint64_t>(b);
 }
 
-std::string spellLabel(Context& context, int64_t low, int64_t high, TypeId selector) {
+std::string toString(Context& context, int64_t low, int64_t high, TypeId selector) {
   const auto one = [&](int64_t value) {
-    return types::spell(context.types(), context.names(), types::Value{selector, static_cast<uint64_t>(value)});
+    return types::toString(context.types(), context.names(), types::Value{selector, static_cast<uint64_t>(value)});
   };
   return low == high ? one(low) : one(low) + ".." + one(high);
 }
@@ -45,7 +45,7 @@ void checkCaseLabels(Context& context, CaseLabels& labels, TypeId selector, bool
     if (widest != nullptr && !less(widest->high, label.low, is_signed)) {
       const Label& later = widest->loc < label.loc ? label : *widest;
       const Label& first = widest->loc < label.loc ? *widest : label;
-      context.report(diag::LabelTwice, later.loc, {spellLabel(context, later.low, later.high, selector)})
+      context.report(diag::LabelTwice, later.loc, {toString(context, later.low, later.high, selector)})
           .note(first.loc, diag::FirstLabel);
     }
     if (widest == nullptr || less(widest->high, label.high, is_signed)) widest = &label;

@@ -14,7 +14,7 @@ void checkConstantIndex(Context& context, ExprId index, const types::Dimension* 
   if (!value || (*value >= dimension->low && *value <= dimension->high)) return;
   context.report(diag::IndexOutOfRange, context.tree().begin(index),
                  {std::to_string(*value), std::to_string(dimension->low), std::to_string(dimension->high),
-                  context.types().spell(array)});
+                  context.types().toString(array)});
 }
 
 }  // namespace rung::sema

@@ -12,23 +12,23 @@ namespace rung::sema {
 namespace {
 
 // The variable that holds a place, or none where a pointer leads there.
-VarId rootOf(const Context& context, ExprId place) {
+VarId rootOf(const Context& context, ExprId lvalue) {
   const Tree& tree = context.tree();
   for (;;) {
-    switch (tree.kind(place)) {
+    switch (tree.kind(lvalue)) {
       case ExprKind::Name:
       case ExprKind::Member: {
-        const Entity entity = entityOf(context, place);
-        if (entity.what() != EntityKind::Var) return {};
-        if (tree.kind(place) == ExprKind::Name || isWhole(context, tree.as<MemberExpr>(place)))
+        const Entity entity = entityOf(context, lvalue);
+        if (entity.entityKind() != EntityKind::Var) return {};
+        if (tree.kind(lvalue) == ExprKind::Name || isWhole(context, tree.as<MemberExpr>(lvalue)))
           return VarId{entity.index};
-        place = tree.as<MemberExpr>(place).base;
+        lvalue = tree.as<MemberExpr>(lvalue).base;
         break;
       }
-      case ExprKind::Index: place = tree.as<IndexExpr>(place).base; break;
-      case ExprKind::BitAccess: place = tree.as<BitAccessExpr>(place).base; break;
-      case ExprKind::Convert: place = tree.as<ConvertExpr>(place).operand; break;
-      case ExprKind::AddressOf: place = tree.as<AddressOfExpr>(place).place; break;
+      case ExprKind::Index: lvalue = tree.as<IndexExpr>(lvalue).base; break;
+      case ExprKind::BitAccess: lvalue = tree.as<BitAccessExpr>(lvalue).base; break;
+      case ExprKind::Convert: lvalue = tree.as<ConvertExpr>(lvalue).operand; break;
+      case ExprKind::AddressOf: lvalue = tree.as<AddressOfExpr>(lvalue).lvalue; break;
       case ExprKind::Deref:
       case ExprKind::Address:
       case ExprKind::Bound:
@@ -51,12 +51,12 @@ VarId rootOf(const Context& context, ExprId place) {
 }
 
 // Memory of one call: what a caller owns is not.
-bool livesForOneCall(const Context& context, VarId id) {
+bool isCallScoped(const Context& context, VarId id) {
   if (!id) return false;
   const Var& var = context.symbols.var(id);
   if (var.storage != Storage::Local || var.section == SectionKind::InOut) return false;
   const types::TypeKind kind = context.types().kind(var.type);
-  const bool by_reference = kind == TypeKind::Array || kind == TypeKind::Record || types::TypeTable::isText(kind);
+  const bool by_reference = kind == TypeKind::Array || kind == TypeKind::Record || types::TypeTable::isString(kind);
   return var.section != SectionKind::Input || !by_reference;
 }
 
@@ -72,13 +72,13 @@ void checkDanglingAddress(Context& context, ExprId target, ExprId value) {
   }
   if (tree.kind(address) != ExprKind::AddressOf && !of_object) return;
   const VarId variable = rootOf(context, address);
-  if (!livesForOneCall(context, variable)) return;
+  if (!isCallScoped(context, variable)) return;
   const VarId keeper = rootOf(context, target);
   const bool leaves = keeper && (context.symbols.var(keeper).section == SectionKind::Output ||
                                  keeper == context.symbols.pou(context.pou).result_var);
-  if (keeper && !leaves && livesForOneCall(context, keeper)) return;
+  if (keeper && !leaves && isCallScoped(context, keeper)) return;
   context.report(context.iec() ? diag::DanglingAddress : diag::AddressOutlives, tree.loc(address),
-                 {text(context, context.symbols.var(variable).name)});
+                 {string(context, context.symbols.var(variable).name)});
 }
 
 }  // namespace rung::sema

@@ -13,7 +13,7 @@ namespace rung::sema {
 TypeId checkForControl(Context& context, ForStmt& node) {
   const TypeId type = check(context, node.control, {}, Access::ReadWrite);
   if (type == types::kError) return type;
-  if (isUntyped(context, type)) settle(context, node.control);
+  if (isUntyped(context, type)) finalizeUntyped(context, node.control);
   if (!checkWritable(context, node.control, Purpose{"used as the control variable of FOR", {}, {}})) {
     return types::kError;
   }
@@ -22,7 +22,7 @@ TypeId checkForControl(Context& context, ForStmt& node) {
   if (!enumeration && (types::TypeTable::isInteger(kind) || (types::TypeTable::isBits(kind) && !context.iec()))) {
     return type;
   }
-  context.report(diag::ControlNotInteger, context.tree().loc(node.control), {context.types().spell(type)});
+  context.report(diag::ControlNotInteger, context.tree().loc(node.control), {context.types().toString(type)});
   return types::kError;
 }
 

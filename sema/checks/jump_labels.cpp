@@ -22,7 +22,7 @@ void checkJumpLabels(Context& context) {
   std::sort(body.labels.begin(), body.labels.end(), before);
   for (size_t i = 1; i < body.labels.size(); ++i) {
     if (!names.same(body.labels[i - 1].label.name, body.labels[i].label.name)) continue;
-    context.report(diag::JumpLabelTwice, body.labels[i].label.loc, {names.text(body.labels[i].label.name)})
+    context.report(diag::JumpLabelTwice, body.labels[i].label.loc, {names.string(body.labels[i].label.name)})
         .note(body.labels[i - 1].label.loc, diag::DeclaredHere);
   }
   for (const BodyState::LabelUse& jump : body.jumps) {
@@ -30,15 +30,15 @@ void checkJumpLabels(Context& context) {
     const auto found = std::lower_bound(body.labels.begin(), body.labels.end(), wanted, before);
     if (found == body.labels.end() || !names.same(found->label.name, jump.label.name)) {
       std::vector<std::string_view> candidates;
-      for (const BodyState::LabelUse& label : body.labels) candidates.push_back(names.text(label.label.name));
-      context.report(diag::UnknownLabel, jump.label.loc, {names.text(jump.label.name)})
-          .didYouMean(nearest(names.text(jump.label.name), candidates));
+      for (const BodyState::LabelUse& label : body.labels) candidates.push_back(names.string(label.label.name));
+      context.report(diag::UnknownLabel, jump.label.loc, {names.string(jump.label.name)})
+          .didYouMean(nearest(names.string(jump.label.name), candidates));
       continue;
     }
     uint32_t block = jump.block;
     while (block != 0 && block != found->block) block = body.block_parents[block - 1];
     if (block == found->block) continue;
-    context.report(diag::JumpIntoStatement, jump.label.loc, {names.text(jump.label.name)})
+    context.report(diag::JumpIntoStatement, jump.label.loc, {names.string(jump.label.name)})
         .note(found->label.loc, diag::DeclaredHere);
   }
 }

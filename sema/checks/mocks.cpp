@@ -29,19 +29,19 @@ void chooseTests(Context& context) {
   for (uint32_t i = 1; i < symbols.pous.size(); ++i) {
     Pou& pou = symbols.pous[i];
     for (const Pragma& pragma : context.tree().list(context.tree().decl(pou.decl).pragmas)) {
-      if (keyOf(context, pragma.name) != context.scopes.words.mock) continue;
-      pou.mocks.push_back(keyOf(context, context.names().intern(context.tree().text(pragma.value))));
+      if (keyOf(context, pragma.name) != context.scopes.known_names.mock) continue;
+      pou.mocks.push_back(keyOf(context, context.names().intern(context.tree().string(pragma.value))));
     }
     std::sort(pou.mocks.begin(), pou.mocks.end(), byIndex);
     if (pou.test) {
-      pou.left_out = !options.with_tests || pou.mocks != chosen;
+      pou.excluded = !options.with_tests || pou.mocks != chosen;
     } else if (pou.replaces && std::count(chosen.begin(), chosen.end(), keyOf(context, pou.name)) != 0) {
       pou.test_only = false;  // the program uses it now
-      const std::string_view dotted = context.names().text(pou.replaces);
+      const std::string_view dotted = context.names().string(pou.replaces);
       const NameId last = context.names().intern(dotted.substr(dotted.rfind('.') + 1));
       context.scopes.mocks.push_back({.key = keyOf(context, last), .mock = PouId{i}});
     } else {
-      pou.left_out = pou.replaces || (pou.test_only && !options.with_tests);
+      pou.excluded = pou.replaces || (pou.test_only && !options.with_tests);
     }
   }
 }
@@ -52,7 +52,7 @@ namespace {
 Report reportPragma(Context& context, Diag diag, const Pragma& pragma, std::initializer_list<std::string_view> args) {
   const Sources& sources = context.symbols.sources;
   const FileId file = sources.fileOf(pragma.loc);
-  const size_t at = pragma.loc.offset - sources.begin(file).offset, end = sources.text(file).find('}', at);
+  const size_t at = pragma.loc.offset - sources.begin(file).offset, end = sources.sourceText(file).find('}', at);
   Report report = context.report(diag, pragma.loc, args);
   if (end != std::string_view::npos) report.length(static_cast<uint32_t>(end + 1 - at));
   return report;
@@ -71,7 +71,7 @@ std::vector<Pin> mockedPins(Context& context, PouId id) {
                                 : var.section == SectionKind::Output ? "`VAR_OUTPUT "
                                 : var.section == SectionKind::InOut  ? "`VAR_IN_OUT "
                                                                      : nullptr;
-    if (section != nullptr) pins.push_back({var_id, section + context.types().spell(var.type) + "`"});
+    if (section != nullptr) pins.push_back({var_id, section + context.types().toString(var.type) + "`"});
   }
   return pins;
 }
@@ -79,14 +79,14 @@ std::vector<Pin> mockedPins(Context& context, PouId id) {
 void compare(Context& context, PouId mock_id, PouId original_id) {
   Symbols& symbols = context.symbols;
   const Pou &mock = symbols.pou(mock_id), &original = symbols.pou(original_id);
-  const std::string_view mock_name = context.names().text(mock.name),
-                         original_name = context.names().text(original.name);
+  const std::string_view mock_name = context.names().string(mock.name),
+                         original_name = context.names().string(original.name);
   const auto differs = [&](Loc loc, Loc there, std::string_view what, std::string_view is, std::string_view is_there) {
     Report report = context.report(diag::MockDiffers, loc, {what, is, mock_name, is_there, original_name});
     if (there) report.note(there, diag::DeclaredHere);
   };
   const auto resultOf = [&](const Pou& pou) {
-    return pou.result ? '`' + context.types().spell(pou.result) + '`' : std::string("missing");
+    return pou.result ? '`' + context.types().toString(pou.result) + '`' : std::string("missing");
   };
   if (resultOf(mock) != resultOf(original))
     differs(mock.loc, original.loc, "the result", resultOf(mock), resultOf(original));
@@ -96,12 +96,12 @@ void compare(Context& context, PouId mock_id, PouId original_id) {
     const Var* const other = i < wanted.size() ? &symbols.var(wanted[i].var) : nullptr;
     if (pin != nullptr && other != nullptr && context.names().same(pin->name, other->name)) {
       if (pins[i].is == wanted[i].is) continue;
-      const std::string what = "the pin `" + spelled(context, pin->name) + "`";
+      const std::string what = "the pin `" + toString(context, pin->name) + "`";
       return differs(pin->loc, other->loc, what, pins[i].is, wanted[i].is);
     }
     const std::string what = "pin " + std::to_string(i + 1);
     const auto nameOf = [&](const Var* var) {
-      return var == nullptr ? std::string("missing") : '`' + spelled(context, var->name) + '`';
+      return var == nullptr ? std::string("missing") : '`' + toString(context, var->name) + '`';
     };
     return differs(pin != nullptr ? pin->loc : mock.loc, other != nullptr ? other->loc : original.loc, what,
                    nameOf(pin), nameOf(other));
@@ -116,16 +116,16 @@ bool canBeReplaced(const Pou& original, const Pou& mock) {
 void checkReplaced(Context& context, PouId id, const Pragma& pragma) {
   const Entity found = findDotted(context, context.symbols.pou(id).replaces);
   const Pou& mock = context.symbols.pou(id);
-  std::string_view wanted = context.names().text(mock.replaces);
+  std::string_view wanted = context.names().string(mock.replaces);
   if (wanted.empty()) wanted = "...";
-  if (found.what() != EntityKind::Pou) {
+  if (found.entityKind() != EntityKind::Pou) {
     if (context.tree().lost_names) return;
     reportPragma(context, diag::MockOfUnknown, pragma, {wanted}).didYouMean(nearestName(context, mock.replaces));
     return;
   }
   const PouId original{found.index};
   if (!canBeReplaced(context.symbols.pou(original), mock)) {
-    reportPragma(context, diag::MockOfOtherKind, pragma, {context.names().text(mock.name), wanted})
+    reportPragma(context, diag::MockOfOtherKind, pragma, {context.names().string(mock.name), wanted})
         .note(context.symbols.pou(original).loc, diag::DeclaredHere);
     return;
   }
@@ -139,7 +139,7 @@ void checkReplaced(Context& context, PouId id, const Pragma& pragma) {
 void checkMocks(Context& context) {
   Symbols& symbols = context.symbols;
   if (!context.project.options.mocks.empty()) return;  // was done with the originals
-  const Scopes::Words& words = context.scopes.words;
+  const Scopes::KnownNames& known = context.scopes.known_names;
   std::vector<bool> taken(symbols.pous.size());
   for (uint32_t i = 1; i < symbols.pous.size(); ++i) {
     const Pou& pou = symbols.pous[i];
@@ -149,19 +149,19 @@ void checkMocks(Context& context) {
     std::vector<std::pair<uint32_t, PouId>> replaced;  // originals and their mocks
     for (const Pragma& pragma : context.tree().list(context.tree().decl(pou.decl).pragmas)) {
       const NameId key = keyOf(context, pragma.name);
-      if (key == words.replaces) checkReplaced(there, PouId{i}, pragma);
-      if (key != words.mock) continue;
+      if (key == known.replaces) checkReplaced(there, PouId{i}, pragma);
+      if (key != known.mock) continue;
       if (!pou.test) {
-        reportPragma(context, diag::MockOutsideTest, pragma, {context.names().text(pou.name)});
+        reportPragma(context, diag::MockOutsideTest, pragma, {context.names().string(pou.name)});
         break;
       }
-      const NameId name = context.names().intern(context.tree().text(pragma.value));
+      const NameId name = context.names().intern(context.tree().string(pragma.value));
       const Entity found = lookUp(there, name);
-      if (found.what() != EntityKind::Pou || !symbols.pous[found.index].replaces) {
+      if (found.entityKind() != EntityKind::Pou || !symbols.pous[found.index].replaces) {
         std::vector<std::string_view> mocks;
         for (const Pou& other : symbols.pous)
-          if (other.replaces) mocks.push_back(context.names().text(other.name));
-        const std::string_view written = context.names().text(name);
+          if (other.replaces) mocks.push_back(context.names().string(other.name));
+        const std::string_view written = context.names().string(name);
         reportPragma(context, diag::NoMock, pragma, {written.empty() ? "..." : written})
             .didYouMean(nearest(written, mocks));
         continue;
@@ -171,12 +171,12 @@ void checkMocks(Context& context) {
       Context at_mock = atPou(context, PouId{found.index});
       at_mock.pou = {};
       const Entity original = findDotted(at_mock, mock.replaces);
-      if (original.what() != EntityKind::Pou) continue;  // reported at the mock
+      if (original.entityKind() != EntityKind::Pou) continue;  // reported at the mock
       for (const auto& [other, by] : replaced) {
         if (other != original.index) continue;
         reportPragma(context, diag::TwoMocks, pragma,
-                     {context.names().text(symbols.pou(by).name), context.names().text(mock.name),
-                      context.names().text(mock.replaces)});
+                     {context.names().string(symbols.pou(by).name), context.names().string(mock.name),
+                      context.names().string(mock.replaces)});
       }
       replaced.push_back({original.index, PouId{found.index}});
     }
@@ -184,7 +184,7 @@ void checkMocks(Context& context) {
   if (symbols.diagnostics.hasErrors()) return;
   for (uint32_t i = 1; i < taken.size(); ++i) {
     const Pou& pou = symbols.pous[i];
-    if (pou.replaces && !taken[i]) context.report(diag::MockUnused, pou.loc, {context.names().text(pou.name)});
+    if (pou.replaces && !taken[i]) context.report(diag::MockUnused, pou.loc, {context.names().string(pou.name)});
   }
 }
 

@@ -27,7 +27,7 @@ PouId inherited(Context& context, PouId object, PouId like) {
   return {};
 }
 
-std::string_view wordOf(const Pou& member) {
+std::string_view kindName(const Pou& member) {
   return member.accessor == Pou::Accessor::None  ? "method"
          : member.accessor == Pou::Accessor::Get ? "GET of the property"
                                                  : "SET of the property";
@@ -47,8 +47,8 @@ void checkAccess(Context& context, PouId method, PouId replaced) {
   if (!narrower) return;
   context
       .report(diag::NarrowerAccess, pou.loc,
-              {text(context, pou.name), pou.access == AccessLevel::Private ? "PRIVATE" : "PROTECTED",
-               text(context, context.symbols.pou(other.owner).name)})
+              {string(context, pou.name), pou.access == AccessLevel::Private ? "PRIVATE" : "PROTECTED",
+               string(context, context.symbols.pou(other.owner).name)})
       .note(other.loc, diag::DeclaredHere);
 }
 
@@ -65,28 +65,28 @@ void checkSignature(Context& context, PouId method, PouId replaced) {
           context.names().same(context.symbols.pou(member).name, pou.name))
         return;
   }
-  const auto spell = [&](TypeId type) { return type ? context.types().spell(type) : std::string("nothing"); };
+  const auto toString = [&](TypeId type) { return type ? context.types().toString(type) : std::string("nothing"); };
   if (!pou.result != !other.result || (pou.result && !sameType(context, pou.result, other.result)))
-    difference = other.result ? "the result is `" + spell(other.result) + "` there" : "there is no result there";
+    difference = other.result ? "the result is `" + toString(other.result) + "` there" : "there is no result there";
   for (size_t i = 0; difference.empty() && i < std::max(pins.size(), wanted.size()); ++i) {
     if (i >= wanted.size()) {
-      difference = "there is no `" + std::string(text(context, context.symbols.var(pins[i]).name)) + "` there";
+      difference = "there is no `" + std::string(string(context, context.symbols.var(pins[i]).name)) + "` there";
       continue;
     }
     const Var& there = context.symbols.var(wanted[i]);
-    const std::string name(text(context, there.name));
+    const std::string name(string(context, there.name));
     if (i >= pins.size() || context.symbols.var(pins[i]).section != there.section ||
         !context.names().same(context.symbols.var(pins[i]).name, there.name)) {
       difference = "the next parameter is `" + name + "` there";
     } else if (!sameType(context, context.symbols.var(pins[i]).type, there.type)) {
-      difference = "`" + name + "` is `" + spell(there.type) + "` there";
+      difference = "`" + name + "` is `" + toString(there.type) + "` there";
     }
   }
   if (difference.empty()) checkAccess(context, method, replaced);
   if (difference.empty() || isBroken(context, method) || isBroken(context, replaced)) return;
   context
       .report(diag::OtherSignature, pou.loc,
-              {text(context, pou.name), text(context, context.symbols.pou(other.owner).name), difference})
+              {string(context, pou.name), string(context, context.symbols.pou(other.owner).name), difference})
       .note(other.loc, diag::DeclaredHere);
 }
 
@@ -114,8 +114,8 @@ struct Demands {
     if ((pou.modifiers & kAbstract) != 0 || isBroken(context, object)) return;
     context
         .report(diag::MemberMissing, loc,
-                {text(context, pou.name), wordOf(wanted), text(context, wanted.name),
-                 text(context, context.symbols.pou(wanted.owner).name)})
+                {string(context, pou.name), kindName(wanted), string(context, wanted.name),
+                 string(context, context.symbols.pou(wanted.owner).name)})
         .note(wanted.loc, diag::DeclaredHere);
   }
 };
@@ -127,7 +127,7 @@ void checkPrototypes(Context& context, PouId interface) {
     const PouDecl& decl = context.tree().as<PouDecl>(method.decl);
     if (!decl.body.empty())
       context.report(diag::PrototypeWithBody, context.tree().loc(context.tree().list(decl.body)[0]),
-                     {text(context, method.name), text(context, context.symbols.pou(interface).name)});
+                     {string(context, method.name), string(context, context.symbols.pou(interface).name)});
   }
 }
 
@@ -136,24 +136,24 @@ void checkMethod(Context& context, PouId object, PouId id) {
   const Pou& owner = context.symbols.pou(object);
   if (method.kind != PouKind::Method) return;
   if ((method.modifiers & kAbstract) != 0 && (owner.modifiers & kAbstract) == 0) {
-    context.report(diag::AbstractInConcrete, method.loc, {text(context, method.name), text(context, owner.name)});
+    context.report(diag::AbstractInConcrete, method.loc, {string(context, method.name), string(context, owner.name)});
     return;
   }
   const PouId replaced = owner.base ? inherited(context, owner.base, id) : PouId{};
   if (!replaced || context.symbols.pou(replaced).access == AccessLevel::Private) {
     if ((method.modifiers & kOverride) != 0)
-      context.report(diag::OverridesNothing, method.loc, {text(context, method.name)});
+      context.report(diag::OverridesNothing, method.loc, {string(context, method.name)});
     return;
   }
   const Pou& other = context.symbols.pou(replaced);
-  const std::string_view base = text(context, context.symbols.pou(other.owner).name);
+  const std::string_view base = string(context, context.symbols.pou(other.owner).name);
   if ((other.modifiers & kFinal) != 0) {
-    context.report(diag::OverridesFinal, method.loc, {text(context, method.name), base})
+    context.report(diag::OverridesFinal, method.loc, {string(context, method.name), base})
         .note(other.loc, diag::DeclaredHere);
   } else if (isLifeMethod(context, method.name)) {
     return;  // FB_Init has parameters of its own
   } else if (context.iec() && (method.modifiers & kOverride) == 0) {
-    context.report(diag::OverrideMissing, method.loc, {text(context, method.name), base});
+    context.report(diag::OverrideMissing, method.loc, {string(context, method.name), base});
   } else {
     checkSignature(context, id, replaced);
   }
@@ -166,13 +166,13 @@ void checkHalves(Context& context, const Property& property) {
   const Pou& getter = context.symbols.pou(property.get);
   const Pou& setter = context.symbols.pou(property.set);
   const auto report = [&](const std::string& set, const std::string& get) {
-    context.report(diag::PropertyHalves, setter.loc, {text(context, property.name), set, get})
+    context.report(diag::PropertyHalves, setter.loc, {string(context, property.name), set, get})
         .note(getter.loc, diag::DeclaredHere);
   };
   const TypeId read = getter.result, written = context.symbols.var(pinsOf(context, property.set)[0]).type;
   if (read == types::kError || written == types::kError) return;
   if (!sameType(context, read, written)) {
-    report("`" + context.types().spell(written) + "`", "`" + context.types().spell(read) + "`");
+    report("`" + context.types().toString(written) + "`", "`" + context.types().toString(read) + "`");
   } else if (setter.access != getter.access) {
     const auto word = [](AccessLevel access) -> std::string {
       switch (access) {
@@ -225,7 +225,8 @@ void checkObjectMembers(Context& context, PouId object) {
     const Var& var = context.symbols.var(id);
     if (!var.decl || !var.name || var.of_chart) continue;  // of two charts, each has its own
     const Entity first = findInObject(context, pou.base, var.name);
-    if (first.what() == EntityKind::Var) reportTwice(context, var.name, var.loc, context.symbols.vars[first.index].loc);
+    if (first.entityKind() == EntityKind::Var)
+      reportTwice(context, var.name, var.loc, context.symbols.vars[first.index].loc);
   }
 }
 
@@ -234,7 +235,7 @@ bool checkNotAbstract(Context& context, TypeId type, Loc loc) {
   while (context.types().kind(type) == TypeKind::Array) type = context.types().info(context.types().resolve(type)).base;
   const PouId pou = context.types().kind(type) == TypeKind::Record ? pouOf(context, type) : PouId{};
   if (!pou || (context.symbols.pou(pou).modifiers & kAbstract) == 0) return true;
-  context.report(diag::AbstractInstance, loc, {text(context, context.symbols.pou(pou).name)});
+  context.report(diag::AbstractInstance, loc, {string(context, context.symbols.pou(pou).name)});
   return false;
 }
 

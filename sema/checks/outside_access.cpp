@@ -22,8 +22,8 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
   if (var.access == AccessLevel::Public || var.access == AccessLevel::Internal) return true;
   const bool program = context.types().info(record).record_kind == types::RecordKind::Program;
   const bool writes = access == Access::Write || access == Access::ReadWrite;
-  const std::string_view pin = text(context, var.name);
-  const std::string block = context.types().spell(record);
+  const std::string_view pin = string(context, var.name);
+  const std::string block = context.types().toString(record);
   const auto refuse = [&](Diag diag) {
     context.report(diag, node.h.loc, {pin, block}).note(var.loc, diag::DeclaredHere);
     return false;

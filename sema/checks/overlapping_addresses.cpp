@@ -37,7 +37,7 @@ void checkOverlappingAddresses(Context& context) {
   }
   std::stable_sort(spans.begin(), spans.end(),
                    [](const Span& a, const Span& b) { return a.area != b.area ? a.area < b.area : a.begin < b.begin; });
-  const auto name = [&](const Var& var) { return var.name ? text(context, var.name) : std::string_view("AT"); };
+  const auto name = [&](const Var& var) { return var.name ? string(context, var.name) : std::string_view("AT"); };
   for (size_t i = 1, last = 0; i < spans.size(); ++i) {  // last: of those before, the one that ends last
     const Span& one = spans[last];
     const Span& other = spans[i];

@@ -43,9 +43,9 @@ void checkRecursion(Context& context) {
         for (size_t i = 0; i < path.size(); ++i) {
           if (cycle.empty() && path[i].first != callee) continue;
           if (!cycle.empty()) cycle += " calls ";
-          cycle.append("`").append(text(context, context.symbols.pous[path[i].first].name)).append("`");
+          cycle.append("`").append(string(context, context.symbols.pous[path[i].first].name)).append("`");
         }
-        cycle.append(" calls `").append(text(context, context.symbols.pous[callee].name)).append("`");
+        cycle.append(" calls `").append(string(context, context.symbols.pous[callee].name)).append("`");
         context.report(context.iec() ? diag::Recursion : diag::RecursionAllowed, edge.loc, {cycle});
       }
     }

@@ -17,7 +17,7 @@ bool checkRequiredPins(Context& context, const CallExpr& node, PouId id, const A
   const std::span<const VarId> pins = pinsOf(context, id);
   const uint32_t named = node.arguments.count - arguments.positional;
   const bool by_position = (pou.kind == PouKind::Function || pou.kind == PouKind::Method) && named == 0;
-  bool good = true;
+  bool ok = true;
   for (size_t i = 0; i < pins.size(); ++i) {
     const bool given = i < arguments.slots.size() && arguments.slots[i] != 0;
     const Var& pin = context.symbols.var(pins[i]);
@@ -28,17 +28,17 @@ bool checkRequiredPins(Context& context, const CallExpr& node, PouId id, const A
       if (!open || !must) continue;
     }
     if (must) {
-      context.report(diag::PinNotConnected, node.h.loc, {text(context, pin.name), text(context, pou.name)})
+      context.report(diag::PinNotConnected, node.h.loc, {string(context, pin.name), string(context, pou.name)})
           .note(pin.loc, diag::DeclaredHere);
-      good = false;
+      ok = false;
     } else if (by_position && pin.section == SectionKind::Input && !pin.init) {
       if (!isBroken(context, id))
         context.report(diag::MissingArgument, node.end ? node.end : node.h.loc,
-                       {text(context, pou.name), text(context, pin.name)});
+                       {string(context, pou.name), string(context, pin.name)});
       return false;
     }
   }
-  return good;
+  return ok;
 }
 
 }  // namespace rung::sema

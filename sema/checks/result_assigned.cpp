@@ -13,7 +13,7 @@ void checkResultAssigned(Context& context) {
   const Pou& pou = context.symbols.pou(context.pou);
   if (pou.library || !pou.result_var || context.symbols.var(pou.result_var).written) return;
   if (pou.owner && isLifeMethod(context, pou.name)) return;  // nobody looks at theirs
-  context.report(diag::ResultNotAssigned, pou.loc, {text(context, pou.name)});
+  context.report(diag::ResultNotAssigned, pou.loc, {string(context, pou.name)});
 }
 
 }  // namespace rung::sema

@@ -42,8 +42,8 @@ void checkSharedGlobals(Context& context) {
       const Var& var = project.var(write.var);
       if (uncopiedIn(context, var.type)) continue;  // a lock, or what has one of its own
       context.report(diag::TwoTasksWrite, var.loc,
-                     {text(context, var.name), text(context, project.tasks[by - 1].name),
-                      text(context, project.tasks[task - 1].name)});
+                     {string(context, var.name), string(context, project.tasks[by - 1].name),
+                      string(context, project.tasks[task - 1].name)});
       by = ~0u;
     }
   }

@@ -14,7 +14,7 @@ void checkTestOnly(Context& context, PouId used, Loc loc) {
   if (!pou.test_only || context.library) return;
   const Pou& user = context.symbols.pou(context.pou);
   if (user.test || user.test_only || user.replaces) return;
-  context.report(diag::TestOnly, loc, {context.names().text(pou.name)});
+  context.report(diag::TestOnly, loc, {context.names().string(pou.name)});
 }
 
 }  // namespace rung::sema

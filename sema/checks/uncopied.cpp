@@ -29,7 +29,7 @@ bool checkCopied(Context& context, ExprId expr, TypeId type) {
   if (kind != TypeKind::Record && kind != TypeKind::Array) return true;
   const PouId held = uncopiedIn(context, type);
   if (!held) return true;
-  context.report(diag::Uncopied, context.tree().loc(expr), {text(context, context.symbols.pou(held).name)});
+  context.report(diag::Uncopied, context.tree().loc(expr), {string(context, context.symbols.pou(held).name)});
   return false;
 }
 
@@ -45,7 +45,7 @@ bool checkKept(Context& context, const Var& var, Loc loc) {
   if (where == nullptr || var.section == SectionKind::External) return true;
   const PouId held = uncopiedIn(context, var.type);
   if (!held) return true;
-  context.report(diag::NotKept, loc, {text(context, context.symbols.pou(held).name), where});
+  context.report(diag::NotKept, loc, {string(context, context.symbols.pou(held).name), where});
   return false;
 }
 

@@ -12,7 +12,7 @@ namespace rung::sema {
 namespace {
 
 // An object that is made by FB_Init works without being named.
-bool isMadeByMethod(Context& context, TypeId type) {
+bool isCreatedByMethod(Context& context, TypeId type) {
   while (context.types().kind(type) == types::TypeKind::Array)
     type = context.types().info(context.types().resolve(type)).base;
   const PouId object = context.types().kind(type) == types::TypeKind::Record ? pouOf(context, type) : PouId{};
@@ -36,12 +36,12 @@ void checkUnusedVariables(Context& context) {
       const bool local =
           var.section == SectionKind::Local || var.section == SectionKind::Temp || var.section == SectionKind::Stat;
       if (local && !var.read && !var.written) {
-        if (isMadeByMethod(context, var.type)) continue;
-        context.report(diag::UnusedVariable, var.loc, {text(context, var.name)});
+        if (isCreatedByMethod(context, var.type)) continue;
+        context.report(diag::UnusedVariable, var.loc, {string(context, var.name)});
       } else if (local && !var.written && !var.init && var.constructor.index == 0 && pou.kind != PouKind::Program) {
-        context.report(diag::NeverWritten, var.loc, {text(context, var.name)});
+        context.report(diag::NeverWritten, var.loc, {string(context, var.name)});
       } else if (var.section == SectionKind::Output && !var.written && !var.init) {
-        context.report(diag::OutputNeverWritten, var.loc, {text(context, var.name), text(context, pou.name)});
+        context.report(diag::OutputNeverWritten, var.loc, {string(context, var.name), string(context, pou.name)});
       }
     }
   }

@@ -15,7 +15,7 @@ namespace {
 
 bool checkVariable(Context& context, VarId id, Loc loc) {
   const Var& var = context.symbols.var(id);
-  const std::string_view name = text(context, var.name);
+  const std::string_view name = string(context, var.name);
   if (var.constant || (var.external && context.symbols.var(var.external).constant)) {
     context.report(diag::AssignToConstant, loc, {name}).note(var.loc, diag::DeclaredHere);
     return false;
@@ -46,7 +46,7 @@ bool checkOfChart(Context& context, VarId id, Loc loc, std::string_view member) 
   if (!var.of_chart || !var.type || context.types().kind(var.type) != types::TypeKind::Record) return true;
   const PouDecl& own = context.tree().as<PouDecl>(context.symbols.pou(context.pou).decl);
   if (own.chart_body && context.symbols.sources.fileOf(loc) == own.chart_body) return true;
-  std::string what(text(context, var.name));
+  std::string what(string(context, var.name));
   if (!member.empty()) what += "." + std::string(member);
   context.report(diag::StepWritten, loc, {what});
   return false;
@@ -61,30 +61,30 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
     switch (tree.kind(expr)) {
       case ExprKind::Name: {
         const NameExpr& node = tree.as<NameExpr>(expr);
-        if (node.entity.what() == EntityKind::Var) {
+        if (node.entity.entityKind() == EntityKind::Var) {
           const VarId var{node.entity.index};
-          const bool passed = purpose.words != "assigned to";  // a whole step may be lent to an in-out
+          const bool passed = purpose.phrase != "assigned to";  // a whole step may be lent to an in-out
           return (passed || checkOfChart(context, var, node.h.loc, {})) && checkVariable(context, var, node.h.loc);
         }
-        context.report(diag::NotAPlace, node.h.loc, {purpose.spell(context)});
+        context.report(diag::NotAPlace, node.h.loc, {purpose.toString(context)});
         return false;
       }
       case ExprKind::Member: {
         const MemberExpr& node = tree.as<MemberExpr>(expr);
-        if (node.entity.what() != EntityKind::Var) {
-          context.report(diag::NotAPlace, node.h.loc, {purpose.spell(context)});
+        if (node.entity.entityKind() != EntityKind::Var) {
+          context.report(diag::NotAPlace, node.h.loc, {purpose.toString(context)});
           return false;
         }
         const VarId var{node.entity.index};
         const Entity of = tree.kind(node.base) == ExprKind::Name     ? tree.as<NameExpr>(node.base).entity
                           : tree.kind(node.base) == ExprKind::Member ? tree.as<MemberExpr>(node.base).entity
                                                                      : Entity{};
-        if (of.what() == EntityKind::Var &&
-            !checkOfChart(context, VarId{of.index}, node.h.loc, text(context, node.member)))
+        if (of.entityKind() == EntityKind::Var &&
+            !checkOfChart(context, VarId{of.index}, node.h.loc, string(context, node.member)))
           return false;
         if (isWhole(context, node)) return checkVariable(context, var, node.h.loc);
         if (context.symbols.var(var).constant) {
-          context.report(diag::AssignToConstant, node.h.loc, {text(context, node.member)})
+          context.report(diag::AssignToConstant, node.h.loc, {string(context, node.member)})
               .note(context.symbols.var(var).loc, diag::DeclaredHere);
           return false;
         }
@@ -116,7 +116,7 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
       case ExprKind::New:
       case ExprKind::AnyValue:
       case ExprKind::AddressOf:
-        context.report(diag::NotAPlace, tree.begin(whole), {purpose.spell(context)});
+        context.report(diag::NotAPlace, tree.begin(whole), {purpose.toString(context)});
         return false;
     }
   }

@@ -24,7 +24,7 @@ struct AccessPathResolver {
   NameMap names;  // what is declared so far, by the whole symbol
 
   Tree& tree() const { return context.tree(); }
-  std::string_view text(NameId name) const { return context.names().text(name); }
+  std::string_view string(NameId name) const { return context.names().string(name); }
 
   // `Cpu.p.list[3].value` from left to right.
   void flatten(ExprId path, std::vector<Step>& to) const {
@@ -46,7 +46,7 @@ struct AccessPathResolver {
   // The path does not lead to a variable.
   //   passes  level : Cpu.p.level : INT;       fails   level : Cpu.p.lvl : INT;       E0890
   bool lost(const Ident& at) {
-    context.report(diag::AccessPath, at.loc, {text(at.name)});
+    context.report(diag::AccessPath, at.loc, {string(at.name)});
     return false;
   }
 
@@ -137,16 +137,16 @@ struct AccessPathResolver {
         if (next == 0 && matches(instance.configuration)) ++next;
       for (const ProgramInstance& instance : project.instances)
         if (next < 2 && next + 1 < steps.size() && matches(instance.resource)) ++next;
-      if (next == 0 && list.what() == EntityKind::GlobalList && steps.size() > 1) next = 1;
+      if (next == 0 && list.entityKind() == EntityKind::GlobalList && steps.size() > 1) next = 1;
       if (next >= steps.size()) return lost(steps.back().name);
       const NameId key = keyOf(context, steps[next].name.name);
       Entity found;
       if (next > 0) {
         list = context.scopes.qualifiers.find(keyOf(context, steps[next - 1].name.name));
-        if (list.what() == EntityKind::GlobalList) found = context.scopes.lists[list.index].names.find(key);
+        if (list.entityKind() == EntityKind::GlobalList) found = context.scopes.lists[list.index].names.find(key);
       }
       if (!found) found = context.scopes.globals.find(key);
-      if (found.what() != EntityKind::Var) return lost(steps[next].name);
+      if (found.entityKind() != EntityKind::Var) return lost(steps[next].name);
       const Var& var = project.vars[found.index];
       out.root = AccessPath::Root::List;
       out.index = var.list.index;
@@ -193,11 +193,11 @@ struct AccessPathResolver {
     out.type = type;
     if (context.types().resolve(type) != context.types().resolve(declared)) {
       context.report(diag::ExternalType, tree().loc(decl.type),
-                     {text(last.name), context.types().spell(declared), context.types().spell(type)});
+                     {string(last.name), context.types().toString(declared), context.types().toString(type)});
       return;
     }
-    std::string symbol = spelled(context, out.name);
-    if (out.prefix) symbol = spelled(context, out.prefix) + "." + symbol;
+    std::string symbol = toString(context, out.name);
+    if (out.prefix) symbol = toString(context, out.prefix) + "." + symbol;
     const auto index = static_cast<uint32_t>(project.access_paths.size());
     const NameId key = keyOf(context, context.names().intern(symbol));
     if (!names.insert(key, Entity::of(EntityKind::Error, index))) {

@@ -10,7 +10,7 @@ namespace rung::sema {
 
 namespace {
 
-std::string spelledAddress(const Context& context, const DirectAddress& address) {
+std::string toString(const Context& context, const DirectAddress& address) {
   std::string text = "%";
   text += address.area == ImageArea::Input ? 'I' : address.area == ImageArea::Output ? 'Q' : 'M';
   if (address.size_given) text += address.size;
@@ -47,7 +47,7 @@ TypeId addressType(const DirectAddress& address) {
 //   fails   v AT %QX5.1 : INT;                          E0341
 //   fails   VAR_CONFIG Main.v AT %QW5.1 : INT;          E0344 (see isHierarchical)
 std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& address, Loc loc, TypeId type) {
-  const std::string text = spelledAddress(context, address);
+  const std::string text = toString(context, address);
   const auto path = context.tree().list(address.path);
   const uint32_t unit = address.size_given ? unitBytes(address.size) : 0;
   const bool is_bit = unit == 0;
@@ -75,7 +75,7 @@ std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& a
   if (type) {
     const bool is_bool = context.types().kind(type) == types::TypeKind::Bool;
     if (is_bit && !is_bool) {
-      context.report(diag::AddressType, loc, {text, context.types().spell(type)});
+      context.report(diag::AddressType, loc, {text, context.types().toString(type)});
       return std::nullopt;
     }
     if (is_bool) view.is_bit = true;  // BOOL at %QB0: its bit 0
@@ -105,10 +105,10 @@ VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, V
   Project& project = context.project;
   Scopes& scopes = context.scopes;
   const TypeId type = user ? project.var(user).type : addressType(address);
-  const std::string text = spelledAddress(context, address);
+  const std::string text = toString(context, address);
   if (!type || type == types::kError) return {};
   if (isBitAddress(address) && context.types().kind(type) != types::TypeKind::Bool) {
-    context.report(diag::AddressType, loc, {text, context.types().spell(type)});
+    context.report(diag::AddressType, loc, {text, context.types().toString(type)});
     return {};
   }
   if (!ensureLayout(context, type)) return {};
@@ -131,42 +131,42 @@ VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, V
     project.vars.push_back(var);
     scopes.hierarchical.push_back({named, uint64_t{1}, 1, {}});
   }
-  Scopes::HierarchicalPlace& place = scopes.hierarchical[known.index];
+  Scopes::HierarchicalAddress& allocation = scopes.hierarchical[known.index];
   for (const TypeId held : {type, addressType(address)}) {
     const types::TypeInfo& info = context.types().info(context.types().resolve(held));
-    place.bytes = std::max<uint64_t>(place.bytes, info.size);
-    place.align = std::max<uint64_t>(place.align, info.align);
+    allocation.bytes = std::max<uint64_t>(allocation.bytes, info.size);
+    allocation.align = std::max<uint64_t>(allocation.align, info.align);
   }
   if (user) {
     Var& var = project.var(user);
     var.hierarchical = true;
     var.image.area = address.area;
     var.image.is_bit = context.types().kind(type) == types::TypeKind::Bool;
-    place.users.push_back(user);
+    allocation.users.push_back(user);
   }
-  return place.named;
+  return allocation.named;
 }
 
 // Behind the last byte of the other addresses, by name, each at the next byte that is aligned for it. Bits have a byte
 // each, so that all is found by its own.
-void placeHierarchical(Context& context) {
+void allocateHierarchical(Context& context) {
   Project& project = context.project;
-  std::vector<Scopes::HierarchicalPlace>& places = context.scopes.hierarchical;
-  std::sort(places.begin(), places.end(), [&](const auto& a, const auto& b) {
-    return context.names().text(project.var(a.named).name) < context.names().text(project.var(b.named).name);
+  std::vector<Scopes::HierarchicalAddress>& allocations = context.scopes.hierarchical;
+  std::sort(allocations.begin(), allocations.end(), [&](const auto& a, const auto& b) {
+    return context.names().string(project.var(a.named).name) < context.names().string(project.var(b.named).name);
   });
-  for (const Scopes::HierarchicalPlace& place : places) {
-    Var& named = project.var(place.named);
+  for (const Scopes::HierarchicalAddress& allocation : allocations) {
+    Var& named = project.var(allocation.named);
     uint32_t& end = project.image_bytes[static_cast<size_t>(named.image.area)];
-    const uint64_t byte = (end + place.align - 1) / place.align * place.align;
-    if (byte + place.bytes > kMaxImageBytes) {
+    const uint64_t byte = (end + allocation.align - 1) / allocation.align * allocation.align;
+    if (byte + allocation.bytes > kMaxImageBytes) {
       context.report(diag::AddressTooLarge, named.loc,
-                     {context.names().text(named.name), std::to_string(kMaxImageBytes)});
+                     {context.names().string(named.name), std::to_string(kMaxImageBytes)});
       return;
     }
     named.image.byte = static_cast<uint32_t>(byte);
-    for (const VarId user : place.users) project.var(user).image.byte = static_cast<uint32_t>(byte);
-    end = static_cast<uint32_t>(byte + place.bytes);
+    for (const VarId user : allocation.users) project.var(user).image.byte = static_cast<uint32_t>(byte);
+    end = static_cast<uint32_t>(byte + allocation.bytes);
   }
 }
 

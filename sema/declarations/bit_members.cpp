@@ -8,7 +8,7 @@ namespace rung::sema {
 
 using types::TypeKind;
 
-bool isNamedBit(const Context& context, NameId name) { return sameIdentifier(context.names().text(name), "BIT"); }
+bool isNamedBit(const Context& context, NameId name) { return sameIdentifier(context.names().string(name), "BIT"); }
 
 bool isBit(Context& context, TypeExprId written) {
   if (context.iec() || context.tree().kind(written) != TypeExprKind::Named) return false;
@@ -44,7 +44,7 @@ VarId addByteOfBits(Context& context, TypeId record, VarId first) {
   Symbols& symbols = context.symbols;
   const Var var = symbols.var(first);
   Var byte;
-  byte.name = context.names().intern("__bits_" + spelled(context, var.name));
+  byte.name = context.names().intern("__bits_" + toString(context, var.name));
   byte.loc = var.loc;
   byte.type = types::kByte;
   byte.storage = Storage::Field;
@@ -54,11 +54,11 @@ VarId addByteOfBits(Context& context, TypeId record, VarId first) {
   byte.record = var.record;
   byte.read = byte.written = true;
   byte.holds_bits = true;
-  const VarId made{static_cast<uint32_t>(symbols.vars.size())};
+  const VarId created{static_cast<uint32_t>(symbols.vars.size())};
   symbols.vars.push_back(byte);
-  if (var.pou) symbols.pou(var.pou).vars.push_back(made);
-  addField(context, record, made);
-  return made;
+  if (var.pou) symbols.pou(var.pou).vars.push_back(created);
+  addField(context, record, created);
+  return created;
 }
 
 void addBit(Context& context, TypeId record, VarId id) {

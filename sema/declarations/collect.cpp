@@ -14,32 +14,32 @@ namespace rung::sema {
 
 using types::RecordKind;
 
-void initWords(Context& context) {
+void internKnownNames(Context& context) {
   const auto word = [&](std::string_view text) { return context.names().key(context.names().intern(text)); };
-  Scopes::Words& words = context.scopes.words;
-  words.attribute_qualified_only = word("qualified_only");
-  words.attribute_strict = word("strict");
-  words.attribute_instance_path = word("instance-path");
-  words.test = word("test");
-  words.test_only = word("test_only");
-  words.replaces = word("replaces");
-  words.mock = word("mock");
-  words.alias = word("alias");
-  words.required = word("required");
-  words.lazy = word("lazy");
-  words.extensible = word("extensible");
-  words.prefix = word("prefix");
-  words.sized = word("sized");
-  words.slice = word("slice");
-  words.pure = word("pure");
-  words.native = word("native");
-  words.op = word("operator");
-  words.std = word("std");
-  words.no_final_scan = word("no_final_scan");
-  words.list = word("list");
-  words.fault = word("fault");
-  words.no_copy = word("no_copy");
-  words.bytes = word("bytes");
+  Scopes::KnownNames& known = context.scopes.known_names;
+  known.attribute_qualified_only = word("qualified_only");
+  known.attribute_strict = word("strict");
+  known.attribute_instance_path = word("instance-path");
+  known.test = word("test");
+  known.test_only = word("test_only");
+  known.replaces = word("replaces");
+  known.mock = word("mock");
+  known.alias = word("alias");
+  known.required = word("required");
+  known.lazy = word("lazy");
+  known.extensible = word("extensible");
+  known.prefix = word("prefix");
+  known.sized = word("sized");
+  known.slice = word("slice");
+  known.pure = word("pure");
+  known.native = word("native");
+  known.op = word("operator");
+  known.std = word("std");
+  known.no_final_scan = word("no_final_scan");
+  known.list = word("list");
+  known.fault = word("fault");
+  known.no_copy = word("no_copy");
+  known.bytes = word("bytes");
 }
 
 const Pragma* findPragma(const Context& context, const DeclHeader& header, NameId key) {
@@ -55,7 +55,7 @@ const Pragma* findPragma(const Context& context, const DeclHeader& header, NameI
 //   passes  FUNCTION f … FUNCTION g …
 //   fails   FUNCTION f … FUNCTION F …                  E0301
 void reportTwice(Context& context, NameId name, Loc loc, Loc first) {
-  Report report = context.report(diag::DeclaredTwice, loc, {context.names().text(name)});
+  Report report = context.report(diag::DeclaredTwice, loc, {context.names().string(name)});
   if (first) report.note(first, diag::AlsoDeclaredHere);
 }
 
@@ -72,7 +72,7 @@ namespace {
 
 Loc locOf(Context& context, Entity found) {
   Project& project = context.project;
-  switch (found.what()) {
+  switch (found.entityKind()) {
     case EntityKind::Var: return project.vars[found.index].loc;
     case EntityKind::Pou: return project.pous[found.index].loc;
     case EntityKind::Type: {
@@ -97,7 +97,7 @@ void declare(Context& context, NameMap& names, NameId name, Loc loc, Entity decl
   if (&names == &context.scopes.pous_and_types) first = context.scopes.namespaces.find(key);
   if (!first && !names.insert(key, declared)) {
     first = names.find(key);
-    if (declared.what() == EntityKind::Pou && addOverload(context, first, PouId{declared.index})) return;
+    if (declared.entityKind() == EntityKind::Pou && addOverload(context, first, PouId{declared.index})) return;
   }
   if (first) reportTwice(context, name, loc, locOf(context, first));
 }
@@ -106,7 +106,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   Project& project = context.project;
   Scopes& scopes = context.scopes;
   const PouDecl& decl = context.tree().as<PouDecl>(id);
-  const Scopes::Words& words = scopes.words;
+  const Scopes::KnownNames& known = scopes.known_names;
   const PouId pou_id{static_cast<uint32_t>(project.pous.size())};
   project.pous.emplace_back();
   scopes.pous.emplace_back();
@@ -119,23 +119,23 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.kind = decl.pou_kind;
   pou.decl = id;
   pou.file = file;
-  pou.native = decl.body_kind == BodyKind::Native || findPragma(context, decl.h, words.native) != nullptr;
+  pou.native = decl.body_kind == BodyKind::Native || findPragma(context, decl.h, known.native) != nullptr;
   pou.cpp = decl.body_kind == BodyKind::Cpp;
-  pou.pure = findPragma(context, decl.h, words.pure) != nullptr;
-  pou.prefix = findPragma(context, decl.h, words.prefix) != nullptr;
-  pou.sized = findPragma(context, decl.h, words.sized) != nullptr;
-  pou.slice = findPragma(context, decl.h, words.slice) != nullptr;
-  pou.faults = findPragma(context, decl.h, words.fault) != nullptr;
-  pou.no_copy = findPragma(context, decl.h, words.no_copy) != nullptr;
-  pou.bytes = findPragma(context, decl.h, words.bytes) != nullptr;
-  pou.test_only = findPragma(context, decl.h, words.test_only) != nullptr;
-  pou.test = findPragma(context, decl.h, words.test) != nullptr;
-  if (const Pragma* pragma = findPragma(context, decl.h, words.replaces); pragma != nullptr && library == kNoLibrary) {
-    pou.replaces = context.names().intern(context.tree().text(pragma->value));
+  pou.pure = findPragma(context, decl.h, known.pure) != nullptr;
+  pou.prefix = findPragma(context, decl.h, known.prefix) != nullptr;
+  pou.sized = findPragma(context, decl.h, known.sized) != nullptr;
+  pou.slice = findPragma(context, decl.h, known.slice) != nullptr;
+  pou.faults = findPragma(context, decl.h, known.fault) != nullptr;
+  pou.no_copy = findPragma(context, decl.h, known.no_copy) != nullptr;
+  pou.bytes = findPragma(context, decl.h, known.bytes) != nullptr;
+  pou.test_only = findPragma(context, decl.h, known.test_only) != nullptr;
+  pou.test = findPragma(context, decl.h, known.test) != nullptr;
+  if (const Pragma* pragma = findPragma(context, decl.h, known.replaces); pragma != nullptr && library == kNoLibrary) {
+    pou.replaces = context.names().intern(context.tree().string(pragma->value));
     pou.test_only = true;
   }
-  if (const Pragma* pragma = findPragma(context, decl.h, words.op)) {
-    const std::string_view word = context.tree().text(pragma->value);
+  if (const Pragma* pragma = findPragma(context, decl.h, known.op)) {
+    const std::string_view word = context.tree().string(pragma->value);
     pou.operator_kind = word == "select"              ? Pou::Operator::Select
                         : word == "mux"               ? Pou::Operator::Mux
                         : word == "convert"           ? Pou::Operator::Convert
@@ -157,7 +157,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
     named.region = context.region;
   }
   if (decl.body_kind == BodyKind::Sfc || !decl.transitions.empty())
-    text::declareSfc(chartsOf(context), context.tree().as<PouDecl>(id), chartPlaceOf(context, pou_id));
+    text::declareSfc(chartsOf(context), context.tree().as<PouDecl>(id), chartContextOf(context, pou_id));
   if (library == kNoLibrary) {
     declare(context, space != nullptr ? space->names : scopes.pous_and_types, pou.name, pou.loc, entity(pou_id));
     collectMembers(context, pou_id);
@@ -166,7 +166,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
       const DeclId id_of_section = context.tree().list(decl.sections)[s];
       const SectionDecl& section = context.tree().as<SectionDecl>(id_of_section);
       if (section.section != SectionKind::Global) continue;
-      addGlobals(context, listNamed(context, spelled(context, pou.name), file, section.h.loc, scopes.qualifiers),
+      addGlobals(context, listNamed(context, toString(context, pou.name), file, section.h.loc, scopes.qualifiers),
                  id_of_section, scopes.globals);
     }
     return;
@@ -175,7 +175,7 @@ void collectPou(Context& context, DeclId id, FileId file, uint32_t library) {
   pou.library_name = scopes.libraries.list[library].name;
   declare(context, scopes.libraries.list[library].names, pou.name, pou.loc, entity(pou_id));
   if (scopes.pous_and_types.find(keyOf(context, pou.name))) {  // a block of the project has the name: both may be used
-    pou.unique_name = context.names().intern(spelled(context, pou.library_name) + "__" + spelled(context, pou.name));
+    pou.unique_name = context.names().intern(toString(context, pou.library_name) + "__" + toString(context, pou.name));
     if (pou.record) context.types().edit(pou.record).name = pou.unique_name;
   }
   collectMembers(context, pou_id);
@@ -191,7 +191,7 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   NameMap& names = space != nullptr ? space->names : scopes.pous_and_types;
   if (library != kNoLibrary && name && scopes.pous_and_types.find(keyOf(context, name))) {
     name =
-        context.names().intern(spelled(context, scopes.libraries.list[library].name) + "__" + spelled(context, name));
+        context.names().intern(toString(context, scopes.libraries.list[library].name) + "__" + toString(context, name));
   }
   TypeId type = types::kError;
   switch (tree.kind(decl.type)) {
@@ -200,7 +200,7 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
     case TypeExprKind::Struct: type = addStructure(context, decl.type, name); break;
     case TypeExprKind::Error:
     case TypeExprKind::Named:
-    case TypeExprKind::Text:
+    case TypeExprKind::String:
     case TypeExprKind::Array:
     case TypeExprKind::Pointer: type = table.addAlias(name, types::kError); break;
   }
@@ -213,8 +213,8 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   named.region = context.region;
   declare(context, names, decl.name, decl.h.loc, entity(type));
   if (tree.kind(decl.type) == TypeExprKind::Enum) {
-    const bool qualified = findPragma(context, decl.h, scopes.words.attribute_qualified_only) != nullptr;
-    table.edit(type).strict = findPragma(context, decl.h, scopes.words.attribute_strict) != nullptr;
+    const bool qualified = findPragma(context, decl.h, scopes.known_names.attribute_qualified_only) != nullptr;
+    table.edit(type).strict = findPragma(context, decl.h, scopes.known_names.attribute_strict) != nullptr;
     table.edit(type).qualified = qualified;
     NameMap* bare = library != kNoLibrary ? &names : space != nullptr ? &space->items : &scopes.items;
     declareItems(context, type, decl.type, qualified ? nullptr : bare, library == kNoLibrary);
@@ -225,9 +225,9 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
 // holds many. Otherwise a list has the name of its file.
 std::string listOfSection(Context& context, const SectionDecl& section, FileId file) {
   Scopes& scopes = context.scopes;
-  if (const Pragma* pragma = findPragma(context, section.h, scopes.words.list)) {
+  if (const Pragma* pragma = findPragma(context, section.h, scopes.known_names.list)) {
     scopes.open_list_file = file;
-    scopes.open_list = context.tree().text(pragma->value);
+    scopes.open_list = context.tree().string(pragma->value);
   }
   const bool is_named = scopes.open_list_file == file && !scopes.open_list.empty();
   return is_named ? scopes.open_list : listNameOf(context.symbols.sources.path(file));
@@ -241,7 +241,7 @@ ListId listNamed(Context& context, const std::string& name, FileId file, Loc loc
   Scopes& scopes = context.scopes;
   NameId id = context.names().intern(name);
   const Entity known = qualifiers.find(keyOf(context, id));
-  if (known.what() == EntityKind::GlobalList) return ListId{known.index};
+  if (known.entityKind() == EntityKind::GlobalList) return ListId{known.index};
   const ListId list_id{static_cast<uint32_t>(project.global_lists.size())};
   qualifiers.insert(keyOf(context, id), Entity::of(EntityKind::GlobalList, list_id.index));
   // The list's record shares a name space with POUs and types in generated code.
@@ -264,7 +264,7 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
   const SectionDecl& section = context.tree().as<SectionDecl>(section_id);
   GlobalList& list = project.global_lists[list_id.index];
   ListScope& scope = scopes.lists[list_id.index];
-  const bool qualified_only = findPragma(context, section.h, scopes.words.attribute_qualified_only) != nullptr;
+  const bool qualified_only = findPragma(context, section.h, scopes.known_names.attribute_qualified_only) != nullptr;
   if (qualified_only) list.qualified_only = true;
   const size_t first = list.vars.size();
   for (uint32_t i = 0; i < section.vars.count; ++i) {
@@ -281,11 +281,11 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
     const NameId key = keyOf(context, var.name);
     if (bare.insert(key, entity(list.vars[i]))) continue;
     const Entity other = bare.find(key);
-    if (other.what() != EntityKind::Var || project.vars[other.index].list.index == list_id.index) continue;
-    const std::string_view here = context.names().text(list.name);
+    if (other.entityKind() != EntityKind::Var || project.vars[other.index].list.index == list_id.index) continue;
+    const std::string_view here = context.names().string(list.name);
     const std::string_view there =
-        context.names().text(project.global_lists[project.vars[other.index].list.index].name);
-    context.report(diag::GlobalAlsoDeclared, var.loc, {context.names().text(var.name), there, here})
+        context.names().string(project.global_lists[project.vars[other.index].list.index].name);
+    context.report(diag::GlobalAlsoDeclared, var.loc, {context.names().string(var.name), there, here})
         .note(project.vars[other.index].loc, diag::AlsoDeclaredHere);
   }
 }
@@ -306,7 +306,7 @@ void declareItems(Context& context, TypeId type, TypeExprId written, NameMap* ba
     }
     if (bare == nullptr || bare->insert(key, declared)) continue;
     const Entity first = bare->find(key);
-    if (!project_wide || first.what() != EntityKind::EnumValue) continue;
+    if (!project_wide || first.entityKind() != EntityKind::EnumValue) continue;
     if (scopes.item_is_ambiguous.size() <= first.index) scopes.item_is_ambiguous.resize(first.index + 1, false);
     scopes.item_is_ambiguous[first.index] = true;
   }
@@ -319,11 +319,11 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
     case DeclKind::Section: {
       const Loc loc = context.tree().loc(decl);
       const SectionKind section = context.tree().as<SectionDecl>(decl).section;
-      if (section == SectionKind::Config) return;  // instance_places.cpp
+      if (section == SectionKind::Config) return;  // instance_paths.cpp
       if (section == SectionKind::Access) return;  // access_paths.cpp
       const std::string stem = listNameOf(context.symbols.sources.path(file));
       if (Namespace* const space = namespaceAround(context); space != nullptr) {  // one list for all of its sections
-        const ListId list = listNamed(context, spelled(context, space->name), file, loc, context.scopes.qualifiers);
+        const ListId list = listNamed(context, toString(context, space->name), file, loc, context.scopes.qualifiers);
         return addGlobals(context, list, decl, space->globals);
       }
       if (library == kNoLibrary) {
@@ -332,7 +332,7 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
         return addGlobals(context, list, decl, context.scopes.globals);
       }
       Namespace& from = context.scopes.libraries.list[library];
-      std::string name = spelled(context, from.name) + "_" + stem;
+      std::string name = toString(context, from.name) + "_" + stem;
       if (context.symbols.global_lists.size() > 1)
         name += "_" + std::to_string(loc.offset - context.symbols.sources.begin(file).offset);
       const ListId list = listNamed(context, name, file, loc, from.names);
@@ -351,10 +351,10 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
 }
 
 void collectFiles(Context& context) {
-  const std::vector<PlacedDecl> declared = collectNamespaces(context);
+  const std::vector<DeclInRegion> declared = collectNamespaces(context);
   // POUs and types first: a global list is named differently when a POU has its name.
   for (const bool sections : {false, true}) {
-    for (const PlacedDecl& placed : declared) {
+    for (const DeclInRegion& placed : declared) {
       if ((context.tree().kind(placed.decl) == DeclKind::Section) != sections) continue;
       Context there = at(context, {}, placed.file, false, placed.region);
       collectDecl(there, placed.decl, placed.file, kNoLibrary);

@@ -51,13 +51,13 @@ std::string fold(std::string_view text) {
 }
 
 // What a setting names without being a variable: FREEWHEELING, AX_INTERRUPT_1, 'event'.
-std::string wordOf(Context& context, ExprId expr) {
+std::string settingOf(Context& context, ExprId expr) {
   Tree& tree = context.tree();
-  if (tree.kind(expr) == ExprKind::Name) return std::string(context.names().text(tree.as<NameExpr>(expr).name));
+  if (tree.kind(expr) == ExprKind::Name) return std::string(context.names().string(tree.as<NameExpr>(expr).name));
   if (tree.kind(expr) == ExprKind::Literal) {
     const LiteralExpr& literal = tree.as<LiteralExpr>(expr);
     if (literal.literal() == LiteralKind::String || literal.literal() == LiteralKind::WString) {
-      return std::string(tree.text(literal.text()));
+      return std::string(tree.string(literal.string()));
     }
   }
   return {};
@@ -96,7 +96,7 @@ struct TaskReader {
   }
 
   void kind(ExprId expr) {
-    const std::string word = fold(wordOf(context, expr));
+    const std::string word = fold(settingOf(context, expr));
     has_kind = true;
     if (word == "CYCLIC") {
       task.kind = TaskKind::Cyclic;
@@ -116,7 +116,7 @@ struct TaskReader {
   // Forbids settings that a task does not have. Design §9.
   //   fails   TASK t(INTERVALL := T#10ms);                E0811, did you mean `INTERVAL`?
   void setting(Argument& argument) {
-    const std::string name = fold(context.names().text(argument.pin.name));
+    const std::string name = fold(context.names().string(argument.pin.name));
     if (!argument.value || context.tree().kind(argument.value) == ExprKind::Error) return;
     if (name == "INTERVAL") {
       if (const auto ns = time(argument.value, name)) {
@@ -142,7 +142,7 @@ struct TaskReader {
       if (const auto value = number(argument.value, name, 0, 1'000'000))
         task.sensitivity = static_cast<uint32_t>(*value);
     } else {
-      const std::string_view written = context.names().text(argument.pin.name);
+      const std::string_view written = context.names().string(argument.pin.name);
       if (argument.pin.name)
         context.report(diag::TaskSettingUnknown, argument.pin.loc, {written})
             .didYouMean(
@@ -154,15 +154,15 @@ struct TaskReader {
   //   fails   TASK t(SINGLE := 1);                        E0813
   void resolveTrigger(Loc loc) {
     if (task.kind == TaskKind::External) {
-      if (trigger) task.external_event = wordOf(context, trigger);
+      if (trigger) task.external_event = settingOf(context, trigger);
       if (task.external_event.empty()) {
-        context.report(diag::TaskNeedsTrigger, loc, {context.names().text(task.name), "the name of an event"});
+        context.report(diag::TaskNeedsTrigger, loc, {context.names().string(task.name), "the name of an event"});
       }
       return;
     }
     if (task.kind != TaskKind::Event && task.kind != TaskKind::Status) return;
     if (!trigger) {
-      context.report(diag::TaskNeedsTrigger, loc, {context.names().text(task.name), "a BOOL variable"});
+      context.report(diag::TaskNeedsTrigger, loc, {context.names().string(task.name), "a BOOL variable"});
       return;
     }
     const TypeId type = checkExpr(context, trigger, types::kBool);
@@ -171,11 +171,11 @@ struct TaskReader {
     if (context.tree().kind(trigger) == ExprKind::Name) found = context.tree().as<NameExpr>(trigger).entity;
     if (context.tree().kind(trigger) == ExprKind::Member) found = context.tree().as<MemberExpr>(trigger).entity;
     const bool is_bool = context.types().kind(type) == TypeKind::Bool;
-    if (found.what() != EntityKind::Var || !is_bool ||
+    if (found.entityKind() != EntityKind::Var || !is_bool ||
         (context.symbols.vars[found.index].storage == Storage::Field &&
          (!context.symbols.vars[found.index].pou ||
           context.symbols.pou(context.symbols.vars[found.index].pou).kind != PouKind::Program))) {
-      context.report(diag::TaskTriggerType, context.tree().begin(trigger), {context.names().text(task.name)});
+      context.report(diag::TaskTriggerType, context.tree().begin(trigger), {context.names().string(task.name)});
       return;
     }
     task.trigger = VarId{found.index};
@@ -186,7 +186,7 @@ struct TaskReader {
     for (uint32_t pass = 0; pass < 2; ++pass) {  // SINGLE first: INTERVAL := 0 beside it means nothing
       for (uint32_t i = 0; i < decl.settings.count; ++i) {
         Argument argument = context.tree().list(decl.settings)[i];
-        const bool is_single = sameIdentifier(context.names().text(argument.pin.name), "SINGLE");
+        const bool is_single = sameIdentifier(context.names().string(argument.pin.name), "SINGLE");
         if (is_single == (pass == 0)) setting(argument);
         context.tree().list(decl.settings)[i] = argument;
       }
@@ -214,9 +214,9 @@ uint32_t findTask(Context& context, const Part& part, const Ident& wanted, std::
   for (const DeclaredTask& task : tasks) {
     if (task.resource_key && !(part.resource && keyOf(context, part.resource) == task.resource_key)) continue;
     if (task.key == key) found = task.number;
-    names.push_back(context.names().text(context.project.tasks[task.number - 1].name));
+    names.push_back(context.names().string(context.project.tasks[task.number - 1].name));
   }
-  const std::string_view text = context.names().text(wanted.name);
+  const std::string_view text = context.names().string(wanted.name);
   if (found == 0 && !context.tree().lost_names)
     context.report(diag::UnknownTask, wanted.loc, {text}).didYouMean(nearest(text, names));
   return found;
@@ -238,7 +238,7 @@ void addBlockTasks(Context& context, const Part& part, const ProgramInstanceDecl
     if (!pou || project.pou(pou).kind != PouKind::FunctionBlock) {
       if (type != types::kError)
         context.report(diag::NoBlockOfProgram, block.loc,
-                       {context.names().text(block.name), context.names().text(project.pou(program).name)});
+                       {context.names().string(block.name), context.names().string(project.pou(program).name)});
       continue;
     }
     const uint32_t number = findTask(context, part, task, tasks);
@@ -256,7 +256,7 @@ uint32_t backgroundTask(Context& context) {
   std::string name = "background";
   for (uint32_t i = 0; i < tasks.size(); ++i) {
     if (!tasks[i].loc) return i + 1;
-    if (sameIdentifier(context.names().text(tasks[i].name), name)) name += '_';
+    if (sameIdentifier(context.names().string(tasks[i].name), name)) name += '_';
   }
   Task task;
   task.name = context.names().intern(name);
@@ -283,19 +283,20 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
   Entity found;
   if (decl.type.count > 1 && findNamespace(context, context.tree().list(decl.type)[0].name)) {
     found = lookUpQualified(context, decl.type);
-    if (found.what() == EntityKind::Error) return;
+    if (found.entityKind() == EntityKind::Error) return;
   }
   if (!found) found = context.scopes.pous_and_types.find(type_key);
   if (!found) found = lookUpOpened(context, type_key, type.loc, true);
   if (!found) found = lookUpLibrary(context, type_key);
-  if (found.what() == EntityKind::Pou && project.pous[found.index].kind == PouKind::Program) {
+  if (found.entityKind() == EntityKind::Pou && project.pous[found.index].kind == PouKind::Program) {
     instance.program = PouId{found.index};
   } else {
     std::vector<std::string_view> programs;
     for (const Pou& pou : project.pous) {
-      if (pou.kind == PouKind::Program && pou.name && !pou.library) programs.push_back(context.names().text(pou.name));
+      if (pou.kind == PouKind::Program && pou.name && !pou.library)
+        programs.push_back(context.names().string(pou.name));
     }
-    const std::string_view text = context.names().text(type.name);
+    const std::string_view text = context.names().string(type.name);
     if (!context.tree().lost_names)
       context.report(diag::NoProgram, type.loc, {text}).didYouMean(nearest(text, programs));
     return;
@@ -305,7 +306,7 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
   } else if (context.iec()) {
     instance.task = backgroundTask(context);
   } else {
-    context.report(diag::ProgramWithoutTask, decl.h.loc, {context.names().text(decl.name)});
+    context.report(diag::ProgramWithoutTask, decl.h.loc, {context.names().string(decl.name)});
   }
   if (!decl.arguments.empty()) {
     NameExpr callee{};
@@ -343,7 +344,7 @@ void addDefaultTask(Context& context) {
   for (const char* name : {"PLC_PRG", "MAIN"}) {
     const NameId id = context.names().find(name);
     const Entity found = id ? context.scopes.pous_and_types.find(keyOf(context, id)) : Entity{};
-    if (only || found.what() != EntityKind::Pou) continue;
+    if (only || found.entityKind() != EntityKind::Pou) continue;
     const Pou& pou = project.pous[found.index];
     if (pou.kind == PouKind::Program && !pou.test) only = PouId{found.index};
   }
@@ -400,10 +401,10 @@ void collectConfigurations(Context& context) {
     if (tree.kind(member) != DeclKind::Section) return;
     const SectionDecl& section = tree.as<SectionDecl>(member);
     if (section.section == SectionKind::Access) return;    // access_paths.cpp
-    if (section.section == SectionKind::Config) return;    // instance_places.cpp
+    if (section.section == SectionKind::Config) return;    // instance_paths.cpp
     if (section.section == SectionKind::External) return;  // resolveConfigurations
     const NameId name = part.resource ? part.resource : part.configuration;
-    const ListId list = listNamed(context, std::string(context.names().text(name)), part.file, section.h.loc,
+    const ListId list = listNamed(context, std::string(context.names().string(name)), part.file, section.h.loc,
                                   context.scopes.qualifiers);
     addGlobals(context, list, member, context.scopes.globals);
   });

@@ -51,7 +51,7 @@ Value valueOf(const Symbols& symbols, const LiteralExpr& literal) {
     }
     case LiteralKind::String:
     case LiteralKind::WString: {
-      const std::string_view text = symbols.tree.text(literal.text());
+      const std::string_view text = symbols.tree.string(literal.string());
       if (TypeTable::isCharacter(kind)) return {type, characterOf(text, kind)};
       return {type, symbols.names.intern(text).index};
     }
@@ -98,9 +98,9 @@ std::optional<Value> checked(Context& context, const Outcome& outcome, Loc loc, 
     return std::nullopt;
   }
   if (outcome.overflow) {
-    context.report(
-        diag::ConstantOverflow, loc,
-        {context.types().spell(outcome.value.type), types::spell(context.types(), context.names(), outcome.value)});
+    context.report(diag::ConstantOverflow, loc,
+                   {context.types().toString(outcome.value.type),
+                    types::toString(context.types(), context.names(), outcome.value)});
   }
   return outcome.value;
 }
@@ -183,8 +183,8 @@ std::optional<Value> evaluateCall(Context& context, const CallExpr& node, uint32
   switch (pou.operator_kind) {
     case Pou::Operator::Move: return operands[0];
     case Pou::Operator::Convert:
-      if (TypeTable::isText(context.types().plainKind(operands[0].type)) ||
-          TypeTable::isText(context.types().plainKind(node.h.type))) {
+      if (TypeTable::isString(context.types().plainKind(operands[0].type)) ||
+          TypeTable::isString(context.types().plainKind(node.h.type))) {
         return std::nullopt;
       }
       return types::convert(context.types(), operands[0], node.h.type).value;
@@ -228,11 +228,11 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
       const Entity found = header.kind == ExprKind::Name        ? tree.as<NameExpr>(id).entity
                            : header.kind == ExprKind::TypedName ? tree.as<TypedNameExpr>(id).entity
                                                                 : tree.as<MemberExpr>(id).entity;
-      if (found.what() == EntityKind::EnumValue) {
+      if (found.entityKind() == EntityKind::EnumValue) {
         const EnumValue& item = context.symbols.enum_values[found.index];
         return Value{item.type, static_cast<uint64_t>(item.value)};
       }
-      if (found.what() != EntityKind::Var) return std::nullopt;
+      if (found.entityKind() != EntityKind::Var) return std::nullopt;
       const Var& var = context.symbols.vars[found.index];
       if (!var.constant || !var.has_value) return std::nullopt;
       return var.value;
@@ -241,8 +241,8 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
       const auto value = evaluateAt(context, tree.as<ConvertExpr>(id).operand, depth + 1);
       if (!value) return std::nullopt;
       const TypeKind from = context.types().plainKind(value->type), to = context.types().plainKind(header.type);
-      if (TypeTable::isText(from) && from == to) {
-        const std::string_view text = context.names().text(NameId{static_cast<uint32_t>(value->bits)});
+      if (TypeTable::isString(from) && from == to) {
+        const std::string_view text = context.names().string(NameId{static_cast<uint32_t>(value->bits)});
         const uint32_t capacity = context.types().info(context.types().resolve(header.type)).length;
         if (to == TypeKind::WString || text.size() <= capacity) return Value{header.type, value->bits};
         size_t taken = capacity;
@@ -251,18 +251,18 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
         return Value{header.type, context.names().intern(text.substr(0, taken)).index};
       }
       if (from == TypeKind::String && to == TypeKind::WString) {
-        const std::string_view text = context.names().text(NameId{static_cast<uint32_t>(value->bits)});
+        const std::string_view text = context.names().string(NameId{static_cast<uint32_t>(value->bits)});
         if (!isUtf8(text)) return std::nullopt;
         return Value{header.type, value->bits};
       }
-      if (TypeTable::isText(from) || !TypeTable::isScalar(to)) return std::nullopt;
+      if (TypeTable::isString(from) || !TypeTable::isScalar(to)) return std::nullopt;
       return types::convert(context.types(), *value, header.type).value;
     }
     case ExprKind::Unary: {
       const UnaryExpr& node = tree.as<UnaryExpr>(id);
       const auto value = evaluateAt(context, node.operand, depth + 1);
       if (!value || !isOperand(context.types(), value->type)) return std::nullopt;
-      if (TypeTable::isText(context.types().plainKind(value->type))) return std::nullopt;
+      if (TypeTable::isString(context.types().plainKind(value->type))) return std::nullopt;
       if (node.op() == UnaryOp::Plus) return value;
       return applyChecked(context, node.op() == UnaryOp::Not ? Op::Not : Op::Neg, *value, *value, node.h.loc, {});
     }
@@ -328,7 +328,7 @@ std::optional<Value> requireConstant(Context& context, ExprId expr, TypeId type)
   }
   if (!type || type == types::kError || context.types().plain(type) == context.types().plain(value->type)) return value;
   if (!TypeTable::isScalar(context.types().plainKind(type)) || !isOperand(context.types(), value->type) ||
-      TypeTable::isText(context.types().plainKind(value->type))) {
+      TypeTable::isString(context.types().plainKind(value->type))) {
     return value;
   }
   return types::convert(context.types(), *value, type).value;
@@ -341,7 +341,7 @@ std::optional<int64_t> constantBound(Context& context, ExprId& expr) {
   if (type == types::kError) return std::nullopt;
   const TypeKind kind = context.types().plainKind(type);
   if (!TypeTable::isInteger(kind) && !TypeTable::isBits(kind) && kind != TypeKind::IntegerLiteral) {
-    context.report(diag::IntegerNeeded, context.tree().begin(expr), {context.types().spell(type)});
+    context.report(diag::IntegerNeeded, context.tree().begin(expr), {context.types().toString(type)});
     return std::nullopt;
   }
   const auto value = requireConstant(context, expr, {});

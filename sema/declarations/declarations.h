@@ -1,5 +1,5 @@
 // What the files of declarations/ share. Declarations are resolved on demand: collect() gives every name its entity,
-// settleDeclarations() resolves, lays out and checks whatever was declared since the last time, and a library
+// resolveDeclarations() resolves, lays out and checks whatever was declared since the last time, and a library
 // declaration joins when it is first looked up. The rest of sema uses the functions of context.h.
 #pragma once
 
@@ -30,10 +30,10 @@ inline Entity entity(VarId id) { return Entity::of(EntityKind::Var, id.index); }
 inline Entity entity(PouId id) { return Entity::of(EntityKind::Pou, id.index); }
 inline Entity entity(TypeId id) { return Entity::of(EntityKind::Type, id.index); }
 inline NameId keyOf(const Context& context, NameId name) { return context.names().key(name); }
-inline std::string spelled(const Context& context, NameId name) { return std::string(context.names().text(name)); }
+inline std::string toString(const Context& context, NameId name) { return std::string(context.names().string(name)); }
 
 // ---- collect.cpp
-void initWords(Context& context);
+void internKnownNames(Context& context);
 // The declarations of all files of the tree.
 void collectFiles(Context& context);
 // One declaration where `context` is; of a library when `library` is given.
@@ -47,13 +47,13 @@ void reportTwice(Context& context, NameId name, Loc loc, Loc first);
 void declareItems(Context& context, TypeId type, TypeExprId written, NameMap* bare, bool project_wide);
 
 // ---- namespaces.cpp
-struct PlacedDecl {
+struct DeclInRegion {
   DeclId decl;
   FileId file;
   RegionId region;
 };
 // The declarations of all files with their regions, those of NAMESPACEs among them; makes the namespaces.
-std::vector<PlacedDecl> collectNamespaces(Context& context);
+std::vector<DeclInRegion> collectNamespaces(Context& context);
 // The region of a POU that is declared here: its own where it has USINGs.
 RegionId regionOfPou(Context& context, const PouDecl& decl);
 // The NAMESPACE around the place at hand, or null; and a name of it in full: `Simatic.Ax.Motor`.
@@ -111,8 +111,8 @@ VarId addByteOfBits(Context& context, TypeId record, VarId first);
 void addBitAt(Context& context, TypeId record, VarId id, VarId byte, uint8_t bit);
 uint8_t initialBits(Context& context, TypeId record, VarId byte);
 
-// ---- relative_places.cpp: the fields of a structure whose members have places (AT %B2), with what is between them
-void placeFields(Context& context, TypeId record, std::span<const VarId> members);
+// ---- relative_addresses.cpp: the fields of a structure whose members have places (AT %B2), with what is between them
+void layOutMembers(Context& context, TypeId record, std::span<const VarId> members);
 
 // ---- objects.cpp
 // USTRING and UCHAR of edition 4 are no keywords: the project's own type of such a name, or none.
@@ -142,8 +142,8 @@ void resolveNamed(Context& context, TypeId type);
 void reportTooDeep(Context& context, Loc loc, const char* what, uint32_t limit);
 TypeId lookUpType(Context& context, NameId name, Loc loc = {});
 
-// ---- settle.cpp
-void settleDeclarations(Context& context);
+// ---- resolve.cpp
+void resolveDeclarations(Context& context);
 // Lays out a type, with what it holds resolved first. False when it is too large.
 bool ensureLayout(Context& context, TypeId type);
 

@@ -11,9 +11,9 @@ namespace {
 // The type as part of a name: `STRING[20]` is STRING_20.
 std::string identifierOf(const types::TypeTable& table, TypeId type) {
   std::string name;
-  for (const char c : table.spell(type)) {
-    const bool good = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-    if (good) {
+  for (const char c : table.toString(type)) {
+    const bool ok = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    if (ok) {
       name += c;
     } else if (!name.empty() && name.back() != '_') {
       name += '_';
@@ -52,7 +52,7 @@ PouId instantiate(Context& context, PouId generic_id, std::span<const TypeId> ty
   }
   if (generic.result) substitute(generic.result, result);
 
-  std::string unique = spelled(context, generic.unique_name) + "__";
+  std::string unique = toString(context, generic.unique_name) + "__";
   for (size_t i = 0; i < substitutions.size(); ++i) {
     if (i > 0) unique += '_';
     unique += identifierOf(context.types(), substitutions[i].type);
@@ -85,7 +85,7 @@ PouId instantiate(Context& context, PouId generic_id, std::span<const TypeId> ty
     scopes.pous.back().substitutions = std::move(substitutions);
     scopes.instances.insert(key, entity(id));
     resolvePou(context, id);
-    settleDeclarations(context);
+    resolveDeclarations(context);
     return id;
   }
   return generic_id;

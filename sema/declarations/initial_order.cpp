@@ -23,7 +23,7 @@ struct InitialOrder {
   Var& var(VarId id) const { return context.symbols.var(id); }
 
   void addVar(Entity entity, std::vector<VarId>& into) const {
-    if (entity.what() != EntityKind::Var) return;
+    if (entity.entityKind() != EntityKind::Var) return;
     VarId id{entity.index};
     if (var(id).external) id = var(id).external;
     if (!var(id).has_value && (var(id).storage == Storage::Global || var(id).storage == Storage::Field))
@@ -137,10 +137,10 @@ struct InitialOrder {
   void reportCircle(const std::vector<VarId>& path, VarId again) const {
     auto at = std::find(path.begin(), path.end(), again);
     std::string way;
-    for (auto step = at; step != path.end(); ++step) way += "`" + spelled(context, var(*step).name) + "` reads ";
-    way += "`" + spelled(context, var(again).name) + "`";
+    for (auto step = at; step != path.end(); ++step) way += "`" + toString(context, var(*step).name) + "` reads ";
+    way += "`" + toString(context, var(again).name) + "`";
     const Loc loc = var(again).init ? tree().begin(var(again).init) : var(again).loc;
-    context.report(diag::InitialValueCircle, loc, {spelled(context, var(again).name), way});
+    context.report(diag::InitialValueCircle, loc, {toString(context, var(again).name), way});
   }
 
   // Depth first with a stack of its own, in order of declaration; `same`: which variables are ordered together.

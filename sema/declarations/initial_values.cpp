@@ -31,20 +31,20 @@ struct Initializer {
     LiteralExpr& literal = tree().as<LiteralExpr>(id);
     if (literal.prefix || (literal.h.bits & kLiteralNegative) != 0) return false;
     const TypeKind kind = context.types().kind(type);
-    bool good = false;
+    bool ok = false;
     if (literal.literal() == LiteralKind::Integer) {
       if (kind == TypeKind::Bool) {
-        good = literal.value() <= 1 && !context.iec();
+        ok = literal.value() <= 1 && !context.iec();
       } else if (TypeTable::isInteger(kind) || TypeTable::isBits(kind)) {
         const uint32_t width = TypeTable::bitWidth(kind) - (context.types().isSigned(kind) ? 1u : 0u);
-        good = width >= 64 || (literal.value() >> width) == 0;
+        ok = width >= 64 || (literal.value() >> width) == 0;
       }
     } else if (literal.literal() == LiteralKind::Bool) {
-      good = kind == TypeKind::Bool;
+      ok = kind == TypeKind::Bool;
     } else if (literal.literal() == LiteralKind::Real) {
-      good = kind == TypeKind::LReal;
+      ok = kind == TypeKind::LReal;
     }
-    if (!good) return false;
+    if (!ok) return false;
     literal.h.type = type;
     literal.h.is_constant = 1;
     return true;
@@ -57,7 +57,7 @@ struct Initializer {
     const ExprKind kind = tree().kind(id);
     if (kind == ExprKind::Name || kind == ExprKind::Member) {
       const Entity entity = kind == ExprKind::Name ? tree().as<NameExpr>(id).entity : tree().as<MemberExpr>(id).entity;
-      if (entity.what() != EntityKind::Var) return false;
+      if (entity.entityKind() != EntityKind::Var) return false;
       const Storage storage = context.symbols.vars[entity.index].storage;
       if (storage == Storage::Global || storage == Storage::Image) return true;
       if (storage != Storage::Field) return false;
@@ -124,7 +124,7 @@ struct Initializer {
   void scalar(ExprId& init, TypeId type) {
     const ExprKind kind = tree().kind(init);
     if (kind == ExprKind::ArrayInit || kind == ExprKind::StructInit || kind == ExprKind::Repeat) {
-      context.report(diag::ListForOneValue, tree().loc(init), {context.types().spell(type)});
+      context.report(diag::ListForOneValue, tree().loc(init), {context.types().toString(type)});
       init = {};
       return;
     }
@@ -154,7 +154,7 @@ struct Initializer {
     const CallExpr& call = tree().as<CallExpr>(id);
     if (tree().kind(call.callee) != ExprKind::Name) return id;
     const Entity found = lookUp(context, tree().as<NameExpr>(call.callee).name);
-    if (found.what() != EntityKind::Var || !context.symbols.vars[found.index].constant) return id;
+    if (found.entityKind() != EntityKind::Var || !context.symbols.vars[found.index].constant) return id;
     if (!TypeTable::isInteger(context.types().plainKind(context.symbols.vars[found.index].type))) return id;
     std::vector<ExprId> values;
     for (uint32_t i = 0; i < call.arguments.count; ++i) {
@@ -187,25 +187,25 @@ struct Initializer {
       }
       if (tree().kind(id) == ExprKind::Repeat) {
         RepeatExpr& repeat = tree().as<RepeatExpr>(id);
-        const auto turns = constantBound(context, repeat.count);
-        if (!turns) {
+        const auto repetitions = constantBound(context, repeat.count);
+        if (!repetitions) {
           count = room;
           continue;
         }
-        if (*turns < 0) {
-          context.report(diag::RepetitionNegative, tree().begin(repeat.count), {std::to_string(*turns)});
+        if (*repetitions < 0) {
+          context.report(diag::RepetitionNegative, tree().begin(repeat.count), {std::to_string(*repetitions)});
           continue;
         }
         if (tree().kind(repeat.count) != ExprKind::Literal) {
-          repeat.count =
-              makeLiteral(context, LiteralKind::Integer, types::idOf(TypeKind::LInt), *turns, tree().loc(repeat.count));
+          repeat.count = makeLiteral(context, LiteralKind::Integer, types::idOf(TypeKind::LInt), *repetitions,
+                                     tree().loc(repeat.count));
         }
         uint64_t group = 1;
         Loc inner;
         if (!repeat.elements.empty()) {
           group = elements(repeat.elements, element, count < room ? room - count : 0, inner);
         }
-        const uint64_t total = group * std::min<uint64_t>(static_cast<uint64_t>(*turns), uint64_t{1} << 32);
+        const uint64_t total = group * std::min<uint64_t>(static_cast<uint64_t>(*repetitions), uint64_t{1} << 32);
         if (count < room && total > room - count && !surplus) surplus = tree().begin(id);
         count += total;
         continue;
@@ -231,7 +231,7 @@ struct Initializer {
     const Entity entity = kind == ExprKind::Name     ? tree().as<NameExpr>(init).entity
                           : kind == ExprKind::Member ? tree().as<MemberExpr>(init).entity
                                                      : Entity{};
-    if (entity.what() != EntityKind::Var) return true;
+    if (entity.entityKind() != EntityKind::Var) return true;
     const VarId other{entity.index};
     const Var& var = context.symbols.var(other);
     if (var.storage != Storage::Global && var.storage != Storage::Field) return true;
@@ -247,7 +247,7 @@ struct Initializer {
     const TypeInfo& info = context.types().info(context.types().resolve(type));
     if (tree().kind(init) != ExprKind::ArrayInit) {
       if (likeAnother(init, type)) return;
-      context.report(diag::ArrayListExpected, tree().begin(init), {context.types().spell(type)});
+      context.report(diag::ArrayListExpected, tree().begin(init), {context.types().toString(type)});
       init = {};
       return;
     }
@@ -280,7 +280,7 @@ struct Initializer {
           return;
         }
       }
-      context.report(diag::MembersExpected, tree().begin(init), {context.types().spell(type)});
+      context.report(diag::MembersExpected, tree().begin(init), {context.types().toString(type)});
       init = {};
       return;
     }
@@ -290,10 +290,10 @@ struct Initializer {
     std::vector<std::pair<VarId, uint8_t>> bytes;  // that hold members of type BIT, with what is given for them
     for (uint32_t i = 0; i < node.fields.count; ++i) {
       FieldInit given = tree().list(node.fields)[i];
-      const std::string_view name = context.names().text(given.field.name);
+      const std::string_view name = context.names().string(given.field.name);
       const VarId member = findMember(context, type, given.field.name);
       if (!member) {
-        context.report(diag::UnknownMember, given.field.loc, {context.types().spell(type), name})
+        context.report(diag::UnknownMember, given.field.loc, {context.types().toString(type), name})
             .didYouMean(nearestMember(type, given.field.name));
         continue;
       }
@@ -306,7 +306,7 @@ struct Initializer {
           var.storage == Storage::Field && var.section != SectionKind::InOut &&
           (!var.pou || var.section == SectionKind::Input || var.access == AccessLevel::Public || !context.iec());
       if (!settable) {
-        context.report(diag::MemberNotSettable, given.field.loc, {name, context.types().spell(type)})
+        context.report(diag::MemberNotSettable, given.field.loc, {name, context.types().toString(type)})
             .note(var.loc, diag::DeclaredHere);
         continue;
       }
@@ -361,9 +361,9 @@ struct Initializer {
   std::string_view nearestMember(TypeId type, NameId written) const {
     std::vector<std::string_view> candidates;
     for (const types::Field& field : context.types().info(context.types().resolve(type)).fields) {
-      candidates.push_back(context.names().text(field.name));
+      candidates.push_back(context.names().string(field.name));
     }
-    return nearest(context.names().text(written), candidates);
+    return nearest(context.names().string(written), candidates);
   }
 
   void value(ExprId& init, TypeId type) {

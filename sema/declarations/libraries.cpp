@@ -16,72 +16,72 @@ bool isDigit(char c) { return c >= '0' && c <= '9'; }
 // Words, punctuation and pragmas of a text; comments, strings and numbers are stepped over.
 class Scanner {
  public:
-  explicit Scanner(std::string_view text) : text_(text) {}
+  explicit Scanner(std::string_view source) : source_(source) {}
 
-  enum class Kind : uint8_t { End, Word, Pragma, Mark };
+  enum class Kind : uint8_t { End, Word, Pragma, Punctuation };
   Kind next() {
-    while (at_ < text_.size()) {
-      const char c = text_[at_];
+    while (at_ < source_.size()) {
+      const char c = source_[at_];
       begin_ = at_;
       if (isLetter(c)) {
-        while (at_ < text_.size() && (isLetter(text_[at_]) || isDigit(text_[at_]))) ++at_;
+        while (at_ < source_.size() && (isLetter(source_[at_]) || isDigit(source_[at_]))) ++at_;
         return Kind::Word;
       }
       if (c == ' ' || c == '\n' || c == '\r' || c == '\t') {
         ++at_;
       } else if (isDigit(c)) {  // 16#FF, 1.5e3: no words in it
-        while (at_ < text_.size() && (isLetter(text_[at_]) || isDigit(text_[at_]) || text_[at_] == '#')) ++at_;
+        while (at_ < source_.size() && (isLetter(source_[at_]) || isDigit(source_[at_]) || source_[at_] == '#')) ++at_;
       } else if (c == '/' && peek(1) == '/') {
-        at_ = std::min(text_.find('\n', at_), text_.size());
+        at_ = std::min(source_.find('\n', at_), source_.size());
       } else if (c == '/' && peek(1) == '*') {
-        const size_t end = text_.find("*/", at_ + 2);
-        at_ = end == std::string_view::npos ? text_.size() : end + 2;
+        const size_t end = source_.find("*/", at_ + 2);
+        at_ = end == std::string_view::npos ? source_.size() : end + 2;
       } else if (c == '(' && peek(1) == '*') {
         skipComment();
       } else if (c == '\'' || c == '"') {
         skipString(c);
       } else if (c == '{') {
-        at_ = std::min(text_.find('}', at_), text_.size() - 1) + 1;
+        at_ = std::min(source_.find('}', at_), source_.size() - 1) + 1;
         return Kind::Pragma;
       } else {
         ++at_;
-        return Kind::Mark;
+        return Kind::Punctuation;
       }
     }
     begin_ = at_;
     return Kind::End;
   }
 
-  std::string_view token() const { return text_.substr(begin_, at_ - begin_); }
+  std::string_view token() const { return source_.substr(begin_, at_ - begin_); }
   bool is(std::string_view word) const { return sameIdentifier(token(), word); }
-  bool isMark(char c) const { return text_[begin_] == c; }
+  bool isPunctuation(char c) const { return source_[begin_] == c; }
   uint32_t begin() const { return static_cast<uint32_t>(begin_); }
   uint32_t end() const { return static_cast<uint32_t>(at_); }
 
  private:
-  char peek(size_t ahead) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
+  char peek(size_t ahead) const { return at_ + ahead < source_.size() ? source_[at_ + ahead] : '\0'; }
   void skipComment() {
     uint32_t depth = 0;
     do {
-      if (text_[at_] == '(' && peek(1) == '*') {
+      if (source_[at_] == '(' && peek(1) == '*') {
         ++depth;
         at_ += 2;
-      } else if (text_[at_] == '*' && peek(1) == ')') {
+      } else if (source_[at_] == '*' && peek(1) == ')') {
         --depth;
         at_ += 2;
       } else {
         ++at_;
       }
-    } while (depth > 0 && at_ < text_.size());
+    } while (depth > 0 && at_ < source_.size());
   }
   void skipString(char quote) {
-    for (++at_; at_ < text_.size() && text_[at_] != quote; ++at_) {
-      if (text_[at_] == '$') ++at_;
+    for (++at_; at_ < source_.size() && source_[at_] != quote; ++at_) {
+      if (source_[at_] == '$') ++at_;
     }
-    at_ = std::min(at_ + 1, text_.size());
+    at_ = std::min(at_ + 1, source_.size());
   }
 
-  std::string_view text_;
+  std::string_view source_;
   size_t begin_ = 0, at_ = 0;
 };
 
@@ -95,9 +95,9 @@ bool skipTo(Scanner& scan, std::string_view word) {
   return false;
 }
 
-void skipToMark(Scanner& scan, char mark) {
+void skipTo(Scanner& scan, char punctuation) {
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
-    if (kind == Kind::Mark && scan.isMark(mark)) return;
+    if (kind == Kind::Punctuation && scan.isPunctuation(punctuation)) return;
   }
 }
 
@@ -108,10 +108,10 @@ void scanItems(Scanner& scan, std::vector<std::string_view>& names) {
   for (Kind kind = scan.next(); kind != Kind::End && depth > 0; kind = scan.next()) {
     if (kind == Kind::Word && expected) names.push_back(scan.token());
     expected = false;
-    if (kind != Kind::Mark) continue;
-    if (scan.isMark('(')) ++depth;
-    if (scan.isMark(')') && --depth == 0) return;
-    if (scan.isMark(',') && depth == 1) expected = true;
+    if (kind != Kind::Punctuation) continue;
+    if (scan.isPunctuation('(')) ++depth;
+    if (scan.isPunctuation(')') && --depth == 0) return;
+    if (scan.isPunctuation(',') && depth == 1) expected = true;
   }
 }
 
@@ -121,20 +121,20 @@ void scanTypes(Scanner& scan, std::vector<std::string_view>& names, bool bare) {
     if (kind != Kind::Word) continue;
     if (scan.is("END_TYPE")) return;
     names.push_back(scan.token());
-    skipToMark(scan, ':');
+    skipTo(scan, ':');
     kind = scan.next();
     while (kind == Kind::Pragma) kind = scan.next();
-    if (kind == Kind::Mark && scan.isMark('(')) {
+    if (kind == Kind::Punctuation && scan.isPunctuation('(')) {
       std::vector<std::string_view> items;
       scanItems(scan, items);
       if (bare) names.insert(names.end(), items.begin(), items.end());
-      skipToMark(scan, ';');
+      skipTo(scan, ';');
     } else if (kind == Kind::Word && scan.is("STRUCT")) {
       skipTo(scan, "END_STRUCT");
     } else if (kind == Kind::Word && scan.is("UNION")) {
       skipTo(scan, "END_UNION");
     } else {
-      skipToMark(scan, ';');
+      skipTo(scan, ';');
     }
   }
 }
@@ -142,9 +142,9 @@ void scanTypes(Scanner& scan, std::vector<std::string_view>& names, bool bare) {
 void scanGlobals(Scanner& scan, std::vector<std::string_view>& names) {
   bool in_name = true;
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
-    if (kind == Kind::Mark) {
-      if (scan.isMark(':')) in_name = false;
-      if (scan.isMark(';')) in_name = true;
+    if (kind == Kind::Punctuation) {
+      if (scan.isPunctuation(':')) in_name = false;
+      if (scan.isPunctuation(';')) in_name = true;
     } else if (kind == Kind::Word) {
       if (scan.is("END_VAR")) return;
       const bool qualifier =
@@ -164,9 +164,9 @@ uint8_t standardsOf(std::string_view pragma) {
 
 }  // namespace
 
-std::vector<IndexedBlock> indexLibrary(std::string_view text) {
+std::vector<IndexedBlock> indexLibrary(std::string_view source) {
   std::vector<IndexedBlock> blocks;
-  Scanner scan(text);
+  Scanner scan(source);
   bool has_pragma = false, bare = true;
   IndexedBlock block;
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
@@ -231,12 +231,12 @@ void indexLibraries(Context& context) {
       libraries.list.emplace_back().name = name;
     }
     libraries.library_of_file[f] = space.index;
-    for (const IndexedBlock& block : indexLibrary(files[f].text)) {
+    for (const IndexedBlock& block : indexLibrary(files[f].source)) {
       if ((block.standards >> dialect & 1u) == 0) continue;
       const auto number = static_cast<uint32_t>(libraries.blocks.size());
       libraries.blocks.push_back({f, block.begin, block.end, false, (block.qualified >> dialect & 1u) != 0});
-      for (const std::string_view text : block.names) {
-        const NameId spelling = context.names().intern(text);
+      for (const std::string_view spelling_of_name : block.names) {
+        const NameId spelling = context.names().intern(spelling_of_name);
         const NameId declared = keyOf(context, spelling);
         const auto entry = static_cast<uint32_t>(libraries.names.size());
         libraries.names.push_back({spelling, number, 0});
@@ -266,7 +266,7 @@ void load(Context& context, LibraryBlock& block) {
   Symbols& symbols = context.symbols;
   const LibraryFile& file = context.project.options.libraries[block.file];
   FileId& source = libraries.sources[block.file];
-  if (!source) source = symbols.sources.add(file.path, std::string(file.text));
+  if (!source) source = symbols.sources.add(file.path, std::string(file.source));
   if (!source) return;
   const uint32_t base = symbols.sources.begin(source).offset;
   const FileId from = source;
@@ -303,7 +303,7 @@ static Entity findInLibraries(Context& context, NameId key, uint32_t library) {
     if (library == kNoLibrary ? block.qualified : from != library) continue;
     if (!block.loaded) {
       load(context, block);
-      settleDeclarations(context);
+      resolveDeclarations(context);
     }
     if (const Entity found = libraries.list[from].names.find(key)) return found;
   }
@@ -323,7 +323,7 @@ Entity lookUpSystem(Context& context, std::string_view name) {
 
 TypeId anyType(Context& context) {
   const Entity found = lookUpSystem(context, "AnyType");
-  return found.what() == EntityKind::Type ? TypeId{found.index} : types::kError;
+  return found.entityKind() == EntityKind::Type ? TypeId{found.index} : types::kError;
 }
 
 }  // namespace rung::sema

@@ -21,6 +21,6 @@ struct IndexedBlock {
   // have it by its full name.
   uint8_t standards = kAllStandards, qualified = 0;
 };
-std::vector<IndexedBlock> indexLibrary(std::string_view text);
+std::vector<IndexedBlock> indexLibrary(std::string_view source);
 
 }  // namespace rung::sema

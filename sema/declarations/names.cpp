@@ -31,7 +31,7 @@ namespace {
 
 // What is found must be usable at once: its type resolved, its value known when it is constant.
 Entity ready(Context& context, Entity found) {
-  switch (found.what()) {
+  switch (found.entityKind()) {
     case EntityKind::Var: {
       const VarId id{found.index};
       ensureVarType(context, id);
@@ -96,7 +96,7 @@ Entity findName(Context& context, NameId key, Loc loc) {
     const Pou& pou = context.symbols.pou(context.pou);
     for (PouId chart = pou.chart; chart; chart = context.symbols.pou(chart).chart) {
       const Entity found = scopes.pous[chart.index].names.find(key);
-      const bool local = found.what() == EntityKind::Var && context.symbols.vars[found.index].pou == chart;
+      const bool local = found.entityKind() == EntityKind::Var && context.symbols.vars[found.index].pou == chart;
       if (found && !local) return found;
     }
     if (const PouId object = objectOf(context); object && (pou.owner || pou.base)) {
@@ -114,7 +114,7 @@ Entity findName(Context& context, NameId key, Loc loc) {
 }  // namespace
 
 Entity orMock(Context& context, NameId key, Entity found) {
-  if (context.library || found.what() != EntityKind::Pou) return found;
+  if (context.library || found.entityKind() != EntityKind::Pou) return found;
   for (size_t i = 0; i < context.scopes.mocks.size(); ++i) {
     if (context.scopes.mocks[i].key != key || context.scopes.mocks[i].busy) continue;
     const PouId mock = context.scopes.mocks[i].mock;
@@ -125,7 +125,7 @@ Entity orMock(Context& context, NameId key, Entity found) {
       there.pou = {};
       const Entity original = findDotted(there, context.symbols.pou(mock).replaces);
       context.scopes.mocks[i].busy = false;
-      if (original.what() == EntityKind::Pou) context.scopes.mocks[i].original = PouId{original.index};
+      if (original.entityKind() == EntityKind::Pou) context.scopes.mocks[i].original = PouId{original.index};
     }
     if (context.scopes.mocks[i].original.index == found.index) return entity(mock);
   }
@@ -133,14 +133,14 @@ Entity orMock(Context& context, NameId key, Entity found) {
 }
 
 Entity findDotted(Context& context, NameId dotted) {
-  const std::string name(context.names().text(dotted));
+  const std::string name(context.names().string(dotted));
   Entity found;
   for (size_t at = 0; at <= name.size();) {
     const size_t end = std::min(name.find('.', at), name.size());
     const NameId part = context.names().intern(std::string_view(name).substr(at, end - at));
     if (at != 0)
-      found = found.what() == EntityKind::Namespace ? lookUpNamespace(context, found.index, keyOf(context, part))
-                                                    : Entity{};
+      found = found.entityKind() == EntityKind::Namespace ? lookUpNamespace(context, found.index, keyOf(context, part))
+                                                          : Entity{};
     else
       found = end < name.size() ? findNamespace(context, part) : findName(context, keyOf(context, part), {});
     at = end + 1;
@@ -153,14 +153,14 @@ Entity lookUp(Context& context, NameId name, Loc loc) {
 }
 
 bool isAmbiguousItem(Context& context, Entity item) {
-  return item.what() == EntityKind::EnumValue && item.index < context.scopes.item_is_ambiguous.size() &&
+  return item.entityKind() == EntityKind::EnumValue && item.index < context.scopes.item_is_ambiguous.size() &&
          context.scopes.item_is_ambiguous[item.index];
 }
 
 Entity lookUpIn(Context& context, Entity qualifier, NameId name) {
   const NameId key = keyOf(context, name);
   Scopes& scopes = context.scopes;
-  switch (qualifier.what()) {
+  switch (qualifier.entityKind()) {
     case EntityKind::GlobalList: return ready(context, scopes.lists[qualifier.index].names.find(key));
     case EntityKind::Namespace: {
       return ready(context, orMock(context, key, lookUpNamespace(context, qualifier.index, key)));
@@ -191,14 +191,14 @@ VarId findMember(Context& context, TypeId record, NameId name) {
   if (named->pou) return findPin(context, named->pou, name);
   resolveNamed(context, type);
   const Entity found = named->members.find(keyOf(context, name));
-  return found.what() == EntityKind::Var ? VarId{found.index} : VarId{};
+  return found.entityKind() == EntityKind::Var ? VarId{found.index} : VarId{};
 }
 
 VarId findPin(Context& context, PouId pou, NameId name) {
   resolvePou(context, pou);
   for (; pou; pou = context.symbols.pou(pou).base) {
     const Entity found = context.scopes.pous[pou.index].names.find(keyOf(context, name));
-    if (found.what() != EntityKind::Var) continue;
+    if (found.entityKind() != EntityKind::Var) continue;
     const VarId id{found.index};
     if (context.symbols.var(id).pou != pou || id == context.symbols.pou(pou).result_var) continue;
     ensureVarType(context, id);
@@ -218,20 +218,20 @@ namespace {
 bool firstTime(Context& context, uint32_t where, NameId name) {
   if (context.symbols.diagnostics.full()) return true;  // only counted, and not worth the search
   const uint64_t key = uint64_t{where} << 32 | keyOf(context, name).index;
-  std::vector<uint64_t>& told = context.scopes.told;
-  if (std::find(told.begin(), told.end(), key) != told.end()) return false;
-  told.push_back(key);
+  std::vector<uint64_t>& reported = context.scopes.reported;
+  if (std::find(reported.begin(), reported.end(), key) != reported.end()) return false;
+  reported.push_back(key);
   return true;
 }
 
 }  // namespace
 
-bool sayUnknown(Context& context, NameId name) {
+bool isFirstReport(Context& context, NameId name) {
   if (context.tree().lost_names || isBroken(context, context.pou)) return false;
   return firstTime(context, context.pou.index, name);
 }
 
-bool sayUnknownMember(Context& context, TypeId record, NameId name) {
+bool isFirstReportOfMember(Context& context, TypeId record, NameId name) {
   const NamedType* named = context.scopes.named(context.types().resolve(record));
   if (named != nullptr && (isBroken(context, named->pou) || context.tree().lost_names)) return false;
   return firstTime(context, 0x80000000u | record.index, name);
@@ -243,15 +243,15 @@ std::string_view nearestName(Context& context, NameId written) {
     return elsewhere;
   std::vector<std::string_view> candidates;
   const Names& names = context.names();
-  const auto add = [&](NameId key, Entity) { candidates.push_back(names.text(key)); };
+  const auto add = [&](NameId key, Entity) { candidates.push_back(names.string(key)); };
   const auto addDeclared = [&](NameId key, Entity found) {
     NameId spelling = key;
-    if (found.what() == EntityKind::Var) spelling = context.symbols.vars[found.index].name;
-    if (found.what() == EntityKind::Pou) spelling = context.symbols.pous[found.index].name;
-    if (found.what() == EntityKind::Property) spelling = context.symbols.properties[found.index].name;
-    if (found.what() == EntityKind::EnumValue) spelling = context.symbols.enum_values[found.index].name;
-    if (found.what() == EntityKind::Type) spelling = context.types().info(TypeId{found.index}).name;
-    candidates.push_back(names.text(spelling && names.same(spelling, key) ? spelling : key));
+    if (found.entityKind() == EntityKind::Var) spelling = context.symbols.vars[found.index].name;
+    if (found.entityKind() == EntityKind::Pou) spelling = context.symbols.pous[found.index].name;
+    if (found.entityKind() == EntityKind::Property) spelling = context.symbols.properties[found.index].name;
+    if (found.entityKind() == EntityKind::EnumValue) spelling = context.symbols.enum_values[found.index].name;
+    if (found.entityKind() == EntityKind::Type) spelling = context.types().info(TypeId{found.index}).name;
+    candidates.push_back(names.string(spelling && names.same(spelling, key) ? spelling : key));
   };
   if (context.pou) context.scopes.pous[context.pou.index].names.forEach(addDeclared);
   const PouId object = objectOf(context);
@@ -268,8 +268,8 @@ std::string_view nearestName(Context& context, NameId written) {
   context.scopes.qualifiers.forEach(add);
   const Libraries& libraries = context.scopes.libraries;
   libraries.index.forEach(
-      [&](NameId, Entity entry) { candidates.push_back(names.text(libraries.names[entry.index].name)); });
-  return nearest(names.text(written), candidates);
+      [&](NameId, Entity entry) { candidates.push_back(names.string(libraries.names[entry.index].name)); });
+  return nearest(names.string(written), candidates);
 }
 
 }  // namespace rung::sema

@@ -13,34 +13,34 @@ namespace rung::sema {
 
 namespace {
 
-bool isNamespace(Entity found) { return found.what() == EntityKind::Namespace; }
+bool isNamespace(Entity found) { return found.entityKind() == EntityKind::Namespace; }
 
 Namespace& spaceAt(Context& context, uint32_t space) { return context.scopes.libraries.list[space]; }
 
 // `Simatic.Ax`: the spelling of a namespace does not depend on which of its blocks comes first.
-void spellLike(Context& context, Namespace& space, NameId full) {
-  if (!space.name || context.names().text(full) < context.names().text(space.name)) space.name = full;
+void adoptSpelling(Context& context, Namespace& space, NameId full) {
+  if (!space.name || context.names().string(full) < context.names().string(space.name)) space.name = full;
 }
 
 // The namespace of this name in another one (or none), made when there is none yet.
 uint32_t namespaceNamed(Context& context, uint32_t outer, const Ident& name) {
   Libraries& libraries = context.scopes.libraries;
   const NameId key = keyOf(context, name.name);
-  const std::string prefix = outer == kNoLibrary ? "" : spelled(context, libraries.list[outer].name) + ".";
-  const NameId full = context.names().intern(prefix + spelled(context, name.name));
+  const std::string prefix = outer == kNoLibrary ? "" : toString(context, libraries.list[outer].name) + ".";
+  const NameId full = context.names().intern(prefix + toString(context, name.name));
   NameMap& siblings = outer == kNoLibrary ? context.scopes.namespaces : libraries.list[outer].names;
   if (const Entity known = siblings.find(key)) {
-    spellLike(context, libraries.list[known.index], full);
+    adoptSpelling(context, libraries.list[known.index], full);
     return known.index;
   }
-  const auto made = static_cast<uint32_t>(libraries.list.size());
-  siblings.insert(key, Entity::of(EntityKind::Namespace, made));
+  const auto created = static_cast<uint32_t>(libraries.list.size());
+  siblings.insert(key, Entity::of(EntityKind::Namespace, created));
   libraries.list.emplace_back();
   Namespace& space = libraries.list.back();
   space.outer = outer;
   space.loc = name.loc;
-  spellLike(context, space, full);
-  return made;
+  adoptSpelling(context, space, full);
+  return created;
 }
 
 RegionId addRegion(Context& context, RegionId outer, uint32_t space, bool of_file = false) {
@@ -57,7 +57,7 @@ uint32_t spaceOf(const Context& context, RegionId region) {
 
 struct Collector {
   Context& context;
-  std::vector<PlacedDecl>& out;
+  std::vector<DeclInRegion>& out;
 
   // Forbids what a namespace cannot hold.   fails   NAMESPACE a CONFIGURATION c …            E0305
   void collect(Slice<DeclId> decls, FileId file, RegionId region, bool at_file_level) {
@@ -116,10 +116,10 @@ Entity findOpened(Context& context, RegionId region, NameId key, Loc loc, bool t
       continue;
     }
     if (found) {
-      const std::string first = spelled(context, spaceAt(context, from).name),
-                        second = spelled(context, spaceAt(context, space).name);
-      if (loc && sayUnknown(context, key))
-        context.report(diag::AmbiguousName, loc, {context.names().text(key), first, second});
+      const std::string first = toString(context, spaceAt(context, from).name),
+                        second = toString(context, spaceAt(context, space).name);
+      if (loc && isFirstReport(context, key))
+        context.report(diag::AmbiguousName, loc, {context.names().string(key), first, second});
       return Entity::of(EntityKind::Error, 0);
     }
     found = here;
@@ -134,7 +134,7 @@ Entity findOpened(Context& context, RegionId region, NameId key, Loc loc, bool t
 
 // Where an entity is declared.
 uint32_t spaceAround(Context& context, Entity found) {
-  switch (found.what()) {
+  switch (found.entityKind()) {
     case EntityKind::Pou: return spaceOf(context, context.scopes.pous[found.index].region);
     case EntityKind::Type: {
       const NamedType* named = context.scopes.named(TypeId{found.index});
@@ -153,7 +153,7 @@ uint32_t spaceAround(Context& context, Entity found) {
 }
 
 bool isInternal(Context& context, Entity found) {
-  switch (found.what()) {
+  switch (found.entityKind()) {
     case EntityKind::Pou: return context.symbols.pous[found.index].access == AccessLevel::Internal;
     case EntityKind::Type: {
       const NamedType* named = context.scopes.named(TypeId{found.index});
@@ -186,7 +186,7 @@ void openUsings(Context& context, RegionId region) {
               : of_library ? Entity{}
                            : spaceAt(there, space.index).names.find(keyOf(there, part.name));
       if (isNamespace(space)) continue;
-      there.report(diag::UnknownNamespace, part.loc, {context.names().text(part.name)});
+      there.report(diag::UnknownNamespace, part.loc, {context.names().string(part.name)});
       break;
     }
     if (isNamespace(space) && checkVisible(there, space, tree.list(decl.path)[decl.path.count - 1].loc))
@@ -201,8 +201,8 @@ RegionId regionOfFile(const Context& context, FileId file) {
   return found == context.scopes.region_of_file.end() ? RegionId{} : found->second;
 }
 
-std::vector<PlacedDecl> collectNamespaces(Context& context) {
-  std::vector<PlacedDecl> out;
+std::vector<DeclInRegion> collectNamespaces(Context& context) {
+  std::vector<DeclInRegion> out;
   Collector collector{context, out};
   for (const FileUnit& unit : context.tree().files) collector.collect(unit.decls, unit.file, {}, true);
   for (uint32_t i = 1; i < context.scopes.regions.size(); ++i) openUsings(context, RegionId{i});
@@ -226,7 +226,7 @@ Namespace* namespaceAround(Context& context) {
 NameId qualifiedName(Context& context, NameId name) {
   const Namespace* space = namespaceAround(context);
   if (space == nullptr || !name) return name;
-  return context.names().intern(spelled(context, space->name) + "." + spelled(context, name));
+  return context.names().intern(toString(context, space->name) + "." + toString(context, name));
 }
 
 Entity lookUpAround(Context& context, NameId key, Loc loc, bool types_only) {
@@ -259,18 +259,18 @@ Entity lookUpNamespace(Context& context, uint32_t space, NameId key) {
   if (const Entity found = findInSpace(context, space, key, false)) return found;
   // Its variables that are `qualified_only` are in its list alone.
   const Entity list = context.scopes.qualifiers.find(keyOf(context, spaceAt(context, space).name));
-  if (space <= context.scopes.libraries.project || list.what() != EntityKind::GlobalList) return {};
+  if (space <= context.scopes.libraries.project || list.entityKind() != EntityKind::GlobalList) return {};
   return context.scopes.lists[list.index].names.find(key);
 }
 
 Entity lookUpQualified(Context& context, Slice<Ident> path) {
-  const Entity wrong = Entity::of(EntityKind::Error, 0);
+  const Entity error = Entity::of(EntityKind::Error, 0);
   const Ident first = context.tree().list(path)[0];
   Entity found = findNamespace(context, first.name);
   if (!found) {
-    context.report(diag::UnknownName, first.loc, {context.names().text(first.name)})
+    context.report(diag::UnknownName, first.loc, {context.names().string(first.name)})
         .didYouMean(nearestName(context, first.name));
-    return wrong;
+    return error;
   }
   for (uint32_t i = 1; i < path.count; ++i) {
     const Ident part = context.tree().list(path)[i];
@@ -281,14 +281,14 @@ Entity lookUpQualified(Context& context, Slice<Ident> path) {
     }
     if (!isNamespace(found)) {
       const Ident before = context.tree().list(path)[i - 1];
-      context.report(diag::UnknownNamespace, before.loc, {context.names().text(before.name)});
-      return wrong;
+      context.report(diag::UnknownNamespace, before.loc, {context.names().string(before.name)});
+      return error;
     }
-    if (!checkVisible(context, found, context.tree().list(path)[i - 1].loc)) return wrong;
+    if (!checkVisible(context, found, context.tree().list(path)[i - 1].loc)) return error;
     const NameId key = keyOf(context, part.name);
     found = findInSpace(context, found.index, key, false);
     if (last) found = orMock(context, key, found);
-    if (!checkVisible(context, found, part.loc)) return wrong;
+    if (!checkVisible(context, found, part.loc)) return error;
   }
   return found;
 }
@@ -315,12 +315,12 @@ bool isVisible(Context& context, Entity found) {
 bool checkVisible(Context& context, Entity found, Loc loc) {
   if (isVisible(context, found)) return true;
   NameId name;
-  if (found.what() == EntityKind::Pou) name = context.symbols.pous[found.index].name;
-  if (found.what() == EntityKind::Type) name = context.types().info(TypeId{found.index}).name;
+  if (found.entityKind() == EntityKind::Pou) name = context.symbols.pous[found.index].name;
+  if (found.entityKind() == EntityKind::Type) name = context.types().info(TypeId{found.index}).name;
   if (isNamespace(found)) name = spaceAt(context, found.index).name;
   context.report(diag::NotAccessible, loc,
-                 {context.names().text(name), "INTERNAL",
-                  context.names().text(spaceAt(context, spaceAround(context, found)).name)});
+                 {context.names().string(name), "INTERNAL",
+                  context.names().string(spaceAt(context, spaceAround(context, found)).name)});
   return false;
 }
 
@@ -330,12 +330,13 @@ std::string_view nameElsewhere(Context& context, NameId key) {
     const Entity found = findInSpace(context, space, key, false);
     if (!found || isNamespace(found) || !isVisible(context, found)) continue;
     NameId name = key;
-    if (found.what() == EntityKind::Pou) name = context.symbols.pous[found.index].name;
-    if (found.what() == EntityKind::Var) name = context.symbols.vars[found.index].name;
-    if (found.what() == EntityKind::EnumValue) name = context.symbols.enum_values[found.index].name;
-    if (found.what() == EntityKind::Type) return context.names().text(context.types().info(TypeId{found.index}).name);
-    return context.names().text(
-        context.names().intern(spelled(context, libraries.list[space].name) + "." + spelled(context, name)));
+    if (found.entityKind() == EntityKind::Pou) name = context.symbols.pous[found.index].name;
+    if (found.entityKind() == EntityKind::Var) name = context.symbols.vars[found.index].name;
+    if (found.entityKind() == EntityKind::EnumValue) name = context.symbols.enum_values[found.index].name;
+    if (found.entityKind() == EntityKind::Type)
+      return context.names().string(context.types().info(TypeId{found.index}).name);
+    return context.names().string(
+        context.names().intern(toString(context, libraries.list[space].name) + "." + toString(context, name)));
   }
   return {};
 }

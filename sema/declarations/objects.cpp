@@ -16,7 +16,7 @@
 namespace rung::sema {
 
 bool isLifeMethod(const Context& context, NameId name) {
-  const std::string_view text = context.names().text(name);
+  const std::string_view text = context.names().string(name);
   return sameIdentifier(text, "FB_Init") || sameIdentifier(text, "FB_Reinit") || sameIdentifier(text, "FB_Exit");
 }
 
@@ -25,13 +25,13 @@ namespace {
 // `Motor__Start`: unique among functions and members of the project.
 NameId uniqueName(Context& context, const Pou& owner, std::string name) {
   Scopes& scopes = context.scopes;
-  std::string unique = spelled(context, owner.unique_name) + "__" + name;
+  std::string unique = toString(context, owner.unique_name) + "__" + name;
   for (uint32_t n = 2;; ++n) {
     const NameId id = context.names().intern(unique);
     const NameId key = keyOf(context, id);
     if (!scopes.pous_and_types.find(key) && scopes.member_names.insert(key, Entity::of(EntityKind::Error, 0)))
       return id;
-    unique = spelled(context, owner.unique_name) + "__" + name + std::to_string(n);
+    unique = toString(context, owner.unique_name) + "__" + name + std::to_string(n);
   }
 }
 
@@ -55,16 +55,16 @@ PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accesso
   member.cpp = decl.body_kind == BodyKind::Cpp;
   member.library = owner.library;
   member.used = owner.library;
-  member.faults = findPragma(context, decl.h, context.scopes.words.fault) != nullptr;
+  member.faults = findPragma(context, decl.h, context.scopes.known_names.fault) != nullptr;
   member.library_name = owner.library_name;
   member.owner = owner_id;
   member.access = decl.access;
   member.modifiers = decl.modifiers;
-  member.unique_name = uniqueName(context, owner, spelled(context, decl.name) + accessor);
+  member.unique_name = uniqueName(context, owner, toString(context, decl.name) + accessor);
   if (owner.kind == PouKind::Interface) member.modifiers |= kAbstract;
   owner.members.push_back(member_id);
   if (decl.body_kind == BodyKind::Sfc)
-    text::declareSfc(chartsOf(there), context.tree().as<PouDecl>(id), chartPlaceOf(there, member_id));
+    text::declareSfc(chartsOf(there), context.tree().as<PouDecl>(id), chartContextOf(there, member_id));
   for (uint32_t i = 0; i < decl.members.count; ++i)
     addMember(context, owner_id, context.tree().list(decl.members)[i], "", member_id);
   return member_id;
@@ -79,7 +79,7 @@ void shareChartVars(Context& context, PouId object) {
   for (const PouId member : symbols.pou(object).members) {
     if (symbols.pou(member).kind != PouKind::Action) continue;
     context.scopes.pous[member.index].names.forEach([&](NameId key, Entity found) {
-      if (found.what() != EntityKind::Var || symbols.vars[found.index].pou != object) return;
+      if (found.entityKind() != EntityKind::Var || symbols.vars[found.index].pou != object) return;
       if (seen.insert(key, found))
         shared.push_back({key, VarId{found.index}});
       else
@@ -106,7 +106,7 @@ PouId objectNamed(Context& context, TypeExprId written, bool want_interface) {
   if (want_interface ? static_cast<bool>(interface) : block && context.symbols.pou(block).kind != PouKind::Program)
     return want_interface ? interface : block;
   context.report(want_interface ? diag::NotAnInterface : diag::NotABase, context.tree().loc(written),
-                 {context.types().spell(type)});
+                 {context.types().toString(type)});
   return {};
 }
 
@@ -121,17 +121,17 @@ void collectMembers(Context& context, PouId owner) {
       continue;
     }
     const PropertyDecl& property = context.tree().as<PropertyDecl>(member);
-    Property made{property.name, property.h.loc, owner, {}, {}};
+    Property created{property.name, property.h.loc, owner, {}, {}};
     if (property.get) {
-      made.get = addMember(context, owner, property.get, "__get");
-      context.symbols.pou(made.get).accessor = Pou::Accessor::Get;
+      created.get = addMember(context, owner, property.get, "__get");
+      context.symbols.pou(created.get).accessor = Pou::Accessor::Get;
     }
     if (property.set) {
-      made.set = addMember(context, owner, property.set, "__set");
-      context.symbols.pou(made.set).accessor = Pou::Accessor::Set;
+      created.set = addMember(context, owner, property.set, "__set");
+      context.symbols.pou(created.set).accessor = Pou::Accessor::Set;
     }
     context.symbols.pou(owner).properties.push_back(static_cast<uint32_t>(context.symbols.properties.size()));
-    context.symbols.properties.push_back(made);
+    context.symbols.properties.push_back(created);
   }
 }
 
@@ -141,12 +141,13 @@ void declareMembers(Context& context, PouId object) {
   const auto declare = [&](NameId name, Loc loc, Entity declared) {
     if (!name || names.insert(keyOf(context, name), declared)) return;
     const Entity first = names.find(keyOf(context, name));
-    if (declared.what() == EntityKind::Pou && addOverload(context, first, PouId{declared.index})) return;
-    if (symbols.pou(object).library && first.what() == EntityKind::Var) return;  // SEMA.RELEASE: what is called is it
-    const Loc known = first.what() == EntityKind::Var        ? symbols.vars[first.index].loc
-                      : first.what() == EntityKind::Property ? symbols.properties[first.index].loc
-                      : first.what() == EntityKind::Pou      ? symbols.pous[first.index].loc
-                                                             : Loc{};
+    if (declared.entityKind() == EntityKind::Pou && addOverload(context, first, PouId{declared.index})) return;
+    if (symbols.pou(object).library && first.entityKind() == EntityKind::Var)
+      return;  // SEMA.RELEASE: what is called is it
+    const Loc known = first.entityKind() == EntityKind::Var        ? symbols.vars[first.index].loc
+                      : first.entityKind() == EntityKind::Property ? symbols.properties[first.index].loc
+                      : first.entityKind() == EntityKind::Pou      ? symbols.pous[first.index].loc
+                                                                   : Loc{};
     reportTwice(context, name, loc, known);
   };
   for (const uint32_t property : symbols.pou(object).properties) {
@@ -189,7 +190,7 @@ void addInterface(Context& there, Pou& pou, PouId interface, Loc loc) {
   if (std::find(pou.interfaces.begin(), pou.interfaces.end(), interface) == pou.interfaces.end())
     pou.interfaces.push_back(interface);
   else
-    there.report(diag::InterfaceTwice, loc, {there.names().text(there.symbols.pou(interface).name)});
+    there.report(diag::InterfaceTwice, loc, {there.names().string(there.symbols.pou(interface).name)});
 }
 
 }  // namespace
@@ -211,7 +212,7 @@ void resolveHeader(Context& context, PouId id) {
     if (!base) continue;
     if (context.scopes.depth > kMaxDeclarationDepth) {
       there.report(diag::DeclarationsTooDeep, context.tree().loc(written),
-                   {context.names().text(symbols.pou(id).name)});
+                   {context.names().string(symbols.pou(id).name)});
       continue;
     }
     ++context.scopes.depth;
@@ -223,13 +224,13 @@ void resolveHeader(Context& context, PouId id) {
       continue;
     }
     symbols.pou(id).base_depth = std::max(symbols.pou(id).base_depth, depth);
-    const std::string_view name = context.names().text(symbols.pou(base).name);
+    const std::string_view name = context.names().string(symbols.pou(base).name);
     if (symbols.pou(base).header == Pou::Header::Busy) {
-      there.report(diag::ExtendsItself, context.tree().loc(written), {context.names().text(symbols.pou(id).name)});
+      there.report(diag::ExtendsItself, context.tree().loc(written), {context.names().string(symbols.pou(id).name)});
     } else if (is_interface) {
       addInterface(there, symbols.pou(id), base, context.tree().loc(written));
     } else if (symbols.pou(id).base) {
-      there.report(diag::SeveralBases, context.tree().loc(written), {context.names().text(symbols.pou(id).name)});
+      there.report(diag::SeveralBases, context.tree().loc(written), {context.names().string(symbols.pou(id).name)});
     } else if ((symbols.pou(base).modifiers & kFinal) != 0) {
       there.report(diag::ExtendsFinal, context.tree().loc(written), {name})
           .note(symbols.pou(base).loc, diag::DeclaredHere);
@@ -250,10 +251,10 @@ void resolveHeader(Context& context, PouId id) {
 }
 
 void resolveHeaders(Context& context) {
-  context.scopes.settling = true;  // a library's block that is read now may yet be extended
+  context.scopes.resolving = true;  // a library's block that is read now may yet be extended
   for (uint32_t i = 1; i < context.symbols.pous.size(); ++i)
     if (!context.symbols.pous[i].owner) resolveHeader(context, PouId{i});
-  context.scopes.settling = false;
+  context.scopes.resolving = false;
   for (uint32_t i = 1; i < context.symbols.pous.size(); ++i) decideDispatch(context, PouId{i});
 }
 
@@ -269,10 +270,10 @@ void addObjectFields(Context& context, PouId id) {
     var.storage = Storage::Field;
     var.pou = id;
     var.read = var.written = true;
-    const VarId made{static_cast<uint32_t>(symbols.vars.size())};
+    const VarId created{static_cast<uint32_t>(symbols.vars.size())};
     symbols.vars.push_back(var);
-    pou.vars.insert(pou.vars.begin() + (pou.id_var ? 1 : 0), made);
-    return made;
+    pou.vars.insert(pou.vars.begin() + (pou.id_var ? 1 : 0), created);
+    return created;
   };
   if (pou.dispatched && !(pou.base && symbols.pou(pou.base).dispatched))
     pou.id_var = hidden("__type", types::idOf(types::TypeKind::UDInt));
@@ -282,7 +283,7 @@ void addObjectFields(Context& context, PouId id) {
 PouId constructorOf(const Context& context, PouId object) {
   for (PouId at = object; at; at = context.symbols.pou(at).base)
     for (const PouId member : context.symbols.pou(at).members)
-      if (sameIdentifier(context.names().text(context.symbols.pou(member).name), "FB_Init")) return member;
+      if (sameIdentifier(context.names().string(context.symbols.pou(member).name), "FB_Init")) return member;
   return {};
 }
 
@@ -299,7 +300,7 @@ Entity findInObject(Context& context, PouId object, NameId name) {
     resolveHeader(context, at);
     declarePou(context, at);
     if (const Entity found = context.scopes.pous[at.index].names.find(key)) {
-      if (found.what() != EntityKind::Var) return found;
+      if (found.entityKind() != EntityKind::Var) return found;
       if (context.symbols.vars[found.index].pou == at) {
         ensureVarType(context, VarId{found.index});
         return found;

@@ -23,7 +23,7 @@ bool sameParameters(const Symbols& symbols, PouId a, PouId b) {
   for (size_t i = 0; i < left.size(); ++i) {
     const Var &one = symbols.var(left[i]), &other = symbols.var(right[i]);
     const TypeId type = symbols.types.resolve(one.type);
-    const bool texts = types::TypeTable::isText(symbols.types.info(type).kind) &&
+    const bool texts = types::TypeTable::isString(symbols.types.info(type).kind) &&
                        symbols.types.info(type).kind == symbols.types.kind(other.type);
     if (one.section != other.section || (!texts && type != symbols.types.resolve(other.type))) return false;
   }
@@ -43,7 +43,7 @@ PouId methodLike(const Symbols& symbols, PouId object, PouId like_id) {
 
 bool addOverload(Context& context, Entity first, PouId added) {
   Symbols& symbols = context.symbols;
-  if (symbols.dialect != Dialect::Iec3 || first.what() != EntityKind::Pou) return false;
+  if (symbols.dialect != Dialect::Iec3 || first.entityKind() != EntityKind::Pou) return false;
   const PouId head{first.index};
   Pou& pou = symbols.pou(added);
   const PouKind kind = symbols.pou(head).kind;
@@ -55,7 +55,7 @@ bool addOverload(Context& context, Entity first, PouId added) {
   symbols.pou(last).next_overload = added;
   symbols.pou(head).overloads = pou.overloads = head;
   if (kind == PouKind::Function) {  // a method has a name of its own already
-    const std::string stem = spelled(context, pou.unique_name) + "__";
+    const std::string stem = toString(context, pou.unique_name) + "__";
     do {
       pou.unique_name = context.names().intern(stem + std::to_string(count++));
     } while (!context.scopes.member_names.insert(keyOf(context, pou.unique_name), entity(added)) ||

@@ -20,22 +20,22 @@ using types::TypeTable;
 
 namespace {
 
-constexpr int64_t kMaxTextLength = 1 << 20;
+constexpr int64_t kMaxStringLength = 1 << 20;
 
 // Marks in TypeExprHeader::bits.
 constexpr uint8_t kBusy = 1;
 
-std::string spelled(int64_t number) { return std::to_string(number); }
+std::string toString(int64_t number) { return std::to_string(number); }
 
 // Forbids a type name that nothing declares, and names of things that are no types.
 //   passes  m : Motor;       fails  m : Moter;         E0402, did you mean `Motor`?
 void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
-  const std::string_view text = context.names().text(name);
-  if (found.what() == EntityKind::Pou) {
+  const std::string_view text = context.names().string(name);
+  if (found.entityKind() == EntityKind::Pou) {
     context.report(diag::FunctionAsType, loc, {text}).note(context.symbols.pous[found.index].loc, diag::DeclaredHere);
     return;
   }
-  if (!sayUnknown(context, name)) return;
+  if (!isFirstReport(context, name)) return;
   if (context.symbols.diagnostics.full()) {
     context.report(diag::UnknownType, loc, {text});
     return;
@@ -46,21 +46,22 @@ void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
   }
   std::vector<std::string_view> candidates;
   const auto add = [&](NameId key, Entity declared) {
-    if (declared.what() == EntityKind::Type) {
+    if (declared.entityKind() == EntityKind::Type) {
       const NameId spelling = context.types().info(TypeId{declared.index}).name;
-      candidates.push_back(context.names().text(spelling ? spelling : key));
-    } else if (declared.what() == EntityKind::Pou && context.symbols.pous[declared.index].kind != PouKind::Function) {
-      candidates.push_back(context.names().text(context.symbols.pous[declared.index].name));
+      candidates.push_back(context.names().string(spelling ? spelling : key));
+    } else if (declared.entityKind() == EntityKind::Pou &&
+               context.symbols.pous[declared.index].kind != PouKind::Function) {
+      candidates.push_back(context.names().string(context.symbols.pous[declared.index].name));
     }
   };
   if (const Namespace* space = namespaceAround(context); space != nullptr) space->names.forEach(add);
   context.scopes.pous_and_types.forEach(add);
   const Libraries& libraries = context.scopes.libraries;
   libraries.index.forEach(
-      [&](NameId, Entity entry) { candidates.push_back(context.names().text(libraries.names[entry.index].name)); });
+      [&](NameId, Entity entry) { candidates.push_back(context.names().string(libraries.names[entry.index].name)); });
   for (uint32_t kind = 0; kind < static_cast<uint32_t>(TypeKind::Any); ++kind) {
     const NameId elementary = context.types().info(TypeId{kind}).name;
-    if (elementary) candidates.push_back(context.names().text(elementary));
+    if (elementary) candidates.push_back(context.names().string(elementary));
   }
   context.report(diag::UnknownType, loc, {text}).didYouMean(nearest(text, candidates));
 }
@@ -85,12 +86,12 @@ Entity findType(Context& context, NameId name, Loc loc) {
 }
 
 TypeId typeOf(Context& context, Entity found) {
-  if (found.what() == EntityKind::Type) {
+  if (found.entityKind() == EntityKind::Type) {
     const TypeId type{found.index};
     if (context.types().info(type).kind != TypeKind::Record) resolveNamed(context, type);
     return type;
   }
-  if (found.what() == EntityKind::Pou) {
+  if (found.entityKind() == EntityKind::Pou) {
     const Pou& pou = context.symbols.pous[found.index];
     return pou.kind == PouKind::Interface ? context.types().pointer(pou.record) : pou.record;
   }
@@ -102,7 +103,8 @@ TypeId typeOf(Context& context, Entity found) {
 TypeId ownTypeOfLateName(Context& context, NameId name, TypeKind kind) {
   if (kind != TypeKind::UString && kind != TypeKind::UChar) return {};
   const Entity found = lookUp(context, name);
-  return found.what() == EntityKind::Type || found.what() == EntityKind::Pou ? typeOf(context, found) : TypeId{};
+  return found.entityKind() == EntityKind::Type || found.entityKind() == EntityKind::Pou ? typeOf(context, found)
+                                                                                         : TypeId{};
 }
 
 namespace {
@@ -127,8 +129,8 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
   } else {
     found = lookUpQualified(context, expr.path);  // Lib.Motor, A.B.Motor
   }
-  if (found.what() == EntityKind::Error) return types::kError;
-  if (found.what() == EntityKind::Pou) checkTestOnly(context, PouId{found.index}, last.loc);
+  if (found.entityKind() == EntityKind::Error) return types::kError;
+  if (found.entityKind() == EntityKind::Pou) checkTestOnly(context, PouId{found.index}, last.loc);
   if (!found && length == 1 && !context.iec() && isNamedBit(context, last.name)) {
     context.report(diag::BitOutside, last.loc);
     return types::kError;
@@ -139,20 +141,21 @@ TypeId resolveNamedExpr(Context& context, const NamedTypeExpr& expr) {
   return types::kError;
 }
 
-TypeId resolveText(Context& context, TypeExprId id) {
-  TextTypeExpr& expr = context.tree().as<TextTypeExpr>(id);
-  const TypeKind kind = expr.code == TextCode::Wide   ? TypeKind::WString
-                        : expr.code == TextCode::Utf8 ? TypeKind::UString
-                                                      : TypeKind::String;
+TypeId resolveString(Context& context, TypeExprId id) {
+  StringTypeExpr& expr = context.tree().as<StringTypeExpr>(id);
+  const TypeKind kind = expr.code == StringEncoding::Wide   ? TypeKind::WString
+                        : expr.code == StringEncoding::Utf8 ? TypeKind::UString
+                                                            : TypeKind::String;
   if (!expr.length) return types::idOf(kind);
   const auto length = constantBound(context, expr.length);
   if (!length) return types::kError;
-  if (*length < 1 || *length > kMaxTextLength) {
-    context.report(diag::TextLength, context.tree().begin(expr.length), {spelled(*length), spelled(kMaxTextLength)});
+  if (*length < 1 || *length > kMaxStringLength) {
+    context.report(diag::TextLength, context.tree().begin(expr.length),
+                   {toString(*length), toString(kMaxStringLength)});
     return types::kError;
   }
   const auto capacity = static_cast<uint32_t>(*length);
-  return context.types().text(kind, capacity);
+  return context.types().string(kind, capacity);
 }
 
 // Forbids ARRAY[*] as the type of anything but a VAR_IN_OUT. IEC 61131-3 ed. 3 table 15, 2.
@@ -169,7 +172,7 @@ TypeId closedType(Context& context, TypeExprId written) {
 TypeId resolveArray(Context& context, TypeExprId id) {
   ArrayTypeExpr& expr = context.tree().as<ArrayTypeExpr>(id);
   std::vector<Dimension> dimensions;
-  bool good = true;
+  bool ok = true;
   uint32_t open = 0;
   for (uint32_t i = 0; i < expr.bounds.count; ++i) {
     ArrayBound bound = context.tree().list(expr.bounds)[i];
@@ -181,19 +184,19 @@ TypeId resolveArray(Context& context, TypeExprId id) {
     const auto high = constantBound(context, bound.high);
     context.tree().list(expr.bounds)[i] = bound;
     if (!low || !high) {
-      good = false;
+      ok = false;
     } else if (*low > *high) {
-      context.report(diag::ArrayBoundsReversed, context.tree().begin(bound.low), {spelled(*low), spelled(*high)});
-      good = false;
+      context.report(diag::ArrayBoundsReversed, context.tree().begin(bound.low), {toString(*low), toString(*high)});
+      ok = false;
     } else if (*low < std::numeric_limits<int32_t>::min() || *high > std::numeric_limits<int32_t>::max()) {
       context.report(diag::ArrayBoundOutside, context.tree().begin(bound.low));
-      good = false;
+      ok = false;
     } else {
       dimensions.push_back({*low, *high});
     }
   }
   const TypeId element = closedType(context, expr.element);
-  if (!good || element == types::kError) return types::kError;
+  if (!ok || element == types::kError) return types::kError;
   if (open == 0) return context.types().array(element, dimensions);
   if (open == expr.bounds.count) return context.types().openArray(element, open);
   context.report(diag::OpenArray, expr.h.loc);
@@ -207,7 +210,7 @@ TypeId integerBase(Context& context, TypeExprId base, Diag diag) {
   if (type == types::kError) return type;
   const TypeKind kind = context.types().kind(type);
   if (TypeTable::isInteger(kind) || TypeTable::isBits(kind)) return context.types().resolve(type);
-  context.report(diag, context.tree().loc(base), {context.types().spell(type)});
+  context.report(diag, context.tree().loc(base), {context.types().toString(type)});
   return types::kError;
 }
 
@@ -215,7 +218,7 @@ TypeId integerBase(Context& context, TypeExprId base, Diag diag) {
 bool fits(Context& context, TypeId base, int64_t number, Loc loc) {
   const types::Value value{types::idOf(TypeKind::LInt), static_cast<uint64_t>(number)};
   if (!types::convert(context.types(), value, base).overflow) return true;
-  context.report(diag::NoValueOfType, loc, {spelled(number), context.types().spell(base)});
+  context.report(diag::NoValueOfType, loc, {toString(number), context.types().toString(base)});
   return false;
 }
 
@@ -226,16 +229,16 @@ void fillSubrange(Context& context, TypeId type, TypeExprId id) {
   const auto high = constantBound(context, expr.high);
   TypeInfo& info = context.types().edit(type);
   info.base = base;
-  bool good = base != types::kError && low && high;
-  if (good) {
-    good = fits(context, base, *low, context.tree().begin(expr.low)) &&
-           fits(context, base, *high, context.tree().begin(expr.high));
+  bool ok = base != types::kError && low && high;
+  if (ok) {
+    ok = fits(context, base, *low, context.tree().begin(expr.low)) &&
+         fits(context, base, *high, context.tree().begin(expr.high));
   }
-  if (good && *low > *high) {
-    context.report(diag::SubrangeReversed, context.tree().begin(expr.low), {spelled(*low), spelled(*high)});
-    good = false;
+  if (ok && *low > *high) {
+    context.report(diag::SubrangeReversed, context.tree().begin(expr.low), {toString(*low), toString(*high)});
+    ok = false;
   }
-  if (!good) {  // what uses it is silent
+  if (!ok) {  // what uses it is silent
     info.kind = TypeKind::Alias;
     info.base = types::kError;
     return;
@@ -266,20 +269,20 @@ void fillEnum(Context& context, TypeId type, TypeExprId id) {
   int64_t next = 0;
   for (uint32_t i = 0; i < expr.items.count; ++i) {
     EnumItem item = context.tree().list(expr.items)[i];
-    bool good = true;
+    bool ok = true;
     if (item.value) {
       const auto value = constantBound(context, item.value);
       context.tree().list(expr.items)[i].value = item.value;
       if (value) {
         next = *value;
       } else {
-        good = false;
+        ok = false;
       }
     }
-    if (good && !fits(context, base, next, item.value ? context.tree().begin(item.value) : item.item.loc)) next = 0;
+    if (ok && !fits(context, base, next, item.value ? context.tree().begin(item.value) : item.item.loc)) next = 0;
     context.types().edit(type).items.emplace_back(item.item.name, next);
     const Entity declared = named.members.find(keyOf(context, item.item.name));
-    if (declared.what() == EntityKind::EnumValue && symbols.enum_values[declared.index].loc == item.item.loc) {
+    if (declared.entityKind() == EntityKind::EnumValue && symbols.enum_values[declared.index].loc == item.item.loc) {
       symbols.enum_values[declared.index].value = next;
     }
     next = static_cast<int64_t>(static_cast<uint64_t>(next) + 1);  // behind the largest value: wraps
@@ -294,7 +297,7 @@ void inheritFields(Context& context, TypeId record, TypeExprId base_expr) {
   NamedType* named_base = context.scopes.named(base);
   const TypeInfo& info = context.types().info(base);
   if (named_base == nullptr || info.kind != TypeKind::Record || info.record_kind != RecordKind::Struct) {
-    context.report(diag::ExtendsNoStruct, context.tree().loc(base_expr), {context.types().spell(base)});
+    context.report(diag::ExtendsNoStruct, context.tree().loc(base_expr), {context.types().toString(base)});
     return;
   }
   resolveNamed(context, base);
@@ -312,7 +315,7 @@ void inheritFields(Context& context, TypeId record, TypeExprId base_expr) {
   const bool is_laid_out = ensureLayout(context, base);
   for (size_t i = 0; i < named_base->fields.size(); ++i) {
     addField(context, record, inherit(named_base->fields[i]));
-    if (is_laid_out) context.types().edit(record).fields.back().place = info.fields[i].offset;
+    if (is_laid_out) context.types().edit(record).fields.back().given_offset = info.fields[i].offset;
   }
   for (size_t i = 0; i < named_base->bits.size(); ++i) {
     const VarId id = inherit(named_base->bits[i]);
@@ -358,19 +361,19 @@ void fillRecord(Context& context, TypeId type, TypeExprId id) {
     const VarDecl& decl = context.tree().as<VarDecl>(symbols.var(var).decl);
     placed = placed || (decl.located && !decl.address.incomplete);
   }
-  if (placed || expr.overlaps) return placeFields(context, type, vars);
+  if (placed || expr.overlaps) return layOutMembers(context, type, vars);
   for (const VarId var : vars) addField(context, type, var);
 }
 
 // Types written in place, in VAR: a name of their own for generated code.
-NameId nameInPlace(Context& context, Loc loc) {
-  const Place place = context.symbols.sources.place(loc);
-  std::string name = context.pou ? spelled(context, context.symbols.pou(context.pou).unique_name) : "Type";
-  name += "__" + std::to_string(place.line) + "_" + std::to_string(place.column);
+NameId anonymousTypeName(Context& context, Loc loc) {
+  const SourceLocation location = context.symbols.sources.location(loc);
+  std::string name = context.pou ? toString(context, context.symbols.pou(context.pou).unique_name) : "Type";
+  name += "__" + std::to_string(location.line) + "_" + std::to_string(location.column);
   return context.names().intern(name);
 }
 
-NamedType& addInPlace(Context& context, TypeId type, TypeExprId written) {
+NamedType& addAnonymousType(Context& context, TypeId type, TypeExprId written) {
   NamedType& named = addNamed(context, type);
   named.type = written;
   named.owner = context.pou;
@@ -386,17 +389,17 @@ TypeId resolveWritten(Context& context, TypeExprId id) {
   switch (tree.kind(id)) {
     case TypeExprKind::Error: return types::kError;
     case TypeExprKind::Named: return resolveNamedExpr(context, tree.as<NamedTypeExpr>(id));
-    case TypeExprKind::Text: return resolveText(context, id);
+    case TypeExprKind::String: return resolveString(context, id);
     case TypeExprKind::Array: return resolveArray(context, id);
     case TypeExprKind::Subrange: {
       const TypeId type = table.addSubrange({}, types::kInt, 0, 0);
-      addInPlace(context, type, id).resolved = State::Done;
+      addAnonymousType(context, type, id).resolved = State::Done;
       fillSubrange(context, type, id);
       return type;
     }
     case TypeExprKind::Enum: {
       const TypeId type = table.addEnum({}, types::kInt);
-      addInPlace(context, type, id).resolved = State::Busy;
+      addAnonymousType(context, type, id).resolved = State::Busy;
       NameMap* bare = context.pou ? &context.scopes.pous[context.pou.index].names : &context.scopes.items;
       declareItems(context, type, id, bare, false);
       fillEnum(context, type, id);
@@ -404,8 +407,8 @@ TypeId resolveWritten(Context& context, TypeExprId id) {
       return type;
     }
     case TypeExprKind::Struct: {
-      const TypeId type = addStructure(context, id, nameInPlace(context, tree.loc(id)));
-      addInPlace(context, type, id);
+      const TypeId type = addStructure(context, id, anonymousTypeName(context, tree.loc(id)));
+      addAnonymousType(context, type, id);
       return type;
     }
     case TypeExprKind::Pointer: {
@@ -462,13 +465,13 @@ void resolveNamed(Context& context, TypeId type) {
     if (info.kind == TypeKind::Alias && info.base == types::kError && named->decl) {
       // Forbids an alias of itself.   fails  TYPE a : b; b : a; END_TYPE       E0304
       const TypeDecl& decl = context.tree().as<TypeDecl>(named->decl);
-      context.report(diag::AliasOfItself, decl.h.loc, {context.names().text(decl.name)});
+      context.report(diag::AliasOfItself, decl.h.loc, {context.names().string(decl.name)});
     }
     return;
   }
   if (context.scopes.depth > kMaxDeclarationDepth) {
     context.report(diag::DeclarationsTooDeep, context.tree().loc(named->type),
-                   {context.names().text(context.types().info(type).name)});
+                   {context.names().string(context.types().info(type).name)});
     named->resolved = State::Done;
     return;
   }
@@ -481,7 +484,7 @@ void resolveNamed(Context& context, TypeId type) {
     case TypeExprKind::Struct: fillRecord(there, type, named->type); break;
     case TypeExprKind::Error: break;
     case TypeExprKind::Named:
-    case TypeExprKind::Text:
+    case TypeExprKind::String:
     case TypeExprKind::Array:
     case TypeExprKind::Pointer: {
       TypeId target = closedType(there, named->type);

@@ -1,7 +1,7 @@
 // Variables of POUs and global lists: their names first, then types and storage, then initial values; each on demand.
 #include "frontend/diagram/schedule.h"
 #include "frontend/syntax/diagnostics.h"
-#include "sema/bodies/shapes.h"
+#include "sema/bodies/signatures.h"
 #include "sema/checks/object_members.h"
 #include "sema/checks/uncopied.h"
 #include "sema/declarations/configuration.h"
@@ -48,14 +48,14 @@ const char* kindWord(PouKind kind) {
 }
 
 // A variable AT %I* of a block, or of a program with several instances, has a place of its own in each instance.
-bool hasOwnPlaces(const Context& context, PouId pou) {
+bool addressesPerInstance(const Context& context, PouId pou) {
   if (!pou || isFunction(context.symbols.pou(pou).kind)) return false;
   if (context.symbols.pou(pou).kind == PouKind::FunctionBlock) return true;
   return static_cast<bool>(context.scopes.programs_with_several.find(keyOf(context, context.symbols.pou(pou).name)));
 }
 
 Storage storageOf(const Context& context, SectionKind section, PouId pou, const VarDecl& decl) {
-  if (decl.located && decl.address.incomplete && hasOwnPlaces(context, pou)) return Storage::Field;
+  if (decl.located && decl.address.incomplete && addressesPerInstance(context, pou)) return Storage::Field;
   if (decl.located) return Storage::Image;
   if (!pou || section == SectionKind::External || section == SectionKind::Stat) return Storage::Global;
   if (section == SectionKind::Temp || isFunction(context.symbols.pou(pou).kind)) return Storage::Local;
@@ -83,7 +83,7 @@ Context contextOf(Context& context, VarId id) {
 void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, PouId pou, ListId list, NameMap* names,
                  std::vector<VarId>& into) {
   Symbols& symbols = context.symbols;
-  const Scopes::Words& words = context.scopes.words;
+  const Scopes::KnownNames& known = context.scopes.known_names;
   const VarDecl& decl = context.tree().as<VarDecl>(decl_id);
   Var var;
   var.decl = decl_id;
@@ -97,13 +97,13 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
   var.pou = pou;
   var.list = list;
   if (!decl.h.pragmas.empty()) {
-    var.required = findPragma(context, decl.h, words.required) != nullptr;
-    var.lazy = findPragma(context, decl.h, words.lazy) != nullptr;
-    var.instance_path = findPragma(context, decl.h, words.attribute_instance_path) != nullptr;
-    var.extensible = findPragma(context, decl.h, words.extensible) != nullptr;
+    var.required = findPragma(context, decl.h, known.required) != nullptr;
+    var.lazy = findPragma(context, decl.h, known.lazy) != nullptr;
+    var.instance_path = findPragma(context, decl.h, known.attribute_instance_path) != nullptr;
+    var.extensible = findPragma(context, decl.h, known.extensible) != nullptr;
     for (const Pragma& pragma : context.tree().list(decl.h.pragmas)) {
-      if (keyOf(context, pragma.name) == words.alias) {
-        var.aliases.push_back(context.names().intern(context.tree().text(pragma.value)));
+      if (keyOf(context, pragma.name) == known.alias) {
+        var.aliases.push_back(context.names().intern(context.tree().string(pragma.value)));
       }
     }
   }
@@ -122,7 +122,7 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
     const NameId key = keyOf(context, var.name);
     if (!names->insert(key, entity(id))) {
       const Entity first = names->find(key);
-      const Loc loc = first.what() == EntityKind::Var ? symbols.vars[first.index].loc : Loc{};
+      const Loc loc = first.entityKind() == EntityKind::Var ? symbols.vars[first.index].loc : Loc{};
       // What could not be read as a declaration is none.
       if (!decl.type || context.tree().kind(decl.type) != TypeExprKind::Error)
         reportTwice(context, var.name, var.loc, loc);
@@ -171,7 +171,7 @@ void checkEdge(Context& context, const Var& var) {
   if (var.edge == EdgeKind::None || var.type == types::kError) return;
   const bool block = var.pou && !isFunction(context.symbols.pou(var.pou).kind) && !var.is_bit;
   if (block && var.section == SectionKind::Input && context.types().kind(var.type) == TypeKind::Bool) return;
-  context.report(diag::EdgeNotBool, var.loc, {context.names().text(var.name)});
+  context.report(diag::EdgeNotBool, var.loc, {context.names().string(var.name)});
 }
 
 // Forbids a VAR_EXTERNAL without its VAR_GLOBAL, or with another type. IEC 61131-3 ed. 3, 6.5.2.2.
@@ -186,12 +186,12 @@ void matchExternal(Context& context, VarId id) {
        space = space->outer == kNoLibrary ? nullptr : &context.scopes.libraries.list[space->outer])
     found = space->globals.find(keyOf(context, name));
   if (!found) found = context.scopes.globals.find(keyOf(context, name));
-  if (found.what() != EntityKind::Var) {
+  if (found.entityKind() != EntityKind::Var) {
     std::vector<std::string_view> candidates;
     context.scopes.globals.forEach(
-        [&](NameId, Entity global) { candidates.push_back(context.names().text(symbols.vars[global.index].name)); });
-    context.report(diag::ExternalUnknown, loc, {context.names().text(name)})
-        .didYouMean(nearest(context.names().text(name), candidates));
+        [&](NameId, Entity global) { candidates.push_back(context.names().string(symbols.vars[global.index].name)); });
+    context.report(diag::ExternalUnknown, loc, {context.names().string(name)})
+        .didYouMean(nearest(context.names().string(name), candidates));
     symbols.var(id).type = types::kError;
     return;
   }
@@ -203,7 +203,8 @@ void matchExternal(Context& context, VarId id) {
   if (var.type != types::kError && global.type != types::kError &&
       table.resolve(var.type) != table.resolve(global.type)) {
     context
-        .report(diag::ExternalType, loc, {context.names().text(name), table.spell(var.type), table.spell(global.type)})
+        .report(diag::ExternalType, loc,
+                {context.names().string(name), table.toString(var.type), table.toString(global.type)})
         .note(global.loc, diag::DeclaredHere);
     var.type = types::kError;
     return;
@@ -253,7 +254,7 @@ void ensureVarType(Context& context, VarId id) {
   Context there = contextOf(context, id);
   VarDecl& decl = context.tree().as<VarDecl>(symbols.var(id).decl);
   if (context.scopes.depth > kMaxDeclarationDepth) {
-    context.report(diag::DeclarationsTooDeep, symbols.var(id).loc, {context.names().text(symbols.var(id).name)});
+    context.report(diag::DeclarationsTooDeep, symbols.var(id).loc, {context.names().string(symbols.var(id).name)});
     symbols.var(id).type = types::kError;
     return;
   }
@@ -277,8 +278,8 @@ void ensureVarType(Context& context, VarId id) {
     }
     // An ANY input of CODESYS tells of any variable where it is; the standard's generic types are the library's.
     const bool generic = types::TypeTable::isGeneric(context.types().kind(var.type));
-    const bool may_tell = var.section == SectionKind::Input || var.section == SectionKind::Local;
-    if (generic && may_tell && !there.library && !there.iec()) {
+    const bool may_report = var.section == SectionKind::Input || var.section == SectionKind::Local;
+    if (generic && may_report && !there.library && !there.iec()) {
       var.any = var.type;
       var.type = anyType(there);
     }
@@ -287,11 +288,11 @@ void ensureVarType(Context& context, VarId id) {
         !checkNotAbstract(there, type, context.tree().loc(decl.type)))
       var.type = types::kError;
     if (var.type != types::kError && !checkKept(there, var, context.tree().loc(decl.type))) var.type = types::kError;
-    if (decl.located && decl.address.incomplete) {  // completed by resolveInstancePlaces
+    if (decl.located && decl.address.incomplete) {  // completed by resolveInstancePaths
       if (decl.address.size_given && addressType(decl.address) == types::kBool && type != types::kError &&
           context.types().kind(type) != TypeKind::Bool) {
         const std::string address = {'%', areaLetter(decl.address.area), 'X', '*'};
-        there.report(diag::AddressType, decl.address_loc, {address, context.types().spell(type)});
+        there.report(diag::AddressType, decl.address_loc, {address, context.types().toString(type)});
         var.type = types::kError;
       }
       var.open_address = true;
@@ -333,14 +334,14 @@ void ensureInitialValue(Context& context, VarId id) {
   };
   if (decl.h.spare == static_cast<uint16_t>(State::Busy)) {
     if (symbols.var(id).constant && !symbols.var(id).has_value) {
-      context.report(diag::ConstantCycle, symbols.var(id).loc, {context.names().text(symbols.var(id).name)});
+      context.report(diag::ConstantCycle, symbols.var(id).loc, {context.names().string(symbols.var(id).name)});
       setUnknown();
     }
     return;
   }
   ensureVarType(context, id);
   if (context.scopes.depth > kMaxDeclarationDepth) {
-    context.report(diag::DeclarationsTooDeep, symbols.var(id).loc, {context.names().text(symbols.var(id).name)});
+    context.report(diag::DeclarationsTooDeep, symbols.var(id).loc, {context.names().string(symbols.var(id).name)});
     return setUnknown();
   }
   decl.h.spare = static_cast<uint16_t>(State::Busy);
@@ -349,14 +350,14 @@ void ensureInitialValue(Context& context, VarId id) {
   const Var& var = symbols.var(id);
   if (!init && var.constant && var.section != SectionKind::External && var.section != SectionKind::Input &&
       var.section != SectionKind::InOut && type != types::kError) {
-    context.report(diag::ConstantWithoutValue, var.loc, {context.names().text(var.name)});
+    context.report(diag::ConstantWithoutValue, var.loc, {context.names().string(var.name)});
   }
-  bool good = true, reads = false;
+  bool ok = true, reads = false;
   if (init && !mayHaveInitialValue(there, var, init)) init = {};
   if (init) {
     ++context.scopes.depth;
     const uint32_t errors = symbols.diagnostics.errorCount();
-    std::string what = "the initial value of `" + spelled(context, var.name) + "`";
+    std::string what = "the initial value of `" + toString(context, var.name) + "`";
     InitialReads may = InitialReads::Constants;
     if (there.pou && isFunction(symbols.pou(there.pou).kind)) may = InitialReads::Call;
     if (there.iec() || var.record)
@@ -366,7 +367,7 @@ void ensureInitialValue(Context& context, VarId id) {
     else if (var.list || var.pou)
       may = InitialReads::Variables;
     reads = checkInitializerAs(there, init, type, what, may);
-    good = symbols.diagnostics.errorCount() == errors;
+    ok = symbols.diagnostics.errorCount() == errors;
     --context.scopes.depth;
     decl.init = init;
   }
@@ -377,7 +378,7 @@ void ensureInitialValue(Context& context, VarId id) {
   const TypeKind kind = context.types().plainKind(type);
   std::optional<types::Value> value;
   if (var.constant && init && types::TypeTable::isElementary(kind)) {
-    if (good) value = evaluate(there, init);
+    if (ok) value = evaluate(there, init);
     if (value) value->type = type;
   }
   for (uint32_t i = firstOfDecl(symbols, id.index);
@@ -389,7 +390,7 @@ void ensureInitialValue(Context& context, VarId id) {
     if (value) {
       symbols.vars[i].has_value = true;
       symbols.vars[i].value = *value;
-    } else if (var.constant && init && !good) {
+    } else if (var.constant && init && !ok) {
       id = VarId{i};
       setUnknown();
     }
@@ -408,7 +409,7 @@ static void declareInstanceVars(Context& context, DeclId decl, const SectionDecl
   declareVars(context, decl, local, owner, {}, &context.scopes.pous[method.index].names, vars);
   for (size_t i = first; i < vars.size(); ++i) {
     Var& var = symbols.var(vars[i]);
-    var.name = context.names().intern(spelled(context, symbols.pou(method).name) + "__" + spelled(context, var.name));
+    var.name = context.names().intern(toString(context, symbols.pou(method).name) + "__" + toString(context, var.name));
   }
 }
 
@@ -419,12 +420,12 @@ static void declareHidden(Context& context, PouId id) {
   if (decl.pou_kind == PouKind::Action || decl.pou_kind == PouKind::Interface) return;
   std::vector<DeclId> added;
   Context there = atPou(context, id);
-  ProjectShapes shapes(there);
+  ProjectSignatures signatures(there);
   const auto declare = [&](PouDecl& of, std::string_view prefix) {
     if (of.body_kind != BodyKind::Network) return;
     const SectionKind kind = decl.pou_kind == PouKind::Method ? SectionKind::Inst : SectionKind::Local;
     const DeclId section =
-        diagram::declareNetworks(tree, context.names(), context.symbols.diagnostics, shapes, of, kind, prefix);
+        diagram::declareNetworks(tree, context.names(), context.symbols.diagnostics, signatures, of, kind, prefix);
     if (section) added.push_back(section);
   };
   declare(decl, {});
@@ -432,7 +433,7 @@ static void declareHidden(Context& context, PouId id) {
     const DeclId member = tree.list(decl.members)[m];
     if (tree.kind(member) != DeclKind::Pou) continue;
     PouDecl& action = tree.as<PouDecl>(member);
-    if (action.pou_kind == PouKind::Action) declare(action, spelled(context, action.name) + "_");
+    if (action.pou_kind == PouKind::Action) declare(action, toString(context, action.name) + "_");
   }
   if (added.empty()) return;
   std::vector<DeclId> sections(tree.list(decl.sections).begin(), tree.list(decl.sections).end());
@@ -445,8 +446,8 @@ static void declareHidden(Context& context, PouId id) {
 static void declareEno(Context& context, PouId id) {
   Symbols& symbols = context.symbols;
   const NameId name = context.names().intern("ENO");
-  const VarId made{static_cast<uint32_t>(symbols.vars.size())};
-  if (!context.scopes.pous[id.index].names.insert(keyOf(context, name), entity(made))) return;
+  const VarId created{static_cast<uint32_t>(symbols.vars.size())};
+  if (!context.scopes.pous[id.index].names.insert(keyOf(context, name), entity(created))) return;
   Var var;
   var.name = name;
   var.loc = symbols.pou(id).loc;
@@ -455,7 +456,7 @@ static void declareEno(Context& context, PouId id) {
   var.pou = id;
   var.init = makeLiteral(context, LiteralKind::Bool, types::kBool, 1, var.loc);
   symbols.vars.push_back(var);
-  symbols.pou(id).vars.push_back(made);
+  symbols.pou(id).vars.push_back(created);
 }
 
 void declarePou(Context& context, PouId id) {
@@ -497,7 +498,7 @@ void declarePou(Context& context, PouId id) {
       const DeclId var = tree.list(section.vars)[i];
       if (section.section == SectionKind::Stat) {
         // One for all instances and calls: a list of its own, which only this POU sees. codesys.
-        const std::string name = spelled(context, symbols.pou(id).unique_name) + "__static";
+        const std::string name = toString(context, symbols.pou(id).unique_name) + "__static";
         const ListId list = listNamed(context, name, symbols.pou(id).file, section.h.loc, context.scopes.qualifiers);
         declareVars(there, var, section, id, list, &scope.names, symbols.global_lists[list.index].vars);
         continue;
@@ -548,12 +549,12 @@ void resolvePou(Context& context, PouId id) {
   }
   // Forbids generic types outside of functions: an instance of a block has one layout.
   if (pou.generic && (pou.kind != PouKind::Function || pou.owner)) {
-    context.report(diag::GenericBlock, pou.loc, {context.names().text(pou.name)});
+    context.report(diag::GenericBlock, pou.loc, {context.names().string(pou.name)});
     pou.generic = false;
   }
   const auto addHidden = [&](VarId of, const std::string& suffix, TypeId type) {
     Var hidden;
-    hidden.name = context.names().intern("__" + spelled(context, symbols.var(of).name) + suffix);
+    hidden.name = context.names().intern("__" + toString(context, symbols.var(of).name) + suffix);
     hidden.loc = symbols.var(of).loc;
     hidden.type = type;
     hidden.storage = symbols.var(of).storage;

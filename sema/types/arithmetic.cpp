@@ -103,7 +103,7 @@ struct Utf16Units {
 };
 
 // The shorter text counts as padded with NUL.
-int compareTexts(std::string_view a, std::string_view b, bool wide) {
+int compareStrings(std::string_view a, std::string_view b, bool wide) {
   if (!wide) return a.compare(b);
   Utf16Units left{a}, right{b};
   for (;;) {
@@ -113,9 +113,9 @@ int compareTexts(std::string_view a, std::string_view b, bool wide) {
   }
 }
 
-Outcome applyText(const Names& names, Op op, const Value& left, const Value& right, bool wide) {
-  const int order = compareTexts(names.text(NameId{static_cast<uint32_t>(left.bits)}),
-                                 names.text(NameId{static_cast<uint32_t>(right.bits)}), wide);
+Outcome applyString(const Names& names, Op op, const Value& left, const Value& right, bool wide) {
+  const int order = compareStrings(names.string(NameId{static_cast<uint32_t>(left.bits)}),
+                                   names.string(NameId{static_cast<uint32_t>(right.bits)}), wide);
   if (isComparison(op)) return compare(op, order, false);
   Outcome out;
   out.value = (op == Op::Min) == (order < 0) ? left : right;
@@ -331,7 +331,7 @@ Value Value::ofReal(TypeId type, double value) {
 
 Outcome apply(const TypeTable& table, const Names& names, Op op, const Value& left, const Value& right) {
   const TypeKind kind = table.plainKind(left.type);
-  if (TypeTable::isText(kind)) return applyText(names, op, left, right, kind == TypeKind::WString);
+  if (TypeTable::isString(kind)) return applyString(names, op, left, right, kind == TypeKind::WString);
   if (kind == TypeKind::Real) return applyReal<float>(table, op, left, right);
   if (kind == TypeKind::LReal || kind == TypeKind::RealLiteral) return applyReal<double>(table, op, left, right);
   // Untyped integers count as LINT until their context types them.
@@ -410,7 +410,7 @@ Value defaultValue(const TypeTable& table, Names& names, TypeId type) {
   Value value{type, 0};
   if (info.kind == TypeKind::Subrange) value.bits = static_cast<uint64_t>(info.initial);
   if (info.kind == TypeKind::Enum && !info.items.empty()) value.bits = static_cast<uint64_t>(info.items[0].second);
-  if (TypeTable::isText(info.kind)) value.bits = names.intern("").index;
+  if (TypeTable::isString(info.kind)) value.bits = names.intern("").index;
   return value;
 }
 
@@ -419,7 +419,7 @@ bool isLossless(const TypeTable& table, TypeId from, TypeId to) {
   const TypeInfo& source = table.info(table.resolve(from));
   const TypeInfo& target = table.info(table.resolve(to));
   const TypeKind a = table.plainKind(from), b = table.plainKind(to);
-  if (TypeTable::isText(a)) return a == b && source.length <= target.length;
+  if (TypeTable::isString(a)) return a == b && source.length <= target.length;
   if (!TypeTable::isScalar(a) || !TypeTable::isScalar(b)) return false;
   if (target.kind == TypeKind::Enum) return false;  // but its own items, which have its type
   const auto isNumber = [](TypeKind k) { return TypeTable::isInteger(k) || TypeTable::isBits(k); };

@@ -63,6 +63,6 @@ Value defaultValue(const TypeTable& table, Names& names, TypeId type);
 bool isLossless(const TypeTable& table, TypeId from, TypeId to);
 
 // As the trace and messages print it (design §11): `TRUE`, `-5`, `0.5`, `T#1s500ms`, `'a$L'`, `Red`.
-std::string spell(const TypeTable& table, const Names& names, const Value& value);
+std::string toString(const TypeTable& table, const Names& names, const Value& value);
 
 }  // namespace rung::types

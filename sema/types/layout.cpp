@@ -47,7 +47,7 @@ bool TypeTable::layout(TypeId id) {
         size = types_[field.type.index].size;
         field_align = types_[field.type.index].align;
       }
-      const uint64_t offset = info.record_kind == RecordKind::Union ? field.place : alignUp(end, field_align);
+      const uint64_t offset = info.record_kind == RecordKind::Union ? field.given_offset : alignUp(end, field_align);
       if (offset + size >= kMaxSize) {
         fits = false;
         break;

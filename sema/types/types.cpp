@@ -86,7 +86,7 @@ TypeTable::TypeTable(Names& names, uint32_t pointer_size) : names_(names), point
       info.size = (bitWidth(info.kind) + 7) / 8;
       info.align = static_cast<uint32_t>(info.size);
       info.laid_out = true;
-    } else if (isText(info.kind)) {
+    } else if (isString(info.kind)) {
       setLength(info, kDefaultLength);
     }
   }
@@ -130,7 +130,7 @@ TypeId append(std::deque<TypeInfo>& types, TypeInfo info) {
 
 }  // namespace
 
-TypeId TypeTable::text(TypeKind kind, uint32_t length) {
+TypeId TypeTable::string(TypeKind kind, uint32_t length) {
   TypeId& id = interned_[internKey(kind, length)];
   if (!id) {
     TypeInfo info;
@@ -310,7 +310,7 @@ bool TypeTable::belongsTo(TypeKind kind, TypeKind generic) {
   const bool integer = isInteger(kind);
   const bool magnitude = integer || isReal(kind) || isDuration(kind);
   const bool bits = kind == TypeKind::Bool || isBits(kind);
-  const bool chars = isText(kind) || isCharacter(kind);
+  const bool chars = isString(kind) || isCharacter(kind);
   if (generic == TypeKind::Any) return kind != TypeKind::None;
   if (generic == TypeKind::AnyElementary) return magnitude || bits || chars || isDate(kind);
   if (generic == TypeKind::AnyMagnitude) return magnitude;
@@ -322,7 +322,7 @@ bool TypeTable::belongsTo(TypeKind kind, TypeKind generic) {
   if (generic == TypeKind::AnyDuration) return isDuration(kind);
   if (generic == TypeKind::AnyBit) return bits;
   if (generic == TypeKind::AnyChars) return chars;
-  if (generic == TypeKind::AnyString) return isText(kind);
+  if (generic == TypeKind::AnyString) return isString(kind);
   if (generic == TypeKind::AnyChar) return isCharacter(kind);
   if (generic == TypeKind::AnyDate) return isDate(kind);
   if (generic == TypeKind::AnyDerived) {

@@ -98,8 +98,8 @@ struct Field {
   FieldRole role = FieldRole::Member;
   bool by_reference = false;  // VAR_IN_OUT: the memory holds a pointer to the variable
   bool retain = false, persistent = false, constant = false;
-  uint32_t place = 0;   // of a union of members with places of their own
-  uint32_t offset = 0;  // after layout
+  uint32_t given_offset = 0;  // of a union of members with places of their own
+  uint32_t offset = 0;        // after layout
 };
 
 struct BitMember {  // of type BIT, in a field of its record that is a byte
@@ -159,9 +159,9 @@ class TypeTable {
   // The elementary type with this name (any case; TOD and TIME_OF_DAY alike), generic types included; or none.
   TypeId elementary(NameId name) const;
 
-  TypeId text(TypeKind kind, uint32_t length);
-  TypeId string(uint32_t length) { return text(TypeKind::String, length); }
-  TypeId wstring(uint32_t length) { return text(TypeKind::WString, length); }
+  TypeId string(TypeKind kind, uint32_t length);
+  TypeId string(uint32_t length) { return string(TypeKind::String, length); }
+  TypeId wstring(uint32_t length) { return string(TypeKind::WString, length); }
   TypeId array(TypeId element, std::span<const Dimension> dimensions);
   TypeId openArray(TypeId element, uint32_t dimensions);  // ARRAY[*], ARRAY[*, *]: of a VAR_IN_OUT
   TypeId pointer(TypeId target);
@@ -179,7 +179,7 @@ class TypeTable {
   bool layout(TypeId id);
 
   // As messages name it: `INT`, `STRING[20]`, `ARRAY[1..10] OF REAL`, `POINTER TO Motor`, `Color`.
-  std::string spell(TypeId id) const;
+  std::string toString(TypeId id) const;
 
   // ---- classes of elementary kinds
   static bool isSignedInteger(TypeKind k) { return k >= TypeKind::SInt && k <= TypeKind::LInt; }
@@ -193,13 +193,15 @@ class TypeTable {
   static bool isDateTime(TypeKind k) { return k == TypeKind::DateTime || k == TypeKind::LDateTime; }
   static bool isDay(TypeKind k) { return k == TypeKind::Date || k == TypeKind::LDate; }
   static bool isDate(TypeKind k) { return k >= TypeKind::Date && k <= TypeKind::LDateTime; }
-  static bool isText(TypeKind k) { return k >= TypeKind::String && k <= TypeKind::UString; }
+  static bool isString(TypeKind k) { return k >= TypeKind::String && k <= TypeKind::UString; }
   static bool isCharacter(TypeKind k) { return k >= TypeKind::Char && k <= TypeKind::UChar; }
   // The character of a text, the text of a character.
-  static TypeKind characterOf(TypeKind text) {
-    return text == TypeKind::WString ? TypeKind::WChar : text == TypeKind::UString ? TypeKind::UChar : TypeKind::Char;
+  static TypeKind characterOf(TypeKind string) {
+    return string == TypeKind::WString   ? TypeKind::WChar
+           : string == TypeKind::UString ? TypeKind::UChar
+                                         : TypeKind::Char;
   }
-  static TypeKind textOf(TypeKind character) {
+  static TypeKind stringOf(TypeKind character) {
     return character == TypeKind::WChar   ? TypeKind::WString
            : character == TypeKind::UChar ? TypeKind::UString
                                           : TypeKind::String;

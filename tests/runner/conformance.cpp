@@ -104,7 +104,7 @@ Output runOnce(const Setting& setting, std::vector<File>& files, const std::stri
   const std::string junit = freshFolder(setting) + "/junit.xml";
   Output output = run(testCommand(setting, files, options, junit));
   std::set<std::string> seen;
-  for (const TestCase& test : readJunit(readText(junit))) {
+  for (const TestCase& test : readJunit(readContent(junit))) {
     const auto owner =
         std::find_if(files.begin(), files.end(), [&](const File& file) { return test.file == file.path; });
     if (owner == files.end()) continue;
@@ -117,7 +117,7 @@ Output runOnce(const Setting& setting, std::vector<File>& files, const std::stri
     Command again = testCommand(setting, {*owner}, options, "");
     again.arguments.insert(again.arguments.end(), {"--filter", test.name});
     const std::string what = test.failure.empty() ? (output.out + output.err).substr(0, 4000) : test.failure;
-    result.fail(owner->path + ": " + test.name + " (" + options + ")", what, spelled(again));
+    result.fail(owner->path + ": " + test.name + " (" + options + ")", what, commandLine(again));
   }
   std::erase_if(files, [&](const File& file) { return seen.count(file.path) != 0; });
   return output;
@@ -137,7 +137,7 @@ Result runBatch(const Setting& setting, std::vector<File> files, const std::stri
     const std::string what =
         "  no test ran, exit code " + std::to_string(output.exit_code) + "\n" + output.err + output.out;
     result.fail(files[0].path + " (" + options + ")", what.substr(0, 4000),
-                spelled(testCommand(setting, files, options, "")));
+                commandLine(testCommand(setting, files, options, "")));
     result.rows.push_back({files[0].path, "", false, files[0].features, files[0].covers});
   } else {
     // A file that does not build, or that ends the process, silences others: halves find it in few runs.
@@ -165,7 +165,7 @@ void addConformance(const Setting& setting, std::vector<Job>& jobs) {
   const std::vector<std::string> projects = filesBelow(setting, "tests/conformance", ".xml");
   paths.insert(paths.end(), projects.begin(), projects.end());
   for (const std::string& path : paths) {
-    const std::vector<std::string> lines = splitLines(readText(setting.root + "/" + path));
+    const std::vector<std::string> lines = splitLines(readContent(setting.root + "/" + path));
     File file{path, valueOf(lines, "features"), valueOf(lines, "covers")};
     file.is_native = std::find(lines.begin(), lines.end(), "{C++}") != lines.end();
     if (const std::string problem = headProblem(lines, file); !problem.empty()) {

@@ -25,7 +25,7 @@ bool isExitCode(const std::string& line) {
 
 Result runConsoleTest(const Setting& setting, const std::string& file) {
   Result result;
-  const std::string text = readText(setting.root + "/" + file);
+  const std::string text = readContent(setting.root + "/" + file);
   const std::vector<std::string> lines = splitLines(text);
   if (const std::string problem = purposeProblem(lines); !problem.empty()) result.fail(file, problem, "");
   std::vector<std::string> updated;
@@ -39,7 +39,7 @@ Result runConsoleTest(const Setting& setting, const std::string& file) {
   std::string out;
   for (const std::string& line : updated) out += line + '\n';
   if (out == text) return result;
-  writeText(setting.root + "/" + file, out);
+  writeContent(setting.root + "/" + file, out);
   result.log += "updated " + file + "\n";
   return result;
 }

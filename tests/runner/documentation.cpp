@@ -58,7 +58,7 @@ bool isErrorPage(const std::string& file) {
 class Page {
  public:
   Page(const Setting& setting, const std::string& file) : setting_(setting), file_(file) {
-    lines_ = splitLines(readText(setting.root + "/" + file));
+    lines_ = splitLines(readContent(setting.root + "/" + file));
     if (isErrorPage(file)) code_ = nameOf(file).substr(0, 5);
   }
 
@@ -80,7 +80,7 @@ class Page {
       } else if (block.language == "st" && block.kind == "run") {
         runProgram(block, after);
       } else if (block.kind.find('.') != std::string::npos) {
-        writeText(folder() + "/" + block.kind, textOf(block));
+        writeContent(folder() + "/" + block.kind, textOf(block));
       }
     }
     const bool excused = std::any_of(lines_.begin(), lines_.end(),
@@ -103,7 +103,7 @@ class Page {
     Command c;
     c.folder = freshFolder(setting_);
     const std::string name = "example." + block.language;
-    writeText(c.folder + "/" + name, textOf(block));
+    writeContent(c.folder + "/" + name, textOf(block));
     c.arguments = {setting_.rung, verb, name};
     c.arguments.insert(c.arguments.end(), block.options.begin(), block.options.end());
     return c;
@@ -124,14 +124,14 @@ class Page {
     if (block.kind == "broken" && !reported) problem += "  " + code_ + " is not reported\n";
     if (output.exit_code != 0 && output.exit_code != 1)
       problem += "  exit code " + std::to_string(output.exit_code) + "\n";
-    finish(block, problem, spelled(check));
+    finish(block, problem, commandLine(check));
   }
 
   // ir_golden prints `line:column E0901 message`, once for each time it reads the text.
   void runIr(const Block& block) {
     Command read;
     read.folder = freshFolder(setting_);
-    writeText(read.folder + "/example.ir", textOf(block));
+    writeContent(read.folder + "/example.ir", textOf(block));
     read.arguments = {setting_.bin + "/ir_golden", "example.ir"};
     read.merged = true;
     if (!std::filesystem::exists(read.arguments[0])) return finish(block, "  ir_golden is not built\n", "");
@@ -148,7 +148,7 @@ class Page {
     if (block.kind == "broken" && !reported) problem += "  " + code_ + " is not reported\n";
     if (block.kind == "fixed" && output.exit_code != 0)
       problem += "  exit code " + std::to_string(output.exit_code) + "\n";
-    finish(block, problem, spelled(read));
+    finish(block, problem, commandLine(read));
   }
 
   void runProgram(const Block& block, const Block* expected) {
@@ -158,7 +158,7 @@ class Page {
     if (output.exit_code != 0)
       problem = "  exit code " + std::to_string(output.exit_code) + "\n" + output.err.substr(0, 4000);
     if (expected != nullptr) problem += diffWithGaps(expected->lines, splitLines(output.out));
-    finish(block, problem, spelled(c));
+    finish(block, problem, commandLine(c));
   }
 
   void runConsole(const Block& block) {
@@ -177,7 +177,7 @@ class Page {
       shift_ += updated.size() - block.lines.size();
       std::string text;
       for (const std::string& line : lines_) text += line + '\n';
-      writeText(setting_.root + "/" + file_, text);
+      writeContent(setting_.root + "/" + file_, text);
       result_.log += "updated " + nameOfBlock(block) + "\n";
     }
     finish(block, problem, "");

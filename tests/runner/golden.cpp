@@ -89,7 +89,7 @@ void checkHeadings(const Setting& setting, const std::string& file, Golden& gold
   if (problem.empty()) {
     result.pass();
   } else {
-    result.fail(file, problem, spelled(check));
+    result.fail(file, problem, commandLine(check));
   }
 }
 
@@ -106,7 +106,7 @@ void checkSection(const Setting& setting, const std::string& file, const Golden&
     emit.arguments.insert(emit.arguments.end(), {"-o", folder});
   }
   const Output output = run(emit);
-  text = printed ? output.out : readText(folder + "/" + section.name);
+  text = printed ? output.out : readContent(folder + "/" + section.name);
   const std::vector<std::string> lines = splitLines(text);
   std::string problem;
   if (output.exit_code != 0) {
@@ -121,13 +121,13 @@ void checkSection(const Setting& setting, const std::string& file, const Golden&
   if (problem.empty()) {
     result.pass();
   } else {
-    result.fail(file + " (" + section.name + ")", problem, spelled(emit));
+    result.fail(file + " (" + section.name + ")", problem, commandLine(emit));
   }
 }
 
 Result runGolden(const Setting& setting, const std::string& file) {
   Result result;
-  const std::string text = readText(setting.root + "/" + file);
+  const std::string text = readContent(setting.root + "/" + file);
   Golden golden = parse(splitLines(text));
   if (const std::string problem = purposeProblem(golden.source); !problem.empty()) result.fail(file, problem, "");
 
@@ -137,7 +137,7 @@ Result runGolden(const Setting& setting, const std::string& file) {
   for (Section& section : golden.sections) checkSection(setting, file, golden, section, result);
 
   if (setting.update && result.failed == 0 && print(golden) != text) {
-    writeText(setting.root + "/" + file, print(golden));
+    writeContent(setting.root + "/" + file, print(golden));
     result.log += "updated " + file + "\n";
   }
   return result;
@@ -160,7 +160,7 @@ Result runIr(const Setting& setting, const std::string& file) {
   if (output.exit_code == 0) {
     result.pass();
   } else {
-    result.fail(file, output.out, spelled(test));
+    result.fail(file, output.out, commandLine(test));
   }
   return result;
 }

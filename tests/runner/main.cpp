@@ -133,7 +133,7 @@ void writeRows(const Setting& setting, std::vector<Row> rows) {
     text += row.file + "\t" + row.test + "\t" + (row.passed ? "passed" : "failed") + "\t" + row.features + "\t" +
             row.covers + "\n";
   }
-  writeText(setting.bin + "/../test-results.tsv", text);
+  writeContent(setting.bin + "/../test-results.tsv", text);
 }
 
 // docs/compliance.md must say what this run has shown.

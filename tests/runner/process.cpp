@@ -87,7 +87,7 @@ Output run(const Command& command) {
   return output;
 }
 
-std::string spelled(const Command& command) {
+std::string commandLine(const Command& command) {
   std::string text;
   for (const std::string& word : command.arguments) {
     const bool plain = !word.empty() && word.find_first_of(" \t\n'\"$\\*?[](){}<>|&;#~`!") == std::string::npos;

@@ -22,6 +22,6 @@ struct Output {
 Output run(const Command& command);
 
 // The command as a user types it from the project's root.
-std::string spelled(const Command& command);
+std::string commandLine(const Command& command);
 
 }  // namespace rung::tests

@@ -14,10 +14,10 @@ namespace {
 
 Result runProgram(const Setting& setting, const std::string& file) {
   Result result;
-  const std::vector<std::string> lines = splitLines(readText(setting.root + "/" + file));
+  const std::vector<std::string> lines = splitLines(readContent(setting.root + "/" + file));
   if (const std::string problem = purposeProblem(lines); !problem.empty()) result.fail(file, problem, "");
-  const std::string exit_text = valueOf(lines, "exit");
-  const int exit_code = exit_text.empty() ? 0 : std::stoi(exit_text);
+  const std::string exit_value = valueOf(lines, "exit");
+  const int exit_code = exit_value.empty() ? 0 : std::stoi(exit_value);
   const bool folder = nameOf(file) == "test.txt";
 
   for (const std::string& way : setting.ways) {
@@ -40,7 +40,7 @@ Result runProgram(const Setting& setting, const std::string& file) {
     if (problem.empty()) {
       result.pass();
     } else {
-      result.fail(file + " (" + way + ")", problem, spelled(c));
+      result.fail(file + " (" + way + ")", problem, commandLine(c));
     }
   }
   result.rows.push_back({file, "", result.failed == 0, valueOf(lines, "features"), valueOf(lines, "covers")});

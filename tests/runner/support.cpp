@@ -18,14 +18,14 @@ void Result::fail(const std::string& test, const std::string& what, const std::s
   if (!command.empty()) log += "  $ " + command + "\n";
 }
 
-std::string readText(const std::string& path) {
+std::string readContent(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream all;
   all << in.rdbuf();
   return all.str();
 }
 
-bool writeText(const std::string& path, const std::string& text) {
+bool writeContent(const std::string& path, const std::string& text) {
   std::ofstream out(path, std::ios::binary);
   out << text;
   out.close();

@@ -53,8 +53,8 @@ void addUnit(const Setting& setting, std::vector<Job>& jobs);
 
 // ---- files
 
-std::string readText(const std::string& path);
-bool writeText(const std::string& path, const std::string& text);
+std::string readContent(const std::string& path);
+bool writeContent(const std::string& path, const std::string& text);
 // All files below root/folder that end in `ending` and are wanted, sorted, relative to the root.
 std::vector<std::string> filesBelow(const Setting& setting, const std::string& folder, const std::string& ending);
 bool isWanted(const Setting& setting, const std::string& path);

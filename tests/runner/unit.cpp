@@ -26,7 +26,7 @@ Result runUnit(const Setting& setting, const std::string& name) {
   result.passed = countAfter(output.out, "[  PASSED  ] ");
   const unsigned failed = countAfter(output.out, "[  FAILED  ] ");
   if (output.exit_code == 0 && failed == 0) return result;
-  result.fail("unit/" + name, output.out.substr(0, 8000), spelled(c));
+  result.fail("unit/" + name, output.out.substr(0, 8000), commandLine(c));
   if (failed > 1) result.failed = failed;
   return result;
 }
@@ -45,7 +45,7 @@ Result runDifferential(const Setting& setting, const std::string& name, std::vec
   if (output.exit_code == 0) {
     result.passed = count;
   } else {
-    result.fail("unit/" + name, output.out.substr(0, 8000), spelled(c));
+    result.fail("unit/" + name, output.out.substr(0, 8000), commandLine(c));
   }
   return result;
 }
@@ -69,7 +69,7 @@ Result runHouse(const Setting& setting, const std::string& script) {
 
 void addUnit(const Setting& setting, std::vector<Job>& jobs) {
   if (setting.update) return;
-  for (const std::string& name : splitLines(readText(setting.bin + "/../unit_tests.list"))) {
+  for (const std::string& name : splitLines(readContent(setting.bin + "/../unit_tests.list"))) {
     if (name.empty() || !isWanted(setting, "unit/" + name)) continue;
     jobs.push_back({"unit/" + name, 5, [&setting, name] { return runUnit(setting, name); }});
   }

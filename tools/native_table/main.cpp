@@ -28,8 +28,8 @@ using rung::sema::VarId;
 using rung::types::TypeKind;
 using rung::types::TypeTable;
 
-struct Texts {
-  std::vector<std::string> names, paths, texts;
+struct LibrarySources {
+  std::vector<std::string> names, paths, contents;
   std::vector<rung::sema::LibraryFile> files;
 };
 
@@ -78,15 +78,15 @@ void instantiateAll(Context& context, PouId generic) {
       std::vector<TypeId> types;
       types.reserve(pins.size());
       for (const TypeId pin : pins) types.push_back(typeOf(pin));
-      const PouId made = rung::sema::instantiate(context, generic, types, result ? typeOf(result) : TypeId{});
-      context.symbols.pou(made).used = true;
+      const PouId created = rung::sema::instantiate(context, generic, types, result ? typeOf(result) : TypeId{});
+      context.symbols.pou(created).used = true;
       return;
     }
     for (int kind = static_cast<int>(TypeKind::Bool); kind <= static_cast<int>(TypeKind::UString); ++kind) {
       const auto of = static_cast<TypeKind>(kind);
       if (!admits(generics[at], of)) continue;
       // A text has its largest capacity inside: one instance serves every length.
-      chosen[at] = rung::types::TypeTable::isText(of) ? context.types().text(of, 255) : rung::types::idOf(of);
+      chosen[at] = rung::types::TypeTable::isString(of) ? context.types().string(of, 255) : rung::types::idOf(of);
       self(self, at + 1);
     }
   };
@@ -94,24 +94,24 @@ void instantiateAll(Context& context, PouId generic) {
 }
 
 // `table`: the thunk by the C function's name.
-bool addThunks(const Texts& texts, rung::Dialect dialect, std::map<std::string, std::string>& table) {
+bool addThunks(const LibrarySources& libraries, rung::Dialect dialect, std::map<std::string, std::string>& table) {
   rung::Sources sources;
   rung::Names names;
   rung::Diagnostics diagnostics(sources);
   rung::Tree tree;
   rung::sema::Options options;
   options.dialect = dialect;
-  options.libraries = texts.files;
+  options.libraries = libraries.files;
   rung::sema::Project project(sources, names, diagnostics, tree, options);
   rung::sema::Scopes scopes;
   Context context{.symbols = project, .project = project, .scopes = scopes, .pou = {}, .file = {}};
-  rung::sema::initWords(context);
+  rung::sema::internKnownNames(context);
   rung::sema::indexLibraries(context);
-  for (const rung::sema::LibraryFile& file : texts.files) {
-    for (const rung::sema::IndexedBlock& block : rung::sema::indexLibrary(file.text)) {
+  for (const rung::sema::LibraryFile& file : libraries.files) {
+    for (const rung::sema::IndexedBlock& block : rung::sema::indexLibrary(file.source)) {
       for (const std::string_view name : block.names) {
         rung::sema::lookUpLibrary(context, names.intern(name));
-        rung::sema::settleDeclarations(context);
+        rung::sema::resolveDeclarations(context);
       }
     }
   }
@@ -163,21 +163,21 @@ bool addThunks(const Texts& texts, rung::Dialect dialect, std::map<std::string, 
     }
     std::string call = function + '(' + arguments;
     if (body.result && rung::ir::isAggregate(types, body.result)) {
-      const bool is_text = TypeTable::isText(types.kind(body.result));
+      const bool is_string = TypeTable::isString(types.kind(body.result));
       const std::string type =
-          is_text ? std::string(rung::codegen::scalarType(types, body.result)) + '*' : std::string("void*");
+          is_string ? std::string(rung::codegen::scalarType(types, body.result)) + '*' : std::string("void*");
       call += ", at<" + type + ">(" + next() + ')';
-      if (is_text) call += ", at<uint32_t>(" + next() + ')';
+      if (is_string) call += ", at<uint32_t>(" + next() + ')';
       call += ");";
     } else if (body.result) {
       call = "put(" + next() + ", " + call + "));";
     } else {
       call += ");";
     }
-    std::string& made = table[function];
-    made = "extern \"C\" ";
-    rung::codegen::BodyWriter::appendSignature(made, module, body);
-    made +=
+    std::string& created = table[function];
+    created = "extern \"C\" ";
+    rung::codegen::BodyWriter::appendSignature(created, module, body);
+    created +=
         ";\nstatic void call_" + function + "(rung_context* ctx, [[maybe_unused]] uint64_t* slots) { " + call + " }\n";
   }
   return true;
@@ -190,11 +190,11 @@ int main(int argc, char** argv) {
     std::fputs("usage: native_table OUTPUT FILE...\n", stderr);
     return 2;
   }
-  Texts texts;
+  LibrarySources libraries;
   const auto count = static_cast<size_t>(argc - 2);
-  texts.names.reserve(count);
-  texts.paths.reserve(count);
-  texts.texts.reserve(count);
+  libraries.names.reserve(count);
+  libraries.paths.reserve(count);
+  libraries.contents.reserve(count);
   for (int i = 2; i < argc; ++i) {
     const std::string path = argv[i];
     const size_t name = path.rfind('/'), folder = path.rfind('/', name - 1);
@@ -203,14 +203,15 @@ int main(int argc, char** argv) {
       std::fprintf(stderr, "native_table: cannot read `%s`: %s\n", argv[i], read.error.c_str());
       return 2;
     }
-    texts.names.push_back(rung::tool::namespaceOf(path.substr(folder + 1, name - folder - 1)));
-    texts.paths.push_back(path.substr(folder + 1));
-    texts.texts.push_back(std::move(read.text));
-    texts.files.push_back({texts.names.back().c_str(), texts.paths.back().c_str(), texts.texts.back()});
+    libraries.names.push_back(rung::tool::namespaceOf(path.substr(folder + 1, name - folder - 1)));
+    libraries.paths.push_back(path.substr(folder + 1));
+    libraries.contents.push_back(std::move(read.content));
+    libraries.files.push_back(
+        {libraries.names.back().c_str(), libraries.paths.back().c_str(), libraries.contents.back()});
   }
   std::map<std::string, std::string> table;
   for (const rung::Dialect dialect : {rung::Dialect::Codesys, rung::Dialect::Iec2, rung::Dialect::Iec3}) {
-    if (!addThunks(texts, dialect, table)) return 1;
+    if (!addThunks(libraries, dialect, table)) return 1;
   }
 
   std::string out =
@@ -228,8 +229,8 @@ int main(int argc, char** argv) {
   out += "\nnamespace rung::natives {\n\nconst ir::interpreter::Native table[] = {\n" + rows +
          "};\nconst size_t count = sizeof table / sizeof table[0];\n\n}  // namespace rung::natives\n";
   FILE* file = std::fopen(argv[1], "wb");
-  const bool good = file != nullptr && std::fwrite(out.data(), 1, out.size(), file) == out.size();
-  if (file == nullptr || std::fclose(file) != 0 || !good) {
+  const bool ok = file != nullptr && std::fwrite(out.data(), 1, out.size(), file) == out.size();
+  if (file == nullptr || std::fclose(file) != 0 || !ok) {
     std::perror(argv[1]);
     return 2;
   }

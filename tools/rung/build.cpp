@@ -19,10 +19,10 @@ int runBuild(const Options& options) {
   Compilation compilation(options, times);
   NativeRequest request;
   request.parts.resize(1);
-  const bool good = compilation.emit(false, request.parts[0].files);
-  const bool later = good && compilation.hasCppBodies();
+  const bool ok = compilation.emit(false, request.parts[0].files);
+  const bool later = ok && compilation.hasCppBodies();
   int exit = later ? compilation.exitCode() : compilation.finish();
-  if (good && exit == kGood) {
+  if (ok && exit == kSuccess) {
     times.begin("c++");
     Cache cache;
     request.level = 2;
@@ -35,7 +35,7 @@ int runBuild(const Options& options) {
       exit = compilation.finish(result);
     else if (exit == kInternal)
       printInternalError(result.message.c_str());
-    else if (exit != kGood)
+    else if (exit != kSuccess)
       usageError(result.message);
   }
   if (options.time_phases) fputs(times.table().c_str(), stderr);

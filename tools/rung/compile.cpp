@@ -100,15 +100,15 @@ bool Compilation::read() {
       usage_error_ = "unknown warning `" + warning.name + "` in `-W`; `rung list warnings` lists all";
   if (usage_error_.empty()) usage_error_ = libraries.load(options);
   for (const InputFile& file : inputs.files) {
-    std::string_view text = sources.text(file.file);
+    std::string_view text = sources.sourceText(file.file);
     times_.lines += static_cast<uint64_t>(std::count(text.begin(), text.end(), '\n'));
     times_.bytes += text.size();
   }
-  const bool good = usage_error_.empty() && !inputs.io_error && !diagnostics.hasErrors();
-  if (good) readPrograms(sources, diagnostics, inputs);
+  const bool ok = usage_error_.empty() && !inputs.io_error && !diagnostics.hasErrors();
+  if (ok) readPrograms(sources, diagnostics, inputs);
   noteLibraries();
   times_.end();
-  return good;
+  return ok;
 }
 
 // Names the libraries that a project of another tool asks for and Rung does not have, and gives the others the names
@@ -149,7 +149,7 @@ bool Compilation::parse() {
   }
   if (!inputs.project.configuration.empty()) {
     FileId file = sources.add("rung.project", inputs.project.configuration);
-    sources.showAs(file, inputs.project.folder + "/rung.project");
+    sources.setDisplayPath(file, inputs.project.folder + "/rung.project");
     if (file) text::parseFile(tree, names, sources, file, options.dialect, diagnostics);
   }
   setPhaseSubject("", 0);
@@ -207,8 +207,8 @@ bool Compilation::lower() {
     if (options.dump_after == pass.name) dump(ir::print(*module, body));
     if (!options.verify || !internal_error_.empty()) return;
     for (const std::string& problem : ir::verify(*module, body)) {
-      internal_error_ = "the IR of `" + std::string(names.text(body.spelling)) + "` is broken after pass " + pass.name +
-                        ": " + problem;
+      internal_error_ = "the IR of `" + std::string(names.string(body.spelling)) + "` is broken after pass " +
+                        pass.name + ": " + problem;
       break;
     }
   });
@@ -261,7 +261,7 @@ void Compilation::dump(const std::string& text) const { fputs(text.c_str(), stde
 int Compilation::exitCode() const {
   if (!internal_error_.empty()) return kInternal;
   if (!usage_error_.empty() || inputs.io_error) return kUsage;
-  return diagnostics.hasErrors() ? kInputErrors : kGood;
+  return diagnostics.hasErrors() ? kInputErrors : kSuccess;
 }
 
 std::string Compilation::diagnosticsText() { return textOf(diagnostics); }
@@ -269,7 +269,7 @@ std::string Compilation::diagnosticsText() { return textOf(diagnostics); }
 std::string Compilation::textOf(Diagnostics& diagnostics) const {
   if (diagnostics.all().empty() && options.format == DiagnosticFormat::Text) return {};
   if (!diagnostics.all().empty()) {
-    const diagram::ElementPlaces elements(tree, names);
+    const diagram::ElementLocator elements(tree, names);
     if (!elements.empty()) diagnostics.nameElements([&](Loc loc) { return elements.at(loc); });
   }
   diagnostics.sort();
@@ -289,7 +289,7 @@ int Compilation::finish() {
 }
 
 // The compiler does not find the user's file, so that its columns count bytes.
-static Loc placeIn(const Sources& sources, FileId file, const Refusal& refusal) {
+static Loc locationIn(const Sources& sources, FileId file, const Refusal& refusal) {
   const std::string_view line = sources.line(file, refusal.line);
   if (line.data() == nullptr) return sources.begin(file);
   const size_t at = std::min<size_t>(refusal.column == 0 ? 0 : refusal.column - 1, line.size());
@@ -301,7 +301,7 @@ bool Compilation::addRefusals(const NativeResult& native, Diagnostics& to) const
   for (const Refusal& refusal : native.refusals) {
     for (uint32_t i = 1; i <= sources.fileCount(); ++i) {
       if (sources.path({i}) != refusal.path) continue;
-      to.report(diag::CppRefused, placeIn(sources, {i}, refusal), {refusal.message});
+      to.report(diag::CppRefused, locationIn(sources, {i}, refusal), {refusal.message});
       any = true;
       break;
     }
@@ -314,7 +314,7 @@ int Compilation::finish(const NativeResult& native) {
   const int exit = finish();
   if (native.exit == kInternal) printInternalError(native.message.c_str());
   if (native.exit == kUsage) usageError(native.message);
-  return exit != kGood ? exit : native.exit;
+  return exit != kSuccess ? exit : native.exit;
 }
 
 bool Compilation::printRefusals(const NativeResult& native) const {
@@ -345,23 +345,23 @@ std::string writeFile(const std::string& path, const std::string& text) {
   const std::string part = path + ".part" + std::to_string(getpid());
   FILE* file = fopen(part.c_str(), "wb");
   if (file == nullptr) return "cannot write `" + path + "`: " + strerror(errno);
-  bool good = fwrite(text.data(), 1, text.size(), file) == text.size();
-  good = fclose(file) == 0 && good;
-  if (good && rename(part.c_str(), path.c_str()) == 0) return {};
+  bool ok = fwrite(text.data(), 1, text.size(), file) == text.size();
+  ok = fclose(file) == 0 && ok;
+  if (ok && rename(part.c_str(), path.c_str()) == 0) return {};
   std::string error = "cannot write `" + path + "`: " + strerror(errno);
   unlink(part.c_str());
   return error;
 }
 
-int writeFiles(const std::string& folder, const std::vector<OutputText>& files) {
-  for (const OutputText& file : files) {
+int writeFiles(const std::string& folder, const std::vector<TextFile>& files) {
+  for (const TextFile& file : files) {
     const std::filesystem::path path = std::filesystem::path(folder) / file.path;
     std::error_code error;
     std::filesystem::create_directories(path.parent_path(), error);
     if (error) return usageError("cannot create the folder `" + path.parent_path().string() + "`: " + error.message());
     if (const std::string problem = writeFile(path.string(), file.text); !problem.empty()) return usageError(problem);
   }
-  return kGood;
+  return kSuccess;
 }
 
 std::string printOut(const std::string& text) {

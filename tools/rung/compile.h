@@ -95,10 +95,10 @@ class Compilation {
 // Writes a file whole or not at all.
 [[nodiscard]] std::string writeFile(const std::string& path, const std::string& text);
 // Files below a folder, each whole; gives the exit code.
-struct OutputText {
+struct TextFile {
   std::string path, text;
 };
-int writeFiles(const std::string& folder, const std::vector<OutputText>& files);
+int writeFiles(const std::string& folder, const std::vector<TextFile>& files);
 // To stdout; the error when the text did not get there.
 [[nodiscard]] std::string printOut(const std::string& text);
 bool useColor(const Options& options);

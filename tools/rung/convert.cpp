@@ -88,14 +88,14 @@ class Converter {
     compilation.scheduled = [this](sema::Project&, sema::PouId pou) { print(pou); };
   }
 
-  std::vector<OutputText> outputs();
+  std::vector<TextFile> outputs();
 
  private:
   void print(sema::PouId pou);
   void printChart(sema::PouId id, const PouDecl& decl);
   void printConditions(const PouDecl& decl);
   std::vector<StComment> chartComments(const PouDecl& decl) const;
-  std::string withComments(FileId made, std::span<const StComment> comments) const;
+  std::string withComments(FileId created, std::span<const StComment> comments) const;
   std::string temporaries(const Body& body) const;
   void printHidden(sema::PouId id);
   std::string convert(FileId file) const;
@@ -148,8 +148,8 @@ void Converter::printHidden(sema::PouId id) {
       const VarDecl& var = tree.as<VarDecl>(v);
       std::string type;
       for (const Ident& part : tree.list(tree.as<NamedTypeExpr>(var.type).path))
-        type += (type.empty() ? "" : ".") + std::string(compilation_.names.text(part.name));
-      lines += "  " + std::string(compilation_.names.text(tree.list(var.names)[0].name)) + " : " + type + ";\n";
+        type += (type.empty() ? "" : ".") + std::string(compilation_.names.string(part.name));
+      lines += "  " + std::string(compilation_.names.string(tree.list(var.names)[0].name)) + " : " + type + ";\n";
     }
   }
   if (lines.empty()) return;
@@ -157,9 +157,9 @@ void Converter::printHidden(sema::PouId id) {
   const uint32_t base = sources_.begin(sources_.fileOf(decl.begin)).offset;
   size_t at = lineOf(text, decl.body_begin.offset - base);
   for (const DeclId member : tree.list(decl.members)) at = std::min(at, lineOf(text, tree.loc(member).offset - base));
-  const Loc place{base + static_cast<uint32_t>(at)};
-  if (std::any_of(hidden_.begin(), hidden_.end(), [&](const Edit& edit) { return edit.begin == place; })) return;
-  hidden_.push_back({place, place, (decl.pou_kind == PouKind::Method ? "VAR_INST\n" : "VAR\n") + lines + "END_VAR\n"});
+  const Loc loc{base + static_cast<uint32_t>(at)};
+  if (std::any_of(hidden_.begin(), hidden_.end(), [&](const Edit& edit) { return edit.begin == loc; })) return;
+  hidden_.push_back({loc, loc, (decl.pou_kind == PouKind::Method ? "VAR_INST\n" : "VAR\n") + lines + "END_VAR\n"});
 }
 
 // Those that stand in no action and in no condition: what is quoted brings its own.
@@ -185,12 +185,12 @@ std::vector<StComment> Converter::chartComments(const PouDecl& decl) const {
 
 // Each comment in front of the first line that was made of what stands at or behind it; of a step that is where its
 // active cycles begin.
-std::string Converter::withComments(FileId made, std::span<const StComment> comments) const {
-  const std::string_view text = sources_.original(made);
+std::string Converter::withComments(FileId created, std::span<const StComment> comments) const {
+  const std::string_view text = sources_.original(created);
   std::vector<std::pair<Loc, size_t>> lines;  // where each line comes from
   const size_t first = std::min(text.find("sfc_set := sfc_steps"), text.size());
   for (size_t p = first; p < text.size(); p = std::min(text.find('\n', p), text.size() - 1) + 1)
-    lines.push_back({sources_.written({sources_.begin(made).offset + static_cast<uint32_t>(p)}), p});
+    lines.push_back({sources_.originalLocation({sources_.begin(created).offset + static_cast<uint32_t>(p)}), p});
   std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::pair<size_t, std::string_view>> places;
   for (const StComment& comment : comments) {
@@ -250,13 +250,13 @@ std::string Converter::action(DeclId id) const {
   const Tree& tree = compilation_.tree;
   const PouDecl& decl = tree.as<PouDecl>(id);
   if (decl.begin != decl.body_begin) return convert(decl.begin, decl.end) + "\n";
-  std::string text = "ACTION " + std::string(compilation_.names.text(decl.name)) + ":\n";
+  std::string text = "ACTION " + std::string(compilation_.names.string(decl.name)) + ":\n";
   std::string body = convert(decl.body_begin, decl.body_end);
   for (const Body& converted : bodies_)
     if (compilation_.project->pou(converted.pou).decl == id) body = temporaries(converted) + converted.text;
   const StmtId first = decl.body.empty() ? StmtId{} : tree.list(decl.body)[0];
   if (first && tree.loc(first) == decl.body_begin && tree.kind(first) == StmtKind::Assign)
-    text += std::string(compilation_.names.text(tree.as<NameExpr>(tree.as<AssignStmt>(first).target).name)) +
+    text += std::string(compilation_.names.string(tree.as<NameExpr>(tree.as<AssignStmt>(first).target).name)) +
             " := " + body + ";";
   else
     text += body;
@@ -270,7 +270,7 @@ std::string Converter::temporaries(const Body& body) const {
   for (const sema::VarId id : pou.vars) {
     const sema::Var& var = project.var(id);
     if (var.temporary == 0) continue;
-    lines += "  " + std::string(compilation_.names.text(var.name)) + " : " + project.types.spell(var.type) + ";\n";
+    lines += "  " + std::string(compilation_.names.string(var.name)) + " : " + project.types.toString(var.type) + ";\n";
   }
   if (lines.empty()) return {};
   const bool function = pou.kind == PouKind::Function || pou.kind == PouKind::Method;
@@ -330,7 +330,7 @@ std::string Converter::convert(Loc begin, Loc end) const {
 }
 
 // rung.project without the list of its sources: the folder has no others.
-std::string projectText(std::string_view text) {
+std::string projectContent(std::string_view text) {
   std::string out;
   for (size_t p = 0; p < text.size();) {
     const size_t end = std::min(text.find('\n', p), text.size() - 1) + 1;
@@ -343,8 +343,8 @@ std::string projectText(std::string_view text) {
   return out;
 }
 
-std::vector<OutputText> Converter::outputs() {
-  std::vector<OutputText> out;
+std::vector<TextFile> Converter::outputs() {
+  std::vector<TextFile> out;
   std::unordered_set<std::string> taken;
   for (const InputFile& input : compilation_.inputs.files)
     if (fs::path(input.below).extension() == ".st") taken.insert(input.below);
@@ -393,7 +393,7 @@ int runConvert(const Options& options) {
   PhaseTimes times;
   Compilation compilation(options, times);
   std::optional<Converter> converter;
-  std::vector<OutputText> outputs;
+  std::vector<TextFile> outputs;
   if (options.to == ConvertTo::St)
     converter.emplace(compilation);
   else
@@ -402,13 +402,13 @@ int runConvert(const Options& options) {
     times.begin("print");
     if (converter) outputs = converter->outputs();
     if (const ProjectFile& project = compilation.inputs.project; project.file)
-      outputs.push_back({"rung.project", projectText(compilation.sources.original(project.file))});
+      outputs.push_back({"rung.project", projectContent(compilation.sources.original(project.file))});
     times.end();
   }
   int exit = compilation.finish();
-  if (exit == kGood)
+  if (exit == kSuccess)
     if (const std::string problem = refusal(compilation); !problem.empty()) exit = usageError(problem);
-  if (exit == kGood) exit = writeFiles(options.output, outputs);
+  if (exit == kSuccess) exit = writeFiles(options.output, outputs);
   if (options.time_phases) fputs(times.table().c_str(), stderr);
   return exit;
 }

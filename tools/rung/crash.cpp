@@ -17,7 +17,7 @@
 namespace rung::tool {
 namespace {
 
-const char* const* words = nullptr;
+const char* const* arguments = nullptr;
 int word_count = 0;
 volatile sig_atomic_t program_runs = 0, program_checked = 0;
 char alternate_stack[64 * 1024];
@@ -63,7 +63,7 @@ void handle(int number, siginfo_t* info, void* details) {
   put(", not in your program; please report it with the input and this command:\n  rung");
   for (int i = 0; i < word_count; i++) {
     put(" ");
-    put(words[i]);
+    put(arguments[i]);
   }
   put("\n");
   _exit(kInternal);
@@ -71,8 +71,8 @@ void handle(int number, siginfo_t* info, void* details) {
 
 }  // namespace
 
-void installCrashHandler(const char* const* command_words, int count) {
-  words = command_words;
+void installCrashHandler(const char* const* command_line, int count) {
+  arguments = command_line;
   word_count = count;
   stack_t stack = {};
   stack.ss_sp = alternate_stack;
@@ -96,7 +96,7 @@ void printInternalError(const char* what) {
           "rung: internal error: %s\nthis is a bug in rung %s, not in your program; please report it with the input "
           "and this command:\n  rung",
           what, version());
-  for (int i = 0; i < word_count; i++) fprintf(stderr, " %s", words[i]);
+  for (int i = 0; i < word_count; i++) fprintf(stderr, " %s", arguments[i]);
   fputc('\n', stderr);
 }
 

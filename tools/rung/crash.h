@@ -4,7 +4,7 @@
 
 namespace rung::tool {
 
-void installCrashHandler(const char* const* words, int count);
+void installCrashHandler(const char* const* arguments, int count);
 
 // While code of the user's program runs, a crash is the program's: exit code 3, unless all checks are on.
 void setProgramRuns(bool runs, bool checked);

@@ -67,16 +67,16 @@ std::string writeDepfile(const Compilation& compilation) {
 int emitCpp(Compilation& compilation, PhaseTimes& times) {
   const Options& options = compilation.options;
   std::vector<OutputFile> files;
-  const bool good = compilation.emit(false, files);
+  const bool ok = compilation.emit(false, files);
   int exit = compilation.finish();
-  if (!good || exit != kGood) return exit;
+  if (!ok || exit != kSuccess) return exit;
 
   if (options.bundles > 0) addBundles(options.bundles, options.moduleName(), files);
   if (options.list_outputs) {
     std::string list;
     for (const OutputFile& file : files) list += file.path + "\n";
     std::string error = printOut(list);
-    return error.empty() ? kGood : usageError(error);
+    return error.empty() ? kSuccess : usageError(error);
   }
   times.begin("write");
   std::error_code folder_error;
@@ -89,7 +89,7 @@ int emitCpp(Compilation& compilation, PhaseTimes& times) {
     std::string error = writeDepfile(compilation);
     if (!error.empty()) return usageError(error);
   }
-  return kGood;
+  return kSuccess;
 }
 
 int emitText(Compilation& compilation) {
@@ -101,9 +101,9 @@ int emitText(Compilation& compilation) {
     out = ir::print(*compilation.module);
   }
   int exit = compilation.finish();
-  if (exit != kGood) return exit;
+  if (exit != kSuccess) return exit;
   std::string error = printOut(out);
-  return error.empty() ? kGood : usageError(error);
+  return error.empty() ? kSuccess : usageError(error);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ int runExplain(const Options& options) {
                       (near.empty() ? "" : "; did you mean `" + std::string(near) + "`?"));
   }
   std::string error = printOut(pageOf(*info));
-  return error.empty() ? kGood : usageError(error);
+  return error.empty() ? kSuccess : usageError(error);
 }
 
 }  // namespace rung::tool

@@ -15,7 +15,7 @@ class Grapher {
  public:
   Grapher(const Compilation& compilation, uint32_t page)
       : tree_(compilation.tree), names_(compilation.names), page_(static_cast<int32_t>(page)) {}
-  std::vector<OutputText> pictures();
+  std::vector<TextFile> pictures();
 
  private:
   void visit(Slice<DeclId> decls, const std::string& prefix);
@@ -27,7 +27,7 @@ class Grapher {
   const Names& names_;
   const int32_t page_;
   std::unordered_set<std::string> taken_;  // folded: a file system may take large and small letters for the same
-  std::vector<OutputText> pictures_;
+  std::vector<TextFile> pictures_;
 };
 
 void Grapher::add(const PouDecl& pou, const std::string& name) {
@@ -45,12 +45,12 @@ void Grapher::visitPou(const PouDecl& pou, const std::string& name) {
   add(pou, name);
   for (const DeclId member : tree_.list(pou.members)) {
     const auto transitions = tree_.list(pou.transitions);
-    const auto made =
+    const auto created =
         std::find_if(transitions.begin(), transitions.end(), [&](const SfcTransition& t) { return t.body == member; });
-    if (made == transitions.end())
+    if (created == transitions.end())
       visit(member, name + ".");
     else
-      add(tree_.as<PouDecl>(member), name + "." + std::string(names_.text(made->target.name)));
+      add(tree_.as<PouDecl>(member), name + "." + std::string(names_.string(created->target.name)));
   }
 }
 
@@ -58,11 +58,11 @@ void Grapher::visit(DeclId id, const std::string& prefix) {
   switch (tree_.kind(id)) {
     case DeclKind::Pou: {
       const auto& pou = tree_.as<PouDecl>(id);
-      return visitPou(pou, prefix + std::string(names_.text(pou.name)));
+      return visitPou(pou, prefix + std::string(names_.string(pou.name)));
     }
     case DeclKind::Property: {
       const auto& property = tree_.as<PropertyDecl>(id);
-      const std::string name = prefix + std::string(names_.text(property.name));
+      const std::string name = prefix + std::string(names_.string(property.name));
       if (property.get) visitPou(tree_.as<PouDecl>(property.get), name + ".Get");
       if (property.set) visitPou(tree_.as<PouDecl>(property.set), name + ".Set");
       return;
@@ -70,7 +70,7 @@ void Grapher::visit(DeclId id, const std::string& prefix) {
     case DeclKind::Namespace: {
       const auto& space = tree_.as<NamespaceDecl>(id);
       std::string inner = prefix;
-      for (const Ident& part : tree_.list(space.path)) inner += std::string(names_.text(part.name)) + ".";
+      for (const Ident& part : tree_.list(space.path)) inner += std::string(names_.string(part.name)) + ".";
       return visit(space.decls, inner);
     }
     case DeclKind::Type:
@@ -88,7 +88,7 @@ void Grapher::visit(Slice<DeclId> decls, const std::string& prefix) {
   for (const DeclId id : tree_.list(decls)) visit(id, prefix);
 }
 
-std::vector<OutputText> Grapher::pictures() {
+std::vector<TextFile> Grapher::pictures() {
   for (const FileUnit& unit : tree_.files) visit(unit.decls, {});
   return std::move(pictures_);
 }
@@ -98,11 +98,11 @@ std::vector<OutputText> Grapher::pictures() {
 int runGraph(const Options& options) {
   PhaseTimes times;
   Compilation compilation(options, times);
-  std::vector<OutputText> pictures;
+  std::vector<TextFile> pictures;
   const bool parsed = compilation.parse() && !compilation.diagnostics.hasErrors();
   if (parsed) pictures = Grapher(compilation, options.page_width).pictures();
   const int exit = compilation.finish();
-  if (exit != kGood) return exit;
+  if (exit != kSuccess) return exit;
   if (pictures.empty())
     return usageError("nothing to draw: no POU has a body in LD, FBD, CFC or SFC; `rung list pous` lists all");
   return writeFiles(options.output, pictures);

@@ -71,19 +71,20 @@ bool isBinary(std::string_view text) {
     if (c < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f' && c != '\v' && c != 0x1a) bad++;
     if (c < 0x80) continue;
     size_t follow = c >= 0xf0 ? 3 : c >= 0xe0 ? 2 : c >= 0xc0 ? 1 : 0;
-    size_t good = 0;
-    while (good < follow && i + good + 1 < head.size() && (head[i + good + 1] & 0xc0) == 0x80) good++;
-    if (follow == 0 || good < follow) bad++;
-    i += good;
+    size_t continued = 0;
+    while (continued < follow && i + continued + 1 < head.size() && (head[i + continued + 1] & 0xc0) == 0x80)
+      continued++;
+    if (follow == 0 || continued < follow) bad++;
+    i += continued;
   }
   return bad * 5 > head.size();
 }
 
 bool startsDeclaration(std::string_view text) {
-  static constexpr const char* kWords[] = {"PROGRAM",   "FUNCTION",      "FUNCTION_BLOCK", "TYPE",
-                                           "INTERFACE", "CONFIGURATION", "VAR_GLOBAL",     "NAMESPACE"};
+  static constexpr const char* kKeywords[] = {"PROGRAM",   "FUNCTION",      "FUNCTION_BLOCK", "TYPE",
+                                              "INTERFACE", "CONFIGURATION", "VAR_GLOBAL",     "NAMESPACE"};
   const std::string word = vendor::firstWord(text);
-  for (const char* known : kWords)
+  for (const char* known : kKeywords)
     if (word == known) return true;
   return false;
 }
@@ -206,7 +207,7 @@ class Collector {
   // A PROGRAM of a library is for trying it.
   static bool holdsProgram(const std::string& path) {
     if (!hasExtension(path, ".tcpou")) return false;
-    const std::string text = readFile(path).text;
+    const std::string text = readFile(path).content;
     const size_t begin = text.find("<![CDATA[");
     return begin != std::string::npos && vendor::firstWord(std::string_view(text).substr(begin + 9)) == "PROGRAM";
   }
@@ -216,7 +217,7 @@ class Collector {
     ReadResult read = readFile(path);
     if (!read.error.empty()) return fail(diag::CannotRead, path, {path, read.error});
     inputs_.read.push_back(path);
-    const FileId file = sources_.add(path, std::move(read.text));
+    const FileId file = sources_.add(path, std::move(read.content));
     if (!file) return fail(diag::TooMuchInput, path, {path});
     vendor::Project project;
     if (!vendor::readProject(sources_, file, diagnostics_, project)) return;
@@ -271,11 +272,11 @@ class Collector {
     ReadResult read = readFile(file);
     if (!read.error.empty()) return fail(diag::CannotRead, file, {file, read.error});
     inputs_.read.push_back(file);
-    if (isBinary(read.text)) return fail(diag::BinaryFile, file, {file});
-    FileId id = sources_.add("rung.project", std::move(read.text));
+    if (isBinary(read.content)) return fail(diag::BinaryFile, file, {file});
+    FileId id = sources_.add("rung.project", std::move(read.content));
     if (!id) return fail(diag::TooMuchInput, file, {file});
     inputs_.project.folder = folder;
-    sources_.showAs(id, folder + "/rung.project");
+    sources_.setDisplayPath(id, folder + "/rung.project");
     project_shown_ = file;
     parseProjectFile(sources_, id, diagnostics_, inputs_.project);
     if (inputs_.project.sources.empty()) return addFolder(folder);
@@ -376,8 +377,8 @@ class Collector {
     ReadResult read = readFile(candidate.path);
     if (!read.error.empty()) return fail(diag::CannotRead, candidate.path, {candidate.path, read.error});
     inputs_.read.push_back(candidate.path);
-    if (!decodeUtf16(read.text)) return fail(diag::Utf16File, candidate.path, {candidate.path});
-    FileKind kind = kindOf(candidate.path, read.text);
+    if (!decodeUtf16(read.content)) return fail(diag::Utf16File, candidate.path, {candidate.path});
+    FileKind kind = kindOf(candidate.path, read.content);
     switch (kind) {
       case FileKind::St:
       case FileKind::Il:
@@ -397,9 +398,9 @@ class Collector {
       case FileKind::PlcProject:
       case FileKind::Project: return;
     }
-    FileId file = sources_.add(candidate.below, std::move(read.text));
+    FileId file = sources_.add(candidate.below, std::move(read.content));
     if (!file) return fail(diag::TooMuchInput, candidate.path, {candidate.path});
-    sources_.showAs(file, candidate.path);
+    sources_.setDisplayPath(file, candidate.path);
     inputs_.files.push_back({candidate.path, candidate.path, candidate.below, kind, file});
   }
 
@@ -419,7 +420,7 @@ void joinPairs(Sources& sources, std::vector<InputFile>& files) {
   std::vector<std::pair<std::string, size_t>> bodies, declarations;
   for (size_t i = 0; i < files.size(); i++) {
     if (files[i].kind != FileKind::St) continue;
-    const std::string_view text = sources.text(files[i].file);
+    const std::string_view text = sources.sourceText(files[i].file);
     const std::string word = vendor::firstWord(text);
     if (word == "PROGRAM" || word == "FUNCTION" || word == "FUNCTION_BLOCK")
       declarations.emplace_back(vendor::pairName(files[i].below), i);

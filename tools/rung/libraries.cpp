@@ -9,18 +9,18 @@
 #include <cstring>
 
 #include "frontend/source/files.h"
-#include "library_texts.h"
+#include "library_sources.h"
 #include "tools/rung/namespaces.h"
 
 namespace rung::tool {
 
 std::string LibrarySet::load(const Options& options) {
-  for (size_t i = 0; i < embedded::library_texts_count; i++) {
-    const embedded::File& file = embedded::library_texts[i];
-    texts_.push_back(namespaceOf(file.name.substr(0, file.name.find('/'))));
-    const char* library = texts_.back().c_str();
-    texts_.emplace_back(file.name);
-    files_.push_back({library, texts_.back().c_str(), file.text});
+  for (size_t i = 0; i < embedded::library_sources_count; i++) {
+    const embedded::File& file = embedded::library_sources[i];
+    contents_.push_back(namespaceOf(file.name.substr(0, file.name.find('/'))));
+    const char* library = contents_.back().c_str();
+    contents_.emplace_back(file.name);
+    files_.push_back({library, contents_.back().c_str(), file.text});
   }
   for (const NamespaceAlias& row : namespaceAliases()) aliases_.push_back({row.alias, row.name});
   for (const std::string& path : options.library_paths) {
@@ -39,10 +39,10 @@ LibraryPath libraryPath(const std::string& written) {
 }
 
 void LibrarySet::addAlias(const std::string& alias, const std::string& library) {
-  texts_.push_back(alias);
-  const char* shown = texts_.back().c_str();
-  texts_.push_back(library);
-  aliases_.push_back({shown, texts_.back().c_str()});
+  contents_.push_back(alias);
+  const char* shown = contents_.back().c_str();
+  contents_.push_back(library);
+  aliases_.push_back({shown, contents_.back().c_str()});
 }
 
 // Files of the folder are one library of its name; each folder in it is one, too.
@@ -58,8 +58,8 @@ std::string LibrarySet::addFolder(const std::string& folder, std::string_view ca
 
   std::string_view name = folder;
   while (name.size() > 1 && name.back() == '/') name.remove_suffix(1);
-  texts_.emplace_back(called.empty() ? name.substr(name.rfind('/') + 1) : called);
-  const char* library = texts_.back().c_str();
+  contents_.emplace_back(called.empty() ? name.substr(name.rfind('/') + 1) : called);
+  const char* library = contents_.back().c_str();
   for (const std::string& entry : names) {
     const std::string path = folder + "/" + entry;
     struct stat info;
@@ -70,10 +70,10 @@ std::string LibrarySet::addFolder(const std::string& folder, std::string_view ca
       ReadResult read = readFile(path);
       if (!read.error.empty()) return "cannot read the library `" + path + "`: " + read.error;
       read_.push_back(path);
-      texts_.push_back(path);
-      const char* shown = texts_.back().c_str();
-      texts_.push_back(std::move(read.text));
-      files_.push_back({library, shown, texts_.back()});
+      contents_.push_back(path);
+      const char* shown = contents_.back().c_str();
+      contents_.push_back(std::move(read.content));
+      files_.push_back({library, shown, contents_.back()});
     }
   }
   return {};

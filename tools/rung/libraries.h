@@ -34,7 +34,7 @@ class LibrarySet {
 
   std::vector<sema::LibraryFile> files_;
   std::vector<sema::LibraryAlias> aliases_;
-  std::deque<std::string> texts_;
+  std::deque<std::string> contents_;
   std::vector<std::string> read_;
 };
 

@@ -25,7 +25,7 @@ const char* word(PouKind kind) {
 
 int printResult(const std::string& text) {
   std::string error = printOut(text);
-  return error.empty() ? kGood : usageError(error);
+  return error.empty() ? kSuccess : usageError(error);
 }
 
 int listPous(const Options& options) {
@@ -41,13 +41,13 @@ int listPous(const Options& options) {
     for (DeclId id : tree.list(unit.decls)) {
       if (tree.kind(id) != DeclKind::Pou) continue;
       const PouDecl& pou = tree.as<PouDecl>(id);
-      std::string name(compilation.names.text(pou.name)), shown(compilation.sources.shown(unit.file));
+      std::string name(compilation.names.string(pou.name)), shown(compilation.sources.displayPath(unit.file));
       out += std::string(word(pou.pou_kind)) + " " + name + "  " + shown + ":" +
-             std::to_string(compilation.sources.place(pou.h.loc).line) + "\n";
+             std::to_string(compilation.sources.location(pou.h.loc).line) + "\n";
     }
   }
   int exit = compilation.finish();
-  return exit == kGood ? printResult(out) : exit;
+  return exit == kSuccess ? printResult(out) : exit;
 }
 
 // One line each: the code, the name for `-W` and the message, with A, B, ... for its arguments.
@@ -71,7 +71,7 @@ int listWarnings() {
 template <class Visit>
 void eachBlock(const LibrarySet& libraries, Visit visit) {
   for (const sema::LibraryFile& file : libraries.files())
-    for (const sema::IndexedBlock& block : sema::indexLibrary(file.text)) visit(file, block);
+    for (const sema::IndexedBlock& block : sema::indexLibrary(file.source)) visit(file, block);
 }
 
 int listLibraries(const Options& options) {
@@ -140,12 +140,12 @@ int listSignature(const Options& options) {
   if (!options.inputs.empty()) {
     if (!compilation.read()) return compilation.finish();
     for (const InputFile& file : compilation.inputs.files) {
-      std::string_view text = compilation.sources.text(file.file);
+      std::string_view text = compilation.sources.sourceText(file.file);
       for (const sema::IndexedBlock& block : sema::indexLibrary(text)) add(file.shown, text, block);
     }
   }
   eachBlock(libraries, [&](const sema::LibraryFile& file, const sema::IndexedBlock& block) {
-    if ((block.standards >> static_cast<unsigned>(options.dialect) & 1u) != 0) add(file.path, file.text, block);
+    if ((block.standards >> static_cast<unsigned>(options.dialect) & 1u) != 0) add(file.path, file.source, block);
   });
   if (!out.empty()) return printResult(out);
   std::string_view near = nearest(options.signature, known);

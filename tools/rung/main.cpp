@@ -34,20 +34,20 @@ int main(int argc, char** argv) {
   signal(SIGXFSZ, SIG_IGN);  // a limit for files is an error of the write, as a full disk is
   rung::tool::installCrashHandler(argv + 1, argc > 0 ? argc - 1 : 0);
   rung::setPhase("command line");
-  std::vector<std::string> words;
-  for (int i = 1; i < argc; i++) words.emplace_back(argv[i]);
-  if (words.empty()) {
+  std::vector<std::string> arguments;
+  for (int i = 1; i < argc; i++) arguments.emplace_back(argv[i]);
+  if (arguments.empty()) {
     fputs(rung::tool::helpText(rung::tool::Command::None).c_str(), stderr);
     return rung::tool::kUsage;
   }
   rung::tool::Options options;
-  std::string error = rung::tool::expandResponseFiles(words);
-  if (error.empty()) error = rung::tool::parseOptions(words, options);
+  std::string error = rung::tool::expandResponseFiles(arguments);
+  if (error.empty()) error = rung::tool::parseOptions(arguments, options);
   if (error.empty() && !options.help) error = rung::tool::checkDumpName(options.dump_after);
   if (!error.empty()) return rung::tool::usageError(error);
   if (options.help) {
     error = rung::tool::printOut(rung::tool::helpText(options.command));
-    return error.empty() ? rung::tool::kGood : rung::tool::usageError(error);
+    return error.empty() ? rung::tool::kSuccess : rung::tool::usageError(error);
   }
   return runCommand(options);
 }

@@ -29,7 +29,7 @@ using codegen::OutputFile;
 // Below this many units to compile, making the precompiled header costs more than it saves.
 constexpr size_t kPrecompileFrom = 6;
 
-std::vector<std::string> words(const char* text) {
+std::vector<std::string> splitFlags(const char* text) {
   std::vector<std::string> out;
   std::string word;
   for (const char* c = text == nullptr ? "" : text;; c++) {
@@ -72,7 +72,7 @@ void addIdentity(Hash& hash, const std::vector<std::string>& command) {
 
 void addFile(Hash& hash, const std::string& path) {
   ReadResult read = readFile(path);
-  hash.add(read.text);
+  hash.add(read.content);
 }
 
 // Contents of all headers below a folder, in a fixed order.
@@ -104,7 +104,10 @@ struct Unit {
 class Builder {
  public:
   Builder(Cache& cache, const NativeRequest& request)
-      : cache_(cache), request_(request), compiler_(compilerCommand()), user_flags_(words(std::getenv("CXXFLAGS"))) {}
+      : cache_(cache),
+        request_(request),
+        compiler_(compilerCommand()),
+        user_flags_(splitFlags(std::getenv("CXXFLAGS"))) {}
 
   NativeResult& result() { return result_; }
 
@@ -145,13 +148,13 @@ class Builder {
     process.arguments.push_back(out);
     for (const Unit& unit : units_) process.arguments.push_back(unit.object);
     process.arguments.insert(process.arguments.end(), after.begin(), after.end());
-    for (std::string& flag : words(std::getenv("LDFLAGS"))) process.arguments.push_back(std::move(flag));
+    for (std::string& flag : splitFlags(std::getenv("LDFLAGS"))) process.arguments.push_back(std::move(flag));
     process.log = work_ + "/link.log";
     return run(processes, "linking");
   }
 
   bool archive(const std::string& out) {
-    std::vector<std::string> archiver = words(std::getenv("AR"));
+    std::vector<std::string> archiver = splitFlags(std::getenv("AR"));
     if (archiver.empty()) archiver = {"ar"};
     std::vector<Process> processes(1);
     Process& process = processes[0];
@@ -199,7 +202,7 @@ class Builder {
     Hash hash;
     hash.add(tool_key_);
     for (const Unit& unit : units_) hash.add(unit.key);
-    for (const std::string& flag : words(std::getenv("LDFLAGS"))) hash.add(flag);
+    for (const std::string& flag : splitFlags(std::getenv("LDFLAGS"))) hash.add(flag);
     addFile(hash, installation().runtime_library);
     return hash.hex();
   }
@@ -212,7 +215,7 @@ class Builder {
 
   void finish() {
     if (work_.empty()) return;
-    if (request_.keep && result_.exit == kGood) fprintf(stderr, "rung: generated C++ kept in %s\n", work_.c_str());
+    if (request_.keep && result_.exit == kSuccess) fprintf(stderr, "rung: generated C++ kept in %s\n", work_.c_str());
     if (!request_.keep && result_.exit != kInternal) cache_.drop(work_);
   }
 
@@ -228,8 +231,8 @@ class Builder {
                              const std::unordered_map<std::string_view, const OutputFile*>& files,
                              const OutputFile& file) {
     std::string id = part.folder + "/" + file.path;
-    auto [place, fresh] = closures_.try_emplace(std::move(id));
-    if (!fresh) return place->second;
+    auto [entry, fresh] = closures_.try_emplace(std::move(id));
+    if (!fresh) return entry->second;
     Hash hash;
     hash.add(contentHash(part, file));
     std::vector<const OutputFile*> stack = {&file};
@@ -244,37 +247,37 @@ class Builder {
         hash.add(contentHash(part, *found->second));
       }
     }
-    return place->second = hash.hex();
+    return entry->second = hash.hex();
   }
 
   const std::string& contentHash(const NativePart& part, const OutputFile& file) {
-    auto [place, fresh] = contents_.try_emplace(part.folder + "/" + file.path);
+    auto [entry, fresh] = contents_.try_emplace(part.folder + "/" + file.path);
     if (fresh) {
       Hash hash;
       hash.add(file.path);
       hash.add(file.content);
-      place->second = hash.hex();
+      entry->second = hash.hex();
     }
-    return place->second;
+    return entry->second;
   }
 
   // Names in `#include "…"` lines; they stand at the top of generated files, one block.
   const std::vector<std::string>& includes(const NativePart& part, const OutputFile& file) {
-    auto [place, fresh] = includes_.try_emplace(part.folder + "/" + file.path);
-    if (!fresh) return place->second;
+    auto [entry, fresh] = includes_.try_emplace(part.folder + "/" + file.path);
+    if (!fresh) return entry->second;
     std::string_view text = file.content;
     for (size_t at = 0; (at = text.find("#include \"", at)) != std::string_view::npos;) {
       at += 10;
       size_t end = text.find('"', at);
       if (end == std::string_view::npos) break;
-      place->second.emplace_back(text.substr(at, end - at));
+      entry->second.emplace_back(text.substr(at, end - at));
       at = end;
     }
-    return place->second;
+    return entry->second;
   }
 
   void findUnits() {
-    std::vector<std::string> batch_text(request_.batches);
+    std::vector<std::string> batch_source(request_.batches);
     std::vector<Hash> batch_hash(request_.batches);
     for (const NativePart& part : request_.parts) {
       std::unordered_map<std::string_view, const OutputFile*> files;
@@ -283,28 +286,28 @@ class Builder {
       for (const OutputFile& file : part.files) {
         if (!file.path.ends_with(".cpp")) continue;
         const std::string& hash = closure(part, files, file);
-        if (request_.batches == 0 || file.has_user_text) {
+        if (request_.batches == 0 || file.has_user_code) {
           Hash key;
           key.add(tool_key_);
           key.add(hash);
-          units_.push_back({prefix + file.path, key.hex(), {}, file.has_user_text ? &file : nullptr});
+          units_.push_back({prefix + file.path, key.hex(), {}, file.has_user_code ? &file : nullptr});
           continue;
         }
         Hash name;
         name.add(part.folder);
         size_t batch = std::stoul(name.hex().substr(0, 8), nullptr, 16) % request_.batches;
-        batch_text[batch] += "#include \"" + prefix + file.path + "\"\n";
+        batch_source[batch] += "#include \"" + prefix + file.path + "\"\n";
         batch_hash[batch].add(prefix);
         batch_hash[batch].add(hash);
       }
     }
     for (uint32_t i = 0; i < request_.batches; i++) {
-      if (batch_text[i].empty()) continue;
+      if (batch_source[i].empty()) continue;
       Hash key;
       key.add(tool_key_);
       key.add(batch_hash[i].hex());
       units_.push_back({"batch_" + std::to_string(i) + ".cpp", key.hex(), {}});
-      batch_files_.push_back({units_.back().source, batch_text[i]});
+      batch_files_.push_back({units_.back().source, batch_source[i]});
     }
     for (Unit& unit : units_) unit.object = cache_.path(unit.key, "o");
   }
@@ -327,9 +330,9 @@ class Builder {
       mkdir((work_ + "/" + path.substr(0, slash)).c_str(), 0777);
     FILE* file = fopen((work_ + "/" + path).c_str(), "wb");
     if (file == nullptr) return fail(kUsage, "cannot write to `" + work_ + "`: " + strerror(errno));
-    bool good = fwrite(text.data(), 1, text.size(), file) == text.size();
-    good = fclose(file) == 0 && good;
-    return good || fail(kUsage, "cannot write to `" + work_ + "`: " + strerror(errno));
+    bool ok = fwrite(text.data(), 1, text.size(), file) == text.size();
+    ok = fclose(file) == 0 && ok;
+    return ok || fail(kUsage, "cannot write to `" + work_ + "`: " + strerror(errno));
   }
 
   bool compileUnits(const std::vector<Unit*>& missing) {
@@ -399,17 +402,17 @@ class Builder {
       const std::string_view line = std::string_view(log).substr(at, end - at);
       at = end + 1;
       for (const std::string_view word : {": error: ", ": fatal error: "}) {
-        const size_t said = line.find(word);
-        if (said == std::string_view::npos) continue;
-        const std::string place(line.substr(0, said));  // path:line:column
-        const size_t column = place.rfind(':');
-        const size_t row = column == std::string::npos || column == 0 ? column : place.rfind(':', column - 1);
+        const size_t severity_at = line.find(word);
+        if (severity_at == std::string_view::npos) continue;
+        const std::string location(line.substr(0, severity_at));  // path:line:column
+        const size_t column = location.rfind(':');
+        const size_t row = column == std::string::npos || column == 0 ? column : location.rfind(':', column - 1);
         if (row == std::string::npos) continue;
-        const std::string path = place.substr(0, row);
+        const std::string path = location.substr(0, row);
         if (file.content.find(" \"" + path + "\"\n") == std::string::npos) continue;
-        refusals.push_back({path, static_cast<uint32_t>(strtoul(place.c_str() + row + 1, nullptr, 10)),
-                            static_cast<uint32_t>(strtoul(place.c_str() + column + 1, nullptr, 10)),
-                            std::string(line.substr(said + word.size()))});
+        refusals.push_back({path, static_cast<uint32_t>(strtoul(location.c_str() + row + 1, nullptr, 10)),
+                            static_cast<uint32_t>(strtoul(location.c_str() + column + 1, nullptr, 10)),
+                            std::string(line.substr(severity_at + word.size()))});
       }
     }
     return refusals;
@@ -426,20 +429,20 @@ class Builder {
     ReadResult log = readFile(failed->log);
     std::string first;
     size_t at = 0;
-    for (int line = 0; line < 20 && at < log.text.size(); line++) {
-      size_t end = log.text.find('\n', at);
-      if (end == std::string::npos) end = log.text.size();
-      first += "  " + log.text.substr(at, end - at) + "\n";
+    for (int line = 0; line < 20 && at < log.content.size(); line++) {
+      size_t end = log.content.find('\n', at);
+      if (end == std::string::npos) end = log.content.size();
+      first += "  " + log.content.substr(at, end - at) + "\n";
       at = end + 1;
     }
     // What the machine or the user's flags refuse is no mistake of the code that rung made.
     for (const char* phrase : {"No space left", "unrecognized command", "unrecognized argument", "unknown argument",
                                "cannot execute", "Cannot allocate memory", "Killed signal", "Disk quota"})
-      if (log.text.find(phrase) != std::string::npos || failed->exit_code > 128)
+      if (log.content.find(phrase) != std::string::npos || failed->exit_code > 128)
         return fail(kUsage, "`" + failed->arguments[0] + "` failed while " + label + ":\n" + first);
     if (const Unit* unit = units == nullptr ? nullptr : (*units)[static_cast<size_t>(failed - processes.data())];
         unit != nullptr && unit->user_file != nullptr) {
-      result_.refusals = refusalsOf(*unit->user_file, log.text);
+      result_.refusals = refusalsOf(*unit->user_file, log.content);
       first.pop_back();
       return fail(kInputErrors, "error[" + std::string(diagInfo(diag::CppRefused).code) +
                                     "]: the C++ compiler rejects a C++ body:\n" + first);
@@ -465,7 +468,7 @@ std::string moveInto(const std::string& from, const std::string& to) {
   ReadResult read = readFile(from);
   if (!read.error.empty()) return "cannot read `" + from + "`: " + read.error;
   struct stat info;
-  std::string error = writeFile(to, read.text);
+  std::string error = writeFile(to, read.content);
   if (error.empty() && stat(from.c_str(), &info) == 0 && chmod(to.c_str(), info.st_mode & 0777) != 0)
     error = "cannot make `" + to + "` executable: " + strerror(errno);
   return error;
@@ -474,7 +477,7 @@ std::string moveInto(const std::string& from, const std::string& to) {
 }  // namespace
 
 std::vector<std::string> compilerCommand() {
-  std::vector<std::string> command = words(std::getenv("CXX"));
+  std::vector<std::string> command = splitFlags(std::getenv("CXX"));
   if (command.empty()) command = {"g++"};
   return command;
 }
@@ -502,18 +505,18 @@ NativeResult makeShared(Cache& cache, const NativeRequest& request) {
 NativeResult makeOutput(Cache& cache, const NativeRequest& request, BuildKind kind, const std::string& module_name,
                         const std::string& output) {
   Builder builder(cache, request);
-  bool good = builder.compile() && builder.needWork();
-  const std::string part = good ? builder.work() + "/output" : "";
+  bool ok = builder.compile() && builder.needWork();
+  const std::string part = ok ? builder.work() + "/output" : "";
   const Installation& rung = installation();
   switch (kind) {
     case BuildKind::Executable:
-      good = good && builder.addMain(module_name) &&
-             builder.link({}, {rung.host_library, rung.runtime_library, "-pthread"}, part);
+      ok = ok && builder.addMain(module_name) &&
+           builder.link({}, {rung.host_library, rung.runtime_library, "-pthread"}, part);
       break;
-    case BuildKind::Shared: good = good && builder.linkModule(module_name, part); break;
-    case BuildKind::Static: good = good && builder.archive(part); break;
+    case BuildKind::Shared: ok = ok && builder.linkModule(module_name, part); break;
+    case BuildKind::Static: ok = ok && builder.archive(part); break;
   }
-  if (good) {
+  if (ok) {
     std::string error = moveInto(part, output);
     if (!error.empty()) builder.fail(kUsage, error);
   }

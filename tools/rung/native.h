@@ -34,7 +34,7 @@ struct Refusal {
 };
 
 struct NativeResult {
-  int exit = kGood;     // kGood, kUsage, kInternal, or kInputErrors: g++ refused a body that the user wrote in C++
+  int exit = kSuccess;  // kSuccess, kUsage, kInternal, or kInputErrors: g++ refused a body that the user wrote in C++
   std::string message;  // what went wrong
   std::vector<Refusal> refusals;  // kInputErrors: empty where g++ names no place in the body, see `message`
   std::string path;               // the shared object

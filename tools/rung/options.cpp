@@ -205,12 +205,12 @@ std::string parseChoice(std::string_view option, std::string_view value, std::st
 std::string parseNumber(std::string_view option, std::string_view value, uint32_t low, uint32_t high,
                         uint32_t& number) {
   uint64_t n = 0;
-  bool good = !value.empty() && value.size() <= 10;
+  bool ok = !value.empty() && value.size() <= 10;
   for (char c : value) {
-    if (c < '0' || c > '9') good = false;
-    if (good) n = n * 10 + static_cast<uint64_t>(c - '0');
+    if (c < '0' || c > '9') ok = false;
+    if (ok) n = n * 10 + static_cast<uint64_t>(c - '0');
   }
-  if (good && n >= low && n <= high) {
+  if (ok && n >= low && n <= high) {
     number = static_cast<uint32_t>(n);
     return {};
   }
@@ -418,7 +418,7 @@ void appendRow(std::string& out, const std::string& left, const char* help) {
   out += '\n';
 }
 
-std::string spelled(const OptionRow& row) {
+std::string synopsis(const OptionRow& row) {
   std::string out = row.name;
   if (row.value == nullptr) return out;
   if (row.key == Key::Level || row.key == Key::Warning) return out + row.value;
@@ -476,12 +476,12 @@ std::string parseChecks(std::string_view list, uint8_t& checks) {
   return {};
 }
 
-std::string expandResponseFiles(std::vector<std::string>& words) {
+std::string expandResponseFiles(std::vector<std::string>& arguments) {
   uint32_t files = 0;
-  for (size_t i = 0; i < words.size(); i++) {
-    if (words[i].size() < 2 || words[i][0] != '@') continue;
-    std::string path = words[i].substr(1);
-    if (++files > 100) return "more than 100 response files; does " + backquoted(words[i]) + " include itself?";
+  for (size_t i = 0; i < arguments.size(); i++) {
+    if (arguments[i].size() < 2 || arguments[i][0] != '@') continue;
+    std::string path = arguments[i].substr(1);
+    if (++files > 100) return "more than 100 response files; does " + backquoted(arguments[i]) + " include itself?";
     ReadResult read = readFile(path);
     if (!read.error.empty()) return "cannot read response file " + backquoted(path) + ": " + read.error;
 
@@ -489,10 +489,10 @@ std::string expandResponseFiles(std::vector<std::string>& words) {
     std::string word;
     bool in_word = false;
     char quote = 0;
-    for (size_t k = 0; k < read.text.size(); k++) {
-      char c = read.text[k];
-      if (c == '\\' && quote != '\'' && k + 1 < read.text.size()) {
-        word += read.text[++k];
+    for (size_t k = 0; k < read.content.size(); k++) {
+      char c = read.content[k];
+      if (c == '\\' && quote != '\'' && k + 1 < read.content.size()) {
+        word += read.content[++k];
         in_word = true;
       } else if (quote != 0) {
         if (c == quote)
@@ -513,35 +513,36 @@ std::string expandResponseFiles(std::vector<std::string>& words) {
     }
     if (quote != 0) return "response file " + backquoted(path) + " ends inside a quoted word";
     if (in_word) inner.push_back(std::move(word));
-    words.erase(words.begin() + static_cast<ptrdiff_t>(i));
-    words.insert(words.begin() + static_cast<ptrdiff_t>(i), std::make_move_iterator(inner.begin()),
-                 std::make_move_iterator(inner.end()));
+    arguments.erase(arguments.begin() + static_cast<ptrdiff_t>(i));
+    arguments.insert(arguments.begin() + static_cast<ptrdiff_t>(i), std::make_move_iterator(inner.begin()),
+                     std::make_move_iterator(inner.end()));
     i--;  // the first of the new words may be a response file too
   }
   return {};
 }
 
-std::string parseOptions(const std::vector<std::string>& words, Options& options) {
+std::string parseOptions(const std::vector<std::string>& arguments, Options& options) {
   options.checks = kDefaultChecks;
-  if (words.empty()) return "expected a command; `rung --help` lists all";
-  options.command = findCommand(words[0]);
+  if (arguments.empty()) return "expected a command; `rung --help` lists all";
+  options.command = findCommand(arguments[0]);
   if (options.command == Command::None) {
     for (const std::string_view later : kLaterCommands)
-      if (words[0] == later) return "`rung " + words[0] + "` is not supported in this version of rung";
+      if (arguments[0] == later) return "`rung " + arguments[0] + "` is not supported in this version of rung";
     std::vector<std::string_view> names;
     for (const CommandRow& row : kCommands) names.push_back(row.name);
-    return withSuggestion("unknown command " + backquoted(words[0]), words[0], names) + " (`rung --help` lists all)";
+    return withSuggestion("unknown command " + backquoted(arguments[0]), arguments[0], names) +
+           " (`rung --help` lists all)";
   }
   if (options.command == Command::Help) {
     options.help = true;
-    if (words.size() > 1) options.command = findCommand(words[1]);
+    if (arguments.size() > 1) options.command = findCommand(arguments[1]);
     if (options.command == Command::Help) options.command = Command::None;
     return {};
   }
 
   bool only_inputs = false;
-  for (size_t i = 1; i < words.size(); i++) {
-    const std::string& word = words[i];
+  for (size_t i = 1; i < arguments.size(); i++) {
+    const std::string& word = arguments[i];
     if (only_inputs || word.empty() || word[0] != '-' || word == "-") {
       if (word.empty()) return "an input has an empty name";
       options.inputs.push_back(word);
@@ -568,8 +569,8 @@ std::string parseOptions(const std::vector<std::string>& words, Options& options
     if (!(row->commands & bit(options.command))) return elsewhere(*row, options.command);
     if (row->value == nullptr && has_value) return backquoted(row->name) + " takes no value";
     if (row->value != nullptr && !has_value) {
-      if (i + 1 >= words.size()) return backquoted(row->name) + " needs a value: " + spelled(*row);
-      value = words[++i];
+      if (i + 1 >= arguments.size()) return backquoted(row->name) + " needs a value: " + synopsis(*row);
+      value = arguments[++i];
     }
     if (row->value != nullptr && value.empty()) return backquoted(row->name) + " has an empty value";
     std::string error = apply(*row, value, options);
@@ -601,7 +602,7 @@ std::string helpText(Command command) {
       out = std::string("rung ") + row.name + ": " + row.summary + "\n\nusage: rung " + row.name;
   std::string options;
   for (const OptionRow& row : kOptions)
-    if (row.help != nullptr && (row.commands & bit(command))) appendRow(options, spelled(row), row.help);
+    if (row.help != nullptr && (row.commands & bit(command))) appendRow(options, synopsis(row), row.help);
   if (!options.empty()) out += " [options]";
   for (const CommandRow& row : kCommands)
     if (row.command == command && row.arguments[0] != '\0') out += std::string(" ") + row.arguments;

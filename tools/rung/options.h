@@ -25,7 +25,7 @@ enum class Engine : uint8_t { Auto, Native, Interpreter };  // Auto: the interpr
 enum class Color : uint8_t { Auto, Always, Never };
 
 // The exit codes of rung (docs/cli.md).
-enum Exit : int { kGood = 0, kInputErrors = 1, kUsage = 2, kFault = 3, kTestFailed = 4, kInternal = 70 };
+enum Exit : int { kSuccess = 0, kInputErrors = 1, kUsage = 2, kFault = 3, kTestFailed = 4, kInternal = 70 };
 
 struct WarningSwitch {
   std::string name;
@@ -99,10 +99,10 @@ struct Options {
 };
 
 // Parses the words after the program's name. The error is one message for the user; empty: good.
-[[nodiscard]] std::string parseOptions(const std::vector<std::string>& words, Options& options);
+[[nodiscard]] std::string parseOptions(const std::vector<std::string>& arguments, Options& options);
 
 // Reads `@file` words (shell-like: blanks separate, quotes and backslash group) in place; files may name files.
-[[nodiscard]] std::string expandResponseFiles(std::vector<std::string>& words);
+[[nodiscard]] std::string expandResponseFiles(std::vector<std::string>& arguments);
 
 // The bits of `div,index,…`, `default`, `all` or `none`.
 [[nodiscard]] std::string parseChecks(std::string_view list, uint8_t& checks);

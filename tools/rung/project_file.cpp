@@ -58,19 +58,19 @@ std::vector<std::string> list(std::string_view value) {
 class Reader {
  public:
   Reader(const Sources& sources, FileId file, Diagnostics& diagnostics, ProjectFile& project)
-      : text_(sources.text(file)), base_(sources.begin(file)), diagnostics_(diagnostics), project_(project) {}
+      : source_(sources.sourceText(file)), base_(sources.begin(file)), diagnostics_(diagnostics), project_(project) {}
 
   void read() {
-    for (size_t begin = 0; begin < text_.size();) {
-      size_t end = text_.find('\n', begin);
-      if (end == std::string_view::npos) end = text_.size();
-      readLine(trim(text_.substr(begin, end - begin)));
+    for (size_t begin = 0; begin < source_.size();) {
+      size_t end = source_.find('\n', begin);
+      if (end == std::string_view::npos) end = source_.size();
+      readLine(trim(source_.substr(begin, end - begin)));
       begin = end + 1;
     }
   }
 
  private:
-  Loc loc(std::string_view part) const { return {base_.offset + static_cast<uint32_t>(part.data() - text_.data())}; }
+  Loc loc(std::string_view part) const { return {base_.offset + static_cast<uint32_t>(part.data() - source_.data())}; }
 
   void readLine(std::string_view line) {
     if (line.empty() || line[0] == '#' || line[0] == ';') return;
@@ -132,7 +132,7 @@ class Reader {
     return false;
   }
 
-  std::string_view text_;
+  std::string_view source_;
   Loc base_;
   Diagnostics& diagnostics_;
   ProjectFile& project_;
@@ -184,7 +184,7 @@ void readProjectSection(const ProjectSection& section, Diagnostics& diagnostics,
 
 // [pool new]: the memory behind __NEW.
 void readPoolSection(const ProjectSection& section, Diagnostics& diagnostics, ProjectFile& project) {
-  constexpr uint64_t kMost = uint64_t{1} << 30;
+  constexpr uint64_t kMax = uint64_t{1} << 30;
   if (section.name != "new") return;
   for (const ProjectEntry& entry : section.entries) {
     if (entry.key != "bytes") {
@@ -196,7 +196,7 @@ void readPoolSection(const ProjectSection& section, Diagnostics& diagnostics, Pr
     uint64_t bytes = 0;
     const char* const end = entry.value.data() + entry.value.size();
     const auto read = std::from_chars(entry.value.data(), end, bytes);
-    if (read.ec != std::errc{} || read.ptr != end || bytes < 16 || bytes > kMost)
+    if (read.ec != std::errc{} || read.ptr != end || bytes < 16 || bytes > kMax)
       badValue(diagnostics, entry, "it takes a number of bytes from 16 to 1073741824");
     else
       project.pool_bytes = static_cast<uint32_t>(bytes);
@@ -226,7 +226,7 @@ void writeTasks(const Sources& sources, Diagnostics& diagnostics, ProjectFile& p
   for (const ProjectSection& section : project.sections) {
     if (section.kind != "task" || !isIdentifier(section.name)) continue;
     if (text.empty()) text = "CONFIGURATION rung_project RESOURCE rung_project_resource ON PLC ";
-    for (uint32_t at = sources.place(section.loc).line; line < at; line++) text += '\n';
+    for (uint32_t at = sources.location(section.loc).line; line < at; line++) text += '\n';
     text += "TASK " + section.name + "(";
     const char* separator = "";
     for (const ProjectEntry& entry : section.entries) {

@@ -28,11 +28,11 @@ int runRun(const Options& options) {
   request.parts.resize(1);
   std::unique_ptr<ir::interpreter::Program> program;
   std::string why;
-  bool good = compilation.translate(false, program, why);
-  if (good && !program) good = compilation.emit(false, request.parts[0].files);
-  const bool later = good && compilation.hasCppBodies() && compilation.exitCode() == kGood;
-  int exit = later ? kGood : compilation.finish();
-  if (!good || exit != kGood) {
+  bool ok = compilation.translate(false, program, why);
+  if (ok && !program) ok = compilation.emit(false, request.parts[0].files);
+  const bool later = ok && compilation.hasCppBodies() && compilation.exitCode() == kSuccess;
+  int exit = later ? kSuccess : compilation.finish();
+  if (!ok || exit != kSuccess) {
     if (options.time_phases) fputs(times.table().c_str(), stderr);
     return exit;
   }
@@ -57,7 +57,7 @@ int runRun(const Options& options) {
       if (result.exit == kInternal) printInternalError(result.message.c_str());
       if (result.exit == kUsage) usageError(result.message);
     }
-    if (result.exit != kGood) return result.exit;
+    if (result.exit != kSuccess) return result.exit;
     error = library.open(result.path);
     module = error.empty() ? library.find(compilation.options.moduleName(), error) : nullptr;
     if (module == nullptr) {

@@ -22,7 +22,7 @@ constexpr size_t kModulesPerUnit = 16;
 
 struct Module {
   std::string name, shown, below;
-  bool good = false;
+  bool ok = false;
   std::string messages;
   std::unique_ptr<ir::interpreter::Program> program;  // none: compiled C++
 };
@@ -42,9 +42,9 @@ using MockSets = std::vector<std::vector<std::string>>;
 MockSets mockSets(const sema::Project& project, const host::TestOptions& options) {
   MockSets sets{{}};
   for (const sema::Pou& pou : project.pous) {
-    if (!pou.test || pou.mocks.empty() || !isChosen(options, std::string(project.names.text(pou.name)))) continue;
+    if (!pou.test || pou.mocks.empty() || !isChosen(options, std::string(project.names.string(pou.name)))) continue;
     std::vector<std::string> set;
-    for (NameId mock : pou.mocks) set.emplace_back(project.names.text(mock));
+    for (NameId mock : pou.mocks) set.emplace_back(project.names.string(mock));
     if (std::find(sets.begin(), sets.end(), set) == sets.end()) sets.push_back(std::move(set));
   }
   return sets;
@@ -62,7 +62,7 @@ class Tester {
 
   int run() {
     int exit = options_.separate ? compileSeparately() : compileProject(options_, nullptr);
-    if (exit == kGood) exit = buildAndRun();
+    if (exit == kSuccess) exit = buildAndRun();
     times_.end();
     if (options_.time_phases) fputs(times_.table().c_str(), stderr);
     return exit;
@@ -86,33 +86,33 @@ class Tester {
       Compilation& compilation = *owned;
       Module module;
       NativePart part;
-      module.good = makeModule(compilation, module, part);
+      module.ok = makeModule(compilation, module, part);
       module.name = compilation.options.moduleName();
       if (i == 0) {
         name = module.name;
         checked_ = (compilation.options.checks & kMemoryChecks) == kMemoryChecks;
-        if (module.good) sets = mockSets(*compilation.project, test_options_);
+        if (module.ok) sets = mockSets(*compilation.project, test_options_);
       }
       if (file != nullptr && compilation.exitCode() != kInternal) {
         module.shown = file->shown;
         module.below = file->below;
-        if (i == 0 || compilation.exitCode() != kGood)
+        if (i == 0 || compilation.exitCode() != kSuccess)
           module.messages = headingOf(sets[i]) + compilation.diagnosticsText();
-        module.good = module.good && compilation.exitCode() == kGood;
-      } else if (i == 0 || !module.good) {
+        module.ok = module.ok && compilation.exitCode() == kSuccess;
+      } else if (i == 0 || !module.ok) {
         fputs(headingOf(sets[i]).c_str(), stderr);
         const int exit = compilation.finish();
-        if (exit != kGood || !module.good) return exit;
+        if (exit != kSuccess || !module.ok) return exit;
       }
       if (!why_.empty()) return usageError(why_);
       for (const InputFile& input : compilation.inputs.files) coverage_.nameFile(input.below, input.shown);
-      if (module.good && i == 0 && sets.size() > 1 && compilation.module->tests.empty()) continue;
+      if (module.ok && i == 0 && sets.size() > 1 && compilation.module->tests.empty()) continue;
       if (file != nullptr || i > 0) part.folder = module.name;
-      if (module.good && !module.program) request_.parts.push_back(std::move(part));
+      if (module.ok && !module.program) request_.parts.push_back(std::move(part));
       modules_.push_back(std::move(module));
       if (compilation.hasCppBodies()) with_cpp_.push_back(std::move(owned));
     }
-    return kGood;
+    return kSuccess;
   }
 
   // Interpreted where it can be, else as C++ files.
@@ -138,10 +138,10 @@ class Tester {
       one.root = root;
       one.name = all.options.moduleName() + "_" + std::to_string(i);
       const int exit = compileProject(one, &file);
-      if (exit != kGood) return exit;
+      if (exit != kSuccess) return exit;
     }
     request_.batches = batchCount(request_.parts.size());
-    return kGood;
+    return kSuccess;
   }
 
   int buildAndRun() {
@@ -156,7 +156,7 @@ class Tester {
       if (result.exit == kInternal) printInternalError(result.message.c_str());
       if (result.exit == kUsage) usageError(result.message);
       if (result.exit == kInputErrors) refuse(result);
-      if (result.exit != kGood) return result.exit;
+      if (result.exit != kSuccess) return result.exit;
       std::string error = library.open(result.path);
       if (!error.empty()) {
         printInternalError(error.c_str());
@@ -170,7 +170,7 @@ class Tester {
       test_options_.hint_when_long = "rung: long tests are faster with --engine=native";
     for (const Module& module : modules_) {
       const int exit = runModule(module, library, results);
-      if (exit != kGood) return exit;
+      if (exit != kSuccess) return exit;
       if (module.program) coverage_.add(*module.program);
     }
     fflush(stderr);
@@ -189,11 +189,11 @@ class Tester {
 
   int runModule(const Module& module, const ModuleLibrary& library, host::TestResults& results) {
     if (!module.messages.empty()) fputs(module.messages.c_str(), stderr);
-    if (!module.good) {
+    if (!module.ok) {
       printf("FAIL %s: does not compile\n", module.shown.c_str());
       results.failed++;
       results.tests.push_back({"compile", module.below, 1, host::TestResult::Broken, 0, 0, module.messages});
-      return kGood;  // the other files count; the exit code says that a test failed
+      return kSuccess;  // the other files count; the exit code says that a test failed
     }
     std::string error;
     const rung_module* description = module.program ? &module.program->description() : library.find(module.name, error);
@@ -210,7 +210,7 @@ class Tester {
       printf("%s %s: %u passed, %u failed\n", results.failed == failed ? "ok  " : "FAIL", module.shown.c_str(),
              results.passed - passed, results.failed - failed);
     fflush(stdout);
-    return kGood;
+    return kSuccess;
   }
 
   const Options& options_;

@@ -13,7 +13,7 @@ int runVersion(const Options&) {
   else
     text += found.error + "\n";
   std::string error = printOut(text);
-  return error.empty() ? kGood : usageError(error);
+  return error.empty() ? kSuccess : usageError(error);
 }
 
 }  // namespace rung::tool

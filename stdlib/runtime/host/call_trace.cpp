@@ -31,11 +31,11 @@ std::string CallTrace::nameOf(const char* pou, const uint8_t* instance) const {
   if (instance == nullptr) return pou;
   for (uint32_t i = 0; i < module_.symbol_count; ++i) {
     const rung_symbol& symbol = module_.symbols[i];
-    if (symbol.place != RUNG_IN_BLOCK) continue;
+    if (symbol.storage != RUNG_IN_BLOCK) continue;
     const rung_type& type = module_.types[symbol.type];
     const uint8_t* const begin = memory_.block(symbol.block) + symbol.offset;
     if (instance < begin || instance >= begin + (type.size == 0 ? 1 : type.size)) continue;
-    std::string name = module_.text + symbol.name;
+    std::string name = module_.strings + symbol.name;
     const std::string inside = pathInside(&type, static_cast<uint32_t>(instance - begin), pou);
     if (inside.empty()) continue;
     if (inside == "." && lowerCase(name) == lowerCase(pou)) return name;  // the instance of a program
@@ -65,7 +65,7 @@ std::string CallTrace::pathInside(const rung_type* type, uint32_t offset, const 
       continue;
     }
     if (type->kind != RUNG_RECORD) return "";
-    if (offset == 0 && strcmp(module_.text + type->name, pou) == 0) return path.empty() ? "." : path;
+    if (offset == 0 && strcmp(module_.strings + type->name, pou) == 0) return path.empty() ? "." : path;
     const rung_field* inside = nullptr;
     for (uint32_t i = 0; i < type->count; ++i) {
       const rung_field& field = module_.fields[type->first + i];
@@ -73,7 +73,7 @@ std::string CallTrace::pathInside(const rung_type* type, uint32_t offset, const 
       if (offset < field.offset + module_.types[field.type].size) inside = &field;
     }
     if (inside == nullptr) return "";
-    if ((inside->flags & RUNG_FIELD_BASE) == 0) path += std::string(".") + (module_.text + inside->name);
+    if ((inside->flags & RUNG_FIELD_BASE) == 0) path += std::string(".") + (module_.strings + inside->name);
     offset -= inside->offset;
     type = &module_.types[inside->type];
   }

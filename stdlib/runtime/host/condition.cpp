@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "schedule.h"
-#include "value_text.h"
+#include "value_format.h"
 
 namespace rung::host {
 namespace {
@@ -26,7 +26,7 @@ bool comparable(const rung_type& a, const rung_type& b) {
 
 // -1, 0, 1 for texts as their code units order them.
 template <typename Unit>
-int compareTexts(const uint8_t* a, const uint8_t* b) {
+int compareStrings(const uint8_t* a, const uint8_t* b) {
   for (;; a += sizeof(Unit), b += sizeof(Unit)) {
     Unit x, y;
     memcpy(&x, a, sizeof x);
@@ -175,15 +175,15 @@ bool Condition::parseOperand(uint32_t& node) {
   if (length == 0) return fail("expected a variable or a value before " + backquoted(rest_));
 
   node = add(Kind::Literal, 0, 0);
-  Node& made = nodes_[node];
-  made.text = rest_.substr(0, length);
+  Node& created = nodes_[node];
+  created.text = rest_.substr(0, length);
   rest_.remove_prefix(length);
-  const std::string lower = lowerCase(made.text);
+  const std::string lower = lowerCase(created.text);
   const bool is_bool = lower == "true" || lower == "false";
   Variable variable;
-  if (!is_literal && !is_bool && symbols_.find(made.text, variable, made.unknown)) {
-    made.kind = Kind::Variable;
-    made.variable = variable;
+  if (!is_literal && !is_bool && symbols_.find(created.text, variable, created.unknown)) {
+    created.kind = Kind::Variable;
+    created.variable = variable;
   }
   return !is_bool || giveType(node, kConditionType);
 }
@@ -195,8 +195,8 @@ bool Condition::giveType(uint32_t literal, const rung_type& type) {
   node.variable = Variable{};
   node.variable.type = &type;
   node.variable.base = storage_.back().data();
-  const std::string wrong = assignValue(symbols_.module(), node.variable, node.text);
-  return wrong.empty() || fail(wrong);
+  const std::string problem = assignValue(symbols_.module(), node.variable, node.text);
+  return problem.empty() || fail(problem);
 }
 
 bool Condition::isUntyped(uint32_t node) const {
@@ -259,9 +259,9 @@ bool Condition::compared(const Node& node) const {
     Integer x, y;
     double p = 0, q = 0;
     if (a.type->kind == RUNG_STRING || a.type->kind == RUNG_USTRING) {
-      order = compareTexts<uint8_t>(at_a, at_b);
+      order = compareStrings<uint8_t>(at_a, at_b);
     } else if (a.type->kind == RUNG_WSTRING) {
-      order = compareTexts<uint16_t>(at_a, at_b);
+      order = compareStrings<uint16_t>(at_a, at_b);
     } else if (integerOf(symbols_.module(), a, x) && integerOf(symbols_.module(), b, y)) {
       if (x.isBeyondSigned() != y.isBeyondSigned())
         order = x.isBeyondSigned() ? 1 : -1;

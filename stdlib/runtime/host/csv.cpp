@@ -6,19 +6,19 @@ bool readCsv(std::string_view text, std::vector<CsvRow>& rows, std::string& erro
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   uint32_t line = 1;
   size_t at = 0, line_begin = 0;
-  const auto fail = [&](CsvRow::Place place, const char* what) {
-    error = std::to_string(place.line) + ":" + std::to_string(place.column) + ": " + what;
+  const auto fail = [&](CsvRow::Position position, const char* what) {
+    error = std::to_string(position.line) + ":" + std::to_string(position.column) + ": " + what;
     return false;
   };
   while (at < text.size()) {
     CsvRow row;
     for (bool more = true; more;) {
       std::string cell;
-      const auto here = [&] { return CsvRow::Place{line, static_cast<uint32_t>(at - line_begin) + 1}; };
-      row.places.push_back(here());
+      const auto here = [&] { return CsvRow::Position{line, static_cast<uint32_t>(at - line_begin) + 1}; };
+      row.positions.push_back(here());
       if (at < text.size() && text[at] == '"') {
         for (++at;; ++at) {
-          if (at == text.size()) return fail(row.places.back(), "the quote of a cell is not closed");
+          if (at == text.size()) return fail(row.positions.back(), "the quote of a cell is not closed");
           if (text[at] == '"') {
             if (at + 1 == text.size() || text[at + 1] != '"') break;
             ++at;

@@ -8,11 +8,11 @@
 namespace rung::host {
 
 struct CsvRow {
-  struct Place {
+  struct Position {
     uint32_t line, column;  // from 1; columns count bytes
   };
   std::vector<std::string> cells;
-  std::vector<Place> places;  // where each begins
+  std::vector<Position> positions;  // where each begins
 };
 
 // Reads a whole text; empty lines are passed over. False: `error` is "LINE:COLUMN: what is wrong".

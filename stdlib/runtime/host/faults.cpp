@@ -57,9 +57,9 @@ std::string describeFault(const rung_module& module, const rung_fault& fault) {
       break;
   }
   std::string text;
-  if (known) text = std::string(module.text + site.file) + ':' + std::to_string(site.line) + ": ";
+  if (known) text = std::string(module.strings + site.file) + ':' + std::to_string(site.line) + ": ";
   text += "fault[" + word + "]: " + what;
-  if (known && module.text[site.pou] != 0) text += std::string(" in `") + (module.text + site.pou) + '`';
+  if (known && module.strings[site.pou] != 0) text += std::string(" in `") + (module.strings + site.pou) + '`';
   if (!known && (fault.value == RUNG_BAD_ADDRESS || fault.kind == RUNG_FAULT_STACK))
     text += ", in compiled code; `rung run --engine=interp` shows the line";
   return text;

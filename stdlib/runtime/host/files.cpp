@@ -11,7 +11,7 @@
 namespace rung::host {
 namespace {
 
-constexpr size_t kMostFiles = 256;  // a program that never closes gets an error, not the machine
+constexpr size_t kMaxFiles = 256;  // a program that never closes gets an error, not the machine
 
 int64_t errorOf(int number) {
   if (number == ENOENT || number == ENOTDIR) return RUNG_FILE_MISSING;
@@ -111,7 +111,7 @@ int64_t Files::open(const char* name, uint32_t mode) {
   if ((mode & RUNG_FILE_TRUNCATE) != 0) flags |= O_TRUNC;
   const std::lock_guard<std::mutex> lock(mutex_);
   auto free = std::find(descriptors_.begin(), descriptors_.end(), -1);
-  if (free == descriptors_.end() && descriptors_.size() == kMostFiles) return RUNG_FILE_FAILED;
+  if (free == descriptors_.end() && descriptors_.size() == kMaxFiles) return RUNG_FILE_FAILED;
   const int descriptor = ::open(path.c_str(), flags, 0666);
   if (descriptor < 0) return errorOf(errno);
   if (free == descriptors_.end()) free = descriptors_.insert(free, -1);

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "csv.h"
-#include "value_text.h"
+#include "value_format.h"
 
 namespace rung::host {
 namespace {
@@ -21,7 +21,7 @@ CsvRow joinBrackets(const CsvRow& header) {
       joined.cells.back() += ',' + header.cells[i];
     } else {
       joined.cells.push_back(header.cells[i]);
-      joined.places.push_back(header.places[i]);
+      joined.positions.push_back(header.positions[i]);
     }
     const std::string& cell = joined.cells.back();
     open = std::count(cell.begin(), cell.end(), '[') > std::count(cell.begin(), cell.end(), ']');
@@ -40,23 +40,24 @@ bool readFile(const std::string& path, std::string& content, std::string& error)
   char buffer[1 << 16];
   content.clear();
   for (size_t n; (n = fread(buffer, 1, sizeof buffer, file)) > 0;) content.append(buffer, n);
-  const bool good = ferror(file) == 0;
-  if (!good) error = path + ": " + strerror(errno);
+  const bool ok = ferror(file) == 0;
+  if (!ok) error = path + ": " + strerror(errno);
   if (file != stdin) fclose(file);
-  return good;
+  return ok;
 }
 
 bool Inputs::load(const std::string& path, std::string& error) {
   std::string content;
   std::vector<CsvRow> rows;
   if (!readFile(path, content, error)) return false;
-  const std::string place = (path == "-" ? "standard input" : path) + ":";
-  if (!readCsv(content, rows, error)) return error = place + error, false;
+  const std::string location = (path == "-" ? "standard input" : path) + ":";
+  if (!readCsv(content, rows, error)) return error = location + error, false;
   const auto fail = [&](const CsvRow& row, size_t cell, const std::string& what) {
-    error = place + std::to_string(row.places[cell].line) + ":" + std::to_string(row.places[cell].column) + ": " + what;
+    error = location + std::to_string(row.positions[cell].line) + ":" + std::to_string(row.positions[cell].column) +
+            ": " + what;
     return false;
   };
-  if (rows.empty()) return error = place + "1:1: expected the header `cycle,<path>,...`", false;
+  if (rows.empty()) return error = location + "1:1: expected the header `cycle,<path>,...`", false;
 
   const CsvRow header = joinBrackets(rows[0]);
   const std::vector<std::string>& names = header.cells;

@@ -7,7 +7,7 @@
 namespace rung::host {
 namespace {
 
-uint8_t* place(std::vector<std::unique_ptr<uint8_t[]>>& storage, size_t size, size_t align) {
+uint8_t* allocate(std::vector<std::unique_ptr<uint8_t[]>>& storage, size_t size, size_t align) {
   if (align == 0) align = 1;
   // Eight bytes more: a 64-bit view at the end of an image stays inside.
   storage.push_back(std::make_unique<uint8_t[]>(size + align + 8));
@@ -25,10 +25,10 @@ const char* refusal(const rung_module& module) {
 
 Memory::Memory(const rung_module& module) : module_(module) {
   for (uint32_t i = 0; i < module.block_count; ++i) {
-    blocks_.push_back(place(storage_, module.blocks[i].size, module.blocks[i].align));
+    blocks_.push_back(allocate(storage_, module.blocks[i].size, module.blocks[i].align));
     block_pointers_.push_back(blocks_.back());
   }
-  for (uint32_t area = 0; area < 3; ++area) images_[area] = place(storage_, module.image_bytes[area], 8);
+  for (uint32_t area = 0; area < 3; ++area) images_[area] = allocate(storage_, module.image_bytes[area], 8);
   context_.blocks = block_pointers_.data();
   for (uint32_t area = 0; area < 3; ++area) context_.image[area] = images_[area];
   context_.module = &module;

@@ -77,9 +77,9 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
     } else if (name == "--inputs") {
       options.inputs_path = value;
     } else if (name == "--set") {
-      const size_t mark = value.find('=');
-      if (mark == std::string::npos || mark == 0) return "--set needs PATH=VALUE, not `" + value + "`";
-      options.sets.emplace_back(value.substr(0, mark), value.substr(mark + 1));
+      const size_t separator = value.find('=');
+      if (separator == std::string::npos || separator == 0) return "--set needs PATH=VALUE, not `" + value + "`";
+      options.sets.emplace_back(value.substr(0, separator), value.substr(separator + 1));
     } else if (name == "--watch") {
       options.watch += (options.watch.empty() ? "" : ",") + value;
     } else if (name == "--trace") {
@@ -121,10 +121,10 @@ int applicationMain(const rung_module& module, int argc, char** argv) {
   catchCrashes();
   RunOptions options;
   std::vector<std::string> rest;
-  const std::string wrong =
+  const std::string problem =
       parseRunOptions(std::vector<std::string>(argv + (argc > 0 ? 1 : 0), argv + argc), options, rest);
-  if (!wrong.empty()) {
-    fprintf(stderr, "error: %s\n", wrong.c_str());
+  if (!problem.empty()) {
+    fprintf(stderr, "error: %s\n", problem.c_str());
     return 2;
   }
   if (options.trace_calls) {

@@ -9,9 +9,9 @@
 namespace rung::host {
 namespace {
 
-constexpr size_t kMost = 4;        // unfinished files at a time
+constexpr size_t kMax = 4;         // unfinished files at a time
 constexpr size_t kLongest = 4096;  // characters of a path
-char unfinished[kMost][kLongest];  // read by the handler
+char unfinished[kMax][kLongest];   // read by the handler
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 void removeUnfinished(int number) {
@@ -73,11 +73,11 @@ bool OutputFile::open(const std::string& path, std::string& error) {
 void OutputFile::write(const std::string& text) { fwrite(text.data(), 1, text.size(), file_); }
 
 bool OutputFile::close(std::string& error) {
-  bool good = fflush(file_) == 0 && ferror(file_) == 0;
-  if (file_ != stdout) good = fclose(file_) == 0 && good;
+  bool ok = fflush(file_) == 0 && ferror(file_) == 0;
+  if (file_ != stdout) ok = fclose(file_) == 0 && ok;
   file_ = nullptr;
-  if (good && !temporary_.empty()) good = rename(temporary_.c_str(), path_.c_str()) == 0;
-  if (!good) {
+  if (ok && !temporary_.empty()) ok = rename(temporary_.c_str(), path_.c_str()) == 0;
+  if (!ok) {
     error = path_ + ": " + strerror(errno);
     return false;
   }

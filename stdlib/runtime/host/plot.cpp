@@ -5,12 +5,12 @@
 #include <cstdio>
 
 #include "trace.h"
-#include "value_text.h"
+#include "value_format.h"
 
 namespace rung::host {
 namespace {
 
-constexpr size_t kMostColumns = 2000;
+constexpr size_t kMaxColumns = 2000;
 constexpr int kCharacter = 7, kWidth = 800, kRight = 20, kTop = 16, kGap = 14, kLane = 64, kBoolLane = 20, kAxis = 30;
 
 std::string escapedForSvg(std::string_view text) {
@@ -78,7 +78,7 @@ bool Plot::open(const std::string& path, const std::vector<Variable>& variables,
 
 void Plot::row() {
   if (!file_.isOpen()) return;
-  if (rows_ / rows_per_column_ == static_cast<int64_t>(kMostColumns)) halve();
+  if (rows_ / rows_per_column_ == static_cast<int64_t>(kMaxColumns)) halve();
   const bool starts = rows_ % rows_per_column_ == 0;
   ++rows_;
   for (Lane& lane : lanes_) {
@@ -98,7 +98,7 @@ void Plot::row() {
       (high ? lane.high : lane.low) = value;
       std::string& text = high ? lane.high_text : lane.low_text;
       text.clear();
-      spellValue(module_, lane.variable, text);
+      formatValue(module_, lane.variable, text);
     }
     lane.has_value = true;
   }
@@ -111,7 +111,7 @@ void Plot::halve() {
       const Column &a = lane.columns[i], &b = lane.columns[i + 1];
       lane.columns[i / 2] = {a.first, std::fmin(a.low, b.low), std::fmax(a.high, b.high), b.last};
     }
-    lane.columns.resize(kMostColumns / 2);
+    lane.columns.resize(kMaxColumns / 2);
   }
   rows_per_column_ *= 2;
 }

@@ -93,7 +93,7 @@ bool activate(Shared& shared, Worker& worker, int64_t now_ns) {
   worker.overruns_in_a_row = limit > 0 && took > limit ? worker.overruns_in_a_row + 1 : 0;
   if (limit > 0 && worker.overruns_in_a_row >= std::max<int64_t>(1, worker.item->task->sensitivity)) {
     const std::lock_guard<std::mutex> lock(shared.mutex);
-    shared.result.watchdog = worker.context.module->text + worker.item->task->name;
+    shared.result.watchdog = worker.context.module->strings + worker.item->task->name;
     shared.stop.store(true);
     return false;
   }
@@ -208,7 +208,7 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
       const int64_t limit = worker->item->task->watchdog_ns * std::max<int64_t>(1, worker->item->task->sensitivity);
       if (since == 0 || limit <= 0 || now - since <= limit) continue;
       const std::lock_guard<std::mutex> lock(shared.mutex);
-      shared.result.watchdog = context.module->text + worker->item->task->name;
+      shared.result.watchdog = context.module->strings + worker->item->task->name;
       hung = true;
     }
     if (now >= next_idle) {
@@ -231,7 +231,7 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
   shared.result.rows = shared.rows_done.load();
   for (const std::unique_ptr<Worker>& worker : workers) {
     if (worker->item->task->kind != RUNG_CYCLIC) continue;
-    const char* const name = context.module->text + worker->item->task->name;
+    const char* const name = context.module->strings + worker->item->task->name;
     shared.result.statistics +=
         std::string("task ") + (*name != 0 ? name : "(default)") + ": " + std::to_string(worker->activations) +
         " activations, " + std::to_string(worker->skipped) + " skipped, latest start " +

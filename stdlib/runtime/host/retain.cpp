@@ -156,9 +156,9 @@ bool Retain::restore(rung_start start, const Symbols& symbols, std::string& erro
   if (!exists()) return true;
   if (!open(error)) return false;
   Slot slots[2];
-  const bool good[2] = {readSlot(0, slots[0]), readSlot(1, slots[1])};
-  if (!good[0] && !good[1]) return true;  // nothing whole in it: initial values
-  const Slot& slot = good[1] && (!good[0] || slots[1].sequence > slots[0].sequence) ? slots[1] : slots[0];
+  const bool ok[2] = {readSlot(0, slots[0]), readSlot(1, slots[1])};
+  if (!ok[0] && !ok[1]) return true;  // nothing whole in it: initial values
+  const Slot& slot = ok[1] && (!ok[0] || slots[1].sequence > slots[0].sequence) ? slots[1] : slots[0];
   sequence_ = slot.sequence;
   if (start == RUNG_ORIGIN) return true;
 
@@ -242,18 +242,18 @@ bool Retain::save(const Symbols& symbols, std::string& error) {
 
   struct stat status;
   if (fstat(file_, &status) != 0) return error = path_ + ": " + strerror(errno), false;
-  bool good = true;
+  bool ok = true;
   if (static_cast<uint64_t>(status.st_size) != 2 * header.slot_bytes) {
     // Another size of state: a new file beside it takes the place of the old one, whole.
     const std::string next = path_ + ".new";
     const int file = ::open(next.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0) return error = next + ": " + strerror(errno), false;
-    good = ftruncate(file, static_cast<off_t>(2 * header.slot_bytes)) == 0;
+    ok = ftruncate(file, static_cast<off_t>(2 * header.slot_bytes)) == 0;
     const uint64_t offset = header.sequence % 2 * header.slot_bytes;
-    good = good && writeAt(file, offset, &header, sizeof header) &&
-           writeAt(file, offset + sizeof header, payload.data(), payload.size());
-    good = good && fsync(file) == 0 && rename(next.c_str(), path_.c_str()) == 0;
-    if (!good) {
+    ok = ok && writeAt(file, offset, &header, sizeof header) &&
+         writeAt(file, offset + sizeof header, payload.data(), payload.size());
+    ok = ok && fsync(file) == 0 && rename(next.c_str(), path_.c_str()) == 0;
+    if (!ok) {
       error = path_ + ": " + strerror(errno);
       close(file);
       unlink(next.c_str());
@@ -271,10 +271,10 @@ bool Retain::save(const Symbols& symbols, std::string& error) {
     return true;
   }
   const uint64_t offset = header.sequence % 2 * header.slot_bytes;
-  good = writeAt(file_, offset, &header, sizeof header) &&
-         writeAt(file_, offset + sizeof header, payload.data(), payload.size()) && fdatasync(file_) == 0;
-  if (!good) error = path_ + ": " + strerror(errno);
-  return good;
+  ok = writeAt(file_, offset, &header, sizeof header) &&
+       writeAt(file_, offset + sizeof header, payload.data(), payload.size()) && fdatasync(file_) == 0;
+  if (!ok) error = path_ + ": " + strerror(errno);
+  return ok;
 }
 
 }  // namespace rung::host

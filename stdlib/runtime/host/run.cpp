@@ -24,7 +24,7 @@
 namespace rung::host {
 namespace {
 
-constexpr int kGood = 0, kUsage = 2, kFaulted = 3;
+constexpr int kSuccess = 0, kUsage = 2, kFaulted = 3;
 constexpr int64_t kDefaultCycles = 100;
 constexpr int64_t kLongRunNs = 3'000'000'000;  // a run that a faster engine would shorten
 
@@ -91,8 +91,8 @@ struct Run {
   Files files;
   std::optional<Retain> retain;
   rung_host host{};
-  std::vector<std::string> told;  // places of violated assertions
-  std::mutex told_mutex;          // tasks in real time are threads
+  std::vector<std::string> reported;  // places of violated assertions
+  std::mutex reported_mutex;          // tasks in real time are threads
   int64_t cycles = 0;
   int64_t rows_done = 0;
 };
@@ -111,12 +111,12 @@ void onCall(void* data, const char* pou, const void* instance) { static_cast<Run
 void onAssertion(void* data, const rung_assertion* assertion, bool passed, const char* expected, const char* actual) {
   if (passed) return;
   Run& run = *static_cast<Run*>(data);
-  const std::string place = std::string(assertion->file) + ':' + std::to_string(assertion->line);
-  const std::lock_guard<std::mutex> lock(run.told_mutex);
-  if (std::find(run.told.begin(), run.told.end(), place) != run.told.end()) return;
-  run.told.push_back(place);
-  std::string message = place + ": assertion failed: expected " + expected + ", got " + actual;
-  if (assertion->text != nullptr) message += std::string(" (") + assertion->text + ')';
+  const std::string location = std::string(assertion->file) + ':' + std::to_string(assertion->line);
+  const std::lock_guard<std::mutex> lock(run.reported_mutex);
+  if (std::find(run.reported.begin(), run.reported.end(), location) != run.reported.end()) return;
+  run.reported.push_back(location);
+  std::string message = location + ": assertion failed: expected " + expected + ", got " + actual;
+  if (assertion->message != nullptr) message += std::string(" (") + assertion->message + ')';
   fprintf(stderr, "%s\n", message.c_str());
 }
 
@@ -161,7 +161,7 @@ int Run::prepare() {
   else
     cycles = options.realtime ? -1 : inputs.lastCycle() >= 0 ? inputs.lastCycle() + 1 : kDefaultCycles;
   if (options.trace_calls) host.called = onCall;
-  return kGood;
+  return kSuccess;
 }
 
 int Run::finish(bool faulted, rung_fault fault, const std::string& extra) {
@@ -185,7 +185,7 @@ int Run::finish(bool faulted, rung_fault fault, const std::string& extra) {
     fprintf(stderr, "%s\n", describeFault(module, fault).c_str());
     return kFaulted;
   }
-  return refused.empty() ? kGood : refuse(refused);
+  return refused.empty() ? kSuccess : refuse(refused);
 }
 
 int Run::runVirtual() {
@@ -246,7 +246,7 @@ int run(const rung_module& module, const RunOptions& options) {
   if (const char* const why = refusal(module)) return refuse(why);
   Run run(module, options);
   const int prepared = run.prepare();
-  if (prepared != kGood) return prepared;
+  if (prepared != kSuccess) return prepared;
   return options.realtime ? run.runInRealTime() : run.runVirtual();
 }
 

@@ -109,8 +109,9 @@ Variable Symbols::root(uint32_t index) const {
   Variable variable;
   variable.path = text(symbol.name);
   variable.type = &module_.types[symbol.type];
-  variable.base = symbol.place == RUNG_IN_BLOCK ? memory_.block(symbol.block)
-                                                : memory_.image(static_cast<uint32_t>(symbol.place - RUNG_IN_INPUTS));
+  variable.base = symbol.storage == RUNG_IN_BLOCK
+                      ? memory_.block(symbol.block)
+                      : memory_.image(static_cast<uint32_t>(symbol.storage - RUNG_IN_INPUTS));
   variable.offset = symbol.offset;
   variable.bit = symbol.bit;
   variable.flags = symbol.flags;
@@ -144,16 +145,16 @@ bool Symbols::findAddress(std::string_view path, Variable& variable, std::string
   uint64_t byte = 0, bit = 0;
   const char* const end = lower.data() + lower.size();
   std::from_chars_result read = std::from_chars(lower.data() + at, end, byte);
-  bool good = read.ec == std::errc{};
-  if (good && type == &kBoolType && read.ptr != end && *read.ptr == '.') {
+  bool ok = read.ec == std::errc{};
+  if (ok && type == &kBoolType && read.ptr != end && *read.ptr == '.') {
     read = std::from_chars(read.ptr + 1, end, bit);
-    good = read.ec == std::errc{} && bit < 8;
+    ok = read.ec == std::errc{} && bit < 8;
   } else if (type == &kBoolType) {
     bit = byte % 8;  // %IX5 is byte 0, bit 5
     byte /= 8;
   }
   if (type != &kBoolType) byte = byte < UINT32_MAX ? byte * type->size : byte;  // %QW2 is the bytes 4 and 5
-  if (!good || read.ptr != end) {
+  if (!ok || read.ptr != end) {
     error = backquoted(path) + " is not an address; write `%IX0.0`, `%QB1` or `%MW2`";
     return false;
   }

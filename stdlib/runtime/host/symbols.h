@@ -52,7 +52,7 @@ class Symbols {
   std::vector<Variable> roots() const;
 
   const rung_module& module() const { return module_; }
-  const char* text(uint32_t offset) const { return module_.text + offset; }
+  const char* text(uint32_t offset) const { return module_.strings + offset; }
 
  private:
   Variable root(uint32_t symbol) const;

@@ -18,9 +18,9 @@ namespace rung::host {
 namespace {
 
 constexpr int64_t kCycleNs = 10'000'000;
-constexpr int64_t kMostCycles = 100'000;
-constexpr size_t kMostMessages = 20;  // of one test
-constexpr double kLongSeconds = 3;    // tests that a faster engine would shorten
+constexpr int64_t kMaxCycles = 100'000;
+constexpr size_t kMaxMessages = 20;  // of one test
+constexpr double kLongSeconds = 3;   // tests that a faster engine would shorten
 
 struct Case {
   rung_context* context;
@@ -29,7 +29,7 @@ struct Case {
 
   void fail(TestResult::Kind kind, const std::string& message) {
     if (result.kind < kind) result.kind = kind;
-    if (++failures <= kMostMessages) result.messages += message + '\n';
+    if (++failures <= kMaxMessages) result.messages += message + '\n';
   }
 };
 
@@ -40,16 +40,16 @@ bool isOfName(char c) { return c == '_' || (c >= '0' && c <= '9') || ((c | 32) >
 // The line of the program with the assertion's name marked, as diagnostics show it.
 std::string excerpt(const rung_assertion& assertion) {
   const std::string number = std::to_string(assertion.line);
-  std::string mark;
+  std::string underline;
   const char* at = assertion.source;
   for (uint32_t column = 1; column < assertion.column && *at != 0; ++column) {
-    mark += *at == '\t' ? '\t' : ' ';  // kept, so that the mark stands right whatever a tab is worth
+    underline += *at == '\t' ? '\t' : ' ';  // kept, so that the mark stands right whatever a tab is worth
     do ++at;
     while ((*at & 0xc0) == 0x80);
   }
-  mark += '^';
-  while (isOfName(*at) && isOfName(*++at)) mark += '~';
-  return ' ' + number + " | " + assertion.source + '\n' + std::string(number.size() + 2, ' ') + "| " + mark;
+  underline += '^';
+  while (isOfName(*at) && isOfName(*++at)) underline += '~';
+  return ' ' + number + " | " + assertion.source + '\n' + std::string(number.size() + 2, ' ') + "| " + underline;
 }
 
 void onTestAssertion(void* data, const rung_assertion* assertion, bool passed, const char* expected,
@@ -60,7 +60,7 @@ void onTestAssertion(void* data, const rung_assertion* assertion, bool passed, c
   std::string message = std::string(assertion->file) + ':' + std::to_string(assertion->line);
   if (assertion->column != 0) message += ':' + std::to_string(assertion->column);
   message += std::string(": assertion failed: expected ") + expected + ", got " + actual;
-  if (assertion->text != nullptr) message += std::string(" (") + assertion->text + ')';
+  if (assertion->message != nullptr) message += std::string(" (") + assertion->message + ')';
   if (assertion->source != nullptr) message += '\n' + excerpt(*assertion);
   test.fail(TestResult::Failed, message);
 }
@@ -70,15 +70,15 @@ void runCycles(const rung_module& module, const rung_test& test, Memory& memory,
   rung_context& context = memory.context();
   if (test.init != nullptr && faulted(guarded(&context, test.init))) return;
   const bool has_done = test.done_block != RUNG_NONE;
-  for (int64_t cycle = 0; cycle < kMostCycles; ++cycle) {
+  for (int64_t cycle = 0; cycle < kMaxCycles; ++cycle) {
     if (cycle > 0) context.now_ns += kCycleNs;  // the test may have moved it: TEST_ADVANCE
     context.activation = static_cast<uint32_t>(cycle) + 1;
     if (faulted(guarded(&context, test.run))) return;
     if (!has_done || memory.block(test.done_block)[test.done_offset] != 0) return;
     onCycle();
   }
-  result.fail(TestResult::Failed, std::string(module.text + test.file) + ':' + std::to_string(test.line) +
-                                      ": `done` is still FALSE after " + std::to_string(kMostCycles) + " cycles");
+  result.fail(TestResult::Failed, std::string(module.strings + test.file) + ':' + std::to_string(test.line) +
+                                      ": `done` is still FALSE after " + std::to_string(kMaxCycles) + " cycles");
 }
 
 // The memory as a program finds it, the test, and the ends of all objects (FB_Exit), after a fault too.
@@ -113,11 +113,11 @@ std::string runTests(const rung_module& module, const TestOptions& options, Test
 
   for (uint32_t i = 0; i < module.test_count; ++i) {
     const rung_test& test = module.tests[i];
-    const char* const name = module.text + test.name;
+    const char* const name = module.strings + test.name;
     if (!isChosen(options, name)) continue;
     Case one{&memory.context(), {}};
     one.result.name = name;
-    one.result.file = module.text + test.file;
+    one.result.file = module.strings + test.file;
     one.result.line = test.line;
     memory.context().host_data = &one;
     const auto begin = std::chrono::steady_clock::now();
@@ -129,12 +129,12 @@ std::string runTests(const rung_module& module, const TestOptions& options, Test
     };
     runCase(module, test, memory, one, onCycle);
     onCycle();
-    if (one.failures > kMostMessages)
-      one.result.messages += "and " + std::to_string(one.failures - kMostMessages) + " more\n";
-    const bool good = one.result.kind == TestResult::Passed;
-    ++(good ? results.passed : results.failed);
+    if (one.failures > kMaxMessages)
+      one.result.messages += "and " + std::to_string(one.failures - kMaxMessages) + " more\n";
+    const bool ok = one.result.kind == TestResult::Passed;
+    ++(ok ? results.passed : results.failed);
     fputs(one.result.messages.c_str(), stdout);
-    printf("%s %s\n", good ? "pass" : "FAIL", name);
+    printf("%s %s\n", ok ? "pass" : "FAIL", name);
     results.seconds += one.result.seconds;
     results.tests.push_back(std::move(one.result));
   }
@@ -147,12 +147,12 @@ int reportTests(const TestResults& results, const TestOptions& options) {
   if (!options.junit_path.empty()) {
     OutputFile file;
     std::string error;
-    bool good = file.open(options.junit_path, error);
-    if (good) {
+    bool ok = file.open(options.junit_path, error);
+    if (ok) {
       file.write(junitXml(results));
-      good = file.close(error);
+      ok = file.close(error);
     }
-    if (!good) {
+    if (!ok) {
       fprintf(stderr, "error: %s\n", error.c_str());
       return 2;
     }
@@ -162,9 +162,9 @@ int reportTests(const TestResults& results, const TestOptions& options) {
 
 int test(const rung_module& module, const TestOptions& options) {
   TestResults results;
-  const std::string wrong = runTests(module, options, results);
-  if (wrong.empty()) return reportTests(results, options);
-  fprintf(stderr, "error: %s\n", wrong.c_str());
+  const std::string problem = runTests(module, options, results);
+  if (problem.empty()) return reportTests(results, options);
+  fprintf(stderr, "error: %s\n", problem.c_str());
   return 2;
 }
 

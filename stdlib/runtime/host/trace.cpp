@@ -1,7 +1,7 @@
 #include "trace.h"
 
 #include "csv.h"
-#include "value_text.h"
+#include "value_format.h"
 
 namespace rung::host {
 
@@ -52,10 +52,10 @@ void Trace::row(int64_t cycle, int64_t time_ns) {
     buffer_ += ',';
     if (variable.type->kind >= RUNG_CHAR && variable.type->kind <= RUNG_USTRING) {
       cell_.clear();
-      spellValue(symbols_.module(), variable, cell_);
+      formatValue(symbols_.module(), variable, cell_);
       appendCell(buffer_, cell_);
     } else {
-      spellValue(symbols_.module(), variable, buffer_);  // never needs quotes
+      formatValue(symbols_.module(), variable, buffer_);  // never needs quotes
     }
   }
   buffer_ += '\n';
@@ -75,7 +75,7 @@ std::string Trace::lastRow() const {
   for (const Variable& variable : variables_) {
     lines += variable.path;
     lines += " = ";
-    spellValue(symbols_.module(), variable, lines);
+    formatValue(symbols_.module(), variable, lines);
     lines += '\n';
   }
   return lines;

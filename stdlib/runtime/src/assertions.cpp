@@ -16,49 +16,49 @@ void report(rung_context* ctx, const rung_assertion* assertion, bool passed, con
 
 // Room for texts of the functions' 255 characters, each as `$hhhh`.
 constexpr uint32_t kRoom = 5 * 255 + 2;
-struct Spelled {
+struct Formatted {
   char text[kRoom + 1];
 };
 
 template <class Char>
-const Char* textAt(uint64_t bits) {
+const Char* stringAt(uint64_t bits) {
   return reinterpret_cast<const Char*>(static_cast<uintptr_t>(bits));
 }
 
 bool isReal(uint8_t kind) { return kind == RUNG_REAL || kind == RUNG_LREAL; }
 
 // `Red`, or the number when no item has it.
-void spellItem(const char* items, uint64_t bits, Spelled& out) {
-  rung_spell(RUNG_LINT, true, &bits, out.text, kRoom);
+void formatItem(const char* items, uint64_t bits, Formatted& out) {
+  rung_format(RUNG_LINT, true, &bits, out.text, kRoom);
   while (items != nullptr && *items != 0) {
     const char* const name = items;
     const char* const number = name + strlen(name) + 1;
     if (strcmp(number, out.text) == 0) {
-      rung_text_assign(out.text, kRoom, name);
+      rung_string_assign(out.text, kRoom, name);
       return;
     }
     items = number + strlen(number) + 1;
   }
 }
 
-void spell(const rung_assertion* assertion, uint8_t kind, uint64_t bits, Spelled& out) {
+void format(const rung_assertion* assertion, uint8_t kind, uint64_t bits, Formatted& out) {
   if (kind == RUNG_STRING || kind == RUNG_USTRING) {
-    rung_spell(kind, false, textAt<char>(bits), out.text, kRoom);
+    rung_format(kind, false, stringAt<char>(bits), out.text, kRoom);
   } else if (kind == RUNG_WSTRING) {
-    rung_spell(kind, false, textAt<char16_t>(bits), out.text, kRoom);
+    rung_format(kind, false, stringAt<char16_t>(bits), out.text, kRoom);
   } else if (kind == RUNG_ENUM) {
-    spellItem(assertion->items, bits, out);
+    formatItem(assertion->items, bits, out);
   } else if (kind == RUNG_REAL) {
     const float value = static_cast<float>(rung_f64_of(bits));
-    rung_spell(kind, false, &value, out.text, kRoom);
+    rung_format(kind, false, &value, out.text, kRoom);
   } else {
-    rung_spell(kind, static_cast<int64_t>(bits) < 0, &bits, out.text, kRoom);
+    rung_format(kind, static_cast<int64_t>(bits) < 0, &bits, out.text, kRoom);
   }
 }
 
 bool areEqual(uint8_t kind, uint64_t a, uint64_t b) {
-  if (kind == RUNG_STRING || kind == RUNG_USTRING) return strcmp(textAt<char>(a), textAt<char>(b)) == 0;
-  if (kind == RUNG_WSTRING) return rung_wtext_compare(textAt<char16_t>(a), textAt<char16_t>(b)) == 0;
+  if (kind == RUNG_STRING || kind == RUNG_USTRING) return strcmp(stringAt<char>(a), stringAt<char>(b)) == 0;
+  if (kind == RUNG_WSTRING) return rung_wstring_compare(stringAt<char16_t>(a), stringAt<char16_t>(b)) == 0;
   if (!isReal(kind)) return a == b;
   const double x = rung_f64_of(a), y = rung_f64_of(b);
   return x == y || (std::isnan(x) && std::isnan(y));
@@ -66,36 +66,36 @@ bool areEqual(uint8_t kind, uint64_t a, uint64_t b) {
 
 void reportValues(rung_context* ctx, const rung_assertion* assertion, uint8_t kind, uint64_t expected,
                   uint64_t actual) {
-  Spelled wanted, seen;
-  spell(assertion, kind, expected, wanted);
-  spell(assertion, kind, actual, seen);
+  Formatted wanted, seen;
+  format(assertion, kind, expected, wanted);
+  format(assertion, kind, actual, seen);
   report(ctx, assertion, false, wanted.text, seen.text);
 }
 
 }  // namespace
 
-void rung_assert(rung_context* ctx, const rung_assertion* assertion, bool good) {
-  report(ctx, assertion, good, good ? nullptr : "TRUE", good ? nullptr : "FALSE");
+void rung_assert(rung_context* ctx, const rung_assertion* assertion, bool ok) {
+  report(ctx, assertion, ok, ok ? nullptr : "TRUE", ok ? nullptr : "FALSE");
 }
 
-void rung_assert_compared(rung_context* ctx, const rung_assertion* assertion, bool good, uint8_t kind, uint64_t left,
+void rung_assert_compared(rung_context* ctx, const rung_assertion* assertion, bool ok, uint8_t kind, uint64_t left,
                           uint64_t right) {
-  if (good || assertion->shown == nullptr) return rung_assert(ctx, assertion, good);
+  if (ok || assertion->shown == nullptr) return rung_assert(ctx, assertion, ok);
   const char* const condition = assertion->shown;
   const size_t condition_length = strcspn(condition, "\n");
   const char* const left_name = condition + condition_length + 1;
   const size_t left_length = strcspn(left_name, "\n");
   const char* const right_name = left_name + left_length + 1;
-  Spelled value;
+  Formatted value;
   char wanted[512], seen[2 * kRoom + 512];
   snprintf(wanted, sizeof wanted, "%.*s", static_cast<int>(condition_length), condition);
   int length = 0;
   if (left_length != 0) {
-    spell(assertion, kind, left, value);
+    format(assertion, kind, left, value);
     length = snprintf(seen, sizeof seen, "%.*s = %s", static_cast<int>(left_length), left_name, value.text);
   }
   if (*right_name != 0 && length < static_cast<int>(sizeof seen)) {
-    spell(assertion, kind, right, value);
+    format(assertion, kind, right, value);
     snprintf(seen + length, sizeof seen - static_cast<size_t>(length), "%s%s = %s", length == 0 ? "" : ", ", right_name,
              value.text);
   }
@@ -110,8 +110,8 @@ void rung_assert_equal(rung_context* ctx, const rung_assertion* assertion, uint8
 
 void rung_assert_near(rung_context* ctx, const rung_assertion* assertion, uint8_t kind, double expected, double actual,
                       double tolerance) {
-  const bool good =
+  const bool ok =
       expected == actual || std::fabs(expected - actual) <= tolerance || (std::isnan(expected) && std::isnan(actual));
-  if (good) return report(ctx, assertion, true, nullptr, nullptr);
+  if (ok) return report(ctx, assertion, true, nullptr, nullptr);
   reportValues(ctx, assertion, kind, rung_bits_of_f64(expected), rung_bits_of_f64(actual));
 }

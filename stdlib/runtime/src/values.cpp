@@ -52,13 +52,13 @@ T load(const void* from) {
   return value;
 }
 
-void spellSigned(Writer& to, int64_t value) {
+void formatSigned(Writer& to, int64_t value) {
   if (value < 0) to.put('-');
   to.number(value < 0 ? 0 - static_cast<uint64_t>(value) : static_cast<uint64_t>(value));
 }
 
 template <class T>
-void spellReal(Writer& to, T value) {
+void formatReal(Writer& to, T value) {
   if (std::isnan(value)) return to.put("NaN");
   if (std::isinf(value)) return to.put(value < 0 ? "-Inf" : "Inf");
   char buffer[40];
@@ -68,7 +68,7 @@ void spellReal(Writer& to, T value) {
   if (strpbrk(buffer, ".e") == nullptr) to.put(".0");
 }
 
-void spellDuration(Writer& to, uint64_t magnitude, bool negative, bool nanoseconds) {
+void formatDuration(Writer& to, uint64_t magnitude, bool negative, bool nanoseconds) {
   to.put(nanoseconds ? "LTIME#" : "T#");
   if (negative) to.put('-');
   if (magnitude == 0) return to.put(nanoseconds ? "0ns" : "0ms");
@@ -117,7 +117,7 @@ int64_t daysOf(int64_t year, uint32_t month, uint32_t day) {
   return era * 146097 + static_cast<int64_t>(day_of_era) - 719468;
 }
 
-void spellDate(Writer& to, int64_t days) {
+void formatDate(Writer& to, int64_t days) {
   const Civil civil = civilOf(days);
   to.number(static_cast<uint64_t>(civil.year), 4);
   to.put('-');
@@ -127,7 +127,7 @@ void spellDate(Writer& to, int64_t days) {
 }
 
 // hh:mm:ss, then the fraction without trailing zeros where there is one.
-void spellClock(Writer& to, uint64_t ns) {
+void formatClock(Writer& to, uint64_t ns) {
   to.number(ns / (3600 * kNsPerSecond), 2);
   to.put(':');
   to.number(ns / (60 * kNsPerSecond) % 60, 2);
@@ -142,7 +142,7 @@ void spellClock(Writer& to, uint64_t ns) {
 }
 
 // One character of a text between `quote`s; `code` below 0x80.
-void spellAscii(Writer& to, uint32_t code, char quote, int hex_digits) {
+void formatAscii(Writer& to, uint32_t code, char quote, int hex_digits) {
   switch (code) {
     case '$': return to.put("$$");
     case '\n': return to.put("$L");
@@ -173,12 +173,12 @@ int utf8Length(const unsigned char* text) {
   return overlong || outside ? 0 : length;
 }
 
-void spellString(Writer& to, const unsigned char* text) {
+void formatString(Writer& to, const unsigned char* text) {
   to.put('\'');
   while (*text != 0) {
     const int length = *text < 0x80 ? 0 : utf8Length(text);
     if (length == 0)
-      spellAscii(to, *text++, '\'', 2);
+      formatAscii(to, *text++, '\'', 2);
     else
       for (int i = 0; i < length; ++i) to.put(static_cast<char>(*text++));
   }
@@ -196,12 +196,12 @@ void putUtf8(Writer& to, uint32_t code) {
   to.put(static_cast<char>(0x80 | (code & 0x3f)));
 }
 
-void spellWString(Writer& to, const char16_t* text) {
+void formatWString(Writer& to, const char16_t* text) {
   to.put('"');
   for (; *text != 0; ++text) {
     const uint32_t unit = *text;
     if (unit < 0x80) {
-      spellAscii(to, unit, '"', 4);
+      formatAscii(to, unit, '"', 4);
     } else if (unit >= 0xd800 && unit < 0xdc00 && text[1] >= 0xdc00 && text[1] < 0xe000) {
       putUtf8(to, 0x10000 + ((unit - 0xd800) << 10) + (text[1] - 0xdc00u));
       ++text;
@@ -288,11 +288,11 @@ bool readInteger(Reader from, Integer& value) {
   return from.done();
 }
 
-struct IntegerShape {
+struct IntegerFormat {
   uint8_t bytes;
   bool is_signed;
 };
-IntegerShape shapeOf(uint8_t kind) {
+IntegerFormat formatOf(uint8_t kind) {
   switch (kind) {
     case RUNG_BYTE:
     case RUNG_USINT: return {1, false};
@@ -310,16 +310,16 @@ IntegerShape shapeOf(uint8_t kind) {
   }
 }
 
-bool storeInteger(const Integer& value, IntegerShape shape, void* to) {
-  const int width = shape.bytes * 8;
-  const uint64_t most = UINT64_MAX >> (64 - width + (shape.is_signed ? 1 : 0));
+bool storeInteger(const Integer& value, IntegerFormat format_of, void* to) {
+  const int width = format_of.bytes * 8;
+  const uint64_t most = UINT64_MAX >> (64 - width + (format_of.is_signed ? 1 : 0));
   if (value.negative && value.magnitude != 0) {
-    if (!shape.is_signed || value.magnitude > most + 1) return false;
+    if (!format_of.is_signed || value.magnitude > most + 1) return false;
   } else if (value.magnitude > most) {
     return false;
   }
   const uint64_t bits = value.negative ? 0 - value.magnitude : value.magnitude;
-  memcpy(to, &bits, shape.bytes);  // little-endian
+  memcpy(to, &bits, format_of.bytes);  // little-endian
   return true;
 }
 
@@ -497,7 +497,7 @@ bool readString(Reader from, uint32_t length, char* to) {
     if (!readEscaped(from, '\'', 2, code, bad)) break;
     if (to == nullptr) continue;
     if (is_point) {
-      n += rung_utext_of_code(to + n, length - n, code);
+      n += rung_ustring_of_code(to + n, length - n, code);
     } else if (n < length) {
       to[n++] = static_cast<char>(code);
     }
@@ -548,7 +548,7 @@ void store(void* to, T value) {
 
 }  // namespace
 
-uint32_t rung_spell(uint8_t kind, bool is_signed, const void* value, char* out, uint32_t capacity) {
+uint32_t rung_format(uint8_t kind, bool is_signed, const void* value, char* out, uint32_t capacity) {
   Writer to(out, capacity);
   switch (static_cast<rung_type_kind>(kind)) {
     case RUNG_BOOL: to.put(load<uint8_t>(value) != 0 ? "TRUE" : "FALSE"); break;
@@ -560,75 +560,75 @@ uint32_t rung_spell(uint8_t kind, bool is_signed, const void* value, char* out, 
     case RUNG_UDINT: to.number(load<uint32_t>(value)); break;
     case RUNG_LWORD:
     case RUNG_ULINT: to.number(load<uint64_t>(value)); break;
-    case RUNG_SINT: spellSigned(to, load<int8_t>(value)); break;
-    case RUNG_INT: spellSigned(to, load<int16_t>(value)); break;
-    case RUNG_DINT: spellSigned(to, load<int32_t>(value)); break;
-    case RUNG_LINT: spellSigned(to, load<int64_t>(value)); break;
-    case RUNG_REAL: spellReal(to, load<float>(value)); break;
-    case RUNG_LREAL: spellReal(to, load<double>(value)); break;
+    case RUNG_SINT: formatSigned(to, load<int8_t>(value)); break;
+    case RUNG_INT: formatSigned(to, load<int16_t>(value)); break;
+    case RUNG_DINT: formatSigned(to, load<int32_t>(value)); break;
+    case RUNG_LINT: formatSigned(to, load<int64_t>(value)); break;
+    case RUNG_REAL: formatReal(to, load<float>(value)); break;
+    case RUNG_LREAL: formatReal(to, load<double>(value)); break;
     case RUNG_TIME: {
       const uint32_t bits = load<uint32_t>(value);
       const bool negative = is_signed && bits >> 31 != 0;
-      spellDuration(to, (negative ? 0 - bits : bits) * kNsPerMs, negative, false);
+      formatDuration(to, (negative ? 0 - bits : bits) * kNsPerMs, negative, false);
       break;
     }
     case RUNG_LTIME: {
       const uint64_t bits = load<uint64_t>(value);
       const bool negative = is_signed && bits >> 63 != 0;
-      spellDuration(to, negative ? 0 - bits : bits, negative, true);
+      formatDuration(to, negative ? 0 - bits : bits, negative, true);
       break;
     }
     case RUNG_DATE:
       to.put("D#");
-      spellDate(to, load<uint32_t>(value) / static_cast<int64_t>(kSecondsPerDay));
+      formatDate(to, load<uint32_t>(value) / static_cast<int64_t>(kSecondsPerDay));
       break;
     case RUNG_LDATE:
       to.put("LDATE#");
-      spellDate(to, static_cast<int64_t>(load<uint64_t>(value) / kNsPerDay));
+      formatDate(to, static_cast<int64_t>(load<uint64_t>(value) / kNsPerDay));
       break;
     case RUNG_TOD:
       to.put("TOD#");
-      spellClock(to, load<uint32_t>(value) * kNsPerMs);
+      formatClock(to, load<uint32_t>(value) * kNsPerMs);
       break;
     case RUNG_LTOD:
       to.put("LTOD#");
-      spellClock(to, load<uint64_t>(value));
+      formatClock(to, load<uint64_t>(value));
       break;
     case RUNG_DT: {
       const uint32_t seconds = load<uint32_t>(value);
       to.put("DT#");
-      spellDate(to, static_cast<int64_t>(seconds / kSecondsPerDay));
+      formatDate(to, static_cast<int64_t>(seconds / kSecondsPerDay));
       to.put('-');
-      spellClock(to, seconds % kSecondsPerDay * kNsPerSecond);
+      formatClock(to, seconds % kSecondsPerDay * kNsPerSecond);
       break;
     }
     case RUNG_LDT: {
       const uint64_t ns = load<uint64_t>(value);
       to.put("LDT#");
-      spellDate(to, static_cast<int64_t>(ns / kNsPerDay));
+      formatDate(to, static_cast<int64_t>(ns / kNsPerDay));
       to.put('-');
-      spellClock(to, ns % kNsPerDay);
+      formatClock(to, ns % kNsPerDay);
       break;
     }
     case RUNG_CHAR: {
       const unsigned char text[2] = {load<unsigned char>(value), 0};
-      spellString(to, text);
+      formatString(to, text);
       break;
     }
     case RUNG_WCHAR: {
       const char16_t text[2] = {load<char16_t>(value), 0};
-      spellWString(to, text);
+      formatWString(to, text);
       break;
     }
     case RUNG_UCHAR: {
       char text[5];
-      rung_utext_of_code(text, 4, load<uint32_t>(value));
-      spellString(to, reinterpret_cast<const unsigned char*>(text));
+      rung_ustring_of_code(text, 4, load<uint32_t>(value));
+      formatString(to, reinterpret_cast<const unsigned char*>(text));
       break;
     }
     case RUNG_STRING:
-    case RUNG_USTRING: spellString(to, static_cast<const unsigned char*>(value)); break;
-    case RUNG_WSTRING: spellWString(to, static_cast<const char16_t*>(value)); break;
+    case RUNG_USTRING: formatString(to, static_cast<const unsigned char*>(value)); break;
+    case RUNG_WSTRING: formatWString(to, static_cast<const char16_t*>(value)); break;
     case RUNG_ENUM:
     case RUNG_ARRAY:
     case RUNG_RECORD:
@@ -663,7 +663,7 @@ bool rung_parse(uint8_t kind, bool is_signed, uint32_t length, const char* text,
     case RUNG_UDINT:
     case RUNG_ULINT: {
       Integer integer;
-      return readInteger(from, integer) && storeInteger(integer, shapeOf(kind), value);
+      return readInteger(from, integer) && storeInteger(integer, formatOf(kind), value);
     }
     case RUNG_REAL: {
       float real;
@@ -716,18 +716,18 @@ bool rung_parse(uint8_t kind, bool is_signed, uint32_t length, const char* text,
       char one[5];
       if (!readString(from, 4, nullptr)) return false;
       readString(from, 4, one);
-      if (rung_utext_length(one) > 1) return false;
-      store(value, rung_utext_code(one));
+      if (rung_ustring_length(one) > 1) return false;
+      store(value, rung_ustring_code(one));
       return true;
     }
     case RUNG_STRING:
       if (!readString(from, length, nullptr)) return false;
       return readString(from, length, static_cast<char*>(value));
     case RUNG_USTRING: {
-      char* const text = static_cast<char*>(value);
+      char* const string = static_cast<char*>(value);
       if (!readString(from, length, nullptr)) return false;
-      readString(from, length, text);
-      rung_utext_of_text(text, rung_utext_whole(text, rung_text_length(text)), text);
+      readString(from, length, string);
+      rung_ustring_of_string(string, rung_ustring_whole(string, rung_string_length(string)), string);
       return true;
     }
     case RUNG_WSTRING:

@@ -29,10 +29,10 @@ struct Read<double> {
 };
 
 template <class T>
-uint32_t textOfInteger(T value, char* out, uint32_t capacity) {
+uint32_t stringOfInteger(T value, char* out, uint32_t capacity) {
   const uint64_t bits = bitsOf(value);
   const bool negative = std::is_signed<T>::value && static_cast<int64_t>(bits) < 0;
-  return rung_text_of_integer(out, capacity, negative, negative ? 0 - bits : bits);
+  return rung_string_of_integer(out, capacity, negative, negative ? 0 - bits : bits);
 }
 
 // TIME is signed where the module says so; the C type is unsigned in any dialect.
@@ -44,8 +44,8 @@ bool isSigned(const rung_context* ctx, rung_type_kind kind, bool unknown) {
   return unknown;
 }
 
-const char* longTimeText(const rung_context* ctx, int64_t value, char (&text)[64]) {
-  rung_spell(RUNG_LTIME, isSigned(ctx, RUNG_LTIME, true), &value, text, sizeof text - 1);
+const char* longTimeString(const rung_context* ctx, int64_t value, char (&text)[64]) {
+  rung_format(RUNG_LTIME, isSigned(ctx, RUNG_LTIME, true), &value, text, sizeof text - 1);
   return text;
 }
 uint64_t timeBits(const rung_context* ctx, uint32_t value) {
@@ -64,9 +64,9 @@ uint64_t toBcd(uint64_t value, int digits) {
   return bcd;
 }
 // A CHAR and a WCHAR are the code points of their numbers.
-uint32_t textOfUnicode(rung_type_kind kind, uint64_t bits, char* out, uint32_t capacity) {
-  if (kind >= RUNG_CHAR && kind <= RUNG_UCHAR) return rung_utext_of_code(out, capacity, static_cast<uint32_t>(bits));
-  return rung_text_of_scalar(out, capacity, kind, bits);
+uint32_t stringOfUnicode(rung_type_kind kind, uint64_t bits, char* out, uint32_t capacity) {
+  if (kind >= RUNG_CHAR && kind <= RUNG_UCHAR) return rung_ustring_of_code(out, capacity, static_cast<uint32_t>(bits));
+  return rung_string_of_scalar(out, capacity, kind, bits);
 }
 
 // What is no code point is '?', and so is a character that a CHAR or WCHAR has no place for.
@@ -78,8 +78,8 @@ uint16_t wcharOf(uint32_t code) { return static_cast<uint16_t>(code < 0x10000 ? 
 uint32_t firstOf(const char16_t* text) {
   char utf8[5];
   const char16_t first[3] = {text[0], text[0] != 0 ? text[1] : char16_t{0}, 0};
-  rung_text_of_wtext(utf8, 4, first);
-  return rung_utext_code(utf8);
+  rung_string_of_wstring(utf8, 4, first);
+  return rung_ustring_code(utf8);
 }
 
 uint8_t isBcd(uint64_t bcd) {
@@ -93,41 +93,41 @@ uint8_t isBcd(uint64_t bcd) {
 extern "C" {
 
 // ---- text. TYPE: the name that the language gives the type; KIND: that of rung_type_kind.
-#define RUNG_TEXT_OF(TYPE, KIND, T, bits)                                                           \
+#define RUNG_STRING_OF(TYPE, KIND, T, bits)                                                         \
   uint32_t rung_standard_TO_STRING__##TYPE(rung_context* ctx, T in, char* out, uint32_t capacity) { \
     (void)ctx;                                                                                      \
-    return rung_text_of_scalar(out, capacity, RUNG_##KIND, bits);                                   \
+    return rung_string_of_scalar(out, capacity, RUNG_##KIND, bits);                                 \
   }                                                                                                 \
   RUNG_WTEXT_OF(TYPE, KIND, T, bits)
 #define RUNG_WTEXT_OF(TYPE, KIND, T, bits)                                                               \
   uint32_t rung_standard_TO_WSTRING__##TYPE(rung_context* ctx, T in, char16_t* out, uint32_t capacity) { \
     (void)ctx;                                                                                           \
-    return rung_wtext_of_scalar(out, capacity, RUNG_##KIND, bits);                                       \
+    return rung_wstring_of_scalar(out, capacity, RUNG_##KIND, bits);                                     \
   }                                                                                                      \
   uint32_t rung_standard_TO_USTRING__##TYPE(rung_context* ctx, T in, char* out, uint32_t capacity) {     \
     (void)ctx;                                                                                           \
-    return textOfUnicode(RUNG_##KIND, bits, out, capacity);                                              \
+    return stringOfUnicode(RUNG_##KIND, bits, out, capacity);                                            \
   }
-#define RUNG_OF_TEXT(TYPE, KIND, T)                                      \
+#define RUNG_OF_STRING(TYPE, KIND, T)                                    \
   T rung_standard_STRING_TO_##TYPE(rung_context*, const char* in) {      \
-    return Read<T>::from(rung_scalar_of_text(RUNG_##KIND, in));          \
+    return Read<T>::from(rung_scalar_of_string(RUNG_##KIND, in));        \
   }                                                                      \
   T rung_standard_USTRING_TO_##TYPE(rung_context*, const char* in) {     \
-    return Read<T>::from(rung_scalar_of_text(RUNG_##KIND, in));          \
+    return Read<T>::from(rung_scalar_of_string(RUNG_##KIND, in));        \
   }                                                                      \
   T rung_standard_WSTRING_TO_##TYPE(rung_context*, const char16_t* in) { \
-    return Read<T>::from(rung_scalar_of_wtext(RUNG_##KIND, in));         \
+    return Read<T>::from(rung_scalar_of_wstring(RUNG_##KIND, in));       \
   }
-#define RUNG_TEXT_BOTH(TYPE, KIND, T)     \
-  RUNG_TEXT_OF(TYPE, KIND, T, bitsOf(in)) \
-  RUNG_OF_TEXT(TYPE, KIND, T)
+#define RUNG_STRING_BOTH(TYPE, KIND, T)     \
+  RUNG_STRING_OF(TYPE, KIND, T, bitsOf(in)) \
+  RUNG_OF_STRING(TYPE, KIND, T)
 #define RUNG_INTEGER_BOTH(TYPE, T)                                                              \
   uint32_t rung_standard_TO_STRING__##TYPE(rung_context*, T in, char* out, uint32_t capacity) { \
-    return textOfInteger(in, out, capacity);                                                    \
+    return stringOfInteger(in, out, capacity);                                                  \
   }                                                                                             \
   RUNG_WTEXT_OF(TYPE, TYPE, T, bitsOf(in))                                                      \
-  RUNG_OF_TEXT(TYPE, TYPE, T)
-RUNG_TEXT_BOTH(BOOL, BOOL, uint8_t)
+  RUNG_OF_STRING(TYPE, TYPE, T)
+RUNG_STRING_BOTH(BOOL, BOOL, uint8_t)
 RUNG_INTEGER_BOTH(BYTE, uint8_t)
 RUNG_INTEGER_BOTH(WORD, uint16_t)
 RUNG_INTEGER_BOTH(DWORD, uint32_t)
@@ -140,64 +140,64 @@ RUNG_INTEGER_BOTH(USINT, uint8_t)
 RUNG_INTEGER_BOTH(UINT, uint16_t)
 RUNG_INTEGER_BOTH(UDINT, uint32_t)
 RUNG_INTEGER_BOTH(ULINT, uint64_t)
-RUNG_TEXT_BOTH(REAL, REAL, float)
-RUNG_TEXT_BOTH(LREAL, LREAL, double)
-RUNG_TEXT_OF(TIME, TIME, uint32_t, timeBits(ctx, in))
-RUNG_OF_TEXT(TIME, TIME, uint32_t)
-RUNG_OF_TEXT(LTIME, LTIME, int64_t)
+RUNG_STRING_BOTH(REAL, REAL, float)
+RUNG_STRING_BOTH(LREAL, LREAL, double)
+RUNG_STRING_OF(TIME, TIME, uint32_t, timeBits(ctx, in))
+RUNG_OF_STRING(TIME, TIME, uint32_t)
+RUNG_OF_STRING(LTIME, LTIME, int64_t)
 uint32_t rung_standard_TO_STRING__LTIME(rung_context* ctx, int64_t in, char* out, uint32_t capacity) {
   char text[64];
-  return rung_text_assign(out, capacity, longTimeText(ctx, in, text));
+  return rung_string_assign(out, capacity, longTimeString(ctx, in, text));
 }
 uint32_t rung_standard_TO_USTRING__LTIME(rung_context* ctx, int64_t in, char* out, uint32_t capacity) {
   char text[64];
-  return rung_text_assign(out, capacity, longTimeText(ctx, in, text));
+  return rung_string_assign(out, capacity, longTimeString(ctx, in, text));
 }
 uint32_t rung_standard_TO_WSTRING__LTIME(rung_context* ctx, int64_t in, char16_t* out, uint32_t capacity) {
   char text[64];
-  return rung_wtext_of_text(out, capacity, longTimeText(ctx, in, text));
+  return rung_wstring_of_string(out, capacity, longTimeString(ctx, in, text));
 }
-RUNG_TEXT_BOTH(DATE, DATE, uint32_t)
-RUNG_TEXT_BOTH(LDATE, LDATE, uint64_t)
-RUNG_TEXT_BOTH(TIME_OF_DAY, TOD, uint32_t)
-RUNG_TEXT_BOTH(LTIME_OF_DAY, LTOD, uint64_t)
-RUNG_TEXT_BOTH(DATE_AND_TIME, DT, uint32_t)
-RUNG_TEXT_BOTH(LDATE_AND_TIME, LDT, uint64_t)
-RUNG_TEXT_OF(CHAR, CHAR, uint8_t, bitsOf(in))
-RUNG_TEXT_OF(WCHAR, WCHAR, uint16_t, bitsOf(in))
-RUNG_TEXT_OF(UCHAR, UCHAR, uint32_t, bitsOf(in))
+RUNG_STRING_BOTH(DATE, DATE, uint32_t)
+RUNG_STRING_BOTH(LDATE, LDATE, uint64_t)
+RUNG_STRING_BOTH(TIME_OF_DAY, TOD, uint32_t)
+RUNG_STRING_BOTH(LTIME_OF_DAY, LTOD, uint64_t)
+RUNG_STRING_BOTH(DATE_AND_TIME, DT, uint32_t)
+RUNG_STRING_BOTH(LDATE_AND_TIME, LDT, uint64_t)
+RUNG_STRING_OF(CHAR, CHAR, uint8_t, bitsOf(in))
+RUNG_STRING_OF(WCHAR, WCHAR, uint16_t, bitsOf(in))
+RUNG_STRING_OF(UCHAR, UCHAR, uint32_t, bitsOf(in))
 #undef RUNG_INTEGER_BOTH
-#undef RUNG_TEXT_BOTH
+#undef RUNG_STRING_BOTH
 #undef RUNG_WTEXT_OF
-#undef RUNG_TEXT_OF
-#undef RUNG_OF_TEXT
+#undef RUNG_STRING_OF
+#undef RUNG_OF_STRING
 
 uint32_t rung_standard_TO_STRING__STRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {
-  return rung_text_assign(out, capacity, in);
+  return rung_string_assign(out, capacity, in);
 }
 uint32_t rung_standard_TO_STRING__WSTRING_255(rung_context*, const char16_t* in, char* out, uint32_t capacity) {
-  return rung_text_of_wtext(out, capacity, in);
+  return rung_string_of_wstring(out, capacity, in);
 }
 uint32_t rung_standard_TO_STRING__USTRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {
-  return rung_utext_assign(out, capacity, in);
+  return rung_ustring_assign(out, capacity, in);
 }
 uint32_t rung_standard_TO_USTRING__STRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {
-  return rung_utext_of_text(out, capacity, in);
+  return rung_ustring_of_string(out, capacity, in);
 }
 uint32_t rung_standard_TO_USTRING__WSTRING_255(rung_context*, const char16_t* in, char* out, uint32_t capacity) {
-  return rung_text_of_wtext(out, capacity, in);
+  return rung_string_of_wstring(out, capacity, in);
 }
 uint32_t rung_standard_TO_USTRING__USTRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {
-  return rung_utext_assign(out, capacity, in);
+  return rung_ustring_assign(out, capacity, in);
 }
 uint32_t rung_standard_TO_WSTRING__USTRING_255(rung_context*, const char* in, char16_t* out, uint32_t capacity) {
-  return rung_wtext_of_text(out, capacity, in);
+  return rung_wstring_of_string(out, capacity, in);
 }
 uint32_t rung_standard_TO_WSTRING__STRING_255(rung_context*, const char* in, char16_t* out, uint32_t capacity) {
-  return rung_wtext_of_text(out, capacity, in);
+  return rung_wstring_of_string(out, capacity, in);
 }
 uint32_t rung_standard_TO_WSTRING__WSTRING_255(rung_context*, const char16_t* in, char16_t* out, uint32_t capacity) {
-  return rung_wtext_assign(out, capacity, in);
+  return rung_wstring_assign(out, capacity, in);
 }
 
 // ---- binary transfer
@@ -265,16 +265,16 @@ uint32_t rung_standard_TO_UCHAR__LREAL(rung_context*, double in) {
 uint32_t rung_standard_TO_UCHAR__UCHAR(rung_context*, uint32_t in) { return in; }
 uint8_t rung_standard_TO_CHAR__UCHAR(rung_context*, uint32_t in) { return charOf(in); }
 uint16_t rung_standard_TO_WCHAR__UCHAR(rung_context*, uint32_t in) { return wcharOf(in); }
-uint32_t rung_standard_TO_UCHAR__STRING_255(rung_context*, const char* in) { return rung_utext_code(in); }
+uint32_t rung_standard_TO_UCHAR__STRING_255(rung_context*, const char* in) { return rung_ustring_code(in); }
 uint32_t rung_standard_TO_UCHAR__WSTRING_255(rung_context*, const char16_t* in) { return firstOf(in); }
-uint32_t rung_standard_TO_UCHAR__USTRING_255(rung_context*, const char* in) { return rung_utext_code(in); }
-uint8_t rung_standard_TO_CHAR__USTRING_255(rung_context*, const char* in) { return charOf(rung_utext_code(in)); }
-uint16_t rung_standard_TO_WCHAR__USTRING_255(rung_context*, const char* in) { return wcharOf(rung_utext_code(in)); }
+uint32_t rung_standard_TO_UCHAR__USTRING_255(rung_context*, const char* in) { return rung_ustring_code(in); }
+uint8_t rung_standard_TO_CHAR__USTRING_255(rung_context*, const char* in) { return charOf(rung_ustring_code(in)); }
+uint16_t rung_standard_TO_WCHAR__USTRING_255(rung_context*, const char* in) { return wcharOf(rung_ustring_code(in)); }
 uint8_t rung_standard_TO_CHAR__STRING_255(rung_context*, const char* in) { return static_cast<uint8_t>(*in); }
 uint8_t rung_standard_TO_CHAR__WSTRING_255(rung_context*, const char16_t* in) { return static_cast<uint8_t>(*in); }
 uint16_t rung_standard_TO_WCHAR__STRING_255(rung_context*, const char* in) {
   char16_t one[2];
-  rung_wtext_of_text(one, 1, in);
+  rung_wstring_of_string(one, 1, in);
   return one[0];
 }
 uint16_t rung_standard_TO_WCHAR__WSTRING_255(rung_context*, const char16_t* in) { return *in; }
@@ -348,20 +348,20 @@ RUNG_BYTE_ORDER(LREAL, double, rung_f64_of(__builtin_bswap64(rung_bits_of_f64(in
 #undef RUNG_SWAP64
 #undef RUNG_BYTE_ORDER
 
-#define RUNG_TEXT_ORDER(NAME)                                                                                         \
+#define RUNG_STRING_ORDER(NAME)                                                                                       \
   uint32_t rung_standard_##NAME##__STRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {          \
-    return rung_text_assign(out, capacity, in);                                                                       \
+    return rung_string_assign(out, capacity, in);                                                                     \
   }                                                                                                                   \
   uint32_t rung_standard_##NAME##__USTRING_255(rung_context*, const char* in, char* out, uint32_t capacity) {         \
-    return rung_utext_assign(out, capacity, in);                                                                      \
+    return rung_ustring_assign(out, capacity, in);                                                                    \
   }                                                                                                                   \
   uint32_t rung_standard_##NAME##__WSTRING_255(rung_context*, const char16_t* in, char16_t* out, uint32_t capacity) { \
-    return rung_wtext_assign(out, capacity, in);                                                                      \
+    return rung_wstring_assign(out, capacity, in);                                                                    \
   }
-RUNG_TEXT_ORDER(TO_BIG_ENDIAN)
-RUNG_TEXT_ORDER(TO_LITTLE_ENDIAN)
-RUNG_TEXT_ORDER(FROM_BIG_ENDIAN)
-RUNG_TEXT_ORDER(FROM_LITTLE_ENDIAN)
-#undef RUNG_TEXT_ORDER
+RUNG_STRING_ORDER(TO_BIG_ENDIAN)
+RUNG_STRING_ORDER(TO_LITTLE_ENDIAN)
+RUNG_STRING_ORDER(FROM_BIG_ENDIAN)
+RUNG_STRING_ORDER(FROM_LITTLE_ENDIAN)
+#undef RUNG_STRING_ORDER
 
 }  // extern "C"

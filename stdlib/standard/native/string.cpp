@@ -11,23 +11,23 @@ namespace {
 constexpr uint32_t kLongest = 255;
 
 template <class Unit>
-int64_t lengthOf(const Unit* text) {
+int64_t lengthOf(const Unit* string) {
   int64_t length = 0;
-  while (text[length] != 0) ++length;
+  while (string[length] != 0) ++length;
   return length;
 }
-inline int64_t lengthOf(const char* text) { return static_cast<int64_t>(strlen(text)); }
+inline int64_t lengthOf(const char* string) { return static_cast<int64_t>(strlen(string)); }
 
 // As lengthOf, but looks no further than `most`.
 template <class Unit>
-int64_t lengthUpTo(const Unit* text, int64_t most) {
+int64_t lengthUpTo(const Unit* string, int64_t most) {
   int64_t length = 0;
-  while (length < most && text[length] != 0) ++length;
+  while (length < most && string[length] != 0) ++length;
   return length;
 }
-inline int64_t lengthUpTo(const char* text, int64_t most) {
-  const void* end = most > 0 ? memchr(text, 0, static_cast<size_t>(most)) : nullptr;
-  return end != nullptr ? static_cast<const char*>(end) - text : most > 0 ? most : 0;
+inline int64_t lengthUpTo(const char* string, int64_t most) {
+  const void* end = most > 0 ? memchr(string, 0, static_cast<size_t>(most)) : nullptr;
+  return end != nullptr ? static_cast<const char*>(end) - string : most > 0 ? most : 0;
 }
 
 int64_t clip(int64_t value, int64_t low, int64_t high) { return value < low ? low : value > high ? high : value; }
@@ -43,10 +43,10 @@ uint32_t give(const Unit* from, int64_t count, Unit* out, uint32_t capacity) {
   return static_cast<uint32_t>(taken);
 }
 
-// Whether the `length` characters of `text` lie in the memory that `out` writes.
+// Whether the `length` characters of `string` lie in the memory that `out` writes.
 template <class Unit>
-bool overlaps(const Unit* text, int64_t length, const Unit* out, uint32_t capacity) {
-  const uintptr_t at = reinterpret_cast<uintptr_t>(text), begin = reinterpret_cast<uintptr_t>(out);
+bool overlaps(const Unit* string, int64_t length, const Unit* out, uint32_t capacity) {
+  const uintptr_t at = reinterpret_cast<uintptr_t>(string), begin = reinterpret_cast<uintptr_t>(out);
   return at < begin + (uint64_t{capacity} + 1) * sizeof(Unit) &&
          begin <= at + static_cast<size_t>(length) * sizeof(Unit);
 }
@@ -111,18 +111,19 @@ uint32_t concat(const Unit* in1, const Unit* in2, Unit* out, uint32_t capacity) 
 }
 
 template <class Unit>
-struct Text {
+struct MeasuredString {
   const Unit* units;
   int64_t length;
 };
 template <class Unit>
-Text<Unit> measured(const Unit* text) {
-  return {text, lengthOf(text)};
+MeasuredString<Unit> measured(const Unit* string) {
+  return {string, lengthOf(string)};
 }
 
 // in1 with `count` characters from `position` (from 1, inside) replaced by in2.
 template <class Unit>
-uint32_t splice(Text<Unit> in1, Text<Unit> in2, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
+uint32_t splice(MeasuredString<Unit> in1, MeasuredString<Unit> in2, int64_t count, int64_t position, Unit* out,
+                uint32_t capacity) {
   const int64_t begin = position - 1, end = begin + clip(count, 0, in1.length - begin), limit = limitOf(capacity);
   if (out == in1.units && begin <= limit && !overlaps(in2.units, in2.length, out, capacity)) {
     const int64_t middle = clip(in2.length, 0, limit - begin);
@@ -141,19 +142,20 @@ uint32_t splice(Text<Unit> in1, Text<Unit> in2, int64_t count, int64_t position,
 }
 
 template <class Unit>
-uint32_t insert(Text<Unit> in1, Text<Unit> in2, int64_t position, Unit* out, uint32_t capacity) {
+uint32_t insert(MeasuredString<Unit> in1, MeasuredString<Unit> in2, int64_t position, Unit* out, uint32_t capacity) {
   return splice(in1, in2, 0, clip(position, 0, in1.length) + 1, out, capacity);
 }
 
 template <class Unit>
-uint32_t remove(Text<Unit> in, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
+uint32_t remove(MeasuredString<Unit> in, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
   static const Unit nothing[1] = {0};
   if (position < 1 || position > in.length) return splice<Unit>(in, {nothing, 0}, 0, 1, out, capacity);
   return splice<Unit>(in, {nothing, 0}, count, position, out, capacity);
 }
 
 template <class Unit>
-uint32_t replace(Text<Unit> in1, Text<Unit> in2, int64_t count, int64_t position, Unit* out, uint32_t capacity) {
+uint32_t replace(MeasuredString<Unit> in1, MeasuredString<Unit> in2, int64_t count, int64_t position, Unit* out,
+                 uint32_t capacity) {
   static const Unit nothing[1] = {0};
   if (position < 1 || position > in1.length + 1) return splice<Unit>(in1, {nothing, 0}, 0, 1, out, capacity);
   return splice(in1, in2, count, position, out, capacity);
@@ -172,7 +174,7 @@ int16_t find(const Unit* in1, const Unit* in2) {
   return 0;
 }
 inline int16_t find(const char* in1, const char* in2) {
-  return rung_text_find(in1, rung_text_length(in1), in2, rung_text_length(in2));
+  return rung_string_find(in1, rung_string_length(in1), in2, rung_string_length(in2));
 }
 
 }  // namespace
@@ -216,8 +218,8 @@ RUNG_STRING_FUNCTIONS(WSTRING_255, char16_t)
 
 // ---- sized forms (rung/standard.h)
 
-uint32_t rung_text_join(const char* in1, uint32_t length1, const char* in2, uint32_t length2, char* out,
-                        uint32_t capacity) {
+uint32_t rung_string_join(const char* in1, uint32_t length1, const char* in2, uint32_t length2, char* out,
+                          uint32_t capacity) {
   const uint32_t limit = limitOf(capacity);
   if ((out != in1 || capacity > limit) && length1 > limit) length1 = limit;  // what is in `out` fits it
   if (length2 > limit - length1) length2 = limit - length1;
@@ -238,7 +240,7 @@ uint32_t rung_standard_REPLACE__STRING_255_sized(const char* in1, uint32_t lengt
                                                  int32_t l, int32_t p, char* out, uint32_t capacity) {
   return replace<char>({in1, length1}, {in2, length2}, l, p, out, capacity);
 }
-uint32_t rung_text_search(const char* in, uint32_t length, char unit) {
+uint32_t rung_string_search(const char* in, uint32_t length, char unit) {
   if (length > 8) {
     const void* at = memchr(in, unit, length);
     return at != nullptr ? static_cast<uint32_t>(static_cast<const char*>(at) - in) : length;
@@ -248,7 +250,7 @@ uint32_t rung_text_search(const char* in, uint32_t length, char unit) {
     uint32_t first, last;
     memcpy(&first, in, 4);
     memcpy(&last, in + length - 4, 4);
-    const uint64_t found = rung_text_units(first | static_cast<uint64_t>(last) << 8 * (length - 4), unit);
+    const uint64_t found = rung_string_units(first | static_cast<uint64_t>(last) << 8 * (length - 4), unit);
     const uint32_t at = found != 0 ? static_cast<uint32_t>(__builtin_ctzll(found)) / 8 : length;
     return at < length ? at : length;  // behind the text are zeros
   }
@@ -258,7 +260,7 @@ uint32_t rung_text_search(const char* in, uint32_t length, char unit) {
   }
   return length;
 }
-int16_t rung_text_find(const char* in1, uint32_t length1, const char* in2, uint32_t length2) {
+int16_t rung_string_find(const char* in1, uint32_t length1, const char* in2, uint32_t length2) {
   if (length2 == 0 || length2 > length1) return 0;
   const char* const end = in1 + (length1 - length2) + 1;
   for (const char* at = in1; at < end; ++at) {

@@ -23,18 +23,18 @@ namespace {
 struct Bytes {
   int32_t position, count;
 };
-Bytes bytesOf(const char* text, int32_t position, int32_t count) {
-  const int64_t begin = rung_utext_offset(text, static_cast<int64_t>(position) - 1);
-  const int64_t length = rung_text_length(text);
-  const int64_t bytes = begin < 0 || begin >= length || count < 0 ? count : rung_utext_offset(text + begin, count);
+Bytes bytesOf(const char* string, int32_t position, int32_t count) {
+  const int64_t begin = rung_ustring_offset(string, static_cast<int64_t>(position) - 1);
+  const int64_t length = rung_string_length(string);
+  const int64_t bytes = begin < 0 || begin >= length || count < 0 ? count : rung_ustring_offset(string + begin, count);
   const int64_t most = INT32_MAX;
   return {static_cast<int32_t>(begin < most ? begin + 1 : most), static_cast<int32_t>(bytes < most ? bytes : most)};
 }
 
 template <class Unit>
-uint32_t unitsOf(const Unit* text) {
+uint32_t unitsOf(const Unit* string) {
   uint32_t count = 0;
-  while (text[count] != 0) ++count;
+  while (string[count] != 0) ++count;
   return count;
 }
 
@@ -50,41 +50,41 @@ void fill(const void* from, uint64_t length, void* to, uint64_t size) {
 extern "C" {
 
 int16_t rung_standard_LEN__USTRING_255(rung_context*, const char* in) {
-  const uint32_t length = rung_utext_length(in);
+  const uint32_t length = rung_ustring_length(in);
   return static_cast<int16_t>(length < INT16_MAX ? length : INT16_MAX);
 }
 uint32_t rung_standard_LEFT__USTRING_255(rung_context* ctx, const char* in, int32_t l, char* out, uint32_t capacity) {
-  return rung_utext_whole(out, rung_standard_LEFT__STRING_255(ctx, in, bytesOf(in, 1, l).count, out, capacity));
+  return rung_ustring_whole(out, rung_standard_LEFT__STRING_255(ctx, in, bytesOf(in, 1, l).count, out, capacity));
 }
 uint32_t rung_standard_RIGHT__USTRING_255(rung_context* ctx, const char* in, int32_t l, char* out, uint32_t capacity) {
-  const int64_t length = rung_utext_length(in), taken = l < 0 ? 0 : l < length ? l : length;
+  const int64_t length = rung_ustring_length(in), taken = l < 0 ? 0 : l < length ? l : length;
   const Bytes part = bytesOf(in, static_cast<int32_t>(length - taken + 1), static_cast<int32_t>(taken));
-  return rung_utext_whole(out, rung_standard_MID__STRING_255(ctx, in, part.count, part.position, out, capacity));
+  return rung_ustring_whole(out, rung_standard_MID__STRING_255(ctx, in, part.count, part.position, out, capacity));
 }
 uint32_t rung_standard_MID__USTRING_255(rung_context* ctx, const char* in, int32_t l, int32_t p, char* out,
                                         uint32_t capacity) {
   const Bytes part = bytesOf(in, p, l);
-  return rung_utext_whole(out, rung_standard_MID__STRING_255(ctx, in, part.count, part.position, out, capacity));
+  return rung_ustring_whole(out, rung_standard_MID__STRING_255(ctx, in, part.count, part.position, out, capacity));
 }
 uint32_t rung_standard_CONCAT__USTRING_255(rung_context* ctx, const char* in1, const char* in2, char* out,
                                            uint32_t capacity) {
-  return rung_utext_whole(out, rung_standard_CONCAT__STRING_255(ctx, in1, in2, out, capacity));
+  return rung_ustring_whole(out, rung_standard_CONCAT__STRING_255(ctx, in1, in2, out, capacity));
 }
 uint32_t rung_standard_INSERT__USTRING_255(rung_context* ctx, const char* in1, const char* in2, int32_t p, char* out,
                                            uint32_t capacity) {
   const int32_t at = bytesOf(in1, 1, p).count;
-  return rung_utext_whole(out, rung_standard_INSERT__STRING_255(ctx, in1, in2, at, out, capacity));
+  return rung_ustring_whole(out, rung_standard_INSERT__STRING_255(ctx, in1, in2, at, out, capacity));
 }
 uint32_t rung_standard_DELETE__USTRING_255(rung_context* ctx, const char* in, int32_t l, int32_t p, char* out,
                                            uint32_t capacity) {
   const Bytes part = bytesOf(in, p, l);
-  return rung_utext_whole(out, rung_standard_DELETE__STRING_255(ctx, in, part.count, part.position, out, capacity));
+  return rung_ustring_whole(out, rung_standard_DELETE__STRING_255(ctx, in, part.count, part.position, out, capacity));
 }
 uint32_t rung_standard_REPLACE__USTRING_255(rung_context* ctx, const char* in1, const char* in2, int32_t l, int32_t p,
                                             char* out, uint32_t capacity) {
   const Bytes part = bytesOf(in1, p, l);
-  return rung_utext_whole(out,
-                          rung_standard_REPLACE__STRING_255(ctx, in1, in2, part.count, part.position, out, capacity));
+  return rung_ustring_whole(out,
+                            rung_standard_REPLACE__STRING_255(ctx, in1, in2, part.count, part.position, out, capacity));
 }
 int16_t rung_standard_FIND__USTRING_255(rung_context* ctx, const char* in1, const char* in2) {
   const int16_t at = rung_standard_FIND__STRING_255(ctx, in1, in2);
@@ -133,8 +133,8 @@ uint32_t rung_standard_WSTRING_OF_BYTES(rung_context*, void* in, uint64_t size, 
 }
 uint32_t rung_standard_USTRING_OF_BYTES(rung_context* ctx, void* in, uint64_t size, char* out, uint32_t capacity) {
   uint32_t length = rung_standard_STRING_OF_BYTES(ctx, in, size, out, capacity);
-  if (length == capacity && length < size) length = rung_utext_whole(out, length);
-  return rung_utext_of_text(out, length, out);
+  if (length == capacity && length < size) length = rung_ustring_whole(out, length);
+  return rung_ustring_of_string(out, length, out);
 }
 
 }  // extern "C"

@@ -30,10 +30,10 @@ struct Argument {  // T_Arg
   const void* data;
 };
 
-enum Trouble : uint32_t { kGood, kBadFormat, kMissing, kOtherType, kTooLong };
+enum Trouble : uint32_t { kOk, kBadFormat, kMissing, kOtherType, kTooLong };
 
-constexpr size_t kMost = 255;
-constexpr int kMostDigits = 64;  // of a precision: more digits than any number has
+constexpr size_t kMax = 255;
+constexpr int kMaxDigits = 64;  // of a precision: more digits than any number has
 
 struct Output {
   char* text;
@@ -83,7 +83,7 @@ int64_t wholeOf(const Argument& argument, int& width) {
   return 0;
 }
 
-struct Place {
+struct Specifier {
   char flags[6];
   int flag_count;
   int width;      // -1: none
@@ -91,7 +91,7 @@ struct Place {
 };
 
 // %b, which printf does not have: digits, then blanks or zeros to the width.
-void putBits(Output& out, const Place& place, uint64_t bits) {
+void putBits(Output& out, const Specifier& specifier, uint64_t bits) {
   char digits[64 + 1];
   int count = 0;
   do digits[count++] = static_cast<char>('0' + (bits & 1));
@@ -102,14 +102,15 @@ void putBits(Output& out, const Place& place, uint64_t bits) {
     digits[count - 1 - i] = other;
   }
   bool left = false, zeros = false;
-  for (int i = 0; i < place.flag_count; ++i) {
-    left = left || place.flags[i] == '-';
-    zeros = zeros || place.flags[i] == '0';
+  for (int i = 0; i < specifier.flag_count; ++i) {
+    left = left || specifier.flags[i] == '-';
+    zeros = zeros || specifier.flags[i] == '0';
   }
-  const int zero_count = place.precision > count                                        ? place.precision - count
-                         : place.precision < 0 && zeros && !left && place.width > count ? place.width - count
-                                                                                        : 0;
-  const int blank_count = place.width > count + zero_count ? place.width - count - zero_count : 0;
+  const int zero_count = specifier.precision > count ? specifier.precision - count
+                         : specifier.precision < 0 && zeros && !left && specifier.width > count
+                             ? specifier.width - count
+                             : 0;
+  const int blank_count = specifier.width > count + zero_count ? specifier.width - count - zero_count : 0;
   for (int i = 0; !left && i < blank_count; ++i) out.put(" ", 1);
   for (int i = 0; i < zero_count; ++i) out.put("0", 1);
   out.put(digits, static_cast<size_t>(count));
@@ -117,25 +118,25 @@ void putBits(Output& out, const Place& place, uint64_t bits) {
 }
 
 // printf's form of a place: its flags, `*` for width and precision, the length of the number, the type.
-void specify(char* spec, const Place& place, const char* length, char type) {
+void specify(char* spec, const Specifier& specifier, const char* length, char type) {
   *spec++ = '%';
-  for (int i = 0; i < place.flag_count; ++i) *spec++ = place.flags[i];
+  for (int i = 0; i < specifier.flag_count; ++i) *spec++ = specifier.flags[i];
   for (const char* at = "*.*"; *at != 0; ++at) *spec++ = *at;
   for (; *length != 0; ++length) *spec++ = *length;
   *spec++ = type;
   *spec = 0;
 }
 
-void putArgument(Output& out, const Place& place, char type, const Argument& argument) {
+void putArgument(Output& out, const Specifier& specifier, char type, const Argument& argument) {
   char spec[16], piece[512];
-  const int width = place.width < 0 ? 0 : place.width;
+  const int width = specifier.width < 0 ? 0 : specifier.width;
   int count = 0, bits_of_type = 64;
   switch (type) {
     case 'd':
     case 'i':
       if (!isWhole(argument.type)) break;
-      specify(spec, place, "ll", 'd');
-      count = snprintf(piece, sizeof piece, spec, width, place.precision,
+      specify(spec, specifier, "ll", 'd');
+      count = snprintf(piece, sizeof piece, spec, width, specifier.precision,
                        static_cast<long long>(wholeOf(argument, bits_of_type)));
       return out.put(piece, static_cast<size_t>(count));
     case 'u':
@@ -146,9 +147,9 @@ void putArgument(Output& out, const Place& place, char type, const Argument& arg
       if (!isWhole(argument.type)) break;
       uint64_t bits = static_cast<uint64_t>(wholeOf(argument, bits_of_type));
       if (bits_of_type < 64) bits &= (uint64_t{1} << bits_of_type) - 1;
-      if (type == 'b') return putBits(out, place, bits);
-      specify(spec, place, "ll", type);
-      count = snprintf(piece, sizeof piece, spec, width, place.precision, static_cast<unsigned long long>(bits));
+      if (type == 'b') return putBits(out, specifier, bits);
+      specify(spec, specifier, "ll", type);
+      count = snprintf(piece, sizeof piece, spec, width, specifier.precision, static_cast<unsigned long long>(bits));
       return out.put(piece, static_cast<size_t>(count));
     }
     case 'f':
@@ -159,8 +160,8 @@ void putArgument(Output& out, const Place& place, char type, const Argument& arg
       if (argument.type != kReal && argument.type != kLReal) break;
       const double number =
           argument.type == kReal ? static_cast<double>(read<float>(argument.data)) : read<double>(argument.data);
-      specify(spec, place, "", type);
-      count = snprintf(piece, sizeof piece, spec, width, place.precision < 0 ? 6 : place.precision, number);
+      specify(spec, specifier, "", type);
+      count = snprintf(piece, sizeof piece, spec, width, specifier.precision < 0 ? 6 : specifier.precision, number);
       return out.put(piece, static_cast<size_t>(count) < sizeof piece ? static_cast<size_t>(count) : sizeof piece - 1);
     }
     case 's': {
@@ -168,9 +169,9 @@ void putArgument(Output& out, const Place& place, char type, const Argument& arg
       if (argument.type == kString) text = static_cast<const char*>(argument.data);
       if (argument.type == kBool) text = wholeOf(argument, bits_of_type) != 0 ? "TRUE" : "FALSE";
       if (text == nullptr) break;
-      specify(spec, place, "", 's');
+      specify(spec, specifier, "", 's');
       count = snprintf(piece, sizeof piece, spec, width,
-                       place.precision < 0 ? static_cast<int>(kMost) : place.precision, text);
+                       specifier.precision < 0 ? static_cast<int>(kMax) : specifier.precision, text);
       return out.put(piece, static_cast<size_t>(count));
     }
     case 'c': {
@@ -222,7 +223,7 @@ bool readNumber(const char*& at, Arguments& arguments, int most, int& number, Tr
 }
 
 void format(Output& out, const char* at, Arguments& arguments) {
-  while (*at != 0 && out.trouble == kGood) {
+  while (*at != 0 && out.trouble == kOk) {
     if (*at != '%') {
       const char* const begin = at;
       while (*at != 0 && *at != '%') ++at;
@@ -233,19 +234,19 @@ void format(Output& out, const char* at, Arguments& arguments) {
       out.put(at++, 1);
       continue;
     }
-    Place place{{}, 0, -1, -1};
+    Specifier specifier{{}, 0, -1, -1};
     while (*at != 0 && strchr("-+ 0#", *at) != nullptr) {
-      if (place.flag_count == 5) {
+      if (specifier.flag_count == 5) {
         out.trouble = kBadFormat;
         return;
       }
-      place.flags[place.flag_count++] = *at++;
+      specifier.flags[specifier.flag_count++] = *at++;
     }
-    if (!readNumber(at, arguments, static_cast<int>(kMost), place.width, out.trouble)) return;
+    if (!readNumber(at, arguments, static_cast<int>(kMax), specifier.width, out.trouble)) return;
     if (*at == '.') {
       ++at;
-      place.precision = 0;
-      if (!readNumber(at, arguments, kMostDigits, place.precision, out.trouble)) return;
+      specifier.precision = 0;
+      if (!readNumber(at, arguments, kMaxDigits, specifier.precision, out.trouble)) return;
     }
     if (*at == 0) {
       out.trouble = kBadFormat;
@@ -256,7 +257,7 @@ void format(Output& out, const char* at, Arguments& arguments) {
       out.trouble = kMissing;
       return;
     }
-    putArgument(out, place, *at++, *argument);
+    putArgument(out, specifier, *at++, *argument);
   }
 }
 
@@ -264,7 +265,7 @@ void format(Output& out, const char* at, Arguments& arguments) {
 
 extern "C" uint32_t rung_tc2_utilities_FORMAT_ARGUMENTS(rung_context*, const char* format_text, void* arguments,
                                                         uint16_t count, void* error, char* text, uint32_t capacity) {
-  Output out{text, capacity < kMost ? capacity : kMost, 0, kGood};
+  Output out{text, capacity < kMax ? capacity : kMax, 0, kOk};
   Arguments list(static_cast<const Argument*>(arguments), count);
   format(out, format_text, list);
   out.text[out.length] = 0;

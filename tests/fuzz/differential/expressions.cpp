@@ -39,9 +39,9 @@ std::string Generator::literal(int type) {
       return (type == kLtod - 1 ? "LDATE#" : "D#") + pick({"1970-01-01", "2024-02-29", "2099-12-31"});
     case Kind::Letter:
       return type == kChar ? pick({"CHAR#'a'", "CHAR#'Z'", "CHAR#'$FF'"}) : pick({"WCHAR#\"a\"", "WCHAR#\"$1234\""});
-    case Kind::Text:
+    case Kind::String:
       return pick({"''", "'a'", "'Rung'", "'12'", "'-3.5'", "'A longer text, with $$ and $''", "'xyzzy'"});
-    case Kind::WideText: return pick({"\"\"", "\"a\"", "\"Rung\"", "\"12\"", "\"wide and long\""});
+    case Kind::WideString: return pick({"\"\"", "\"a\"", "\"Rung\"", "\"12\"", "\"wide and long\""});
   }
   return "0";
 }
@@ -157,8 +157,8 @@ Node Generator::expr(int type, int depth) {
     case Kind::Duration: return duration(type, depth - 1);
     case Kind::Date: return date(type, depth - 1);
     case Kind::Letter: return leaf(type);
-    case Kind::Text:
-    case Kind::WideText: return text(type, depth - 1);
+    case Kind::String:
+    case Kind::WideString: return text(type, depth - 1);
   }
   return leaf(type);
 }

@@ -10,7 +10,7 @@
 
 namespace rung::differential {
 
-enum class Kind : uint8_t { Bool, Signed, Unsigned, Bits, Real, Duration, Date, Letter, Text, WideText };
+enum class Kind : uint8_t { Bool, Signed, Unsigned, Bits, Real, Duration, Date, Letter, String, WideString };
 
 struct Type {
   const char* name;
@@ -45,8 +45,8 @@ inline const Type kTypes[] = {
     {"LDATE_AND_TIME", Kind::Date, "LDT#1970-01-01-00:00:00", false},
     {"CHAR", Kind::Letter, "CHAR#'a'", false},
     {"WCHAR", Kind::Letter, "WCHAR#\"a\"", false},
-    {"STRING", Kind::Text, "''", true},
-    {"WSTRING", Kind::WideText, "\"\"", true},
+    {"STRING", Kind::String, "''", true},
+    {"WSTRING", Kind::WideString, "\"\"", true},
 };
 constexpr int kTypeCount = sizeof kTypes / sizeof kTypes[0];
 constexpr int kBool = 0, kSint = 1, kInt = 2, kDint = 3, kLint = 4, kUsint = 5, kUint = 6, kUdint = 7, kByte = 9,
@@ -144,15 +144,15 @@ class Generator {
   Node pointerStatement();
   Node pointerQuestion();
 
-  struct Place {
+  struct Lvalue {
     std::string name, type, binding;
   };
-  const std::vector<Place>& places();
+  const std::vector<Lvalue>& lvalues();
 
   // classes.cpp: edition 3
   void makeClasses(std::vector<Node>& parts);
   Node classStatement();
-  std::vector<Place> classPlaces() const;
+  std::vector<Lvalue> classLvalues() const;
 
   Node makeMethod(int number, const std::string& base);
   Node makeClass(int number);
@@ -188,7 +188,7 @@ class Generator {
   int method_ = -1;                       // in a method: its number, which those it calls are below
   bool chained_ = false;                  // O2 extends O1, else O0 as O1 does
   int start_ = 0;                         // type of the input of these blocks
-  std::vector<Place> places_;
+  std::vector<Lvalue> lvalues_;
   int loops_ = 0;   // around the statement
   int cases_ = 0;   // around it, in which a label would be one of the CASE
   int labels_ = 0;  // of the body so far

@@ -53,17 +53,17 @@ constexpr uint64_t kNativeCount = sizeof kNative / sizeof kNative[0];
 bool isRangeBatch(uint64_t seed) { return seed / kBatch % 4 == 3; }
 
 Faults faultsOf(uint64_t seed) {
-  const uint64_t place = seed % kBatch;
-  if (isRangeBatch(seed)) return place < 15 ? Faults::None : Faults::Range;
-  return place < 21 ? Faults::None : place % 2 == 0 ? Faults::Division : Faults::Index;
+  const uint64_t position = seed % kBatch;
+  if (isRangeBatch(seed)) return position < 15 ? Faults::None : Faults::Range;
+  return position < 21 ? Faults::None : position % 2 == 0 ? Faults::Division : Faults::Index;
 }
 
 Dialect dialectOf(uint64_t seed) {
-  const uint64_t turn = seed / kBatch % 5;
-  return turn == 1 ? Dialect::Iec3 : turn == 3 ? Dialect::Iec2 : Dialect::Codesys;
+  const uint64_t phase = seed / kBatch % 5;
+  return phase == 1 ? Dialect::Iec3 : phase == 3 ? Dialect::Iec2 : Dialect::Codesys;
 }
 
-const char* spelled(Dialect dialect) {
+const char* optionOf(Dialect dialect) {
   return dialect == Dialect::Codesys ? "--std=codesys" : dialect == Dialect::Iec3 ? "--std=iec3" : "--std=iec2";
 }
 
@@ -88,7 +88,7 @@ struct Setting {
 
 std::string commandOf(const std::string& rung, const Setting& s) {
   std::string command = s.way.compiler != nullptr ? "CXX=" + std::string(s.way.compiler) + " " : "";
-  command += rung + " run " + s.way.engine + " " + s.way.level + " " + spelled(s.dialect) + " --checks=" + s.checks +
+  command += rung + " run " + s.way.engine + " " + s.way.level + " " + optionOf(s.dialect) + " --checks=" + s.checks +
              " --cycles=6 --max-errors=5 --trace=- -j1";
   if (s.only >= 0) command += " --set differential_only=" + std::to_string(s.only);
   return command + " differential.st";
@@ -181,10 +181,10 @@ Outcome Worker::run(const std::string& text, const Setting& setting) {
 }
 
 const Outcome& Worker::judge(const std::string& text, const Setting& setting) {
-  const std::string key = setting.checks + std::to_string(setting.only) + spelled(setting.dialect) + text;
-  const auto [place, fresh] = judged_.try_emplace(key);
-  if (fresh) place->second = run(text, {kJudge, setting.checks, setting.dialect, setting.only});
-  return place->second;
+  const std::string key = setting.checks + std::to_string(setting.only) + optionOf(setting.dialect) + text;
+  const auto [entry, fresh] = judged_.try_emplace(key);
+  if (fresh) entry->second = run(text, {kJudge, setting.checks, setting.dialect, setting.only});
+  return entry->second;
 }
 
 // Programs that rung refuses are differences too: they are valid.

@@ -193,7 +193,7 @@ Node Generator::program() {
                         Stmt{"at_dword := " + prefix_ + "_at_dword;\n"}, Stmt{"at_int := " + prefix_ + "_at_int;\n"}}};
   std::string used = body.print() + results.print();
   // What a binding uses may need one itself.
-  const std::vector<Place>& all = places();
+  const std::vector<Lvalue>& all = lvalues();
   std::vector<bool> is_bound(all.size());
   for (bool grows = true; grows;) {
     grows = false;
@@ -248,7 +248,7 @@ Node Generator::program() {
   line("at_dword", "DWORD");
   line("at_int", "INT");
   line("bound", "BOOL");
-  for (const Place& place : all) line(place.name, place.type);
+  for (const Lvalue& lvalue : all) line(lvalue.name, lvalue.type);
   lines.push_back(Stmt{"noise : ULINT := " + std::to_string(1 + random() % 2147483645) + ";\n"});
   Node extra = Fixed{more + "\1END_VAR\n", std::move(lines)};
   const std::string guard = "IF differential_only <> " + std::to_string(index_) +

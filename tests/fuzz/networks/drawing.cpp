@@ -63,7 +63,7 @@ class Drawer {
   std::map<int, uint64_t> boxes_;           // of actions
   std::map<int, Wires> behind_;             // LD: the last coil that takes a shared node
   uint64_t next_ = 1, rail_ = 0;
-  unsigned network_ = 0, turn_ = 0;
+  unsigned network_ = 0, order_ = 0;
   int row_ = 0;
 };
 
@@ -72,7 +72,7 @@ uint64_t Drawer::put(Element e) {
   e.network = network_;
   const bool acts = e.kind == "box" || e.kind == "output" || e.kind == "coil" || e.kind == "jump" ||
                     e.kind == "label" || e.kind == "return" || e.kind == "execute";
-  if (acts && out_.language == Language::Ordered) e.turn = ++turn_;
+  if (acts && out_.language == Language::Ordered) e.order = ++order_;
   e.x = 20 * static_cast<int>(out_.elements.size());
   e.y = 100 * row_ + static_cast<int>(generated::nextRandom(state_) % 50);
   out_.elements.push_back(e);
@@ -351,16 +351,16 @@ void Drawer::action(int number) {
       const uint64_t after = next_;
       box(a.value);  // and then EN
       (void)after;
-      Element made = out_.elements.back();
+      Element created = out_.elements.back();
       out_.elements.pop_back();
-      if (made.turn != 0) --turn_;
-      made.number = boxOf(number);
-      made.pins.insert(made.pins.begin(), en);
-      made.pins.push_back(output("ENO"));
-      put(made);
+      if (created.order != 0) --order_;
+      created.number = boxOf(number);
+      created.pins.insert(created.pins.begin(), en);
+      created.pins.push_back(output("ENO"));
+      put(created);
       e = element("output");
       e.operand = a.target;
-      e.pins = {plain({{made.number, "OUT"}})};
+      e.pins = {plain({{created.number, "OUT"}})};
       (void)n;
       put(e);
       return;
@@ -436,14 +436,14 @@ Drawing draw(const Logic& logic, Language language, uint64_t seed) { return Draw
 
 namespace {
 
-std::string marks(bool negated, Sense edge, const std::string& storage) {
+std::string modifiers(bool negated, Sense edge, const std::string& storage) {
   std::string text = negated ? " NOT" : "";
   if (edge != Sense::None) text += edge == Sense::Rising ? " RISING" : " FALLING";
   if (!storage.empty()) text += storage == "set" ? " SET" : " RESET";
   return text;
 }
 
-std::string spelled(const Wires& wires) {
+std::string notationOf(const Wires& wires) {
   std::string text;
   for (const Wire& wire : wires)
     text += (text.empty() ? "" : " OR ") + std::to_string(wire.from) + (wire.pin.empty() ? "" : "(" + wire.pin + ")");
@@ -455,10 +455,10 @@ std::string spelled(const Wires& wires) {
 std::string notation(const Logic& logic, const Drawing& drawing, const std::string& name, uint64_t seed) {
   uint64_t state = seed + 77;
   std::vector<Element> elements = drawing.elements;
-  const bool turns = drawing.language == Language::Ordered;
-  const bool marked = !turns && generated::nextRandom(state) % 2 == 0;  // NETWORK n;
+  const bool ordered = drawing.language == Language::Ordered;
+  const bool marked = !ordered && generated::nextRandom(state) % 2 == 0;  // NETWORK n;
   bool placed = false;
-  if (turns) {  // the file's order does not matter
+  if (ordered) {  // the file's order does not matter
     for (size_t k = elements.size(); k > 1; --k) std::swap(elements[k - 1], elements[generated::nextRandom(state) % k]);
   } else if (!marked && generated::nextRandom(state) % 3 == 0) {
     placed = true;
@@ -472,21 +472,21 @@ std::string notation(const Logic& logic, const Drawing& drawing, const std::stri
     text += e.kind + " " + std::to_string(e.number);
     if (!e.name.empty()) text += " " + e.name;
     if (!e.operand.empty()) text += " (" + e.operand + ")";
-    text += marks(e.negated, e.edge, e.storage);
-    if (e.turn != 0) text += " ORDER " + std::to_string(e.turn);
+    text += modifiers(e.negated, e.edge, e.storage);
+    if (e.order != 0) text += " ORDER " + std::to_string(e.order);
     if (placed) text += " AT " + std::to_string(e.x) + ", " + std::to_string(e.y);
     if (e.kind == "comment") text += " '" + e.statements + "'";
     if (e.kind == "box" || e.kind == "execute") {
       text += " [";
       for (const Pin& pin : e.pins) {
         if (&pin != e.pins.data()) text += ", ";
-        text += pin.name + marks(pin.negated, pin.edge, pin.storage);
-        if (!pin.output) text += " := " + spelled(pin.wires);
+        text += pin.name + modifiers(pin.negated, pin.edge, pin.storage);
+        if (!pin.output) text += " := " + notationOf(pin.wires);
         if (pin.output || pin.in_out) text += " =>";
       }
       text += "]";
     } else if (!e.pins.empty()) {
-      text += " := " + spelled(e.pins[0].wires);
+      text += " := " + notationOf(e.pins[0].wires);
     }
     if (e.kind == "execute") text += " {network ST} " + e.statements + " {end_network}";
     text += ";\n";

@@ -31,7 +31,7 @@ struct Element {
   Sense edge = Sense::None;
   std::string storage;
   std::vector<Pin> pins;
-  unsigned turn = 0;
+  unsigned order = 0;
   unsigned network = 0;  // from 1
   int x = 0, y = 0;
   std::string statements;
@@ -45,7 +45,7 @@ Drawing draw(const Logic& logic, Language language, uint64_t seed);
 
 std::string notation(const Logic& logic, const Drawing& drawing, const std::string& name, uint64_t seed);
 
-enum class Editor : uint8_t { Plain, Pixels, Vendor, Turns };  // no places; Beremiz; CODESYS; Bachmann
+enum class Editor : uint8_t { Plain, Pixels, Vendor, Ordered };  // no places; Beremiz; CODESYS; Bachmann
 constexpr int kEditors = 4;
 std::string xmlPou(const Logic& logic, const Drawing& drawing, const std::string& name, Editor editor, uint64_t seed);
 std::string xmlProject(const std::string& pous, Editor editor);

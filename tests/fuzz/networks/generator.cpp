@@ -508,12 +508,12 @@ void Generator::items(std::vector<Item>& out, int depth, unsigned number) {
       item.kind = Item::Loop;
       items(item.body, 0, 1 + below(2));
       step(false);
-      Node turns, limit;
-      turns.type = limit.type = Type::Int;
-      turns.text = counter;
+      Node iterations, limit;
+      iterations.type = limit.type = Type::Int;
+      iterations.text = counter;
       limit.literal = true;
       limit.text = std::to_string(2 + below(3));
-      const int left = add(turns);
+      const int left = add(iterations);
       jump.value = make(NodeKind::Operator, Type::Bool, "LT", {left, add(limit)});
       act(jump);
       closeNetwork(item.body);

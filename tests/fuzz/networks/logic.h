@@ -1,6 +1,6 @@
 // What all languages of a generated block say: networks of actions over expressions, with one order of execution. An
 // action evaluates what it needs and nobody has evaluated before; what several read is evaluated once. In: a seed.
-// Called by main.cpp; printed by texts.cpp (ST, the reference, and IL), drawn by drawing.cpp (LD, FBD, CFC).
+// Called by main.cpp; printed by st_and_il.cpp (ST, the reference, and IL), drawn by drawing.cpp (LD, FBD, CFC).
 #pragma once
 
 #include <cstdint>

@@ -166,15 +166,15 @@ class Worker {
     uint64_t rows = 0;
     std::getline(lines, line);
     std::string found;
-    std::vector<bool> told(std::size(kForms), false);
+    std::vector<bool> reported(std::size(kForms), false);
     for (; std::getline(lines, line); ++rows) {
       std::vector<std::string> cells;
       std::stringstream stream(line);
       for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
       for (size_t k = 2; k < cells.size(); ++k) {
         const size_t form = (k - 2) % std::size(kForms);
-        if (cells[k] == cells[k - form] || told[form]) continue;
-        told[form] = true;
+        if (cells[k] == cells[k - form] || reported[form]) continue;
+        reported[form] = true;
         found += std::string(kForms[form]) + " differs in cycle " + std::to_string(rows) + "; ";
       }
     }

@@ -39,7 +39,7 @@ class Writer {
     return found == ids_.end() ? number : found->second;
   }
   void number();
-  std::string place(const Element& e) const;
+  std::string positionXml(const Element& e) const;
   std::string point(const Wires& wires, const Element& to);
   std::string pin(const Pin& pin, const Element& e, size_t at);
   std::string pinName(const Element& e, const Pin& pin, size_t at) const;
@@ -57,7 +57,7 @@ class Writer {
   std::map<uint64_t, const Element*> by_number_;
   std::string connectors_;  // that CODESYS puts into each wire of a CFC
   uint64_t next_connector_ = 100000;
-  unsigned first_turn_ = 1;
+  unsigned first_order_ = 1;
 };
 
 void Writer::number() {
@@ -67,24 +67,24 @@ void Writer::number() {
     if (vendor() && drawing_.language != Language::Ordered && drawing_.language != Language::Flow)
       ids_[e.number] = e.kind == "rail" ? 0 : e.network * 10000000000u + ++counts[e.network];
     if (vendor() && e.kind == "rail") ids_[e.number] = 0;
-    if (editor_ == Editor::Turns) ids_[e.number] = e.number * 4294967311u + 7;
-    if (e.turn == 1 && e.kind != "coil" && vendor()) first_turn_ = 0;
+    if (editor_ == Editor::Ordered) ids_[e.number] = e.number * 4294967311u + 7;
+    if (e.order == 1 && e.kind != "coil" && vendor()) first_order_ = 0;
   }
 }
 
-std::string Writer::place(const Element& e) const {
+std::string Writer::positionXml(const Element& e) const {
   const bool pixels = editor_ == Editor::Pixels;
   return "<position x=\"" + std::to_string(pixels ? e.x : 0) + "\" y=\"" + std::to_string(pixels ? e.y : 0) + "\"/>";
 }
 
 std::string Writer::head(const std::string& kind, const Element& e, const std::string& more) {
   std::string text = "<" + kind + " localId=\"" + std::to_string(id(e.number)) + "\"" + more;
-  if (e.turn != 0 && e.kind != "input")
-    text += " executionOrderId=\"" + std::to_string(e.turn + first_turn_ - 1) + "\"";
-  if (editor_ == Editor::Pixels && e.kind == "box" && e.turn == 0)
+  if (e.order != 0 && e.kind != "input")
+    text += " executionOrderId=\"" + std::to_string(e.order + first_order_ - 1) + "\"";
+  if (editor_ == Editor::Pixels && e.kind == "box" && e.order == 0)
     text += " width=\"60\" height=\"40\" executionOrderId=\"0\"";
   if (editor_ == Editor::Pixels && e.kind == "contact") text += " width=\"21\" height=\"15\"";
-  return text + ">" + place(e);
+  return text + ">" + positionXml(e);
 }
 
 // Operators have no names for their pins in CODESYS.
@@ -209,7 +209,7 @@ std::string Writer::element(const Element& e) {
   if (e.kind == "label") return head("label", e, " label=\"" + e.name + "\"") + "</label>\n";
   if (e.kind == "jump" || e.kind == "return") {
     const std::string name = e.kind == "jump" ? " label=\"" + e.name + "\"" : "";
-    const bool by_data = editor_ == Editor::Turns && e.negated;
+    const bool by_data = editor_ == Editor::Ordered && e.negated;
     return head(e.kind, e, name + (by_data ? "" : negated)) + input() +
            (by_data ? "<addData><data name=\"www.bachmann.at/plc/plcopenxml/negated\" handleUnknown=\"implementation\">"
                       "<negated value=\"true\"/></data></addData>"
@@ -224,7 +224,7 @@ std::string Writer::body() {
   number();
   const bool cfc = drawing_.language == Language::Ordered || drawing_.language == Language::Flow;
   const std::string kind = drawing_.language == Language::Ladder ? "LD"
-                           : cfc && editor_ != Editor::Turns     ? "CFC"
+                           : cfc && editor_ != Editor::Ordered   ? "CFC"
                                                                  : "FBD";
   std::vector<const Element*> order;
   for (const Element& e : drawing_.elements) order.push_back(&e);
@@ -269,21 +269,21 @@ std::string structured(const std::string& section, const std::string& text) {
     const size_t end = text.find(';', at), colon = text.find(" : ", at);
     if (end == std::string::npos) break;
     const std::string type = text.substr(colon + 3, end - colon - 3);
-    std::string spelled;
+    std::string type_xml;
     if (type.compare(0, 6, "ARRAY[") == 0) {
       const size_t dots = type.find(".."), close = type.find(']');
-      spelled = "<array><dimension lower=\"" + type.substr(6, dots - 6) + "\" upper=\"" +
-                type.substr(dots + 2, close - dots - 2) + "\"/><baseType><" + type.substr(close + 5) +
-                "/></baseType></array>";
+      type_xml = "<array><dimension lower=\"" + type.substr(6, dots - 6) + "\" upper=\"" +
+                 type.substr(dots + 2, close - dots - 2) + "\"/><baseType><" + type.substr(close + 5) +
+                 "/></baseType></array>";
     } else if (type == "BOOL" || type == "INT" || type == "DINT" || type == "REAL" || type == "WORD" ||
                type == "TIME") {
-      spelled = "<" + type + "/>";
+      type_xml = "<" + type + "/>";
     } else {
-      spelled = "<derived name=\"" + type + "\"/>";
+      type_xml = "<derived name=\"" + type + "\"/>";
     }
     for (size_t name = at; name < colon;) {
       size_t comma = std::min(text.find(',', name), colon);
-      out += "<variable name=\"" + text.substr(name, comma - name) + "\"><type>" + spelled + "</type></variable>\n";
+      out += "<variable name=\"" + text.substr(name, comma - name) + "\"><type>" + type_xml + "</type></variable>\n";
       name = comma + 2;
     }
     at = end + 2;

@@ -119,7 +119,7 @@ std::string stepName(const Chart& chart, int step, bool to, size_t key) {
 
 // The nested chart has the same names for its steps and actions, and variables of its own.
 std::string bodyOf(const Chart& chart, bool nested) {
-  static const char* const kWords[] = {"N", "R", "S", "L", "D", "P", "P0", "P1", "SD", "DS", "SL"};
+  static const char* const kKeywords[] = {"N", "R", "S", "L", "D", "P", "P0", "P1", "SD", "DS", "SL"};
   const char* const variable = nested ? "w" : "v";
   const auto action = [&](int i) { return (i < kVariables ? variable : "a") + std::to_string(i); };
   size_t key = 0;
@@ -142,7 +142,7 @@ std::string bodyOf(const Chart& chart, bool nested) {
     if (step.least_ms > 0) text += " (TMIN := T#" + std::to_string(step.least_ms) + "ms)";
     text += ":";
     for (const Association& a : step.associations) {
-      text += " " + action(a.action) + "(" + kWords[a.qualifier];
+      text += " " + action(a.action) + "(" + kKeywords[a.qualifier];
       if (a.qualifier == kL || a.qualifier == kD || a.qualifier >= kSD)
         text += ", T#" + std::to_string(chart.times_ms[a.action]) + "ms";
       text += ");";

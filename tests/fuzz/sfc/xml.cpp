@@ -8,7 +8,7 @@
 namespace rung::sfc_differential {
 namespace {
 
-constexpr const char* kWords[] = {"N", "R", "S", "L", "D", "P", "P0", "P1", "SD", "DS", "SL"};
+constexpr const char* kKeywords[] = {"N", "R", "S", "L", "D", "P", "P0", "P1", "SD", "DS", "SL"};
 
 std::string actionName(int i) { return (i < kVariables ? "v" : "a") + std::to_string(i); }
 
@@ -132,7 +132,7 @@ void Printer::addStep(size_t s) {
     block.clear();
   };
   for (const Association& a : step.associations) {
-    block += "<action localId=\"0\" qualifier=\"" + std::string(kWords[a.qualifier]) + "\"";
+    block += "<action localId=\"0\" qualifier=\"" + std::string(kKeywords[a.qualifier]) + "\"";
     if (a.qualifier == kL || a.qualifier == kD || a.qualifier >= kSD)
       block += " duration=\"T#" + std::to_string(chart_.times_ms[a.action]) + "ms\"";
     block += "><reference name=\"" + actionName(a.action) + "\"/></action>";

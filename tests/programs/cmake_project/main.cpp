@@ -13,10 +13,10 @@ namespace {
 void* field(const rung_module& module, rung_context& context, const char* name) {
   for (uint32_t s = 0; s < module.symbol_count; ++s) {
     const rung_symbol& symbol = module.symbols[s];
-    if (strcmp(module.text + symbol.name, "Main") != 0) continue;
+    if (strcmp(module.strings + symbol.name, "Main") != 0) continue;
     const rung_type& type = module.types[symbol.type];
     for (uint32_t f = type.first; f < type.first + type.count; ++f)
-      if (strcmp(module.text + module.fields[f].name, name) == 0)
+      if (strcmp(module.strings + module.fields[f].name, name) == 0)
         return static_cast<char*>(context.blocks[symbol.block]) + symbol.offset + module.fields[f].offset;
   }
   return nullptr;

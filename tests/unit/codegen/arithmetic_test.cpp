@@ -101,7 +101,7 @@ namespace plc_ {
 )" + prototypes + "}\n" + rows +
                                "};\nint main() {\n" + calls + "  return wrong != 0;\n}\n";
     const NativeResult result = runNatively(module, driver, flags);
-    EXPECT_TRUE(result.good);
+    EXPECT_TRUE(result.ok);
     EXPECT_EQ(result.output.substr(0, 2000), "");
   }
 
@@ -132,7 +132,7 @@ TEST_F(ArithmeticTest, OperatorsAgreeWithTheKernel) {
       const bool binary = types::operandCount(op) == 2;
       const TypeId right = !binary ? TypeId{} : is_shift ? types::kInt : type;
       const TypeId result = types::isComparison(op) ? types::kBool : type;
-      const std::string name = std::string(types::word(op)) + "_" + types.spell(type);
+      const std::string name = std::string(types::word(op)) + "_" + types.toString(type);
       function(name, type, right, result, [&](ir::Builder& b, uint32_t x, uint32_t y) {
         return binary ? b.binary(op, b.localPlace(x), b.localPlace(y)) : b.unary(op, b.localPlace(x));
       });
@@ -161,7 +161,7 @@ TEST_F(ArithmeticTest, ConversionsAgreeWithTheKernel) {
   for (size_t s = 1; s < targets.size(); ++s) {
     for (TypeId to : targets) {
       const TypeId from = targets[s];
-      const std::string name = types.spell(from) + "_TO_" + types.spell(to);
+      const std::string name = types.toString(from) + "_TO_" + types.toString(to);
       function(name, from, {}, to,
                [&](ir::Builder& b, uint32_t x, uint32_t) { return b.convert(to, b.localPlace(x)); });
       for (uint64_t x : valuesOf(types.kind(from))) {
@@ -178,7 +178,7 @@ TEST_F(ArithmeticTest, ChainsAreCutAtTheirWidth) {
   for (TypeKind kind : {TypeKind::SInt, TypeKind::Int, TypeKind::UInt, TypeKind::DInt, TypeKind::UDInt, TypeKind::LInt,
                         TypeKind::Time}) {
     const TypeId type = types::idOf(kind);
-    const std::string name = "chain_" + types.spell(type);
+    const std::string name = "chain_" + types.toString(type);
     function(name, type, type, type, [&](ir::Builder& b, uint32_t x, uint32_t y) {
       const ir::ExprId product =
           b.binary(Op::Mul, b.binary(Op::Add, b.localPlace(x), b.integer(type, 5)), b.localPlace(y));

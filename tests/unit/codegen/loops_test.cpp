@@ -15,17 +15,17 @@ using types::TypeKind;
 using types::TypeTable;
 
 struct Outcome {
-  int turns = 0;
+  int iterations = 0;
   __int128 last = 0;
 };
 
-constexpr int kMostTurns = 100;
+constexpr int kMaxIterations = 100;
 
 Outcome simulate(__int128 from, __int128 to, __int128 step, __int128 low, __int128 high) {
   Outcome out;
   out.last = from;
-  while ((step > 0 ? out.last <= to : out.last >= to) && out.turns < kMostTurns) {
-    if (++out.turns == kMostTurns) return out;
+  while ((step > 0 ? out.last <= to : out.last >= to) && out.iterations < kMaxIterations) {
+    if (++out.iterations == kMaxIterations) return out;
     out.last += step;
     if (out.last > high || out.last < low) {
       out.last = step > 0 ? high : low;
@@ -35,7 +35,7 @@ Outcome simulate(__int128 from, __int128 to, __int128 step, __int128 low, __int1
   return out;
 }
 
-TEST(For, TurnsAndLastValue) {
+TEST(For, IterationsAndLastValue) {
   Names names;
   Sources sources;
   TypeTable types(names, 8);
@@ -57,7 +57,7 @@ TEST(For, TurnsAndLastValue) {
                           Case{low, low + 3, 2}, Case{3, 9, -1}, Case{high - 3, high - 1, 1}}) {
       for (int form = 0; form < 3;
            ++form) {  // 0: constant bounds, 1: bounds from inputs, 2: the body writes the control
-        const std::string name = "f" + std::to_string(number++) + "_" + types.spell(type);
+        const std::string name = "f" + std::to_string(number++) + "_" + types.toString(type);
         ir::Body& body = module.bodies.emplace_back();
         body.name = body.spelling = names.intern(name);
         body.result = types::kInt;
@@ -65,16 +65,16 @@ TEST(For, TurnsAndLastValue) {
         const uint32_t from = b.local(names.intern("a"), type, ir::LocalKind::Input);
         const uint32_t to = b.local(names.intern("b"), type, ir::LocalKind::Input);
         const uint32_t last = b.local(names.intern("last"), type, ir::LocalKind::Output);
-        const uint32_t turns = b.local(names.intern("turns"), types::kInt, ir::LocalKind::Result);
+        const uint32_t iterations = b.local(names.intern("turns"), types::kInt, ir::LocalKind::Result);
         const uint32_t control = b.local(names.intern("i"), type, ir::LocalKind::Variable);
         b.open();
-        b.assign(b.localPlace(turns), b.integer(types::kInt, 0));
+        b.assign(b.localPlace(iterations), b.integer(types::kInt, 0));
         ir::Block outer = b.open();
-        b.assign(b.localPlace(turns), b.binary(Op::Add, b.localPlace(turns), b.integer(types::kInt, 1)));
+        b.assign(b.localPlace(iterations), b.binary(Op::Add, b.localPlace(iterations), b.integer(types::kInt, 1)));
         ir::Block inner = b.open();
         b.breakLoop();
         const ir::StmtId stop = b.close(inner);
-        b.ifElse(b.binary(Op::Ge, b.localPlace(turns), b.integer(types::kInt, kMostTurns)), stop);
+        b.ifElse(b.binary(Op::Ge, b.localPlace(iterations), b.integer(types::kInt, kMaxIterations)), stop);
         if (form == 2) b.assign(b.localPlace(control), b.localPlace(control));
         const ir::StmtId loop = b.close(outer);
         auto bound = [&](__int128 value, uint32_t local) {
@@ -92,15 +92,15 @@ TEST(For, TurnsAndLastValue) {
         appendConstant(y, types, type, static_cast<uint64_t>(c.to));
         appendConstant(z, types, type, static_cast<uint64_t>(expected.last));
         calls += "  { " + c_type + " last = 0; int turns = plc_::" + mangle(name) + "fn(&ctx, " + x + ", " + y +
-                 ", &last); if (turns != " + std::to_string(expected.turns) + " || last != " + z + ") { printf(\"" +
-                 name + ": form " + std::to_string(form) + ", %d turns, last %lld; not " +
-                 std::to_string(expected.turns) + " and " + z + "\\n\", turns, (long long)last); wrong = 1; } }\n";
+                 ", &last); if (turns != " + std::to_string(expected.iterations) + " || last != " + z +
+                 ") { printf(\"" + name + ": form " + std::to_string(form) + ", %d turns, last %lld; not " +
+                 std::to_string(expected.iterations) + " and " + z + "\\n\", turns, (long long)last); wrong = 1; } }\n";
       }
     }
   }
   driver += "}\nint main() {\n  rung_context ctx = {}; int wrong = 0;\n" + calls + "  return wrong;\n}\n";
   const NativeResult result = runNatively(module, driver, "-O1 -fsanitize=undefined -fno-sanitize-recover=undefined");
-  EXPECT_TRUE(result.good);
+  EXPECT_TRUE(result.ok);
   EXPECT_EQ(result.output.substr(0, 3000), "");
 }
 

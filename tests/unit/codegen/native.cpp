@@ -22,7 +22,7 @@ NativeResult command(const std::string& line) {
   std::array<char, 4096> buffer;
   for (size_t got; (got = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) result.output.append(buffer.data(), got);
   const int status = pclose(pipe);
-  result.good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  result.ok = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   return result;
 }
 
@@ -46,7 +46,7 @@ NativeResult runNatively(const ir::Module& module, const std::string& driver, co
                      "-ffp-contract=off " +
                      flags + " -I. -I" RUNG_INCLUDE + sources + " " RUNG_RUNTIME " -o program");
   }
-  if (result.good) result = command(folder + "/program");
+  if (result.ok) result = command(folder + "/program");
   std::filesystem::remove_all(folder);
   return result;
 }

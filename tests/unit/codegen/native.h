@@ -9,7 +9,7 @@
 namespace rung::codegen {
 
 struct NativeResult {
-  bool good = false;
+  bool ok = false;
   std::string output;
 };
 // `flags`: of the compiler, besides the strict ones.

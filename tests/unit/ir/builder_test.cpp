@@ -60,12 +60,12 @@ TEST_F(BuilderTest, TempsOfASecondBuilderGoOn) {
   b.temp(types::kInt);
   Builder second(module, body);
   const uint32_t t = second.temp(types::kReal);
-  EXPECT_EQ(names.text(body.locals[t].name), "t2");
+  EXPECT_EQ(names.string(body.locals[t].name), "t2");
 }
 
 TEST(Walk, VisitsOperandsBeforeNodesLeftToRight) {
   TestModule m("function @f { in x: int; in y: int; result int }\nbody @f { return add int (mul int x, 2), y }\n");
-  ASSERT_TRUE(m.good) << m.errors();
+  ASSERT_TRUE(m.ok) << m.errors();
   Body& body = *m.find("f");
   std::string order;
   forEachStmt(body, body.first, [&](StmtId id) {

@@ -128,7 +128,7 @@ class Machine {
       }
       case ExprKind::Call: return call(m_.body(BodyId{e.a}), e.b, e.c);
       case ExprKind::None:
-      case ExprKind::Text:
+      case ExprKind::String:
       case ExprKind::Data:
       case ExprKind::Zero:
       case ExprKind::Self:
@@ -176,7 +176,7 @@ class Machine {
     return given;
   }
 
-  Flow turn(StmtId body, bool& leave) {
+  Flow iterate(StmtId body, bool& leave) {
     leave = false;
     const Flow flow = block(body);
     if (flow == Flow::Break) leave = true;
@@ -240,7 +240,7 @@ class Machine {
       case StmtKind::Loop:
         for (bool leave = false;;) {
           if (++steps_ > kMaxSteps) return stop("the run does not end");
-          Flow flow = turn(StmtId{s.a}, leave);
+          Flow flow = iterate(StmtId{s.a}, leave);
           if (flow != Flow::Next || leave) return flow;
           flow = block(StmtId{s.b});
           if (flow != Flow::Next) return flow == Flow::Break ? Flow::Next : flow;
@@ -254,7 +254,7 @@ class Machine {
         control->bits = from.bits;
         while (by > 0 ? control->asSigned() <= to.asSigned() : control->asSigned() >= to.asSigned()) {
           bool leave = false;
-          const Flow flow = turn(StmtId{s.e}, leave);
+          const Flow flow = iterate(StmtId{s.e}, leave);
           if (flow != Flow::Next || leave) return flow;
           const types::Outcome next =
               types::apply(t_, m_.names, types::Op::Add, *control, Value{control->type, static_cast<uint64_t>(by)});

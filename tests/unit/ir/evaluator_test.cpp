@@ -10,7 +10,7 @@ namespace {
 
 RunResult runText(const std::string& text, std::vector<int64_t> arguments) {
   TestModule m(text);
-  EXPECT_TRUE(m.good) << m.errors();
+  EXPECT_TRUE(m.ok) << m.errors();
   std::vector<types::Value> values;
   for (int64_t a : arguments) values.push_back({types::kInt, static_cast<uint64_t>(a)});
   return run(m.module, *m.find("f"), values);
@@ -52,7 +52,7 @@ TEST(Evaluator, JumpsFindTheirLabel) {
   EXPECT_EQ(r.value.asSigned(), 10);
 }
 
-TEST(Evaluator, EndlessRunsAreTold) {
+TEST(Evaluator, EndlessRunsAreReported) {
   EXPECT_NE(runText("function @f { in n: int; result int }\nbody @f { loop { } }\n", {0}).trouble, "");
 }
 

@@ -83,7 +83,7 @@ class Golden {
     bad_ = false;
     ReadResult read = readFile(path);
     if (!read.error.empty()) return fail(read.error);
-    text_ = read.text;
+    text_ = read.content;
     std::vector<std::string> lines = linesOf(text_), out;
     std::vector<Run> runs;
     if (lines.empty() || lines[0].rfind("; ", 0) != 0) fail("line 1 is not the purpose");
@@ -157,7 +157,7 @@ class Golden {
   // Reads the module anew, runs the passes over all bodies, checks the run lines; gives the body of `function`.
   std::string afterPasses(const std::string& passes, const std::string& function, const std::vector<Run>& runs) {
     TestModule m(text_, path_);
-    if (!m.good) return m.errors();
+    if (!m.ok) return m.errors();
     size_t from = 0;
     while (from < passes.size()) {
       const size_t plus = std::min(passes.find('+', from), passes.size());
@@ -187,7 +187,7 @@ class Golden {
 
   void checkRuns(const std::string& passes, const std::vector<Run>& runs) {
     TestModule m(text_, path_);
-    if (!m.good) return fail("\n" + m.errors());
+    if (!m.ok) return fail("\n" + m.errors());
     if (verified(m.module, "as written")) checkRunsIn(m, "as written" + passes, runs);
   }
 
@@ -224,7 +224,7 @@ class Golden {
     } else {
       const bool wants_fault = one.expected.rfind("fault", 0) == 0;
       if (!wants_fault && literal(one.expected, value.type, m.types).bits == value.bits) return;
-      given = types::spell(m.types, m.names, value);
+      given = types::toString(m.types, m.names, value);
     }
     if (given != one.expected) fail(when + ": " + one.text + "\n  gives " + given);
   }

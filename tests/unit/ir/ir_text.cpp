@@ -6,14 +6,14 @@ namespace rung::ir {
 TestModule::TestModule(std::string text, std::string path)
     : diagnostics(sources), types(names, 8), module(types, names, sources) {
   FileId file = sources.add(std::move(path), std::move(text));
-  good = parse(sources, file, module, diagnostics);
+  ok = parse(sources, file, module, diagnostics);
 }
 
 std::string TestModule::errors() const {
   std::string out;
   for (const Diagnostic& d : diagnostics.all()) {
-    Place place = sources.place(d.loc);
-    out += std::to_string(place.line) + ":" + std::to_string(place.column) + " " + diagInfo(d.diag).code + " " +
+    SourceLocation location = sources.location(d.loc);
+    out += std::to_string(location.line) + ":" + std::to_string(location.column) + " " + diagInfo(d.diag).code + " " +
            d.message + "\n";
   }
   return out;
@@ -21,7 +21,8 @@ std::string TestModule::errors() const {
 
 Body* TestModule::find(std::string_view name) {
   for (size_t i = 1; i < module.bodies.size(); ++i)
-    if (names.text(module.bodies[i].name) == name && module.bodies[i].kind != BodyKind::Init) return &module.bodies[i];
+    if (names.string(module.bodies[i].name) == name && module.bodies[i].kind != BodyKind::Init)
+      return &module.bodies[i];
   return nullptr;
 }
 

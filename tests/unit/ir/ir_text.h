@@ -15,7 +15,7 @@ struct TestModule {
   Diagnostics diagnostics;
   types::TypeTable types;
   Module module;
-  bool good;
+  bool ok;
 
   std::string errors() const;         // one line each: line:column code message
   Body* find(std::string_view name);  // function or block

@@ -157,7 +157,7 @@ TEST(Passes, RandomFunctionsMeanTheSame) {
   for (uint32_t seed = 1; seed <= 400; ++seed) {
     const std::string text = Writer(seed).function();
     TestModule before(text), after(text);
-    ASSERT_TRUE(before.good) << before.errors() << text;
+    ASSERT_TRUE(before.ok) << before.errors() << text;
     for (const std::string& line : verify(before.module)) FAIL() << line << "\n" << text;
     std::string history;
     for (int round = 0; round < 2; ++round) {
@@ -205,7 +205,7 @@ TEST(Passes, TimeIsNearLinear) {
     }
     text += "}\n";
     TestModule m(text);
-    EXPECT_TRUE(m.good);
+    EXPECT_TRUE(m.ok);
     const std::clock_t start = std::clock();
     optimize(m.module, 1, [](const Pass&, Body&) {});
     return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -221,7 +221,7 @@ TEST(Passes, DeepNestingIsNoTrouble) {
   for (int i = 0; i < 900; ++i) text += "}\n";
   text += "return k }\n";
   TestModule m(text);
-  ASSERT_TRUE(m.good) << m.errors();
+  ASSERT_TRUE(m.ok) << m.errors();
   optimize(m.module, 1, [](const Pass&, Body&) {});
   EXPECT_TRUE(verify(m.module).empty());
 }

@@ -18,7 +18,7 @@ std::string verified(const Module& module) {
 // Text that is already in printed form: reads without error, verifies, and prints to the byte.
 void expectStable(const std::string& text) {
   TestModule first(text);
-  ASSERT_TRUE(first.good) << first.errors();
+  ASSERT_TRUE(first.ok) << first.errors();
   EXPECT_EQ(verified(first.module), "");
   EXPECT_EQ(print(first.module), text);
 }
@@ -78,7 +78,7 @@ void expectStatements(const std::string& statements) {
   size_t at = text.find("`tür`");
   text.replace(at, std::string("`tür`").size(), "`t$C3$BCr`");
   TestModule needed(text);
-  ASSERT_TRUE(needed.good) << needed.errors();
+  ASSERT_TRUE(needed.ok) << needed.errors();
   // Types are declared in order of use; only the body is compared here.
   Body* body = needed.find("f");
   ASSERT_NE(body, nullptr);
@@ -87,7 +87,7 @@ void expectStatements(const std::string& statements) {
   EXPECT_EQ(verified(needed.module), "");
   std::string whole = print(needed.module);
   TestModule again(whole);
-  ASSERT_TRUE(again.good) << again.errors() << whole;
+  ASSERT_TRUE(again.ok) << again.errors() << whole;
   EXPECT_EQ(print(again.module), whole);
 }
 
@@ -108,7 +108,7 @@ TEST(IrText, OneLineFormReads) {
   TestModule module(
       "block @Ramp \"ramp.st\":1 { in up: bool; in step: real; out y: real }\n"
       "body @Ramp { if up { y = add real y, step } else { y = 0.0 } }\n");
-  ASSERT_TRUE(module.good) << module.errors();
+  ASSERT_TRUE(module.ok) << module.errors();
   EXPECT_EQ(squeeze(print(module.module, *module.find("Ramp"))),
             "body @Ramp { if up { y = add real y, step } else { y = 0.0 } }");
 }
@@ -277,7 +277,7 @@ TEST(IrText, Statements) {
       "return\n");
 }
 
-TEST(IrText, ShadowedFieldsAreSpelledOut) {
+TEST(IrText, ShadowedFieldsAreQualified) {
   expectStable(
       "block @B { x: int; y: int }\n"
       "\n"
@@ -289,7 +289,7 @@ TEST(IrText, ShadowedFieldsAreSpelledOut) {
       "}\n");
 }
 
-TEST(IrText, TypesOfOneNameAreTold) {
+TEST(IrText, TypesOfOneNameAreReported) {
   // Two blocks with a local enumeration each: the second is `@State.2`.
   Names names;
   Sources sources;
@@ -297,12 +297,12 @@ TEST(IrText, TypesOfOneNameAreTold) {
   Module module(types, names, sources);
   const NameId state = names.intern("State");
   for (int i = 0; i < 2; ++i) {
-    const TypeId made = types.addEnum(state, types::kInt);
-    types.edit(made).items.emplace_back(names.intern("Off"), i);
+    const TypeId created = types.addEnum(state, types::kInt);
+    types.edit(created).items.emplace_back(names.intern("Off"), i);
     const TypeId record = types.addRecord(types::RecordKind::Struct, names.intern(i == 0 ? "A" : "B"));
     types::Field field;
     field.name = names.intern("s");
-    field.type = made;
+    field.type = created;
     types.edit(record).fields.push_back(field);
     types.layout(record);
     Record listed;
@@ -317,7 +317,7 @@ TEST(IrText, TypesOfOneNameAreTold) {
             "struct @A { s: @State }\n"
             "struct @B { s: @State.2 }\n");
   TestModule again(text);
-  ASSERT_TRUE(again.good) << again.errors();
+  ASSERT_TRUE(again.ok) << again.errors();
   EXPECT_EQ(print(again.module), text);
 }
 
@@ -325,7 +325,7 @@ TEST(IrText, TypesOfOneNameAreTold) {
 
 std::string errorsOf(const std::string& text) {
   TestModule module(text);
-  EXPECT_FALSE(module.good);
+  EXPECT_FALSE(module.ok);
   return module.errors();
 }
 

@@ -37,7 +37,7 @@ void expectOnly(int rule, const std::vector<std::string>& problems) {
 
 void expectBroken(int rule, const std::string& text) {
   TestModule m(text);
-  ASSERT_TRUE(m.good) << m.errors();
+  ASSERT_TRUE(m.ok) << m.errors();
   expectOnly(rule, verify(m.module));
 }
 void expectStatementBroken(int rule, const std::string& statements) { expectBroken(rule, withStatements(statements)); }
@@ -46,7 +46,7 @@ void expectStatementBroken(int rule, const std::string& statements) { expectBrok
 template <class F>
 void expectBrokenBy(int rule, const std::string& statements, F&& change) {
   TestModule m(withStatements(statements));
-  ASSERT_TRUE(m.good) << m.errors();
+  ASSERT_TRUE(m.ok) << m.errors();
   ASSERT_TRUE(verify(m.module).empty()) << verify(m.module)[0];
   change(m, *m.find("f"));
   expectOnly(rule, verify(m.module));
@@ -61,7 +61,7 @@ Expr& firstOf(Body& body, ExprKind kind) {
 
 TEST(Verify, GoodModuleHasNoProblems) {
   TestModule m(withStatements("  w = 3\n  s = string[20]#'text'\n  call @Ramp on ramp\n  bind ramp.level = r"));
-  ASSERT_TRUE(m.good) << m.errors();
+  ASSERT_TRUE(m.ok) << m.errors();
   for (const std::string& line : verify(m.module)) ADD_FAILURE() << line;
 }
 
@@ -183,9 +183,9 @@ TEST(Verify, Rule31Dispatch) {
     return "function @go faults { inout b: @Base }\nbody @go { call " + how + "(1) on b }\n";
   };
   const std::string classes = "classes @Base, @Pump of @Base\n";
-  TestModule good(base + classes + "dispatch @Base__Run from 1: @Base__Run, _\n" + call("virtual @Base__Run"));
-  ASSERT_TRUE(good.good) << good.errors();
-  EXPECT_TRUE(verify(good.module).empty()) << verify(good.module)[0];
+  TestModule ok(base + classes + "dispatch @Base__Run from 1: @Base__Run, _\n" + call("virtual @Base__Run"));
+  ASSERT_TRUE(ok.ok) << ok.errors();
+  EXPECT_TRUE(verify(ok.module).empty()) << verify(ok.module)[0];
   expectBroken(31, base + "classes @Pump of @Base, @Base\n");
   expectBroken(31, base + classes + "dispatch @Base__Run from 2: @Base__Run, @Base__Run\n");
   expectBroken(31, base + classes + "dispatch @Base__Run from 1: @Base__Run, @Pump__Run\n" +

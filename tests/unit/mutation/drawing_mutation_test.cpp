@@ -90,12 +90,12 @@ std::vector<std::string> programs() {
     for (const auto& entry : fs::directory_iterator(std::string(RUNG_SOURCE_ROOT "/tests/conformance/") + folder))
       paths.push_back(entry.path().string());
     std::sort(paths.begin(), paths.end());
-    for (const std::string& path : paths) all.push_back(readFile(path).text);
+    for (const std::string& path : paths) all.push_back(readFile(path).content);
   }
   return all;
 }
 
-TEST(DrawingMutation, spoilt_drawings_give_well_formed_files) {
+TEST(DrawingMutation, corrupted_drawings_give_well_formed_files) {
   std::mt19937 random(numberFrom("RUNG_MUTATION_SEED", 1131));
   const uint32_t count = numberFrom("RUNG_MUTATION_COUNT", 400);
   const std::vector<std::string> all = programs();

@@ -67,7 +67,7 @@ const std::vector<sema::LibraryFile>& libraryFiles() {
       for (const std::string& path : paths) {
         texts.push_back(std::make_unique<std::string>(path));
         const char* name = texts.back()->c_str();
-        texts.push_back(std::make_unique<std::string>(readFile(path).text));
+        texts.push_back(std::make_unique<std::string>(readFile(path).content));
         list.push_back({library, name, *texts.back()});
       }
     };
@@ -124,7 +124,7 @@ std::vector<Piece> piecesOf(const std::string& program) {
     if (token.kind == Tok::End) break;
     const Loc loc{sources.begin(file).offset + token.offset};
     const bool named = text::isName(token.kind) || text::isTypeWord(token.kind);
-    const auto length = named ? static_cast<uint32_t>(names.text({token.value}).size()) : token.value;
+    const auto length = named ? static_cast<uint32_t>(names.string({token.value}).size()) : token.value;
     pieces.push_back({token.offset, length, sources.lineNumber(loc), token.kind});
   }
   return pieces;
@@ -189,7 +189,7 @@ void spoil(std::span<const char* const> paths, uint32_t seed, uint32_t count, do
   std::vector<std::string> programs;
   std::vector<std::vector<Piece>> pieces;
   for (const char* path : paths) {
-    programs.push_back(readFile(std::string(RUNG_SOURCE_ROOT "/") + path).text);
+    programs.push_back(readFile(std::string(RUNG_SOURCE_ROOT "/") + path).content);
     pieces.push_back(piecesOf(programs.back()));
     ASSERT_FALSE(pieces.back().empty()) << path;
     ASSERT_EQ(check(programs.back()).messages, "") << path;
@@ -218,7 +218,7 @@ void spoil(std::span<const char* const> paths, uint32_t seed, uint32_t count, do
   EXPECT_LE(average, most_errors);
 }
 
-TEST(Mutation, one_error_on_the_line_of_the_wrong_token) { spoil(kPrograms, 1131, 300, 90.0, 1.1); }
+TEST(Mutation, one_error_on_the_line_of_the_unexpected_token) { spoil(kPrograms, 1131, 300, 90.0, 1.1); }
 TEST(Mutation, one_error_in_instruction_lists) { spoil(kInstructionLists, 1132, 300, 90.0, 1.1); }
 TEST(Mutation, one_error_in_charts) { spoil(kCharts, 1133, 300, 90.0, 1.1); }
 

@@ -30,7 +30,7 @@ const std::vector<sema::LibraryFile>& libraryFiles() {
     for (const std::string& path : paths) {
       texts.push_back(std::make_unique<std::string>(path));
       const char* name = texts.back()->c_str();
-      texts.push_back(std::make_unique<std::string>(readFile(path).text));
+      texts.push_back(std::make_unique<std::string>(readFile(path).content));
       list.push_back({"Standard", name, *texts.back()});
     }
     return list;
@@ -68,7 +68,8 @@ std::vector<std::string> programs() {
       if (entry.path().extension() == ".st") paths.push_back(entry.path().string());
     std::sort(paths.begin(), paths.end());
     for (const std::string& path : paths)
-      if (const std::string text = readFile(path).text; text.find("{network") != std::string::npos) all.push_back(text);
+      if (const std::string text = readFile(path).content; text.find("{network") != std::string::npos)
+        all.push_back(text);
   }
   return all;
 }
@@ -99,7 +100,7 @@ const char* const kXml = R"(<?xml version="1.0" encoding="utf-8"?>
 
 // ---- cut off, and spoilt
 
-TEST(NetworkMutation, what_is_cut_off_inside_a_network_is_told) {
+TEST(NetworkMutation, what_is_cut_off_inside_a_network_is_reported) {
   uint32_t cuts = 0;
   for (const std::string& program : programs()) {
     const size_t begin = program.find("{network"), end = program.find("END_FUNCTION_BLOCK", begin);
@@ -119,7 +120,7 @@ TEST(NetworkMutation, xml_that_is_cut_off_gives_one_error) {
   for (size_t at = 40; at < end; at += 11) EXPECT_EQ(errorsIn(text.substr(0, at), true), 1u) << text.substr(0, at);
 }
 
-TEST(NetworkMutation, spoilt_networks_are_checked_to_the_end) {
+TEST(NetworkMutation, corrupted_networks_are_checked_to_the_end) {
   std::mt19937 random(numberFrom("RUNG_MUTATION_SEED", 1131));
   const uint32_t count = numberFrom("RUNG_MUTATION_COUNT", 300);
   const std::vector<std::string> all = programs();

@@ -55,7 +55,7 @@ TEST(Chart, random_charts_are_readable) {
     std::vector<Rect> boxes;
     for (const ChartNode& node : plan.nodes) boxes.push_back(node.area.at(node.origin));
     for (const ChartJump& jump : plan.jumps) {
-      const int32_t width = textWidth(drawn.names.text(jump.step));
+      const int32_t width = textWidth(drawn.names.string(jump.step));
       boxes.push_back({jump.at.x - width / 2, jump.at.y, width, kJumpHeight - 4});
     }
     for (size_t i = 0; i < boxes.size(); ++i) {
@@ -92,14 +92,14 @@ TEST(Chart, random_charts_are_readable) {
     for (size_t k = steps.size(); k < plan.nodes.size(); ++k) {
       const SfcTransition& t = drawn.tree.list(pou.transitions)[plan.nodes[k].index];
       for (const Ident& from : drawn.tree.list(t.from))
-        EXPECT_TRUE(leads(stepNode(from), plan.nodes[k], t.target.name)) << drawn.names.text(t.name.name) << "\n"
+        EXPECT_TRUE(leads(stepNode(from), plan.nodes[k], t.target.name)) << drawn.names.string(t.name.name) << "\n"
                                                                          << source;
       for (const Ident& to : drawn.tree.list(t.to))
-        EXPECT_TRUE(leads(plan.nodes[k], stepNode(to), to.name)) << drawn.names.text(t.name.name) << "\n" << source;
+        EXPECT_TRUE(leads(plan.nodes[k], stepNode(to), to.name)) << drawn.names.string(t.name.name) << "\n" << source;
     }
     const std::string svg = drawChart(drawn.tree, drawn.names, pou, "p");
     for (const SfcStep& step : steps)
-      EXPECT_NE(std::string::npos, svg.find(">" + std::string(drawn.names.text(step.name.name)) + "<"));
+      EXPECT_NE(std::string::npos, svg.find(">" + std::string(drawn.names.string(step.name.name)) + "<"));
     if (HasFailure()) return;
   }
 }
@@ -120,10 +120,10 @@ TEST(Chart, branches_stand_side_by_side_and_meet_below) {
   EXPECT_GT(n[3].origin.y, n[1].origin.y);
   EXPECT_EQ(2, std::count_if(plan.lines.begin(), plan.lines.end(), [](const ChartLine& line) { return line.doubled; }));
   ASSERT_EQ(1u, plan.jumps.size());
-  EXPECT_EQ("s0", drawn.names.text(plan.jumps[0].step));
+  EXPECT_EQ("s0", drawn.names.string(plan.jumps[0].step));
 }
 
-TEST(Chart, places_of_the_file_are_taken) {
+TEST(Chart, positions_of_the_file_are_taken) {
   const std::string actions = "a(N); a(N); a(N);";
   const auto source = [&](int32_t x_of_s2) {
     return "PROGRAM p\nVAR a : BOOL; END_VAR\nINITIAL_STEP s0 AT 200, 0, 60, 30: END_STEP\nSTEP s1 AT 100, 100, 60, "
@@ -138,7 +138,7 @@ TEST(Chart, places_of_the_file_are_taken) {
   };
   const Drawn drawn(source(300));
   ChartPlan plan = measureChart(drawn.tree, drawn.names, *drawn.pou);
-  ASSERT_TRUE(takeChartPlaces(drawn.tree, drawn.names, *drawn.pou, plan));
+  ASSERT_TRUE(takeChartPositions(drawn.tree, drawn.names, *drawn.pou, plan));
   const auto& n = plan.nodes;
   // The middles of steps and transitions that the file has in a column still are; s0 is right of s1 and left of s2.
   EXPECT_EQ(n[1].origin.x, n[3].origin.x);
@@ -152,17 +152,17 @@ TEST(Chart, places_of_the_file_are_taken) {
   // s2 below s1's transition: the line from the other branch would run through nothing, and both meet.
   const Drawn moved(source(100));
   ChartPlan other = measureChart(moved.tree, moved.names, *moved.pou);
-  ASSERT_TRUE(takeChartPlaces(moved.tree, moved.names, *moved.pou, other));
+  ASSERT_TRUE(takeChartPositions(moved.tree, moved.names, *moved.pou, other));
   EXPECT_EQ(other.nodes[1].origin.x, other.nodes[2].origin.x);
 }
 
-TEST(Chart, a_chart_without_usable_places_is_laid_out) {
+TEST(Chart, a_chart_without_usable_positions_is_laid_out) {
   for (const char* places : {"", " AT 0, 0"}) {  // none; what CODESYS writes
     const std::string at = places;
     const Drawn drawn("PROGRAM p\nVAR a : BOOL; END_VAR\nINITIAL_STEP s0" + at + ": END_STEP STEP s1" + at +
                       ": END_STEP\nTRANSITION" + at + " FROM s0 TO s1 := a; END_TRANSITION\nEND_PROGRAM\n");
     ChartPlan plan = measureChart(drawn.tree, drawn.names, *drawn.pou);
-    EXPECT_FALSE(takeChartPlaces(drawn.tree, drawn.names, *drawn.pou, plan));
+    EXPECT_FALSE(takeChartPositions(drawn.tree, drawn.names, *drawn.pou, plan));
     planChart(drawn.tree, drawn.names, *drawn.pou, plan);
     EXPECT_LT(plan.nodes[0].origin.y, plan.nodes[2].origin.y);
     EXPECT_LT(plan.nodes[2].origin.y, plan.nodes[1].origin.y);

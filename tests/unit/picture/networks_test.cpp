@@ -22,7 +22,7 @@ std::string randomNetworks(uint32_t seed, const char* language, bool placed) {
     out += placed ? "rail 1 AT 0, 0, 3, 100;\n" : "rail 1;\n";
     bits.push_back(1);
   }
-  const auto place = [&](uint32_t k) {
+  const auto positionOf = [&](uint32_t k) {
     if (!placed) return std::string();
     return " AT " + std::to_string(20 + k * 37 % 400) + ", " + std::to_string(k * 53 % 300) + ", 21, 15";
   };
@@ -35,7 +35,7 @@ std::string randomNetworks(uint32_t seed, const char* language, bool placed) {
     return text;
   };
   for (uint32_t k = 2; k < count + 2; ++k) {
-    const std::string n = std::to_string(k), at = place(k);
+    const std::string n = std::to_string(k), at = positionOf(k);
     switch (random.below(ladder ? 8 : 5)) {
       case 0:
       case 1:
@@ -70,7 +70,7 @@ void checkPlan(const Plan& plan, const std::string& source) {
   std::vector<Segment> others;
   for (size_t i = 0; i < plan.items.size(); ++i)
     for (size_t k = 0; k < i; ++k)
-      EXPECT_FALSE(plan.items[i].place().overlaps(plan.items[k].place())) << i << " and " << k << "\n" << source;
+      EXPECT_FALSE(plan.items[i].bounds().overlaps(plan.items[k].bounds())) << i << " and " << k << "\n" << source;
   for (const Net& net : plan.nets) {
     std::vector<Segment> lines;
     for (const std::vector<Point>& line : net.lines)
@@ -78,19 +78,19 @@ void checkPlan(const Plan& plan, const std::string& source) {
     for (const Segment& line : lines) {
       EXPECT_TRUE(line.a.x == line.b.x || line.a.y == line.b.y);
       for (const Item& item : plan.items)
-        EXPECT_FALSE(line.cuts(item.place())) << "a wire through element " << item.element << "\n" << source;
+        EXPECT_FALSE(line.cuts(item.bounds())) << "a wire through element " << item.element << "\n" << source;
     }
     std::vector<End> ends = net.sources;
     ends.insert(ends.end(), net.targets.begin(), net.targets.end());
     for (const End& end : ends)  // a rail connects what ends at it
       if (const int32_t length = plan.terminal(end).length; length > 0) {
-        const Point p = plan.place(end);
+        const Point p = plan.point(end);
         lines.push_back({p, {p.x, p.y + length}});
       }
     Connected all(lines);
-    const size_t group = all.groupAt(plan.place(ends[0]));
+    const size_t group = all.groupAt(plan.point(ends[0]));
     EXPECT_NE(all.none(), group);
-    for (const End& end : ends) EXPECT_EQ(group, all.groupAt(plan.place(end))) << "a pin without its wire\n" << source;
+    for (const End& end : ends) EXPECT_EQ(group, all.groupAt(plan.point(end))) << "a pin without its wire\n" << source;
   }
 }
 
@@ -117,7 +117,7 @@ TEST(Networks, random_networks_are_readable) {
 }
 
 // In the plan of one network: where the element with this number stands.
-Point placeOf(const Drawn& drawn, const Plan& plan, uint64_t number) {
+Point originOf(const Drawn& drawn, const Plan& plan, uint64_t number) {
   for (const Item& item : plan.items)
     if (item.element != kNone && drawn.tree.list(drawn.pou->diagram.elements)[item.element].number == number)
       return item.origin;
@@ -132,8 +132,8 @@ TEST(Networks, a_rung_stands_in_one_row_and_its_branch_below) {
       "PROGRAM p\n{network LD}\nrail 1; contact 2 (a) := 1; contact 3 (b) := 1; contact 4 (c) := 2 OR 3;\n"
       "coil 5 (d) := 4;\n{end_network}\nEND_PROGRAM\n");
   const Plan plan = plansOf(drawn)[0];
-  const Point a = placeOf(drawn, plan, 2), b = placeOf(drawn, plan, 3), c = placeOf(drawn, plan, 4),
-              d = placeOf(drawn, plan, 5);
+  const Point a = originOf(drawn, plan, 2), b = originOf(drawn, plan, 3), c = originOf(drawn, plan, 4),
+              d = originOf(drawn, plan, 5);
   EXPECT_EQ(a.y, c.y);
   EXPECT_EQ(a.y, d.y);
   EXPECT_EQ(a.x, b.x);
@@ -150,28 +150,28 @@ TEST(Networks, a_rung_stands_in_one_row_and_its_branch_below) {
     }
 }
 
-TEST(Networks, places_of_the_file_are_kept_and_moved_apart_only_where_names_need_it) {
+TEST(Networks, positions_of_the_file_are_kept_and_moved_apart_only_where_names_need_it) {
   const std::string begin = "PROGRAM p\n{network FBD}\n", end = "{end_network}\nEND_PROGRAM\n";
   const Drawn wide(begin + "input 1 (a) AT 10, 40, 40, 20; output 2 (b) AT 300, 40, 40, 20 := 1;\n" + end);
   const Plan plan = plansOf(wide)[0];
-  EXPECT_EQ(290, placeOf(wide, plan, 2).x - placeOf(wide, plan, 1).x);
-  EXPECT_EQ(placeOf(wide, plan, 2).y, placeOf(wide, plan, 1).y);
+  EXPECT_EQ(290, originOf(wide, plan, 2).x - originOf(wide, plan, 1).x);
+  EXPECT_EQ(originOf(wide, plan, 2).y, originOf(wide, plan, 1).y);
   const Drawn narrow(
       begin + "input 1 (a_name_that_needs_more_room) AT 10, 40, 40, 20; output 2 (b) AT 60, 40, 40, 20 := 1;\n" + end);
   const Plan moved = plansOf(narrow)[0];
-  EXPECT_GT(placeOf(narrow, moved, 2).x - placeOf(narrow, moved, 1).x, 50);
+  EXPECT_GT(originOf(narrow, moved, 2).x - originOf(narrow, moved, 1).x, 50);
   // CODESYS writes 0, 0 everywhere.
   const Drawn zero(begin +
                    "input 1 (a) AT 0, 0; input 3 (c) AT 0, 0; box 2 ADD AT 0, 0 [IN1 := 1, IN2 := 3, OUT =>];\n" + end);
   const Plan laid_out = plansOf(zero)[0];
-  EXPECT_LT(placeOf(zero, laid_out, 1).x, placeOf(zero, laid_out, 2).x);
+  EXPECT_LT(originOf(zero, laid_out, 1).x, originOf(zero, laid_out, 2).x);
   // Cells of a CFC editor are as high as a pin.
   const Drawn cells(
       "PROGRAM p\n{network CFC}\ninput 1 (a) AT 2, 3; input 2 (b) AT 2, 4;\n"
       "box 3 ADD AT 12, 2 [IN1 := 1, IN2 := 2, OUT =>];\n" +
       end);
   const Plan cell_plan = plansOf(cells)[0];
-  EXPECT_EQ(20, placeOf(cells, cell_plan, 2).y - placeOf(cells, cell_plan, 1).y);
+  EXPECT_EQ(20, originOf(cells, cell_plan, 2).y - originOf(cells, cell_plan, 1).y);
   for (const Net& net : cell_plan.nets) EXPECT_EQ(2u, net.lines[0].size()) << "straight into its pin";
 }
 
@@ -189,8 +189,10 @@ Wired wiredIn(const Plan& plan) {
   for (const Net& net : plan.nets)
     for (const End& from : net.sources)
       for (const End& to : net.targets) {
-        if (const uint32_t mark = plan.items[to.item].mark; mark != 0) into[mark].push_back(from);
-        if (const uint32_t mark = plan.items[from.item].mark; mark != 0) out_of[mark].push_back(to);
+        if (const uint32_t continuation = plan.items[to.item].continuation; continuation != 0)
+          into[continuation].push_back(from);
+        if (const uint32_t continuation = plan.items[from.item].continuation; continuation != 0)
+          out_of[continuation].push_back(to);
       }
   Wired all;
   const auto add = [&](const End& from, const End& to) {
@@ -199,13 +201,14 @@ Wired wiredIn(const Plan& plan) {
   for (const Net& net : plan.nets)
     for (const End& from : net.sources)
       for (const End& to : net.targets)
-        if (plan.items[from.item].mark == 0 && plan.items[to.item].mark == 0) add(from, to);
-  for (const auto& [mark, sources] : into) {
-    EXPECT_FALSE(out_of[mark].empty()) << "nothing goes on at mark " << mark;
+        if (plan.items[from.item].continuation == 0 && plan.items[to.item].continuation == 0) add(from, to);
+  for (const auto& [continuation, sources] : into) {
+    EXPECT_FALSE(out_of[continuation].empty()) << "nothing goes on at mark " << continuation;
     for (const End& from : sources)
-      for (const End& to : out_of[mark]) add(from, to);
+      for (const End& to : out_of[continuation]) add(from, to);
   }
-  for (const auto& [mark, targets] : out_of) EXPECT_FALSE(into[mark].empty()) << "nothing leads to mark " << mark;
+  for (const auto& [continuation, targets] : out_of)
+    EXPECT_FALSE(into[continuation].empty()) << "nothing leads to mark " << continuation;
   return all;
 }
 
@@ -260,11 +263,11 @@ TEST(Networks, a_rung_of_sixty_contacts_and_a_chain_of_forty_boxes_stay_on_the_p
         EXPECT_EQ(2u, line.size());
         rows.insert(line[0].y);
       }
-    uint32_t marks = 0;
-    for (const Item& item : plan.items) marks = std::max(marks, item.mark);
-    EXPECT_EQ(rows.size(), marks + 1);
-    EXPECT_GT(marks, 2u);
-    EXPECT_LT(marks, 8u);
+    uint32_t continuations = 0;
+    for (const Item& item : plan.items) continuations = std::max(continuations, item.continuation);
+    EXPECT_EQ(rows.size(), continuations + 1);
+    EXPECT_GT(continuations, 2u);
+    EXPECT_LT(continuations, 8u);
   }
 }
 

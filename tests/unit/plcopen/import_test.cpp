@@ -45,7 +45,7 @@ TEST(Plcopen, TypesOfEachKind) {
             "STRUCT\nx : BOOL;\nEND_STRUCT");
 }
 
-TEST(Plcopen, SectionsAndTheirWords) {
+TEST(Plcopen, SectionsAndTheirKeywords) {
   EXPECT_EQ(
       textOf(
           "<pou name='F' pouType='function'><interface><returnType><INT/></returnType>"
@@ -56,7 +56,7 @@ TEST(Plcopen, SectionsAndTheirWords) {
 }
 
 // A text without quotes is what Beremiz keeps (TC6 2.01); CODESYS keeps expressions.
-TEST(Plcopen, TextsWithoutQuotes) {
+TEST(Plcopen, StringsWithoutQuotes) {
   const std::string inner =
       "<pou name='P' pouType='program'><interface><localVars><variable name='s'><type><string/></type><initialValue>"
       "<simpleValue value='two words'/></initialValue></variable></localVars></interface></pou>";
@@ -84,18 +84,18 @@ TEST(Plcopen, PlainTextWins) {
   EXPECT_EQ(text, "PROGRAM P\nVAR_STAT n : INT; END_VAR\n;\nEND_PROGRAM\n");
 }
 
-TEST(Plcopen, PlacesAreThoseOfTheXml) {
+TEST(Plcopen, LocationsAreThoseOfTheXml) {
   const Reading reading(
       "<project xmlns='http://www.plcopen.org/xml/tc6_0200'>\n <pou name='P' pouType='program'>\n"
       "  <body><ST><p><![CDATA[one := 1;\n  two := 2;]]></p>three := 1 &lt;\n 2;</ST></body>\n </pou>\n</project>");
-  EXPECT_EQ(reading.placeOf("P"), "2:3");  // of PROGRAM
-  EXPECT_EQ(reading.placeOf("P\n"), "2:13");
-  EXPECT_EQ(reading.placeOf("one"), "3:25");
-  EXPECT_EQ(reading.placeOf("two"), "4:3");
-  EXPECT_EQ(reading.placeOf("three"), "4:19");
-  EXPECT_EQ(reading.placeOf("<"), "4:30");
-  EXPECT_EQ(reading.placeOf(" 2;"), "4:9");
-  EXPECT_EQ(reading.placeOf("END_PROGRAM"), "6:2");
+  EXPECT_EQ(reading.locationOf("P"), "2:3");  // of PROGRAM
+  EXPECT_EQ(reading.locationOf("P\n"), "2:13");
+  EXPECT_EQ(reading.locationOf("one"), "3:25");
+  EXPECT_EQ(reading.locationOf("two"), "4:3");
+  EXPECT_EQ(reading.locationOf("three"), "4:19");
+  EXPECT_EQ(reading.locationOf("<"), "4:30");
+  EXPECT_EQ(reading.locationOf(" 2;"), "4:9");
+  EXPECT_EQ(reading.locationOf("END_PROGRAM"), "6:2");
 }
 
 TEST(Plcopen, BodyOfCfcHidesItsPlaceholder) {

@@ -13,21 +13,21 @@ struct Reading {
     file = sources.add("p.xml", std::move(text));
     program = readProject(sources, file, diagnostics, libraries);
   }
-  std::string text() const { return program ? std::string(sources.text(program)) : "none"; }
+  std::string text() const { return program ? std::string(sources.sourceText(program)) : "none"; }
   // "line:column" in the XML of the first place where the text has `what`.
-  std::string placeOf(std::string_view what) const {
-    const size_t at = sources.text(program).find(what);
+  std::string locationOf(std::string_view what) const {
+    const size_t at = sources.sourceText(program).find(what);
     if (at == std::string_view::npos) return "none";
-    return place({sources.begin(program).offset + static_cast<uint32_t>(at)});
+    return location({sources.begin(program).offset + static_cast<uint32_t>(at)});
   }
-  std::string place(Loc loc) const {
-    const Place p = sources.place(loc);
+  std::string location(Loc loc) const {
+    const SourceLocation p = sources.location(loc);
     return std::to_string(p.line) + ":" + std::to_string(p.column);
   }
   // "line:column message" lines.
   std::string errors() const {
     std::string out;
-    for (const Diagnostic& d : diagnostics.all()) out += place(d.loc) + " " + d.message + "\n";
+    for (const Diagnostic& d : diagnostics.all()) out += location(d.loc) + " " + d.message + "\n";
     return out;
   }
 

@@ -15,14 +15,14 @@ TEST(Csv, ReadsQuotesLineEndsAndEmptyCells) {
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].cells, (std::vector<std::string>{"cycle", "a[1,2]"}));
   EXPECT_EQ(rows[1].cells, (std::vector<std::string>{"0", "say \"hi\"\nx"}));
-  EXPECT_EQ(rows[1].places[0].line, 3u);
-  EXPECT_EQ(rows[1].places[1].column, 3u);
+  EXPECT_EQ(rows[1].positions[0].line, 3u);
+  EXPECT_EQ(rows[1].positions[1].column, 3u);
   EXPECT_EQ(rows[2].cells, (std::vector<std::string>{"3", ""}));
-  EXPECT_EQ(rows[2].places[0].line, 5u);
-  EXPECT_EQ(rows[2].places[1].column, 3u);
+  EXPECT_EQ(rows[2].positions[0].line, 5u);
+  EXPECT_EQ(rows[2].positions[1].column, 3u);
 }
 
-TEST(Csv, NamesThePlaceOfAMistake) {
+TEST(Csv, NamesTheLocationOfAMistake) {
   std::vector<CsvRow> rows;
   std::string error;
   EXPECT_FALSE(readCsv("a\nb,\"c\nd\n", rows, error));

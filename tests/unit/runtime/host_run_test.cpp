@@ -84,7 +84,7 @@ TEST(Run, InputsSetVariablesBeforeTheirCycle) {
   EXPECT_EQ(go(options).out, "Main.count = 110\n1 cycles of 10 ms, 10 ms of program time\n");
 }
 
-TEST(Run, BadInputsNameTheirPlace) {
+TEST(Run, BadInputsNameTheirLocation) {
   const std::string inputs = temporary("bad.csv");
   RunOptions options;
   options.inputs_path = inputs;

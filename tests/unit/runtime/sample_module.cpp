@@ -33,7 +33,7 @@ void init(rung_context* ctx) {
   m.kept = 5;
   m.kept_always = 50;
   m.table[1][2] = 7;
-  rung_text_assign(m.name, 10, "a'b");
+  rung_string_assign(m.name, 10, "a'b");
   m.other = &m.point;
 }
 
@@ -59,7 +59,7 @@ void onEvent(rung_context* ctx) {
 rung_assertion at(uint32_t line, const char* text = nullptr) {
   return {"t.st", line, 0, nullptr, text, nullptr, nullptr};
 }
-void testGood(rung_context* ctx) {
+void testOk(rung_context* ctx) {
   const rung_assertion first = at(3);
   rung_assert_equal(ctx, &first, RUNG_INT, 5, 5);
 }
@@ -137,7 +137,7 @@ struct Tables {
     tasks.push_back({t("Fast"), RUNG_CYCLIC, 1, 10'000'000, 0, 0, 0, 0, fast});
     tasks.push_back({t("Edge"), RUNG_EVENT, 0, 0, 0, 0, t("Main.start_event"), 0, onEvent});
 
-    tests.push_back({t("good_test"), t("t.st"), 1, RUNG_NONE, 0, nullptr, testGood});
+    tests.push_back({t("good_test"), t("t.st"), 1, RUNG_NONE, 0, nullptr, testOk});
     tests.push_back({t("bad_test"), t("t.st"), 6, RUNG_NONE, 0, nullptr, testBad});
     tests.push_back({t("faulting_test"), t("t.st"), 12, RUNG_NONE, 0, nullptr, testFaults});
     tests.push_back({t("cyclic_test"), t("t.st"), 16, 0, offsetof(Main, run), nullptr, testUntilDone});
@@ -150,7 +150,7 @@ struct Tables {
     module.pointer_size = sizeof(void*);
     module.name = "sample";
     module.compiler = "by hand";
-    module.text = text.c_str();
+    module.strings = text.c_str();
     module.layout_hash = 1;
     module.blocks = &block;
     module.block_count = 1;

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sample_module.h"
-#include "stdlib/runtime/host/value_text.h"
+#include "stdlib/runtime/host/value_format.h"
 
 using namespace rung::host;
 
@@ -18,7 +18,7 @@ struct Paths : testing::Test {
   std::string value(const std::string& path) {
     Variable variable;
     std::string text;
-    if (symbols.find(path, variable, text)) spellValue(sample::module(), variable, text);
+    if (symbols.find(path, variable, text)) formatValue(sample::module(), variable, text);
     return text;
   }
   std::string set(const std::string& path, const std::string& literal) {
@@ -42,7 +42,7 @@ TEST_F(Paths, FindValues) {
   EXPECT_EQ(value("%QX0.2"), "FALSE");
 }
 
-TEST_F(Paths, SayWhatIsWrong) {
+TEST_F(Paths, DescribesTheProblem) {
   EXPECT_EQ(value("Mian.level"), "unknown variable `Mian.level`; did you mean `Main`?");
   EXPECT_EQ(value("Main.levl"), "`Main` has no variable `levl`; did you mean `Level`?");
   EXPECT_EQ(value("Main.table[3,0]"), "index 3 of `Main.table` is outside 1..2");

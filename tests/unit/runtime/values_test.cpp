@@ -12,9 +12,9 @@
 namespace {
 
 template <class T>
-std::string spell(rung_type_kind kind, T value, bool is_signed = false) {
-  char out[RUNG_SPELLED_SCALAR + 1];
-  return std::string(out, rung_spell(kind, is_signed, &value, out, RUNG_SPELLED_SCALAR));
+std::string format(rung_type_kind kind, T value, bool is_signed = false) {
+  char out[RUNG_FORMATTED_SCALAR + 1];
+  return std::string(out, rung_format(kind, is_signed, &value, out, RUNG_FORMATTED_SCALAR));
 }
 template <class T>
 T parse(rung_type_kind kind, const std::string& text, bool is_signed = false) {
@@ -28,13 +28,13 @@ bool parses(rung_type_kind kind, const std::string& text, bool is_signed = false
 }
 
 TEST(Values, BoolAndIntegers) {
-  EXPECT_EQ(spell<uint8_t>(RUNG_BOOL, 1), "TRUE");
-  EXPECT_EQ(spell<uint8_t>(RUNG_BOOL, 2), "TRUE");
-  EXPECT_EQ(spell<uint8_t>(RUNG_BOOL, 0), "FALSE");
-  EXPECT_EQ(spell<int8_t>(RUNG_SINT, -128), "-128");
-  EXPECT_EQ(spell<uint8_t>(RUNG_BYTE, 255), "255");
-  EXPECT_EQ(spell<int64_t>(RUNG_LINT, INT64_MIN), "-9223372036854775808");
-  EXPECT_EQ(spell<uint64_t>(RUNG_ULINT, UINT64_MAX), "18446744073709551615");
+  EXPECT_EQ(format<uint8_t>(RUNG_BOOL, 1), "TRUE");
+  EXPECT_EQ(format<uint8_t>(RUNG_BOOL, 2), "TRUE");
+  EXPECT_EQ(format<uint8_t>(RUNG_BOOL, 0), "FALSE");
+  EXPECT_EQ(format<int8_t>(RUNG_SINT, -128), "-128");
+  EXPECT_EQ(format<uint8_t>(RUNG_BYTE, 255), "255");
+  EXPECT_EQ(format<int64_t>(RUNG_LINT, INT64_MIN), "-9223372036854775808");
+  EXPECT_EQ(format<uint64_t>(RUNG_ULINT, UINT64_MAX), "18446744073709551615");
   EXPECT_EQ(parse<uint8_t>(RUNG_BOOL, "true"), 1);
   EXPECT_EQ(parse<uint8_t>(RUNG_BOOL, "BOOL#0"), 0);
   EXPECT_EQ(parse<int16_t>(RUNG_INT, "INT#-5"), -5);
@@ -49,13 +49,13 @@ TEST(Values, BoolAndIntegers) {
 }
 
 TEST(Values, Reals) {
-  EXPECT_EQ(spell(RUNG_REAL, 0.15f), "0.15");
-  EXPECT_EQ(spell(RUNG_REAL, 5.0f), "5.0");
-  EXPECT_EQ(spell(RUNG_REAL, -0.0f), "-0.0");
-  EXPECT_EQ(spell(RUNG_LREAL, 1e300), "1e+300");
-  EXPECT_EQ(spell(RUNG_LREAL, 0.1), "0.1");
-  EXPECT_EQ(spell(RUNG_REAL, std::numeric_limits<float>::quiet_NaN()), "NaN");
-  EXPECT_EQ(spell(RUNG_LREAL, -std::numeric_limits<double>::infinity()), "-Inf");
+  EXPECT_EQ(format(RUNG_REAL, 0.15f), "0.15");
+  EXPECT_EQ(format(RUNG_REAL, 5.0f), "5.0");
+  EXPECT_EQ(format(RUNG_REAL, -0.0f), "-0.0");
+  EXPECT_EQ(format(RUNG_LREAL, 1e300), "1e+300");
+  EXPECT_EQ(format(RUNG_LREAL, 0.1), "0.1");
+  EXPECT_EQ(format(RUNG_REAL, std::numeric_limits<float>::quiet_NaN()), "NaN");
+  EXPECT_EQ(format(RUNG_LREAL, -std::numeric_limits<double>::infinity()), "-Inf");
   EXPECT_TRUE(std::isnan(parse<float>(RUNG_REAL, "NaN")));
   EXPECT_EQ(parse<double>(RUNG_LREAL, "-Inf"), -std::numeric_limits<double>::infinity());
   EXPECT_EQ(parse<float>(RUNG_REAL, "REAL#-1.5e2"), -150.0f);
@@ -71,7 +71,7 @@ TEST(Values, RealsReadBackExactly) {
     float value, back;
     memcpy(&value, &bits, 4);
     if (std::isnan(value)) continue;
-    const std::string text = spell(RUNG_REAL, value);
+    const std::string text = format(RUNG_REAL, value);
     EXPECT_NE(text.find_first_of(".eI"), std::string::npos) << text;
     back = parse<float>(RUNG_REAL, text);
     EXPECT_EQ(memcmp(&value, &back, 4), 0) << text;
@@ -79,12 +79,12 @@ TEST(Values, RealsReadBackExactly) {
 }
 
 TEST(Values, Durations) {
-  EXPECT_EQ(spell<uint32_t>(RUNG_TIME, 1500), "T#1s500ms");
-  EXPECT_EQ(spell<uint32_t>(RUNG_TIME, 0), "T#0ms");
-  EXPECT_EQ(spell<int32_t>(RUNG_TIME, -5000, true), "T#-5s");
-  EXPECT_EQ(spell<uint32_t>(RUNG_TIME, UINT32_MAX), "T#49d17h2m47s295ms");
-  EXPECT_EQ(spell<int64_t>(RUNG_LTIME, 1'000'500'007, true), "LTIME#1s500us7ns");
-  EXPECT_EQ(spell<int64_t>(RUNG_LTIME, 0, true), "LTIME#0ns");
+  EXPECT_EQ(format<uint32_t>(RUNG_TIME, 1500), "T#1s500ms");
+  EXPECT_EQ(format<uint32_t>(RUNG_TIME, 0), "T#0ms");
+  EXPECT_EQ(format<int32_t>(RUNG_TIME, -5000, true), "T#-5s");
+  EXPECT_EQ(format<uint32_t>(RUNG_TIME, UINT32_MAX), "T#49d17h2m47s295ms");
+  EXPECT_EQ(format<int64_t>(RUNG_LTIME, 1'000'500'007, true), "LTIME#1s500us7ns");
+  EXPECT_EQ(format<int64_t>(RUNG_LTIME, 0, true), "LTIME#0ns");
   EXPECT_EQ(parse<uint32_t>(RUNG_TIME, "T#1d2h7m19s45.7ms"), 94'039'045u);
   EXPECT_EQ(parse<uint32_t>(RUNG_TIME, "time#1.5S"), 1500u);
   EXPECT_EQ(parse<int32_t>(RUNG_TIME, "T#-5s", true), -5000);
@@ -95,18 +95,18 @@ TEST(Values, Durations) {
 }
 
 TEST(Values, Dates) {
-  EXPECT_EQ(spell<uint32_t>(RUNG_DATE, 0), "D#1970-01-01");
+  EXPECT_EQ(format<uint32_t>(RUNG_DATE, 0), "D#1970-01-01");
   EXPECT_EQ(parse<uint32_t>(RUNG_DATE, "DATE#2026-11-21"), 1795219200u);
-  EXPECT_EQ(spell<uint32_t>(RUNG_DATE, 1795219200), "D#2026-11-21");
-  EXPECT_EQ(spell<uint32_t>(RUNG_DT, 1795219200 + 45000), "DT#2026-11-21-12:30:00");
+  EXPECT_EQ(format<uint32_t>(RUNG_DATE, 1795219200), "D#2026-11-21");
+  EXPECT_EQ(format<uint32_t>(RUNG_DT, 1795219200 + 45000), "DT#2026-11-21-12:30:00");
   EXPECT_EQ(parse<uint32_t>(RUNG_DT, "DATE_AND_TIME#2026-11-21-12:30:00"), 1795264200u);
-  EXPECT_EQ(spell<uint32_t>(RUNG_TOD, 45'000'500), "TOD#12:30:00.5");
+  EXPECT_EQ(format<uint32_t>(RUNG_TOD, 45'000'500), "TOD#12:30:00.5");
   EXPECT_EQ(parse<uint32_t>(RUNG_TOD, "TIME_OF_DAY#12:30:00.5"), 45'000'500u);
-  EXPECT_EQ(spell<uint64_t>(RUNG_LDT, 1795264200'000'001'000), "LDT#2026-11-21-12:30:00.000001");
+  EXPECT_EQ(format<uint64_t>(RUNG_LDT, 1795264200'000'001'000), "LDT#2026-11-21-12:30:00.000001");
   EXPECT_EQ(parse<uint64_t>(RUNG_LDT, "LDT#2026-11-21-12:30:00.000001"), 1795264200'000'001'000u);
-  EXPECT_EQ(spell<uint32_t>(RUNG_DATE, 951782400), "D#2000-02-29");
+  EXPECT_EQ(format<uint32_t>(RUNG_DATE, 951782400), "D#2000-02-29");
   EXPECT_EQ(parse<uint32_t>(RUNG_DATE, "D#2000-02-29"), 951782400u);
-  EXPECT_EQ(spell<uint32_t>(RUNG_DT, UINT32_MAX), "DT#2106-02-07-06:28:15");
+  EXPECT_EQ(format<uint32_t>(RUNG_DT, UINT32_MAX), "DT#2106-02-07-06:28:15");
   for (const char* bad : {"D#2026-02-29", "D#2026-13-01", "2026-01-01", "D#2026-01", "D#1969-12-31", "D#2107-01-01"})
     EXPECT_FALSE(parses(RUNG_DATE, bad)) << bad;
   EXPECT_FALSE(parses(RUNG_TOD, "TOD#24:00:00"));
@@ -114,13 +114,15 @@ TEST(Values, Dates) {
 
 TEST(Values, Texts) {
   char out[64];
-  const auto string = [&](const char* text) { return std::string(out, rung_spell(RUNG_STRING, false, text, out, 63)); };
+  const auto string = [&](const char* text) {
+    return std::string(out, rung_format(RUNG_STRING, false, text, out, 63));
+  };
   EXPECT_EQ(string("it's $5\n\r\t\f\x01\x7f"), "'it$'s $$5$L$R$T$P$01$7F'");
   EXPECT_EQ(string("gr\xC3\xBC\xC3\x9F"), "'gr\xC3\xBC\xC3\x9F'");
   EXPECT_EQ(string("\xFC\xC3"), "'$FC$C3'");
-  EXPECT_EQ(std::string(out, rung_spell(RUNG_WSTRING, false, u"a\"\u00fc\U0001F600\xD800", out, 63)),
+  EXPECT_EQ(std::string(out, rung_format(RUNG_WSTRING, false, u"a\"\u00fc\U0001F600\xD800", out, 63)),
             "\"a$\"\xC3\xBC\xF0\x9F\x98\x80$D800\"");
-  EXPECT_EQ(rung_spell(RUNG_STRING, false, "abcdef", out, 3), 3u);
+  EXPECT_EQ(rung_format(RUNG_STRING, false, "abcdef", out, 3), 3u);
   EXPECT_STREQ(out, "'ab");
 
   char text[9];

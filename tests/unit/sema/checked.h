@@ -37,7 +37,7 @@ struct Checked {
       if (code[0] == 'W' && code.substr(0, 3) != "W03" && code.substr(0, 3) != "W08") continue;
       if (!all.empty()) all += ' ';
       all += code;
-      all += '@' + std::to_string(sources.place(diagnostic.loc).line);
+      all += '@' + std::to_string(sources.location(diagnostic.loc).line);
     }
     return all;
   }
@@ -51,19 +51,19 @@ struct Checked {
   }
   const Var& var(std::string_view name) const {
     for (const Var& var : project.vars) {
-      if (var.name && sameIdentifier(names.text(var.name), name)) return var;
+      if (var.name && sameIdentifier(names.string(var.name), name)) return var;
     }
     return project.vars[0];
   }
   const Pou& pou(std::string_view name) const {
     for (const Pou& pou : project.pous) {
-      if (pou.unique_name && sameIdentifier(names.text(pou.unique_name), name)) return pou;
+      if (pou.unique_name && sameIdentifier(names.string(pou.unique_name), name)) return pou;
     }
     return project.pous[0];
   }
-  std::string typeOf(std::string_view name) const { return project.types.spell(var(name).type); }
+  std::string typeOf(std::string_view name) const { return project.types.toString(var(name).type); }
   std::string valueOf(std::string_view name) const {
-    return var(name).has_value ? types::spell(project.types, names, var(name).value) : "none";
+    return var(name).has_value ? types::toString(project.types, names, var(name).value) : "none";
   }
 };
 

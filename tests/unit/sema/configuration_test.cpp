@@ -11,15 +11,15 @@ TEST(Configuration, without_one_every_program_runs_each_10_ms) {
   EXPECT_EQ(checked.codes(), "");
   ASSERT_EQ(checked.project.tasks.size(), 1u);
   EXPECT_EQ(checked.project.tasks[0].interval_ns, 10'000'000);
-  EXPECT_EQ(checked.names.text(checked.project.tasks[0].name), "MainTask");
+  EXPECT_EQ(checked.names.string(checked.project.tasks[0].name), "MainTask");
   ASSERT_EQ(checked.project.instances.size(), 2u);
-  EXPECT_EQ(checked.names.text(checked.project.instances[1].name), "b");
+  EXPECT_EQ(checked.names.string(checked.project.instances[1].name), "b");
 }
 
 TEST(Configuration, plc_prg_runs_alone) {
   const Checked checked("PROGRAM a END_PROGRAM PROGRAM Plc_Prg END_PROGRAM");
   ASSERT_EQ(checked.project.instances.size(), 1u);
-  EXPECT_EQ(checked.names.text(checked.project.instances[0].name), "Plc_Prg");
+  EXPECT_EQ(checked.names.string(checked.project.instances[0].name), "Plc_Prg");
 }
 
 TEST(Configuration, tasks_and_their_settings) {
@@ -45,7 +45,7 @@ TEST(Configuration, tasks_and_their_settings) {
   EXPECT_EQ(checked.project.tasks[4].external_event, "ax_interrupt");
   ASSERT_EQ(checked.project.instances.size(), 2u);
   EXPECT_EQ(checked.project.instances[1].task, 2u);
-  EXPECT_EQ(checked.names.text(checked.project.instances[0].resource), "r");
+  EXPECT_EQ(checked.names.string(checked.project.instances[0].resource), "r");
 }
 
 TEST(Configuration, mistakes) {

@@ -6,7 +6,7 @@
 namespace rung::sema {
 namespace {
 
-TEST(TypeDeclarations, arrays_and_texts_with_constant_bounds) {
+TEST(TypeDeclarations, arrays_and_strings_with_constant_bounds) {
   const Checked checked(
       "VAR_GLOBAL CONSTANT n : INT := 2 * m; m : INT := 5; END_VAR\n"
       "PROGRAM p VAR a : ARRAY[1..n, -1..1] OF REAL; s : STRING[n + 1]; w : WSTRING(m); d : STRING; END_VAR "

@@ -99,16 +99,16 @@ class Printer {
   }
 
   void literal(const LiteralExpr& node) {
-    const std::string type = c_.project.types.spell(node.h.type);
+    const std::string type = c_.project.types.toString(node.h.type);
     if (node.literal() == LiteralKind::String || node.literal() == LiteralKind::WString) {
-      out.append("'").append(tree_.text(node.text())).append("'");
+      out.append("'").append(tree_.string(node.string())).append("'");
       return;
     }
     out.append(type).append("#");
     if ((node.h.bits & kLiteralNegative) != 0) out += "-";
     if (node.literal() == LiteralKind::Real) {
       types::Value value{types::kLReal, node.value()};
-      out += types::spell(c_.project.types, c_.names, value);
+      out += types::toString(c_.project.types, c_.names, value);
     } else {
       out += std::to_string(node.value());
     }
@@ -130,7 +130,7 @@ class Printer {
       case sema::CallKind::Program:
       case sema::CallKind::Operator:
         if (call.kind == sema::CallKind::Operator) out += "op:";
-        out += c_.names.text(c_.project.pou(call.pou).unique_name);
+        out += c_.names.string(c_.project.pou(call.pou).unique_name);
         break;
     }
     out += "(";
@@ -148,7 +148,7 @@ class Printer {
       comma();
       if (binding.negated) out += "NOT ";
       if (binding.pin)
-        out.append(c_.names.text(c_.project.var(binding.pin).name)).append(binding.is_output ? "=>" : ":=");
+        out.append(c_.names.string(c_.project.var(binding.pin).name)).append(binding.is_output ? "=>" : ":=");
       if (binding.value) expr(binding.value);
     }
     if (call.eno) {
@@ -163,12 +163,12 @@ class Printer {
     if (!tree_.expr(id).type && tree_.kind(id) != ExprKind::Call) out += "?";
     switch (tree_.kind(id)) {
       case ExprKind::Literal: literal(tree_.as<LiteralExpr>(id)); return;
-      case ExprKind::Name: out += c_.names.text(tree_.as<NameExpr>(id).name); return;
-      case ExprKind::TypedName: out += c_.names.text(tree_.as<TypedNameExpr>(id).item.name); return;
+      case ExprKind::Name: out += c_.names.string(tree_.as<NameExpr>(id).name); return;
+      case ExprKind::TypedName: out += c_.names.string(tree_.as<TypedNameExpr>(id).item.name); return;
       case ExprKind::Member: {
         const MemberExpr& node = tree_.as<MemberExpr>(id);
         expr(node.base);
-        out.append(".").append(c_.names.text(node.member));
+        out.append(".").append(c_.names.string(node.member));
         return;
       }
       case ExprKind::Index:
@@ -200,13 +200,13 @@ class Printer {
       }
       case ExprKind::Call: call(tree_.as<CallExpr>(id)); return;
       case ExprKind::Convert:
-        out.append(c_.project.types.spell(tree_.expr(id).type)).append("(");
+        out.append(c_.project.types.toString(tree_.expr(id).type)).append("(");
         expr(tree_.as<ConvertExpr>(id).operand);
         out += ")";
         return;
       case ExprKind::AddressOf:
         out += "&";
-        expr(tree_.as<AddressOfExpr>(id).place);
+        expr(tree_.as<AddressOfExpr>(id).lvalue);
         return;
       case ExprKind::This: out += "THIS"; return;
       case ExprKind::Super: out += "SUPER"; return;
@@ -243,9 +243,9 @@ Checked::Checked(const std::string& source, Dialect dialect)
 std::string Checked::codes() const {
   std::string out;
   for (const Diagnostic& diagnostic : diagnostics.all()) {
-    const Place place = sources.place(diagnostic.loc);
-    out +=
-        std::to_string(place.line) + ":" + std::to_string(place.column) + " " + diagInfo(diagnostic.diag).code + "\n";
+    const SourceLocation location = sources.location(diagnostic.loc);
+    out += std::to_string(location.line) + ":" + std::to_string(location.column) + " " +
+           diagInfo(diagnostic.diag).code + "\n";
   }
   return out;
 }
@@ -253,8 +253,8 @@ std::string Checked::codes() const {
 std::string Checked::messages() const {
   std::string out;
   for (const Diagnostic& diagnostic : diagnostics.all()) {
-    const Place place = sources.place(diagnostic.loc);
-    out += std::to_string(place.line) + ":" + std::to_string(place.column) + " " + diagnostic.message + "\n";
+    const SourceLocation location = sources.location(diagnostic.loc);
+    out += std::to_string(location.line) + ":" + std::to_string(location.column) + " " + diagnostic.message + "\n";
     for (const auto& note : diagnostic.notes) out += "  " + note.message + "\n";
   }
   return out;
@@ -266,7 +266,7 @@ std::string Checked::body(const std::string& pou) const {
     for (const DeclId decl : tree.list(unit.decls)) {
       if (tree.kind(decl) != DeclKind::Pou) continue;
       const PouDecl& node = tree.as<PouDecl>(decl);
-      if (names.text(node.name) == pou) printer.statements(node.body);
+      if (names.string(node.name) == pou) printer.statements(node.body);
     }
   }
   return printer.out;
@@ -277,9 +277,10 @@ std::string codesOf(const std::string& vars, const std::string& statements, Dial
   std::string out;
   for (const Diagnostic& diagnostic : checked.diagnostics.all()) {
     if (std::string_view(diagInfo(diagnostic.diag).code) == "W0758") continue;  // unused: the tests are short
-    const Place place = checked.sources.place(diagnostic.loc);
+    const SourceLocation location = checked.sources.location(diagnostic.loc);
     if (!out.empty()) out += ", ";
-    out += std::to_string(place.line - 1) + ":" + std::to_string(place.column) + " " + diagInfo(diagnostic.diag).code;
+    out += std::to_string(location.line - 1) + ":" + std::to_string(location.column) + " " +
+           diagInfo(diagnostic.diag).code;
   }
   return out;
 }

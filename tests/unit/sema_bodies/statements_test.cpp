@@ -67,7 +67,7 @@ TEST(Statements, ConstantsAndInputsAreNotWritten) {
   EXPECT_EQ(Checked(block, Dialect::Iec3).codes(), "2:1 E0703\n");
 }
 
-TEST(Statements, UnusedAndNeverWrittenAreToldOnce) {
+TEST(Statements, UnusedAndNeverWrittenAreReportedOnce) {
   EXPECT_EQ(Checked("FUNCTION_BLOCK B VAR_OUTPUT y : INT; z : INT; END_VAR\nVAR a : INT; b : INT; c : INT; END_VAR\n"
                     "c := b; y := c; END_FUNCTION_BLOCK")
                 .codes(),

@@ -98,7 +98,7 @@ TEST(Tree, FunctionNameIsItsResultInsideAndACallOutside) {
   EXPECT_EQ(checked.body("Main"), "y := Twice(x:=INT#2);\ny := Twice(x:=y);\n");
 }
 
-TEST(Tree, ExtensibleTextFunctionsAreFolded) {
+TEST(Tree, ExtensibleStringFunctionsAreFolded) {
   EXPECT_EQ(treeOf("s : STRING;", "s := CONCAT(s, 'a', 'b');").substr(0, 5), "s := ");
 }
 

@@ -22,7 +22,7 @@ TEST(Diagnostics, CodesAreUniqueAndNamed) {
   EXPECT_EQ(findDiag("E9999"), nullptr);
 }
 
-TEST(Diagnostics, SamePlaceAndCodeIsReportedOnce) {
+TEST(Diagnostics, SameLocationAndCodeIsReportedOnce) {
   Sources sources;
   const Loc loc = sources.begin(sources.add("a.st", "x y"));
   Diagnostics diagnostics(sources);
@@ -44,7 +44,7 @@ TEST(Diagnostics, ErrorsBeyondTheLimitAreCounted) {
   EXPECT_TRUE(diagnostics.full());
 }
 
-TEST(Diagnostics, SortedByPlace) {
+TEST(Diagnostics, SortedByLocation) {
   Sources sources;
   const Loc loc = sources.begin(sources.add("a.st", "x y"));
   Diagnostics diagnostics(sources);

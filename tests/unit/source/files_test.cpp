@@ -10,14 +10,14 @@ Loc at(const Sources& sources, FileId file, size_t offset) {
   return {sources.begin(file).offset + static_cast<uint32_t>(offset)};
 }
 
-TEST(Files, PlacesOfThreeKindsOfLineEnd) {
+TEST(Files, LocationsOfThreeKindsOfLineEnd) {
   Sources sources;
   const FileId file = sources.add("a.st", "ab\ncd\r\nef\rgh");
-  EXPECT_EQ(sources.place(at(sources, file, 0)).column, 1u);
-  EXPECT_EQ(sources.place(at(sources, file, 4)).line, 2u);
-  EXPECT_EQ(sources.place(at(sources, file, 7)).line, 3u);
-  EXPECT_EQ(sources.place(at(sources, file, 10)).line, 4u);
-  EXPECT_EQ(sources.place(at(sources, file, 11)).column, 2u);
+  EXPECT_EQ(sources.location(at(sources, file, 0)).column, 1u);
+  EXPECT_EQ(sources.location(at(sources, file, 4)).line, 2u);
+  EXPECT_EQ(sources.location(at(sources, file, 7)).line, 3u);
+  EXPECT_EQ(sources.location(at(sources, file, 10)).line, 4u);
+  EXPECT_EQ(sources.location(at(sources, file, 11)).column, 2u);
   EXPECT_EQ(sources.line(file, 2), "cd");
   EXPECT_EQ(sources.line(file, 3), "ef");
   EXPECT_EQ(sources.line(file, 4), "gh");
@@ -28,18 +28,18 @@ TEST(Files, ColumnsCountCharacters) {
   Sources sources;
   const std::string text = "x := 'Müßli'; y\nü";
   const FileId file = sources.add("a.st", text);
-  EXPECT_EQ(sources.place(at(sources, file, text.find("; y"))).column, 13u);
-  EXPECT_EQ(sources.place(at(sources, file, text.find("y\n"))).column, 15u);
-  EXPECT_EQ(sources.place(at(sources, file, text.find("üßli"))).line, 1u);
-  EXPECT_EQ(sources.place(at(sources, file, 0)).column, 1u);
-  EXPECT_EQ(sources.place(at(sources, file, text.size())).column, 2u);
+  EXPECT_EQ(sources.location(at(sources, file, text.find("; y"))).column, 13u);
+  EXPECT_EQ(sources.location(at(sources, file, text.find("y\n"))).column, 15u);
+  EXPECT_EQ(sources.location(at(sources, file, text.find("üßli"))).line, 1u);
+  EXPECT_EQ(sources.location(at(sources, file, 0)).column, 1u);
+  EXPECT_EQ(sources.location(at(sources, file, text.size())).column, 2u);
 }
 
 TEST(Files, ByteOrderMarkIsDropped) {
   Sources sources;
   const FileId file = sources.add("a.st", "\xef\xbb\xbfPROGRAM");
-  EXPECT_EQ(sources.text(file), "PROGRAM");
-  EXPECT_EQ(sources.text(file).data()[7], '\0');
+  EXPECT_EQ(sources.sourceText(file), "PROGRAM");
+  EXPECT_EQ(sources.sourceText(file).data()[7], '\0');
 }
 
 TEST(Files, EveryLocationHasOneFile) {
@@ -51,7 +51,7 @@ TEST(Files, EveryLocationHasOneFile) {
   EXPECT_EQ(sources.fileOf(at(sources, a, 0)), a);
   EXPECT_FALSE(sources.fileOf(Loc{}));
   EXPECT_FALSE(sources.fileOf(at(sources, b, 4)));
-  EXPECT_EQ(sources.place(Loc{}).line, 0u);
+  EXPECT_EQ(sources.location(Loc{}).line, 0u);
   EXPECT_EQ(sources.path(FileId{}), "");
   EXPECT_EQ(sources.fileCount(), 3u);
 }
@@ -93,21 +93,21 @@ TEST(Files, InvalidUtf8) {
   EXPECT_EQ(findInvalidUtf8("12345678\xe2\x82"), 8u);  // cut
 }
 
-TEST(Files, AssembledTextsHaveThePlacesOfTheirParts) {
+TEST(Files, SourceMappedTextHasTheLocationsOfItsParts) {
   Sources sources;
   const FileId a = sources.add("a.xml", "one\n  two"), b = sources.add("b.xml", "three");
-  const FileId made =
-      sources.addAssembled("a.xml", "two END three",
-                           {{0, at(sources, a, 6), true}, {3, at(sources, a, 9), false}, {8, at(sources, b, 0), true}});
-  EXPECT_EQ(sources.place(at(sources, made, 0)).line, 2u);
-  EXPECT_EQ(sources.place(at(sources, made, 2)).column, 5u);
-  EXPECT_EQ(sources.place(at(sources, made, 5)).column, 6u);  // END stands behind `two`
-  EXPECT_EQ(sources.lineNumber(at(sources, made, 5)), 2u);
-  EXPECT_EQ(sources.place(at(sources, made, 9)).file, b);
-  EXPECT_EQ(sources.place(at(sources, made, 9)).column, 2u);
-  EXPECT_EQ(sources.fileOf(at(sources, made, 9)), made);
-  EXPECT_EQ(sources.written(at(sources, a, 3)), at(sources, a, 3));
-  EXPECT_EQ(sources.tokenAt(at(sources, made, 8)), "three");
+  const FileId created = sources.addSourceMapped(
+      "a.xml", "two END three",
+      {{0, at(sources, a, 6), true}, {3, at(sources, a, 9), false}, {8, at(sources, b, 0), true}});
+  EXPECT_EQ(sources.location(at(sources, created, 0)).line, 2u);
+  EXPECT_EQ(sources.location(at(sources, created, 2)).column, 5u);
+  EXPECT_EQ(sources.location(at(sources, created, 5)).column, 6u);  // END stands behind `two`
+  EXPECT_EQ(sources.lineNumber(at(sources, created, 5)), 2u);
+  EXPECT_EQ(sources.location(at(sources, created, 9)).file, b);
+  EXPECT_EQ(sources.location(at(sources, created, 9)).column, 2u);
+  EXPECT_EQ(sources.fileOf(at(sources, created, 9)), created);
+  EXPECT_EQ(sources.originalLocation(at(sources, a, 3)), at(sources, a, 3));
+  EXPECT_EQ(sources.tokenAt(at(sources, created, 8)), "three");
 }
 
 TEST(Files, Utf16BecomesUtf8) {

@@ -13,7 +13,7 @@ TEST(Names, SpellingsShareAKey) {
   EXPECT_NE(a, b);
   EXPECT_TRUE(names.same(a, b));
   EXPECT_EQ(names.key(b), a);
-  EXPECT_EQ(names.text(b), "MOTORSPEED");
+  EXPECT_EQ(names.string(b), "MOTORSPEED");
   EXPECT_EQ(names.find("motorspeed"), a);
   EXPECT_FALSE(names.find("motor"));
 }
@@ -30,7 +30,7 @@ TEST(Names, EmptyIsNoName) {
   Names names;
   EXPECT_FALSE(names.intern(""));
   EXPECT_FALSE(names.find(""));
-  EXPECT_EQ(names.text({}), "");
+  EXPECT_EQ(names.string({}), "");
 }
 
 TEST(Names, ManyNamesOfEveryLength) {
@@ -43,7 +43,7 @@ TEST(Names, ManyNamesOfEveryLength) {
   }
   for (int i = 0; i < 50000; ++i) {
     text = std::string(static_cast<size_t>(i % 40), 'x') + std::to_string(i);
-    ASSERT_EQ(names.text(ids[static_cast<size_t>(i)]), text);
+    ASSERT_EQ(names.string(ids[static_cast<size_t>(i)]), text);
     ASSERT_EQ(names.intern(text), ids[static_cast<size_t>(i)]);
     for (char& c : text) c = c == 'x' ? 'X' : c;
     ASSERT_EQ(names.find(text), ids[static_cast<size_t>(i)]);
@@ -53,8 +53,8 @@ TEST(Names, ManyNamesOfEveryLength) {
 TEST(Names, LongerThanABlock) {
   Names names;
   const std::string text(200000, 'n');
-  EXPECT_EQ(names.text(names.intern(text)), text);
-  EXPECT_EQ(names.text(names.intern("short")), "short");
+  EXPECT_EQ(names.string(names.intern(text)), text);
+  EXPECT_EQ(names.string(names.intern("short")), "short");
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ TEST_F(Render, LineCaretAndNote) {
             "a.st:2:2: note: did you mean `start`?\n");
 }
 
-TEST_F(Render, NoteWithAPlaceShowsIt) {
+TEST_F(Render, NoteWithALocationShowsIt) {
   const Loc loc = sources.begin(sources.add("a.st", "first\nsecond\n"));
   diagnostics.report(diag::UnknownName, {loc.offset + 6}, {"second"}).note(loc, diag::DeclaredHere);
   EXPECT_EQ(text(),
@@ -68,7 +68,7 @@ TEST_F(Render, ControlBytesAreEscaped) {
             "   |                 ^\n");
 }
 
-TEST_F(Render, MarksStandUnderWideSources) {
+TEST_F(Render, UnderlinesBelowWideSources) {
   unknown("s := 'Müßli'; y := 1;", std::string("s := 'Müßli'; ").size(), "y");
   EXPECT_EQ(text(),
             "a.st:1:15: error[E0401]: `y` is not declared\n"

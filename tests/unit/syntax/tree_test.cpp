@@ -24,7 +24,7 @@ TEST(Tree, NodesStayAcrossChunks) {
   EXPECT_EQ(first, &tree.as<NameExpr>(ids[0]));
 }
 
-TEST(Tree, ListsAndTexts) {
+TEST(Tree, ListsAndStrings) {
   Tree tree;
   const uint32_t numbers[] = {1, 2, 3};
   const Slice<uint32_t> a = tree.addList<uint32_t>(numbers);
@@ -32,7 +32,7 @@ TEST(Tree, ListsAndTexts) {
   EXPECT_EQ(tree.list(a).size(), 3u);
   EXPECT_EQ(tree.list(a)[2], 3u);
   EXPECT_TRUE(b.empty());
-  EXPECT_EQ(tree.text(tree.addText("pump")), "pump");
+  EXPECT_EQ(tree.string(tree.addString("pump")), "pump");
 }
 
 TEST(Tree, BeginIsTheLeftmostToken) {

@@ -12,7 +12,7 @@ namespace {
 struct Lexed {
   explicit Lexed(const std::string& source, Dialect dialect = Dialect::Codesys) : diagnostics(sources) {
     const FileId file = sources.add("test.st", source);
-    lex(stream, names, sources, file, 0, static_cast<uint32_t>(sources.text(file).size()), dialect, diagnostics);
+    lex(stream, names, sources, file, 0, static_cast<uint32_t>(sources.sourceText(file).size()), dialect, diagnostics);
     for (const Token& t : stream.tokens) {
       if (t.kind == Tok::End) break;
       if (!words.empty()) words += ' ';

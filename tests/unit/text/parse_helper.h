@@ -20,9 +20,9 @@ struct Parsed {
   std::string codes() const {
     std::string all;
     for (const Diagnostic& d : diagnostics.all()) {
-      const Place place = sources.place(d.loc);
+      const SourceLocation location = sources.location(d.loc);
       if (!all.empty()) all += ' ';
-      all += std::to_string(place.line) + ":" + std::to_string(place.column) + " " + diagInfo(d.diag).code;
+      all += std::to_string(location.line) + ":" + std::to_string(location.column) + " " + diagInfo(d.diag).code;
     }
     return all;
   }

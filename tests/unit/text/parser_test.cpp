@@ -68,7 +68,7 @@ TEST(Statements, AssignmentForms) {
   EXPECT_EQ(body("again: a := 1; JMP again;"), "    label again\n    assign := (name a) (literal 1)\n    jump again\n");
 }
 
-TEST(Statements, WordsThatAreNotReserved) {
+TEST(Statements, KeywordsThatAreNotReserved) {
   const Parsed parsed(R"(PROGRAM p
 VAR priority, interval, task, on, with, read_only, step, action, at, constant, retain, s, r, ref, resource, class : INT; END_VAR
 VAR RETAIN persistent AT %MW0 : INT; END_VAR
@@ -105,16 +105,16 @@ END_FUNCTION_BLOCK
   EXPECT_EQ(parsed.codes(), "");
   const DeclId pou_id = parsed.tree.list(parsed.tree.files[0].decls)[0];
   const auto& pou = parsed.tree.as<PouDecl>(pou_id);
-  EXPECT_EQ(parsed.sources.place(pou.h.doc).line, 1u);
-  EXPECT_EQ(parsed.sources.place(pou.begin).line, 3u);
+  EXPECT_EQ(parsed.sources.location(pou.h.doc).line, 1u);
+  EXPECT_EQ(parsed.sources.location(pou.begin).line, 3u);
   EXPECT_EQ(pou.body_kind, BodyKind::Native);
   ASSERT_EQ(pou.h.pragmas.count, 2u);
   const auto section = parsed.tree.as<SectionDecl>(parsed.tree.list(pou.sections)[0]);
   const auto& reset = parsed.tree.as<VarDecl>(parsed.tree.list(section.vars)[0]);
-  EXPECT_EQ(parsed.sources.place(reset.h.doc).line, 6u);
-  EXPECT_EQ(parsed.tree.text(parsed.tree.list(reset.h.pragmas)[0].value), "R");
+  EXPECT_EQ(parsed.sources.location(reset.h.doc).line, 6u);
+  EXPECT_EQ(parsed.tree.string(parsed.tree.list(reset.h.pragmas)[0].value), "R");
   const auto& cu = parsed.tree.as<VarDecl>(parsed.tree.list(section.vars)[1]);
-  EXPECT_EQ(parsed.sources.place(cu.h.doc).line, 7u);
+  EXPECT_EQ(parsed.sources.location(cu.h.doc).line, 7u);
 }
 
 TEST(Declarations, OneDeclarationOutOfAFile) {

@@ -56,7 +56,7 @@ TEST(Recovery, TypicalSlips) {
   for (const Row& row : kRows) EXPECT_EQ(statementErrors(row.statements), row.codes) << row.statements;
 }
 
-TEST(Recovery, BlockWords) {
+TEST(Recovery, BlockKeywords) {
   // A missing END_… is told by the indentation; the END_… of the outer block then stays with it.
   EXPECT_EQ(statementErrors("IF a THEN\n  IF b THEN\n    c := 1;\n  ;\n  d := 1;\nEND_IF\ne := 1;"), "5:3 E0210");
   EXPECT_EQ(statementErrors("FOR i := 1 TO 2 DO\n  WHILE b DO\n    c := 1;\n  ;\nEND_FOR\ne := 1;"), "5:3 E0210");

@@ -34,8 +34,8 @@ class CommandTest : public testing::Test {
     const int status = system(command.c_str());
     Outcome outcome;
     outcome.exit = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-    outcome.out = readFile(folder.path() + "/.out" + id).text;
-    outcome.err = readFile(folder.path() + "/.err" + id).text;
+    outcome.out = readFile(folder.path() + "/.out" + id).content;
+    outcome.err = readFile(folder.path() + "/.err" + id).content;
     return outcome;
   }
   void expect(const std::string& line, int exit, const std::string& part_of_err) const {
@@ -208,7 +208,7 @@ TEST_F(CommandTest, SeparateTests) {
   EXPECT_EQ(outcome.exit, 0) << outcome.err.substr(0, 2000);
   EXPECT_NE(outcome.out.find("\n40 passed, 0 failed\n"), std::string::npos) << outcome.out;
   EXPECT_NE(readFile(folder.path() + "/junit.xml")
-                .text.find("<testsuites name=\"rung\" tests=\"40\" failures=\"0\" errors=\"0\""),
+                .content.find("<testsuites name=\"rung\" tests=\"40\" failures=\"0\" errors=\"0\""),
             std::string::npos);
   folder.write("t/t7.st", "{test}\nPROGRAM same_name\nx := 1;\nEND_PROGRAM\n");
   outcome = shell("rung test --separate t");

@@ -168,8 +168,8 @@ TEST_F(InputsTest, ListedFileThatIsGone) {
                      "<Project xmlns=\"http://schemas.microsoft.com/developer/msbuild/2003\">\n<Compile "
                      "Include=\"gone.TcPOU\"/></Project>")});
   EXPECT_EQ(onlyMessage(), "cannot read `gone.TcPOU`: No such file or directory");
-  EXPECT_EQ(sources.place(diagnostics.all()[0].loc).line, 2u);
-  EXPECT_EQ(sources.place(diagnostics.all()[0].loc).column, 19u);
+  EXPECT_EQ(sources.location(diagnostics.all()[0].loc).line, 2u);
+  EXPECT_EQ(sources.location(diagnostics.all()[0].loc).column, 19u);
   EXPECT_TRUE(inputs.io_error);
 }
 
@@ -184,7 +184,7 @@ TEST_F(InputsTest, PairsOfFilesAreOnePou) {
   read({folder.path() + "/p"});
   readPrograms(sources, diagnostics, inputs);
   EXPECT_EQ(paths(), (std::vector<std::string>{"a.pou", "b.st", "c_body.st", "two.decl", "two.impl", "two.pou"}));
-  EXPECT_EQ(sources.text(inputs.files[0].file), "PROGRAM a\nVAR x : INT; END_VAR\n\nx := 1;\nEND_PROGRAM");
+  EXPECT_EQ(sources.sourceText(inputs.files[0].file), "PROGRAM a\nVAR x : INT; END_VAR\n\nx := 1;\nEND_PROGRAM");
 }
 
 TEST(KindOf, ContentThenExtension) {

@@ -9,14 +9,14 @@
 namespace rung::tool {
 namespace {
 
-Options parsed(const std::vector<std::string>& words) {
+Options parsed(const std::vector<std::string>& arguments) {
   Options options;
-  EXPECT_EQ(parseOptions(words, options), "");
+  EXPECT_EQ(parseOptions(arguments, options), "");
   return options;
 }
-std::string errorOf(const std::vector<std::string>& words) {
+std::string errorOf(const std::vector<std::string>& arguments) {
   Options options;
-  return parseOptions(words, options);
+  return parseOptions(arguments, options);
 }
 
 TEST(Options, EveryFormOfAValue) {
@@ -109,16 +109,16 @@ TEST(Options, ResponseFiles) {
   TemporaryFolder folder;
   std::string inner = folder.write("inner", "b.st 'c d.st'\n");
   std::string outer = folder.write("outer", "--name x @" + inner + " \"e\\\"f\" ''");
-  std::vector<std::string> words = {"check", "@" + outer, "z"};
-  EXPECT_EQ(expandResponseFiles(words), "");
-  EXPECT_EQ(words, (std::vector<std::string>{"check", "--name", "x", "b.st", "c d.st", "e\"f", "", "z"}));
+  std::vector<std::string> arguments = {"check", "@" + outer, "z"};
+  EXPECT_EQ(expandResponseFiles(arguments), "");
+  EXPECT_EQ(arguments, (std::vector<std::string>{"check", "--name", "x", "b.st", "c d.st", "e\"f", "", "z"}));
 
-  words = {"@" + folder.path() + "/none"};
-  EXPECT_NE(expandResponseFiles(words), "");
-  words = {"@" + folder.write("self", "@" + folder.path() + "/self")};
-  EXPECT_NE(expandResponseFiles(words), "");
-  words = {"@" + folder.write("open", "'abc")};
-  EXPECT_NE(expandResponseFiles(words), "");
+  arguments = {"@" + folder.path() + "/none"};
+  EXPECT_NE(expandResponseFiles(arguments), "");
+  arguments = {"@" + folder.write("self", "@" + folder.path() + "/self")};
+  EXPECT_NE(expandResponseFiles(arguments), "");
+  arguments = {"@" + folder.write("open", "'abc")};
+  EXPECT_NE(expandResponseFiles(arguments), "");
 }
 
 }  // namespace

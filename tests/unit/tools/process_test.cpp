@@ -20,7 +20,7 @@ TEST(Process, RunsInItsFolderAndKeepsBothOutputs) {
   TemporaryFolder folder;
   std::vector<Process> processes = {shell(folder, "pwd; echo err >&2", "a.log"), shell(folder, "exit 0", "b.log")};
   EXPECT_EQ(runAll(processes, 2, "testing"), nullptr);
-  EXPECT_EQ(readFile(folder.path() + "/a.log").text, folder.path() + "\nerr\n");
+  EXPECT_EQ(readFile(folder.path() + "/a.log").content, folder.path() + "\nerr\n");
 }
 
 TEST(Process, TellsTheFirstFailureAndStartsNoMore) {

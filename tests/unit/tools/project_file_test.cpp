@@ -17,8 +17,8 @@ class ProjectFileTest : public testing::Test {
     diagnostics.sort();
     std::vector<std::string> out;
     for (const Diagnostic& diagnostic : diagnostics.all()) {
-      Place place = sources.place(diagnostic.loc);
-      out.push_back(std::to_string(place.line) + ":" + std::to_string(place.column) + ": " + diagnostic.message);
+      SourceLocation location = sources.location(diagnostic.loc);
+      out.push_back(std::to_string(location.line) + ":" + std::to_string(location.column) + ": " + diagnostic.message);
     }
     return out;
   }
@@ -50,7 +50,7 @@ TEST_F(ProjectFileTest, AllSections) {
   EXPECT_EQ(chosen.dialect, Dialect::Iec3);  // the command line wins
 }
 
-TEST_F(ProjectFileTest, MistakesHaveTheirPlace) {
+TEST_F(ProjectFileTest, MistakesHaveTheirLocation) {
   read("std = iec3\n[projekt]\nx = 1\n[project]\n  nmae = a\nstd=iec9\nwhat\n[task]\n[safe all]\n[project\n");
   EXPECT_EQ(messages(),
             (std::vector<std::string>{

@@ -88,7 +88,7 @@ TEST_F(Arithmetic, conversions) {
   EXPECT_EQ(defaultValue(table, names, level).asSigned(), -10);
 }
 
-TEST_F(Arithmetic, texts_compare_by_code) {
+TEST_F(Arithmetic, strings_compare_by_code) {
   const auto text = [&](const char* t) { return Value{table.string(10), names.intern(t).index}; };
   EXPECT_EQ(apply(table, names, Op::Gt, text("Z"), text("AZ")).value.bits, 1u);
   EXPECT_EQ(apply(table, names, Op::Lt, text("ABC"), text("AZ")).value.bits, 1u);

@@ -102,7 +102,7 @@ TEST(TwinCat, ProjectListsFilesAndLibraries) {
   ASSERT_TRUE(readProject(sources, file, diagnostics, project));
   ASSERT_EQ(project.files.size(), 1u);
   EXPECT_EQ(project.files[0].name, "POUs/A b.TcPOU");
-  EXPECT_EQ(sources.place(project.files[0].loc).column, 39u);
+  EXPECT_EQ(sources.location(project.files[0].loc).column, 39u);
   ASSERT_EQ(project.libraries.size(), 2u);
   EXPECT_EQ(project.libraries[0].name, "Tc2_Standard");
   EXPECT_EQ(project.libraries[0].space, "Std");
@@ -120,8 +120,8 @@ TEST(Codesys2, TextThatNeedsNothingIsParsedAsItStands) {
 TEST(Codesys2, FunctionBlockInOneWord) {
   const Reading reading("a.EXP", "(* @PATH := '' *)\nFUNCTIONBLOCK f\nVAR END_VAR\nEND_FUNCTION_BLOCK\n");
   EXPECT_EQ(reading.text(), "(* @PATH := '' *)\nFUNCTION_BLOCK f\nVAR END_VAR\nEND_FUNCTION_BLOCK\n");
-  EXPECT_EQ(reading.placeOf("FUNCTION_BLOCK f"), "2:1");
-  EXPECT_EQ(reading.placeOf(" f"), "2:14");
+  EXPECT_EQ(reading.locationOf("FUNCTION_BLOCK f"), "2:1");
+  EXPECT_EQ(reading.locationOf(" f"), "2:14");
 }
 
 TEST(Codesys2, DrawnBodiesAndForeignObjectsAreLeftOut) {

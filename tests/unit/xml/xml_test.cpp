@@ -21,8 +21,8 @@ class XmlTest : public testing::Test {
     return at(diagnostics.all().back().loc) + " " + diagnostics.all().back().message;
   }
   std::string at(Loc loc) const {
-    const Place place = sources.place(loc);
-    return std::to_string(place.line) + ":" + std::to_string(place.column);
+    const SourceLocation location = sources.location(loc);
+    return std::to_string(location.line) + ":" + std::to_string(location.column);
   }
   const Element& root() const { return document.elements[0]; }
 
@@ -66,7 +66,7 @@ TEST_F(XmlTest, AttributesWithBothQuotesAndEntities) {
   EXPECT_EQ(document.attribute(root(), "three"), nullptr);
 }
 
-TEST_F(XmlTest, TextIsDecodedAndKeepsItsPlaces) {
+TEST_F(XmlTest, TextIsDecodedAndKeepsItsLocations) {
   ASSERT_TRUE(parse("<a>x &lt; y\n<![CDATA[<&amp;>\n]] ]]><b> &#228;&#x1F600;</b>end</a>"));
   EXPECT_EQ(document.text(root(), sources), "x < y\n<&amp;>\n]]  ä😀end");
   EXPECT_EQ(document.text(*document.child(root(), "b"), sources), " ä😀");
@@ -96,7 +96,7 @@ TEST_F(XmlTest, Encodings) {
             "2:1 malformed XML: the XML declaration must be at the very beginning");
 }
 
-TEST_F(XmlTest, EachMistakeHasOneErrorAtItsPlace) {
+TEST_F(XmlTest, EachMistakeHasOneErrorAtItsLocation) {
   EXPECT_EQ(error(""), "1:1 malformed XML: the file contains no element");
   EXPECT_EQ(error("text"), "1:1 malformed XML: text before the root element");
   EXPECT_EQ(error("<a/> text"), "1:6 malformed XML: text after the root element");
@@ -133,10 +133,10 @@ TEST_F(XmlTest, DepthIsLimitedAndCostsNoStack) {
   std::string deep;
   for (int i = 0; i < 100000; ++i) deep += "<a>";
   EXPECT_EQ(error(deep), "1:3002 too many nested elements; the limit is 1000");
-  std::string good;
-  for (int i = 0; i < 1000; ++i) good += "<a>";
-  for (int i = 0; i < 1000; ++i) good += "</a>";
-  EXPECT_TRUE(parse(good));
+  std::string ok;
+  for (int i = 0; i < 1000; ++i) ok += "<a>";
+  for (int i = 0; i < 1000; ++i) ok += "</a>";
+  EXPECT_TRUE(parse(ok));
 }
 
 TEST_F(XmlTest, EveryTruncationIsAnError) {

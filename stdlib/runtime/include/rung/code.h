@@ -204,53 +204,55 @@ extern "C" {
 /* ---- text. In place, NUL-terminated, `capacity` without the NUL; too long results are cut. `to` may be `from`, also
  * in part. The same holds for every native function of a library: `out` may be one of its text inputs. What makes a
  * text gives its length. */
-uint32_t rung_text_assign(char* to, uint32_t capacity, const char* from);
-uint32_t rung_wtext_assign(char16_t* to, uint32_t capacity, const char16_t* from);
+uint32_t rung_string_assign(char* to, uint32_t capacity, const char* from);
+uint32_t rung_wstring_assign(char16_t* to, uint32_t capacity, const char16_t* from);
 /* Below, at or above 0, by unsigned units. */
 /* USTRING: UTF-8, cut between characters. Compared as STRING is: that order is the order of code points. */
-uint32_t rung_utext_assign(char* to, uint32_t capacity, const char* from);
+uint32_t rung_ustring_assign(char* to, uint32_t capacity, const char* from);
 /* The length of a text that ends in a piece of a character without that piece, which goes. */
-uint32_t rung_utext_whole(char* text, uint32_t length);
-uint32_t rung_utext_length(const char* text) RUNG_PURE; /* in characters */
+uint32_t rung_ustring_whole(char* string, uint32_t length);
+uint32_t rung_ustring_length(const char* string) RUNG_PURE; /* in characters */
 /* Where `count` characters end, in bytes; beyond the end of the text a byte for each that there is not. */
-int64_t rung_utext_offset(const char* text, int64_t count) RUNG_PURE;
-uint32_t rung_utext_code(const char* text) RUNG_PURE; /* the first character; 0 of an empty text, '?' of what is none */
-uint32_t rung_utext_of_code(char* to, uint32_t capacity, uint32_t code);
-uint32_t rung_utext_of_text(char* to, uint32_t capacity, const char* from); /* of a STRING, which may hold any bytes */
-int rung_text_compare(const char* a, const char* b) RUNG_PURE;
-int rung_wtext_compare(const char16_t* a, const char16_t* b) RUNG_PURE;
-uint32_t rung_wtext_length(const char16_t* text) RUNG_PURE;
-static inline uint32_t rung_text_length(const char* text) { return (uint32_t)strlen(text); }
-/* As rung_text_assign, of a text whose length is known; `to` and `from` are one variable or apart. */
-static inline uint32_t rung_text_put(char* to, uint32_t capacity, const char* from, uint32_t length) {
+int64_t rung_ustring_offset(const char* string, int64_t count) RUNG_PURE;
+uint32_t rung_ustring_code(
+    const char* string) RUNG_PURE; /* the first character; 0 of an empty text, '?' of what is none */
+uint32_t rung_ustring_of_code(char* to, uint32_t capacity, uint32_t code);
+uint32_t rung_ustring_of_string(char* to, uint32_t capacity,
+                                const char* from); /* of a STRING, which may hold any bytes */
+int rung_string_compare(const char* a, const char* b) RUNG_PURE;
+int rung_wstring_compare(const char16_t* a, const char16_t* b) RUNG_PURE;
+uint32_t rung_wstring_length(const char16_t* string) RUNG_PURE;
+static inline uint32_t rung_string_length(const char* string) { return (uint32_t)strlen(string); }
+/* As rung_string_assign, of a text whose length is known; `to` and `from` are one variable or apart. */
+static inline uint32_t rung_string_put(char* to, uint32_t capacity, const char* from, uint32_t length) {
   if (length > capacity) length = capacity;
   memmove(to, from, length);
   to[length] = 0;
   return length;
 }
 /* STRING is UTF-8 here, WSTRING UTF-16; what is no code point becomes '?'. */
-uint32_t rung_text_of_wtext(char* to, uint32_t capacity, const char16_t* from);
-uint32_t rung_wtext_of_text(char16_t* to, uint32_t capacity, const char* from);
+uint32_t rung_string_of_wstring(char* to, uint32_t capacity, const char16_t* from);
+uint32_t rung_wstring_of_string(char16_t* to, uint32_t capacity, const char* from);
 /* A scalar as text, as <T>_TO_STRING spells it, and back. `kind`: rung_type_kind; `bits`: the value, sign- or
  * zero-extended (REAL and LREAL: the bits of a double). Reading gives 0 where the text is no such value; the result
  * is to be cut to the type's width. */
-uint32_t rung_text_of_scalar(char* to, uint32_t capacity, uint8_t kind, uint64_t bits);
-uint32_t rung_wtext_of_scalar(char16_t* to, uint32_t capacity, uint8_t kind, uint64_t bits);
+uint32_t rung_string_of_scalar(char* to, uint32_t capacity, uint8_t kind, uint64_t bits);
+uint32_t rung_wstring_of_scalar(char16_t* to, uint32_t capacity, uint8_t kind, uint64_t bits);
 /* The most frequent of them: a decimal number. */
-uint32_t rung_text_of_integer(char* to, uint32_t capacity, bool negative, uint64_t magnitude);
-uint64_t rung_scalar_of_text(uint8_t kind, const char* text) RUNG_PURE;
-uint64_t rung_scalar_of_wtext(uint8_t kind, const char16_t* text) RUNG_PURE;
+uint32_t rung_string_of_integer(char* to, uint32_t capacity, bool negative, uint64_t magnitude);
+uint64_t rung_scalar_of_string(uint8_t kind, const char* string) RUNG_PURE;
+uint64_t rung_scalar_of_wstring(uint8_t kind, const char16_t* string) RUNG_PURE;
 
 /* ---- faults */
 /* Runs `run(frame)` and catches its faults: RUNG_FAULT_NONE, or the kind, details in ctx->fault. Nests. For __TRY. */
 uint8_t rung_try(rung_context* ctx, void (*run)(void* frame), void* frame);
 
-/* ---- assertions of tests, reported to ctx->host->assertion. `kind` and bits: as rung_text_of_scalar takes them, and
+/* ---- assertions of tests, reported to ctx->host->assertion. `kind` and bits: as rung_string_of_scalar takes them, and
  * RUNG_ENUM; of RUNG_STRING and RUNG_WSTRING the bits are the address. Equal means IEC `=` (NaN is equal to NaN here).
  */
-void rung_assert(rung_context* ctx, const rung_assertion* assertion, bool good);
+void rung_assert(rung_context* ctx, const rung_assertion* assertion, bool ok);
 /* The same for a comparison, whose sides the report shows. */
-void rung_assert_compared(rung_context* ctx, const rung_assertion* assertion, bool good, uint8_t kind, uint64_t left,
+void rung_assert_compared(rung_context* ctx, const rung_assertion* assertion, bool ok, uint8_t kind, uint64_t left,
                           uint64_t right);
 void rung_assert_equal(rung_context* ctx, const rung_assertion* assertion, uint8_t kind, uint64_t expected,
                        uint64_t actual);

@@ -50,14 +50,14 @@ typedef uint32_t UCHAR;
 /* STRING[N], USTRING[N], WSTRING[N]: characters and a NUL; what does not fit is cut, of a USTRING between characters.
  */
 template <class Char, uint32_t N, bool Utf8 = false>
-struct RUNG_MAY_ALIAS BasicText {
+struct RUNG_MAY_ALIAS BasicString {
   Char characters[N + 1];
-  BasicText() { characters[0] = 0; }
-  BasicText(const Char* text) { assign(text, std::char_traits<Char>::length(text)); }
-  BasicText(const std::basic_string<Char>& text) { assign(text.data(), text.size()); }
+  BasicString() { characters[0] = 0; }
+  BasicString(const Char* string) { assign(string, std::char_traits<Char>::length(string)); }
+  BasicString(const std::basic_string<Char>& string) { assign(string.data(), string.size()); }
   template <uint32_t M, bool Other>
-  BasicText(const BasicText<Char, M, Other>& text) {
-    assign(text.c_str(), text.size());
+  BasicString(const BasicString<Char, M, Other>& string) {
+    assign(string.c_str(), string.size());
   }
   const Char* c_str() const { return characters; }
   size_t size() const {
@@ -68,41 +68,41 @@ struct RUNG_MAY_ALIAS BasicText {
   operator std::basic_string<Char>() const { return {characters, size()}; }
   Char& operator[](size_t at) { return characters[at]; }
   const Char& operator[](size_t at) const { return characters[at]; }
-  BasicText& operator+=(const std::basic_string<Char>& more) {
+  BasicString& operator+=(const std::basic_string<Char>& more) {
     return *this = static_cast<std::basic_string<Char>>(*this) + more;
   }
-  friend bool operator==(const BasicText& a, const std::basic_string<Char>& b) { return b.compare(a.c_str()) == 0; }
-  friend bool operator!=(const BasicText& a, const std::basic_string<Char>& b) { return !(a == b); }
-  friend bool operator==(const BasicText& a, const Char* b) { return a == std::basic_string<Char>(b); }
-  friend bool operator!=(const BasicText& a, const Char* b) { return !(a == b); }
-  friend bool operator==(const BasicText& a, const BasicText& b) { return a == b.c_str(); }
-  friend bool operator!=(const BasicText& a, const BasicText& b) { return !(a == b); }
-  friend std::basic_string<Char> operator+(const BasicText& a, const std::basic_string<Char>& b) {
+  friend bool operator==(const BasicString& a, const std::basic_string<Char>& b) { return b.compare(a.c_str()) == 0; }
+  friend bool operator!=(const BasicString& a, const std::basic_string<Char>& b) { return !(a == b); }
+  friend bool operator==(const BasicString& a, const Char* b) { return a == std::basic_string<Char>(b); }
+  friend bool operator!=(const BasicString& a, const Char* b) { return !(a == b); }
+  friend bool operator==(const BasicString& a, const BasicString& b) { return a == b.c_str(); }
+  friend bool operator!=(const BasicString& a, const BasicString& b) { return !(a == b); }
+  friend std::basic_string<Char> operator+(const BasicString& a, const std::basic_string<Char>& b) {
     return static_cast<std::basic_string<Char>>(a) + b;
   }
-  friend std::basic_string<Char> operator+(const std::basic_string<Char>& a, const BasicText& b) {
+  friend std::basic_string<Char> operator+(const std::basic_string<Char>& a, const BasicString& b) {
     return a + b.c_str();
   }
 
  private:
-  void assign(const Char* text, size_t length) {  // `text` may lie in *this
+  void assign(const Char* string, size_t length) {  // `string` may lie in *this
     if (length > N) {
       length = N;
-      while (Utf8 && length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0) == 0x80) --length;
+      while (Utf8 && length > 0 && (static_cast<unsigned char>(string[length]) & 0xc0) == 0x80) --length;
     }
-    memmove(characters, text, length * sizeof(Char));
+    memmove(characters, string, length * sizeof(Char));
     characters[length] = 0;
   }
 };
 template <uint32_t N>
-using Text = BasicText<char, N>;
+using String = BasicString<char, N>;
 template <uint32_t N>
-using WideText = BasicText<char16_t, N>;
+using WideString = BasicString<char16_t, N>;
 template <uint32_t N>
-using Utf8Text = BasicText<char, N, true>;
-typedef Text<255> STRING;
-typedef WideText<255> WSTRING;
-typedef Utf8Text<255> USTRING;
+using Utf8String = BasicString<char, N, true>;
+typedef String<255> STRING;
+typedef WideString<255> WSTRING;
+typedef Utf8String<255> USTRING;
 
 /* ARRAY: `x.table[i - low]`; Table is a C array type. */
 template <class Table>

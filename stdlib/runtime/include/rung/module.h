@@ -58,7 +58,7 @@ typedef enum rung_type_kind {
 typedef struct rung_type {
   uint8_t kind;      /* rung_type_kind */
   uint8_t is_signed; /* TIME: signed in iec, unsigned in codesys */
-  uint32_t name;     /* offset in `text` */
+  uint32_t name;     /* offset in `strings` */
   uint32_t size;     /* bytes */
   uint32_t element;  /* type index or RUNG_NONE */
   uint32_t length;
@@ -89,17 +89,17 @@ typedef struct rung_dimension {
 } rung_dimension;
 
 /* A root of the symbol map: a program instance, a global variable or a located variable. */
-enum rung_place { RUNG_IN_BLOCK = 0, RUNG_IN_INPUTS = 1, RUNG_IN_OUTPUTS = 2, RUNG_IN_MEMORY = 3 };
+enum rung_storage { RUNG_IN_BLOCK = 0, RUNG_IN_INPUTS = 1, RUNG_IN_OUTPUTS = 2, RUNG_IN_MEMORY = 3 };
 typedef struct rung_symbol {
   uint32_t name; /* `Main`, `level`, `Main.valve` for a located variable of a program */
   uint32_t type;
-  uint8_t place; /* rung_place */
-  uint8_t bit;   /* of a BOOL in an image (0..7), else 255 */
+  uint8_t storage; /* rung_storage */
+  uint8_t bit;     /* of a BOOL in an image (0..7), else 255 */
   uint8_t is_program;
   uint32_t block;  /* RUNG_IN_BLOCK */
   uint32_t offset; /* bytes in the block or image */
   uint32_t flags;  /* rung_field_flags */
-  uint32_t path;   /* `Config.Resource.` or '' that may stand before it: offset in text */
+  uint32_t path;   /* `Config.Resource.` or '' that may stand before it: offset in strings */
 } rung_symbol;
 
 /* A range that warm starts keep (retain) or downloads keep too (persistent). */
@@ -120,8 +120,8 @@ typedef struct rung_task {
   int64_t interval_ns;
   int64_t watchdog_ns; /* 0: none */
   uint32_t sensitivity;
-  uint32_t trigger;        /* EVENT, STATUS: path of a BOOL, offset in text */
-  uint32_t external_event; /* EXTERNAL: name, offset in text */
+  uint32_t trigger;        /* EVENT, STATUS: path of a BOOL, offset in strings */
+  uint32_t external_event; /* EXTERNAL: name, offset in strings */
   void (*run)(rung_context*);
 } rung_task;
 
@@ -162,7 +162,7 @@ enum rung_lock_error {
 #define RUNG_BAD_ADDRESS (-1) /* NULL: memory that the program may not touch; of the bundled host */
 /* Where a check stands: a table of the module, indexed by the number that the code passes. */
 typedef struct rung_site {
-  uint32_t pou, file; /* offsets in text */
+  uint32_t pou, file; /* offsets in strings */
   uint32_t line, column;
   int64_t low, high; /* bounds */
 } rung_site;
@@ -176,10 +176,10 @@ typedef struct rung_fault {
 typedef struct rung_assertion {
   const char* file;
   uint32_t line, column;
-  const char* source; /* the line of the program */
-  const char* text;   /* of its author */
-  const char* shown;  /* ASSERT(a > b): `a > b`, `a` and `b`, a line each; empty for a literal */
-  const char* items;  /* enumerations: `name\0value\0name\0value\0\0`, values decimal */
+  const char* source;  /* the line of the program */
+  const char* message; /* of its author */
+  const char* shown;   /* ASSERT(a > b): `a > b`, `a` and `b`, a line each; empty for a literal */
+  const char* items;   /* enumerations: `name\0value\0name\0value\0\0`, values decimal */
 } rung_assertion;
 
 /* ---- the host's side */
@@ -256,7 +256,7 @@ typedef struct rung_module {
   uint32_t pointer_size;
   const char* name;
   const char* compiler; /* version of rung */
-  const char* text;     /* all names, NUL-terminated, by offset */
+  const char* strings;  /* all names, NUL-terminated, by offset */
   uint64_t layout_hash; /* of blocks, offsets and types: retained data of another hash does not fit */
   const rung_block* blocks;
   uint32_t block_count;

@@ -8,10 +8,10 @@
 
 #include "rung/code.h"
 
-static inline uint32_t rung_text_limit(uint32_t capacity) { return capacity < 255 ? capacity : 255; }
+static inline uint32_t rung_string_limit(uint32_t capacity) { return capacity < 255 ? capacity : 255; }
 
 /* Single characters are the most frequent parts of all: one store for the character and the NUL. */
-static inline uint32_t rung_text_part(char* out, const char* from, uint32_t length) {
+static inline uint32_t rung_string_part(char* out, const char* from, uint32_t length) {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
   if (length == 1) {
     const uint16_t ended = (uint8_t)*from;
@@ -31,7 +31,7 @@ static inline int16_t rung_standard_LEN__STRING_255_sized(const char*, uint32_t 
 /* The slice forms tell which part of the input the result is: they give its beginning, and set its length. */
 static inline const char* rung_standard_LEFT__STRING_255_slice(const char* in, uint32_t length, int32_t l,
                                                                uint32_t capacity, uint32_t* result) {
-  const uint32_t limit = rung_text_limit(capacity);
+  const uint32_t limit = rung_string_limit(capacity);
   uint32_t count = l < 0 ? 0 : (uint32_t)l;
   if (count > length) count = length;
   *result = count > limit ? limit : count;
@@ -40,7 +40,7 @@ static inline const char* rung_standard_LEFT__STRING_255_slice(const char* in, u
 
 static inline const char* rung_standard_RIGHT__STRING_255_slice(const char* in, uint32_t length, int32_t l,
                                                                 uint32_t capacity, uint32_t* result) {
-  const uint32_t limit = rung_text_limit(capacity);
+  const uint32_t limit = rung_string_limit(capacity);
   uint32_t count = l < 0 ? 0 : (uint32_t)l;
   if (count > length) count = length;
   *result = count > limit ? limit : count;
@@ -49,7 +49,7 @@ static inline const char* rung_standard_RIGHT__STRING_255_slice(const char* in, 
 
 static inline const char* rung_standard_MID__STRING_255_slice(const char* in, uint32_t length, int32_t l, int32_t p,
                                                               uint32_t capacity, uint32_t* result) {
-  const uint32_t limit = rung_text_limit(capacity);
+  const uint32_t limit = rung_string_limit(capacity);
   *result = 0;
   if (l <= 0 || p < 1 || (uint32_t)p > length) return in;
   uint32_t count = (uint32_t)l;
@@ -62,49 +62,49 @@ static inline uint32_t rung_standard_LEFT__STRING_255_sized(const char* in, uint
                                                             uint32_t capacity) {
   uint32_t count;
   const char* from = rung_standard_LEFT__STRING_255_slice(in, length, l, capacity, &count);
-  return rung_text_part(out, from, count);
+  return rung_string_part(out, from, count);
 }
 
 static inline uint32_t rung_standard_RIGHT__STRING_255_sized(const char* in, uint32_t length, int32_t l, char* out,
                                                              uint32_t capacity) {
   uint32_t count;
   const char* from = rung_standard_RIGHT__STRING_255_slice(in, length, l, capacity, &count);
-  return rung_text_part(out, from, count);
+  return rung_string_part(out, from, count);
 }
 
 static inline uint32_t rung_standard_MID__STRING_255_sized(const char* in, uint32_t length, int32_t l, int32_t p,
                                                            char* out, uint32_t capacity) {
   uint32_t count;
   const char* from = rung_standard_MID__STRING_255_slice(in, length, l, p, capacity, &count);
-  return rung_text_part(out, from, count);
+  return rung_string_part(out, from, count);
 }
 
 extern "C" {
-uint32_t rung_text_join(const char* in1, uint32_t length1, const char* in2, uint32_t length2, char* out,
-                        uint32_t capacity);
+uint32_t rung_string_join(const char* in1, uint32_t length1, const char* in2, uint32_t length2, char* out,
+                          uint32_t capacity);
 uint32_t rung_standard_INSERT__STRING_255_sized(const char* in1, uint32_t length1, const char* in2, uint32_t length2,
                                                 int32_t p, char* out, uint32_t capacity);
 uint32_t rung_standard_DELETE__STRING_255_sized(const char* in, uint32_t length, int32_t l, int32_t p, char* out,
                                                 uint32_t capacity);
 uint32_t rung_standard_REPLACE__STRING_255_sized(const char* in1, uint32_t length1, const char* in2, uint32_t length2,
                                                  int32_t l, int32_t p, char* out, uint32_t capacity);
-uint32_t rung_text_search(const char* in, uint32_t length, char unit) RUNG_PURE; /* as rung_text_find_unit */
-int16_t rung_text_find(const char* in1, uint32_t length1, const char* in2, uint32_t length2) RUNG_PURE;
+uint32_t rung_string_search(const char* in, uint32_t length, char unit) RUNG_PURE; /* as rung_string_find_unit */
+int16_t rung_string_find(const char* in1, uint32_t length1, const char* in2, uint32_t length2) RUNG_PURE;
 }
 
 /* Appends in place where `out` is in1. */
 static inline uint32_t rung_standard_CONCAT__STRING_255_sized(const char* in1, uint32_t length1, const char* in2,
                                                               uint32_t length2, char* out, uint32_t capacity) {
-  const uint32_t limit = rung_text_limit(capacity);
-  if (out != in1) return rung_text_join(in1, length1, in2, length2, out, capacity);
+  const uint32_t limit = rung_string_limit(capacity);
+  if (out != in1) return rung_string_join(in1, length1, in2, length2, out, capacity);
   if (capacity > limit && length1 > limit) length1 = limit;
   const uint32_t room = limit - length1;
-  if (length2 <= room) return length1 + rung_text_part(out + length1, in2, length2); /* a constant length stays one */
-  return limit - room + rung_text_part(out + length1, in2, room);
+  if (length2 <= room) return length1 + rung_string_part(out + length1, in2, length2); /* a constant length stays one */
+  return limit - room + rung_string_part(out + length1, in2, room);
 }
 
 /* A bit at the top of each byte that is `unit`; the lowest bit set is that of the first one. */
-static inline uint64_t rung_text_units(uint64_t word, char unit) {
+static inline uint64_t rung_string_units(uint64_t word, char unit) {
   const uint64_t ones = 0x0101010101010101ULL;
   word ^= ones * (uint8_t)unit;
   return (word - ones) & ~word & ones << 7;
@@ -112,31 +112,31 @@ static inline uint64_t rung_text_units(uint64_t word, char unit) {
 
 /* Index of the first `unit`, or `length`. A set of a few characters, such as the digits, is looked up without a call:
  * as two words whose bytes are compared at once; so is what stands near in a longer text. */
-static inline uint32_t rung_text_find_unit(const char* in, uint32_t length, char unit) {
+static inline uint32_t rung_string_find_unit(const char* in, uint32_t length, char unit) {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
   if (length >= 8 && length <= 16) {
     uint64_t first, last;
     memcpy(&first, in, 8);
     memcpy(&last, in + length - 8, 8);
-    first = rung_text_units(first, unit);
-    last = rung_text_units(last, unit);
+    first = rung_string_units(first, unit);
+    last = rung_string_units(last, unit);
     if (first != 0) return (uint32_t)__builtin_ctzll(first) / 8;
     return last != 0 ? length - 8 + (uint32_t)__builtin_ctzll(last) / 8 : length;
   }
   if (length > 16) {
     uint64_t first;
     memcpy(&first, in, 8);
-    first = rung_text_units(first, unit);
+    first = rung_string_units(first, unit);
     if (first != 0) return (uint32_t)__builtin_ctzll(first) / 8;
   }
 #endif
-  return rung_text_search(in, length, unit);
+  return rung_string_search(in, length, unit);
 }
 
 static inline int16_t rung_standard_FIND__STRING_255_sized(const char* in1, uint32_t length1, const char* in2,
                                                            uint32_t length2) {
-  if (length2 != 1) return rung_text_find(in1, length1, in2, length2);
-  const uint32_t at = rung_text_find_unit(in1, length1, *in2);
+  if (length2 != 1) return rung_string_find(in1, length1, in2, length2);
+  const uint32_t at = rung_string_find_unit(in1, length1, *in2);
   return at == length1 ? 0 : at >= INT16_MAX ? INT16_MAX : (int16_t)(at + 1);
 }
 

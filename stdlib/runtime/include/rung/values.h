@@ -11,14 +11,14 @@ extern "C" {
 #endif
 
 /* Characters that any scalar may need; a STRING[n] needs up to 5n+2. */
-#define RUNG_SPELLED_SCALAR 64u
+#define RUNG_FORMATTED_SCALAR 64u
 
 /* Writes a value as the trace prints it: `TRUE`, `-5`, `0.5`, `T#1s500ms`, `'a$L'`. `is_signed` matters for durations
  * (rung_type::is_signed). For RUNG_STRING and RUNG_WSTRING `value` is the text itself. Cuts at `capacity` characters,
  * ends with NUL (out has capacity + 1 bytes); returns the length written. */
-uint32_t rung_spell(uint8_t kind, bool is_signed, const void* value, char* out, uint32_t capacity);
+uint32_t rung_format(uint8_t kind, bool is_signed, const void* value, char* out, uint32_t capacity);
 
-/* Reads what rung_spell writes and any literal of the language (INT#5, 16#FF, 1_000, T#1.5s, DT#...). All of `text`
+/* Reads what rung_format writes and any literal of the language (INT#5, 16#FF, 1_000, T#1.5s, DT#...). All of `text`
  * must be the literal. Texts are cut to `length` characters. False: it is none, or its value does not fit the type;
  * then nothing is written. */
 bool rung_parse(uint8_t kind, bool is_signed, uint32_t length, const char* text, size_t size, void* value);

@@ -32,10 +32,10 @@ class Bench {
 
   Body& body() { return module.bodies[1]; }
   uint32_t field(TypeId type) {
-    types::Field made;
-    made.name = names.intern("v" + std::to_string(types.info(record).fields.size()));
-    made.type = type;
-    types.edit(record).fields.push_back(made);
+    types::Field created;
+    created.name = names.intern("v" + std::to_string(types.info(record).fields.size()));
+    created.type = type;
+    types.edit(record).fields.push_back(created);
     return static_cast<uint32_t>(types.info(record).fields.size() - 1);
   }
 
@@ -232,9 +232,9 @@ void checkOperators(TypeId type) {
                                             : types::apply(types, bench.names, one.op, a, c);
         const uint64_t given = bench.get(one.result);
         ASSERT_TRUE(same(types, expected.value.type, expected.value.bits, given))
-            << types.spell(type) << ": " << types::word(one.op) << " " << types::spell(types, bench.names, a) << ", "
-            << types::spell(types, bench.names, c) << " (constant " << one.constant << ") gives " << std::hex << given
-            << " for " << expected.value.bits;
+            << types.toString(type) << ": " << types::word(one.op) << " " << types::toString(types, bench.names, a)
+            << ", " << types::toString(types, bench.names, c) << " (constant " << one.constant << ") gives " << std::hex
+            << given << " for " << expected.value.bits;
       }
     }
   }
@@ -267,7 +267,7 @@ TEST(InterpreterArithmetic, ShiftCountsOfAnyIntegerType) {
           for (const auto& [op, result] : cases) {
             const types::Outcome expected = types::apply(bench.types, bench.names, op, x, {count_type, n});
             ASSERT_EQ(bench.get(result), expected.value.bits)
-                << types::word(op) << " " << bench.types.spell(type) << " " << x.bits << " by " << n;
+                << types::word(op) << " " << bench.types.toString(type) << " " << x.bits << " by " << n;
           }
         }
       }
@@ -303,8 +303,8 @@ TEST(InterpreterArithmetic, ConversionsAgreeWithTheKernel) {
       for (const auto& [to, result] : cases) {
         const types::Outcome expected = types::convert(types, x, to);
         ASSERT_TRUE(same(types, to, expected.value.bits, bench.get(result)))
-            << types.spell(from) << " " << types::spell(types, bench.names, x) << " to " << types.spell(to) << " gives "
-            << std::hex << bench.get(result) << " for " << expected.value.bits;
+            << types.toString(from) << " " << types::toString(types, bench.names, x) << " to " << types.toString(to)
+            << " gives " << std::hex << bench.get(result) << " for " << expected.value.bits;
       }
     }
   }
@@ -328,7 +328,7 @@ TEST(InterpreterArithmetic, PowersAgreeWithTheKernel) {
           bench.run();
           const types::Outcome expected = types::apply(types, bench.names, Op::Power, x, n);
           ASSERT_TRUE(same(types, base, expected.value.bits, bench.get(result)))
-              << types::spell(types, bench.names, x) << " ** " << types::spell(types, bench.names, n);
+              << types::toString(types, bench.names, x) << " ** " << types::toString(types, bench.names, n);
         }
       }
     }

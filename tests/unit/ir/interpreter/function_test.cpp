@@ -10,9 +10,9 @@ namespace {
 
 FunctionResult runText(const std::string& text, std::vector<types::Value> arguments = {}) {
   TestModule m(text);
-  EXPECT_TRUE(m.good) << m.errors();
+  EXPECT_TRUE(m.ok) << m.errors();
   for (uint32_t i = 1; i < m.module.bodies.size(); ++i) {
-    if (m.names.text(m.module.bodies[i].name) == "f")
+    if (m.names.string(m.module.bodies[i].name) == "f")
       return runFunction(m.module, {i}, arguments, {}, 100'000, m.names);
   }
   return {};
@@ -172,11 +172,11 @@ TEST(InterpreterFunction, Texts) {
   TestModule m(
       "function @f { in s: string[20]; result string[5] }\n"
       "body @f { if eq string[20] s, string[3]#'abc' { return 'same' } result = s }\n");
-  ASSERT_TRUE(m.good);
+  ASSERT_TRUE(m.ok);
   const auto run = [&](const char* text) {
     const types::Value given{m.types.string(20), m.names.intern(text).index};
     const FunctionResult result = runFunction(m.module, {1}, {&given, 1}, {}, 1000, m.names);
-    return std::string(m.names.text(NameId{static_cast<uint32_t>(result.value.bits)}));
+    return std::string(m.names.string(NameId{static_cast<uint32_t>(result.value.bits)}));
   };
   EXPECT_EQ(run("abc"), "same");
   EXPECT_EQ(run("abcdefg"), "abcde");

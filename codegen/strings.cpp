@@ -1,0 +1,484 @@
+// Assignments, and texts: in place, NUL-terminated, cut to the capacity of what they are assigned to; read without a
+// copy, compared with short literals without a call.
+#include <algorithm>
+
+#include "codegen/body.h"
+#include "ir/walk.h"
+
+namespace rung::codegen {
+
+namespace {
+
+constexpr uint32_t kCopiedWhole = 128;   // bytes of a text that are copied without looking for its end
+constexpr uint32_t kComparedWhole = 32;  // bytes of a literal that memcmp compares inline
+constexpr uint32_t kComparedByUnit = 3;  // units of a literal that are compared one by one where memory may end
+
+std::string_view upToNul(std::string_view string) { return string.substr(0, string.find('\0')); }
+
+// The characters that fit `bytes` bytes of a USTRING.
+std::string_view firstWhole(std::string_view string, uint32_t bytes) {
+  if (string.size() <= bytes) return string;
+  while (bytes > 0 && (static_cast<unsigned char>(string[bytes]) & 0xc0) == 0x80) --bytes;
+  return string.substr(0, bytes);
+}
+
+// The first `units` UTF-16 units of a UTF-8 text.
+std::string_view firstUnits(std::string_view string, uint32_t units) {
+  size_t at = 0;
+  while (at < string.size()) {
+    const auto lead = static_cast<unsigned char>(string[at]);
+    const uint32_t width = lead >= 0xf0 ? 2 : 1;
+    if (width > units) break;
+    units -= width;
+    at += lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc0 ? 2 : 1;
+  }
+  return string.substr(0, at);
+}
+
+}  // namespace
+
+void BodyWriter::assign(const Stmt& stmt) {
+  const ExprId to{stmt.a}, from{stmt.b};
+  const TypeId type = expr(to).type;
+  const Expr& source = expr(from);
+  if (isString(type)) {
+    if (slicedString(to) != nullptr) return assignSlice(to, from);
+    prepare(to);
+    prepareString(from);
+    const std::string name = captured([&] { place(to); });
+    const bool is_measured = measuredString(to) != nullptr;
+    copyString(name, capacityOf(type), isWide(type), from, is_measured ? captured([&] { lengthName(to); }) : "");
+    setKnown(to);
+    return;
+  }
+  if (!isAggregate(type)) {
+    prepare(to);
+    prepare(from);
+    if (isLvalue(to)) {
+      place(to);
+      out_ += " = ";
+      value(from, Prec::Ternary);
+    } else {
+      store(to, captured([&] { value(from, Prec::Ternary); }));
+    }
+    out_ += ';';
+    return;
+  }
+  prepare(to);
+  const std::string name = captured([&] { place(to); });
+  if (source.kind == ExprKind::Zero) {
+    out_ += "memset(&" + name + ", 0, sizeof " + name + ");";
+    return;
+  }
+  if (source.kind == ExprKind::Data) {
+    out_ += "memcpy(&" + name + ", ";
+    dataReference(source.a);
+    out_ += ", sizeof " + name + ");";
+    return;
+  }
+  prepare(from);
+  const std::string value_code = captured([&] { place(from); });
+  if (value_code == name) return;
+  if (types_.kind(type) == TypeKind::Record && !isImagePlace(to) && !isImagePlace(from)) {
+    out_ += name + " = " + value_code + ";";
+  } else {
+    out_ += "memmove(&" + name + ", &" + value_code + ", sizeof " + name + ");";
+  }
+}
+
+// ---- texts
+
+uint32_t BodyWriter::literalLength(const Expr& e) const {
+  const std::string_view literal = string(NameId{e.a});
+  return isWide(e.type) ? wideLength(literal) : static_cast<uint32_t>(upToNul(literal).size());
+}
+
+bool BodyWriter::isBuffer(ExprId id, uint32_t& capacity) const {
+  const Expr& e = expr(id);
+  capacity = capacityOf(e.type);
+  if (slicedString(id) != nullptr) return false;
+  switch (e.kind) {
+    case ExprKind::Local: return !body_->locals[e.a].by_reference;
+    case ExprKind::Field: return !types_.info(types_.resolve(expr(ExprId{e.a}).type)).fields[e.b].by_reference;
+    case ExprKind::Index: return true;
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::String:
+    case ExprKind::Data:
+    case ExprKind::Zero:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program:
+    case ExprKind::Image:
+    case ExprKind::Deref:
+    case ExprKind::Bits:
+    case ExprKind::Unary:
+    case ExprKind::Binary:
+    case ExprKind::Convert:
+    case ExprKind::Select:
+    case ExprKind::Call:
+    case ExprKind::Address: return false;
+  }
+  return false;
+}
+
+void BodyWriter::prepareString(ExprId from) {
+  const Expr& e = expr(from);
+  if (e.kind == ExprKind::Convert && isString(e.type)) {
+    prepareString(ExprId{e.a});
+    return;
+  }
+  prepare(from);
+}
+
+void BodyWriter::materializeString(ExprId id) {
+  const Expr& e = expr(id);
+  const std::string name = newVariable(e.type, "s");
+  if (e.kind == ExprKind::Convert) {
+    copyString(name, capacityOf(e.type), isWide(e.type), id);
+  } else {  // a pure function: its text result is the last parameter
+    std::string function = captured([&] { callExpr(e); });
+    function.pop_back();
+    out_ += function + ", " + name;
+    if (module_.body(ir::BodyId{e.a}).native) {
+      out_ += ", ";
+      appendUnsigned(out_, capacityOf(e.type));
+    }
+    out_ += ");";
+  }
+  out_ += ' ';
+  materialized_.push_back({id.index, name});
+}
+
+void BodyWriter::copyString(std::string_view to, uint32_t capacity, bool wide, ExprId from, std::string_view length) {
+  const Expr& e = expr(from);
+  auto beginLength = [&] {
+    if (length.empty()) return;
+    out_ += length;
+    out_ += " = ";
+  };
+  auto setLength = [&](uint32_t number) {
+    if (length.empty()) return;
+    out_ += ' ';
+    beginLength();
+    appendUnsigned(out_, number);
+    out_ += ';';
+  };
+  auto begin = [&](std::string_view function, uint32_t limit) {
+    beginLength();
+    out_ += function;
+    out_ += '(';
+    out_ += to;
+    out_ += ", ";
+    appendUnsigned(out_, limit);
+    out_ += ", ";
+  };
+  switch (e.kind) {
+    case ExprKind::Zero:
+      out_ += to;
+      out_ += "[0] = 0;";
+      setLength(0);
+      return;
+    case ExprKind::String: {
+      if (isWide(e.type) != wide) break;
+      std::string_view literal = upToNul(string(NameId{e.a}));
+      literal = wide             ? firstUnits(literal, capacity)
+                : isUtf8(e.type) ? firstWhole(literal, capacity)
+                                 : literal.substr(0, capacity);
+      if (literal.empty()) {
+        out_ += to;
+        out_ += "[0] = 0;";
+        setLength(0);
+        return;
+      }
+      out_ += "memcpy(";
+      out_ += to;
+      out_ += ", ";
+      wide ? appendQuotedWide(out_, literal) : appendQuoted(out_, literal);
+      out_ += ", ";
+      appendUnsigned(out_, wide ? (uint64_t{wideLength(literal)} + 1) * 2 : literal.size() + 1);
+      out_ += ");";
+      setLength(static_cast<uint32_t>(literal.size()));
+      return;
+    }
+    case ExprKind::Convert: {
+      const ExprId inner{e.a};
+      const uint32_t limit = std::min(capacity, capacityOf(e.type));
+      if (isWide(e.type) != wide) break;
+      if (isString(expr(inner).type)) {
+        copyString(to, limit, wide, inner, length);
+        return;
+      }
+      begin(wide ? "rung_wstring_of_scalar" : "rung_string_of_scalar", limit);
+      out_ += typeKindName(types_, expr(inner).type);
+      out_ += ", ";
+      scalarBits(inner);
+      out_ += ");";
+      return;
+    }
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::Data:
+    case ExprKind::Local:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program:
+    case ExprKind::Image:
+    case ExprKind::Field:
+    case ExprKind::Index:
+    case ExprKind::Deref:
+    case ExprKind::Bits:
+    case ExprKind::Unary:
+    case ExprKind::Binary:
+    case ExprKind::Select:
+    case ExprKind::Call:
+    case ExprKind::Address: break;
+  }
+  const std::string source = captured([&] { stringValue(from); });
+  if (source == to && capacity >= capacityOf(e.type)) return;
+  const bool is_measured = measuredString(from) != nullptr && measuredString(from)->known;
+  uint32_t room;
+  if (isWide(e.type) != wide) {
+    begin(wide ? "rung_wstring_of_string" : "rung_string_of_wstring", capacity);
+  } else if (isBuffer(from, room) && room <= capacity && (room + 1) * (wide ? 2 : 1) <= kCopiedWhole) {
+    out_ += "memcpy(";
+    out_ += to;
+    out_ += ", " + source + ", ";
+    appendUnsigned(out_, (uint64_t{room} + 1) * (wide ? 2 : 1));
+    out_ += ");";
+    if (length.empty()) return;
+    out_ += ' ';
+    beginLength();
+    if (is_measured) {
+      lengthName(from);
+    } else {
+      out_ += "rung_string_length(";
+      out_ += to;
+      out_ += ')';
+    }
+    out_ += ';';
+    return;
+  } else if (is_measured && !wide) {
+    begin("rung_string_put", capacity);
+    out_ += source + ", ";
+    lengthName(from);
+    out_ += ");";
+    return;
+  } else {
+    begin(wide ? "rung_wstring_assign" : isUtf8(e.type) ? "rung_ustring_assign" : "rung_string_assign", capacity);
+  }
+  out_ += source + ");";
+}
+
+void BodyWriter::stringValue(ExprId id) {
+  const Expr& e = expr(id);
+  const bool wide = isWide(e.type);
+  switch (e.kind) {
+    case ExprKind::String:
+      if (wide) {
+        appendQuotedWide(out_, string(NameId{e.a}));
+      } else {
+        appendQuoted(out_, upToNul(string(NameId{e.a})));
+      }
+      return;
+    case ExprKind::Zero: out_ += wide ? "u\"\"" : "\"\""; return;
+    case ExprKind::Data:
+      out_ += wide ? "((const char16_t*)" : "((const char*)";
+      dataReference(e.a);
+      out_ += ')';
+      return;
+    case ExprKind::Convert:
+    case ExprKind::Call:
+      for (const auto& [created, name] : materialized_) {
+        if (created == id.index) {
+          out_ += name;
+          return;
+        }
+      }
+      if (e.kind == ExprKind::Convert) stringValue(ExprId{e.a});
+      return;
+    case ExprKind::Select:
+      out_ += '(';
+      condition(ExprId{e.a}, Prec::Or);
+      out_ += wide ? " ? (const char16_t*)" : " ? (const char*)";
+      stringValue(ExprId{e.b});
+      out_ += " : ";
+      stringValue(ExprId{e.c});
+      out_ += ')';
+      return;
+    case ExprKind::Binary: {  // MIN, MAX
+      const std::string a = captured([&] { stringValue(ExprId{e.a}); }),
+                        b = captured([&] { stringValue(ExprId{e.b}); });
+      out_ += wide ? "(rung_wstring_compare(" : "(strcmp(";
+      out_ += a + ", " + b + (e.op == Op::Min ? ") < 0 ? " : ") >= 0 ? ");
+      out_ += wide ? "(const char16_t*)" : "(const char*)";
+      out_ += a + " : " + b + ")";
+      return;
+    }
+    case ExprKind::Local:
+    case ExprKind::Field:
+    case ExprKind::Index:
+    case ExprKind::Deref:
+      if (slicedString(id) != nullptr) {
+        sliceName(id);
+      } else {
+        place(id);
+      }
+      return;
+    case ExprKind::Image:
+      out_ += wide ? "(char16_t*)(" : "(char*)(";
+      imageAddress(id);
+      out_ += ')';
+      return;
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program:
+    case ExprKind::Bits:
+    case ExprKind::Unary:
+    case ExprKind::Address: out_ += wide ? "u\"\"" : "\"\""; return;
+  }
+}
+
+ir::ExprId BodyWriter::uncut(ExprId id) const {
+  for (const Expr* e = &expr(id); e->kind == ExprKind::Convert && e->checks == 0 && isString(e->type); e = &expr(id)) {
+    const TypeId inner = expr(ExprId{e->a}).type;
+    if (!isString(inner) || isWide(inner) != isWide(e->type)) break;
+    id = ExprId{e->a};
+  }
+  return id;
+}
+
+// True when it is written with the lengths of both sides.
+bool BodyWriter::isSizedComparison(const Expr& e) const {
+  if (e.op != Op::Eq && e.op != Op::Ne) return false;
+  auto is_measured = [&](ExprId side) { return measuredString(side) != nullptr && measuredString(side)->known; };
+  auto is_literal = [&](ExprId side) { return expr(side).kind == ExprKind::String; };
+  const ExprId a{e.a}, b{e.b};
+  return (is_measured(a) && (is_measured(b) || is_literal(b))) || (is_literal(a) && is_measured(b));
+}
+
+void BodyWriter::compareStrings(const Expr& e, Prec context) {
+  const bool is_equality = e.op == Op::Eq || e.op == Op::Ne;
+  const char* op = e.op == Op::Eq   ? " == 0"
+                   : e.op == Op::Ne ? " != 0"
+                   : e.op == Op::Lt ? " < 0"
+                   : e.op == Op::Le ? " <= 0"
+                   : e.op == Op::Gt ? " > 0"
+                                    : " >= 0";
+  ExprId a{e.a}, b{e.b};
+  const bool wide = isWide(expr(a).type);
+  if (is_equality && expr(a).kind == ExprKind::String) std::swap(a, b);
+  if (is_equality && expr(b).kind == ExprKind::String) {
+    const uint32_t length = literalLength(expr(b));
+    const std::string literal_name = captured([&] { stringValue(b); });
+    const std::string name = captured([&] { stringValue(a); });
+    uint32_t capacity = 0;
+    const bool is_buffer = isBuffer(a, capacity);
+    const uint32_t bytes = (length + 1) * (wide ? 2 : 1);
+    const Variable* of = measuredString(a);
+    if (of != nullptr && of->known) {
+      const std::string count = captured([&] { lengthName(a); });
+      if (length == 0) {
+        parenthesis(Prec::Equality, context);
+        out_ += count + op;
+        closeParenthesis(Prec::Equality, context);
+        return;
+      }
+      out_ += e.op == Op::Eq ? "(" : "!(";
+      out_ += count + " == ";
+      appendUnsigned(out_, length);
+      const std::string_view literal = string(NameId{expr(b).a});
+      if (length > capacityOf(expr(a).type)) {
+        // Never equal; nothing is read outside of the text.
+      } else if (length <= kComparedByUnit) {
+        for (uint32_t i = 0; i < length; ++i) {
+          out_ += " && " + name + "[";
+          appendUnsigned(out_, i);
+          out_ += "] == (char)";
+          appendUnsigned(out_, static_cast<unsigned char>(literal[i]));
+        }
+      } else {
+        out_ += " && memcmp(" + name + ", " + literal_name + ", ";
+        appendUnsigned(out_, length);
+        out_ += ") == 0";
+      }
+      out_ += ')';
+      return;
+    }
+    if (length == 0) {
+      parenthesis(Prec::Equality, context);
+      out_ += name + "[0]" + op;
+      closeParenthesis(Prec::Equality, context);
+      return;
+    }
+    if (is_buffer && capacity >= length && bytes <= kComparedWhole) {
+      parenthesis(Prec::Equality, context);
+      out_ += "memcmp(" + name + ", " + literal_name + ", ";
+      appendUnsigned(out_, bytes);
+      out_ += ')';
+      out_ += op;
+      closeParenthesis(Prec::Equality, context);
+      return;
+    }
+    if (!wide && length <= kComparedByUnit) {
+      const std::string_view literal = string(NameId{expr(b).a});
+      out_ += e.op == Op::Eq ? "(" : "!(";
+      for (uint32_t i = 0; i <= length; ++i) {
+        if (i > 0) out_ += " && ";
+        out_ += name + "[";
+        appendUnsigned(out_, i);
+        out_ += "] == (char)";
+        appendUnsigned(out_, i < length ? static_cast<unsigned char>(literal[i]) : 0);
+      }
+      out_ += ')';
+      return;
+    }
+  }
+  if (isSizedComparison(e)) {
+    const std::string count = captured([&] { lengthName(a); });
+    out_ += e.op == Op::Eq ? "(" : "!(";
+    out_ += count + " == ";
+    lengthName(b);
+    out_ += " && memcmp(";
+    stringValue(a);
+    out_ += ", ";
+    stringValue(b);
+    out_ += ", " + count + ") == 0)";
+    return;
+  }
+  const Prec own = is_equality ? Prec::Equality : Prec::Relation;
+  parenthesis(own, context);
+  out_ += wide ? "rung_wstring_compare(" : "strcmp(";
+  stringValue(a);
+  out_ += ", ";
+  stringValue(b);
+  out_ += ')';
+  out_ += op;
+  closeParenthesis(own, context);
+}
+
+// ---- constant bytes
+
+void BodyWriter::dataReference(uint32_t index) {
+  if (marks_.data[index] != group_number_) {
+    marks_.data[index] = group_number_;
+    marks_.data_number[index] = ++group_.data_count;
+    const ir::Data& data = module_.data[index];
+    std::string_view bytes(reinterpret_cast<const char*>(data.bytes.data()), data.bytes.size());
+    size_t used = bytes.size();
+    while (used > 0 && bytes[used - 1] == '\0') --used;
+    group_.data += "alignas(8) static const unsigned char data_" + group_.stem + '_';
+    appendUnsigned(group_.data, group_.data_count);
+    group_.data += '[';
+    appendUnsigned(group_.data, bytes.size() + 1);
+    group_.data += "] = ";
+    appendQuoted(group_.data, bytes.substr(0, used));
+    group_.data += ";\n";
+  }
+  out_ += "data_" + group_.stem + '_';
+  appendUnsigned(out_, marks_.data_number[index]);
+}
+
+}  // namespace rung::codegen

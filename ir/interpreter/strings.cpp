@@ -1,0 +1,143 @@
+// Texts of the translated code: in place, NUL-terminated, cut to the capacity of what they are assigned to. See
+// translate.h.
+#include <algorithm>
+#include <cstring>
+
+#include "ir/interpreter/translate.h"
+
+namespace rung::ir::interpreter {
+
+namespace {
+
+std::u16string utf16(std::string_view string) {
+  std::u16string out;
+  const auto byte = [&](size_t i) -> uint32_t {
+    return i < string.size() ? static_cast<unsigned char>(string[i]) : 0u;
+  };
+  for (size_t at = 0; at < string.size();) {
+    const uint32_t lead = byte(at);
+    uint32_t point = lead;
+    if (lead >= 0xf0) {
+      point = (lead & 7) << 18 | (byte(at + 1) & 63) << 12 | (byte(at + 2) & 63) << 6 | (byte(at + 3) & 63);
+      at += 4;
+    } else if (lead >= 0xe0) {
+      point = (lead & 15) << 12 | (byte(at + 1) & 63) << 6 | (byte(at + 2) & 63);
+      at += 3;
+    } else if (lead >= 0xc0) {
+      point = (lead & 31) << 6 | (byte(at + 1) & 63);
+      at += 2;
+    } else {
+      at += 1;
+    }
+    if (point < 0x10000) {
+      out += static_cast<char16_t>(point);
+    } else {
+      out += static_cast<char16_t>(0xd800 + ((point - 0x10000) >> 10));
+      out += static_cast<char16_t>(0xdc00 + ((point - 0x10000) & 0x3ff));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Address BodyTranslator::literal(const Expr& e) {
+  const std::string_view characters = module_.names.string(NameId{e.a});
+  if (isWide(e.type)) {
+    code_.wide_strings.push_back(utf16(characters));
+    return {Base::Constant, {}, 0, reinterpret_cast<int64_t>(code_.wide_strings.back().c_str()), kNoBit};
+  }
+  code_.strings.emplace_back(characters);
+  return {Base::Constant, {}, 0, reinterpret_cast<int64_t>(code_.strings.back().c_str()), kNoBit};
+}
+
+Address BodyTranslator::stringBuffer(TypeId type) {
+  return {Base::Frame, slot(info(type).size, info(type).align), 0, 0, kNoBit};
+}
+
+// Where the characters of a text value are: read without a copy where they are in memory.
+Address BodyTranslator::string(ExprId id) {
+  const Expr& e = expr(id);
+  switch (e.kind) {
+    case ExprKind::String: return literal(e);
+    case ExprKind::Zero: {
+      static constexpr char16_t kEmpty[] = u"";
+      return {Base::Constant, {}, 0, reinterpret_cast<int64_t>(kEmpty), kNoBit};
+    }
+    case ExprKind::Convert: {
+      const Address to = stringBuffer(e.type);
+      assignString(to, capacityOf(e.type), isWide(e.type), id);
+      return to;
+    }
+    case ExprKind::Call: return callString(e);
+    case ExprKind::Binary: {  // MIN, MAX
+      const Ref a = pointerTo(string(ExprId{e.a})), b = pointerTo(string(ExprId{e.b}));
+      const Operand order = temp(), takes_first = temp(), to = temp();
+      emit(compareStringHandler(isWide(e.type), Base::Pointer, Base::Pointer), order.ref, a, b);
+      emit(compareHandler(e.op == Op::Min ? Op::Lt : Op::Ge, Scalar::I32, Mode::Frame, Mode::Constant, Mode::Frame),
+           takes_first.ref, order.ref);
+      emit(selectHandler(Scalar::U64), to.ref, a, b, takes_first.ref.offset);
+      return {Base::Pointer, to.ref, 0, 0, kNoBit};
+    }
+    case ExprKind::Data:
+    case ExprKind::Select:
+    case ExprKind::Local:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program:
+    case ExprKind::Image:
+    case ExprKind::Field:
+    case ExprKind::Index:
+    case ExprKind::Deref:
+    case ExprKind::Bits:
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::Unary:
+    case ExprKind::Address: break;
+  }
+  return place(id);
+}
+
+void BodyTranslator::copyString(const Address& to, uint32_t capacity, bool wide, const Address& from, TypeId type) {
+  const auto base = [&](const Address& a) -> Address {
+    if (a.base != Base::Pointer || a.offset == 0) return a;
+    return {Base::Pointer, pointerTo(a), 0, 0, kNoBit};
+  };
+  const Address a = base(to), b = base(from);
+  const bool is_utf8 = !wide && types_.kind(type) == types::TypeKind::UString;  // then `to` is a USTRING, too
+  emit(is_utf8 ? assignUtf8Handler(a.base, b.base) : assignStringHandler(wide, isWide(type), a.base, b.base), a.ref,
+       b.ref, {capacity, false}, 0, b.imm);
+}
+
+void BodyTranslator::assignString(const Address& to, uint32_t capacity, bool wide, ExprId from) {
+  const Expr& e = expr(from);
+  if (e.kind == ExprKind::Convert && isWide(e.type) == wide) {
+    const uint32_t limit = std::min(capacity, capacityOf(e.type));
+    const ExprId inner{e.a};
+    if (isString(expr(inner).type)) return assignString(to, limit, wide, inner);
+    const Operand bits = wideBits(inner);
+    emit(stringOfScalarHandler(wide), pointerTo(to), bits.ref, {limit, false},
+         static_cast<uint32_t>(hostKind(types_, expr(inner).type)));
+    return;
+  }
+  if (e.kind == ExprKind::Convert) {  // of another width: its own text first
+    const Address created = stringBuffer(e.type);
+    assignString(created, capacityOf(e.type), isWide(e.type), from);
+    return copyString(to, capacity, wide, created, e.type);
+  }
+  copyString(to, capacity, wide, string(from), e.type);
+}
+
+Operand BodyTranslator::stringOrder(ExprId left, ExprId right) {
+  const auto base = [&](Address a, bool may_be_constant) -> Address {
+    const bool simple = a.base == Base::Constant ? may_be_constant : a.base != Base::Pointer || a.offset == 0;
+    if (simple) return a;
+    return {Base::Pointer, pointerTo(a), 0, 0, kNoBit};
+  };
+  const Address a = base(string(left), false), b = base(string(right), true);
+  const Operand order = temp();
+  emit(compareStringHandler(isWide(expr(left).type), a.base, b.base), order.ref, a.ref, b.ref, 0, b.imm);
+  return order;
+}
+
+}  // namespace rung::ir::interpreter

@@ -1,0 +1,38 @@
+// What the schedulers of IL, diagrams and NCT may ask (frontend/syntax/signatures.h), answered from the declarations.
+// In: names and paths of a body as parsed. Out: kinds and pins; the path itself is not marked or changed.
+// Made by schedule.cpp for each body that is not in ST.
+#pragma once
+
+#include <deque>
+#include <unordered_map>
+#include <vector>
+
+#include "frontend/syntax/signatures.h"
+#include "sema/context.h"
+
+namespace rung::sema {
+
+class ProjectSignatures final : public Signatures {
+ public:
+  explicit ProjectSignatures(Context& context) : context_(context) {}
+  Signature of(NameId name) override;
+  Signature of(ExprId path) override;
+
+ private:
+  // What a part of a path is: a thing with a name, or a value of a type.
+  struct Resolved {
+    Entity entity;
+    TypeId type;
+  };
+  Resolved resolve(ExprId path);
+  Resolved resolve(Entity entity);
+  Resolved memberOf(const Resolved& base, NameId member);
+  Signature signatureOf(const Resolved& resolved);
+  Signature signatureOf(PouId pou, SignatureKind kind);
+  TypeId plainType(TypeId type) const;
+
+  Context& context_;
+  std::unordered_map<uint32_t, std::vector<PinSignature>> pins_;  // by PouId
+};
+
+}  // namespace rung::sema

@@ -1,0 +1,223 @@
+// Settles what was declared: resolves types, POUs and lists, cuts types that contain themselves, lays everything out
+// and checks initial values. Runs after collecting the files, and again whenever a library declaration was read.
+#include <algorithm>
+
+#include "sema/declarations/declarations.h"
+#include "sema/declarations/diagnostics.h"
+#include "sema/diagnostics.h"
+#include "sema/project.h"
+
+namespace rung::sema {
+
+using types::TypeInfo;
+using types::TypeKind;
+
+namespace {
+
+// The record that is stored in place in a value of this type; none behind pointers. `depth` grows by the arrays and
+// other names around it.
+TypeId heldRecord(const Context& context, TypeId type, uint32_t& depth) {
+  for (;; ++depth) {
+    const TypeInfo& info = context.types().info(type);
+    if (info.kind == TypeKind::Record) return type;
+    if (info.kind != TypeKind::Alias && info.kind != TypeKind::Array) return {};
+    type = info.base;
+  }
+}
+
+struct CycleSearch {
+  Context& context;
+  // An explicit stack: how deep blocks are nested is known at its end.
+  struct Step {
+    TypeId record;
+    uint32_t field;
+  };
+  std::vector<Step> stack;
+
+  // Forbids a type that contains itself. IEC 61131-3 ed. 3, 6.4.4; manual 5.4.
+  //   fails   FUNCTION_BLOCK a VAR x : b; END_VAR … FUNCTION_BLOCK b VAR y : a; END_VAR …       E0303
+  void report(TypeId from, uint32_t field_index) {
+    std::string names;
+    bool inside = false;
+    TypeId start{};
+    for (const Step& step : stack) {
+      if (step.record == from) {
+        inside = true;
+        start = step.record;
+      }
+      if (!inside) continue;
+      names += "`" + context.types().toString(step.record) + "` contains ";
+    }
+    names += "`" + context.types().toString(start) + "`";
+    NamedType& holder = *context.scopes.named(stack.back().record);
+    const VarId var = holder.fields[field_index];
+    context.report(diag::ContainsItself, context.symbols.var(var).loc, {context.types().toString(start), names});
+  }
+
+  void run(TypeId root) {
+    enter(root);
+    while (!stack.empty()) {
+      Step& top = stack.back();
+      NamedType& named = *context.scopes.named(top.record);
+      TypeInfo& info = context.types().edit(top.record);
+      if (top.field == info.fields.size()) {
+        named.cut = State::Done;
+        stack.pop_back();
+        continue;
+      }
+      const uint32_t index = top.field++;
+      types::Field& field = info.fields[index];
+      if (field.by_reference) continue;
+      uint32_t depth = 1;
+      const TypeId held = heldRecord(context, field.type, depth);
+      NamedType* inner = held ? context.scopes.named(held) : nullptr;
+      if (inner == nullptr) continue;
+      if (inner->cut == State::New) {
+        --top.field;  // again, when its own depth is known
+        enter(held);
+        continue;
+      }
+      depth += inner->depth;
+      if (inner->cut == State::Busy) {
+        report(held, index);
+      } else if (depth > kMaxTypeDepth) {
+        reportTooDeep(context, context.symbols.var(named.fields[index]).loc, "structures and blocks", kMaxTypeDepth);
+      } else {
+        named.depth = std::max(named.depth, depth);
+        continue;
+      }
+      field.type = types::kError;
+      context.symbols.var(named.fields[index]).type = types::kError;
+    }
+  }
+
+  void enter(TypeId record) {
+    resolveNamed(context, record);
+    context.scopes.named(record)->cut = State::Busy;
+    stack.push_back({record, 0});
+  }
+};
+
+// Resolves a type and all that it holds, with a stack of its own.
+void resolveHeld(Context& context, TypeId type) {
+  uint32_t depth = 0;
+  const TypeId record = heldRecord(context, type, depth);
+  NamedType* named = record ? context.scopes.named(record) : nullptr;
+  if (named == nullptr || named->cut != State::New) return;
+  CycleSearch search{context, {}};
+  search.run(record);
+}
+
+void layoutVar(Context& context, VarId id) {
+  Var& var = context.symbols.var(id);
+  if (var.type == types::kError || !var.type) return;
+  if (ensureLayout(context, var.type)) return;
+  context.report(diag::TypeTooLarge, var.loc, {context.names().string(var.name)});
+  var.type = types::kError;
+}
+
+void checkTypeInit(Context& context, TypeId type) {
+  const NamedType& named = *context.scopes.named(type);
+  if (!named.decl) return;
+  TypeDecl& decl = context.tree().as<TypeDecl>(named.decl);
+  if (!decl.init) return;
+  Context there = at(context, {}, named.file, named.library, named.region);
+  if (context.types().kind(type) == TypeKind::Enum) there.items_of = context.types().resolve(type);
+  checkInitializerAs(there, decl.init, type, "the initial value of `" + toString(context, decl.name) + "`");
+  auto& inits = context.project.type_inits;
+  if (inits.size() <= type.index) inits.resize(type.index + 1);
+  inits[type.index] = decl.init;
+}
+
+void checkFieldInits(Context& context, TypeId type) {
+  auto& inits = context.project.field_inits;
+  NamedType& named = *context.scopes.named(type);
+  std::vector<ExprId> list(named.fields.size());
+  for (size_t i = 0; i < list.size(); ++i) {
+    ensureInitialValue(context, named.fields[i]);
+    if (Var& var = context.symbols.var(named.fields[i]); var.holds_bits) {
+      const uint8_t value = initialBits(context, type, named.fields[i]);
+      if (value != 0) var.init = makeLiteral(context, LiteralKind::Integer, types::kByte, value, var.loc);
+    }
+    list[i] = context.symbols.var(named.fields[i]).init;
+  }
+  if (inits.size() <= type.index) inits.resize(type.index + 1);
+  inits[type.index] = std::move(list);
+}
+
+}  // namespace
+
+bool ensureLayout(Context& context, TypeId type) {
+  resolveHeld(context, type);
+  return context.types().layout(type);
+}
+
+void resolveDeclarations(Context& context) {
+  Scopes& scopes = context.scopes;
+  Project& project = context.project;
+  if (scopes.resolving || scopes.depth > 0) return;  // the outermost one sees to all
+  scopes.resolving = true;
+  const auto pending = [&] {
+    return scopes.resolved_types < scopes.declared_types.size() || scopes.resolved_pous < project.pous.size() ||
+           scopes.resolved_lists < project.global_lists.size();
+  };
+  const auto unchecked = [&] {
+    return scopes.checked_types < scopes.declared_types.size() || scopes.checked_pous < project.pous.size() ||
+           scopes.checked_lists < project.global_lists.size();
+  };
+  while (pending() || unchecked()) {
+    while (pending()) {
+      while (scopes.resolved_types < scopes.declared_types.size()) {
+        resolveNamed(context, scopes.declared_types[scopes.resolved_types++]);
+      }
+      while (scopes.resolved_pous < project.pous.size()) {
+        resolvePou(context, PouId{static_cast<uint32_t>(scopes.resolved_pous++)});
+      }
+      while (scopes.resolved_lists < project.global_lists.size()) {
+        resolveList(context, ListId{static_cast<uint32_t>(scopes.resolved_lists++)});
+      }
+    }
+    const size_t types_end = scopes.declared_types.size(), pous_end = project.pous.size(),
+                 lists_end = project.global_lists.size();
+    for (size_t i = scopes.checked_types; i < types_end; ++i) {
+      const TypeId type = scopes.declared_types[i];
+      resolveHeld(context, type);
+      const NamedType& named = *scopes.named(type);
+      if (!context.types().layout(type) && !named.pou && context.types().info(type).kind == TypeKind::Record) {
+        const Loc loc = named.decl   ? context.tree().loc(named.decl)
+                        : named.type ? context.tree().loc(named.type)
+                                     : Loc{};
+        context.report(diag::TypeTooLarge, loc, {context.types().toString(type)});
+      }
+    }
+    for (size_t i = scopes.checked_pous; i < pous_end; ++i) {
+      for (const VarId var : project.pous[i].vars) layoutVar(context, var);
+      if (project.pous[i].result_var) layoutVar(context, project.pous[i].result_var);
+    }
+    for (size_t i = scopes.checked_lists; i < lists_end; ++i) {
+      for (const VarId var : project.global_lists[i].vars) layoutVar(context, var);
+    }
+    while (scopes.checked_types < types_end) {
+      const TypeId type = scopes.declared_types[scopes.checked_types++];
+      checkTypeInit(context, type);
+      const NamedType& named = *scopes.named(type);
+      if (!named.pou && named.type && context.types().info(type).kind == TypeKind::Record) {
+        checkFieldInits(context, type);
+      }
+    }
+    while (scopes.checked_pous < pous_end) {
+      Pou& pou = project.pous[scopes.checked_pous++];
+      if (pou.generic) continue;  // its instances are checked
+      for (size_t v = 0; v < pou.vars.size(); ++v) ensureInitialValue(context, pou.vars[v]);
+      if (pou.record) checkFieldInits(context, pou.record);
+    }
+    while (scopes.checked_lists < lists_end) {
+      GlobalList& list = project.global_lists[scopes.checked_lists++];
+      for (size_t v = 0; v < list.vars.size(); ++v) ensureInitialValue(context, list.vars[v]);
+      checkFieldInits(context, list.record);
+    }
+  }
+  scopes.resolving = false;
+}
+
+}  // namespace rung::sema

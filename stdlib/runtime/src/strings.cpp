@@ -1,0 +1,361 @@
+// STRING, WSTRING and USTRING in place (rung/code.h): assignment, comparison, conversion between them and to scalars.
+// In: NUL-terminated texts. Out: texts of at most `capacity` characters. `to` may overlap `from`.
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+
+#include "rung/code.h"
+#include "rung/values.h"
+
+namespace {
+
+// Text of a scalar that TO_STRING spells; enough for every elementary type.
+constexpr uint32_t kScalarRoom = RUNG_FORMATTED_SCALAR;
+
+// The digits of a number below 10000 in the bytes of a word, the first in the lowest: divided by 100, then both halves
+// by 10.
+uint32_t fourDigits(uint32_t number) {
+  const uint32_t hundreds = number * 5243 >> 19;
+  const uint32_t halves = hundreds | (number - hundreds * 100) << 16;
+  const uint32_t tens = halves * 103 >> 10 & 0x000f000f;
+  return tens | (halves - tens * 10) << 8;
+}
+
+bool isSignedInteger(uint8_t kind) {
+  return kind == RUNG_SINT || kind == RUNG_INT || kind == RUNG_DINT || kind == RUNG_LINT;
+}
+bool isUnsignedInteger(uint8_t kind) {
+  return kind == RUNG_BYTE || kind == RUNG_WORD || kind == RUNG_DWORD || kind == RUNG_LWORD || kind == RUNG_USINT ||
+         kind == RUNG_UINT || kind == RUNG_UDINT || kind == RUNG_ULINT;
+}
+
+uint32_t formatScalar(uint8_t kind, uint64_t bits, char* out) {
+  if (kind == RUNG_CHAR) {
+    out[0] = static_cast<char>(bits);
+    out[1] = 0;
+    return 1;
+  }
+  if (kind == RUNG_REAL) {
+    const float value = static_cast<float>(rung_f64_of(bits));
+    return rung_format(kind, false, &value, out, kScalarRoom);
+  }
+  // Sign-extended where the type is signed, so the sign of 64 bits is the sign of the value.
+  return rung_format(kind, static_cast<int64_t>(bits) < 0, &bits, out, kScalarRoom);
+}
+
+bool isSurrogate(uint32_t code) { return code >= 0xd800 && code < 0xe000; }
+
+// UTF-8 of a code point: how many bytes; '?' for what is none.
+uint32_t encode(uint32_t code, char (&bytes)[4]) {
+  if (code >= 0x110000 || isSurrogate(code)) code = '?';
+  uint32_t count = 0;
+  if (code < 0x80) {
+    bytes[count++] = static_cast<char>(code);
+    return count;
+  }
+  if (code >= 0x10000) {
+    bytes[count++] = static_cast<char>(0xf0 | code >> 18);
+    bytes[count++] = static_cast<char>(0x80 | (code >> 12 & 0x3f));
+  } else if (code >= 0x800) {
+    bytes[count++] = static_cast<char>(0xe0 | code >> 12);
+  }
+  bytes[count++] = static_cast<char>(code >= 0x800 ? 0x80 | (code >> 6 & 0x3f) : 0xc0 | code >> 6);
+  bytes[count++] = static_cast<char>(0x80 | (code & 0x3f));
+  return count;
+}
+
+// The bytes of the character that begins with `lead`; 1 where none does.
+uint32_t bytesOf(unsigned char lead) {
+  return lead >= 0xf0 && lead < 0xf5 ? 4 : lead >= 0xe0 && lead < 0xf0 ? 3 : lead >= 0xc2 && lead < 0xe0 ? 2 : 1;
+}
+
+// The code point at `at`, which moves behind it; '?' where the bytes are none.
+uint32_t decode(const unsigned char*& at) {
+  const uint32_t lead = *at++;
+  if (lead < 0x80) return lead;
+  const uint32_t more = bytesOf(static_cast<unsigned char>(lead)) - 1;
+  if (more == 0) return '?';
+  uint32_t code = lead & (0x3fu >> more), i = 0;
+  for (; i < more && (at[i] & 0xc0) == 0x80; ++i) code = code << 6 | (at[i] & 0x3fu);
+  at += i;
+  const uint32_t least = more == 1 ? 0x80u : more == 2 ? 0x800u : 0x10000u;
+  return i == more && code >= least && code < 0x110000 && !isSurrogate(code) ? code : '?';
+}
+
+bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+// Sign, `16#`, `8#`, `2#`, digits; stops at the first other character.
+uint64_t readLeadingInteger(const char* string) {
+  bool negative = false;
+  if (*string == '-' || *string == '+') negative = *string++ == '-';
+  uint32_t base = 10;
+  if (strncmp(string, "16#", 3) == 0)
+    base = 16, string += 3;
+  else if (strncmp(string, "8#", 2) == 0)
+    base = 8, string += 2;
+  else if (strncmp(string, "2#", 2) == 0)
+    base = 2, string += 2;
+  uint64_t value = 0;
+  for (;; ++string) {
+    const char c = *string;
+    const uint32_t digit = c >= '0' && c <= '9'   ? static_cast<uint32_t>(c - '0')
+                           : c >= 'a' && c <= 'f' ? static_cast<uint32_t>(c - 'a' + 10)
+                           : c >= 'A' && c <= 'F' ? static_cast<uint32_t>(c - 'A' + 10)
+                                                  : 99u;
+    if (digit >= base) break;
+    value = value * base + digit;
+  }
+  return negative ? 0 - value : value;
+}
+
+template <class T>
+T readLeadingReal(const char* string) {
+  T value = 0;
+  const bool negative = *string == '-';
+  if (*string == '-' || *string == '+') ++string;
+  if (*string == '-' || *string == '+') return 0;
+  const std::from_chars_result read = std::from_chars(string, string + strlen(string), value);
+  if (read.ec == std::errc::result_out_of_range) {
+    // Too large or too small: the exponent's sign tells.
+    for (const char* p = string; p != read.ptr; ++p)
+      if ((*p == 'e' || *p == 'E') && p[1] == '-') return 0;
+    value = static_cast<T>(__builtin_inf());
+  }
+  return negative ? -value : value;
+}
+
+}  // namespace
+
+uint32_t rung_string_assign(char* to, uint32_t capacity, const char* from) {
+  const size_t length = strnlen(from, capacity);
+  memmove(to, from, length);
+  to[length] = 0;
+  return static_cast<uint32_t>(length);
+}
+
+uint32_t rung_wstring_assign(char16_t* to, uint32_t capacity, const char16_t* from) {
+  uint32_t length = 0;
+  while (length < capacity && from[length] != 0) ++length;
+  memmove(to, from, length * sizeof *from);
+  to[length] = 0;
+  return length;
+}
+
+int rung_string_compare(const char* a, const char* b) { return strcmp(a, b); }
+
+int rung_wstring_compare(const char16_t* a, const char16_t* b) {
+  for (; *a == *b && *a != 0; ++a, ++b) {
+  }
+  return *a < *b ? -1 : *a > *b ? 1 : 0;
+}
+
+uint32_t rung_wstring_length(const char16_t* string) {
+  uint32_t length = 0;
+  while (string[length] != 0) ++length;
+  return length;
+}
+
+uint32_t rung_string_of_wstring(char* to, uint32_t capacity, const char16_t* from) {
+  uint32_t length = 0;
+  for (; *from != 0; ++from) {
+    uint32_t code = *from;
+    if (code >= 0xd800 && code < 0xdc00 && from[1] >= 0xdc00 && from[1] < 0xe000) {
+      code = 0x10000 + ((code - 0xd800) << 10) + (from[1] - 0xdc00u);
+      ++from;
+    }
+    char bytes[4];
+    const uint32_t count = encode(code, bytes);
+    if (length + count > capacity) break;  // never half a character
+    memcpy(to + length, bytes, count);
+    length += count;
+  }
+  to[length] = 0;
+  return length;
+}
+
+uint32_t rung_wstring_of_string(char16_t* to, uint32_t capacity, const char* from) {
+  uint32_t length = 0;
+  const unsigned char* at = reinterpret_cast<const unsigned char*>(from);
+  while (*at != 0) {
+    const uint32_t code = decode(at);
+    const uint32_t units = code >= 0x10000 ? 2 : 1;
+    if (length + units > capacity) break;
+    if (units == 2) {
+      to[length++] = static_cast<char16_t>(0xd800 + ((code - 0x10000) >> 10));
+      to[length++] = static_cast<char16_t>(0xdc00 + ((code - 0x10000) & 0x3ff));
+    } else {
+      to[length++] = static_cast<char16_t>(code);
+    }
+  }
+  to[length] = 0;
+  return length;
+}
+
+uint32_t rung_ustring_whole(char* string, uint32_t length) {
+  uint32_t begin = length;  // of the last character
+  while (begin > 0 && length - begin < 3 && (static_cast<unsigned char>(string[begin - 1]) & 0xc0) == 0x80) --begin;
+  if (begin > 0 && length - begin + 1 < bytesOf(static_cast<unsigned char>(string[begin - 1]))) {
+    length = begin - 1;
+    string[length] = 0;
+  }
+  return length;
+}
+
+uint32_t rung_ustring_assign(char* to, uint32_t capacity, const char* from) {
+  return rung_ustring_whole(to, rung_string_assign(to, capacity, from));
+}
+
+uint32_t rung_ustring_length(const char* string) {
+  uint32_t length = 0;
+  for (; *string != 0; ++string) length += (static_cast<unsigned char>(*string) & 0xc0) != 0x80;
+  return length;
+}
+
+int64_t rung_ustring_offset(const char* string, int64_t count) {
+  int64_t offset = 0;
+  for (; count > 0; --count) {
+    if (string[offset] == 0) return offset + count;
+    ++offset;
+    while ((static_cast<unsigned char>(string[offset]) & 0xc0) == 0x80) ++offset;
+  }
+  return offset + count;  // a negative count stays one
+}
+
+uint32_t rung_ustring_code(const char* string) {
+  const unsigned char* at = reinterpret_cast<const unsigned char*>(string);
+  return decode(at);
+}
+
+uint32_t rung_ustring_of_code(char* to, uint32_t capacity, uint32_t code) {
+  char bytes[4];
+  uint32_t length = code == 0 ? 0 : encode(code, bytes);
+  if (length > capacity) length = 0;
+  memcpy(to, bytes, length);
+  to[length] = 0;
+  return length;
+}
+
+uint32_t rung_ustring_of_string(char* to, uint32_t capacity, const char* from) {
+  // A '?' is no longer than the bytes that it stands for, so `to` may be `from`.
+  uint32_t length = 0;
+  const unsigned char* at = reinterpret_cast<const unsigned char*>(from);
+  while (*at != 0) {
+    char bytes[4];
+    const uint32_t count = encode(decode(at), bytes);
+    if (length + count > capacity) break;
+    memcpy(to + length, bytes, count);
+    length += count;
+  }
+  to[length] = 0;
+  return length;
+}
+
+uint32_t rung_string_of_integer(char* to, uint32_t capacity, bool negative, uint64_t magnitude) {
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+  if (magnitude < 1000000 && capacity >= 7) {
+    // All digits at once; then the zeros in front go, zeros come in behind, and one store is text and NUL.
+    const auto number = static_cast<uint32_t>(magnitude);
+    const bool is_short = number < 10000;
+    const uint64_t digits =
+        is_short ? fourDigits(number) : fourDigits(number / 10000) | uint64_t{fourDigits(number % 10000)} << 32;
+    const uint32_t last = is_short ? 24 : 56;  // the bit where the last digit begins, which may be a zero
+    const uint32_t zeros = static_cast<uint32_t>(__builtin_ctzll(digits | uint64_t{1} << last)) & ~7u;
+    uint64_t word = (digits | uint64_t{0x3030303030303030} >> (56 - last)) >> zeros;
+    if (negative) word = word << 8 | '-';
+    memcpy(to, &word, sizeof word);
+    return (last - zeros) / 8 + 1 + negative;
+  }
+#endif
+  uint32_t length = negative ? 2 : 1;
+  for (uint64_t rest = magnitude; rest >= 10; rest /= 10) ++length;
+  const uint32_t kept = length < capacity ? length : capacity;
+  for (uint32_t i = length; i > negative; --i, magnitude /= 10) {
+    if (i <= kept) to[i - 1] = static_cast<char>('0' + magnitude % 10);
+  }
+  if (negative && kept > 0) to[0] = '-';
+  to[kept] = 0;
+  return kept;
+}
+
+uint32_t rung_string_of_scalar(char* to, uint32_t capacity, uint8_t kind, uint64_t bits) {
+  if (kind == RUNG_UCHAR) return rung_ustring_of_code(to, capacity, static_cast<uint32_t>(bits));
+  if (kind == RUNG_WCHAR) {
+    const char16_t one[2] = {static_cast<char16_t>(bits), 0};
+    return rung_string_of_wstring(to, capacity, one);
+  }
+  if (isUnsignedInteger(kind)) return rung_string_of_integer(to, capacity, false, bits);
+  if (isSignedInteger(kind)) {
+    const bool negative = static_cast<int64_t>(bits) < 0;
+    return rung_string_of_integer(to, capacity, negative, negative ? 0 - bits : bits);
+  }
+  char string[kScalarRoom + 1];
+  formatScalar(kind, bits, string);
+  return rung_string_assign(to, capacity, string);
+}
+
+uint32_t rung_wstring_of_scalar(char16_t* to, uint32_t capacity, uint8_t kind, uint64_t bits) {
+  if (kind == RUNG_WCHAR) {
+    const char16_t one[2] = {static_cast<char16_t>(bits), 0};
+    return rung_wstring_assign(to, capacity, one);
+  }
+  char string[kScalarRoom + 1];
+  if (kind == RUNG_UCHAR)
+    rung_ustring_of_code(string, kScalarRoom, static_cast<uint32_t>(bits));
+  else
+    formatScalar(kind, bits, string);
+  return rung_wstring_of_string(to, capacity, string);
+}
+
+uint64_t rung_scalar_of_string(uint8_t kind, const char* string) {
+  if (kind == RUNG_UCHAR) return rung_ustring_code(string);
+  if (kind == RUNG_CHAR || kind == RUNG_WCHAR) {
+    char16_t one[2];
+    if (kind == RUNG_CHAR) return static_cast<unsigned char>(*string);
+    rung_wstring_of_string(one, 1, string);
+    return one[0];
+  }
+  while (isBlank(*string)) ++string;
+  size_t size = strlen(string);
+  while (size > 0 && isBlank(string[size - 1])) --size;
+  switch (static_cast<rung_type_kind>(kind)) {
+    case RUNG_BOOL: {
+      uint8_t value = 0;
+      return rung_parse(RUNG_BOOL, false, 0, string, size, &value) ? value : 0;
+    }
+    case RUNG_REAL: return rung_bits_of_f64(readLeadingReal<float>(string));
+    case RUNG_LREAL: return rung_bits_of_f64(readLeadingReal<double>(string));
+    case RUNG_TIME:
+    case RUNG_LTIME: {
+      int64_t wide = 0;
+      int32_t narrow = 0;
+      if (kind == RUNG_LTIME) {
+        if (!rung_parse(kind, true, 0, string, size, &wide)) rung_parse(kind, false, 0, string, size, &wide);
+        return static_cast<uint64_t>(wide);
+      }
+      if (rung_parse(kind, true, 0, string, size, &narrow)) return static_cast<uint64_t>(static_cast<int64_t>(narrow));
+      rung_parse(kind, false, 0, string, size, &narrow);
+      return static_cast<uint32_t>(narrow);
+    }
+    case RUNG_DATE:
+    case RUNG_TOD:
+    case RUNG_DT: {
+      uint32_t value = 0;
+      return rung_parse(kind, false, 0, string, size, &value) ? value : 0;
+    }
+    case RUNG_LDATE:
+    case RUNG_LTOD:
+    case RUNG_LDT: {
+      uint64_t value = 0;
+      return rung_parse(kind, false, 0, string, size, &value) ? value : 0;
+    }
+    default: return readLeadingInteger(string);
+  }
+}
+
+uint64_t rung_scalar_of_wstring(uint8_t kind, const char16_t* string) {
+  if (kind == RUNG_WCHAR) return *string;
+  while (*string == ' ') ++string;
+  char narrow[4 * kScalarRoom + 1];
+  rung_string_of_wstring(narrow, sizeof narrow - 1, string);
+  return rung_scalar_of_string(kind, narrow);
+}
