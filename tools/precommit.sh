@@ -5,7 +5,7 @@
 set -u
 cd "$(dirname "$(readlink -f "$0")")/.." || exit 2
 failed=0
-for check in tools/house/*.sh; do
+for check in tools/house/checks/*.sh; do
   "$check" || { echo "$check: failed"; failed=1; }
 done
 exit $failed

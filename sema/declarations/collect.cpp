@@ -290,6 +290,19 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
   }
 }
 
+namespace {
+
+// The position of a library's declaration among those of its file: it names a list, and survives other comments.
+size_t declarationNumber(const Context& context, FileId file, Loc loc) {
+  const Libraries& libraries = context.scopes.libraries;
+  const uint32_t offset = loc.offset - context.symbols.sources.begin(file).offset;
+  return static_cast<size_t>(std::count_if(
+      libraries.blocks.begin(), libraries.blocks.end(),
+      [&](const LibraryBlock& block) { return libraries.sources[block.file] == file && block.begin <= offset; }));
+}
+
+}  // namespace
+
 void declareItems(Context& context, TypeId type, TypeExprId written, NameMap* bare, bool project_wide) {
   Project& project = context.project;
   Scopes& scopes = context.scopes;
@@ -333,8 +346,7 @@ void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library) {
       }
       Namespace& from = context.scopes.libraries.list[library];
       std::string name = toString(context, from.name) + "_" + stem;
-      if (context.symbols.global_lists.size() > 1)
-        name += "_" + std::to_string(loc.offset - context.symbols.sources.begin(file).offset);
+      if (context.symbols.global_lists.size() > 1) name += "_" + std::to_string(declarationNumber(context, file, loc));
       const ListId list = listNamed(context, name, file, loc, from.names);
       context.scopes.named(context.symbols.global_lists[list.index].record)->library = true;
       return addGlobals(context, list, decl, from.names);

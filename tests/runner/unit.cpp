@@ -1,5 +1,5 @@
 // Unit tests (the GoogleTest programs that CMake lists in unit_tests.list), a fixed share of the differential tests and
-// the checks of tools/house.
+// the checks of tools/house/checks.
 #include <cstdlib>
 
 #include "tests/runner/diff.h"
@@ -90,7 +90,7 @@ void addUnit(const Setting& setting, std::vector<Job>& jobs) {
     jobs.push_back({"unit/network_differential", 5, [&setting] {
                       return runDifferential(setting, "network_differential", {"--cycles=200", "-j2"}, 40);
                     }});
-  for (const std::string& script : filesBelow(setting, "tools/house", ".sh")) {
+  for (const std::string& script : filesBelow(setting, "tools/house/checks", ".sh")) {
     jobs.push_back({script, 2, [&setting, script] { return runHouse(setting, script); }});
   }
 }

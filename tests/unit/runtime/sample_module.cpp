@@ -137,11 +137,11 @@ struct Tables {
     tasks.push_back({t("Fast"), RUNG_CYCLIC, 1, 10'000'000, 0, 0, 0, 0, fast});
     tasks.push_back({t("Edge"), RUNG_EVENT, 0, 0, 0, 0, t("Main.start_event"), 0, onEvent});
 
-    tests.push_back({t("good_test"), t("t.st"), 1, RUNG_NONE, 0, nullptr, testOk});
-    tests.push_back({t("bad_test"), t("t.st"), 6, RUNG_NONE, 0, nullptr, testBad});
-    tests.push_back({t("faulting_test"), t("t.st"), 12, RUNG_NONE, 0, nullptr, testFaults});
-    tests.push_back({t("cyclic_test"), t("t.st"), 16, 0, offsetof(Main, run), nullptr, testUntilDone});
-    tests.push_back({t("endless_test"), t("t.st"), 30, 0, offsetof(Main, run), nullptr, testNever});
+    tests.push_back({t("good_test"), t("t.st"), 1, RUNG_NONE, 0, nullptr, testOk, nullptr});
+    tests.push_back({t("bad_test"), t("t.st"), 6, RUNG_NONE, 0, nullptr, testBad, nullptr});
+    tests.push_back({t("faulting_test"), t("t.st"), 12, RUNG_NONE, 0, nullptr, testFaults, nullptr});
+    tests.push_back({t("cyclic_test"), t("t.st"), 16, 0, offsetof(Main, run), nullptr, testUntilDone, nullptr});
+    tests.push_back({t("endless_test"), t("t.st"), 30, 0, offsetof(Main, run), nullptr, testNever, nullptr});
 
     sites[0] = {t("Main"), t("main.st"), 12, 7, 0, 0};
     sites[1] = {t("Main"), t("main.st"), 14, 3, 1, 10};

@@ -2,7 +2,7 @@
 # Every code of the diagnostics.def files is unique and in the registry, has a page in docs/errors and a test program that
 # provokes it, and every page has a code.
 set -eu
-cd "$(dirname "$0")/../.."
+cd "$(dirname "$0")/../../.."
 bad=0
 lists=$(tools/house/tracked diagnostics.def)
 codes=$(sed -nE 's/^RUNG_(ERROR|WARNING|INFO)\(([EWI][0-9]{4}),.*/\2/p' $lists)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Every feature that a test names is a row of the standard's tables as tests/conformance/features.tsv lists them.
 set -eu
-cd "$(dirname "$0")/../.."
+cd "$(dirname "$0")/../../.."
 unknown=$(grep -rnE '^(//|#|<!--) features:' tests/conformance tests/programs tests/golden |
   tr -d "\r" |
   awk 'NR == FNR { known[$1] = 1; next } { sub(/^[^:]*:[0-9]*:/, "&\t"); place = $0; sub(/\t.*/, "", place)

@@ -3,7 +3,7 @@
 # compiler code, of the compiler only the interpreter includes the runtime, and nothing includes tests. The registry of
 # messages includes the lists of all layers.
 set -eu
-cd "$(dirname "$0")/../.."
+cd "$(dirname "$0")/../../.."
 tools/house/tracked .h .cpp .def | grep -v '^tests/' | xargs -d '\n' grep -Hn '^#include "' | awk '
   # The layers in order; a path belongs to the longest prefix that matches. Equal numbers may not see each other,
   # except through their own folder.

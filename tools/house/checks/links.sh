@@ -2,7 +2,7 @@
 # Every relative link in a Markdown file points to a file that is there, and so does every back-quoted path of a file of
 # the project in README, CONTRIBUTING and docs/.
 set -eu
-cd "$(dirname "$0")/../.."
+cd "$(dirname "$0")/../../.."
 dead=$({
   tools/house/tracked .md | xargs -d '\n' -r grep -HnoE '\]\([^) ]+\)' | while IFS=: read -r file line link; do
     target=${link#](}

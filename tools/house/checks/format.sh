@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Every C++ file is as clang-format 14 leaves it. Other versions format differently, so they are not asked.
 set -eu
-cd "$(dirname "$0")/../.."
+cd "$(dirname "$0")/../../.."
 if ! clang-format --version 2>/dev/null | grep -q 'version 14\.'; then
   echo "format: skipped, clang-format 14 not found"
   exit 0

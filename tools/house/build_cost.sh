@@ -1,0 +1,3 @@
+#!/usr/bin/env bash
+# What a build costs, see build_cost.py. A few minutes, so no check of tools/precommit.sh.
+exec python3 "$(dirname "$0")/build_cost.py" "$@"
