@@ -1,5 +1,5 @@
-// Prints IR as text: see text.h and docs/ir.md. One item a line, blocks indented by two; the order is that of the
-// module, so equal modules give equal bytes.
+// Prints the text form of the IR: see text.h and docs/ir.md. One item a line, blocks indented by two; the order is that
+// of the module, so equal modules give equal bytes.
 #include "ir/text_writer.h"
 
 namespace rung::ir {
