@@ -114,7 +114,7 @@ enum class StmtKind : uint8_t {
   Evaluate,  // a: expression, evaluated for its checks only
 };
 
-// Of a call. kChecked: fault[cast] before the call when no class with the method has the object.
+// Of a call. kChecked: fault[cast] before the call when the class of the object does not have the method.
 inline constexpr uint8_t kVirtual = 1, kChecked = 2;
 
 enum class Assertion : uint8_t { Assert, AssertEq, AssertNear };  // in the order of sema::Assertion

@@ -32,7 +32,7 @@ std::span<const CheckKeyword> checkKeywords();
 // The check that `!` without a list means on this node.
 uint8_t naturalCheck(const types::TypeTable& types, const Expr& expr);
 
-// The type of an integer literal without prefix where no type is expected; `true` is BOOL, `0.5` REAL.
+// The type of an integer literal without prefix where no type is expected; `true` is a BOOL, `0.5` a REAL.
 inline constexpr TypeId kDefaultInteger = types::kInt;
 
 }  // namespace rung::ir::text_form
