@@ -272,7 +272,7 @@ struct AccessPath {
   uint32_t bit = kNoBit;
   bool read_only = true;
 };
-// A block of a program that a task of its own runs: a function without parameters.
+// A block of a program that a separate task runs: a function without parameters.
 struct BlockTask {
   uint32_t task = 0;  // index + 1
   BodyId run;

@@ -12,7 +12,7 @@ using types::RecordKind;
 using types::TypeInfo;
 using types::TypeKind;
 
-// ---- text
+// ---- characters
 
 void Printer::name(std::string_view text) {
   bool plain = !text.empty() && !(text[0] >= '0' && text[0] <= '9') && !isReserved(text) && text != "_";

@@ -48,7 +48,7 @@
 //       assigns outside of its locals nor calls what is not pure.
 //   30  A native body and an abstract one have no code.
 //   31  Classes have distinct records that are not laid over a base of a later class; a virtual call is of a method
-//       that has a dispatch; a dispatch names methods with the parameters of its own, on classes that exist. An
+//       that has a dispatch; a dispatch names methods with the parameters of its method, on classes that exist. An
 //       abstract method is called virtually only.
 #include "ir/verify.h"
 

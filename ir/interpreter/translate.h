@@ -225,7 +225,7 @@ class BodyTranslator {
   const TranslateOptions& options_;
   Code& code_;
 
-  Loc recorded_loc_;  // the last one of code_.marks
+  Loc recorded_loc_;  // the last one of code_.line_table
   const Body* body_ = nullptr;
   std::vector<uint32_t> local_offset_;
   Ref result_slot_;

@@ -312,7 +312,7 @@ void BodyLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId ini
     assign(place, add({.kind = ExprKind::Data, .type = type, .loc = loc, .a = index}), loc);
     return;
   }
-  // Elements with code of their own: FB instances, and whatever holds them.
+  // Elements that need code: FB instances, and types that hold them.
   if (const sema::Var* var = constructedVar(place); var != nullptr && var->element_constructors != 0) {
     const bool whole = body_.expr(place).kind != ExprKind::Index;
     if (whole) element_ = 0;

@@ -241,7 +241,7 @@ ExprId BodyLowering::stable(ExprId place) {
         ExprId index = body_.operands[expr.b + i];
         indices.push_back(isStable(index) ? index : toTemp(index, expr.loc));
       }
-      auto created = [&] {  // with a slice of its own
+      auto created = [&] {  // with a separate slice
         copy.b = static_cast<uint32_t>(body_.operands.size());
         body_.operands.insert(body_.operands.end(), indices.begin(), indices.end());
         return add(copy);

@@ -332,7 +332,7 @@ ExprId BodyLowering::lowerAddressOf(rung::ExprId id) {
   return add({.kind = ExprKind::Address, .type = type, .loc = node.h.loc, .a = place.index});
 }
 
-// A descriptor of the value in a temporary; a value that is not an lvalue is stored in a temporary of its own.
+// A descriptor of the value in a temporary; a value that is not an lvalue is stored in a temporary.
 ExprId BodyLowering::lowerAnyValue(rung::ExprId id) {
   const AnyValueExpr& node = tree_.as<AnyValueExpr>(id);
   const Loc loc = node.h.loc;
