@@ -1,4 +1,4 @@
-// What the report of an assertion shows: see assertion.h.
+// The report of a failed assertion: see assertion.h.
 #include "ir/assertion.h"
 
 namespace rung::ir {

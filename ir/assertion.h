@@ -1,5 +1,5 @@
-// What the report of an assertion shows, for both engines. In: an Assert statement. Out: the texts of rung_assertion
-// and how its values are spelled. Called by the interpreter's translation and by codegen.
+// The report of a failed assertion, for both engines. In: an Assert statement. Out: the strings of rung_assertion and
+// how its values are formatted. Called by the interpreter's translation and by codegen.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct AssertionReport {
 };
 AssertionReport assertionReport(const Module& module, const Body& body, const Stmt& stmt);
 
-// The kind of a scalar or text that an assertion compares: hostKind, but RUNG_ENUM, RUNG_STRING and RUNG_WSTRING.
+// The kind of a scalar or string that an assertion compares: hostKind, or RUNG_ENUM, RUNG_STRING, RUNG_WSTRING.
 rung_type_kind assertedKind(const types::TypeTable& types, TypeId type);
 
 }  // namespace rung::ir

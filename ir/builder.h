@@ -1,6 +1,6 @@
-// Builds expressions and statements of one body: the constructors that lowering, the text reader and passes share.
-// In: ids of operands already made. Out: ids in the body's pools. An expression is a tree: an id is used as operand
-// once; `copy` gives a second one. Statements are appended to the open block:
+// Builds expressions and statements of one body: the constructors that lowering, the reader of IR text and passes
+// share. In: ids of operands already made. Out: ids in the body's pools. An expression is a tree: an id is used as
+// operand once; `copy` makes a second one. Statements are appended to the open block:
 //   Block outer = b.open();  b.assign(…);  StmtId then = b.close(outer);  b.ifElse(condition, then, {});
 #pragma once
 
@@ -21,7 +21,7 @@ class Builder {
   Builder(Module& module, Body& body) : module(module), body(body) {}
   Module& module;
   Body& body;
-  Loc loc;  // given to what is made next
+  Loc loc;  // of what is made next
 
   // ---- variables of the body
   uint32_t local(NameId name, TypeId type, LocalKind kind);  // by_reference follows from kind and type
@@ -30,7 +30,7 @@ class Builder {
 
   // ---- constants
   ExprId constant(TypeId type, uint64_t bits);
-  ExprId constant(const types::Value& value);  // scalar or text
+  ExprId constant(const types::Value& value);  // scalar or string
   ExprId boolean(bool value) { return constant(types::kBool, value); }
   ExprId integer(TypeId type, int64_t value) { return constant(type, static_cast<uint64_t>(value)); }
   ExprId real(TypeId type, double value) { return constant(types::Value::ofReal(type, value)); }
@@ -57,7 +57,7 @@ class Builder {
   ExprId select(ExprId condition, ExprId yes, ExprId no);
   ExprId call(BodyId function, std::span<const ExprId> operands);
   ExprId address(TypeId pointer, ExprId place);
-  ExprId negation(ExprId condition);  // NOT of a BOOL; takes a double one away
+  ExprId negation(ExprId condition);  // NOT of a BOOL; removes a double NOT
   ExprId copy(ExprId expr);           // the whole tree
 
   // ---- blocks
@@ -91,7 +91,7 @@ class Builder {
   StmtId assertion(Assertion kind, ExprId a, ExprId b, ExprId c, NameId text, NameId shown = {});
   StmtId evaluate(ExprId expr) { return append(StmtKind::Evaluate, expr.index); }
   StmtId append(StmtKind kind, uint32_t a = 0, uint32_t b = 0, uint32_t c = 0, uint32_t d = 0, uint32_t e = 0);
-  // A case of a switch: its ranges go to the body's pool. Collect the result and give all to switchStmt.
+  // A case of a switch: its ranges go to the body's pool. Collect the results and pass all of them to switchStmt.
   Case makeCase(std::span<const CaseRange> ranges, StmtId block);
 
  private:
@@ -103,7 +103,7 @@ class Builder {
 
 // Whether a variable of this kind and type is passed by reference (Local::by_reference).
 bool isPassedByReference(const types::TypeTable& types, LocalKind kind, TypeId type);
-// Arrays, records and texts: copied whole, passed by reference.
+// Arrays, records and strings: copied whole, passed by reference.
 bool isAggregate(const types::TypeTable& types, TypeId type);
 bool isPlace(ExprKind kind);
 

@@ -86,7 +86,7 @@ class Describer {
       for (uint32_t i = 0; i < info->fields.size(); ++i) {
         const Field& field = info->fields[i];
         if (!holdsBits(*info, i)) add({string(field.name), type(field.type), field.offset, flags(field)});
-        for (const types::BitMember& bit : info->bits)  // instead of the byte that holds them
+        for (const types::BitMember& bit : info->bits)  // one field per bit, not one for the byte that holds them
           if (bit.field == i)
             add({string(bit.name), type(types::kBool), field.offset,
                  flags(field) | (bit.bit + 1u) << RUNG_FIELD_BIT_SHIFT});
@@ -117,7 +117,7 @@ class Describer {
     return bits;
   }
 
-  // ---- blocks and what is kept of them
+  // ---- blocks and the ranges of them that are kept
 
   bool keeps(TypeId id) {
     id = types_.resolve(id);
@@ -240,7 +240,7 @@ class Describer {
       if (access.read_only) row.flags = RUNG_FIELD_READ_ONLY;
       add(name, row, path);
     }
-    // The order of the input files shows nowhere: programs stay first within equal names.
+    // The order of the input files does not show: programs stay first among equal names.
     std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     for (const auto& row : rows) out_.symbols.push_back(row.second);
   }
@@ -288,7 +288,7 @@ class Describer {
     }
   }
 
-  // Of what decides where data lies: retained data of another hash does not fit.
+  // Hash of everything that decides where data lies: retained data with another hash does not fit.
   uint64_t layoutHash() const {
     uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
     const auto add = [&](std::string_view bytes) {

@@ -1,6 +1,6 @@
-// What a module looks like to its host, as the tables of rung/module.h: types, symbols, memory blocks, kept ranges,
+// The description of a module for its host, as the tables of rung/module.h: types, symbols, memory blocks, kept ranges,
 // tasks and tests. In: the IR module. Out: tables numbered in the order in which the blocks, sorted by name, reach
-// their rows, so that the order of the inputs does not show. Codegen prints them; the interpreter hands them to its
+// their rows, so that the order of the inputs does not show. Codegen prints them; the interpreter passes them to its
 // host.
 #pragma once
 
@@ -27,7 +27,7 @@ struct MemoryBlocks {
   std::vector<Block> blocks;
 };
 
-// NUL-terminated texts by offset; the empty text is at 0.
+// NUL-terminated strings by offset; the empty string is at 0.
 class StringPool {
  public:
   StringPool();
@@ -42,7 +42,7 @@ class StringPool {
 struct Description {
   Description(const Module& module, const MemoryBlocks& blocks, bool with_tests);
 
-  StringPool strings;  // names of bodies and files stand first: what refers to them does not move with the rest
+  StringPool strings;  // names of bodies and files first, so that offsets to them stay when later strings change
   std::vector<rung_block> blocks;
   std::vector<rung_type> types;
   std::vector<rung_field> fields;
@@ -60,10 +60,10 @@ struct Description {
   uint64_t layout_hash = 0;
 };
 
-// The kind of rung/module.h for a type behind aliases, enumerations and subranges; a pointer for what has none.
+// The rung/module.h kind of a type, through aliases, enumerations and subranges; a pointer for types without a kind.
 rung_type_kind hostKind(const types::TypeTable& types, TypeId type);
 
-// Where a body, a check or a test stands.
+// The location of a body, check or test.
 struct FilePosition {
   std::string_view path;
   uint32_t line = 0, column = 0;

@@ -1,4 +1,4 @@
-// Messages of the reader of IR text. One constant for each row of diagnostics.def.
+// Diagnostics of the reader of IR text, one constant for each row of diagnostics.def.
 #pragma once
 
 #include "frontend/source/diagnostics.h"

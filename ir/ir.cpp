@@ -164,7 +164,7 @@ ExprId Builder::negation(ExprId condition) {
 
 ExprId Builder::copy(ExprId original) {
   Expr expr = body.expr(original);
-  if (expr.kind == ExprKind::Index || expr.kind == ExprKind::Call) {  // operands in a slice of their own
+  if (expr.kind == ExprKind::Index || expr.kind == ExprKind::Call) {  // operands in a separate slice
     uint32_t first = static_cast<uint32_t>(body.operands.size());
     body.operands.resize(first + expr.c);
     for (uint32_t i = 0; i < expr.c; ++i) {

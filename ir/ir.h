@@ -1,13 +1,13 @@
 // The intermediate representation: typed, structured, small; everything implicit in the source is explicit here.
-// In: bodies made by lowering (lower.h) or read from text (text.h). Out: what passes rewrite, the interpreter runs and
-// codegen prints. Types are those of types::TypeTable, aliases stripped; no generic and no untyped literal types.
-// verify.h lists every invariant. Nothing here needs C++ to be understood.
+// In: bodies made by lowering (lower.h) or read from the text form (text.h). Out: bodies that passes rewrite, the
+// interpreter runs and codegen prints. Types are those of types::TypeTable, aliases stripped; no generic and no untyped
+// literal types. verify.h lists every invariant. Nothing here depends on C++.
 //
-// An expression has no side effect and may be evaluated in full wherever it stands: what is conditional in the source
-// (short-circuit operands that call or fault) was made a statement by lowering. Its only effect is a fault of a node
-// whose `checks` are set. Evaluation is left to right, so codegen may place all checks of a statement's expressions
-// before the statement, in order. Places (Local, Self, Global, Program, Image, Field, Index, Deref, Bits) are
-// expressions; as operands they are read.
+// An expression is a tree, has no side effect and may be evaluated in full wherever it appears: lowering made
+// statements of the conditional parts of the source (short-circuit operands that call or fault). Its only effect is a
+// fault of a node whose `checks` are set. Evaluation is left to right, so codegen may place all checks of a statement's
+// expressions before the statement, in order. Places (Local, Self, Global, Program, Image, Field, Index, Deref, Bits)
+// are expressions; as operands they are read.
 #pragma once
 
 #include <cstdint>
@@ -43,31 +43,31 @@ struct BodyId {
 
 enum class ExprKind : uint8_t {
   None,
-  Const,   // scalar; bits as types::Value. c: none, or TypeId of a class whose number it is (Module::classes)
-  String,  // a: NameId of the text; type STRING[n] or WSTRING[n]
+  Const,   // scalar; bits as types::Value. c: none, or TypeId of the class whose number it is (codegen prints its name)
+  String,  // a: NameId of the string; type STRING[n] or WSTRING[n]
   Data,    // a: index into Module::data: the constant bytes of an array or record
-  Zero,    // all bytes zero of an array, record or text
+  Zero,    // all bytes zero of an array, record or string
   // places
-  Local,    // a: index into Body::locals (a by-reference local is the variable behind it)
+  Local,    // a: index into Body::locals (a by-reference local is the variable that it refers to)
   Self,     // the instance of a block body; type is the record
   Global,   // a: index into Module::lists; type is the list's record
   Program,  // a: index into Module::programs; type is the program's record
   Image,    // a: area (0 I, 1 Q, 2 M), b: byte, c: bit 0..7 for a BOOL, else kNoBit
-  Field,    // a: base place, b: field index. A by-reference field is the variable behind it (checks: null)
+  Field,    // a: base place, b: field index. A by-reference field is the variable that it refers to (checks: null)
   Index,    // a: base place, (b, c): slice of Body::operands, one index per dimension (checks: index)
   Deref,    // a: pointer value (checks: null)
   Bits,     // a: base place of an integer or bit string, b: position in units of the type's width. %X %B %W %D
   // values
   Unary,    // op a
   Binary,   // a op b (checks: div)
-  Convert,  // a to `type`: numeric conversion of the kernel (checks: subrange, convert); text to text: cut to capacity
+  Convert,  // a to `type`: kernel conversion (checks: subrange, convert); string to string: cut to capacity
   Select,   // a ? b : c, both evaluated
   Call,     // a: BodyId of a pure, fault-free function; (b, c): operands
   Address,  // a: place; type is a pointer
 };
 inline constexpr uint32_t kNoBit = ~0u;
 
-// Which checks a node carries; passes clear what they prove.
+// The checks of a node; passes clear those that they prove.
 enum Check : uint8_t {
   kCheckDiv = 1,
   kCheckIndex = 2,
@@ -91,30 +91,30 @@ struct Expr {
 
 enum class StmtKind : uint8_t {
   None,
-  Assign,  // a: place, b: value. Arrays, records and texts are copied whole; text cut to the place's capacity
+  Assign,  // a: place, b: value. Arrays, records and strings are copied whole; strings cut to the place's capacity
   Bind,    // a: Field place whose field is by-reference, b: place: the field refers to that variable from now on; 0: to
-           // none
+           // none. A VAR_IN_OUT of a block is a pointer in the instance, so that traces can follow it
   Call,    // a: BodyId, b: self place or none, (c, d): operands, one per parameter: the value, or the place for a
            // by-reference parameter (none: a discarded output), e: place for the result or none.
            // op: kVirtual: the body that Module::dispatches gives for the class of the object at b; kChecked with it
   If,      // a: condition, b: then block, c: else block (a block is its first statement, linked by `next`)
   Switch,  // a: selector, (b, c): slice of Body::cases, d: else block
-  Loop,    // a: body block, b: block run before each next turn (by `continue` too). Endless but for break
+  Loop,    // a: body block, b: block run before each further iteration (by `continue` too). Endless but for break
   For,     // a: control place (scalar integer), b: from, c: to, d: step (non-zero Const), e: body block.
-           // from and to are evaluated once, in that order. Leaves the control variable as design §8 says
+           // from and to are evaluated once, in that order. Leaves the first value past `to`, or the type's limit
   Break,   // leaves the innermost Loop or For
-  Continue,  // next turn of the innermost Loop or For
+  Continue,  // next iteration of the innermost Loop or For
   Return,
   Jump,      // a: label number
   Label,     // a: label number
-  Try,       // a: body block, op: 1 catches (0: the fault goes on), b: catch block, c: finally, d: its number's place
+  Try,       // a: body block, op: 1 catches (0: raises it again), b: catch block, c: finally, d: place of its number
   Fault,     // op: types::Fault, a: value for the message or none
-  Assert,    // of a test. op: Assertion, a: condition or expected, b: actual, c: tolerance, d: text (NameId).
-             // A condition that compares: b and c are its sides, e their text (NameId, as rung_assertion::shown)
+  Assert,    // of a test. op: Assertion, a: condition or expected, b: actual, c: tolerance, d: message (NameId).
+             // A condition that compares: b and c are its sides, e their source (NameId, as rung_assertion::shown)
   Evaluate,  // a: expression, evaluated for its checks only
 };
 
-// Of a call. kChecked: fault[cast] when the object is of no class that has the method, in front of the call.
+// Of a call. kChecked: fault[cast] before the call when the class of the object does not have the method.
 inline constexpr uint8_t kVirtual = 1, kChecked = 2;
 
 enum class Assertion : uint8_t { Assert, AssertEq, AssertNear };  // in the order of sema::Assertion
@@ -148,7 +148,7 @@ struct Local {
   NameId name;
   TypeId type;
   LocalKind kind = LocalKind::Temp;
-  bool by_reference = false;  // Output, InOut; Input of array, record or text type (read only); Result of such a type
+  bool by_reference = false;  // Output, InOut; Input of array, record or string type (read only); Result of such a type
   Loc loc;
 };
 
@@ -158,7 +158,7 @@ enum class BodyKind : uint8_t {
   Init,      // sets a record to its initial values: self is the record (struct, FB, program or global list)
 };
 
-// Where a body or record read from IR text comes from: its `loc` points into the text, its header names the source.
+// The source of a body or record read from IR text: its `loc` points into the IR text, its header names the source.
 struct Origin {
   bool from_string = false;
   NameId path;
@@ -173,8 +173,8 @@ struct Body {
   bool native = false;    // no code: a C function of the library's runtime part
   bool abstract = false;  // no code: a method that is only called through its dispatch
   bool pure = false;      // no effect but its result, and no fault
-  bool sized = false;     // native: has a form with lengths of texts in C++ (sized form, rung/<library>.h)
-  bool slice = false;     // native, sized: and one that only tells which part of the first input the result is
+  bool sized = false;     // native: has a form with lengths of strings in C++ (sized form, rung/<library>.h)
+  bool slice = false;     // native, sized: and one that only returns which part of the first input the result is
   bool may_fault = false;
   bool library = false;
   bool has_labels = false;  // analyses are conservative
@@ -262,7 +262,7 @@ struct Located {
   uint32_t owner_program = 0; /* index into programs + 1; 0: a global or unnamed */
 };
 
-// A name of VAR_ACCESS: a symbol that means a part of a list, of a program instance or of the image.
+// A name of VAR_ACCESS: a symbol for a part of a list, of a program instance or of the image.
 struct AccessPath {
   NameId name, prefix, configuration;  // `prefix`: the program instance that declares it
   TypeId type;
@@ -272,35 +272,37 @@ struct AccessPath {
   uint32_t bit = kNoBit;
   bool read_only = true;
 };
-// A block of a program that a task of its own runs: a function without parameters.
+// A block of a program that a separate task runs: a function without parameters.
 struct BlockTask {
   uint32_t task = 0;  // index + 1
   BodyId run;
 };
 
-// The objects that have a type id, each behind what it extends: the number of a class is its index + 1.
+// The objects that have a type id, each after the one that it extends: the number of a class is its index + 1.
 struct Class {
   TypeId record;
   TypeId base;  // none
 };
-// Which body a virtual call of `method` runs, by class number - first; none: that class has no such method.
+// The body that a virtual call of `method` runs, by class number - first; none: that class has no such method. One row
+// per method that is called virtually, not per class: it has few gaps, since numbers follow the lines of descent, and
+// interfaces need no second mechanism.
 struct Dispatch {
   BodyId method;
   uint32_t first = 1;
   std::vector<BodyId> bodies;
 };
 
-// A body in C++: its text, and what that may name beside the POU's own variables (Body::locals, fields of the record).
+// A body in C++: its source, and the names that it may use besides the POU's own variables (Body::locals, fields).
 struct CppBody {
   struct Global {  // VAR_EXTERNAL
     NameId name;
     uint32_t list, field;
     bool constant;
   };
-  struct Constant {  // VAR CONSTANT; in `initial` what a variable of the function begins with
+  struct Constant {  // VAR CONSTANT; in `initial` the values that variables of the function begin with
     NameId name;
     TypeId type;
-    uint64_t bits;  // of a text its NameId
+    uint64_t bits;  // of a string its NameId
   };
   BodyId body;
   std::string_view source;  // between {C++} and {END_C++}; the sources hold it
@@ -318,7 +320,7 @@ struct Module {
   const Sources& sources;
 
   std::deque<Body> bodies{1};   // [0] unused
-  std::vector<Record> records;  // in dependency order: what is held comes first
+  std::vector<Record> records;  // in dependency order: a record after those that it holds
   std::vector<List> lists;      // sorted by name
   std::vector<ProgramInstance> programs;
   std::vector<Task> tasks;

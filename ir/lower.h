@@ -1,6 +1,5 @@
-// Lowering: checked syntax trees to IR. In: a sema::Project without errors. Out: an ir::Module whose bodies hold the
-// code of every POU in use; each call, conversion, check and initial value explicit. Called by the driver after
-// check().
+// Lowering: checked syntax trees to IR. In: a sema::Project without errors. Out: an ir::Module with the code of every
+// POU in use; each call, conversion, check and initial value explicit. Called by the driver after check().
 #pragma once
 
 #include "ir/ir.h"
@@ -14,13 +13,13 @@ namespace rung::ir {
 
 struct LowerOptions {
   uint8_t checks = kCheckDiv | kCheckIndex | kCheckNull | kCheckCast;
-  bool used_of_libraries = false;  // library POUs marked `used` even where no code of the project leads to them
+  bool used_of_libraries = false;  // lower library POUs marked `used` even where the project does not call them
 };
-// With errors in the project: must not be called.
+// Must not be called for a project with errors.
 void lower(const sema::Project& project, const LowerOptions& options, Module& module);
 
-// One checked function and those that it calls, while the project is still being checked. Gives a function whose body
-// is not checked yet, if there is one: check it and lower anew.
+// Lowers one checked function and those that it calls, while the project is still being checked. Returns a function
+// whose body is not checked yet, if there is one: check it and call this again.
 sema::PouId lowerFunction(const sema::Project& project, sema::PouId function, const LowerOptions& options,
                           Module& module, BodyId& body);
 

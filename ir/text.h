@@ -12,7 +12,7 @@ namespace rung::ir {
 std::string print(const Module& module);
 std::string print(const Module& module, const Body& body);
 
-// Reads a module; mistakes go to diagnostics (E09xx) with their place. False when there were any.
+// Reads a module; mistakes go to diagnostics (E09xx) with their locations. False when there were any.
 bool parse(const Sources& sources, FileId file, Module& module, Diagnostics& diagnostics);
 
 }  // namespace rung::ir

@@ -1,5 +1,5 @@
 // Reads the code of a body: statements, places, values (docs/ir.md). Called by text_parser.cpp when all declarations
-// are known.
+// have been read.
 #include <charconv>
 #include <cmath>
 
@@ -376,11 +376,11 @@ ExprId Reader::primary(TypeId wanted) {
     if (id) b.body.expr(id).checks = set;
     return id;
   };
-  // The checks stand after the word, before the type is known: read as if the node were there.
+  // The checks follow the keyword, before the type is known: read as if the node existed.
   if (accept("convert")) {
     const size_t mark = at_;
     const bool checked = isPunct("!");
-    if (checked) {  // passed over, and read again below
+    if (checked) {  // skipped, and read again below
       ++at_;
       if (isPunct("("))
         while (token().kind != TokenKind::End && !accept(")")) ++at_;

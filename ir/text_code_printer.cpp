@@ -11,7 +11,7 @@ using types::TypeKind;
 
 // ---- statements
 
-// The statements and the closing brace; the opening one stands already.
+// The statements and the closing brace; the caller has printed the opening one.
 void Printer::block(StmtId first) {
   ++indent_;
   for (StmtId id = first; id;) {
@@ -292,7 +292,7 @@ void Printer::constant(const Expr& e, TypeId expected) {
   }
 }
 
-// As operand of a prefix word or base of a postfix: in parentheses unless it is one word.
+// As operand of a prefix keyword or base of a postfix: in parentheses unless it is one token.
 void Printer::operand(ExprId id, TypeId expected) {
   switch (body_->expr(id).kind) {
     case ExprKind::Unary:

@@ -1,4 +1,4 @@
-// The words of IR text: see text_keywords.h.
+// The keywords of IR text: see text_keywords.h.
 #include "ir/text_keywords.h"
 
 namespace rung::ir::text_form {

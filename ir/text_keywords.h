@@ -1,5 +1,5 @@
-// What the printer and the reader of IR text must agree on: the reserved words, the letters of elementary types and
-// which check a bare `!` stands for. Internal to text_printer.cpp and text_parser.cpp.
+// Shared by the printer and the reader of IR text: the keywords, the letters of elementary types and the check that a
+// bare `!` means. Internal to text_printer.cpp and text_parser.cpp.
 #pragma once
 
 #include <span>
@@ -13,14 +13,14 @@ struct TypeKeyword {
   const char* word;
   types::TypeKind kind;
 };
-// bool, byte, …, wchar: the elementary types without texts.
+// bool, byte, …, wchar: the elementary types except strings.
 std::span<const TypeKeyword> typeKeywords();
-const char* keywordOf(types::TypeKind kind);  // null: no elementary type
+const char* keywordOf(types::TypeKind kind);  // null: not an elementary type
 
 // The access to a part of an integer: `.%X`, `.%B`, `.%W`, `.%D`.
 const char* bitsWord(types::TypeKind part);
 
-// Words that a name may not be without backticks.
+// Keywords: a name that equals one needs backticks.
 bool isReserved(std::string_view name);
 
 struct CheckKeyword {
@@ -32,7 +32,7 @@ std::span<const CheckKeyword> checkKeywords();
 // The check that `!` without a list means on this node.
 uint8_t naturalCheck(const types::TypeTable& types, const Expr& expr);
 
-// The type that a literal without prefix has where nothing else is expected: INT, BOOL or REAL.
+// The type of an integer literal without prefix where no type is expected; `true` is a BOOL, `0.5` a REAL.
 inline constexpr TypeId kDefaultInteger = types::kInt;
 
 }  // namespace rung::ir::text_form

@@ -1,5 +1,5 @@
-// Tokens of IR text. In: the text of a file. Out: all tokens, the last of kind End. `;` is white space: a line that
-// begins with it is a comment, elsewhere it separates fields or statements for the eye.
+// Tokens of IR text. In: the content of a file. Out: all tokens, the last of kind End. `;` is white space: a line that
+// begins with it is a comment, elsewhere it separates fields or statements for the reader's eye.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ enum class TokenKind : uint8_t {
   Text,    // 'abc'
   String,  // "abc"
   Punct,   // one character, or `..`
-  Bad,     // a character that begins no token, or a text without end
+  Bad,     // a character that begins no token, or a string without end
 };
 
 struct Token {
@@ -30,7 +30,7 @@ struct Token {
 
 std::vector<Token> tokenize(std::string_view text, Loc begin);
 
-// Resolves $-escapes of a quoted text: `$$`, `$'`, `$0A`.
+// Resolves $-escapes of a quoted string: `$$`, `$'`, `$0A`.
 std::string unescape(std::string_view text);
 
 }  // namespace rung::ir::text_form

@@ -1,5 +1,5 @@
-// Prints IR as text: see text.h and docs/ir.md. One item a line, blocks indented by two; the order is that of the
-// module, so equal modules give equal bytes.
+// Prints the text form of the IR: see text.h and docs/ir.md. One item a line, blocks indented by two; the order is that
+// of the module, so equal modules give equal bytes.
 #include "ir/text_writer.h"
 
 namespace rung::ir {
@@ -12,7 +12,7 @@ using types::RecordKind;
 using types::TypeInfo;
 using types::TypeKind;
 
-// ---- text
+// ---- characters
 
 void Printer::name(std::string_view text) {
   bool plain = !text.empty() && !(text[0] >= '0' && text[0] <= '9') && !isReserved(text) && text != "_";

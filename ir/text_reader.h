@@ -44,7 +44,7 @@ class Reader {
   }
   void expected(std::string_view what);
   void fail(Diag diag, Loc loc, std::initializer_list<std::string_view> args);
-  NameId name();            // of anything; a keyword without backticks is none
+  NameId name();            // of anything; not a keyword without backticks
   std::string sigilName();  // after `@`: `Color`, `Color.2`
   std::string quotedText(TokenKind kind);
   int64_t integer();  // with sign; up to 2^64-1 as bits
@@ -109,7 +109,7 @@ class Reader {
   };
   std::vector<Code> codes_;
 
-  // of the body at hand
+  // of the current body
   Builder* builder_ = nullptr;
   Map local_by_name_, temp_by_name_, label_by_name_;
   uint32_t result_ = ~0u;

@@ -24,7 +24,7 @@ class Printer {
   void nameRecords();
 
  private:
-  // ---- text
+  // ---- characters
   void put(std::string_view text) { out += text; }
   void number(uint64_t value) {
     char digits[24];

@@ -1,23 +1,23 @@
-// The verifier (see verify.h), and with it the specification of the IR. What must hold of a module:
+// The verifier (see verify.h), and with it the specification of the IR. Invariants of a module:
 //
 //    1  Names are unique: of records, lists, program instances and tasks, each by itself; of functions and blocks
 //       together; of initialisers.
 //    2  A record's `init` is an Init body with that self, its `body` a Block body with that self; a list and a program
 //       instance have a record type; its `run` and `setup` are functions without parameters and result; task numbers,
 //       owners of located variables and tests exist.
-//    3  A record stands after the records that it holds.
+//    3  A record comes after the records that it holds.
 //    4  Data has as many bytes as its type.
 //
-// Of a body:
+// Invariants of a body:
 //
 //    5  Ids are in range. Every expression and every statement is used at most once: both form trees.
 //    6  Types are those of the language: no alias, generic or untyped literal type, no Error.
 //    7  Of a Function at most one local is its Result, of the body's result type; other bodies have neither parameters
 //       nor Result. `by_reference` follows from kind and type (isPassedByReference). Two named locals have two names,
 //       two temps too.
-//    8  Block and Init bodies have a record as self; `self` stands only in bodies that have one.
-//    9  A Const is a scalar or null, its bits extended as its type demands; a Text has a text type, a Data its item's
-//       type, Zero an array, record or text type.
+//    8  Block and Init bodies have a record as self; `self` is used only in bodies that have one.
+//    9  A Const is a scalar or null, its bits extended as its type demands; a String has a string type, a Data its
+//       item's type, Zero an array, record or string type.
 //   10  Local, Global, Program and Image name what exists and have its type; an image view lies inside its area, and
 //       has a bit 0..7 only as a BOOL.
 //   11  Field: a field of a record place, of the field's type; null check only if the field is by reference.
@@ -27,20 +27,20 @@
 //   15  Unary, Binary: the operator takes that many operands. Operands have one plain type, which is the operator's
 //       (comparisons are BOOL; a shift's right operand is any integer, a power's any number). Div check only on
 //       integer division, MOD and power; overflow check on numbers; no other.
-//   16  Convert: scalar to scalar, text to text, pointer to pointer; subrange, convert and overflow check only.
+//   16  Convert: scalar to scalar, string to string, pointer to pointer; subrange, convert and overflow check only.
 //   17  Select: a BOOL condition, two operands of its type.
 //   18  Call in an expression: a pure function that cannot fault, one value per parameter.
 //   19  Address: a pointer or reference to a place that has one (no bit).
-//   20  Assign: a place that is no by-reference Input, a value of its type (texts: of its kind).
+//   20  Assign: a place that is not a by-reference Input, a value of its type (strings: of its kind).
 //   21  Bind: a by-reference field, a place of the field's type or nothing.
 //   22  Call statement: one operand per parameter, a value of its type or, for a by-reference one, a place (none only
 //       for an output); a self place of the callee's record where it has one; a result place only of a function with
 //       result, of its type.
-//   23  If, Assert: conditions are BOOL. Assert: as many operands as its kind takes; with a text for its sides, both.
+//   23  If, Assert: conditions are BOOL. Assert: as many operands as its kind takes; with a source for its sides, both.
 //   24  Switch: an integer, bit string or enumeration as selector; ranges in the selector's order, low <= high, no
 //       value twice.
 //   25  For: an integer control place without checks; from, to and step of its plain type; step a Const other than 0.
-//   26  Break and continue stand in a loop, continue not in its `next` block.
+//   26  Break and continue are inside a loop, continue not in its `next` block.
 //   27  A label is placed exactly once, in the block of each jump to it or in one around that; labels have distinct
 //       names; a body with labels says so (`has_labels`).
 //   28  Fault: one of the faults. Try: its number goes to an integer place.
@@ -48,7 +48,7 @@
 //       assigns outside of its locals nor calls what is not pure.
 //   30  A native body and an abstract one have no code.
 //   31  Classes have distinct records that are not laid over a base of a later class; a virtual call is of a method
-//       that has a dispatch; a dispatch names methods with the parameters of its own, on classes that exist. An
+//       that has a dispatch; a dispatch names methods with the parameters of its method, on classes that exist. An
 //       abstract method is called virtually only.
 #include "ir/verify.h"
 
@@ -84,7 +84,7 @@ class Verifier {
   void checkBody(const Body& body);
 
  private:
-  // `what` is a text, or gives one: texts are put together only when a rule is broken.
+  // `what` is a string, or a function that returns one: strings are built only when a rule is broken.
   template <class Text>
   bool require(bool holds, int rule, const Text& what) {
     if (holds) return true;
@@ -125,7 +125,7 @@ class Verifier {
   const TypeTable& types_;
   const Body* body_ = nullptr;
   std::vector<bool> expr_seen_, stmt_seen_;
-  std::vector<uint32_t> label_block_;  // by label: the number of the block where it stands, or 0
+  std::vector<uint32_t> label_block_;  // by label: the number of the block that contains it, or 0
   std::vector<uint32_t> open_blocks_;
   std::vector<std::pair<uint32_t, std::vector<uint32_t>>> jumps_;  // label, blocks around
   uint32_t block_count_ = 0;
@@ -470,7 +470,7 @@ void Verifier::callOperands(const Body& callee, uint32_t first, uint32_t count, 
       if (root.kind != ExprKind::Local) found_effect_ = true;
     }
     const TypeId wanted = types_.resolve(local.type), given = typeOf(id);
-    // A text of any capacity may stand for an in-out or input text; ARRAY[*] takes every array of its element.
+    // A string of any capacity may be passed for an in-out or input string; ARRAY[*] takes every array of its element.
     const bool same_string_kind = TypeTable::isString(types_.kind(wanted)) && types_.kind(wanted) == types_.kind(given);
     const bool open_array = types_.kind(wanted) == TypeKind::Array && types_.info(wanted).dimensions.empty() &&
                             types_.kind(given) == TypeKind::Array;

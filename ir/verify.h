@@ -1,5 +1,5 @@
 // The verifier: every invariant of the IR, numbered in verify.cpp's head comment, which is the IR's specification.
-// In: a module or one body. Out: what is wrong, one line each; empty: the body is well formed.
+// In: a module or one body. Out: the violations, one line each; empty: the body is well formed.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // Walks over the expressions and statements of a body, without allocation and without std::function.
-// Called by lowering, passes, the verifier, printer and codegen. Order is that of evaluation, left to right.
+// Called by lowering, passes, the verifier, printer and codegen. The order is that of evaluation, left to right.
 #pragma once
 
 #include "ir/ir.h"
@@ -53,14 +53,14 @@ void forEachExpr(const Body& body, ExprId root, F&& f) {
   f(root);
 }
 
-// How a statement uses an expression that stands directly in it.
+// How a statement uses an expression that is directly in it.
 enum class Use : uint8_t {
   Read,       // its value
   Write,      // a place that is assigned (a For control also read)
   Reference,  // a place given to a by-reference parameter or as instance: read and written
 };
 
-// f(uint32_t& slot, Use): each expression that stands directly in a statement; slots that hold none are passed over.
+// f(uint32_t& slot, Use): each expression directly in a statement; empty slots are skipped.
 template <class BodyT, class StmtT, class F>
 void forEachRoot(const Module& module, BodyT& body, StmtT& stmt, F&& f) {
   auto visit = [&](auto& slot, Use use) {

@@ -1,4 +1,4 @@
-// What the scheduler of charts works with. In: the context of the POU whose chart is scheduled.
+// Scheduling of charts (SFC). In: the context of the POU whose chart is scheduled.
 #pragma once
 
 #include "frontend/text/sfc_schedule.h"

@@ -1,5 +1,6 @@
-// What the parts of sema share: the project, the scope at hand, and the few functions through which declarations
-// (declarations/, types, constants, libraries) and bodies (bodies/, calls, checks/) use each other. Internal to sema/.
+// The state that the parts of sema share: the project, the current scope, and the few functions through which
+// declarations (declarations/, types, constants, libraries) and bodies (bodies/, calls, checks/) use each other.
+// Internal to sema/.
 #pragma once
 
 #include <optional>
@@ -13,9 +14,9 @@ namespace rung::sema {
 
 struct Project;    // project.h
 struct Scopes;     // scopes.h: hash tables of the project, of each POU, of libraries
-struct BodyState;  // bodies/bodies.h: what the statements of one body share
+struct BodyState;  // bodies/bodies.h: state shared by the statements of one body
 
-// A piece of text with its own view of names (declarations/namespaces.cpp); 0: file level without USING.
+// A piece of source with its own view of names (declarations/namespaces.cpp); 0: file level without USING.
 struct RegionId {
   uint32_t index = 0;
   explicit operator bool() const { return index != 0; }
@@ -23,17 +24,17 @@ struct RegionId {
 
 struct Context {
   Symbols& symbols;
-  Project& project;  // the same, with what only few rules read
+  Project& project;  // the same object, with fields that only few rules read
   Scopes& scopes;
-  PouId pou;    // whose declarations or body are at hand; none: file level
+  PouId pou;    // whose declarations or body are being checked; none: file level
   FileId file;  // for diagnostics and for names that a library file sees first
   uint32_t loop_depth = 0;
-  uint32_t depth = 0;         // of the expression at hand, against input that nests without end
+  uint32_t depth = 0;         // of the current expression, limits nesting in the input
   BodyState* body = nullptr;  // none outside of a body
-  TypeId items_of = {};       // an enumeration whose declaration is at hand: its items need no qualifier
-  bool library = false;       // a library's text is at hand: read as codesys, names of the project do not count
-  RegionId region = {};       // the namespaces around the place at hand
-  ListId list = {};           // a list of globals whose declarations are at hand: its variables need no qualifier
+  TypeId items_of = {};       // an enumeration that is being declared: its items need no qualifier
+  bool library = false;       // inside a library: read as codesys, names of the project are not visible
+  RegionId region = {};       // the namespaces around the current location
+  ListId list = {};           // a list of globals that is being declared: its variables need no qualifier
 
   Tree& tree() const { return symbols.tree; }
   types::TypeTable& types() const { return symbols.types; }
@@ -46,59 +47,59 @@ struct Context {
 
 // ---- declarations (declarations/)
 
-// What a name stands for where `context` is: variables of the POU, then the namespaces around it, then POUs, types,
-// globals, enumeration items and lists of the project, then libraries, which are read on first use. None when unknown.
-// Nothing is reported but, where `loc` is given, a name that USINGs make ambiguous or that is INTERNAL elsewhere.
+// The meaning of a name at `context`: variables of the POU, then the namespaces around it, then POUs, types, globals,
+// enumeration items and lists of the project, then libraries, which are read on first use. None when unknown. Reports
+// only if `loc` is given, and only a name that USINGs make ambiguous or that is INTERNAL elsewhere.
 Entity lookUp(Context& context, NameId name, Loc loc = {});
 // `qualifier.name`: members of a GVL, of a namespace, of an enumeration type.
 Entity lookUpIn(Context& context, Entity qualifier, NameId name);
-// Whether this place may name what was found; reports what is INTERNAL to another namespace.
+// Whether `context` may use `found`; reports an entity that is INTERNAL to another namespace.
 bool checkVisible(Context& context, Entity found, Loc loc);
-// Whether this place is in the namespace of a region, or in one within it.
+// Whether `context` is in the namespace of a region, or in one within it.
 bool isInside(const Context& context, RegionId declared);
-// True when several enumerations have an item of this bare name: its context must tell which is meant.
+// True when several enumerations have an item of this bare name: its context must decide which is meant.
 bool isAmbiguousItem(Context& context, Entity item);
-// The name of what is in scope nearest to a misspelled one, or empty.
+// The visible name most similar to a misspelled one, or empty.
 std::string_view nearestName(Context& context, NameId written);
 
-// Syntax errors took declarations from this POU: what seems to be missing in it is no second mistake.
+// Syntax errors took declarations from this POU: a missing name is not a second mistake.
 bool isBroken(const Context& context, PouId pou);
-// Whether to say that a name, or a member of a record, is not declared: once in a POU, and only where no declaration
+// Whether to report that a name, or a member of a record, is not declared: once per POU, and only where no declaration
 // was lost to a syntax error.
 bool isFirstReport(Context& context, NameId name);
 bool isFirstReportOfMember(Context& context, TypeId record, NameId name);
 
 // ---- objects (declarations/objects.cpp)
 
-// The object whose members a body may name: its own block, or the owner of the method. None in functions.
+// The object whose members a body may name: its block, or the owner of the method. None in functions.
 PouId objectOf(const Context& context);
-// A variable, method, action or property of an object or of what it extends; none when there is none.
+// A variable, method, action or property of an object or of its bases; none when there is none.
 Entity findInObject(Context& context, PouId object, NameId name);
 // Whether `object` is `base`, extends it or implements it.
 bool isKindOf(Context& context, PouId object, PouId base);
-// The interface or block whose instances a pointer to an interface, a record type means; none for other types.
+// The interface or block whose record, or pointer to an interface, a type is; none for other types.
 PouId interfaceOf(Context& context, TypeId type);
 
 // FB_Init of an object, its own or inherited; none when it has none.
 PouId constructorOf(const Context& context, PouId object);
-// The arguments of FB_Init that the declaration of a variable gives; `type` is as written. (bodies/objects.cpp)
-// Of an array, `elements` calls follow each other where each element has arguments of its own.
+// Checks the arguments for FB_Init in the declaration of a variable; `type` is as written. (bodies/objects.cpp)
+// For an array whose elements have separate arguments, `elements` calls follow each other.
 CallId checkConstructor(Context& context, TypeExprId type, uint32_t& elements);
 
-// The type that is written; reports what is wrong and gives types::kError then. Writes TypeExprHeader::type.
+// Resolves a type as written; after a report kError. Writes TypeExprHeader::type.
 TypeId resolveType(Context& context, TypeExprId type);
 // Makes sure that a POU's result, pins and variables are resolved (not its body). Safe against cycles.
 void resolvePou(Context& context, PouId pou);
-// A field or pin of a record, by name; none when there is none. Pins answer to their aliases too.
+// A field or pin of a record, by name or by a pin's alias; none when there is none.
 VarId findMember(Context& context, TypeId record, NameId name);
 
 // A variable or pin of a POU by name or alias; none when there is none.
 VarId findPin(Context& context, PouId pou, NameId name);
-// The view of the image that an address means; reports what is wrong with it and gives nothing then. `type`: of the
-// variable, or none for a bare address, whose type is the one of its size (see addressType). Notes the bytes used.
+// The view of the image at an address; none after a report. `type`: of the variable, or none for a bare address, whose
+// type follows from its size (see addressType). Records the bytes used.
 std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& address, Loc loc, TypeId type);
-// Hierarchical addresses, %QW0.1.2: each has a place of its own, chosen by allocateHierarchical when all others are
-// known.
+// Hierarchical addresses, %QW0.1.2: each gets a separate location, chosen by allocateHierarchical when all other
+// addresses are known.
 bool isHierarchical(const Context& context, const DirectAddress& address);
 // The hidden variable of such an address; `user`: a variable located there, or none. None after a report.
 VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, VarId user);
@@ -109,39 +110,39 @@ TypeId addressType(const DirectAddress& address);
 // The value of an expression that was checked, when it is constant (literals, constants, operators on them,
 // conversions, SIZEOF). Faults in it (1/0, overflow) are reported once.
 std::optional<types::Value> evaluate(Context& context, ExprId expr);
-// The same, with an error that a constant is needed here when it is none.
+// The same; an expression that is not constant is an error.
 std::optional<types::Value> requireConstant(Context& context, ExprId expr, TypeId type);
 
 // Checks the initial value of a variable, field or type against its type, converting in place; arrays, structures and
 // FB instances by their initialisers.
 void checkInitializer(Context& context, ExprId& init, TypeId type);
 
-// A fresh instance of a generic or extensible library function for these pin types (parsed again from its text).
+// A new instance of a generic or extensible library function for these pin types (parsed again from its source).
 // `types_by_pin` has one type per declared pin; extra inputs of an extensible pin share that pin's type.
 PouId instantiate(Context& context, PouId generic, std::span<const TypeId> types_by_pin, TypeId result);
 
 // ---- bodies (bodies/)
 
-// Checks an expression and gives its type (kError after a report). `expected` (or none) is what the context wants: it
-// types literals and picks enumeration items; no conversion is done here. May replace the expression.
+// Checks an expression and returns its type (kError after a report). `expected` (or none) is the type that the context
+// wants: it types literals and picks enumeration items; nothing is converted. May replace the expression.
 TypeId checkExpr(Context& context, ExprId& expr, TypeId expected = {});
-// Checks, then converts implicitly to `to` where the rules of the dialect allow it (wraps in ConvertExpr), else
-// reports. `what` says what for: "assigned to `x`", for the message.
+// Checks, then converts implicitly to `to` if the dialect allows it (wraps in ConvertExpr), else reports. `what`
+// describes the use, for the message: "assigned to `x`".
 bool checkExprAs(Context& context, ExprId& expr, TypeId to, std::string_view what);
-// A place that may be written: reports constants, inputs, literals.
+// An lvalue that may be written: reports constants, inputs, literals.
 TypeId checkLvalue(Context& context, ExprId& expr, std::string_view what);
-// Makes a place what a reference of this type is bound to; reports when it cannot be bound to it.
+// Makes an lvalue the target of a reference of this type; reports when the reference cannot be bound to it.
 bool bindReference(Context& context, ExprId& lvalue, TypeId reference);
-// A literal of a known type (made_nodes.cpp).
+// A literal of a known type (synthesized_nodes.cpp).
 ExprId makeLiteral(Context& context, LiteralKind kind, TypeId type, int64_t value, Loc loc);
-// A text that lives in the tree, of the type STRING(its length).
+// A string that lives in the tree, of the type STRING(its length).
 ExprId makeStringLiteral(Context& context, std::string_view text, Loc loc);
 void checkBody(Context& context, PouId pou);
-// Checks the body of a POU that was not checked. False: it has errors, or is being checked just now.
+// Checks the body of a POU unless that is done. False: it has errors, or is being checked.
 bool ensureBody(Context& context, PouId pou);
-// The arguments of PROGRAM p WITH t : Main(...), as of a call of that program.
+// Checks the arguments of PROGRAM p WITH t : Main(...), like those of a call of that program.
 void checkConnections(Context& context, ExprId call, PouId program);
-// The list of the texts in a POU whose address is taken; of all POUs that have none yet. (bodies/literal_storage.cpp)
+// The list of the strings in a POU whose address is taken; of all POUs without one yet. (bodies/literal_storage.cpp)
 void declareLiteralStorage(Context& context, PouId pou);
 void declareLiteralStorage(Context& context);
 // The rules that need all bodies: recursion, unused variables. check() calls it once, when every body is checked.

@@ -1,4 +1,4 @@
-// Messages that declarations, checks and bodies share. One constant for each row of diagnostics.def.
+// Diagnostics shared by declarations, checks and bodies, one constant for each row of diagnostics.def.
 #pragma once
 
 #include "frontend/source/diagnostics.h"

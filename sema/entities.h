@@ -1,4 +1,4 @@
-// What names stand for, resolved and laid out: variables, POUs, enumeration items, lists of globals, and calls.
+// The entities that names mean, resolved and laid out: variables, POUs, enumeration items, lists of globals, and calls.
 // In: the syntax trees of all files and the libraries they use. Out: Symbols, the tables that each rule of sema and
 // lowering reads. Index 0 of each table is unused.
 #pragma once
@@ -24,7 +24,7 @@ enum class Storage : uint8_t {
   Local,     // of one call: function variables and pins, VAR_TEMP
   Global,    // of a global list: GlobalList::record, field index
   Image,     // located: a view of the process image
-  Constant,  // a named value without memory of its own (enumeration items are not variables)
+  Constant,  // a named value without memory (enumeration items are not variables)
 };
 
 struct ImageView {  // 8-bit byte offset in its area, and the bit for %X
@@ -42,10 +42,10 @@ struct Var {
   Storage storage = Storage::Local;
   EdgeKind edge = EdgeKind::None;
   bool constant = false, retain = false, persistent = false;
-  bool has_value = false;  // constant scalar or text with a known value: see `value`
+  bool has_value = false;  // constant scalar or string with a known value: see `value`
   bool required = false, lazy = false,
        extensible = false;             // pins of library declarations: {required} {lazy} {extensible}
-  bool hierarchical = false;           // AT %QW0.1.2: placed behind all others when these are known
+  bool hierarchical = false;           // AT %QW0.1.2: placed after all others when these are known
   bool open_address = false;           // AT %I*: the number comes from VAR_CONFIG or from the system
   bool instance_path = false;          // {attribute 'instance-path'}: holds the path of its instance
   bool read = false, written = false;  // by any body: for the warnings
@@ -59,14 +59,14 @@ struct Var {
   VarId external;      // VAR_EXTERNAL: the global it names
   TypeId record;       // field of a structure or union: its type
   AccessLevel access = AccessLevel::None;
-  CallId constructor;  // of a block whose FB_Init has parameters of its own: what the declaration gives them
-  bool late = false;   // its initial value reads other variables: Project::late, Pou::late
+  CallId constructor;                 // of a block whose FB_Init has parameters: the arguments in the declaration
+  bool late = false;                  // its initial value reads other variables: Project::late, Pou::late
   uint32_t element_constructors = 0;  // of an array: how many calls from `constructor` on, one for each element
   TypeId any;                         // codesys: an input of the generic type ANY_…, whose `type` is __SYSTEM.AnyType
   VarId bounds;                       // ARRAY[*]: the first of the hidden variables with its bounds, two a dimension
-  bool of_chart = false;              // a step or what else a chart keeps
-  bool hidden_input = false;          // of a function: such a bound, passed behind the pins
-  uint32_t temporary = 0;             // of the compiler, without declared type: its number in the body; 0: none
+  bool of_chart = false;              // a step, or other state of a chart
+  bool hidden_input = false;          // of a function: such a bound, passed after the pins
+  uint32_t temporary = 0;             // created by the compiler, without declared type: its number in the body; 0: none
   VarId bits_of;                      // a member of type BIT: the hidden byte whose `bit` it is; `field` is that byte's
   uint8_t bit = 0;
   bool is_bit = false, holds_bits = false;  // is such a member; is such a byte
@@ -88,10 +88,10 @@ struct Pou {
   DeclId decl;
   TypeId record;            // FB and program: the instance type; function: none
   TypeId result;            // functions; none: no result
-  VarId result_var;         // the variable that the function's name is inside its body
+  VarId result_var;         // the variable that the function's name means inside its body
   std::vector<VarId> vars;  // all, in order of declaration (result_var is not among them)
   std::vector<VarId> late;  // fields whose initial values read others, in the order in which they are set
-  std::vector<VarId> pins;  // the inputs, in-outs and outputs among them; filled by bodies/ at the first call
+  std::vector<VarId> pins;  // the inputs, in-outs and outputs among `vars`; filled by bodies/ at the first call
   bool pins_ready = false;
   bool library = false, native = false, pure = false, test = false;
   bool test_only = false;        // {test_only}, {replaces …}: only tests use it
@@ -99,14 +99,14 @@ struct Pou {
   bool cpp = false;              // its body is in C++
   std::vector<PouId> cpp_calls;  // functions that such a body names
   bool extensible = false;       // has an {extensible} pin
-  bool sized = false;            // {sized}: has a second native form that takes and gives lengths of texts
-  bool slice = false;            // {slice}: and a third that only tells which part of the first input the result is
-  bool prefix = false;    // {prefix}: the first n characters of the result follow from the first n of the first input
-  bool faults = false;    // {fault}: its result is 0 or what the caller faults with, a rung_lock_error
-  bool no_copy = false;   // {no_copy}: an instance cannot be copied
-  bool bytes = false;     // {bytes}: its generic type is ARRAY OF BYTE
-  bool checked = false;   // its body was checked (library bodies: when used)
-  bool checking = false;  // it is at hand
+  bool sized = false;            // {sized}: has a second native form that takes and returns lengths of strings
+  bool slice = false;            // {slice}: and a third that only returns which part of the first input the result is
+  bool prefix = false;   // {prefix}: the first n characters of the result depend only on the first n of the first input
+  bool faults = false;   // {fault}: its result is 0 or a fault that the caller raises, a rung_lock_error
+  bool no_copy = false;  // {no_copy}: an instance cannot be copied
+  bool bytes = false;    // {bytes}: its generic type is ARRAY OF BYTE
+  bool checked = false;  // its body was checked (library bodies: when used)
+  bool checking = false;  // its body is being checked
   bool broken = false;    // it has errors
   bool used = false;
   bool may_fault = false;
@@ -120,8 +120,8 @@ struct Pou {
     Move
   } operator_kind = Operator::None;  // {operator '…'}
   NameId library_name;               // `Standard`
-  // A generic function is never lowered itself: each tuple of types makes an instance of its own, named as C++ and the
-  // IR spell it (`LIMIT__REAL`).
+  // A generic function is never lowered itself: each tuple of types creates an instance, named as in C++ and the IR
+  // (`LIMIT__REAL`).
   bool generic = false;
   PouId generic_of;
   NameId replaces;            // {replaces 'X'}: a mock of X
@@ -130,7 +130,7 @@ struct Pou {
       unique_name;  // unique over the project; equals name unless it is an instance of a generic function or a member
   // ---- objects: FUNCTION_BLOCK, CLASS, INTERFACE, and their METHODs and ACTIONs (declarations/objects.cpp)
   PouId owner;                    // of a method or action
-  PouId chart;                    // the action or method whose chart this action belongs to
+  PouId chart;                    // the action or method whose chart contains this action
   PouId base;                     // EXTENDS
   uint32_t base_depth = 0;        // bases of bases
   std::vector<PouId> interfaces;  // IMPLEMENTS; EXTENDS of an interface
@@ -139,7 +139,7 @@ struct Pou {
   VarId base_var;       // the hidden field that holds the base
   VarId id_var;         // the hidden type id, where this object is the first of its line to have one
   PouId overloads;      // of functions and methods of one name: the first of them
-  PouId next_overload;  // the next, in order of declaration
+  PouId next_overload;  // the next overload, in order of declaration
   AccessLevel access = AccessLevel::None;
   uint8_t modifiers = 0;                                                       // Modifier
   enum class Accessor : uint8_t { None, Get, Set } accessor = Accessor::None;  // of a property
@@ -172,15 +172,15 @@ struct Binding {
   bool is_output = false;  // copied to `value` after the call
   bool negated = false;    // NOT pin =>
 };
-// Attempt: the first binding is a pointer to an object, the second the place that takes it when the object is a `pou`
+// Attempt: the first binding is a pointer to an object, the second the lvalue that gets it when the object is a `pou`
 // (none: any), and 0 when not; the result is whether it was.
 enum class CallKind : uint8_t { Function, Instance, Program, Operator, Assertion, Method, Attempt, Delete };
 enum class Assertion : uint8_t { Assert, AssertEq, AssertNear };
 struct Call {
   CallKind kind = CallKind::Function;
   PouId pou;                // callee; the instance of a generic function
-  ExprId instance;          // Instance: the FB variable; Method: the object, none: the one at hand; Delete: pointer
-  PouId owns;               // Delete: tells whether memory is of the pool; `pou` gives it back
+  ExprId instance;          // Instance: the FB variable; Method: the object, none: the current one; Delete: pointer
+  PouId owns;               // Delete: tests whether memory is of the pool; `pou` releases it
   bool is_virtual = false;  // Method, Instance: the object may be of a derived type
   std::vector<Binding> bindings;  // Operator: operands in order, pin none
   ExprId en;                      // EN := …
@@ -212,12 +212,12 @@ struct Symbols {
   const Call& call(CallId id) const { return calls[id.index]; }
 };
 
-// Functions or methods whose parameters have the same types, one by one; and the method of an object itself that has
-// the name of another and, where the name is overloaded, its parameters.
+// Functions or methods whose parameters have the same types, one by one; a method of the object that has the name of
+// another and, where the name is overloaded, its parameters.
 bool sameParameters(const Symbols& symbols, PouId a, PouId b);
 PouId methodLike(const Symbols& symbols, PouId object, PouId like);
 
-// The value of a checked literal, in its type; and the operator of the arithmetic kernel that an infix one is.
+// The value of a checked literal, in its type; and the operator of the arithmetic kernel for an infix operator.
 types::Value valueOf(const Symbols& symbols, const LiteralExpr& literal);
 types::Op operatorOf(BinaryOp op);
 

@@ -1,4 +1,4 @@
-// Ids of what sema resolves: indices into the tables of entities.h. 0: none.
+// Ids of resolved entities: indices into the tables of entities.h. 0: none.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What the driver chooses and gives to sema: dialect, libraries, mocks, and what it wants to be asked.
+// The driver's options for sema: dialect, libraries, mocks, and its callbacks.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,9 @@ namespace rung::sema {
 
 struct Project;
 
-// Told of each body that a scheduler has made statements of, before they are checked: the moment to print them.
-// The types of the temporaries follow when the project is checked: Project::pous, Var::temporary.
+// Called for each body that a scheduler has turned into statements, before they are checked: `rung convert` prints
+// here, since sema's insertions have no ST source. The types of temporaries follow when the project is checked:
+// Project::pous, Var::temporary.
 using Scheduled = std::function<void(Project& project, PouId pou)>;
 
 // One file of a library that is built into the compiler.
@@ -32,26 +33,28 @@ struct LibraryFile {
 struct LibraryAlias {
   const char *alias, *library;
 };
-// Runs a function whose inputs are constant. `ready`: checks the body of a function; false: it cannot be run. The later
-// layer that can do it is ir/interpreter (constant_call.h).
+// Runs a function whose inputs are constant. `ready`: checks the body of a function; false: it cannot be run.
+// Implemented in a later layer, ir/interpreter/constant_call.h.
 using CallConstant = std::function<std::optional<types::Value>(
     Project& project, PouId function, std::span<const types::Value> values, FunctionRef<bool(PouId)> ready)>;
 
-// What the command line and rung.project choose.
+// The choices of the command line and rung.project.
 struct Options {
   Dialect dialect = Dialect::Codesys;
   uint32_t pointer_size = 8;
   std::string_view name = "plc";               // of the module: instance paths begin with it
-  std::span<const LibraryFile> libraries;      // texts that outlive the project; declarations are parsed on first use
-  std::span<const std::string> project_names;  // qualify what the project itself declares: `TcUnit.FB_TestSuite`
+  std::span<const LibraryFile> libraries;      // sources that outlive the project; declarations are parsed on first use
+  std::span<const std::string> project_names;  // qualifiers of what the project itself declares: `TcUnit.FB_TestSuite`
   std::span<const LibraryAlias> library_aliases;
-  CallConstant call_constant;                // none: calls of functions are no constants
-  bool free_subranges = false;               // a subrange takes all values of its base, as in TwinCAT
-  uint32_t pool_bytes = 0;                   // of the pool behind __NEW; 0: as the library has it
-  Scheduled scheduled;                       // none: nobody asks
-  bool with_tests = false;                   // the program is for `rung test`
-  std::vector<std::string> mocks;            // … of the tests that name exactly these
-  int64_t default_interval_ns = 10'000'000;  // of the task that is made when there is no CONFIGURATION
+  CallConstant call_constant;  // none: calls of functions are not constant
+  // TwinCAT stores any value in a subrange, and code such as TcUnit relies on it (a count of 0 in UINT(1..100)): a
+  // project with a .plcproj sets this. In the manuals range types saturate.
+  bool free_subranges = false;     // a subrange takes all values of its base type, and begins with its lower bound
+  uint32_t pool_bytes = 0;         // of the pool for __NEW; 0: the library's default
+  Scheduled scheduled;             // none: no callback
+  bool with_tests = false;         // the program is for `rung test`
+  std::vector<std::string> mocks;  // … of the tests that name exactly these
+  int64_t default_interval_ns = 10'000'000;  // of the task that is created when there is no CONFIGURATION
 };
 
 }  // namespace rung::sema

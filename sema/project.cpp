@@ -52,7 +52,7 @@ void checkBodies(Context& context) {
   setPhaseSubject("", 0);
 }
 
-// Warns of programs that no task runs and nobody calls. Manual 5.1: compiled, but never executed.
+// Warns of programs that are not assigned to a task and never called. Manual 5.1: compiled, but never executed.
 void checkProgramsRun(Context& context) {
   Project& project = context.project;
   if (project.instances.empty()) return;

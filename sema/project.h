@@ -24,7 +24,7 @@ struct Task {
   uint32_t sensitivity = 0;
   Loc loc;
 };
-struct ProgramInstance {  // a task may be none: then it never runs (warned)
+struct ProgramInstance {  // without a task it never runs (warned)
   NameId name;
   NameId resource, configuration;
   PouId program;
@@ -63,7 +63,7 @@ struct AccessPath {
   TypeId type;
   Loc loc;
 };
-// PROGRAM p WITH t : Main (block WITH task): an instance of a block that a task of its own runs.
+// PROGRAM p WITH t : Main (block WITH task): an instance of a block that a separate task runs.
 struct BlockTask {
   uint32_t instance;  // index into Project::instances
   VarId block;        // a field of its program
@@ -83,7 +83,7 @@ struct Project : Symbols {
   std::vector<BlockTask> block_tasks;
   std::vector<ExprId> type_inits;                // by TypeId: the declared initial value of a named type, or none
   std::vector<std::vector<ExprId>> field_inits;  // by TypeId of a record: declared initial value per field, or none
-  // Who calls whom, in the order of the calls, with the place of the call: for the recursion rule.
+  // Who calls whom, in the order of the calls, with the location of the call: for the recursion rule.
   struct CallEdge {
     PouId caller, callee;
     Loc loc;

@@ -1,6 +1,5 @@
-// Scopes: the hash tables behind names, and what sema remembers of declarations while it resolves them on demand.
-// Lives as long as one check(). Tables are keyed by Names::key, so that every spelling of an identifier is the same.
-// Internal to sema/.
+// Scopes: the hash tables for names, and sema's state while it resolves declarations on demand. Lives as long as one
+// check(). Tables are keyed by Names::key, so every spelling of an identifier is the same. Internal to sema/.
 #pragma once
 
 #include <deque>
@@ -13,7 +12,7 @@
 
 namespace rung::sema {
 
-// From a name key to what it stands for. Open addressing; one allocation; 8 bytes a slot.
+// From a name key to its meaning. Open addressing; one allocation; 8 bytes a slot.
 class NameMap {
  public:
   Entity find(NameId key) const {
@@ -24,7 +23,7 @@ class NameMap {
       if (!slot.key) return {};
     }
   }
-  // False when the key stands for something already.
+  // False when the key is in use.
   bool insert(NameId key, Entity entity);
   template <class Visit>
   void forEach(Visit visit) const {
@@ -47,12 +46,12 @@ enum class State : uint8_t { New, Busy, Done };
 // A named type, or the record of a POU or global list.
 struct NamedType {
   DeclId decl;      // TypeDecl; none for records of POUs and lists, and for types written in place
-  TypeExprId type;  // what is written
+  TypeExprId type;  // as written
   PouId pou;        // the POU whose record it is
   PouId owner;      // the POU in whose VAR it is written
   FileId file;
   State resolved = State::New;
-  State cut = State::New;  // looked at by the search for types that contain themselves
+  State cut = State::New;  // visited by the search for types that contain themselves
   uint32_t depth = 0;      // of what records hold, when `cut` is Done
   bool library = false;
   bool internal = false;  // INTERNAL of a type; that of a POU is its access
@@ -82,17 +81,17 @@ struct ListScope {
   FileId file;
 };
 
-// ---- libraries: what index tells, and what was read so far
+// ---- libraries: the index, and the declarations read so far
 
 // One declaration of a library file: a POU, a TYPE block or a VAR_GLOBAL block.
 struct LibraryBlock {
   uint32_t file = 0;  // index into Options::libraries
   uint32_t begin = 0, end = 0;
   bool loaded = false;
-  bool qualified = false;  // found by way of its namespace only
+  bool qualified = false;  // found only through its namespace
 };
 struct LibraryName {
-  NameId name;  // as the library spells it
+  NameId name;  // in the library's spelling
   uint32_t block = 0;
   uint32_t next = 0;  // another declaration of the name, 0: none
 };
@@ -100,13 +99,13 @@ struct LibraryName {
 // A library, the project itself, or a NAMESPACE of the project (namespaces.cpp), in this order.
 struct Namespace {
   NameId name;             // `Standard`, `Simatic.Ax`
-  NameMap names;           // POUs, types, namespaces; of a library all that was read so far
+  NameMap names;           // POUs, types, namespaces; of a library those read so far
   NameMap globals, items;  // of a NAMESPACE: its variables; enumeration items by their bare name
   uint32_t outer = ~0u;    // the NAMESPACE around it
   bool internal = false;
   Loc loc;
 };
-// A piece of text with its own view of names: a NAMESPACE block, a file or a POU with USING.
+// A piece of source with its own view of names: a NAMESPACE block, a file or a POU with USING.
 struct Region {
   RegionId outer;
   uint32_t space = ~0u;  // the namespace that the block declares
@@ -120,9 +119,9 @@ struct Libraries {
   std::vector<FileId> sources;            // of Options::libraries; none: not yet added to Sources
   std::vector<LibraryBlock> blocks;
   std::vector<LibraryName> names{1};
-  NameMap index;           // name -> LibraryName (the entity's index; its kind says nothing)
+  NameMap index;           // name -> LibraryName (the entity's index; its kind is unused)
   NameMap namespaces;      // name or alias of a library -> Namespace
-  uint32_t project = ~0u;  // the index of the Namespace that stands for the project itself
+  uint32_t project = ~0u;  // the index of the Namespace of the project itself
 };
 
 struct Scopes {
@@ -131,7 +130,7 @@ struct Scopes {
   NameMap globals;
   NameMap items;       // enumeration items by their bare name: the first that was declared
   NameMap qualifiers;  // global lists, program instances
-  NameMap programs_with_instance, programs_with_several;  // of which configurations have one, several; a set
+  NameMap programs_with_instance, programs_with_several;  // programs with one, with several instances; a set
   std::vector<bool> item_is_ambiguous;                    // by index of the first EnumValue
 
   std::vector<uint32_t> named_of_type;  // by TypeId: index into named_types, 0: none
@@ -143,7 +142,7 @@ struct Scopes {
   struct Mock {          // in use
     NameId key;          // of what it replaces, without its namespace
     PouId mock;
-    PouId original = {};  // none: not looked for yet
+    PouId original = {};  // none: not looked up yet
     bool busy = false;
   };
   std::vector<Mock> mocks;
@@ -159,11 +158,11 @@ struct Scopes {
       PouId pou;
       VarId var;
     };
-    std::map<std::pair<uint32_t, uint64_t>, VarId> variables;  // by POU, and by text and kind
+    std::map<std::pair<uint32_t, uint64_t>, VarId> variables;  // by POU, and by string and kind
     std::vector<Entry> undeclared;                             // not yet in a list
   } literal_storage;
 
-  // Everything declared, in order; resolveDeclarations() resolves from these marks on.
+  // Everything declared, in order; resolveDeclarations() resolves from these positions on.
   std::vector<TypeId> declared_types;
   size_t resolved_types = 0, checked_types = 0;
   size_t resolved_pous = 1, checked_pous = 1;
@@ -173,14 +172,14 @@ struct Scopes {
   uint32_t depth = 0;                // of declarations resolved within each other
 
   Libraries libraries;
-  NameMap namespaces;                                       // NAMESPACEs that stand in no other
+  NameMap namespaces;                                       // NAMESPACEs that are not inside another
   std::deque<Region> regions{1};                            // 0: file level without USING
   std::unordered_map<uint32_t, RegionId> region_of_file;    // by FileId: of files with USING
   std::unordered_map<uint32_t, RegionId> region_of_global;  // by VarId: of globals in a region
   // The list of globals that the last {list 'name'} opened, and its file.
   std::string open_list;
   FileId open_list_file;
-  // Pragmas and words that declarations look for, as name keys.
+  // Name keys of pragmas and keywords that declarations look for.
   struct KnownNames {
     NameId attribute_qualified_only, attribute_strict, attribute_instance_path, test, test_only, replaces, mock, alias,
         required, lazy, extensible, prefix, sized, slice, pure, native, op, std, no_final_scan, list, fault, no_copy,

@@ -1,4 +1,4 @@
-// Calls of the translated code: a caller writes the arguments into the frame that the callee is going to have, behind
+// Calls of the translated code: a caller writes the arguments into the frame that the callee is going to have, after
 // its own; the result is read from there. See translate.h.
 #include <algorithm>
 
@@ -48,7 +48,7 @@ void BodyTranslator::passArgument(Argument& argument, Ref to) {
   }
   const Expr& e = expr(argument.operand);
   if (isPlace(e.kind) && (e.kind == ExprKind::Bits || isImage(argument.operand))) {
-    // Bits and views of the image are no variables in memory: copied in, and back after the call.
+    // Bits and views of the image are not variables in memory: copied in, and back after the call.
     argument.copied = true;
     argument.copy = {Base::Frame, slot(info(parameter.type).size, info(parameter.type).align), 0, 0, kNoBit};
     if (isAggregate(e.type) || isString(e.type)) {
@@ -62,7 +62,7 @@ void BodyTranslator::passArgument(Argument& argument, Ref to) {
   pointerInto(place(argument.operand), to);
 }
 
-// A call inside of an argument uses the same memory for its own arguments: then all are made before.
+// A call inside an argument uses the same memory for its own arguments: then all arguments are evaluated before.
 void BodyTranslator::passArguments(std::vector<Argument>& arguments) {
   bool nests = false;
   for (const Argument& argument : arguments) {
@@ -82,7 +82,7 @@ void BodyTranslator::passArguments(std::vector<Argument>& arguments) {
   }
 }
 
-// What code of the project calls; what runs inside of libraries, their functions and initialisers are not told.
+// Reports calls by code of the project, not calls inside libraries, of their functions or of initialisers.
 void BodyTranslator::traceCall(BodyId id, const Address* self) {
   const Body& callee = module_.body(id);
   if (!options_.trace_calls || body_->library || (callee.library && !callee.self)) return;
@@ -129,7 +129,7 @@ void BodyTranslator::emitVirtualCall(BodyId method, const Address& self, uint32_
 
 namespace {
 
-// Bytes behind the frame that a native function's slots take.
+// Bytes after the frame that a native function's slots take.
 uint32_t slotsOf(const Body& callee, size_t arguments) {
   return static_cast<uint32_t>((arguments + 4 + (callee.self ? 1 : 0)) * 8);
 }
@@ -191,7 +191,7 @@ void BodyTranslator::callStatement(const Stmt& stmt) {
   const ExprId to{stmt.e};
   if (to && mayFault(to)) place(to);  // its checks come before the call
 
-  // A result in memory: where it is to go, if nothing that the callee reads can be there.
+  // A result in memory: written directly to its target, if nothing that the callee reads can be there.
   const bool by_reference = callee.result && ir::isAggregate(types_, callee.result);
   Address memory;
   bool direct_result = false;

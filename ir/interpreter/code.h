@@ -1,10 +1,10 @@
-// The compact form of a module that the interpreter executes: one array of instructions over the memory layout that
-// native code has (design §6, §9). In: what translate.cpp makes of verified IR. Out: instructions that dispatch.h runs.
+// The compact form of a module that the interpreter executes: one array of instructions over the same memory layout as
+// native code. In: verified IR, translated by translate.cpp. Out: instructions that dispatch.h runs.
 //
 // An instruction is a function and its operands. Operands are memory: byte offsets in the frame of the call or in the
 // instance, or a constant in `imm`; scalars have their own width, so that a narrowing conversion costs nothing on the
-// little-endian machines that this runs on. A frame is: where to return to, parameters and result in slots of 8 bytes,
-// other locals, temporaries; behind it the frame of a callee begins, in which a caller writes the arguments.
+// little-endian machines that this runs on. A frame is: the return address, parameters and result in slots of 8 bytes,
+// other locals, temporaries; after it begins the frame of a callee, into which a caller writes the arguments.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Insn {
 };
 static_assert(sizeof(Insn) == 32);
 
-// How a frame begins.
+// The beginning of a frame.
 struct Linkage {
   const Insn* ip;
   uint8_t *fp, *self;
@@ -37,8 +37,8 @@ constexpr uint32_t kFrameHeader = sizeof(Linkage), kFrameAlign = 16;
 struct Machine {
   rung_context* ctx = nullptr;
   uint8_t* limit = nullptr;  // end of the stack of frames
-  int64_t budget = 0;        // turns and calls left, where a run is bounded
-  // What is next, where instructions return to a loop instead of jumping to the next (dispatch.h).
+  int64_t budget = 0;        // iterations and calls left, where a run is bounded
+  // The next instruction, where instructions return to a loop instead of jumping to the next (dispatch.h).
   const Insn* ip = nullptr;
   uint8_t *fp = nullptr, *self = nullptr;
 };
@@ -52,7 +52,7 @@ enum class Mode : uint8_t {
   Self,      // at self + offset
   Constant,  // imm
 };
-// Where memory is that an instruction takes by address.
+// Where the memory is that an instruction takes by address.
 enum class Base : uint8_t {
   Frame,
   Self,
@@ -60,7 +60,7 @@ enum class Base : uint8_t {
   Constant  // imm is its address
 };
 
-// What a scalar is in memory.
+// The type of a scalar in memory.
 enum class Scalar : uint8_t { Bool, I8, I16, I32, I64, U8, U16, U32, U64, F32, F64 };
 constexpr uint32_t sizeOf(Scalar s) {
   constexpr uint8_t kSizes[] = {1, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8};
@@ -69,15 +69,15 @@ constexpr uint32_t sizeOf(Scalar s) {
 constexpr bool isReal(Scalar s) { return s >= Scalar::F32; }
 constexpr bool isSigned(Scalar s) { return s >= Scalar::I8 && s <= Scalar::I64; }
 
-// How often a line of the source was executed or, where `function` has its name, a POU was called.
+// How often a line of the source was executed or, where `function` is set, that POU was called.
 struct Counter {
   const char *file, *function;
   uint32_t line;
   uint64_t count;
 };
 
-// A native library function behind a uniform call: arguments in `slots`, scalars by value and others by address, the
-// instance first where there is one; then the result, or the address of its memory and, of a text, the capacity.
+// A native library function with a uniform signature: arguments in `slots`, scalars by value and others by address, the
+// instance first where there is one; then the result, or the address of its memory and, of a string, the capacity.
 using NativeThunk = void (*)(rung_context* ctx, uint64_t* slots);
 struct Native {
   const char* name;  // of the C function

@@ -8,9 +8,9 @@ namespace rung::ir::interpreter {
 
 namespace {
 
-constexpr int64_t kBudget = 1'000'000;  // turns of loops and calls
+constexpr int64_t kBudget = 1'000'000;  // iterations and calls
 
-// Nothing but its own variables; their types are known by now.
+// Uses nothing but its own variables; their types are known by now.
 bool isClosed(Module& module, const Body& body) {
   if (body.native) return body.pure;
   if (body.kind != BodyKind::Function || body.cpp != 0) return false;
@@ -35,7 +35,7 @@ bool isClosed(Module& module, const Body& body) {
 std::optional<types::Value> callConstant(sema::Project& project, sema::PouId function,
                                          std::span<const types::Value> values, std::span<const Native> natives,
                                          FunctionRef<bool(sema::PouId)> ready) {
-  // Lowering tells which function it needs next.
+  // Lowering returns the function that it needs next.
   for (sema::PouId next = function; next;) {
     if (!ready(next)) return std::nullopt;
     Module module(project.types, project.names, project.sources);

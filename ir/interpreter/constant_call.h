@@ -1,7 +1,8 @@
 // Constant functions: a call with constant inputs, run while the program is checked, where the standard wants constants
-// (bounds, CASE labels, initial values of constants). In: the function, whose body `ready` checks when asked, and the
-// values of its inputs. Out: its result; none when it reads or writes anything but its own variables, faults, or does
-// not end in bounds. The tool gives it to sema (sema::Options::call_constant).
+// (bounds, CASE labels, initial values of constants). In: the function and the values of its inputs; `ready` checks
+// each body on request. Out: its result; none when it reads or writes anything but its own variables, faults, or
+// exceeds the budget. The tool passes it to sema as a callback (sema::Options::call_constant), so sema includes no
+// later layer.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
-// How one instruction leads to the next, and how instructions read and write their operands.
-// Optimized builds jump from instruction to instruction (a call in tail position), which costs one indirect jump each;
-// without optimization or with sanitizers, where such a call would need stack, each returns to the loop of execute().
+// How one instruction reaches the next, and how instructions read and write their operands. Optimized builds jump from
+// instruction to instruction (a call in tail position), which costs one indirect jump each; without optimization or
+// with sanitizers, where such a call would need stack, each returns to the loop of execute().
 #pragma once
 
 #include <type_traits>
@@ -106,7 +106,7 @@ inline uint8_t* address(const Insn* ip, uint8_t* fp, uint8_t* self, uint32_t off
   return reinterpret_cast<uint8_t*>(ip->imm);
 }
 
-// Leaves the interpreted code as a check of native code does. `site` counts from 1.
+// Leaves the interpreted code as a native check does. `site` counts from 1.
 [[noreturn, gnu::cold, gnu::noinline]] void fail(Machine* m, rung_fault_kind kind, uint32_t site, int64_t value);
 
 }  // namespace rung::ir::interpreter

@@ -1,5 +1,5 @@
-// Values of the translated code: see translate.h. An expression has no effect, so its operands may stay where they are
-// in memory until the instruction that reads them.
+// Values of the translated code: see translate.h. An expression has no effect, so its operands may stay in memory until
+// the instruction that reads them.
 #include <limits>
 
 #include "ir/builder.h"
@@ -87,7 +87,7 @@ Operand BodyTranslator::inFrame(const Operand& from, Scalar type) {
 
 void BodyTranslator::valueInto(ExprId id, const Operand& to) { move(scalarOf(id), value(id, &to), to); }
 
-// `want` is where the caller would like it; the result says where it is.
+// `want` is where the caller would like the value; the result is where it is.
 Operand BodyTranslator::value(ExprId id, const Operand* want) {
   const Expr& e = expr(id);
   switch (e.kind) {
@@ -158,7 +158,7 @@ Operand BodyTranslator::binary(const Expr& e, const Operand* want) {
   const Scalar type = scalarOf(a);
   const TypeKind kind = kindOf(a);
   if (type == Scalar::Bool && (e.op == Op::And || e.op == Op::Or) && !mayFault(b) && touchesForeignMemory(b)) {
-    // Nothing is checked: memory that the left operand guards is not touched, as in native code.
+    // Nothing is checked: memory that the left operand guards is not read, as in native code.
     const Operand to = temp();
     const Label decided = newLabel();
     valueInto(a, to);
@@ -281,7 +281,7 @@ void BodyTranslator::branch(ExprId id, bool sense, Label to) {
     const ExprId a{e.a}, b{e.b};
     const bool is_and = e.op == Op::And;
     if ((is_and || e.op == Op::Or) && !mayFault(b)) {
-      if (is_and == sense) {  // both have to agree
+      if (is_and == sense) {  // both must agree
         const Label out = newLabel();
         branch(a, !sense, out);
         branch(b, sense, to);

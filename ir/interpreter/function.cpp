@@ -1,4 +1,4 @@
-// Runs one function in bounds: see function.h.
+// Runs one function with a budget: see function.h.
 #include "ir/interpreter/function.h"
 
 #include <cstring>
@@ -39,7 +39,7 @@ std::vector<BodyId> reachable(const Module& module, BodyId from) {
   return out;
 }
 
-// As memory has a value.
+// A value in its form in memory.
 uint64_t memoryBits(const TypeTable& types, TypeId type, const types::Value& value) {
   if (types.plainKind(type) == TypeKind::Real) return rung_bits_of_f32(static_cast<float>(value.asReal()));
   return value.bits;

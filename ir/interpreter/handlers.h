@@ -1,6 +1,7 @@
-// The instructions, by what they do and where their operands are. In: an operator, the type in memory, the modes of the
-// operands. Out: the function that an Insn names. Called by the translator only. At each group stands which fields of
-// the Insn its instructions read.
+// The instructions, by operation and by where their operands are. In: an operator, the type in memory, the modes of the
+// operands. Out: the function of an Insn. Called by the translator only. Each group says which fields of the Insn its
+// instructions read. Operators share rung/code.h with generated code, and a unit test compares all of them with the
+// arithmetic kernel.
 #pragma once
 
 #include "ir/interpreter/code.h"
@@ -11,19 +12,19 @@ namespace rung::ir::interpreter {
 using types::Op;
 
 // ---- handlers_arithmetic.cpp: a := b op c. Div and Mod of integers check the divisor when d is not 0.
-// A constant stands on the right, of Sub, Div and Mod also on the left. Shifts: c is 64 bits wide in the frame or imm.
+// A constant is on the right, of Sub, Div and Mod also on the left. Shifts: c is 64 bits wide in the frame or imm.
 Handler binaryHandler(Op op, Scalar type, Mode left, Mode right, Mode to);
 Handler shiftHandler(Op op, Scalar type, Mode left, Mode right, Mode to);
 Handler unaryHandler(Op op, Scalar type, Mode from, Mode to);  // a := op b
-// a := b converted; null where nothing needs to be done because memory of `from` read as `to` is the result.
+// a := b converted; null where nothing needs to be done, since memory of `from` read as `to` is the result.
 Handler convertHandler(Scalar from, Scalar to, Mode source, Mode target);
 // a := base b ** exponent c, both in the frame. Exponent: I64, U64 or F64; REAL bases have a F64 exponent.
 Handler powerHandler(Scalar base, Scalar exponent);
-// Checks, d the site. Overflow: of b op c, in the frame. Range: b (I64 or U64) outside [low, high] in the next
-// instruction's (imm, its next one's imm).
+// Checks, d is the site. Overflow: of b op c, in the frame. Range: b (I64 or U64) outside [low, high]: imm of the next
+// two instructions.
 Handler overflowHandler(Op op, Scalar type);
 Handler rangeHandler(rung_fault_kind kind, bool is_signed);
-// b is F64: rounds to outside of [low, high], in F64 bits in the two instructions behind.
+// b is F64: rounds to outside of [low, high], in F64 bits in the next two instructions.
 Handler roundedRangeHandler();
 Handler zeroPowerHandler(Scalar base);  // base b is 0 and exponent c (I64) negative
 
@@ -31,9 +32,9 @@ Handler zeroPowerHandler(Scalar base);  // base b is 0 and exponent c (I64) nega
 Handler compareHandler(Op op, Scalar type, Mode left, Mode right, Mode to);    // a := b op c
 Handler branchHandler(Op op, Scalar type, Mode left, Mode right, bool sense);  // to d when (a op b) == sense
 Handler branchTruthHandler(Mode mode, bool sense);                             // to d when a == sense
-// Jumps on: the control a steps by imm; to d while it has not passed the limit b (in the frame).
+// Continues a loop: the control a steps by imm; to d while it has not passed the limit b (in the frame).
 Handler forHandler(Scalar type, bool up, Mode control);
-Handler forFlagHandler(Scalar type, bool up);  // the same in the frame, c := whether to go on
+Handler forFlagHandler(Scalar type, bool up);  // the same in the frame, c := whether to continue
 // To the distance in the table at `imm`, by a minus the lowest (imm of the next instruction), c entries, else d.
 Handler switchHandler(Scalar type, Mode mode);
 // Among c SwitchRange sorted by `low` at `imm`, else to d.
@@ -64,13 +65,13 @@ Handler imageHandler();                   // slot a := address of image b
 Handler selectHandler(Scalar type);       // a := d ? b : c, all in the frame
 Handler compareMemoryHandler();           // truth a := c bytes at (slot b) equal those at (slot d)
 
-// ---- handlers_string.cpp. Addresses of texts; capacity in c.
+// ---- handlers_string.cpp. Addresses of strings; capacity in c.
 Handler assignStringHandler(bool wide, bool from_wide, Base to, Base from);  // a := b
 Handler assignUtf8Handler(Base to, Base from);                               // of two USTRINGs
 Handler compareStringHandler(bool wide, Base left, Base right);              // I32 a := order of b and c
 Handler emptyStringHandler(bool wide, Base to);                              // a
-Handler stringOfScalarHandler(bool wide);  // text at (slot a) of the bits in slot b, kind d
-Handler scalarOfStringHandler(bool wide);  // slot a := bits of the text at (slot b), kind d
+Handler stringOfScalarHandler(bool wide);  // string at (slot a) of the bits in slot b, kind d
+Handler scalarOfStringHandler(bool wide);  // slot a := bits of the string at (slot b), kind d
 
 // ---- handlers_control.cpp
 Handler jumpHandler();
@@ -95,8 +96,8 @@ Handler rethrowHandler();  // when U8 a is not 0
 Handler raiseHandler();    // fault a at site d, value in the frame at b
 Handler tickHandler();     // where runs are bounded
 Handler countHandler();    // imm: uint64_t*
-Handler calledHandler();   // tells the host: imm the POU's name, slot b the address of its instance or null
-// Assertions. Slot b and those behind: see handlers_control.cpp; imm: const AssertionSite*.
+Handler calledHandler();   // notifies the host: imm the POU's name, slot b the address of its instance or null
+// Assertions. Slots from b on: see handlers_control.cpp; imm: const AssertionSite*.
 struct AssertionSite {
   rung_assertion is;
   uint8_t kind;  // of the values

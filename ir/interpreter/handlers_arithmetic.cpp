@@ -244,7 +244,7 @@ Handler binaryOf(Mode left, Mode right, Mode to) {
   return withModes(left, right, to, [](auto a, auto b, auto d) -> Handler { return binary<O, T, a(), b(), d()>; });
 }
 template <class O>
-Handler modular(Scalar type, Mode left, Mode right, Mode to) {  // the sign does not matter
+Handler modular(Scalar type, Mode left, Mode right, Mode to) {  // the same for both signs
   switch (sizeOf(type)) {
     case 1: return binaryOf<O, uint8_t>(left, right, to);
     case 2: return binaryOf<O, uint16_t>(left, right, to);

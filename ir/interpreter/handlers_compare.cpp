@@ -38,7 +38,7 @@ void branchTruth(RUNG_HANDLER_PARAMETERS) {
   RUNG_NEXT;
 }
 
-// The next value, or false and the limit of the type where it does not fit.
+// The next value; or false and the limit of the type when it does not fit.
 template <class T, bool Up>
 bool advance(T& control, int64_t step) {
   T next;
@@ -82,7 +82,7 @@ void switchRanges(RUNG_HANDLER_PARAMETERS) {
   const uint64_t flip = std::is_signed_v<T> ? uint64_t{1} << 63 : 0;
   const uint64_t value = static_cast<uint64_t>(get<A, T>(ip, fp, self, ip->a)) ^ flip;
   const SwitchRange* const ranges = reinterpret_cast<const SwitchRange*>(ip->imm);
-  uint32_t low = 0, high = ip->c;  // the first range whose high is not below
+  uint32_t low = 0, high = ip->c;  // the first range whose high is not below the value
   while (low < high) {
     const uint32_t middle = (low + high) / 2;
     if (ranges[middle].high < value) {
@@ -111,7 +111,7 @@ Handler branchOf(Mode left, Mode right, bool sense) {
   });
 }
 
-// Equality of integers does not ask for the sign, and the opposite of a comparison of integers is another one.
+// Equality of integers does not depend on the sign, and the opposite of a comparison of integers is another comparison.
 template <Op O, class F>
 Handler withCompared(Scalar type, F&& f) {
   const bool is_equality = O == Op::Eq || O == Op::Ne;

@@ -8,7 +8,7 @@ namespace {
 
 void jump(RUNG_HANDLER_PARAMETERS) { RUNG_JUMP; }
 
-// The callee finds its caller in front of its frame.
+// A callee finds its caller in front of its frame.
 inline uint8_t* enter(const Insn* ip, uint8_t* fp, uint8_t* self, Machine* m) {
   uint8_t* const frame = fp + ip->a;
   if (RUNG_UNLIKELY(m->limit - frame < static_cast<ptrdiff_t>(ip->c)))
@@ -52,7 +52,7 @@ void native(RUNG_HANDLER_PARAMETERS) {
   RUNG_NEXT;
 }
 
-// The frame of a try is the body's own, so that what it shares with the body is in memory.
+// The frame of a try is the body's, so that what it shares with the body is in memory.
 struct Guarded {
   const Insn* ip;
   uint8_t *fp, *self;

@@ -27,8 +27,8 @@ void storeAt(RUNG_HANDLER_PARAMETERS) {
   RUNG_NEXT;
 }
 
-// The position of an element from the lowest index (low half of imm) below the count (high half). Without a check it
-// may be outside, and so may the memory, as in native code.
+// The position of an element, counted from the lowest index (low half of imm), below the count (high half). Without a
+// check it may be outside, and so may the memory, as in native code.
 template <class I, Mode M>
 uint64_t position(const Insn* ip, const uint8_t* fp, const uint8_t* self, Machine* m) {
   const I index = get<M, I>(ip, fp, self, ip->c);

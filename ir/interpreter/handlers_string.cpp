@@ -1,4 +1,4 @@
-// Texts: see handlers.h. The runtime's functions do the work, as in generated code.
+// Strings: see handlers.h. The runtime's functions do the work, as in generated code.
 #include "ir/interpreter/dispatch.h"
 #include "ir/interpreter/handlers.h"
 #include "ir/interpreter/select.h"

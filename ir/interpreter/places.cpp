@@ -161,7 +161,7 @@ uint32_t BodyTranslator::indexSite(const Expr& e, const Dimension& dimension) {
   return (e.checks & kCheckIndex) != 0 ? site(e.loc, dimension.low, dimension.high) : 0;
 }
 
-// The element, or with `count` below the number of dimensions the part of the array at the first indices.
+// The element or, with `count` below the number of dimensions, the part of the array at the first indices.
 Address BodyTranslator::indexed(const Expr& e, uint32_t count) {
   const TypeInfo& array = info(expr(ExprId{e.a}).type);
   Address at = place(ExprId{e.a});

@@ -15,7 +15,7 @@ namespace {
 
 constexpr size_t kTaskStack = size_t{1} << 20;  // of an activation, on top of the largest frame
 
-// The frames of the activation at hand on this thread: made once, so that the cycle allocates nothing.
+// The frames of this thread's activation: allocated once, so that the cycle allocates nothing.
 struct Stack {
   std::unique_ptr<uint8_t[]> memory;
   size_t size = 0;
@@ -26,7 +26,7 @@ thread_local const Machine* running = nullptr;
 }  // namespace
 
 struct Program::Parts {
-  rung_module is{};  // first: from a context's module to its program
+  rung_module is{};  // first: a context points to it, of() to the whole
   std::string refusal, name;
   Code code;
   std::unique_ptr<Description> description;
@@ -57,7 +57,7 @@ struct Program::Parts {
     return distance % sizeof(Insn) == 0 && distance / sizeof(Insn) < code.insns.size();
   }
 
-  // The place of the statement to which an instruction belongs, as the last site.
+  // The source location of the statement that contains an instruction, as the last site.
   uint32_t siteOf(uintptr_t insn) const {
     if (!isInsn(insn)) return RUNG_NONE;
     const uintptr_t index = (insn - reinterpret_cast<uintptr_t>(code.insns.data())) / sizeof(Insn);
@@ -227,7 +227,7 @@ Program::Program(const Module& module, const ProgramOptions& options) : parts_(s
 
 Program::~Program() = default;
 
-// The instruction at work is in some register, its successor perhaps in another; a native function's was noted.
+// The current instruction is in some register, its successor perhaps in another; a native function's was noted.
 uint32_t Program::siteOfCrash(const rung_context* ctx, const void* details) {
   if (running == nullptr || running->ctx != ctx) return RUNG_NONE;
   const Parts& parts = Parts::of(ctx);

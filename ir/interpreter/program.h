@@ -1,6 +1,8 @@
-// A module that the interpreter runs, as its host sees it: the interface of rung/module.h that a compiled project has,
-// so that scheduler, image, traces, forcing, retained data, faults and tests are the same. In: a verified module after
-// its passes. Out: a description whose functions interpret. Called by the tool; the IR may go once it is made.
+// A module that the interpreter runs, as its host sees it. It fills the same tables (ir/description.h) that codegen
+// prints, has the same memory layout, and leaves code by the same longjmp; so scheduler, image, traces, forcing,
+// retained data, faults and tests exist once. One function serves all tasks: `rung_context::entry` says which. In: a
+// verified module after its passes. Out: a description whose functions interpret. Called by the tool; the IR may be
+// freed then.
 #pragma once
 
 #include <deque>
@@ -18,8 +20,8 @@ struct ProgramOptions {
   std::string module_name = "plc";
   bool with_tests = false;
   std::span<const Native> natives;  // sorted by name
-  bool coverage = false;            // counters() tell how often each line ran
-  bool trace_calls = false;         // rung_host::called is told of each call of a POU
+  bool coverage = false;            // counters() returns how often each line ran
+  bool trace_calls = false;         // rung_host::called is called for each call of a POU
 };
 
 class Program {
@@ -35,7 +37,7 @@ class Program {
   const rung_module& description() const;
   const std::deque<Counter>& counters() const;
 
-  // For a signal while this thread runs a program: the site at which it stands, or RUNG_NONE. `details`: ucontext_t.
+  // For a signal while this thread runs a program: the current site, or RUNG_NONE. `details`: ucontext_t.
   static uint32_t siteOfCrash(const rung_context* ctx, const void* details);
 
  private:

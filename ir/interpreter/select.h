@@ -1,4 +1,4 @@
-// From values known when the translator runs to template arguments: calls f with a type or with constants of Mode.
+// Turns values known when the translator runs into template arguments: calls f with a type or with constants of Mode.
 // Used by the handlers_*.cpp to choose among their instantiations.
 #pragma once
 
@@ -49,7 +49,7 @@ Handler withAny(Scalar type, F&& f) {
   return withNumber(type, f);
 }
 
-// How memory is copied: a BOOL becomes 0 or 1.
+// Copies of memory: a BOOL becomes 0 or 1.
 template <class F>
 Handler withWidth(Scalar type, F&& f) {
   if (type == Scalar::Bool) return f(Truth{});
@@ -57,7 +57,7 @@ Handler withWidth(Scalar type, F&& f) {
 }
 
 template <class F>
-Handler withTarget(Mode to, F&& f) {  // what is written is no constant
+Handler withTarget(Mode to, F&& f) {  // a target is never a constant
   return to == Mode::Frame ? f(Is<Mode::Frame>{}) : f(Is<Mode::Self>{});
 }
 template <class F>
@@ -69,7 +69,7 @@ template <class F>
 Handler withModes(Mode from, Mode to, F&& f) {
   return withTarget(from, [&](auto a) { return withTarget(to, [&](auto d) { return f(a, d); }); });
 }
-// Two constants never meet: the passes and the translator see to that.
+// Two constants never meet: the passes and the translator ensure that.
 template <class F>
 Handler withModes(Mode left, Mode right, Mode to, F&& f) {
   return withTarget(to, [&](auto d) {
@@ -79,7 +79,7 @@ Handler withModes(Mode left, Mode right, Mode to, F&& f) {
 }
 
 template <class F>
-Handler withAddress(Base base, F&& f) {  // of what is written
+Handler withAddress(Base base, F&& f) {  // of a target
   if (base == Base::Frame) return f(Is<Base::Frame>{});
   if (base == Base::Self) return f(Is<Base::Self>{});
   return f(Is<Base::Pointer>{});

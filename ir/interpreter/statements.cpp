@@ -27,7 +27,7 @@ void BodyTranslator::block(StmtId first) {
 
 void BodyTranslator::count(Loc loc, const char* function) {
   if (!options_.coverage || !body_->counted || !loc) return;
-  if (function == nullptr && loc == body_->loc) return;  // made for the header: no statement of the source
+  if (function == nullptr && loc == body_->loc) return;  // made for the header: not a statement of the source
   const FilePosition position = filePosition(module_, *body_, loc);
   const char* file = code_.counters.empty() ? nullptr : code_.counters.back().file;
   if (file == nullptr || position.path != file) file = code_.strings.emplace_back(position.path).c_str();
@@ -92,7 +92,7 @@ void BodyTranslator::statement(const Stmt& stmt) {
       } else {
         move(Scalar::U64, {}, value);
       }
-      const bool open_array = static_cast<types::Fault>(stmt.op) == types::Fault::Index;  // low above high: not known
+      const bool open_array = static_cast<types::Fault>(stmt.op) == types::Fault::Index;  // low above high: unknown
       emit(raiseHandler(), {stmt.op, false}, value.ref, {}, open_array ? site(stmt.loc, 1, 0) : site(stmt.loc));
       return;
     }
@@ -231,7 +231,7 @@ bool BodyTranslator::isExitTest(StmtId id) const {
   return inner.kind == StmtKind::Break && !inner.next;
 }
 
-// The test of a WHILE stands behind its body, so that a turn takes one branch.
+// The test of a WHILE follows its body, so that an iteration takes one branch.
 void BodyTranslator::loopStatement(const Stmt& stmt) {
   const auto depth = static_cast<uint32_t>(tries_.size());
   const Label iteration = newLabel(), on_continue = newLabel(), end = newLabel();
@@ -322,7 +322,7 @@ void BodyTranslator::noteLabels(StmtId first, uint32_t depth) {
   }
 }
 
-// Out of the blocks of a try control goes in steps: each notes where to, and its Halt ends the guarded run.
+// Control leaves the blocks of a try in steps: each notes the target, and its Halt ends the guarded run.
 void BodyTranslator::leaveTo(Label label, uint32_t try_depth) {
   if (tries_.size() <= try_depth) return jump(label);
   Try& inside = tries_.back();
@@ -356,7 +356,7 @@ void BodyTranslator::tryStatement(const Stmt& stmt) {
       write(place(ExprId{stmt.d}), type, number);
     }
     if (has_finally) {
-      // The numbers of its exits go on behind those of the body.
+      // The numbers of its exits follow those of the body.
       tries_.push_back({exit, exits});
       const Label after = newLabel();
       jumpTo(emit(tryHandler(), fault.ref), after);

@@ -1,5 +1,4 @@
-// Texts of the translated code: in place, NUL-terminated, cut to the capacity of what they are assigned to. See
-// translate.h.
+// Strings of the translated code: in memory, NUL-terminated, cut to the capacity of their target. See translate.h.
 #include <algorithm>
 #include <cstring>
 
@@ -55,7 +54,7 @@ Address BodyTranslator::stringBuffer(TypeId type) {
   return {Base::Frame, slot(info(type).size, info(type).align), 0, 0, kNoBit};
 }
 
-// Where the characters of a text value are: read without a copy where they are in memory.
+// The address of the characters of a string value: read without a copy where they are in memory.
 Address BodyTranslator::string(ExprId id) {
   const Expr& e = expr(id);
   switch (e.kind) {
@@ -120,7 +119,7 @@ void BodyTranslator::assignString(const Address& to, uint32_t capacity, bool wid
          static_cast<uint32_t>(hostKind(types_, expr(inner).type)));
     return;
   }
-  if (e.kind == ExprKind::Convert) {  // of another width: its own text first
+  if (e.kind == ExprKind::Convert) {  // of another width: first its own string
     const Address created = stringBuffer(e.type);
     assignString(created, capacityOf(e.type), isWide(e.type), from);
     return copyString(to, capacity, wide, created, e.type);

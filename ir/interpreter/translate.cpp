@@ -103,7 +103,7 @@ void BodyTranslator::loadBases() {
   });
 }
 
-// Scalar variables begin as 0 where the first statements do not set them.
+// Scalar variables begin as 0 unless the first statements set them.
 void BodyTranslator::clearVariables() {
   std::vector<bool> is_set(body_->locals.size());
   for (StmtId id = body_->first; id; id = body_->stmt(id).next) {
@@ -198,7 +198,7 @@ Code::Entry BodyTranslator::translateSteps(std::span<const Step> steps) {
   return finish(first);
 }
 
-// Now that the frame has its size: where outgoing arguments are, and where jumps go.
+// The frame now has its size: resolves where outgoing arguments are and where jumps go.
 Code::Entry BodyTranslator::finish(uint32_t first) {
   const uint32_t size = alignUp(frame_, kFrameAlign);
   for (const Outgoing& out : outgoing_) {

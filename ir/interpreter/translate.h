@@ -1,5 +1,7 @@
-// From IR to the compact form (code.h). In: a verified module after its passes, where the blocks of memory are, and the
-// native functions at hand. Out: code, or the name of a native function that is not at hand. Called by program.cpp.
+// IR to the compact form (code.h). In: a verified module after its passes, where the blocks of memory are, and the
+// available native functions. Out: code, or the name of a native function that is missing. Called by program.cpp.
+// Coverage and traced calls are instructions that exist only on request; for coverage the IR is translated before any
+// pass.
 #pragma once
 
 #include <deque>
@@ -23,12 +25,12 @@ struct Code {
   std::vector<Insn> insns;
   std::vector<Entry> bodies;  // by BodyId
   std::vector<rung_site> sites;
-  // Where each statement begins, for what happens without a check: the instruction, and its place. Sorted.
+  // Where each statement begins, for faults without a check: the instruction and the source location. Sorted.
   struct LineEntry {
-    uint32_t insn, pou, file, line, column;  // texts as in rung_site
+    uint32_t insn, pou, file, line, column;  // strings as in rung_site
   };
   std::vector<LineEntry> line_table;
-  // What instructions point to; deques keep it in place.
+  // Memory that instructions point to; deques do not move it.
   std::deque<std::string> strings;
   std::deque<std::u16string> wide_strings;
   std::deque<std::vector<uint64_t>> data;  // constant bytes, aligned
@@ -40,15 +42,15 @@ struct Code {
   std::vector<const uint64_t*> data_of_module;        // by index of Module::data
   std::vector<std::vector<VirtualEntry>> dispatches;  // as Module::dispatches
   std::deque<VirtualCall> virtual_calls;
-  std::vector<std::pair<uint32_t, BodyId>> calls;  // instructions that wait for where a body begins
-  std::string missing;  // a native function that is not at hand, as the library names it; else empty
+  std::vector<std::pair<uint32_t, BodyId>> calls;  // instructions that need the address of a body
+  std::string missing;  // a native function that is not available, by its name in the library; else empty
 };
 
 struct TranslateOptions {
   std::span<const Native> natives;  // sorted by name
-  bool bounded = false;             // count turns and calls (Machine::budget)
+  bool bounded = false;             // count iterations and calls (Machine::budget)
   bool coverage = false;            // count how often lines run (Code::counters)
-  bool trace_calls = false;         // tell the host of each call of a POU
+  bool trace_calls = false;         // report each call of a POU to the host
 };
 
 // An operand or address: an offset, in the frame or in the frame that a callee is going to have.
@@ -66,7 +68,7 @@ struct Operand {
 struct Address {
   Base base = Base::Frame;
   Ref ref;              // Frame, Self: the memory; Pointer: the slot that holds the address
-  uint32_t offset = 0;  // Pointer, Constant: bytes behind it
+  uint32_t offset = 0;  // Pointer, Constant: bytes after it
   int64_t imm = 0;
   uint32_t bit = kNoBit;
 };
@@ -85,17 +87,17 @@ class BodyTranslator {
     uint32_t block = 0;
   };
   Code::Entry translateSteps(std::span<const Step> steps);
-  // Null, and its name in Code::missing, when it is not at hand.
+  // Null, and its name in Code::missing, when it is not available.
   NativeThunk findNative(const Body& callee);
 
  private:
   using Label = uint32_t;
-  // An element of an array of scalars, of which an instruction takes the base and the last index.
+  // An element of an array of scalars, for instructions that take the base and the last index.
   struct Element {
-    Address base;  // of the lowest index, without an offset behind a pointer
+    Address base;  // of the lowest index, without an offset from a pointer
     Operand index;
     Scalar index_type = Scalar::I64;
-    int64_t range = 0;  // as the instructions read it: lowest index, count
+    int64_t range = 0;  // as instructions read it: lowest index, count
     uint32_t site = 0;
   };
 
@@ -140,7 +142,7 @@ class BodyTranslator {
   void branch(ExprId condition, bool sense, Label to);
   bool mayFault(ExprId id) const;
   bool contains(ExprId id, ExprKind kind) const;
-  bool touchesForeignMemory(ExprId id) const;  // what may not exist where nothing is checked
+  bool touchesForeignMemory(ExprId id) const;  // memory that may not exist where nothing is checked
 
   // ---- places.cpp
   Address place(ExprId id);
@@ -148,7 +150,7 @@ class BodyTranslator {
   Address indexed(const Expr& e, uint32_t count);
   uint32_t indexSite(const Expr& e, const types::Dimension& dimension);  // 0 where it is not checked
   bool loadOfTwo(ExprId id, const Operand* want, Operand& to);           // a[i, j] by one instruction
-  bool element(const Expr& e, Element& out);  // false: not of that kind, and nothing was done
+  bool element(const Expr& e, Element& out);                             // false: not of that kind, nothing emitted
   Operand indexOperand(ExprId id, Scalar& type);
   Operand read(const Address& from, Scalar type, const Operand* want);
   void write(const Address& to, Scalar type, const Operand& value);
@@ -223,7 +225,7 @@ class BodyTranslator {
   const TranslateOptions& options_;
   Code& code_;
 
-  Loc recorded_loc_;  // the last one of code_.marks
+  Loc recorded_loc_;  // the last one of code_.line_table
   const Body* body_ = nullptr;
   std::vector<uint32_t> local_offset_;
   Ref result_slot_;
@@ -235,7 +237,7 @@ class BodyTranslator {
     uint8_t field;
   };
   std::vector<Outgoing> outgoing_;
-  std::vector<uint32_t> labels_;  // where each stands; ~0: not yet
+  std::vector<uint32_t> labels_;  // position of each; ~0: not yet
   std::vector<std::pair<uint32_t, Label>> jumps_;
   struct TableJump {
     int32_t* to;
@@ -244,7 +246,7 @@ class BodyTranslator {
   };
   std::vector<TableJump> table_jumps_;
 
-  // Where break, continue, return and jumps go; through a try in steps.
+  // Where break, continue, return and jumps go; out of a try in steps.
   struct Loop {
     Label on_break, on_continue;
     uint32_t try_depth;
@@ -269,7 +271,7 @@ class BodyTranslator {
 
 // The constant bytes of the module; before any body.
 void translateData(const Module& module, Code& code);
-// Lets each call know where its callee begins; after everything is translated.
+// Gives each call the address of its callee; after everything is translated.
 void translateDispatches(const Module& module, Code& code);
 void link(const Module& module, Code& code);
 

@@ -1,6 +1,6 @@
 // Activation of program instances. In: connections (PROGRAM p : Main(in := x)), open addresses in instances (AT %I*)
 // and initial values of VAR_CONFIG. Out: a `run` function for each program that needs more than its body called, and a
-// `setup` function where an instance has initial values of its own. IEC 61131-3 ed. 3, 6.8.1; design §6.
+// `setup` function where an instance has initial values of its own. IEC 61131-3 ed. 3, 6.8.1.
 #include "ir/lower/lowering.h"
 
 namespace rung::ir {
@@ -174,7 +174,7 @@ void BodyLowering::lowerSetup(uint32_t program, std::span<const sema::InstancePa
   for (const sema::InstancePath& path : paths) {
     const sema::Var& var = project_.var(path.var);
     if (path.init) storeInitial(instancePlace(program, path), var.type, path.init, false);
-    // What the image holds counts where there is no initial value.
+    // Without an initial value, the value in the image counts.
     if (path.located && (path.init || var.init))
       assign(imagePlace(path.image, var.type, loc), instancePlace(program, path), loc);
   }

@@ -1,5 +1,5 @@
-// What can be told from names alone about two variables being apart in memory. In: checked expressions. Out: yes, or
-// "not sure". Called by calls.cpp before it lets a chain of text functions work in the variable that is assigned.
+// Proves from names alone that two variables do not overlap in memory. In: checked expressions. Out: yes, or "not
+// sure". Called by calls.cpp before it lets a chain of string functions work in the variable that is assigned.
 #include "ir/lower/lowering.h"
 
 namespace rung::ir {
@@ -26,7 +26,7 @@ bool BodyLowering::areApart(sema::VarId a, sema::VarId b) const {
   if (project_.var(b).external) b = project_.var(b).external;
   if (a == b) return false;
   const sema::Var &x = project_.var(a), &y = project_.var(b);
-  // Memory of this call alone. The place of a result is a temporary of the caller.
+  // Memory of this call alone. A result's memory is a temporary of the caller.
   auto isOwn = [&](sema::VarId id, const sema::Var& var) {
     if (id == project_.pou(pou_).result_var) return true;
     return var.storage == sema::Storage::Local && !body_.locals[local_of_[var.field] - 1].by_reference;
@@ -40,7 +40,7 @@ bool BodyLowering::areApart(sema::VarId a, sema::VarId b) const {
   if (x.storage == sema::Storage::Constant || y.storage == sema::Storage::Constant) return true;
   if (x.storage == sema::Storage::Image || y.storage == sema::Storage::Image) return x.storage != y.storage;
   if (x.storage == sema::Storage::Field && y.storage == sema::Storage::Field && x.pou == y.pou) return true;
-  // An instance may hold the memory of this call's own.
+  // An instance may hold this call's memory.
   auto holdsNoInstance = [&](const sema::Var& var) {
     TypeKind kind = types_.plainKind(strip(var.type));
     return TypeTable::isScalar(kind) || TypeTable::isString(kind);

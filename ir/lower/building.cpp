@@ -1,5 +1,5 @@
-// Building blocks of lowering: nodes, temporaries, statements of the block at hand. An IR expression is a tree, so a
-// node that is attached a second time is copied (the `spare` mark tells; it is cleared when the body is complete).
+// Building blocks of lowering: nodes, temporaries, statements of the open block. An IR expression is a tree, so a node
+// that is attached a second time is copied (`spare` marks attached nodes; it is cleared when the body is complete).
 #include "ir/lower/lowering.h"
 #include "ir/walk.h"
 
@@ -126,13 +126,13 @@ ExprId BodyLowering::temp(TypeId type, Loc loc) {
   char name[16];
   int length = std::snprintf(name, sizeof name, "t%u", ++temp_count_);
   NameId id = in_.module.names.intern({name, static_cast<size_t>(length)});
-  in_.module.types.layout(strip(type));  // of a text's length that no declaration has
+  in_.module.types.layout(strip(type));  // of a string length that no declaration uses
   body_.locals.push_back({id, strip(type), LocalKind::Temp, false, loc});
   return local(static_cast<uint32_t>(body_.locals.size() - 1), loc);
 }
 
 ExprId BodyLowering::field(ExprId base, uint32_t index, TypeId type, Loc loc) {
-  // While the project is being checked records may not have their fields yet; only that it is outside matters then.
+  // While the project is being checked, records may not have their fields yet; only its being outside matters then.
   if (in_.partial && (body_.expr(base).kind == ExprKind::Global || body_.expr(base).kind == ExprKind::Program))
     return add({.kind = ExprKind::Global, .type = type, .loc = loc});
   const types::Field& info = types_.info(typeOf(base)).fields[index];
@@ -174,7 +174,7 @@ ExprId BodyLowering::convert(ExprId operand, TypeId to, Loc loc) {
   if (types_.kind(to) == TypeKind::Subrange) checks |= in_.options.checks & kCheckSubrange;
   TypeKind from_kind = types_.plainKind(typeOf(operand)), to_kind = types_.plainKind(to);
   bool integer_result = !TypeTable::isReal(to_kind) && TypeTable::isScalar(to_kind);
-  // A long time or date as a short one is scaled: its number says nothing of whether it fits.
+  // A long time or date converted to a short one is scaled: its number does not show whether it fits.
   const bool is_scaled = !TypeTable::isInteger(to_kind) && !TypeTable::isBits(to_kind) && to_kind != from_kind;
   if (TypeTable::isScalar(from_kind) && integer_result && !is_scaled && !types::isLossless(types_, typeOf(operand), to))
     checks |= in_.options.checks & kCheckConvert;

@@ -1,5 +1,8 @@
 // Lowering of calls: functions, FB and program instances, operators in call form, assertions. In: calls that sema has
 // resolved. Out: Call statements with temporaries for their results; pure functions stay expressions.
+// By-reference inputs (arrays, structures, strings of functions) are copied by the caller unless the callee is pure or
+// nothing can change them during the call. Only a callee that writes such an input copies it, at its entry
+// (statements.cpp), so callers never pay for callees that only read.
 #include <algorithm>
 
 #include "ir/assertion.h"
@@ -32,7 +35,7 @@ ExprId BodyLowering::lowerCall(rung::ExprId id, Target* target) {
   };
   if (!call.en && !call.eno) return plain(target);
 
-  // EN and ENO: nothing runs when EN is FALSE; a check that fails inside sets ENO FALSE and leaves the outputs alone.
+  // EN and ENO: nothing runs when EN is FALSE; a check that fails inside sets ENO FALSE and keeps the outputs.
   ExprId en = call.en ? lowerValue(call.en) : constantBool(true, loc);
   ExprId eno = temp(types::kBool, loc);
   assign(eno, en, loc);
@@ -63,7 +66,7 @@ ExprId BodyLowering::lowerCall(rung::ExprId id, Target* target) {
     });
   }
   append({.kind = StmtKind::If, .loc = loc, .a = eno.index, .b = body.index});
-  if (call.eno && call.eno_is_pin) {  // the callee has set it, where it ran
+  if (call.eno && call.eno_is_pin) {  // the callee has set it, if it ran
     const StmtId none = block([&] { storeOutput(call.eno, constantBool(false, loc), false, loc); });
     append({.kind = StmtKind::If, .loc = loc, .a = unary(Op::Not, types::kBool, eno, loc).index, .b = none.index});
   } else if (call.eno) {
@@ -133,7 +136,7 @@ ExprId BodyLowering::lowerArithmeticOperator(const sema::Call& call, const CallE
   return value;
 }
 
-// SEL(G, IN0, IN1): only the chosen input is evaluated where that can be seen.
+// SEL(G, IN0, IN1): only the chosen input is evaluated, if evaluating the other could be observed.
 ExprId BodyLowering::lowerSelect(const sema::Call& call, const CallExpr& node) {
   Loc loc = node.h.loc;
   TypeId type = strip(node.h.type);
@@ -228,7 +231,7 @@ ExprId BodyLowering::argumentPlace(ExprId value, TypeId pin_type, bool may_alias
   return copy;
 }
 
-// What a VAR_IN_OUT refers to: the variable, or, for a VAR_IN_OUT CONSTANT that is given a value, a copy of that.
+// The place of a VAR_IN_OUT: the variable, or a copy of the value that a VAR_IN_OUT CONSTANT is given.
 ExprId BodyLowering::inOutPlace(rung::ExprId argument, TypeId pin_type) {
   Loc loc = tree_.loc(argument);
   ExprId place = lowerPlace(argument);
@@ -239,16 +242,16 @@ ExprId BodyLowering::inOutPlace(rung::ExprId argument, TypeId pin_type) {
   return copy;
 }
 
-// A call that runs in any case: without EN and ENO.
+// An unconditional call: without EN and ENO.
 bool BodyLowering::isPlainCall(rung::ExprId expr) const {
   if (tree_.kind(expr) != rung::ExprKind::Call) return false;
   const sema::Call& call = project_.call(tree_.as<CallExpr>(expr).call);
   return !call.en && !call.eno;
 }
 
-// Whether the first input of a native text function may be made in the target of its result, as in
+// Whether the first input of a native string function may be built in the target of its result, as in
 // `s := CONCAT(CONCAT(a, b), c)`: a and b go to s, then c is appended in place. The other arguments must not see that,
-// and what does not fit the target must not count.
+// and cutting to the target's capacity must not change the result.
 bool BodyLowering::mayChain(const sema::Call& call, const Target& target) const {
   const sema::Pou& pou = project_.pou(call.pou);
   if (!target.early) return false;
@@ -297,7 +300,7 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
     if (section == SectionKind::InOut || section == SectionKind::Output) has_reference_outputs = true;
   }
 
-  // A native text function writes straight into the target: it copes with inputs that are the target itself.
+  // A native string function writes directly into the target: it allows inputs that are the target itself.
   TypeId result_type = pou.result ? strip(pou.result) : TypeId{};
   bool makes_string = result_type && pou.native && TypeTable::isString(types_.kind(result_type));
   Target own;
@@ -319,7 +322,7 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
     const sema::Var& pin = project_.var(pin_id);
     if (pin.section != SectionKind::Input && pin.section != SectionKind::Output && pin.section != SectionKind::InOut)
       continue;
-    // Bindings stand in the order of the pins; an open pin may be absent.
+    // Bindings are in the order of the pins; an open pin may be absent.
     const sema::Binding* binding = nullptr;
     for (size_t i = 0; i < call.bindings.size(); ++i) {
       const sema::Binding& candidate = call.bindings[(next_binding + i) % call.bindings.size()];
@@ -353,7 +356,7 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
           value = lowerValue(binding->value);
         }
         Loc at = tree_.loc(binding->value);
-        // A body in ST sees no more of a text than its pin takes; the library's C functions take any length.
+        // A body in ST sees no more of a string than its pin takes; the library's C functions take any length.
         bool cut = !pou.native && TypeTable::isString(types_.kind(pin_type)) &&
                    types_.info(typeOf(value)).length > types_.info(pin_type).length;
         if (cut) {
@@ -477,7 +480,7 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
             .a = callee.index,
             .b = instance.index});
   }
-  // What they referred to ends with this body or sooner, and a trace must not follow them there.
+  // The variables that they refer to end with this body or sooner, and a trace must not follow them there.
   for (const ExprId field : short_lived) append({.kind = StmtKind::Bind, .loc = loc, .a = field.index});
   for (const CopyBack& copy : copies) storeOutput(copy.target, copy.value, false, loc);
   for (const sema::Binding& binding : call.bindings) {
@@ -507,7 +510,7 @@ std::string collapseBlanks(std::string_view text) {
 
 }  // namespace
 
-// The condition, its left and its right side as they are written, a line each; a literal's side is empty.
+// The condition, its left and its right side as written, a line each; a literal's side is empty.
 NameId BodyLowering::comparedOperands(const CallExpr& node, const BinaryExpr& condition) {
   const Sources& sources = project_.sources;
   const FileId file = sources.fileOf(node.h.loc);

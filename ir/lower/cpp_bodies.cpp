@@ -1,5 +1,5 @@
-// Bodies in C++: their text and what it may name. In: a checked POU. Out: a row of Module::cpp_bodies. Called by
-// lowerBodies(); the body itself has no code, and codegen/cpp_bodies.cpp writes a file for it.
+// Bodies in C++: their source and the names that it may use. In: a checked POU. Out: a row of Module::cpp_bodies.
+// Called by lowerBodies(); the body itself has no code, and codegen/cpp_bodies.cpp writes a file for it.
 #include "ir/lower/lowering.h"
 
 namespace rung::ir {

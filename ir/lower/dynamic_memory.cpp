@@ -1,5 +1,5 @@
-// Lowering of __NEW and __DELETE. The pool is a list of globals and its functions are ST (stdlib/__system); here stands
-// what needs the type: initial values and FB_Init behind the allocation, FB_Exit in front of the release.
+// Lowering of __NEW and __DELETE. The pool is a list of globals and its functions are ST (stdlib/__system); this file
+// adds what depends on the type: initial values and FB_Init after the allocation, FB_Exit before the release.
 #include "ir/lower/lowering.h"
 
 namespace rung::ir {
@@ -71,7 +71,7 @@ ExprId BodyLowering::lowerNew(rung::ExprId id) {
   return pointer;
 }
 
-// What is 0 stays 0. Memory that is not of the pool, or was given back before, is fault[null].
+// A null pointer stays null. Memory that is not of the pool, or was released before, is fault[null].
 void BodyLowering::lowerDelete(const sema::Call& call, Loc loc) {
   const bool is_this = tree_.kind(call.instance) == rung::ExprKind::This;
   const ExprId place = is_this ? lowerValue(call.instance) : stable(lowerPlace(call.instance));

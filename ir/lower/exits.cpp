@@ -1,7 +1,7 @@
-// FB_Exit: what runs when objects end. In: the objects of a checked project. Out: for each record that holds an object
+// FB_Exit, called when objects end. In: the objects of a checked project. Out: for each record that holds an object
 // with FB_Exit, at any depth, a function that ends all of them, and Module::exit, which ends those of the whole
-// project. The order is the reverse of that of FB_Init: what extends before its base, the whole before its parts, the
-// last variable before the first. Codesys.
+// project. The order is the reverse of that of FB_Init: a derived object before its base, the whole before its parts,
+// the last variable before the first. Codesys.
 #include "ir/lower/lowering.h"
 
 namespace rung::ir {
@@ -39,7 +39,7 @@ BodyId ModuleLowering::exitOf(TypeId record) {
 BodyId ModuleLowering::exitCallOf(sema::PouId object) {
   const TypeId record = project.pou(object).record;
   if (const BodyId body = exitOf(record)) return body;
-  const auto known = exit_of_.find(record.index);  // the empty one of an object that only others extend with FB_Exit
+  const auto known = exit_of_.find(record.index);  // empty when only derived objects have an FB_Exit
   if (known != exit_of_.end()) return known->second;
   const BodyId created = addHelper(project.pou(object).unique_name, object, "~");
   exit_of_[record.index] = created;
@@ -47,8 +47,8 @@ BodyId ModuleLowering::exitCallOf(sema::PouId object) {
   return created;
 }
 
-// A function without parameters that ends the objects of such lists and programs, the last first; none when there are
-// none.
+// A function without parameters that ends the objects of these lists and programs, the last first; none when there are
+// no such objects.
 BodyId ModuleLowering::endsOf(NameId name, const char* suffix, std::span<const uint32_t> lists,
                               std::span<const uint32_t> programs) {
   struct End {
@@ -63,7 +63,7 @@ BodyId ModuleLowering::endsOf(NameId name, const char* suffix, std::span<const u
     if (hasExit(module.programs[p].record)) ends.push_back({ExprKind::Program, p, module.programs[p].record});
   if (ends.empty()) return {};
   const BodyId created = addHelper(name, {}, suffix);
-  std::vector<BodyId> bodies;  // before the lowering begins: they make bodies
+  std::vector<BodyId> bodies;  // before the lowering begins: they create bodies
   for (const End& end : ends) bodies.push_back(exitOf(end.record));
   Body& body = module.body(created);
   BodyLowering lowering(*this, body, {});

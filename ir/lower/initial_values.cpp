@@ -122,8 +122,8 @@ bool BodyLowering::writeBytes(TypeId type, rung::ExprId init, uint8_t* to) {
   return storeScalar(types_, types::convert(types_, *value, type).value, type, to);
 }
 
-// Array initial values fill the elements in row-major order; what is missing gets the element's default, what is too
-// much is dropped (syntax manual 5.3.3; sema warns).
+// Array initial values fill the elements in row-major order; missing elements get the default, surplus values are
+// dropped (syntax manual 5.3.3; sema warns).
 bool BodyLowering::writeArray(TypeId type, rung::ExprId init, uint8_t* to) {
   const TypeInfo& info = types_.info(type);
   TypeId element = info.base;
@@ -198,7 +198,7 @@ void BodyLowering::storeInitialRecord(ExprId place, TypeId type, rung::ExprId in
   if (init) storeMembers(place, init);
 }
 
-// The variable that holds a place, where its declaration gives arguments to FB_Init.
+// The variable to which a place belongs, if its declaration gives arguments to FB_Init.
 const sema::Var* BodyLowering::constructedVar(ExprId place) const {
   Expr at = body_.expr(place);
   while (at.kind == ExprKind::Index) at = body_.expr(ExprId{at.a});
@@ -250,7 +250,7 @@ void BodyLowering::construct(ExprId place, TypeId type) {
   }
 }
 
-// What a declaration says of the members of a record whose other values are set.
+// The values that a declaration gives to members of a record whose other values are set.
 void BodyLowering::storeMembers(ExprId place, rung::ExprId init) {
   Loc loc = body_.expr(place).loc;
   for (uint32_t g = 0; g < tree_.as<StructInitExpr>(init).fields.count; ++g) {
@@ -312,7 +312,7 @@ void BodyLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId ini
     assign(place, add({.kind = ExprKind::Data, .type = type, .loc = loc, .a = index}), loc);
     return;
   }
-  // Elements with code of their own: FB instances, and whatever holds them.
+  // Elements that need code: FB instances, and types that hold them.
   if (const sema::Var* var = constructedVar(place); var != nullptr && var->element_constructors != 0) {
     const bool whole = body_.expr(place).kind != ExprKind::Index;
     if (whole) element_ = 0;
@@ -325,7 +325,7 @@ void BodyLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId ini
     forEachElement(place, type, loc, 0, indices, [&](ExprId element) { storeInitial(element, info.base, {}, false); });
   }
   if (!init || tree_.kind(init) != rung::ExprKind::ArrayInit) return;
-  // The elements that the initialiser names, one by one.
+  // The elements that the initialiser lists, one by one.
   std::vector<rung::ExprId> items;
   uint64_t count = elementCount(info);
   auto flatten = [&](auto& self_flatten, std::span<const rung::ExprId> elements) -> void {

@@ -1,6 +1,6 @@
 // The parts of lowering and what they share. Internal to ir/lower/. ModuleLowering (module.cpp) declares the bodies,
-// records and instances of a project; BodyLowering walks one checked body and appends IR to it: places.cpp, values.cpp,
-// aliases.cpp, calls.cpp, objects.cpp, statements.cpp and initial_values.cpp are its subjects.
+// records and instances of a project; BodyLowering walks one checked body and appends IR to it. Each of its subjects is
+// a file: places, values, aliases, calls, objects, statements, initial_values, …
 #pragma once
 
 #include <optional>
@@ -24,26 +24,26 @@ struct ModuleLowering {
   ModuleLowering(const sema::Project& from, const LowerOptions& with, Module& to);
 
   void run();
-  // Bodies that were asked for, and those that they ask for. Stops at one whose POU is not checked, and gives that.
+  // Lowers the requested bodies and those that they request. Stops at one whose POU is not checked, and returns that.
   sema::PouId lowerBodies();
   void lowerCpp(sema::PouId id);
-  // Lists and instances as they are known while the project is being checked, without their memory and code.
+  // Lists and instances as known while the project is being checked, without their memory and code.
   void addNames();
   // The body of a POU's code; declares its parameters when first asked for.
   BodyId bodyOf(sema::PouId pou);
   // The initialiser of a record, or none when its initial value is all zeros.
   BodyId initOf(TypeId record);
   uint32_t listIndex(sema::ListId list) const { return list_index[list.index]; }
-  // The instance that a program's name stands for; made when the program has none.
+  // The instance that a program's name means; created when the program has none.
   uint32_t instanceOf(sema::PouId program);
-  // The function that tells of a type id whether it is that of an object of this kind.
+  // The function that tests whether a type id is that of an object of this kind.
   BodyId kindTestOf(sema::PouId wanted);
   bool isKindOf(sema::PouId object, sema::PouId base) const;
   BodyId blockCallOf(sema::PouId block);
-  // FB_Init or FB_Exit of an object and of those that it extends, the outermost base first.
+  // FB_Init or FB_Exit of an object and of the objects that it extends, the outermost base first.
   std::vector<sema::PouId> lifeMethodsOf(sema::PouId object, std::string_view name) const;
   // exits.cpp: whether a type holds an object with FB_Exit; the function that ends those of a record, or none; the
-  // same as one that a table can hold.
+  // same in the form of a function that a dispatch table can hold.
   bool hasExit(TypeId type);
   BodyId exitOf(TypeId record);
   BodyId exitCallOf(sema::PouId object);
@@ -63,7 +63,7 @@ struct ModuleLowering {
   Module& module;
   const Tree& tree;
   TypeTable& types;
-  bool partial = false;  // a function alone: see lowerFunction
+  bool partial = false;  // only one function: see lowerFunction
 
   void declareRecordsOf(TypeId type);
 
@@ -105,7 +105,7 @@ struct ModuleLowering {
   size_t next_to_lower_ = 0;
 };
 
-// The scalar or text behind a checked constant expression, or none when it is not that simple.
+// The scalar or string value of a checked constant expression; none when it is not that simple.
 std::optional<Value> constantOf(const sema::Project& project, rung::ExprId expr);
 
 inline bool isOpenArray(const TypeTable& types, TypeId type) { return type && types.isOpenArray(type); }
@@ -145,12 +145,12 @@ class BodyLowering {
   void finish();  // the body is complete
   TypeId typeOf(ExprId expr) const { return body_.expr(expr).type; }
   TypeId strip(TypeId type) const { return types_.resolve(type); }
-  bool isAggregate(TypeId type) const;  // array, record or text: in memory, passed by reference
+  bool isAggregate(TypeId type) const;  // array, record or string: in memory, passed by reference
 
  private:
   friend struct ModuleLowering;
 
-  // Lowers into a block of its own; gives its first statement.
+  // Lowers into a separate block; returns its first statement.
   template <class Fill>
   StmtId block(Fill fill) {
     Block outer = block_;
@@ -169,7 +169,7 @@ class BodyLowering {
   ExprId characters(ExprId string, TypeId unit, bool writes);
   ExprId varPlace(sema::VarId var, Loc loc);
   ExprId memberPlace(rung::ExprId expr);
-  // What the field of a variable is: a member of type BIT has a byte.
+  // The type of a variable's field: a member of type BIT has a byte.
   TypeId fieldType(const sema::Var& var) const;
   ExprId pinPlace(ExprId instance, const sema::Var& pin, Loc loc);
   // The same place without operands that a later statement could change: indices and pointers go to temporaries.
@@ -183,20 +183,20 @@ class BodyLowering {
   ExprId openArrayBound(rung::ExprId array, uint32_t index, Loc loc);
   ExprId openArrayElement(const IndexExpr& node);
   ExprId openArrayPart(rung::ExprId array, sema::VarId part, Loc loc);
-  // What is passed for an ARRAY[*]: the address of the first element, and the bounds.
+  // The parts of an ARRAY[*] argument: the address of the first element, and the bounds.
   struct OpenArray {
     ExprId pointer;
     std::vector<ExprId> bounds;
   };
-  // `copies`: the callee must not see what happens to the variable meanwhile.
+  // `copies`: the callee must not see changes of the variable during the call.
   OpenArray passOpenArray(rung::ExprId argument, TypeId pin_type, bool copies);
   OpenArray noOpenArray(TypeId pin_type, Loc loc);  // of an output that is left open: without elements
 
   // aliases.cpp
-  // A place that is named without indices and pointers, so that it is the same whenever it is evaluated.
+  // Whether an lvalue has no indices and pointers, so that it is the same whenever it is evaluated.
   bool isPlainPlace(rung::ExprId expr) const;
   sema::VarId rootVar(rung::ExprId plain_place) const;
-  // Evaluating `value` has no effect, cannot fault and does not read `variable`. False where that is not sure.
+  // Whether evaluating `value` has no effect, cannot fault and does not read `variable`. False where that is not sure.
   bool isApart(rung::ExprId value, sema::VarId variable) const;
   bool areApart(sema::VarId a, sema::VarId b) const;
 
@@ -216,13 +216,13 @@ class BodyLowering {
   void lowerDelete(const sema::Call& call, Loc loc);
   ExprId callPool(sema::PouId function, std::initializer_list<ExprId> arguments, Loc loc);
   ExprId convertValue(ExprId value, TypeId to, Loc loc);
-  // A position in the open block. `effects` tells whether what came since could change a variable.
+  // A position in the open block. `effects` shows whether statements since then could change a variable.
   struct InsertionPoint {
     StmtId last;
     uint32_t effects;
   };
   InsertionPoint here() const { return {block_.last, effects_}; }
-  // Lowers `next`; when the statements that it emitted could change what `before` reads, or must not run when `before`
+  // Lowers `next`. When the statements that it emitted could change what `before` reads, or must not run when `before`
   // faults, `before` moves to a temporary in front of them.
   template <class Lower>
   ExprId lowerAfter(std::initializer_list<ExprId*> before, Lower next) {
@@ -232,7 +232,7 @@ class BodyLowering {
     return value;
   }
   void spill(InsertionPoint point, std::initializer_list<ExprId*> values);
-  void spillPlace(InsertionPoint point, ExprId& place);  // the place stays one: what it is reached by moves
+  void spillPlace(InsertionPoint point, ExprId& place);  // stays a place: its indices and pointers move
   bool mustSpill(InsertionPoint point, ExprId value) const;
   bool hasEffect(const Stmt& stmt) const;  // of its own, without its blocks
   bool isTemp(ExprId place) const;         // a compiler temporary or a part of one
@@ -252,8 +252,8 @@ class BodyLowering {
   ExprId toTemp(ExprId value, Loc loc);
 
   // calls.cpp
-  // The left side of an assignment whose value is a call: the call may write its result there itself. The place is
-  // lowered after the arguments, like that of any assignment; `early` says that nothing can tell the difference.
+  // The left side of an assignment whose value is a call: the call may write its result directly there. The place is
+  // lowered after the arguments, like that of any assignment; `early`: lowering it before makes no difference.
   struct Target {
     rung::ExprId expr = {};
     ExprId place = {};
@@ -267,7 +267,7 @@ class BodyLowering {
   ExprId lowerArithmeticOperator(const sema::Call& call, const CallExpr& node);
   ExprId lowerSelect(const sema::Call& call, const CallExpr& node);
   ExprId lowerMux(const sema::Call& call, const CallExpr& node);
-  // `object`: that a method runs on; none of a function.
+  // `object`: the object of a method; none for a function.
   ExprId lowerFunctionCall(const sema::Call& call, const CallExpr& node, Target* target, ExprId object = {});
   ExprId lowerMethodCall(const sema::Call& call, const CallExpr& node, Target* target);
   ExprId lowerObjectConversion(const ConvertExpr& node);
@@ -311,7 +311,7 @@ class BodyLowering {
   ExprId imagePlace(const sema::ImageView& view, TypeId type, Loc loc);
 
   // exits.cpp
-  // Ends the object at a place and what it holds: FB_Exit. `exact`: it is of the type of the place. (__DELETE)
+  // Ends the object at a place and what it holds: FB_Exit. `exact`: its type is that of the place (__DELETE).
   void callExit(ExprId place, bool exact, Loc loc);
   void lowerExit(ExprId place, TypeId record);
   void exitParts(ExprId place, TypeId record);
@@ -341,11 +341,11 @@ class BodyLowering {
   std::vector<std::pair<uint32_t, uint32_t>> edge_locals_;  // R_EDGE, F_EDGE pins: VarId and the local with the edge
   uint32_t result_local_ = kNoBit;
   uint32_t temp_count_ = 0;
-  // Inside the right operand of a codesys AND or OR that calls functions: a temporary that is TRUE when its value
-  // matters. Checks count only then.
+  // Inside the right operand of a codesys AND or OR that calls functions: a temporary that is TRUE when the operand's
+  // value matters. Its checks count only then.
   ExprId guard_;
-  uint32_t element_ = 0;  // of an array whose elements have arguments of their own for FB_Init: the one at hand
-  CallId given_;          // the arguments of FB_Init for what __NEW makes
+  uint32_t element_ = 0;  // the current element of an array whose elements have arguments of their own for FB_Init
+  CallId given_;          // the arguments of FB_Init for an object that __NEW creates
   ExprId logical_;        // the temporary of the last AND or OR that needed one
   uint32_t effects_ = 0;  // statements so far that change more than temporaries
 };

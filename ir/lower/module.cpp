@@ -1,5 +1,7 @@
 // Lowering of a whole project: which bodies, records, lists, program instances and tasks the module has. In: a checked
 // sema::Project. Out: a complete ir::Module. The order of everything follows names and declarations, never hashing.
+// Tests are not part of the product: sema checks them and marks them `excluded`, this file skips them, and no later
+// phase sees them.
 #include <algorithm>
 
 #include "ir/lower/lowering.h"
@@ -40,12 +42,12 @@ void ModuleLowering::run() {
     if (pou.excluded || (pou.library && !(options.used_of_libraries && pou.used))) continue;  // follows when called
     bodyOf({i});
   }
-  std::sort(module.tests.begin(), module.tests.end(), [&](BodyId a, BodyId b) {  // as they are written
+  std::sort(module.tests.begin(), module.tests.end(), [&](BodyId a, BodyId b) {  // in source order
     return module.body(a).loc.offset < module.body(b).loc.offset;
   });
   addActivations();
   addBlockTasks();
-  do {  // an initial value may need a function that nobody else calls
+  do {  // an initial value may need a function that nothing else calls
     lowerBodies();
     for (List& list : module.lists) list.init = initOf(list.record);
     for (ProgramInstance& instance : module.programs) instance.init = initOf(instance.record);
@@ -55,7 +57,7 @@ void ModuleLowering::run() {
     }
   } while (next_to_lower_ < to_lower_.size());
   addExit();
-  lowerBodies();  // what the ends of objects call
+  lowerBodies();  // the functions that FB_Exit calls
   addClasses();
   addDispatches();
   markFaulting();
@@ -165,7 +167,7 @@ void ModuleLowering::markFaulting() {
   std::vector<uint32_t> faulting;
   for (uint32_t i = 1; i < module.bodies.size(); ++i) {
     Body& body = module.bodies[i];
-    body.may_fault = body.may_fault || body.cpp != 0;  // what it calls may
+    body.may_fault = body.may_fault || body.cpp != 0;  // the functions that it calls may
     for (const Expr& expr : body.exprs) body.may_fault = body.may_fault || expr.checks != 0;
     for (const Stmt& stmt : body.stmts) {
       if (stmt.kind == StmtKind::Fault) body.may_fault = true;
@@ -223,7 +225,7 @@ void ModuleLowering::addRecord(TypeId type) {
 bool ModuleLowering::isZero(TypeId declared) {
   auto known = zero_.find(declared.index);
   if (known != zero_.end()) return known->second;
-  zero_[declared.index] = false;  // a record behind a pointer to itself is not asked again
+  zero_[declared.index] = false;  // ends the recursion for a record with a pointer to itself
   auto decide = [&]() -> bool {
     if (declared.index < project.type_inits.size() && project.type_inits[declared.index]) return false;
     const TypeInfo& info = types.info(declared);
@@ -377,14 +379,14 @@ BodyId ModuleLowering::initOf(TypeId type) {
   } else if (list) {
     for (sema::VarId var : project.global_lists[list.index].vars)
       if (!project.var(var).late) storeVar(var);
-    // What reads other lists is set when all have their values, and programs have none yet.
+    // Values that read other lists are set when all lists have theirs, and before those of programs.
     for (size_t i = 0; sets_late && i < project.late.size(); ++i) {
       const sema::Var& var = project.var(project.late[i]);
       lowering.storeInitial(lowering.varPlace(project.late[i], var.loc), var.type, var.init,
                             var.storage == sema::Storage::Global);
     }
   } else
-    for (const bool written : {false, true})  // of members that overlap, values that are written win
+    for (const bool written : {false, true})  // where members overlap, explicit values win
       for (uint32_t i = 0; i < info.fields.size(); ++i) {
         rung::ExprId init;
         if (type.index < project.field_inits.size() && i < project.field_inits[type.index].size())

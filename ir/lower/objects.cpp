@@ -1,6 +1,7 @@
-// Lowering of what only objects need: class numbers, dispatch tables, tests of what an object is, constructors.
-// In: the objects of a checked project. Out: Module::classes and dispatches, and small functions that stand for the
-// body of a block in a table, or tell what a type id means.
+// Lowering of objects: class numbers, dispatch tables, tests of an object's kind, constructors. In: the objects of a
+// checked project. Out: Module::classes and dispatches. The body of a block, its end and the test of its kind are small
+// functions (`Pump()`, `Pump~`, `Pump?`; see also exits.cpp), so that tables, `?=` and FB_Exit need nothing new in the
+// IR. Numbers follow the lines of descent, so a kind is one run of class numbers or a few.
 #include <algorithm>
 
 #include "ir/lower/lowering.h"
@@ -63,7 +64,7 @@ void ModuleLowering::addClasses() {
       if (expr.kind == ExprKind::Const && expr.c != 0) expr.a = number_of[expr.c];
 }
 
-// The method of an object that answers to a call of `method`; none when it has none, or an abstract one.
+// An object's implementation of `method`; none when it has none, or an abstract one.
 sema::PouId ModuleLowering::implementation(sema::PouId object, sema::PouId method) const {
   for (sema::PouId at = object; at; at = project.pou(at).base)
     if (const sema::PouId found = methodLike(project, at, method))
@@ -79,12 +80,12 @@ void ModuleLowering::addDispatches() {
   for (uint32_t i = 1; i < module.bodies.size(); ++i)
     for (const Stmt& stmt : module.bodies[i].stmts)
       if (stmt.kind == StmtKind::Call && (stmt.op & kVirtual) != 0) called[stmt.a] = true;
-  const std::vector<std::pair<sema::PouId, BodyId>> block_calls = block_calls_;  // more are made below
+  const std::vector<std::pair<sema::PouId, BodyId>> block_calls = block_calls_;  // more are added below
   for (uint32_t i = 1; i < called.size(); ++i) {
     if (!called[i]) continue;
     Dispatch created;
     created.method = {i};
-    sema::PouId block;  // whose body is called, or whose end; else a method is
+    sema::PouId block;  // whose body or end is called; else it is a method
     for (const auto& [pou, body] : block_calls)
       if (body.index == i) block = pou;
     sema::PouId ended;
@@ -159,7 +160,6 @@ BodyId ModuleLowering::kindTestOf(sema::PouId wanted) {
   return created;
 }
 
-// Numbers of one line of descent follow each other, so that a kind is one run of numbers or a few.
 void ModuleLowering::fillKindTests() {
   for (const auto& [wanted, test] : kind_tests_) {
     Body& body = module.body(test);
@@ -206,7 +206,7 @@ ExprId BodyLowering::isKindOf(ExprId pointer, sema::PouId given, sema::PouId wan
   return add({.kind = ExprKind::Call, .type = types::kBool, .loc = loc, .a = test.index, .b = operands, .c = 1});
 }
 
-// A pointer to a base where one to what extends it is wanted: what it leads to must be that.
+// Converts a pointer to a base to one to an object that extends it; fault[cast] when the object is of another kind.
 ExprId BodyLowering::checkedDowncast(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc) {
   if ((in_.options.checks & kCheckCast) == 0 || !project_.pou(given).dispatched) return pointer;
   pointer = toTemp(pointer, loc);

@@ -1,6 +1,6 @@
-// Lowering of ARRAY[*], which a VAR_IN_OUT and any pin of a function may be. In memory and in a call it is a pointer to
-// the first element and two numbers for each dimension (sema::Var::bounds). An element is reached through a pointer to
-// one row of elements, long enough for all; its check is a statement in front, because the bounds are no constants.
+// Lowering of ARRAY[*], allowed for a VAR_IN_OUT and for any pin of a function. In memory and in a call it is a pointer
+// to the first element and two numbers for each dimension (sema::Var::bounds). An element is reached through a pointer
+// to one row of elements, long enough for all; its check is a statement before the access, because the bounds vary.
 #include "ir/lower/lowering.h"
 
 namespace rung::ir {

@@ -1,4 +1,4 @@
-// Lowering of places: variables, fields, elements, image views. In: checked expressions. Out: IR place expressions.
+// Lowering of lvalues: variables, fields, elements, image views. In: checked expressions. Out: IR place expressions.
 #include "ir/lower/lowering.h"
 
 namespace rung::ir {
@@ -65,7 +65,7 @@ ExprId BodyLowering::pinPlace(ExprId instance, const sema::Var& pin, Loc loc) {
   return add({.kind = ExprKind::Bits, .type = types::kBool, .loc = loc, .a = place.index, .b = pin.bit});
 }
 
-// A text as the array of its bytes or words, with the zero at its end where it is only read; or of its characters,
+// A string as the array of its bytes or words, including the final zero where it is only read; or of its characters,
 // which count from 1.
 ExprId BodyLowering::characters(ExprId string, TypeId unit, bool writes) {
   const Expr place = body_.expr(string);
@@ -241,7 +241,7 @@ ExprId BodyLowering::stable(ExprId place) {
         ExprId index = body_.operands[expr.b + i];
         indices.push_back(isStable(index) ? index : toTemp(index, expr.loc));
       }
-      auto created = [&] {  // with a slice of its own
+      auto created = [&] {  // with a separate slice
         copy.b = static_cast<uint32_t>(body_.operands.size());
         body_.operands.insert(body_.operands.end(), indices.begin(), indices.end());
         return add(copy);
@@ -286,7 +286,7 @@ ExprId BodyLowering::rootOf(ExprId place) const {
   for (;;) {
     const Expr& expr = body_.expr(place);
     if (expr.kind != ExprKind::Field && expr.kind != ExprKind::Index && expr.kind != ExprKind::Bits) return place;
-    // What is behind a by-reference field is somewhere else.
+    // The target of a by-reference field is elsewhere.
     place = ExprId{expr.a};
   }
 }

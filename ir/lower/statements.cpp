@@ -1,18 +1,19 @@
-// Lowering of statements and of a whole POU. In: a checked body. Out: the statements of an ir::Body.
+// Lowering of statements and of a whole POU. In: a checked body. Out: the statements of an ir::Body. An assignment
+// evaluates the calls of its right side first, then the place, then stores: `a[i] := f()` uses the `i` that `f` left.
 #include "ir/lower/lowering.h"
 
 namespace rung::ir {
 
 void BodyLowering::lowerPou() {
   const sema::Pou& pou = project_.pou(pou_);
-  // Locals of one call start from their initial values; parameters that go out start from theirs.
+  // Locals of a call, output parameters included, start from their initial values.
   for (sema::VarId id : pou.vars) {
     const sema::Var& var = project_.var(id);
     if (var.storage != sema::Storage::Local) continue;
     if (var.section == SectionKind::InOut || var.hidden_input || var.temporary != 0 || types_.isOpenArray(var.type))
       continue;
     if (var.section == SectionKind::Input) {
-      // The caller's variable stays as it is: a body that writes an input by reference writes a copy of its own.
+      // The caller's variable stays unchanged: a body that writes a by-reference input writes a copy, made here.
       uint32_t& index = local_of_[var.field];
       if (!var.written || !body_.locals[index - 1].by_reference) continue;
       ExprId copy = temp(strip(var.type), var.loc);
@@ -62,7 +63,7 @@ void BodyLowering::lowerStatement(rung::StmtId id) {
     case rung::StmtKind::Assign: return lowerAssign(tree_.as<AssignStmt>(id));
     case rung::StmtKind::Call: {
       ExprId value = lowerCall(tree_.as<CallStmt>(id).call);
-      // A pure call as a statement has no effect; what may fault in it still counts.
+      // A pure call as a statement has no effect; only its faults count.
       if (value && mayFault(value)) append({.kind = StmtKind::Evaluate, .loc = loc, .a = value.index});
       return;
     }
@@ -103,7 +104,7 @@ void BodyLowering::lowerAssign(const AssignStmt& stmt) {
         return;
       }
       rung::ExprId source = stmt.value;
-      // A call may write its result straight into the target, and EN guards the whole assignment.
+      // A call may write its result directly into the target, and EN guards the whole assignment.
       if (tree_.kind(source) == rung::ExprKind::Convert) {
         rung::ExprId operand = tree_.as<ConvertExpr>(source).operand;
         bool same = strip(tree_.expr(source).type) == strip(tree_.expr(stmt.target).type);
@@ -159,7 +160,7 @@ void BodyLowering::lowerAssign(const AssignStmt& stmt) {
 
 void BodyLowering::lowerIf(const IfStmt& stmt) { lowerIfFrom(tree_.list(stmt.branches), stmt.otherwise, stmt.h.loc); }
 
-// ELSIF nests in the else block; written as a loop so that a thousand of them need no deep stack.
+// ELSIF nests in the else block; a loop, not a recursion, so that a thousand of them need no deep stack.
 void BodyLowering::lowerIfFrom(std::span<const IfBranch> branches, Slice<rung::StmtId> otherwise, Loc loc) {
   struct Level {
     Block outer;
@@ -228,7 +229,8 @@ void BodyLowering::lowerFor(const ForStmt& stmt) {
   ExprId to = lowerAfter({&from}, [&] { return lowerValue(stmt.to); });
   from = convertValue(from, type, loc);
   to = convertValue(to, type, loc);
-  // An unsigned variable that counts down by a constant needs the test of the direction as any unknown step does.
+  // An unsigned variable that counts down by a constant (codesys) needs the test of the direction, like an unknown
+  // step: the step keeps its sign, and the loop stops before the variable wraps.
   if (stmt.step && types_.isSigned(types_.plainKind(tree_.expr(stmt.step).type)) != types_.isSigned(types_.kind(plain)))
     step.reset();
   if (types_.kind(type) == TypeKind::Subrange) return lowerForOfSubrange(stmt, control, from, to, step);
@@ -243,8 +245,8 @@ void BodyLowering::lowerFor(const ForStmt& stmt) {
           .e = body.index});
 }
 
-// The control variable of a subrange type: the loop counts in the plain type, since the first value that fails the test
-// may lie outside. Then the variable is left at the limit.
+// FOR with a control variable of a subrange type counts in the plain type, since the first value that fails the test
+// may be outside the subrange. Then the variable is left at the limit.
 void BodyLowering::lowerForOfSubrange(const ForStmt& stmt, ExprId control, ExprId from, ExprId to,
                                       const std::optional<Value>& step) {
   Loc loc = stmt.h.loc;
@@ -282,8 +284,8 @@ void BodyLowering::lowerForOfSubrange(const ForStmt& stmt, ExprId control, ExprI
   append({.kind = StmtKind::If, .loc = loc, .a = outside.index, .b = at_limit.index, .c = past.index});
 }
 
-// FOR with a step that is only known at run time: the direction is tested in each turn, and the loop ends when the next
-// value does not fit the type (design §8).
+// FOR with a step that is only known at run time: the direction is tested in each iteration, and the loop ends when the
+// next value does not fit the type.
 void BodyLowering::lowerForWithVariableStep(const ForStmt& stmt, ExprId control, ExprId from, ExprId to,
                                             FunctionRef<void()> iteration) {
   Loc loc = stmt.h.loc;
@@ -350,7 +352,7 @@ void BodyLowering::lowerRepeat(const RepeatStmt& stmt) {
   append({.kind = StmtKind::Loop, .loc = stmt.h.loc, .a = body.index, .b = test.index});
 }
 
-// The number of a fault as CODESYS's runtime numbers it: the items of __SYSTEM.ExceptionCode.
+// The number of a fault in CODESYS's runtime: the items of __SYSTEM.ExceptionCode.
 static uint32_t exceptionCode(types::Fault fault) {
   switch (fault) {
     case types::Fault::None: return 0;

@@ -1,5 +1,5 @@
 // Lowering of values: literals, operators, conversions, and the order of evaluation. In: checked expressions. Out: IR
-// expressions; calls inside them become statements in front, and what was read before a call moves to a temporary.
+// expressions; calls inside them become statements before, and values that were read before a call move to a temporary.
 #include "frontend/source/dialect.h"
 #include "ir/lower/lowering.h"
 
@@ -149,7 +149,7 @@ ExprId BodyLowering::lowerValue(rung::ExprId id) {
     case rung::ExprKind::TypedName: {
       if (auto value = constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
       if (tree_.kind(id) == rung::ExprKind::Member) {
-        // lowerPlace comes back here only for what is no place.
+        // lowerPlace returns here only for an expression that is not an lvalue.
         const MemberExpr& node = tree_.as<MemberExpr>(id);
         RUNG_INVARIANT(node.entity.entityKind() == EntityKind::Var, "a member is a variable or a constant");
       }
@@ -216,7 +216,7 @@ ExprId BodyLowering::lowerBinary(rung::ExprId id) {
   return binary(sema::operatorOf(op), strip(node.h.type), left, right, node.h.loc);
 }
 
-// Whether a function that may have an effect is called somewhere in the expression.
+// Whether the expression contains a call of a function that may have an effect.
 bool BodyLowering::callsFunction(rung::ExprId id) const {
   switch (tree_.kind(id)) {
     case rung::ExprKind::Unary: return callsFunction(tree_.as<UnaryExpr>(id).operand);
@@ -258,8 +258,8 @@ bool BodyLowering::callsFunction(rung::ExprId id) const {
   return false;
 }
 
-// BOOL AND and OR (design §6). codesys: calls in both operands run, but a check in the right one counts only when the
-// left lets its value matter. iec and AND_THEN, OR_ELSE: the right operand is not evaluated at all then.
+// BOOL AND and OR. codesys: calls in both operands run, but a check in the right one counts only when the left operand
+// does not decide the result. iec and AND_THEN, OR_ELSE: the right operand is not evaluated at all then.
 ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circuit) {
   const BinaryExpr& node = tree_.as<BinaryExpr>(id);
   Loc loc = node.h.loc;
@@ -273,7 +273,7 @@ ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circu
     append(branch);
     return logical_ = result;
   };
-  // `a AND b AND c` and the like have one temporary.
+  // A chain such as `a AND b AND c` shares one temporary.
   auto holding = [&](ExprId value) {
     if (chained && value == chained) return value;
     ExprId result = temp(types::kBool, loc);
@@ -318,13 +318,13 @@ ExprId BodyLowering::lowerConvert(rung::ExprId id) {
   return convertValue(lowerValue(node.operand), strip(node.h.type), node.h.loc);
 }
 
-// The address of what a pointer or reference points to is its value: nothing is read there.
+// The address of the target of a pointer or reference is its value: nothing is read.
 ExprId BodyLowering::lowerAddressOf(rung::ExprId id) {
   const AddressOfExpr& node = tree_.as<AddressOfExpr>(id);
   const TypeId type = strip(node.h.type);
   if (isOpenArray(types_, tree_.expr(node.lvalue).type))
     return convertValue(openArrayPointer(node.lvalue, node.h.loc), type, node.h.loc);
-  // ADR(p^) is p, also where p leads nowhere; what p[i] is made of is a place that will be used.
+  // ADR(p^) is p, even if p points nowhere; for p[i] the base is a place that will be used.
   if (tree_.kind(node.lvalue) == rung::ExprKind::Deref && (node.h.bits & kMustLeadSomewhere) == 0)
     return convertValue(lowerValue(tree_.as<DerefExpr>(node.lvalue).base), type, node.h.loc);
   const ExprId place = lowerPlace(node.lvalue);
@@ -332,7 +332,7 @@ ExprId BodyLowering::lowerAddressOf(rung::ExprId id) {
   return add({.kind = ExprKind::Address, .type = type, .loc = node.h.loc, .a = place.index});
 }
 
-// A descriptor of the value in a temporary; what has no place of its own gets one.
+// A descriptor of the value in a temporary; a value that is not an lvalue is stored in a temporary.
 ExprId BodyLowering::lowerAnyValue(rung::ExprId id) {
   const AnyValueExpr& node = tree_.as<AnyValueExpr>(id);
   const Loc loc = node.h.loc;
@@ -379,7 +379,7 @@ ExprId BodyLowering::lowerObjectConversion(const ConvertExpr& node) {
   ExprId pointer = lowerValue(node.operand);
   if (in_.isKindOf(wanted, object)) pointer = checkedDowncast(pointer, object, wanted, loc);
   const sema::Pou& pou = project_.pou(object);
-  // Only where the base stands behind a type id of the derived object's own is the pointer another.
+  // The pointer changes only where the base lies after the type id of the derived object.
   if (project_.pou(wanted).kind == PouKind::Interface || !pou.dispatched || project_.pou(wanted).dispatched)
     return add({.kind = ExprKind::Convert, .type = to, .loc = loc, .a = pointer.index});
   if (!isStable(pointer)) pointer = toTemp(pointer, loc);

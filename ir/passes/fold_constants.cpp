@@ -64,7 +64,7 @@ class Folder {
     e.checks = static_cast<uint8_t>(e.checks & ~check);
     changed_ = true;
   }
-  // Takes the kernel's outcome unless it is a fault that the node's checks report.
+  // Takes the kernel's result unless it is a fault that the node's checks report.
   bool take(Expr& e, const Outcome& outcome) {
     if (outcome.fault == types::Fault::Div && (e.checks & kCheckDiv) != 0) return false;
     if (outcome.overflow && (e.checks & (kCheckOverflow | kCheckSubrange | kCheckConvert)) != 0) return false;
@@ -120,7 +120,7 @@ class Folder {
     if (width >= 64 || types_.isSigned(kind)) return ~uint64_t{0};
     return (uint64_t{1} << width) - 1;
   }
-  // The constant result 0 or ones needs nothing of the other operand, if that cannot fault.
+  // The result is 0 or ones whatever the other operand is, if that cannot fault.
   void absorb(Expr& e, uint32_t other, uint64_t bits) {
     if (!mayFault(body_, ExprId{other})) becomeBits(e, bits);
   }
@@ -253,7 +253,7 @@ class Folder {
       return;
     }
     if (a.kind == ExprKind::String && types_.kind(a.type) == types_.kind(e.type)) {
-      // The bytes of a text are at least as many as its characters, so what fits in bytes is not cut.
+      // A string has at most as many characters as bytes, so one whose bytes fit is not cut.
       if (names_.string(NameId{a.a}).size() > types_.info(e.type).length) return;
       const TypeId type = e.type;
       e = a;

@@ -1,5 +1,5 @@
 // Constant folding: operators, conversions and selects of constants become constants; identities that are exact in IEC
-// semantics (x + 0, x AND FALSE, NOT NOT x) become their operand; checks that a constant proves go.
+// semantics (x + 0, x AND FALSE, NOT NOT x) become their operand; checks that a constant proves are removed.
 //   needs  verified IR
 //   keeps  faults: a node that faults is never folded, an operand that may fault is never dropped
 //   gives  no div check with a constant divisor other than 0, no index check with constant indices inside the bounds

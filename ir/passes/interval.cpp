@@ -32,7 +32,7 @@ Interval intervalOf(const TypeTable& types, TypeId type, bool with_bounds) {
 
 namespace {
 
-// The smallest 2^n - 1 that is not below a value that is not negative.
+// The smallest 2^n - 1 that is at least a value that is not negative.
 Int128 onesAbove(Int128 value) {
   Int128 ones = 0;
   while (ones < value) ones = ones * 2 + 1;

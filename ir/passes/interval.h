@@ -1,5 +1,5 @@
-// Intervals of integer values, for range analysis. In: what is known of operands. Out: what is known of results of IEC
-// arithmetic, wrap-around included. 128 bits hold every value of every type, and sums and products of two.
+// Intervals of integer values, for range analysis. In: the intervals of operands. Out: the interval of the result of
+// IEC arithmetic, wrap-around included. 128 bits hold every value of every type, and sums and products of two.
 #pragma once
 
 #include "sema/types/arithmetic.h"
@@ -23,7 +23,7 @@ inline Interval meet(const Interval& a, const Interval& b) {
   return {a.low > b.low ? a.low : b.low, a.high < b.high ? a.high : b.high};
 }
 
-// All values of a BOOL, integer, bit string, enumeration or subrange; `with_bounds`: a subrange's bounds hold. Of any
+// All values of a BOOL, integer, bit string, enumeration or subrange. `with_bounds`: a subrange's bounds hold. For any
 // other type an interval that proves nothing.
 Interval intervalOf(const types::TypeTable& types, TypeId type, bool with_bounds);
 bool hasInterval(const types::TypeTable& types, TypeId type);

@@ -1,5 +1,6 @@
 // All passes in the order in which they run: the list that --dump-after, --time-phases and the verifier read.
-// In: a verified module. Out: the same, smaller. -O0 runs none, -O1 what keeps POUs apart, -O2 also across POUs.
+// In: a verified module. Out: the same module, smaller. Each pass sees one body at a time. -O0 runs none, -O1 and -O2
+// run all of them: -O2 only makes the C++ compiler optimize every body (codegen/effort.h).
 #pragma once
 
 #include <span>
@@ -16,7 +17,7 @@ struct Pass {
 };
 std::span<const Pass> bodyPasses(int level);
 
-// Runs the passes over every body. After each pass calls `after(pass name, body)`; the debug build verifies there.
+// Runs the passes over every body. Calls `after(pass, body)` after each pass; the debug build verifies there.
 void optimize(Module& module, int level, FunctionRef<void(const Pass&, Body&)> after);
 void optimize(Module& module, Body& body, int level, FunctionRef<void(const Pass&, Body&)> after);
 

@@ -38,7 +38,7 @@ class Privatizer {
   void block(StmtId first) {
     for (StmtId id = first; id; id = body_.stmt(id).next) {
       if (body_.stmts[id.index].kind == StmtKind::For) tryLoop(id);
-      const Stmt stmt = body_.stmt(id);  // a copy: a loop that changes makes statements
+      const Stmt stmt = body_.stmt(id);  // a copy: changing the loop adds statements
       forEachBlock(body_, stmt, [&](const uint32_t& inner) { block(StmtId{inner}); });
     }
   }
@@ -79,7 +79,7 @@ class Privatizer {
     changed_ = true;
   }
 
-  // The control's value in the last turn, where there is one.
+  // The control variable's value in the last iteration, if there is one.
   bool lastIteration(const Stmt& loop, uint64_t& value) const {
     const Expr &from = body_.exprs[loop.b], &to = body_.exprs[loop.c], &step = body_.exprs[loop.d];
     if (!isConst(from) || !isConst(to) || !isConst(step)) return false;
@@ -170,8 +170,8 @@ class Privatizer {
     return false;
   }
 
-  // Whether a place is the same behind the loop as at its end, but for the control: its indices are sums and products
-  // of variables that the loop leaves alone.
+  // Whether a place is the same after the loop as at its end, apart from the control variable: its indices are sums and
+  // products of variables that the loop does not write.
   bool isFixed(uint32_t place, StmtId first, const Scalar& control) const {
     bool fixed = true;
     forEachExpr(body_, ExprId{place}, [&](ExprId id) {

@@ -1,13 +1,12 @@
-// Privatization: a variable that each turn of a loop gives a new value, works on in an inner loop, and stores at last,
+// Privatization: a variable that each iteration of a loop sets, updates in an inner loop and stores at the end,
 //   for j: 1 to 4 { acc = 0.0  for k: 1 to 4 { acc = add acc, … }  c[i, j] = acc }
-// becomes a temporary of the turn. After the loop it gets what the last turn stored: `acc = c[i, 4]`. So no value goes
-// from turn to turn or leaves the loop, and g++ works on several turns at once: a product of matrices a third faster.
+// becomes a temporary of the iteration. After the loop it gets what the last iteration stored: `acc = c[i, 4]`. So no
+// value is carried between iterations or out of the loop, and g++ overlaps iterations: a matrix product a third faster.
 //   needs  verified IR, checks removed: a fault in the loop would show the variable
-//   keeps  what every variable holds behind the loop; loops that call, are left early, may fault or reach memory
-//   through
-//          references, pointers or globals; loops whose bounds are no constants
-//   gives  a temporary more, an assignment behind the loop
-//   cost   one walk over the statements; the loops that qualify are walked twice more
+//   keeps  what every variable holds after the loop; loops that call, are left early, may fault, have bounds that are
+//          not constant, or reach memory through references, pointers or globals
+//   gives  one more temporary, one assignment after the loop
+//   cost   one walk over the statements; loops that qualify are walked twice more
 #pragma once
 
 #include "ir/ir.h"

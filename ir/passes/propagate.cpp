@@ -1,5 +1,5 @@
-// Propagation: see propagate.h. What is known of each local stands in an array; changes go to a trail, so that the end
-// of a branch takes them back and tells what the branch assigned.
+// Propagation: see propagate.h. An array holds what is known of each local; changes go to a trail, so that the end of a
+// branch takes them back and knows what the branch assigned.
 #include "ir/passes/propagate.h"
 
 #include "ir/passes/support.h"

@@ -1,5 +1,5 @@
-// Range analysis: see remove_checks.h. A fact is the interval of one variable; changes of facts go to a trail, so that
-// the end of a branch takes them back, and branches that meet join what each left.
+// Range analysis: see remove_checks.h. A fact is the interval of one variable. Changes of facts go to a trail, so that
+// the end of a branch takes them back; where branches meet, the facts that they left are joined.
 #include "ir/passes/remove_checks.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr Int128 kWide = Int128{1} << 100;  // beyond every integer: proves noth
 
 struct Fact {
   bool known = false;
-  uint32_t epoch = 0;  // of a field of self: valid while nothing unknown has written self since
+  uint32_t epoch = 0;  // of a field of self: valid until something unknown writes self
   Interval interval;
 };
 
@@ -85,7 +85,7 @@ class Analysis {
     changed_ = true;
   }
 
-  // Marks the expressions with a check or a division that may lose its sign in or below them; the others need a look
+  // Finds the expressions with a check or a division that may lose its sign in or below them; the others are evaluated
   // only where their value matters.
   void findChecks() {
     has_checks_.assign(body_.exprs.size(), false);
@@ -187,13 +187,13 @@ class Analysis {
     uint32_t variable;
     Fact before;
   };
-  struct Touched {  // the fact that a branch left of a variable that it touched
+  struct Touched {  // the fact that a branch left for a variable that it touched
     uint32_t variable;
     uint32_t branches;
     Fact fact;
   };
 
-  // Walks a block whose changes are taken back; what it left is appended to touched_. Whether control leaves its end.
+  // Walks a block, takes its changes back and appends what it left to touched_. Whether control leaves its end.
   template <class Before>
   bool branch(StmtId first, Before&& before) {
     const size_t mark = trail_.size();
@@ -222,7 +222,7 @@ class Analysis {
     return branch(first, [] {});
   }
 
-  // Joins what `falling` branches left in touched_[mark..]; a branch that did not touch a variable left the old fact.
+  // Joins what `falling` branches left in touched_[mark..]; a branch that did not touch a variable keeps the old fact.
   void joinBranches(size_t mark, uint32_t falling) {
     const uint32_t now = ++stamps_;
     size_t count = mark;
@@ -253,7 +253,7 @@ class Analysis {
 
   // ---- statements
 
-  // Whether control leaves the end of the list. What stands behind a statement that control does not leave is dead.
+  // Whether control leaves the end of the list. Statements after one that control does not leave are dead.
   bool block(StmtId first) {
     for (StmtId id = first; id; id = body_.stmt(id).next)
       if (!stmt(body_.stmt(id))) return false;
@@ -331,23 +331,23 @@ class Analysis {
     return true;
   }
 
-  // ---- loops. At the head of a loop a variable that it writes may have any value, but for one that each turn leaves
-  // within some interval around the values from before the loop. Such an interval is guessed and a walk through the
-  // loop judges it: first those values alone, then without the bounds that the turn passes (but for 0), then what that
-  // turn left.
+  // ---- loops. At the head of a loop, a variable that it writes may have any value, unless each iteration leaves it
+  // within some interval around the values from before the loop. Such an interval is a guess that a walk through the
+  // loop confirms or rejects: first the values before the loop, then those without the bounds that the iteration
+  // exceeds (except 0), then what that iteration left.
 
   struct Watch {
     uint32_t variable;
     Interval before, head;
     Interval agreed = {};            // the last guess that held
-    Fact at_end = {}, at_exit = {};  // joined over all ends of a turn, over all breaks
+    Fact at_end = {}, at_exit = {};  // joined over all ends of an iteration, over all breaks
     bool is_narrowed = false;
   };
   struct LoopState {
     StmtId body, next;
     std::vector<Watch> watches;
   };
-  static constexpr int kMaxRounds = 6, kMaxTrials = 2;  // walks of a loop, loops in loops that are tried
+  static constexpr int kMaxRounds = 6, kMaxTrials = 2;  // walks of a loop; nested loops that are tried
 
   void note(Fact Watch::*where) {
     if (loops_.empty()) return;
@@ -405,8 +405,8 @@ class Analysis {
     loops_.pop_back();
     touched_.resize(touched);
   }
-  // The next guess for a variable whose turns leave `left`; false: this one stays. A counter that a test stops at 7
-  // fails at first, as what is counted beyond the largest value wraps to the smallest: then the test's bound is tried.
+  // The next guess for a variable whose iterations leave `left`; false: this one stays. The first guess for a counter
+  // that a test stops at 7 fails, since the largest value plus one wraps; then the test's bound is tried.
   bool guess(Watch& one) {
     if (!one.at_end.known) return false;
     const Interval left = join(one.before, one.at_end.interval), last = one.head;
@@ -483,7 +483,7 @@ class Analysis {
     const Interval to = value(ExprId{s.c});
     const uint32_t control = variable(ExprId{s.a});
     const uint32_t epoch_before = epoch_;
-    // Whether the body itself writes the control variable: its fact is marked before the scan.
+    // Whether the body itself writes the control variable: its fact is set before the scan.
     if (control != kNone) setInterval(control, from);
     const size_t mark = trail_.size();
     effectsIn(StmtId{s.e});
@@ -504,7 +504,7 @@ class Analysis {
 
   // ---- comparisons
 
-  // The variable that an expression shows, also through conversions that keep every value.
+  // The variable whose value an expression is, also through conversions that keep every value.
   uint32_t variableBehind(ExprId id) const {
     while (body_.expr(id).kind == ExprKind::Convert) {
       const Expr& e = body_.expr(id);
@@ -530,7 +530,7 @@ class Analysis {
     return allOf(type, true);
   }
 
-  // What the outcome of a condition says of variables.
+  // Narrows variables by the outcome of a condition.
   void refine(ExprId condition, bool outcome) {
     const Expr& e = body_.expr(condition);
     if (e.kind == ExprKind::Unary && e.op == Op::Not) return refine(ExprId{e.a}, !outcome);
@@ -546,11 +546,11 @@ class Analysis {
     compare(e.op, outcome, ExprId{e.b}, ExprId{e.a}, true);
   }
 
-  // `one op other` (or `other op one` when swapped) came out as `outcome`: narrows `one`.
+  // `one op other` (or `other op one` when swapped) gave `outcome`: narrows `one`.
   void compare(Op op, bool outcome, ExprId one, ExprId other, bool swapped) {
     const uint32_t v = variableBehind(one);
     if (v == kNone) return;
-    // Only asked: its checks were done before the condition had an outcome.
+    // Evaluated without clearing checks: they ran before the condition had an outcome.
     const bool outer = asking_;
     asking_ = true;
     const Interval o = value(other);
@@ -586,7 +586,7 @@ class Analysis {
     changed_ = true;
   }
 
-  // Memory that only this language writes holds a subrange's bounds; an image, a union or what a pointer names may not.
+  // Memory that only ST writes holds a subrange's bounds; an image, a union or a pointer's target may not.
   bool keepsBounds(ExprId id) const {
     const Expr* e = &body_.expr(id);
     while (e->kind == ExprKind::Field || e->kind == ExprKind::Index) {
@@ -695,7 +695,7 @@ class Analysis {
   std::vector<uint32_t> stamp_, stamp_entry_;
   std::vector<Change> trail_;
   std::vector<Touched> touched_;
-  std::vector<LoopState*> loops_;  // of the loops at hand
+  std::vector<LoopState*> loops_;  // the loops around the current statement
   uint32_t self_first_ = 0;
   uint32_t epoch_ = 0, stamps_ = 0;
   int trials_ = 0;

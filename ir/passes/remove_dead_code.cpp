@@ -37,7 +37,7 @@ class Remover {
     return false;
   }
 
-  // Reads of each local by statements in the tree. A write to the whole local or a part of it is none.
+  // Reads of each local by statements in the tree. A write to all or a part of the local does not count.
   void count() {
     reads_.assign(body_.locals.size(), 0);
     forEachStmt(body_, body_.first, [&](StmtId id) {

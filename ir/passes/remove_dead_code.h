@@ -1,5 +1,5 @@
-// Dead code: assignments to temporaries and variables of the call that nothing reads, evaluations that cannot fault,
-// calls of pure functions without a result in use.
+// Dead code: removes assignments to temporaries and variables of the call that nothing reads, evaluations that cannot
+// fault, and calls of pure functions whose result is not used.
 //   needs  verified IR; finds more after propagation
 //   keeps  faults: a value that may fault is still evaluated; order
 //   gives  no temporary that is written and never read

@@ -30,12 +30,12 @@ class Simplifier {
  private:
   const Expr& at(uint32_t id) const { return body_.exprs[id]; }
 
-  // Simplifies the list that begins at `link` and gives whether control can leave it at its end.
+  // Simplifies the list that begins at `first`; whether control can leave its end.
   bool block(uint32_t& first) {
     bool reached = true;
     StmtId previous;
     for (uint32_t id = first; id != 0;) {
-      // Taken anew each turn: `first` may be a field of a statement.
+      // Found again in each iteration: `first` may be a field of a statement.
       auto relink = [&](uint32_t to) {
         (previous ? body_.stmt(previous).next.index : first) = to;
         id = to;
@@ -65,7 +65,7 @@ class Simplifier {
         continue;
       }
       reached = stmt(s) && reached;
-      // What a walk of the blocks left empty.
+      // A statement whose blocks became empty.
       if (s.kind == StmtKind::If && s.b == 0 && s.c == 0) {
         dropTo(s);
         if (s.kind == StmtKind::None) {
@@ -85,7 +85,7 @@ class Simplifier {
     return reached;
   }
 
-  // Whether control can go on behind the statement.
+  // Whether control can reach what follows the statement.
   bool stmt(Stmt& s) {
     switch (s.kind) {
       case StmtKind::None:
@@ -134,7 +134,7 @@ class Simplifier {
     return true;
   }
 
-  // The jumps of a statement that goes no longer hold their labels.
+  // The jumps of a removed statement no longer keep their labels.
   void forget(const Stmt& s) {
     if (jumps_.empty()) return;
     if (s.kind == StmtKind::Jump) --jumps_[s.a];
@@ -183,7 +183,7 @@ class Simplifier {
     return found;
   }
 
-  // Appends `rest` to the list at `first`; gives the joined list.
+  // Appends `rest` to the list at `first`; returns the joined list.
   uint32_t splice(uint32_t first, uint32_t rest) {
     if (first == 0) return rest;
     uint32_t last = first;
@@ -192,7 +192,7 @@ class Simplifier {
     return first;
   }
 
-  // An `if` without branches: its condition is evaluated for its faults, or nothing is.
+  // An `if` without branches: its condition is evaluated for its faults, or removed.
   void dropTo(Stmt& s) {
     const bool needed = mayFault(body_, ExprId{s.a});
     s.kind = needed ? StmtKind::Evaluate : StmtKind::None;

@@ -1,5 +1,5 @@
 // Branch and CASE simplification: an `if` or `switch` on a constant keeps only the branch that it takes; branches
-// without statements go, and so does what nothing reaches.
+// without statements and unreachable statements are removed.
 //   needs  verified IR; finds more after folding
 //   keeps  order of calls and faults, labels still jumped to, locations
 //   gives  no constant selector; nothing between a `return`, `break`, `continue`, `jump` or `fault` and the next

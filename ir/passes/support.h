@@ -1,4 +1,4 @@
-// What several passes ask of a body. Nothing here allocates but the vectors that are returned.
+// Questions that several passes ask about a body. Only the returned vectors allocate.
 #pragma once
 
 #include <vector>
@@ -11,10 +11,10 @@ namespace rung::ir {
 // Whether the evaluation of a tree may fault.
 bool mayFault(const Body& body, ExprId root);
 
-// Whether a local is a value that only statements of this body read and write: no address, no bind, no reference.
+// By local: whether it is a value that only statements of this body read and write: no address, bind or reference.
 std::vector<bool> privateLocals(const Module& module, const Body& body);
 
-// Turns a node into another one in place; what was below it is no longer used.
+// Turns a node into a constant in place; the nodes below it are no longer used.
 inline void becomeConst(Expr& e, TypeId type, uint64_t bits) {
   e.kind = ExprKind::Const;
   e.checks = 0;
@@ -26,7 +26,7 @@ inline void becomeConst(Expr& e, TypeId type, uint64_t bits) {
 inline bool isConst(const Expr& e) { return e.kind == ExprKind::Const; }
 inline types::Value valueOf(const Expr& e) { return {e.type, e.kind == ExprKind::String ? e.a : e.bits()}; }
 
-// f(ExprId place): what a statement itself (not the ones in its blocks) writes or may write.
+// f(ExprId place): each place that a statement itself (not its blocks) writes or may write.
 template <class F>
 void forEachWritten(const Module& module, const Body& body, const Stmt& stmt, F&& f) {
   forEachRoot(module, body, stmt, [&](const uint32_t& slot, Use use) {

@@ -26,7 +26,7 @@ class Threader {
     bool is_found = false, negated = false;
   };
 
-  // An `if` that asks for a temporary, negated or not.
+  // An `if` on a temporary, negated or not.
   Test testOf(uint32_t id) const {
     if (id == 0 || body_.stmts[id].kind != StmtKind::If) return {};
     const Expr* e = &body_.exprs[body_.stmts[id].a];
@@ -46,7 +46,7 @@ class Threader {
     return s.kind == StmtKind::Assign && body_.exprs[s.a].kind == ExprKind::Local && body_.exprs[s.a].a == local;
   }
 
-  // Uses of each local but the assignments to it.
+  // Uses of each local, its assignments not counted.
   void count() {
     reads_.assign(body_.locals.size(), 0);
     forEachStmt(body_, body_.first, [&](StmtId id) {
@@ -75,7 +75,7 @@ class Threader {
     return builder.negation(ExprId{condition}).index;
   }
 
-  // The list that begins at `first`; gives its new beginning. The vector of statements may grow.
+  // The list that begins at `first`; returns its new beginning. The vector of statements may grow.
   uint32_t block(uint32_t first) {
     for (uint32_t id = first, previous = 0; id != 0;) {
       const uint32_t now = thread(id);
@@ -94,7 +94,7 @@ class Threader {
     return first;
   }
 
-  // Takes apart what begins at `id`; gives the statement that begins it now.
+  // Threads the condition that begins at `id`; returns the statement that begins it now.
   uint32_t thread(uint32_t id) {
     const Stmt start = body_.stmts[id];
     const uint32_t second = start.next.index;
@@ -114,7 +114,7 @@ class Threader {
     const Test asked = testOf(last);
     if (last == second || !asked.is_found || asked.local != test.local || reads_[test.local] != reads) return id;
 
-    // Where the left operand alone decides, this is what runs.
+    // The branch that runs when the left operand alone decides.
     const Stmt& branch = body_.stmts[last];
     const uint32_t decided = asked.negated == test.negated ? branch.c : branch.b;
     const uint32_t condition = test.negated ? negation(start.b) : start.b;
@@ -138,7 +138,7 @@ class Threader {
     return second;
   }
 
-  // The `if` of one more operand: its block ends with what the temporary holds then.
+  // The `if` of one more operand: its block ends with the temporary's new value.
   bool isLink(uint32_t id, const Test& test) const {
     const Test own = testOf(id);
     if (!own.is_found || own.local != test.local || own.negated != test.negated) return false;

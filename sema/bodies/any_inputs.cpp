@@ -1,6 +1,5 @@
-// Inputs of type ANY, ANY_NUM … of a POU in codesys: the caller passes where its variable is, how long it is and of
-// which class its type is (__SYSTEM.AnyType). In: the argument. Out: an AnyValueExpr. Called for each call that binds
-// one.
+// Inputs of type ANY, ANY_NUM … of a POU in codesys: the caller passes the address, the length and the type class of
+// its variable (__SYSTEM.AnyType). In: the argument. Out: an AnyValueExpr. Called for each call that binds one.
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/generic_calls.h"

@@ -1,5 +1,5 @@
 // ASSERT(cond [, 'text']), ASSERT_EQ(expected, actual [, 'text']), ASSERT_NEAR(expected, actual, tolerance [, 'text'])
-// of tests (design §11). In: a call of one of these names that is not declared otherwise. Out: CallKind::Assertion
+// of tests. In: a call of one of these names that is not declared otherwise. Out: CallKind::Assertion
 // with the operands in order, both sides brought to one type.
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"

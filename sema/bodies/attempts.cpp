@@ -1,5 +1,5 @@
-// Assignment attempts: an object as what it may be, found out when the program runs. `target ?= source` of edition 3,
-// __QUERYINTERFACE and __QUERYPOINTER of CODESYS. In: unchecked operands. Out: a sema::Call of kind Attempt.
+// Assignment attempts: an object as a type that it may have, tested when the program runs. `target ?= source` of
+// edition 3, __QUERYINTERFACE and __QUERYPOINTER of CODESYS. In: unchecked operands. Out: a sema::Call of kind Attempt.
 // IEC 61131-3 ed. 3, 6.6.6.7, table 52.
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kObjectKinds = "an interface, a block, or a pointer or reference to a block";
 
-// The object behind a pointer type; none where it points to something else.
+// The object that a pointer type points to; none for other targets.
 PouId pointedObject(Context& context, TypeId type) {
   const types::TypeInfo& info = context.types().info(context.types().resolve(type));
   if (info.kind != TypeKind::Pointer && info.kind != TypeKind::Reference) return {};
@@ -20,7 +20,7 @@ PouId pointedObject(Context& context, TypeId type) {
   return object && context.symbols.pou(object).kind != PouKind::Program ? object : PouId{};
 }
 
-// Forbids asking of what is no object what it is.   fails   shape ?= 7;                              E0560
+// Forbids a source that is not an object.   fails   shape ?= 7;                              E0560
 PouId checkSource(Context& context, ExprId& source, std::string_view word) {
   const TypeId type = check(context, source, {}, Access::Read);
   if (!type || type == types::kError) return {};
@@ -40,7 +40,7 @@ PouId checkSource(Context& context, ExprId& source, std::string_view word) {
   return {};
 }
 
-// The variable that takes the object: an interface, a pointer, or the reference itself.
+// The variable that gets the object: an interface, a pointer, or the reference itself.
 TypeId checkTaker(Context& context, ExprId& target) {
   const TypeId type = check(context, target, {}, Access::Write);
   if (!type || type == types::kError) return types::kError;
@@ -58,13 +58,13 @@ void refuseTaker(Context& context, ExprId target, TypeId type, std::string_view 
                  {word, wanted, context.types().toString(type)});
 }
 
-// `wanted`: what the object must be; none: any.
+// `wanted`: the required type of the object; none: any.
 ExprId makeAttempt(Context& context, ExprId source, PouId given, ExprId target, PouId wanted, Loc loc) {
   const TypeId type = context.tree().expr(target).type;
   Call call;
   call.kind = CallKind::Attempt;
   call.pou = wanted;
-  if (wanted && isKindOf(context, given, wanted)) {  // it is, whatever it is
+  if (wanted && isKindOf(context, given, wanted)) {  // true for every object of the declared type
     call.pou = {};
     if (given != wanted) wrapConvert(context, source, type);
   }

@@ -1,4 +1,4 @@
-// What the files of bodies/ share: how an expression is checked, converted and written to. Internal to bodies/ and
+// Shared by the files of bodies/: how an expression is checked, converted and written to. Internal to bodies/ and
 // checks/; the rest of sema uses the functions of context.h.
 // Every function that may replace an expression takes the id by reference: it is the parent's child field.
 #pragma once
@@ -14,7 +14,7 @@ namespace rung::sema {
 
 using types::TypeKind;
 
-// What is done with the place that an expression names.
+// The use of the lvalue that an expression names.
 enum class Access : uint8_t {
   Read,
   Write,      // the target of an assignment or an output binding
@@ -23,7 +23,7 @@ enum class Access : uint8_t {
   Address,    // ADR, SIZEOF: neither read nor written here
 };
 
-// What a value is wanted for, in words only when there is a message: "assigned to `x`".
+// The use of a value, formatted only for a message: "assigned to `x`".
 struct Purpose {
   std::string_view phrase;  // "assigned to", "used as the condition of IF"
   NameId name;              // `x`
@@ -43,14 +43,14 @@ struct BodyState {
   };
   std::vector<LoopControl> loop_controls;
   uint32_t stmt_depth = 0, elsif_depth = 0;
-  uint32_t block = 0;                   // the statement list at hand
+  uint32_t block = 0;                   // the current statement list
   std::vector<uint32_t> block_parents;  // of each statement list of the body; filled only with labels in use
   std::vector<LabelUse> labels, jumps;
   struct Temporary {  // temporaries.cpp
     VarId var;
     TypeId type = {};                    // none: not known yet
     Loc first = {};                      // the value that gave it
-    std::vector<AssignStmt*> open = {};  // literals that wait for it
+    std::vector<AssignStmt*> open = {};  // literals that wait for the type
     std::vector<AssignStmt*> assigns = {};
     bool busy = false;
   };
@@ -65,21 +65,20 @@ struct BodyState {
 TypeId check(Context& context, ExprId& expr, TypeId expected, Access access);
 
 // ---- cpp_bodies.cpp
-// A body in C++, whose text is g++'s: its variables can be reached from there, and the functions that it names are
-// used.
+// A body in C++, whose source g++ reads: its variables can be accessed there, and the functions that it names are used.
 void checkCppBody(Context& context, const PouDecl& decl);
 
 // ---- names.cpp
 TypeId checkName(Context& context, ExprId& expr, TypeId expected, Access access);
 TypeId checkTypedName(Context& context, ExprId& expr);
 TypeId checkMember(Context& context, ExprId& expr, TypeId expected, Access access);
-// True when a member expression names a thing as a whole (`GVL.x`, `Lib.f`, `Color.Red`), not a field of its base.
+// True when a member expression names an entity as a whole (`GVL.x`, `Lib.f`, `Color.Red`), not a field of its base.
 bool isWhole(const Context& context, const MemberExpr& node);
 // The FB or program whose instance a record type is; none for structures.
 PouId pouOf(Context& context, TypeId record);
-// Resolves a name to what it stands for in operand position; reports and gives Error when it is unknown.
+// The entity of a name in operand position; reports an unknown one and returns Error.
 Entity resolveName(Context& context, NameId name, Loc loc, TypeId expected);
-// The entity that an expression names, when it names one.
+// The entity that an expression names, or none.
 Entity entityOf(const Context& context, ExprId expr);
 void markAccess(Context& context, VarId var, Access access);
 
@@ -88,16 +87,16 @@ inline bool isUntyped(const Context& context, TypeId type) {
   const TypeKind kind = context.types().info(type).kind;
   return kind == TypeKind::IntegerLiteral || kind == TypeKind::RealLiteral;
 }
-// A literal without a prefix, of a character or text, as one of the kind of `wanted`, where its quotes allow that.
+// Types a literal without a prefix, of a character or string, like `wanted`, if its quotes allow that.
 void retypeString(Context& context, LiteralExpr& node, TypeId wanted);
 TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected);
-// The type that an untyped expression has when nothing around it gives one: INT, DINT, LINT, ULINT; REAL.
+// The type of an untyped expression whose context gives it none: INT, DINT, LINT, ULINT; REAL.
 TypeId defaultType(Context& context, ExprId expr);
 // The value of an untyped integer expression; false when it is too large or not known.
 bool untypedValue(const Context& context, ExprId expr, __int128& value);
 // True when the untyped integer fits the type without a message.
 bool untypedFits(Context& context, ExprId expr, TypeId to);
-// Gives an untyped expression a type; reports what does not fit.
+// Gives an untyped expression a type; reports a value that does not fit.
 bool adapt(Context& context, ExprId& expr, TypeId to, const Purpose& purpose);
 // Gives it its default type, or the expected one where that is a number.
 TypeId finalizeUntyped(Context& context, ExprId& expr, TypeId expected = {});
@@ -115,22 +114,22 @@ Fit fit(const Context& context, TypeId from, TypeId to);
 // One is a type with named values, the other its base type. IEC 61131-3 ed. 3, 6.4.4.3.
 bool isNamedValueOf(const Context& context, TypeId a, TypeId b);
 bool sameType(const Context& context, TypeId a, TypeId b);
-// The expression was checked: adapts literals, converts to `to`, or reports.
+// For a checked expression: adapts literals, converts to `to`, or reports.
 bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose);
 bool checkAs(Context& context, ExprId& expr, TypeId to, const Purpose& purpose);
 void wrapConvert(Context& context, ExprId& expr, TypeId to);
 // The BOOL of IF, WHILE, UNTIL.
 void checkCondition(Context& context, ExprId& expr, std::string_view phrase);
-// The type both sides are brought to; none when they do not combine.
+// The common type of both sides; none when they do not combine.
 TypeId commonNumber(const Context& context, TypeId a, TypeId b);
-// Error or warning as the fit demands; false for an error.
+// An error or warning, depending on the fit; false for an error.
 bool reportFit(Context& context, Fit fit, ExprId expr, TypeId from, TypeId to, const Purpose& purpose);
 
 // ---- operators.cpp
 TypeId checkUnary(Context& context, ExprId& expr, TypeId expected);
 TypeId checkBinary(Context& context, ExprId& expr, TypeId expected);
-// Both operands are checked: types them, converts them and says what the result is. `self` is the BinaryExpr, which
-// may be replaced (time arithmetic).
+// Both operands are checked: types and converts them and returns the type of the result. `self` is the BinaryExpr,
+// which may be replaced (time arithmetic).
 TypeId combine(Context& context, ExprId& self, TypeId expected);
 // x ** n of checked operands: the base becomes REAL or LREAL, the exponent keeps its type.
 TypeId power(Context& context, ExprId& base_expr, ExprId& exponent_expr, TypeId expected, Loc loc);
@@ -140,7 +139,7 @@ TypeId unify(Context& context, std::span<ExprId> operands, Operands accepted, Ty
              Loc loc);
 
 // ---- time_arithmetic.cpp
-// TIME * INT, DT - DT, TOD + TIME …: rewritten as arithmetic on integers. None when the types do not combine so.
+// TIME * INT, DT - DT, TOD + TIME …: rewritten as arithmetic on integers. None when the types do not combine this way.
 TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, ExprId right);
 
 // ---- calls.cpp
@@ -153,20 +152,20 @@ struct Arguments {
   uint32_t en = 0, eno = 0;  // index + 1
   uint32_t positional = 0;   // how many have no name
   bool ok = true;
-  bool checked = false;  // but for literals: chooseOverload
+  bool checked = false;  // except literals: chooseOverload
 };
 Arguments matchArguments(Context& context, const CallExpr& node, PouId pou);
 void bindControlPins(Context& context, const CallExpr& node, const Arguments& arguments, Call& call);
-// Checks the arguments of a call that cannot be resolved, so that what is wrong in them is said too.
+// Checks the arguments of a call that cannot be resolved, to report their errors too.
 void checkLooseArguments(Context& context, const CallExpr& node);
 void noteCall(Context& context, PouId callee, Loc loc);
 CallId addCall(Context& context, Call&& call);
-// The bindings of a call whose pins have types of their own.
+// The bindings of a call whose pins are not generic.
 void bindArguments(Context& context, const CallExpr& node, PouId callee, const Arguments& arguments, Call& call);
 
 // ---- overloads.cpp
-// The function or method of one name that a call means; none after a report. `checked`: its arguments were, but for
-// literals.
+// The function or method of one name that a call means; none after a report. `checked`: its arguments are checked,
+// except literals.
 bool isOverloaded(const Context& context, PouId called);
 PouId chooseOverload(Context& context, const CallExpr& node, PouId called, bool& checked);
 
@@ -174,37 +173,37 @@ PouId chooseOverload(Context& context, const CallExpr& node, PouId called, bool&
 TypeId checkBitOf(Context& context, ExprId expr);
 
 // ---- objects.cpp
-// A variable may have the name of THIS or SUPER: then it is meant.
+// A variable named THIS or SUPER hides the keyword.
 TypeId checkThisOrSuper(Context& context, ExprId& expr, TypeId expected, Access access);
 // `base.member` where base is an object: a method or action (then without a type) or a property that is read. None when
-// the object has no such member but, it may be, a variable. `method`: the member, where it is known.
+// the object has no such member, except perhaps a variable. `method`: the member, where it is known.
 std::optional<TypeId> checkObjectMember(Context& context, ExprId& expr, PouId object, Access access, PouId method = {});
-// The same for a bare name that means a member of the object at hand.
+// The same for a bare name of a member of the current object.
 TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance, Access access);
 TypeId callMethod(Context& context, ExprId& expr, PouId method, ExprId instance, bool as_statement);
 // `object.property := value`: true when the target is a property; it becomes the call of its SET.
 bool checkPropertyAssign(Context& context, AssignStmt& node);
-// A pointer to an interface, THIS and SUPER are used like what they point to: makes the `^` explicit.
+// A pointer to an interface, THIS and SUPER are used like their target: makes the `^` explicit.
 TypeId throughObject(Context& context, ExprId& expr, TypeId type);
-// The type of the object that a place holds is the one that it was declared with.
+// Whether the object in an lvalue has exactly the declared type.
 bool isExact(const Context& context, ExprId instance);
 bool mayAccess(Context& context, AccessLevel access, PouId owner, NameId name, Loc loc);
 
 // ---- attempts.cpp
 // target ?= source
 void checkAttempt(Context& context, AssignStmt& node);
-// __QUERYINTERFACE(source, target), __QUERYPOINTER(source, target). None when the name is another one.
+// __QUERYINTERFACE(source, target), __QUERYPOINTER(source, target). None for another name.
 TypeId checkQueryCall(Context& context, ExprId& expr, NameId name);
 
 // ---- pointers.cpp
-// ADR(x), REF(x), BITADR(x), __ISVALIDREF(x). None when the name is another one.
+// ADR(x), REF(x), BITADR(x), __ISVALIDREF(x). None for another name.
 TypeId checkAddressCall(Context& context, ExprId& expr, NameId name);
-// p[i]: the i-th of what p points to.
+// p[i]: the i-th element after the target of p.
 TypeId checkPointerIndex(Context& context, ExprId& expr);
-// p + n, p - n, p - q, and pointers as numbers. None when the types do not combine so.
+// p + n, p - n, p - q, and pointers as numbers. None when the types do not combine this way.
 TypeId combinePointers(Context& context, ExprId& self, TypeId expected);
 
-// ---- literal_storage.cpp: the hidden constant that holds a text, so that it has an address
+// ---- literal_storage.cpp: the hidden constant that holds a string, so that it has an address
 ExprId storageOfLiteral(Context& context, ExprId literal);
 
 // ---- synthesized_nodes.cpp: nodes that need not be checked again; makeLiteral is in context.h
@@ -212,18 +211,18 @@ ExprId makeBinary(Context& context, BinaryOp op, ExprId left, ExprId right, Type
 ExprId makeDeref(Context& context, ExprId pointer, TypeId target, Loc loc);
 
 // ---- open_arrays.cpp
-// LOWER_BOUND(a, n), UPPER_BOUND(a, n). None when the name is another one.
+// LOWER_BOUND(a, n), UPPER_BOUND(a, n). None for another name.
 TypeId checkBoundCall(Context& context, ExprId& expr, NameId name);
 
 // ---- any_inputs.cpp
-// The item of __SYSTEM.TYPE_CLASS that a type is.
+// The item of __SYSTEM.TYPE_CLASS for a type.
 uint32_t typeClassOf(const Context& context, TypeId type);
 // The value of an input of type ANY, ANY_NUM …, of a POU in codesys.
 void bindAny(Context& context, const Pou& pou, const Var& pin, ExprId& value);
 
 // ---- dynamic_memory.cpp
 TypeId checkNew(Context& context, ExprId& expr);
-// __DELETE(pointer). None when it is no such call, as of the next.
+// __DELETE(pointer). None for another call; so in the next function.
 TypeId checkDeleteCall(Context& context, ExprId& expr, NameId name, bool as_statement);
 // ---- var_info.cpp: __VARINFO, __POUNAME, __POSITION
 TypeId checkKnownCall(Context& context, ExprId& expr, NameId name);
@@ -231,8 +230,7 @@ TypeId checkKnownCall(Context& context, ExprId& expr, NameId name);
 // ---- operator_calls.cpp
 TypeId checkOperatorCall(Context& context, ExprId& expr, PouId pou, TypeId expected, TypeId forced);
 // ---- conversion_calls.cpp
-// `INT_TO_REAL(x)`, `TO_INT(x)`, `REAL_TRUNC_INT(x)`, `MUX_INT(…)`: names that follow a rule. None when it is no such
-// name.
+// `INT_TO_REAL(x)`, `TO_INT(x)`, `REAL_TRUNC_INT(x)`, `MUX_INT(…)`: names that follow a rule. None for another name.
 TypeId checkRuleCall(Context& context, ExprId& expr, NameId name, TypeId expected);
 // ---- assertions.cpp
 TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion);
@@ -241,7 +239,7 @@ std::optional<Assertion> assertionOf(const Names& names, NameId name);
 // ---- statements.cpp
 // Checks a list of statements; true when the end of the list can be reached.
 bool checkStatements(Context& context, Slice<StmtId> list);
-// The operator of += and its kin.
+// The operator of a compound assignment such as +=.
 BinaryOp binaryOf(AssignOp op);
 
 // ---- small things
@@ -255,12 +253,12 @@ inline bool isNamed(const Context& context, NameId name, std::string_view word) 
   const std::string_view spelling = string(context, name);
   return spelling.size() == word.size() && sameIdentifier(spelling, word);
 }
-// A constant integer that costs nothing to know, or evaluates. None when the expression is no constant.
+// The value of a constant integer expression; plain literals are not evaluated. None when it is not constant.
 std::optional<int64_t> constantInteger(Context& context, ExprId expr);
 
-// Above the limits of the parser, which speaks first; they bound the trees of schedulers.
+// Above the limits of the parser, which reports first; they bound the trees of schedulers.
 constexpr uint32_t kMaxExprDepth = 2100;
 constexpr uint32_t kMaxStmtDepth = 2100;
-constexpr uint32_t kMaxElsifDepth = 20'000;  // each ELSIF stands in the ELSE of the branch before it
+constexpr uint32_t kMaxElsifDepth = 20'000;  // each ELSIF is in the ELSE of the branch before it
 
 }  // namespace rung::sema

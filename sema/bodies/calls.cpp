@@ -1,4 +1,4 @@
-// Calls: who is called, which argument goes to which pin, and what the result is. In: CallExpr. Out: a sema::Call with
+// Calls: the callee, the pin of each argument, and the result. In: CallExpr. Out: a sema::Call with
 // the bindings in the order of the pins. Called by expressions.cpp and statements.cpp.
 // Generic and extensible functions are in generic_calls.cpp, operators in operator_calls.cpp, names that follow a rule
 // (INT_TO_REAL) in conversion_calls.cpp.
@@ -77,7 +77,7 @@ struct Slots {
   }
 };
 
-// `f(PT = T#1s)`: a comparison with a pin's name where no such variable is in sight.
+// `f(PT = T#1s)`: a comparison with a pin's name where no such variable is visible.
 bool isMistypedBinding(Context& context, PouId pou, ExprId value) {
   if (!value || context.tree().kind(value) != ExprKind::Binary) return false;
   const BinaryExpr& node = context.tree().as<BinaryExpr>(value);
@@ -144,7 +144,7 @@ void bindOutput(Context& context, const Pou& pou, const Var& pin, Binding& bindi
     context.report(diag::NegatedPin, argument.pin.loc, {string(context, pin.name), context.types().toString(pin.type)});
     return;
   }
-  // The value flows from the pin to the place; lowering converts it there.
+  // The value flows from the pin to the lvalue; lowering converts it there.
   reportFit(context, fit(context, pin.type, actual), binding.value, pin.type, actual,
             Purpose{"copied from output", pin.name, pou.name});
 }
@@ -270,7 +270,7 @@ TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool 
       return refuse(context, node);
     case PouKind::Program:
       if (context.iec()) {
-        context.symbols.pou(pou).used = true;  // what is refused here is no program that nobody calls
+        context.symbols.pou(pou).used = true;  // after this error, the program is not reported as never called
         context.report(diag::CallOfProgram, node.h.loc, {string(context, callee.name)});
         return refuse(context, node);
       }
@@ -279,7 +279,7 @@ TypeId callPou(Context& context, ExprId& expr, PouId pou, TypeId expected, bool 
   return types::kError;
 }
 
-// The callee is a value: an instance, or nothing that can be called.
+// The callee is a value: an instance, or a value that cannot be called.
 TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (type == types::kError) return refuse(context, node);
@@ -296,7 +296,7 @@ TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement)
   return refuse(context, node);
 }
 
-// SIZEOF(x): a number of bytes, known here.
+// SIZEOF(x): a number of bytes, known at compile time.
 TypeId sizeOf(Context& context, ExprId& expr) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   if (node.arguments.count != 1) {
@@ -320,7 +320,7 @@ TypeId sizeOf(Context& context, ExprId& expr) {
   return untyped;
 }
 
-// LEN_MAX(s): the capacity that the text is declared with, in bytes or 16-bit units. Edition 4.
+// LEN_MAX(s): the declared capacity of the string, in bytes or 16-bit units. Edition 4.
 TypeId lengthLimit(Context& context, ExprId& expr) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   const NameId name = nameOf(context, node.callee);
@@ -437,7 +437,7 @@ Arguments matchArguments(Context& context, const CallExpr& node, PouId pou) {
   size_t next = 0;  // the pin after the last one named: calls mostly keep the order
   size_t input = 0, output = 0, extra = pins.size();
   const auto isOutput = [&](size_t i) { return context.symbols.var(pins[i]).section == SectionKind::Output; };
-  // f(a := 1, 2): what has no name goes to the next pin that no name before it has taken.
+  // f(a := 1, 2): an argument without name goes to the next pin that no argument before it has taken.
   const auto isNamedAlready = [&](size_t i) {
     return i < out.slots.size() && out.slots[i] != 0 && context.tree().list(node.arguments)[out.slots[i] - 1].pin.name;
   };

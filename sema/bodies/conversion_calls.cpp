@@ -1,7 +1,7 @@
 // Calls whose names follow a rule instead of a declaration: conversions `<A>_TO_<B>`, `TO_<B>`, `ANY_TO_<B>`,
 // `<A>_TRUNC_<B>`, `TRUNC_<B>`, and typed names `<FUNC>_<TYPE>` (MUX_INT, ADD_TIME). In: a call of a name that is not
 // declared. Out: a ConvertExpr, or a call of the library function that the rule names.
-// Texts are converted by library functions: TO_STRING, TO_WSTRING, STRING_TO_<B>.
+// Strings are converted by library functions: TO_STRING, TO_WSTRING, STRING_TO_<B>.
 #include <string>
 
 #include "sema/bodies/bodies.h"
@@ -93,7 +93,7 @@ OneInput oneInput(Context& context, const CallExpr& node, NameId name) {
   return out;
 }
 
-// Lets a library function do it: the callee becomes its name.
+// Calls a library function instead: the callee becomes its name.
 TypeId callLibrary(Context& context, ExprId& expr, std::string_view function, TypeId expected, NameId written) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
   NameExpr& callee = context.tree().as<NameExpr>(node.callee);
@@ -106,14 +106,14 @@ TypeId callLibrary(Context& context, ExprId& expr, std::string_view function, Ty
   return checkCall(context, expr, expected, false);
 }
 
-// The operand as a value of `type`; what is typed is not typed again.
+// The operand as a value of `type`; a typed operand is not typed again.
 bool operandAs(Context& context, ExprId& value, TypeId type, NameId function) {
   if (!checkAs(context, value, type, Purpose{"passed to the input of", function, {}})) return false;
   if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.tree().expr(value).type);
   return true;
 }
 
-// The name of the library's own function for two types where the dialect has one: `DWORD_TO_REAL` transfers the bits in
+// The name of the library function for two types where the dialect has one: `DWORD_TO_REAL` transfers the bits in
 // edition 3, `WORD_TO_BOOL` takes the rightmost one. Else empty.
 std::string libraryConversion(Context& context, TypeKind from, TypeKind to) {
   if (!context.iec()) return {};
@@ -195,7 +195,7 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
     replaceArgument();
     return callLibrary(context, expr, function, expected, name);
   }
-  // A number becomes a date by way of the date and time that it counts, so that a DATE is always a whole day.
+  // A number is converted to a date through the date and time that it counts, so that a DATE is always a whole day.
   const bool to_day = target == TypeKind::Date || target == TypeKind::LDate;
   if (to_day && !TypeTable::isDate(source)) {
     wrapConvert(context, value, types::idOf(target == TypeKind::Date ? TypeKind::DateTime : TypeKind::LDateTime));
@@ -217,7 +217,7 @@ TypeId checkTypedCall(Context& context, ExprId& expr, std::string_view name, Typ
   std::vector<TypeId> operand_types;
   for (size_t at = cut + 1; at <= name.size();) {
     size_t end = name.find('_', at);
-    TypeId type = typeNamed(context, name.substr(at));  // TIME_OF_DAY has underscores of its own
+    TypeId type = typeNamed(context, name.substr(at));  // TIME_OF_DAY contains underscores
     if (type) {
       end = name.size();
     } else {

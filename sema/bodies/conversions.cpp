@@ -1,5 +1,5 @@
 // Conversions: which are implicit, which lose values, which need a function. In: checked expressions and the type
-// that is wanted. Out: ConvertExpr nodes in the parent's child field, or one message. Design §6, dialect table.
+// that is wanted. Out: ConvertExpr nodes in the parent's child field, or one message. docs/language.md "Dialects".
 #include "frontend/source/dialect.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
@@ -34,7 +34,7 @@ bool sameQuantity(TypeKind a, TypeKind b) {
   return group(a) != 0 && group(a) == group(b);
 }
 
-// The name of the function that converts, when there is one.
+// The name of the function that converts, if there is one.
 std::string conversionName(const Context& context, TypeId from, TypeId to) {
   const auto word = [&](TypeId type) -> std::string {
     const types::TypeInfo& own = context.types().info(context.types().resolve(type));
@@ -78,7 +78,7 @@ bool sameType(const Context& context, TypeId a, TypeId b) {
   return sameType(context, left.base, right.base);
 }
 
-// A pointer to a text may name a longer one.
+// A pointer to a string may point to a longer one.
 static bool pointsAlike(const Context& context, TypeId from, TypeId to) {
   const types::TypeInfo& source = context.types().info(context.types().resolve(from));
   const types::TypeInfo& target = context.types().info(context.types().resolve(to));
@@ -170,7 +170,7 @@ Fit fit(const Context& context, TypeId from, TypeId to) {
     if (source.kind == TypeKind::Pointer)
       return pointsAlike(context, source.base, target.base) ? Fit::Same : Fit::Pointer;
   }
-  // CODESYS takes a pointer as the number of its first byte, and a number as a pointer.
+  // CODESYS accepts a pointer as the number of its first byte, and a number as a pointer.
   if (isInterface(context, source)) return Fit::No;
   if ((target.kind == TypeKind::Pointer && isWholeKind(a)) || (source.kind == TypeKind::Pointer && isWholeKind(b))) {
     const uint32_t bits = table.pointerSize() * 8;
@@ -256,7 +256,7 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
                     wide ? "'" : "\""});
     return false;
   }
-  // BOOL_TO_TIME(FALSE) is no advice: another constant is meant.
+  // Does not suggest BOOL_TO_TIME(FALSE): another constant is meant.
   const bool truth = own == TypeKind::Bool && context.tree().kind(expr) == ExprKind::Literal;
   const std::string function = truth ? std::string() : conversionName(context, from, to);
   if (function.empty()) {
@@ -271,7 +271,7 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
 
 namespace {
 
-// A constant is its value: `VAR CONSTANT k : INT := 3` fits a SINT.
+// A constant is checked by its value: `VAR CONSTANT k : INT := 3` fits a SINT.
 bool constantFits(Context& context, ExprId expr, TypeId to) {
   if (context.iec() || !context.tree().expr(expr).is_constant) return false;
   const types::TypeInfo& target = context.types().info(context.types().resolve(to));
@@ -280,8 +280,8 @@ bool constantFits(Context& context, ExprId expr, TypeId to) {
          !types::convert(context.types(), *value, to).overflow;
 }
 
-// A constant number for an enumeration: the item that it is. CODESYS and TwinCAT take any number where the enumeration
-// is not {attribute 'strict'}, and the number of an item where it is.
+// A constant number for an enumeration becomes the item with that value. CODESYS and TwinCAT accept any number if the
+// enumeration is not {attribute 'strict'}, and the number of an item if it is.
 //   passes  actual := 1;     where Running is 1
 //   warns   actual := 7;     where no item is 7                     W0549
 //   fails   actual := 7;     the same of a strict enumeration       E0547
@@ -342,7 +342,7 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
   if (isUntyped(context, from)) return adapt(context, expr, to, purpose);
   Fit fitness = fit(context, from, to);
   if (fitness == Fit::Lossy && constantFits(context, expr, to)) fitness = Fit::Lossless;
-  // A strict enumeration takes an item of another one, and no variable.
+  // A strict enumeration accepts an item of another one, but not a variable.
   const types::TypeInfo& wanted = context.types().info(context.types().resolve(to));
   if (fitness == Fit::Lossy && wanted.kind == TypeKind::Enum && wanted.strict && !context.tree().expr(expr).is_constant)
     fitness = Fit::No;

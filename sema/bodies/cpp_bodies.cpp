@@ -1,6 +1,6 @@
-// Bodies in C++: what rung can say about them before g++ reads them. The text stays as it is; a word in upper case that
-// names a function is a use of it (syntax manual 5.8.5). Variables that the generated facade (codegen/cpp_bodies.cpp)
-// has no form for are refused here.
+// Bodies in C++: the checks that rung can make before g++ reads them. The source is not changed; a word in upper case
+// that names a function counts as a call (syntax manual 5.8.5), and so does a method or action of the object. Reports
+// variables for which the generated facade (codegen/cpp_bodies.cpp) has no form.
 //   passes  VAR n : INT; END_VAR {C++} n = 1; {END_C++}
 //   fails   VAR n AT %QW0 : INT; END_VAR {C++} n = 1; {END_C++}          E0751
 // Called by checkBody().
@@ -13,7 +13,7 @@ namespace rung::sema {
 
 namespace {
 
-// Why the facade has no form for a variable; null: it has.
+// The reason why the facade has no form for a variable; null: it has one.
 const char* whyNot(Context& context, const Var& var) {
   const types::TypeTable& types = context.types();
   if (var.storage == Storage::Image) return "located";
@@ -48,7 +48,7 @@ bool noteUse(Context& context, PouId callee, Loc loc) {
   return true;
 }
 
-// A method or action of the object at hand, spelled as it is declared.
+// A method or action of the current object, in the spelling of its declaration.
 bool noteMember(Context& context, std::string_view word, Loc loc) {
   const PouId object = objectOf(context);
   const NameId name = context.names().find(word);

@@ -1,4 +1,4 @@
-// Messages about expressions, calls and statements. One constant for each row of diagnostics.def.
+// Diagnostics of expressions, calls and statements, one constant for each row of diagnostics.def.
 #pragma once
 
 #include "frontend/source/diagnostics.h"

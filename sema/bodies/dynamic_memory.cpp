@@ -55,13 +55,13 @@ bool mayBeAllocated(Context& context, TypeId type, TypeExprId what) {
 
 }  // namespace
 
-// Forbids __NEW of what can have no second instance.
+// Forbids __NEW of a type that cannot have a second instance.
 //   passes  p := __NEW(Motor);  p := __NEW(INT, 10);
 //   fails   p := __NEW(Main);                                       E0592
 TypeId checkNew(Context& context, ExprId& expr) {
   NewExpr& node = context.tree().as<NewExpr>(expr);
   if (node.h.type) return node.h.type;                    // checked before
-  if (context.iec()) return node.h.type = types::kError;  // the lexer has refused the name
+  if (context.iec()) return node.h.type = types::kError;  // reported by the lexer
   TypeId type = resolveType(context, node.allocated);
   if (node.count) checkExprAs(context, node.count, types::kLInt, "used as the number of elements");
   if (type == types::kError || !mayBeAllocated(context, type, node.allocated)) return node.h.type = types::kError;
@@ -78,13 +78,13 @@ TypeId checkNew(Context& context, ExprId& expr) {
   return node.h.type;
 }
 
-// Forbids __DELETE of what is no pointer, and of a pointer that cannot be set to 0.
+// Forbids __DELETE of anything but a pointer, and of a pointer that cannot be set to 0.
 //   fails   __DELETE(count) where count : INT                       E0593
 TypeId checkDeleteCall(Context& context, ExprId& expr, NameId name, bool as_statement) {
   if (!isNamed(context, name, "__DELETE")) return {};
   CallExpr& node = context.tree().as<CallExpr>(expr);
   const auto fail = [&] { return context.tree().expr(expr).type = types::kError; };
-  if (context.iec()) return fail();  // the lexer has refused the name
+  if (context.iec()) return fail();  // reported by the lexer
   if (node.arguments.count != 1 || !context.tree().list(node.arguments)[0].value) {
     context.report(diag::WrongArgumentCount, node.h.loc,
                    {string(context, name), "1", std::to_string(node.arguments.count)});
@@ -116,7 +116,7 @@ TypeId checkDeleteCall(Context& context, ExprId& expr, NameId name, bool as_stat
   call.owns = context.symbols.call(owns).pou;
   call.instance = pointer;
   node.call = addCall(context, std::move(call));
-  // A statement without a value: TRUE stands for the type that a call must have.
+  // A statement without a value: TRUE serves as the type that a call must have.
   return node.h.type = types::kBool;
 }
 

@@ -1,4 +1,4 @@
-// Expressions: dispatch over the kinds, and those that are no names, literals, operators or calls.
+// Expressions: dispatch over the kinds, and those that are not names, literals, operators or calls.
 // In: an expression of a body or an initial value, and the type that its context wants. Out: types, entities and
 // conversions written into the tree. Called by statements.cpp and by the declarations.
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using types::TypeTable;
 
-// An integer; reports what is none.
+// An integer; reports another type.
 TypeId checkIndexValue(Context& context, ExprId& index) {
   TypeId type = check(context, index, {}, Access::Read);
   if (isUntyped(context, type)) type = finalizeUntyped(context, index);
@@ -27,9 +27,9 @@ TypeId checkIndexValue(Context& context, ExprId& index) {
   return types::kError;
 }
 
-// s[i]: in codesys the bytes of a STRING and the words of a WSTRING, from 0. The zero behind the last one that fits can
-// be read, so that a loop finds the end of a full text; written it would be no end any more. In edition 3 characters,
-// CHAR and WCHAR, from 1 (6.4.2.2).
+// s[i]: in codesys the bytes of a STRING and the words of a WSTRING, from 0. The zero after the last one that fits can
+// be read, so that a loop finds the end of a full string; it cannot be written. In edition 3 characters, CHAR and
+// WCHAR, from 1 (6.4.2.2).
 TypeId checkCharacter(Context& context, IndexExpr& node, TypeId string_type, Access access) {
   const types::TypeInfo& info = context.types().info(context.types().resolve(string_type));
   if (info.kind == TypeKind::UString) {
@@ -65,7 +65,7 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   if (!array && base != types::kError) {
     context.report(diag::NotAnArray, node.h.loc, {context.types().toString(base)});
   } else if (array && dimensions != count) {
-    // The first index too many, or the last one, behind which some are missing.
+    // The first surplus index, or the last index before the missing ones.
     const uint32_t marked = std::min(dimensions, count - 1);
     context.report(diag::WrongIndexCount, context.tree().loc(context.tree().list(node.indices)[marked]),
                    {context.types().toString(base), std::to_string(dimensions), std::to_string(count)});
@@ -126,7 +126,7 @@ TypeId checkAddress(Context& context, ExprId& expr) {
   return node.h.type = addressType(node.address);
 }
 
-// A REFERENCE is used like what it refers to.
+// A REFERENCE is used like its target.
 TypeId throughReference(Context& context, ExprId& expr, TypeId type) {
   const types::TypeInfo& info = context.types().info(context.types().resolve(type));
   if (info.kind != TypeKind::Reference) return type;

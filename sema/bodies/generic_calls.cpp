@@ -34,7 +34,7 @@ Operands classOf(TypeKind generic) {
 
 TypeId groupType(Context& context, std::span<ExprId> operands, TypeKind generic, TypeId expected, const Pou& pou,
                  Loc loc) {
-  // SQRT(2) and SIN(intVar): what is no REAL becomes one where only REAL is taken.
+  // SQRT(2) and SIN(intVar): other numbers become REAL where only REAL is accepted.
   if (generic == TypeKind::AnyReal) {
     TypeId real = expected && TypeTable::isReal(context.types().plainKind(expected)) ? context.types().plain(expected)
                                                                                      : types::kReal;
@@ -217,7 +217,7 @@ TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expect
   if (!checkRequiredPins(context, node, pou, arguments)) return node.h.type = types::kError;
   GenericOperands operands = groupOperands(context, node, pou, arguments, expected, forced, false);
   if (!operands.ok) return node.h.type = types::kError;
-  // A text has its largest capacity inside: one instance serves every length. C functions know no named types.
+  // A string has the largest capacity inside: one instance serves every length. C functions know no named types.
   const bool native = context.symbols.pou(pou).native;
   const auto normal = [&](TypeId type) {
     const TypeKind kind = context.types().plainKind(type);

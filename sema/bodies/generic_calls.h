@@ -1,6 +1,7 @@
 // Calls of generic and extensible library functions: inputs of one generic type name share one type, and a result of
-// that name follows it (design §5). In: a call whose pins have generic types. Out: the same call to an instance for
-// these types. Called by calls.cpp; operator_calls.cpp shares the grouping.
+// that name follows it. In: a call whose pins have generic types. Out: the same call to an instance for these types,
+// parsed again (declarations/generics.cpp), so that bodies are checked with concrete types only. Called by calls.cpp;
+// operator_calls.cpp shares the grouping.
 #pragma once
 
 #include <span>
@@ -10,7 +11,7 @@
 
 namespace rung::sema {
 
-// The operands of a call by slot (see Arguments), checked, grouped by generic pin type and brought to one type a group.
+// The checked operands of a call by slot (see Arguments), grouped by generic pin type, each group of one type.
 struct GenericOperands {
   std::vector<ExprId> values;     // by slot; none: left open
   std::vector<TypeId> pin_types;  // by slot, as declared
@@ -20,20 +21,20 @@ struct GenericOperands {
   std::vector<Group> groups;
   bool ok = true;
 
-  // The type that a declared pin or result type stands for in this call.
+  // The type of a declared pin or result type in this call.
   TypeId typeFor(const Context& context, TypeId declared) const;
 };
 
 // In codesys bit strings are numbers, and integers are bit strings.
 bool belongs(const Context& context, TypeId type, TypeKind generic);
 
-// `forced` (or none): the type that a typed name such as MUX_INT asks for. `checked`: the operands have their types.
+// `forced` (or none): the type in a typed name such as MUX_INT. `checked`: the operands have their types.
 GenericOperands groupOperands(Context& context, const CallExpr& node, PouId pou, const Arguments& arguments,
                               TypeId expected, TypeId forced, bool checked);
 
 TypeId checkGenericCall(Context& context, ExprId& expr, PouId pou, TypeId expected, TypeId forced);
 
-// Makes a call with EN or ENO that stands for a plain value, a conversion or a sum of times, into
+// Turns a call with EN or ENO that means a plain value, a conversion or a sum of times into
 // MOVE(EN := …, value, ENO => …): the value has no pins of its own.
 TypeId guardValue(Context& context, ExprId& expr, ExprId value);
 

@@ -1,7 +1,7 @@
-// Places for texts whose address is taken: ADR('text') of codesys needs memory behind the literal. Equal texts of one
-// POU share a place; what happens when it is written through the pointer, CODESYS leaves open.
-// In: literals of one POU. Out: constants in a global list of its own, which no name in a program can reach. The list
-// is declared when the body is checked, so that a POU's places depend on its own text alone.
+// Memory for strings whose address is taken: ADR('text') of codesys needs memory for the literal. Equal strings of one
+// POU share it; CODESYS leaves open what happens when it is written through the pointer. In: literals of one POU. Out:
+// constants in a separate global list, which no name in a program can reach. The list is declared when the body is
+// checked, so that a POU's list depends on its own source alone.
 #include <algorithm>
 
 #include "sema/bodies/bodies.h"
@@ -23,7 +23,7 @@ ExprId storageOfLiteral(Context& context, ExprId literal) {
     Var var;
     var.name = context.names().intern("text" + std::to_string(literal_storage.variables.size()));
     var.loc = loc;
-    // Room for what a pointer to a STRING of the usual length reads and writes.
+    // Room for access through a pointer to a STRING of the usual length.
     const uint32_t length = std::max(context.types().info(context.types().resolve(node.h.type)).length, 80u);
     var.type = wide ? context.types().wstring(length) : context.types().string(length);
     var.section = SectionKind::Global;

@@ -1,5 +1,5 @@
 // Literals. In: literals as parsed. Out: typed literals; untyped numbers keep the type IntegerLiteral or RealLiteral
-// until what stands around them gives them one (adapt) or they take their default (settle).
+// until their context gives them one (adapt) or they take their default (finalizeUntyped).
 // An untyped expression is a tree of untyped literals and arithmetic on them: it is computed exactly, and only its
 // result must fit. Each such tree is typed once, so the cost is linear.
 #include <bit>
@@ -59,7 +59,7 @@ double realValue(const LiteralExpr& node) {
   return std::bit_cast<double>(node.value());
 }
 
-// True when an untyped integer expression means something else on REAL: `1 / 2`, `NOT 5`.
+// True when an untyped integer expression has another value on REAL: `1 / 2`, `NOT 5`.
 bool needsIntegers(const Context& context, ExprId expr, bool& divides) {
   const Tree& tree = context.tree();
   if (tree.kind(expr) == ExprKind::Unary) {
@@ -180,7 +180,7 @@ bool adaptInteger(Context& context, ExprId& expr, TypeId to, Bounds bounds) {
   return true;
 }
 
-// A negative number where the type has no sign is the bit pattern of that width (codesys): `mask : WORD := -1`.
+// A negative number for an unsigned type is the bit pattern of that width (codesys): `mask : WORD := -1`.
 //   warns   count : UINT := -1;      W0562
 bool adaptNegative(Context& context, ExprId& expr, TypeId to, TypeKind kind) {
   Int128 value;
@@ -196,7 +196,7 @@ bool adaptNegative(Context& context, ExprId& expr, TypeId to, TypeKind kind) {
 
 bool adaptReal(Context& context, ExprId& expr, TypeId to);
 
-// `whole`: an integer expression without a quotient in it, or a part of one.
+// `whole`: an integer expression without a quotient, or a part of one.
 bool setRealType(Context& context, ExprId& expr, TypeId to, bool whole) {
   Tree& tree = context.tree();
   ExprHeader& header = tree.expr(expr);
@@ -233,8 +233,7 @@ bool adaptReal(Context& context, ExprId& expr, TypeId to) {
   return setRealType(context, expr, to, integer);
 }
 
-// The number of characters that a text has in memory: bytes, or UTF-16 units.
-// Of a text of this kind, in its units; of a UCHAR in characters.
+// The length of a string of this kind in its units: bytes, or UTF-16 units; of a UCHAR in characters.
 uint32_t lengthOf(std::string_view value, TypeKind kind) {
   if (kind != TypeKind::WString && kind != TypeKind::WChar && kind != TypeKind::UChar)
     return static_cast<uint32_t>(value.size());
@@ -247,7 +246,7 @@ uint32_t lengthOf(std::string_view value, TypeKind kind) {
   return units;
 }
 
-// '$E9' is a byte of a STRING. In texts of Unicode bytes that are no UTF-8 are the characters of these codes.
+// '$E9' is a byte of a STRING. In Unicode strings, bytes that are not UTF-8 are the characters of these codes.
 void makeUnicode(Context& context, LiteralExpr& node) {
   std::string_view rest = context.tree().string(node.string());
   if (node.literal() == LiteralKind::WString || isUtf8(rest)) return;  // those of "..." are codes of 16 bits already
@@ -317,11 +316,11 @@ TypeId checkTypedNumber(Context& context, ExprId& expr) {
   return node.h.type = types::kError;
 }
 
-// T# and the like: the long form where it is written or wanted, else the short one when the value fits.
+// T# and similar: the long form where it is written or wanted, else the short one when the value fits.
 TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind shorter, TypeKind longer,
                  int64_t unit) {
   const TypeKind wanted = expected ? context.types().plainKind(expected) : TypeKind::None;
-  // A duration is 64 bits of nanoseconds, of which a signed LTIME takes one less.
+  // A duration is 64 bits of nanoseconds; the signed LTIME has one bit less.
   const bool is_long = (node.h.bits & kLiteralLong) != 0 || wanted == longer;
   const bool beyond = longer == TypeKind::LTime && (node.h.bits & kLiteralNegative) == 0 && node.value() >> 63 != 0;
   if (is_long && beyond && context.types().isSigned(longer)) {

@@ -1,4 +1,4 @@
-// Names in expressions: variables, enumeration items, members of records, and what `GVL.x`, `Lib.f`, `Prog.x` mean.
+// Names in expressions: variables, enumeration items, members of records, and qualified names (`GVL.x`, `Lib.f`).
 // In: NameExpr, TypedNameExpr, MemberExpr. Out: their entity and type. Called for every operand of every body.
 #include "frontend/syntax/diagnostics.h"
 #include "sema/bodies/bodies.h"
@@ -48,7 +48,7 @@ TypeId typeOf(const Context& context, VarId id) {
   return type ? type : types::kError;
 }
 
-// A member of type BIT is a bit of the hidden byte that it names then.
+// A member of type BIT becomes a bit of the hidden byte that holds it.
 TypeId useBit(Context& context, ExprId& expr, const Var& var) {
   context.tree().expr(expr).type = types::kByte;
   BitAccessExpr bit{};
@@ -80,7 +80,7 @@ TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
   header.is_constant = 1;
   header.type = item.type;
   const types::TypeInfo& info = context.types().info(item.type);
-  if (item.type == context.items_of) {  // in its own declaration; a number as long as items are being numbered
+  if (item.type == context.items_of) {  // in its own declaration; a number while items are being numbered
     if (context.scopes.named(item.type)->resolved == State::Busy) header.type = info.base;
     return header.type;
   }
@@ -92,7 +92,7 @@ TypeId useEnumValue(Context& context, ExprId expr, uint32_t index, bool bare) {
   return item.type;
 }
 
-// What an entity is as an operand; a qualifier has no type and is no value.
+// An entity as an operand; a qualifier has no type and is not a value.
 TypeId useEntity(Context& context, ExprId& expr, Entity entity, Loc loc, NameId name, Access access, bool bare) {
   ExprHeader& header = context.tree().expr(expr);
   switch (entity.entityKind()) {
@@ -354,7 +354,7 @@ TypeId checkTypedName(Context& context, ExprId& expr) {
   return node.h.type = context.symbols.enum_values[node.entity.index].type;
 }
 
-// `phase : Phase; … Phase.Idle`: where the variable has no such member, the name is that of the enumeration which the
+// `phase : Phase; … Phase.Idle`: where the variable has no such member, the name means the enumeration that the
 // variable hides. None when it hides none with this item. IEC 61131-3 ed. 3 writes `Phase#Idle`.
 Entity hiddenEnumeration(Context& context, const MemberExpr& node, TypeId base) {
   if (context.tree().kind(node.base) != ExprKind::Name) return {};
@@ -366,8 +366,7 @@ Entity hiddenEnumeration(Context& context, const MemberExpr& node, TypeId base) 
   return lookUpIn(context, type, node.member).entityKind() == EntityKind::EnumValue ? type : Entity{};
 }
 
-// `status.kReady` with a constant kReady is that bit of an integer or bit string; none where it is no such access.
-// codesys.
+// `status.kReady` with a constant kReady is that bit of an integer or bit string; none for other members. codesys.
 //   passes  VAR CONSTANT kReady : INT := 3; END_VAR  status.kReady := TRUE;
 //   fails   VAR ready : INT := 3; END_VAR            status.ready := TRUE;       E0591
 std::optional<TypeId> checkNamedBit(Context& context, ExprId& expr, TypeId base) {
@@ -444,7 +443,7 @@ TypeId checkMember(Context& context, ExprId& expr, TypeId, Access access) {
   if (!member && object) {
     if (const auto type = checkObjectMember(context, expr, object, access)) return *type;
   }
-  // A block of edition 2 has got methods in edition 4, one with the name of a pin: SEMA.RELEASE(). The call means it.
+  // In edition 4 a block of edition 2 has methods, one with the name of a pin: SEMA.RELEASE(). It is meant.
   if (member && object && access == Access::Qualifier && context.symbols.pou(object).library) {
     for (const PouId method : context.symbols.pou(object).members) {
       if (context.names().same(context.symbols.pou(method).name, node.member))

@@ -1,6 +1,6 @@
-// Objects in bodies: THIS and SUPER, calls of methods and actions, properties. In: names and members that mean such a
-// thing. Out: a sema::Call of kind Method; a property that is read is the call of its GET, one that is written that of
-// its SET. Called by names.cpp, calls.cpp and statements.cpp.
+// Objects in bodies: THIS and SUPER, calls of methods and actions, properties. In: names and members that mean one of
+// these. Out: a sema::Call of kind Method; reading a property calls its GET, writing it calls its SET. Called by
+// names.cpp, calls.cpp and statements.cpp.
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/checks/required_pins.h"
@@ -23,8 +23,8 @@ const char* kindName(AccessLevel access) {
   return "PUBLIC";
 }
 
-// The object that an instance expression names, as the owner of the method that is called: an interface pointer becomes
-// one of the interface that declares the method.
+// The object that an instance expression names, as the owner of the called method: an interface pointer becomes one of
+// the interface that declares the method.
 ExprId instanceFor(Context& context, ExprId instance, PouId method) {
   if (!instance) return instance;
   const Pou& owner = context.symbols.pou(context.symbols.pou(method).owner);
@@ -38,7 +38,7 @@ ExprId instanceFor(Context& context, ExprId instance, PouId method) {
   return makeDeref(context, pointer, owner.record, context.tree().loc(pointer));
 }
 
-// What a call on an object does to the variables that lead to it: a pointer is read, an object may change.
+// The effect of a call on the variables that its object is reached through: a pointer is read, an object may change.
 void markObject(Context& context, ExprId at) {
   Access access = Access::ReadWrite;
   const Tree& tree = context.tree();
@@ -180,7 +180,7 @@ bool isExact(const Context& context, ExprId instance) {
 
 namespace {
 
-// A property with the accessors that its object inherits where it has none of its own.
+// A property with inherited accessors where it has none of its own.
 Property accessorsOf(Context& context, uint32_t index) {
   Property property = context.symbols.properties[index];
   const auto inherit = [&](PouId base) {
@@ -216,7 +216,7 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
   const PouId accessor = property.get ? property.get : property.set;
   if (!accessor) return header.type = types::kError;
   resolvePou(context, accessor);
-  if (access == Access::Write || access == Access::ReadWrite) {  // an assignment looks at it; others want a variable
+  if (access == Access::Write || access == Access::ReadWrite) {  // an assignment handles it; other uses need a variable
     header.type = property.get ? context.symbols.pou(property.get).result
                                : context.symbols.var(pinsOf(context, property.set)[0]).type;
     return header.type;
@@ -351,9 +351,9 @@ uint64_t elementCount(const Context& context, TypeId type) {
 
 }  // namespace
 
-// Forbids arguments at a declaration that no FB_Init takes, and others than one list for each element of an array.
+// Forbids arguments at a declaration that no FB_Init takes, and arrays with another number of lists than elements.
 // Codesys.
-//   passes  p : Pump(3);    a : ARRAY[0..1] OF Pump[(3), (4)];    FB_Init has an input behind its two implicit ones
+//   passes  p : Pump(3);    a : ARRAY[0..1] OF Pump[(3), (4)];    FB_Init has an input after its two implicit ones
 //   fails   a : ARRAY[0..2] OF Pump[(3), (4)];                                                        E0362
 CallId checkConstructor(Context& context, TypeExprId type, uint32_t& elements) {
   Tree& tree = context.tree();

@@ -1,6 +1,5 @@
-// LOWER_BOUND and UPPER_BOUND. IEC 61131-3 ed. 3 table 16, 1 and 2. In: calls. Out: a literal where the array has its
-// own bounds, a BoundExpr where it is an ARRAY[*] of a VAR_IN_OUT, whose bounds come with the variable that is bound to
-// it.
+// LOWER_BOUND and UPPER_BOUND. IEC 61131-3 ed. 3 table 16, 1 and 2. In: calls. Out: a literal for an array with fixed
+// bounds, a BoundExpr for the ARRAY[*] of a VAR_IN_OUT, whose bounds are passed with the variable.
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 

@@ -1,6 +1,7 @@
-// Operators in call form: ADD(a, b, c), SEL, MUX, MOVE, SHL … (library functions with {operator '…'}).
-// In: a call of such a function. Out: CallKind::Operator with the operands in order, left-open ones without a value
-// (they count as 0), or a BinaryExpr where times and dates meet, or a ConvertExpr for {operator 'convert'}.
+// Operators in call form: ADD(a, b, c), SEL, MUX, MOVE, SHL … (library functions declared with {operator '…'}, which
+// names an operator of the arithmetic kernel). In: a call of such a function. Out: CallKind::Operator with the operands
+// in order, open ones without a value (they count as 0), or a BinaryExpr for times and dates, or a ConvertExpr for
+// {operator 'convert'}.
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/generic_calls.h"
 #include "sema/checks/division_by_zero.h"
@@ -48,8 +49,8 @@ bool isTime(const Context& context, TypeId type) {
   return TypeTable::isDuration(kind) || TypeTable::isDate(kind);
 }
 
-// ADD(tod, t), MUL(t, 2): the same as the infix form. None when no time or date is among the operands, which are then
-// all checked, or when one is left open.
+// ADD(tod, t), MUL(t, 2): the same as the infix form. None when no operand is a time or date (then all are checked), or
+// when one is left open.
 TypeId infixTimes(Context& context, ExprId& expr, const Arguments& arguments, BinaryOp op, TypeId expected,
                   TypeId forced) {
   CallExpr& node = context.tree().as<CallExpr>(expr);

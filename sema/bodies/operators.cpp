@@ -1,6 +1,6 @@
-// Operators: the common type of both sides, and what the result is. In: UnaryExpr, BinaryExpr, and the operands of
+// Operators: the common type of both sides, and the type of the result. In: UnaryExpr, BinaryExpr, and the operands of
 // operator functions (ADD, MAX, EQ …), which follow the same rules. Out: types, and conversions of the operands.
-// Design §6: integers keep their own width in every subexpression, so what a result is assigned to does not widen it.
+// Integers keep their own width in every subexpression; the target of an assignment does not widen it.
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/temporaries.h"
@@ -36,7 +36,7 @@ TypeId reportOperands(Context& context, std::string_view what, TypeId a, TypeId 
   return types::kError;
 }
 
-// The type that two typed operands share, before what the operator accepts is looked at. None: they do not combine.
+// The common type of two typed operands, whether or not the operator accepts it. None: they do not combine.
 TypeId join(Context& context, TypeId a, TypeId b) {
   types::TypeTable& table = context.types();
   if (sameType(context, a, b)) return a;
@@ -60,7 +60,7 @@ TypeId join(Context& context, TypeId a, TypeId b) {
   return {};
 }
 
-// The type that a typed operand and an untyped one share: the typed one's where the literal fits it.
+// The common type of a typed and an untyped operand: the typed one's where the literal fits it.
 TypeId joinUntyped(Context& context, TypeId typed, ExprId literal, TypeId expected) {
   types::TypeTable& table = context.types();
   const TypeId plain = table.plain(typed);
@@ -108,8 +108,8 @@ bool accepts(Context& context, Operands accepted, TypeId type) {
   return false;
 }
 
-// 'x' = c: next to a character a text literal of one character is that character, and next to a WSTRING or USTRING one
-// in single quotes is a text of that kind.
+// 'x' = c: next to a character a string literal of one character is that character, and next to a WSTRING or USTRING
+// one in single quotes is a string of that kind.
 void typeCharacters(Context& context, std::span<const ExprId> operands) {
   for (const ExprId operand : operands) {
     const TypeKind kind = context.types().plainKind(context.tree().expr(operand).type);
@@ -153,7 +153,7 @@ Operands operandsOf(BinaryOp op) {
 
 bool isComparison(BinaryOp op) { return op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual; }
 
-// Both sides are untyped: the result is, too, but for comparisons. None when the sides must be typed first.
+// Both sides are untyped: the result is, too, except of comparisons. None when the sides must be typed first.
 TypeId combineUntyped(Context& context, BinaryExpr& node) {
   const bool real = context.tree().expr(node.left).type == types::idOf(TypeKind::RealLiteral) ||
                     context.tree().expr(node.right).type == types::idOf(TypeKind::RealLiteral);
@@ -185,7 +185,7 @@ TypeId combineUntyped(Context& context, BinaryExpr& node) {
   return types::idOf(real ? TypeKind::RealLiteral : TypeKind::IntegerLiteral);
 }
 
-// Comparing items of two enumerations means their numbers (codesys).
+// Items of two enumerations are compared by their numbers (codesys).
 bool areOtherEnums(const Context& context, Operands accepted, TypeId a, TypeId b) {
   const types::TypeTable& table = context.types();
   const bool compares = accepted == Operands::Comparable || accepted == Operands::Equatable;
@@ -384,7 +384,7 @@ TypeId checkBinary(Context& context, ExprId& expr, TypeId expected) {
     return combine(context, expr, expected);
   }
   const TypeId left = check(context, node.left, hint, Access::Read);
-  // The other side of a comparison says which enumeration a bare item belongs to, and T# literals their size.
+  // The other side of a comparison decides which enumeration a bare item belongs to, and the size of T# literals.
   const TypeId right = check(context, node.right, comparison && !isUntyped(context, left) ? left : hint, Access::Read);
   if (comparison && left != right && left != types::kError && right != types::kError) {
     const Entity entity = entityOf(context, node.left);

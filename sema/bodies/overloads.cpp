@@ -1,9 +1,9 @@
-// Which of several functions or methods of one name a call means. In: the call, its arguments not checked. Out: the one
-// that takes the arguments best; its arguments are checked then (Arguments::checked), except literals, which depend on
+// Overload resolution: which of several functions or methods of one name a call means. In: the call, its arguments not
+// checked. Out: the best match; its arguments are then checked (Arguments::checked), except literals, which depend on
 // the pin. Edition 3.
 //
-// What takes each argument at least as well as every other, and one of them better, is meant: the same type before an
-// implicit conversion. Where nothing decides, fewer open inputs do.
+// The best match takes each argument at least as well as every other candidate, and one argument better: the same type
+// before an implicit conversion. If that does not decide, fewer open inputs win.
 #include <algorithm>
 
 #include "sema/bodies/bodies.h"
@@ -26,13 +26,13 @@ struct Candidate {
   size_t open_inputs = 0;
 };
 
-// Replaced by what extends, or declared twice, which was said.
+// Overridden by a derived object, or declared twice, which was reported.
 bool isKnown(const Context& context, std::span<const Candidate> known, PouId pou) {
   return std::any_of(known.begin(), known.end(),
                      [&](const Candidate& candidate) { return sameParameters(context.symbols, candidate.pou, pou); });
 }
 
-// The methods of the same name that the bases have, but for those that are replaced.
+// The methods of the same name in the bases, except overridden ones.
 void addInherited(Context& context, PouId method, std::vector<Candidate>& out) {
   const PouId owner = context.symbols.pou(method).owner;
   for (PouId at = owner ? context.symbols.pou(owner).base : PouId{}; at; at = context.symbols.pou(at).base)
@@ -109,7 +109,7 @@ int rankOf(Context& context, const Var& pin, ExprId value) {
   return fits == Fit::Same ? kExact : fits == Fit::Lossless ? kConverted : kNever;
 }
 
-// Each argument once, with the access that the pins ask for.
+// Each argument once, with the access that the pins need.
 void checkArguments(Context& context, const CallExpr& node, std::span<const Candidate> candidates) {
   for (uint32_t i = 0; i < node.arguments.count; ++i) {
     const Argument argument = context.tree().list(node.arguments)[i];

@@ -1,4 +1,4 @@
-// Pointers and references: taking addresses, binding references, and arithmetic on addresses as CODESYS does it.
+// Pointers and references: taking addresses, binding references, and arithmetic on addresses as in CODESYS.
 // In: checked or unchecked operands. Out: AddressOf and Deref nodes, and arithmetic on the 64-bit numbers of addresses.
 // TM/TP manual 5.2, 5.3 (ADR, BITADR, POINTER TO); IEC 61131-3 ed. 3, 6.4.4.10 (REF_TO).
 #include "sema/bodies/bodies.h"
@@ -19,7 +19,7 @@ ExprId addressOf(Context& context, ExprId lvalue, TypeId type, Loc loc) {
   return context.tree().add<ExprId>(node);
 }
 
-// ADR(x), REF(x): the type is that of the operand, so that what it is assigned to decides whether it fits.
+// ADR(x), REF(x): the type is that of the operand, so that the target of the assignment decides whether it fits.
 TypeId checkAddress(Context& context, ExprId& expr, ExprId lvalue) {
   const Loc loc = context.tree().loc(expr);
   TypeId type = check(context, lvalue, {}, Access::Address);
@@ -27,7 +27,7 @@ TypeId checkAddress(Context& context, ExprId& expr, ExprId lvalue) {
   const ExprKind kind = context.tree().kind(lvalue);
   if (kind == ExprKind::This || kind == ExprKind::Super) type = throughObject(context, lvalue, type);
   if (kind == ExprKind::BitAccess && (context.tree().expr(lvalue).bits & kBitMember) != 0) {
-    // TwinCAT gives the byte that holds a BIT.
+    // TwinCAT returns the byte that holds a BIT.
     context.report(diag::AddressOfBitMember, context.tree().begin(lvalue));
     lvalue = context.tree().as<BitAccessExpr>(lvalue).base;
     type = types::kByte;
@@ -70,7 +70,7 @@ TypeId checkVal(Context& context, ExprId& expr, ExprId pointer) {
   return check(context, expr, {}, Access::Read);
 }
 
-// The reference or pointer itself, where the operand is what it refers to.
+// The reference or pointer itself, when the operand is its target.
 TypeId checkIsValid(Context& context, ExprId& expr, ExprId operand) {
   const Loc loc = context.tree().loc(expr);
   const TypeId type = check(context, operand, {}, Access::Read);
@@ -78,7 +78,7 @@ TypeId checkIsValid(Context& context, ExprId& expr, ExprId operand) {
   if (context.tree().kind(operand) == ExprKind::Deref) operand = context.tree().as<DerefExpr>(operand).base;
   const TypeId own = context.tree().expr(operand).type;
   if (const Entity entity = entityOf(context, operand); entity.entityKind() == EntityKind::Var) {
-    // A VAR_IN_OUT of a block refers to nothing before it is bound; one of a function always refers to something.
+    // A VAR_IN_OUT of a block refers to nothing before it is bound; one of a function always refers to a variable.
     const Var& var = context.symbols.vars[entity.index];
     const ExprKind kind = context.tree().kind(operand);
     if (var.section == SectionKind::InOut && (kind == ExprKind::Name || kind == ExprKind::Member)) {
@@ -101,7 +101,7 @@ TypeId checkIsValid(Context& context, ExprId& expr, ExprId operand) {
   return types::kBool;
 }
 
-// A pointer as the signed number of its first byte, so that negative steps are no overflow.
+// A pointer as the signed number of its first byte, so that negative steps do not overflow.
 void toNumber(Context& context, ExprId& expr) { wrapConvert(context, expr, types::kLInt); }
 
 bool isPointer(const Context& context, TypeId type) { return context.types().kind(type) == TypeKind::Pointer; }
@@ -184,7 +184,7 @@ TypeId checkPointerIndex(Context& context, ExprId& expr) {
   if (given != types::kLInt) wrapConvert(context, index, types::kLInt);
   const uint64_t size = context.types().info(context.types().resolve(target)).size;
   const ExprId width = makeLiteral(context, LiteralKind::Integer, types::kLInt, size, loc);
-  // The address of what the pointer itself leads to: a pointer to nothing is found before the offset hides it.
+  // The address of the pointer's target: a null pointer is found before the offset hides it.
   ExprId sum = addressOf(context, makeDeref(context, pointer, target, loc), type, loc);
   context.tree().as<AddressOfExpr>(sum).h.bits = kMustLeadSomewhere;
   toNumber(context, sum);
@@ -195,7 +195,7 @@ TypeId checkPointerIndex(Context& context, ExprId& expr) {
   return target;
 }
 
-// CODESYS counts in bytes: p + 4 is 4 bytes behind p whatever it points to.
+// CODESYS counts in bytes: p + 4 is 4 bytes after p, whatever it points to.
 TypeId combinePointers(Context& context, ExprId& self, TypeId expected) {
   BinaryExpr& node = context.tree().as<BinaryExpr>(self);
   const TypeId left = context.tree().expr(node.left).type, right = context.tree().expr(node.right).type;
@@ -207,7 +207,7 @@ TypeId combinePointers(Context& context, ExprId& self, TypeId expected) {
   if (isUntyped(context, left)) finalizeUntyped(context, node.left, types::kLInt);
   if (isUntyped(context, right)) finalizeUntyped(context, node.right, types::kLInt);
   const bool step = !both && (op == BinaryOp::Add || (op == BinaryOp::Subtract && isPointer(context, left)));
-  if (!step && !(both && op == BinaryOp::Subtract)) {  // a number like another: masks, MOD, comparisons
+  if (!step && !(both && op == BinaryOp::Subtract)) {  // a number like any other: masks, MOD, comparisons
     for (ExprId* side : {&node.left, &node.right}) {
       if (isPointer(context, context.tree().expr(*side).type))
         wrapConvert(context, *side, types::kULInt);

@@ -5,7 +5,7 @@
 
 namespace rung::sema {
 
-// What a reference or an alias stands for.
+// The type without references and aliases.
 TypeId ProjectSignatures::plainType(TypeId type) const {
   const types::TypeTable& table = context_.types();
   type = table.resolve(type);

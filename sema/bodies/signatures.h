@@ -1,6 +1,6 @@
-// What the schedulers of IL, diagrams and NCT may ask (frontend/syntax/signatures.h), answered from the declarations.
+// The answers to the schedulers of IL, diagrams and NCT (frontend/syntax/signatures.h), taken from the declarations.
 // In: names and paths of a body as parsed. Out: kinds and pins; the path itself is not marked or changed.
-// Made by schedule.cpp for each body that is not in ST.
+// Created by statements.cpp for each body that is not in ST, and by variables.cpp for hidden variables of networks.
 #pragma once
 
 #include <deque>
@@ -19,7 +19,7 @@ class ProjectSignatures final : public Signatures {
   Signature of(ExprId path) override;
 
  private:
-  // What a part of a path is: a thing with a name, or a value of a type.
+  // The meaning of a part of a path: a named entity, or a value of a type.
   struct Resolved {
     Entity entity;
     TypeId type;

@@ -26,7 +26,7 @@ namespace rung::sema {
 
 namespace {
 
-// The name that a message gives a place: `a` of `a[i]`, `q` of `x.q`.
+// The name of an lvalue in messages: `a` of `a[i]`, `q` of `x.q`.
 NameId lvalueName(const Context& context, ExprId expr) {
   const Tree& tree = context.tree();
   for (;;) {
@@ -249,10 +249,10 @@ bool checkCase(Context& context, CaseStmt& node) {
   return falls || otherwise || !node.has_else;
 }
 
-// What the step of a FOR over `control` has to be. A step has a sign though the variable may have none:
+// The required type of the step of a FOR over `control`. A step is signed even if the variable is not:
 // FOR u := 9 TO 0 BY -1 counts an unsigned variable down (codesys; the standard wants one type for all).
 TypeId stepType(Context& context, ExprId step, TypeId control) {
-  const TypeId plain = context.types().plain(control);  // a step is no value of the subrange
+  const TypeId plain = context.types().plain(control);  // a step is not a value of the subrange
   const TypeKind kind = context.types().info(plain).kind;
   if (context.iec() || context.types().isSigned(kind)) return plain;
   const TypeId type = context.tree().expr(step).type;
@@ -302,8 +302,8 @@ void checkFor(Context& context, ForStmt& node) {
   if (control) context.body->loop_controls.pop_back();
 }
 
-// Warns of a loop whose condition is the constant that keeps it going, and that nothing leaves. What stands behind it
-// is no second mistake.
+// Warns of a loop whose condition is a constant that never ends it, and that nothing leaves. Statements after it are
+// not reported as unreachable.
 bool checkEndless(Context& context, ExprId condition, bool goes_on, uint32_t ways_out_before, Loc loc) {
   const Tree& tree = context.tree();
   if (tree.kind(condition) != ExprKind::Literal || tree.expr(condition).type != types::kBool) return false;
@@ -412,7 +412,7 @@ bool checkStatements(Context& context, Slice<StmtId> list) {
   return reachable;
 }
 
-// Makes statements of a body in IL or SFC, once the declarations of all files are known.
+// Turns a body in IL or SFC into statements, once the declarations of all files are known.
 static void schedule(Context& context, PouDecl& decl) {
   const BodyKind kind = decl.body_kind;
   if (kind != BodyKind::Il && kind != BodyKind::Sfc && kind != BodyKind::Network) return;

@@ -1,5 +1,5 @@
-// Nodes that sema itself puts into the tree, complete with their types: what is known becomes a literal, what is
-// implicit an expression. In: operands that were checked. Out: a node that need not be checked again.
+// Nodes that sema adds to the tree, complete with their types: known values become literals, implicit operations
+// expressions. In: operands that were checked. Out: a node that need not be checked again.
 #include "sema/bodies/bodies.h"
 
 namespace rung::sema {

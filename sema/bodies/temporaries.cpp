@@ -12,7 +12,7 @@ namespace {
 
 using Temporary = BodyState::Temporary;
 
-constexpr uint16_t kChecked = 1;        // StmtHeader::spare: the value was looked at before its turn
+constexpr uint16_t kChecked = 1;        // StmtHeader::spare: the value was checked ahead of its statement
 constexpr uint32_t kMaxLookAhead = 50;  // temporaries that wait for each other's types
 
 Temporary& stateOf(Context& context, VarId id) {
@@ -29,7 +29,7 @@ VarId temporaryOf(Context& context, ExprId expr) {
 
 bool isNull(const Context& context, TypeId type) { return context.types().info(type).kind == TypeKind::NullLiteral; }
 
-// What holds every value of this type: a text may get longer than the one that came first.
+// A type that holds every value of this one: a string may get longer than the first one.
 TypeId roomFor(Context& context, TypeId type) {
   types::TypeTable& table = context.types();
   const types::TypeInfo& info = table.info(table.resolve(type));
@@ -53,7 +53,7 @@ bool shares(Context& context, TypeId own, ExprId value) {
   return sameType(context, own, type);
 }
 
-// Forbids values of several types in one temporary: two ways to a label of IL that bring different ones (design §3).
+// Forbids values of several types in one temporary: two paths to a label of IL that bring different ones.
 //   passes  LD a (INT)  JMP m … LD 7  m: ST c
 //   fails   LD a (INT)  JMP m … LD b (BOOL)  m: ST c        E0729
 void adaptValue(Context& context, const Temporary& state, AssignStmt& node) {
@@ -90,7 +90,7 @@ void checkValue(Context& context, Temporary& state, AssignStmt& node) {
   if (!isUntyped(context, type) && !isNull(context, type)) finalizeType(context, state, type, node.h.loc);
 }
 
-// Where the body assigns to its temporaries: asked when a reader comes before a value with a type.
+// The body's assignments to its temporaries: needed when a reader comes before a value with a type.
 void collectAssigns(Context& context, Slice<StmtId> list) {
   for (uint32_t k = 0; k < list.count; ++k) {
     const StmtId id = context.tree().list(list)[k];
@@ -118,7 +118,7 @@ void lookAhead(Context& context, Temporary& state) {
   state.busy = false;
 }
 
-// Literals alone take the reader's type where they fit it, else the widest of their own.
+// Literals alone take the reader's type if they fit it, else the widest of their own.
 TypeId typeOfOpen(Context& context, const Temporary& state, TypeId expected) {
   bool fits = expected && !isUntyped(context, expected);
   TypeId widest = types::kInt;

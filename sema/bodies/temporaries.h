@@ -1,13 +1,13 @@
 // Temporaries of the compiler: variables without declared type that the schedulers of IL and diagrams use. Such a
-// variable has the type of what is assigned to it, which all its values share. Literals adapt to that type, or, where
-// there are only literals, to what the first reader wants.
+// variable has the type of the values assigned to it, which they share. Literals adapt to that type or, if there are
+// only literals, to the type that the first reader wants.
 #pragma once
 
 #include "sema/bodies/bodies.h"
 
 namespace rung::sema {
 
-// Gives the variables of a scheduler's section their places in the POU at hand.
+// Adds the variables of a scheduler's section to the current POU.
 void declareTemporaries(Context& context, DeclId section);
 // `temporary := value`. False: the target is something else.
 bool checkTemporaryAssign(Context& context, AssignStmt& node);
@@ -15,7 +15,7 @@ bool checkTemporaryAssign(Context& context, AssignStmt& node);
 bool isOpenTemporary(Context& context, ExprId expr);
 // The type of a temporary that is read.
 TypeId temporaryType(Context& context, VarId id, TypeId expected);
-// Types those that nothing reads. Called at the end of the body.
+// Types the temporaries that are never read. Called at the end of the body.
 void finalizeTemporaries(Context& context);
 
 }  // namespace rung::sema

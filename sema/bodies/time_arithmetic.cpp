@@ -1,6 +1,6 @@
 // Arithmetic on times and dates: TIME * INT, TIME / REAL, DT - DT, TOD + TIME … (IEC 61131-3 ed. 3 table 35).
 // In: a BinaryExpr with a time or date on one side. Out: the same as arithmetic on integers of the type's own unit,
-// with conversions at the rim, so that lowering and the kernel know one kind of arithmetic.
+// with conversions at both ends, so that lowering and the kernel know one kind of arithmetic.
 // TIME and TOD count milliseconds, DATE and DT seconds, the L forms nanoseconds.
 #include "sema/bodies/bodies.h"
 #include "sema/diagnostics.h"
@@ -47,7 +47,7 @@ TypeId scale(Context& context, ExprId& self, BinaryOp op, ExprId span, ExprId fa
     if (by == TypeKind::RealLiteral && !adapt(context, factor, types::kLReal, {})) return types::kError;
     span = converted(context, converted(context, span, counter(context, kind)), types::kLReal);
     self = makeBinary(context, op, span, converted(context, factor, types::kLReal), types::kLReal, loc);
-    // The count is rounded as any REAL is.
+    // The count is rounded like any REAL.
     self = converted(context, converted(context, self, counter(context, kind)), duration);
     return duration;
   }

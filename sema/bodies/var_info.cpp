@@ -1,5 +1,5 @@
-// __VARINFO(x), __POUNAME() and __POSITION() of codesys: what the compiler knows of a variable and of the place in the
-// program. In: calls. Out: literals, and an AnyValue node with the constant members of __SYSTEM.VAR_INFO.
+// __VARINFO(x), __POUNAME() and __POSITION() of codesys: compile-time facts about a variable and the source location.
+// In: calls. Out: literals, and an AnyValue node with the constant members of __SYSTEM.VAR_INFO.
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/checks/addressable.h"
@@ -30,7 +30,7 @@ struct Facts {
   }
 };
 
-// The text of the `///` line above a declaration.
+// The content of the `///` line above a declaration.
 std::string commentOf(const Context& context, const Var& var) {
   if (!var.decl || !context.tree().decl(var.decl).doc) return {};
   const Loc doc = context.tree().decl(var.decl).doc;
@@ -99,7 +99,7 @@ void addType(Facts& facts, TypeId type, bool is_bit) {
   facts.add("ElemBitSize", bits(info.base));
 }
 
-// The byte of the image that holds a located bit; none for other places.
+// The byte of the image that holds a located bit; none for other lvalues.
 ExprId byteOfImage(Context& context, ExprId lvalue) {
   const Entity entity = entityOf(context, lvalue);
   if (entity.entityKind() != EntityKind::Var) return {};

@@ -1,8 +1,8 @@
-// Forbids the address of what has none: one bit, a value, a constant number. Arrays, structures and texts have memory
-// even when they are constant. Design §6; TM/TP manual 5.2 (ADR).
+// Forbids the address of an expression without memory: one bit, a value, a constant number. Arrays, structures and
+// strings have memory even when they are constant. TM/TP manual 5.2 (ADR).
 //   passes  p := ADR(level);  p := ADR(motors[2].speed);  p := ADR(table) where table is VAR CONSTANT
 //   fails   p := ADR(word.3);  p := ADR(a + b);  p := ADR(limit) where limit : INT is VAR CONSTANT      E0537
-// Called for the operand of ADR and REF, and for what a reference is bound to.
+// Called for the operand of ADR and REF, and for the target of a reference.
 #include "sema/checks/addressable.h"
 
 #include "sema/checks/diagnostics.h"
@@ -11,7 +11,7 @@ namespace rung::sema {
 
 namespace {
 
-// What is wrong with the variable as the root of a place, or nothing.
+// The reason why a variable at the root of an lvalue has no address, or null.
 const char* whyNotAddressable(const Context& context, VarId id) {
   const Var* var = &context.symbols.var(id);
   if (var->external) var = &context.symbols.var(var->external);

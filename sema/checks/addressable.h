@@ -1,4 +1,4 @@
-// Forbids the address of what has none; see addressable.cpp.
+// Forbids the address of an expression without memory; see addressable.cpp.
 #pragma once
 
 #include "sema/bodies/bodies.h"

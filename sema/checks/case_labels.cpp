@@ -1,5 +1,5 @@
-// Forbids a CASE label that an earlier one covers already, and a range that runs backwards. IEC 61131-3 ed. 3,
-// 7.3.3.3.3: only the first branch would ever run.
+// Forbids a CASE label that an earlier one covers, and a range with its bounds reversed. IEC 61131-3 ed. 3, 7.3.3.3.3:
+// only the first branch would ever run.
 //   passes  1, 2: …   3..9: …
 //   fails   1, 2: …   2: …       9..3: …
 // Called at the end of each CASE. Sorts: n labels cost n log n.

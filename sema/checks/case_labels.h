@@ -11,7 +11,7 @@ struct CaseLabels {
     Loc loc;
   };
   std::vector<Label> list;
-  bool ok = false;  // of the label at hand
+  bool ok = false;  // of the current label
 };
 void addCaseLabel(Context& context, CaseLabels& labels, int64_t low, int64_t high, Loc loc, bool is_signed);
 void checkCaseLabels(Context& context, CaseLabels& labels, TypeId selector, bool is_signed);

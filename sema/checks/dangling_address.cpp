@@ -1,5 +1,5 @@
-// Forbids (codesys: warns of) keeping the address of a variable that lives for one call only in memory that lives
-// longer. IEC 61131-3 ed. 3, 6.4.4.10.2: a reference to a temporary variable must not leave its POU.
+// Forbids (codesys: warns of) storing the address of a variable that lives for one call in memory that lives longer.
+// IEC 61131-3 ed. 3, 6.4.4.10.2: a reference to a temporary variable must not leave its POU.
 //   passes  FUNCTION f … VAR p : REF_TO INT; x : INT; END_VAR p := REF(x);
 //   fails   FUNCTION f … VAR x : INT; END_VAR keeper.p := REF(x);                                        E0538
 // Called for each assignment of a pointer and each binding of a reference.
@@ -11,7 +11,7 @@ namespace rung::sema {
 
 namespace {
 
-// The variable that holds a place, or none where a pointer leads there.
+// The variable that holds an lvalue, or none where the path goes through a pointer.
 VarId rootOf(const Context& context, ExprId lvalue) {
   const Tree& tree = context.tree();
   for (;;) {
@@ -50,7 +50,7 @@ VarId rootOf(const Context& context, ExprId lvalue) {
   }
 }
 
-// Memory of one call: what a caller owns is not.
+// Memory of one call; memory of a caller is not.
 bool isCallScoped(const Context& context, VarId id) {
   if (!id) return false;
   const Var& var = context.symbols.var(id);

@@ -1,4 +1,4 @@
-// Messages of the rules in sema/checks. One constant for each row of diagnostics.def.
+// Diagnostics of the rules in sema/checks, one constant for each row of diagnostics.def.
 #pragma once
 
 #include "frontend/source/diagnostics.h"

@@ -1,4 +1,4 @@
-// Forbids a division, or MOD, by a constant zero. IEC 61131-3 ed. 3, 7.3.2 (an error that can be seen here).
+// Forbids a division, or MOD, by a constant zero. IEC 61131-3 ed. 3, 7.3.2 (an error that is known at compile time).
 //   passes  share := total / 4;
 //   fails   share := total / 0;   share := 7 MOD 0;
 // Called for each infix division and for DIV and MOD.

@@ -1,4 +1,4 @@
-// What FOR asks: the control variable is an integer variable, the step is not 0, and constant limits are reached.
+// Requires of FOR: the control variable is an integer variable, the step is not 0, and constant limits are reached.
 // IEC 61131-3 ed. 3, 7.3.3.4.2.
 //   passes  FOR i := 1 TO 9 BY 2 DO
 //   fails   FOR r := 0.0 TO 1.0 DO (REAL)   FOR i := 1 TO 9 BY 0 DO   FOR i := 9 TO 1 DO (warning: never runs)

@@ -1,4 +1,4 @@
-// Forbids jumps to labels that are not there or not in reach; see jump_labels.cpp.
+// Forbids jumps to undeclared or unreachable labels; see jump_labels.cpp.
 #pragma once
 
 #include "sema/bodies/bodies.h"

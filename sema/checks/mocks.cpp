@@ -1,6 +1,7 @@
-// Mocks of tests (design §11). A mock replaces a function or block in the tests that name it. It has the pins and the
-// result of what it replaces, so each test is checked with the original; for `rung test`, tests with mocks are then
-// checked and translated once more for each set of mocks (Options::mocks), where the replaced names mean the mocks.
+// Mocks of tests. A mock replaces a function or block in the tests that name it. It has the same pins and result, so
+// each test is checked with the original; for `rung test`, tests with mocks are then checked and translated once more
+// for each set of mocks (Options::mocks), where the replaced names mean the mocks. Layout, initial values and calls
+// follow, in both engines.
 //   passes  {replaces 'Level'} FUNCTION Full : REAL …   {test} {mock 'Full'} PROGRAM stops_when_full …
 //   fails   {replaces 'Levl'} FUNCTION Full : REAL …                                             E0621
 //   fails   {replaces 'Level'} FUNCTION_BLOCK Full …                                             E0622
@@ -48,7 +49,7 @@ void chooseTests(Context& context) {
 
 namespace {
 
-// An error at a pragma marks all of it.
+// An error at a pragma underlines all of it.
 Report reportPragma(Context& context, Diag diag, const Pragma& pragma, std::initializer_list<std::string_view> args) {
   const Sources& sources = context.symbols.sources;
   const FileId file = sources.fileOf(pragma.loc);
@@ -138,7 +139,7 @@ void checkReplaced(Context& context, PouId id, const Pragma& pragma) {
 
 void checkMocks(Context& context) {
   Symbols& symbols = context.symbols;
-  if (!context.project.options.mocks.empty()) return;  // was done with the originals
+  if (!context.project.options.mocks.empty()) return;  // was checked with the originals
   const Scopes::KnownNames& known = context.scopes.known_names;
   std::vector<bool> taken(symbols.pous.size());
   for (uint32_t i = 1; i < symbols.pous.size(); ++i) {

@@ -5,7 +5,7 @@
 
 namespace rung::sema {
 
-// Which tests and mocks are part of the program. Between collecting the declarations and resolving them.
+// Selects the tests and mocks that are part of the program. Between collecting the declarations and resolving them.
 void chooseTests(Context& context);
 // Before the bodies: library blocks that mocks replace join the project.
 void checkMocks(Context& context);

@@ -1,7 +1,7 @@
-// Forbids what a block, class or interface cannot promise: a method of an interface or an abstract one of a base that
-// it does not have; another signature than that of the method it replaces; replacing a FINAL one; OVERRIDE without a
-// method to replace, and in edition 3 replacing without OVERRIDE; an abstract method in what is not ABSTRACT; a
-// variable of the base declared again; halves of a property that do not fit. IEC 61131-3 ed. 3, 6.6.5.5.4, 6.6.6.6.
+// Forbids objects that break the contract of their bases and interfaces: a missing method of an interface or an
+// abstract base; an override with another signature; overriding a FINAL method; OVERRIDE without a method to override,
+// and in edition 3 overriding without OVERRIDE; an abstract method in an object that is not ABSTRACT; a redeclared
+// variable of the base; halves of a property that differ. IEC 61131-3 ed. 3, 6.6.5.5.4, 6.6.6.6.
 //   passes  FUNCTION_BLOCK Pump IMPLEMENTS IDrive METHOD Start … END_METHOD
 //   fails   FUNCTION_BLOCK Pump IMPLEMENTS IDrive (without Start)                    E0355
 // Called once for each object of the project, when everything is declared.
@@ -33,7 +33,7 @@ std::string_view kindName(const Pou& member) {
                                                  : "SET of the property";
 }
 
-// Forbids hiding what may be called through the base or the interface.
+// Forbids an override that is less visible than the method of the base or interface.
 //   fails   METHOD PRIVATE Start (PUBLIC in the base)                                    E0363
 void checkAccess(Context& context, PouId method, PouId replaced) {
   const Pou& pou = context.symbols.pou(method);
@@ -59,7 +59,7 @@ void checkSignature(Context& context, PouId method, PouId replaced) {
   const Pou& pou = context.symbols.pou(method);
   const Pou& other = context.symbols.pou(replaced);
   std::string difference;
-  if (pou.accessor == Pou::Accessor::Set) {  // GET has said that the property is of another type
+  if (pou.accessor == Pou::Accessor::Set) {  // GET has reported that the property is of another type
     for (const PouId member : context.symbols.pou(pou.owner).members)
       if (context.symbols.pou(member).accessor == Pou::Accessor::Get &&
           context.names().same(context.symbols.pou(member).name, pou.name))
@@ -93,7 +93,7 @@ void checkSignature(Context& context, PouId method, PouId replaced) {
 struct Demands {
   Context& context;
   PouId object;
-  Loc loc;  // of the name that demands
+  Loc loc;  // of the name that requires it
   std::vector<PouId> seen;
 
   void interface(PouId id) {
@@ -151,7 +151,7 @@ void checkMethod(Context& context, PouId object, PouId id) {
     context.report(diag::OverridesFinal, method.loc, {string(context, method.name), base})
         .note(other.loc, diag::DeclaredHere);
   } else if (isLifeMethod(context, method.name)) {
-    return;  // FB_Init has parameters of its own
+    return;  // the parameters of FB_Init may differ
   } else if (context.iec() && (method.modifiers & kOverride) == 0) {
     context.report(diag::OverrideMissing, method.loc, {string(context, method.name), base});
   } else {
@@ -159,7 +159,7 @@ void checkMethod(Context& context, PouId object, PouId id) {
   }
 }
 
-// Forbids PROPERTY_GET and PROPERTY_SET of one name with different types or access words. Edition 4.
+// Forbids PROPERTY_GET and PROPERTY_SET of one name with different types or access specifiers. Edition 4.
 //   passes  PROPERTY_GET PUBLIC Speed : INT … PROPERTY_SET PUBLIC Speed : INT …
 //   fails   PROPERTY_GET Speed : INT … PROPERTY_SET Speed : REAL …                                           E0555
 void checkHalves(Context& context, const Property& property) {
@@ -223,14 +223,14 @@ void checkObjectMembers(Context& context, PouId object) {
   }
   for (const VarId id : pou.vars) {
     const Var& var = context.symbols.var(id);
-    if (!var.decl || !var.name || var.of_chart) continue;  // of two charts, each has its own
+    if (!var.decl || !var.name || var.of_chart) continue;  // each of two charts has its own
     const Entity first = findInObject(context, pou.base, var.name);
     if (first.entityKind() == EntityKind::Var)
       reportTwice(context, var.name, var.loc, context.symbols.vars[first.index].loc);
   }
 }
 
-// Forbids instances of what is ABSTRACT.   fails   VAR s : Shape; END_VAR (ABSTRACT)      E0356
+// Forbids instances of an ABSTRACT type.   fails   VAR s : Shape; END_VAR (ABSTRACT)      E0356
 bool checkNotAbstract(Context& context, TypeId type, Loc loc) {
   while (context.types().kind(type) == TypeKind::Array) type = context.types().info(context.types().resolve(type)).base;
   const PouId pou = context.types().kind(type) == TypeKind::Record ? pouOf(context, type) : PouId{};

@@ -1,4 +1,4 @@
-// See object_members.cpp.
+// Forbids incomplete and conflicting members of objects; see object_members.cpp.
 #pragma once
 
 #include "sema/bodies/bodies.h"
@@ -7,7 +7,7 @@ namespace rung::sema {
 
 void checkObjectMembers(Context& context, PouId object);
 
-// The type of a variable: no instance of it may be abstract.
+// Forbids an abstract type for a variable or its parts.
 bool checkNotAbstract(Context& context, TypeId type, Loc loc);
 
 }  // namespace rung::sema

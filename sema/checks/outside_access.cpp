@@ -1,5 +1,7 @@
-// Forbids what a block does not show: its locals (codesys: those of a library, and setting them); writing its outputs
-// and in-outs from outside; in iec also reading its inputs. IEC 61131-3 ed. 3, 6.6.3.4; design §6, dialect table.
+// Forbids access to a block's variables from outside: its locals (codesys: those of a library, and setting them);
+// writing its outputs and in-outs; in iec also reading its inputs. IEC 61131-3 ed. 3, 6.6.3.4; docs/language.md
+// "Dialects". Inputs may be set in every dialect (ed. 3 table 42, 6a): IL stores them before CAL in edition 2 as well,
+// and sema does not know the language of a body.
 //   passes  x := timer.Q;   timer.PT := T#5s (codesys);
 //   fails   timer.Q := TRUE;   x := mixer.step (a VAR)
 // Called by names.cpp for each `instance.pin`.
@@ -29,7 +31,7 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
     return false;
   };
   switch (var.section) {
-    case SectionKind::Input:  // set for the call that follows: ed. 3 table 42, 6a, table 69, 2
+    case SectionKind::Input:  // set for the next call: ed. 3 table 42, 6a, table 69, 2
       if (!context.iec() || program || access == Access::Write || access == Access::Qualifier) return true;
       return refuse(diag::InputReadOutside);
     case SectionKind::Output: return writes ? refuse(diag::OutputWrittenOutside) : true;

@@ -1,8 +1,8 @@
 // Warns of two located variables that share bytes and are both written, unless they are the same view: equal address
-// and type. Reading the bits of a word that others write is what views are for. Manual 4.1.1; IEC 61131-3 ed. 3, 6.5.5.
+// and type. Bits of a word that others write may be read: views exist for that. Manual 4.1.1; IEC 61131-3 ed. 3, 6.5.5.
 //   passes  word AT %MW0 : WORD; bit AT %MX0.3 : BOOL;   only one of them is written
 //   fails   low AT %MW0 : DWORD; high AT %MW1 : WORD;    both are
-// Called once, when all bodies are checked and all addresses are known. Sorted by place: no pair is looked at twice.
+// Called once, when all bodies are checked and all addresses are known. Sorted by position: no pair is compared twice.
 #include "sema/checks/overlapping_addresses.h"
 
 #include <algorithm>

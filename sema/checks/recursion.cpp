@@ -1,7 +1,7 @@
 // Forbids a POU that calls itself, directly or through others (codesys: warning). IEC 61131-3 ed. 3, 6.6.1.
 //   passes  Outer calls Inner
 //   fails   Fact := n * Fact(n - 1);
-// Called once, when all bodies are checked. One depth-first walk over the calls, without recursion of its own.
+// Called once, when all bodies are checked. One depth-first walk over the calls, with an explicit stack.
 #include "sema/checks/recursion.h"
 
 #include <algorithm>

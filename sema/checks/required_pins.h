@@ -1,4 +1,4 @@
-// Forbids calls that leave open what must be connected; see required_pins.cpp.
+// Forbids calls that leave required pins open; see required_pins.cpp.
 #pragma once
 
 #include "sema/bodies/bodies.h"

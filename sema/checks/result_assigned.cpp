@@ -1,4 +1,4 @@
-// Warns of a function with a result that its body never assigns. Syntax manual 5.6.1.3: it gives the type's default.
+// Warns of a function whose body never assigns its result. Syntax manual 5.6.1.3: the result is the type's default.
 //   passes  FUNCTION Twice : INT … Twice := 2 * x;
 //   fails   FUNCTION Twice : INT … y := 2 * x;
 // Called at the end of each body.
@@ -12,7 +12,7 @@ namespace rung::sema {
 void checkResultAssigned(Context& context) {
   const Pou& pou = context.symbols.pou(context.pou);
   if (pou.library || !pou.result_var || context.symbols.var(pou.result_var).written) return;
-  if (pou.owner && isLifeMethod(context, pou.name)) return;  // nobody looks at theirs
+  if (pou.owner && isLifeMethod(context, pou.name)) return;  // their results are not used
   context.report(diag::ResultNotAssigned, pou.loc, {string(context, pou.name)});
 }
 

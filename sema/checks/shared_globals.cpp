@@ -1,5 +1,5 @@
 // Warns of a variable outside of the program that the programs of two tasks write: one task may interrupt the other
-// between its reading and its writing. Globals are shared directly (design §9).
+// between its read and its write. Globals are shared without a copy per task (docs/language.md "Tasks").
 //   passes  one task writes `level`, the other reads it
 //   fails   both tasks have `count := count + 1;`
 // Called once, after the recursion rule, which sorts the calls by their caller. Linear in POUs and calls for each task.
@@ -20,7 +20,7 @@ void checkSharedGlobals(Context& context) {
   for (const auto& edge : edges) ++first[edge.caller.index + 1];
   for (size_t i = 0; i < count; ++i) first[i + 1] += first[i];
 
-  std::vector<uint32_t> writer(project.vars.size(), 0);  // the task, from 1; told: ~0
+  std::vector<uint32_t> writer(project.vars.size(), 0);  // the task, from 1; reported: ~0
   std::vector<uint32_t> seen(count, 0);
   std::vector<uint32_t> open;
   for (uint32_t task = 1; task <= project.tasks.size(); ++task) {
@@ -40,7 +40,7 @@ void checkSharedGlobals(Context& context) {
       if (by == 0) by = task;
       if (by == task || by == ~0u) continue;
       const Var& var = project.var(write.var);
-      if (uncopiedIn(context, var.type)) continue;  // a lock, or what has one of its own
+      if (uncopiedIn(context, var.type)) continue;  // a lock, or an object that contains one
       context.report(diag::TwoTasksWrite, var.loc,
                      {string(context, var.name), string(context, project.tasks[by - 1].name),
                       string(context, project.tasks[task - 1].name)});

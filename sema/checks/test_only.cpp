@@ -1,8 +1,8 @@
-// Forbids the use of a POU marked {test_only}, or of a mock, in a POU that is not for tests: a program that moves its
-// own clock would run otherwise in the plant. Design §11.
+// Forbids the use of a POU marked {test_only}, or of a mock, in a POU that is not for tests: otherwise a program that
+// moves its own clock could run in the plant.
 //   passes  {test} PROGRAM opens_late … TEST_ADVANCE(T#100ms);
 //   fails   PROGRAM Main … TEST_ADVANCE(T#100ms);          E0620
-// Called for every call of a function and every type that is named.
+// Called for every call of a function and every named type.
 #include "sema/checks/test_only.h"
 
 #include "sema/checks/diagnostics.h"

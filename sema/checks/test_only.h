@@ -1,4 +1,4 @@
-// Forbids outside of tests what only tests may use; see test_only.cpp.
+// Forbids test-only POUs outside of tests; see test_only.cpp.
 #pragma once
 
 #include "sema/context.h"

@@ -1,4 +1,4 @@
-// Forbids copies of what is marked {no_copy}, which MUTEX and SEMA are: who holds a lock must not be told twice, and a
+// Forbids copies of blocks marked {no_copy}, such as MUTEX and SEMA: the owner of a lock must not exist twice, and a
 // lock that lives for one call guards nothing. Edition 4, 6.9; which variables: our decision.
 //   passes  VAR_GLOBAL m : MUTEX; END_VAR … VAR_IN_OUT m : MUTEX; END_VAR … LOCK(m);
 //   fails   a := b; (both MUTEX, or structures that hold one)                                                 E0629

@@ -1,14 +1,14 @@
-// See uncopied.cpp.
+// Forbids copies of {no_copy} blocks; see uncopied.cpp.
 #pragma once
 
 #include "sema/bodies/bodies.h"
 
 namespace rung::sema {
 
-// The block marked {no_copy} that a variable of this type holds; none: it may be copied.
+// The {no_copy} block that a variable of this type holds; none: it may be copied.
 PouId uncopiedIn(Context& context, TypeId type);
 
-// False when it was reported.
+// False after an error.
 bool checkKept(Context& context, const Var& var, Loc loc);
 bool checkCopied(Context& context, ExprId expr, TypeId type);
 

@@ -1,8 +1,8 @@
-// Warns of a local that nobody reads or writes, of a local of a function or block that is read and never written, and
-// of an output that its block never writes. Located variables and a program's own may be moved from outside.
+// Warns of a local that is never read or written, of a local of a function or block that is read and never written, and
+// of an output that its block never writes. Located variables and a program's own may be accessed from outside.
 //   passes  VAR n : INT; END_VAR   n := n + 1;
 //   fails   VAR n : INT; END_VAR   (nothing)
-// Called once, when all bodies are checked; silent when there are errors, which leave uses unseen.
+// Called once, when all bodies are checked; silent when there are errors, since uses may then be missing.
 #include "sema/checks/unused_variables.h"
 
 #include "sema/checks/diagnostics.h"
@@ -11,7 +11,7 @@ namespace rung::sema {
 
 namespace {
 
-// An object that is made by FB_Init works without being named.
+// An object constructed by FB_Init may work without being named.
 bool isCreatedByMethod(Context& context, TypeId type) {
   while (context.types().kind(type) == types::TypeKind::Array)
     type = context.types().info(context.types().resolve(type)).base;

@@ -1,4 +1,4 @@
-// Warns of variables that nobody reads or writes; see unused_variables.cpp.
+// Warns of variables that are never read or written; see unused_variables.cpp.
 #pragma once
 
 #include "sema/bodies/bodies.h"

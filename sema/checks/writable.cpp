@@ -1,6 +1,6 @@
-// Forbids a target that is no variable: a literal, a result, an enumeration item; a constant; a VAR_INPUT inside its
-// own POU (codesys: warning); the control variable of a FOR around it (codesys: warning); what a chart keeps.
-// IEC 61131-3 ed. 3, 6.5.2.2 and 7.3.3.4.2; design §6, dialect table.
+// Forbids a target that is not a variable: a literal, a result, an enumeration item; a constant; a VAR_INPUT inside its
+// own POU (codesys: warning); the control variable of an enclosing FOR (codesys: warning); the state of a chart.
+// IEC 61131-3 ed. 3, 6.5.2.2 and 7.3.3.4.2; docs/language.md "Dialects".
 //   passes  level := 5;  motors[2].speed := 1.0;
 //   fails   5 := level;  limit := 3 (VAR CONSTANT);  FOR i := 1 TO 3 DO i := 2; END_FOR
 // Called for every target of an assignment, output binding and in-out argument.
@@ -38,7 +38,7 @@ bool checkVariable(Context& context, VarId id, Loc loc) {
   return true;
 }
 
-// Forbids writing what a chart keeps of its steps and actions, everywhere but in the text that the chart became.
+// Forbids writing a chart's state of its steps and actions, except in the statements generated for the chart.
 // IEC 61131-3 ed. 3, 6.7.2; TM/TP manual 5.5.2.5.
 //   fails   INITIAL_STEP a: END_STEP …  ACTION b: a.x := TRUE; END_ACTION        E0746
 bool checkOfChart(Context& context, VarId id, Loc loc, std::string_view member) {
@@ -63,7 +63,7 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
         const NameExpr& node = tree.as<NameExpr>(expr);
         if (node.entity.entityKind() == EntityKind::Var) {
           const VarId var{node.entity.index};
-          const bool passed = purpose.phrase != "assigned to";  // a whole step may be lent to an in-out
+          const bool passed = purpose.phrase != "assigned to";  // a whole step may be passed to an in-out
           return (passed || checkOfChart(context, var, node.h.loc, {})) && checkVariable(context, var, node.h.loc);
         }
         context.report(diag::NotAPlace, node.h.loc, {purpose.toString(context)});
@@ -90,7 +90,7 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
         }
         const types::TypeInfo& info = context.types().info(context.types().resolve(tree.expr(node.base).type));
         if (info.record_kind == types::RecordKind::FunctionBlock || info.record_kind == types::RecordKind::Program) {
-          return true;  // outside_access has looked at it
+          return true;  // checked by outside_access
         }
         expr = node.base;
         break;

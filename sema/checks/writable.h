@@ -1,4 +1,4 @@
-// Forbids writing to what is no variable, or may not be written here; see writable.cpp.
+// Forbids writing to anything but a variable that is writable here; see writable.cpp.
 #pragma once
 
 #include "sema/bodies/bodies.h"

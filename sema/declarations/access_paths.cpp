@@ -1,6 +1,6 @@
 // VAR_ACCESS: names under which the host finds single variables. In: the sections of configurations and programs, once
-// all instances are known. Out: Project::access_paths, each with the place that it means. IEC 61131-3 ed. 3 table 62,
-// 10 and table 47, 9. Without a direction an access path is READ_ONLY.
+// all instances are known. Out: Project::access_paths, each with the location that it names. Without a direction an
+// access path is READ_ONLY. IEC 61131-3 ed. 3 table 62, 10 and table 47, 9.
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
@@ -21,7 +21,7 @@ struct Step {
 struct AccessPathResolver {
   Context context;
   Project& project;
-  NameMap names;  // what is declared so far, by the whole symbol
+  NameMap names;  // declared so far, by the whole symbol
 
   Tree& tree() const { return context.tree(); }
   std::string_view string(NameId name) const { return context.names().string(name); }
@@ -43,14 +43,14 @@ struct AccessPathResolver {
     }
   }
 
-  // The path does not lead to a variable.
+  // Forbids a path that does not name a variable.
   //   passes  level : Cpu.p.level : INT;       fails   level : Cpu.p.lvl : INT;       E0890
   bool lost(const Ident& at) {
     context.report(diag::AccessPath, at.loc, {string(at.name)});
     return false;
   }
 
-  // The bytes in front of a member, that of a base included.
+  // The bytes before a member, inherited ones included.
   uint64_t offsetOf(TypeId record, const Var& member) {
     uint64_t offset = 0;
     const NamedType* named = context.scopes.named(context.types().resolve(record));
@@ -106,7 +106,7 @@ struct AccessPathResolver {
     return true;
   }
 
-  // Where the steps lead, from the program `of` or from the whole project.
+  // Resolves the steps, from the program `of` or from the whole project.
   bool follow(std::span<const Step> steps, AccessPath& out, TypeId& type) {
     size_t next = 0;
     const auto matches = [&](NameId name) {
@@ -130,7 +130,7 @@ struct AccessPathResolver {
           out.root == AccessPath::Root::Instance ? project.instances[out.index].program : PouId{out.index};
       record = project.pou(program).record;
     }
-    if (!record) {  // a global variable, its resource or configuration in front
+    if (!record) {  // a global variable, after its resource or configuration
       next = 0;
       Entity list = context.scopes.qualifiers.find(keyOf(context, steps[0].name.name));
       for (const ProgramInstance& instance : project.instances)
@@ -165,7 +165,7 @@ struct AccessPathResolver {
     return static_cast<bool>(type) || lost(steps.back().name);
   }
 
-  // Forbids a type that is not the variable's, and two access paths of one name.
+  // Forbids a type that differs from the variable's, and two access paths of one name.
   void declare(DeclId id, AccessPath out) {
     VarDecl& decl = tree().as<VarDecl>(id);
     if (decl.names.empty() || !decl.type || tree().kind(decl.type) == TypeExprKind::Error) return;
@@ -185,7 +185,7 @@ struct AccessPathResolver {
     } else {
       std::vector<Step> steps;
       if (decl.init) flatten(decl.init, steps);
-      if (steps.empty()) return;  // the parser has told
+      if (steps.empty()) return;  // reported by the parser
       last = steps.back().name;
       type = {};
       if (!follow(steps, out, type)) return;
@@ -254,7 +254,7 @@ struct AccessPathResolver {
           out.configuration = project.instances[i].configuration;
           const uint32_t errors = project.diagnostics.errorCount();
           for (uint32_t v = 0; v < section.vars.count; ++v) declare(tree().list(section.vars)[v], out);
-          if (project.diagnostics.errorCount() != errors) break;  // the same would be said of each instance
+          if (project.diagnostics.errorCount() != errors) break;  // each instance would repeat the error
         }
       }
     }

@@ -41,7 +41,7 @@ TypeId addressType(const DirectAddress& address) {
   }
 }
 
-// Forbids addresses that name no place, and types that do not fit a bit. Manuals 4.1.1, IEC 61131-3 ed. 3 table 16.
+// Forbids addresses outside the image, and types that do not fit a bit. Manuals 4.1.1, IEC 61131-3 ed. 3 table 16.
 //   passes  v AT %QX5.1 : BOOL; w AT %QW28 : INT;
 //   fails   v AT %QX5.9 : BOOL;                         E0340
 //   fails   v AT %QX5.1 : INT;                          E0341
@@ -94,13 +94,13 @@ std::optional<ImageView> resolveAddress(Context& context, const DirectAddress& a
   return view;
 }
 
-// Two numbers of a bit, one of everything else are flat; the standard leaves open what more of them mean.
+// Two numbers of a bit, one of everything else are flat; the standard leaves the meaning of more numbers open.
 // IEC 61131-3 ed. 3 table 16, ed. 2 table 15.
 bool isHierarchical(const Context& context, const DirectAddress& address) {
   return !address.incomplete && context.tree().list(address.path).size() > (isBitAddress(address) ? 2u : 1u);
 }
 
-// The type of the user must be known. Equal addresses are one place, as large as its largest user.
+// The type of the user must be known. Equal addresses share a location, as large as its largest user.
 VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, VarId user) {
   Project& project = context.project;
   Scopes& scopes = context.scopes;
@@ -147,8 +147,8 @@ VarId hierarchicalVar(Context& context, const DirectAddress& address, Loc loc, V
   return allocation.named;
 }
 
-// Behind the last byte of the other addresses, by name, each at the next byte that is aligned for it. Bits have a byte
-// each, so that all is found by its own.
+// After the last byte of the other addresses, by name, each at the next byte aligned for it. Bits get a byte each, so
+// that each address leads to its own byte.
 void allocateHierarchical(Context& context) {
   Project& project = context.project;
   std::vector<Scopes::HierarchicalAddress>& allocations = context.scopes.hierarchical;

@@ -1,6 +1,6 @@
-// Members of type BIT (codesys): eight in a row share a byte, the first is its lowest bit. In: variables that are
-// declared BIT. Out: hidden BYTE fields with the bits at their places, and the byte that the initial values of the bits
-// make. In bodies such a member is a BitAccess to that byte (bodies/names.cpp). In a union each is bit 0.
+// Members of type BIT (codesys): eight in a row share a byte, the first is its lowest bit. In: variables declared BIT.
+// Out: hidden BYTE fields, the position of each bit, and the byte made of the bits' initial values. In bodies such a
+// member is a BitAccess to that byte (bodies/names.cpp). In a union each is bit 0.
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 
@@ -18,7 +18,7 @@ bool isBit(Context& context, TypeExprId written) {
   return isNamedBit(context, name) && !lookUpType(context, name);
 }
 
-// Forbids BIT outside of structures and blocks, where nothing stands beside it that it could share a byte with.
+// Forbids BIT outside of structures and blocks, where there is nothing to share a byte with.
 //   passes  TYPE t : STRUCT ready : BIT; END_STRUCT END_TYPE       fails  FUNCTION f VAR b : BIT; END_VAR      E0380
 bool mayBeBit(Context& context, const Var& var, TypeExprId written) {
   const bool block = var.pou && (context.symbols.pou(var.pou).kind == PouKind::FunctionBlock ||
@@ -74,7 +74,7 @@ void addBit(Context& context, TypeId record, VarId id) {
   addBitAt(context, record, id, addByteOfBits(context, record, id), 0);
 }
 
-// The byte that a member of type BIT is in, as all its bits are declared; each must have a constant value.
+// The initial byte that holds a member of type BIT, from the declarations of all its bits; each value must be constant.
 uint8_t initialBits(Context& context, TypeId record, VarId byte) {
   uint8_t value = 0;
   const NamedType& named = *context.scopes.named(context.types().resolve(record));

@@ -221,8 +221,8 @@ void collectType(Context& context, DeclId id, FileId file, uint32_t library) {
   }
 }
 
-// {list 'Plant'} names the list to which this section and those behind it in the file belong: in PLCopen XML, one file
-// holds many. Otherwise a list has the name of its file.
+// {list 'Plant'} names the list of this section and of those after it in the file: in PLCopen XML, one file holds many
+// lists. Otherwise a list has the name of its file.
 std::string listOfSection(Context& context, const SectionDecl& section, FileId file) {
   Scopes& scopes = context.scopes;
   if (const Pragma* pragma = findPragma(context, section.h, scopes.known_names.list)) {
@@ -235,7 +235,7 @@ std::string listOfSection(Context& context, const SectionDecl& section, FileId f
 
 }  // namespace
 
-// The list of this name, made when there is none yet.
+// The list of this name, created on first use.
 ListId listNamed(Context& context, const std::string& name, FileId file, Loc loc, NameMap& qualifiers) {
   Project& project = context.project;
   Scopes& scopes = context.scopes;

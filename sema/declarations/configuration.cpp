@@ -1,5 +1,5 @@
-// CONFIGURATION, RESOURCE, TASK and PROGRAM … WITH: the tasks and program instances of the project (design §9), or the
-// one task that a project without a configuration gets.
+// CONFIGURATION, RESOURCE, TASK and PROGRAM … WITH: the tasks and program instances of the project, or the one task of
+// a project without a configuration. docs/language.md "Tasks and configuration".
 #include "sema/declarations/configuration.h"
 
 #include "sema/declarations/declarations.h"
@@ -50,7 +50,7 @@ std::string fold(std::string_view text) {
   return folded;
 }
 
-// What a setting names without being a variable: FREEWHEELING, AX_INTERRUPT_1, 'event'.
+// The word in a setting that is not a variable: FREEWHEELING, AX_INTERRUPT_1, 'event'.
 std::string settingOf(Context& context, ExprId expr) {
   Tree& tree = context.tree();
   if (tree.kind(expr) == ExprKind::Name) return std::string(context.names().string(tree.as<NameExpr>(expr).name));
@@ -69,7 +69,7 @@ struct TaskReader {
   bool has_kind = false, has_interval = false, has_single = false;
   ExprId trigger = {};
 
-  // A time in nanoseconds. A literal keeps what TIME would cut: T#500us is a good interval.
+  // A time in nanoseconds. A literal keeps digits that TIME would cut: T#500us is a valid interval.
   std::optional<int64_t> time(ExprId& expr, std::string_view setting) {
     Tree& tree = context.tree();
     if (tree.kind(expr) == ExprKind::Literal && tree.as<LiteralExpr>(expr).literal() == LiteralKind::Duration) {
@@ -113,7 +113,7 @@ struct TaskReader {
     }
   }
 
-  // Forbids settings that a task does not have. Design §9.
+  // Forbids settings that a task does not have.
   //   fails   TASK t(INTERVALL := T#10ms);                E0811, did you mean `INTERVAL`?
   void setting(Argument& argument) {
     const std::string name = fold(context.names().string(argument.pin.name));
@@ -150,7 +150,7 @@ struct TaskReader {
     }
   }
 
-  // Forbids a trigger that is no BOOL of the whole project. IEC 61131-3 ed. 3, 6.8.2.
+  // Forbids a trigger that is not a global BOOL. IEC 61131-3 ed. 3, 6.8.2.
   //   fails   TASK t(SINGLE := 1);                        E0813
   void resolveTrigger(Loc loc) {
     if (task.kind == TaskKind::External) {
@@ -183,7 +183,7 @@ struct TaskReader {
   }
 
   void read(const TaskDecl& decl) {
-    for (uint32_t pass = 0; pass < 2; ++pass) {  // SINGLE first: INTERVAL := 0 beside it means nothing
+    for (uint32_t pass = 0; pass < 2; ++pass) {  // SINGLE first: it overrides INTERVAL := 0
       for (uint32_t i = 0; i < decl.settings.count; ++i) {
         Argument argument = context.tree().list(decl.settings)[i];
         const bool is_single = sameIdentifier(context.names().string(argument.pin.name), "SINGLE");
@@ -222,8 +222,8 @@ uint32_t findTask(Context& context, const Part& part, const Ident& wanted, std::
   return found;
 }
 
-// PROGRAM p WITH t : Main (block WITH task): the task runs the block whatever the program does. IEC 61131-3 ed. 3 table
-// 62, 6b.
+// PROGRAM p WITH t : Main (block WITH task): the task runs the block independently of the program. IEC 61131-3 ed. 3
+// table 62, 6b.
 //   fails   PROGRAM p WITH t : Main (level WITH slow) where level : INT       E0891
 void addBlockTasks(Context& context, const Part& part, const ProgramInstanceDecl& decl, uint32_t instance,
                    std::span<const DeclaredTask> tasks) {
@@ -249,8 +249,8 @@ void addBlockTasks(Context& context, const Part& part, const ProgramInstanceDecl
   }
 }
 
-// The task of programs that name none: as often as the machine can, behind all others. IEC 61131-3 ed. 3, 6.8.2 and
-// table 62, 6c. It has no place in the source.
+// The task of programs that name none: runs as often as possible, after all others. IEC 61131-3 ed. 3, 6.8.2 and table
+// 62, 6c. It has no source location.
 uint32_t backgroundTask(Context& context) {
   std::vector<Task>& tasks = context.project.tasks;
   std::string name = "background";
@@ -266,7 +266,7 @@ uint32_t backgroundTask(Context& context) {
   return static_cast<uint32_t>(tasks.size());
 }
 
-// Forbids an instance of what is no program, a task that is not declared, and connections at the instance.
+// Forbids an instance of a POU that is not a program, an undeclared task, and connections at the instance.
 //   passes  PROGRAM p WITH t : Main;
 //   fails   PROGRAM p WITH tt : Main;                     E0815, did you mean `t`?
 void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& decl,
@@ -337,7 +337,7 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
   }
 }
 
-// PLC_PRG or MAIN if there is one, else every PROGRAM in source order, in one cyclic task. Design §11.
+// PLC_PRG or MAIN if there is one, else every PROGRAM in source order, in one cyclic task.
 void addDefaultTask(Context& context) {
   Project& project = context.project;
   PouId only;
@@ -368,7 +368,7 @@ void addDefaultTask(Context& context) {
   }
 }
 
-// VAR_EXTERNAL of a resource makes nothing: it names globals that must exist, with the same type.
+// VAR_EXTERNAL of a resource creates nothing: it names globals that must exist, with the same type.
 // IEC 61131-3 ed. 3 table 62, 13.
 void checkExternals(Context& context, const Part& part, const SectionDecl& section) {
   if (section.section != SectionKind::External) return;

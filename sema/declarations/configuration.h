@@ -1,4 +1,4 @@
-// CONFIGURATION and what stands in it. collectConfigurations() declares its globals; resolveConfigurations() makes the
+// CONFIGURATION and its contents. collectConfigurations() declares its globals; resolveConfigurations() creates the
 // tasks and program instances, after all declarations are resolved. Called by check().
 #pragma once
 
@@ -12,10 +12,10 @@ namespace rung::sema {
 void collectConfigurations(Context& context);
 void resolveConfigurations(Context& context);
 
-// VAR_ACCESS, when all instances have their places. (access_paths.cpp)
+// VAR_ACCESS, when all instances are laid out. (access_paths.cpp)
 void resolveAccessPaths(Context& context);
 
-// ---- collect.cpp: global lists, which files, configurations and resources have
+// ---- collect.cpp: global lists of files, configurations and resources
 ListId listNamed(Context& context, const std::string& name, FileId file, Loc loc, NameMap& qualifiers);
 void addGlobals(Context& context, ListId list, DeclId section, NameMap& bare);
 

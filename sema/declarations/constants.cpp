@@ -1,4 +1,5 @@
-// Constant expressions: their values by the arithmetic kernel.
+// Constant expressions, evaluated by the arithmetic kernel. In: checked expressions. Out: their values. A constant also
+// keeps memory in the instance or list that declares it, so that it can be watched; code uses its value.
 #include <algorithm>
 
 #include "sema/declarations/declarations.h"
@@ -19,7 +20,7 @@ constexpr uint32_t kMaxDepth = 2000;
 
 bool isUntypedLiteral(TypeKind kind) { return kind == TypeKind::IntegerLiteral || kind == TypeKind::RealLiteral; }
 
-// The code of a text of one character: a byte for a CHAR, else of the UTF-8 (a WCHAR: one 16-bit unit).
+// The code of a string of one character: a byte for a CHAR, else a code point (a WCHAR: one 16-bit unit).
 uint64_t characterOf(std::string_view text, TypeKind kind) {
   const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const uint64_t lead = byte(0);
@@ -90,7 +91,7 @@ Op operatorOf(BinaryOp op) {
 
 namespace {
 
-// Forbids constant expressions that fault; warns of those that overflow. Design §6.
+// Forbids constant expressions that fault; warns of those that overflow.
 //   fails   VAR CONSTANT n : INT := 1 / 0; END_VAR      E0323
 std::optional<Value> checked(Context& context, const Outcome& outcome, Loc loc, Loc divisor) {
   if (outcome.fault == types::Fault::Div) {
@@ -130,7 +131,7 @@ std::optional<Value> applyChecked(Context& context, Op op, Value left, Value rig
   return checked(context, types::apply(table, context.names(), op, left, right), loc, divisor);
 }
 
-// SEL and MUX: the chosen input alone.
+// SEL and MUX: only the chosen input.
 std::optional<Value> evaluateChoice(Context& context, const Call& call, TypeId type, bool select, uint32_t depth) {
   if (call.bindings.size() < 2 || !call.bindings[0].value) return std::nullopt;
   const auto selector = evaluateAt(context, call.bindings[0].value, depth + 1);
@@ -145,7 +146,7 @@ std::optional<Value> evaluateChoice(Context& context, const Call& call, TypeId t
   return types::convert(context.types(), *value, type).value;
 }
 
-// A function that has no effect but its result, run in bounds. IEC 61131-3 has no such constants: an extension.
+// A function without effects except its result, run with a budget. IEC 61131-3 has no such constants: an extension.
 std::optional<Value> callFunction(Context& context, PouId function, std::vector<Value> values) {
   Symbols& symbols = context.symbols;
   const Pou& pou = symbols.pou(function);
@@ -294,7 +295,7 @@ std::optional<Value> evaluateAt(Context& context, ExprId id, uint32_t depth) {
   return std::nullopt;
 }
 
-// A plain integer as most bounds are: no need to check it as an expression.
+// A plain integer, as most bounds are: not checked as an expression.
 std::optional<int64_t> plainInteger(Context& context, ExprId id) {
   Tree& tree = context.tree();
   bool negate = false;

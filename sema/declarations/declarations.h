@@ -1,5 +1,5 @@
-// What the files of declarations/ share. Declarations are resolved on demand: collect() gives every name its entity,
-// resolveDeclarations() resolves, lays out and checks whatever was declared since the last time, and a library
+// Shared by the files of declarations/. Declarations are resolved on demand: collect() gives every name its entity,
+// resolveDeclarations() resolves, lays out and checks everything declared since the last time, and a library
 // declaration joins when it is first looked up. The rest of sema uses the functions of context.h.
 #pragma once
 
@@ -12,7 +12,7 @@ inline constexpr uint32_t kMaxDeclarationDepth = 500;
 inline constexpr uint32_t kMaxTypeDepth = 2500;  // structures and blocks inside each other, arrays of arrays
 inline constexpr uint32_t kMaxBases = 500;       // bases of bases
 
-// The same project seen from another place.
+// The same project seen from another location.
 inline Context at(Context& context, PouId pou, FileId file, bool library, RegionId region = {}) {
   return Context{.symbols = context.symbols,
                  .project = context.project,
@@ -36,14 +36,14 @@ inline std::string toString(const Context& context, NameId name) { return std::s
 void internKnownNames(Context& context);
 // The declarations of all files of the tree.
 void collectFiles(Context& context);
-// One declaration where `context` is; of a library when `library` is given.
+// One declaration at `context`; of a library when `library` is given.
 void collectDecl(Context& context, DeclId decl, FileId file, uint32_t library);
 inline constexpr uint32_t kNoLibrary = ~0u;
 NamedType& addNamed(Context& context, TypeId type);
 // The pragma with this name key, or null.
 const Pragma* findPragma(const Context& context, const DeclHeader& header, NameId key);
 void reportTwice(Context& context, NameId name, Loc loc, Loc first);
-// Items of an enumeration into a table, values to be resolved.
+// Adds the items of an enumeration to a table; their values are resolved later.
 void declareItems(Context& context, TypeId type, TypeExprId written, NameMap* bare, bool project_wide);
 
 // ---- namespaces.cpp
@@ -52,44 +52,43 @@ struct DeclInRegion {
   FileId file;
   RegionId region;
 };
-// The declarations of all files with their regions, those of NAMESPACEs among them; makes the namespaces.
+// The declarations of all files with their regions, those in NAMESPACEs included; creates the namespaces.
 std::vector<DeclInRegion> collectNamespaces(Context& context);
-// The region of a POU that is declared here: its own where it has USINGs.
+// The region of a POU declared here: a new one if it has USINGs.
 RegionId regionOfPou(Context& context, const PouDecl& decl);
-// The NAMESPACE around the place at hand, or null; and a name of it in full: `Simatic.Ax.Motor`.
+// The NAMESPACE around the current location, or null; and a name in it in full: `Simatic.Ax.Motor`.
 Namespace* namespaceAround(Context& context);
 NameId qualifiedName(Context& context, NameId name);
-// What the namespaces around a place and their USINGs say of a name; and the USINGs of the file, which come after the
-// names of the project.
+// The meaning of a name in the namespaces around `context` and their USINGs; and in the USINGs of the file, which come
+// after the names of the project.
 Entity lookUpAround(Context& context, NameId key, Loc loc, bool types_only);
 Entity lookUpOpened(Context& context, NameId key, Loc loc, bool types_only);
 RegionId regionOfFile(const Context& context, FileId file);
-// What `A.B.name` means; Error after a report.
+// The meaning of `A.B.name`; Error after a report.
 Entity lookUpQualified(Context& context, Slice<Ident> path);
-// The namespace of a name where `context` is: a NAMESPACE, a library, the project.
+// The namespace of a name at `context`: a NAMESPACE, a library, the project.
 Entity findNamespace(Context& context, NameId name);
-// What a namespace declares under a name.
+// The entity that a namespace declares under a name.
 Entity lookUpNamespace(Context& context, uint32_t space, NameId key);
 bool isVisible(Context& context, Entity found);
-// In full, what a NAMESPACE declares under a name that is unknown here; empty when none does.
+// The full name of an entity that some NAMESPACE declares under a name unknown here; empty when none does.
 std::string_view nameElsewhere(Context& context, NameId key);
 
-// What has locals and parameters instead of an instance of its own.
+// Kinds with locals and parameters instead of an instance.
 inline bool isFunction(PouKind kind) {
   return kind == PouKind::Function || kind == PouKind::Method || kind == PouKind::Action;
 }
 
 // ---- names.cpp
-// The mock that stands for what this name means elsewhere: in all of the project but the mock itself.
-// What was found under a name, or the mock that stands for it in this program. (names.cpp)
+// What was found under a name, or the mock that replaces it in this program: everywhere except in the mock itself.
 Entity orMock(Context& context, NameId key, Entity found);
-// What a name means, perhaps not yet resolved; with its namespaces, or without. (names.cpp)
+// The meaning of a name with or without namespaces, perhaps not resolved yet.
 Entity findDotted(Context& context, NameId dotted);
 
 // ---- variables.cpp
-// VAR_GLOBAL in a PROGRAM: the standard has it, codesys has not.
+// VAR_GLOBAL in a PROGRAM: allowed by the standard, not by codesys.
 inline bool mayHoldGlobals(const Context& context, PouKind kind) { return kind == PouKind::Program && context.iec(); }
-// Gives the variables of one VarDecl their ids and names. Types come later.
+// Gives the variables of one VarDecl their ids and names. Types follow later.
 void declareVars(Context& context, DeclId decl, const SectionDecl& section, PouId pou, ListId list, NameMap* names,
                  std::vector<VarId>& into);
 void ensureVarType(Context& context, VarId id);
@@ -111,20 +110,20 @@ VarId addByteOfBits(Context& context, TypeId record, VarId first);
 void addBitAt(Context& context, TypeId record, VarId id, VarId byte, uint8_t bit);
 uint8_t initialBits(Context& context, TypeId record, VarId byte);
 
-// ---- relative_addresses.cpp: the fields of a structure whose members have places (AT %B2), with what is between them
+// ---- relative_addresses.cpp: fields of a structure whose members have AT offsets (AT %B2), with filler between them
 void layOutMembers(Context& context, TypeId record, std::span<const VarId> members);
 
 // ---- objects.cpp
-// USTRING and UCHAR of edition 4 are no keywords: the project's own type of such a name, or none.
+// USTRING and UCHAR of edition 4 are not keywords: the project's own type of such a name, or none.
 TypeId ownTypeOfLateName(Context& context, NameId name, types::TypeKind kind);
 
 // METHODs, ACTIONs and PROPERTYs of a POU: a Pou each.
 void collectMembers(Context& context, PouId owner);
-// FB_Init, FB_Reinit, FB_Exit: called when an instance is made, moved and taken away (codesys).
+// FB_Init, FB_Reinit, FB_Exit: called when an instance is created, moved and destroyed (codesys).
 bool isLifeMethod(const Context& context, NameId name);
-// What an object extends and implements; checked once.
+// Resolves what an object extends and implements; checked once.
 void resolveHeader(Context& context, PouId object);
-// Those of all POUs, so that it is known which blocks are extended before the first is laid out.
+// The same for all POUs, so that it is known which blocks are extended before the first is laid out.
 void resolveHeaders(Context& context);
 // The hidden fields with which an object begins: type id, base.
 void addObjectFields(Context& context, PouId object);
@@ -148,11 +147,11 @@ void resolveDeclarations(Context& context);
 bool ensureLayout(Context& context, TypeId type);
 
 // ---- constants.cpp
-// A constant integer, as in bounds and lengths; reports when it is none.
+// A constant integer, as in bounds and lengths; reports an expression that is not one.
 std::optional<int64_t> constantBound(Context& context, ExprId& expr);
 
 // ---- initial_values.cpp
-// What an initial value may read in codesys: constants alone, variables that live as long, also those of the same call.
+// What an initial value may read in codesys: only constants, variables with the same lifetime, also those of the call.
 enum class InitialReads : uint8_t { Constants, Variables, Call };
 // True when it reads variables.
 bool checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string_view what,
@@ -161,7 +160,7 @@ bool checkInitializerAs(Context& context, ExprId& init, TypeId type, std::string
 void orderInitialValues(Context& context);
 
 // ---- libraries.cpp
-// What the library __SYSTEM, the compiler's own, declares by this name.
+// An entity of the library __SYSTEM, the compiler's own, by name.
 Entity lookUpSystem(Context& context, std::string_view name);
 // The structure __SYSTEM.AnyType.
 TypeId anyType(Context& context);

@@ -1,4 +1,4 @@
-// Messages about declarations, configurations and initial values. One constant for each row of diagnostics.def.
+// Diagnostics of declarations, configurations and initial values, one constant for each row of diagnostics.def.
 #pragma once
 
 #include "frontend/source/diagnostics.h"

@@ -1,4 +1,4 @@
-// Instances of generic library functions: the text of the function is parsed again for each tuple of types, so that
+// Instances of generic library functions: the source of the function is parsed again for each tuple of types, so that
 // its body is checked and lowered like any other.
 #include "frontend/source/dialect.h"
 #include "frontend/text/parse.h"
@@ -37,7 +37,7 @@ PouId instantiate(Context& context, PouId generic_id, std::span<const TypeId> ty
     const types::TypeKind kind = context.types().kind(declared);
     if (!types::TypeTable::isGeneric(kind) || !actual) return;
     for (const Substitution& known : substitutions) {
-      if (known.generic == kind) return;  // one generic name is one type
+      if (known.generic == kind) return;  // a generic name means one type
     }
     substitutions.push_back({kind, actual});
   };

@@ -1,8 +1,7 @@
-// The order of initial values that read variables (codesys): each is set when those that it reads have theirs.
-// In: checked initial values, and the variables whose value is not constant (Scopes::reading_inits). Out:
-// Project::late, the global variables that are set after all lists, and Pou::late, those of one instance; both in order
-// of dependence. Functions that an initial value calls may read globals too: CODESYS promises no order there, and
-// neither do we.
+// The order of initial values that read variables (codesys): each is set after those that it reads. In: checked initial
+// values, and the variables whose value is not constant (Scopes::reading_inits). Out: Project::late, the global
+// variables that are set after all lists, and Pou::late, those of one instance; both in order of dependence. Functions
+// that an initial value calls may read globals too: neither CODESYS nor Rung guarantees an order there.
 #include <algorithm>
 #include <unordered_map>
 
@@ -16,7 +15,7 @@ namespace {
 
 struct InitialOrder {
   Context& context;
-  std::unordered_map<uint32_t, std::vector<VarId>> reads;         // by VarId: what its initial value reads
+  std::unordered_map<uint32_t, std::vector<VarId>> reads;  // by VarId: the variables that its initial value reads
   std::unordered_map<uint32_t, std::vector<VarId>> record_reads;  // by TypeId: globals that its fields' values read
 
   const Tree& tree() const { return context.tree(); }
@@ -36,7 +35,7 @@ struct InitialOrder {
       if (binding.value) collect(binding.value, into);
   }
 
-  // Every variable whose value an expression needs. An address is known before all values.
+  // Every variable whose value an expression reads. An address is known before all values.
   void collect(ExprId id, std::vector<VarId>& into) const {
     if (!id) return;
     switch (tree().kind(id)) {
@@ -102,7 +101,7 @@ struct InitialOrder {
     return context.types().kind(type) == types::TypeKind::Record ? context.types().resolve(type) : TypeId{};
   }
 
-  // A global instance reads what the initial values of its block read, and of the blocks within.
+  // A global instance reads the variables that the initial values of its block read, and of the blocks within.
   void spreadToHolders() {
     std::erase_if(record_reads, [](const auto& entry) { return entry.second.empty(); });
     if (record_reads.empty()) return;
@@ -132,7 +131,7 @@ struct InitialOrder {
     }
   }
 
-  // Forbids initial values that need each other.
+  // Forbids initial values that depend on each other.
   //   fails   VAR_GLOBAL a : INT := b; b : INT := a + 1; END_VAR       E0365
   void reportCircle(const std::vector<VarId>& path, VarId again) const {
     auto at = std::find(path.begin(), path.end(), again);
@@ -143,7 +142,7 @@ struct InitialOrder {
     context.report(diag::InitialValueCircle, loc, {toString(context, var(again).name), way});
   }
 
-  // Depth first with a stack of its own, in order of declaration; `same`: which variables are ordered together.
+  // Depth first with an explicit stack, in order of declaration; `same`: which variables are ordered together.
   template <class Same>
   void order(const std::vector<VarId>& all, std::vector<VarId>& into, Same same) {
     struct Step {

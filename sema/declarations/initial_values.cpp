@@ -1,6 +1,6 @@
 // Initial values of variables, fields and types: lists for arrays, members for structures and instances, and one
-// constant for what is elementary. In: what is written and the type. Out: the same, checked and converted in place;
-// surplus array elements are cut off and repetition counts are literals.
+// constant for elementary types. In: the expression as written and the type. Out: the same, checked and converted in
+// place; surplus array elements are removed and repetition counts are literals.
 #include <algorithm>
 
 #include "frontend/syntax/diagnostics.h"
@@ -21,11 +21,11 @@ struct Initializer {
   std::string_view what;  // "the initial value of `x`"
   InitialReads may = InitialReads::Constants;
   bool reads = false;   // variables
-  bool broken = false;  // an element could not be parsed: how many were meant is not known
+  bool broken = false;  // an element could not be parsed: the intended number is unknown
 
   Tree& tree() const { return context.tree(); }
 
-  // The literals that long lists are made of, without a full check.
+  // The literals of long lists, without a full check.
   bool plainLiteral(ExprId id, TypeId type) const {
     if (tree().kind(id) != ExprKind::Literal) return false;
     LiteralExpr& literal = tree().as<LiteralExpr>(id);
@@ -50,7 +50,7 @@ struct Initializer {
     return true;
   }
 
-  // A variable that has its value before this one can be set: a global one, one of the same instance, a part of these.
+  // A variable that has its value before this one is set: a global one, one of the same instance, a part of these.
   bool isReadable(ExprId id, uint32_t depth) {
     if (may == InitialReads::Constants) return false;
     reads = true;
@@ -73,7 +73,7 @@ struct Initializer {
     return kind == ExprKind::This || kind == ExprKind::Address;
   }
 
-  // What may stand in an initial value: constants, operators and functions on them, addresses, and what is readable.
+  // Allowed in an initial value: constants, operators and functions on them, addresses, and readable variables.
   bool isStatic(ExprId id, uint32_t depth) {
     if (depth > 1000) return false;
     const ExprHeader& header = tree().expr(id);
@@ -119,7 +119,7 @@ struct Initializer {
 
   // Forbids initial values that are not known before the program runs. IEC 61131-3 ed. 3, 6.5.1.2. In codesys they may
   // read other variables (initial_order.cpp), but not those of another program; variables of one call (of functions,
-  // VAR_TEMP) are set when the call begins, and may use what is known then.
+  // VAR_TEMP) are set when the call begins, and may read anything known then.
   //   fails   VAR a : INT; b : INT := a; END_VAR in a block of iec2 or iec3      E0325
   void scalar(ExprId& init, TypeId type) {
     const ExprKind kind = tree().kind(init);
@@ -149,7 +149,7 @@ struct Initializer {
     init = {};
   }
 
-  // N(1, 2) with a constant N is a repetition as 3(1, 2) is; other calls stay what they are.
+  // N(1, 2) with a constant N is a repetition like 3(1, 2); other calls stay calls.
   ExprId repetition(ExprId id) const {
     const CallExpr& call = tree().as<CallExpr>(id);
     if (tree().kind(call.callee) != ExprKind::Name) return id;
@@ -170,7 +170,7 @@ struct Initializer {
     return tree().add<ExprId>(repeat);
   }
 
-  // Checks the elements that have a place; gives how many values there are, the surplus included.
+  // Checks the elements that fit; returns how many values there are, the surplus included.
   uint64_t elements(Slice<ExprId>& slice, TypeId element, uint64_t room, Loc& surplus) {
     uint64_t count = 0;
     uint32_t kept = slice.count;
@@ -220,7 +220,7 @@ struct Initializer {
     return count;
   }
 
-  // codesys: `limits : Limits := kLimits` begins like another variable, with what that is declared with.
+  // codesys: `limits : Limits := kLimits` copies the initial value that kLimits is declared with.
   bool likeAnother(ExprId& init, TypeId type) const {
     if (context.iec() || (tree().kind(init) != ExprKind::Name && tree().kind(init) != ExprKind::Member)) return false;
     if (!checkExprAs(context, init, type, std::string("used as ") + std::string(what))) {
@@ -261,8 +261,8 @@ struct Initializer {
       context.report(diag::SurplusElements, surplus, {std::to_string(count), std::to_string(room)});
   }
 
-  // Forbids members that do not exist, that are set twice, or that an initial value cannot set. Design §6: inputs, and
-  // in codesys outputs and locals too.
+  // Forbids members that do not exist, that are set twice, or that an initial value cannot set: inputs, and in codesys
+  // outputs and locals too, are allowed.
   //   passes  t : TON := (PT := T#5s);
   //   fails   t : TON := (PTX := T#5s);                           E0329
   void record(ExprId& init, TypeId type) {
@@ -287,7 +287,7 @@ struct Initializer {
     StructInitExpr& node = tree().as<StructInitExpr>(init);
     node.h.type = type;
     NameMap seen;
-    std::vector<std::pair<VarId, uint8_t>> bytes;  // that hold members of type BIT, with what is given for them
+    std::vector<std::pair<VarId, uint8_t>> bytes;  // bytes that hold members of type BIT, with the given values
     for (uint32_t i = 0; i < node.fields.count; ++i) {
       FieldInit given = tree().list(node.fields)[i];
       const std::string_view name = context.names().string(given.field.name);
@@ -310,7 +310,7 @@ struct Initializer {
             .note(var.loc, diag::DeclaredHere);
         continue;
       }
-      given.field.name = var.name;  // an alias stands for its pin
+      given.field.name = var.name;  // an alias means its pin
       if (given.value) value(given.value, var.type);
       if (var.is_bit && given.value) {
         setBit(bytes, type, member, given.value);
@@ -329,7 +329,7 @@ struct Initializer {
     node.fields = tree().addList<FieldInit>(fields);
   }
 
-  // What is given for a member of type BIT, into the byte that holds it.
+  // Sets the bit of a member of type BIT in the byte that holds it.
   void setBit(std::vector<std::pair<VarId, uint8_t>>& bytes, TypeId type, VarId member, ExprId given) const {
     const auto bit = requireConstant(context, given, types::kBool);
     if (!bit) return;
@@ -348,7 +348,7 @@ struct Initializer {
     bits = static_cast<uint8_t>(bit->bits != 0 ? bits | mask : bits & ~mask);
   }
 
-  // Members whose value was wrong have none any more.
+  // Removes members whose value was reported.
   void dropEmpty(StructInitExpr& node) const {
     auto fields = tree().list(node.fields);
     uint32_t kept = 0;

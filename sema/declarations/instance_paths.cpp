@@ -34,7 +34,7 @@ struct InstancePathResolver {
     return var.instance_path && inField(var) && context.types().kind(var.type) == TypeKind::String;
   }
 
-  // `plc.Main.fb[2]` of a variable in that block, as CODESYS and TwinCAT spell it.
+  // `plc.Main.fb[2]` of a variable in that block, in the format of CODESYS and TwinCAT.
   ExprId pathLiteral(const InstancePath& target) {
     std::string out(project.options.name);
     if (target.program)
@@ -145,7 +145,7 @@ struct InstancePathResolver {
     }
   }
 
-  // As VAR_CONFIG spells it.
+  // In the format of VAR_CONFIG.
   std::string pathString(const InstancePath& target) const {
     std::string out;
     if (target.instance != InstancePath::kNone) {
@@ -168,7 +168,7 @@ struct InstancePathResolver {
 
   // ---- VAR_CONFIG
 
-  // Where a path of VAR_CONFIG leads: a variable, and the way to it when it lives in an instance.
+  // Resolves a path of VAR_CONFIG: a variable, and the path to it when it lives in an instance.
   //   passes  VAR_CONFIG Main.drive.ready AT %IX1.0 : BOOL; END_VAR
   //   fails   VAR_CONFIG Main.drivee.ready AT %IX1.0 : BOOL; END_VAR       E0825
   bool follow(std::span<const Ident> names, InstancePath& out) {
@@ -238,7 +238,7 @@ struct InstancePathResolver {
     return true;
   }
 
-  // Forbids what does not fit the variable: another type, an address where none was left open, another area.
+  // Forbids a line that does not fit the variable: another type, an address where none was left open, another area.
   void configure(DeclId id) {
     VarDecl& decl = tree().as<VarDecl>(id);
     if (decl.names.empty() || !decl.type) return;
@@ -276,7 +276,7 @@ struct InstancePathResolver {
     }
     if (decl.init) {
       checkInitializerAs(context, decl.init, type, "the initial value of `" + toString(context, last.name) + "`");
-      for (const PathStep& step : target.path) {  // what is configured has a value though no body writes it
+      for (const PathStep& step : target.path) {  // a configured variable has a value though no body writes it
         if (step.var) context.symbols.var(step.var).written = true;
       }
     }
@@ -339,7 +339,7 @@ struct InstancePathResolver {
     }
   }
 
-  // ---- what nobody completed
+  // ---- addresses that VAR_CONFIG does not complete
 
   // The next free bits of each area.
   uint64_t free_bit_[3] = {0, 0, 0};

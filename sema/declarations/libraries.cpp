@@ -13,7 +13,7 @@ namespace {
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
-// Words, punctuation and pragmas of a text; comments, strings and numbers are stepped over.
+// Words, punctuation and pragmas of a source; comments, strings and numbers are skipped.
 class Scanner {
  public:
   explicit Scanner(std::string_view source) : source_(source) {}
@@ -87,7 +87,7 @@ class Scanner {
 
 using Kind = Scanner::Kind;
 
-// Steps over everything up to one of the words; true when it was found.
+// Skips everything up to one of the words; true when it was found.
 bool skipTo(Scanner& scan, std::string_view word) {
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
     if (kind == Kind::Word && (scan.token()[0] | 32) == 'e' && scan.is(word)) return true;
@@ -115,7 +115,7 @@ void scanItems(Scanner& scan, std::vector<std::string_view>& names) {
   }
 }
 
-// `bare`: items of enumerations have names of their own.
+// `bare`: items of enumerations are names in their own right.
 void scanTypes(Scanner& scan, std::vector<std::string_view>& names, bool bare) {
   for (Kind kind = scan.next(); kind != Kind::End; kind = scan.next()) {
     if (kind != Kind::Word) continue;
@@ -313,7 +313,7 @@ static Entity findInLibraries(Context& context, NameId key, uint32_t library) {
 Entity lookUpLibrary(Context& context, NameId key, uint32_t library) {
   const Entity own = findInLibraries(context, key, library);
   if (own || library == kNoLibrary) return own;
-  return context.scopes.libraries.namespaces.find(key);  // what a library uses is reached through it: SysFile.SysTypes
+  return context.scopes.libraries.namespaces.find(key);  // a library used by a library: SysFile.SysTypes
 }
 
 Entity lookUpSystem(Context& context, std::string_view name) {

@@ -1,5 +1,5 @@
-// The index of a library text: which names it declares and where, found by a light scan without parsing. In: the text
-// of one library file. Out: its declarations with the range of text to parse when one of them is first used.
+// The index of a library source: the names that it declares and where, found by a light scan without parsing. In: the
+// source of one library file. Out: its declarations with the range of source to parse when one of them is first used.
 // Called by check() at its start, for every library file.
 #pragma once
 
@@ -13,12 +13,12 @@ namespace rung::sema {
 
 constexpr uint8_t kAllStandards = 7;
 
-// A POU, a TYPE block or a VAR_GLOBAL block, from the pragmas before it to the end of its END_… word.
+// A POU, a TYPE block or a VAR_GLOBAL block, from the pragmas before it to its END_… keyword.
 struct IndexedBlock {
   uint32_t begin = 0, end = 0;
   std::vector<std::string_view> names;  // the POU; the types and enumeration items; the variables
   // {std 'iec2 iec3'}: the dialects that have it; bit number: text::Standard. {std 'iec2, else qualified'}: the others
-  // have it by its full name.
+  // have it by its full name only.
   uint8_t standards = kAllStandards, qualified = 0;
 };
 std::vector<IndexedBlock> indexLibrary(std::string_view source);

@@ -1,4 +1,4 @@
-// Name lookup: what a name stands for at a place, members of records, the nearest name to a misspelled one.
+// Name lookup: the meaning of a name at a location, members of records, the name nearest to a misspelled one.
 #include <algorithm>
 #include <vector>
 
@@ -29,7 +29,7 @@ bool NameMap::insert(NameId key, Entity entity) {
 
 namespace {
 
-// What is found must be usable at once: its type resolved, its value known when it is constant.
+// An entity that is found must be usable at once: its type resolved, its value known when it is constant.
 Entity ready(Context& context, Entity found) {
   switch (found.entityKind()) {
     case EntityKind::Var: {
@@ -56,7 +56,7 @@ Entity ready(Context& context, Entity found) {
   return found;
 }
 
-// An item of the enumeration whose declaration is at hand, when its value is known already.
+// An item of the enumeration that is being declared, when its value is known already.
 Entity findOwnItem(Context& context, NameId key) {
   const NamedType& named = *context.scopes.named(context.items_of);
   const Entity found = named.members.find(key);
@@ -68,7 +68,7 @@ Entity findOwnItem(Context& context, NameId key) {
   return known ? found : Entity{};
 }
 
-// Of the project, its namespaces and the libraries.
+// An entity of the project, its namespaces or the libraries.
 Entity findDeclared(Context& context, NameId key, Loc loc) {
   Scopes& scopes = context.scopes;
   if (context.region)
@@ -118,7 +118,7 @@ Entity orMock(Context& context, NameId key, Entity found) {
   for (size_t i = 0; i < context.scopes.mocks.size(); ++i) {
     if (context.scopes.mocks[i].key != key || context.scopes.mocks[i].busy) continue;
     const PouId mock = context.scopes.mocks[i].mock;
-    if (mock == context.pou) continue;  // what it replaces may be used by itself
+    if (mock == context.pou) continue;  // a mock may use the original
     if (!context.scopes.mocks[i].original) {
       context.scopes.mocks[i].busy = true;
       Context there = atPou(context, mock);
@@ -238,7 +238,7 @@ bool isFirstReportOfMember(Context& context, TypeId record, NameId name) {
 }
 
 std::string_view nearestName(Context& context, NameId written) {
-  if (context.symbols.diagnostics.full()) return {};  // nobody would see it, and the search looks at every name
+  if (context.symbols.diagnostics.full()) return {};  // the message is not printed, and the search is slow
   if (const std::string_view elsewhere = nameElsewhere(context, keyOf(context, written)); !elsewhere.empty())
     return elsewhere;
   std::vector<std::string_view> candidates;

@@ -1,10 +1,11 @@
-// NAMESPACE and USING: which namespaces the project has, which of them a place in the text sees, and what their names
-// stand for there. In: the declarations of all files. Out: a Namespace for each NAMESPACE, a Region for each piece of
-// text with its own view of names. IEC 61131-3 ed. 3, 6.9, tables 64 to 66.
+// NAMESPACE and USING: the namespaces of the project, which of them are visible at a location, and the meaning of names
+// there. In: the declarations of all files. Out: a Namespace, as for a library, for each NAMESPACE; a Region for each
+// piece of source with its own view of names (none in a project without namespaces). POUs and types in a namespace have
+// their full name, `Plant.Motor`, which no user's name can be. IEC 61131-3 ed. 3, 6.9, tables 64 to 66.
 //
-// A name means, from the inside to the outside: what the namespace around it declares, then what the USINGs of that
-// block open, then the same of the namespace around that one; at file level the project's names, the USINGs of the
-// file, the libraries. A USING opens what its namespace declares itself, not the namespaces in it.
+// Lookup goes from the inside out: the declarations of the namespace around the name, then those that the USINGs of
+// that block open, then the same for the next outer namespace; at file level the project's names, the USINGs of the
+// file, the libraries. A USING opens the declarations of its namespace, not the namespaces in it.
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/diagnostics.h"
@@ -22,7 +23,7 @@ void adoptSpelling(Context& context, Namespace& space, NameId full) {
   if (!space.name || context.names().string(full) < context.names().string(space.name)) space.name = full;
 }
 
-// The namespace of this name in another one (or none), made when there is none yet.
+// The namespace of this name in another one (or none), created on first use.
 uint32_t namespaceNamed(Context& context, uint32_t outer, const Ident& name) {
   Libraries& libraries = context.scopes.libraries;
   const NameId key = keyOf(context, name.name);
@@ -59,7 +60,7 @@ struct Collector {
   Context& context;
   std::vector<DeclInRegion>& out;
 
-  // Forbids what a namespace cannot hold.   fails   NAMESPACE a CONFIGURATION c …            E0305
+  // Forbids declarations that a namespace cannot hold.   fails   NAMESPACE a CONFIGURATION c …            E0305
   void collect(Slice<DeclId> decls, FileId file, RegionId region, bool at_file_level) {
     Tree& tree = context.tree();
     std::vector<DeclId> usings;
@@ -93,7 +94,7 @@ struct Collector {
   }
 };
 
-// What a namespace declares under a name: a NAMESPACE of the project, or a library.
+// The entity that a namespace declares under a name: a NAMESPACE of the project, or a library.
 Entity findInSpace(Context& context, uint32_t space, NameId key, bool types_only) {
   if (space <= context.scopes.libraries.project) return lookUpLibrary(context, key, space);
   const Namespace& from = spaceAt(context, space);
@@ -103,7 +104,7 @@ Entity findInSpace(Context& context, uint32_t space, NameId key, bool types_only
   return from.items.find(key);
 }
 
-// Forbids a bare name that several USINGs of one place open.
+// Forbids a bare name that several USINGs at one location open.
 //   passes  USING a; USING b; … a.Pump          fails  … Pump, which both have           E0403
 Entity findOpened(Context& context, RegionId region, NameId key, Loc loc, bool types_only) {
   Entity found, hidden;
@@ -132,7 +133,7 @@ Entity findOpened(Context& context, RegionId region, NameId key, Loc loc, bool t
   return found;
 }
 
-// Where an entity is declared.
+// The namespace that declares an entity.
 uint32_t spaceAround(Context& context, Entity found) {
   switch (found.entityKind()) {
     case EntityKind::Pou: return spaceOf(context, context.scopes.pous[found.index].region);
@@ -171,7 +172,7 @@ bool isInternal(Context& context, Entity found) {
   return false;
 }
 
-// Forbids USING of what is no namespace.   fails   USING Sytem.Strings;                E0404
+// Forbids USING of a name that is not a namespace.   fails   USING Sytem.Strings;                E0404
 void openUsings(Context& context, RegionId region) {
   Tree& tree = context.tree();
   for (size_t i = 0; i < context.scopes.regions[region.index].usings.size(); ++i) {
@@ -257,7 +258,7 @@ Entity findNamespace(Context& context, NameId name) {
 
 Entity lookUpNamespace(Context& context, uint32_t space, NameId key) {
   if (const Entity found = findInSpace(context, space, key, false)) return found;
-  // Its variables that are `qualified_only` are in its list alone.
+  // Its `qualified_only` variables are found only through its list.
   const Entity list = context.scopes.qualifiers.find(keyOf(context, spaceAt(context, space).name));
   if (space <= context.scopes.libraries.project || list.entityKind() != EntityKind::GlobalList) return {};
   return context.scopes.lists[list.index].names.find(key);
@@ -310,7 +311,7 @@ bool isVisible(Context& context, Entity found) {
   return false;
 }
 
-// Forbids what is INTERNAL to another namespace. IEC 61131-3 ed. 3 table 64, 1b, 5.
+// Forbids the use of an entity that is INTERNAL to another namespace. IEC 61131-3 ed. 3 table 64, 1b, 5.
 //   fails   NAMESPACE a FUNCTION INTERNAL f … END_NAMESPACE … y := a.f();               E0552
 bool checkVisible(Context& context, Entity found, Loc loc) {
   if (isVisible(context, found)) return true;

@@ -1,10 +1,11 @@
-// Objects: which methods, actions and properties a block, class or interface has, what it extends and implements, and
-// the hidden fields with which its instances begin.
+// Objects: the methods, actions and properties of a block, class or interface, what it extends and implements, and the
+// hidden fields with which its instances begin.
 //
-// An object that may be met through a pointer, an in-out or an interface begins with a 32-bit type id, by which its
-// methods and its body are found (`dispatched`): one with methods, interfaces or ABSTRACT, and one that the project
-// extends. A derived object holds its base as its first field; where the base has no type id and the derived one
-// has, the id comes first.
+// An object that may be used through a pointer, an in-out or an interface begins with a 32-bit type id, by which its
+// methods and its body are found (`dispatched`): an object with methods, interfaces or ABSTRACT, and one that the
+// project extends. So the first derived block changes the layout of its base, and resolveHeaders() reads all headers
+// before the first layout. A derived object holds its base as its first field, a nested record: the base's initialiser
+// is that of a field, and no pointer is cast. If only the derived one has a type id, it comes first.
 #include <algorithm>
 
 #include "frontend/syntax/diagnostics.h"
@@ -70,7 +71,8 @@ PouId addMember(Context& context, PouId owner_id, DeclId id, const char* accesso
   return member_id;
 }
 
-// A variable of an action's chart has its bare name in the whole block, as in CODESYS, where nothing else has it.
+// Each chart in an action has a scope of its own between the action and the block (Pou::chart). A variable of such a
+// chart gets its bare name in the whole block, as in CODESYS, if the name is unique there.
 void shareChartVars(Context& context, PouId object) {
   Symbols& symbols = context.symbols;
   NameMap& names = context.scopes.pous[object.index].names;
@@ -96,7 +98,7 @@ void shareChartVars(Context& context, PouId object) {
   }
 }
 
-// The object that a name of EXTENDS or IMPLEMENTS means; reports what is none.
+// The object that a name in EXTENDS or IMPLEMENTS means; reports a name that is not an object.
 PouId objectNamed(Context& context, TypeExprId written, bool want_interface) {
   const TypeId type = resolveType(context, written);
   if (type == types::kError) return {};
@@ -143,7 +145,7 @@ void declareMembers(Context& context, PouId object) {
     const Entity first = names.find(keyOf(context, name));
     if (declared.entityKind() == EntityKind::Pou && addOverload(context, first, PouId{declared.index})) return;
     if (symbols.pou(object).library && first.entityKind() == EntityKind::Var)
-      return;  // SEMA.RELEASE: what is called is it
+      return;  // SEMA.RELEASE: the call means the method
     const Loc known = first.entityKind() == EntityKind::Var        ? symbols.vars[first.index].loc
                       : first.entityKind() == EntityKind::Property ? symbols.properties[first.index].loc
                       : first.entityKind() == EntityKind::Pou      ? symbols.pous[first.index].loc
@@ -184,7 +186,7 @@ void decideDispatch(Context& context, PouId id) {
 
 namespace {
 
-// Warns of an interface that is named twice in one list.
+// Warns of a duplicate interface in one list.
 //   passes  IMPLEMENTS IRun, IStop      warns   IMPLEMENTS IRun, IRun                                       W0346
 void addInterface(Context& there, Pou& pou, PouId interface, Loc loc) {
   if (std::find(pou.interfaces.begin(), pou.interfaces.end(), interface) == pou.interfaces.end())
@@ -195,9 +197,9 @@ void addInterface(Context& there, Pou& pou, PouId interface, Loc loc) {
 
 }  // namespace
 
-// Forbids EXTENDS of what is no block, class or interface, of a FINAL one, and of itself; IMPLEMENTS of what is no
-// interface. IEC 61131-3 ed. 3, 6.6.5.5, 6.6.6.5.
-//   fails   FUNCTION_BLOCK a EXTENDS b … FUNCTION_BLOCK b EXTENDS a …                 E0342
+// Forbids EXTENDS of anything but a block, class or interface, of a FINAL one, and of itself; IMPLEMENTS of anything
+// but an interface. IEC 61131-3 ed. 3, 6.6.5.5, 6.6.6.5.
+//   fails   FUNCTION_BLOCK a EXTENDS b … FUNCTION_BLOCK b EXTENDS a …                 E0352
 void resolveHeader(Context& context, PouId id) {
   Symbols& symbols = context.symbols;
   if (symbols.pou(id).header != Pou::Header::New || !symbols.pou(id).decl) return;
@@ -251,7 +253,7 @@ void resolveHeader(Context& context, PouId id) {
 }
 
 void resolveHeaders(Context& context) {
-  context.scopes.resolving = true;  // a library's block that is read now may yet be extended
+  context.scopes.resolving = true;  // a library block that is read now may yet be extended
   for (uint32_t i = 1; i < context.symbols.pous.size(); ++i)
     if (!context.symbols.pous[i].owner) resolveHeader(context, PouId{i});
   context.scopes.resolving = false;

@@ -1,6 +1,6 @@
-// Functions and methods of one name, told apart by the types of their parameters. Edition 3 alone: ed. 2 and codesys
+// Functions and methods of one name, distinguished by the types of their parameters. Edition 3 only: ed. 2 and codesys
 // keep such names for the library. In: declarations. Out: lists of overloads, Pou::overloads and next_overload.
-// Which of them a call means is bodies/overloads.cpp.
+// bodies/overloads.cpp chooses the one that a call means.
 #include <algorithm>
 
 #include "frontend/source/dialect.h"
@@ -54,7 +54,7 @@ bool addOverload(Context& context, Entity first, PouId added) {
   for (; symbols.pou(last).next_overload; last = symbols.pou(last).next_overload) ++count;
   symbols.pou(last).next_overload = added;
   symbols.pou(head).overloads = pou.overloads = head;
-  if (kind == PouKind::Function) {  // a method has a name of its own already
+  if (kind == PouKind::Function) {  // a method's name is unique already
     const std::string stem = toString(context, pou.unique_name) + "__";
     do {
       pou.unique_name = context.names().intern(stem + std::to_string(count++));
@@ -80,7 +80,7 @@ void markOverloads(Context& context) {
   }
 }
 
-// Forbids overloads that no call could tell apart. IEC 61131-3 ed. 3, 6.1.2.
+// Forbids overloads that no call could distinguish. IEC 61131-3 ed. 3, 6.1.2.
 //   passes  FUNCTION f VAR_INPUT x : INT; …     FUNCTION f VAR_INPUT x : REAL; …
 //   fails   FUNCTION f VAR_INPUT x : INT; …     FUNCTION f VAR_INPUT y : INT; …           E0301
 void checkOverloads(Context& context, PouId head) {

@@ -5,9 +5,9 @@
 
 namespace rung::sema {
 
-// Joins what is declared under a name that is in use; false: it is declared twice.
+// Adds a declaration under a name that is in use; false: it is declared twice.
 bool addOverload(Context& context, Entity first, PouId added);
-// A method alone in its class that replaces one of several in a base is an overload, too. Once all members are
+// A method alone in its class that overrides one of several in a base is an overload, too. Called when all members are
 // declared.
 void markOverloads(Context& context);
 void checkOverloads(Context& context, PouId head);

@@ -1,7 +1,7 @@
-// Structures whose members have places of their own, AT %B2: the members in the order of their places, with hidden
-// fields for what is between them, so that the natural layout is the one that is written. In: the members, resolved.
-// Out: the fields of the record. IEC 61131-3 ed. 3 table 11, 8 and 9. A BOOL at %X3.0 is a bit. With OVERLAP the record
-// is a union whose members have places, in the order in which they are written.
+// Structures whose members have AT offsets, AT %B2: the members in the order of their offsets, with hidden fields for
+// the gaps, so that the natural layout equals the one written. In: the members, resolved. Out: the fields of the
+// record. IEC 61131-3 ed. 3 table 11, 8 and 9. A BOOL at %X3.0 is a bit. With OVERLAP the record is a union whose
+// members have offsets, in source order.
 #include <algorithm>
 
 #include "frontend/syntax/diagnostics.h"
@@ -55,14 +55,14 @@ void setLastOffset(Context& context, TypeId record, uint64_t byte) {
 
 }  // namespace
 
-// Forbids places that overlap (without the word OVERLAP), that the type cannot have, and a bit of anything but a BOOL.
+// Forbids offsets that overlap (without OVERLAP) or do not suit the type, and a bit of anything but a BOOL.
 //   passes  a AT %B0 : INT; b AT %B2 : USINT; c AT %X3.0 : BOOL;
 //   fails   a AT %B0 : INT; b AT %B1 : USINT;              E0381
 //   fails   a AT %B1 : INT;                                E0382
 void layOutMembers(Context& context, TypeId record, std::span<const VarId> members) {
   std::vector<RelativeMember> list;
   for (const VarId id : members) list.push_back(relativeAddressOf(context, id));
-  for (size_t i = 1; i < list.size(); ++i)  // without a place: behind the one before
+  for (size_t i = 1; i < list.size(); ++i)  // without an offset: after the previous one
     if (!list[i].given) list[i].byte = list[i - 1].byte;
   const bool overlaps = context.types().info(record).overlaps;
   if (!overlaps)

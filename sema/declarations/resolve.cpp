@@ -1,5 +1,5 @@
-// Settles what was declared: resolves types, POUs and lists, cuts types that contain themselves, lays everything out
-// and checks initial values. Runs after collecting the files, and again whenever a library declaration was read.
+// Resolves declarations: types, POUs and lists; cuts types that contain themselves, lays everything out and checks
+// initial values. Runs after collecting the files, and again whenever a library declaration was read.
 #include <algorithm>
 
 #include "sema/declarations/declarations.h"
@@ -14,8 +14,8 @@ using types::TypeKind;
 
 namespace {
 
-// The record that is stored in place in a value of this type; none behind pointers. `depth` grows by the arrays and
-// other names around it.
+// The record that is stored in place in a value of this type; none for pointers. `depth` grows by the arrays and
+// aliases around it.
 TypeId heldRecord(const Context& context, TypeId type, uint32_t& depth) {
   for (;; ++depth) {
     const TypeInfo& info = context.types().info(type);
@@ -27,7 +27,7 @@ TypeId heldRecord(const Context& context, TypeId type, uint32_t& depth) {
 
 struct CycleSearch {
   Context& context;
-  // An explicit stack: how deep blocks are nested is known at its end.
+  // An explicit stack: the depth of nested blocks is known only at the end.
   struct Step {
     TypeId record;
     uint32_t field;
@@ -98,7 +98,7 @@ struct CycleSearch {
   }
 };
 
-// Resolves a type and all that it holds, with a stack of its own.
+// Resolves a type and all that it holds, with an explicit stack.
 void resolveHeld(Context& context, TypeId type) {
   uint32_t depth = 0;
   const TypeId record = heldRecord(context, type, depth);
@@ -155,7 +155,7 @@ bool ensureLayout(Context& context, TypeId type) {
 void resolveDeclarations(Context& context) {
   Scopes& scopes = context.scopes;
   Project& project = context.project;
-  if (scopes.resolving || scopes.depth > 0) return;  // the outermost one sees to all
+  if (scopes.resolving || scopes.depth > 0) return;  // the outermost call resolves everything
   scopes.resolving = true;
   const auto pending = [&] {
     return scopes.resolved_types < scopes.declared_types.size() || scopes.resolved_pous < project.pous.size() ||

@@ -1,6 +1,6 @@
 // Types as written become TypeIds: elementary types, names, arrays, strings, subranges, enumerations, structures,
-// pointers. Named types are resolved on first use; records only get their fields when somebody asks for them, so that
-// long chains of blocks within blocks need no deep recursion.
+// pointers. Named types are resolved on first use; records only get their fields on demand, so that long chains of
+// blocks within blocks need no deep recursion.
 #include "frontend/syntax/diagnostics.h"
 #include "sema/checks/test_only.h"
 #include "sema/declarations/declarations.h"
@@ -22,12 +22,12 @@ namespace {
 
 constexpr int64_t kMaxStringLength = 1 << 20;
 
-// Marks in TypeExprHeader::bits.
+// Flags in TypeExprHeader::bits.
 constexpr uint8_t kBusy = 1;
 
 std::string toString(int64_t number) { return std::to_string(number); }
 
-// Forbids a type name that nothing declares, and names of things that are no types.
+// Forbids an undeclared type name, and a name that is not a type.
 //   passes  m : Motor;       fails  m : Moter;         E0402, did you mean `Motor`?
 void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
   const std::string_view text = context.names().string(name);
@@ -66,8 +66,8 @@ void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
   context.report(diag::UnknownType, loc, {text}).didYouMean(nearest(text, candidates));
 }
 
-// A type or block by name: of the namespaces around, of the symbols, then of libraries (a library's own names first for
-// its texts).
+// A type or block by name: of the namespaces around, of the symbols, then of libraries (inside a library, its own names
+// first).
 Entity findDeclaredType(Context& context, NameId key, Loc loc) {
   if (context.library) {
     if (const Entity found = lookUpLibrary(context, key)) return found;
@@ -203,7 +203,7 @@ TypeId resolveArray(Context& context, TypeExprId id) {
   return types::kError;
 }
 
-// The integer type that a subrange or an enumeration stands on.
+// The integer type under a subrange or an enumeration.
 //   fails   TYPE t : REAL (0..1); END_TYPE              E0308
 TypeId integerBase(Context& context, TypeExprId base, Diag diag) {
   const TypeId type = resolveType(context, base);
@@ -238,7 +238,7 @@ void fillSubrange(Context& context, TypeId type, TypeExprId id) {
     context.report(diag::SubrangeReversed, context.tree().begin(expr.low), {toString(*low), toString(*high)});
     ok = false;
   }
-  if (!ok) {  // what uses it is silent
+  if (!ok) {  // its users stay silent
     info.kind = TypeKind::Alias;
     info.base = types::kError;
     return;
@@ -253,7 +253,7 @@ void fillSubrange(Context& context, TypeId type, TypeExprId id) {
   info.high = is_signed ? std::numeric_limits<int64_t>::max() >> rest : static_cast<int64_t>(~uint64_t{0} >> rest);
 }
 
-// Items without a value follow the one before, from 0. IEC 61131-3 ed. 3, 6.4.4.2 and table 11, 3.
+// Items without a value follow the previous one, from 0. IEC 61131-3 ed. 3, 6.4.4.2 and table 11, 3.
 void fillEnum(Context& context, TypeId type, TypeExprId id) {
   EnumTypeExpr& expr = context.tree().as<EnumTypeExpr>(id);
   Symbols& symbols = context.symbols;
@@ -285,7 +285,7 @@ void fillEnum(Context& context, TypeId type, TypeExprId id) {
     if (declared.entityKind() == EntityKind::EnumValue && symbols.enum_values[declared.index].loc == item.item.loc) {
       symbols.enum_values[declared.index].value = next;
     }
-    next = static_cast<int64_t>(static_cast<uint64_t>(next) + 1);  // behind the largest value: wraps
+    next = static_cast<int64_t>(static_cast<uint64_t>(next) + 1);  // after the largest value: wraps
   }
   context.items_of = {};
 }
@@ -307,7 +307,7 @@ void inheritFields(Context& context, TypeId record, TypeExprId base_expr) {
     Var var = context.symbols.var(inherited);
     const VarId id{static_cast<uint32_t>(context.symbols.vars.size())};
     var.record = record;
-    var.decl = {};  // checked where it is written
+    var.decl = {};  // checked at its declaration
     context.symbols.vars.push_back(var);
     named.members.insert(keyOf(context, var.name), entity(id));
     return id;
@@ -365,7 +365,7 @@ void fillRecord(Context& context, TypeId type, TypeExprId id) {
   for (const VarId var : vars) addField(context, type, var);
 }
 
-// Types written in place, in VAR: a name of their own for generated code.
+// A name for a type written in place, in VAR, for generated code.
 NameId anonymousTypeName(Context& context, Loc loc) {
   const SourceLocation location = context.symbols.sources.location(loc);
   std::string name = context.pou ? toString(context, context.symbols.pou(context.pou).unique_name) : "Type";
@@ -435,10 +435,10 @@ TypeId lookUpType(Context& context, NameId name, Loc loc) {
 }
 
 TypeId resolveType(Context& context, TypeExprId id) {
-  if (!id) return types::kError;  // the parser has told what is missing
+  if (!id) return types::kError;  // reported by the parser
   TypeExprHeader& header = context.tree().typeExpr(id);
   if (header.type) return header.type;
-  if ((header.bits & kBusy) != 0) {  // an array bound or length that needs the type itself
+  if ((header.bits & kBusy) != 0) {  // an array bound or length that depends on the type itself
     context.report(diag::TypeOfItself, header.loc);
     return header.type = types::kError;
   }
@@ -488,7 +488,7 @@ void resolveNamed(Context& context, TypeId type) {
     case TypeExprKind::Array:
     case TypeExprKind::Pointer: {
       TypeId target = closedType(there, named->type);
-      TypeId step = target;  // an alias that leads back here was reported
+      TypeId step = target;  // an alias that refers back to this type was reported
       while (step != type && context.types().info(step).kind == TypeKind::Alias) step = context.types().info(step).base;
       uint32_t depth = 0;
       for (TypeId inner = target; depth <= kMaxTypeDepth; inner = context.types().info(inner).base, ++depth) {

@@ -47,7 +47,7 @@ const char* kindWord(PouKind kind) {
   return "POU";
 }
 
-// A variable AT %I* of a block, or of a program with several instances, has a place of its own in each instance.
+// Whether a variable AT %I* has a separate address in each instance: in a block, or a program with several instances.
 bool addressesPerInstance(const Context& context, PouId pou) {
   if (!pou || isFunction(context.symbols.pou(pou).kind)) return false;
   if (context.symbols.pou(pou).kind == PouKind::FunctionBlock) return true;
@@ -123,7 +123,7 @@ void declareVars(Context& context, DeclId decl_id, const SectionDecl& section, P
     if (!names->insert(key, entity(id))) {
       const Entity first = names->find(key);
       const Loc loc = first.entityKind() == EntityKind::Var ? symbols.vars[first.index].loc : Loc{};
-      // What could not be read as a declaration is none.
+      // A declaration that could not be read declares nothing.
       if (!decl.type || context.tree().kind(decl.type) != TypeExprKind::Error)
         reportTwice(context, var.name, var.loc, loc);
       continue;
@@ -150,7 +150,7 @@ void addField(Context& context, TypeId record, VarId id) {
                : var.pou                            ? FieldRole::Local
                                                     : FieldRole::Member;
   field.by_reference = var.section == SectionKind::InOut;
-  if (context.types().isOpenArray(var.type)) {  // a pointer to the first element; the bounds are fields of their own
+  if (context.types().isOpenArray(var.type)) {  // a pointer to the first element; the bounds are separate fields
     field.type = context.types().pointer(context.types().info(context.types().resolve(var.type)).base);
     field.by_reference = false;
   }
@@ -222,7 +222,7 @@ void matchExternal(Context& context, VarId id) {
   }
 }
 
-// Forbids initial values where none can act. IEC 61131-3 ed. 3, 6.5.1.3; manual 5.3.3.
+// Forbids initial values where they would have no effect. IEC 61131-3 ed. 3, 6.5.1.3; manual 5.3.3.
 //   fails   VAR_EXTERNAL level : REAL := 1.0; END_VAR  E0324
 bool mayHaveInitialValue(Context& context, const Var& var, ExprId init) {
   if (context.types().isOpenArray(var.type) && var.section != SectionKind::InOut) {
@@ -234,7 +234,7 @@ bool mayHaveInitialValue(Context& context, const Var& var, ExprId init) {
   return false;
 }
 
-// ARRAY[*]: of a call a pin of any direction, of an instance only what is bound anew by each call.
+// ARRAY[*]: a pin of any direction of a call; in an instance only a pin that each call binds again.
 bool mayBeOpen(const Context& context, const Var& var) {
   if (var.section == SectionKind::InOut) return true;
   const bool of_call = var.pou && isFunction(context.symbols.pou(var.pou).kind);
@@ -276,7 +276,7 @@ void ensureVarType(Context& context, VarId id) {
       if (i == first) there.report(diag::OpenArray, context.tree().loc(decl.type));
       var.type = types::kError;
     }
-    // An ANY input of CODESYS tells of any variable where it is; the standard's generic types are the library's.
+    // An ANY input of CODESYS describes the caller's variable; generic types of the standard are for the library only.
     const bool generic = types::TypeTable::isGeneric(context.types().kind(var.type));
     const bool may_report = var.section == SectionKind::Input || var.section == SectionKind::Local;
     if (generic && may_report && !there.library && !there.iec()) {
@@ -313,7 +313,7 @@ void ensureVarType(Context& context, VarId id) {
   }
 }
 
-// Forbids a constant without a value, and one whose value needs itself. IEC 61131-3 ed. 3, 6.5.1.
+// Forbids a constant without a value, and one whose value depends on itself. IEC 61131-3 ed. 3, 6.5.1.
 //   passes  VAR CONSTANT a : INT := b + 1; b : INT := 2; END_VAR
 //   fails   VAR CONSTANT a : INT := b; b : INT := a; END_VAR       E0321
 void ensureInitialValue(Context& context, VarId id) {
@@ -323,7 +323,7 @@ void ensureInitialValue(Context& context, VarId id) {
   if (decl.h.spare == static_cast<uint16_t>(State::Done)) return;
   if (symbols.var(id).section == SectionKind::External && symbols.var(id).external && !decl.init) return;
   Context there = contextOf(context, id);
-  const auto setUnknown = [&] {  // what follows from the mistake is silent
+  const auto setUnknown = [&] {  // silences follow-up errors
     Var& var = symbols.var(id);
     const TypeKind kind = context.types().plainKind(var.type);
     if (!types::TypeTable::isElementary(kind)) return;
@@ -397,8 +397,8 @@ void ensureInitialValue(Context& context, VarId id) {
   }
 }
 
-// VAR_INST of a method: a variable of the object, which only this method sees; of an action, where charts put theirs,
-// see shareChartVars.
+// VAR_INST of a method: a variable of the object, visible only in this method; of an action: the variables of its
+// chart, see shareChartVars.
 static void declareInstanceVars(Context& context, DeclId decl, const SectionDecl& section, PouId method) {
   Symbols& symbols = context.symbols;
   const PouId owner = symbols.pou(method).owner;
@@ -413,7 +413,7 @@ static void declareInstanceVars(Context& context, DeclId decl, const SectionDecl
   }
 }
 
-// The variables that networks of the POU and of its actions need without anybody having written them.
+// The variables that schedulers add for networks of the POU and of its actions.
 static void declareHidden(Context& context, PouId id) {
   Tree& tree = context.tree();
   PouDecl& decl = tree.as<PouDecl>(context.symbols.pou(id).decl);
@@ -441,7 +441,7 @@ static void declareHidden(Context& context, PouId id) {
   decl.sections = tree.addList<DeclId>(sections);
 }
 
-// ENO in the body of a function is an output that nobody declares; TRUE until the body says otherwise.
+// ENO in the body of a function is an output that need not be declared; TRUE until the body assigns it.
 // IEC 61131-3 ed. 2, 2.5.1.2 and the function WEIGH of its annex F.
 static void declareEno(Context& context, PouId id) {
   Symbols& symbols = context.symbols;
@@ -497,7 +497,7 @@ void declarePou(Context& context, PouId id) {
     for (uint32_t i = 0; i < section.vars.count; ++i) {
       const DeclId var = tree.list(section.vars)[i];
       if (section.section == SectionKind::Stat) {
-        // One for all instances and calls: a list of its own, which only this POU sees. codesys.
+        // One for all instances and calls: a separate list, visible only in this POU. codesys.
         const std::string name = toString(context, symbols.pou(id).unique_name) + "__static";
         const ListId list = listNamed(context, name, symbols.pou(id).file, section.h.loc, context.scopes.qualifiers);
         declareVars(there, var, section, id, list, &scope.names, symbols.global_lists[list.index].vars);
@@ -514,7 +514,7 @@ void declarePou(Context& context, PouId id) {
   declareMembers(context, id);
   if (kind == PouKind::Function && decl.uses_eno) declareEno(context, id);
   if (symbols.pou(id).result_var) {
-    // The name is the result inside the body, unless a pin has it (reported by nobody: the pin hides it).
+    // The name is the result inside the body, unless a pin has it (not reported: the pin hides it).
     scope.names.insert(keyOf(context, decl.name), entity(symbols.pou(id).result_var));
   }
 }

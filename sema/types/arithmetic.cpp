@@ -23,7 +23,7 @@ constexpr OpRow kOps[] = {
 #include "sema/types/operators.def"
 };
 
-// The value that `bits` has after a store in a variable of this kind: cut to its width, then extended.
+// The value that `bits` has after a store to a variable of this kind: cut to its width, then extended.
 uint64_t wrap(const TypeTable& table, TypeKind kind, uint64_t bits) {
   const uint32_t width = TypeTable::bitWidth(kind);
   if (width == 0 || width >= 64) return bits;
@@ -69,7 +69,7 @@ Outcome compare(Op op, int order, bool unordered) {
   return ofBool(order >= 0);
 }
 
-// The next UTF-16 unit of a UTF-8 text; surrogate pairs come as two. 0 at the end.
+// The next UTF-16 unit of a UTF-8 string; surrogate pairs come as two. 0 at the end.
 struct Utf16Units {
   std::string_view text;
   size_t at = 0;
@@ -102,7 +102,7 @@ struct Utf16Units {
   }
 };
 
-// The shorter text counts as padded with NUL.
+// The shorter string counts as padded with NUL.
 int compareStrings(std::string_view a, std::string_view b, bool wide) {
   if (!wide) return a.compare(b);
   Utf16Units left{a}, right{b};
@@ -421,7 +421,7 @@ bool isLossless(const TypeTable& table, TypeId from, TypeId to) {
   const TypeKind a = table.plainKind(from), b = table.plainKind(to);
   if (TypeTable::isString(a)) return a == b && source.length <= target.length;
   if (!TypeTable::isScalar(a) || !TypeTable::isScalar(b)) return false;
-  if (target.kind == TypeKind::Enum) return false;  // but its own items, which have its type
+  if (target.kind == TypeKind::Enum) return false;  // except its own items, which have its type
   const auto isNumber = [](TypeKind k) { return TypeTable::isInteger(k) || TypeTable::isBits(k); };
   if (isNumber(a) && isNumber(b)) {
     Range from_range = rangeOf(table, a), to_range = rangeOf(table, b);

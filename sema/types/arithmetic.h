@@ -1,6 +1,6 @@
-// The arithmetic kernel: IEC semantics on typed values, the one place that knows them (design §6). In: values and an
-// operator. Out: a value or the fault that it raises. Serves constants in sema, folding in the IR and the interpreter;
-// generated code must agree with it, and the differential tests see to that.
+// The arithmetic kernel: the single implementation of IEC semantics on typed values. In: values and an operator. Out: a
+// value or the fault that it raises. Used for constants in sema, folding in the IR and the interpreter; differential
+// tests check that generated code agrees with it.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ enum class Op : uint8_t {
 };
 const char* word(Op op);
 int operandCount(Op op);
-// The operator with this word; false when there is none.
+// The operator with this keyword; false when there is none.
 bool findOp(std::string_view word, Op& op);
 bool isComparison(Op op);
 
-// A scalar or a text. Integers, BOOL, bit strings, times, dates, enumerations: sign- or zero-extended to 64 bits.
-// REAL and LREAL: the bits of a double (a REAL's value is exact in it). texts: the NameId of the exact text (WSTRING
-// as UTF-8).
+// A scalar or a string. Integers, BOOL, bit strings, times, dates, enumerations: sign- or zero-extended to 64 bits.
+// REAL and LREAL: the bits of a double (a REAL's value is exact in it). Strings: the NameId of the exact characters
+// (WSTRING as UTF-8).
 struct Value {
   TypeId type;
   uint64_t bits = 0;
@@ -37,17 +37,17 @@ const char* word(Fault fault);
 
 struct Outcome {
   Value value;
-  Fault fault = Fault::None;  // value is then what unchecked code yields (x/0 = 0)
+  Fault fault = Fault::None;  // value is then the result of unchecked code (x/0 = 0)
   bool overflow = false;      // the exact result did not fit and wrapped, saturated or became infinite
 };
 
-// Both operands already have the operator's type (comparisons give BOOL; shifts take any integer as N; Power takes any
-// numeric exponent).
+// Both operands already have the operator's type (comparisons return BOOL; shifts take any integer as N; Power takes
+// any numeric exponent).
 Outcome apply(const TypeTable& table, const Names& names, Op op, const Value& left, const Value& right = {});
 
 // Conversion between elementary types, enumerations and subranges included: integers wrap at the target's width, REAL
 // to integer rounds half to even and saturates (NaN gives 0), subranges saturate, TIME <-> LTIME scales.
-// `outcome.overflow` when the value changed beyond rounding. Text is not converted here (runtime/text does it).
+// `outcome.overflow` when the value changed beyond rounding. Strings are not converted here (the runtime does it).
 Outcome convert(const TypeTable& table, const Value& value, TypeId to);
 
 // Nanoseconds of one unit of a duration or date kind.
@@ -62,7 +62,7 @@ Value defaultValue(const TypeTable& table, Names& names, TypeId type);
 // True when every value of `from` is a value of `to`: INT to DINT, REAL to LREAL, BYTE to WORD, USINT to INT.
 bool isLossless(const TypeTable& table, TypeId from, TypeId to);
 
-// As the trace and messages print it (design §11): `TRUE`, `-5`, `0.5`, `T#1s500ms`, `'a$L'`, `Red`.
+// The format of traces and messages: `TRUE`, `-5`, `0.5`, `T#1s500ms`, `'a$L'`, `Red`.
 std::string toString(const TypeTable& table, const Names& names, const Value& value);
 
 }  // namespace rung::types

@@ -1,4 +1,4 @@
-// How types and values read: in messages, in traces (design §11), in generated comments.
+// Types and values in messages, traces and generated comments.
 #include <charconv>
 #include <cmath>
 
@@ -39,7 +39,7 @@ void appendReal(std::string& out, Float value) {
   }
 }
 
-// T#1d2h3m4s5ms, LTIME#…us…ns; units that are zero are left out.
+// T#1d2h3m4s5ms, LTIME#…us…ns; units that are zero are omitted.
 void appendDuration(std::string& out, uint64_t ns, bool negative, bool long_form) {
   out += long_form ? "LTIME#" : "T#";
   if (negative) out += '-';

@@ -1,5 +1,5 @@
-// Layout of types in memory (design §6): natural alignment, 64-bit scalars on 8, arrays row-major, strings with their
-// NUL, in-outs as pointers. An empty record takes one byte, as in C++, so that offsets agree.
+// Layout of types in memory: natural alignment, 64-bit scalars on 8, arrays row-major, strings with their NUL, in-outs
+// as pointers. An empty record takes one byte, as in C++, so that offsets agree.
 #include "sema/types/types.h"
 
 namespace rung::types {
@@ -13,7 +13,7 @@ uint64_t alignUp(uint64_t value, uint32_t align) { return (value + align - 1) / 
 }  // namespace
 
 bool TypeTable::layout(TypeId id) {
-  TypeInfo& info = types_[id.index];  // a deque: good while layout() adds nothing
+  TypeInfo& info = types_[id.index];  // a deque: valid while layout() adds nothing
   if (info.laid_out) return info.size < kMaxSize;
   info.laid_out = true;
   bool fits = true;
@@ -58,7 +58,7 @@ bool TypeTable::layout(TypeId id) {
     }
     info.align = align;
     info.size = end == 0 ? align : alignUp(end, align);
-  }  // scalars and texts are laid out from the start; literal and generic types have no memory
+  }  // scalars and strings are laid out from the start; literal and generic types have no memory
   if (!fits || info.size >= kMaxSize) {
     info.size = kMaxSize;
     return false;

@@ -11,7 +11,7 @@ struct ElementaryName {
   const char* name;
   TypeKind kind;
 };
-// The first name of a kind is the one that messages use.
+// Messages use the first name of a kind.
 constexpr ElementaryName kElementaryNames[] = {
     {"BOOL", TypeKind::Bool},
     {"BYTE", TypeKind::Byte},
@@ -64,7 +64,7 @@ constexpr ElementaryName kElementaryNames[] = {
 };
 constexpr uint32_t kDefaultLength = 80;
 
-// A text is laid out from the start, like a scalar: lowering makes more of them when all layouts are known.
+// A string is laid out from the start, like a scalar: lowering adds more of them when all layouts are known.
 void setLength(TypeInfo& info, uint32_t length) {
   const uint32_t unit = info.kind == TypeKind::WString ? 2 : 1;
   info.length = length;
@@ -103,7 +103,7 @@ TypeTable::TypeTable(Names& names, uint32_t pointer_size) : names_(names), point
   native("__XWORD", TypeKind::LWord, TypeKind::DWord);
   native("__XINT", TypeKind::LInt, TypeKind::DInt);
   native("__UXINT", TypeKind::ULInt, TypeKind::UDInt);
-  // A text without a length is the same type as with the default one.
+  // A string without a length has the same type as one with the default length.
   for (const TypeKind kind : {TypeKind::String, TypeKind::WString, TypeKind::UString})
     interned_.emplace(internKey(kind, kDefaultLength), idOf(kind));
 }
@@ -149,7 +149,7 @@ TypeId TypeTable::array(TypeId element, std::span<const Dimension> dimensions) {
       hash ^= hash >> 29;
     }
   }
-  for (;; ++hash) {  // the key of another array with the same hash is stepped over
+  for (;; ++hash) {  // skips the key of another array with the same hash
     TypeId& id = interned_[internKey(TypeKind::Array, hash & 0x00ffffffffffffffu)];
     if (id) {
       const TypeInfo& known = types_[id.index];

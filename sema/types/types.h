@@ -1,4 +1,4 @@
-// Types of the language and their layout in memory. In: what sema resolves from declarations, or the IR reader.
+// Types of the language and their layout in memory. In: types that sema resolves from declarations, or the IR reader.
 // Out: TypeIds that syntax annotations, IR, code generation and the interpreter share.
 // Structural types (arrays, strings, pointers, references) are interned: equal types have equal ids. Named types
 // (enumerations, subranges, records, aliases) are one id per declaration.
@@ -87,18 +87,19 @@ inline constexpr TypeId kError = idOf(TypeKind::Error), kBool = idOf(TypeKind::B
                         kUDInt = idOf(TypeKind::UDInt), kULInt = idOf(TypeKind::ULInt), kReal = idOf(TypeKind::Real),
                         kLReal = idOf(TypeKind::LReal), kTime = idOf(TypeKind::Time), kLTime = idOf(TypeKind::LTime);
 
-// Interface: what a variable of an INTERFACE type points to: the type id with which every object of a class begins.
-// Union: all members at Field::place, which is 0 but for STRUCT OVERLAP.
+// Interface: the target of a variable of an INTERFACE type: the type id with which every object of a class begins, so
+// that layout, copying, null checks and comparison are those of pointers.
+// Union: all members at Field::given_offset, which is 0 except in STRUCT OVERLAP.
 enum class RecordKind : uint8_t { Struct, Union, FunctionBlock, Program, GlobalList, Interface };
 
-enum class FieldRole : uint8_t { Member, Local, Input, Output, InOut, Base };  // Base: what a block extends
+enum class FieldRole : uint8_t { Member, Local, Input, Output, InOut, Base };  // Base: the block that it extends
 struct Field {
   NameId name;
   TypeId type;
   FieldRole role = FieldRole::Member;
   bool by_reference = false;  // VAR_IN_OUT: the memory holds a pointer to the variable
   bool retain = false, persistent = false, constant = false;
-  uint32_t given_offset = 0;  // of a union of members with places of their own
+  uint32_t given_offset = 0;  // of a union whose members have AT positions
   uint32_t offset = 0;        // after layout
 };
 
@@ -124,7 +125,7 @@ struct TypeInfo {
   NameId name;                // named types
   TypeId base;  // Enum, Subrange: the integer type; Alias, Array (element), Pointer, Reference: the target
   uint32_t length =
-      0;  // texts: capacity in bytes, of a WString in 16-bit units; Array without `dimensions`: how many are open
+      0;  // strings: capacity in bytes, of a WString in 16-bit units; Array without `dimensions`: how many are open
   int64_t low = 0, high = 0;  // Subrange: bounds in the base type's bits
   int64_t initial = 0;        // Subrange: the value that a variable begins with
   uint64_t size = 0;          // bytes, after layout
@@ -147,7 +148,7 @@ class TypeTable {
   uint32_t pointerSize() const { return pointer_size_; }
   const Names& names() const { return names_; }
 
-  // The kind behind aliases. `plain` also goes through subranges and enumerations to the integer type in memory.
+  // The kind, through aliases. `plain` also goes through subranges and enumerations to the integer type in memory.
   TypeId resolve(TypeId id) const {
     while (types_[id.index].kind == TypeKind::Alias) id = types_[id.index].base;
     return id;
@@ -178,7 +179,7 @@ class TypeTable {
   // and cut before. False when the size does not fit 2 GiB.
   bool layout(TypeId id);
 
-  // As messages name it: `INT`, `STRING[20]`, `ARRAY[1..10] OF REAL`, `POINTER TO Motor`, `Color`.
+  // The format of messages: `INT`, `STRING[20]`, `ARRAY[1..10] OF REAL`, `POINTER TO Motor`, `Color`.
   std::string toString(TypeId id) const;
 
   // ---- classes of elementary kinds
@@ -195,7 +196,7 @@ class TypeTable {
   static bool isDate(TypeKind k) { return k >= TypeKind::Date && k <= TypeKind::LDateTime; }
   static bool isString(TypeKind k) { return k >= TypeKind::String && k <= TypeKind::UString; }
   static bool isCharacter(TypeKind k) { return k >= TypeKind::Char && k <= TypeKind::UChar; }
-  // The character of a text, the text of a character.
+  // The character type of a string type, the string type of a character type.
   static TypeKind characterOf(TypeKind string) {
     return string == TypeKind::WString   ? TypeKind::WChar
            : string == TypeKind::UString ? TypeKind::UChar
@@ -212,9 +213,9 @@ class TypeTable {
   }
   static bool isElementary(TypeKind k) { return k >= TypeKind::Bool && k <= TypeKind::UString; }
   static bool isGeneric(TypeKind k) { return k >= TypeKind::Any && k <= TypeKind::AnyDerived; }
-  static bool isScalar(TypeKind k) { return k >= TypeKind::Bool && k <= TypeKind::UChar; }  // elementary, no text
-  static uint32_t bitWidth(TypeKind k);  // BOOL 1, INT 16, TIME 32, LTIME 64, …; 0 for what is no scalar
-  // What an elementary kind is in memory: signed or unsigned integer of bitWidth, or floating point.
+  static bool isScalar(TypeKind k) { return k >= TypeKind::Bool && k <= TypeKind::UChar; }  // elementary, not a string
+  static uint32_t bitWidth(TypeKind k);  // BOOL 1, INT 16, TIME 32, LTIME 64, …; 0 for types that are not scalar
+  // The representation of an elementary kind: signed or unsigned integer of bitWidth, or floating point.
   // TIME is unsigned in codesys and signed in iec2/iec3.
   bool isSigned(TypeKind k) const;
   bool time_is_signed = false;
