@@ -3,7 +3,7 @@
 // come from one parser. Wires are numbers, resolved once at the end, so dangling and repeated ids have one message for
 // all formats. docs/networks.md describes it completely.
 //   body    = "{network" [LD | FBD | CFC] "}" {NETWORK number [DISABLED] [title] ";" | element ";"} "{end_network}"
-//   element = word number [name | text] {"(" e ")" | NOT | RISING | FALLING | SET | RESET | HOLDING
+//   element = word number [name | string] {"(" e ")" | NOT | RISING | FALLING | SET | RESET | HOLDING
 //                          | ORDER n | AT x, y [, w, h]
 //                          | ":=" wires | pins | statements}
 //   pins    = "[" pin {"," pin} "]"
