@@ -9,7 +9,6 @@
 // each named condition a BOOL. Sets of 64 steps per LWORD hold the active steps (sfc_steps), those left and those
 // entered by the transitions of the last cycle (sfc_left, sfc_entered): a cycle visits set bits only. Sets of actions
 // hold the control blocks with work to do (sfc_actions).
-// control blocks have something to do (sfc_actions).
 #pragma once
 
 #include <utility>
