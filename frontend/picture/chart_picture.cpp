@@ -19,9 +19,8 @@ struct Action {
 struct StepText {
   std::string name, times;
   std::vector<Action> actions;
-  int32_t width, height;  // of its box
-  int32_t qualifier_width, name_width,
-      indicator_width;  // of the columns of its actions; there may be no indicator column
+  int32_t width, height;                                 // of its box
+  int32_t qualifier_width, name_width, indicator_width;  // of the columns of its actions; indicators are optional
 };
 
 const char* defaultWord(SfcQualifier q) {

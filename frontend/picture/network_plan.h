@@ -47,8 +47,7 @@ struct Item {
   Rect frame;        // of the part drawn as a box
   Point origin;
   std::vector<Terminal> terminals;
-  uint32_t continuation =
-      0;  // the number of a continuation: where a wire goes on in another band; then there is no element
+  uint32_t continuation = 0;  // number of the mark where a wire continues in another band; then no element
 
   Rect bounds() const { return area.at(origin); }
 };

@@ -114,8 +114,8 @@ FileId Sources::add(std::string path, std::string source) {
 
 FileId Sources::addSourceMapped(std::string path, std::string source, std::vector<Segment> segments) {
   const File& last = files_.back();
-  const uint64_t base =
-      uint64_t{last.base} + last.source.size() + 1;  // one past the NUL: the end of a file has its own location
+  // One past the NUL: the end of a file has its own location.
+  const uint64_t base = uint64_t{last.base} + last.source.size() + 1;
   if (base + source.size() + 1 > UINT32_MAX) return {};
   files_.push_back(
       {std::move(path), std::move(source), static_cast<uint32_t>(base), std::move(segments), {}, {}, false});

@@ -334,8 +334,7 @@ DeclId Parser::parsePou() {
       else
         slip(diag::StrayEnd, t_, {textOf(t_)});
       advance();
-      if (d.pou_kind != PouKind::Method &&
-          d.pou_kind != PouKind::Action) {  // the rest of it does not belong to file level
+      if (d.pou_kind != PouKind::Method && d.pou_kind != PouKind::Action) {  // its rest does not belong to file level
         while (!at(end) && !at(Tok::End) && (atMember() || !atTopLevelWord())) advance();
         accept(end);
       }

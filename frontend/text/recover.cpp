@@ -199,8 +199,7 @@ class Balancer {
   std::string_view source_;
   uint32_t count_;
   bool in_configuration_ = false;
-  std::vector<Tok>
-      members_closed_;  // METHOD, PROPERTY, ACTION whose END_… the file writes (all of them in the iec dialects)
+  std::vector<Tok> members_closed_;  // METHOD, PROPERTY, ACTION whose END_… the file writes (all of them in iec)
 
   std::vector<Open> stack_;
   std::vector<Orphan> orphans_;

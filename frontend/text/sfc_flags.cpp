@@ -135,7 +135,7 @@ template <class Condition>
 void SfcScheduler::analyseLeaf(const Condition& condition, std::string_view text, bool wanted, uint32_t depth) {
   const Ident& table = *chart_.flag(SfcFlag::ErrorAnalyzationTable);
   out_.line(depth, "IF sfc_row <= UPPER_BOUND(", table, ", 1) AND ", wanted ? "NOT " : "", "(", condition);
-  out_.line(depth, ") THEN");  // on a line of its own: the condition may end with a comment
+  out_.line(depth, ") THEN");  // on a separate line: the condition may end with a comment
   out_.line(depth + 1, table, "[sfc_row].name := '", quoted(text), "';");
   out_.line(depth + 1, table, "[sfc_row].value := ", wanted ? "FALSE;" : "TRUE;");
   out_.line(depth + 1, "sfc_row := sfc_row + 1;");

@@ -2,7 +2,6 @@
 //   macro = MACRO_STEP name ["(" (ENTRY | EXIT) ":=" step {"," …} ")"] ":" {step | transition | macro} END_MACRO_STEP
 // The parser inlines the part: a transition to the macro activates its entry, one from it leaves its exit; by default
 // these are its first and its last step in the source. TM/TP manual 5.5.2.5.
-// are its first and its last step in the text. TM/TP manual 5.5.2.5.
 #include <unordered_map>
 
 #include "frontend/syntax/diagnostics.h"

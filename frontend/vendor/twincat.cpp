@@ -1,7 +1,6 @@
 // TwinCAT 3: .TcPOU, .TcDUT, .TcTLEO, .TcGVL, .TcIO and .TcTTO. An object of the project is an element with a
 // <Declaration> in ST; POUs also have an <Implementation> and members. Drawn bodies are object archives (archive.h). A
 // body of an unsupported kind is an error, but the declarations of its POU are read all the same.
-// nevertheless.
 #include <string>
 
 #include "frontend/vendor/archive.h"
@@ -41,7 +40,7 @@ class TwinCatReader {
         part(*e, "Declaration");
       } else if (e->name == "Task") {
         readTask(*e);
-      }  // others are pictures, texts and lists of them
+      }  // others are pictures and lists of strings
     }
     return program_;
   }
