@@ -96,8 +96,8 @@ bool Scheduler::fillArguments(uint32_t element, Call& call) {
   const bool known = kind == SignatureKind::Instance || kind == SignatureKind::Function ||
                      kind == SignatureKind::Method || kind == SignatureKind::Program;
   bool named = known || e.operand || e.hidden;
-  if (named &&
-      call.signature.kind == SignatureKind::Function) {  // some editors use different pin names for all of them
+  // Some editors use different names for all pins.
+  if (named && call.signature.kind == SignatureKind::Function) {
     bool any = false, all_unknown = true;
     for (const DiagramPin& pin : tree_.list(e.pins)) {
       if (pin.direction == PinDirection::Output || isControl(names_, pin.name.name)) continue;

@@ -61,7 +61,7 @@ class Search {
         continue;
       }
       const DiagramElement& e = graph_.elements[from];
-      if (e.order != 0) {  // runs before the root, which reads it, or in the next cycle
+      if (e.order != 0) {  // its reader runs when the root runs
         if (isFunction(e) && order_of_[from] >= order_of_[root]) find(from);
         continue;
       }

@@ -22,7 +22,7 @@ class Arranger {
     std::vector<uint32_t> attached;
     uint32_t host = kNone;  // the item to which it is attached
     uint32_t column = 0;
-    uint32_t first = 0, rank = 0;  // in `order_`: the begin of its sources, and its own index
+    uint32_t first = 0, rank = 0;  // in `order_`: the start of its sources, and its own index
     bool joins = false;            // of a walk's root: an earlier walk found one of its sources
     Rect cluster;                  // with attached items
     enum class State : uint8_t { New, Open, Done } state = State::New;

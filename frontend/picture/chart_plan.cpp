@@ -104,7 +104,7 @@ void ChartArranger::findOrder() {
     for (const Edge& edge : out_[node])
       if (edge.to != kNoNode && !edge.back) in_[edge.to].push_back(node);
   }
-  // A step reached from an earlier chain is not a begin.
+  // A step reached from an earlier chain is not a start.
   std::erase_if(out_[root_], [&](const Edge& edge) {
     if (in_[edge.to].size() < 2) return false;
     std::erase(in_[edge.to], root_);

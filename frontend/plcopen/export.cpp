@@ -88,7 +88,7 @@ size_t PouExport::beginOf(DeclId member) const {
   return begin;
 }
 
-// The offset after the last section; without sections, the begin of the members or the body.
+// The offset after the last section; without sections, the start of the members or the body.
 size_t PouExport::endOfHeader(const PouDecl& pou) const {
   size_t last = 0;
   for (const DeclId section : to_.tree.list(pou.sections))

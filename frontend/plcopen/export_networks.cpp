@@ -298,7 +298,7 @@ void NetworkExport::element(uint32_t k) {
   to_.xml.close();
 }
 
-// The begin of a network: its title, or the warning that it is omitted.
+// The start of a network: its title, or the warning that it is omitted.
 void NetworkExport::network(uint32_t index) {
   const DiagramNetwork& n = to_.tree.list(diagram_.networks)[index - 1];
   if (n.disabled) {

@@ -18,7 +18,7 @@ class SourceText {
   size_t at(Loc loc) const { return loc.offset - base_; }
   std::string_view cut(size_t begin, size_t end) const { return source_.substr(begin, end - begin); }
 
-  // The begin of the comments directly before `p`; `p` if there are none. A comment that follows code on the same line
+  // The start of the comments directly before `p`; `p` if there are none. A comment that follows code on the same line
   // belongs to that code, and counts only for `all`.
   size_t commentsBefore(size_t p, bool all = false) const;
   // The end of the comments after `p` on its line.
@@ -35,7 +35,7 @@ class SourceText {
 
   // The end of the first such word after `p`; the end of the source if there is none.
   size_t endOfWord(size_t p, std::string_view word) const;
-  // The begin of the last such word before `p`; `p` if there is none.
+  // The start of the last such word before `p`; `p` if there is none.
   size_t wordBefore(size_t p, std::string_view word) const;
   // Whether the first unit at or after `p` is `word`, or begins with it.
   bool wordFollows(size_t p, std::string_view word) const;

@@ -508,10 +508,9 @@ struct SectionDecl {
 
 struct VarDecl {
   DeclHeader h;
-  Slice<Ident>
-      names;  // empty: an unnamed located variable; VAR_CONFIG: the path; VAR_ACCESS: the name, and `init` is the path
-  TypeExprId type;  // none: a temporary of the compiler, whose type sema infers from its assignments
-  ExprId init;      // none: the type's default
+  Slice<Ident> names;  // empty: unnamed located variable; VAR_CONFIG: the path; VAR_ACCESS: the name (`init`: the path)
+  TypeExprId type;     // none: a temporary of the compiler, whose type sema infers from its assignments
+  ExprId init;         // none: the type's default
   EdgeKind edge;
   bool located;
   DirectAddress address;  // when located; of a member of a structure: its given offset, with a size

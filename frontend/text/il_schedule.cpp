@@ -377,8 +377,8 @@ void IlScheduler::skip(const IlInstruction& i, bool& reported) {
 
 void IlScheduler::step(const IlInstruction& i) {
   if (!allowed(i)) return;
-  if (const NameId* pin =
-          inputOperator(tree_, names_, signatures_, i)) {  // the call of the instance with this one input
+  // The call of the instance with this one input.
+  if (const NameId* pin = inputOperator(tree_, names_, signatures_, i)) {
     require(acc_, i);
     Argument argument{{*pin, i.loc}, use(i), false, false, i.loc};
     std::vector<Argument> arguments{argument};

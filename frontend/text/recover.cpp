@@ -206,10 +206,9 @@ class Balancer {
   std::vector<Edit> edits_;
   uint32_t region_first_ = 0, region_end_ = 0;
   uint32_t line_first_ = 0, line_column_ = 0;
-  uint32_t pending_header_ =
-      0;                     // index + 1 of the IF, ELSIF, FOR, WHILE, CASE or ARRAY that waits for its THEN, DO or OF
-  uint32_t decl_start_ = 0;  // first token of a line where declarations without a VAR may begin
-  uint32_t outside_start_ = 0;  // first token after the last closed POU
+  uint32_t pending_header_ = 0;  // index + 1 of the IF, ELSIF, FOR, WHILE, CASE or ARRAY waiting for its THEN, DO or OF
+  uint32_t decl_start_ = 0;      // first token of a line where declarations without a VAR may begin
+  uint32_t outside_start_ = 0;   // first token after the last closed POU
   uint32_t searches_ = 0;
   bool global_section_ = false;  // the last section was at file level
 };

@@ -26,7 +26,7 @@ class Scanner {
  private:
   std::string_view source_;
   size_t begin_ = 0, p_ = 0;
-  size_t first_on_line_ = 0;  // one past the begin of the last word that began a line
+  size_t first_on_line_ = 0;  // one past the start of the last word that began a line
   bool line_start_ = true;
   bool skipped_other_ = false;
   bool nests_ = true;  // false after (* @NESTEDCOMMENTS := 'No' *) of CODESYS 2.3

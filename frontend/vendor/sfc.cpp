@@ -32,7 +32,7 @@ struct Transition {
 struct Front {
   std::vector<Steps> steps;
   std::vector<size_t> transitions;
-  bool begins = false;  // at the begin of the chart: any element is allowed
+  bool begins = false;  // at the start of the chart: any element is allowed
 };
 
 const Element* attributeOf(const Archive& archive, const Element& element, std::string_view guid) {

@@ -24,7 +24,7 @@ std::string_view rootName(std::string_view source) {
   return {};
 }
 
-// The `@WORD` at the begin of a tool's comment: `(* @PATH := …`, `(*@KEY@: …`.
+// The `@WORD` at the start of a tool's comment: `(* @PATH := …`, `(*@KEY@: …`.
 std::string_view tagOf(std::string_view source, size_t comment) {
   size_t p = comment + 2;
   while (p < source.size() && (source[p] == ' ' || source[p] == '\t')) ++p;
