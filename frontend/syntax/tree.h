@@ -410,7 +410,7 @@ struct DeclHeader {
   uint8_t bits;
   uint16_t spare;
   Loc loc;  // of the name where there is one, else the keyword
-  Loc doc;  // first `///` line above, or nowhere
+  Loc doc;  // first `///` line above; none: no doc comment
   Slice<Pragma> pragmas;
 };
 // DeclHeader::bits of a POU and of a TYPE entry: syntax errors removed declarations from it, so a name that is missing
