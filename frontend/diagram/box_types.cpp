@@ -1,5 +1,5 @@
-// The type of what a box gives, without sema: the names of operators and functions tell it, or the types of what is
-// wired to the box, or those of the variables that take its value.
+// The result type of a box, found without sema: from the name of the operator or function, from the types of the
+// sources wired to the box, or from the variables that receive its value.
 #include <algorithm>
 #include <initializer_list>
 #include <string>
@@ -20,7 +20,7 @@ bool isOneOf(std::string_view name, std::initializer_list<std::string_view> word
 
 // ---- boxes and wires
 
-// Each box is asked once, so that boxes which share their inputs cost no more than one after the other.
+// The type of each box is computed once, so that boxes which share their inputs cost linear time.
 TypeExprId BoxTypes::ofBox(uint32_t element, uint32_t depth) {
   if (known_.empty()) {
     known_.resize(graph_.elements.size());
@@ -49,7 +49,7 @@ TypeExprId BoxTypes::ofCall(uint32_t element, uint32_t depth) {
   return ofReaders(element);
 }
 
-// The type that the inputs share; where they tell nothing, that of what reads the value.
+// The common type of the inputs; if their types are unknown, the type of the readers.
 TypeExprId BoxTypes::ofOperands(uint32_t element, bool selects, uint32_t depth) {
   const Slice<DiagramPin> pins = graph_.elements[element].pins;
   for (uint32_t p = 0; p < pins.count; ++p) {
@@ -120,7 +120,7 @@ TypeExprId BoxTypes::ofSource(uint32_t source, uint32_t depth) {
   return known != nullptr && known->is_bool ? named("BOOL", e.loc) : TypeExprId{};
 }
 
-// ---- what is declared
+// ---- declarations
 
 TypeExprId BoxTypes::ofExpr(ExprId expr, uint32_t depth) {
   if (!expr || depth > kMaxDepth) return {};
@@ -218,7 +218,7 @@ TypeExprId BoxTypes::ofVariable(Slice<DeclId> vars, NameId name) {
   return {};
 }
 
-// Behind the names that TYPE gives.
+// Follows the names of TYPE declarations to the type.
 TypeExprId BoxTypes::resolved(TypeExprId type) {
   for (uint32_t k = 0; k < kMaxDepth && type && tree_.kind(type) == TypeExprKind::Named; ++k) {
     const Slice<Ident> path = tree_.as<NamedTypeExpr>(type).path;

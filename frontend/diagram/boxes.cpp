@@ -1,5 +1,8 @@
-// Boxes: operators become expressions, everything else calls. A function that one wire reads stands where it is read; a
-// function block is called in its turn and its outputs are read from the instance.
+// Boxes: operators become expressions, everything else calls. A function with one reader becomes part of the reader's
+// expression; a function block is called at its place in the execution order and its outputs are read from the
+// instance.
+// EN of a function with one target guards the assignment: `IF en THEN c := c + 1; END_IF`. Other readers of its result
+// see a temporary that is 0 (the initial value) in cycles in which EN is FALSE.
 #include <algorithm>
 #include <cctype>
 #include <iterator>
@@ -53,7 +56,7 @@ bool Scheduler::isOperator(const DiagramElement& e) const {
          operatorNamed(names_.string(e.name.name)) != nullptr;
 }
 
-// The pin that a wire comes from; without a name the only one beside ENO.
+// The pin that a wire comes from; for a wire without a pin name the only one besides ENO.
 const DiagramPin* Scheduler::outputNamed(const DiagramElement& e, const Ident& pin) const {
   if (pin.name) return pinNamed(e, names_.string(pin.name), PinDirection::Output);
   const DiagramPin* only = nullptr;
@@ -65,7 +68,7 @@ const DiagramPin* Scheduler::outputNamed(const DiagramElement& e, const Ident& p
   return only;
 }
 
-// The output that a wire without a pin's name means: the result of a function.
+// The output of a wire without a pin name: the result of a function.
 uint32_t Scheduler::resultOf(uint32_t element, const Signature& signature) const {
   for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
     const NameId pin = graph_.sources[s].pin.name;
@@ -77,7 +80,7 @@ uint32_t Scheduler::resultOf(uint32_t element, const Signature& signature) const
   return kNone;
 }
 
-// Pins that repeat are called IN3, IN4, …
+// Extensible pins are named IN3, IN4, …
 bool Scheduler::hasPin(const Signature& signature, const Ident& pin) const {
   if (signature.find(names_, pin.name) != nullptr) return true;
   const std::string_view name = names_.string(pin.name);
@@ -93,8 +96,8 @@ bool Scheduler::fillArguments(uint32_t element, Call& call) {
   const bool known = kind == SignatureKind::Instance || kind == SignatureKind::Function ||
                      kind == SignatureKind::Method || kind == SignatureKind::Program;
   bool named = known || e.operand || e.hidden;
-  if (named &&
-      call.signature.kind == SignatureKind::Function) {  // some editors have names of their own for all of them
+  // Some editors use different names for all pins.
+  if (named && call.signature.kind == SignatureKind::Function) {
     bool any = false, all_unknown = true;
     for (const DiagramPin& pin : tree_.list(e.pins)) {
       if (pin.direction == PinDirection::Output || isControl(names_, pin.name.name)) continue;
@@ -131,15 +134,15 @@ bool Scheduler::fillArguments(uint32_t element, Call& call) {
   return ok;
 }
 
-// The value of an output of a box that was settled, or that keeps the value of the last cycle.
+// The value of an output of a box that was called, or that keeps the value of the last cycle.
 //   fails   an output that the block does not have                                     E1004
-//   fails   an operator or function that is read before its turn                       E1013
+//   fails   an operator or function that is read before it runs                        E1013
 ExprId Scheduler::readBox(uint32_t source) {
   const Source s = graph_.sources[source];
   const DiagramElement& e = graph_.elements[s.element];
   const Loc loc = s.pin.loc ? s.pin.loc : e.loc;
   if (const DiagramPin* wired = s.pin.name ? pinNamed(e, names_.string(s.pin.name), PinDirection::InOut) : nullptr;
-      wired != nullptr && !wired->wires.empty())  // what is wired to an in-out goes on behind it
+      wired != nullptr && !wired->wires.empty())  // the wire of an in-out continues after the box
     return read(graph_.sourceOf(*wired, 0));
   ExprId value;
   if (e.stored) return nameExpr(e.stored, loc);
@@ -172,7 +175,7 @@ ExprId Scheduler::readBox(uint32_t source) {
   return out != nullptr && out->negated ? inverted(value, loc) : value;
 }
 
-// The variable that alone takes the value of a box, or kNone.
+// If the value of a box has one reader, and that is a variable: its element; else kNone.
 uint32_t Scheduler::soleTarget(uint32_t source) const {
   if (source == kNone || graph_.sources[source].uses != 1) return kNone;
   const uint32_t user = graph_.sources[source].user;
@@ -184,7 +187,7 @@ uint32_t Scheduler::soleTarget(uint32_t source) const {
   return pin->wires.count == 1 && !pin->negated && pin->edge == EdgeKind::None ? user : kNone;
 }
 
-// Gives `value`, which the box computes, to whoever reads it: at once, or as a part of the reader's expression.
+// Passes the `value` of the box to its readers: now, as a temporary, or as a part of the only reader's expression.
 void Scheduler::giveResult(uint32_t element, uint32_t result, ExprId value) {
   Source& s = graph_.sources[result];
   const DiagramElement& e = graph_.elements[element];
@@ -203,7 +206,7 @@ void Scheduler::giveResult(uint32_t element, uint32_t result, ExprId value) {
   keep(result, wireName(element));
 }
 
-//   fails   an input that nothing leads to        E1007
+//   fails   an unconnected input                  E1007
 void Scheduler::resolveOperator(uint32_t element, Call& call) {
   const DiagramElement e = graph_.elements[element];
   const size_t least = call.op->form == Form::Chain || call.op->form == Form::Pair ? 2 : 1;
@@ -257,7 +260,7 @@ void Scheduler::resolveOperator(uint32_t element, Call& call) {
                                            target, value}));
 }
 
-// The call of an instance, or of what has no result.
+// The call of an instance, or of a POU without result.
 void Scheduler::resolveCall(uint32_t element, Call& call) {
   const DiagramElement e = graph_.elements[element];
   const uint32_t eno = graph_.find(element, names_.intern("ENO"));
@@ -296,7 +299,7 @@ void Scheduler::resolveCall(uint32_t element, Call& call) {
     return;
   }
   if (call.has_en || outputs) {
-    // Where EN is FALSE, the target keeps its value.
+    // If EN is FALSE, the target keeps its value.
     if (const uint32_t user = soleTarget(result); call.has_en && user != kNone) {
       assigned_[user] = true;
       return assign(operandOf(user), value, e.loc);

@@ -1,4 +1,4 @@
-// The variables that networks need without anybody having declared them.
+// The hidden variables that networks need in addition to those declared.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -37,7 +37,7 @@ class Declarer {
     }
   }
 
-  // Those that keep what is read before its turn. After run(), which tells blocks from functions.
+  // Variables for values that are read before they are computed. Call after run(), which tells blocks from functions.
   void keepValues(Diagnostics& diagnostics, const PouDecl& pou) {
     Graph graph;
     if (!graph.build(tree_, names_, diagnostics, pou.diagram)) return;
@@ -69,7 +69,7 @@ class Declarer {
     const Ident name{names_.intern(edge == EdgeKind::Rising ? "R_TRIG" : "F_TRIG"), loc};
     return named({&name, 1}, loc);
   }
-  // The path of a box as a type.
+  // The path of a box as a type expression.
   TypeExprId typeOf(ExprId path) {
     std::vector<Ident> idents;
     const Loc loc = tree_.loc(path);
@@ -101,7 +101,7 @@ class Declarer {
   Names& names_;
   Signatures& signatures_;
   std::string_view prefix_;
-  std::vector<uint32_t> taken_;  // keys of the POU's own names, sorted
+  std::vector<uint32_t> taken_;  // keys of the names that the POU declares, sorted
   std::vector<DeclId> vars_;
 };
 

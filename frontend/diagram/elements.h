@@ -1,4 +1,4 @@
-// What messages call the elements of diagrams: "network 3 of `Main`, contact `start`, number 12".
+// How messages describe the elements of diagrams: "network 3 of `Main`, contact `start`, number 12".
 #pragma once
 
 #include <string>
@@ -12,12 +12,12 @@ namespace rung::diagram {
 // "contact `start`"
 std::string describe(const Tree& tree, const Names& names, const DiagramElement& element);
 
-// Finds the element of a place, in any body of the tree.
+// Finds the element at a location, in any body of the tree.
 class ElementLocator {
  public:
   ElementLocator(const Tree& tree, const Names& names);
   bool empty() const { return bodies_.empty(); }
-  // Empty: the place is in no element.
+  // Empty: the location is not in an element.
   std::string at(Loc loc) const;
 
  private:

@@ -61,7 +61,7 @@ class Search {
         continue;
       }
       const DiagramElement& e = graph_.elements[from];
-      if (e.order != 0) {  // who reads it has its turn at the root's
+      if (e.order != 0) {  // its reader runs when the root runs
         if (isFunction(e) && order_of_[from] >= order_of_[root]) find(from);
         continue;
       }
@@ -74,7 +74,7 @@ class Search {
     }
   }
 
-  // The circle is the end of the stack from `first` on. Nothing is needed where one of it keeps a value.
+  // The loop is the end of the stack from `first` on. Nothing to do if an element of it keeps its value.
   void breakCircle(const std::vector<Frame>& stack, uint32_t first) {
     uint32_t box = kNone;
     for (size_t k = stack.size(); k > 0; --k) {

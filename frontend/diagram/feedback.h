@@ -1,7 +1,7 @@
-// Functions and operators whose value is read before their turn: by wires that lead in a circle, or by elements whose
-// turn comes earlier. They keep the value of the last cycle in a variable, whose type must be known when variables are
-// declared, long before bodies are checked; what the names and the declarations of the POU tell is enough for that.
-// Private to frontend/diagram, called by declare.cpp.
+// Functions and operators whose value is read before they run: in feedback loops, or by elements that are earlier in
+// the execution order. They keep the value of the last cycle in a variable. Variables are laid out before bodies are
+// checked, so its type is found from names and from the declarations of the POU alone. Private to frontend/diagram,
+// called by declare.cpp.
 #pragma once
 
 #include <string_view>
@@ -12,10 +12,10 @@
 
 namespace rung::diagram {
 
-// The elements that need a variable. What has no type is left to the scheduler, which reports it.
+// The elements that need a variable. The scheduler reports those without a known type.
 std::vector<uint32_t> readBeforeExecution(const Tree& tree, const Graph& graph);
 
-// The types of what boxes give, as far as declarations tell; none: not known. box_types.cpp.
+// The result types of boxes, as far as declarations determine them; none: unknown. box_types.cpp.
 class BoxTypes {
  public:
   BoxTypes(Tree& tree, Names& names, Signatures& signatures, const PouDecl& pou, const Graph& graph)
@@ -45,11 +45,11 @@ class BoxTypes {
   Signatures& signatures_;
   const PouDecl& pou_;
   const Graph& graph_;
-  std::vector<TypeExprId> known_;  // of each element
+  std::vector<TypeExprId> known_;  // by element
   std::vector<bool> tried_;
-  std::vector<std::pair<uint32_t, uint32_t>> reads_;   // element, who reads it; sorted, filled when it is needed
-  std::vector<std::pair<uint32_t, DeclId>> declared_;  // types, POUs and globals by their keys; the same
-  std::vector<const PouDecl*> pous_;                   // that have members
+  std::vector<std::pair<uint32_t, uint32_t>> reads_;   // element and its reader; sorted, filled on first use
+  std::vector<std::pair<uint32_t, DeclId>> declared_;  // types, POUs and globals by their keys; also on first use
+  std::vector<const PouDecl*> pous_;                   // those with members
 };
 
 }  // namespace rung::diagram

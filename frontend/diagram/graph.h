@@ -1,4 +1,4 @@
-// The elements of one body and what their wires connect. Private to frontend/diagram.
+// The elements of one body and their connections. Private to frontend/diagram.
 #pragma once
 
 #include <string>
@@ -13,21 +13,21 @@ namespace rung::diagram {
 
 constexpr uint32_t kNone = UINT32_MAX;
 
-// What wires come from: an element, of a box one of its outputs. Connectors are no sources: wires lead through them.
+// The source of wires: an element, or one output of a box. Connectors are not sources: wires are followed through them.
 struct Source {
   uint32_t element;
   Ident pin;      // of a box
   uint32_t next;  // source of the same element, or kNone
   uint32_t uses = 0;
   uint32_t user = kNone;  // the last element that reads it
-  // The scheduler's:
+  // Used by the scheduler:
   NameId temporary;       // holds the value
   bool inverted = false;  // … negated
-  ExprId pending;         // … or this expression is it, read once
+  ExprId pending;         // … or this expression, which is read once
   uint16_t height = 1;
 };
 
-// A box whose outputs can be read before it was called: they have the values of the last cycle.
+// A box whose outputs can be read before it is called: they have the values of the last cycle.
 bool keepsState(const DiagramElement& e);
 
 class Graph {
@@ -38,19 +38,19 @@ class Graph {
   std::vector<DiagramElement> elements;
   std::vector<Source> sources;
   std::vector<uint32_t> first_source;  // of each element, or kNone
-  std::vector<uint32_t> network;       // of each element: equal where wires connect them
-  std::vector<uint32_t> roots;         // elements that do something, in the order in which they are asked to
-  bool ordered = false;                // elements have turns of their own
+  std::vector<uint32_t> network;       // by element: equal where wires connect them
+  std::vector<uint32_t> roots;         // elements with an effect, in execution order
+  bool ordered = false;                // the file gives an execution order
 
   uint32_t sourceOf(const DiagramPin& pin, uint32_t wire) const {
     return source_of_wire_[pin.wires.first + wire - first_wire_];
   }
-  uint32_t find(uint32_t element, NameId pin) const;  // a source, or kNone: nobody reads it
+  uint32_t find(uint32_t element, NameId pin) const;  // a source, or kNone: without readers
 
  private:
   bool isLink(uint32_t element) const;
   struct End {
-    uint32_t element;  // kNone: what is wrong was reported
+    uint32_t element;  // kNone: an error was reported
     Ident pin;
   };
   End endOf(uint32_t link);

@@ -1,4 +1,4 @@
-// What the wires of a body connect, and in which order its elements are asked to do their work.
+// The connections of a body, and the execution order of its elements.
 #include <algorithm>
 #include <compare>
 #include <numeric>
@@ -12,12 +12,12 @@
 namespace rung::diagram {
 namespace {
 
-// Of one element; beyond them a table finds the pin.
+// Of one element; if there are more, a table is used to find the pin.
 constexpr uint32_t kFewSources = 8;
 
 bool isRail(ElementKind kind) { return kind == ElementKind::Rail || kind == ElementKind::RightRail; }
 
-// Does something when nobody reads it.
+// Has an effect even without readers.
 bool acts(const DiagramElement& e) {
   switch (e.kind) {
     case ElementKind::Coil:
@@ -45,16 +45,16 @@ bool acts(const DiagramElement& e) {
 
 bool keepsState(const DiagramElement& e) { return e.kind == ElementKind::Box && (e.operand || e.hidden || e.stored); }
 
-// A wire leads through it. A connector that joins several is an element of its own.
+// Wires are followed through it. A connector that joins several wires is an element.
 bool Graph::isLink(uint32_t element) const {
   const DiagramElement& e = elements[element];
   if (e.kind == ElementKind::Continuation) return true;
   return e.kind == ElementKind::Connector && (e.pins.empty() || tree_->list(e.pins)[0].wires.count < 2);
 }
 
-// Where the wire into a connector comes from. Each is followed once, whoever refers to it.
-//   fails   a connector that nothing leads to        E1007
-//   fails   a circle of connectors                   E1006
+// The source of the wire into a connector. Each is followed once, however many elements refer to it.
+//   fails   an unconnected connector                 E1007
+//   fails   a loop of connectors                     E1006
 Graph::End Graph::endOf(uint32_t link) {
   constexpr uint32_t kOpen = kNone - 1, kWalked = kNone - 2;
   if (ends_.empty()) ends_.resize(elements.size(), {kOpen, {}});
@@ -71,7 +71,7 @@ Graph::End Graph::endOf(uint32_t link) {
     ends_[at].element = kWalked;
     path.push_back(at);
     if (e.kind == ElementKind::Continuation) {
-      end.element = e.network;  // connect() put the connector there, or reported that there is none
+      end.element = e.network;  // connect() stored the connector there, or reported that it is missing
     } else if (e.pins.empty() || tree_->list(e.pins)[0].wires.empty()) {
       diagnostics_->report(diag::NotWired, e.loc, {nameOf(e)});
       end.element = kNone;
@@ -113,7 +113,7 @@ uint32_t Graph::sourceAt(uint32_t element, const Ident& pin) {
 //   fails   a continuation without its connector        E1008
 //   fails   two connectors of one name                  E1009
 bool Graph::connect() {
-  bool ok = true;                                         // a second report of the same mistake is not counted
+  bool ok = true;                                         // a second error on the same cause is not counted
   std::vector<std::pair<uint32_t, uint32_t>> connectors;  // name key, element
   for (uint32_t k = 0; k < elements.size(); ++k) {
     const DiagramElement& e = elements[k];
@@ -168,7 +168,7 @@ bool Graph::connect() {
   return ok;
 }
 
-// Elements are of one network when wires connect them, power rails apart, or when the file says so.
+// Elements belong to one network when wires other than those of power rails connect them, or when the file says so.
 void Graph::separate() {
   std::vector<uint32_t> parent(elements.size());
   std::iota(parent.begin(), parent.end(), 0u);
@@ -207,7 +207,7 @@ void Graph::sortRoots() {
   for (const DiagramElement& e : elements) ordered = ordered || e.order != 0;
 
   struct Key {
-    uint32_t number_in_file;  // the file's number of the network
+    uint32_t number_in_file;  // the network's number in the file
     int32_t y, x;
     uint32_t at;
     auto operator<=>(const Key&) const = default;
@@ -242,7 +242,7 @@ void Graph::sortRoots() {
   for (const Root& root : sorted) roots.push_back(root.own.at);
 }
 
-// Forbids a turn that two elements have. TM/TP manual 5.6.
+// Forbids an execution order number that two elements have. TM/TP manual 5.6.
 //   fails   two outputs with ORDER 3        E1017
 void Graph::checkExecutionOrder() {
   for (size_t k = 1; k < roots.size(); ++k) {
@@ -253,7 +253,7 @@ void Graph::checkExecutionOrder() {
   }
 }
 
-// What stands in a disabled network has no part in anything.
+// Excludes the elements of disabled networks.
 void Graph::exclude(const Diagram& diagram) {
   for (DiagramElement& e : elements) {
     if (e.network == 0 || e.network > diagram.networks.count) continue;

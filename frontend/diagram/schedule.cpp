@@ -11,7 +11,7 @@
 namespace rung::diagram {
 namespace {
 
-// From so many wires on, their OR is a balanced tree.
+// The OR of this many wires or more is built as a balanced tree.
 constexpr uint32_t kManyWires = 32;
 
 }  // namespace
@@ -44,7 +44,7 @@ ExprId Scheduler::sensed(NameId sensor, ExprId value, Loc loc) {
   return memberExpr(nameExpr(sensor, loc), names_.intern("Q"), loc);
 }
 
-// What calls something and waits for its reader is evaluated before another statement.
+// Pending values that contain calls are evaluated before another statement.
 void Scheduler::emit(StmtId statement) {
   for (const uint32_t source : std::exchange(calls_open_, {}))
     if (graph_.sources[source].pending) keep(source, wireName(graph_.sources[source].element));
@@ -75,7 +75,7 @@ std::string Scheduler::wireName(uint32_t element) const {
   return "wire_" + number;
 }
 
-// The value of a source is evaluated now, into a temporary.
+// Evaluates a source now, into a temporary.
 void Scheduler::keep(uint32_t source, const std::string& base) {
   const Loc loc = graph_.elements[graph_.sources[source].element].loc;
   const NameId name = newTemporary(base, loc);
@@ -154,7 +154,7 @@ ExprId Scheduler::valueOf(const DiagramElement& e, const DiagramPin& pin) {
   return pin.negated ? inverted(value, e.loc) : value;
 }
 
-// What an element reads or writes, as written; a copy from the second time on.
+// The operand of an element as parsed; a copy from the second use on.
 ExprId Scheduler::operandOf(uint32_t element) {
   const ExprId operand = graph_.elements[element].operand;
   if (operand_taken_[element]) return clone(tree_, operand);
@@ -203,14 +203,14 @@ ExprId Scheduler::read(uint32_t source) {
     case ElementKind::Return:
     case ElementKind::Comment: break;
   }
-  // Its value is not there yet: only where its turn comes later.
+  // Not computed yet: possible only if it is later in the execution order.
   diagnostics_.report(diag::ReadBeforeTurn, e.loc, {describe(tree_, names_, e)});
   return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, e.loc)});
 }
 
 // ---- the walk
 
-// The next element that a wire of the frame's element comes from, or kNone.
+// The next element connected to an input of the frame's element, or kNone.
 uint32_t Scheduler::nextInput(Frame& frame) const {
   const DiagramElement& e = graph_.elements[frame.element];
   while (frame.pin < e.pins.count) {
@@ -222,9 +222,9 @@ uint32_t Scheduler::nextInput(Frame& frame) const {
   return kNone;
 }
 
-// Settles `root` after all that it reads.
+// Resolves `root` after everything that it reads.
 void Scheduler::visit(uint32_t root) {
-  while (phase_[root] == Phase::New) {  // again when a box in a circle with it had to begin
+  while (phase_[root] == Phase::New) {  // again when a box in a loop with it had to run first
     push(root, false);
     while (!stack_.empty()) {
       const uint32_t next = nextInput(stack_.back());
@@ -236,7 +236,7 @@ void Scheduler::visit(uint32_t root) {
       } else if (phase_[next] == Phase::New && graph_.elements[next].order == 0) {
         push(next, false);
       } else if (phase_[next] == Phase::Busy && graph_.elements[next].order == 0 &&
-                 !keepsState(graph_.elements[next])) {  // else its value of the last cycle is read
+                 !keepsState(graph_.elements[next])) {  // otherwise its value of the last cycle is read
         breakCircle(next);
       }
     }
@@ -248,9 +248,10 @@ void Scheduler::push(uint32_t element, bool begins) {
   stack_.push_back({element, 0, 0, begins});
 }
 
-// The wires lead from `first` to itself, over the elements above it on the stack. A box that keeps a value begins: the
-// one that already had to, or the last before `first`. What stands above `first` is taken up again behind it.
-//   fails   a circle without such a box        E1006
+// Breaks a feedback loop: `first` is connected to itself through the elements above it on the stack. A box that keeps
+// its value runs first: one that already had to, or the last one before `first`. The elements above `first` are visited
+// again later.
+//   fails   a loop without such a box        E1006
 void Scheduler::breakCircle(uint32_t first) {
   uint32_t keeper = kNone, begun = kNone;
   for (;;) {
@@ -302,7 +303,7 @@ void Scheduler::resolve(uint32_t element) {
   }
 }
 
-// Whether a contact may be written again wherever its wire is read: nothing in its network changes its variable.
+// Whether the variable of a contact may be read wherever its wire is read: nothing in its network changes it.
 bool Scheduler::readable(uint32_t element) {
   const DiagramElement& e = graph_.elements[element];
   const DiagramPin* pin = firstInput(e);
@@ -312,7 +313,7 @@ bool Scheduler::readable(uint32_t element) {
   return !std::binary_search(written_.begin(), written_.end(), key);
 }
 
-//   fails   a contact that nothing leads to        E1007
+//   fails   an unconnected contact        E1007
 void Scheduler::resolveContact(uint32_t element) {
   const DiagramElement e = graph_.elements[element];
   const DiagramPin* pin = firstInput(e);
@@ -338,7 +339,7 @@ void Scheduler::resolveContact(uint32_t element) {
   if (s.uses > 0) keep(source, wireName(element));
 }
 
-// Of wires that are joined.
+// Joined wires.
 void Scheduler::resolveConnector(uint32_t element) {
   const uint32_t source = graph_.first_source[element];
   if (source == kNone) return;
@@ -360,7 +361,7 @@ void Scheduler::assignTo(const DiagramElement& e, ExprId value) {
   assign(target, value, e.loc, op);
 }
 
-//   warns   a coil or a variable that nothing leads to        W1018
+//   warns   an unconnected coil or variable        W1018
 void Scheduler::resolveAssignment(uint32_t element) {
   if (assigned_[element]) return;
   const DiagramElement& e = graph_.elements[element];
@@ -373,12 +374,12 @@ void Scheduler::resolveAssignment(uint32_t element) {
   const DiagramPin copy = *pin;
   const uint32_t own = graph_.first_source[element];
   ExprId value = valueOf(e, copy);
-  if (own != kNone && graph_.sources[own].uses > 0 && e.kind != ElementKind::InOut) {  // the wire goes on behind it
+  if (own != kNone && graph_.sources[own].uses > 0 && e.kind != ElementKind::InOut) {  // the wire continues after it
     graph_.sources[own].pending = value;
     keep(own, wireName(element));
     value = read(own);
   }
-  // A set or negated output of a box means the variable behind it.
+  // A set or negated output of a box applies to the variable connected to it.
   if (copy.wires.count == 1) {
     const Source& s = graph_.sources[graph_.sourceOf(copy, 0)];
     const DiagramElement& from = graph_.elements[s.element];
@@ -393,7 +394,7 @@ void Scheduler::resolveAssignment(uint32_t element) {
   assignTo(graph_.elements[element], value);
 }
 
-// A composer fills its structure; a selector reads the members of what it is given.
+// A composer fills its structure; a selector reads the members of its input.
 void Scheduler::resolveComposer(uint32_t element) {
   const DiagramElement e = graph_.elements[element];
   for (uint32_t p = 0; p < e.pins.count; ++p) {
@@ -458,7 +459,7 @@ void Scheduler::resolveJump(uint32_t element) {
 }
 
 // Warns of two coils of one variable: the first has no effect. TM/TP manual 5.3.4.5.
-//   passes  a set and a reset coil; coils that a jump keeps apart
+//   passes  a set and a reset coil; coils with a jump between them
 //   warns   two coils (q)        W1016
 void Scheduler::checkCoils() {
   std::vector<std::pair<uint32_t, uint32_t>> coils;  // key of the name, element
@@ -477,7 +478,7 @@ void Scheduler::checkCoils() {
   }
 }
 
-// Warns of a holding coil of a variable that nothing holds. TM/TP manual 5.3.4.
+// Warns of a holding coil of a variable that is not retained. TM/TP manual 5.3.4.
 //   warns   coil HOLDING (q) with q declared in VAR        W1015
 void Scheduler::checkHolding(const PouDecl& pou) {
   for (const DiagramElement& e : graph_.elements) {
@@ -519,7 +520,7 @@ Statements Scheduler::run(const PouDecl& pou) {
     if (tree_.kind(e.operand) == ExprKind::Name)
       written_.emplace_back(graph_.network[k], names_.key(tree_.as<NameExpr>(e.operand).name).index);
     else
-      network_calls_[graph_.network[k]] = true;  // another view of the same memory, maybe
+      network_calls_[graph_.network[k]] = true;  // possibly another view of the same memory
   }
   std::sort(written_.begin(), written_.end());
   for (const uint32_t root : graph_.roots) visit(root);

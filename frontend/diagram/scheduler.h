@@ -1,9 +1,10 @@
-// The work of scheduleNetworks(). Private to frontend/diagram: schedule.cpp (wires, contacts, coils, jumps), boxes.cpp.
+// The implementation of scheduleNetworks(). Private to frontend/diagram: schedule.cpp (wires, contacts, coils, jumps),
+// boxes.cpp.
 //
-// How it works. Elements that act are visited in the order of the graph; what their wires come from is settled before,
-// by a walk with a stack of its own. To settle an element is to do its work, or to decide that whoever reads its wire
-// writes it as part of an expression. Expressions are built when all that they read is settled, so that no statement
-// slips into the middle of one.
+// How it works. Elements with an effect are visited in the order of the graph; the sources of their wires are resolved
+// first, by a walk with an explicit stack, so a chain of 100 000 contacts needs no recursion. Resolving an element
+// emits its statements, or decides that its reader makes it part of an expression. An expression is built only when
+// everything that it reads is resolved, so no statement is emitted in the middle of one.
 #pragma once
 
 #include <string>
@@ -15,7 +16,7 @@
 
 namespace rung::diagram {
 
-// Of one expression; beyond it a temporary cuts the tree.
+// Of one expression; a larger one is cut by a temporary.
 constexpr uint16_t kMaxHeight = 100;
 
 class Scheduler {
@@ -29,7 +30,7 @@ class Scheduler {
   enum class Phase : uint8_t { New, Busy, Resolved };
   struct Frame {
     uint32_t element, pin, wire;
-    bool begins;  // out of turn, because wires lead from it to itself
+    bool begins;  // runs early, because it is connected to itself
   };
 
   void checkCoils();
@@ -68,7 +69,7 @@ class Scheduler {
   ExprId readBox(uint32_t source);
 
   // ---- wires
-  // The value of a pin; none: nothing is wired to it. `loc`: of what reads it.
+  // The value of a pin; none: not connected.
   ExprId valueOf(const DiagramElement& e, const DiagramPin& pin);
   ExprId read(uint32_t source);
   bool isTrue(const DiagramPin& pin) const;
@@ -92,7 +93,7 @@ class Scheduler {
   }
   ExprId trueExpr(Loc loc);
   ExprId callExpr(ExprId callee, std::span<const Argument> arguments, Loc loc);
-  // The edge of `value` as `sensor` senses it, which is called here.
+  // The edge of `value`, detected by the instance `sensor`, which is called here.
   ExprId sensed(NameId sensor, ExprId value, Loc loc);
   void emit(StmtId statement);
   void assign(ExprId target, ExprId value, Loc loc, AssignOp op = AssignOp::Assign) {
@@ -108,14 +109,14 @@ class Scheduler {
   Diagnostics& diagnostics_;
   Signatures& signatures_;
   NetworkLanguage language_ = NetworkLanguage::Ladder;
-  const char* function_ = nullptr;  // what keeps no state: the body is one's
+  const char* function_ = nullptr;  // the kind of POU if it keeps no state
   Graph graph_;
   std::vector<Phase> phase_;
   std::vector<bool> operand_taken_;
-  std::vector<bool> failed_;                            // boxes with a reported mistake: who reads them says nothing
-  std::vector<bool> assigned_;                          // variables that a box with EN writes by itself
-  std::vector<uint32_t> order_of_;                      // of an element with a turn: its place among the roots
-  std::vector<uint32_t> calls_open_;                    // sources whose pending value calls something
+  std::vector<bool> failed_;                            // boxes with a reported error: their readers report none
+  std::vector<bool> assigned_;                          // variables that a box with EN assigns itself
+  std::vector<uint32_t> order_of_;                      // of an element with an effect: its index among the roots
+  std::vector<uint32_t> calls_open_;                    // sources whose pending value contains a call
   std::vector<std::pair<uint32_t, uint32_t>> written_;  // network, key of a name that it writes; sorted
   std::vector<bool> network_calls_;                     // by the network's first element
   std::vector<Frame> stack_;

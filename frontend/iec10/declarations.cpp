@@ -27,7 +27,7 @@ bool isTooDeep(Import& import, const xml::Element& element, uint32_t depth) {
   return true;
 }
 
-// Names of types in a namespace are written with `\` by some.
+// Some tools separate the namespaces of a type name by `\`.
 void writeTypeName(Import& import, const xml::Element& element) {
   std::string name = plcopen::textOf(import, element);
   if (name.find('\\') == std::string::npos) return plcopen::writeText(import, element);
@@ -86,7 +86,7 @@ void writeRemark(Import& import, const xml::Element& element) {
   if (!text.empty()) import.out.put(documentation->loc, "/// " + text + "\n");
 }
 
-// `name AT %IX0.0 : INT := 3;` Addresses of a device's own, such as X0, say nothing to Rung.
+// `name AT %IX0.0 : INT := 3;` Device-specific addresses such as X0 are ignored.
 void writeVariable(Import& import, const xml::Element& variable) {
   if (!plcopen::checkName(import, variable)) return;
   writeRemark(import, variable);
@@ -145,7 +145,7 @@ void writeEnumerators(Import& import, const xml::Element& spec) {
   writeTypeName(import, *base);
 }
 
-// What a <UserDefinedTypeSpec> or <InstantlyDefinedType> says.
+// The type in a <UserDefinedTypeSpec> or <InstantlyDefinedType>.
 void writeSpec(Import& import, const xml::Element& spec, uint32_t depth) {
   const std::string kind = typeOf(import, spec);
   if (kind == "StructTypeSpec") {
@@ -161,7 +161,7 @@ void writeSpec(Import& import, const xml::Element& spec, uint32_t depth) {
     import.out.put(spec.loc, "REF_TO ");
     const xml::Element* base = import.document.child(spec, "BaseType");
     writeTypeRef(import, base == nullptr ? spec : *base, depth + 1);
-  } else {  // another type by another name, maybe of a part of its values
+  } else {  // a type derived from another one, possibly a subrange
     const xml::Element* base = import.document.child(spec, "BaseType");
     writeTypeRef(import, base == nullptr ? spec : *base, depth + 1);
     const xml::Element* range = import.document.child(spec, "Range");

@@ -1,4 +1,5 @@
-// Telling files of IEC 61131-10 from other XML, the project as a whole, its POUs and its configurations; see iec10.h.
+// Distinguishes files of IEC 61131-10 from other XML, and reads the project, its POUs and its configurations; see
+// iec10.h.
 #include "frontend/iec10/iec10.h"
 
 #include <algorithm>
@@ -109,7 +110,7 @@ void ProjectReader::writePou(const Element& pou, const std::string& owner) {
   import_.out.word("\n");
 }
 
-// Programs cannot stand in a NAMESPACE: one that holds them is only a folder.
+// Programs are not allowed in a NAMESPACE: a namespace that contains one is treated as a folder.
 void ProjectReader::writeNamespace(const Element& space) {
   const bool named =
       space.name == "NamespaceDecl" && document_.child(space, "Program") == nullptr && plcopen::hasName(import_, space);
@@ -190,7 +191,7 @@ void ProjectReader::writeResource(const Element& resource) {
   import_.out.put(resource.end, "END_RESOURCE\n");
 }
 
-// Without an instance of a program it is a list of globals.
+// A configuration without program instances is read as a list of globals.
 void ProjectReader::writeConfiguration(const Element& configuration) {
   bool runs = false;
   forEach(configuration, "Resource", [&](const Element& resource) {

@@ -1,5 +1,5 @@
-// Bodies: ST and IL as they stand, LD and FBD in the notation of networks (frontend/text/network.cpp). Wires lead from
-// the ids of output points, which count in each network anew; elements get numbers of their own.
+// Bodies: ST and IL are copied, LD and FBD are written in the notation of networks (frontend/text/network.cpp). Wires
+// refer to the ids of output points, which are unique only within a network; elements get new numbers.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -20,7 +20,7 @@ using plcopen::isTrue;
 
 bool isName(std::string_view text) { return !text.empty() && plcopen::identifierOf(text) == text; }
 
-// The names of objects and what the notation calls them.
+// The names of objects and their keywords in the notation.
 constexpr std::pair<std::string_view, std::string_view> kKeywords[] = {{"LeftPowerRail", "rail"},
                                                                        {"RightPowerRail", "right_rail"},
                                                                        {"Contact", "contact"},
@@ -36,7 +36,7 @@ constexpr std::pair<std::string_view, std::string_view> kKeywords[] = {{"LeftPow
                                                                        {"Continuation", "continuation"},
                                                                        {"Comment", "comment"}};
 
-// Of a pin that the file does not name: IN1, IN2, OUT, OUT2.
+// The name of a pin without a name in the file: IN1, IN2, OUT, OUT2.
 std::string otherName(std::string_view kind, size_t count) {
   return std::string(kind) + (kind == "OUT" && count == 1 ? "" : std::to_string(count));
 }
@@ -80,8 +80,8 @@ class Networks {
   const xml::Document& document_;
   const std::string& name_;
   uint64_t last_element_ = 0, last_network_ = 0;
-  uint64_t first_order_ = 1, order_end_ = 1;         // of the network at hand
-  std::unordered_map<std::string, Source> sources_;  // by id, of the network at hand
+  uint64_t first_order_ = 1, order_end_ = 1;         // of the current network
+  std::unordered_map<std::string, Source> sources_;  // by id, of the current network
   std::vector<std::pair<const Element*, uint64_t>> objects_;
 };
 
@@ -93,7 +93,7 @@ std::vector<const Element*> Networks::childrenOf(const Element& owner,
   return out;
 }
 
-// An element of this name in the AddData of `e`.
+// The element with this name in the AddData of `e`.
 const Element* Networks::data(const Element& e, std::string_view name) const {
   for (const Element* all : childrenOf(e, {"AddData"}))
     for (const Element* one : childrenOf(*all, {"Data"}))
@@ -107,7 +107,7 @@ void Networks::addOutput(const Element& owner, const Source& source) {
     sources_[document_.value(*point, "connectionPointOutId")] = source;
 }
 
-// Forbids a wire from a point that the network does not have. IEC 61131-10, Connection.
+// Forbids a wire from an undefined output point. IEC 61131-10, Connection.
 //   fails   <Connection refConnectionPointOutId="7"/>          E1001
 bool Networks::checkWires(const Element& owner) {
   bool ok = true;
@@ -206,7 +206,7 @@ void Networks::writeModifiers(const Element& e) {
     import_.out.word(sameIdentifier(latch, "set") ? " SET" : " RESET");
 }
 
-// Bachmann counts turns from 0 in each network.
+// Bachmann numbers the execution order from 0 in each network.
 void Networks::writeOrder(const Element& e) {
   const Element* priority = data(e, "EvaluationPriority");
   const xml::Attribute* order = priority == nullptr ? nullptr : document_.attribute(*priority, "priorityInNetwork");
@@ -233,7 +233,7 @@ void Networks::writePosition(const Element& e) {
   import_.out.put(position->loc, position_clause);
 }
 
-// Connectors are called as their author likes: in the notation by a name that stands for it.
+// Names of connectors are arbitrary: in the notation they are converted to identifiers.
 void Networks::writeReference(const Element& e, std::string_view attribute) {
   const xml::Attribute* name = document_.attribute(e, attribute);
   if (name == nullptr || name->raw.empty()) return;
@@ -356,7 +356,7 @@ uint64_t orderOf(const Import& import, const Element& element) {
   return order;
 }
 
-// Networks of all sections in one, ST between them as a box of statements.
+// Writes the networks of all sections as one body, with ST between them as execute boxes.
 void Networks::write(const std::vector<const Element*>& contents) {
   const bool ladder =
       std::none_of(contents.begin(), contents.end(), [&](const Element* e) { return typeOf(import_, *e) == "FBD"; });
@@ -379,7 +379,7 @@ void Networks::write(const std::vector<const Element*>& contents) {
 
 }  // namespace
 
-// Forbids bodies in languages that have no reader.
+// Forbids bodies in unsupported languages.
 //   fails   <BodyContent xsi:type="SFC">          E1054
 void writeMainBody(Import& import, const xml::Element& body, const std::string& name) {
   std::vector<const Element*> contents;

@@ -1,5 +1,5 @@
-// What the parts of the reader share. Private to frontend/iec10: iec10.cpp (the project and its POUs),
-// declarations.cpp, networks.cpp. Texts, names and places are handled by what frontend/plcopen has for them.
+// Shared by the parts of the reader. Private to frontend/iec10: iec10.cpp (the project and its POUs), declarations.cpp,
+// networks.cpp. Content, names and locations are handled by the functions of frontend/plcopen.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ void writeVarList(Import& import, const xml::Element& list, std::string_view wor
 
 // ---- networks.cpp
 
-// The statements and networks of a <MainBody>; `name` is what messages call the POU.
+// The statements and networks of a <MainBody>; messages use `name` for the POU.
 void writeMainBody(Import& import, const xml::Element& body, const std::string& name);
 
 }  // namespace rung::iec10

@@ -1,9 +1,8 @@
-// The automatic layout of networks: columns by data flow, from left to right; rows so that what leads to an element's
-// first pin stands in its row. Variables that only one pin uses stand at that pin. In ladder diagrams coils stand at
-// the right rail, and each contact at the left one has a row of its own. Labels and comments have lines of their own,
-// in the order of the file. Elements are placed in the order in which a walk from the last elements back along the
-// wires leaves them: whatever leads to an element is placed before it, so all of it can still be moved down when the
-// element needs room.
+// The automatic layout of networks: columns by data flow, from left to right; rows so that the source of an element's
+// first pin is in the element's row. A variable that only one pin uses is attached to that pin. In ladder diagrams
+// coils are at the right rail, and each contact at the left rail has a separate row. Labels and comments have separate
+// lines, in file order. Elements are placed in the post-order of a walk from the last elements back along the wires:
+// the sources of an element are placed before it, so all of them can still be moved down when the element needs room.
 #include <algorithm>
 
 #include "frontend/picture/network_plan.h"
@@ -19,18 +18,18 @@ class Arranger {
 
  private:
   struct Node {
-    std::vector<uint32_t> in, out;  // links, rails and attached variables left out
+    std::vector<uint32_t> in, out;  // links, without rails and attached variables
     std::vector<uint32_t> attached;
-    uint32_t host = kNone;  // where it is attached
+    uint32_t host = kNone;  // the item to which it is attached
     uint32_t column = 0;
-    uint32_t first = 0, rank = 0;  // in `order_`: where what leads to it begins, and where it stands
-    bool joins = false;            // of a walk's root: something that leads to it was found by an earlier walk
-    Rect cluster;                  // with what is attached
+    uint32_t first = 0, rank = 0;  // in `order_`: the start of its sources, and its own index
+    bool joins = false;            // of a walk's root: an earlier walk found one of its sources
+    Rect cluster;                  // with attached items
     enum class State : uint8_t { New, Open, Done } state = State::New;
   };
   const DiagramElement& element(uint32_t item) const { return body_.elements[plan_.items[item].element]; }
   bool isNode(uint32_t item) const;
-  // Has lines of its own: nothing stands beside it.
+  // On separate lines: no element beside it.
   bool isIsolated(uint32_t item) const {
     return element(item).kind == ElementKind::Label || element(item).kind == ElementKind::Comment;
   }
@@ -48,9 +47,9 @@ class Arranger {
   const Body& body_;
   Plan& plan_;
   std::vector<Node> nodes_;
-  std::vector<bool> feedback_;  // links that lead back
+  std::vector<bool> feedback_;  // links of feedback loops
   std::vector<uint32_t> order_;
-  std::vector<int32_t> skyline_;  // of each column: where the next element may begin
+  std::vector<int32_t> skyline_;  // by column: where the next element may begin
 };
 
 bool Arranger::isNode(uint32_t item) const {
@@ -58,7 +57,7 @@ bool Arranger::isNode(uint32_t item) const {
   return !isRail(element(item).kind);
 }
 
-// A variable stands at the only pin that it is connected with, where pins leave enough room.
+// A variable is attached to its pin if that is its only one and there is enough room between pins.
 void Arranger::attach() {
   std::vector<uint32_t> uses_from(plan_.items.size()), uses_to(plan_.items.size());
   std::vector<std::vector<uint32_t>> terminal_uses(plan_.items.size());
@@ -90,7 +89,7 @@ void Arranger::attach() {
   }
 }
 
-// What leads to `root` comes before it; wires that close a circle lead back.
+// The sources of `root` come before it; a wire that closes a loop is a feedback link.
 void Arranger::walk(uint32_t root) {
   struct Frame {
     uint32_t item, next;
@@ -136,7 +135,7 @@ void Arranger::setColumns() {
     const bool ends = kind == ElementKind::Coil || kind == ElementKind::Jump || kind == ElementKind::Return;
     if (ladder() && ends && node.out.empty()) node.column = last;
     if (ladder() || !node.in.empty() || node.out.empty()) continue;
-    uint32_t nearest = kNone;  // what has nothing before it stands near to who uses it
+    uint32_t nearest = kNone;  // an element without inputs is placed near its reader
     for (const uint32_t link : node.out)
       if (!feedback_[link]) nearest = std::min(nearest, nodes_[plan_.links[link].to.item].column);
     if (nearest != kNone && nearest > 0) node.column = nearest - 1;
@@ -165,7 +164,7 @@ void Arranger::moveDown(uint32_t first, uint32_t end, int32_t by) {
   }
 }
 
-// The wire that is to run straight.
+// The wire to be drawn straight.
 uint32_t Arranger::alignedLink(uint32_t item) const {
   uint32_t best = kNone;
   int32_t highest = 0;
@@ -196,7 +195,7 @@ void Arranger::placeItem(uint32_t item) {
   reserve(item);
 }
 
-// Columns as wide as their widest element, with a lane for each wire that changes its row between them.
+// Columns as wide as their widest element; between them a lane for each wire that changes its row.
 void Arranger::setX() {
   const size_t columns = skyline_.size();
   std::vector<int32_t> left(columns), right(columns), lanes(columns + 1);
@@ -261,9 +260,9 @@ void Arranger::run() {
   for (uint32_t k = 0; k < plan_.items.size(); ++k)
     if (isNode(k) && nodes_[k].out.empty()) roots.push_back(k);
   for (uint32_t k = 0; k < plan_.items.size(); ++k)
-    if (isNode(k) && !nodes_[k].out.empty()) roots.push_back(k);  // circles have no end
+    if (isNode(k) && !nodes_[k].out.empty()) roots.push_back(k);  // loops without an end
   std::vector<uint32_t> ends;
-  std::vector<bool> apart;  // shares nothing with what was placed before
+  std::vector<bool> apart;  // shares no source with elements placed before
   for (const uint32_t root : roots) {
     if (nodes_[root].state != Node::State::New) continue;
     walk(root);

@@ -20,7 +20,7 @@ struct StepText {
   std::string name, times;
   std::vector<Action> actions;
   int32_t width, height;                                 // of its box
-  int32_t qualifier_width, name_width, indicator_width;  // of the columns of its actions; the last one may be none
+  int32_t qualifier_width, name_width, indicator_width;  // of the columns of its actions; indicators are optional
 };
 
 const char* defaultWord(SfcQualifier q) {
@@ -47,7 +47,7 @@ class ChartText {
  public:
   ChartText(const Tree& tree, const Names& names, const PouDecl& pou) : tree_(tree), names_(names), pou_(pou) {}
   StepText step(uint32_t index) const;
-  std::vector<std::string> condition(uint32_t index) const;  // with the name, where it has one
+  std::vector<std::string> condition(uint32_t index) const;  // with the name, if it has one
   std::string priority(uint32_t index) const;
   std::string_view name(NameId id) const { return names_.string(id); }
 
@@ -84,7 +84,7 @@ StepText ChartText::step(uint32_t index) const {
   return text;
 }
 
-// Of a body with one assignment, too: that is its condition.
+// The condition. It may also be a body with a single assignment.
 ExprId ChartText::valueOf(const SfcTransition& t) const {
   if (t.condition.value || !t.body) return t.condition.value;
   const PouDecl& body = tree_.as<PouDecl>(t.body);

@@ -1,8 +1,8 @@
-// The layout of charts, from top to bottom. What can be reached only through a step or transition is laid out below it:
-// its branches side by side, then the steps and transitions in which they meet again (those that it dominates), each
-// below the ends that lead to it. An end that cannot reach its step by a straight line becomes a jump, as do all that
-// lead back. So every chart has a picture, and a chart of nested branches one as in the standard.
-// IEC 61131-3 ed. 3, 6.7.4; TM/TP manual 5.5.
+// The layout of charts, from top to bottom. Nodes (steps and transitions) that can be reached only through a node are
+// laid out below it: its branches side by side, then the nodes where they meet again (those that it dominates), each
+// below the ends that are connected to it. An end that cannot reach its step by a straight line becomes a jump, and so
+// do all links back. So every chart has a picture, and a chart of nested branches looks as in the standard. IEC 61131-3
+// ed. 3, 6.7.4; TM/TP manual 5.5.
 #include "frontend/picture/chart_plan.h"
 
 #include <algorithm>
@@ -13,11 +13,11 @@
 namespace rung::picture {
 namespace {
 
-struct Open {  // a line that leads on to a node below
+struct Open {  // a line to a node further down
   Point at;
   uint32_t target;
 };
-// What is laid out below a node, with it; coordinates count from where its line comes in.
+// The layout of a node and all nodes below it; coordinates are relative to the point where its line comes in.
 struct Block {
   std::vector<std::pair<uint32_t, Point>> inner;
   std::vector<ChartLine> lines;
@@ -54,16 +54,16 @@ class ChartArranger {
   const Names& names_;
   const PouDecl& pou_;
   ChartPlan& plan_;
-  uint32_t root_ = 0;  // a node of its own, above all that nothing leads to
+  uint32_t root_ = 0;  // an artificial node above all nodes without predecessor
   std::vector<std::vector<Edge>> out_;
-  std::vector<std::vector<uint32_t>> in_;  // without those that lead back
+  std::vector<std::vector<uint32_t>> in_;  // without links back
   std::vector<uint32_t> order_, rank_;     // each before those below it
-  std::vector<uint32_t> above_;            // the nearest node that all ways lead through
+  std::vector<uint32_t> above_;            // the nearest node through which all paths lead
   std::vector<std::vector<uint32_t>> below_;
   std::vector<Block> blocks_;
 };
 
-// A walk from the initial steps; whatever leads to a node that the walk has not left leads back.
+// A depth-first walk from the initial steps; an edge to a node that is still open is a link back.
 void ChartArranger::findOrder() {
   enum class State : uint8_t { New, Open, Done };
   std::vector<State> state(root_ + 1, State::New);
@@ -104,7 +104,7 @@ void ChartArranger::findOrder() {
     for (const Edge& edge : out_[node])
       if (edge.to != kNoNode && !edge.back) in_[edge.to].push_back(node);
   }
-  // A step that an earlier chain leads to is no begin of its own.
+  // A step reached from an earlier chain is not a start.
   std::erase_if(out_[root_], [&](const Edge& edge) {
     if (in_[edge.to].size() < 2) return false;
     std::erase(in_[edge.to], root_);
@@ -142,7 +142,7 @@ NameId ChartArranger::jumpName(uint32_t target) const {
 
 NameId ChartArranger::nameOf(const Edge& edge) const { return edge.name ? edge.name : jumpName(edge.to); }
 
-// Takes what is laid out below `child` over, its line coming in at `at`.
+// Merges the layout below `child`, with its line coming in at `at`.
 void ChartArranger::join(Block& block, uint32_t child, Point at) {
   Block& inner = blocks_[child];
   block.inner.push_back({child, at});
@@ -200,7 +200,7 @@ void ChartArranger::addBranches(uint32_t node, Block& block, bool side_by_side_o
   }
 }
 
-// Its line leads below all that stands there already, so nothing is in its way.
+// Its line ends below everything placed so far, so nothing is in its way.
 void ChartArranger::makeJump(Block& block, size_t open) {
   const Open end = block.open[open];
   block.lines.push_back({end.at, {end.at.x, block.bottom}});
@@ -208,7 +208,7 @@ void ChartArranger::makeJump(Block& block, size_t open) {
   block.open.erase(block.open.begin() + static_cast<std::ptrdiff_t>(open));
 }
 
-// Where branches meet in `node`.
+// Draws the convergence of branches in `node`.
 void ChartArranger::addMeeting(uint32_t node, Block& block) {
   const Block& inner = blocks_[node];
   int32_t first = INT32_MAX, last = INT32_MIN;
@@ -323,7 +323,7 @@ std::vector<std::vector<ChartEdge>> edgesOf(const Tree& tree, const Names& names
       out[k].push_back({found == step_of.end() ? kNoNode : found->second, to.name});
     }
   }
-  for (uint32_t k = 0; k < steps.size(); ++k)  // those with a priority stand left of the others
+  for (uint32_t k = 0; k < steps.size(); ++k)  // by priority, from left to right
     std::stable_sort(out[k].begin(), out[k].end(), [&](const ChartEdge& a, const ChartEdge& b) {
       const auto weight = [&](const ChartEdge& e) {
         const SfcTransition& t = transitions[plan.nodes[e.to].index];

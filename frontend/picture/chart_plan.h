@@ -1,7 +1,6 @@
-// The plan of a chart: where its steps, transitions, lines and jumps stand. In: steps and transitions as the parser
-// leaves them. chart_positions.cpp takes the places of the file; chart_plan.cpp finds the branches and lays them out;
-// chart_picture.cpp measures and draws.
-// Private to frontend/picture.
+// The plan of a chart: the positions of its steps, transitions, lines and jumps. In: steps and transitions as parsed.
+// chart_positions.cpp takes the positions of the file; chart_plan.cpp finds the branches and lays them out;
+// chart_picture.cpp measures and draws. Private to frontend/picture.
 #pragma once
 
 #include <span>
@@ -19,7 +18,7 @@ constexpr int32_t kDouble = 4;  // between the lines of a simultaneous divergenc
 struct ChartNode {
   bool step;
   uint32_t index;  // in the steps or transitions of the POU
-  Rect area;       // around the point where the wire comes in from above; it leaves at `below`
+  Rect area;       // around the point where the line comes in from above; the line leaves at `below`
   int32_t below = 0;
   Point origin;
 };
@@ -32,7 +31,7 @@ struct ChartJump {
   NameId step;
 };
 struct ChartPlan {
-  std::vector<ChartNode> nodes;  // steps, then transitions that lead somewhere
+  std::vector<ChartNode> nodes;  // steps, then transitions with a target
   std::vector<ChartLine> lines;
   std::vector<ChartJump> jumps;
   Rect bounds;
@@ -42,18 +41,18 @@ constexpr int32_t kJumpHeight = 40;
 constexpr int32_t kStretch = 15;  // of vertical line between a node and the next
 
 struct ChartEdge {
-  uint32_t to;  // kNoNode: a step that there is not
+  uint32_t to;  // kNoNode: undefined step
   NameId name;  // of the step, for a jump
   bool back = false;
 };
 constexpr uint32_t kNoNode = UINT32_MAX;
-// What follows each node, in the order in which it is judged.
+// The successors of each node, in the order in which they are evaluated.
 std::vector<std::vector<ChartEdge>> edgesOf(const Tree& tree, const Names& names, const PouDecl& pou,
                                             const ChartPlan& plan);
 
-// Takes the places of the file, where it has them and lines can be led between them.
+// Takes the positions of the file, if it has them and lines can be drawn between them.
 bool takeChartPositions(const Tree& tree, const Names& names, const PouDecl& pou, ChartPlan& plan);
-// `nodes` are measured; the rest is filled.
+// In: measured `nodes`. Out: all other members.
 void planChart(const Tree& tree, const Names& names, const PouDecl& pou, ChartPlan& plan);
 // Steps and transitions with their sizes.
 ChartPlan measureChart(const Tree& tree, const Names& names, const PouDecl& pou);

@@ -1,7 +1,8 @@
-// The places of steps and transitions in the file that a chart was drawn in. Names and actions may be larger here than
-// there, so rows and columns move apart where nodes would come too near to each other. The file's divergences and jumps
-// are found again from what they connect: a bar stands between the nodes above and below it, and what leads up is an
-// arrow with the name of its step. A chart in which lines would run through nodes or through each other is laid out.
+// The positions of steps and transitions in the file in which a chart was drawn. Names and actions may be larger here
+// than there, so rows and columns are spread where nodes would be too close to each other. The file's divergences and
+// jumps are reconstructed from the connections: a bar is drawn between the nodes above and below it, and a link upwards
+// is an arrow with the name of its step. A chart in which lines would run through nodes or through each other is laid
+// out automatically instead.
 #include <algorithm>
 
 #include "frontend/picture/chart_plan.h"
@@ -11,7 +12,7 @@
 namespace rung::picture {
 namespace {
 
-constexpr size_t kMostPlacedSteps = 2'000;  // each is compared with each
+constexpr size_t kMostPlacedSteps = 2'000;  // compared pairwise
 
 class Placer {
  public:
@@ -22,7 +23,7 @@ class Placer {
  private:
   struct Line {
     ChartLine line;
-    uint32_t group;  // what is one branching or one wire
+    uint32_t group;  // one branching or one line
   };
   const SfcPosition& positionOf(uint32_t node) const {
     const ChartNode& n = plan_.nodes[node];
@@ -48,7 +49,7 @@ class Placer {
   const PouDecl& pou_;
   ChartPlan& plan_;
   std::vector<Point> wanted_;
-  std::vector<std::vector<uint32_t>> down_, up_;  // by node: those that lines lead to, and come from
+  std::vector<std::vector<uint32_t>> down_, up_;  // by node: targets and sources of its lines
   std::vector<std::vector<NameId>> jumps_;        // by node
   std::vector<Line> lines_;
   uint32_t group_ = 0;
@@ -69,7 +70,7 @@ bool Placer::readPositions() {
   return std::adjacent_find(all.begin(), all.end()) == all.end();
 }
 
-// What a line can lead to, and what a jump must. False: a branching that is neither a divergence nor a convergence.
+// Sorts edges into lines and jumps. False: a branching that is neither a divergence nor a convergence.
 bool Placer::sortEdges() {
   const auto edges = edgesOf(tree_, names_, pou_, plan_);
   down_.resize(plan_.nodes.size());
@@ -143,7 +144,7 @@ void Placer::addJump(Point from, int32_t bottom, NameId step) {
   plan_.jumps.push_back({{from.x, bottom}, step});
 }
 
-// What leads down from a node to nodes that nothing else leads to.
+// Lines from a node down to nodes with no other predecessor.
 void Placer::drawLines(uint32_t node) {
   ++group_;
   const Point from = below(node);
@@ -167,7 +168,7 @@ void Placer::drawLines(uint32_t node) {
   }
 }
 
-// Where several lines meet above a node.
+// A convergence of several lines above a node.
 void Placer::drawMeeting(uint32_t node) {
   if (up_[node].size() < 2) return;
   ++group_;
@@ -195,7 +196,7 @@ bool Placer::isReadable() const {
     return Rect{x, y, std::abs(line.to.x - line.from.x),
                 std::abs(line.to.y - line.from.y) + (line.doubled ? kDouble : 0)};
   };
-  // A line may touch a node at its ends; it leaves a step beside the actions, which may be higher than the step.
+  // A line may touch a node at its ends; it leaves a step beside the actions, which may be taller than the step.
   const auto cuts = [](const Rect& line, const Rect& node) {
     return line.right() > node.x && line.x < node.right() && line.bottom() > node.y && line.y < node.bottom();
   };
@@ -215,7 +216,7 @@ bool Placer::isReadable() const {
     for (const Line& line : lines_)
       if (cuts(box(line.line), nodes[k])) return false;
   }
-  // Lines of two branchings may cross, and nothing else.
+  // Lines of different branchings may cross, but not touch otherwise.
   for (size_t k = 0; k < lines_.size(); ++k)
     for (size_t i = 0; i < k; ++i) {
       if (lines_[k].group == lines_[i].group) continue;

@@ -1,5 +1,5 @@
-// A body of networks as a picture: each network is planned by itself, and stands below the one before it, behind a
-// strip with its number and under its title.
+// A body of networks as a picture: each network is planned separately and drawn below the one before, beside a strip
+// with its number and under its title.
 #include <algorithm>
 
 #include "frontend/picture/network_plan.h"
@@ -10,19 +10,19 @@ namespace rung::picture {
 namespace {
 
 constexpr int32_t kStrip = 40, kHeader = 30, kPageMargin = 20, kBetweenBands = 30;
-constexpr int32_t kLeastPage = 300;  // an element and the marks beside it
+constexpr int32_t kLeastPage = 300;  // an element and the modifiers beside it
 
 // CODESYS puts a connector without a name into each wire.
 bool isJoint(const DiagramElement& e) { return e.kind == ElementKind::Connector && !e.name.name; }
-constexpr uint32_t kMaxJoints = 1000;  // on the ways to one pin: they may stand in a circle
+constexpr uint32_t kMaxJoints = 1000;  // followed from one pin: joints may form a loop
 
 class Planner {
  public:
   explicit Planner(const Body& body) : body_(body) { findUnlisted(); }
-  // `elements`: of one network; their rails join by themselves. Without wires: the bands of the network.
+  // `elements`: of one network; its rails are shared where the file gives no positions. The bands are not routed yet.
   std::vector<Plan> plan(std::span<const uint32_t> elements, int32_t page);
   bool wiresStayInside(std::span<const uint32_t> network_of) const;
-  bool placed() const { return placed_; }  // the last one: where the file has it
+  bool placed() const { return placed_; }  // the last network has the positions of the file
 
  private:
   void findUnlisted();
@@ -36,11 +36,11 @@ class Planner {
 
   const Body& body_;
   std::vector<std::vector<NameId>> unlisted_;
-  std::vector<uint32_t> item_of_;  // of each element, in the plan that is being made
+  std::vector<uint32_t> item_of_;  // by element: its item in the current plan
   bool placed_ = false;
 };
 
-// Outputs of boxes that wires name and the file does not list.
+// Outputs of boxes that wires name but the file does not list.
 void Planner::findUnlisted() {
   unlisted_.resize(body_.elements.size());
   item_of_.assign(body_.elements.size(), kNone);
@@ -113,7 +113,7 @@ Plan Planner::items(std::span<const uint32_t> elements, bool one_rail) {
   return plan;
 }
 
-// Through connectors that are joints only.
+// Follows joints.
 void Planner::addLinks(Plan& plan, const DiagramWire& wire, const End& to, uint32_t& joints) {
   if (wire.from == kNoElement) return;
   if (isJoint(body_.elements[wire.from])) {
@@ -142,7 +142,7 @@ void Planner::addLinks(Plan& plan) {
   }
 }
 
-// Coils of a ladder diagram end at the right rail, whether the file draws it or not.
+// Coils of a ladder diagram end at the right rail, even if the file does not draw it.
 void Planner::addRightRail(Plan& plan) {
   std::vector<bool> used(plan.items.size());
   for (const Link& link : plan.links) used[link.from.item] = true;
@@ -171,7 +171,7 @@ std::vector<Plan> Planner::plan(std::span<const uint32_t> elements, int32_t page
   addLinks(placed);
   placed_ = takeFilePositions(body_, placed);
   if (placed_) {
-    // A CFC is a plane, not a line of text: it keeps its places.
+    // A CFC is two-dimensional, not read in lines: it keeps its positions.
     if (body_.diagram.language == NetworkLanguage::Continuous || boundsOf(placed).width <= page)
       bands.push_back(std::move(placed));
     else
@@ -212,7 +212,7 @@ void drawPlan(Svg& svg, const Body& body, const Plan& plan) {
   for (const Item& item : plan.items) drawItem(svg, body, item);
 }
 
-// The right rails of all networks stand below each other, with the coils at them.
+// Aligns the right rails of all networks, with their coils.
 void alignRightRails(std::vector<std::vector<Plan>>& networks, const Body& body) {
   int32_t right = 0;
   const auto rightRail = [&](const Item& item) {
@@ -237,7 +237,7 @@ void alignRightRails(std::vector<std::vector<Plan>>& networks, const Body& body)
     }
 }
 
-// The bands of a network below each other, with their wires.
+// Stacks the bands of a network, with their wires.
 Plan stacked(std::vector<Plan>& bands) {
   Plan all;
   for (Plan& plan : bands) {
@@ -246,7 +246,7 @@ Plan stacked(std::vector<Plan>& bands) {
       all = std::move(plan);
       continue;
     }
-    // What begins with a mark or a rail begins where the first band does.
+    // A band that begins with a continuation or a rail is aligned with the first band.
     moveBy(plan, {all.bounds.x - plan.bounds.x, all.bounds.bottom() + kBetweenBands - plan.bounds.y});
     const auto first = static_cast<uint32_t>(all.items.size());
     for (Net& net : plan.nets) {
@@ -275,7 +275,7 @@ std::vector<Plan> planNetworks(const Body& body, int32_t page) {
       elements[network_of[k]].push_back(k);
       continue;
     }
-    for (std::vector<uint32_t>& network : elements) network.push_back(k);  // a rail stands in each network
+    for (std::vector<uint32_t>& network : elements) network.push_back(k);  // a rail belongs to each network
   }
   std::vector<std::vector<Plan>> bands;
   bool laid_out = body.diagram.language == NetworkLanguage::Ladder;

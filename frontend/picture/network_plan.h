@@ -1,7 +1,7 @@
-// The plan of a picture of networks: elements with their sizes, places and pins, and the wires between them. In: the
-// elements of a body as the parser leaves them. symbols.cpp measures and draws elements, arrange.cpp and positions.cpp
-// give them places, wrap.cpp cuts what is too wide, route.cpp leads the wires; network_picture.cpp does all of it in
-// turn. Private to frontend/picture.
+// The plan of a picture of networks: elements with their sizes, positions and pins, and the wires between them. In: the
+// elements of a body as parsed. symbols.cpp measures and draws elements, arrange.cpp and positions.cpp position them,
+// wrap.cpp cuts networks that are too wide, route.cpp routes the wires; network_picture.cpp calls all of these. Private
+// to frontend/picture.
 #pragma once
 
 #include <span>
@@ -32,22 +32,22 @@ struct Body {
   std::string_view string(uint32_t first, uint32_t length) const { return tree.string({first, length}); }
 };
 
-// Where a wire ends. `at` counts from the item's origin and lies on the grid, like every place in a plan.
+// The end of a wire. `at` is relative to the item's origin and lies on the grid, like all points in a plan.
 struct Terminal {
   Point at;
   bool output;
-  uint32_t pin;  // in the element's list; kNone: what the element gives, or an output that the file does not list
+  uint32_t pin;  // in the element's list; kNone: the result of the element, or an output that the file does not list
   NameId name;
-  int32_t length = 0;  // of a rail, downwards: wires end anywhere on it
+  int32_t length = 0;  // of a rail, downwards: wires end at any point of it
 };
 
 struct Item {
   uint32_t element;  // in the body
-  Rect area;         // with its names; nothing else stands there
-  Rect frame;        // of what is drawn as a box
+  Rect area;         // with its names; no other element overlaps it
+  Rect frame;        // of the part drawn as a box
   Point origin;
   std::vector<Terminal> terminals;
-  uint32_t continuation = 0;  // where a wire goes on in another band: the number; no element
+  uint32_t continuation = 0;  // number of the mark where a wire continues in another band; then no element
 
   Rect bounds() const { return area.at(origin); }
 };
@@ -56,7 +56,7 @@ struct End {
   uint32_t item, terminal;
   friend bool operator==(const End&, const End&) = default;
 };
-// What is connected, drawn as one tree of lines: each source with each target.
+// Connected terminals, drawn as one tree of lines: each source is connected with each target.
 struct Net {
   std::vector<End> sources, targets;
   std::vector<std::vector<Point>> lines;
@@ -71,7 +71,7 @@ struct Plan {
   std::vector<Item> items;
   std::vector<Link> links;
   std::vector<Net> nets;
-  Rect bounds;  // of all of it
+  Rect bounds;  // of the whole plan
 
   Point point(const End& end) const {
     const Item& item = items[end.item];
@@ -80,31 +80,31 @@ struct Plan {
   const Terminal& terminal(const End& end) const { return items[end.item].terminals[end.terminal]; }
 };
 
-// One element, at no place yet. `unlisted`: outputs of a box that wires name and the file does not list.
+// Measures one element, without a position. `unlisted`: outputs of a box that wires name but the file does not list.
 Item measure(const Body& body, uint32_t element, std::span<const NameId> unlisted);
 void drawItem(Svg& svg, const Body& body, const Item& item);
 
-// Gives places by data flow, from left to right.
+// Positions elements by data flow, from left to right.
 void arrange(const Body& body, Plan& plan);
-// Gives the places of the file, stretched where names need it. False: it has none, or two elements share one.
+// Takes the positions of the file, spread where names need it. False: it has none, or two elements share one.
 bool takeFilePositions(const Body& body, Plan& plan);
 
-// Cuts what is wider than `page` into bands; `continuations` counts the numbers at their ends.
+// Cuts a plan that is wider than `page` into bands; `continuations` counts the numbers at their ends.
 std::vector<Plan> wrap(const Body& body, Plan plan, int32_t page, uint32_t& continuations);
-// What no wires connect, each by itself: before it has places, and of what stands above each other.
+// The separately wired parts of a plan: before it has positions, and in groups that overlap vertically.
 std::vector<Plan> splitByWires(const Plan& plan);
 std::vector<Plan> splitByRows(const Plan& plan);
-// Rails go from above their first wire to below the last.
+// Extends rails from above their first wire to below the last.
 void fitRails(Plan& plan, int32_t left, int32_t right);
 Rect boundsOf(const Plan& plan);
 
-// What the links connect.
+// Makes nets of the links.
 void makeNets(Plan& plan);
-// Makes nets of the links and leads them around the elements; `bounds` becomes what elements and wires take.
+// Makes nets of the links and routes them around the elements; `bounds` becomes the area of elements and wires.
 void routeWires(Plan& plan);
 
-// One for each network behind what stands in none, each in coordinates of its own; empty where nothing does.
-// `page`: as wide as networks may be; 0: as wide as they are.
+// First the elements outside of networks, then each network, in separate coordinates; an empty plan if there are none.
+// `page`: the maximum width of networks; 0: unlimited.
 std::vector<Plan> planNetworks(const Body& body, int32_t page = 0);
 
 }  // namespace rung::picture

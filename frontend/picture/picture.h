@@ -1,6 +1,9 @@
-// Bodies in LD, FBD, CFC and SFC as pictures that an engineer recognises. In: the tree as the parsers leave it, before
-// a scheduler takes the networks or the chart. Out: SVG, equal bytes for equal bodies. Elements stand where the file
-// has them; where it says nothing they are laid out. Called by `rung graph`.
+// Bodies in LD, FBD, CFC and SFC as pictures that an engineer recognises. In: the tree as parsed, before a scheduler
+// takes the networks or the chart: so the picture shows exactly what is written, even of a program whose library is
+// missing. Out: SVG, equal bytes for equal bodies. Elements are drawn at the file's positions, or laid out where it has
+// none. First comes a plan (positions, pins, lines), then its SVG, so tests can check the plan for overlaps. One router
+// serves both kinds of positions. Corner points of wires in the file are not used: they fit only boxes of the editor's
+// size. Called by `rung graph`.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +14,8 @@
 
 namespace rung::picture {
 
-// `name`: the title of the picture, `Pump.Start`. `page`: the width, in pixels, beyond which networks go on in a band
-// below; 0: they never do.
+// `name`: the title of the picture, `Pump.Start`. `page`: the width in pixels beyond which networks are continued in a
+// band below; 0: unlimited.
 std::string drawNetworks(const Tree& tree, const Names& names, const Diagram& diagram, std::string_view name,
                          int32_t page = 0);
 std::string drawChart(const Tree& tree, const Names& names, const PouDecl& pou, std::string_view name);

@@ -1,6 +1,6 @@
-// The places of the file. Its unit is that of its editor: pixels, or cells as high as a pin. Names and boxes may be
-// larger here than there, so rows and columns move apart where elements would overlap; what stood in one row or column
-// still does, and what stood left of or above another element, too.
+// The positions of elements in the file. Their unit depends on the editor: pixels, or cells as high as a pin. Names and
+// boxes may be larger here than there, so rows and columns are spread where elements would overlap; elements in one row
+// or column stay in it, and the order from left to right and from top to bottom is kept.
 #include <algorithm>
 
 #include "frontend/picture/network_plan.h"
@@ -10,12 +10,12 @@
 namespace rung::picture {
 namespace {
 
-constexpr size_t kMostPlacedElements = 20'000;  // each is compared with each
-constexpr int32_t kCell = 20;                   // pixels of an editor's cell
+constexpr size_t kMostPlacedElements = 20'000;  // compared pairwise
+constexpr int32_t kCell = 20;                   // pixels per cell of an editor
 
 bool isFrame(ElementKind kind) { return isBox(kind) || kind == ElementKind::Comment; }
 
-// Editors that count cells leave a cell or two between an element and the next, those that count pixels many more.
+// Editors that count cells leave one or two between elements, those that count pixels many more.
 int32_t unitOf(const Body& body, const Plan& plan) {
   int32_t highest = 0;
   std::vector<int32_t> rows;
@@ -32,8 +32,8 @@ int32_t unitOf(const Body& body, const Plan& plan) {
   return highest <= 12 && rows.size() > 1 && least <= 4 ? kCell : 1;
 }
 
-// Pins stand closer or farther here than in the file, so that a variable beside its pin would get a wire with a corner:
-// it moves to the row of the pin, if that is near and free.
+// Pins are closer together or further apart here than in the file, so the wire of a variable beside its pin would get a
+// corner: the variable moves to the row of the pin, if that is near and free.
 void snapToPins(const Body& body, Plan& plan) {
   constexpr int32_t kNear = 30;
   std::vector<uint32_t> uses(plan.items.size());
@@ -52,7 +52,7 @@ void snapToPins(const Body& body, Plan& plan) {
   if (near.size() * plan.items.size() > 20'000'000) return;
   const auto pinRow = [&](const Link* link) { return plan.point(moves(link->from.item) ? link->to : link->from).y; };
   std::stable_sort(near.begin(), near.end(), [&](const Link* a, const Link* b) { return pinRow(a) < pinRow(b); });
-  for (const bool upwards : {true, false})  // who moves up makes room from the top on, who moves down from the bottom
+  for (const bool upwards : {true, false})  // moving up makes room from the top on, moving down from the bottom
     for (size_t k = 0; k < near.size(); ++k) {
       const Link& link = *near[upwards ? k : near.size() - 1 - k];
       const bool reads = moves(link.from.item);
@@ -85,7 +85,7 @@ bool takeFilePositions(const Body& body, Plan& plan) {
     Item& item = plan.items[k];
     const DiagramElement& e = body.elements[item.element];
     if (isRail(e.kind)) item.area.width = 0;
-    // A line through the middle of an element stays one; boxes are placed by their upper edge.
+    // Elements on one line stay aligned by their middle; boxes are positioned by their upper edge.
     const int64_t middle = isFrame(e.kind) || isRail(e.kind) ? 0 : unit == kCell ? kGrid : e.height / 2;
     const int64_t centre =
         e.kind == ElementKind::Contact || e.kind == ElementKind::Coil ? int64_t{e.width} * unit / 2 : 0;
@@ -100,7 +100,7 @@ bool takeFilePositions(const Body& body, Plan& plan) {
     guess[k] = item.area.at({static_cast<int32_t>(std::clamp(x.wanted[k], -limit, limit)), 0});
   }
   const auto rail = [&](uint32_t k) { return isRail(body.elements[plan.items[k].element].kind); };
-  // Variables stand as close as the pins that they lead to.
+  // Variables may be as close to each other as the pins to which they are connected.
   const auto gapY = [&](uint32_t a, uint32_t b) {
     if (rail(a) || rail(b) || guess[a].x >= guess[b].right() + kElementGap ||
         guess[b].x >= guess[a].right() + kElementGap)

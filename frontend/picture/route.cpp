@@ -1,7 +1,7 @@
-// Leads wires along the grid: each net is a tree of right-angled lines that grows pin by pin, by the cheapest way from
-// the pin to what is there already. Ways lead around elements; corners, crossings and lanes beside other wires cost,
-// and running in the lane of another net costs so much that it happens only where nothing else is left.
-// Several sources of one pin are one net where each of them leads to the same pins; else their wires meet at the pin.
+// Routes wires along the grid: each net is a tree of right-angled lines that grows pin by pin, by the cheapest path
+// from the pin to the existing tree. Paths go around elements; corners, crossings and lanes beside other wires cost,
+// and sharing the lane of another net costs so much that it happens only when there is no other path. Several sources
+// of one pin are one net if each of them is connected to the same pins; otherwise their wires meet at the pin.
 #include <algorithm>
 #include <queue>
 
@@ -11,17 +11,17 @@ namespace rung::picture {
 namespace {
 
 constexpr int32_t kMargin = 12;          // cells around the elements
-constexpr size_t kMaxCells = 8'000'000;  // beyond them wires go straight, through what stands in their way
+constexpr size_t kMaxCells = 8'000'000;  // above this, wires are straight and ignore obstacles
 constexpr uint32_t kCorner = 4, kCrossing = 6, kTouch = 60, kShared = 400, kThrough = 5000;
 constexpr uint32_t kCarefulSteps = 3'000'000;
-constexpr uint32_t kMaxSteps = 15'000'000;  // of all searches: beyond them, too
+constexpr uint32_t kMaxSteps = 15'000'000;  // of all searches: above this, too
 constexpr uint32_t kRight = 0, kDown = 1, kLeft = 2, kUp = 3;
 
 // ---- nets
 
 bool before(const End& a, const End& b) { return a.item != b.item ? a.item < b.item : a.terminal < b.terminal; }
 
-// The links by one of their ends, and what stands at the other.
+// The links sorted by one of their ends, with lookup of the other.
 class Sides {
  public:
   Sides(const std::vector<Link>& links, End Link::*near, End Link::*far) : links_(links), near_(near), far_(far) {
@@ -51,7 +51,7 @@ class Sides {
   std::vector<uint32_t> sorted_;
 };
 
-// ---- ways
+// ---- paths
 
 struct Window {  // in pixels, both corners included
   int32_t x0 = INT32_MAX, y0 = INT32_MAX, x1 = INT32_MIN, y1 = INT32_MIN;
@@ -69,13 +69,13 @@ class Router {
 
  private:
   struct Cell {
-    uint32_t across = kNone, down = kNone;  // the nets that lead from here to the right and downwards
+    uint32_t across = kNone, down = kNone;  // the nets on the edges from here to the right and downwards
     uint32_t corner = kNone;                // the net that turns, ends or branches here
     bool blocked = false;
   };
-  struct Step {  // of a search: a cell that was entered in a direction
+  struct Step {  // of a search: a cell with the direction of entry
     uint32_t stamp = 0, cost = 0;
-    uint32_t from = 0;  // the direction in which the cell before was entered; kNone: it is the first
+    uint32_t from = 0;  // the direction in which the previous cell was entered; kNone: the first cell
   };
 
   bool setGrid();
@@ -116,8 +116,8 @@ class Router {
   int32_t left_ = 0, top_ = 0;
   size_t columns_ = 0, rows_ = 0;
   std::vector<Cell> cells_;
-  std::vector<Step> steps_;     // four of each cell
-  std::vector<uint32_t> tree_;  // the stamp of the tree that a cell was added to
+  std::vector<Step> steps_;     // four per cell
+  std::vector<uint32_t> tree_;  // by cell: the stamp of the tree that contains it
   uint32_t stamp_ = 0, search_ = 0;
   uint32_t taken_ = 0;  // steps of all searches
   Window tree_box_;
@@ -150,7 +150,7 @@ const End* Router::railOf(const Net& net) const {
   return nullptr;
 }
 
-// No wire turns or runs where that of a pin begins.
+// No wire turns or runs where the wire of a pin begins.
 void Router::keepPinsFree() {
   for (uint32_t k = 0; k < plan_.nets.size(); ++k)
     for (const std::vector<End>* ends : {&plan_.nets[k].sources, &plan_.nets[k].targets})
@@ -164,7 +164,7 @@ Point Router::outside(const End& end) const {
   return {p.x + (plan_.terminal(end).output ? kGrid : -kGrid), p.y};
 }
 
-// Adds a line to the tree; its edges belong to the net, where it is one.
+// Adds a line to the tree; its edges belong to the net, unless `net` is kNone.
 void Router::grow(Point from, Point to, uint32_t net) {
   const uint32_t direction = from.y == to.y ? (to.x > from.x ? kRight : kLeft) : (to.y > from.y ? kDown : kUp);
   const size_t last = indexOf(to);
@@ -178,7 +178,7 @@ void Router::grow(Point from, Point to, uint32_t net) {
   if (net != kNone) cells_[indexOf(from)].corner = cells_[last].corner = net;
 }
 
-// `points` without those that change no direction; a line of the net.
+// Adds `points`, without those between collinear lines, as a line of the net.
 void Router::keep(uint32_t net, const std::vector<Point>& points) {
   std::vector<Point> line;
   for (const Point p : points) {
@@ -195,7 +195,7 @@ void Router::keep(uint32_t net, const std::vector<Point>& points) {
   plan_.nets[net].lines.push_back(std::move(line));
 }
 
-// Both pins in one row and nothing between them. Where other nets end at the pin, they meet in front of it.
+// Both pins are in one row without obstacles between. Other nets with the same pin join in front of it.
 bool Router::routeStraight(uint32_t net, const End& from, const End& to) {
   Point a = plan_.point(from), b = plan_.point(to);
   if (const int32_t rail = plan_.terminal(from).length; rail > 0 && b.y > a.y && b.y < a.y + rail) a.y = b.y;
@@ -212,7 +212,7 @@ bool Router::routeStraight(uint32_t net, const End& from, const End& to) {
   return true;
 }
 
-// Straight wires come first: all others lead around them.
+// Straight wires are routed first: all others go around them.
 void Router::routeRows(uint32_t index) {
   const Net& net = plan_.nets[index];
   const bool rail = railOf(net) != nullptr;
@@ -246,8 +246,8 @@ uint32_t Router::stepCost(uint32_t net, size_t cell, uint32_t entered, uint32_t 
   return touches && cell != start ? cost + kTouch : cost;
 }
 
-// From a pin to the tree, inside of the window: A* with the distance to the box around the tree. In a picture with much
-// to search the distance counts half as much again: nearly the cheapest way, found in a fraction of the steps.
+// From a pin to the tree, inside the window: A* with the distance to the bounding box of the tree. In a large picture
+// the distance is weighted 1.5 times: nearly the cheapest path, found in a fraction of the steps.
 Way Router::search(uint32_t net, const End& end, Window window) {
   struct Entry {
     uint32_t estimate, cost;
@@ -306,7 +306,7 @@ Way Router::search(uint32_t net, const End& end, Window window) {
   return {};
 }
 
-// Grows from its rail, from what runs straight, or from its first source.
+// Grows from the rail, from straight lines, or from the first source.
 void Router::lead(uint32_t index) {
   Net& net = plan_.nets[index];
   ++stamp_;
@@ -345,7 +345,7 @@ void Router::lead(uint32_t index) {
   }
 }
 
-// Without looking what stands in the way.
+// Ignores obstacles.
 void Router::routeBlindly(uint32_t index) {
   const Net net = plan_.nets[index];
   for (const End& from : net.sources) {
@@ -362,7 +362,7 @@ void Router::routeBlindly(uint32_t index) {
   }
 }
 
-// Where lines of a net meet, and where nets meet in front of a pin.
+// Junctions of a net's lines, and of nets in front of a pin.
 void Router::setDots(uint32_t index) {
   Net& net = plan_.nets[index];
   for (const std::vector<Point>& line : net.lines) {

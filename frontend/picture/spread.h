@@ -1,4 +1,4 @@
-// Places of a file in one direction, moved apart where what stands there needs more room than in its editor.
+// The positions of a file in one direction, spread where elements need more room than in its editor.
 // Private to frontend/picture: networks (positions.cpp) and charts (chart_positions.cpp).
 #pragma once
 
@@ -10,16 +10,16 @@
 
 namespace rung::picture {
 
-// Of each item in one direction: its place in the file, and what it takes before and behind it.
+// For each item: its position in the file, and its extent before and after that point.
 struct Axis {
   std::vector<int64_t> wanted;
   std::vector<int32_t> before, behind;
 };
 
-constexpr int32_t kWidest = 300;  // between a column and the next, where nothing stands in between
+constexpr int32_t kWidest = 300;  // between adjacent columns with no column in between
 
-// Places by the order of the file, moved on where an item would come too near to one before it.
-// `gap`: between two elements that could overlap; negative: they could not.
+// Positions in file order, moved on where an item would be too close to one before it. `gap`: the distance between two
+// elements that could overlap; negative: they cannot.
 template <class Gap>
 std::vector<int32_t> spread(const Axis& axis, Gap gap) {
   const size_t count = axis.wanted.size();

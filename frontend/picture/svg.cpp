@@ -19,7 +19,7 @@ constexpr std::string_view kStyle =
     ".n{fill:#e4e8ee;stroke:none}.o{fill:#dff0d8;stroke:#3c763d}.c{fill:#fffbe0;stroke:#b8a860}.r{stroke:#aaa}.z{"
     "opacity:.4}";
 
-// The byte length of the character at `p`; 0: no UTF-8 begins there.
+// The byte length of the character at `p`; 0: not UTF-8.
 size_t characterAt(std::string_view text, size_t p, uint32_t& c) {
   const auto byte = static_cast<unsigned char>(text[p]);
   const size_t length = byte < 0x80 ? 1 : byte >= 0xf0 ? 4 : byte >= 0xe0 ? 3 : byte >= 0xc0 ? 2 : 0;
@@ -30,7 +30,7 @@ size_t characterAt(std::string_view text, size_t p, uint32_t& c) {
   return length;
 }
 
-// What XML cannot hold, and what is no UTF-8, shows as a question mark.
+// Characters that XML does not allow, and bytes that are not UTF-8, become question marks.
 void appendEscaped(std::string& out, std::string_view text) {
   for (size_t p = 0; p < text.size();) {
     uint32_t c = 0;

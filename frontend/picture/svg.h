@@ -1,6 +1,6 @@
-// A picture as SVG text: lines, boxes and texts in one fixed-width font that every viewer has, so that widths are known
-// without asking a font. In: shapes in pixels. Out: one well-formed file, equal bytes for equal calls.
-// Called by the drawings of networks and charts.
+// A picture as SVG: lines, boxes and strings in one fixed-width font that every viewer has, so that widths are known
+// without asking a font. In: shapes in pixels. Out: one well-formed file, equal bytes for equal calls. Called by the
+// drawings of networks and charts.
 #pragma once
 
 #include <cstdint>
@@ -25,14 +25,14 @@ struct Rect {
 };
 
 constexpr int32_t kGrid = 10;
-constexpr int32_t kLine = 15;  // from one line of text to the next
+constexpr int32_t kLine = 15;  // line height
 inline int32_t roundUp(int32_t n) { return (n + kGrid - 1) / kGrid * kGrid; }
 
 // In pixels; characters of East Asian scripts are two wide.
 int32_t textWidth(std::string_view text);
 
 std::vector<std::string> linesOf(std::string_view text);
-// At blanks, so that no line is longer than `most` where a blank allows it.
+// Wraps at blanks, so that lines are at most `most` long wherever a blank allows it.
 std::vector<std::string> wrapped(std::string_view text, size_t most);
 
 enum class Anchor : uint8_t { Start, Middle, End };
@@ -45,8 +45,8 @@ class Svg {
   void rect(const Rect& r, std::string_view kind = {});
   void circle(Point centre, int32_t radius, std::string_view kind = {});
   void text(Point base, Anchor anchor, std::string_view text, std::string_view kind = {});
-  void open(std::string_view id);  // a group of what belongs together
-  void openFaded();                // a group that counts for nothing
+  void open(std::string_view id);  // a group of shapes
+  void openFaded();                // a group of disabled elements
   void close();
 
   std::string finish(std::string_view title, int32_t width, int32_t height) const;

@@ -1,4 +1,4 @@
-// The symbols of LD, FBD and CFC: how large each element is, where its pins are, and how it is drawn.
+// The symbols of LD, FBD and CFC: the size of each element, the positions of its pins, and its drawing.
 // IEC 61131-3 ed. 3, tables 74 to 76 (LD) and 8.3 (FBD); TM/TP manual 5.1 to 5.3 and 5.6.
 #include <algorithm>
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int32_t kPitch = 20;        // from pin to pin
 constexpr int32_t kFirstPin = 30;     // below the upper edge of a box
-constexpr int32_t kStub = 10;         // the line of a pin, in which its circle stands
+constexpr int32_t kStub = 10;         // the line of a pin, which holds the circle of a negation
 constexpr int32_t kSymbol = 40;       // the width of a contact or coil
 constexpr size_t kCommentWidth = 60;  // characters
 
@@ -20,7 +20,7 @@ std::string operandText(const Body& body, const DiagramElement& e) {
   return std::string(body.names.string(e.name.name));
 }
 
-// A box is called by its type.
+// The title of a box is the name of its type.
 std::string titleOf(const Body& body, const DiagramElement& e) {
   if (e.kind == ElementKind::Execute) return "EXECUTE";
   if (e.path) return printSt(body.tree, body.names, e.path);
@@ -60,7 +60,7 @@ struct Rows {
   std::vector<Terminal> left, right;
 };
 
-// EN and ENO stand in the first row, all else in the order of the file.
+// EN and ENO are in the first row, all other pins in file order.
 Rows rowsOf(const Body& body, const DiagramElement& e, std::span<const NameId> unlisted_outputs) {
   Rows rows;
   const std::span<const DiagramPin> pins = body.tree.list(e.pins);
@@ -117,7 +117,7 @@ void measureBox(const Body& body, const DiagramElement& e, std::span<const NameI
       item.terminals.push_back(t);
     }
   };
-  // A name that is wider than its box keeps wires away from the pins, too.
+  // A name that is wider than its box also keeps wires away from the pins.
   placeTerminals(rows.left, item.area.x);
   placeTerminals(rows.right, item.area.right());
 }
@@ -137,7 +137,7 @@ void drawModifiers(Svg& svg, const DiagramPin& pin, Point border, bool left) {
   if (pin.storage != PinStorage::None)
     svg.text({border.x + out * 6, border.y - 5}, Anchor::Middle, pin.storage == PinStorage::Set ? "S" : "R", "s");
   if (pin.edge == EdgeKind::None) return;
-  // The triangle of a rising edge points into the box, that of a falling one out of it.
+  // The triangle of a rising edge points into the box, the triangle of a falling edge out of it.
   const bool inwards = pin.edge == EdgeKind::Rising;
   const int32_t base = border.x + (inwards ? 0 : -out * 7), tip = border.x + (inwards ? -out * 7 : 0);
   const Point points[] = {{base, border.y - 4}, {tip, border.y}, {base, border.y + 4}};
@@ -206,7 +206,7 @@ void drawContact(Svg& svg, const Body& body, const DiagramElement& e, const Item
     svg.text({x, y + 4}, Anchor::Middle, letters, letters.size() > 1 ? "s" : "");
 }
 
-// Variables, jumps, connectors: a text with a form around it, a terminal on its sides.
+// Variables, jumps, connectors: a framed string with terminals on its sides.
 void drawText(Svg& svg, const Body& body, const DiagramElement& e, const Item& item) {
   const Rect frame = item.frame.at(item.origin);
   const int32_t y = item.origin.y;
@@ -260,7 +260,7 @@ void drawComment(Svg& svg, const Body& body, const DiagramElement& e, const Item
   for (const std::string& line : textOf(body, e)) svg.text({frame.x + 6, y += kLine}, Anchor::Start, line);
 }
 
-// A connector as in ed. 3, 8.1.3, with a number for its name.
+// A connector as in ed. 3, 8.1.3, with a number instead of a name.
 void drawContinuation(Svg& svg, const Item& item) {
   const Rect f = item.frame.at(item.origin);
   const auto n = [](int32_t k) { return std::to_string(k); };

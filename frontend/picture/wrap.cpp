@@ -1,6 +1,6 @@
-// Long networks on a page. What is wider than the page is cut between its elements into bands, which stand below each
-// other; a wire that is cut ends in a mark with a number, and goes on at the mark with the same number. In: elements
-// with their places. Out: a plan for each band, in coordinates of its own. Rails stand in each band that needs them.
+// Long networks on a page. A network wider than the page is cut between its elements into bands, which are drawn below
+// each other; a cut wire ends in a flag with a number and continues at the flag with the same number. In: elements with
+// their positions. Out: a plan for each band, in separate coordinates. Each band has the rails that it needs.
 #include <algorithm>
 #include <numeric>
 
@@ -50,7 +50,7 @@ class Splitter {
   const Plan& plan_;
   std::span<const uint32_t> parts_;
   std::vector<Plan> plans_;
-  std::vector<std::vector<Rail>> rails_;  // by part: those that it has already
+  std::vector<std::vector<Rail>> rails_;  // by part: its rails so far
   std::vector<uint32_t> item_of_;         // in its part
   uint32_t& continuations_;
 };
@@ -62,7 +62,7 @@ End Splitter::railIn(uint32_t part, const End& rail) {
   return {rails_[part].back().item, rail.terminal};
 }
 
-// Each source leads to each target.
+// Connects each source with each target.
 void Splitter::addNet(const Net& net) {
   const auto rail = [&](const End& end) { return isRail(plan_.items[end.item]); };
   for (const End& from : net.sources)
@@ -76,7 +76,7 @@ void Splitter::addNet(const Net& net) {
   for (const bool begins : {false, true}) {
     const std::vector<End>& near = begins ? net.targets : net.sources;
     const std::vector<End>& far = begins ? net.sources : net.targets;
-    std::vector<std::pair<uint32_t, uint32_t>> created;  // part, its mark
+    std::vector<std::pair<uint32_t, uint32_t>> created;  // part, its continuation
     for (const End& end : near) {
       const uint32_t part = parts_[end.item];
       if (rail(end) || std::all_of(far.begin(), far.end(),
@@ -98,7 +98,7 @@ void Splitter::addNet(const Net& net) {
 std::vector<Plan> Splitter::run() {
   Plan whole = plan_;
   makeNets(whole);
-  // Numbers go from top to bottom.
+  // Numbered from top to bottom.
   std::stable_sort(whole.nets.begin(), whole.nets.end(), [&](const Net& a, const Net& b) {
     const End& x = a.sources[0];
     const End& y = b.sources[0];
@@ -111,7 +111,7 @@ std::vector<Plan> Splitter::run() {
 
 // ---- parts
 
-// What wires connect without the rails is one part.
+// The parts connected by wires, ignoring rails.
 std::vector<uint32_t> connectedParts(const Plan& plan) {
   std::vector<uint32_t> part(plan.items.size());
   std::iota(part.begin(), part.end(), 0u);
@@ -127,7 +127,7 @@ std::vector<uint32_t> connectedParts(const Plan& plan) {
   return part;
 }
 
-// Numbers parts by `first`, their rank; parts with the same rank are one. The number of parts.
+// Numbers parts by their rank `first`; parts of equal rank become one. Returns the number of parts.
 uint32_t renumber(std::vector<uint32_t>& part, const std::vector<int64_t>& first) {
   std::vector<int64_t> ranks;
   for (const uint32_t p : part)
@@ -143,7 +143,7 @@ uint32_t renumber(std::vector<uint32_t>& part, const std::vector<int64_t>& first
 
 // ---- bands
 
-// What no cut can go through: elements above and below each other.
+// A group of elements that overlap horizontally: it cannot be cut.
 struct Column {
   int32_t left, right;
   std::vector<uint32_t> items;
@@ -162,7 +162,7 @@ std::vector<Column> columnsOf(const Body& body, const Plan& plan, int32_t most) 
   std::vector<Column> columns;
   for (const uint32_t k : order) {
     const Rect r = boundsOfItem(k);
-    // A variable that stands at its pin belongs to it.
+    // A variable at its pin belongs to the column of the pin.
     if (columns.empty() || r.x > columns.back().right + kGrid || r.right() - columns.back().left > most)
       columns.push_back({r.x, r.right(), {}});
     columns.back().right = std::max(columns.back().right, r.right());
@@ -171,7 +171,7 @@ std::vector<Column> columnsOf(const Body& body, const Plan& plan, int32_t most) 
   return columns;
 }
 
-// Marks stand in the rows of their pins, where no other one does.
+// Continuations are in the rows of their pins, unless another one is there.
 void placeContinuations(Plan& plan, bool begin, int32_t x) {
   struct Wanted {
     int32_t y;
@@ -237,7 +237,7 @@ std::vector<Plan> splitByWires(const Plan& plan) {
   std::vector<bool> leads_on(plan.items.size());
   for (const Link& link : plan.links)
     if (!isRail(plan.items[link.to.item])) leads_on[link.from.item] = true;
-  // In the order of their last elements, as they are drawn beside each other.
+  // In the order of their last elements, since they are drawn beside each other.
   std::vector<int64_t> first(plan.items.size(), INT64_MAX);
   for (const bool ends : {true, false})
     for (uint32_t k = 0; k < plan.items.size(); ++k)

@@ -1,7 +1,7 @@
-// Action blocks in LD and FBD: the wire that leads to one drives its actions, by their qualifiers, as a step does in a
-// chart. Each action has a control block of the library, which all action blocks with its name share; the block stores
-// its wire in a variable, and behind all elements of the body the controls are called, and the actions that are
-// active. IEC 61131-3 ed. 3, 6.7.4.5 and table 58, 5l and 5f.
+// Action blocks in LD and FBD: the wire into one drives its actions, by their qualifiers, as a step does in a chart.
+// Each action has a control block of the library, which all action blocks with its name share. An action block stores
+// its wire in a variable; after all elements of the body, the control blocks and the active actions are called. IEC
+// 61131-3 ed. 3, 6.7.4.5 and table 58, 5l and 5f.
 #include "frontend/plcopen/diagnostics.h"
 #include "frontend/plcopen/import.h"
 #include "frontend/plcopen/networks.h"
@@ -10,7 +10,7 @@
 namespace rung::plcopen {
 namespace {
 
-// The name of the variable or action; null: there is none that could be one.
+// The name of the variable or action; null: missing, or not an identifier.
 const xml::Attribute* nameOf(const xml::Document& document, const xml::Element& action) {
   const xml::Element* reference = document.child(action, "reference");
   const xml::Attribute* name = reference == nullptr ? nullptr : document.attribute(*reference, "name");
@@ -58,7 +58,7 @@ std::string wireOf(const xml::Document& document, const xml::Element& block) {
   return "sfc_wire_" + identifierOf("n" + document.value(block, "localId"));
 }
 
-// Forbids an action block in a network that names no variable or action: other blocks could not share its body.
+// Forbids an action block in a network without the name of a variable or action: other blocks could not share its body.
 //   fails   <action><inline>…</inline></action> in an <LD>          E1050
 void writeControls(Import& import, const xml::Element& pou) {
   const xml::Document& document = import.document;

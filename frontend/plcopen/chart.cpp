@@ -1,5 +1,5 @@
-// The graph of a chart: elements, wires, and the steps before and behind each transition; see chart.h. Memory and time
-// are linear in the chart, but for transitions behind many steps.
+// The graph of a chart: elements, wires, and the steps before and after each transition; see chart.h. Memory and time
+// are linear in the size of the chart, except for transitions from many steps.
 #include "frontend/plcopen/chart.h"
 
 #include <algorithm>
@@ -29,8 +29,8 @@ constexpr std::pair<std::string_view, NodeKind> kKinds[] = {
     {"contact", NodeKind::Contact},
     {"leftPowerRail", NodeKind::Rail}};
 
-constexpr size_t kMaxSteps = 1'000'000;  // in the ways to all elements of a chart
-constexpr uint32_t kMaxWires = 1000;     // behind each other
+constexpr size_t kMaxSteps = 1'000'000;  // in the paths to all elements of a chart
+constexpr uint32_t kMaxWires = 1000;     // in a row
 
 }  // namespace
 
@@ -41,7 +41,7 @@ std::string Chart::nameOf(uint32_t node) const {
   return std::string(n.element->name) + " `" + name + "`";
 }
 
-// Forbids a localId that stands twice in a chart. TC6 2.01.
+// Forbids a duplicate localId in a chart. TC6 2.01.
 //   fails   <step localId="1" …/> <step localId="1" …/>          E1060
 void Chart::readNodes() {
   for (const xml::Element* e = document_.firstChild(chart_); e != nullptr; e = document_.next(*e)) {
@@ -79,8 +79,8 @@ void Chart::readNodes() {
   action_blocks_.resize(nodes_.size());
 }
 
-// A branch may end with a transition right above the double line: then it waits there for the others. Syntax manual
-// 5.9.8.
+// A branch may end with a transition directly above the double line: it then waits there for the others, in an added
+// step. Syntax manual 5.9.8.
 void Chart::addWaitingSteps() {
   const auto count = static_cast<uint32_t>(nodes_.size());
   for (uint32_t i = 0; i < count; ++i) {
@@ -90,7 +90,7 @@ void Chart::addWaitingSteps() {
       if (nodes_[from].kind != NodeKind::Transition && nodes_[from].kind != NodeKind::SelectionConvergence) continue;
       const auto wait = static_cast<uint32_t>(nodes_.size());
       const auto behind = std::find(behind_[from].begin(), behind_[from].end(), i);
-      if (behind == behind_[from].end()) continue;  // wired twice
+      if (behind == behind_[from].end()) continue;  // duplicate wire
       *behind = wait;
       nodes_.push_back({nodes_[from].element, NodeKind::Wait, 0, 0});
       behind_.push_back({i});
@@ -100,7 +100,7 @@ void Chart::addWaitingSteps() {
   }
 }
 
-// Jumps may lead to a parallel branch by its name.
+// Jumps may name a parallel branch as target.
 void Chart::findLabels() {
   constexpr std::string_view kName = "38391c6d";
   for (uint32_t i = 0; i < nodes_.size(); ++i) {
@@ -111,7 +111,7 @@ void Chart::findLabels() {
   }
 }
 
-// Forbids a step behind a step. IEC 61131-3 ed. 3, 6.7.5; syntax manual 5.9.6.
+// Forbids a step directly after a step. IEC 61131-3 ed. 3, 6.7.5; syntax manual 5.9.6.
 //   fails   <step localId="2"> with a wire from <step localId="1">          E1057
 void Chart::checkOrder() {
   for (uint32_t i = 0; i < nodes_.size(); ++i) {
@@ -128,7 +128,7 @@ void Chart::checkOrder() {
   }
 }
 
-// The wires into an element, or into the condition of a transition. Forbids those that lead to nothing. TC6 2.01.
+// The wires into an element, or into the condition of a transition. Forbids wires from undefined elements. TC6 2.01.
 //   fails   <connection refLocalId="99"/>          E1061
 std::vector<ChartWire> Chart::wiresOf(const xml::Element& holder) {
   std::vector<ChartWire> out;
@@ -154,7 +154,7 @@ std::vector<ChartWire> Chart::wiresOf(const xml::Element& holder) {
   return out;
 }
 
-// A continuation goes on with what is wired to the connector of its name.
+// A continuation reads the wire of the connector with its name.
 void Chart::joinConnectors() {
   std::unordered_map<std::string_view, uint32_t> connectors;
   for (uint32_t i = 0; i < nodes_.size(); ++i)
@@ -182,7 +182,7 @@ void Chart::connectActionBlocks() {
   }
 }
 
-// Wires may meet and part again without end: there is a limit to what is followed.
+// Wires may split and join any number of times, so the number of paths is limited.
 bool Chart::spend(uint32_t node, size_t steps) {
   spent_ += steps + 1;
   if (spent_ <= kMaxSteps) return true;
@@ -191,7 +191,7 @@ bool Chart::spend(uint32_t node, size_t steps) {
   return false;
 }
 
-// One set of steps for each way that leads to the node.
+// Adds one set of steps for each path to the node.
 void Chart::addWays(Ways& ways, uint32_t node, uint32_t depth) {
   for (uint32_t w = nodes_[node].first_wire; w < nodes_[node].end_wire; ++w) {
     const uint32_t from = wires_[w].from;
@@ -208,8 +208,8 @@ void Chart::addWays(Ways& ways, uint32_t node, uint32_t depth) {
   }
 }
 
-// One set from each input, in all combinations; mostly there is one. A branch that ends with a jump never comes to the
-// convergence that editors draw behind it all the same.
+// One set from each input, in all combinations; usually there is one. A branch that ends with a jump never reaches the
+// convergence that editors draw after it.
 void Chart::addUnited(Ways& ways, uint32_t node, uint32_t depth) {
   ways.sets.push_back({});
   for (uint32_t w = nodes_[node].first_wire; w < nodes_[node].end_wire; ++w) {
@@ -271,7 +271,7 @@ const Chart::Ways& Chart::before(uint32_t node, uint32_t depth) {
   return ways;
 }
 
-// The steps and jumps that begin when the transition fires, of which a wire comes out of `node`.
+// The steps and jumps that the transition activates when it fires, found by following the wires out of `node`.
 void Chart::after(uint32_t node, uint32_t transition, uint32_t depth) {
   if (depth == kMaxWires || passed_[node] == transition) {
     report(diag::ChartCycle, nodes_[node].element->loc, {nameOf(node)});
@@ -319,7 +319,7 @@ void Chart::after(uint32_t node, uint32_t transition, uint32_t depth) {
   if (!any) report(diag::ChartLeadsNowhere, nodes_[node].element->loc, {nameOf(node)});
 }
 
-// Forbids a transition without a step before or behind it. IEC 61131-3 ed. 3, 6.7.3.
+// Forbids a transition without a step before or after it. IEC 61131-3 ed. 3, 6.7.3.
 //   fails   <transition localId="3"> without connectionPointIn          E1062
 void Chart::connectTransition(uint32_t node) {
   Ways& ways = ways_[node];

@@ -1,9 +1,10 @@
 // A chart of the XML: its elements and wires, and how they become textual SFC. Private to chart.cpp (the graph),
 // sfc.cpp (steps and actions), macros.cpp (macro steps), conditions.cpp (transitions).
 //
-// The elements are wired from below: each names what stands before it. A transition's steps are found by following
-// wires through divergences and convergences; the branches of a divergence are those who name it, in the order of the
-// file, which is the order in which they are judged. TC6 2.01; TM/TP manual 5.5; IEC 61131-3 ed. 3, 6.7.
+// Wires point upwards: each element names its predecessors. The steps of a transition are found by following wires
+// through divergences and convergences; the branches of a divergence are the elements that name it, in file order,
+// which is the order in which they are evaluated. A chart with an error in its graph is not written at all, so one
+// mistake gives one error. TC6 2.01; TM/TP manual 5.5; IEC 61131-3 ed. 3, 6.7.
 #pragma once
 
 #include <memory>
@@ -19,7 +20,7 @@ namespace rung::plcopen {
 
 enum class NodeKind : uint8_t {
   Step,
-  Wait,  // where a branch waits that ends with a transition: a step that the file leaves out
+  Wait,  // added step in which a branch waits that ends with a transition
   MacroStep,
   Transition,
   Jump,
@@ -33,7 +34,7 @@ enum class NodeKind : uint8_t {
   Input,  // inVariable
   Contact,
   Rail,   // leftPowerRail
-  Other,  // comments, and what only networks know
+  Other,  // comments, and elements of networks only
 };
 
 struct ChartWire {
@@ -65,13 +66,13 @@ class Chart {
         own_prefix_(outer.own_prefix_ + std::to_string(node) + "_") {}
 
   using Steps = std::vector<uint32_t>;  // nodes
-  // What must be active before an element can begin: all steps of one of the sets.
+  // The steps that must be active before an element can be reached: all steps of one of the sets.
   struct Ways {
     enum class State : uint8_t { Unknown, Busy, Known } state = State::Unknown;
-    bool never = false;  // behind a branch that ends with a jump
+    bool never = false;  // after a branch that ends with a jump
     std::vector<Steps> sets;
   };
-  // A condition that more than an expression makes, or that has a name: a TRANSITION without FROM.
+  // A condition that is named or more than an expression: a TRANSITION without FROM.
   struct Definition {
     std::string name;
     const xml::Element* element;  // <transition> with bodies, <inline>, or the <condition> with wires
@@ -79,15 +80,15 @@ class Chart {
   struct Macro {
     uint32_t node;
     std::unique_ptr<Chart> chart;
-    // Nodes of its chart; UINT32_MAX: nothing leads to the macro, or nothing stands behind it.
+    // Nodes of its chart; UINT32_MAX: the macro has no predecessor or no successor.
     uint32_t entry = UINT32_MAX, exit = UINT32_MAX;
   };
-  // What a transition waits for: one of these.
+  // The condition of a transition: one of these.
   struct Condition {
-    const xml::Element* text = nullptr;  // an <ST>, of which [begin, end) of the decoded text counts
+    const xml::Element* text = nullptr;  // an <ST>; the condition is [begin, end) of its decoded content
     size_t begin = 0, end = 0;
     const xml::Attribute* variable = nullptr;
-    std::vector<uint32_t> wires;  // from nodes that are an expression
+    std::vector<uint32_t> wires;  // from nodes that are expressions
     std::string definition;
     bool negated = false;
   };
@@ -102,7 +103,7 @@ class Chart {
   }
 
   // ---- the graph (chart.cpp)
-  std::string nameOf(uint32_t node) const;  // as messages call it
+  std::string nameOf(uint32_t node) const;  // for messages
   void readNodes();
   std::vector<ChartWire> wiresOf(const xml::Element& holder);
   void joinConnectors();
@@ -154,19 +155,19 @@ class Chart {
   const xml::Element& chart_;
   const xml::Element& pou_;
   const std::string& name_;
-  Chart* outer_ = nullptr;  // of a macro step's chart
-  std::string own_prefix_;  // in the names of steps and conditions that have none: macro steps share the chart's names
+  Chart* outer_ = nullptr;  // the chart that contains the macro step
+  std::string own_prefix_;  // of the names of unnamed steps and conditions: macro steps share the names of the chart
   bool ok_ = true;
   size_t spent_ = 0;  // steps in all Ways
   std::vector<ChartNode> nodes_;
   std::vector<ChartWire> wires_;
   std::unordered_map<std::string_view, uint32_t> by_id_;
   std::unordered_map<std::string, uint32_t> labels_;  // of parallel branches, in upper case
-  std::vector<std::vector<uint32_t>> behind_;         // by node: those that name it, in the order of the file
+  std::vector<std::vector<uint32_t>> behind_;         // by node: its successors, in file order
   std::vector<Ways> ways_;                            // by node
   std::vector<std::vector<uint32_t>> targets_;        // by node, of transitions
-  std::vector<uint32_t> passed_;                      // by node: the last transition whose wires went through it
-  std::vector<std::vector<uint32_t>> action_blocks_;  // by node, of steps
+  std::vector<uint32_t> passed_;  // by node: the last transition whose wires were followed through it
+  std::vector<std::vector<uint32_t>> action_blocks_;            // by node, of steps
   std::unordered_map<std::string, const xml::Element*> named_;  // transitions of the POU, in upper case
   std::vector<Definition> definitions_;
   std::vector<Macro> macros_;

@@ -1,5 +1,6 @@
-// Transitions of a chart and what they wait for; see chart.h. A condition that is an expression stands in the
-// transition itself; any other, and one with a name, is a TRANSITION of its own without FROM, which the others name.
+// Transitions of a chart and their conditions; see chart.h. A condition that is an expression is written in the
+// transition itself; any other, and a named one, is a separate TRANSITION without FROM, to which transitions refer by
+// name.
 #include <algorithm>
 #include <utility>
 
@@ -15,12 +16,12 @@ namespace {
 constexpr uint32_t kMaxCondition = 4096;  // contacts and variables of one condition
 constexpr uint32_t kMaxContacts = 1000;   // in a row
 
-// Where the code of an ST text is: comments, strings and pragmas are passed over.
+// Finds code in ST: comments, strings and pragmas are skipped.
 class Scanner {
  public:
   explicit Scanner(std::string_view text) : source_(text) {}
 
-  // The next character of code that is no blank; '\0' at the end.
+  // The next non-blank character of code; '\0' at the end.
   char next() {
     for (; at_ < source_.size(); ++at_) {
       const std::string_view rest = source_.substr(at_);
@@ -45,7 +46,7 @@ class Scanner {
     }
     return c;
   }
-  size_t begin() const { return begin_; }  // of what next() found
+  size_t begin() const { return begin_; }  // of the character or string returned by next()
   size_t end() const { return at_; }
 
  private:
@@ -60,7 +61,7 @@ class Scanner {
 
 enum class Form : uint8_t { Empty, Expression, Statements };
 
-// `a AND b`, `a AND b;` and `:= a AND b;` are expressions, in [begin, end) of the text; `t := a; b();` are statements.
+// `a AND b`, `a AND b;` and `:= a AND b;` are expressions, in [begin, end); `t := a; b();` are statements.
 Form formOf(std::string_view text, size_t& begin, size_t& end) {
   Scanner scanner(text);
   char before = '\0';
@@ -68,7 +69,7 @@ Form formOf(std::string_view text, size_t& begin, size_t& end) {
   bool first = true, closed = false;
   begin = end = 0;
   for (char c = scanner.next(); c != '\0'; before = c, c = scanner.next()) {
-    if (closed) return Form::Statements;  // something behind the `;`
+    if (closed) return Form::Statements;  // code after the `;`
     if (c == '=' && before == ':' && depth == 0) {
       if (!first) return Form::Statements;
       begin = scanner.end();
@@ -76,7 +77,7 @@ Form formOf(std::string_view text, size_t& begin, size_t& end) {
       first = false;
       continue;
     }
-    if (c == ':' && end == 0) continue;  // perhaps of `:=`
+    if (c == ':' && end == 0) continue;  // may be part of `:=`
     if (c == '(' || c == '[') ++depth;
     if ((c == ')' || c == ']') && depth > 0) --depth;
     if (c == ';') {
@@ -90,7 +91,7 @@ Form formOf(std::string_view text, size_t& begin, size_t& end) {
   return end == begin ? Form::Empty : Form::Expression;
 }
 
-// Bytes [begin, end) of the decoded text of an element.
+// Bytes [begin, end) of the decoded content of an element.
 void writePart(Import& import, const xml::Element& element, size_t begin, size_t end) {
   size_t at = 0;
   for (uint32_t i = element.first_run; i < element.end_run && at < end; ++i) {
@@ -110,7 +111,7 @@ void writePart(Import& import, const xml::Element& element, size_t begin, size_t
   }
 }
 
-// The only language in a <body> or <inline>; null: there is none.
+// The only language in a <body> or <inline>; null: missing.
 const xml::Element* languageOf(const Import& import, const xml::Element& body) {
   for (const xml::Element* e = import.document.firstChild(body); e != nullptr; e = import.document.next(*e))
     if (e->name != "addData" && e->name != "documentation") return e;
@@ -137,12 +138,12 @@ const xml::Element* Chart::namedTransition(std::string_view name) {
 }
 
 void Chart::define(const std::string& name, const xml::Element& element) {
-  Chart* whole = this;  // a transition that a macro step names, too, is defined once
+  Chart* whole = this;  // a transition that a macro step names too is defined only once
   while (whole->outer_ != nullptr) whole = whole->outer_;
   if (whole->defined_.insert(&element).second) definitions_.push_back({name, &element});
 }
 
-// What stands in <inline>. False: nothing does, which was reported.
+// Reads the content of <inline>. False: it is empty, which was reported.
 bool Chart::readBody(const xml::Element& inline_body, const std::string& name, Condition& out) {
   const xml::Element* language = languageOf(import_, inline_body);
   if (language != nullptr && language->name == "ST") {
@@ -198,12 +199,12 @@ bool Chart::readCondition(uint32_t node, Condition& out) {
 
 std::vector<uint32_t> Chart::sourcesOf(uint32_t node) const {
   std::vector<uint32_t> out;
-  if (nodes_[node].kind == NodeKind::Input) return out;  // its wires, if it has any, mean nothing
+  if (nodes_[node].kind == NodeKind::Input) return out;  // its input wires, if any, have no meaning
   for (uint32_t w = nodes_[node].first_wire; w < nodes_[node].end_wire; ++w) out.push_back(wires_[w].from);
   return out;
 }
 
-// Contacts, variables and rails are; edges and blocks need memory or statements.
+// Contacts, variables and rails are expressions; edges and blocks need memory or statements.
 bool Chart::isExpression(uint32_t node, uint32_t depth, uint32_t& budget) const {
   const ChartNode& n = nodes_[node];
   if (budget == 0 || depth == kMaxContacts) return false;
@@ -277,7 +278,7 @@ void Chart::writeTransition(uint32_t node) {
     import_.out.put(transition.loc, "TRANSITION ");
     if (!condition.definition.empty()) {
       import_.out.word((condition.negated ? inverse : condition.definition) + " ");
-    } else if (const xml::Element* named = dataOf(import_, transition, "extension")) {  // of Rung's own export
+    } else if (const xml::Element* named = dataOf(import_, transition, "extension")) {  // exported by Rung
       writeName(import_, *named);
       import_.out.word(" ");
     }

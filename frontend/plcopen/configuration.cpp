@@ -13,7 +13,7 @@
 namespace rung::plcopen {
 namespace {
 
-constexpr uint64_t kLowestPriority = 31;  // of Rung's tasks; editors count further
+constexpr uint64_t kLowestPriority = 31;  // of Rung's tasks; editors allow larger numbers
 
 void writeIdentifier(Import& import, const xml::Element& element, std::string_view otherwise) {
   const xml::Attribute* name = import.document.attribute(element, "name");
@@ -26,7 +26,7 @@ void writeIdentifier(Import& import, const xml::Element& element, std::string_vi
     import.out.put(name->loc, identifierOf(text));
 }
 
-// Nanoseconds of an ISO 8601 duration: P1DT2H3M4.05S. Years and months have no length.
+// Nanoseconds of an ISO 8601 duration: P1DT2H3M4.05S. Years and months are rejected, since their length varies.
 std::optional<uint64_t> isoDuration(std::string_view text) {
   if (text.empty() || (text[0] | 0x20) != 'p') return std::nullopt;
   uint64_t total = 0;
@@ -61,7 +61,7 @@ std::optional<uint64_t> isoDuration(std::string_view text) {
   return any ? std::optional(total) : std::nullopt;
 }
 
-// A time as ST writes it, from `PT0.05S`, `T#50ms` or `50` with a unit; empty: it is none, which was reported.
+// A time in ST notation, from `PT0.05S`, `T#50ms` or `50` with a unit; empty: not a time, which was reported.
 std::string timeOf(Import& import, const xml::Attribute& attribute, std::string unit) {
   const std::string text = import.document.decoded(attribute);
   if (const auto duration = isoDuration(text)) return "T#" + std::to_string(*duration) + "ns";
@@ -177,7 +177,7 @@ class TaskWriter {
   bool any_ = false;
 };
 
-// The blocks of a program that run in tasks of their own: instances that are called `program.block`.
+// The blocks of a program that run in separate tasks: instances named `program.block`.
 class BlocksInTasks {
  public:
   BlocksInTasks(const Import& import, const xml::Element& resource) {
@@ -229,7 +229,7 @@ class BlocksInTasks {
   std::vector<Block> all_;
 };
 
-// PROGRAM name [WITH task] : type; In TC6 1.01 the attribute is `type`, and CODESYS gives a name alone.
+// PROGRAM name [WITH task] : type; In TC6 1.01 the attribute is `type`, and CODESYS writes only a name.
 void writeProgram(Import& import, const xml::Element& instance, const xml::Element* task, const BlocksInTasks& blocks) {
   std::string_view type = "name";
   for (const std::string_view attribute : {"type", "typeName"})
@@ -273,7 +273,7 @@ void writePaths(Import& import, const xml::Element& list, bool access) {
   import.out.word("END_VAR\n");
 }
 
-// What configurations and resources have in common. Lists of globals with a name are written elsewhere.
+// The elements that configurations and resources share. Named lists of globals are written elsewhere.
 void writePart(Import& import, const xml::Element& e) {
   if (e.name == "globalVars" && !hasName(import, e)) writeSection(import, e, "VAR_GLOBAL");
   if (e.name == "accessVars") writePaths(import, e, true);

@@ -1,4 +1,4 @@
-// Names, values and texts of the XML as parts of ST; see import.h.
+// Names, values and content of the XML as parts of ST; see import.h.
 #include <algorithm>
 
 #include "frontend/plcopen/diagnostics.h"
@@ -105,7 +105,7 @@ void writeAttributes(Import& import, const xml::Element& element) {
     std::string pragma = "{attribute '" + import.document.value(*e, "Name") + "'";
     if (const std::string value = import.document.value(*e, "Value"); !value.empty()) pragma += " := '" + value + "'";
     pragma += "}\n";
-    // What would end the pragma before its end, or hide it, is of no use to Rung.
+    // Drops attributes with characters that would end the pragma too early or hide it.
     if (pragma.find('\n') + 1 == pragma.size() && pragma.find('}') + 2 == pragma.size()) import.out.put(e->loc, pragma);
   }
 }

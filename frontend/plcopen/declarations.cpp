@@ -27,8 +27,8 @@ const xml::Element* initialiserOf(const Import& import, std::string_view block) 
   return found == import.initialisers.end() || found->first != name ? nullptr : found->second;
 }
 
-// `(5, port := 1)`: arguments of FB_Init by place or name. `(speed := 2)`: values of variables, which other exports
-// keep as an initial value. False: there are none of the kind.
+// `(5, port := 1)`: arguments of FB_Init by position or name. `(speed := 2)`: values of variables, which other exports
+// write as an initial value. False: no assignments of the requested kind.
 bool writeAssignments(Import& import, const xml::Element& type, const xml::Element& assignments, bool arguments) {
   const xml::Element* derived = import.document.child(type, "derived");
   const xml::Element* initialiser =
@@ -112,7 +112,7 @@ void writeSections(Import& import, const xml::Element& interface) {
     if (const std::string_view word = sectionWordOf(e->name); !word.empty()) writeSection(import, *e, word);
 }
 
-// A list may consist of several, constants and others: MixedAttrsVarList.
+// A list may consist of several sections, constants and others: MixedAttrsVarList.
 void writeGlobals(Import& import, const xml::Element& globals) {
   const std::string name = import.document.value(globals, "name");
   import.out.put(globals.loc, "{list '" + (isBlank(name) ? name : identifierOf(name)) + "'}\n");

@@ -1,4 +1,4 @@
-// The project as a whole, its POUs and their members as TC6; see export.h and exporter.h.
+// The project, its POUs and their members as TC6; see export.h and exporter.h.
 #include "frontend/plcopen/export.h"
 
 #include <algorithm>
@@ -72,7 +72,7 @@ class PouExport {
   const SourceText& source_;
 };
 
-// One that the parser made of a transition has a body only.
+// False for actions that the parser made of transitions: they have a body only.
 bool PouExport::isOwnAction(DeclId member) const {
   if (to_.tree.kind(member) != DeclKind::Pou) return false;
   const auto& action = to_.tree.as<PouDecl>(member);
@@ -88,7 +88,7 @@ size_t PouExport::beginOf(DeclId member) const {
   return begin;
 }
 
-// Behind the last section; without sections, where the members or the body begin.
+// The offset after the last section; without sections, the start of the members or the body.
 size_t PouExport::endOfHeader(const PouDecl& pou) const {
   size_t last = 0;
   for (const DeclId section : to_.tree.list(pou.sections))
@@ -100,7 +100,7 @@ size_t PouExport::endOfHeader(const PouDecl& pou) const {
   return std::max(end, source_.at(pou.h.loc));
 }
 
-// The declaration as it stands, with what stands above it.
+// The declaration as written, with the comments above it.
 std::string PouExport::header(const PouDecl& pou) const {
   const size_t begin = source_.at(pou.begin);
   std::string_view text = source_.cut(source_.commentsBefore(begin), endOfHeader(pou));
@@ -118,7 +118,7 @@ std::string PouExport::sections(const PouDecl& pou) const {
   for (const DeclId id : to_.tree.list(pou.sections)) {
     const auto& section = to_.tree.as<SectionDecl>(id);
     size_t begin = source_.at(section.h.loc);
-    if (!source_.wordFollows(begin, "VAR")) continue;  // the value that SET is given
+    if (!source_.wordFollows(begin, "VAR")) continue;  // the implicit input of SET
     const size_t end = source_.endOfWord(begin, "END_VAR");
     for (const Pragma& pragma : to_.tree.list(section.h.pragmas)) begin = std::min(begin, source_.at(pragma.loc));
     text.append(source_.cut(begin, end)).append("\n");
@@ -126,7 +126,7 @@ std::string PouExport::sections(const PouDecl& pou) const {
   return text;
 }
 
-// <interface>, without what the structure has no word for.
+// <interface>, without the parts that its structure cannot express.
 void PouExport::interfaceOf(const PouDecl& pou) {
   to_.xml.open("interface");
   if (pou.result && to_.tree.kind(pou.result) != TypeExprKind::Error && to_.tree.loc(pou.result)) {
@@ -198,7 +198,7 @@ void PouExport::method(const PouDecl& method) {
   to_.xml.close();
 }
 
-// An action or method that is more than its body: all of it as text, for Rung.
+// Adds the whole source of an action or method with members, as text that only Rung reads.
 //   warns   an ACTION inside of an ACTION whose body is a chart          W1099
 void PouExport::ownText(const PouDecl& pou) {
   if (!hasOwnText(pou)) return;
@@ -338,7 +338,7 @@ void PouExport::interface() {
   to_.xml.close();
 }
 
-// What a file declares, of one kind after the other.
+// The declarations of all files, sorted by kind.
 class ProjectExport {
  public:
   ProjectExport(Export& to, std::span<const FileUnit> files) : to_(to), files_(files) {
@@ -368,7 +368,7 @@ class ProjectExport {
   std::deque<SourceText> texts_;
 };
 
-// Forbids what XML cannot hold: bytes that are no UTF-8, and control characters. XML 1.0, 2.2.
+// Forbids characters that XML cannot contain: bytes that are not UTF-8, and control characters. XML 1.0, 2.2.
 void ProjectExport::checkTexts() {
   for (const FileUnit& unit : files_) {
     const std::string_view text = to_.sources.sourceText(unit.file);
@@ -382,7 +382,7 @@ void ProjectExport::checkTexts() {
 }
 
 void ProjectExport::headers(const std::string& project) {
-  // No time of day: equal programs give equal files.
+  // Without the current time: equal programs give equal files.
   to_.xml.open("fileHeader")
       .attribute("companyName", "")
       .attribute("productName", "Rung")
@@ -400,7 +400,7 @@ void ProjectExport::headers(const std::string& project) {
 
 void ProjectExport::globals(AddData& data) {
   FileId file;
-  std::string list;  // {list 'name'} counts for the sections behind it, too
+  std::string list;  // {list 'name'} applies to all sections after it
   forEach(DeclKind::Section, [&](DeclId id, FileId of) {
     const auto& section = to_.tree.as<SectionDecl>(id);
     if (file != of) list = listNameOf(to_.sources.path(of));
@@ -437,7 +437,8 @@ size_t ProjectExport::endOf(DeclId space) const {
   return to_.source->endOfWord(end, "END_NAMESPACE");
 }
 
-// What TC6 has no element for stands as text that only Rung reads. Forbids a USING that would count for another file.
+// Declarations without a TC6 element are written as text that only Rung reads. Forbids a USING that would affect
+// another file.
 //   warns   NAMESPACE Plant … END_NAMESPACE          W1099
 //   fails   USING Plant; in one of two files         E1095
 void ProjectExport::ownTexts(AddData& data) {
@@ -464,7 +465,8 @@ void ProjectExport::ownTexts(AddData& data) {
   });
 }
 
-// Conditions of a block that charts inside of an action may use, which is text then: so is the block.
+// Whether charts in actions, which are exported as text, may use conditions of the block: then the block is exported as
+// text, too.
 bool ProjectExport::sharesWithInner(const PouDecl& pou) const {
   const auto members = to_.tree.list(pou.members);
   const bool inner = std::any_of(members.begin(), members.end(), [&](DeclId member) {

@@ -1,7 +1,8 @@
-// A program as PLCopen TC6 XML, version 2.01. In: the tree as the parser leaves it, before sema changes it. Out: one
-// file that is valid by the schema and from which readProject() makes the same program. What TC6 says in its own
-// elements stands in them; the declaration stands as text beside them where they do not say all of it, as editors of
-// the 3S family keep it. docs/files.md lists what goes where. Called by `rung convert --to xml`.
+// A program as PLCopen TC6 XML, version 2.01. In: the tree as parsed, before sema changes it: bodies are quoted from
+// the source, structures printed from the tree. Out: one file that is valid by the schema and from which readProject()
+// makes the same program. Declarations are written as TC6 elements. Where these would lose something (`is_lossless` is
+// false), the declaration is added as text, as editors of the 3S family do, and the import prefers that text.
+// docs/files.md lists the mapping. Called by `rung convert --to xml`, between parsing and checking.
 #pragma once
 
 #include <span>
@@ -12,7 +13,7 @@
 
 namespace rung::plcopen {
 
-// What is written.
+// The program to write.
 struct Program {
   const Tree& tree;
   const Names& names;
@@ -20,7 +21,8 @@ struct Program {
   std::span<const FileUnit> files;
 };
 
-// The files of the program, under the name of the project. What TC6 cannot say is reported, and left out of the text.
+// Exports the files of the program under the project's name. Declarations that TC6 cannot express are reported and
+// omitted.
 std::string writeProject(const Program& program, const std::string& project, Diagnostics& diagnostics);
 
 }  // namespace rung::plcopen

@@ -1,6 +1,6 @@
-// Charts as TC6 elements; see exporter.h. The textual chart says which steps a transition leads from and to; here that
-// becomes elements and wires. Steps stand in the order of the text, and behind them the transitions, so that the import
-// finds both orders again; a wire leads down, and what leads up or across becomes a jump.
+// Charts as TC6 elements; see exporter.h. The textual chart names the steps of each transition; here these become
+// elements and wires. Steps come in source order, then the transitions, so that the import finds both orders again; a
+// wire leads down, and a link up or across becomes a jump.
 #include <algorithm>
 #include <string>
 #include <unordered_map>
@@ -12,7 +12,7 @@
 namespace rung::plcopen {
 namespace {
 
-// What 3S calls the actions of a step that have no qualifier.
+// The GUIDs that 3S uses for the step actions without a qualifier.
 constexpr std::string_view kEntry = "a6b08bd8-b696-47e3-9cbf-7408b61c9ff8",
                            kActive = "700a583f-b4d4-43e4-8c14-629c7cd3bec8",
                            kExit = "a2621e18-7de3-4ea6-ae6d-89e9e0b7befd";
@@ -27,14 +27,14 @@ class ChartExport {
   void run();
 
  private:
-  // What an element hands on: its number, and the pin where it has several.
+  // localIds of elements.
   using Ids = std::vector<uint64_t>;
   struct Target {
     uint32_t step;
     bool jumps;
   };
 
-  // Of a step that there is; sema reports the others.
+  // The index of a declared step; sema reports undeclared ones.
   uint32_t indexOf(const Ident& step) const {
     const auto found = index_.find(to_.names.key(step.name).index);
     return found == index_.end() ? 0 : found->second;
@@ -69,10 +69,10 @@ class ChartExport {
   std::span<const SfcStep> steps_;
   std::span<const SfcTransition> transitions_;
   std::unordered_map<uint32_t, uint32_t> index_;    // of a step, by the key of its name
-  std::vector<uint32_t> uses_;                      // by step: the transitions behind it
-  std::vector<Ids> into_;                           // by step: what leads to it
+  std::vector<uint32_t> uses_;                      // by step: the number of transitions from it
+  std::vector<Ids> into_;                           // by step: its predecessors
   std::vector<std::vector<Target>> targets_;        // by transition
-  std::vector<uint64_t> step_id_, source_id_;       // by step; what stands behind it: itself, or its divergence
+  std::vector<uint64_t> step_id_, source_id_;       // by step; its output: the step itself, or its divergence
   std::vector<uint64_t> transition_id_, split_id_;  // by transition; its simultaneous divergence
   uint64_t next_id_ = 0;
   int row_ = 0;
@@ -100,7 +100,7 @@ void ChartExport::plan() {
     if (t.to.count > 1) split_id_[i] = ++next_id_;
     uint32_t last = 0;
     for (const Ident& from : to_.tree.list(t.from)) last = std::max(last, indexOf(from));
-    // Behind a divergence the elements tell the order of its branches: steps in theirs, then jumps.
+    // The order of a divergence's branches is the order of its elements: first steps in theirs, then jumps.
     for (const Ident& name : to_.tree.list(t.to)) {
       const uint32_t step = indexOf(name);
       const bool behind_jump = !targets_[i].empty() && targets_[i].back().jumps;
@@ -124,7 +124,7 @@ void ChartExport::position(int column, int row) {
       .close();
 }
 
-// Of the file that the chart came from; else below what stands before.
+// The position in the file where the chart was drawn; otherwise below the previous element.
 void ChartExport::position(const SfcPosition& given) {
   if (!given.placed) return position(0, row_);
   to_.xml.open("position").attribute("x", std::to_string(given.x)).attribute("y", std::to_string(given.y)).close();
@@ -243,7 +243,8 @@ void ChartExport::step(uint32_t i) {
   to_.xml.close();
 }
 
-// An expression stands in the transition; what has a body, or a name that others use, among the transitions of the POU.
+// An expression is written in the transition; a body, or a condition with a name that others use, among the transitions
+// of the POU.
 void ChartExport::condition(const SfcTransition& t) {
   to_.xml.open("condition");
   if (t.body && !t.name.name) {
@@ -306,7 +307,7 @@ void ChartExport::transition(uint32_t i) {
   ++row_;
 }
 
-// Those of the chart itself; what is quoted brings its own.
+// Comments of the chart itself; quoted parts include theirs.
 void ChartExport::comments() {
   const SourceText& source = *to_.source;
   const size_t begin = source.commentsBefore(source.at(pou_.body_begin), true);

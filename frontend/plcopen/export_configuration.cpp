@@ -1,5 +1,5 @@
-// Configurations, resources and tasks as TC6 elements; see exporter.h. What the elements do not say stands as text
-// beside them: tasks without programs, arguments of programs, programs in another order than that of their tasks.
+// Configurations, resources and tasks as TC6 elements; see exporter.h. Text is added where the elements cannot express
+// the declaration: tasks without programs, arguments of programs, programs in another order than their tasks.
 #include <algorithm>
 #include <vector>
 
@@ -25,7 +25,7 @@ class ConfigurationExport {
   bool isTime(ExprId value) const;
 
   Export& to_;
-  std::vector<DeclId> programs_;  // in the order in which the elements have them
+  std::vector<DeclId> programs_;  // in the order of their elements
 };
 
 bool ConfigurationExport::isTime(ExprId value) const {
@@ -34,7 +34,7 @@ bool ConfigurationExport::isTime(ExprId value) const {
          (to_.tree.expr(value).bits & kLiteralNegative) == 0;
 }
 
-// PT0.05S, of a literal; else as it is written.
+// A literal as PT0.05S; any other expression as written.
 void ConfigurationExport::time(std::string_view attribute, ExprId value) {
   if (!isTime(value)) {
     to_.is_lossless = false;
@@ -50,7 +50,7 @@ void ConfigurationExport::time(std::string_view attribute, ExprId value) {
   to_.xml.attribute(attribute, text + "S");
 }
 
-// <task name="Fast" interval="PT0.01S" priority="1">, its programs, and what 3S calls the kind of a task.
+// <task name="Fast" interval="PT0.01S" priority="1">, its programs, and the kind of the task as 3S names it.
 void ConfigurationExport::task(const TaskDecl& task, std::span<const DeclId> members) {
   ExprId interval, priority, single, kind, trigger, watchdog, sensitivity;
   for (const Argument& setting : to_.tree.list(task.settings)) {
@@ -78,7 +78,7 @@ void ConfigurationExport::task(const TaskDecl& task, std::span<const DeclId> mem
   to_.xml.open("task").attribute("name", to_.string(task.name));
   if (single) to_.xml.attribute("single", to_.printed(single));
   if (interval) time("interval", interval);
-  // The schema wants a priority; 1 is that of a task that names none.
+  // The schema requires a priority; 1 is the default of a task.
   const bool is_number = priority && to_.tree.kind(priority) == ExprKind::Literal;
   if (priority && !is_number) to_.is_lossless = false;
   to_.xml.attribute("priority", is_number ? to_.printed(priority) : "1");
@@ -164,7 +164,7 @@ void ConfigurationExport::resource(std::string_view name, Slice<DeclId> members)
   to_.xml.close();
 }
 
-// The path of VAR_ACCESS and VAR_CONFIG as it is written: `R1.Main.speed`.
+// The path of VAR_ACCESS and VAR_CONFIG as written: `R1.Main.speed`.
 std::string ConfigurationExport::pathText(const VarDecl& var) const {
   const SourceText& source = *to_.source;
   size_t begin = source.at(var.h.loc);

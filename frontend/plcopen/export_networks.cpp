@@ -1,5 +1,5 @@
-// Networks as TC6 elements: <LD>, <FBD>, and a <CFC> in addData; see exporter.h. Elements keep their order and, where
-// they have one, their place; others stand in rows, one for each element that acts, whose order is that of the text.
+// Networks as TC6 elements: <LD>, <FBD>, and a <CFC> in addData; see exporter.h. Elements keep their order and, if they
+// have one, their position; others are arranged in rows, one for each element with an effect, in source order.
 #include <algorithm>
 #include <unordered_set>
 #include <vector>
@@ -12,7 +12,6 @@
 namespace rung::plcopen {
 namespace {
 
-// CODESYS numbers the elements of network n from n times this on.
 constexpr int kElementRow = 40, kElementColumn = 120;
 
 std::string_view elementName(ElementKind kind) {
@@ -82,7 +81,7 @@ bool NetworkExport::isLeftOut(const DiagramElement& e) const {
   return e.network != 0 && to_.tree.list(diagram_.networks)[e.network - 1].disabled;
 }
 
-// The number of a network stands in the numbers of its elements; those that would mean another one are given anew.
+// The numbers of elements contain the number of their network; those that would denote another network are replaced.
 void NetworkExport::number() {
   std::vector<uint64_t> networks{0};
   for (const DiagramNetwork& n : to_.tree.list(diagram_.networks))
@@ -108,7 +107,7 @@ void NetworkExport::number() {
   for (uint32_t n = 1; n < networks.size(); ++n) titles_[n] = fresh(n);
 }
 
-// Where some have a place, the others have none: a place made up would change the order in which they act.
+// If some elements have a position, the others get none: an invented one would change the execution order.
 void NetworkExport::computePositions() {
   positions_.resize(elements_.size(), {0, 0});
   const bool any = std::any_of(elements_.begin(), elements_.end(), [](const DiagramElement& e) { return e.placed; });
@@ -143,7 +142,7 @@ std::string NetworkExport::pathOf(ExprId path) const {
   return pathOf(member.base) + "." + std::string(to_.string(member.member));
 }
 
-// Between the parentheses of the element, as it is written.
+// The source between the parentheses of the element.
 std::string NetworkExport::operand(const DiagramElement& e) const {
   if (!e.operand) return {};
   const SourceText::Span span =
@@ -154,7 +153,7 @@ std::string NetworkExport::operand(const DiagramElement& e) const {
   return std::string(text);
 }
 
-// Of an execute box, between {network ST} and {end_network}.
+// The statements of an execute box, between {network ST} and {end_network}.
 std::string NetworkExport::statements(const DiagramElement& e) const {
   const std::string_view text = to_.source->cut(to_.source->at(e.loc), to_.source->at(e.end));
   size_t begin = text.rfind("{network");
@@ -212,7 +211,7 @@ void NetworkExport::pins(const DiagramElement& e) {
   pinList("outputVariables", e, PinDirection::Output);
 }
 
-// What only editors of some family say.
+// Vendor-specific data.
 void NetworkExport::data(const DiagramElement& e) {
   AddData data(to_);
   if (e.kind == ElementKind::Execute) {
@@ -299,7 +298,7 @@ void NetworkExport::element(uint32_t k) {
   to_.xml.close();
 }
 
-// What begins a network: its title, or the warning that it is left out.
+// The start of a network: its title, or the warning that it is omitted.
 void NetworkExport::network(uint32_t index) {
   const DiagramNetwork& n = to_.tree.list(diagram_.networks)[index - 1];
   if (n.disabled) {

@@ -61,7 +61,7 @@ void exportSubrange(Export& to, const SubrangeTypeExpr& type) {
   to.xml.close();
 }
 
-// Whether the value is of a kind that stands in elements of its own.
+// Whether the value has separate elements: <arrayValue>, <structValue>.
 bool isListed(const Export& to, ExprId value) {
   const auto single = [&](ExprId element) {
     return to.tree.kind(element) != ExprKind::Repeat || to.tree.as<RepeatExpr>(element).elements.count == 1;
@@ -73,7 +73,7 @@ bool isListed(const Export& to, ExprId value) {
   return to.tree.kind(value) == ExprKind::StructInit && !to.tree.as<StructInitExpr>(value).fields.empty();
 }
 
-// <simpleValue>, <arrayValue> or <structValue>; what they cannot say is a simple value whose text says it.
+// <simpleValue>, <arrayValue> or <structValue>; values that the latter two cannot express become a simple value in ST.
 void exportValue(Export& to, ExprId value) {
   if (!isListed(to, value)) {
     to.xml.open("simpleValue").attribute("value", to.printed(value)).close();
@@ -104,7 +104,7 @@ void exportValue(Export& to, ExprId value) {
   to.xml.close();
 }
 
-// The comments of a variable: those above it, in it, and behind it on its line.
+// The comments of a variable: those above it, in it, and after it on its line.
 std::string commentsOf(const Export& to, size_t begin, size_t name) {
   const size_t end = to.source->endOfDeclaration(name);
   return to.source->comments(to.source->commentsBefore(begin), to.source->commentsAfter(end));
@@ -150,7 +150,7 @@ void exportType(Export& to, TypeExprId id) {
     }
     case TypeExprKind::String: {
       const auto& type = to.tree.as<StringTypeExpr>(id);
-      if (type.code == StringEncoding::Utf8) {  // TC6 has no USTRING, so its length stands in the text only
+      if (type.code == StringEncoding::Utf8) {  // TC6 has no USTRING, so its length is only in the text
         to.is_lossless = false;
         return exportNamed(to, spelling(type.code));
       }
@@ -191,7 +191,8 @@ void exportType(Export& to, TypeExprId id) {
   }
 }
 
-// Beremiz keeps texts without quotes, and so a text in this version is a literal, never the name of a constant.
+// Beremiz writes strings without quotes, so a string value in this version is always read as a literal, never as the
+// name of a constant.
 void exportInitialValue(Export& to, ExprId value, TypeExprId type) {
   if (type && to.tree.kind(type) == TypeExprKind::String) {
     const char quote = to.tree.as<StringTypeExpr>(type).code == StringEncoding::Wide ? '"' : '\'';
@@ -248,7 +249,7 @@ void exportAttributes(Export& to, Slice<Pragma> pragmas, AddData& data) {
   for (const Pragma& pragma : to.tree.list(pragmas)) {
     const std::string_view name = to.string(pragma.name), value = to.tree.string(pragma.value);
     if (name == "list") continue;
-    // What an attribute in quotes cannot hold.
+    // Values that an attribute in quotes cannot contain.
     if (name.empty() || value.find_first_of("'{}\n") != std::string_view::npos) {
       to.is_lossless = false;
       continue;
@@ -275,7 +276,7 @@ void exportDataType(Export& to, DeclId id) {
   const auto& decl = to.tree.as<TypeDecl>(id);
   const SourceText& source = *to.source;
   to.is_lossless = (decl.h.bits & kInternal) == 0;
-  for (const std::string_view word : {"PUBLIC", "INTERNAL", "ABSTRACT", "FINAL"})  // words before names, behind TYPE
+  for (const std::string_view word : {"PUBLIC", "INTERNAL", "ABSTRACT", "FINAL"})  // modifiers where they follow TYPE
     if (sameIdentifier(to.string(decl.name), word)) to.is_lossless = false;
   to.xml.open("dataType").attribute("name", to.string(decl.name));
   exportHeld(to, "baseType", decl.type);
@@ -309,7 +310,7 @@ void exportDataType(Export& to, DeclId id) {
                         source.cut(source.wordBefore(begin, "TYPE"), begin).find(';') == std::string_view::npos;
   if (is_first) begin = source.wordBefore(begin, "TYPE");
   std::string content = source.comments(source.commentsBefore(begin), begin);
-  if (to.tree.kind(decl.type) != TypeExprKind::Struct) {  // of a structure, its members have the others
+  if (to.tree.kind(decl.type) != TypeExprKind::Struct) {  // the members of a structure have the other comments
     const std::string own = source.comments(name, source.commentsAfter(end));
     content += (content.empty() || own.empty() ? "" : "\n") + own;
   }

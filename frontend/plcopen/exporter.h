@@ -1,4 +1,4 @@
-// What the parts of the export share. Private to frontend/plcopen: export.cpp (the project and its POUs),
+// Shared by the parts of the export. Private to frontend/plcopen: export.cpp (the project and its POUs),
 // export_types.cpp, export_configuration.cpp, export_chart.cpp, export_networks.cpp.
 #pragma once
 
@@ -19,14 +19,14 @@ struct Export {
   const Sources& sources;
   Diagnostics& diagnostics;
   xml::Writer xml = {};
-  const SourceText* source = nullptr;  // of the file at hand
-  bool is_lossless = true;             // false: the declaration at hand is to stand as text, too
+  const SourceText* source = nullptr;  // of the current file
+  bool is_lossless = true;             // false: the current declaration must be added as text
 
   std::string_view string(NameId name) const { return names.string(name); }
   std::string printed(ExprId expr) const { return printExpr(expr); }
   std::string printExpr(ExprId expr) const;
   void reportInexpressible(Loc loc, std::string_view what) { diagnostics.report(diag::XmlCannotSay, loc, {what}); }
-  // What stands in Rung's own addData: other tools pass it over.
+  // Warns about a construct that is written to Rung's addData: other tools ignore it.
   void onlyRung(Loc loc, std::string_view what) { diagnostics.report(diag::XmlOnlyRung, loc, {what}); }
   // <data name="…" handleUnknown="…">, closed by its caller.
   void openData(std::string_view name, std::string_view unknown = "implementation");
@@ -36,7 +36,7 @@ struct Export {
   }
 };
 
-// An <addData> that is there only when something stands in it.
+// An <addData> that is opened only when it gets content.
 class AddData {
  public:
   explicit AddData(Export& to) : to_(to) {}
@@ -47,7 +47,7 @@ class AddData {
     begin();
     to_.openVendorData(kind);
   }
-  void openOwn();  // Rung's own: what no other editor knows
+  void openOwn();  // for Rung only
   void close() { to_.xml.close(); }
 
  private:
@@ -66,7 +66,7 @@ void exportOwnText(Export& to, std::string_view text, AddData& data);
 
 // ---- export_types.cpp
 
-// What stands in <type>, <baseType> …
+// The content of <type>, <baseType> …
 void exportType(Export& to, TypeExprId type);
 // <initialValue>; `type` as declared.
 void exportInitialValue(Export& to, ExprId value, TypeExprId type);
@@ -79,7 +79,7 @@ void exportDataType(Export& to, DeclId type);
 void exportAttributes(Export& to, Slice<Pragma> pragmas, AddData& data);
 // The declaration as text.
 void exportPlainText(Export& to, std::string_view text, AddData& data);
-// <localVars> …: of a kind that the structure has no list for, the nearest.
+// <localVars> …; if TC6 has no list for the kind, the nearest one.
 std::string_view sectionElement(SectionKind kind);
 
 // ---- export.cpp
@@ -89,7 +89,7 @@ void exportBody(Export& to, const PouDecl& pou, std::string_view element = "body
 
 void exportConfiguration(Export& to, DeclId configuration);
 void exportChart(Export& to, const PouDecl& pou);
-// The <transitions> of a chart that have bodies of their own.
+// The <transitions> of a chart that have bodies.
 void exportTransitions(Export& to, const PouDecl& pou);
 void exportNetworks(Export& to, const Diagram& diagram);  // <LD>, <FBD>, or <ST> and <addData> with a <CFC>
 

@@ -1,12 +1,12 @@
-// Macro steps of a chart: what stands in <macroStep> becomes a MACRO_STEP, which the parser inlines; see chart.h.
+// Macro steps of a chart: a <macroStep> becomes a MACRO_STEP, which the parser inlines; see chart.h.
 #include "frontend/plcopen/chart.h"
 #include "frontend/plcopen/diagnostics.h"
 
 namespace rung::plcopen {
 
-// Forbids a macro step without one step that nothing leads to, and one that leads nowhere: its entry and its exit.
-// Those that no wire needs may be missing. TC6 2.01, macroStep; TM/TP manual 5.5.2.5.
-//   fails   <macroStep name="M"> behind a transition, with <body><SFC/></body>          E1068
+// Forbids a macro step that has not exactly one step without predecessor (the entry) and one without successor (the
+// exit). An end that no wire needs may be missing. TC6 2.01, macroStep; TM/TP manual 5.5.2.5.
+//   fails   <macroStep name="M"> after a transition, with <body><SFC/></body>          E1068
 void Chart::findEnd(Macro& macro, bool entry) {
   const ChartNode& node = nodes_[macro.node];
   bool needed = entry && node.first_wire != node.end_wire;
@@ -34,7 +34,7 @@ void Chart::findEnd(Macro& macro, bool entry) {
 void Chart::connectMacro(uint32_t node) {
   const xml::Element* body = document_.child(*nodes_[node].element, "body");
   const xml::Element* inner = body == nullptr ? nullptr : document_.child(*body, "SFC");
-  if (inner == nullptr) inner = nodes_[node].element;  // which holds no steps
+  if (inner == nullptr) inner = nodes_[node].element;  // which contains no steps
   Macro& macro = macros_.emplace_back();
   macro.node = node;
   macro.chart.reset(new Chart(*this, *inner, node));

@@ -1,5 +1,5 @@
-// Networks; see networks.h. What is written is the notation of frontend/text/network.cpp: elements keep their localId
-// as number, so that the parser resolves wires and says what is wrong with them, at their place in the XML.
+// Networks; see networks.h. The output is the notation of frontend/text/network.cpp: elements keep their localId as
+// number, so that the parser resolves wires and reports errors in them, at their locations in the XML.
 #include "frontend/plcopen/networks.h"
 
 #include <algorithm>
@@ -15,9 +15,8 @@
 namespace rung::plcopen {
 namespace {
 
-// Numbers for elements without a localId, beyond those that editors give.
+// Numbers for elements without a localId, larger than those of editors.
 constexpr uint64_t kOwnNumbers = 9'000'000'000'000'000'000u;
-// CODESYS numbers the elements of network n from n times this on.
 
 bool isNameChar(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -38,7 +37,7 @@ bool isPath(std::string_view text) {
 }
 bool isName(std::string_view text) { return isPath(text) && text.find('.') == std::string_view::npos; }
 
-// As a text of the notation, on one line.
+// A string of the notation, on one line.
 std::string quoted(std::string_view text) {
   std::string out = "'";
   for (const char c : text) {
@@ -93,9 +92,9 @@ class Writer {
   xml::SourceMappedText& out_;
   std::unordered_map<uint64_t, const Element*> by_number_;
   std::vector<const Element*> elements_;
-  uint64_t network_ = 0;  // of CODESYS, by the numbers of elements
+  uint64_t network_ = 0;  // current network, derived from element numbers (CODESYS)
   uint64_t next_own_ = kOwnNumbers;
-  bool counts_from_zero_ = false;  // executionOrderId 0 is a turn
+  bool counts_from_zero_ = false;  // executionOrderId 0 is a valid number
 };
 
 bool isElement(std::string_view name) {
@@ -125,7 +124,7 @@ const xml::Element* Writer::data(const Element& e, std::string_view kind) const 
   return nullptr;
 }
 
-// Bachmann keeps the negation of jumps and returns in addData.
+// Bachmann writes the negation of jumps and returns in addData.
 bool Writer::negatedByVendor(const Element& e) const {
   const Element* negated = data(e, "negated");
   return negated != nullptr && isSet(*negated, "value");
@@ -145,7 +144,7 @@ void Writer::collect(const Element& body) {
     if (acts && std::from_chars(order.data(), order.data() + order.size(), execution_order).ec == std::errc{})
       execution_orders.push_back(execution_order);
   }
-  // Editors that number every element begin with 0; in others 0 means none.
+  // Editors that number every element begin with 0; in others 0 means no number.
   std::sort(execution_orders.begin(), execution_orders.end());
   counts_from_zero_ = execution_orders.size() > 1 && execution_orders[0] == 0;
   for (size_t k = 1; k < execution_orders.size(); ++k)
@@ -162,7 +161,7 @@ bool Writer::hasOutput(const Element& box, std::string_view pin) const {
   return false;
 }
 
-// The one output of a box beside ENO, or nothing.
+// The only output of a box besides ENO, or empty.
 std::string Writer::onlyOutput(const Element& box) const {
   const Element* pins = document_.child(box, "outputVariables");
   std::string only;
@@ -185,7 +184,7 @@ void Writer::writeNumber(const Element& e) {
     out_.put(e.loc, std::to_string(next_own_++));
 }
 
-// What a wire into `point` comes from: number(pin) OR number(pin).
+// The sources of the wires into `point`: number(pin) OR number(pin).
 void Writer::writeWires(const Element& point) {
   bool first = true;
   for (const Element* c = document_.firstChild(point); c != nullptr; c = document_.next(*c)) {
@@ -209,7 +208,7 @@ void Writer::writeWires(const Element& point) {
       out_.word(")");
     } else if (const std::string only = onlyOutput(*found->second); isName(only)) {
       out_.word("(" + only + ")");
-    } else if (isName(name)) {  // which the parser or the scheduler refuses at its place
+    } else if (isName(name)) {  // the parser or the scheduler reports it at its location
       out_.word("(");
       out_.add(document_, *pin);
       out_.word(")");
@@ -260,7 +259,7 @@ void Writer::writeText(const Element& e, const Element* content) {
   out_.put(e.loc, " " + quoted(document_.text(*content, sources_)));
 }
 
-// A name that stands in an attribute: of a label, a connector.
+// The name in an attribute of a label or connector.
 void Writer::writeReference(const Element& e, std::string_view attribute) {
   const xml::Attribute* name = document_.attribute(e, attribute);
   if (name == nullptr || value(e, attribute).empty()) return;
@@ -269,11 +268,11 @@ void Writer::writeReference(const Element& e, std::string_view attribute) {
     out_.add(document_, *name);
     return;
   }
-  if (attribute == "name") {  // of a connector, which is called as its author likes
+  if (attribute == "name") {  // names of connectors are arbitrary
     out_.put(name->loc, quoted(value(e, attribute)));
     return;
   }
-  // Of a label: a name that stands for it.
+  // Creates an identifier for the name of a label.
   std::string created = "n";
   for (const char c : value(e, attribute)) {
     if (isNameChar(c))
@@ -329,7 +328,7 @@ std::string_view timerOf(std::string_view symbol) {
   return symbol.front() == '0' && symbol.back() == 'T' ? "TOF" : std::string_view{};
 }
 
-// What the box calls, and its instance. A method is called by way of its instance.
+// The callee of the box, and its instance. A method is called through its instance.
 void Writer::writeBoxName(const Element& e) {
   const xml::Attribute* type = document_.attribute(e, "typeName");
   const xml::Attribute* instance = document_.attribute(e, "instanceName");
@@ -373,7 +372,7 @@ void Writer::writeBox(const Element& e) {
   out_.word("\n{end_network}");
 }
 
-// A title begins a network, and so does another ten thousand million of CODESYS' numbers.
+// A title begins a network, and so does an element number in the next range of ten thousand million (CODESYS).
 void Writer::writeNetworkOf(const Element& e) {
   const uint64_t number = numberOf(e);
   if (number == UINT64_MAX || number < kNumbersPerNetwork) return;
@@ -452,7 +451,7 @@ void Writer::writeElement(const Element& e) {
   } else if (kind == "contact" || kind == "coil" || kind == "inVariable" || kind == "outVariable") {
     writeOperand(e);
     writePinModifiers(e);
-    const Element* own = kind == "coil" ? data(e, "extension") : nullptr;  // of Rung's own export
+    const Element* own = kind == "coil" ? data(e, "extension") : nullptr;  // exported by Rung
     if (own != nullptr && isSet(*own, "holding")) out_.word(" HOLDING");
   } else if (kind == "inOutVariable") {
     writeOperand(e);
@@ -460,7 +459,7 @@ void Writer::writeElement(const Element& e) {
   }
   if (kind != "inVariable") writeOrder(e);
   writePosition(e);
-  if (kind == "rightPowerRail") {  // ends wires, whose turns it does not change
+  if (kind == "rightPowerRail") {  // end of wires, without a place in the execution order
     out_.word(";\n");
     return;
   }
@@ -468,7 +467,7 @@ void Writer::writeElement(const Element& e) {
   out_.word(";\n");
 }
 
-// Behind everything else: below all places, or in a network of their own.
+// After everything else: below all positions, or in a separate network.
 void Writer::writeActions(const Element& body) {
   const auto block =
       std::find_if(elements_.begin(), elements_.end(), [](const Element* e) { return e->name == "actionBlock"; });
@@ -493,7 +492,7 @@ void Writer::writeBody(const DrawnBody& diagram) {
   out_.put(diagram.body.end, "{end_network}\n");
 }
 
-// Only what leads to the condition, in the order of the file.
+// Only the elements connected to the condition, in file order.
 void Writer::writeCondition(const DrawnBody& diagram) {
   collect(diagram.body);
   std::vector<uint64_t> wanted;

@@ -1,5 +1,5 @@
-// Bodies drawn in LD, FBD and CFC, and conditions of charts drawn in the same way. In: the element that holds the
-// diagram. Out: {network} … {end_network}, where statements stand. Called by pous.cpp and sfc.cpp.
+// Bodies drawn in LD, FBD and CFC, and conditions of charts drawn in the same way. In: the element that contains the
+// diagram. Out: {network} … {end_network}, in place of statements. Called by pous.cpp and sfc.cpp.
 #pragma once
 
 #include <string>
@@ -10,25 +10,26 @@
 
 namespace rung::plcopen {
 
-// localId of an element: the number of its network times this, plus a number of its own.
+// The localId of an element is the number of its network times this, plus a number within the network.
 constexpr uint64_t kNumbersPerNetwork = 10'000'000'000u;
 
 struct DrawnBody {
-  const xml::Element& body;  // the <LD>, <FBD> or <CFC>; the <SFC> around a condition
+  const xml::Element& body;  // the <LD>, <FBD> or <CFC>; the <SFC> that contains a condition
   NetworkLanguage language;
-  // Of the condition of a transition: the variable that it assigns. Where a <connectionPointIn> is given, what is wired
-  // to it; otherwise the body does, by a coil or variable of the name or, in an <inline>, whatever name its result has.
+  // For the condition of a transition: `condition` is its <connectionPointIn>, and `target` the variable that gets the
+  // value of its wires. Without it, the body assigns to a coil or variable of the target's name or, in an <inline>, of
+  // any name.
   const xml::Element* condition = nullptr;
   std::string target = {};
-  // Of a chart: these coils and variables with all that leads to them; steps give their flags.
+  // For a chart: these coils and variables with all elements connected to them; steps provide their flags.
   std::vector<const xml::Element*> ends = {};
 };
 
-// ` AT 100, 40, 60, 30`; empty where the element has no place.
+// ` AT 100, 40, 60, 30`; empty if the element has no position.
 std::string positionOf(const xml::Document& document, const xml::Element& element);
 
-// Of an action block in a network: the variable that its wire is stored in; and, for the end of its body, the
-// statements that call all of them. (action_blocks.cpp)
+// For an action block in a network: the variable that stores its wire; and for the end of its body, the statements that
+// call all control blocks. (action_blocks.cpp)
 std::string wireOf(const xml::Document& document, const xml::Element& block);
 void writeActionCalls(const xml::Document& document, const xml::Element& body, xml::SourceMappedText& out);
 

@@ -1,4 +1,4 @@
-// Telling TC6 files from other XML, and the project as a whole; see plcopen.h.
+// Distinguishes TC6 files from other XML, and reads the project as a whole; see plcopen.h.
 #include "frontend/plcopen/plcopen.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 bool endsName(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '>' || c == '/'; }
 
-// What a project consists of, beside configurations.
+// The parts of a project besides configurations.
 enum class Part : uint8_t { None, DataType, Pou, Interface, Globals };
 
 class ProjectReader {
@@ -90,8 +90,8 @@ void ProjectReader::findInitialisers() {
   std::sort(import_.initialisers.begin(), import_.initialisers.end());
 }
 
-// A project of CODESYS may hold applications for several devices, each with a PLC_PRG of its own: the first one counts,
-// and those that repeat a name of it are left out.
+// A project of CODESYS may contain applications for several devices, each with its PLC_PRG: the first one is read, and
+// later ones that repeat one of its names are excluded.
 void ProjectReader::excludeApplications() {
   std::unordered_map<std::string, const xml::Element*> resource_of_name;
   for (const xml::Element& element : import_.document.elements) {
@@ -120,8 +120,8 @@ bool ProjectReader::holdsProgram(const xml::Element& configuration) const {
   return false;
 }
 
-// <Library Name="#Standard" …/>, <Library Name="Util, 3.5.17.0 (System)" …/>. What a library of the system brings along
-// is no concern of the project.
+// <Library Name="#Standard" …/>, <Library Name="Util, 3.5.17.0 (System)" …/>. Libraries that a system library depends
+// on are ignored.
 void ProjectReader::addLibraries(const xml::Element& libraries) {
   for (const xml::Element* e = import_.document.firstChild(libraries); e != nullptr; e = import_.document.next(*e)) {
     const xml::Attribute* name = e->name == "Library" ? import_.document.attribute(*e, "Name") : nullptr;
@@ -143,7 +143,7 @@ void ProjectReader::addLibraries(const xml::Element& libraries) {
   }
 }
 
-// Mentions each kind of extension that is not read, once. Those that may be discarded are none of Rung's concern.
+// Reports each kind of extension that is not read, once; except those that the file allows to discard.
 void ProjectReader::noteExtensions() {
   static constexpr std::string_view kKnown[] = {"method",
                                                 "property",
@@ -205,7 +205,7 @@ void ProjectReader::run() {
   findInitialisers();
   excludeApplications();
   forEachData(import_, import_.document.elements[0], "extension", [&](const xml::Element& data) {
-    const xml::Element* text = import_.document.child(data, "text");  // namespaces, of Rung's own export
+    const xml::Element* text = import_.document.child(data, "text");  // namespaces, exported by Rung
     if (text == nullptr) return;
     import_.out.put(text->loc, "");
     writeText(import_, *text);

@@ -1,4 +1,4 @@
-// POUs, interfaces and their members as ST; see import.h. What a POU consists of stands in one order:
+// POUs, interfaces and their members as ST; see import.h. The parts of a POU are written in this order:
 //
 //   declaration {ACTION | METHOD | PROPERTY} body END_…
 #include <utility>
@@ -22,11 +22,11 @@ constexpr PouKeywords kPous[] = {{"function", "FUNCTION ", "END_FUNCTION"},
                                  {"class", "CLASS ", "END_CLASS"},
                                  {"interface", "INTERFACE ", "END_INTERFACE"}};
 
-// Forbids what is no kind of POU. TC6, pouType.
+// Forbids an unknown kind of POU. TC6, pouType.
 //   fails   <pou name="P" pouType="programm">          E1052
 const PouKeywords* keywordsOf(Import& import, const xml::Element& pou) {
   const xml::Attribute* type = import.document.attribute(pou, "pouType");
-  if (const xml::Element* own = dataOf(import, pou, "extension"))  // of Rung's own export: class
+  if (const xml::Element* own = dataOf(import, pou, "extension"))  // exported by Rung: class
     if (const xml::Attribute* named = import.document.attribute(*own, "pouType")) type = named;
   for (const PouKeywords& keywords : kPous)
     if (type != nullptr && sameIdentifier(type->raw, keywords.type)) return &keywords;
@@ -37,7 +37,7 @@ const PouKeywords* keywordsOf(Import& import, const xml::Element& pou) {
   return nullptr;
 }
 
-// `data` of the element or of its interface: editors put it here or there.
+// `data` of the element or of its interface: editors differ in where they write it.
 const xml::Element* dataOfEither(const Import& import, const xml::Element& owner, std::string_view kind) {
   const xml::Element* found = dataOf(import, owner, kind);
   const xml::Element* interface = import.document.child(owner, "interface");
@@ -76,8 +76,8 @@ void writeResult(Import& import, const xml::Element& owner) {
   writeType(import, *result);
 }
 
-// The declaration of a POU, method or interface, as the editor has kept it, or from its structure. False: it has no
-// name, which was reported.
+// The declaration of a POU, method or interface: the text kept by the editor, or else made from its structure. False:
+// it has no name, which was reported.
 bool writeHeader(Import& import, const xml::Element& owner, std::string_view word, std::string_view inheritance) {
   if (const xml::Element* plain = plainText(import, owner)) {
     import.out.put(plain->loc, "");
@@ -103,7 +103,7 @@ bool writeHeader(Import& import, const xml::Element& owner, std::string_view wor
 
 std::string nameOf(const Import& import, const xml::Element& element) { return import.document.value(element, "name"); }
 
-// A member that Rung has exported as text.
+// A member that was exported as text by Rung.
 bool writeOwnText(Import& import, const xml::Element& owner) {
   const xml::Element* text = ownTextOf(import, owner);
   if (text == nullptr) return false;
@@ -166,7 +166,7 @@ void writeActions(Import& import, const xml::Element& pou) {
   }
 }
 
-// The <CFC> that stands in addData beside an empty <ST>.
+// The <CFC> in the addData beside an empty <ST>.
 const xml::Element* cfcOf(const Import& import, const xml::Element& body) {
   const xml::Element* cfc = dataOf(import, body, "cfc");
   return cfc != nullptr && cfc->name == "CFC" ? cfc : nullptr;

@@ -11,7 +11,7 @@
 namespace rung::plcopen {
 namespace {
 
-// Attributes of steps and actions in the addData of CODESYS, by the beginning of their GUID.
+// Attributes of steps and actions in the addData of CODESYS, by the first digits of their GUID.
 constexpr std::string_view kEntryAction = "a6b08bd8", kActiveAction = "700a583f", kExitAction = "a2621e18",
                            kMinimum = "cacf1a68", kMaximum = "b693554c";
 
@@ -31,7 +31,7 @@ const xml::Element* Chart::ownAttribute(const xml::Element& element, std::string
   return nullptr;
 }
 
-// `, T#5s`; some write `5s`.
+// `, T#5s`; some tools write `5s`.
 void Chart::writeTime(const xml::Element& action, std::string_view qualifier) {
   if (!isTimed(qualifier)) return;
   const xml::Attribute* duration = document_.attribute(action, "duration");
@@ -41,11 +41,11 @@ void Chart::writeTime(const xml::Element& action, std::string_view qualifier) {
   import_.out.add(document_, *duration);
 }
 
-// open(L, T#5s, busy); an action whose body stands here, or a variable that no name alone names, gets an ACTION.
+// open(L, T#5s, busy); an action with an inline body, or a variable that is not just a name, gets an ACTION.
 void Chart::writeAction(const xml::Element& action) {
   const xml::Element* reference = document_.child(action, "reference");
   const xml::Element* inline_body = document_.child(action, "inline");
-  if (reference == nullptr && inline_body == nullptr) return;  // drawn, and not filled in yet
+  if (reference == nullptr && inline_body == nullptr) return;  // drawn, but not filled in yet
   if (reference != nullptr && !checkName(import_, *reference)) return;
   const xml::Attribute* name = reference == nullptr ? nullptr : document_.attribute(*reference, "name");
   if (name != nullptr && isIdentifier(name->raw)) {
@@ -73,7 +73,7 @@ void Chart::writeAction(const xml::Element& action) {
     import_.out.put(indicator->loc, ", ");
     import_.out.add(document_, *indicator);
   }
-  // Of Rung's own export: elsewhere an action has one.
+  // Exported by Rung; in other files an action has one indicator.
   const xml::Element* own = dataOf(import_, action, "extension");
   for (const xml::Element* e = own == nullptr ? nullptr : document_.firstChild(*own); e != nullptr;
        e = document_.next(*e)) {
@@ -100,7 +100,7 @@ void Chart::writeStepActions(uint32_t node) {
       if (e->name == "action") writeAction(*e);
 }
 
-// (TMIN := T#1s, TMAX := limit): of CODESYS and of Rung's own export.
+// (TMIN := T#1s, TMAX := limit): of CODESYS and of Rung's export.
 void Chart::writeStepTimes(const xml::Element& step) {
   const xml::Element* exported = dataOf(import_, step, "extension");
   const char* before = " (";
@@ -135,7 +135,7 @@ void Chart::writeStep(uint32_t node) {
   import_.out.put(step.end, "END_STEP\n");
 }
 
-// What stands in a macro step has a drawing of its own: such charts are laid out anew.
+// The content of a macro step is a separate drawing: such charts are laid out automatically.
 void Chart::writePosition(const xml::Element& element) {
   if (outer_ != nullptr || !macros_.empty()) return;
   if (const std::string position = positionOf(document_, element); !position.empty())
@@ -150,7 +150,7 @@ void Chart::writeStepName(uint32_t node) {
     writeName(import_, element, nodes_[node].kind == NodeKind::Jump ? "targetName" : "name");
 }
 
-// A chart with a mistake in its graph is not written at all: what follows from it needs no messages.
+// A chart with an error in its graph is not written, to avoid follow-up errors.
 void Chart::write() {
   connect();
   if (ok_) writeElements();
@@ -167,8 +167,8 @@ void Chart::writeElements() {
   writeStepFlags();
 }
 
-// Coils and variables that are wired to steps, in the chart: a step of its own that never ends does what they say,
-// behind all others. IEC 61131-3 ed. 3 table 54, 3b.
+// Coils and variables in the chart that are wired to steps: an added step that is always active runs them after all
+// other steps. IEC 61131-3 ed. 3 table 54, 3b.
 void Chart::writeStepFlags() {
   std::vector<const xml::Element*> ends;
   for (const ChartNode& node : nodes_) {
@@ -189,7 +189,7 @@ void writeChart(Import& import, const xml::Element& chart, const xml::Element& p
   Chart(import, chart, pou, name).write();
 }
 
-// ACTION sfc_action_1: … END_ACTION for what a chart could not say in a step.
+// ACTION sfc_action_1: … END_ACTION for actions that cannot be written in a step.
 void writeOwnActions(Import& import, const xml::Element& pou, const std::string& name) {
   for (size_t i = 0; i < import.own_actions.size(); ++i) {  // a chart in an action adds its own
     const OwnAction action = import.own_actions[i];
@@ -206,7 +206,7 @@ void writeOwnActions(Import& import, const xml::Element& pou, const std::string&
   import.own_actions.clear();
 }
 
-// <SFCInit Declare="true" Use="true"/>, or <Init …/>. The chart reads and writes the variables that are declared.
+// <SFCInit Declare="true" Use="true"/>, or <Init …/>. The chart uses the variables only if they are declared.
 void writeFlags(Import& import, const xml::Element& owner) {
   static constexpr std::pair<std::string_view, std::string_view> kFlags[] = {
       {"Init", "VAR_INPUT SFCInit : BOOL"},

@@ -12,7 +12,7 @@ bool isWordChar(char c) {
          static_cast<unsigned char>(c) >= 0x80;
 }
 
-// Behind a comment that begins at `p` with `(*` or `/*`; comments nest.
+// The offset after a comment that begins at `p` with `(*` or `/*`; comments nest.
 size_t endOfComment(std::string_view text, size_t p) {
   const char mark = text[p];
   const std::string_view open = mark == '(' ? "(*" : "/*", close = mark == '(' ? "*)" : "*/";

@@ -1,4 +1,4 @@
-// The list of reports: switches, limits, duplicates, order.
+// The list of diagnostics: warning switches, limits, duplicates, order.
 #include "frontend/source/diagnostics.h"
 
 #include <algorithm>
@@ -116,7 +116,8 @@ Report Diagnostics::report(Diag diag, Loc loc, std::initializer_list<std::string
   return Report(&list_.back());
 }
 
-// A place is a mistake only once per code. What has no place is told apart by its path and message: never dropped.
+// A location is reported once per code. Diagnostics without a location are told apart by path and message, so none of
+// them is lost.
 bool Diagnostics::firstAt(Diag diag, Loc loc) {
   if (!loc) return true;
   if ((seen_count_ + 1) * 2 > seen_.size()) {
@@ -140,7 +141,7 @@ bool Diagnostics::firstAt(Diag diag, Loc loc) {
 }
 
 void Diagnostics::sort() {
-  // Locations grow with files in the order of adding; paths decide between what has no location.
+  // Locations grow in the order in which files were added; paths order diagnostics without a location.
   for (Diagnostic& diagnostic : list_) diagnostic.original_loc = sources_.originalLocation(diagnostic.loc);
   std::stable_sort(list_.begin(), list_.end(), [](const Diagnostic& a, const Diagnostic& b) {
     return a.original_loc != b.original_loc ? a.original_loc < b.original_loc : a.path < b.path;

@@ -1,8 +1,8 @@
-// Diagnostics: what is wrong, where, and what to do. In: reports from all phases. Out: an ordered list that render.h
-// prints as text, JSON or SARIF. A report is data, not output: phases go on after it and use the Error type to silence
-// what follows from it.
-// Each folder lists its messages in a diagnostics.def; the diagnostics.h beside it makes constants of them.
-// registry.cpp is the one file that knows all of them.
+// Diagnostics: what is wrong, where, and how to fix it. In: reports from all phases. Out: an ordered list that render.h
+// prints as text, JSON or SARIF. Reporting does not stop a phase: it continues and uses the Error type to suppress
+// follow-up errors.
+// Each folder lists its messages in a diagnostics.def; the diagnostics.h beside it turns them into constants.
+// registry.cpp is the one file that includes all lists.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace rung {
 
 enum class Severity : uint8_t { Note, Info, Warning, Error };
 
-// The code of a message: its number times four plus its severity, so that lists need not know each other.
+// The code of a message: its number times four plus its severity, so that the lists are independent of each other.
 enum class Diag : uint16_t;
 
 consteval Diag diagOf(const char* code) {  // "E0412"
@@ -29,12 +29,12 @@ consteval Diag diagOf(const char* code) {  // "E0412"
   return static_cast<Diag>(number * 4 + static_cast<unsigned>(severity));
 }
 
-// What a note says below a report; {0} {1} are its arguments.
+// The message of a note below a diagnostic; {0} {1} are its arguments.
 struct Note {
   const char* text;
 };
 
-// What the rows of a diagnostics.def mean in a header. {0} {1} in the message are the arguments of report().
+// How a header expands the rows of a diagnostics.def. {0} {1} in the message are the arguments of report().
 #define RUNG_ERROR(code, name, text) inline constexpr Diag name = diagOf(#code);
 #define RUNG_WARNING(code, name, text) inline constexpr Diag name = diagOf(#code);
 #define RUNG_INFO(code, name, text) inline constexpr Diag name = diagOf(#code);
@@ -54,21 +54,21 @@ struct DiagInfo {
 const DiagInfo& diagInfo(Diag diag);
 // The row with this code ("E0412", any case), or null.
 const DiagInfo* findDiag(std::string_view code);
-// What `-W` calls the row: "unused-variable" for UnusedVariable.
+// The name of the row in `-W`: "unused-variable" for UnusedVariable.
 std::string switchName(const DiagInfo& info);
 // All rows, by number.
 std::span<const DiagInfo> allDiags();
 
 struct Diagnostic {
   struct Attached {
-    Loc loc;  // nowhere: belongs to the whole diagnostic
+    Loc loc;  // none: belongs to the whole diagnostic
     std::string message;
   };
   Diag diag;
   Severity severity;
   Loc loc;
-  Loc original_loc;     // the place of `loc` in the file on disk; filled by sort()
-  std::string path;     // used when loc is nowhere: a file that could not be read, say
+  Loc original_loc;     // the location of `loc` in the file on disk; filled by sort()
+  std::string path;     // used when there is no loc: for example, a file that could not be read
   uint32_t length = 0;  // bytes to underline; 0: the token at loc
   std::string message;
   std::string element;  // of a diagram: `POU main, network 3, contact "start", localId 12`
@@ -93,11 +93,12 @@ class Diagnostics {
  public:
   explicit Diagnostics(const Sources& sources) : sources_(sources) {}
 
-  // Drops a second diagnostic with the same code at the same place, warnings switched off, and all errors
-  // after max_errors (they are counted). References stay good until the next report.
+  // Drops a second diagnostic with the same code at the same location, disabled warnings, and all errors after
+  // max_errors (they are counted). The reference is valid until the next report.
   Report report(Diag diag, Loc loc, std::initializer_list<std::string_view> args = {});
 
-  // The lines of the errors so far say no more: what later phases find there most likely follows from them.
+  // Suppresses further diagnostics on the lines that have errors so far: later phases would report what follows from
+  // them.
   void closeLines();
 
   bool hasErrors() const { return error_count_ > 0; }
@@ -108,14 +109,14 @@ class Diagnostics {
   // True once max_errors is reached: parsers and checkers may stop early.
   bool full() const { return error_count_ >= max_errors; }
   const std::vector<Diagnostic>& all() const { return list_; }
-  // Says of each diagnostic in which element of a diagram its place is, by what `at` says of the place.
+  // Adds to each diagnostic the diagram element that contains it; `at` names the element at a location.
   void nameElements(FunctionRef<std::string(Loc)> at);
-  // By file, then place; equal places keep the order of reporting. Whole-file diagnostics first.
+  // By file, then location; equal locations keep the order of reporting. Diagnostics for a whole file come first.
   void sort();
 
   uint32_t max_errors = 100;
   bool warnings_are_errors = false;
-  // -W options: "no-W0101" or "no-unused-variable" style switches, see cli.md. False when the name is unknown.
+  // -W options such as "no-W0101" or "no-unused-variable", see docs/cli.md. False when the name is unknown.
   bool setWarning(std::string_view name, bool on);
   bool enabled(Diag diag) const;
 
@@ -131,7 +132,7 @@ class Diagnostics {
   std::vector<uint64_t> closed_lines_;  // file and line, sorted
 };
 
-// The candidate nearest to what was written (Damerau-Levenshtein, case folded), or empty when none is near enough.
+// The candidate nearest to `written` (Damerau-Levenshtein, case folded), or empty when none is near enough.
 std::string_view nearest(std::string_view written, const std::vector<std::string_view>& candidates);
 
 }  // namespace rung

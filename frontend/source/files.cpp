@@ -1,5 +1,5 @@
-// The table of input texts and the way back from a 32-bit location to file, line and column.
-// Line starts are found when a file is first asked for; a file that is plain ASCII needs no counting of characters.
+// The table of input sources, and the mapping from a 32-bit location back to file, line and column. Line starts are
+// computed on first use; a file that is plain ASCII needs no counting of characters.
 #include "frontend/source/files.h"
 
 #include <fcntl.h>
@@ -52,8 +52,8 @@ std::vector<uint32_t> findLineStarts(std::string_view source) {
   return starts;
 }
 
-// The length of a word and, where `#` follows it, of the literal that it begins: INT#5, 16#ff, T#1s500ms,
-// DT#1970-01-01-00:00:00.
+// The length of the identifier or number at the start of `source` and, where `#` follows, of the literal that it
+// begins: INT#5, 16#ff, T#1s500ms, DT#1970-01-01-00:00:00.
 size_t literalLength(std::string_view source) {
   size_t n = 0;
   const bool number = isDigit(source[0]);
@@ -114,7 +114,8 @@ FileId Sources::add(std::string path, std::string source) {
 
 FileId Sources::addSourceMapped(std::string path, std::string source, std::vector<Segment> segments) {
   const File& last = files_.back();
-  const uint64_t base = uint64_t{last.base} + last.source.size() + 1;  // one past the NUL: the end of a file is its own
+  // One past the NUL: the end of a file has its own location.
+  const uint64_t base = uint64_t{last.base} + last.source.size() + 1;
   if (base + source.size() + 1 > UINT32_MAX) return {};
   files_.push_back(
       {std::move(path), std::move(source), static_cast<uint32_t>(base), std::move(segments), {}, {}, false});
@@ -150,7 +151,7 @@ Loc Sources::originalLocation(Loc loc) const {
                                       [](uint32_t offset, const Segment& segment) { return offset < segment.at; });
   const Segment& segment = *(after - 1);
   return originalLocation(
-      {segment.from.offset + (segment.verbatim ? at - segment.at : 0)});  // which may be assembled, too
+      {segment.from.offset + (segment.verbatim ? at - segment.at : 0)});  // which may be source-mapped as well
 }
 
 const std::vector<uint32_t>& Sources::lineStarts(const File& file) const {
@@ -168,7 +169,7 @@ uint32_t Sources::lineNumber(Loc loc) const {
   if (!file.segments.empty()) return lineNumber(originalLocation(loc));
   const std::vector<uint32_t>& starts = lineStarts(file);
   const uint32_t at = loc.offset - file.base;
-  // Places are mostly asked for in order: try the last line and the next one before searching.
+  // Most lookups come in order: try the last line and the next one before searching.
   for (uint32_t line = last_line_; line <= last_line_ + 1 && line != 0 && line <= starts.size(); ++line) {
     if (starts[line - 1] <= at && (line == starts.size() || at < starts[line])) return last_line_ = line;
   }
@@ -184,7 +185,7 @@ SourceLocation Sources::location(Loc loc) const {
   const uint32_t start = file.line_starts[line - 1];
   const uint32_t at = loc.offset - file.base;
   if (file.ascii) return {id, line, at - start + 1};
-  // Counting goes on from the last place of the same line, so that one very long line does not cost its square.
+  // Counting resumes at the last location on the same line, so that one very long line does not cost quadratic time.
   const bool resume = last_location_.file == id && last_location_.line == line && last_location_at_ <= at;
   const uint32_t from = resume ? last_location_at_ : start;
   const uint32_t column = resume ? last_location_.column : 1;
@@ -228,7 +229,7 @@ ReadResult readFile(const std::string& path) {
   struct stat info = {};
   const bool regular = ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
   size_t used = 0;
-  // One byte more than the size: the read that fills it not is also the one that sees the end.
+  // One byte more than the size: the read that does not fill the buffer is the one that sees the end of the file.
   result.content.resize(regular ? std::min(static_cast<size_t>(info.st_size), kMaxFileBytes) + 1 : 64 * 1024);
   for (;;) {
     if (used == result.content.size()) result.content.resize(used * 2);

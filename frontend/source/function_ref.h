@@ -1,5 +1,5 @@
-// A reference to something that can be called, for parameters that are called during the call they are passed to.
-// Costs two words and no <functional>; never kept, because it does not own what it refers to.
+// A non-owning reference to a callable, for parameters that are called only during the call they are passed to. Costs
+// two words and no <functional>; must not be stored.
 #pragma once
 
 #include <type_traits>

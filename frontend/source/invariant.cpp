@@ -1,4 +1,4 @@
-// The end of a run that found its own mistake: names the phase, the POU and the broken invariant, exits with 70.
+// Terminates a run that violated an invariant: prints the phase, the POU and the invariant, exits with 70.
 #include "frontend/source/invariant.h"
 
 #include <cstdio>

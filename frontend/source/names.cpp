@@ -1,6 +1,6 @@
 // Interning of identifiers: a chained hash table over the case-folded spelling. A hit costs one hash, one bucket and
-// one comparison and allocates nothing; all spellings of an identifier lie in one chain, so a miss finds its key there.
-// Called by lexers for every identifier of the input: this is on the hot path of the compiler.
+// one comparison and allocates nothing. All spellings of an identifier are in one chain, so a miss finds its key there.
+// Lexers call this for every identifier: it is on the hot path of the compiler.
 #include "frontend/source/names.h"
 
 #include <cstring>
@@ -24,7 +24,8 @@ uint64_t loadShort(const char* at, size_t count) {
   return count == 1 ? static_cast<unsigned char>(*at) : 0;
 }
 
-// Setting bit 5 of every byte folds letters; that it also joins some other characters costs collisions, not answers.
+// Setting bit 5 of every byte folds letters. It also folds some other characters together, which costs collisions but
+// no wrong answers.
 uint32_t foldedHash(std::string_view spelling) {
   constexpr uint64_t kFold = 0x2020202020202020u;
   const auto mix = [](uint64_t hash, uint64_t word) {
@@ -100,7 +101,7 @@ void Names::grow() {
   }
 }
 
-// Blocks never grow past their reservation, so the texts handed out stay where they are.
+// Blocks never grow past their reservation, so the string views handed out stay valid.
 std::string_view Names::store(std::string_view spelling) {
   if (storage_.empty() || storage_.back().capacity() - storage_.back().size() < spelling.size()) {
     storage_.emplace_back().reserve(spelling.size() > kBlockBytes ? spelling.size() : kBlockBytes);

@@ -1,6 +1,6 @@
-// Names: every identifier is interned once. A NameId stands for one exact spelling; key(id) is the id that all
-// spellings of the same identifier share (IEC identifiers are not case-sensitive), so scopes hash keys while
-// messages print what the user wrote. In: text from lexers and readers. Out: 32-bit ids. Called by every layer.
+// Names: every identifier is interned once. A NameId denotes one exact spelling; key(id) is the id that all spellings
+// of the same identifier share (IEC identifiers are not case-sensitive), so scopes hash keys while messages print what
+// the user wrote. In: spellings from lexers and readers. Out: 32-bit ids. Called by every layer.
 #pragma once
 
 #include <cstdint>
@@ -25,12 +25,12 @@ class Names {
 
   NameId intern(std::string_view spelling);
 
-  // The id of this exact spelling's identifier if any spelling of it was interned, else none.
+  // The id of the identifier of this spelling if any of its spellings was interned, else none.
   NameId find(std::string_view spelling) const;
 
   std::string_view string(NameId id) const { return entries_[id.index].spelling; }
 
-  // One id for all spellings of an identifier: the first that was interned.
+  // The id shared by all spellings of an identifier: that of the first one interned.
   NameId key(NameId id) const { return entries_[id.index].key; }
   bool same(NameId a, NameId b) const { return key(a) == key(b); }
 
@@ -53,11 +53,11 @@ class Names {
 
 // An ASCII letter in lower case.
 constexpr char foldedCharacter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; }
-// True when the two texts are the same IEC identifier (ASCII case folded).
+// True when the two spellings are the same IEC identifier (ASCII case folded).
 bool sameIdentifier(std::string_view a, std::string_view b);
-// The text in small letters: equal for equal identifiers, and so the order of names that the dialects mean.
+// The spelling in lower case: equal for equal identifiers, and the collation order that the dialects use.
 std::string foldedIdentifier(std::string_view spelling);
-// The name of the global list that a file is: the stem of its path, as an identifier.
+// The name of the global list that a file defines: the stem of its path, as an identifier.
 std::string listNameOf(std::string_view path);
 
 }  // namespace rung

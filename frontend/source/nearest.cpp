@@ -1,5 +1,5 @@
 // "Did you mean": the candidate with the least Damerau-Levenshtein distance (optimal string alignment, case folded).
-// Candidates are dismissed by length and by the set of their characters first, so a scope of 100 000 names is cheap.
+// Candidates are rejected by length and character set first, so a scope of 100 000 names is cheap.
 #include <algorithm>
 #include <bit>
 
@@ -57,7 +57,7 @@ std::string_view nearest(std::string_view written, const std::vector<std::string
     if (longer - std::min(candidate.size(), written.size()) > limit) continue;
     if (static_cast<size_t>(std::popcount(characterSet(candidate) ^ written_set)) > 2 * limit) continue;
     const size_t d = distance(written, candidate, std::min(limit, best_distance));
-    // Ties go to the first in the alphabet: the answer does not hang on the order of the scope.
+    // Ties go to the first in alphabetical order, so the answer does not depend on the order of the scope.
     if (d < best_distance || (d == best_distance && d <= limit && candidate < best)) {
       best = candidate;
       best_distance = d;

@@ -1,12 +1,12 @@
-// CODESYS 2.3 says in front of each object whether comments nest in it: (* @NESTEDCOMMENTS := 'Yes' *).
-// In: a comment. Out: its word. Called by the lexer and by the readers of vendors' files.
+// CODESYS 2.3 writes in front of each object whether comments nest in it: (* @NESTEDCOMMENTS := 'Yes' *). In: a
+// comment. Out: its value. Called by the lexer and by the readers of vendor files.
 #pragma once
 
 #include <string_view>
 
 namespace rung {
 
-// The first letter of 'Yes' or 'No', where the comment says it; else null.
+// The first letter of 'Yes' or 'No' where the comment has the attribute, else null.
 inline const char* nestingOf(std::string_view comment) {
   constexpr std::string_view kHead = "(* @NESTEDCOMMENTS := '";
   if (comment.size() <= kHead.size() || comment.substr(0, kHead.size()) != kHead) return nullptr;

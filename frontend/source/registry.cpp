@@ -1,5 +1,5 @@
 // The registry of messages: the rows of every folder in one table, by number. In: the diagnostics.def files. Out:
-// diagInfo(), findDiag() and allDiags() of diagnostics.h. It includes lists of later layers, which hold rows and no
+// diagInfo(), findDiag() and allDiags() of diagnostics.h. The lists of later layers that it includes hold rows and no
 // code.
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
-// Text, JSON and SARIF renderings of a list of diagnostics. All three escape what a terminal or a parser could take
-// for a command: control bytes, bytes that are not UTF-8, and characters that reorder text.
+// Text, JSON and SARIF renderings of a list of diagnostics. All three escape what a terminal or a parser could
+// interpret as a command: control bytes, bytes that are not UTF-8, and characters that reorder text.
 #include "frontend/source/render.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ const char* severityName(Severity severity) {
   return "";
 }
 
-// The bytes of the character that begins text; 0: not UTF-8.
+// The length of the UTF-8 character at the start of the string; 0: not UTF-8.
 size_t characterLength(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
   const size_t length = lead < 0x80 ? 1 : lead < 0xc2 ? 0 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : lead < 0xf5 ? 4 : 0;
@@ -30,7 +30,7 @@ size_t characterLength(std::string_view text) {
   return length;
 }
 
-// Characters that change how the text around them is shown: C1 controls and bidirectional overrides.
+// Characters that change how the characters around them are shown: C1 controls and bidirectional overrides.
 bool isConfusable(std::string_view character) {
   const auto byte = [&](size_t i) { return static_cast<unsigned char>(character[i]); };
   if (character.size() == 2) return byte(0) == 0xc2 && byte(1) < 0xa0;
@@ -44,7 +44,7 @@ void appendHex(std::string& out, std::string_view prefix, unsigned value, int di
   for (int i = digits - 1; i >= 0; --i) out += "0123456789abcdef"[value >> (4 * i) & 15];
 }
 
-// Appends one character, escaped where it must be; gives the bytes it took and the columns it fills.
+// Appends one character, escaped where necessary; returns the bytes consumed and the columns it fills.
 struct Shown {
   size_t bytes, columns;
 };
@@ -70,15 +70,15 @@ std::string visible(std::string_view text) {
   return out;
 }
 
-// ---- where a diagnostic stands, for all formats
+// ---- the source range of a diagnostic, for all formats
 
 struct Range {
   std::string_view path;
   SourceLocation location;  // line 0: the whole file, or no file
-  uint32_t bytes = 0;       // marked
+  uint32_t bytes = 0;       // underlined
   uint32_t end_column = 0;  // exclusive
   std::string_view line;    // the source line
-  size_t line_at = 0;       // offset of the mark in it
+  size_t line_at = 0;       // offset of the underline in it
 };
 
 Range rangeOf(const Sources& sources, Loc loc, uint32_t length, std::string_view path) {
@@ -160,7 +160,7 @@ class TextRenderer {
     out_ += '\n';
   }
 
-  // The source line and below it the mark. A long line is cut on both sides of the mark.
+  // The source line and the underline below it. A long line is cut on both sides of the underline.
   void excerpt(const Range& range) {
     if (range.location.line == 0) return;
     size_t first = 0;
@@ -176,7 +176,7 @@ class TextRenderer {
     const size_t underline_end = range.line_at + range.bytes;
     size_t columns = 0, i = first;
     while (i < range.line.size() && columns < kMaxColumns) {
-      if (range.line[i] == '\t') {  // kept, so that the mark stands right whatever a tab is worth
+      if (range.line[i] == '\t') {  // kept, so that the underline is aligned for every tab width
         text += '\t';
         if (i < range.line_at) underline += '\t';
         if (i >= range.line_at && i < underline_end) underline += i == range.line_at ? '^' : '~';
@@ -281,7 +281,7 @@ std::string uriOf(std::string_view path) {
   return out;
 }
 
-// The members of a SARIF location object, without the braces around it. Empty: no place.
+// The members of a SARIF location object, without the braces around it. Empty: no location.
 std::string sarifLocation(const Range& range) {
   if (range.path.empty()) return {};
   std::string out = "\"physicalLocation\":{\"artifactLocation\":{\"uri\":" + jsonQuote(uriOf(range.path)) + "}";

@@ -1,5 +1,5 @@
-// Renders a list of diagnostics. In: Diagnostics and Sources. Out: text for people (path:line:col: error[E0412]: …,
-// the source line, a caret, notes), JSON (one object) or SARIF 2.1.0. Called by the tool at the end of a run.
+// Renders a list of diagnostics. In: Diagnostics and Sources. Out: text for people (path:line:col: error[E0412]: …, the
+// source line, a caret, notes), JSON (one object) or SARIF 2.1.0. Called by the tool at the end of a run.
 #pragma once
 
 #include <string>
@@ -14,7 +14,8 @@ enum class DiagnosticFormat { Text, Json, Sarif };
 struct RenderOptions {
   DiagnosticFormat format = DiagnosticFormat::Text;
   bool color = false;
-  // The page of a code, as `rung explain` shows it, for SARIF's rule help; null or empty: the message template.
+  // Returns the page of a code, as `rung explain` shows it, for SARIF's rule help; null or empty: the message template
+  // is used.
   std::string_view (*page)(std::string_view code) = nullptr;
 };
 

@@ -104,7 +104,7 @@ ExprId clone(Tree& tree, ExprId expr) {
     case ExprKind::Convert:
     case ExprKind::Bound:
     case ExprKind::AnyValue:
-    case ExprKind::AddressOf: break;  // sema makes them, later
+    case ExprKind::AddressOf: break;  // created only by sema, later
   }
   RUNG_INVARIANT(false, "only what a parser made is copied");
   return {};

@@ -1,5 +1,5 @@
-// Copies of expressions as the parser leaves them: what a diagram or a list reads in several places, so that sema may
-// annotate each place by itself.
+// Copies of expressions as the parser creates them: for expressions that a diagram or a list uses several times, so
+// that sema can annotate each copy separately.
 #pragma once
 
 #include "frontend/syntax/tree.h"
@@ -8,10 +8,10 @@ namespace rung {
 
 ExprId clone(Tree& tree, ExprId expr);
 
-// A variable, a member or element of one at a place that names and literals give, a literal: reading it again costs
-// nothing and calls nothing.
+// A literal, or a variable, member or element whose path consists of names and literals: reading it again costs nothing
+// and calls nothing.
 bool isPlainPath(const Tree& tree, ExprId expr);
-// Whether something in it is called.
+// Whether it contains a call.
 bool hasCall(const Tree& tree, ExprId expr);
 
 }  // namespace rung

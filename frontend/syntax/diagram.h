@@ -1,7 +1,8 @@
-// A body of networks as the parser leaves it: the elements of LD, FBD and CFC with their wires, in the order of the
-// file, until the scheduler (frontend/diagram/schedule.h) makes statements of them. One model for the three languages:
-// which of them an editor showed is a view. IEC 61131-3 ed. 3, 8; TM/TP manual 5.1 to 5.3 and 5.6.
-// `rung graph` draws from here too, so an element keeps its place where the file has one.
+// A body of networks as the parser creates it: the elements of LD, FBD and CFC with their wires, in the order of the
+// file. It stays in the tree until the scheduler (frontend/diagram/schedule.h) turns it into statements. One model
+// serves the three languages, which differ only in how an editor shows them. IEC 61131-3 ed. 3, 8; TM/TP manual 5.1 to
+// 5.3 and 5.6.
+// `rung graph` draws from here too, so an element keeps its position where the file has one.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +14,14 @@ namespace rung {
 
 enum class ElementKind : uint8_t {
   Rail,          // the left power rail: TRUE
-  RightRail,     // ends wires
+  RightRail,     // end of wires
   Contact,       // `operand`
   Coil,          // `operand`
-  Box,           // `path` names what is called, `operand` its instance
+  Box,           // `path` names the function or type that is called, `operand` its instance
   Input,         // `operand` is read
   Output,        // `operand` is written
-  InOut,         // `operand` is written where a wire comes in, and read
-  Connector,     // one wire in; its continuations and whoever refers to it go on with that wire
+  InOut,         // `operand` is read, and written where a wire comes in
+  Connector,     // one wire in; its continuations and the elements that refer to it read that wire
   Continuation,  // of the connector `name`
   Jump,          // to the label `name`
   Label,         // `name`
@@ -36,8 +37,8 @@ enum class PinStorage : uint8_t { None, Set, Reset };
 constexpr uint32_t kNoElement = UINT32_MAX;
 
 struct DiagramWire {
-  uint32_t from;  // index in the elements of the body; kNoElement: of nothing, which was reported
-  Ident pin;      // of the element; none: it has one
+  uint32_t from;  // index in the elements of the body; kNoElement: source not found, which was reported
+  Ident pin;      // of the element; none: its only one
   Loc loc;
 };
 struct DiagramPin {
@@ -46,35 +47,36 @@ struct DiagramPin {
   bool negated;
   EdgeKind edge;
   PinStorage storage;
-  Slice<DiagramWire> wires;  // several are joined: OR
-  NameId hidden;             // declareNetworks(): the instance that senses its edge
+  Slice<DiagramWire> wires;  // several wires are joined by OR
+  NameId hidden;             // declareNetworks(): the instance that detects its edge
 };
 struct DiagramElement {
   ElementKind kind;
   bool negated;
   EdgeKind edge;
   PinStorage storage;
-  uint32_t network;  // the number of its network; 0: wires tell
-  uint32_t order;    // its turn in the body; 0: wires and places tell
+  uint32_t network;  // the number of its network; 0: inferred from wires
+  uint32_t order;    // its place in the execution order; 0: inferred from wires and positions
   Ident name;
-  NameId hidden;  // declareNetworks(): the instance that senses its edge; of a box or structure: what it works on
-  NameId stored;  // declareNetworks(): of a function that is read before its turn: what keeps its value
+  NameId hidden;  // declareNetworks(): the instance that detects its edge; of a box or Compose: the instance or
+                  // variable it works on
+  NameId stored;  // declareNetworks(): of a function that is read before it runs: the variable that keeps its value
   ExprId path;
   ExprId operand;
-  Slice<DiagramPin> pins;  // inputs, in-outs and outputs as the file orders them
+  Slice<DiagramPin> pins;  // inputs, in-outs and outputs in the order of the file
   Slice<StmtId> body;
   uint32_t comment, comment_length;  // StringId
   uint64_t number;                   // localId
-  Loc loc, end;                      // the number; one past the element's text
+  Loc loc, end;                      // the number; one past the source of the element
   int32_t x, y, width, height;
   bool placed;   // x and y are given
-  bool holding;  // a coil of a variable that is kept: M, SM, RM of the TM/TP manual
+  bool holding;  // coil of a retentive variable: M, SM, RM of the TM/TP manual
 };
 struct DiagramNetwork {
   uint32_t number;
   uint32_t title, title_length;  // StringId
   Loc loc;
-  bool disabled;  // nothing in it runs
+  bool disabled;  // none of its elements run
 };
 
 }  // namespace rung

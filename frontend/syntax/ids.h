@@ -8,7 +8,7 @@
 
 namespace rung {
 
-// A name with its place; the element of name lists.
+// A name with its location; the element of name lists.
 struct Ident {
   NameId name;
   Loc loc;
@@ -50,7 +50,7 @@ struct TypeId {
   friend bool operator==(TypeId, TypeId) = default;
 };
 
-// What a name stands for; index is into the table of sema::Project that the kind names.
+// The entity that a name denotes; index is into the table of sema::Project that the kind names.
 enum class EntityKind : uint8_t {
   None,
   Error,

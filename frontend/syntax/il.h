@@ -1,5 +1,5 @@
-// Instruction List as the parser leaves it: one entry per instruction, until the scheduler
-// (frontend/text/il_schedule.h) has rebuilt statements from them. IEC 61131-3 ed. 2, 3.2; ed. 3, 7.2; TM/TP manual 5.4.
+// Instruction List as the parser creates it: one entry per instruction. It stays in the tree until the scheduler
+// (frontend/text/il_schedule.h) turns it into statements. IEC 61131-3 ed. 2, 3.2; ed. 3, 7.2; TM/TP manual 5.4.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct Argument;
 struct IlNested;
 
 enum class IlKind : uint8_t {
-  Label,     // a label on a line of its own
+  Label,     // a label on its own line
   Load,      // LD
   Store,     // ST
   Set,       // S
@@ -24,14 +24,14 @@ enum class IlKind : uint8_t {
   Call,      // CAL: `callee`
   Return,    // RET
   Close,     // )
-  Function,  // a name in the operator's place: a function, a method, or an input operator such as `CU counter`
+  Function,  // a name in place of an operator: a function, a method, or an input operator such as `CU counter`
 };
 enum IlFlags : uint8_t {
   kIlNegated = 1,      // N
   kIlConditional = 2,  // C
-  kIlDeferred = 4,     // OP( : up to its `)`
+  kIlDeferred = 4,     // OP( : deferred to its `)`
   kIlFormal = 8,       // the list names pins, or is empty: CAL t(IN := a), LIMIT(MN := 1)
-  kIlInParens = 16,    // the list stands in parentheses
+  kIlInParens = 16,    // the list is in parentheses
   kIlAttempt = 32,     // ST?
 };
 struct IlInstruction {
@@ -39,7 +39,7 @@ struct IlInstruction {
   BinaryOp op;
   uint8_t flags;
   NameId word;  // the operator as written
-  Loc loc;      // … and where
+  Loc loc;      // … and its location
   Ident label;  // before it, or none
   Ident target;
   ExprId callee;
@@ -47,7 +47,7 @@ struct IlInstruction {
   Slice<IlNested> nested;
 };
 
-// An operand that is an instruction list of its own: CAL t(IN := (LD a  AND b)).
+// An operand that is itself an instruction list: CAL t(IN := (LD a  AND b)).
 struct IlNested {
   uint32_t operand;
   Slice<IlInstruction> list;

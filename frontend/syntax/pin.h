@@ -1,4 +1,4 @@
-// What declarations and diagrams both say of a pin.
+// Properties of a pin that declarations and diagrams share.
 #pragma once
 
 #include <cstdint>

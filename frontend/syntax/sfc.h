@@ -1,7 +1,7 @@
-// A Sequential Function Chart as the parser leaves it: steps and transitions in the order of the text, which is the
-// order in which they are judged. Actions are members of the POU. A MACRO_STEP leaves only its steps and transitions.
-// The chart becomes statements when sema is about to check the body (frontend/text/sfc_schedule.h). IEC 61131-3 ed.
-// 3, 6.7; TM/TP manual 5.5.
+// A Sequential Function Chart as the parser creates it: steps and transitions in source order, which is the order in
+// which they are evaluated. Actions are members of the POU; of a MACRO_STEP only its steps and transitions remain. Sema
+// has the chart turned into statements when it is about to check the body (frontend/text/sfc_schedule.h). IEC 61131-3
+// ed. 3, 6.7; TM/TP manual 5.5.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ constexpr bool takesTime(SfcQualifier q) {
          q == SfcQualifier::SL;
 }
 
-// An expression with its text, which the scheduler quotes.
+// An expression with its source range, which the scheduler quotes.
 struct SfcExpr {
   ExprId value;  // none: not written
   Loc begin, end;
 };
-struct SfcPosition {  // AT 100, 40, 60, 30: in the file that the chart was drawn in
+struct SfcPosition {  // AT 100, 40, 60, 30: in the file in which the chart was drawn
   bool placed;
   int32_t x, y, width, height;
 };
@@ -32,7 +32,7 @@ struct SfcAssociation {  // open(D, T#5s, opened);  {entry} prepare;
   NameId word;  // the qualifier as written
   SfcExpr time;
   Loc loc;                  // of the qualifier, or of the name
-  Slice<Ident> indicators;  // they show what became of the action, to a reader
+  Slice<Ident> indicators;  // variables that show the effect of the action; documentation only
 };
 struct SfcStep {
   Ident name;
@@ -42,15 +42,15 @@ struct SfcStep {
   SfcPosition position;
 };
 struct SfcTransition {
-  Ident name;  // none: it has none
-  Loc loc;     // of the name, or of the word TRANSITION
+  Ident name;  // none: unnamed
+  Loc loc;     // of the name, or of the keyword TRANSITION
   uint32_t priority;
   bool has_priority;
   Slice<Ident> from, to;  // both empty: a condition that transitions of the same name use
   SfcExpr condition;      // := expression
   DeclId body;            // an action that assigns the condition to `target`; none: see `condition`
   Ident target;
-  Loc begin, end;  // the text from TRANSITION to END_TRANSITION
+  Loc begin, end;  // from TRANSITION to END_TRANSITION
   SfcPosition position;
 };
 

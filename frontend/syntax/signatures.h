@@ -1,6 +1,6 @@
-// What the scheduler of a body may ask about a name, and nothing else (design §3): whether it can be called, and with
-// which pins. It learns no types. Sema implements it (sema/bodies/signatures.cpp) and hands it to the scheduler when
-// the body is about to be checked; answers live as long as the object.
+// The only questions that the scheduler of a body may ask about a name: whether it can be called, and with which pins.
+// Types are not available to it. Sema implements this interface (sema/bodies/signatures.cpp) and passes it to the
+// scheduler when it is about to check the body. Answers are valid as long as the object.
 #pragma once
 
 #include <span>
@@ -12,12 +12,12 @@
 namespace rung {
 
 enum class SignatureKind : uint8_t {
-  Unknown,   // not declared; names that follow a rule, such as INT_TO_REAL, are among them
+  Unknown,   // not declared; includes names built by a rule, such as INT_TO_REAL
   Value,     // a variable or constant that cannot be called
   Instance,  // of a function block
   Function,
   Method,  // or an action
-  Block,   // a type of function blocks; its pins are those of its instances
+  Block,   // a function block type; its pins are those of its instances
   Program,
   Other,  // a type, a list of globals, a library
 };
@@ -33,7 +33,7 @@ struct Signature {
   bool has_result = false;  // of functions and methods
   std::span<const PinSignature> pins;
 
-  // By name or alias, EN and ENO apart; null: there is none.
+  // By name or alias, except EN and ENO; null: not found.
   const PinSignature* find(const Names& names, NameId pin) const {
     for (const PinSignature& candidate : pins) {
       if (names.same(candidate.name, pin)) return &candidate;
@@ -47,7 +47,7 @@ struct Signature {
 class Signatures {
  public:
   virtual Signature of(NameId name) = 0;
-  // Of `valve`, `valves[i].timer`, `station.Start`: a path as parsed. It stays as it is.
+  // Of `valve`, `valves[i].timer`, `station.Start`: a path as parsed, which is not changed.
   virtual Signature of(ExprId path) = 0;
 
  protected:

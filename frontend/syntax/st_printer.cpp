@@ -253,7 +253,7 @@ void StPrinter::arguments(Slice<Argument> list) {
   out += ')';
 }
 
-// In parentheses where it binds weaker than `least`, or always.
+// In parentheses where it binds less tightly than `least`, or always.
 void StPrinter::operand(ExprId id, int least, bool always) {
   if (always) {
     out += '(';
@@ -264,7 +264,7 @@ void StPrinter::operand(ExprId id, int least, bool always) {
   }
 }
 
-// __NEW takes a type by its name, or a text.
+// __NEW takes the name of a type, or a string type.
 void StPrinter::newExpr(const NewExpr& e) {
   out += "__NEW(";
   if (tree_.kind(e.allocated) == TypeExprKind::String) {
@@ -336,7 +336,7 @@ void StPrinter::expr(ExprId id, int least) {
       const auto& e = tree_.as<BinaryExpr>(id);
       const int own = precedenceOf(e.op());
       if (own < least) return operand(id, 0, true);
-      // What mixes comparisons, logic and powers reads better with its parentheses.
+      // Mixed comparisons, logic and powers are easier to read with parentheses.
       const auto apart = [&](ExprId side, bool right) {
         if (tree_.kind(side) == ExprKind::Unary) return e.op() == BinaryOp::Power || (right && own > 3);
         if (tree_.kind(side) != ExprKind::Binary) return false;

@@ -1,5 +1,5 @@
-// Statements as Structured Text: what `rung convert --to st` writes for bodies that a scheduler made, before sema
-// changes them. In: the tree as parsers and schedulers leave it. Out: text that parses to the same tree.
+// Statements as Structured Text: the output of `rung convert --to st` for bodies that a scheduler made, before sema
+// changes them. In: the tree as parsers and schedulers create it. Out: source that parses to the same tree.
 #pragma once
 
 #include <span>
@@ -9,13 +9,14 @@
 
 namespace rung {
 
-// A comment of the source, delimiters included. It goes in front of the first statement at or behind its place.
+// A comment of the source, delimiters included. It is printed before the first statement that begins at or after its
+// location.
 struct StComment {
   Loc at;
   std::string_view text;
 };
 
-// A line per statement, each indented by `indent` blanks and ended by a line break.
+// A line per statement, each indented by `indent` spaces and ended by a line break.
 std::string printSt(const Tree& tree, const Names& names, Slice<StmtId> statements, uint32_t indent,
                     std::span<const StComment> comments);
 // One expression or initial value.

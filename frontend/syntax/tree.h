@@ -1,6 +1,6 @@
-// The syntax tree that every language ends in. In: nodes from the parsers (and from the schedulers of diagrams, IL and
-// NCT). Out: the same tree, annotated by sema, read by lowering and by the ST printer.
-// Nodes are trivial structs in one arena, addressed by typed 32-bit ids; references to nodes stay good for ever.
+// The syntax tree of all languages. In: nodes from the parsers (and from the schedulers of diagrams, IL and NCT). Out:
+// the same tree, annotated by sema, read by lowering and by the ST printer.
+// Nodes are trivial structs in one arena, addressed by typed 32-bit ids; references to nodes never become invalid.
 // nodes.def lists the kinds. Fields marked "sema" are empty until sema fills them.
 #pragma once
 
@@ -37,12 +37,13 @@ enum class DeclKind : uint8_t {
 #include "frontend/syntax/nodes.def"
 };
 
-// Text stored in the tree: strings of literals (decoded) and values of pragmas. WSTRING text is UTF-8 too.
+// Strings stored in the tree: string literals (decoded) and values of pragmas. A WSTRING is UTF-8 too.
 struct StringId {
   uint32_t first = 0, length = 0;
 };
 
-// {name 'value'}, {name := 'value'}, {attribute 'name' := 'value'}: one form. The parser lower-cases nothing.
+// {name 'value'}, {name := 'value'} and {attribute 'name' := 'value'} are stored alike. The parser keeps upper and
+// lower case.
 struct Pragma {
   NameId name;
   StringId value;
@@ -69,7 +70,7 @@ enum class BinaryOp : uint8_t {
   Modulo,
   Power,
 };
-// As ST spells it: "OR", "<=".
+// As written in ST: "OR", "<=".
 const char* spelling(BinaryOp op);
 const char* spelling(UnaryOp op);
 
@@ -77,8 +78,8 @@ enum class LiteralKind : uint8_t {
   Bool,       // value 0 or 1
   Integer,    // value: magnitude; `negative` for INT#-5
   Real,       // value: bits of a double
-  String,     // text
-  WString,    // text, UTF-8
+  String,     // string
+  WString,    // string, UTF-8
   Duration,   // value: nanoseconds (int64 bits); long_form for LT#
   Date,       // value: nanoseconds since 1970-01-01 (int64 bits)
   TimeOfDay,  // value: nanoseconds since midnight
@@ -90,9 +91,9 @@ enum class LiteralKind : uint8_t {
 
 struct ExprHeader {
   ExprKind kind;
-  uint8_t in_parens : 1;    // written in parentheses (the printer and `-2**2` want to know)
+  uint8_t in_parens : 1;    // written in parentheses (needed by the printer and for `-2**2`)
   uint8_t is_constant : 1;  // sema: value known at compile time
-  uint8_t writable : 1;     // sema: a place that may be assigned
+  uint8_t writable : 1;     // sema: an lvalue that may be assigned
   uint8_t op;               // UnaryOp, BinaryOp or LiteralKind
   uint8_t bits;             // LiteralExpr, IndexExpr, CallExpr: flags below
   Loc loc;                  // first token; for Binary the operator, for Member the member name, for Call the callee
@@ -132,9 +133,10 @@ struct MemberExpr {  // h.loc is the member's name
   ExprHeader h;
   ExprId base;
   NameId member;
-  Entity entity;  // sema: Var for a field or pin (base is the record), else what `base.member` names as a whole
+  Entity entity;  // sema: Var for a field or pin (base is the record), else the entity that `base.member` as a whole
+                  // denotes
 };
-struct IndexExpr {  // base[i, j]; h.bits of a character of a text: kWritesCharacter
+struct IndexExpr {  // base[i, j]; h.bits of a character of a string: kWritesCharacter
   ExprHeader h;
   ExprId base;
   Slice<ExprId> indices;
@@ -152,8 +154,8 @@ struct DerefExpr {
   ExprHeader h;
   ExprId base;
 };
-// width 1: bit, 8, 16, 32: part of a bit string; position in units of width. h.bits: kBitMember: sema made it, `base`
-// names a member of type BIT and means the byte that holds it.
+// width 1: bit, 8, 16, 32: part of a bit string; position in units of width. h.bits: kBitMember: created by sema;
+// `base` names a member of type BIT and denotes the byte that contains it.
 struct BitAccessExpr {
   ExprHeader h;
   ExprId base;
@@ -243,8 +245,8 @@ struct NewExpr {  // __NEW(what), __NEW(what, count)
   CallId constructor;  // sema: the arguments of FB_Init
   CallId memory;       // sema: a call of __SYSTEM.Allocate, without its arguments
 };
-// h.type: a pointer or reference to the place's type. h.bits: kMustLeadSomewhere: of p^ for p[i], where an empty p is a
-// fault though nothing is read there.
+// h.type: a pointer or reference to the type of the lvalue. h.bits: kMustLeadSomewhere: of p^ for p[i], where a null p
+// is a fault although nothing is read there.
 struct AddressOfExpr {
   ExprHeader h;
   ExprId lvalue;
@@ -282,7 +284,7 @@ struct IfBranch {
 };
 constexpr uint8_t kConditionalOp = 1;
 struct IfStmt {
-  StmtHeader h;  // op: kConditionalOp of what no IF stands for: JMPC
+  StmtHeader h;  // op: kConditionalOp where the source has no IF: JMPC
   Slice<IfBranch> branches;
   Slice<StmtId> otherwise;
 };  // IF, ELSIF …; ELSE
@@ -316,7 +318,7 @@ struct RepeatStmt {
 struct TryStmt {  // __TRY body __CATCH(code) handler __FINALLY finally __ENDTRY
   StmtHeader h;
   Slice<StmtId> body, handler, finally;
-  ExprId code;  // none: the number of the fault is not wanted
+  ExprId code;  // none: __CATCH does not store the number of the fault
   bool catches;
 };
 struct ExitStmt {
@@ -392,7 +394,7 @@ struct StructTypeExpr {
   Slice<DeclId> fields;
   TypeExprId base;
   bool is_union;
-  bool overlaps;  // STRUCT OVERLAP: members with places may share memory
+  bool overlaps;  // STRUCT OVERLAP: members with given offsets may share memory
 };                // fields: VarDecl
 enum class PointerForm : uint8_t { Pointer, Reference, RefTo };
 struct PointerTypeExpr {
@@ -408,11 +410,11 @@ struct DeclHeader {
   uint8_t bits;
   uint16_t spare;
   Loc loc;  // of the name where there is one, else the keyword
-  Loc doc;  // first `///` line above, or nowhere
+  Loc doc;  // first `///` line above; none: no doc comment
   Slice<Pragma> pragmas;
 };
-// DeclHeader::bits of a POU and of a TYPE entry: syntax errors took declarations from it, so that a name which seems to
-// be missing in it is no second mistake.
+// DeclHeader::bits of a POU and of a TYPE entry: syntax errors removed declarations from it, so a name that is missing
+// in it is not reported again.
 constexpr uint8_t kBrokenDeclarations = 1;
 
 enum DeclBits : uint8_t { kInternal = 1 };  // of types and namespaces: INTERNAL
@@ -424,9 +426,9 @@ struct TypeDecl {
 };
 
 enum class PouKind : uint8_t { Function, FunctionBlock, Program, Class, Interface, Method, Action };
-enum class AccessLevel : uint8_t { None, Public, Private, Protected, Internal };  // None: as the dialect has it
+enum class AccessLevel : uint8_t { None, Public, Private, Protected, Internal };  // None: the default of the dialect
 enum Modifier : uint8_t { kAbstract = 1, kFinal = 2, kOverride = 4 };
-// What a body in another language than ST is made of: il.h, sfc.h, diagram.h.
+// Bodies in languages other than ST: il.h, sfc.h, diagram.h.
 struct IlInstruction;
 struct IlNested;
 struct SfcStep;
@@ -437,10 +439,10 @@ struct DiagramPin;
 struct DiagramElement;
 struct DiagramNetwork;
 enum class NetworkLanguage : uint8_t;
-// Of one body. The elements' indices in wires count from the first of them.
+// The networks of one body. The elements' indices in wires count from the first of them.
 struct Diagram {
   NetworkLanguage language;
-  Slice<DiagramNetwork> networks;  // those that the file separates
+  Slice<DiagramNetwork> networks;  // those separated in the file
   Slice<DiagramElement> elements;
 };
 
@@ -449,7 +451,7 @@ struct PouDecl {
   DeclHeader h;
   NameId name;
   PouKind pou_kind;
-  BodyKind body_kind;  // Il, Sfc and Network: St once sema had them scheduled, which fills `body`
+  BodyKind body_kind;  // Il, Sfc and Network: St after sema has had them scheduled, which fills `body`
   bool closed;         // has its END_…
   bool uses_eno;       // ENO is an operand in its body
   TypeExprId result;   // functions; none: no result
@@ -458,22 +460,22 @@ struct PouDecl {
   Slice<IlInstruction> il;
   Diagram diagram;                    // of a body of networks
   Slice<SfcStep> steps;               // the chart of a body in SFC
-  Slice<SfcTransition> transitions;   // in other bodies: conditions that the charts of its actions use
-  FileId chart_sections, chart_body;  // sema: the text that the chart became
+  Slice<SfcTransition> transitions;   // in other bodies: conditions used by the charts of their actions
+  FileId chart_sections, chart_body;  // sema: the ST made from the chart
   AccessLevel access;
   uint8_t modifiers;        // Modifier
   Slice<TypeExprId> bases;  // EXTENDS; several of an INTERFACE
   Slice<TypeExprId> implements;
   Slice<DeclId> members;  // METHOD, ACTION: Pou; Property
   Slice<DeclId> usings;
-  Loc begin, end;  // the first pragma before it, else the header keyword; one past END_…: the text of the whole POU
-  Loc body_begin, body_end;  // the text of its statements or instructions; Cpp: with {C++} and {END_C++}
+  Loc begin, end;            // the first pragma before it, else the header keyword; one past END_…: the whole POU
+  Loc body_begin, body_end;  // its statements or instructions; Cpp: with {C++} and {END_C++}
 };
 
 enum PropertyBits : uint8_t { kInHalves = 1 };  // PROPERTY_GET, PROPERTY_SET: edition 4
 
-// PROPERTY name : type. Its accessors are methods of its name: the getter has its type as result, the setter has an
-// input of that name and type.
+// PROPERTY name : type. Its accessors are methods of the same name: the getter has its type as result, the setter has
+// an input of that name and type.
 struct PropertyDecl {
   DeclHeader h; /* bits: PropertyBits */
   NameId name;
@@ -481,7 +483,7 @@ struct PropertyDecl {
   uint8_t modifiers;
   TypeExprId type;
   DeclId get, set;  // Pou; none: not declared
-  Loc begin;        // its first word
+  Loc begin;        // its first keyword
 };
 
 struct NamespaceDecl {
@@ -495,7 +497,7 @@ struct UsingDecl {
 };
 
 enum class SectionKind : uint8_t { Local, Input, Output, InOut, Temp, External, Global, Stat, Inst, Access, Config };
-// kHidden: of variables that a scheduler needs and nobody wrote.
+// kHidden: of variables that a scheduler needs and the source does not declare.
 enum SectionBits : uint8_t { kConstant = 1, kRetain = 2, kPersistent = 4, kNonRetain = 8, kHidden = 16 };
 struct SectionDecl {
   DeclHeader h; /* bits: SectionBits */
@@ -506,13 +508,12 @@ struct SectionDecl {
 
 struct VarDecl {
   DeclHeader h;
-  Slice<Ident>
-      names;  // empty: an unnamed located variable; VAR_CONFIG: the path; VAR_ACCESS: the name, and `init` is the path
-  TypeExprId type;  // none: a temporary of the compiler, which sema types by what is assigned to it
-  ExprId init;      // none: the type's default
+  Slice<Ident> names;  // empty: unnamed located variable; VAR_CONFIG: the path; VAR_ACCESS: the name (`init`: the path)
+  TypeExprId type;     // none: a temporary of the compiler, whose type sema infers from its assignments
+  ExprId init;         // none: the type's default
   EdgeKind edge;
   bool located;
-  DirectAddress address;  // when located; of a member of a structure with a size: its place there
+  DirectAddress address;  // when located; of a member of a structure: its given offset, with a size
   Loc address_loc;
 };
 
@@ -538,7 +539,7 @@ struct ProgramInstanceDecl {  // PROGRAM name WITH task : type(args)
   Ident task;  // none: no WITH
   Slice<Ident> type;
   Slice<Argument> arguments;
-  Slice<Ident> block_tasks;  // (block WITH task, …): both names, in turn
+  Slice<Ident> block_tasks;  // (block WITH task, …): both names, alternating
   uint8_t section_bits;      // PROGRAM RETAIN name
 };
 
@@ -573,7 +574,7 @@ class Tree {
   Loc loc(StmtId id) const { return stmt(id).loc; }
   Loc loc(DeclId id) const { return decl(id).loc; }
   Loc loc(TypeExprId id) const { return typeExpr(id).loc; }
-  // Where the text of an expression begins: the leftmost token of its operands.
+  // The location where an expression begins: the leftmost token of its operands.
   Loc begin(ExprId id) const;
 
   template <class Node>
@@ -615,7 +616,7 @@ class Tree {
     return Id{store(&node, sizeof(Node))};
   }
 
-  // Lists of ids and of small structs. The span is good until the next list of that element type is added.
+  // Lists of ids and of small structs. The span is valid until the next list of that element type is added.
   template <class T>
   Slice<T> addList(std::span<const T> items);
   template <class T>
@@ -627,7 +628,7 @@ class Tree {
   std::string_view string(StringId id) const { return {strings_.data() + id.first, id.length}; }
 
   std::vector<FileUnit> files;
-  bool lost_names = false;  // likewise of types and globals: names of the whole project
+  bool lost_names = false;  // likewise of types and globals: names visible in the whole project
 
  private:
   static constexpr uint32_t kChunkWords = 1u << 16;
@@ -733,7 +734,7 @@ std::span<const T> Tree::list(Slice<T> slice) const {
   return std::span<const T>(const_cast<Tree*>(this)->storage<T>()).subspan(slice.first, slice.count);
 }
 
-// The tree as indented text (rung emit --emit=tree), the words of nodes.def; golden tests read it.
+// The tree as indented text (rung emit --emit=tree), with the words of nodes.def; golden tests read it.
 std::string printTree(const Tree& tree, const Names& names, const FileUnit& unit);
 
 }  // namespace rung

@@ -1,4 +1,5 @@
-// The tree as text: a line per declaration, statement and type, expressions in parentheses on the line that holds them.
+// The tree as text: a line per declaration, statement and type; expressions in parentheses on the line of their
+// statement.
 #include <charconv>
 #include <string>
 
@@ -407,7 +408,7 @@ void Printer::stmt(StmtId id, int depth) {
   }
 }
 
-// A line each: the label, the operator as written, `(` where it is deferred, its operands.
+// One line each: the label, the operator as written, `(` where it is deferred, its operands.
 void Printer::instructions(Slice<IlInstruction> list, int depth) {
   for (const IlInstruction& i : tree_.list(list)) {
     line(depth);
@@ -747,7 +748,7 @@ void Printer::modifiers(const Modifiable& element) {
   if (element.storage != PinStorage::None) out += element.storage == PinStorage::Set ? " set" : " reset";
 }
 
-// A wire is the number of the element that it comes from.
+// A wire is printed as the number of the element that it comes from.
 void Printer::element(const Diagram& diagram, const DiagramElement& e, int depth) {
   static const char* const kKeywords[] = {"rail",   "right_rail", "contact",   "coil",         "box",    "input",
                                           "output", "inout",      "connector", "continuation", "jump",   "label",

@@ -13,7 +13,7 @@
 namespace rung::text {
 namespace {
 
-enum class Truth : uint8_t { No, Yes, Unknown };  // Unknown: a question for declarations that are not read yet
+enum class Truth : uint8_t { No, Yes, Unknown };  // Unknown: asks about a declaration that has not been parsed yet
 
 Truth both(Truth a, Truth b) {
   if (a == Truth::No || b == Truth::No) return Truth::No;
@@ -26,20 +26,20 @@ Truth either(Truth a, Truth b) {
 Truth opposite(Truth a) { return a == Truth::Unknown ? a : a == Truth::Yes ? Truth::No : Truth::Yes; }
 Truth truth(bool value) { return value ? Truth::Yes : Truth::No; }
 
-// ---- what is declared
+// ---- declarations
 
-// The names of a project, as far as conditions ask for them.
+// The declared names of a project that conditions can ask about.
 class Declared {
  public:
   Declared(const Tree& tree, const Names& names, const Sources& sources);
 
   struct Row {
     std::string_view kind;  // "variable", "type", "pou", "task" or "resource"
-    Loc begin, end;         // of the POU whose variable it is; nowhere: known everywhere
+    Loc begin, end;         // of the POU that declares the variable; none: visible everywhere
     Slice<Pragma> pragmas;
     TypeExprId type;
   };
-  // What the name means at `loc`; null: it is not declared.
+  // The declaration of the name that is visible at `loc`; null: not declared.
   const Row* find(std::string_view kind, std::string_view name, Loc loc) const;
   bool hasAttribute(const Row& row, std::string_view attribute) const;
   bool hasType(const Row& row, std::string_view type) const;
@@ -140,14 +140,14 @@ class FileConditions {
   void run();
 
   std::vector<Range> blanks;
-  bool asked = false;  // for a declaration
+  bool asked = false;  // a condition asked about a declaration
 
  private:
   struct Open {
     uint32_t at;
-    bool around;  // what stands around it is read
-    bool reads;   // the branch at hand is read
-    bool chosen;  // a branch was, or may be when declarations are known
+    bool around;  // the code around it is read
+    bool reads;   // the current branch is read
+    bool chosen;  // a branch was read, or may be when declarations are known
     bool has_else;
   };
   bool reads() const { return open_.empty() || open_.back().reads; }
@@ -181,8 +181,8 @@ class FileConditions {
   const Declared* declared_;
   Diagnostics& diagnostics_;
   std::vector<Open> open_;
-  size_t blank_from_ = 0;          // of what is not read
-  size_t p_ = 0, pragma_end_ = 0;  // in the pragma at hand
+  size_t blank_from_ = 0;          // of the excluded part
+  size_t p_ = 0, pragma_end_ = 0;  // in the current pragma
   uint32_t depth_ = 0;
   bool failed_ = false;
 };
@@ -226,14 +226,14 @@ size_t FileConditions::skipComment(size_t at) const {
   return source_.size();
 }
 
-// A text ends on its line; `$'` does not end it.
+// A string ends on its line; `$'` does not end it.
 size_t FileConditions::skipQuoted(size_t at) const {
   const char quote = source_[at++];
   while (at < source_.size() && source_[at] != quote && source_[at] != '\n') at += source_[at] == '$' ? 2 : 1;
   return std::min(at < source_.size() && source_[at] == '\n' ? at : at + 1, source_.size());
 }
 
-// Gives the place behind it.
+// Returns the offset after the pragma.
 size_t FileConditions::pragma(size_t at) {
   size_t end = endOfDoubleBrace(source_, at);
   if (end != std::string_view::npos) return end;
@@ -245,7 +245,7 @@ size_t FileConditions::pragma(size_t at) {
     }
     ++end;
   }
-  if (end >= source_.size()) return at + 1;  // the lexer says so
+  if (end >= source_.size()) return at + 1;  // reported by the lexer
   p_ = at + 1;
   pragma_end_ = end;
   const bool read = reads();
@@ -264,7 +264,7 @@ void FileConditions::choose(Open& open, Truth value) {
   open.chosen = open.chosen || value != Truth::No;
 }
 
-// False: a pragma of another kind, which stays.
+// False: a pragma of another kind, which is kept.
 bool FileConditions::directive(uint32_t at) {
   const std::string_view name = word();
   if (holdsC(source_.substr(at + 1, pragma_end_ - at - 1)) && !sameIdentifier(name, "define")) return false;
@@ -278,7 +278,7 @@ bool FileConditions::directive(uint32_t at) {
   if (is_if) {
     const bool around = reads();
     open_.push_back({at, around, false, false, false});
-    // What is not read is not asked either.
+    // Conditions in excluded code are not evaluated.
     choose(open_.back(), around ? condition() : Truth::No);
     return true;
   }
@@ -350,7 +350,7 @@ bool FileConditions::quoted(std::string_view& out) {
   return true;
 }
 
-// One error a pragma, at the place that cannot be read.
+// One error per pragma, where it cannot be parsed.
 Truth FileConditions::failed() {
   if (!failed_) {
     skipBlanks();
@@ -412,8 +412,8 @@ Truth FileConditions::negation() {
   return negated ? opposite(value) : value;
 }
 
-// question = defined "(" [kind ":"] name ")" | hasvalue "(" name "," text ")"
-//          | hasattribute "(" kind ":" name "," text ")" | hastype "(" variable ":" name "," type ")"
+// question = defined "(" [kind ":"] name ")" | hasvalue "(" name "," string ")"
+//          | hasattribute "(" kind ":" name "," string ")" | hastype "(" variable ":" name "," type ")"
 Truth FileConditions::question(std::string_view function) {
   const bool defined = sameIdentifier(function, "defined"), has_value = sameIdentifier(function, "hasvalue"),
              has_attribute = sameIdentifier(function, "hasattribute"), has_type = sameIdentifier(function, "hastype");
@@ -453,7 +453,7 @@ Truth FileConditions::ask(std::string_view kind, std::string_view name, std::str
                                                    : declared_->hasAttribute(*row, value));
 }
 
-// Most texts have no condition: they are looked through once, for a brace with one of the words behind it.
+// Most sources have no condition: they are scanned once, for a brace followed by one of the keywords.
 bool mayHaveConditions(std::string_view text) {
   for (size_t at = text.find('{'); at != std::string_view::npos; at = text.find('{', at + 1)) {
     size_t p = at + 1;
@@ -489,7 +489,7 @@ void applyConditions(Sources& sources, std::span<const FileId> files, std::span<
     conditions.run();
     return conditions;
   };
-  // First all but what asks for declarations. The second reading says what is wrong.
+  // First pass: everything except conditions that ask about declarations. Errors are reported in the second pass.
   Diagnostics silent(sources);
   std::vector<std::string> texts(sources.fileCount() + 1);
   bool asked = false;
@@ -498,7 +498,7 @@ void applyConditions(Sources& sources, std::span<const FileId> files, std::span<
     asked |= conditions.asked;
     texts[file.index] = blanked(sources.sourceText(file), conditions.blanks);
   }
-  Sources scratch;  // the same files at the same places
+  Sources scratch;  // the same files at the same locations
   Tree tree;
   Names names;
   if (asked) {

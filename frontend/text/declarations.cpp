@@ -54,8 +54,8 @@ Slice<Pragma> Parser::takePragmas() {
   return tree_.addList<Pragma>(list);
 }
 
-// {name}  {name 'value'}  {name := 'value'}  {name: "value"}  {attribute 'name' := 'value'}; anything else is a name
-// and the rest as it stands.
+// {name}  {name 'value'}  {name := 'value'}  {name: "value"}  {attribute 'name' := 'value'}; in any other pragma the
+// rest after the name is the value, unchanged.
 Pragma Parser::readPragma(const PragmaRange& pragma) {
   std::string_view rest = source_.substr(pragma.begin + 1, pragma.end - pragma.begin - 2);
   const auto skip = [&] {
@@ -123,7 +123,7 @@ Loc Parser::docAfter(const Token* t) const {
 
 // ---- names
 
-// One token that cannot stand here before one that can: says so and goes on behind it.
+// Reports and skips one token that is not allowed here when the token after it is.
 void Parser::skipStray(bool fits_behind, Diag diag) {
   if (panic_ || !fits_behind || endsDeclarations(kind())) return;
   if (at(Tok::Error))
@@ -180,7 +180,7 @@ void Parser::parseNamePath(Slice<Ident>& out) {
 DeclId Parser::parseSection() {
   const Token* open = t_;
   SectionDecl d{{DeclKind::Section, 0, 0, here(), takeDoc(), takePragmas()}, sectionOf(kind()), AccessLevel::None, {}};
-  if ((open->flags & (kSynthetic | kReported)) != 0) lost_ = true;  // which section was meant is not known
+  if ((open->flags & (kSynthetic | kReported)) != 0) lost_ = true;  // it is unknown which section was meant
   advance();
   while (peek() != Tok::Colon && peek() != Tok::Comma && peek() != Tok::At) {
     const int bit = at(Tok::Constant)     ? kConstant
@@ -274,7 +274,7 @@ DeclId Parser::parseVar(SectionKind section) {
     const Token* word = t_;
     advance();
     if (at(Tok::Address) && in_structure_) {
-      // AT %I*: a place in the image that nobody has named; AT %B0: a place in the structure
+      // AT %I*: a variable in the image without an address yet; AT %B0: an offset in the structure
       if (dialect_ == Dialect::Codesys && textOf(t_).ends_with('*')) {
         if (!address_reported_) diagnostics_.report(diag::OpenAddressInStructure, here(), {textOf(t_)});
         address_reported_ = true;
@@ -329,7 +329,7 @@ DeclId Parser::parseVar(SectionKind section) {
   if (idents_.size() > first) d.h.loc = idents_[first].loc;
   d.names = listFrom(idents_, first);
   if (!panic_) {
-    // The edge stands behind the type, and by some before it.
+    // The edge follows the type; some programs write it before the type.
     const bool outer = std::exchange(in_variable_, true);
     d.type = parseType();
     in_variable_ = outer;
@@ -380,7 +380,7 @@ DeclId Parser::parseVar(SectionKind section) {
 
 void Parser::syncDeclaration(Tok end) {
   panic_ = false;
-  uint32_t structures = 0;  // their fields are no declarations of this list
+  uint32_t structures = 0;  // their fields are not declarations of this list
   for (;; advance()) {
     if (at(Tok::Struct) || at(Tok::Union)) ++structures;
     if (structures > 0 && !at(Tok::End) && !at(Tok::EndType) && !at(Tok::EndVar)) {
@@ -393,7 +393,7 @@ void Parser::syncDeclaration(Tok end) {
   }
 }
 
-// AT %B2, %W1, %X3.0 of a member: its place in the structure, counted in the size that is named.
+// AT %B2, %W1, %X3.0 of a member: its offset in the structure, in units of the given size.
 void Parser::readRelativeAddress(VarDecl& d) {
   const std::string_view text = textOf(t_);
   d.address_loc = here();

@@ -11,7 +11,7 @@ namespace rung::text {
 namespace {
 
 struct Operator {
-  uint8_t precedence = 0;  // 0: no operator
+  uint8_t precedence = 0;  // 0: not an operator
   BinaryOp op = BinaryOp::Or;
 };
 constexpr uint32_t kPowerPrecedence = 8;
@@ -49,7 +49,7 @@ constexpr std::array<Operator, kTokCount> makeOperators() {
 }
 constexpr std::array<Operator, kTokCount> kOperators = makeOperators();
 
-// What stands in ST for an operator of another language.
+// The ST operator for an operator of another language.
 const char* nativeOperator(Tok kind) {
   switch (static_cast<int>(kind)) {
     case static_cast<int>(Tok::EqualEqual): return "=";
@@ -89,7 +89,7 @@ ExprId Parser::parseExpr(uint32_t least) {
     if (op->kind >= Tok::EqualEqual && op->kind <= Tok::EqualLess)
       slip(diag::ForeignOperator, op, {spelling(op->kind), nativeOperator(op->kind)});
     advance();
-    // No value: the next line begins with a statement of its own.
+    // The value is missing: the next line begins with a new statement.
     if (atLineStart() && !panic_ && isName(kind()) && peek() == Tok::Assign) {
       fail(diag::MissingValueBehind, op, {describe(op)});
       return errorExpr(loc(op));
@@ -199,7 +199,7 @@ ExprId Parser::parsePrimary() {
       return parsePostfix(name);
     return name;
   }
-  // The functional form of operator words: AND(a, b)
+  // The functional form of operators that are keywords: AND(a, b)
   if ((at(Tok::And) || at(Tok::Or) || at(Tok::Xor) || at(Tok::Mod) || at(Tok::Not)) && peek() == Tok::LeftParen) {
     const ExprId name = tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, start), names_.intern(textOf(t_)), {}});
     advance();
@@ -211,7 +211,7 @@ ExprId Parser::parsePrimary() {
     panic_ = true;
     return errorExpr(start);
   }
-  // At a line's start the mistake is at the end of the line above.
+  // At the start of a line, the error is at the end of the line above.
   const Token* before = t_ - 1;
   const bool is_punctuation = kind() > Tok::Semicolon && kind() <= Tok::EqualLess;
   if (((atLineStart() && !is_punctuation) || at(Tok::End)) && index() > 0 && before->kind != Tok::Semicolon)
@@ -253,7 +253,7 @@ ExprId Parser::parsePostfix(ExprId base, bool calls) {
                                                  static_cast<uint32_t>(value.integer & 63), 1});
           advance();
         } else if (at(Tok::Address)) {
-          // %X3 %B1 %W0 %D0; the lexer takes the `.7` of `%B1.7` for a part of an address
+          // %X3 %B1 %W0 %D0; the lexer reads the `.7` of `%B1.7` as part of an address
           const std::string_view token = textOf(t_);
           const std::string_view part = token.substr(0, token.find('.'));
           const std::string_view bit = token.substr(std::min(part.size() + 1, token.size()));
@@ -344,7 +344,7 @@ ExprId Parser::parseNew(ExprId callee) {
   node.h = exprHeader(ExprKind::New, tree_.loc(callee));
   advance();
   const bool was_in_variable = in_variable_;
-  in_variable_ = true;  // what stands behind a block's name are arguments of FB_Init
+  in_variable_ = true;  // after the name of a block type come arguments of FB_Init
   node.allocated = parseType();
   in_variable_ = was_in_variable;
   if (!panic_ && accept(Tok::Comma)) node.count = parseExpr();
@@ -424,7 +424,7 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
           continue;
         }
       }
-      // `f(a b)` and, over lines, `f(a := 1 <line end> b := 2)`: a comma is missing where the list does get closed.
+      // `f(a b)` and, over lines, `f(a := 1 <line end> b := 2)`: the comma is missing if the list is closed later.
       bool closes = false;
       if (isOperand(kind())) {
         uint32_t depth = 0;
@@ -454,7 +454,7 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
   return listFrom(arguments_, first);
 }
 
-// `:=` behind a condition or inside parentheses is meant as `=`, and is read as such.
+// `:=` after a condition or in parentheses most likely means `=`, and is parsed as `=`.
 ExprId Parser::parseCompared(ExprId left) {
   if (!at(Tok::Assign) || panic_) return left;
   const Loc op = here();
@@ -467,7 +467,7 @@ ExprId Parser::parseCompared(ExprId left) {
       BinaryExpr{exprHeader(ExprKind::Binary, op, static_cast<uint8_t>(BinaryOp::Equal)), left, right});
 }
 
-// Consumes the closing bracket; without it says so and finds the place to go on.
+// Consumes the closing bracket; if it is missing, reports it and finds the resynchronization point.
 void Parser::closeParen(Tok close, bool is_arguments) {
   if (in_il_) return closeIlParen(close);
   if (!panic_) {
@@ -493,7 +493,7 @@ void Parser::closeParen(Tok close, bool is_arguments) {
     else
       fail(diag::MissingToken, t_, {spelling(close), describe(t_)});
   }
-  // The partner, even on a later line, as long as the statement lasts.
+  // The closing partner, even on a later line, within the statement.
   uint32_t depth = 0;
   for (Token* t = t_; t - t_ < 5000; ++t) {
     const Tok k = t->kind;
@@ -610,7 +610,7 @@ ExprId Parser::parseNumber(NameId prefix, bool negative, Loc start) {
   return tree_.add<ExprId>(e);
 }
 
-// The texts of edition 4 and its short prefixes, with the word whose quotes they take.
+// The string types of edition 4 and its short prefixes, with the keyword whose quotes they take.
 struct StringPrefix {
   const char* word;
   const char* type;

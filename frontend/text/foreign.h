@@ -1,5 +1,5 @@
-// C in braces: Beremiz and matiec copy `{ … }` and `{{ … }}` in a body into the C code that they make.
-// In: the text of a pragma. Out: whether it can only be meant so. The lexer and the conditional pragmas ask.
+// C in braces: Beremiz and matiec copy `{ … }` and `{{ … }}` in a body into the C code that they generate. In: the
+// content of a pragma. Out: whether it can only be C. Called by the lexer and by conditions.cpp.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace rung::text {
 
-// Only operators and names that no pragma of an IEC compiler has count, and a `;` before any quoted text.
+// Only operators and names that occur in no pragma of an IEC compiler count, and a `;` before any string.
 inline bool holdsC(std::string_view text) {
   const auto has = [&](std::string_view what) { return text.find(what) != std::string_view::npos; };
   if (has(":=")) return false;  // ST in braces
@@ -15,7 +15,7 @@ inline bool holdsC(std::string_view text) {
          text.substr(0, text.find('\'')).find(';') != std::string_view::npos;
 }
 
-// Where the pragma that begins with `{{` at `at` ends: behind `}}`. npos: it is another one, or not closed.
+// The offset after the `}}` of a pragma that begins with `{{` at `at`. npos: another pragma, or not closed.
 inline size_t endOfDoubleBrace(std::string_view text, size_t at) {
   if (text.substr(at, 2) != "{{") return std::string_view::npos;
   const size_t close = text.find("}}", at + 2);

@@ -1,8 +1,8 @@
-// Bodies in Instruction List: one instruction a line, kept as IlInstruction until il_schedule.cpp makes statements of
-// them. IEC 61131-3 ed. 2 annex B.2, ed. 3 table 67 to 70; TM/TP manual 5.4.
+// Bodies in Instruction List: one instruction a line, kept as IlInstruction until il_schedule.cpp turns them into
+// statements. IEC 61131-3 ed. 2 annex B.2, ed. 3 tables 67 to 70; TM/TP manual 5.4.
 //   instruction = [label ":"] [operator operands | function operands | ")"]
 //   operands    = operand {"," operand} | "(" operand {"," operand} ")" | "(" [pin ":=" operand …] ")" | "(" [operand]
-// The last form defers the operator up to a `)` on a line of its own.
+// The last form defers the operator up to a `)` on its own line.
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -101,14 +101,14 @@ bool beginsIl(Tok kind, std::string_view text, const Token& next) {
                              next.kind == Tok::False || next.kind == Tok::Address);
 }
 
-// What begins an instruction, by the word alone.
+// Whether an instruction may begin here, judged by its first token only.
 bool Parser::isInstruction(const Token* t) const {
   if (t->kind == Tok::RightParen) return true;
   if (isName(t->kind) && t[1].kind == Tok::Colon) return true;
   return instructionAt(t->kind, textOf(t)) != nullptr;
 }
 
-// `LD x`, `JMP done`, `RET` on a line of its own, and not the statement `LD := 1;` or `AND(a, b);`.
+// `LD x`, `JMP done`, `RET` on its own line, but not the statements `LD := 1;` and `AND(a, b);`.
 bool Parser::isPlainInstruction(const Token* t) const {
   const Instruction* word = instructionAt(t->kind, textOf(t));
   if (word == nullptr) return false;
@@ -127,7 +127,7 @@ bool Parser::isPlainInstruction(const Token* t) const {
     case IlKind::Binary: return operand;
     case IlKind::Not:
     case IlKind::Return: return alone;
-    case IlKind::Jump:  // in ST its `;` follows
+    case IlKind::Jump:  // in ST a `;` would follow
       return operand && ((t[2].flags & kLineStart) != 0 || t[2].kind == Tok::End) &&
              (word->flags != 0 || isInstruction(t + 2) || isReserved(t[2].kind) || t[2].kind == Tok::End);
     case IlKind::Label:
@@ -137,14 +137,14 @@ bool Parser::isPlainInstruction(const Token* t) const {
   return false;
 }
 
-// Whether the body that begins here is in IL: its first instruction tells. In a file called .il only what can be
-// nothing but ST is ST.
+// Whether the body that begins here is in IL, decided by its first instruction. In a .il file a body is IL unless it
+// can only be ST.
 bool Parser::atIl() const {
   const Token* t = t_;
   while (isName(t->kind) && t[1].kind == Tok::Colon && !isTypeWord(t[2].kind)) t += 2;
   if (isPlainInstruction(t)) return true;
   if (isName(t->kind) && t[1].kind == Tok::Assign) return false;
-  // A first line that is wrong makes no statements of the others.
+  // A malformed first line does not make the other lines ST.
   const auto ends = [](Tok k) {
     return k == Tok::End || k == Tok::Semicolon || k == Tok::EndTransition || k == Tok::EndStep ||
            (isReserved(k) && !isInfix(k) && k != Tok::Not && k != Tok::Jmp && k != Tok::True && k != Tok::False);
@@ -155,7 +155,7 @@ bool Parser::atIl() const {
     while (t->kind != Tok::Semicolon && t->kind != Tok::End && (t[1].flags & kLineStart) == 0) ++t;
     return t->kind != Tok::Semicolon;
   }
-  // A function that needs no value before it: `MAX(IN1 := a, IN2 := b)`, `ST x` on the next line.
+  // A function that does not read the accumulator: `MAX(IN1 := a, IN2 := b)`, `ST x` on the next line.
   if (!isName(t->kind)) return false;
   ++t;
   uint32_t open = 0;
@@ -167,7 +167,7 @@ bool Parser::atIl() const {
   return open == 0 && t->kind != Tok::Semicolon && isPlainInstruction(t);
 }
 
-// The instructions up to the end of the body, or of the `(` in which a nested list stands.
+// The instructions up to the end of the body, or of the `(` around a nested list.
 Slice<IlInstruction> Parser::parseIl(bool nested) {
   const size_t first = il_.size(), first_open = il_open_.size();
   const size_t outside = std::exchange(il_outside_, first_open);
@@ -195,7 +195,7 @@ Slice<IlInstruction> Parser::parseIl(bool nested) {
     endInstruction();
     if (t_ == before) advance();
   }
-  while (il_open_.size() > first_open) {  // closed here, so that the scheduler need not ask
+  while (il_open_.size() > first_open) {  // closed here, so that the scheduler can rely on it
     const Token* open = il_open_.back();
     il_open_.pop_back();
     slip(diag::IlParenOpen, open, {textOf(open)});
@@ -253,15 +253,15 @@ void Parser::parseInstruction() {
     parseOperands(i, op);
   } else {
     fail(diag::NotAnInstruction, t_, {describe(t_)});
-    i.kind = IlKind::Load;  // of what nobody knows
+    i.kind = IlKind::Load;  // of an unknown value
   }
   if (panic_) resynchronize(i);
   if (i.kind != IlKind::Label || i.label.name) il_.push_back(i);
 }
 
-// What is wrong in it has been said; what follows from it is no second mistake.
+// An error in it has been reported; a placeholder operand prevents follow-up errors.
 void Parser::resynchronize(IlInstruction& i) {
-  if (i.kind == IlKind::Jump || i.kind == IlKind::Call) i.kind = IlKind::Label;  // its label is one all the same
+  if (i.kind == IlKind::Jump || i.kind == IlKind::Call) i.kind = IlKind::Label;  // its label is valid all the same
   if (i.kind == IlKind::Label || !i.operands.empty() || (i.flags & kIlDeferred) != 0) return;
   Argument a{};
   a.loc = i.loc;
@@ -269,7 +269,7 @@ void Parser::resynchronize(IlInstruction& i) {
   i.operands = tree_.addList<Argument>({&a, 1});
 }
 
-// Behind an instruction: the end of its line. What stands there is passed over, so that it is said once.
+// After an instruction: the end of its line. Anything else is skipped and reported once.
 void Parser::endInstruction() {
   if (!panic_ && !atLineStart() && !atBlockEnd() && !at(Tok::RightParen)) {
     if (isPlainInstruction(t_) || (il_open_.size() > 0 && isInstruction(t_))) {
@@ -363,7 +363,7 @@ void Parser::parseIlList(IlInstruction& i, const Token* op) {
   i.operands = listFrom(arguments_, first);
 }
 
-// A name, a method, an instance in an array: what can be called, without its arguments.
+// A callee without its arguments: a name, a method, an instance in an array.
 ExprId Parser::parseIlCallee() {
   const Loc start = here();
   height_ = 1;
@@ -387,7 +387,7 @@ void Parser::parseIlPins(IlInstruction& i) {
   i.nested = listFrom(il_nested_, nested);
 }
 
-// Behind an operator or a function: pins with names, a list, or an operator that is deferred.
+// After an operator or a function: named pins, a list, or a deferred operator.
 void Parser::parseIlParens(IlInstruction& i, const Token* op) {
   const Token* first = t_ + 1;
   const Token* pin = first->kind == Tok::Not ? first + 1 : first;
@@ -423,7 +423,7 @@ void Parser::parseIlParens(IlInstruction& i, const Token* op) {
   i.operands = listFrom(arguments_, arguments);
 }
 
-// `(a, b)` or `(a)`, and not `(a` with instructions behind it.
+// `(a, b)` or `(a)`, but not `(a` followed by instructions.
 bool Parser::listFollows(const Token* first) const {
   uint32_t open = 0;
   for (const Token* t = first; t - first < 2000 && t->kind != Tok::End; ++t) {
@@ -446,7 +446,7 @@ bool Parser::listFollows(const Token* first) const {
   return false;
 }
 
-// `pin := (LD a  AND b)`: the value is what the list leaves in the accumulator.
+// `pin := (LD a  AND b)`: the value is the accumulator at the end of the list.
 bool Parser::atNestedIl() const { return in_il_ && at(Tok::LeftParen) && (isPlainInstruction(t_ + 1)); }
 
 void Parser::parseNestedIl(uint32_t operand) {
@@ -462,7 +462,7 @@ void Parser::parseNestedIl(uint32_t operand) {
   --expr_depth_;
 }
 
-// A list in parentheses that is not closed ends where the next instruction begins.
+// A list in parentheses without `)` ends where the next instruction begins.
 void Parser::closeIlParen(Tok close) {
   if (!panic_) {
     if (accept(close)) return;
@@ -476,7 +476,7 @@ void Parser::closeIlParen(Tok close) {
   panic_ = false;
 }
 
-// Statements among the instructions: one error for the whole body, since nobody knows what they would have done.
+// Statements among the instructions: one error for the whole body, since their effect is unknown.
 bool Parser::statementInIl() {
   const Token* t = t_;
   const bool word = isReserved(t->kind) && instructionAt(t->kind, textOf(t)) == nullptr && t[1].kind != Tok::Colon;

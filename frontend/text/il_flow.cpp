@@ -7,7 +7,7 @@
 
 namespace rung::text {
 
-// Whether the accumulator is the first argument. It is none of f(a, b) where that is all that f takes.
+// Whether the accumulator is the first argument. In f(a, b) it is not, if f takes only two.
 bool takesAccumulator(Signatures& signatures, const IlInstruction& i) {
   if ((i.flags & kIlFormal) != 0) return false;
   const Signature signature = signatures.of(i.callee);
@@ -21,7 +21,8 @@ bool takesAccumulator(Signatures& signatures, const IlInstruction& i) {
   return (i.flags & kIlInParens) == 0 || i.operands.count < inputs;
 }
 
-// `CU counter`: the input of an instance that a function's name, or LD, S or R, stands for. Null: it is none.
+// `CU counter`: the input of an instance that the name of a function, or LD, S or R, denotes. Null: not an input
+// operator.
 const NameId* inputOperator(const Tree& tree, const Names& names, Signatures& signatures, const IlInstruction& i) {
   if (i.operands.count != 1 || (i.flags & ~kIlInParens) != 0) return nullptr;
   const NameId* pin = nullptr;
@@ -86,7 +87,7 @@ uint32_t IlFlow::labelOf(const Names& names, const Ident& target) const {
   return found != labels.end() && found->first == wanted.first ? found->second : kNoInstruction;
 }
 
-// Each instruction that neither reads nor replaces the accumulator leads to one other, so that the answers are found by
+// An instruction that neither reads nor replaces the accumulator has exactly one successor, so the reader is found by
 // following that chain, each link once.
 IlFlow flowOf(const Tree& tree, const Names& names, Diagnostics& diagnostics, Signatures& signatures,
               Slice<IlInstruction> list, bool nested) {

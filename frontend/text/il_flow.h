@@ -1,5 +1,5 @@
-// Where the accumulator of an instruction list is read, which instructions are reached, and where labels are. In: the
-// instructions, and the signatures of what they call. Called by il_schedule.cpp before it makes statements of them.
+// Where the accumulator of an instruction list is read, which instructions are reachable, and where labels are. In: the
+// instructions, and the signatures of their callees. Called by il_schedule.cpp before it creates statements.
 #pragma once
 
 #include <utility>
@@ -15,24 +15,25 @@ namespace rung::text {
 constexpr uint32_t kNoInstruction = ~0u;
 
 struct IlFlow {
-  // Of each instruction the one that reads the value which stands in the accumulator before it, or none. The number of
-  // instructions stands for the end of a nested list, which takes the value out.
+  // For each instruction: the instruction that reads the value the accumulator has before it, or none. The number of
+  // instructions denotes the end of a nested list, which reads the value.
   std::vector<uint32_t> reader;
-  std::vector<bool> reached;                          // from the beginning
-  std::vector<uint32_t> jumps;                        // how many lead to the label of an instruction
-  std::vector<NameId> temporary;                      // in which they bring the accumulator; named by the scheduler
+  std::vector<bool> reached;      // reachable from the beginning
+  std::vector<uint32_t> jumps;    // how many jump to the label of an instruction
+  std::vector<NameId> temporary;  // in which jumps pass the accumulator to the label; named by the scheduler
   std::vector<std::pair<uint32_t, uint32_t>> labels;  // name key, instruction; sorted
 
   uint32_t labelOf(const Names& names, const Ident& target) const;
 };
 
-// Reports labels that stand twice.
+// Reports duplicate labels.
 IlFlow flowOf(const Tree& tree, const Names& names, Diagnostics& diagnostics, Signatures& signatures,
               Slice<IlInstruction> list, bool nested);
 
 // Whether the accumulator is the first argument of a function.
 bool takesAccumulator(Signatures& signatures, const IlInstruction& i);
-// `CU counter`: the input of an instance that a function's name, or LD, S or R, stands for. Null: it is none.
+// `CU counter`: the input of an instance that the name of a function, or LD, S or R, denotes. Null: not an input
+// operator.
 const NameId* inputOperator(const Tree& tree, const Names& names, Signatures& signatures, const IlInstruction& i);
 
 }  // namespace rung::text

@@ -1,7 +1,10 @@
-// How it works. The accumulator is an expression that no statement holds yet; LD begins a new one, operators wrap it,
-// ST, JMPC and the like put it into a statement. What must be evaluated before a statement that comes between becomes a
-// temporary: the accumulator where something reads it afterwards, and the values in front of open parentheses.
-// Whether something reads it is known before (il_flow.h), so that most bodies need no temporary at all.
+// How it works. The accumulator is an expression that is not part of a statement yet; LD begins a new one, operators
+// wrap it, ST, JMPC and the like put it into a statement. Values that must be evaluated before another statement become
+// temporaries: the accumulator where an instruction reads it afterwards, and the values in front of open parentheses.
+// Whether an instruction reads it is known in advance (il_flow.h, one walk), so most bodies need no temporary at all;
+// literals are repeated instead. Unreachable instructions are dropped.
+// Inputs of an instance that are stored before CAL (`LD a  ST timer.IN`) are ordinary assignments, in edition 2 as
+// well: inputs may be set from outside in every dialect (ed. 3 table 42, 6a).
 #include "frontend/text/il_schedule.h"
 
 #include <algorithm>
@@ -18,7 +21,7 @@
 namespace rung::text {
 namespace {
 
-// Of one expression; beyond it a temporary cuts the tree, so that no number of instructions is too large.
+// Of one expression. A larger tree is cut by a temporary, so the number of instructions is not limited.
 constexpr uint16_t kMaxHeight = 200;
 
 class IlScheduler {
@@ -36,14 +39,14 @@ class IlScheduler {
   };
   struct Value {
     State state = State::Empty;
-    bool constant = false;  // a literal: written again where it is used again, so that it adapts anew
-    bool literals = false;  // of literals alone, which are computed exactly
+    bool constant = false;  // a literal: repeated where it is read again, so that each copy gets its own type
+    bool literals = false;  // consists of literals only, which are computed exactly
     bool calls = false;
     bool read = false;
     uint16_t height = 1;
     ExprId expr;
     NameId temporary;  // instead of `expr`
-    Loc loc;           // of the instruction that gave it
+    Loc loc;           // of the instruction that computed it
   };
   struct Open {  // a deferred operator
     IlInstruction instruction;
@@ -103,7 +106,7 @@ class IlScheduler {
   void callStatement(ExprId call) {
     emit(tree_.add<StmtId>(CallStmt{stmtHeader(StmtKind::Call, tree_.loc(call)), call}));
   }
-  // IF condition THEN what `body` emits END_IF
+  // IF condition THEN statements emitted by `body` END_IF
   template <class Body>
   void conditional(ExprId condition, Loc loc, Body body);
   NameId newTemporary(Loc loc);
@@ -116,13 +119,13 @@ class IlScheduler {
 
   std::vector<StmtId> out_;
   std::vector<Open> open_;
-  size_t finalized_ = 0;  // of open_: the first ones, whose values cost nothing to keep
+  size_t finalized_ = 0;  // of open_: the first ones, whose values are already temporaries or constants
   std::vector<DeclId> temporaries_;
   uint32_t next_temporary_ = 1;
   Value acc_;
-  bool falls_ = true;       // the instruction before leads here
-  uint32_t at_ = 0;         // the instruction at hand
-  IlFlow* flow_ = nullptr;  // of the list at hand
+  bool falls_ = true;       // the instruction before continues here
+  uint32_t at_ = 0;         // the current instruction
+  IlFlow* flow_ = nullptr;  // of the current list
   size_t first_open_ = 0;
   bool nested_ = false;
   struct EmptyWay {
@@ -172,7 +175,7 @@ ExprId IlScheduler::copy(ExprId constant) {
   return tree_.add<ExprId>(node);
 }
 
-// Evaluates it now, into a temporary.
+// Evaluates the value now, into a temporary.
 void IlScheduler::spill(Value& value) {
   if (value.state != State::Known || value.constant || value.temporary) return;
   const NameId name = newTemporary(value.loc);
@@ -184,19 +187,19 @@ void IlScheduler::spill(Value& value) {
   value.height = 1;
 }
 
-// What stands in front of open parentheses is evaluated before the statement that follows.
+// Values in front of open parentheses are evaluated before the statement that follows.
 void IlScheduler::finalizeOpen() {
   for (; finalized_ < open_.size(); ++finalized_) spill(open_[finalized_].left);
 }
 
-// A temporary for literals alone would give them a type before their time.
+// A temporary for an expression of literals would fix their type too early.
 void IlScheduler::limit(Value& value) {
   if (value.height < kMaxHeight || value.literals) return;
   finalizeOpen();
   spill(value);
 }
 
-// Forbids reading an accumulator that nothing was loaded into.
+// Forbids reading the accumulator before a value is loaded.
 //   fails   ST a        at the beginning of a body                E0727
 void IlScheduler::require(Value& value, const IlInstruction& reader) {
   if (value.state != State::Empty) return;
@@ -213,7 +216,7 @@ ExprId IlScheduler::take(Value& value, Loc reader) {
   return value.constant ? copy(value.expr) : value.expr;
 }
 
-// The accumulator for an instruction that leaves it as it is.
+// The accumulator for an instruction that does not change it.
 ExprId IlScheduler::use(const IlInstruction& reader) {
   if (isLive(at_ + 1)) {
     finalizeOpen();
@@ -254,8 +257,8 @@ IlScheduler::Value IlScheduler::combined(Value left, BinaryOp op, Value right, L
   return result;
 }
 
-// The accumulator gets another value. What was computed for nobody is still evaluated: it may call or fault, and its
-// names are checked.
+// The accumulator gets another value. An unused value is still evaluated: it may call or fault, and its names are
+// checked.
 void IlScheduler::drop() {
   const Value value = std::exchange(acc_, {});
   if (value.state != State::Known || value.read) return;
@@ -268,7 +271,7 @@ void IlScheduler::drop() {
   acc_ = {};
 }
 
-// Before a call that has no use for the accumulator.
+// Before a call that does not read the accumulator.
 void IlScheduler::keepOrDrop() {
   if (!isLive(at_ + 1)) return drop();
   finalizeOpen();
@@ -288,7 +291,7 @@ void IlScheduler::conditional(ExprId condition, Loc loc, Body body) {
   out_.push_back(tree_.add<StmtId>(IfStmt{stmtHeader(StmtKind::If, loc, kConditionalOp), branches, {}}));
 }
 
-// Forbids what leaves open parentheses, and statements in the list of an argument.
+// Forbids instructions that leave open parentheses, and statements in the list of an argument.
 bool IlScheduler::allowed(const IlInstruction& i) {
   const bool leaves = i.kind == IlKind::Jump || i.kind == IlKind::Return;
   const bool states =
@@ -299,7 +302,7 @@ bool IlScheduler::allowed(const IlInstruction& i) {
   return false;
 }
 
-// The accumulator that a list leaves.
+// The accumulator at the end of a list.
 IlScheduler::Value IlScheduler::runList(Slice<IlInstruction> list, bool nested) {
   IlFlow flow = flowOf(tree_, names_, diagnostics_, signatures_, list, nested);
   IlFlow* const outer_flow = std::exchange(flow_, &flow);
@@ -333,7 +336,7 @@ IlScheduler::Value IlScheduler::runList(Slice<IlInstruction> list, bool nested) 
   return std::exchange(acc_, outer_acc);
 }
 
-// Where ways meet, the accumulator is a temporary that each of them sets. A label that nothing jumps to is none.
+// Where paths meet, the accumulator is a temporary that each of them sets. A label without jumps is dropped.
 void IlScheduler::label(const IlInstruction& i) {
   if (open_.size() > first_open_ || nested_) {
     const std::string shown = "the label `" + std::string(names_.string(i.label.name)) + "`";
@@ -357,7 +360,7 @@ void IlScheduler::label(const IlInstruction& i) {
   falls_ = true;
 }
 
-// An instruction that is never reached. Its parentheses count, so that a label inside of them is seen to be there.
+// An unreachable instruction. Its parentheses are tracked, so that a label inside of them is reported.
 void IlScheduler::skip(const IlInstruction& i, bool& reported) {
   if (!reported && i.kind != IlKind::Label) {
     diagnostics_.report(diag::Unreachable, i.loc);
@@ -374,8 +377,8 @@ void IlScheduler::skip(const IlInstruction& i, bool& reported) {
 
 void IlScheduler::step(const IlInstruction& i) {
   if (!allowed(i)) return;
-  if (const NameId* pin =
-          inputOperator(tree_, names_, signatures_, i)) {  // the call of the instance with this one input
+  // The call of the instance with this one input.
+  if (const NameId* pin = inputOperator(tree_, names_, signatures_, i)) {
     require(acc_, i);
     Argument argument{{*pin, i.loc}, use(i), false, false, i.loc};
     std::vector<Argument> arguments{argument};
@@ -461,7 +464,7 @@ IlScheduler::Value IlScheduler::called(ExprId callee, std::vector<Argument>& arg
   return value;
 }
 
-// The operands as arguments, with what nested lists compute.
+// The operands as arguments, with the values of nested lists.
 void IlScheduler::fillNested(const IlInstruction& i, std::vector<Argument>& arguments) {
   const size_t first = arguments.size();
   for (uint32_t k = 0; k < i.operands.count; ++k) arguments.push_back(operand(i, k));
@@ -485,10 +488,10 @@ void IlScheduler::function(const IlInstruction& i) {
   std::vector<Argument> arguments;
   uint16_t height = 1;
   const bool block = signature.kind == SignatureKind::Instance && (i.flags & kIlFormal) != 0;
-  if (block) {  // timer(IN := a): CAL is left out
+  if (block) {  // timer(IN := a): CAL without the keyword
     keepOrDrop();
   } else if (takesAccumulator(signatures_, i)) {
-    // Of a name that is not declared nothing more is said.
+    // Undeclared names get no second report.
     const bool listed =
         acc_.state == State::Empty && ((i.flags & kIlInParens) != 0 || signature.kind == SignatureKind::Unknown);
     if (!listed) {
@@ -543,7 +546,7 @@ void IlScheduler::jump(const IlInstruction& i) {
     if (!flow_->temporary[target]) flow_->temporary[target] = newTemporary(i.loc);
     temporary = flow_->temporary[target];
   }
-  // Sets what the label's reader finds.
+  // Sets the temporary that the reader after the label reads.
   const auto bring = [&] {
     if (acc_.state == State::Empty) empty_ways_.push_back({target, i.loc});
     if (acc_.state == State::Known && acc_.temporary != temporary)

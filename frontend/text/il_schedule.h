@@ -1,7 +1,7 @@
-// The scheduler of Instruction List: instructions become ordinary statements, the accumulator expressions in them.
-// In: the instructions of a body and what the signatures of names tell. Out: statements, and temporaries without type
-// where the accumulator is read again after something else ran, or where ways meet at a label (design §3). Called by
-// sema when the declarations of all files are known and the body is about to be checked.
+// The scheduler of Instruction List: instructions become ordinary statements, the accumulator expressions in them. In:
+// the instructions of a body and the signatures of names. Out: statements, and temporaries without type where the
+// accumulator is read again after another statement, or where paths meet at a label. Called by sema when the
+// declarations of all files are known and it is about to check the body.
 #pragma once
 
 #include "frontend/source/diagnostics.h"
@@ -13,10 +13,10 @@ namespace rung::text {
 
 struct IlStatements {
   Slice<StmtId> body;
-  DeclId temporaries;  // a section of variables without type; none: there are none
+  DeclId temporaries;  // a section of variables without type; none: no temporaries
 };
 
-// `short_circuit`: AND and OR of the dialect leave calls in their right operand out; those of IL run all the same.
+// `short_circuit`: AND and OR of the dialect may skip calls in their right operand; those of IL must always run.
 IlStatements scheduleIl(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
                         Slice<IlInstruction> instructions, bool short_circuit);
 

@@ -1,8 +1,8 @@
-// Two rules, from the last statement to the first, so that the statements behind are settled already:
+// Two rules, applied from the last statement to the first, so that the statements after are already structured:
 //   IF c THEN JMP l; END_IF  s…  l:            becomes   IF NOT c THEN s… END_IF  l:
 //   IF c THEN r… JMP l; END_IF  s…  l:         becomes   IF c THEN r… ELSE s… END_IF  l:
-// where no label stands among s. A jump to the label that follows goes, and so does a label that nothing jumps to any
-// more. Backward jumps stay, and what would nest deeper than compilers like.
+// where s contains no label. A jump to the label that follows it is removed, and so is a label without jumps. Backward
+// jumps stay, and so do jumps that would nest too deeply for compilers.
 #include "frontend/text/il_structure.h"
 
 #include <algorithm>
@@ -38,11 +38,11 @@ class Structurer {
   Tree& tree_;
   const Names& names_;
   std::vector<StmtId>& from_;
-  std::vector<Resolved> out_;                     // backwards: the last one is the next to run
+  std::vector<Resolved> out_;                     // in reverse: the last one is the next to run
   std::unordered_map<uint32_t, uint32_t> jumps_;  // by label
 };
 
-// False: a label stands twice, which is reported where the jumps are.
+// False: a duplicate label, which is reported when jumps are checked.
 bool Structurer::countJumps() {
   std::unordered_map<uint32_t, bool> labels;
   for (const StmtId statement : from_) {
@@ -58,7 +58,7 @@ bool Structurer::countJumps() {
   return true;
 }
 
-// The place of a label in out_ when no other label stands before it, else out_.size().
+// The index of a label in out_ when no other label precedes it, else out_.size().
 size_t Structurer::findLabel(const Ident& label) const {
   for (size_t i = out_.size(); i-- > 0;) {
     if (tree_.kind(out_[i].statement) != StmtKind::Label) continue;
@@ -67,12 +67,12 @@ size_t Structurer::findLabel(const Ident& label) const {
   return out_.size();
 }
 
-// A jump to the label at this place is no more.
+// Removes a jump to the label at this index.
 void Structurer::left(const Ident& label, size_t at) {
   if (--jumps_[key(label)] == 0) out_.erase(out_.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
-// What runs before the label, taken out.
+// Takes out the statements before the label.
 Slice<StmtId> Structurer::takeUpTo(size_t at, uint32_t& depth) {
   std::vector<StmtId> list;
   for (size_t i = out_.size(); i-- > at + 1;) {

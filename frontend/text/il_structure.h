@@ -1,6 +1,7 @@
-// Jumps of Instruction List as IF and ELSE, where they lead forward over statements that no other way enters: what is
-// left has no labels, is read more easily, and is compiled as well as ST. In: the statements that the scheduler made.
-// Out: the same with fewer jumps and labels. Called by il_schedule.cpp.
+// Turns forward jumps of Instruction List into IF and ELSE, where no other path enters the statements in between. A
+// body with labels keeps its variables in memory and runs 1.4 times as long as the same ST; most labels are only ever
+// jumped to from above. In: the statements made by the scheduler. Out: the same with fewer jumps and labels. Called by
+// il_schedule.cpp, before sema sees them.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// Initial values of declarations: expressions, arrays with repetitions, structures. In: the tokens behind `:=`. Out:
-// expressions of the tree; which form a call-like `n(1, 2)` has is told by sema.
+// Initial values of declarations: expressions, arrays with repetitions, structures. In: the tokens after `:=`. Out:
+// expressions of the tree; sema decides whether `n(1, 2)` is a call or a repetition.
 #include <utility>
 
 #include "frontend/source/dialect.h"
@@ -9,7 +9,7 @@
 
 namespace rung::text {
 
-// The value behind `:=` of a declaration. CODESYS 2.3 writes the values of an array without brackets.
+// The value after `:=` of a declaration. CODESYS 2.3 writes the values of an array without brackets.
 ExprId Parser::parseDeclaredInit(TypeExprId type) {
   if (dialect_ != Dialect::Codesys || at(Tok::LeftBracket) || tree_.kind(type) != TypeExprKind::Array)
     return parseInit();
@@ -36,7 +36,7 @@ ExprId Parser::parseInit() {
 // elements = element {"," element}; element = init | count "(" [elements] ")". Left on exprs_.
 void Parser::parseElements(Tok close) {
   while (!panic_ && !at(close)) {
-    // N(1, 2) looks like a call and is told from one by sema.
+    // N(1, 2) looks like a call; sema tells them apart.
     const bool named =
         isName(kind()) && peek() == Tok::LeftParen &&
         (peek(2) == Tok::LeftBracket || (peek(2) == Tok::LeftParen && isName(peek(3)) && peek(4) == Tok::Assign));

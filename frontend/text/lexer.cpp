@@ -62,7 +62,7 @@ constexpr Spelling kSpellings[] = {
 #include "frontend/text/tokens.def"
 };
 
-// The keyword table: open addressing on length and three letters, so that nearly every name meets an empty slot.
+// The keyword table: open addressing on length and three letters, so that nearly every name hits an empty slot.
 constexpr size_t kWordSlots = 1024;
 constexpr uint32_t wordHash(const char* s, uint32_t n) {
   const auto a = static_cast<unsigned char>(s[0] | 0x20);
@@ -97,7 +97,7 @@ Tok findKeyword(const char* s, uint32_t n) {
   }
 }
 
-// Words that open, divide or close blocks; recover.cpp checks that they balance.
+// Keywords that open, divide or close blocks; recover.cpp checks that they balance.
 constexpr std::array<bool, kTokCount> makeBlockKeywords() {
   std::array<bool, kTokCount> b{};
   for (
@@ -178,7 +178,7 @@ class Lexer {
   const char* pragma(const char* p);
   bool atCppBody(const char* p) const { return end_ - p > 5 && sameIdentifier({p, 5}, "{C++}"); }
   const char* cppBody(const char* p);
-  // `ST?` of Instruction List, in one word.
+  // `ST?` of Instruction List, without a space.
   bool behindSt(const char* p) const {
     return at(p) >= 2 && sameIdentifier({p - 2, 2}, "ST") && (at(p) == 2 || !kWordChar[static_cast<Byte>(p[-3])]);
   }
@@ -193,7 +193,7 @@ class Lexer {
   TokenStream& out_;
   Names& names_;
   Dialect dialect_;
-  bool nests_ = true;  // of CODESYS 2.3: comments nest in the object at hand
+  bool nests_ = true;  // CODESYS 2.3: comments nest in the current object
   Diagnostics& diagnostics_;
   uint32_t base_;
   std::string_view source_;
@@ -287,7 +287,7 @@ const char* Lexer::word(const char* begin) {
     return p;
   }
   const NameId name = names_.intern({begin, length});
-  if (names_.count() != names_seen_) {  // a spelling not seen before: looked at once
+  if (names_.count() != names_seen_) {  // a new spelling: checked only once
     names_seen_ = names_.count();
     checkUnderscores(begin, p);
   }
@@ -296,8 +296,8 @@ const char* Lexer::word(const char* begin) {
   return p;
 }
 
-// CODESYS 2.3 had no LTIME, LDATE, LTOD and LDT. In a text that declares a variable of such a name, the word is that
-// name wherever no type can stand.
+// CODESYS 2.3 had no LTIME, LDATE, LTOD and LDT. In a source that declares a variable of such a name, the keyword is
+// that name wherever a type is not possible.
 void Lexer::resolveLongTypes() {
   std::vector<Token>& tokens = out_.tokens;
   bool declared[kTokCount] = {};
@@ -323,7 +323,7 @@ void Lexer::checkUnderscores(const char* begin, const char* end) {
   }
 }
 
-// T#1d2h  D#2026-12-31  TOD#12:30:00.5  DT#2026-12-31-12:30:00: p stands behind the #.
+// T#1d2h  D#2026-12-31  TOD#12:30:00.5  DT#2026-12-31-12:30:00: p points after the #.
 const char* Lexer::prefixed(const char* begin, const char* p, Prefix prefix) {
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
   Tok kind = Tok::Duration;
@@ -343,7 +343,7 @@ const char* Lexer::prefixed(const char* begin, const char* p, Prefix prefix) {
   return p;
 }
 
-// 12  1_000  16#FF  1.5  1.5e-3; `1..5` is 1, .., 5. Letters that follow belong to it, so that 12ab is one wrong
+// 12  1_000  16#FF  1.5  1.5e-3; `1..5` is 1, .., 5. Letters that follow are part of it, so that 12ab is one malformed
 // number.
 const char* Lexer::number(const char* begin) {
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -471,14 +471,14 @@ const char* Lexer::blockComment(const char* begin, bool slash) {
       }
       --p;
     } else if (*p == open && p[1] == '*') {
-      // `(*)` and `/*/` close in edition 2, where they cannot open another one.
+      // `(*)` and `/*/` close the comment in edition 2, where comments do not nest.
       if (nests) {
         ++depth;
         ++p;
       } else if (nests_ && p[2] != close) {
         if (!reported) diagnostics_.report(diag::NestedComment, loc(p), {std::string_view(p, 2)}).length(2);
         reported = true;
-        ++depth;  // most likely it is closed as well
+        ++depth;  // its end is most likely there, too
         ++p;
       }
     } else if (*p == '\n' || *p == '\r') {
@@ -502,7 +502,7 @@ const char* Lexer::cppBody(const char* begin) {
   return p;
 }
 
-// {network}, {network CFC}, {end_network}: the marks around a body of networks. End: another pragma.
+// {network}, {network CFC}, {end_network}: the delimiters of a body of networks. End: another pragma.
 Tok networkKeyword(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t'; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
@@ -512,7 +512,7 @@ Tok networkKeyword(std::string_view text) {
   return sameIdentifier(word, "end_network") ? Tok::EndNetwork : Tok::End;
 }
 
-// { … }: strings inside may hold braces.
+// { … }: strings inside may contain braces.
 const char* Lexer::pragma(const char* begin) {
   const std::string_view rest(begin, static_cast<size_t>(end_ - begin));
   if (const size_t end = endOfDoubleBrace(rest, 0); end != std::string_view::npos) {
@@ -544,7 +544,7 @@ const char* Lexer::pragma(const char* begin) {
   return p + 1;
 }
 
-// What is nearly the name of a pragma that does something was most likely meant to be it; all others are passed over.
+// A name close to that of a known pragma is most likely a typing error and reported; other unknown pragmas are ignored.
 void Lexer::checkPragma(std::string_view word, const char* rest, const char* end) {
   static const std::vector<std::string_view> kPragmas = {
       "attribute", "test",       "info",   "warning", "error",    "text",      "define", "undefine",
@@ -573,7 +573,7 @@ void Lexer::checkPragma(std::string_view word, const char* rest, const char* end
   diagnostics_.report(diag::UnknownPragma, loc(word.data()), {word}).didYouMean(near);
 }
 
-// {info 'text'}, {text 'text'}, {WARNING: "text"}, {error 'text'}
+// {info 'string'}, {text 'string'}, {WARNING: "string"}, {error 'string'}
 void Lexer::message(const char* begin, const char* end) {
   const auto skip = [&] {
     while (begin < end && (*begin == ' ' || *begin == '\t')) ++begin;
@@ -598,7 +598,7 @@ void Lexer::message(const char* begin, const char* end) {
   diagnostics_.report(diag, loc(word_begin), {text});
 }
 
-// A run of characters that no token begins with: one error for all of it.
+// A run of characters that cannot begin a token: one error for all of it.
 const char* Lexer::stray(const char* begin) {
   const char* p = begin;
   const auto c = static_cast<Byte>(*p);

@@ -29,7 +29,7 @@ bool checkUnderscores(std::string_view digits, std::string_view text, Loc loc, D
   return true;
 }
 
-// Reads the number at the front of text, without sign; false when it has no digit or does not fit.
+// Reads the unsigned number at the front of text; false when it has no digit or does not fit.
 bool takeNumber(std::string_view& text, uint64_t& value) {
   value = 0;
   size_t i = 0;
@@ -52,7 +52,7 @@ bool take(std::string_view& text, char c) {
 std::string_view afterHash(std::string_view text) { return text.substr(text.find('#') + 1); }
 bool isLong(std::string_view text) { return lower(text.front()) == 'l'; }
 
-// A fraction ".25" of a unit in nanoseconds, cut at the nanosecond.
+// A fraction ".25" of a unit in nanoseconds, truncated to nanoseconds.
 uint64_t fractionOf(std::string_view digits, uint64_t unit) {
   uint64_t value = 0, scale = unit;
   // unit is at most a day: 8.64e13; each digit divides once.
@@ -88,7 +88,7 @@ bool takeDate(std::string_view& text, std::string_view whole, const char* sample
   }
   static constexpr unsigned kLengths[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
   const bool leap = (y % 4 == 0 && y % 100 != 0) || y % 400 == 0;
-  // The range of 64 bits of nanoseconds, by whole years.
+  // The range of 64 bits of nanoseconds, in whole years.
   const bool ok =
       y >= 1678 && y <= 2261 && m >= 1 && m <= 12 && d >= 1 && d <= kLengths[m - 1] + (m == 2 && leap ? 1u : 0u);
   if (!ok) {
@@ -180,7 +180,7 @@ bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, Number
       return false;
     }
     if (error == std::errc::result_out_of_range) {
-      // Too small is zero; too large is said here, since nothing later could tell it from infinity.
+      // Underflow is zero; overflow is reported here, since later phases could not tell it from infinity.
       const size_t e = plain.find_first_of("eE");
       const bool tiny = e != std::string::npos && plain[e + 1] == '-';
       value.real = 0;

@@ -1,5 +1,5 @@
-// The values of literals. In: the text of one token of the lexer. Out: a value, and diagnostics for what is wrong with
-// its form (digits, units, calendar, escapes). Called by expressions.cpp; sema checks that values fit their types.
+// The values of literals. In: the spelling of one token of the lexer. Out: a value, and diagnostics for malformed
+// literals (digits, units, calendar, escapes). Called by expressions.cpp; sema checks that values fit their types.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct NumberValue {
   uint64_t integer = 0;  // magnitude
   double real = 0;
 };
-// 12  1_000  16#FF  1.5e3. False: reported.
+// 12  1_000  16#FF  1.5e3. False: an error was reported.
 bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, NumberValue& value);
 
 struct TimeValue {
@@ -31,10 +31,10 @@ bool readDate(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValu
 bool readTimeOfDay(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value);
 bool readDateTime(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value);
 
-// The text between the quotes with its escapes decoded: bytes for '…', UTF-8 for "…".
+// The characters between the quotes with escapes decoded: bytes for '…', UTF-8 for "…".
 bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnostics, std::string& value);
 
-// %IX0.0  %QW4  %M*; path gets its numbers.
+// %IX0.0  %QW4  %M*; path receives its numbers.
 bool readAddress(std::string_view text, Loc loc, Diagnostics& diagnostics, DirectAddress& address,
                  std::vector<uint32_t>& path);
 

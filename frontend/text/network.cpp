@@ -1,7 +1,9 @@
-// The notation of networks: what the readers of LD, FBD and CFC write between {network} and {end_network}, so that
-// expressions, places and errors come from one parser. docs/networks.md shows it whole.
+// The notation of networks, between {network} and {end_network}. All readers of LD, FBD and CFC (TC6 XML, TwinCAT
+// archives) write it into source-mapped text, and tests write it by hand, so that expressions, locations and errors
+// come from one parser. Wires are numbers, resolved once at the end, so dangling and repeated ids have one message for
+// all formats. docs/networks.md describes it completely.
 //   body    = "{network" [LD | FBD | CFC] "}" {NETWORK number [DISABLED] [title] ";" | element ";"} "{end_network}"
-//   element = word number [name | text] {"(" e ")" | NOT | RISING | FALLING | SET | RESET | HOLDING
+//   element = word number [name | string] {"(" e ")" | NOT | RISING | FALLING | SET | RESET | HOLDING
 //                          | ORDER n | AT x, y [, w, h]
 //                          | ":=" wires | pins | statements}
 //   pins    = "[" pin {"," pin} "]"
@@ -42,20 +44,20 @@ constexpr ElementName kElementNames[] = {{"rail", ElementKind::Rail},
                                          {"select", ElementKind::Select},
                                          {"comment", ElementKind::Comment}};
 
-// What the element stands for must be written in it.
+// The variable or expression of the element is mandatory.
 bool needsOperand(ElementKind kind) {
   return kind == ElementKind::Contact || kind == ElementKind::Coil || kind == ElementKind::Input ||
          kind == ElementKind::Output || kind == ElementKind::InOut;
 }
 
-// Its name stands behind the number, whatever the word.
+// Its name follows the number, even if it is a keyword.
 bool isNamed(ElementKind kind) {
   return kind == ElementKind::Box || kind == ElementKind::Jump || kind == ElementKind::Label ||
          kind == ElementKind::Connector || kind == ElementKind::Continuation || kind == ElementKind::Compose ||
          kind == ElementKind::Select;
 }
 
-// What stands between quotes: `$` makes the next character plain.
+// The characters between the quotes; `$` escapes the next one.
 std::string plainText(std::string_view quoted) {
   std::string out;
   for (size_t k = 1; k + 1 < quoted.size(); ++k) {
@@ -67,7 +69,7 @@ std::string plainText(std::string_view quoted) {
 
 }  // namespace
 
-// Reads a word of any kind as a name: pins and boxes are called AND, MOD, DO.
+// Takes a keyword of any kind as a name: pins and boxes are called AND, MOD, DO.
 bool Parser::takeWord(Ident& out) {
   const bool word = isName(kind()) || nameReserved(t_);
   if (!word) {
@@ -154,7 +156,7 @@ void Parser::parsePins(std::vector<DiagramPin>& out) {
   if (!panic_) expect(Tok::RightBracket);
 }
 
-// A path or a name: what a box calls, the label of a jump.
+// A path or a name: the callee of a box, the label of a jump.
 ExprId Parser::parseElementPath(Ident& name) {
   if (!takeWord(name)) return {};
   ExprId path = tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, name.loc), name.name, {}});
@@ -186,7 +188,7 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
   if (isNamed(e.kind) && (isName(kind()) || nameReserved(t_)) && !(attribute && peek() == Tok::Number))
     e.path = parseElementPath(e.name);
   if ((e.kind == ElementKind::Connector || e.kind == ElementKind::Continuation) && at(Tok::StringLiteral)) {
-    e.name = {names_.intern(plainText(textOf(t_))), here()};  // connectors are called as their author likes
+    e.name = {names_.intern(plainText(textOf(t_))), here()};  // the names of connectors are arbitrary
     advance();
   }
   while (!panic_ && !at(Tok::Semicolon) && !at(Tok::End)) {
@@ -248,7 +250,7 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
   out.push_back(e);
 }
 
-// Wires lead to numbers; from here on to elements.
+// Resolves the numbers in wires to elements.
 //   fails   output 5 (y) := 3;  without an element 3                             E1001
 //   fails   two elements 3                                                       E1002
 void Parser::connectWires(const std::vector<DiagramElement>& elements, uint32_t first_wire) {
@@ -325,7 +327,7 @@ void Parser::parseNetworks(PouDecl& d) {
   }
   if (diagnostics_.errorCount() == errors) connectWires(elements, first_wire);
   wire_numbers_.clear();
-  if (diagnostics_.errorCount() != errors) {  // what could not be read would seem to be missing
+  if (diagnostics_.errorCount() != errors) {  // elements with syntax errors would be reported as missing
     d.body_kind = BodyKind::None;
     return;
   }

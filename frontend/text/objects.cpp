@@ -1,4 +1,4 @@
-// Objects in text: METHOD, ACTION, PROPERTY with its accessors, the modifiers of headers, NAMESPACE and USING.
+// Objects: METHOD, ACTION, PROPERTY with its accessors, the modifiers of headers, NAMESPACE and USING.
 // CLASS and INTERFACE are POUs of parser.cpp.
 #include "frontend/source/dialect.h"
 #include "frontend/text/diagnostics.h"
@@ -6,8 +6,8 @@
 
 namespace rung::text {
 
-// Words that are names unless a declaration begins with them: `METHOD Start`. What is none becomes a name, so that the
-// parser and the block repair need no further look; PROPERTY_GET and PROPERTY_SET are one kind with PROPERTY.
+// Keywords that are names unless a declaration begins with them: `METHOD Start`. Others become names here, so that the
+// parser and the block repair need no further check; PROPERTY_GET and PROPERTY_SET are one kind with PROPERTY.
 void resolveObjectKeywords(TokenStream& stream) {
   std::vector<Token>& tokens = stream.tokens;
   size_t kept = 0;
@@ -59,7 +59,7 @@ bool Parser::acceptAccess(AccessLevel& access) {
 
 // {PUBLIC | PRIVATE | PROTECTED | INTERNAL | ABSTRACT | FINAL | OVERRIDE} before a name, or (of accessors) at the end
 // of the line.
-// Forbids words that contradict each other: two accesses, and ABSTRACT FINAL, of which nothing could ever be made.
+// Forbids contradictory modifiers: two access levels, and ABSTRACT FINAL, which could never be instantiated.
 //   fails   FUNCTION_BLOCK ABSTRACT FINAL Pump                                         E0345
 void Parser::parseModifiers(AccessLevel& access, uint8_t& modifiers, bool before_name) {
   const Token* access_word = nullptr;
@@ -174,7 +174,8 @@ DeclId Parser::parseProperty() {
   return tree_.add<DeclId>(d);
 }
 
-// PROPERTY_GET header sections statements END_PROPERTY | PROPERTY_SET …: edition 4. Both of a name are one property.
+// PROPERTY_GET header sections statements END_PROPERTY | PROPERTY_SET …: edition 4. Two of the same name are one
+// property.
 void Parser::parseHalfProperty(std::vector<DeclId>& out) {
   PropertyDecl d{};
   const Token* open = t_;
@@ -197,7 +198,7 @@ void Parser::parseHalfProperty(std::vector<DeclId>& out) {
     if (other.h.bits != kInHalves || (is_set ? other.set : other.get)) continue;
     if (!names_.same(other.name, d.name)) continue;
     (is_set ? other.set : other.get) = is_set ? d.set : d.get;
-    other.modifiers &= d.modifiers;  // of the whole; each half keeps its own
+    other.modifiers &= d.modifiers;  // of the whole property; each half keeps its own
     return;
   }
   out.push_back(tree_.add<DeclId>(d));

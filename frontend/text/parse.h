@@ -1,4 +1,4 @@
-// The parser of Structured Text files. In: one source text. Out: its declarations in the tree, and diagnostics.
+// The parser of Structured Text files. In: one source. Out: its declarations in the tree, and diagnostics.
 // One mistake gives one error: after it the parser resumes at the next statement, section or POU (recovery in
 // recover.cpp). Called by the driver for each file and by sema for library declarations on first use.
 #pragma once
@@ -13,18 +13,18 @@ namespace rung::text {
 FileUnit parseFile(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                    Diagnostics& diagnostics);
 
-// Parses the one declaration (POU or TYPE entry block) that stands in [begin, end) of its file: a library declaration
-// on first use, or a fresh copy of a generic function. Not appended to tree.files.
+// Parses the one declaration (POU or TYPE entry block) in [begin, end) of its file: a library declaration on first use,
+// or a fresh copy of a generic function. Not appended to tree.files.
 Slice<DeclId> parseDeclarations(Tree& tree, Names& names, const Sources& sources, Loc begin, Loc end, Dialect dialect,
                                 Diagnostics& diagnostics);
 
-// Parse the sections, and the statements, that a scheduler wrote as text: `file` holds nothing else.
+// Parse the sections, or the statements, that a scheduler wrote; `file` contains nothing else.
 Slice<DeclId> parseSections(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                             Diagnostics& diagnostics);
 Slice<StmtId> parseStatements(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                               Diagnostics& diagnostics);
 
-// Parses `text` of `file` as a lone expression (for --set, --stop-on and --inputs cells); none when it is not one.
+// Parses `text` of `file` as a single expression (for --set, --stop-on and --inputs cells); none when it is not one.
 ExprId parseExpression(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
                        Diagnostics& diagnostics);
 

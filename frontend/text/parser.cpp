@@ -1,4 +1,4 @@
-// Files, POUs and configurations; tokens and error reports of the parser.
+// Files, POUs and configurations; tokens and error reporting of the parser.
 #include "frontend/text/parser.h"
 
 #include "frontend/source/dialect.h"
@@ -44,7 +44,7 @@ std::string Parser::describe(const Token* t) const {
   if (t->kind == Tok::End) return spelling(Tok::End);
   std::string_view text = textOf(t);
   std::string shown = "`";
-  // A byte that is not text, or a long literal, is cut.
+  // A long literal is truncated, between UTF-8 characters.
   if (text.size() > 40) {
     size_t n = 37;
     while (n > 0 && (static_cast<unsigned char>(text[n]) & 0xC0) == 0x80) --n;
@@ -59,7 +59,7 @@ std::string Parser::describe(const Token* t) const {
 
 // ---- errors
 
-// One syntax error a line: what follows on the line of an error most likely follows from it.
+// One syntax error per line: the next error on the line most likely follows from the first.
 bool Parser::mayReport(const Token* t) {
   if (panic_) return false;
   const auto sameLine = [](const Token* a, const Token* b) {
@@ -72,7 +72,7 @@ bool Parser::mayReport(const Token* t) {
     if (t > last_error_) last_error_ = t;
     return false;
   }
-  // Said by the lexer or the block repair.
+  // Reported by the lexer or the block repair.
   for (const Token* p = t; t - p < 200; --p) {
     if ((p->flags & kReported) != 0) {
       last_error_ = t;
@@ -222,7 +222,7 @@ void Parser::skipToTopLevel() {
   while (!at(Tok::End) && !atTopLevelWord()) advance();
 }
 
-// False: a POU without END_…, which codesys allows, so that a VAR_GLOBAL behind it begins a list of globals.
+// False: a POU without END_…, which codesys allows, so that a VAR_GLOBAL after it begins a list of globals.
 bool Parser::pouCloses() {
   if (dialect_ != Dialect::Codesys) return true;
   if (pou_closes_ == Known::NotYet) {
@@ -235,8 +235,9 @@ bool Parser::pouCloses() {
   return pou_closes_ == Known::Yes;
 }
 
-// pou = word modifiers name usings [EXTENDS types] [IMPLEMENTS types] [":" type], usings, sections, members,
-// statements, [END_…] word = FUNCTION | FUNCTION_BLOCK | PROGRAM | CLASS | INTERFACE | METHOD | ACTION
+// pou = keyword modifiers name usings [EXTENDS types] [IMPLEMENTS types] [":" type], usings, sections, members,
+// statements, [END_…]
+// keyword = FUNCTION | FUNCTION_BLOCK | PROGRAM | CLASS | INTERFACE | METHOD | ACTION
 DeclId Parser::parsePou() {
   const Token* open = t_;
   PouDecl d{};
@@ -333,7 +334,7 @@ DeclId Parser::parsePou() {
       else
         slip(diag::StrayEnd, t_, {textOf(t_)});
       advance();
-      if (d.pou_kind != PouKind::Method && d.pou_kind != PouKind::Action) {  // its rest is no text of the file's level
+      if (d.pou_kind != PouKind::Method && d.pou_kind != PouKind::Action) {  // its rest does not belong to file level
         while (!at(end) && !at(Tok::End) && (atMember() || !atTopLevelWord())) advance();
         accept(end);
       }
@@ -345,8 +346,8 @@ DeclId Parser::parsePou() {
   return tree_.add<DeclId>(d);
 }
 
-// Sections, members and statements; members stand before the statements (edition 3), behind them, or behind the
-// END_… (exports of CODESYS).
+// Sections, members and statements; members precede the statements (edition 3), follow them, or follow the END_…
+// (exports of CODESYS).
 void Parser::parsePouParts(PouDecl& d) {
   const bool is_member = d.pou_kind == PouKind::Method || d.pou_kind == PouKind::Action;
   std::vector<DeclId> members;
@@ -372,7 +373,7 @@ void Parser::parsePouParts(PouDecl& d) {
   d.members = tree_.addList<DeclId>(members);
 }
 
-// Statements, instructions or {C++}: a body has one language.
+// Statements, instructions or {C++}: a body is in one language.
 void Parser::parseBody(PouDecl& d) {
   const Token* first = t_;
   d.body_begin = d.body_end = here();

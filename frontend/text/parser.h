@@ -3,9 +3,9 @@
 // parser.cpp (files, POUs, configurations), objects.cpp, declarations.cpp, types.cpp, initial_values.cpp,
 // statements.cpp, expressions.cpp, il.cpp, sfc.cpp, network.cpp.
 //
-// Errors. fail() reports and sets panic_: nothing more is reported until the construct at hand has found its
-// synchronization point (`;`, a keyword, a line that begins a statement). slip() reports a mistake whose meaning is
-// plain and goes on as if it had been written right. One line gets at most one syntax error.
+// Errors. fail() reports and sets panic_: no further errors are reported until the current construct has found its
+// synchronization point (`;`, a keyword, a line that begins a statement). slip() reports an error whose intended
+// meaning is clear and continues as if it had been written correctly. One line gets at most one syntax error.
 #pragma once
 
 #include <span>
@@ -61,14 +61,14 @@ class Parser {
   // ---- errors
   Report fail(Diag diag, const Token* t, std::initializer_list<std::string_view> args = {});
   Report slip(Diag diag, const Token* t, std::initializer_list<std::string_view> args = {});
-  Report missing(Diag diag, std::initializer_list<std::string_view> args);  // at the end of the token before
+  Report missing(Diag diag, std::initializer_list<std::string_view> args);  // at the end of the previous token
   bool mayReport(const Token* t);
   bool nameReserved(const Token* t) const { return isReserved(t->kind) || isTypeWord(t->kind); }
-  // Wanted here: the token; else a slip (or a failure when nothing else makes sense). True when it was there.
+  // Consumes `wanted`. If it is missing: slip(), or fail() when the next token makes no sense. True when it was there.
   bool expect(Tok wanted);
-  // The keyword of `candidates` that the name at t was meant to be, or End.
+  // The keyword of `candidates` that is nearest to the name at t, or End.
   Tok nearKeyword(const Token* t, std::span<const Tok> candidates) const;
-  bool respell(Tok wanted);  // t_ is a misspelled `wanted`: reports it and makes it so
+  bool respell(Tok wanted);  // t_ is a misspelled `wanted`: reports and corrects it
   void tooDeep(const char* what, uint32_t limit);
 
   // ---- files, POUs, configurations (parser.cpp)
@@ -112,7 +112,7 @@ class Parser {
   void skipStray(bool fits_behind, Diag diag);
   bool beginsType(const Token* t) const;
   bool parseName(Ident& out);
-  // CODESYS knows NULL as a value only: items and members may be called so.
+  // CODESYS knows NULL as a value only: items and members may have this name.
   bool isNullName(const Token* t) const { return t->kind == Tok::Null && dialect_ == Dialect::Codesys; }
   bool parsePath(std::vector<Ident>& out);
   TypeExprId parseType();
@@ -140,7 +140,7 @@ class Parser {
     kStopUntil = 4,
     kStopLabel = 8,
     kStopTry = 16
-  };  // words that end a list, beside END_…
+  };  // keywords that end a list, besides END_…
   Slice<StmtId> parseStatements(uint8_t stops);
   bool atBlockEnd();
   void parseStatement();
@@ -202,9 +202,9 @@ class Parser {
   // ---- Sequential Function Chart (sfc.cpp)
   struct SfcMacro {
     Ident name, entry, exit;
-    uint32_t first_step;  // of those inside, which ends with `end_step`
+    uint32_t first_step;  // index of the first step inside; the steps end at `end_step`
     uint32_t end_step;
-    uint32_t errors;  // before it
+    uint32_t errors;  // number of errors before it
     const Token* open;
   };
   bool atSfc() const;
@@ -269,21 +269,21 @@ class Parser {
   std::vector<Token> tokens_;
   Token* t_ = nullptr;
   bool panic_ = false;
-  bool declared_in_body_ = false;     // said once for a POU
-  bool in_variable_ = false;          // the type of a variable is being read: it may have arguments
-  uint32_t in_property_ = 0;          // its accessors are being read
-  bool in_program_instance_ = false;  // PROGRAM p : Main (…) of a resource is being read
-  std::vector<Ident> block_tasks_;    // its blocks with tasks of their own, each followed by the task
-  bool in_structure_ = false;         // a STRUCT or UNION is being read
-  bool address_reported_ = false;     // said once for a structure
-  bool in_il_ = false;                // instructions are being read
-  bool il_file_ = false;              // the file is called .il
-  bool il_line_reported_ = false;     // said once for a file
+  bool declared_in_body_ = false;     // reported once per POU
+  bool in_variable_ = false;          // in the type of a variable, which may have arguments
+  uint32_t in_property_ = 0;          // in its accessors
+  bool in_program_instance_ = false;  // in PROGRAM p : Main (…) of a resource
+  std::vector<Ident> block_tasks_;    // its blocks with separate tasks, each followed by the task
+  bool in_structure_ = false;         // in a STRUCT or UNION
+  bool address_reported_ = false;     // reported once per structure
+  bool in_il_ = false;                // in a list of instructions
+  bool il_file_ = false;              // the file name ends in .il
+  bool il_line_reported_ = false;     // reported once per file
   NameId eno_;
-  bool eno_used_ = false;   // ENO is an operand in the POU at hand
-  bool lost_ = false;       // declarations of the POU or TYPE entry at hand could not be read
-  Tok pou_end_ = Tok::End;  // the END_… of the POU at hand
-  enum class Known : uint8_t { NotYet, Yes, No } pou_closes_ = Known::NotYet;  // whether it has that END_…
+  bool eno_used_ = false;   // ENO is an operand in the current POU
+  bool lost_ = false;       // declarations of the current POU or TYPE entry could not be read
+  Tok pou_end_ = Tok::End;  // the END_… of the current POU
+  enum class Known : uint8_t { NotYet, Yes, No } pou_closes_ = Known::NotYet;  // whether the current POU has that END_…
   const Token* last_error_ = nullptr;
   const Token* statement_start_ = nullptr;
   uint32_t expr_depth_ = 0, stmt_depth_ = 0;
@@ -301,9 +301,9 @@ class Parser {
   std::vector<IlInstruction> il_;
   std::vector<IlNested> il_nested_;
   std::vector<const Token*> il_open_;  // operators whose `(` is open
-  size_t il_outside_ = 0;              // how many of them the list at hand stands in
+  size_t il_outside_ = 0;              // how many of them enclose the current list
   std::vector<DiagramWire> wires_;
-  std::vector<uint64_t> wire_numbers_;  // of the body's wires: where they come from
+  std::vector<uint64_t> wire_numbers_;  // of the body's wires: numbers of the source elements
   uint32_t type_depth_ = 0;
 };
 
@@ -313,7 +313,7 @@ constexpr uint32_t kMaxExprHeight = kMaxChain + 1;
 constexpr uint32_t kMaxStmtDepth = 2000;
 constexpr uint32_t kMaxTypeDepth = 200;
 
-// Words behind which no further variable or type of the block at hand is found (declarations.cpp).
+// Keywords after which the current block has no further variable or type (declarations.cpp).
 bool endsDeclarations(Tok kind);
 
 }  // namespace rung::text

@@ -10,7 +10,7 @@
 namespace rung::text {
 namespace {
 
-// The word that closes what `open` opens, or End when it opens nothing.
+// The keyword that closes a block opened by `open`, or End when it opens no block.
 Tok closerOf(Tok open) {
   switch (static_cast<int>(open)) {
     case static_cast<int>(Tok::If): return Tok::EndIf;
@@ -57,7 +57,7 @@ bool isStatementOpener(Tok k) {
   return k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat;
 }
 
-// The words that a closer may have been opened by.
+// The keywords that can open a block closed by `closer`.
 std::span<const Tok> openersFor(Tok closer) {
   static constexpr Tok kVars[] = {Tok::Var,         Tok::VarInput,  Tok::VarOutput, Tok::VarInOut,  Tok::VarTemp,
                                   Tok::VarExternal, Tok::VarGlobal, Tok::VarStat,   Tok::VarAccess, Tok::VarConfig};
@@ -92,14 +92,14 @@ class Balancer {
     Tok kind;
     uint32_t index;
     uint32_t column;
-    bool line_start;       // the first word of its line
+    bool line_start;       // the first token of its line
     bool is_chain;         // the IF of an ELSE IF
     uint32_t suspect;      // where its END_… seems to be missing; 0: not known
-    uint32_t chain_child;  // index of the IF of an ELSE IF inside it that took its END_IF; 0: none
+    uint32_t chain_child;  // index of the IF of an inner ELSE IF that took its END_IF; 0: none
     Tok connective;        // THEN, DO or OF of its header
-    uint32_t line;         // of the word; filled when needed
+    uint32_t line;         // of the keyword; computed on demand
   };
-  struct Orphan {  // THEN, DO or OF without the word it belongs to
+  struct Orphan {  // THEN, DO or OF without its IF, WHILE, CASE, …
     uint32_t index, line_first, column;
   };
   enum class EditKind : uint8_t { Insert, Remove, Respell };
@@ -136,7 +136,7 @@ class Balancer {
     if (isMember(k)) return std::find(members_closed_.begin(), members_closed_.end(), k) != members_closed_.end();
     return closerOf(k) != Tok::End;
   }
-  // Words that begin a new region whatever stands open.
+  // Keywords that begin a new region regardless of open blocks.
   bool beginsRegion(uint32_t i) const {
     const Tok k = tokens_[i].kind;
     if (!atLineStart(i) && i > 0 && !isCloser(tokens_[i - 1].kind) && tokens_[i - 1].kind != Tok::Semicolon)
@@ -206,16 +206,16 @@ class Balancer {
   std::vector<Edit> edits_;
   uint32_t region_first_ = 0, region_end_ = 0;
   uint32_t line_first_ = 0, line_column_ = 0;
-  uint32_t pending_header_ =
-      0;                     // index + 1 of the IF, ELSIF, FOR, WHILE, CASE or ARRAY that waits for its THEN, DO or OF
-  uint32_t decl_start_ = 0;  // first token of a line where declarations without a VAR may begin
-  uint32_t outside_start_ = 0;  // first token behind the last closed POU
+  uint32_t pending_header_ = 0;  // index + 1 of the IF, ELSIF, FOR, WHILE, CASE or ARRAY waiting for its THEN, DO or OF
+  uint32_t decl_start_ = 0;      // first token of a line where declarations without a VAR may begin
+  uint32_t outside_start_ = 0;   // first token after the last closed POU
   uint32_t searches_ = 0;
-  bool global_section_ = false;  // the last section was one of file level
+  bool global_section_ = false;  // the last section was at file level
 };
 
 void Balancer::run() {
-  // Regions are cut at the words that can only stand at file level, so that one POU's mistake stays in it.
+  // Regions are delimited by keywords that occur only at file level, so that an error in one POU does not affect
+  // others.
   const std::vector<uint32_t>& blocks = stream_.blocks;
   for (const Tok member : {Tok::Method, Tok::Property, Tok::Action}) {
     const auto closes = [&](uint32_t b) { return tokens_[b].kind == closerOf(member); };
@@ -249,7 +249,7 @@ bool Balancer::balanced(size_t first_block, size_t end_block) {
     const uint32_t i = stream_.blocks[b];
     const Tok k = tokens_[i].kind;
     if (opens(i)) {
-      // Sections hold no blocks but structures; structures hold no statements.
+      // Sections contain no blocks but structures; structures contain no statements.
       if (!stack.empty() && (isVarWord(stack.back()) || stack.back() == Tok::Type) && k != Tok::Struct &&
           k != Tok::Union)
         return false;
@@ -288,7 +288,7 @@ void Balancer::repair(uint32_t first, uint32_t end) {
   }
 }
 
-// Where the line above token i is blank, the word that is missing stood there, or should: the gap. Else the token.
+// If the line above token i is blank, the missing keyword most likely belongs there: returns that gap, else the token.
 Loc Balancer::gapBefore(uint32_t i, uint32_t& length) const {
   length = 1;
   if (i > 0) {
@@ -312,7 +312,7 @@ Loc Balancer::gapBefore(uint32_t i, uint32_t& length) const {
 
 void Balancer::visit(uint32_t i) {
   const Tok k = tokens_[i].kind;
-  // A line that stands no deeper than the block it should be in: the block's end is likely to be missing before it.
+  // A line that is not indented deeper than the block it should be in: the block's end is likely missing before it.
   if (i == line_first_ && !stack_.empty()) {
     Open& top = stack_.back();
     if (top.suspect == 0 && top.index < i && !isCloser(k) && !isPouOpener(top.kind) && top.kind != Tok::Configuration &&
@@ -391,7 +391,7 @@ void Balancer::visit(uint32_t i) {
         next != Tok::LeftParen && next != Tok::LeftBracket && next != Tok::Comma) {
       Tok meant = nearestKeyword(word, kClosers);
       if (meant != Tok::End) {
-        // Of two near ones, the one that closes what is open.
+        // Of two close candidates, the one that closes the open block.
         if (!stack_.empty() && closerOf(stack_.back().kind) != meant) {
           const Tok wanted[] = {closerOf(stack_.back().kind)};
           if (nearestKeyword(word, wanted) != Tok::End) meant = wanted[0];
@@ -445,7 +445,7 @@ void Balancer::close(uint32_t i, Tok closer) {
     edit(i, EditKind::Remove, Tok::End);
     return;
   }
-  // The nearest block that this word closes, within the POU.
+  // The nearest block closed by this keyword, within the POU.
   size_t found = stack_.size();
   while (found > 0) {
     const Tok k = stack_[found - 1].kind;
@@ -456,7 +456,7 @@ void Balancer::close(uint32_t i, Tok closer) {
     }
     --found;
   }
-  // Where the indentation speaks for a block further out, the inner ones are open.
+  // If the indentation matches an outer block, the inner ones are left open.
   if (found > 0 && line_start && stack_[found - 1].column != line_column_ && !isPouCloser(closer)) {
     for (size_t outer = found; outer-- > 1;) {
       const Open& o = stack_[outer - 1];
@@ -467,7 +467,7 @@ void Balancer::close(uint32_t i, Tok closer) {
       }
     }
   }
-  // END_ACTION without ACTION is no other word for the END_… of its block, which still comes.
+  // END_ACTION without ACTION is not a misspelled END_… of its block, which still follows.
   if (found == 0 && isMemberCloser(closer) && !stack_.empty() && isPouOpener(stack_.back().kind) &&
       !isMember(stack_.back().kind) && comesBehind(i, closerOf(stack_.back().kind)))
     return stray(i, closer);
@@ -528,7 +528,7 @@ void Balancer::leftOutermost(uint32_t i, Tok closer) {
     outside_start_ = i + 1;
 }
 
-// A block whose end is missing. forced: the token that shows it at the latest.
+// A block without end. forced: the last token at which the end could be missing.
 void Balancer::leaveOpen(const Open& open, uint32_t forced) {
   const Tok closer = closerOf(open.kind);
   if (open.chain_child != 0) {
@@ -552,7 +552,7 @@ void Balancer::leaveOpen(const Open& open, uint32_t forced) {
   if (isVarWord(open.kind)) decl_start_ = at;
 }
 
-// The word of an earlier line that was meant to open what `closer` closes.
+// The keyword on an earlier line that was most likely meant to open the block closed by `closer`.
 uint32_t Balancer::findOpener(uint32_t i, Tok closer, Tok& meant) {
   if (++searches_ > 50) return 0;
   const std::span<const Tok> openers = openersFor(closer);
@@ -582,7 +582,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
   }
   const uint32_t low = stack_.empty() ? outside_start_ : stack_.back().index + 1;
   const std::span<const Tok> openers = openersFor(closer);
-  // The header is there, its first word is not.
+  // The header is there, its first keyword is missing.
   if (closer == Tok::EndIf || closer == Tok::EndFor || closer == Tok::EndWhile || closer == Tok::EndCase) {
     const Orphan* best = nullptr;
     for (const Orphan& o : orphans_)
@@ -637,7 +637,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
       return;
     }
   }
-  // Another word stands where VAR should; it may have been reported and taken away already.
+  // Another word is written where VAR should be; it may have been reported and removed already.
   if (closer == Tok::EndVar && decl_start_ < i && (tokens_[decl_start_].flags & kReported) != 0 &&
       !isName(tokens_[decl_start_].kind)) {
     markReported(decl_start_ + 1);
@@ -685,7 +685,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
 
 void Balancer::missingOpener(uint32_t at, Tok word) {
   uint32_t length = static_cast<uint32_t>(textOf(at).size());
-  // What has its name beside it is missing on this line, the others on the blank line above.
+  // A keyword with its name on the same line is missing on this line, the others on the blank line above.
   const Loc gap =
       isPouOpener(word) || word == Tok::Configuration || word == Tok::Resource ? loc(at) : gapBefore(at, length);
   diagnostics_.report(diag::MissingOpener, gap, {spelling(word), describe(at)}).length(length);
@@ -693,7 +693,7 @@ void Balancer::missingOpener(uint32_t at, Tok word) {
   edit(at, EditKind::Insert, word);
 }
 
-// A word of blocks where only a value can stand: `x := a + IF;`, `state END_VAR INT := 0;`
+// A block keyword where only a value is allowed: `x := a + IF;`, `state END_VAR INT := 0;`
 bool Balancer::insideExpression(uint32_t i) const {
   if (atLineStart(i) || i == region_first_) return false;
   const Tok k = tokens_[i].kind, before = tokens_[i - 1].kind, next = tokens_[i + 1].kind;
@@ -708,7 +708,7 @@ bool Balancer::insideExpression(uint32_t i) const {
   if (is_statement_word && !stack_.empty() && (isVarWord(stack_.back().kind) || stack_.back().kind == Tok::Struct) &&
       before != Tok::Semicolon && stack_.back().index + 1 != i)
     return true;
-  // `f IF (x);`: behind a value a statement begins only where its header follows.
+  // `f IF (x);`: after a value, a statement begins only where its header follows.
   if (isStatementOpener(k) && k != Tok::Repeat && before != Tok::EndSlip &&
       (isName(before) || (before >= Tok::Number && before <= Tok::Ident) || before == Tok::RightParen)) {
     for (uint32_t n = i + 1; n < count_ && !atLineStart(n) && tokens_[n].kind != Tok::Semicolon; ++n)
@@ -719,7 +719,7 @@ bool Balancer::insideExpression(uint32_t i) const {
          before != Tok::Struct && !atLineStart(i + 1) && next != Tok::Semicolon && !isVarWord(next);
 }
 
-// Makes the token an error that has been said.
+// Makes the token an error token that has been reported.
 void Balancer::spoil(uint32_t i) {
   diagnostics_.report(diag::MissingValue, loc(i), {describe(i)}).length(static_cast<uint32_t>(textOf(i).size()));
   markReported(i);
@@ -746,7 +746,7 @@ void Balancer::apply() {
       }
     }
     if (removed) {
-      // What follows takes its place on the line.
+      // The next token takes its position on the line.
       if (i + 1 < tokens_.size()) tokens_[i + 1].flags |= tokens_[i].flags & (kLineStart | kPragma | kDoc | kReported);
       continue;
     }

@@ -1,8 +1,8 @@
-// Block repair: makes the blocks of a token array balance before the parser sees it. A missing, misspelled, surplus or
-// wrong END_…, a misspelled or missing opening word and `ELSE IF` are told by comparing the words that open and close
-// blocks, and, only where those do not balance, by the indentation; so the layout of a correct program never matters.
-// In: the tokens of a file. Out: tokens with words inserted, removed or respelled, and one error per mistake.
-// Called by Parser::read.
+// Block repair: makes the blocks of a token array balance before the parser sees it. Finds a missing, misspelled,
+// surplus or wrong END_…, a misspelled or missing opening keyword and `ELSE IF` by comparing the keywords that open and
+// close blocks and, only where those do not balance, by the indentation; so the layout of a correct program never
+// matters. In: the tokens of a file. Out: tokens with keywords inserted, removed or corrected, and one error per
+// mistake. Called by Parser::read.
 #pragma once
 
 #include <span>

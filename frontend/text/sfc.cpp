@@ -1,9 +1,10 @@
-// Bodies in Sequential Function Chart as text. IEC 61131-3 ed. 2 annex B.1.6, ed. 3 table 54 to 61.
+// Bodies in textual Sequential Function Chart. IEC 61131-3 ed. 2 annex B.1.6, ed. 3 tables 54 to 61.
 //   chart      = {step | transition | macro (sfc_macros.cpp) | ACTION … END_ACTION}
-//   step       = (INITIAL_STEP | STEP) name [place] ["(" TMIN ":=" e "," TMAX ":=" e ")"] ":" {association ";"}
-//   END_STEP transition = TRANSITION [name] [place] ["(" PRIORITY ":=" n ")"] [FROM steps TO steps] condition
-//   END_TRANSITION place      = AT x "," y ["," width "," height]
-// The hidden part of a transition with a body, or whose condition several transitions use, is an action of its own.
+//   step       = (INITIAL_STEP | STEP) name [position] ["(" TMIN ":=" e "," TMAX ":=" e ")"] ":"
+//                {association ";"} END_STEP
+//   transition = TRANSITION [name] [position] ["(" PRIORITY ":=" n ")"] [FROM steps TO steps] condition END_TRANSITION
+//   position   = AT x "," y ["," width "," height]
+// A transition with a body, or whose condition several transitions use, becomes a hidden action.
 #include "frontend/syntax/sfc.h"
 #include "frontend/syntax/il.h"
 #include "frontend/text/diagnostics.h"
@@ -24,7 +25,7 @@ constexpr Qualifier kQualifiers[] = {{"N", SfcQualifier::N},   {"R", SfcQualifie
 
 }  // namespace
 
-// `INITIAL_STEP a`, `STEP a:`, `TRANSITION FROM`, which no statement begins with. STEP is a name elsewhere.
+// `INITIAL_STEP a`, `STEP a:`, `TRANSITION FROM`, which cannot begin a statement. STEP is a name elsewhere.
 bool Parser::atSfc() const {
   if (!isName(kind()) || (t_[1].flags & kLineStart) != 0) return false;
   if (!isName(peek()) && !nameReserved(t_ + 1) && peek() != Tok::LeftParen) return false;
@@ -34,13 +35,13 @@ bool Parser::atSfc() const {
   return is(t_, "TRANSITION") && (peek() != Tok::LeftParen || is(t_ + 2, "PRIORITY"));
 }
 
-// `TRANSITION name :=` and `TRANSITION name :`, a condition for transitions of its name in all charts of the block.
+// `TRANSITION name :=` and `TRANSITION name :`, a condition for transitions of this name in all charts of the block.
 bool Parser::atCondition() const {
   return isName(kind()) && is(t_, "TRANSITION") && isName(peek()) && (peek(2) == Tok::Assign || peek(2) == Tok::Colon);
 }
 
-// An ACTION in the chart of an action or method, which has its END_… still before it. Without END_ACTION, as codesys
-// allows, it is the next one of the block.
+// An ACTION in the chart of an action or method whose END_… is still ahead. Without END_ACTION, which codesys allows,
+// it is the next action of the block.
 bool Parser::atOwnAction() const {
   if (!at(Tok::Action)) return false;
   uint32_t depth = 0;
@@ -111,10 +112,10 @@ void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members, std::vector<SfcT
     inlineMacros(macros, steps, transitions);
   }
   if (t_ != first) d.body_end = endOf(t_ - 1);
-  if (diagnostics_.errorCount() != errors) lost_ = true;  // its rules are checked when all of it could be read
+  if (diagnostics_.errorCount() != errors) lost_ = true;  // checks of the chart need all of it
   if (d.body_kind == BodyKind::None) {
     transitions.clear();
-    std::erase_if(members, [&](DeclId member) {  // made of transitions, whose variables are lost
+    std::erase_if(members, [&](DeclId member) {  // generated for transitions that were dropped
       return tree_.kind(member) == DeclKind::Pou &&
              tree_.as<PouDecl>(member).begin == tree_.as<PouDecl>(member).body_begin;
     });
@@ -123,7 +124,7 @@ void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members, std::vector<SfcT
   d.steps = tree_.addList<SfcStep>(steps);
 }
 
-// Behind a mistake: the END_… of the element, or where the next one begins.
+// After an error: skips to the END_… of the element, or to the next one.
 void Parser::syncChart(Tok end) {
   const Token* open = t_;
   panic_ = false;
@@ -221,7 +222,7 @@ bool Parser::parseAssociation(std::vector<SfcAssociation>& out) {
           diagnostics_.report(diag::SfcTimeMissing, a.loc, {found->word, textOf(first)});
         }
       }
-      while (!panic_ && accept(Tok::Comma)) {  // variables that show what became of the action: they do nothing
+      while (!panic_ && accept(Tok::Comma)) {  // variables that show the effect of the action; ignored
         if (found != nullptr && !timed && !isName(kind())) {
           slip(diag::SfcTimeSurplus, t_, {found->word});
           parseExpr();
@@ -309,7 +310,7 @@ bool Parser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId
   return ok;
 }
 
-// ":=" expression [";"] | ":" statements | ":" instructions | nothing: that of the transition or variable of its name
+// ":=" expression [";"] | ":" statements | ":" instructions | nothing: the transition or variable of its name
 void Parser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
   const Token* first = t_;
   PouDecl d{};
@@ -318,7 +319,7 @@ void Parser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
   d.closed = true;
   if (t.name.name) {
     t.target = t.name;
-  } else {  // of a body in IL, or of networks
+  } else {  // for a body in IL, or of networks
     t.target = {names_.intern("Transition_" + std::to_string(sources_.location(t.loc).line)), t.loc};
   }
   const auto target = [&] {

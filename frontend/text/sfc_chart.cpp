@@ -59,7 +59,7 @@ Chart::Chart(const Charts& charts, const PouDecl& pou, const ChartContext& conte
             {charts_.names.key(a.action.name).index, static_cast<uint32_t>(action_by_name_.size())});
         actions_.push_back(a.action);
       }
-  // The first association of each name remains.
+  // Keeps the first association of each name.
   std::sort(action_by_name_.begin(), action_by_name_.end());
   std::vector<bool> kept(actions_.size());
   for (size_t i = 0; i < action_by_name_.size(); ++i)
@@ -111,8 +111,9 @@ const char* keywordOf(SfcFlag flag) {
   return kKeywords[static_cast<size_t>(flag)];
 }
 
-// Those of a block, inherited and global ones among them, act on its own chart; where its body is none, on the charts
-// of its actions. A chart in an action or method of a block with a chart has those that are declared with it.
+// Flags of a block, inherited and global ones included, act on its own chart or, if its body is not a chart, on the
+// charts of its actions. A chart in an action or method of a block with a chart uses only the flags declared in that
+// action or method.
 void Chart::findFlags(Signatures& signatures) {
   const Tree& tree = charts_.tree;
   for (size_t i = 0; i < kSfcFlags; ++i) {

@@ -1,5 +1,5 @@
-// What both parts of the scheduler of charts share (see sfc_schedule.h): the chart with its actions and flags, and the
-// writer of the text that it becomes. Private to frontend/text: sfc_declare.cpp, sfc_schedule.cpp, sfc_flags.cpp.
+// Shared by both parts of the scheduler of charts (see sfc_schedule.h): the chart with its actions and flags, and the
+// writer of the generated ST. Private to frontend/text: sfc_declare.cpp, sfc_schedule.cpp, sfc_flags.cpp.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace rung::text {
 
-constexpr uint32_t kWord = 64;  // bits of a set's word
+constexpr uint32_t kWord = 64;  // bits of an LWORD in a set
 
 const char* keywordOf(SfcQualifier q);
 inline bool isControlled(SfcQualifier q) { return q < SfcQualifier::Entry; }
@@ -19,7 +19,7 @@ inline bool isControlled(SfcQualifier q) { return q < SfcQualifier::Entry; }
 std::string literalOf(uint64_t word);
 inline std::string maskOf(uint32_t index) { return literalOf(uint64_t{1} << (index % kWord)); }
 
-// A text in ST of which each byte knows its place in the chart.
+// Writes ST of which each byte has a location in the chart.
 class Writer {
  public:
   Writer(const Charts& charts, Loc loc) : charts_(charts), loc_(loc) {}
@@ -63,7 +63,7 @@ class Writer {
   std::vector<Segment> segments_;
 };
 
-// The flags of a chart: variables of these names have a meaning where they are declared. TM/TP manual 5.5.2.5.
+// The flags of a chart: declared variables with these names control it. TM/TP manual 5.5.2.5.
 enum class SfcFlag : uint8_t {
   Init,
   Reset,
@@ -83,7 +83,7 @@ enum class SfcFlag : uint8_t {
 constexpr size_t kSfcFlags = 14;
 const char* keywordOf(SfcFlag flag);
 
-// What both parts of the schedule know of a chart.
+// The chart, as both parts of the scheduler see it.
 class Chart {
  public:
   Chart(const Charts& charts, const PouDecl& pou, const ChartContext& context);
@@ -92,13 +92,13 @@ class Chart {
   std::string_view name(uint32_t step) const { return string(steps_[step].name.name); }
   uint32_t words(size_t count) const { return static_cast<uint32_t>((count + kWord - 1) / kWord); }
   uint32_t actionOf(NameId name) const;
-  // Looks for the flags among the variables that the chart sees; before, there are none.
+  // Looks up the flags among the variables visible to the chart; until then there are none.
   void findFlags(Signatures& signatures);
   const Ident* flag(SfcFlag word) const {
     const std::optional<Ident>& found = flags_[static_cast<size_t>(word)];
     return found ? &*found : nullptr;
   }
-  std::string initialSteps() const;  // the words of their set
+  std::string initialSteps() const;  // the initial values of the step set
   bool keepsCondition(const SfcTransition& t) const { return t.body || (t.name.name && t.condition.value); }
 
   const Charts& charts_;

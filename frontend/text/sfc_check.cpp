@@ -1,7 +1,8 @@
-// What a chart must keep as a whole. Regions tell which steps can be active together: a step's region is the set of
-// branches that its token stands for. A transition to several steps splits a region into as many branches; one from
-// several steps unites theirs, and all branches of a split are the region that was split. A step that two ways give
-// different regions lies behind a jump into or out of a parallel branch. Cost: one visit of each transition.
+// Rules for a chart as a whole. Regions describe which steps can be active together: the region of a step is the set of
+// parallel branches that its token represents. A transition to several steps splits a region into as many branches; one
+// from several steps unites theirs, and all branches of a split together are the region that was split. A step that
+// gets different regions over two paths is the target of a jump into or out of a parallel branch. Cost: one visit of
+// each transition.
 #include <algorithm>
 #include <vector>
 
@@ -68,13 +69,13 @@ class Checker {
   uint32_t networks_ = 0;  // the first branches are whole networks
 };
 
-// Forbids a network of steps with several initial ones, and a chart without any. A POU may hold several networks that
-// no transition connects: they run side by side. IEC 61131-3 ed. 3, 6.7.2; the GRAVEL example of annex F.
+// Forbids a network of steps with several initial ones, and a chart without one. A POU may contain several networks
+// without transitions between them: they run in parallel. IEC 61131-3 ed. 3, 6.7.2; the GRAVEL example of annex F.
 //   passes  INITIAL_STEP a: END_STEP  STEP b: END_STEP
 //   fails   STEP a: END_STEP                                      E0743
 //   fails   INITIAL_STEP a: …  INITIAL_STEP b: …  FROM a TO b     E0731
 void Checker::checkInitial() {
-  std::vector<uint32_t> network(steps_.size());  // a step of the same network, or itself
+  std::vector<uint32_t> network(steps_.size());  // union-find: a step of the same network, or itself
   for (uint32_t i = 0; i < network.size(); ++i) network[i] = i;
   const auto root = [&](uint32_t i) {
     while (network[i] != i) i = network[i] = network[network[i]];
@@ -109,7 +110,7 @@ void Checker::checkInitial() {
            {string(pou_.name), steps_.empty() ? "Start" : string(steps_[0].name.name)});
 }
 
-// Forbids transitions from and to what is no step. IEC 61131-3 ed. 3, 6.7.3.
+// Forbids transitions from and to undefined steps. IEC 61131-3 ed. 3, 6.7.3.
 //   fails   TRANSITION FROM a TO nowhere := x; END_TRANSITION        E0732
 void Checker::checkSteps(Slice<Ident> list) {
   for (const Ident& step : charts_.tree.list(list)) {
@@ -120,7 +121,7 @@ void Checker::checkSteps(Slice<Ident> list) {
   }
 }
 
-// Forbids an association with what is no action. IEC 61131-3 ed. 3 table 56; TM/TP manual 5.5.2.2.
+// Forbids an association with an undefined action. IEC 61131-3 ed. 3 table 56; TM/TP manual 5.5.2.2.
 //   passes  STEP a: open(N); END_STEP  ACTION open: …        fails   STEP a: opem(N); END_STEP       E0733
 void Checker::checkActions() {
   for (const SfcStep& step : steps_) {
@@ -147,7 +148,7 @@ void Checker::ancestors(uint32_t branch, std::vector<uint32_t>& out) const {
   for (const uint32_t parent : splits_[branches_[branch].split].parent) ancestors(parent, out);
 }
 
-// Two branches of one split, or parts of such.
+// Whether they are in different branches of one split.
 bool Checker::concurrent(uint32_t a, uint32_t b) const {
   std::vector<uint32_t> of_a, of_b;
   ancestors(a, of_a);
@@ -160,7 +161,7 @@ bool Checker::concurrent(uint32_t a, uint32_t b) const {
   return false;
 }
 
-// All branches of a split are the region that was split.
+// Replaces all branches of a split by the region that was split.
 void Checker::reduce(Region& region) const {
   for (bool again = true; again;) {
     again = false;
@@ -183,7 +184,7 @@ void Checker::reduce(Region& region) const {
   }
 }
 
-// Forbids a transition from steps of which never all are active. IEC 61131-3 ed. 3 table 61, 4c.
+// Forbids a transition from steps that are never all active together. IEC 61131-3 ed. 3 table 61, 4c.
 //   fails   TRANSITION FROM a TO b …  TRANSITION FROM (a, b) TO c …        E0737
 bool Checker::unite(const SfcTransition& t, Region& region) {
   const std::span<const Ident> from = charts_.tree.list(t.from);
@@ -205,8 +206,8 @@ bool Checker::unite(const SfcTransition& t, Region& region) {
   return true;
 }
 
-// Forbids jumps into and out of parallel branches, and charts that make a step active twice: two ways to a step must
-// come from the same branches. IEC 61131-3 ed. 3, 6.7.5; TM/TP manual 5.5.2.4.
+// Forbids jumps into and out of parallel branches, and charts that activate a step twice: two paths to a step must come
+// from the same branches. IEC 61131-3 ed. 3, 6.7.5; TM/TP manual 5.5.2.4.
 //   fails   FROM a TO (b, c) …  FROM b TO a …        E0738
 bool Checker::enter(const Ident& step, const Region& region) {
   Region& own = regions_[index_.of(step.name)];
@@ -276,7 +277,7 @@ void Checker::checkRegions() {
       work.insert(work.end(), fresh.rbegin(), fresh.rend());
     }
   }
-  if (charts_.diagnostics.hasErrors()) return;  // ways may have been lost
+  if (charts_.diagnostics.hasErrors()) return;  // transitions may have been dropped
   for (size_t i = 0; i < steps_.size(); ++i)
     if (regions_[i].empty())
       charts_.diagnostics.report(diag::SfcUnreachable, steps_[i].name.loc, {string(steps_[i].name.name)});

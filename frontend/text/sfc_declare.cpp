@@ -1,5 +1,6 @@
-// The variables of a chart; see sfc_schedule.h. Flags that other declarations bring are not known yet: what they need
-// is declared where their name occurs in the project at all.
+// The variables of a chart; see sfc_schedule.h. Those of a chart in an action are VAR_INST, so that it keeps its state.
+// Flags from other declarations are not known yet: the variables they need are declared where their name occurs
+// anywhere in the project.
 #include "frontend/syntax/sfc.h"
 #include "frontend/text/sfc_chart.h"
 

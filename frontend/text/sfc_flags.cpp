@@ -1,4 +1,4 @@
-// Flags of a chart and the limits of its steps; see sfc_scheduler.h. TM/TP manual 5.5.2.5.
+// Flags of a chart and the time limits of its steps; see sfc_scheduler.h. TM/TP manual 5.5.2.5.
 #include <algorithm>
 
 #include "frontend/syntax/sfc.h"
@@ -10,7 +10,7 @@ namespace {
 constexpr size_t kMaxStringLength = 80;
 }  // namespace
 
-// As before the first cycle.
+// Resets the chart to its state before the first cycle.
 void SfcScheduler::reset(uint32_t depth) {
   for (const SfcStep& step : chart_.steps_) {
     out_.at(step.name.loc);
@@ -60,7 +60,7 @@ void SfcScheduler::flags() {
   }
   out_.at(chart_.pou_.body_begin);
   out_.line(0, "sfc_now := TASK_TIME();");
-  // While the chart stands still, its time does too.
+  // While the chart is paused, its time stops too.
   const Ident* quit = chart_.flag(SfcFlag::QuitError);
   const Ident* pause = chart_.flag(SfcFlag::Pause);
   if (quit != nullptr || pause != nullptr) {
@@ -102,7 +102,7 @@ void SfcScheduler::flags() {
   }
 }
 
-// The content of a text literal, as much as a STRING holds.
+// The content of a string literal, cut to the size of a STRING.
 std::string SfcScheduler::quoted(std::string_view text) {
   std::string out;
   size_t length = 0;
@@ -135,15 +135,15 @@ template <class Condition>
 void SfcScheduler::analyseLeaf(const Condition& condition, std::string_view text, bool wanted, uint32_t depth) {
   const Ident& table = *chart_.flag(SfcFlag::ErrorAnalyzationTable);
   out_.line(depth, "IF sfc_row <= UPPER_BOUND(", table, ", 1) AND ", wanted ? "NOT " : "", "(", condition);
-  out_.line(depth, ") THEN");  // on a line of its own: the condition may end with a comment
+  out_.line(depth, ") THEN");  // on a separate line: the condition may end with a comment
   out_.line(depth + 1, table, "[sfc_row].name := '", quoted(text), "';");
   out_.line(depth + 1, table, "[sfc_row].value := ", wanted ? "FALSE;" : "TRUE;");
   out_.line(depth + 1, "sfc_row := sfc_row + 1;");
   out_.line(depth, "END_IF");
 }
 
-// A row for each part of a condition that keeps it from being `wanted`: of AND those that are FALSE, of OR all where
-// none is TRUE, behind NOT the other way round.
+// A row for each operand that keeps a condition from being `wanted`: of AND those that are FALSE, of OR all if none is
+// TRUE, after NOT the other way round.
 void SfcScheduler::analyse(const SfcExpr& e, bool wanted, uint32_t depth) {
   const ExprKind kind = tree_.kind(e.value);
   if (kind == ExprKind::Unary && tree_.as<UnaryExpr>(e.value).op() == UnaryOp::Not) {
@@ -155,7 +155,7 @@ void SfcScheduler::analyse(const SfcExpr& e, bool wanted, uint32_t depth) {
   if (!all && op != BinaryOp::Or && op != BinaryOp::OrElse)
     return analyseLeaf(part(e), out_.textOf(part(e)), wanted, depth);
   const BinaryExpr& node = tree_.as<BinaryExpr>(e.value);
-  const bool each = all == wanted;  // one part is enough to block
+  const bool each = all == wanted;  // one operand is enough to block
   if (!each) {
     out_.line(depth, "IF ", wanted ? "NOT " : "", "(", part(e));
     out_.line(depth, ") THEN");
@@ -165,7 +165,8 @@ void SfcScheduler::analyse(const SfcExpr& e, bool wanted, uint32_t depth) {
   if (!each) out_.line(depth, "END_IF");
 }
 
-// The text of a part of a condition: without the blanks and the parentheses of others behind it.
+// The source of one operand of a condition, without trailing blanks and the closing parentheses of enclosing
+// expressions.
 SfcExpr SfcScheduler::part(const SfcExpr& e) const {
   std::string_view text = out_.textOf(e);
   size_t depth = 0;

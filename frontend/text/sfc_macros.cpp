@@ -1,7 +1,7 @@
-// Macro steps of a chart: a part of it with a name, in a notation of Rung's own, since the standard has none for text.
+// Macro steps of a chart: a named part of it. The notation is specific to Rung, since the standard has none for text.
 //   macro = MACRO_STEP name ["(" (ENTRY | EXIT) ":=" step {"," …} ")"] ":" {step | transition | macro} END_MACRO_STEP
-// The part is inlined: a transition to the macro leads to its entry, one from it leaves its exit; without a word these
-// are its first and its last step in the text. TM/TP manual 5.5.2.5.
+// The parser inlines the part: a transition to the macro activates its entry, one from it leaves its exit; by default
+// these are its first and its last step in the source. TM/TP manual 5.5.2.5.
 #include <unordered_map>
 
 #include "frontend/syntax/diagnostics.h"
@@ -37,7 +37,7 @@ void Parser::openMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& ope
   macros.push_back(macro);
 }
 
-// Forbids a macro step without steps, and an ENTRY or EXIT that is no step inside of it.
+// Forbids a macro step without steps, and an ENTRY or EXIT that is not a step inside it.
 //   passes  MACRO_STEP Heat: STEP a: END_STEP END_MACRO_STEP
 //   fails   MACRO_STEP Heat: END_MACRO_STEP                                            E0744
 //   fails   MACRO_STEP Heat (ENTRY := b): STEP a: END_STEP END_MACRO_STEP              E0745
@@ -51,7 +51,7 @@ void Parser::closeMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& op
       diagnostics_.report(diag::MacroEmpty, macro.name.loc, {names_.string(macro.name.name)});
     return;
   }
-  // A macro inside has its own entry and exit; of two that begin together the outer one stands first.
+  // An inner macro has its own entry and exit; of two that begin together the outer one comes first.
   const auto inner = [&](NameId name) -> const SfcMacro* {
     for (uint32_t i = first_inner; i < macros.size(); ++i)
       if (names_.same(macros[i].name.name, name)) return &macros[i];
@@ -80,7 +80,7 @@ void Parser::closeMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& op
   }
 }
 
-// Forbids a macro step with the name of a step or of another one: transitions could mean both.
+// Forbids a macro step with the name of a step or of another macro: transitions to it would be ambiguous.
 void Parser::inlineMacros(std::span<const SfcMacro> macros, std::span<const SfcStep> steps,
                           std::vector<SfcTransition>& transitions) {
   if (macros.empty()) return;
@@ -98,7 +98,7 @@ void Parser::inlineMacros(std::span<const SfcMacro> macros, std::span<const SfcS
   }
   for (const SfcStep& step : steps)
     if (const SfcMacro* macro = find(step.name.name)) return reportTwice(macro->name, step.name.loc);
-  // An entry may be a macro inside, whose entry may be one again.
+  // An entry may be an inner macro, whose entry may be one again.
   const auto resolve = [&](Slice<Ident>& list, bool entry) {
     std::vector<Ident> created(tree_.list(list).begin(), tree_.list(list).end());
     bool changed = false;

@@ -1,10 +1,10 @@
-// Writes a chart as declarations and statements; see sfc_schedule.h. The statements of a cycle, in this order
-// (TM/TP manual 5.5; iec-syntax 5.9.8):
+// Writes a chart as declarations and statements; see sfc_schedule.h. The statements of a cycle, in this order (TM/TP
+// manual 5.5; syntax manual 5.9.8):
 //   1. flags: SFCInit, SFCReset, SFCQuitError, SFCPause
-//   2. steps that were left: exit actions; steps that were entered: entry actions
+//   2. exit actions of steps that were left, entry actions of steps that were entered
 //   3. active steps: times, limits, active actions, qualifiers of their actions
 //   4. control blocks, boolean variables and final scans; then the actions that are active
-//   5. transitions of active steps: the first that fires, in the order of priority, then of the text
+//   5. transitions of active steps: the first that fires, by priority, then in source order
 #include "frontend/text/sfc_schedule.h"
 
 #include <algorithm>
@@ -53,7 +53,7 @@ void SfcScheduler::run(uint32_t depth, const SfcStep& step, SfcQualifier when) {
   }
 }
 
-// What the transitions of the last cycle decided.
+// Applies the transitions that fired in the last cycle.
 void SfcScheduler::evolve() {
   const size_t count = chart_.steps_.size();
   const auto all = [](uint32_t) { return true; };
@@ -137,7 +137,8 @@ void SfcScheduler::actions() {
       });
 }
 
-// `TRANSITION t FROM a TO b;` has the condition of `TRANSITION t := …`, here or around, or is named like a variable.
+// `TRANSITION t FROM a TO b;` has the condition of `TRANSITION t := …`, of this or an enclosing chart, or is the
+// variable t.
 const SfcTransition& SfcScheduler::conditionOf(const SfcTransition& t) const {
   if (t.body || t.condition.value) return t;
   for (const SfcTransition& other : chart_.transitions_)
@@ -213,7 +214,7 @@ void SfcScheduler::fire(uint32_t way, uint32_t depth) {
   if (chart_.flag(SfcFlag::TipMode) != nullptr) out_.line(depth, "sfc_tip := FALSE;");
 }
 
-// The first way whose condition is TRUE.
+// An IF statement: the first transition whose condition is TRUE fires.
 void SfcScheduler::chain(const std::vector<uint32_t>& ways, size_t at, uint32_t depth) {
   const auto prepared = [&](size_t k) {
     const SfcTransition& t = conditionOf(chart_.transitions_[ways[k]]);
@@ -238,13 +239,13 @@ void SfcScheduler::chain(const std::vector<uint32_t>& ways, size_t at, uint32_t 
   out_.line(depth, "END_IF");
 }
 
-// The transitions that are judged with each step: a transition from several steps with the first of them.
+// The transitions evaluated with each step: a transition from several steps with the first of them.
 std::vector<std::vector<uint32_t>> SfcScheduler::waysBySteps() const {
   std::vector<std::vector<uint32_t>> ways(chart_.steps_.size());
   for (uint32_t i = 0; i < chart_.transitions_.size(); ++i)
     if (!chart_.transitions_[i].from.empty())
       ways[chart_.index_.of(tree_.list(chart_.transitions_[i].from)[0].name)].push_back(i);
-  // Smaller numbers first; those without a number behind them, in the order of the text.
+  // By ascending priority number, then those without a priority, in source order.
   const auto rank = [&](uint32_t i) {
     return chart_.transitions_[i].has_priority ? chart_.transitions_[i].priority : UINT32_MAX;
   };
@@ -255,7 +256,7 @@ std::vector<std::vector<uint32_t>> SfcScheduler::waysBySteps() const {
 
 void SfcScheduler::transitions() {
   const std::vector<std::vector<uint32_t>> ways = waysBySteps();
-  std::vector<bool> joined(chart_.steps_.size());  // may be left by a transition that is judged with another step
+  std::vector<bool> joined(chart_.steps_.size());  // may be left by a transition that is evaluated with another step
   for (const SfcTransition& t : chart_.transitions_) {
     const std::span<const Ident> from = tree_.list(t.from);
     for (size_t i = 1; i < from.size(); ++i) joined[chart_.index_.of(from[i].name)] = true;
@@ -298,7 +299,7 @@ void SfcScheduler::run() {
   transitions();
 }
 
-// False: sema has said that a name is declared twice.
+// False: a duplicate name, which sema has reported.
 static bool namesDiffer(const Charts& charts, const PouDecl& pou) {
   std::vector<uint32_t> keys;
   for (const DeclId section : charts.tree.list(pou.sections))

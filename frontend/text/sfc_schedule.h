@@ -1,12 +1,14 @@
-// The scheduler of Sequential Function Charts: a chart becomes declarations and statements, as text in ST whose parts
-// lead back to the chart's own places. In: steps, transitions and associations of a POU. Out: sections and statements
-// in its PouDecl, the text of both for `rung convert`. Called by sema: the sections when it collects the POU, the
-// statements when the body is about to be checked.
+// The scheduler of Sequential Function Charts: a chart becomes declarations and statements, written as source-mapped
+// ST, so that conditions and times are quoted with their locations in the chart and `rung convert` prints exactly the
+// ST that is compiled. In: steps, transitions and associations of a POU. Out: sections and statements in its PouDecl,
+// and the ST of both. Called by sema: declareSfc when it collects the POU, scheduleSfc when it is about to check the
+// body and knows which actions are variables. The behaviour of qualifiers is in the library (stdlib/iecsfc/sfc.st), not
+// here.
 //
-// The state. Each step is an SFCStepType of its name, each action an SFCActionControl of its name behind `_`, each
-// named condition a BOOL. Words of 64 steps say which are active (sfc_steps), which were left and which entered by the
-// transitions of the last cycle (sfc_left, sfc_entered): a cycle visits set bits only. Words of 64 actions say whose
-// control blocks have something to do (sfc_actions).
+// The state. Each step is an SFCStepType of its name, each action an SFCActionControl of its name with the prefix `_`,
+// each named condition a BOOL. Sets of 64 steps per LWORD hold the active steps (sfc_steps), those left and those
+// entered by the transitions of the last cycle (sfc_left, sfc_entered): a cycle visits set bits only. Sets of actions
+// hold the control blocks with work to do (sfc_actions).
 #pragma once
 
 #include <utility>
@@ -28,26 +30,26 @@ struct Charts {
   Dialect dialect;
 };
 
-// Where a chart stands.
+// The context of a chart.
 struct ChartContext {
   bool final_scan = true;  // actions run once more when they end
   // Of a chart in an action or method: the charts of actions around it, then the block; else empty.
   std::vector<const PouDecl*> around;
 };
 
-// Appends the sections of the chart's variables to those of the POU. Of a POU without a chart those of its conditions,
+// Appends the sections of the chart's variables to those of the POU; of a POU without a chart those of its conditions,
 // which charts of its actions use.
 void declareSfc(const Charts& charts, PouDecl& pou, const ChartContext& context);
-// Fills the POU's statements. False: the chart is wrong, which was reported.
+// Fills the POU's statements. False: the chart has errors, which were reported.
 bool scheduleSfc(const Charts& charts, Signatures& signatures, PouDecl& pou, const ChartContext& context);
 // The rules for charts as a whole (sfc_check.cpp).
 bool checkSfc(const Charts& charts, Signatures& signatures, const PouDecl& pou, const ChartContext& context);
 
-// The steps of a chart by name.
+// Looks up the steps of a chart by name.
 class StepIndex {
  public:
   StepIndex(const Charts& charts, const PouDecl& pou);
-  // The first step of this name, or as many as there are.
+  // The first step of this name, or the number of steps.
   uint32_t of(NameId name) const;
 
  private:

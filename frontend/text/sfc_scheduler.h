@@ -1,5 +1,5 @@
-// Writes the statements of a chart; see sfc_schedule.h. Private to frontend/text: sfc_schedule.cpp has the cycle,
-// sfc_flags.cpp the flags and the limits of steps.
+// Writes the statements of a chart; see sfc_schedule.h. Private to frontend/text: sfc_schedule.cpp implements the
+// cycle, sfc_flags.cpp the flags and the time limits of steps.
 #pragma once
 
 #include "frontend/source/function_ref.h"
@@ -22,9 +22,9 @@ class SfcScheduler {
     return chart_.words(count) <= 1 ? set : std::string(set) + "[" + std::to_string(index / kWord) + "]";
   }
   std::string stepWord(const char* set, uint32_t step) const { return word(set, chart_.steps_.size(), step); }
-  // All words of a set.
+  // Visits all LWORDs of a set.
   void forWords(uint32_t depth, size_t count, FunctionRef<void(const std::string& index, uint32_t depth)> body);
-  // Visits the set bits of a set: `wanted` says which have a branch.
+  // Visits the set bits of a set: `wanted` selects the members that have a branch.
   void scan(uint32_t depth, const char* set, size_t count, FunctionRef<bool(uint32_t)> wanted,
             FunctionRef<std::string_view(uint32_t)> name, Branch branch);
   auto stepNames() const {

@@ -1,4 +1,4 @@
-// Statements, and the places where the parser finds its feet again behind a mistake.
+// Statements, and resynchronization after errors.
 #include "frontend/source/dialect.h"
 #include "frontend/syntax/diagnostics.h"
 #include "frontend/text/diagnostics.h"
@@ -39,7 +39,7 @@ bool Parser::startsStatement(const Token* t) const {
   if (next != Tok::LeftParen && next != Tok::Dot && next != Tok::LeftBracket && next != Tok::Caret &&
       next != Tok::Semicolon && next != Tok::Colon && next != Tok::Equal)
     return false;
-  // The line may go on with an expression of the line above.
+  // The line may continue an expression of the line above.
   const Tok before = t == tokens_.data() ? Tok::Semicolon : t[-1].kind;
   return !(before >= Tok::Plus && before <= Tok::EqualLess) && !(before >= Tok::And && before <= Tok::Mod) &&
          before != Tok::Comma && before != Tok::LeftParen && before != Tok::Assign && before != Tok::LeftBracket;
@@ -72,8 +72,7 @@ Slice<StmtId> Parser::parseStatements(uint8_t stops) {
     }
     const Token* before = t_;
     parseStatement();
-    if (t_ == before && t_->kind == before->kind && (t_->flags & kReported) == 0)
-      advance();  // no statement stands still
+    if (t_ == before && t_->kind == before->kind && (t_->flags & kReported) == 0) advance();  // guarantees progress
   }
 }
 
@@ -142,7 +141,7 @@ void Parser::parseStatement() {
     const Tok word = kind();
     slip(diag::StrayEnd, t_, {textOf(t_)});
     advance();
-    // A lone ELSIF keeps its branch; its condition is read and dropped.
+    // A lone ELSIF keeps its branch; its condition is parsed and dropped.
     if (word == Tok::Elsif) parseHeader(Tok::Then);
     return;
   } else {
@@ -161,7 +160,7 @@ bool Parser::chartInSt() {
   return true;
 }
 
-// assignment = place (":=" | "S=" | "R=" | "REF=" | "+=" | "-=" | "*=" | "/=") expr ";"
+// assignment = lvalue (":=" | "S=" | "R=" | "REF=" | "+=" | "-=" | "*=" | "/=") expr ";"
 // call       = expr "(" arguments ")" ";"
 // label      = name ":"
 void Parser::parseExprStatement() {
@@ -295,13 +294,13 @@ void Parser::parseExprStatement() {
   syncStatement();
 }
 
-// a := b := c is c to b, then b to a. Targets are read once more from their tokens, since each use is a node of its
-// own.
+// a := b := c assigns c to b, then b to a. Targets are parsed again from their tokens, since each use needs separate
+// nodes.
 void Parser::parseChain(ExprId target, ExprId value, Token* value_start, const Token* op) {
   if (dialect_ != Dialect::Codesys) slip(diag::ChainedAssign, t_);
   struct Link {
     ExprId target;
-    Token* start;  // where its text as a value begins
+    Token* start;  // where it begins as a value
     Loc op;
   };
   std::vector<Link> links{{target, nullptr, loc(op)}};
@@ -334,7 +333,7 @@ void Parser::parseChain(ExprId target, ExprId value, Token* value_start, const T
   panic_ = panicked;
 }
 
-// The name that begins this statement is a misspelled keyword: respells it and goes back to it.
+// The name that begins this statement is a misspelled keyword: corrects it and returns to it.
 bool Parser::misspelledStart(const Token* first) {
   if (first->kind != Tok::Ident || (first->flags & kReported) != 0) return false;
   static constexpr Tok kCandidates[] = {Tok::Elsif,    Tok::Else,   Tok::Until, Tok::Exit,
@@ -393,7 +392,7 @@ void Parser::syncStatement() {
   for (;; advance()) {
     const Tok k = kind();
     if (k == Tok::Semicolon) {
-      // A `;` that stands for `,` inside parentheses which do get closed on the line is passed over.
+      // A `;` in place of `,` is skipped inside parentheses that are closed on the same line.
       if (depth > 0) {
         const Token* t = t_ + 1;
         while ((t->flags & kLineStart) == 0 && t->kind != Tok::End && t->kind != Tok::Semicolon &&
@@ -412,7 +411,7 @@ void Parser::syncStatement() {
   }
 }
 
-// The condition of a block's header and the word behind it.
+// The condition of a block's header and the keyword after it.
 ExprId Parser::parseHeader(Tok connective) {
   const ExprId condition = parseCompared(parseExpr());
   finishHeader(connective);
@@ -444,7 +443,7 @@ void Parser::finishHeader(Tok connective) {
       return;
     }
   }
-  // Is the word still to come? Then what stands before it is wrong; else the word is missing here.
+  // If the keyword still follows, the tokens before it are wrong; otherwise it is missing here.
   const Token* t = t_;
   while (t->kind != connective && t->kind != Tok::Semicolon && !isEndWord(t->kind) && !isStatementWord(t->kind) &&
          !isAssign(t->kind) && t - t_ < 500)
@@ -492,7 +491,7 @@ bool Parser::enterBlock() {
   return false;
 }
 
-// END_… and the `;` behind it, which may be left out.
+// END_… and the optional `;` after it.
 void Parser::closeBlock(const Token* open, Tok end) {
   --stmt_depth_;
   if (accept(end)) {
@@ -526,7 +525,7 @@ void Parser::parseIf() {
       tree_.add<StmtId>(IfStmt{header(StmtKind::If, loc(open)), listFrom(if_branches_, first), otherwise}));
 }
 
-// A case label ends in `:`, `,` or `..`; what begins a statement never does.
+// A case label ends in `:`, `,` or `..`; the beginning of a statement never does.
 bool Parser::atCaseLabel() const {
   const Token* t = t_;
   switch (static_cast<int>(t->kind)) {
@@ -559,7 +558,7 @@ bool Parser::atCaseLabel() const {
     case static_cast<int>(Tok::LeftParen): break;
     default: return false;
   }
-  // MAX(1, LIMIT): the call of a statement has no colon or comma behind it.
+  // MAX(1, LIMIT): a call statement has no colon or comma after it.
   uint32_t open = 0;
   do {
     if (t->kind == Tok::LeftParen) ++open;
@@ -602,7 +601,7 @@ void Parser::parseCaseLabels(std::vector<ExprId>& out) {
     }
     fail(diag::MissingToken, t_, {":", describe(t_)});
   }
-  // Behind the mistake: the colon of this line, if there is one.
+  // After the error: the colon of this line, if there is one.
   const Token* t = t_;
   while (t->kind != Tok::Colon && t->kind != Tok::Semicolon && t->kind != Tok::Assign && !isEndWord(t->kind) &&
          ((t->flags & kLineStart) == 0 || t == first))
@@ -650,7 +649,7 @@ void Parser::parseCase() {
   stmts_.push_back(tree_.add<StmtId>(s));
 }
 
-// FOR place := expr TO expr [BY expr] DO statements END_FOR
+// FOR lvalue := expr TO expr [BY expr] DO statements END_FOR
 void Parser::parseFor() {
   const Token* open = t_;
   if (!enterBlock()) return;
@@ -715,7 +714,7 @@ void Parser::parseRepeat() {
     }
     panic_ = false;
   } else {
-    // Said already when the line before, most likely its condition, has an error.
+    // Not reported when the line before, most likely its condition, has an error.
     s.until = errorExpr(here());
     if (last_error_ == nullptr || last_error_ < statement_start_) slip(diag::MissingToken, t_, {"UNTIL", describe(t_)});
   }
@@ -723,7 +722,7 @@ void Parser::parseRepeat() {
   stmts_.push_back(tree_.add<StmtId>(s));
 }
 
-// __TRY statements [__CATCH ["(" place ")"] statements] [__FINALLY statements] __ENDTRY
+// __TRY statements [__CATCH ["(" lvalue ")"] statements] [__FINALLY statements] __ENDTRY
 void Parser::parseTry() {
   const Token* open = t_;
   if (!enterBlock()) return;

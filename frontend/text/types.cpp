@@ -1,5 +1,5 @@
-// Types: the entries of TYPE … END_TYPE, and types as variables and entries write them. In: the tokens at hand. Out:
-// TypeDecl and type expressions. Called by declarations.cpp, objects.cpp and parser.cpp.
+// Types: the entries of TYPE … END_TYPE, and the types of variables and entries. In: the current tokens. Out: TypeDecl
+// and type expressions. Called by declarations.cpp, objects.cpp and parser.cpp.
 #include <algorithm>
 #include <utility>
 
@@ -95,7 +95,7 @@ DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessLevel access
   return tree_.add<DeclId>(d);
 }
 
-// ---- types as they are written
+// ---- type expressions
 
 TypeExprId Parser::parseType() {
   if (++type_depth_ > kMaxTypeDepth) {
@@ -146,7 +146,7 @@ TypeExprId Parser::parseType() {
 // items ")"
 TypeExprId Parser::parseNamedType() {
   const Loc start = here();
-  // USTRING came late to be a keyword: a type of the project may have its name.
+  // USTRING is a keyword of edition 4 only: a type of the project may have its name.
   const bool is_utf8 = at(Tok::Ident) && is(t_, "USTRING") && (peek() == Tok::LeftBracket || peek() == Tok::LeftParen);
   if (at(Tok::String) || at(Tok::Wstring) || is_utf8) {
     const StringEncoding code = is_utf8            ? StringEncoding::Utf8
@@ -204,7 +204,7 @@ TypeExprId Parser::parseNamedType() {
     block.has_arguments = true;
     return base;
   }
-  // `INT (a, b := 2)` names values, `INT (0..9)` a range.
+  // `INT (a, b := 2)` is an enumeration, `INT (0..9)` a subrange.
   const Tok next = peek(2);
   if (isName(peek()) && (next == Tok::Comma || next == Tok::RightParen || next == Tok::Assign)) return parseEnum(base);
   advance();
@@ -216,7 +216,7 @@ TypeExprId Parser::parseNamedType() {
   return tree_.add<TypeExprId>(d);
 }
 
-// Whether what stands in the parentheses here is `low .. high`.
+// Whether the parentheses here contain `low .. high`.
 bool Parser::rangeFollows() const {
   uint32_t depth = 0;
   for (const Token* t = t_; t->kind != Tok::End && t->kind != Tok::Semicolon; ++t) {

@@ -86,7 +86,7 @@ void Archive::write(const xml::Element& value, xml::SourceMappedText& out) const
   for (uint32_t r = value.first_run; r < value.end_run; ++r) {
     const xml::Run& run = document_.runs[r];
     const bool opens = quoted && r == value.first_run, closes = quoted && r + 1 == value.end_run;
-    if (run.character != 0) {  // a quote, maybe, that is written as an entity
+    if (run.character != 0) {  // possibly a quote written as an entity
       if (!opens && !closes) out.addRuns(document_, r, r + 1);
       continue;
     }

@@ -1,6 +1,6 @@
-// CFC bodies of TwinCAT; see archive.h. Elements have pins with ids, and connections lead from pin to pin. Elements
-// stand in the order in which they are executed. The texts of a box are the names of its inputs and outputs, its type
-// and, of a function block, its instance.
+// CFC bodies of TwinCAT; see archive.h. Elements have pins with ids, and connections link the ids of pins. Elements are
+// in execution order. The texts of a box are the names of its inputs and outputs, its type and, for a function block,
+// its instance.
 #include <algorithm>
 #include <charconv>
 #include <unordered_map>
@@ -17,8 +17,8 @@ namespace rung::vendor {
 namespace {
 
 struct Pin {
-  const xml::Element* name;  // <v>; null: it is called `other`
-  std::string other;         // empty: the element has no names of pins
+  const xml::Element* name;  // <v>; null: `other` is the name
+  std::string other;         // empty: the pins of the element have no names
   uint64_t element;          // number in the notation
 };
 struct Word {
@@ -65,7 +65,7 @@ class CfcReader {
   Diagnostics& diagnostics_;
   xml::SourceMappedText& out_;
   std::unordered_map<uint64_t, Pin> pins_;                           // by id
-  std::unordered_map<uint64_t, std::vector<const Element*>> wires_;  // by the id of where they end
+  std::unordered_map<uint64_t, std::vector<const Element*>> wires_;  // by the id of the destination pin
 };
 
 std::vector<const xml::Element*> CfcReader::pinsOf(const Element& item, std::string_view one,
@@ -85,7 +85,7 @@ std::vector<const xml::Element*> CfcReader::textsOf(const Element& item) const {
   return texts;
 }
 
-// Remembers pins and connections.
+// Collects pins and connections.
 //   fails   <o t="CFCParrotElement">                            E1087
 //   fails   a pin that sets in a way other than Set, Reset      E1087
 bool CfcReader::collect(const Element& item, uint64_t number) {
@@ -101,7 +101,7 @@ bool CfcReader::collect(const Element& item, uint64_t number) {
     return false;
   }
   std::vector<const Element*> texts = textsOf(item);
-  if (isBox(type)) {  // type and instance stand last
+  if (isBox(type)) {  // type and instance are last
     size_t tail = archive_.text(item, "KindOfCall") == "FunctionBlock" ? 2 : 1;
     while (!texts.empty() && tail > 0) {
       if (texts.back() != nullptr && !archive_.text(*texts.back()).empty()) --tail;
@@ -130,7 +130,7 @@ bool CfcReader::collect(const Element& item, uint64_t number) {
   return ok;
 }
 
-// Forbids a connection from a pin that no element has.
+// Forbids a connection from an undefined pin.
 //   fails   <v n="SourcePinId">99L</v>          E1001
 bool CfcReader::checkConnection(const Element& connection) {
   const uint64_t id = archive_.number(connection, "SourcePinId");
@@ -186,7 +186,7 @@ void CfcReader::writePosition(const Element& item) {
   out_.put(bounds->loc, position);
 }
 
-// Marks are called as their author likes: in the notation by a name that stands for it.
+// Names of connectors are arbitrary: in the notation they are converted to identifiers.
 void CfcReader::writeName(const Element& item, const Element* text) {
   out_.word(" ");
   if (text != nullptr && isPath(archive_.text(*text))) return archive_.write(*text, out_);

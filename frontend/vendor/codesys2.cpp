@@ -1,8 +1,7 @@
-// CODESYS 2.3 exports (.EXP): objects one behind the other, each below comments like `(* @PATH := '\/Pumps' *)`. POUs,
-// their actions (which follow the END_…), types and lists of globals are ST as they stand, except bodies that are
-// drawn:
-// `_FBD_BODY` and the like. Whatever else is exported (visualisations, the PLC's configuration, lists of libraries) is
-// passed over; a word that no export has is left to the parser, which says so.
+// CODESYS 2.3 exports (.EXP): a sequence of objects, each below comments like `(* @PATH := '\/Pumps' *)`. POUs, their
+// actions (which follow the END_…), types and lists of globals are plain ST, except drawn bodies: `_FBD_BODY` and the
+// like. Other exported objects (visualisations, the PLC's configuration, lists of libraries) are skipped; an unknown
+// keyword is left to the parser, which reports it.
 #include "frontend/source/names.h"
 #include "frontend/vendor/diagnostics.h"
 #include "frontend/vendor/readers.h"
@@ -12,7 +11,7 @@
 namespace rung::vendor {
 namespace {
 
-// What an object begins with that holds no program.
+// The first word of an object that is not part of the program.
 bool isForeign(std::string_view word) {
   for (const std::string_view known :
        {"VISUALISATION", "VISUALIZATION", "LIBRARY", "PLC_CONFIGURATION", "PLC_CONFIG", "TASK_CONFIGURATION",
@@ -29,13 +28,13 @@ class Codesys2Reader {
         base_(sources.begin(file).offset),
         program_(sources) {}
 
-  // False: nothing had to be moved or left out.
+  // False: the file can be parsed unchanged.
   bool run() {
     Scanner scanner(source_);
     while (scanner.next()) {
       const size_t begin = scanner.begin();
       std::string_view word = scanner.word();
-      if (sameIdentifier(word, "FUNCTIONBLOCK")) {  // taken by that compiler
+      if (sameIdentifier(word, "FUNCTIONBLOCK")) {  // accepted by CODESYS 2.3
         keep(begin);
         word = "FUNCTION_BLOCK";
         program_.replace(loc(begin), loc(scanner.end()), word);
@@ -80,7 +79,7 @@ class Codesys2Reader {
     return scanner.end();
   }
 
-  // The POU or action whose first word has been read: passes over it, leaving out a body that is drawn. Its end.
+  // Skips the POU or action whose first word has been read, excluding a drawn body. Returns its end.
   size_t endOfPou(Scanner& scanner, std::string_view closing) {
     std::string_view name;
     while (scanner.next()) {
@@ -91,7 +90,7 @@ class Codesys2Reader {
       const std::string how = "drawn in " + std::string(word.substr(1, word.size() - 6));
       diagnostics_.report(diag::NetworkBody, loc(scanner.begin()), {name, how})
           .length(static_cast<uint32_t>(word.size()));
-      // Its texts follow no rules of ST: the line that closes the POU is what can be found.
+      // A drawn body is not ST: search for the line that closes the POU.
       size_t end = source_.find("\n" + std::string(closing), scanner.begin());
       end = end == std::string_view::npos ? source_.size() : end + 1;
       exclude(scanner.begin(), end);
@@ -104,7 +103,7 @@ class Codesys2Reader {
   std::string_view source_;
   uint32_t base_;
   xml::SourceMappedText program_;
-  size_t kept_ = 0;  // everything before is taken over or left out
+  size_t kept_ = 0;  // everything before is copied or excluded
   bool changed_ = false;
 };
 

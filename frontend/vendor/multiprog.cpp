@@ -1,5 +1,5 @@
-// MULTIPROG and PC Worx: one POU, type sheet or global sheet per file. What the tool needs stands in comments that
-// begin with `(*@`; between them a description is bare text, and each worksheet says in which language it is written.
+// MULTIPROG and PC Worx: one POU, type sheet or global sheet per file. The tool's data is in comments that begin with
+// `(*@`; descriptions between them are plain text, and each worksheet names its language.
 #include <algorithm>
 
 #include "frontend/vendor/diagnostics.h"
@@ -10,7 +10,7 @@
 namespace rung::vendor {
 namespace {
 
-// The value of `KEY: value` on a line of its own in a comment; its place is that of the value.
+// The value of `KEY: value` on a separate line in a comment, as a view into `source`.
 std::string_view valueOf(std::string_view source, size_t comment, size_t end, std::string_view key) {
   const std::string_view inside = source.substr(comment, end - comment);
   const size_t found = inside.find(key);
@@ -27,8 +27,8 @@ FileId readMultiprog(Sources& sources, FileId file, Diagnostics& diagnostics) {
   const uint32_t base = sources.begin(file).offset;
   const auto loc = [&](size_t at) { return Loc{base + static_cast<uint32_t>(at)}; };
   xml::SourceMappedText program(sources);
-  size_t kept = 0;  // everything before is taken over or left out
-  // Leaves out what stands before the comment that holds `closing`.
+  size_t kept = 0;  // everything before is copied or excluded
+  // Excludes the source up to the comment that contains `closing`.
   const auto exclude = [&](size_t begin, std::string_view closing) {
     const size_t word = std::min(source.find(closing, begin), source.size());
     const size_t comment = source.substr(begin, word - begin).rfind("(*");

@@ -1,8 +1,10 @@
 // Networks of TwinCAT's FBD and LD editor; see archive.h. A network is a list of trees: assignments and boxes whose
-// inputs are trees again. They are written from the leaves on, which is the order in which TwinCAT evaluates them.
+// inputs are trees again. They are written in post-order, inputs before the box that reads them. This is TwinCAT's
+// order of evaluation, so elements need no execution order numbers.
 //
-// LD and FBD are two views of the same trees. In the view LD, AND and OR of BOOL operands become contacts in series and
-// in parallel. A line that branches (BoxTreeDemux) has its value before what stands behind it in the network.
+// LD and FBD are two views of the same trees. In the LD view, AND and OR of BOOL operands become contacts in series and
+// in parallel. A line that branches (BoxTreeDemux) is evaluated before the rest of its network: through a MOVE, unless
+// it comes from a box, which fixes its value already.
 #include <algorithm>
 #include <unordered_map>
 #include <unordered_set>
@@ -17,19 +19,19 @@
 namespace rung::vendor {
 namespace {
 
-constexpr std::string_view kMissing = "???";  // what the editor writes until the engineer does
+constexpr std::string_view kMissing = "???";  // the editor's placeholder
 
-// The bits of an object `Flags`. Of a coil, Negation and Set together mean reset.
+// The bits of an object `Flags`. For a coil, Negation and Set together mean reset.
 constexpr uint64_t kNegation = 1, kSet = 2, kJump = 4, kReturn = 8, kRising = 16, kFalling = 32;
 
 struct Wire {
   uint64_t from;            // element of the notation
-  const xml::Element* pin;  // <v> with the name of its output; null: it has one
+  const xml::Element* pin;  // <v> with the name of its output; null: its only one
   Loc loc;
 };
-struct Wires {  // several are joined: OR
+struct Wires {  // several wires are joined by OR
   std::vector<Wire> all;
-  uint64_t flags = 0;  // what remains to be done with their value: kNegation, kRising, kFalling
+  uint64_t flags = 0;  // still to be applied to their value: kNegation, kRising, kFalling
 };
 
 class NetworkReader {
@@ -42,7 +44,7 @@ class NetworkReader {
  private:
   using Element = xml::Element;
 
-  // ---- what cannot be read
+  // ---- checks
   bool check(const Element& network, uint32_t number);
   bool checkTree(const Element& tree);
   bool checkOperand(const Element* operand, bool returns = false);
@@ -79,7 +81,7 @@ class NetworkReader {
     const Element* object = archive_.member(owner, holder);
     return object == nullptr ? nullptr : archive_.member(*object, list);
   }
-  // What is an expression for certain: a path, or a literal without quotes.
+  // Certainly an expression: a path, or a literal without quotes.
   bool isPlainOrNothing(const Element* text) const {
     if (text == nullptr) return true;
     const std::string t = archive_.text(*text);
@@ -99,16 +101,16 @@ class NetworkReader {
   Diagnostics& diagnostics_;
   xml::SourceMappedText& out_;
   bool ladder_ = false;
-  bool quiet_ = false;  // a disabled network: nothing in it is a mistake
+  bool quiet_ = false;  // in a disabled network, which causes no errors
   uint64_t last_ = 0;   // number of an element
-  uint64_t rail_ = 0;   // of the network at hand
+  uint64_t rail_ = 0;   // of the current network
   std::unordered_map<uint64_t, Wires> branches_;
   std::unordered_set<uint64_t> begun_;  // branches that checkTree() has seen
 };
 
-// ---- what cannot be read
+// ---- checks
 
-// Forbids what the editor has left open.
+// Forbids placeholders that the editor leaves for missing names.
 //   fails   <v n="Operand">"???"</v>          E1086
 bool NetworkReader::checkOperand(const Element* operand, bool returns) {
   const Element* text = operand == nullptr ? nullptr : archive_.member(*operand, "Operand");
@@ -119,7 +121,7 @@ bool NetworkReader::checkOperand(const Element* operand, bool returns) {
   return false;
 }
 
-// Forbids objects that have no meaning here, and a branch that continues nothing.
+// Forbids unknown objects, and a branch that continues an unknown line.
 //   fails   <o t="BoxTreeVoid">                                         E1087
 //   fails   a BoxTreeDemux without an input whose VarId is new          E1088
 bool NetworkReader::checkTree(const Element& tree) {
@@ -166,7 +168,7 @@ bool NetworkReader::checkTree(const Element& tree) {
   return ok;
 }
 
-// Forbids a network whose only form is IL.
+// Forbids a network that exists only in IL.
 //   fails   ILActive, with ILLines and without NetworkItems          E1089
 bool NetworkReader::check(const Element& network, uint32_t number) {
   const Element* lines = archive_.first(archive_.member(network, "ILLines"));
@@ -198,7 +200,7 @@ void NetworkReader::run(const Element& body) {
   out_.put(body.end, "{end_network}\n");
 }
 
-// A disabled network is there for the picture: what cannot be read of it is passed over.
+// A disabled network is only drawn: if it is not readable, it is empty.
 void NetworkReader::writeNetwork(const Element& network, uint32_t number, bool readable) {
   out_.put(network.loc, "NETWORK " + std::to_string(number));
   if (isDisabled(network)) out_.word(" DISABLED");
@@ -247,7 +249,7 @@ void writeModifiers(uint64_t flags, xml::SourceMappedText& out) {
   if ((flags & kFalling) != 0) out.word(" FALLING");
 }
 
-// The value of a tree; none: nothing stands there.
+// The value of a tree; none: the tree is empty.
 Wires NetworkReader::value(const Element& tree) {
   if (Archive::isNothing(tree)) return {};
   const std::string type = archive_.typeOf(tree);
@@ -279,7 +281,7 @@ Wires NetworkReader::operand(const Element& tree) {
   return {{{number, nullptr, text->loc}}, flags & (kRising | kFalling)};
 }
 
-// A coil or an output; a jump or a return, which are coils to the editor.
+// A coil or an output; or a jump or return, which the editor treats as coils.
 void NetworkReader::assign(const Element& target, uint64_t flags, const Wires& wires, bool of_box) {
   const Element* text = archive_.member(target, "Operand");
   if (Archive::isNothing(target) || text == nullptr) return;
@@ -304,7 +306,7 @@ void NetworkReader::assign(const Element& target, uint64_t flags, const Wires& w
   out_.word(";\n");
 }
 
-// TON (instance), Module.Method, or what only an expression names: M (SUPER^.M)
+// TON (instance), Module.Method, or a callee that is not a path: M (SUPER^.M)
 void NetworkReader::writeInstance(const Element& tree) {
   const Element* type = archive_.member(tree, "BoxType");
   const std::string called = type == nullptr ? std::string() : archive_.text(*type);
@@ -340,14 +342,14 @@ Wires NetworkReader::box(const Element& tree) {
     return k < list.size() && isPath(archive_.text(*list[k])) ? list[k] : nullptr;
   };
   std::vector<Wires> inputs;
-  for (const Element* item : items) {  // contacts lead to the first input, values to the others
+  for (const Element* item : items) {  // only the first input may be contacts, the others are values
     const bool reads = !inputs.empty() && !Archive::isNothing(*item) && archive_.typeOf(*item) == "BoxTreeOperand";
     inputs.push_back(reads ? operand(*item) : value(*item));
   }
   for (size_t k = 0; k < inputs.size() && k < input_flags.size(); ++k)
     inputs[k].flags ^= archive_.number(*input_flags[k], "Flags");
 
-  // The output that the tree around the box reads is the one without a place of its own.
+  // The output that the enclosing tree reads is the one without a target.
   size_t main = targets.size();
   for (size_t k = targets.size(); k-- > 0;)
     if (Archive::isNothing(*targets[k])) main = k;
@@ -366,7 +368,7 @@ Wires NetworkReader::box(const Element& tree) {
     const Element* name = named(names, k);
     const bool enable = name != nullptr && sameIdentifier(archive_.text(*name), "EN");
     if (!enable) ++unnamed;
-    // What is wired to the power rail is always called.
+    // EN connected to the power rail is always TRUE.
     if (enable && rail_ != 0 && inputs[k].all.size() == 1 && inputs[k].all[0].from == rail_) continue;
     if (!first) out_.word(", ");
     first = false;
@@ -400,7 +402,7 @@ Wires NetworkReader::box(const Element& tree) {
   return {{{number, named(results, main), tree.loc}}, flagsOf(tree) & (kNegation | kRising | kFalling)};
 }
 
-// A box of an operator that the trees do not have.
+// A box of an operator that is not in the trees.
 Wires NetworkReader::boxOf(std::string_view type, const std::vector<Wires>& inputs, Loc loc) {
   const uint64_t number = begin("box", loc);
   out_.word(" " + std::string(type) + " [");
@@ -414,7 +416,7 @@ Wires NetworkReader::boxOf(std::string_view type, const std::vector<Wires>& inpu
   return {{{number, nullptr, loc}}, 0};
 }
 
-// Its value is that of here: what stands behind may write what it reads.
+// The value of a line before it branches is fixed here: elements after it may write variables that it reads.
 Wires NetworkReader::demux(const Element& tree) {
   const uint64_t branch = archive_.number(tree, "VarId");
   const Element* input = archive_.member(tree, "Input");
@@ -432,7 +434,7 @@ Wires NetworkReader::demux(const Element& tree) {
   return branches_[branch] = wires;
 }
 
-// Lines side by side: what leads to all of them, and any of them.
+// Parallel lines: AND of their common input with the OR of all lines.
 Wires NetworkReader::parallel(const Element& tree) {
   const Element* input = archive_.member(tree, "Input");
   const Wires before = input == nullptr ? Wires{} : value(*input);
@@ -451,7 +453,7 @@ bool NetworkReader::isContact(const Element& tree) const {
          !archive_.text(*held, "Operand").empty();
 }
 
-// Whether contacts can stand for the tree. What is no contact may stand at the power rail only.
+// Whether the tree can be written as contacts. Other elements are allowed only at the power rail.
 bool NetworkReader::isSeries(const Element& tree, bool at_rail) const {
   if (Archive::isNothing(tree)) return false;
   const std::string type = archive_.typeOf(tree);

@@ -1,4 +1,4 @@
-// Words of ST text; see scanner.h.
+// Words of ST; see scanner.h.
 #include "frontend/vendor/scanner.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ bool isWordChar(char c) {
          static_cast<unsigned char>(c) >= 0x80;
 }
 
-// Strings in a pragma may hold braces.
+// Strings in a pragma may contain braces.
 size_t endOfPragma(std::string_view source, size_t at) {
   for (size_t i = at + 1; i < source.size(); ++i) {
     if (source[i] == '}') return i + 1;

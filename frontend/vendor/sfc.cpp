@@ -1,5 +1,5 @@
 // Charts of TwinCAT; see archive.h. A chart is a sequence of steps, transitions, jumps and branches, whose lines are
-// sequences again. It becomes textual SFC: each transition says between which steps it stands.
+// sequences again. It becomes textual SFC, with the steps before and after each transition.
 #include <algorithm>
 #include <iterator>
 #include <string>
@@ -14,7 +14,7 @@
 namespace rung::vendor {
 namespace {
 
-// What the attributes of elements are about, by the beginning of their GUID.
+// The attributes of elements, by the first digits of their GUID.
 constexpr std::string_view kName = "{38391c6d", kInitial = "{6844a48e", kMain = "{700a583f", kEntry = "{a6b08bd8",
                            kExit = "{a2621e18", kParallel = "{23bdaa98", kQualifier = "{e174fc0d",
                            kMinimum = "{cacf1a68", kMaximum = "{b693554c";
@@ -28,11 +28,11 @@ struct Transition {
   std::vector<Steps> from;
   Steps to;
 };
-// What stands before the next element: sets of steps, or transitions that lead nowhere yet.
+// The predecessors of the next element: sets of steps, or transitions without a target yet.
 struct Front {
   std::vector<Steps> steps;
   std::vector<size_t> transitions;
-  bool begins = false;  // of a line that begins here: whatever is allowed
+  bool begins = false;  // at the start of the chart: any element is allowed
 };
 
 const Element* attributeOf(const Archive& archive, const Element& element, std::string_view guid) {
@@ -105,7 +105,7 @@ class ChartReader {
   bool ok_ = true;
   Steps steps_;
   std::vector<Transition> transitions_;
-  std::vector<std::pair<bool, size_t>> written_;  // in the order of the chart: a step, or a transition
+  std::vector<std::pair<bool, size_t>> written_;  // in chart order: a step, or a transition
 };
 
 std::string ChartReader::called(const Element& element) const {
@@ -125,7 +125,7 @@ Loc ChartReader::locOf(const Element& element) const {
   return name == nullptr ? element.loc : archive_.locOf(*name);
 }
 
-// Forbids a step behind a step.
+// Forbids a step directly after a step.
 //   fails   SFCStep SFCStep          E1091
 void ChartReader::step(const Element& element, Front& front) {
   if (attributeOf(archive_, element, kName) == nullptr) return report(diag::ArchiveNoName, element.loc, "step");
@@ -136,7 +136,7 @@ void ChartReader::step(const Element& element, Front& front) {
   front = {{{&element}}, {}, false};
 }
 
-// Forbids a transition behind a transition, and one without a condition.
+// Forbids a transition directly after a transition, and one without a condition.
 //   fails   SFCTransition SFCTransition                              E1063
 //   fails   an SFCTransition whose name, its condition, is empty     E1066
 void ChartReader::transition(const Element& element, Front& front) {
@@ -149,7 +149,7 @@ void ChartReader::transition(const Element& element, Front& front) {
   front = {{}, {transitions_.size() - 1}, false};
 }
 
-// Forbids a jump to a step that the chart does not have, and one behind a step.
+// Forbids a jump to an undefined step, and one directly after a step.
 //   fails   SFCStep SFCJump          E1091
 void ChartReader::jump(const Element& element, Front& front) {
   if (attributeOf(archive_, element, kName) == nullptr) return report(diag::ArchiveNoName, element.loc, "jump");
@@ -158,7 +158,7 @@ void ChartReader::jump(const Element& element, Front& front) {
   front = {};
 }
 
-// Lines of which one is taken, each behind a transition of its own; or all of them, each beginning with a step.
+// Alternative lines, each with a transition; or parallel lines, each beginning with a step.
 void ChartReader::branch(const Element& element, Front& front) {
   const bool parallel = isSet(archive_, element, kParallel);
   const Front incoming = front;
@@ -273,8 +273,7 @@ void ChartReader::writeTransition(const Transition& transition) {
   }
 }
 
-// Forbids a transition with nothing behind it. A chart with a mistake is not written at all: what follows from it needs
-// no messages.
+// Forbids a transition without a successor. A chart with an error is not written, to avoid follow-up errors.
 //   fails   SFCStep SFCTransition          E1065
 void ChartReader::run(const Element& root) {
   Front front;
@@ -316,7 +315,7 @@ bool hasStep(const Archive& archive, const xml::Element& body, std::string_view 
   return found;
 }
 
-// <d2 n="Flags"> <v>Init</v> <o> <v n="Use">true</v> … The chart reads and writes the variables that are declared.
+// <d2 n="Flags"> <v>Init</v> <o> <v n="Use">true</v> … The chart uses the variables only if they are declared.
 void writeSfcFlags(const Archive& archive, const xml::Element& pou, xml::SourceMappedText& out) {
   static constexpr std::pair<std::string_view, std::string_view> kFlags[] = {
       {"Init", "VAR_INPUT SFCInit : BOOL"},

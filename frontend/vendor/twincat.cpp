@@ -1,7 +1,6 @@
 // TwinCAT 3: .TcPOU, .TcDUT, .TcTLEO, .TcGVL, .TcIO and .TcTTO. An object of the project is an element with a
-// <Declaration> in ST; POUs have an <Implementation> and members besides. Bodies that are drawn are object archives
-// (archive.h); those of a kind that is not read are named in an error, and what such a POU declares counts
-// nevertheless.
+// <Declaration> in ST; POUs also have an <Implementation> and members. Drawn bodies are object archives (archive.h). A
+// body of an unsupported kind is an error, but the declarations of its POU are read all the same.
 #include <string>
 
 #include "frontend/vendor/archive.h"
@@ -14,9 +13,9 @@
 namespace rung::vendor {
 namespace {
 
-constexpr uint64_t kLowestPriority = 31;  // of Rung's tasks; TwinCAT counts further
+constexpr uint64_t kLowestPriority = 31;  // of Rung's tasks; TwinCAT allows larger numbers
 
-// What TwinCAT calls the languages of bodies.
+// How messages describe the elements of unsupported bodies.
 const char* languageOf(std::string_view element) {
   if (element == "FBD" || element == "LD" || element == "LADDER") return "drawn in networks (FBD or LD)";
   if (element == "StateChart" || element == "UML") return "a state chart";
@@ -41,7 +40,7 @@ class TwinCatReader {
         part(*e, "Declaration");
       } else if (e->name == "Task") {
         readTask(*e);
-      }  // pictures, texts and lists of them
+      }  // others are pictures and lists of strings
     }
     return program_;
   }
@@ -84,7 +83,7 @@ class TwinCatReader {
     for (const xml::Element* e = document_.firstChild(property); e != nullptr; e = document_.next(*e)) {
       const bool get = e->name == "Get";
       if (!get && e->name != "Set") continue;
-      program_.word(get ? "GET " : "SET ");  // `GET PROTECTED` begins in the declaration
+      program_.word(get ? "GET " : "SET ");  // modifiers, as in `GET PROTECTED`, follow in the declaration
       part(*e, "Declaration");
       program_.word("\n");
       readBody(*e, owner + "." + document_.value(property, "Name"));
@@ -181,7 +180,7 @@ class TwinCatReader {
   Archive archive_;
   Diagnostics& diagnostics_;
   xml::SourceMappedText program_;
-  const xml::Element* chart_ = nullptr;  // the <SFC> of the POU at hand
+  const xml::Element* chart_ = nullptr;  // the <SFC> of the current POU
 };
 
 }  // namespace

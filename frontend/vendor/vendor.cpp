@@ -1,4 +1,4 @@
-// Telling the formats apart; see vendor.h.
+// Distinguishes the formats; see vendor.h.
 #include "frontend/vendor/vendor.h"
 
 #include "frontend/vendor/readers.h"
@@ -10,7 +10,7 @@ namespace {
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-// The name of the first element of an XML text.
+// The name of the root element of an XML source.
 std::string_view rootName(std::string_view source) {
   for (size_t p = source.find('<'); p != std::string_view::npos; p = source.find('<', p)) {
     const bool comment = source.substr(p, 4) == "<!--";
@@ -24,7 +24,7 @@ std::string_view rootName(std::string_view source) {
   return {};
 }
 
-// The `@WORD` with which a comment of a tool begins: `(* @PATH := …`, `(*@KEY@: …`.
+// The `@WORD` at the start of a tool's comment: `(* @PATH := …`, `(*@KEY@: …`.
 std::string_view tagOf(std::string_view source, size_t comment) {
   size_t p = comment + 2;
   while (p < source.size() && (source[p] == ' ' || source[p] == '\t')) ++p;

@@ -1,6 +1,7 @@
 // Programs in the files of other tools: TwinCAT 3, CODESYS 2.3 exports, MULTIPROG and PC Worx, and POUs whose
-// declaration and body are files of their own. In: a source file. Out: a text that the ST parser reads, whose locations
-// are places of that file; what a POU consists of stands in one order, whatever the order of the file:
+// declaration and body are separate files. In: a source file. Out: source-mapped text
+// (frontend/xml/source_mapped_text.h) that the ST parser reads, with locations in that file. The parts of a POU are
+// always in this order, regardless of their order in the file:
 //
 //   declaration, {METHOD … END_METHOD | PROPERTY … END_PROPERTY | ACTION name : … END_ACTION}, body, END_…
 //
@@ -16,7 +17,7 @@
 namespace rung::vendor {
 
 enum class Format : uint8_t {
-  None,            // an ordinary text, or XML of another kind
+  None,            // plain source, or another kind of XML
   TwinCat,         // .TcPOU .TcDUT .TcGVL .TcIO .TcTTO
   TwinCatProject,  // .plcproj
   Codesys2,        // .EXP
@@ -26,31 +27,31 @@ enum class Format : uint8_t {
 // By content alone.
 Format formatOf(std::string_view source);
 
-// The program that `file` holds, as a file of its own; `file` itself where it can be parsed as it stands. No file: an
-// error has been reported.
+// The program in `file`, as a separate file; `file` itself if it can be parsed unchanged. No file: an error has been
+// reported.
 FileId readProgram(Sources& sources, FileId file, Format format, Diagnostics& diagnostics);
 
-// What two files of one POU have in common: their path without extension and without the word that tells them apart.
+// The common part of the paths of two files of one POU: without the extension and the word that distinguishes them.
 // Motor.pou and Motor.st, Motor.decl and Motor.impl, Motor_declaration.st and Motor_body.st, Motor/declaration.st and
 // Motor/implementation.st.
 std::string pairName(std::string_view path);
 
-// A POU from the file of its declaration and the file of its body.
+// Joins a POU from the file of its declaration and the file of its body.
 FileId joinPair(Sources& sources, FileId declaration, FileId body);
 
-// What a .plcproj lists, in its order.
+// An entry of a .plcproj, in file order.
 struct ProjectEntry {
   std::string name;   // of a file: its path below the project's folder, with `/`; of a library: its title
-  std::string space;  // of a library: the namespace under which the project knows it, or empty
+  std::string space;  // of a library: its namespace in the project, or empty
   Loc loc;
 };
 struct Project {
-  std::vector<ProjectEntry> files;  // those that hold programs
+  std::vector<ProjectEntry> files;  // those that contain programs
   std::vector<ProjectEntry> libraries;
 };
 [[nodiscard]] bool readProject(const Sources& sources, FileId file, Diagnostics& diagnostics, Project& out);
 
-// The first word of an ST text behind blanks, comments and pragmas, in upper case: FUNCTION_BLOCK.
+// The first word of an ST source after blanks, comments and pragmas, in upper case: FUNCTION_BLOCK.
 std::string firstWord(std::string_view source);
 
 }  // namespace rung::vendor

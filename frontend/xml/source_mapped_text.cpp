@@ -1,4 +1,4 @@
-// A text from parts of files; see source_mapped_text.h.
+// Text put together from parts of files; see source_mapped_text.h.
 #include "frontend/xml/source_mapped_text.h"
 
 namespace rung::xml {

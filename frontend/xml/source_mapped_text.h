@@ -1,6 +1,8 @@
-// A text in the making from parts of files, which remembers where each part stands. In: places of files, texts of XML
-// elements, words that the files leave out. Out: an assembled text of Sources. Used by frontend/vendor and
-// frontend/plcopen.
+// ST put together from parts of one or more files, with a segment for each part that leads its bytes back to the file.
+// In: source ranges, content of XML elements, keywords that the files leave out. Out: a source-mapped file of Sources.
+// Used by frontend/vendor, frontend/iec10 and frontend/plcopen.
+// Thus the parser knows no vendor, and every message, fault and `#line` has its location in the file on disk. Copying
+// costs less than the complexity of a second lexer for ranges.
 #pragma once
 
 #include <string>
@@ -16,19 +18,19 @@ class SourceMappedText {
  public:
   explicit SourceMappedText(const Sources& sources) : sources_(sources) {}
 
-  // Bytes [begin, end) of a file, as they stand.
+  // Bytes [begin, end) of a file, unchanged.
   void add(Loc begin, Loc end);
-  // The text of an XML element, decoded.
+  // The content of an XML element, decoded.
   void add(const Document& document, const Element& element);
-  // Runs [first, end) of the document's text, decoded.
+  // Runs [first, end) of the document, decoded.
   void addRuns(const Document& document, uint32_t first, uint32_t end);
   // The value of an attribute, decoded.
   void add(const Document& document, const Attribute& attribute);
-  // A word that the file leaves out. Where it is to blame, the place is the end of the part before.
+  // A keyword that the file leaves out. Errors in it are reported at the end of the part before it.
   void word(std::string_view text);
-  // What stands for bytes [begin, end) of a file.
+  // Replaces bytes [begin, end) of a file by `text`.
   void replace(Loc begin, Loc end, std::string_view text);
-  // A word that the file leaves out, for which what stands at `loc` is to blame.
+  // A keyword that the file leaves out; errors in it are reported at `loc`.
   void put(Loc loc, std::string_view text) { replace(loc, loc, text); }
 
   bool empty() const { return text_.empty(); }

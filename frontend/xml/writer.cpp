@@ -64,7 +64,7 @@ void Writer::element(std::string_view name, std::string_view content) {
   close();
 }
 
-// CDATA, in which only its own end must not stand.
+// CDATA; it may contain anything but its own terminator.
 void Writer::formatted(std::string_view name, std::string_view content) {
   open(name);
   text({});

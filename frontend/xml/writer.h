@@ -1,5 +1,5 @@
-// XML in the making. In: elements, attributes and texts, in the order of the file. Out: UTF-8 text, indented by two
-// blanks for each element; equal calls give equal bytes. Called by the export to PLCopen XML.
+// Writes XML. In: elements, attributes and content, in the order of the file. Out: UTF-8, indented by two spaces per
+// level; equal calls give equal bytes. Called by the export to PLCopen XML.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ class Writer {
  public:
   Writer() : out_("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n") {}
 
-  // Attributes follow their element at once. `name` outlives the element.
+  // Attributes must be written before any content of the element. `name` must outlive the element.
   Writer& open(std::string_view name);
   Writer& attribute(std::string_view name, std::string_view value);
   void close();
@@ -21,11 +21,11 @@ class Writer {
     close();
     return *this;
   }
-  // Stands between the tags without blanks around it.
+  // Content between the tags, without whitespace around it.
   void text(std::string_view text);
   // <name>text</name>
   void element(std::string_view name, std::string_view content);
-  // <name><xhtml:p>text</xhtml:p></name>, line breaks and blanks as they are.
+  // <name><xhtml:p>text</xhtml:p></name>, with line breaks and spaces unchanged.
   void formatted(std::string_view name, std::string_view content);
 
   const std::string& out() const { return out_; }
@@ -36,8 +36,8 @@ class Writer {
 
   std::string out_;
   std::vector<std::string_view> open_;
-  bool in_tag_ = false;  // `>` is still to come
-  bool inline_ = false;  // text was written, so the end tag follows at once
+  bool in_tag_ = false;  // `>` has not been written yet
+  bool inline_ = false;  // content was written, so the end tag follows on the same line
 };
 
 }  // namespace rung::xml

@@ -1,4 +1,4 @@
-// The reader of XML files; see xml.h. One loop over the text and no recursion, so depth costs no stack.
+// The reader of XML files; see xml.h. One loop over the source and no recursion, so depth costs no stack.
 #include "frontend/xml/xml.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::string_view withoutPrefix(std::string_view name) {
   return colon == std::string_view::npos || colon + 1 == name.size() ? name : name.substr(colon + 1);
 }
 
-// What `&name;` or `&#number;` stands for, without `&` and `;`; 0: nothing.
+// The character of `&name;` or `&#number;`, given without `&` and `;`; 0: unknown.
 char32_t characterOf(std::string_view entity) {
   struct Row {
     std::string_view name;
@@ -80,7 +80,7 @@ class Reader {
       while (p_ < source_.size() && inName(source_[p_])) ++p_;
     return source_.substr(begin, p_ - begin);
   }
-  // Passes over what begins at p_ and ends with `end`.
+  // Skips the construct that begins at p_ and ends with `end`.
   bool skipTo(std::string_view end, std::string_view what) {
     const size_t found = source_.find(end, p_);
     if (found == std::string_view::npos) return broken(p_, what);
@@ -114,7 +114,7 @@ class Reader {
   uint32_t open_ = kNone;  // the innermost open element
   uint32_t depth_ = 0;
   std::vector<uint32_t> last_child_;               // by depth
-  std::vector<std::string_view> attribute_names_;  // of the tag at hand, with prefixes
+  std::vector<std::string_view> attribute_names_;  // of the current tag, with prefixes
 };
 
 bool Reader::run() {
@@ -158,7 +158,7 @@ bool Reader::skipComment() {
   return true;
 }
 
-// <?target … ?>; of `<?xml version="1.0" encoding="utf-8"?>` the encoding counts.
+// <?target … ?>; of `<?xml version="1.0" encoding="utf-8"?>` only the encoding matters.
 bool Reader::readInstruction() {
   const size_t begin = p_;
   p_ += 2;
@@ -170,7 +170,7 @@ bool Reader::readInstruction() {
   return checkEncoding(source_.substr(0, p_));
 }
 
-// UTF-16 was decoded when the file was read; Latin-1 stands in comments and strings at most, which the lexer judges.
+// UTF-16 was decoded when the file was read. Latin-1 can only occur in comments and strings, which the lexer checks.
 bool Reader::checkEncoding(std::string_view declaration) {
   const size_t word = declaration.find("encoding");
   if (word == std::string_view::npos) return true;
@@ -227,7 +227,7 @@ bool Reader::readStart() {
   return true;
 }
 
-// Forbids an attribute that stands twice in a tag.
+// Forbids a duplicate attribute in a tag.
 bool Reader::checkTwice() {
   if (attribute_names_.size() < 2) return true;
   std::sort(attribute_names_.begin(), attribute_names_.end());
@@ -373,7 +373,7 @@ std::string Document::decoded(const Attribute& attribute) const {
       out += raw[i++];
       continue;
     }
-    const size_t end = raw.find(';', i);  // read() has seen to it
+    const size_t end = raw.find(';', i);  // read() has verified that it exists
     appendUtf8(out, characterOf(raw.substr(i + 1, end - i - 1)));
     i = end + 1;
   }

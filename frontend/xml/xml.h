@@ -1,8 +1,8 @@
-// The reader of XML files. In: one source text (UTF-8). Out: its elements, attributes and runs of text, all with their
-// places, in flat lists; or one error at the place where the text stops being XML. Names lose their namespace prefix,
-// comments and processing instructions are passed over. A document type is refused and no entity is known but the five
-// of XML and the numbered ones, so nothing expands and nothing else is opened. Cost: one pass, and memory for what the
-// file holds. Called by the readers of vendor files and of PLCopen XML.
+// The reader of XML files. In: one source (UTF-8). Out: its elements, attributes and runs of characters with their
+// locations, in flat lists; or one error where the source is not well-formed XML. Namespace prefixes are dropped,
+// comments and processing instructions skipped. A document type is rejected and only the five entities of XML and
+// numeric references are known, so nothing expands and no other file is opened. Cost: one pass, and memory for the
+// content of the file. Called by the readers of vendor files and of PLCopen XML.
 #pragma once
 
 #include <cstdint>
@@ -24,11 +24,11 @@ struct Attribute {
   Loc loc;               // of the value
 };
 
-// Text of the file as it stands, or what one entity stands for.
+// Characters of the file, unchanged, or one entity.
 struct Run {
   Loc loc;
   uint32_t length;     // bytes in the file
-  char32_t character;  // of an entity; 0: the text stands in the file
+  char32_t character;  // of an entity; 0: the run is a copy of the file
 };
 
 struct Element {
@@ -36,7 +36,7 @@ struct Element {
   Loc loc;                             // of the name
   uint32_t parent, first_child, next;  // indices of elements, or kNone
   uint32_t first_attribute, attribute_count;
-  uint32_t first_run, end_run;  // the text in it and in all elements below it
+  uint32_t first_run, end_run;  // the runs in it and in all elements below it
   Loc end;                      // of its end tag, or of the `/>`
 };
 
@@ -59,10 +59,10 @@ struct Document {
   const Element* at(uint32_t index) const { return index == kNone ? nullptr : &elements[index]; }
 };
 
-// The tag of the root element of a text that may be XML, from its `<` on and without its `>`; empty: it has none.
+// The tag of the root element of a source that may be XML, from its `<` and without its `>`; empty: it has none.
 std::string_view rootTag(std::string_view text);
 
-// False: an error has been reported, and the document holds what stands before it.
+// False: an error has been reported, and the document holds the elements before it.
 [[nodiscard]] bool read(const Sources& sources, FileId file, Diagnostics& diagnostics, Document& out);
 
 }  // namespace rung::xml
