@@ -9,7 +9,7 @@ std::string cppUpper(std::string_view name) {
 }
 
 std::string cppIdentifier(std::string_view name) {
-  // Words of C++ and common macros, between blanks.
+  // C++ keywords and common macros, separated by blanks.
   static constexpr std::string_view kTaken =
       " "
       "alignas alignof and and_eq asm assert auto bitand bitor bool break case catch char char16_t char32_t class "

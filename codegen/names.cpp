@@ -111,7 +111,7 @@ void appendQuoted(std::string& out, std::string_view text) {
       out += c;
     } else if (byte >= 0x20 && byte < 0x7f) {
       out += c;
-    } else {  // three octal digits end where they end
+    } else {  // three octal digits end by themselves
       out += '\\';
       out += static_cast<char>('0' + (byte >> 6));
       out += static_cast<char>('0' + (byte >> 3 & 7));
@@ -130,7 +130,7 @@ void appendQuotedWide(std::string& out, std::string_view text) {
     }
     out += "\\x";
     for (int shift = 12; shift >= 0; shift -= 4) out += kHex[unit >> shift & 15];
-    out += "\" u\"";  // a hex escape would go on with the digits that follow
+    out += "\" u\"";  // a hex escape would swallow hex digits that follow
   });
   out += '"';
 }
