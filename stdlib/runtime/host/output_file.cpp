@@ -9,7 +9,7 @@
 namespace rung::host {
 namespace {
 
-constexpr size_t kMax = 4;         // unfinished files at a time
+constexpr size_t kMax = 4;         // unfinished files at the same time
 constexpr size_t kLongest = 4096;  // characters of a path
 char unfinished[kMax][kLongest];   // read by the handler
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
