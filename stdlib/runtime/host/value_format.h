@@ -15,8 +15,7 @@ struct Integer {
 };
 // The value of types held as an integer: BOOL, numbers, times, dates, characters, enumerations.
 bool integerOf(const rung_module& module, const Variable& variable, Integer& value);
-// The value as a number: BOOL 0 or 1, TIME in its own unit. False: strings, dates, pointers, a null pointer on the
-// path.
+// The value as a number: BOOL 0 or 1, TIME in its own unit. False: strings, dates, pointers, a null pointer.
 bool numberOf(const rung_module& module, const Variable& variable, double& value);
 // Sets the variable from a literal; returns an error message, or an empty string. `dry`: only checks.
 std::string assignValue(const rung_module& module, const Variable& variable, std::string_view text, bool dry = false);

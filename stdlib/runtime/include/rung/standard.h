@@ -99,8 +99,7 @@ static inline uint32_t rung_standard_CONCAT__STRING_255_sized(const char* in1, u
   if (out != in1) return rung_string_join(in1, length1, in2, length2, out, capacity);
   if (capacity > limit && length1 > limit) length1 = limit;
   const uint32_t room = limit - length1;
-  if (length2 <= room)
-    return length1 + rung_string_part(out + length1, in2, length2); /* a constant length stays constant */
+  if (length2 <= room) return length1 + rung_string_part(out + length1, in2, length2); /* keeps a constant length */
   return limit - room + rung_string_part(out + length1, in2, room);
 }
 
