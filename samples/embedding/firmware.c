@@ -5,18 +5,18 @@
 
 #include "rung/module.h"
 
-const rung_module* plant_module(void); /* from the compiled project: <--name>_module */
+const rung_module *plant_module(void); /* from the compiled project: <--name>_module */
 
 #define MAX_BLOCKS 16
-static _Alignas(8) unsigned char memory[64 * 1024]; /* a product chooses where: RAM, battery-backed RAM */
+static _Alignas(8) unsigned char memory[64 * 1024]; /* a product places blocks where it likes: RAM, battery-backed RAM */
 static _Alignas(8) unsigned char images[3][1024];
-static void* blocks[MAX_BLOCKS];
+static void *blocks[MAX_BLOCKS];
 
 /* Puts each block at its alignment; 0 when the memory is too small. */
-static int allocate_blocks(const rung_module* module) {
+static int allocate_blocks(const rung_module *module) {
   size_t next = 0;
   for (uint32_t i = 0; i < module->block_count; ++i) {
-    const rung_block* block = &module->blocks[i];
+    const rung_block *block = &module->blocks[i];
     next = (next + block->align - 1) / block->align * block->align;
     if (i >= MAX_BLOCKS || next + block->size > sizeof memory) return 0;
     blocks[i] = memory + next;
@@ -27,7 +27,7 @@ static int allocate_blocks(const rung_module* module) {
 }
 
 int main(void) {
-  const rung_module* module = plant_module();
+  const rung_module *module = plant_module();
   if (module->abi != RUNG_MODULE_ABI || !allocate_blocks(module)) return 2;
 
   rung_context context = {.blocks = blocks, .image = {images[0], images[1], images[2]}, .module = module};
@@ -38,7 +38,7 @@ int main(void) {
     for (uint32_t t = 0; t < module->task_count; ++t) {
       context.now_ns = cycle * module->tasks[t].interval_ns;
       if (rung_guarded(&context, module->tasks[t].run) != RUNG_FAULT_NONE) {
-        const rung_site* site = &module->sites[context.fault.site];
+        const rung_site *site = &module->sites[context.fault.site];
         printf("fault in %s, line %u\n", module->strings + site->pou, (unsigned)site->line);
         memset(images[1], 0, sizeof images[1]); /* safe outputs */
         return 3;
