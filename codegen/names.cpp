@@ -22,7 +22,7 @@ bool isPlain(std::string_view name) {
   return true;
 }
 
-// f(unit): the UTF-16 units of a UTF-8 text.
+// Calls f(unit) for the UTF-16 units of a UTF-8 string.
 template <class F>
 void forEachUnit(std::string_view text, F&& f) {
   for (size_t i = 0; i < text.size();) {

@@ -46,7 +46,7 @@ void BodyWriter::noteSlice(const Stmt& stmt, uint32_t weight) {
   if (weight > 1 || expr(ExprId{stmt.e}).kind == ExprKind::Local) of->sliced = has_slices_ = true;
 }
 
-// Starts with all candidates and refuses those that break a condition.
+// Starts with all candidates and drops those that break a condition.
 void BodyWriter::chooseSlices() {
   if (has_leaving_calls_) has_slices_ = false;
   if (!has_slices_) return;

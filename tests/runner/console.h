@@ -1,5 +1,5 @@
-// Sessions at a console: `$ command` lines (continued by `> `), each followed by its output; `...` stands for any
-// number of lines, `[3]` at the end for the exit code. Used by tests/golden/cli and by the documentation.
+// Sessions at a console: `$ command` lines (continued by `> `), each followed by its output; `...` matches any number
+// of lines, `[3]` at the end is the exit code. Used by tests/golden/cli and by the documentation.
 #pragma once
 
 #include <string>

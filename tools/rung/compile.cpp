@@ -163,7 +163,7 @@ bool Compilation::check() {
   if (!parse()) return false;
   if (parsed && !diagnostics.hasErrors()) parsed();
   times_.begin("check");
-  // Checking goes on after errors of the parser: one run reports as much as it can.
+  // Checking follows even after errors of the parser: one run reports as much as it can.
   if (!diagnostics.full()) {
     sema::Options sema_options;
     sema_options.dialect = options.dialect;

@@ -104,7 +104,7 @@ void Plot::row() {
   }
 }
 
-// Merges pairs of columns, so each stands for twice as many rows.
+// Merges pairs of columns, so each represents twice as many rows.
 void Plot::halve() {
   for (Lane& lane : lanes_) {
     for (size_t i = 0; i + 1 < lane.columns.size(); i += 2) {

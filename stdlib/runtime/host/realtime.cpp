@@ -187,7 +187,7 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
     });
   }
 
-  // This thread makes the rows when there is no cyclic task, and watches for signals and for tasks that never end.
+  // This thread makes the rows when no cyclic task does, and watches for signals and for tasks that never end.
   int64_t next_idle = shared.start + kSecond, row = 0;
   bool hung = false;
   while (!shared.stop.load() && !hung) {

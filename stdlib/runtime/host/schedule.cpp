@@ -64,7 +64,7 @@ uint8_t Schedule::run(int64_t row, rung_context& context) {
       case RUNG_STATUS:
         if (readBool(item.trigger)) due_.push_back({begin, item.task->priority, i});
         break;
-      case RUNG_EXTERNAL: break;  // there are no external events in virtual time
+      case RUNG_EXTERNAL: break;  // virtual time has no external events
     }
   }
   if (due_.size() > 1)

@@ -1,7 +1,7 @@
 // The common meaning of a generated block in all languages: networks of actions over expressions, with one execution
-// order. An action evaluates what it needs and has not been evaluated yet; a node with several readers is evaluated
-// once. In: a seed.
-// Called by main.cpp; printed by st_and_il.cpp (ST, the reference, and IL), drawn by drawing.cpp (LD, FBD, CFC).
+// order. An action evaluates what it needs and is not evaluated yet; a node with several readers is evaluated once.
+// In: a seed. Called by main.cpp; printed by st_and_il.cpp (ST, the reference, and IL), drawn by drawing.cpp (LD, FBD,
+// CFC).
 #pragma once
 
 #include <cstdint>

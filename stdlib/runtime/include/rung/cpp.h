@@ -85,7 +85,7 @@ struct RUNG_MAY_ALIAS BasicString {
   }
 
  private:
-  void assign(const Char* string, size_t length) {  // `string` may lie in *this
+  void assign(const Char* string, size_t length) {  // `string` may be part of *this
     if (length > N) {
       length = N;
       while (Utf8 && length > 0 && (static_cast<unsigned char>(string[length]) & 0xc0) == 0x80) --length;
