@@ -153,7 +153,7 @@ class Writer {
     return typeKindName(types_, type) + 5;  // RUNG_INT
   }
 
-  // Defines a type here and returns its name.
+  // Defines the type, unless already known, and returns its name.
   std::string named(TypeId type) {
     for (const auto& [known, name] : named_) {
       if (known == type) return name;

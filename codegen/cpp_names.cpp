@@ -1,3 +1,4 @@
+// Names in the facade of a body in C++: see cpp_names.h.
 #include "codegen/cpp_names.h"
 
 namespace rung::codegen {

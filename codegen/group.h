@@ -34,7 +34,7 @@ struct Group {
   uint32_t data_count = 0;
 };
 
-// Stamps that equal `group_number` for what the current group has listed already.
+// Stamps: an entry equals the number of the current group when that has listed the item already.
 struct Marks {
   std::vector<uint32_t> body, record, data, data_number;
   std::vector<uint32_t> hot;  // small bodies that the group calls in loops

@@ -1,3 +1,4 @@
+// Differences of lines: see diff.h.
 #include "tests/runner/diff.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Child processes of the tests: see process.h.
 #include "tests/runner/process.h"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// Shared parts of the test runner: see support.h.
 #include "tests/runner/support.h"
 
 #include <algorithm>

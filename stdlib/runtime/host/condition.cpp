@@ -1,3 +1,4 @@
+// Parser and evaluator of --stop-on conditions: see condition.h.
 #include "condition.h"
 
 #include <cstring>

@@ -1,3 +1,4 @@
+// Signals of the program as faults: see crashes.h.
 #include "crashes.h"
 
 #include <ucontext.h>

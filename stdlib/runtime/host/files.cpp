@@ -1,3 +1,4 @@
+// Files of the program: see files.h.
 #include "files.h"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// Values set from outside: see inputs.h.
 #include "inputs.h"
 
 #include <algorithm>

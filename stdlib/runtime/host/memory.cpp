@@ -1,3 +1,4 @@
+// The memory of a module: see memory.h.
 #include "memory.h"
 
 #include <cstring>

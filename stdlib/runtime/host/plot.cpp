@@ -1,3 +1,4 @@
+// The trace as an SVG: see plot.h.
 #include "plot.h"
 
 #include <algorithm>

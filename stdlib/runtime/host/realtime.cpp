@@ -1,3 +1,4 @@
+// Tasks as threads in real time: see realtime.h.
 #include "realtime.h"
 
 #include <pthread.h>

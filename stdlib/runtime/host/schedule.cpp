@@ -1,3 +1,4 @@
+// Tasks in virtual time: see schedule.h.
 #include "schedule.h"
 
 #include <algorithm>

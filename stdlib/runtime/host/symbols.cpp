@@ -1,3 +1,4 @@
+// Paths of variables: see symbols.h.
 #include "symbols.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The trace as CSV: see trace.h.
 #include "trace.h"
 
 #include "csv.h"

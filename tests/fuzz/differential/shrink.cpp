@@ -1,3 +1,4 @@
+// Shrinks generated programs: see shrink.h.
 #include "tests/fuzz/differential/shrink.h"
 
 namespace rung::differential {

@@ -1,3 +1,4 @@
+// Function blocks as ST and IL from one tree of expressions and statements: see generator.h.
 #include "tests/fuzz/il/generator.h"
 
 #include <initializer_list>

@@ -1,3 +1,4 @@
+// Draws the logic of a block in LD, FBD or CFC: see drawing.h.
 #include "tests/fuzz/networks/drawing.h"
 
 #include <algorithm>

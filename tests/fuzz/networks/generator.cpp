@@ -1,3 +1,4 @@
+// Generates the logic of a block: see logic.h.
 #include <algorithm>
 #include <initializer_list>
 #include <map>

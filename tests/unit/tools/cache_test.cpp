@@ -1,3 +1,4 @@
+// The cache of compiled C++: entries, limits, abandoned folders, concurrent writers.
 #include "tools/rung/cache.h"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// Inputs: folders and their order, missing and unreadable files, project files, pairs of files, kinds of files.
 #include "tools/rung/inputs.h"
 #include "frontend/source/dialect.h"
 #include "frontend/syntax/diagnostics.h"
