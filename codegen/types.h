@@ -25,11 +25,11 @@ void appendPointer(std::string& out, const types::TypeTable& types, TypeId type,
 void appendRecordType(std::string& out, const types::TypeTable& types, TypeId type);
 std::string recordName(const types::TypeTable& types, TypeId type);  // `Ramp_type`, for a global list `Valves_list`
 std::string recordFile(const types::TypeTable& types, TypeId type);  // `Ramp_.h`, `Valves_list.h`
-// `Ramp_body`, `Scale_fn`, `Ramp_init`.
-// `Motor_class`, and for a method `Motor__Start_call`, …: its number, the type and the table of its dispatch.
 inline bool isMethod(const ir::Body& body) { return body.kind == ir::BodyKind::Function && body.self && !body.native; }
+// `Motor_class`, and for a method `Motor__Start_call`, …: its number, the type and the table of its dispatch.
 std::string className(const types::TypeTable& types, TypeId record);
 std::string methodName(const ir::Module& module, ir::BodyId method, const char* what);
+// `Ramp_body`, `Scale_fn`, `Ramp_init`.
 void appendFunctionName(std::string& out, const ir::Module& module, const ir::Body& body);
 
 // A scalar's value, in the C++ type that scalarType names or one that promotes to it. `negative`: begins with `-`.

@@ -57,7 +57,7 @@ uint64_t fromBcd(uint64_t bcd) {
   for (int shift = 60; shift >= 0; shift -= 4) value = value * 10 + (bcd >> shift & 15);
   return value;
 }
-// The low `digits` digits of the value.
+// The low `digits` decimal digits of the value as BCD.
 uint64_t toBcd(uint64_t value, int digits) {
   uint64_t bcd = 0;
   for (int i = 0; i < digits; ++i, value /= 10) bcd |= value % 10 << (4 * i);

@@ -65,8 +65,8 @@ void rename(Node& node, const std::string& end) {
 
 // ---- blocks
 
-// A call of method `number` with its arguments, after `before`. Inside an object only variables that exist there are
-// passed by reference.
+// A call of method `number` with its arguments; `before`: the parts of the receiver. Inside an object only variables
+// that exist there are passed by reference.
 Node Generator::methodCall(const std::string& receiver, int number, std::vector<Node> before, int depth) {
   const Method& method = methods_[static_cast<size_t>(number)];
   std::string text = receiver + "M" + std::to_string(number) + "(";

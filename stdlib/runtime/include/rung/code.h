@@ -207,7 +207,6 @@ extern "C" {
  * Functions that make a string return its length. */
 uint32_t rung_string_assign(char* to, uint32_t capacity, const char* from);
 uint32_t rung_wstring_assign(char16_t* to, uint32_t capacity, const char16_t* from);
-/* Below, at or above 0, by unsigned units. */
 /* USTRING: UTF-8, cut between characters. Compared like STRING: that order is the order of code points. */
 uint32_t rung_ustring_assign(char* to, uint32_t capacity, const char* from);
 /* Drops an incomplete character at the end of a string; returns its length without it. */
@@ -215,11 +214,11 @@ uint32_t rung_ustring_whole(char* string, uint32_t length);
 uint32_t rung_ustring_length(const char* string) RUNG_PURE; /* in characters */
 /* The offset in bytes where `count` characters end; each character beyond the end of the string counts as one byte. */
 int64_t rung_ustring_offset(const char* string, int64_t count) RUNG_PURE;
-uint32_t rung_ustring_code(
-    const char* string) RUNG_PURE; /* the first character; 0 of an empty string, '?' when it is invalid */
+uint32_t rung_ustring_code(const char* string) RUNG_PURE; /* the first character; 0 when empty, '?' when invalid */
 uint32_t rung_ustring_of_code(char* to, uint32_t capacity, uint32_t code);
 uint32_t rung_ustring_of_string(char* to, uint32_t capacity,
                                 const char* from); /* of a STRING, which may hold any bytes */
+/* Negative, 0 or positive; compares unsigned units. */
 int rung_string_compare(const char* a, const char* b) RUNG_PURE;
 int rung_wstring_compare(const char16_t* a, const char16_t* b) RUNG_PURE;
 uint32_t rung_wstring_length(const char16_t* string) RUNG_PURE;
