@@ -277,7 +277,7 @@ class BodyWriter {
   bool uses_fault_ = false, uses_leave_ = false;
   uint32_t names_created_ = 0;
 
-  // Where break and continue go.
+  // The targets of break and continue.
   struct Loop {
     bool in_switch = false;  // inside a switch of this loop
     bool breaks_by_goto = false, continues_by_goto = false;

@@ -34,7 +34,7 @@ class Memory {
   uint8_t* images_[3] = {};
 };
 
-// Why a module cannot run here (another ABI or pointer size), or nullptr.
+// The reason why a module cannot run here (another ABI or pointer size), or nullptr.
 const char* refusal(const rung_module& module);
 
 }  // namespace rung::host
