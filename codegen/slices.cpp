@@ -1,12 +1,12 @@
 // Slices: strings that need no memory while the body runs, because they are parts of strings that do not change.
 // In `rest := MID(rest, LEN(rest) - at, at + 1)` nothing moves: the address and the length of `rest` change, and at the
-// exits of the body its characters are copied into the instance, once. A string becomes a slice when
+// exits and in the fault block its characters are copied into the instance, once. A string becomes a slice when
 //   - its length lives in a local (lengths.cpp), and functions marked {slice} (LEFT, RIGHT, MID) make it in a loop;
 //   - every write makes it a part of a literal, of another slice, or of a string that this body never writes;
 //   - every read comes after a write of it, and takes a length: a slice has no NUL at its end;
 //   - at least one write makes it from a slice, itself or another: a string is taken apart piece by piece. Pieces of an
 //     unchanging string that stay whole are copied: a store or two, and a single character stays in a register;
-//   - the body calls nothing that may fault or that the host may answer, so it is left at its own exits only.
+//   - the body calls nothing that may fault or that the host may answer, so only its own code leaves it.
 // The sources of slices do not change, so slices may be written back in any order. Called by locals.cpp once it is
 // known which lengths live in locals; written by strings.cpp and statements.cpp.
 #include <algorithm>
