@@ -1,11 +1,11 @@
 # rung_add_program(<target> SOURCES <file|folder>... [NAME <id>] [ROOT <folder>] [OPTIONS <option>...] [FILES <n>])
 #
-# Compiles PLC programs with `rung emit` and adds the C++ to <target> (an executable or a library that exists already);
-# the module is <id>_module() of rung/module.h. Sources are emitted again when one of them changes; a C++ file is compiled
-# again only when its content did. SOURCES may be folders: then a file that appears in one is found, too.
-# NAME: prefix of the module's symbols (the target's name). ROOT: paths in messages are relative to it (the folder of the
-# call). OPTIONS: further options of `rung emit`. FILES: into how many C++ files the code is grouped (8); their names do
-# not depend on the program, so that CMake need not run again.
+# Compiles PLC programs with `rung emit` and adds the C++ to <target> (an existing executable or library). The module
+# is <id>_module() of rung/module.h. A changed source runs `rung emit` again; a C++ file is compiled again only when its
+# content has changed. SOURCES may be folders: new files in them are found, too.
+# NAME: prefix of the module's symbols (default: the target's name). ROOT: paths in messages are relative to it
+# (default: the folder of the call). OPTIONS: further options of `rung emit`. FILES: the number of C++ files (default:
+# 8); their names do not depend on the program, so CMake need not run again.
 #
 # Uses the target Rung::rung (the tool; set RUNG_EXECUTABLE to another one when cross-compiling) and Rung::runtime.
 include_guard(GLOBAL)
@@ -46,8 +46,8 @@ function(rung_add_program target)
     list(APPEND bundles ${folder}/${ARG_NAME}_bundle_${number}.cpp)
   endforeach()
 
-  # The stamp is the first output and the depfile's target, the C++ files are by-products: so neither Ninja nor make runs
-  # rung again when there is nothing to do, and neither compiles a file that rung left untouched.
+  # The stamp is the first output and the depfile's target, the C++ files are by-products: so neither Ninja nor make
+  # runs rung again when there is nothing to do, and neither compiles a file that rung left untouched.
   add_custom_command(
     OUTPUT ${stamp}
     BYPRODUCTS ${bundles}

@@ -1,7 +1,7 @@
 # rung_embed(<target> <name> [PREFIX <prefix>] <file>...)
-# Compiles files into <target>, which is defined in the same CMakeLists.txt, as a table sorted by name. The target includes
-# "<name>.h": namespace rung::embedded { struct File { string_view name, text; }; extern const File <name>[]; extern const
-# size_t <name>_count; }. A file's name is its path relative to PREFIX (default: the folder of the call).
+# Compiles files into <target>, which the same CMakeLists.txt defines, as a table sorted by name. The target includes
+# "<name>.h": namespace rung::embedded { struct File { string_view name, text; }; extern const File <name>[]; extern
+# const size_t <name>_count; }. A file's name is its path relative to PREFIX (default: the folder of the call).
 function(rung_embed target name)
   cmake_parse_arguments(ARG "" "PREFIX" "" ${ARGN})
   if(NOT ARG_PREFIX)

@@ -280,7 +280,7 @@ void BodyWriter::write(ir::BodyId id) {
   }
   appendSignature(to, module_, body);
   to += " {";
-  if (isMethod(body)) {  // called through tables too: the same type for all objects
+  if (isMethod(body)) {  // also called through tables: one type for all objects
     to += "\n  [[maybe_unused]] ";
     appendRecordType(to, types_, body.self);
     to += "& self = *static_cast<";

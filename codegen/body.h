@@ -1,15 +1,15 @@
-// Writes one IR body as a C++ function. In: a verified body and the facts of the module. Out: text in the group, and
+// Writes one IR body as a C++ function. In: a verified body and the facts of the module. Out: code in the group, and
 // what the group must include and declare for it. Called by emit.cpp for each body of a group.
 //
-// Shape: all variables are declared at the top (a `goto` never crosses an initialisation), then the statements, each
-// behind its checks, then the exits:
+// Layout: all variables are declared at the top (a `goto` never crosses an initialisation), then the statements, each
+// after its checks, then the exits:
 //   void Ramp_body(Ramp_type& self, rung_context* ctx) {
 //     float y_ = self.y_;  uint32_t at;  int64_t value;      scalars of the instance that live in locals (locals.cpp)
 //     RUNG_CHECK(bad, site << 3 | kind, value)               jumps to fault:
 //   leave: self.y_ = y_; return;
 //   fault: self.y_ = y_; rung_raise(ctx, …);
 //   }
-// The methods stand in the files named at their groups.
+// The methods are defined in the files named at their groups.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@
 
 namespace rung::codegen {
 
-// Precedence of C++ expressions, low to high: what is written into a context of a higher one gets parentheses.
+// Precedence of C++ expressions, low to high: an operand of lower precedence than its context gets parentheses.
 enum class Prec : uint8_t { Comma, Ternary, Or, And, Bit, Equality, Relation, Shift, Sum, Product, Unary, Postfix };
 
 class BodyWriter {
@@ -37,14 +37,14 @@ class BodyWriter {
         marks_(marks),
         group_number_(group_number) {}
 
-  // Into group.code.
+  // Appends to group.code.
   void write(ir::BodyId id);
 
   // `float Scale_fn(rung_context* ctx, int16_t raw_)`, without `;`. Native: as the library defines it.
   static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body) {
     appendSignature(out, module, body, {});
   }
-  // With another name than its own.
+  // Under another name.
   static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body, std::string_view name);
 
  private:
@@ -63,26 +63,26 @@ class BodyWriter {
   void writeBack(std::string& out);
   void writeExits();
   void includeRecord(TypeId type);
-  void call(ir::BodyId id);  // notes that the group declares it
+  void call(ir::BodyId id);  // adds it to the declarations of the group
   std::string newName(const char* prefix);
   std::string newVariable(TypeId type, const char* prefix);
 
-  // ---- locals.cpp: what lives in C++ locals
-  struct Slot {  // a scalar variable that may be one: of the body or of the instance
+  // ---- locals.cpp: variables kept in C++ locals
+  struct Slot {  // a scalar variable that may become a C++ local: of the body or of the instance
     enum Kind : uint8_t { None, Local, Field } kind = None;
     uint32_t index = 0;
     friend bool operator==(const Slot&, const Slot&) = default;
   };
   struct Variable {
-    uint32_t weight = 0, loop_weight = 0;  // uses, those in loops counted more; the part in loops
+    uint32_t weight = 0, loop_weight = 0;  // all uses, weighted by loops; the uses in loops alone
     bool written = false, exposed = false, cached = false;
-    uint8_t wide = 0;  // 32 or 64: the C++ local is wider than the type, as the control of a For
-    // A text: uses by sized functions; its length lives in a C++ local, and is right where the statements stand.
+    uint8_t wide = 0;  // 32 or 64: the C++ local is wider than the type, as for the control of a For
+    // A string: its uses by sized functions; whether its length lives in a C++ local, and is known at this statement.
     uint32_t sized_weight = 0;
     bool measured = false, known = false;
-    bool sliced = false;       // a text that is made by functions marked {slice} where that pays
+    bool sliced = false;       // a string made by functions marked {slice}, where that pays
     bool taken_apart = false;  // a slice made of a slice
-    bool slice = false;        // a measured text that is a part of another: its address lives in a C++ local too
+    bool slice = false;        // a measured string that is part of another: its address lives in a C++ local too
   };
   struct Control {
     Slot slot;
@@ -98,7 +98,7 @@ class BodyWriter {
   bool isPrivateLoop(StmtId loop) const { return !private_loop_.empty() && private_loop_[loop.index] != 0; }
   bool boundsFit(const Stmt& loop) const;
 
-  // ---- lengths.cpp: lengths of texts in C++ locals
+  // ---- lengths.cpp: lengths of strings in C++ locals
   bool isSized(const Body& callee) const;
   bool isSizedCall(const Body& callee, uint32_t first, uint32_t count, ExprId result) const;
   Variable* stringVariable(ExprId place);
@@ -117,10 +117,10 @@ class BodyWriter {
   void setKnown(ExprId place);
   void lengthName(ExprId place);
   void stringLength(ExprId string);
-  // `form`: sized or slice.
+  // `form`: `sized` or `slice`.
   void sizedCall(const Body& callee, uint32_t first, uint32_t count, const char* form = "sized");
 
-  // ---- slices.cpp: texts that are parts of others
+  // ---- slices.cpp: strings that are parts of others
   const Variable* slicedString(ExprId place) const;
   bool isSliceSource(ExprId id);
   void noteSlice(const Stmt& stmt, uint32_t weight);
@@ -135,8 +135,8 @@ class BodyWriter {
   // ---- statements.cpp
   void block(StmtId first);
   void statement(StmtId id, const Stmt& stmt);
-  void begin(Loc loc);  // a statement that comes from there: line breaks and #line
-  void open();          // ` {` and one level in
+  void begin(Loc loc);  // starts a statement from that location: line breaks and #line
+  void open();          // ` {` and one more level of indentation
   void close();         // `}`, written where the next statement begins
   void flushCloses(uint32_t lines);
   void ifStatement(const Stmt& stmt);
@@ -185,7 +185,7 @@ class BodyWriter {
   void materializeString(ExprId id);  // into a variable of its own
 
   // ---- checks.cpp
-  // The checks of an expression and the texts that it must make first, in order of evaluation.
+  // The checks of an expression and the strings that must be made first, in order of evaluation.
   void prepare(ExprId id);
   void prepareChildren(const Expr& expr);
   bool needsPreparation(ExprId id) const;
@@ -198,15 +198,15 @@ class BodyWriter {
   void endCheck(Loc loc, types::Fault fault, std::string_view value, int64_t low = 0, int64_t high = 0);
 
   // ---- places.cpp
-  void place(ExprId id);     // an lvalue; a text: a pointer to its units
+  void place(ExprId id);     // an lvalue; for a string: a pointer to its units
   void member(ExprId base);  // `self.`, `x_->`
   void indexValue(ExprId id, const types::Dimension& dimension);
   ExprId peelIndex(ExprId id, const types::Dimension& dimension, int64_t& addend) const;
   bool isImagePlace(ExprId id) const;
-  void imageAddress(ExprId id);  // a const-less uint8_t*
+  void imageAddress(ExprId id);  // a uint8_t* without const
   void imageLoad(ExprId id, const Expr& expr);
   bool isLvalue(ExprId id) const;
-  // `place = value` as an expression without `;` for a scalar; `value` is C++ text of the right type.
+  // `place = value` as an expression without `;` for a scalar; `value` is C++ code of the right type.
   void store(ExprId place, std::string_view value);
   void reference(const ir::Local& parameter, bool native, ExprId operand);
   void variable(std::string& out, const ir::Local& local) const;
@@ -214,14 +214,14 @@ class BodyWriter {
 
   // ---- strings.cpp
   void assign(const Stmt& stmt);
-  void prepareString(ExprId from);  // what copyString takes apart itself is not made first
+  void prepareString(ExprId from);  // except for the parts that copyString handles itself
   // `length`: the name of the C++ local that takes the new length, or empty.
   void copyString(std::string_view to, uint32_t capacity, bool wide, ExprId from, std::string_view length = {});
   void stringValue(ExprId id);  // a const char* or const char16_t*
   void compareStrings(const Expr& expr, Prec context);
   bool isSizedComparison(const Expr& expr) const;
-  ExprId uncut(ExprId id) const;                       // a text without the conversions that cut it
-  bool isBuffer(ExprId id, uint32_t& capacity) const;  // a text in memory that is as long as its type says
+  ExprId uncut(ExprId id) const;                       // a string without the conversions that cut it
+  bool isBuffer(ExprId id, uint32_t& capacity) const;  // a string in memory whose capacity is that of its type
   uint32_t literalLength(const Expr& string) const;
   void dataReference(uint32_t index);
 
@@ -244,7 +244,7 @@ class BodyWriter {
   void closeParenthesis(Prec own, Prec context) {
     if (own < context) out_ += ')';
   }
-  // What f writes, as a string.
+  // Returns what f writes.
   template <class F>
   std::string captured(F&& f) {
     std::string outer;
@@ -266,20 +266,20 @@ class BodyWriter {
   std::string out_;           // the statements
   std::string declarations_;  // the variables at the top
   std::vector<Variable> locals_, fields_;
-  std::vector<Control> controls_;  // of the loops at hand
-  std::vector<Variable*> known_;   // the texts whose lengths became known, to be taken back at the end of a block
-  std::vector<ExprId> unknown_;    // collectUnknown: a place of each text that a loop needs the length of
+  std::vector<Control> controls_;  // of the enclosing loops
+  std::vector<Variable*> known_;   // the strings whose lengths became known, taken back at the end of a block
+  std::vector<ExprId> unknown_;    // collectUnknown: one lvalue for each string whose length a loop needs
   std::vector<uint8_t> private_loop_;
   std::vector<uint32_t> blocks_declared_;
-  std::vector<std::pair<uint32_t, std::string>> materialized_;  // expression, variable that holds its text
+  std::vector<std::pair<uint32_t, std::string>> materialized_;  // expression, variable that holds its string
   bool has_try_ = false, self_escapes_ = false, has_foreign_calls_ = false, has_calls_ = false, has_measured_ = false,
        has_leaving_calls_ = false, has_slices_ = false, slices_changed_ = false;
   bool uses_fault_ = false, uses_leave_ = false;
   uint32_t names_created_ = 0;
 
-  // Where break and continue go.
+  // The targets of break and continue.
   struct Loop {
-    bool in_switch = false;  // at hand is a switch inside of it
+    bool in_switch = false;  // inside a switch of this loop
     bool breaks_by_goto = false, continues_by_goto = false;
     bool has_next = false;
     uint32_t try_depth = 0;
@@ -287,14 +287,14 @@ class BodyWriter {
   };
   std::vector<Loop> loops_;
   struct TryFrame {
-    std::string exit;  // the variable that tells how the frame was left: 1 return, 2 break, 3 continue
+    std::string exit;  // the variable that records how the frame was left: 1 return, 2 break, 3 continue
     bool returns = false, breaks = false, continues = false;
   };
   std::vector<TryFrame> frames_;
 
-  // Where the text stands.
+  // The current position in the output.
   uint32_t depth_ = 1;
-  uint32_t closes_ = 0;  // braces to be closed
+  uint32_t closes_ = 0;  // braces still to be closed
   FileId line_file_;
   uint32_t line_ = 0;  // 0: unknown to the reader
 };

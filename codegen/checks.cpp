@@ -1,6 +1,6 @@
-// Checks in front of a statement, in the order in which its expressions are evaluated (ir.h): each a compare and a
-// branch to the body's fault block. The number of a check is its row among the group's sites, so that a change of one
-// POU moves no number in other groups.
+// Checks in front of a statement, in the order in which its expressions are evaluated (ir.h): each is a compare and a
+// branch to the body's fault block. A check is numbered by its row among the group's sites, so a change of one POU
+// renumbers nothing in other groups.
 #include "codegen/body.h"
 #include "ir/walk.h"
 
@@ -122,7 +122,7 @@ void BodyWriter::checks(ExprId id, const Expr& e) {
           appendUnsigned(high, (is_signed ? uint64_t{1} << (width - 1) : width == 64 ? 0 : uint64_t{1} << width) - 1);
           out_ += ", " + low + ".0, " + high + ".0)";
         } else {
-          // Cut and extended again it must be the same number, of the same sign.
+          // Cut and extended again it must be the same number, with the same sign.
           const std::string number = captured([&] { value(a, Prec::Unary); });
           const char* type = scalarType(types_, e.type);
           const bool from_signed = types_.isSigned(source);
@@ -136,7 +136,7 @@ void BodyWriter::checks(ExprId id, const Expr& e) {
             out_ += ')' + number + " < 0";
           }
         }
-        // Of a REAL the nearest whole number: a cast of NaN or of what does not fit is undefined.
+        // For REAL the nearest whole number: casting NaN or a value that does not fit is undefined.
         endCheck(e.loc, Fault::Convert, (TypeTable::isReal(source) ? "rung_round_i64(" : "(") + captured([&] {
                                           value(a, Prec::Ternary);
                                         }) + ")");
@@ -155,7 +155,7 @@ void BodyWriter::checks(ExprId id, const Expr& e) {
         });
         const TypeId limits = from_real ? types::kLInt : expr(a).type;
         const bool from_signed = from_real || types_.isSigned(source);
-        // A limit outside the source's type needs no test.
+        // A limit outside of the source's type needs no test.
         const auto low = static_cast<uint64_t>(info.low), high = static_cast<uint64_t>(info.high);
         const bool tests_low = from_signed || info.low > 0;
         if (tests_low) {

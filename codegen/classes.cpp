@@ -1,4 +1,4 @@
-// See classes.h.
+// Class numbers and dispatch tables: see classes.h.
 #include "codegen/classes.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
-// The numbers of classes and the tables by which methods are found (design §6). In: the module's classes and
-// dispatches. Out: the text of `classes.cpp`, the only file that a new class changes beside its own, and the
-// declarations by which other files use it. Called by emit.cpp.
+// Class numbers and the dispatch tables of methods. In: the module's classes and dispatches. Out: `classes.cpp`, and
+// the declarations by which other files use it. All numbers and tables are defined there and `extern` elsewhere, so a
+// new class recompiles that file and its own, no other POU. Every method takes `void* object`: one table type serves
+// all classes, and no function is called through a type other than its own. Called by emit.cpp.
 //
 //   typedef int16_t Motor__Speed_call(void* object, rung_context* ctx);
 //   extern Motor__Speed_call* const Motor__Speed_table[];      by class number - Motor__Speed_first

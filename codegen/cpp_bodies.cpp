@@ -1,14 +1,15 @@
-// Bodies in C++: see cpp_bodies.h. The facade has
-//   a scalar, text, array or structure    a reference to its memory, as the type of rung/cpp.h or a view made here
-//   an enumeration                        struct COLOR with its items in upper case: COLOR::RED
-//   a block                               an object with references to its pins, values for its in-outs, Body(), and
-//   its
-//                                         methods and actions by their names
-//   a structure with blocks inside        an object with references to its members
-//   a function that the text names        an object of its name in upper case, called with or without EN and ENO
-//   an own method or action               the same, by its own name
-//   the result of a function              a variable of the function's name in upper case; of a method, of its own name
-// Inputs are const inside, outputs are const outside (syntax manual 5.8.6).
+// Bodies in C++: see cpp_bodies.h. Everything is a reference into the instance (views marked may_alias), so nothing is
+// copied, except in-outs of blocks, which are values (syntax manual 5.8.6). Each kind of name in the facade:
+//   scalar, string, array, structure     a reference to its memory, as a type of rung/cpp.h or a view defined here
+//   enumeration                          struct COLOR with its items in upper case: COLOR::RED
+//   block                                an object with references to its pins, values for its in-outs, Body(), and
+//                                        its methods and actions by their names
+//   structure with blocks inside         an object with references to its members
+//   function that the source names       an object of its name in upper case, called with or without EN and ENO
+//   method or action of this object      the same, by its own name
+//   result of a function                 a variable of the function's name in upper case; of a method, of its own name
+// Inputs are const inside, outputs are const outside (5.8.6). A word in upper case that names a function counts as a
+// call, as does a word that names a method or action of the object.
 #include "codegen/cpp_bodies.h"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ using types::TypeTable;
 
 namespace {
 
-constexpr uint64_t kMaxBlocks = 256;  // of an array: each has an object
+constexpr uint64_t kMaxBlocks = 256;  // of an array: each gets an object
 
 std::string mangled(std::string_view name) {
   std::string out;
@@ -71,7 +72,7 @@ class Writer {
     return types_.kind(type) == TypeKind::Record && (info(type).record_kind == RecordKind::FunctionBlock);
   }
 
-  // What an object stands for that knows its context: a block, and a structure with blocks inside.
+  // True for types that need an object, which knows its context: a block, and a structure with blocks inside.
   bool holdsBlock(TypeId type) const {
     type = elementOf(types_, type);
     if (types_.kind(type) != TypeKind::Record || isBlock(type)) return isBlock(type);
@@ -80,7 +81,7 @@ class Writer {
            std::any_of(fields.begin(), fields.end(), [&](const Field& field) { return holdsBlock(field.type); });
   }
 
-  // A record whose definition the file needs.
+  // Notes that the file needs the definition of a record.
   void need(TypeId type) {
     type = elementOf(types_, type);
     std::vector<TypeId>& records = file_.group.records;
@@ -88,7 +89,7 @@ class Writer {
       records.push_back(type);
   }
 
-  // The text with its lines kept; #include lines go to the front of the file.
+  // Copies the source with its lines kept; #include lines go to the front of the file.
   void splitSource() {
     const SourceLocation location = module_.sources.location(cpp_.loc);
     std::string path;
@@ -121,7 +122,7 @@ class Writer {
 
   // ---- types
 
-  // The type that the body sees; empty: it cannot be seen.
+  // The C++ type that the body uses; empty: not accessible from C++.
   std::string view(TypeId type) {
     type = types_.resolve(type);
     const TypeInfo& of = types_.info(type);
@@ -152,7 +153,7 @@ class Writer {
     return typeKindName(types_, type) + 5;  // RUNG_INT
   }
 
-  // The name of a type that is defined here, with its definition.
+  // Defines the type, unless already known, and returns its name.
   std::string named(TypeId type) {
     for (const auto& [known, name] : named_) {
       if (known == type) return name;
@@ -211,7 +212,7 @@ class Writer {
     return out + ", \"layout\");\n";
   }
 
-  // The fields of a block and of those that it extends, each with its place.
+  // The fields of a block and of those that it extends, each with its lvalue.
   void fieldsOf(TypeId type, const std::string& place, std::vector<std::pair<const Field*, std::string>>& out) const {
     for (const Field& field : info(type).fields) {
       const std::string own = place + '.' + mangled(string(field.name));
@@ -222,8 +223,8 @@ class Writer {
     }
   }
 
-  // The objects of a place, one for each element of an array: `OBJECT name` or `struct { OBJECT table[2][3]; } name`,
-  // and what begins it. Empty: too many.
+  // The objects of a variable: `OBJECT name`, or for an array `struct { OBJECT table[2][3]; } name`; and the
+  // initialiser. Empty: too many.
   struct Objects {
     std::string declaration, begin;
   };
@@ -250,8 +251,8 @@ class Writer {
     return {"struct {\n      " + object + " table" + extents + ";\n    } " + name, "{{" + list + "}}"};
   }
 
-  // Inputs and outputs are references, in-outs values that Body() lends to the block. Blocks inside are objects again;
-  // an in-out that is one is the address of such an object.
+  // Inputs and outputs are references, in-outs are values that Body() passes to the block. Inner blocks are objects
+  // again; an in-out that is a block is the address of such an object.
   std::string object(TypeId type, const std::string& name) {
     need(type);
     const std::string memory = recordName(types_, type);
@@ -315,7 +316,7 @@ class Writer {
     return "  void Body() {\n" + lend + "    " + call + ";\n" + take_back + "  }\n";
   }
 
-  // The methods and actions of a block and of those that it extends, by the names that they are declared with.
+  // The methods and actions of a block and of those that it extends, by their declared names.
   std::string methodsOf(TypeId type) {
     std::string out;
     std::vector<std::string> taken;
@@ -349,7 +350,7 @@ class Writer {
     return cppIdentifier(name.substr(name.rfind('.') + 1));
   }
 
-  // The way from a block to the one that it extends.
+  // The path from a block to one that it extends.
   std::string placeOf(const std::string& place, TypeId from, TypeId to) const {
     from = types_.resolve(from);
     if (from == types_.resolve(to)) return place;
@@ -358,7 +359,7 @@ class Writer {
     return place;
   }
 
-  // A function or method as the facade calls it; `self`: the place of its object.
+  // A function or method as the facade calls it; `self`: the lvalue of its object.
   struct Call {
     bool ok = false;
     std::string parameters, names, result, code;
@@ -446,7 +447,7 @@ class Writer {
                   (function.self ? ", " + placeOf("rung_self_", body_.self, function.self) : "") + "};\n";
   }
 
-  // An address of a view as the parameter type that the function has for it.
+  // The address of a view, converted to the parameter type of the function.
   std::string pointer(TypeId type, const std::string& address, bool constant) {
     std::string to;
     appendPointer(to, types_, type, "", constant);
@@ -475,7 +476,7 @@ class Writer {
     return quotedBits(seen, std::string(scalarType(types_, type)) + "(" + value + ")");
   }
 
-  // What a variable of a call begins with.
+  // The initial value of a variable of a call.
   std::string initial(NameId name, TypeId type) {
     for (const ir::CppBody::Constant& known : cpp_.initial) {
       if (known.name == name) return constant(type, known.bits);
@@ -487,7 +488,7 @@ class Writer {
     return view(type) + "{}";
   }
 
-  // A name for a place in memory: a reference, or the object of a block or the objects of an array of them.
+  // Declares a name for an lvalue: a reference, the object of a block, or the objects of an array of blocks.
   std::string variable(std::string_view name, TypeId type, const std::string& place, bool constant) {
     type = types_.resolve(type);
     const std::string called = cppIdentifier(name);
@@ -587,8 +588,8 @@ class Writer {
     return functions_ + out;
   }
 
-  // The types of time, whose C++ types depend on the dialect, and what makes their values. The parts stand from the
-  // least to the most; of TIME a sign comes first.
+  // The types of time, whose C++ types depend on the dialect, and the functions that make their values. Parts go from
+  // the least significant to the most significant; TIME takes a sign first.
   std::string times() const {
     std::string out = "constexpr bool TRUE = true, FALSE = false;\n";
     const std::pair<TypeKind, const char*> kinds[] = {{TypeKind::Time, "TIME"},

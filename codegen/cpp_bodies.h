@@ -1,6 +1,6 @@
-// The file of a POU whose body is in C++ (design §8): its text between a facade of its variables and the function that
-// other generated code calls. In: a row of Module::cpp_bodies. Out: a Group with that file's text, and the lines that
-// stand in front of it. Called by emit.cpp, one file for each body.
+// The file of a POU whose body is in C++: the source of the body between a facade of its variables and the function
+// that other generated code calls. In: a row of Module::cpp_bodies. Out: a Group with the code of that file, and the
+// lines at its beginning. Called by emit.cpp, one file for each body: such bodies never share a file in a batch.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace rung::codegen {
 
 struct CppFile {
   Group group;
-  std::string front;  // the body's own #include lines come before everything
+  std::string front;  // the body's own #include lines come first
 };
 CppFile writeCppBody(const ir::Module& module, const Facts& facts, const ir::CppBody& cpp);
 

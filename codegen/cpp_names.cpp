@@ -1,3 +1,4 @@
+// Names in the facade of a body in C++: see cpp_names.h.
 #include "codegen/cpp_names.h"
 
 namespace rung::codegen {
@@ -9,7 +10,7 @@ std::string cppUpper(std::string_view name) {
 }
 
 std::string cppIdentifier(std::string_view name) {
-  // Words of C++ and common macros, between blanks.
+  // C++ keywords and common macros, separated by blanks.
   static constexpr std::string_view kTaken =
       " "
       "alignas alignof and and_eq asm assert auto bitand bitor bool break case catch char char16_t char32_t class "

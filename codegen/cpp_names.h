@@ -1,4 +1,4 @@
-// Names of a program in the facade of a body in C++. In: names as they are declared. Out: names that C++ takes.
+// Names of a program in the facade of a body in C++. In: names as declared. Out: valid C++ names.
 // Called by cpp_bodies.cpp.
 #pragma once
 
@@ -7,9 +7,9 @@
 
 namespace rung::codegen {
 
-// Types, items and functions are in upper case there; of a path the last name.
+// Types, items and functions are in upper case; of a path only the last name is used.
 std::string cppUpper(std::string_view name);
-// As the user wrote it; words of C++ and common macros get a `_` behind them.
+// As the user wrote it; a `_` follows C++ keywords and common macros.
 std::string cppIdentifier(std::string_view name);
 
 }  // namespace rung::codegen

@@ -18,7 +18,7 @@ using ir::StmtKind;
 constexpr uint64_t kSmall = 8;      // statements
 constexpr uint64_t kLoopShare = 3;  // work in loops per statement of the body
 constexpr uint64_t kSearch = 8, kCounted = 256,
-                   kMaxWork = 1u << 20;  // turns of a WHILE, of a FOR with variable bounds
+                   kMaxWork = 1u << 20;  // iterations of a WHILE, or of a FOR with variable bounds
 
 struct Work {
   uint64_t statements = 0, runs = 0;

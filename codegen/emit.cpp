@@ -1,4 +1,4 @@
-// Puts the parts of codegen together: facts, groups, bodies, headers, description. See emit.h.
+// Assembles the parts of codegen: facts, groups, bodies, headers, description. See emit.h.
 #include "codegen/emit.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace rung::codegen {
 
 namespace {
 
-// Prototypes sorted by their text, one a line.
+// Prototypes, sorted, one per line.
 std::string prototypes(const ir::Module& module, const std::vector<ir::BodyId>& bodies, bool native,
                        std::string_view before) {
   std::vector<std::string> lines;
@@ -42,7 +42,7 @@ std::string inlineFile(const ir::Module& module, ir::BodyId id) {
   return fileStem(module.names.string(module.body(id).name)) + "fn.h";
 }
 
-// Of each record once: where its code stands.
+// For each record once, beside its code.
 std::string layoutAsserts(const ir::Module& module, const Group& group) {
   std::string out;
   TypeId last;
@@ -55,7 +55,7 @@ std::string layoutAsserts(const ir::Module& module, const Group& group) {
   return out;
 }
 
-// Sorted by their text, one a line.
+// Sorted, one per line.
 std::string dispatchDeclarations(const ir::Module& module, const Group& group) {
   std::vector<std::string> lines;
   for (TypeId record : group.classes)
@@ -67,7 +67,7 @@ std::string dispatchDeclarations(const ir::Module& module, const Group& group) {
   return out;
 }
 
-// What a group's text needs in front of it, the text, and the end of the namespace.
+// The lines that a group's code needs in front, the code, and the end of the namespace.
 std::string around(const ir::Module& module, const Group& group, RecordDefinitions& records,
                    std::string_view name_space, std::string out) {
   std::vector<std::string> files;

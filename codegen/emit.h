@@ -1,4 +1,4 @@
-// Code generation: IR to C++ files, the symbol map and the manifest (design §8). In: a verified ir::Module. Out: file
+// Code generation: IR to C++ files, the symbol map and the manifest. In: a verified ir::Module. Out: file
 // contents by relative path, deterministic to the byte; write.h puts them on disk. Called by the driver.
 #pragma once
 
@@ -19,7 +19,7 @@ struct EmitOptions {
 struct OutputFile {
   std::string path;
   std::string content;
-  bool has_user_code = false;  // a body in C++: g++ may refuse it, and its macros and names are its own
+  bool has_user_code = false;  // a body in C++: g++ may reject it, and it brings its own macros and names
 };
 
 // Headers and sources of the module; `.cpp` files are the ones to compile. Sorted by path.

@@ -16,7 +16,7 @@ namespace {
 bool isBitwise(types::Op op) { return op == types::Op::And || op == types::Op::Or || op == types::Op::Xor; }
 bool isSumOrProduct(types::Op op) { return op == types::Op::Add || op == types::Op::Sub || op == types::Op::Mul; }
 
-// The bounds of a pointer's arithmetic are those of ULINT.
+// Pointer arithmetic has the bounds of ULINT.
 bool isPointer(types::TypeKind kind) { return kind == types::TypeKind::Pointer || kind == types::TypeKind::Reference; }
 
 }  // namespace
@@ -93,7 +93,7 @@ void BodyWriter::value(ExprId id, Prec context) {
   }
 }
 
-// A BOOL where C++ wants a truth value: memory is read as != 0 anyway.
+// A BOOL where C++ expects a condition: memory is compared with != 0 anyway.
 void BodyWriter::condition(ExprId id, Prec context) {
   const Expr& e = expr(id);
   if (ir::isPlace(e.kind) && isLvalue(id)) {
@@ -288,7 +288,7 @@ void BodyWriter::binary(const Expr& e, Prec context) {
       out_ += op;
       operand(b);
       closeParenthesis(Prec::Bit, context);
-      // Nested operators of another kind stand in parentheses: they are of a precedence that g++ warns about.
+      // g++ warns about nested operators of these precedences, so they get parentheses.
       return;
     }
     case Op::Shl:
@@ -515,7 +515,7 @@ void BodyWriter::divide(const Expr& e, Prec context) {
   if (cuts) closeParenthesis(Prec::Unary, context);
 }
 
-// A count from the width on gives 0; a rotation is modulo the width.
+// A count of the width or more gives 0; a rotation is modulo the width.
 void BodyWriter::shift(const Expr& e, Prec context) {
   const ExprId a{e.a}, b{e.b};
   const TypeKind kind = kindOf(a);
@@ -610,7 +610,7 @@ void BodyWriter::convertTime(ExprId from, TypeKind source, TypeKind target) {
   const char* suffix = is_signed ? "LL" : "ULL";
   const int64_t unit = types::nanoseconds(source), to = types::nanoseconds(target);
   constexpr int64_t kDay = 86'400'000'000'000;
-  // Everything in the larger of both units' count: 32-bit values scaled up fit 64 bits.
+  // Computed in the finer of both units: 32-bit values scaled up fit 64 bits.
   auto number = [&] {
     out_ += integer;
     value(from, Prec::Unary);
@@ -753,7 +753,7 @@ void BodyWriter::convert(const Expr& e, Prec context) {
   } else {
     const bool from_signed = types_.isSigned(source);
     const uint32_t from_width = widthOf(source);
-    // The value promotes to int, which is the target's type or holds it.
+    // The value promotes to int, which is the target's type or can hold it.
     const bool keeps =
         (from_width == width && from_signed == is_signed && from_width > 1) ||
         (from_width < 32 && width <= 32 && from_width < width && (is_signed || (!from_signed && width < 32)));

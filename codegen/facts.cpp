@@ -29,7 +29,7 @@ bool isSmall(const Body& body) {
   return true;
 }
 
-// True when a place is reached by something else than the own instance or a plain local.
+// True when an lvalue may be reached by other means than the own instance or a plain local.
 bool isForeign(const Body& body, ExprId place) {
   const Expr& root = body.expr(ir::rootOf(body, place));
   switch (root.kind) {

@@ -1,5 +1,5 @@
-// What codegen must know about the whole module before it writes a body: block numbers, which bodies are written
-// where they are used, and which fields something else than their own block may reach while that block runs.
+// Facts about the whole module that codegen needs before it writes a body: block numbers, which bodies are inlined,
+// and which fields other code than their own block may reach while that block runs.
 // In: the module. Out: tables by index. Called once by emit.cpp, read by all others.
 #pragma once
 
@@ -13,16 +13,16 @@ namespace rung::codegen {
 struct Facts : ir::MemoryBlocks {
   explicit Facts(const ir::Module& module);
 
-  std::vector<uint8_t> is_inlined;  // by body: a small pure library function, in a header of its own
+  std::vector<uint8_t> is_inlined;  // by body: a small pure library function, in its own header
 
   std::vector<uint8_t> is_zeroing;  // by body: an initialiser that only clears its record; none is generated
-  std::vector<uint8_t> is_pointed;  // by record: some POINTER or REFERENCE points to it
+  std::vector<uint8_t> is_pointed;  // by record: the target of some POINTER or REFERENCE
 
-  // The variable of a block (record, field) whose address is taken somewhere.
+  // True when the address of this variable of a block (record, field) is taken somewhere.
   bool isExposed(TypeId record, uint32_t field) const {
     return exposed_fields_.count(uint64_t{record.index} << 32 | field) != 0;
   }
-  // By record: its instances may be reached through globals or pointers while their body runs a call.
+  // By record: its instances may be reached through globals or pointers while their body makes a call.
   std::vector<uint8_t> is_seen;
 
  private:

@@ -1,5 +1,5 @@
-// Cutting the bodies into groups: see group.h. A POU and the initialiser of its record stay together. A group ends
-// before a name whose hash says so, once it holds kLeast POUs, so that a new POU changes one group.
+// Cuts the bodies into groups: see group.h. A POU and the initialiser of its record stay together. Once a group holds
+// kLeast POUs, it ends before the first name whose hash asks for it, so a new POU changes one group only.
 #include <algorithm>
 
 #include "codegen/group.h"
@@ -13,7 +13,7 @@ namespace {
 constexpr uint32_t kLeast = 32, kUsual = 32, kMax = 128;
 
 struct Row {
-  std::string key;  // folded
+  std::string key;  // in lower case
   uint32_t kind;
   ir::BodyId body;
 };

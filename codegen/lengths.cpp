@@ -1,8 +1,10 @@
-// Lengths of texts in C++ locals. A text that nothing else can reach while the body runs (as in locals.cpp) and that
-// sized functions use keeps its length beside it, so that nothing counts its characters again: `s := CONCAT(s, c)` adds
-// at the end, MID knows whether its position is inside. Every write of such a text sets its length. Before the first
-// use in a block the length is counted; a loop counts in front of it what it will need.
-// Sized functions are natives marked {sized}: see docs/architecture.md and rung/standard.h.
+// Lengths of strings in C++ locals. A string that nothing else can reach while the body runs (as in locals.cpp) and
+// that sized functions use keeps its length beside it, so nothing counts its characters again: `s := CONCAT(s, c)`
+// appends at the end, MID knows whether its position is inside. Every write of such a string sets its length. The
+// length is counted before the first use in a block; a loop counts in front what it will need. Memory stays
+// NUL-terminated after each statement.
+// Sized functions are natives marked {sized}: their second form in rung/<library>.h takes the length after each string
+// and returns the length of the result.
 #include <algorithm>
 
 #include "codegen/body.h"
@@ -14,8 +16,8 @@ using ir::LocalKind;
 
 namespace {
 
-constexpr uint32_t kWorthCounting = 3;  // uses for which a length is counted
-constexpr uint32_t kWorthKeeping = 2;   // the same where it is known from the first write on
+constexpr uint32_t kWorthCounting = 3;  // uses that justify counting the length
+constexpr uint32_t kWorthKeeping = 2;   // the same where it is known from the first write
 
 }  // namespace
 
@@ -28,7 +30,7 @@ bool BodyWriter::isSized(const Body& callee) const {
   return true;
 }
 
-// `out` of a sized function must be one of its texts or apart from all: true where either side is measured.
+// `out` of a sized function must be one of its strings or overlap none: true when either side is measured.
 bool BodyWriter::isSizedCall(const Body& callee, uint32_t first, uint32_t count, ExprId result) const {
   if (!isSized(callee)) return false;
   if (result && isString(expr(result).type)) {
@@ -47,14 +49,14 @@ bool BodyWriter::isSizedCall(const Body& callee, uint32_t first, uint32_t count,
   return has_measured && (all_apart || !result || !isString(expr(result).type));
 }
 
-// ---- which texts
+// ---- choosing the strings
 
 BodyWriter::Variable* BodyWriter::stringVariable(ExprId place) {
   const Expr& e = expr(place);
   if (types_.kind(e.type) != TypeKind::String) return nullptr;
   if (e.kind == ExprKind::Local) {
     const ir::Local& local = body_->locals[e.a];
-    // A by-reference result is a variable of the caller's that only this call knows.
+    // A by-reference result is a variable of the caller that only this call knows.
     const bool is_own = !local.by_reference || local.kind == LocalKind::Input || local.kind == LocalKind::Result;
     return is_own ? &locals_[e.a] : nullptr;
   }
@@ -74,7 +76,7 @@ void BodyWriter::noteSizedCall(const Body& callee, uint32_t first, uint32_t coun
   }
 }
 
-// An assignment gives the length on.
+// An assignment passes the length on.
 void BodyWriter::noteStringAssign(const Stmt& stmt, uint32_t weight) {
   Variable* to = stringVariable(ExprId{stmt.a});
   Variable* from = stringVariable(ExprId{stmt.b});
@@ -111,7 +113,7 @@ void BodyWriter::declareLengths() {
       variable(declarations_, body_->locals[i]);
       declarations_ += "v = nullptr;";
     }
-    // What is not an input is written before it is read.
+    // All but inputs are written before they are read.
     of.known = body_->locals[i].kind != LocalKind::Input;
     has_measured_ = true;
   }
@@ -171,7 +173,7 @@ void BodyWriter::measureExpr(ExprId id) {
   ir::forEachSlot(*body_, e, [&](const uint32_t& slot) { measureExpr(ExprId{slot}); });
 }
 
-// The lengths that a statement's own expressions need.
+// The lengths that the expressions of one statement need.
 void BodyWriter::collectUnknown(const Stmt& stmt) {
   ir::forEachRoot(module_, *body_, stmt, [&](const uint32_t& slot, ir::Use) { measureExpr(ExprId{slot}); });
   if (stmt.kind == StmtKind::Assign && measuredString(ExprId{stmt.a}) != nullptr) measureString(ExprId{stmt.b});
@@ -180,7 +182,7 @@ void BodyWriter::collectUnknown(const Stmt& stmt) {
   for (uint32_t i = 0; i < stmt.d; ++i) measureString(body_->operands[stmt.c + i]);
 }
 
-// The lengths that a block needs before it, and what it makes known itself.
+// The lengths that a block needs before it starts, and those that it makes known itself.
 void BodyWriter::collectUnknown(StmtId first) {
   const size_t mark = known_.size();
   for (StmtId id = first; id; id = body_->stmt(id).next) {
@@ -193,7 +195,7 @@ void BodyWriter::collectUnknown(StmtId first) {
   forgetLengths(mark);
 }
 
-// In front of a statement: counts what it needs, a loop all that its turns need.
+// In front of a statement: counts the lengths that it needs; for a loop, all that its iterations need.
 void BodyWriter::measure(const Stmt& stmt) {
   if (!has_measured_) return;
   unknown_.clear();

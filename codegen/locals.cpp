@@ -1,6 +1,6 @@
-// Which scalars live in C++ locals (design §8): own fields of a block that nothing else can reach while it runs are
-// loaded at entry, when they are used often, and written back at the exits and in the fault block. For controls that
-// the loop alone writes get a local wider than their type, so that the loop needs no test for the type's limit.
+// Chooses the scalars that live in C++ locals: fields of a block that nothing else can reach while it runs and that
+// are used often are loaded at entry, and written back at the exits and in the fault block. A control that only its
+// loop writes gets a local wider than its type, so the loop needs no test for the limit of the type.
 #include "codegen/body.h"
 #include "ir/walk.h"
 
@@ -77,7 +77,7 @@ void BodyWriter::noteWrite(ExprId place, bool by_reference) {
   const Slot slot = slotOf(place);
   if (Variable* of = by_reference ? stringVariable(place) : nullptr) of->exposed = true;
   Variable* of = variableOf(slot);
-  if (of == nullptr) {  // a part of an aggregate: the local is in use
+  if (of == nullptr) {  // part of an aggregate: the local is in use
     const Expr& root = expr(ir::rootOf(*body_, place));
     if (root.kind == ExprKind::Local) locals_[root.a].written = true;
     return;
@@ -95,7 +95,7 @@ void BodyWriter::scanBlock(StmtId first, uint32_t weight) {
     const bool is_block_call = stmt.kind == StmtKind::Call && stmt.b != 0;
     ir::forEachRoot(module_, *body_, stmt, [&](const uint32_t& slot, ir::Use use) {
       const ExprId root{slot};
-      // The instance of a call on SELF shows everything; an element of it is an instance of its own.
+      // A call on SELF exposes the whole instance; an element of it is a separate instance.
       scanExpr(root, weight);
       if (use == ir::Use::Write) noteWrite(root, false);
       if (use == ir::Use::Reference && !(is_block_call && slot == stmt.b)) noteWrite(root, true);
@@ -133,7 +133,7 @@ void BodyWriter::scanBlock(StmtId first, uint32_t weight) {
   }
 }
 
-// True when the control never needs a value that its type does not have.
+// True when the control never takes a value outside of its type.
 bool BodyWriter::boundsFit(const Stmt& loop) const {
   const Expr& to = expr(ExprId{loop.c});
   if (to.kind != ExprKind::Const) return false;
@@ -167,7 +167,7 @@ void BodyWriter::analyze() {
     const TypeKind kind = types_.plainKind(field.type);
     Variable& use = fields_[i];
     if (field.by_reference || !TypeTable::isScalar(kind) || use.exposed) continue;
-    // Across a call a local is spilled where memory was as good: then it must earn its keep in a loop.
+    // Across a call a local is spilled, no better than memory: then only its uses in loops count.
     if ((has_calls_ ? use.loop_weight : use.weight) <= kWorthIt) continue;
     use.cached = !facts_.isExposed(record, i);
   }

@@ -1,11 +1,11 @@
-// Loops of a body. A For counts in the control itself when the loop alone writes it: in a local that is wide enough
-// for one step beyond the limit, so that it is a plain C++ loop which g++ can vectorize; else a flag guards the step.
+// Loops of a body. A For counts in the control itself when only the loop writes it: in a local wide enough for one
+// step beyond the limit, which makes a plain C++ loop that g++ can vectorize. Otherwise a flag guards the step.
 #include "codegen/body.h"
 #include "ir/walk.h"
 
 namespace rung::codegen {
 
-// `if condition { break }`, with nothing to be done before.
+// `if condition { break }`, with nothing to be done before it.
 bool BodyWriter::isExitTest(StmtId id) const {
   if (!id) return false;
   const Stmt& stmt = body_->stmt(id);

@@ -1,4 +1,4 @@
-// The description of the module as C++: see module.h. What it says is in ir/description.h.
+// The description of the module as C++: see module.h. Its content comes from ir/description.h.
 #include "codegen/module.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ class Describer {
     addTasks();
     addTests();
     Description out;
-    out.sites = sitesSource(groups);  // may add texts
+    out.sites = sitesSource(groups);  // may add strings
     out.module = moduleSource();
     return out;
   }
@@ -140,7 +140,7 @@ class Describer {
     }
   }
 
-  // A test that is a function: its parameters are zero, its results dropped.
+  // A test that is a function: its parameters are zero, its results are dropped.
   std::string functionCall(const ir::Body& body) {
     std::string variables, call = "  ";
     appendFunctionName(call, module_, body);
@@ -152,7 +152,7 @@ class Describer {
                           local.kind == ir::LocalKind::InOut;
       if (!is_pin && !(is_result && local.by_reference)) continue;
       const std::string name = "p" + number(++count);
-      if (types_.kind(elementOf(types_, local.type)) == TypeKind::Record) return "";  // sema wants tests without pins
+      if (types_.kind(elementOf(types_, local.type)) == TypeKind::Record) return "";  // sema rejects tests with pins
       variables += "  ";
       appendDeclaration(variables, types_, local.type, name);
       variables += " = {};\n";
@@ -224,7 +224,7 @@ class Describer {
     out += "extern const rung_site sites[];\nextern const uint32_t site_count;\n" + prototypes_ + "\n";
     out += "static const char text[] =\n";
     const std::string& bytes = is_.strings.bytes();
-    for (size_t at = 0; at < bytes.size();) {  // a line per name
+    for (size_t at = 0; at < bytes.size();) {  // one line per name
       size_t end = bytes.find('\0', at);
       out += "  ";
       appendQuoted(out, std::string_view(bytes).substr(at, end - at));

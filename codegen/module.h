@@ -1,6 +1,6 @@
 // The description of the module (rung/module.h): tables of types, symbols, blocks, tasks, tests and check sites.
-// In: the IR module, its facts, the groups after all bodies were written. Out: the texts of `module.cpp` and
-// `sites.cpp`. A change inside a POU's body changes the second at most.
+// In: the IR module, its facts, the groups after all bodies were written. Out: the code of `module.cpp` and
+// `sites.cpp`. A change inside a POU's body changes at most `sites.cpp`.
 #pragma once
 
 #include <string>

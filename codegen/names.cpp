@@ -22,7 +22,7 @@ bool isPlain(std::string_view name) {
   return true;
 }
 
-// f(unit): the UTF-16 units of a UTF-8 text.
+// Calls f(unit) for the UTF-16 units of a UTF-8 string.
 template <class F>
 void forEachUnit(std::string_view text, F&& f) {
   for (size_t i = 0; i < text.size();) {
@@ -111,7 +111,7 @@ void appendQuoted(std::string& out, std::string_view text) {
       out += c;
     } else if (byte >= 0x20 && byte < 0x7f) {
       out += c;
-    } else {  // three octal digits end where they end
+    } else {  // three octal digits end by themselves
       out += '\\';
       out += static_cast<char>('0' + (byte >> 6));
       out += static_cast<char>('0' + (byte >> 3 & 7));
@@ -130,7 +130,7 @@ void appendQuotedWide(std::string& out, std::string_view text) {
     }
     out += "\\x";
     for (int shift = 12; shift >= 0; shift -= 4) out += kHex[unit >> shift & 15];
-    out += "\" u\"";  // a hex escape would go on with the digits that follow
+    out += "\" u\"";  // a hex escape would swallow hex digits that follow
   });
   out += '"';
 }

@@ -1,4 +1,4 @@
-// Places in C++: variables, fields, elements, what pointers point to, and views of the process image, which are
+// Lvalues in C++: variables, fields, elements, targets of pointers, and views of the process image, which are
 // little-endian bytes at any address and therefore read and written by the helpers of rung/code.h.
 #include "codegen/body.h"
 #include "ir/walk.h"
@@ -12,7 +12,7 @@ using types::TypeTable;
 bool BodyWriter::isImagePlace(ExprId id) const { return expr(ir::rootOf(*body_, id)).kind == ExprKind::Image; }
 bool BodyWriter::isLvalue(ExprId id) const { return expr(id).kind != ExprKind::Bits && !isImagePlace(id); }
 
-// Locals are only written by us, and we write 0 or 1.
+// Only generated code writes locals, and it writes 0 or 1.
 bool BodyWriter::isVariableTruth(ExprId id) const {
   const Expr& e = expr(id);
   if (e.kind == ExprKind::Local) return !body_->locals[e.a].by_reference && !locals_[e.a].exposed;
@@ -91,7 +91,7 @@ void BodyWriter::place(ExprId id) {
         const TypeId element = elementOf(types_, e.type);
         std::string type;
         appendPointer(type, types_, e.type, "");
-        // Elements may be read as of another type than they were written.
+        // Elements may be read with another type than the one they were written with.
         if (types_.kind(element) != TypeKind::Record && !isString(element)) {
           const std::string scalar = scalarType(types_, element);
           type.replace(0, scalar.size(), scalarAliasType(types_, element));
@@ -146,7 +146,7 @@ void BodyWriter::place(ExprId id) {
   }
 }
 
-// What stands in front of a field's name.
+// Writes the prefix of a field's name.
 void BodyWriter::member(ExprId base) {
   const Expr& e = expr(base);
   if (e.kind == ExprKind::Local && body_->locals[e.a].by_reference) {
@@ -170,7 +170,7 @@ void BodyWriter::member(ExprId base) {
 
 // ---- indices
 
-// `i + 1` may be computed without being cut to its type where the values that differ are no indices either way.
+// `i + 1` need not be cut to its type when the values that would differ are invalid indices either way.
 ir::ExprId BodyWriter::peelIndex(ExprId id, const types::Dimension& dimension, int64_t& addend) const {
   addend = 0;
   const Expr& e = expr(id);
@@ -195,7 +195,7 @@ ir::ExprId BodyWriter::peelIndex(ExprId id, const types::Dimension& dimension, i
   return variable;
 }
 
-// The index from 0.
+// The index, counted from 0.
 void BodyWriter::indexValue(ExprId id, const types::Dimension& dimension) {
   const Expr& whole = expr(id);
   if (whole.kind == ExprKind::Const) {

@@ -1,4 +1,4 @@
-// Definitions of records and where they stand: see records.h.
+// Definitions of records, in sources or headers: see records.h.
 #include "codegen/records.h"
 
 #include <algorithm>
@@ -81,7 +81,7 @@ void RecordDefinitions::need(const std::vector<TypeId>& records, bool shared) {
 
 void RecordDefinitions::collect(const std::vector<TypeId>& records, std::vector<std::string>& includes,
                                 std::string& definitions) {
-  // By name: the order of the bodies' first uses would make copies differ.
+  // By name: the order of first uses in the bodies would make the copies differ.
   std::vector<TypeId> sorted = records;
   std::sort(sorted.begin(), sorted.end(),
             [&](TypeId a, TypeId b) { return recordFile(module_.types, a) < recordFile(module_.types, b); });

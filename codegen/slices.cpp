@@ -1,14 +1,14 @@
-// Slices: texts that need no memory of their own while the body runs, because they are parts of texts that keep still.
-// In `rest := MID(rest, LEN(rest) - at, at + 1)` nothing moves: the address and the length of `rest` change, and where
-// the body ends its characters are put into the instance, once. A text becomes a slice when
+// Slices: strings that need no memory while the body runs, because they are parts of strings that do not change.
+// In `rest := MID(rest, LEN(rest) - at, at + 1)` nothing moves: the address and the length of `rest` change, and at the
+// exits and in the fault block its characters are copied into the instance, once. A string becomes a slice when
 //   - its length lives in a local (lengths.cpp), and functions marked {slice} (LEFT, RIGHT, MID) make it in a loop;
-//   - every write makes it a part of a literal, of another slice, or of a text that this body never writes;
-//   - every read comes behind a write of it, and is one that takes a length: it has no NUL at its end;
-//   - it is made of a slice, itself or another, at least once: a text is taken apart piece by piece. What is taken of a
-//     still text and not taken apart is moved: that is a store or two, and a single character stays in a register;
-//   - nothing is called that may fault, so that the body is left at its own exits only, or that the host may answer.
-// Since what slices are parts of keeps still, they may be put back in any order. Called by locals.cpp once it is known
-// which lengths live in locals; written by strings.cpp and statements.cpp.
+//   - every write makes it a part of a literal, of another slice, or of a string that this body never writes;
+//   - every read comes after a write of it, and takes a length: a slice has no NUL at its end;
+//   - at least one write makes it from a slice, itself or another: a string is taken apart piece by piece. Pieces of an
+//     unchanging string that stay whole are copied: a store or two, and a single character stays in a register;
+//   - the body calls nothing that may fault or that the host may answer, so only its own code leaves it.
+// The sources of slices do not change, so slices may be written back in any order. Called by locals.cpp once it is
+// known which lengths live in locals; written by strings.cpp and statements.cpp.
 #include <algorithm>
 
 #include "codegen/body.h"
@@ -24,7 +24,7 @@ const BodyWriter::Variable* BodyWriter::slicedString(ExprId place) const {
   return of != nullptr && of->slice ? of : nullptr;
 }
 
-// Something that keeps still, or a part of it.
+// Something that does not change while the body runs, or a part of it.
 bool BodyWriter::isSliceSource(ExprId id) {
   const Expr& e = expr(id);
   if (e.kind == ExprKind::String) return !isWide(e.type);
@@ -37,16 +37,16 @@ bool BodyWriter::isSliceSource(ExprId id) {
   return !facts_.isExposed(record, e.b) && !types_.info(record).fields[e.b].by_reference;
 }
 
-// ---- which texts
+// ---- choosing the strings
 
 void BodyWriter::noteSlice(const Stmt& stmt, uint32_t weight) {
   Variable* of = stmt.e != 0 ? stringVariable(ExprId{stmt.e}) : nullptr;
   if (of == nullptr) return;
-  // A text of the instance is put back at the exits: that pays in loops only.
+  // A string of the instance is written back at the exits: that pays in loops only.
   if (weight > 1 || expr(ExprId{stmt.e}).kind == ExprKind::Local) of->sliced = has_slices_ = true;
 }
 
-// Begins with all that might be, and refuses until the rest fulfils the conditions.
+// Starts with all candidates and drops those that break a condition.
 void BodyWriter::chooseSlices() {
   if (has_leaving_calls_) has_slices_ = false;
   if (!has_slices_) return;
@@ -83,7 +83,7 @@ void BodyWriter::judgeWrite(ExprId place, bool makes_slice) {
   }
 }
 
-// is_sized: by something that is given the length.
+// is_sized: the reader receives the length.
 void BodyWriter::judgeRead(ExprId id, bool is_sized) {
   const Expr& e = expr(id);
   if (const Variable* of = slicedString(id)) {

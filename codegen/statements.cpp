@@ -1,5 +1,5 @@
-// Statements of a body, and where they stand: see body.h. The lines of the generated text run along with those of the
-// source; `#line` stands only where they part, which keeps the text small.
+// Statements of a body and their lines: see body.h. The lines of the generated code follow those of the source; `#line`
+// appears only where they diverge, which keeps the code small.
 #include <algorithm>
 
 #include "codegen/body.h"
@@ -35,7 +35,7 @@ Position positionOf(const ir::Module& module, const ir::Body& body, Loc loc) {
 
 // ---- lines
 
-// Writes the braces that are due, at most `lines` of them on lines of their own.
+// Writes the pending braces, at most `lines` of them on separate lines.
 void BodyWriter::flushCloses(uint32_t lines) {
   for (; closes_ > 0; --closes_) {
     if (lines > 0) {
@@ -104,7 +104,7 @@ void BodyWriter::block(StmtId first) {
 
 void BodyWriter::statement(StmtId id, const Stmt& stmt) {
   if (stmt.kind == StmtKind::Call && facts_.is_zeroing[stmt.a] != 0) {
-    // An initialiser begins with clearing the whole.
+    // An initialiser begins by clearing the whole record.
     if (body_->kind == ir::BodyKind::Init && expr(ir::rootOf(*body_, ExprId{stmt.b})).kind == ExprKind::Self) return;
     begin(stmt.loc);
     prepare(ExprId{stmt.b});
@@ -130,7 +130,7 @@ void BodyWriter::statement(StmtId id, const Stmt& stmt) {
       } else if (isString(info.type)) {
         place(ExprId{stmt.b});
       } else {
-        // The variable may be of a type that is the same in memory.
+        // The variable may have another type with the same memory.
         out_ += '(';
         appendPointer(out_, types_, info.type, "");
         out_ += ")&";
@@ -163,7 +163,7 @@ void BodyWriter::statement(StmtId id, const Stmt& stmt) {
   }
 }
 
-// `return`, after the locals were written back; in the frame of a try the frame's caller does it.
+// `return`, after the locals are written back; in the frame of a try the frame's caller does that.
 void BodyWriter::leave() {
   if (!frames_.empty()) {
     frames_.back().returns = true;
@@ -191,7 +191,7 @@ bool BodyWriter::endsInJump(StmtId first) const {
          last == StmtKind::Fault;
 }
 
-// Without braces: every variable is declared at the top, so that jumps cross nothing.
+// Without braces: every variable is declared at the top, so jumps cross no initialisation.
 void BodyWriter::deepIf(const Stmt& stmt) {
   const std::string otherwise = newName("else"), end = newName("end");
   prepare(ExprId{stmt.a});
@@ -224,7 +224,7 @@ void BodyWriter::ifStatement(const Stmt& stmt) {
     close();
     if (at->c == 0) return;
     const Stmt& other = body_->stmt(StmtId{at->c});
-    // A brace on its own line where the source leaves room for it.
+    // A brace gets its own line where the source leaves room for it.
     const Position next = options_.line_directives ? positionOf(module_, *body_, other.loc) : Position{};
     uint32_t room = kAnyLines;
     if (next.line != 0 && line_ != 0 && next.file == line_file_) {
@@ -265,7 +265,7 @@ void BodyWriter::switchStatement(const Stmt& stmt) {
   const bool was_in_switch = had_loop && loops_.back().in_switch;
   if (had_loop) loops_.back().in_switch = true;
 
-  // The first case that holds a value takes it: later ranges keep what is left of them.
+  // The first case that holds a value takes it: later ranges keep the rest.
   struct Range {
     uint64_t low, high;  // order-preserving
   };
@@ -300,7 +300,7 @@ void BodyWriter::switchStatement(const Stmt& stmt) {
                      part);
       }
     }
-    if (rest.empty()) continue;  // never reached
+    if (rest.empty()) continue;  // unreachable
     if (one.block) {
       begin(body_->stmt(one.block).loc);
     } else {
@@ -369,10 +369,10 @@ void BodyWriter::callStatement(const Stmt& stmt) {
     return;
   }
 
-  // A text whose length lives in a local: the call gives it, or it is counted.
+  // A string whose length lives in a local: the call returns the length, or it is counted.
   const std::string length =
       stmt.e != 0 && measuredString(ExprId{stmt.e}) != nullptr ? captured([&] { lengthName(ExprId{stmt.e}); }) : "";
-  std::string before, after;  // parameters that are no variables in memory: bits, views of the image
+  std::string before, after;  // parameters that are not variables in memory: bits, views of the image
   const std::string arguments = captured([&] {
     uint32_t i = 0;
     for (const ir::Local& parameter : callee.locals) {
@@ -404,7 +404,7 @@ void BodyWriter::callStatement(const Stmt& stmt) {
   });
   out_ += before;
 
-  // The result: by value, or written by the callee into a place of ours, which must not be what it reads.
+  // The result: by value, or written by the callee to an address of ours, which must not be one of its inputs.
   std::string result, copy;
   const bool by_reference = callee.result && ir::isAggregate(types_, callee.result);
   if (by_reference) {
@@ -517,13 +517,13 @@ void BodyWriter::callStatement(const Stmt& stmt) {
 
 // ---- faults and tests
 
-// The row of a dispatch table that the object's class has.
+// The row of a dispatch table for the object's class.
 std::string BodyWriter::indexOfMethod(const Stmt& stmt) {
   return "rung_class_of(&" + captured([&] { place(ExprId{stmt.b}); }) + ") - " +
          methodName(module_, ir::BodyId{stmt.a}, "first");
 }
 
-// In front of a virtual call: what a pointer was bound to by mistake has a number of no class, or of an unrelated one.
+// In front of a virtual call: a pointer bound by mistake has the number of no class, or of an unrelated one.
 void BodyWriter::classCheck(const Stmt& stmt) {
   const ir::BodyId method{stmt.a};
   const std::string index = indexOfMethod(stmt);
@@ -537,7 +537,7 @@ void BodyWriter::faultStatement(const Stmt& stmt) {
   if (stmt.a != 0) prepare(ExprId{stmt.a});
   const auto fault = static_cast<Fault>(stmt.op);
   out_ += "at = ";
-  // The bounds of an ARRAY[*] are not known here: low above high says so.
+  // The bounds of an ARRAY[*] are not known here: low above high marks that.
   appendUnsigned(out_, fault == Fault::Index ? site(stmt.loc, fault, 1, 0) : site(stmt.loc, fault));
   out_ += "; value = ";
   if (stmt.a != 0) {
@@ -549,12 +549,12 @@ void BodyWriter::faultStatement(const Stmt& stmt) {
   out_ += "; goto fault;";
 }
 
-// A block of a try is a function of its own that the runtime calls between setjmp and longjmp: what it shares with the
-// body lies in memory then, and the compiler knows it.
+// A block of a try is a separate function that the runtime calls between setjmp and longjmp: what it shares with the
+// body is then in memory, and the compiler knows it.
 void BodyWriter::guarded(const std::string& frame, const std::string& fault, StmtId first) {
   std::vector<Loop> outer_loops = loops_;
   for (Loop& loop : loops_) loop.try_depth += 1;
-  out_ += "{ auto " + frame + " = [&]()";  // in a scope of its own: a jump to `fault` from before must not enter it
+  out_ += "{ auto " + frame + " = [&]()";  // in a separate scope: a jump to `fault` from before must not enter it
   open();
   const bool outer_uses_fault = uses_fault_;
   uses_fault_ = false;

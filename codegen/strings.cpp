@@ -1,4 +1,4 @@
-// Assignments, and texts: in place, NUL-terminated, cut to the capacity of what they are assigned to; read without a
+// Assignments, and strings: stored in place, NUL-terminated, cut to the capacity of their target; read without a
 // copy, compared with short literals without a call.
 #include <algorithm>
 
@@ -9,20 +9,20 @@ namespace rung::codegen {
 
 namespace {
 
-constexpr uint32_t kCopiedWhole = 128;   // bytes of a text that are copied without looking for its end
+constexpr uint32_t kCopiedWhole = 128;   // bytes of a string that are copied without looking for its end
 constexpr uint32_t kComparedWhole = 32;  // bytes of a literal that memcmp compares inline
 constexpr uint32_t kComparedByUnit = 3;  // units of a literal that are compared one by one where memory may end
 
 std::string_view upToNul(std::string_view string) { return string.substr(0, string.find('\0')); }
 
-// The characters that fit `bytes` bytes of a USTRING.
+// The longest prefix of whole characters that fits `bytes` bytes of a USTRING.
 std::string_view firstWhole(std::string_view string, uint32_t bytes) {
   if (string.size() <= bytes) return string;
   while (bytes > 0 && (static_cast<unsigned char>(string[bytes]) & 0xc0) == 0x80) --bytes;
   return string.substr(0, bytes);
 }
 
-// The first `units` UTF-16 units of a UTF-8 text.
+// The first `units` UTF-16 units of a UTF-8 string.
 std::string_view firstUnits(std::string_view string, uint32_t units) {
   size_t at = 0;
   while (at < string.size()) {
@@ -86,7 +86,7 @@ void BodyWriter::assign(const Stmt& stmt) {
   }
 }
 
-// ---- texts
+// ---- strings
 
 uint32_t BodyWriter::literalLength(const Expr& e) const {
   const std::string_view literal = string(NameId{e.a});
@@ -136,7 +136,7 @@ void BodyWriter::materializeString(ExprId id) {
   const std::string name = newVariable(e.type, "s");
   if (e.kind == ExprKind::Convert) {
     copyString(name, capacityOf(e.type), isWide(e.type), id);
-  } else {  // a pure function: its text result is the last parameter
+  } else {  // a pure function: its string result is the last parameter
     std::string function = captured([&] { callExpr(e); });
     function.pop_back();
     out_ += function + ", " + name;
@@ -350,7 +350,7 @@ ir::ExprId BodyWriter::uncut(ExprId id) const {
   return id;
 }
 
-// True when it is written with the lengths of both sides.
+// True when the lengths of both sides are passed.
 bool BodyWriter::isSizedComparison(const Expr& e) const {
   if (e.op != Op::Eq && e.op != Op::Ne) return false;
   auto is_measured = [&](ExprId side) { return measuredString(side) != nullptr && measuredString(side)->known; };
@@ -391,7 +391,7 @@ void BodyWriter::compareStrings(const Expr& e, Prec context) {
       appendUnsigned(out_, length);
       const std::string_view literal = string(NameId{expr(b).a});
       if (length > capacityOf(expr(a).type)) {
-        // Never equal; nothing is read outside of the text.
+        // Never equal; nothing is read outside of the string.
       } else if (length <= kComparedByUnit) {
         for (uint32_t i = 0; i < length; ++i) {
           out_ += " && " + name + "[";

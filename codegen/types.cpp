@@ -1,4 +1,4 @@
-// C++ spelling of types, constants and record headers: see types.h.
+// C++ names of types, constants and record definitions: see types.h.
 #include "codegen/types.h"
 
 #include <charconv>
@@ -327,7 +327,7 @@ void appendRecordDefinition(std::string& out, const TypeTable& types, TypeId typ
     appendMangled(field_name, types.names().string(field.name));
     out += "  ";
     const bool has_given_offset = info.record_kind == RecordKind::Union && field.given_offset != 0;
-    if (has_given_offset) {  // STRUCT OVERLAP: behind a gap
+    if (has_given_offset) {  // STRUCT OVERLAP: after a gap
       out += "struct { uint8_t gap";
       appendUnsigned(out, static_cast<uint64_t>(&field - info.fields.data()));
       out += '[';

@@ -1,5 +1,5 @@
-// Types in C++: spelling, declarations, constants, the struct of each record.
-// In: types of the type table, laid out. Out: text appended to `out`. Called by every file of codegen.
+// Types in C++: names, declarations, constants, the struct of each record.
+// In: types of the type table, laid out. Out: C++ code appended to `out`. Called by every file of codegen.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace rung::codegen {
 
-// `int16_t`, `float`; pointers and references `void*`; texts `char`, `char16_t`. Not for arrays and records.
+// `int16_t`, `float`; pointers and references `void*`; strings `char`, `char16_t`. Not for arrays and records.
 const char* scalarType(const types::TypeTable& types, TypeId type);
 // The same for memory of any type: `rung_i16_at`.
 const char* scalarAliasType(const types::TypeTable& types, TypeId type);
@@ -23,24 +23,24 @@ void appendPointer(std::string& out, const types::TypeTable& types, TypeId type,
                    bool constant = false);
 // `struct Ramp_type` or `union Ramp_type`.
 void appendRecordType(std::string& out, const types::TypeTable& types, TypeId type);
-std::string recordName(const types::TypeTable& types, TypeId type);  // `Ramp_type`, of a global list `Valves_list`
+std::string recordName(const types::TypeTable& types, TypeId type);  // `Ramp_type`, for a global list `Valves_list`
 std::string recordFile(const types::TypeTable& types, TypeId type);  // `Ramp_.h`, `Valves_list.h`
-// `Ramp_body`, `Scale_fn`, `Ramp_init`.
-// `Motor_class`, and of a method `Motor__Start_call`, …: its number, the type and the table of its dispatch.
 inline bool isMethod(const ir::Body& body) { return body.kind == ir::BodyKind::Function && body.self && !body.native; }
+// `Motor_class`, and for a method `Motor__Start_call`, …: its number, the type and the table of its dispatch.
 std::string className(const types::TypeTable& types, TypeId record);
 std::string methodName(const ir::Module& module, ir::BodyId method, const char* what);
+// `Ramp_body`, `Scale_fn`, `Ramp_init`.
 void appendFunctionName(std::string& out, const ir::Module& module, const ir::Body& body);
 
-// A scalar's value, of the C++ type that scalarType names or one that it promotes from. `negative`: begins with `-`.
+// A scalar's value, in the C++ type that scalarType names or one that promotes to it. `negative`: begins with `-`.
 void appendConstant(std::string& out, const types::TypeTable& types, TypeId type, uint64_t bits);
 
-// The record type that an array is made of, or the type itself.
+// The element type of an array, of any dimensions, or the type itself.
 TypeId elementOf(const types::TypeTable& types, TypeId type);
 
 // The struct or union. `pointed`: pointers may read it as memory of another type.
 void appendRecordDefinition(std::string& out, const types::TypeTable& types, TypeId type, bool pointed);
-// One assertion for the whole layout: size, and where fields begin; of a large record about 16 of them.
+// One assertion for the whole layout: the size and the offsets of fields, about 16 of them in a large record.
 void appendLayoutAssert(std::string& out, const types::TypeTable& types, TypeId type);
 
 }  // namespace rung::codegen

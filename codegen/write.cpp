@@ -1,6 +1,6 @@
 // Output files on disk: see write.h. A new folder is filled under a temporary name and renamed as a whole. In an old
-// one every new content is first written beside its file; only when all are there, they are renamed, the manifest last.
-// A temporary name ends in the number of the process; what one that was killed left there goes with the next run.
+// one every new content is first written beside its file; once all are there they are renamed, the manifest last.
+// A temporary name ends in the process id; the next run removes what a killed process left.
 #include "codegen/write.h"
 
 #include <dirent.h>
@@ -23,7 +23,7 @@ constexpr std::string_view kUnfinished = ".rung-";
 
 std::string unfinishedSuffix() { return std::string(kUnfinished) + std::to_string(getpid()); }
 
-// Whoever ends the process waits until the files are whole, some milliseconds.
+// Signals that end the process wait until the files are complete, some milliseconds.
 class HeldSignals {
  public:
   HeldSignals() {
@@ -40,7 +40,7 @@ class HeldSignals {
   sigset_t before_;
 };
 
-// Removes NAME.rung-PID of the folder where no such process lives; `names` are sorted.
+// Removes NAME.rung-PID of the folder when that process is gone; `names` are sorted.
 void removeAbandoned(const std::string& folder, const std::vector<std::string>& names) {
   std::vector<std::string> abandoned;
   DIR* const dir = opendir(folder.empty() ? "." : folder.c_str());
@@ -60,7 +60,7 @@ void removeAbandoned(const std::string& folder, const std::vector<std::string>& 
 
 std::string systemError(const std::string& path) { return path + ": " + std::strerror(errno); }
 
-// Creates a folder and those above it.
+// Creates a folder and its parents.
 bool makeFolder(const std::string& path) {
   if (path.empty()) return true;
   struct stat info;
@@ -120,7 +120,7 @@ bool writeWhole(const std::string& path, const std::string& content) {
   return ok;
 }
 
-// A name of the manifest that is a plain relative path below the folder; whatever else stands there is left alone.
+// A name in the manifest that is a plain relative path below the folder; all others are left alone.
 bool isOurs(std::string_view path) {
   if (path.empty() || path[0] == '/') return false;
   for (size_t at = 0; at <= path.size();) {
@@ -155,7 +155,7 @@ std::string manifestOf(const std::vector<OutputFile>& files, std::vector<std::st
   return manifest;
 }
 
-// Fills a folder that is not there yet: no file needs a temporary name or a look at what stands in its place.
+// Fills a folder that does not exist yet: no temporary names, no check for existing files.
 WriteResult writeNewFolder(const std::string& folder, const std::vector<OutputFile>& files) {
   WriteResult result;
   const std::string created = folder + unfinishedSuffix();
@@ -166,7 +166,7 @@ WriteResult writeNewFolder(const std::string& folder, const std::vector<OutputFi
   auto giveUp = [&](const std::string& path) {
     result.error = systemError(path);
     for (const std::string& name : result.written) unlink((created + "/" + name).c_str());
-    rmdir(created.c_str());  // stays when it has folders of its own, which are empty
+    rmdir(created.c_str());  // fails when it has subfolders of its own, which are empty
     result.written.clear();
     return result;
   };

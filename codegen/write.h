@@ -1,5 +1,5 @@
-// Puts a set of generated files into a folder: all or nothing, files with equal content untouched, files of an earlier
-// run that the manifest (`rung.manifest`) lists and that are no longer made deleted.
+// Writes a set of generated files to a folder: all or nothing. Files with equal content stay untouched; files that the
+// manifest (`rung.manifest`) lists and this run no longer makes are deleted.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# clang-tidy over the project's own sources, or over the files named; no output means clean.
+# Runs clang-tidy on the project's own sources, or on the files given; no output means clean.
 #   tools/clang_tidy.sh [FILE.cpp...]      needs a configured build folder (BUILD=build)
 set -eu
 cd "$(dirname "$0")/.."

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What must hold before a commit, in under ten seconds and without a build: format, include layers, codes against pages
-# and tests, features, library pages, links in the documentation. Each check is a script of its own that prints what is wrong.
+# The checks before a commit, in under ten seconds and without a build: format, include layers, codes against pages
+# and tests, features, library pages, links in the documentation. Each check is a script that prints what is wrong.
 #   tools/precommit.sh              ln -s ../../tools/precommit.sh .git/hooks/pre-commit
 set -u
 cd "$(dirname "$(readlink -f "$0")")/.." || exit 2

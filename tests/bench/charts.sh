@@ -1,6 +1,6 @@
 #!/bin/sh
-# What a cycle of a chart costs: of 2 steps and of 1000, one of them active. The second may cost more by the scan of 16
-# words only. Usage: tests/bench/charts.sh [RUNG]
+# The cost of a chart's cycle: with 2 steps and with 1000, one of them active. The second may cost more only by the scan
+# of 16 words. Usage: tests/bench/charts.sh [RUNG]
 rung=${1:-build/bin/rung}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

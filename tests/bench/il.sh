@@ -1,5 +1,5 @@
 #!/bin/sh
-# What Instruction List costs beside the same ST: the CPU time of both as compiled C++, and their ratio, which is 1.
+# The cost of Instruction List against the same ST: CPU time of both as compiled C++, and their ratio (wanted: 1).
 # Usage: tests/bench/il.sh [RUNG]
 rung=${1:-build/bin/rung}
 folder=$(mktemp -d)

@@ -1,5 +1,5 @@
 // Measures a kernel written by hand. In: a type with run(rounds). Out: a line with who, name, rounds, seconds of the
-// best of five runs, and the check sum. Used by the hand.cpp of each set of kernels.
+// best of five runs, and the checksum. Used by the hand.cpp of each set of kernels.
 #pragma once
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Networks: what they cost beside the same logic in ST, and how fast a large project of them is read.
+# Networks: their cost compared with the same logic in ST, and how fast a large project of them is read.
 #   tests/bench/networks.sh [SEEDS] [MEGABYTES]
 # code     CPU seconds of generated blocks in LD, FBD and CFC as multiples of their ST, native at -O2 (wanted: 1.05)
 # import   seconds and memory of `rung check` for a PLCopen XML project (wanted for 50 MB: 3 s and 1 GiB, release build)
-# RUNG names the tool (build/bin/rung); network_differential stands beside it. Measure on a quiet machine.
+# RUNG names the tool (build/bin/rung); network_differential is beside it. Measure on a quiet machine.
 set -eu
 cd "$(dirname "$0")/../.."
 rung=$(readlink -f "${RUNG:-build/bin/rung}")
@@ -32,12 +32,12 @@ for seed in $(seq 1 "$seeds"); do
     done
   done
 done
-# The best of each, in turns: what else the machine does hits all alike.
+# The best of each, interleaved: other load on the machine affects all alike.
 [ ! -s "$work/times" ] || awk '!(($1, $2) in best) || $3 < best[$1, $2] { best[$1, $2] = $3; seeds[$1] }
   END { for (s in seeds) printf "code: seed %d: ST %.2f s, LD %.2fx, FBD %.2fx, CFC %.2fx\n", s, best[s, "st"],
         best[s, "ld"] / best[s, "st"], best[s, "fbd"] / best[s, "st"], best[s, "cfc"] / best[s, "st"] }' "$work/times"
 
-# The same POUs again and again, each time under other names.
+# Repeats the same POUs, each time under other names.
 "$generator" --print=1 >"$work/all"
 sed -n '/^==== blocks.st/,/^==== editor/p' "$work/all" | grep -v '^====' | sed '/^FUNCTION_BLOCK B0_st/,$d' >"$work/types.st"
 awk -v bytes=$((megabytes * 1000000)) '

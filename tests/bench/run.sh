@@ -36,7 +36,7 @@ compiler() {
   echo "== compiler: rung emit -O1"
   for file in "$work"/{1000,10000,100000}.st "${inputs[@]}"; do
     echo "-- $(basename "$file"), $(wc -l <"$file") lines"
-    # The second of two runs: the first brings the tool and the input into memory.
+    # The second of two runs: the first loads the tool and the input into memory.
     "$rung" emit "$file" -o "$work/out" 2>/dev/null || true
     rm -rf "$work/out"
     "$rung" emit --time-phases "$file" -o "$work/out" || echo "failed with exit code $?"
@@ -91,7 +91,7 @@ ST
   done | sort -n | awk '{ t[NR] = $1 } END { printf "%.1f ms best, %.1f ms median of %d\n", t[1] / 1000, t[int((NR + 1) / 2)] / 1000, NR }'
 }
 
-# Our form (program NAME, task T_NAME, instance P_NAME) around a file of blocks K_NAME.
+# Wraps a file of blocks K_NAME in the common form (program NAME, task T_NAME, instance P_NAME).
 wrap() {
   sed '/^PROGRAM /,$d' "$1/kernels.st"
   local names=(pid sort matmul string case calls) name
@@ -115,7 +115,7 @@ measure_kernels() {  # kernels.st hand.cpp
     "$rung" emit "$1" --checks=$checks -o "$work/out" || { echo "failed with exit code $?"; return; }
     $cxx -std=c++17 -O2 -ffp-contract=off -I "$include" "$work"/out/*.cpp tests/bench/kernels/measure.cpp "$runtime" -o "$work/$checks"
   done
-  # In turns, the best of each: what else the machine does hits all alike.
+  # Interleaved, the best of each: other load on the machine affects all alike.
   for turn in 1 2 3 4 5; do
     "$work/hand" >"$work/hand.$turn"
     for checks in none default; do
@@ -150,7 +150,7 @@ measure_interp() {  # kernels.st hand.cpp
   $cxx -std=c++17 -O2 "$2" -o "$work/hand"
   "$work/hand" >"$work/hand.tsv"
   local name rounds engine
-  # A twentieth of the rounds: enough for the interpreter, and the start is not counted.
+  # A twentieth of the rounds is enough for the interpreter; the start is not counted.
   awk -F'\t' '{ print $2, int($3 / 20) + 1 }' "$work/hand.tsv" | while read -r name rounds; do
     for engine in native interp; do
       "$rung" run "$1" --engine=$engine -O2 --cycles 1 --set "P_$name.rounds=$rounds" --watch "P_$name.check" --trace - \

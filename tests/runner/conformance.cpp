@@ -1,8 +1,8 @@
-// Conformance tests, tests/conformance/**.st: what the language promises, feature by feature. Line 1 says what is
-// shown; projects in **.xml say it in comments such as <!-- features: 54/2a -->
+// Conformance tests, tests/conformance/**.st: the promises of the language, feature by feature. Line 1 says what the
+// test shows; projects in **.xml use comments such as <!-- features: 54/2a -->
 //   // features: 43/1a 43/1b      rows of the standard's tables, at most six
 //   // covers: tm-tp-library:SR    rows of the manuals' catalogues; codesys:NAME where no manual lists it
-// A file without `// expect:` lines is run by `rung test`, many files in one process, each a project of its own, once
+// A file without `// expect:` lines is run by `rung test`, many files in one process, each as a separate project, once
 // for each way (interpreted and compiled, -O0 and -O1); every {test} POU counts. A file with them is checked like a
 // golden file. A file with a body in C++ is only compiled.
 #include <algorithm>
@@ -23,7 +23,7 @@ constexpr size_t kMaxFeatures = 6;
 
 struct File {
   std::string path, features, covers;
-  bool is_native = false;  // holds a body in C++, which nobody interprets
+  bool is_native = false;  // has a body in C++, which cannot be interpreted
 };
 
 struct TestCase {
@@ -99,7 +99,7 @@ void add(Result& all, Result part) {
   all.rows.insert(all.rows.end(), part.rows.begin(), part.rows.end());
 }
 
-// Counts what one process says of its files, and leaves in `files` those of which it says nothing.
+// Counts the results that one process reports, and leaves in `files` those without a result.
 Output runOnce(const Setting& setting, std::vector<File>& files, const std::string& options, Result& result) {
   const std::string junit = freshFolder(setting) + "/junit.xml";
   Output output = run(testCommand(setting, files, options, junit));
@@ -128,7 +128,7 @@ Result runBatch(const Setting& setting, std::vector<File> files, const std::stri
   const size_t count = files.size();
   const Output output = runOnce(setting, files, options, result);
   if (files.empty()) {
-    // Every file has spoken; an exit code that says something else is a failure of its own.
+    // Every file has a result; an exit code that contradicts them is a separate failure.
     if (output.exit_code != (result.failed == 0 ? 0 : 4)) {
       result.fail("conformance (" + options + ")",
                   "  exit code " + std::to_string(output.exit_code) + "\n" + output.err, "");
@@ -140,7 +140,7 @@ Result runBatch(const Setting& setting, std::vector<File> files, const std::stri
                 commandLine(testCommand(setting, files, options, "")));
     result.rows.push_back({files[0].path, "", false, files[0].features, files[0].covers});
   } else {
-    // A file that does not build, or that ends the process, silences others: halves find it in few runs.
+    // A file that does not build, or that ends the process, hides the results of others: halving finds it in few runs.
     const auto middle = files.begin() + static_cast<std::ptrdiff_t>(files.size() / 2);
     if (files.begin() != middle) add(result, runBatch(setting, {files.begin(), middle}, options));
     add(result, runBatch(setting, {middle, files.end()}, options));
@@ -192,7 +192,7 @@ void addConformance(const Setting& setting, std::vector<Job>& jobs) {
         std::erase_if(files, [](const File& file) { return file.is_native; });
       const size_t batches = (files.size() + kBatch - 1) / kBatch;
       for (size_t i = 0; i < batches; ++i) {
-        std::vector<File> batch;  // every n-th file: equal work in each
+        std::vector<File> batch;  // every n-th file: equal work in each batch
         for (size_t k = i; k < files.size(); k += batches) batch.push_back(files[k]);
         const std::string all_options = trimmed(way + " " + options);
         jobs.push_back({"conformance " + all_options, static_cast<int>(batch.size()),

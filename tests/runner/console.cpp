@@ -1,6 +1,6 @@
-// Console tests: .test files in tests/golden and tests/programs. Line 1 is `# what it shows`; a line
-// `# features: 40/4a` names rows of the standard as in conformance tests. A session runs in an
-// empty folder of its own, with the tool in PATH and the project at $RUNG_SOURCE; stdout and stderr come in one stream.
+// Console tests: .test files in tests/golden and tests/programs. Line 1 is `# purpose`; a line `# features: 40/4a`
+// names rows of the standard as in conformance tests. A session runs in an empty folder, with the tool in PATH and the
+// project at $RUNG_SOURCE; stdout and stderr come in one stream.
 #include "tests/runner/console.h"
 
 #include <filesystem>

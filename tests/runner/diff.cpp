@@ -1,3 +1,4 @@
+// Differences of lines: see diff.h.
 #include "tests/runner/diff.h"
 
 #include <algorithm>
@@ -41,7 +42,7 @@ std::vector<Line> align(const std::vector<std::string>& a, const std::vector<std
 }
 
 bool matches(const std::vector<std::string>& expected, const std::vector<std::string>& actual) {
-  // Greedy with one place to come back to: the usual match of a pattern with stars.
+  // Greedy with one position to return to: the usual match of a pattern with stars.
   size_t i = 0, j = 0, gap = std::string::npos, resume = 0;
   while (j < actual.size()) {
     if (i < expected.size() && expected[i] == "...") {

@@ -1,4 +1,4 @@
-// The difference of two texts, line by line, as a failing test prints it.
+// The difference of two sequences of lines, as a failing test prints it.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace rung::tests {
 // "- expected", "+ actual", "  both" with two lines of context; empty when they are equal.
 std::string diff(const std::vector<std::string>& expected, const std::vector<std::string>& actual);
 
-// As diff, where an expected line `...` stands for any number of lines. Empty: they match.
+// Like diff, but an expected line `...` matches any number of lines. Empty: they match.
 std::string diffWithGaps(const std::vector<std::string>& expected, const std::vector<std::string>& actual);
 
 std::vector<std::string> splitLines(const std::string& text);

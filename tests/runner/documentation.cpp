@@ -1,14 +1,14 @@
 // The programs in the documentation: fenced blocks of docs/**.md, README.md, CONTRIBUTING.md and samples/**.md.
 //   ```st broken [options]    on docs/errors/E0231.md: `rung check` reports that code and no other error
 //   ```st fixed [options]     on such a page: no error, and not that code
-//   ```st run [options]       `rung run` ends well; an ```output block after it is what it prints
+//   ```st run [options]       `rung run` succeeds; an ```output block after it is its output
 //   ```st check [options]     no error
 //   ```xml broken, fixed      the same for a project in XML
 //   ```ir broken, fixed       the same for IR text, which ir_golden reads; its comments begin with `; `
 //   ```st name.st             a file for the console blocks of the same page (any language, any ending)
 //   ```console                a session (console.h), in a folder that looks like the project's root;
 //   ```console broken         a session that must mention the page's code
-//   <!-- no program: why -->  on a page of docs/errors whose mistake no test can make
+//   <!-- no program: why -->  on a page of docs/errors whose mistake no test can provoke
 #include <algorithm>
 #include <filesystem>
 
@@ -194,7 +194,7 @@ class Page {
   const Setting& setting_;
   std::string file_, code_, folder_;
   std::vector<std::string> lines_;
-  size_t shift_ = 0;  // lines that updates have added so far; wraps where they have removed some
+  size_t shift_ = 0;  // lines that updates have added so far; wraps when they have removed some
   Result result_;
 };
 

@@ -1,7 +1,7 @@
-// Golden tests, tests/golden/**.st: the expected text stands at the end of the test file.
+// Golden tests, tests/golden/**.st: the expected output is at the end of the test file.
 //   // args: --std=iec3                                    options of every command
-//   // expect: name.st:4:1: error[E0231]: ...              what `rung check` reports, heading by heading
-//   // expect tree:  (or ir:)                              what `rung emit --emit=tree` prints, on `// ` lines below
+//   // expect: name.st:4:1: error[E0231]: ...              the output of `rung check`, heading by heading
+//   // expect tree:  (or ir:)                              the output of `rung emit --emit=tree`, on `// ` lines below
 //   // expect Ramp.h:                                      a file that `rung emit` writes, likewise
 // A file in diagnostics/ without expectation expects no report. tests/golden/ir/*.ir belong to ir_golden.
 #include <algorithm>
@@ -143,7 +143,7 @@ Result runGolden(const Setting& setting, const std::string& file) {
   return result;
 }
 
-// The IR has a reader, passes and an interpreter of its own; their test program prints the difference itself.
+// The IR has its own reader, passes and interpreter; their test program prints the difference itself.
 Result runIr(const Setting& setting, const std::string& file) {
   Result result;
   Command test;

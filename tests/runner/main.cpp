@@ -45,7 +45,7 @@ struct Arguments {
   std::string error;
 };
 
-// The project is the folder above the build folder, or the one we stand in, that holds tests/runner.
+// The project is the folder above the build folder, or the current folder, that contains tests/runner.
 std::string findRoot(const std::string& bin) {
   std::error_code error;
   for (fs::path start : {fs::current_path(error), fs::path(bin)}) {
@@ -101,7 +101,7 @@ Arguments parse(int argc, char** argv, Setting& setting) {
   return arguments;
 }
 
-// A folder for this run below the build folder. Those of runs that have ended go.
+// Makes a folder for this run below the build folder and removes those of runs that have ended.
 void makeScratch(Setting& setting) {
   const fs::path folder = fs::path(setting.bin).parent_path() / "test-scratch";
   std::error_code error;
@@ -114,7 +114,7 @@ void makeScratch(Setting& setting) {
   fs::create_directories(setting.scratch, error);
 }
 
-// A cache and a search path of the tests' own: what the user has must neither help nor be touched.
+// Sets a separate cache and search path: the user's own must neither help nor be changed.
 void setEnvironment(const Setting& setting) {
   const char* path = std::getenv("PATH");
   setenv("PATH", (setting.bin + ":" + (path != nullptr ? path : "/usr/bin:/bin")).c_str(), 1);
@@ -136,7 +136,7 @@ void writeRows(const Setting& setting, std::vector<Row> rows) {
   writeContent(setting.bin + "/../test-results.tsv", text);
 }
 
-// docs/compliance.md must say what this run has shown.
+// True when docs/compliance.md agrees with the results of this run.
 bool complianceIsTrue(const Setting& setting) {
   Command check;
   check.arguments = {setting.root + "/tools/compliance/compliance.sh", "--check", setting.bin + "/../test-results.tsv"};
@@ -206,6 +206,6 @@ int main(int argc, char** argv) {
     exit_code = runAll(setting, arguments, jobs);
   }
   std::error_code error;
-  if (exit_code == 0) std::filesystem::remove_all(setting.scratch, error);  // else: for the commands that were printed
+  if (exit_code == 0) std::filesystem::remove_all(setting.scratch, error);  // else kept for the printed commands
   return exit_code;
 }

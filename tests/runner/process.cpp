@@ -1,3 +1,4 @@
+// Child processes of the tests: see process.h.
 #include "tests/runner/process.h"
 
 #include <fcntl.h>
@@ -12,7 +13,7 @@
 namespace rung::tests {
 namespace {
 
-constexpr size_t kMaxOutput = size_t{16} << 20;  // a test that prints more than this is broken, not interesting
+constexpr size_t kMaxOutput = size_t{16} << 20;  // a test that prints more than this is broken
 
 // Reads both pipes until they close or time runs out; false: out of time.
 bool drain(int out, int err, int seconds, Output& output) {
@@ -59,7 +60,7 @@ Output run(const Command& command) {
       signal(by_default, SIG_DFL);  // a shell in the background ignores them
     sigset_t none;
     sigemptyset(&none);
-    sigprocmask(SIG_SETMASK, &none, nullptr);  // what a thread of ours holds back is not theirs to
+    sigprocmask(SIG_SETMASK, &none, nullptr);  // the child must not inherit signals that a thread of ours blocks
     const int null = open("/dev/null", O_RDONLY);
     dup2(null, 0);
     dup2(out[1], 1);

@@ -1,4 +1,4 @@
-// Child processes of the tests. In: a command, a folder, a time limit. Out: exit code and what was printed.
+// Child processes of the tests. In: a command, a folder, a time limit. Out: exit code and output.
 // Safe to call from several threads.
 #pragma once
 
@@ -10,8 +10,8 @@ namespace rung::tests {
 struct Command {
   std::vector<std::string> arguments;  // [0]: the program, a path
   std::string folder;
-  int seconds = 120;    // after which it and its children are killed
-  bool merged = false;  // stderr goes where stdout goes
+  int seconds = 120;    // then it and its children are killed
+  bool merged = false;  // stderr goes to stdout
 };
 
 struct Output {

@@ -1,7 +1,7 @@
-// Programs with an expected trace, tests/programs/**.st, or a folder that holds test.txt and a project:
+// Programs with an expected trace, tests/programs/**.st, or a folder with test.txt and a project:
 //   // run: --cycles 5 --watch a,b     options of `rung run`; --trace - is added
 //   // trace: cycle,time_ms,a,b        the expected CSV, line by line, computed by hand or from a manual
-//   // exit: 3                         where the program faults; `// expect:` then gives the heading on stderr
+//   // exit: 3                         when the program faults; `// expect:` then gives the heading on stderr
 // Each program runs once for each way (interpreted and compiled, -O0 and -O1).
 #include <algorithm>
 #include <filesystem>

@@ -1,3 +1,4 @@
+// Shared parts of the test runner: see support.h.
 #include "tests/runner/support.h"
 
 #include <algorithm>
@@ -123,7 +124,7 @@ std::string trimmed(const std::string& text) {
 std::vector<std::string> headingsOf(const std::string& printed) {
   std::vector<std::string> headings;
   for (const std::string& line : splitLines(printed)) {
-    if (line.empty() || line[0] == ' ') continue;  // source lines and marks
+    if (line.empty() || line[0] == ' ') continue;  // source lines and underlines
     for (const char* word : {": error[", ": warning[", ": info[", ": note: ", ": fault[", " not shown (",
                              "internal error", ": runtime error: ", "ERROR: AddressSanitizer"}) {
       if (line.find(word) == std::string::npos) continue;

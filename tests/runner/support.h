@@ -1,5 +1,5 @@
-// What all kinds of tests share: where things are, the list of jobs, expectations written in test files.
-// A job is one process or a batch of them; it counts as many tests as it shows.
+// Shared by all kinds of tests: paths, the list of jobs, expectations written in test files.
+// A job is one process or a batch of them; it counts as many tests as it reports.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ struct Setting {
   std::string root;                 // of the project
   std::string bin;                  // programs under test
   std::string rung;                 // bin/rung
-  std::string scratch;              // made for this run, removed when all is well
+  std::string scratch;              // made for this run, removed when all tests pass
   bool update = false;              // --update: rewrite golden text
   std::vector<std::string> ways;    // options that programs and tests are run with, one run each
   std::vector<std::string> wanted;  // FILE arguments, relative to the root; empty: everything
@@ -33,7 +33,7 @@ struct Result {
   std::vector<Row> rows;
 
   void pass() { ++passed; }
-  // One failed test: its name, what is wrong (a diff), and how to see it again.
+  // Reports one failed test: its name, the problem (a diff), and the command that reproduces it.
   void fail(const std::string& test, const std::string& what, const std::string& command);
 };
 
@@ -75,7 +75,7 @@ std::string trimmed(const std::string& text);
 // The headings among what rung printed: `path:line:col: error[E0412]: …`, notes, faults, the count of hidden errors.
 std::vector<std::string> headingsOf(const std::string& printed);
 
-// What every test file must have: a first line that says what it shows. Empty: it has.
+// Every test file must have a first line with its purpose. Returns the problem, or an empty string.
 std::string purposeProblem(const std::vector<std::string>& lines);
 
 }  // namespace rung::tests

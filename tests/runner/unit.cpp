@@ -31,7 +31,7 @@ Result runUnit(const Setting& setting, const std::string& name) {
   return result;
 }
 
-// The same programs in each run; more, with other seeds and compilers, by hand.
+// The same programs in each run; more, with other seeds and compilers, are run by hand.
 Result runDifferential(const Setting& setting, const std::string& name, std::vector<std::string> options,
                        unsigned count) {
   Command c;

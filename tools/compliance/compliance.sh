@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Writes docs/compliance.md: every feature of the standard's tables (tests/conformance/features.tsv), whether a test
-# proves it, and which; then the names of the manuals' catalogues. A feature is supported when every test that names it
+# Writes docs/compliance.md: every feature of the standard's tables (tests/conformance/features.tsv), with the tests
+# that prove it; then the names of the manuals' catalogues. A feature is supported when every test that names it
 # passed, and not supported when no test names it.
 #   tools/compliance/compliance.sh [--check] [build/test-results.tsv]    --check: writes nothing, fails when it is stale
-# The results are those of a full run of the test runner, which calls this with --check at its end.
+# Takes the results of a full run of the test runner, which calls this with --check at its end.
 set -eu
 cd "$(dirname "$0")/../.."
 check=
@@ -14,7 +14,7 @@ page=docs/compliance.md
 
 made=$(mktemp)
 trap 'rm -f "$made"' EXIT
-# In: the results, then the features. A test file counts once, whatever the number of its tests and ways.
+# In: the results, then the features. A test file counts once, however many tests and ways to run it has.
 LC_ALL=C awk -F'\t' '
   function escaped(text) { gsub(/[*|<>]/, "\\\\&", text); return text }
   function link(file,  name) {

@@ -1,4 +1,4 @@
-// Turns files into a C++ source that holds them: error pages for `rung explain`, the libraries of the language.
+// Embeds files in a C++ source: error pages for `rung explain`, the libraries of the language.
 //   rung_embed_tool NAME PREFIX LIST OUT.cpp OUT.h
 // In: LIST, one path per line. Out: a table of {name, text} sorted by name, names relative to PREFIX.
 // Called at build time by rung_embed() of cmake/RungEmbed.cmake.
@@ -31,7 +31,7 @@ bool write(const std::string& path, const std::string& text) {
   return !out.fail();
 }
 
-// One piece of a literal for each line, so that the made source can be read and compared.
+// One piece of a literal for each line, so that the generated source can be read and compared.
 std::string literalOf(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Writes docs/library/NAME.md for each library in stdlib/: every function, block and type with its doc comment and its pins, as
-# declared in stdlib/NAME/*.st. Declarations of one file whose comments are equal share an entry.
+# Writes docs/library/NAME.md for each library in stdlib/: every function, block and type with its doc comment and its
+# pins, from stdlib/NAME/*.st. Declarations of one file with equal comments share an entry.
 #   tools/library_pages/library_pages.sh [--check]    --check: writes nothing, fails when a page is stale
 # Called with --check by tools/house/library_pages.sh.
 set -eu
@@ -8,7 +8,7 @@ cd "$(dirname "$0")/../.."
 made=$(mktemp)
 trap 'rm -f "$made"' EXIT
 
-# One library's files. A declaration is complete at its END_…; what a member (method, action, property) declares is not a pin.
+# One library's files. A declaration is complete at its END_…; those of members (method, action, property) are not pins.
 entries() {
   LC_ALL=C awk '
     function trimmed(text) { gsub(/^[ \t]+|[ \t]+$/, "", text); return text }

@@ -1,7 +1,7 @@
 // Writes the table through which the interpreter calls the native bodies of the libraries: a thunk for each, in C++.
-// In: the declarations of stdlib/*/*.st, read by the compiler's own front end. Out: a source file; generic functions
-// appear once for each tuple of types that they admit, so that what a program may call is there, and linking rung fails
-// where a library lacks a body. Run when rung is built.
+// In: the declarations of stdlib/*/*.st, read by the compiler's own front end. Out: a source file. Generic functions
+// appear once for each tuple of types that they admit, so every function that a program may call is there, and linking
+// rung fails when a library lacks a body. Run when rung is built.
 //   native_table OUTPUT FILE...      FILE: <folder>/<library>/<name>.st
 #include <algorithm>
 #include <cstdio>
@@ -33,7 +33,7 @@ struct LibrarySources {
   std::vector<rung::sema::LibraryFile> files;
 };
 
-// Where integers are taken codesys takes bit strings, and the other way round.
+// codesys takes bit strings where integers are accepted, and vice versa.
 bool admits(TypeKind generic, TypeKind kind) {
   if (TypeTable::belongsTo(kind, generic)) return true;
   if (TypeTable::isBits(kind)) {
@@ -85,7 +85,7 @@ void instantiateAll(Context& context, PouId generic) {
     for (int kind = static_cast<int>(TypeKind::Bool); kind <= static_cast<int>(TypeKind::UString); ++kind) {
       const auto of = static_cast<TypeKind>(kind);
       if (!admits(generics[at], of)) continue;
-      // A text has its largest capacity inside: one instance serves every length.
+      // A string has its largest capacity inside: one instance serves every length.
       chosen[at] = rung::types::TypeTable::isString(of) ? context.types().string(of, 255) : rung::types::idOf(of);
       self(self, at + 1);
     }
@@ -93,7 +93,7 @@ void instantiateAll(Context& context, PouId generic) {
   choose(choose, 0);
 }
 
-// `table`: the thunk by the C function's name.
+// `table`: the thunks by the name of the C function.
 bool addThunks(const LibrarySources& libraries, rung::Dialect dialect, std::map<std::string, std::string>& table) {
   rung::Sources sources;
   rung::Names names;
@@ -129,7 +129,7 @@ bool addThunks(const LibrarySources& libraries, rung::Dialect dialect, std::map<
     std::fputs(rung::render(diagnostics, sources, {}).c_str(), stderr);
     return false;
   }
-  // Only native bodies matter, which have no code to check.
+  // Only native bodies matter, and they have no code to check.
   for (uint32_t i = 1; i < project.pous.size(); ++i) {
     if (!project.pous[i].native) project.pous[i].used = false;
   }

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Entries this young stay: another rung may have looked them up and be about to link them.
+// Younger entries stay: another rung may have looked them up and be about to link them.
 constexpr time_t kInUseSeconds = 600;
 constexpr time_t kAbandonedSeconds = 24 * 3600;
 
@@ -75,7 +75,7 @@ std::string Hash::hex() const {
 Cache::Cache() {
   folder_ = wantedFolder();
   if (!folder_.empty() && makeFolder(folder_) && makeFolder(folder_ + "/work")) {
-    // The compilers run in another folder than we do.
+    // The compilers run in another folder.
     std::error_code error;
     folder_ = fs::absolute(folder_, error).lexically_normal().generic_string();
     return;
@@ -139,7 +139,7 @@ void Cache::trim(uint64_t limit) {
   uint64_t total = 0;
   const time_t now = time(nullptr);
   std::error_code error;
-  // A folder that another rung empties at this moment ends the walk early, never the run.
+  // When another rung empties a folder at this moment, the walk ends early and the run continues.
   for (fs::recursive_directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
     const std::string path = it->path().string();
     struct stat info;

@@ -1,7 +1,7 @@
-// The private cache of compiled C++: files named by a hash of all that made them. Entries appear by rename, so two rung
-// at once never read half a file; what was not used for longest goes when the limit is passed.
+// The private cache of compiled C++: files named by a hash of all their inputs. Entries appear by rename, so two
+// concurrent rungs never read half a file; beyond the limit the least recently used entries are removed.
 // In: keys. Out: paths of entries. Called by native.cpp. Folder: $RUNG_CACHE_DIR, $XDG_CACHE_HOME/rung, ~/.cache/rung,
-// else a temporary folder that goes at the end. Limit: $RUNG_CACHE_SIZE in MiB, default 1024.
+// else a temporary folder, removed at the end. Limit: $RUNG_CACHE_SIZE in MiB, default 1024.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace rung::tool {
 
-// 128 bits of a running hash; fast, not meant against an attacker, who could write into the folder anyway.
+// A running hash of 128 bits; fast, not secure: an attacker could write into the folder anyway.
 class Hash {
  public:
   void add(std::string_view bytes);  // with its length: ("a","bc") and ("ab","c") differ
@@ -28,14 +28,14 @@ class Cache {
   Cache(const Cache&) = delete;
   Cache& operator=(const Cache&) = delete;
 
-  // Empty: no folder could be made at all.
+  // Empty: no folder could be created.
   const std::string& folder() const { return folder_; }
 
-  // Where the entry is or will be: `kind` is its folder and suffix: "o", "so", "gch".
+  // The path of the entry, existing or not. `kind` is its folder and suffix: "o", "so", "gch".
   std::string path(const std::string& key, const char* kind) const;
-  // True when the entry exists; marks it as used.
+  // True when the entry exists; updates its time of last use.
   bool has(const std::string& entry) const;
-  // Moves a finished file into its place (same file system: made in workFolder()).
+  // Renames a finished file to its entry (same file system: made in workFolder()).
   bool put(const std::string& from, const std::string& entry);
 
   // A fresh folder of this process, removed by drop() or, after a crash, by a later rung.

@@ -18,7 +18,7 @@ int runList(const Options& options);
 int runExplain(const Options& options);
 int runVersion(const Options& options);
 
-// The page of a code, as `rung explain` shows it; empty: there is none.
+// The page of a code, as `rung explain` shows it; empty: no such page.
 std::string_view errorPage(std::string_view code);
 
 }  // namespace rung::tool

@@ -111,8 +111,8 @@ bool Compilation::read() {
   return ok;
 }
 
-// Names the libraries that a project of another tool asks for and Rung does not have, and gives the others the names
-// that the project has for them.
+// Reports the libraries that a project of another tool asks for and Rung does not have, and adds the project's names
+// for the others.
 void Compilation::noteLibraries() {
   for (const vendor::ProjectEntry& wanted : inputs.libraries) {
     if (!wanted.space.empty() && !sameIdentifier(wanted.space, wanted.name)) {
@@ -163,7 +163,7 @@ bool Compilation::check() {
   if (!parse()) return false;
   if (parsed && !diagnostics.hasErrors()) parsed();
   times_.begin("check");
-  // Errors of the parser do not keep the rest from being checked: one run shows as much as it can.
+  // Checking follows even after errors of the parser: one run reports as much as it can.
   if (!diagnostics.full()) {
     sema::Options sema_options;
     sema_options.dialect = options.dialect;
@@ -288,7 +288,7 @@ int Compilation::finish() {
   return exitCode();
 }
 
-// The compiler does not find the user's file, so that its columns count bytes.
+// Columns of g++ count bytes: it cannot open the user's file.
 static Loc locationIn(const Sources& sources, FileId file, const Refusal& refusal) {
   const std::string_view line = sources.line(file, refusal.line);
   if (line.data() == nullptr) return sources.begin(file);

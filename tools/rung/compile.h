@@ -21,10 +21,10 @@
 
 namespace rung::tool {
 
-// CPU seconds of each phase of a run, for --time-phases. One for all compilations of `rung test --separate`.
+// CPU seconds of each phase of a run, for --time-phases. One object for all compilations of `rung test --separate`.
 class PhaseTimes {
  public:
-  void begin(const char* phase);  // ends the one before
+  void begin(const char* phase);  // ends the previous phase
   void end();
   uint64_t lines = 0, bytes = 0;
   std::string table() const;
@@ -41,33 +41,33 @@ class PhaseTimes {
 
 class Compilation {
  public:
-  // Options are taken over: rung.project may change them.
+  // Options are copied: rung.project may change them.
   Compilation(const Options& options, PhaseTimes& times);
   ~Compilation();
 
-  // Each runs what comes before it. False: stop, finish() says with which exit code.
+  // Each runs the phases before it. False: stop; finish() returns the exit code.
   bool read();
   bool parse();
   bool check();
   bool lower();  // and optimize
   bool emit(bool with_tests, std::vector<codegen::OutputFile>& files);
-  // The program as `rung run` and `rung test` interpret it; none where its refusal stands in `why`, or where native
-  // code is wanted. False: stop.
+  // Makes the program that `rung run` and `rung test` interpret; none when it cannot be interpreted (the reason is in
+  // `why`) or native code is requested. False: stop.
   bool translate(bool with_tests, std::unique_ptr<ir::interpreter::Program>& program, std::string& why);
 
-  // Prints the diagnostics to stderr and gives the exit code: 0, 1, 2 or 70.
+  // Prints the diagnostics to stderr and returns the exit code: 0, 1, 2 or 70.
   int finish();
-  // The same behind the C++ compiler, which may have refused bodies in C++.
+  // The same after the C++ compiler, which may have rejected bodies in C++.
   bool hasCppBodies() const { return module && !module->cpp_bodies.empty(); }
   int finish(const NativeResult& native);
-  // Only what it refused, where that is in these files.
+  // Prints only the errors of the C++ compiler that belong to these files.
   bool printRefusals(const NativeResult& native) const;
-  // The same as text, for `rung test --separate`.
+  // The diagnostics as a string, for `rung test --separate`.
   std::string diagnosticsText();
   int exitCode() const;
 
   sema::Scheduled scheduled;     // set before check() by `rung convert`
-  std::function<void()> parsed;  // likewise: called while the tree is as the parser leaves it, and has no errors
+  std::function<void()> parsed;  // likewise: called while the tree is as parsed, and has no errors
   Options options;
   Sources sources;
   Names names;
@@ -89,21 +89,21 @@ class Compilation {
   std::string usage_error_, internal_error_;
 };
 
-// True for `parse`, `lower` and the names of passes; else a message with a suggestion.
+// Empty for `parse`, `lower` and the names of passes; else a message with a suggestion.
 [[nodiscard]] std::string checkDumpName(const std::string& name);
 
 // Writes a file whole or not at all.
 [[nodiscard]] std::string writeFile(const std::string& path, const std::string& text);
-// Files below a folder, each whole; gives the exit code.
+// Writes files below a folder, each whole; returns the exit code.
 struct TextFile {
   std::string path, text;
 };
 int writeFiles(const std::string& folder, const std::vector<TextFile>& files);
-// To stdout; the error when the text did not get there.
+// Prints to stdout; returns an error message when that fails.
 [[nodiscard]] std::string printOut(const std::string& text);
 bool useColor(const Options& options);
 
-// "rung: error: MESSAGE" on stderr; gives kUsage.
+// Prints "rung: error: MESSAGE" on stderr; returns kUsage.
 int usageError(const std::string& message);
 
 }  // namespace rung::tool

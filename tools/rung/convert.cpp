@@ -1,7 +1,8 @@
-// `rung convert`: the program as Structured Text. What is ST already, and all declarations, stay as they are
-// written; bodies that a scheduler made statements of are printed, comments and all, with the temporaries that they
-// need. Files of other tools become the text that Rung reads in them. `--to xml`: all of it as one PLCopen XML file.
-// Nothing is written when there are errors.
+// `rung convert`: the program as Structured Text. Bodies in ST and all declarations stay as written; bodies that a
+// scheduler turned into statements are printed, with their comments and the temporaries that they need. Files of other
+// tools become the ST that Rung reads from them. `--to xml`: the whole program as one PLCopen XML file. Printing
+// happens between scheduling and checking (sema::Options::scheduled), because sema inserts nodes that ST cannot
+// express; only the types of temporaries are asked for afterwards. Nothing is written when there are errors.
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -22,12 +23,12 @@ namespace fs = std::filesystem;
 
 struct Body {
   sema::PouId pou;
-  Loc begin, end;    // what it replaces
+  Loc begin, end;    // the part that it replaces
   Loc declarations;  // where the temporaries are declared: before the first member or the body
   bool own_line;
   std::string text;
   std::string sections = {};         // of a chart: its variables
-  std::vector<DeclId> actions = {};  // … and the actions that stand in it
+  std::vector<DeclId> actions = {};  // … and the actions inside it
 };
 struct Edit {
   Loc begin, end;
@@ -35,7 +36,7 @@ struct Edit {
   bool begins_line = false;
 };
 
-// Where a comment or text that begins at `p` ends; `p` itself where none begins.
+// The end of the comment or string that begins at `p`; `p` itself when none begins.
 size_t endOfUnit(std::string_view text, size_t p) {
   const std::string_view rest = text.substr(p);
   if (rest.starts_with("//")) return std::min(text.find_first_of("\r\n", p), text.size());
@@ -59,7 +60,7 @@ size_t endOfUnit(std::string_view text, size_t p) {
   return std::min(at + 1, text.size());
 }
 
-// The comments of a body, each at the begin of its line, so that it goes in front of the statement of that line.
+// The comments of a body, each at the beginning of its line, so it goes in front of the statement of that line.
 std::vector<StComment> commentsOf(std::string_view text, size_t begin, size_t end, uint32_t base) {
   std::vector<StComment> comments;
   size_t line = begin;
@@ -106,10 +107,10 @@ class Converter {
   const Sources& sources_;
   std::vector<Body> bodies_;
   std::vector<Edit> hidden_;                      // the variables that networks need
-  std::unordered_set<uint32_t> conditions_done_;  // POUs, by their place
+  std::unordered_set<uint32_t> conditions_done_;  // POUs, by their location
 };
 
-// Called while sema is at work, before it changes what the scheduler made.
+// Called while sema is running, before it changes the statements of the scheduler.
 void Converter::print(sema::PouId id) {
   const sema::Project& project = *compilation_.project;
   const sema::Pou& pou = project.pou(id);
@@ -132,11 +133,11 @@ void Converter::print(sema::PouId id) {
     body.declarations = std::min(body.declarations, Loc{base + static_cast<uint32_t>(at)});
   }
   body.text += printSt(compilation_.tree, compilation_.names, decl.body, indent, comments);
-  if (!body.text.empty() && body.text.back() == '\n') body.text.pop_back();  // the source has one behind the body
+  if (!body.text.empty() && body.text.back() == '\n') body.text.pop_back();  // the source has a newline after the body
   bodies_.push_back(std::move(body));
 }
 
-// Declares what the networks of a POU and of its actions need, before the first of its members or its body.
+// Declares the variables that the networks of a POU and its actions need, before its first member or its body.
 void Converter::printHidden(sema::PouId id) {
   const Tree& tree = compilation_.tree;
   const PouDecl& decl = tree.as<PouDecl>(compilation_.project->pou(id).decl);
@@ -162,7 +163,7 @@ void Converter::printHidden(sema::PouId id) {
   hidden_.push_back({loc, loc, (decl.pou_kind == PouKind::Method ? "VAR_INST\n" : "VAR\n") + lines + "END_VAR\n"});
 }
 
-// Those that stand in no action and in no condition: what is quoted brings its own.
+// The comments outside of actions and conditions: quoted code brings its own.
 std::vector<StComment> Converter::chartComments(const PouDecl& decl) const {
   const FileId file = sources_.fileOf(decl.body_begin);
   const std::string_view text = sources_.original(file);
@@ -183,11 +184,11 @@ std::vector<StComment> Converter::chartComments(const PouDecl& decl) const {
   return comments;
 }
 
-// Each comment in front of the first line that was made of what stands at or behind it; of a step that is where its
+// Puts each comment in front of the first line made from its location or a later one; for a step that is where its
 // active cycles begin.
 std::string Converter::withComments(FileId created, std::span<const StComment> comments) const {
   const std::string_view text = sources_.original(created);
-  std::vector<std::pair<Loc, size_t>> lines;  // where each line comes from
+  std::vector<std::pair<Loc, size_t>> lines;  // the origin of each line
   const size_t first = std::min(text.find("sfc_set := sfc_steps"), text.size());
   for (size_t p = first; p < text.size(); p = std::min(text.find('\n', p), text.size() - 1) + 1)
     lines.push_back({sources_.originalLocation({sources_.begin(created).offset + static_cast<uint32_t>(p)}), p});
@@ -211,7 +212,7 @@ std::string Converter::withComments(FileId created, std::span<const StComment> c
   return out + std::string(text.substr(done));
 }
 
-// The text that the chart became; its actions stand between the variables and the statements.
+// The ST of a chart; its actions go between the variables and the statements.
 void Converter::printChart(sema::PouId id, const PouDecl& decl) {
   Body body{
       id, decl.body_begin, decl.body_end, decl.body_begin, true, withComments(decl.chart_body, chartComments(decl))};
@@ -227,7 +228,7 @@ void Converter::printChart(sema::PouId id, const PouDecl& decl) {
     printConditions(compilation_.tree.as<PouDecl>(compilation_.project->pou(owner).decl));
 }
 
-// Conditions beside the actions of a POU without a chart of its own: a variable and an action each.
+// Conditions in the actions of a POU without a chart: a variable and an action each.
 void Converter::printConditions(const PouDecl& decl) {
   if (decl.transitions.empty() || !decl.steps.empty() || !conditions_done_.insert(decl.begin.offset).second) return;
   Body variables{{}, decl.body_begin, {}, {}, true, {}};
@@ -245,7 +246,8 @@ void Converter::printConditions(const PouDecl& decl) {
   bodies_.push_back(std::move(variables));
 }
 
-// One that the parser made of a transition has a body only: instructions, statements, or the expression to assign.
+// An action that the parser made of a transition has only a body: instructions, statements, or the expression to
+// assign.
 std::string Converter::action(DeclId id) const {
   const Tree& tree = compilation_.tree;
   const PouDecl& decl = tree.as<PouDecl>(id);
@@ -282,7 +284,7 @@ std::string Converter::convert(FileId file) const {
   return convert(begin, {begin.offset + static_cast<uint32_t>(sources_.original(file).size())});
 }
 
-// The text of a part of a file, its bodies converted.
+// A part of a file, with its bodies converted.
 std::string Converter::convert(Loc begin, Loc end) const {
   const FileId file = sources_.fileOf(begin);
   const std::string_view text = sources_.original(file).substr(0, end.offset - sources_.begin(file).offset);
@@ -360,7 +362,7 @@ std::vector<TextFile> Converter::outputs() {
   return out;
 }
 
-// The project as one file, named like the folder, or the only file, that it was.
+// The name of the single file: that of the project's folder, or of its only file.
 std::string projectName(const Compilation& compilation) {
   const std::vector<InputFile>& files = compilation.inputs.files;
   const fs::path path =
@@ -369,7 +371,7 @@ std::string projectName(const Compilation& compilation) {
 }
 
 std::string projectXml(Compilation& compilation) {
-  std::vector<FileUnit> units;  // what rung.project configures stays there
+  std::vector<FileUnit> units;  // rung.project keeps its own settings
   for (const FileUnit& unit : compilation.tree.files)
     if (std::any_of(compilation.inputs.files.begin(), compilation.inputs.files.end(),
                     [&](const InputFile& input) { return input.file == unit.file; }))
@@ -378,7 +380,7 @@ std::string projectXml(Compilation& compilation) {
                                projectName(compilation), compilation.diagnostics);
 }
 
-// The folder must be another one than that of the sources, which would be read again with it.
+// The output folder must differ from that of the sources, or the next run would read both.
 std::string refusal(const Compilation& compilation) {
   std::error_code error;
   const fs::path folder = fs::weakly_canonical(compilation.options.output, error);

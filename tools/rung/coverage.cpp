@@ -11,7 +11,7 @@ uint64_t hitCount(const std::map<uint32_t, uint64_t>& lines) {
   return static_cast<uint64_t>(std::count_if(lines.begin(), lines.end(), [](const auto& l) { return l.second != 0; }));
 }
 
-// `14, 31-33`: lines between which nothing ran.
+// `14, 31-33`: ranges of lines that never ran.
 std::string missedRanges(const std::map<uint32_t, uint64_t>& lines) {
   std::string out;
   uint32_t first = 0, last = 0;
@@ -37,7 +37,7 @@ std::string missedRanges(const std::map<uint32_t, uint64_t>& lines) {
 }  // namespace
 
 void Coverage::add(const ir::interpreter::Program& program) {
-  // A line may have several statements: it ran as often as the one that ran most.
+  // A line may have several statements: it ran as often as the most frequent one.
   std::map<std::string, std::map<uint32_t, uint64_t>> lines;
   for (const ir::interpreter::Counter& counter : program.counters()) {
     if (counter.function != nullptr) {

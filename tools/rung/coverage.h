@@ -1,4 +1,4 @@
-// Line coverage of `rung test`. In: interpreted programs that have run, and how the user calls their files. Out: a
+// Line coverage of `rung test`. In: interpreted programs that have run, and the display paths of their files. Out: a
 // table for people, or a file for lcov and genhtml (geninfo(1)). Called by test.cpp.
 #pragma once
 
@@ -27,7 +27,7 @@ class Coverage {
   const std::string& shown(const std::string& below) const;
 
   std::map<std::string, File> files_;
-  std::map<std::string, std::string> shown_;  // from the path below the root
+  std::map<std::string, std::string> shown_;  // by the path below the root
 };
 
 }  // namespace rung::tool

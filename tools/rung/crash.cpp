@@ -1,4 +1,4 @@
-// What happens when rung itself breaks; see crash.h.
+// Crashes of rung itself; see crash.h.
 #include "tools/rung/crash.h"
 
 #include <unistd.h>
@@ -40,7 +40,7 @@ void put(const char* text) {
 
 // Only calls that are safe in a signal handler.
 void handle(int number, siginfo_t* info, void* details) {
-  if (program_runs) host::raiseCrash(number, info, details);  // does not return when the program did it
+  if (program_runs) host::raiseCrash(number, info, details);  // does not return when the program crashed
   if (program_runs && !program_checked) {
     put("rung: the program crashed with ");
     put(signalName(number));
@@ -82,7 +82,7 @@ void installCrashHandler(const char* const* command_line, int count) {
   struct sigaction action = {};
   action.sa_sigaction = handle;
   action.sa_flags =
-      SA_SIGINFO | SA_ONSTACK | SA_NODEFER;  // faults of the program leave the handler, and may come again
+      SA_SIGINFO | SA_ONSTACK | SA_NODEFER;  // faults of the program leave the handler by longjmp, and may occur again
   for (int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(number, &action, nullptr);
 }
 

@@ -1,4 +1,4 @@
-// Messages of the command line: inputs, project files, C++ bodies. One constant for each row of diagnostics.def.
+// Messages about the command line: inputs, project files, C++ bodies. One constant for each row of diagnostics.def.
 #pragma once
 
 #include "frontend/source/diagnostics.h"

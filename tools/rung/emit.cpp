@@ -1,4 +1,4 @@
-// `rung emit`: the generated C++ into a folder, or the IR or the tree on stdout.
+// `rung emit`: writes the generated C++ to a folder, or the IR or the tree to stdout.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace {
 
 using codegen::OutputFile;
 
-// A fixed number of files whose names a build system knows before rung runs: each includes a share of the .cpp files,
-// chosen by name, and a hash of all that they include, so that its time stamp moves when one of them changes.
+// Adds a fixed number of files whose names a build system knows before rung runs: each includes a share of the .cpp
+// files, chosen by name, and a hash of all that they include, so its time stamp changes when one of them changes.
 void addBundles(uint32_t count, const std::string& name, std::vector<OutputFile>& files) {
   std::unordered_map<std::string_view, const OutputFile*> by_name;
   for (const OutputFile& file : files) by_name.emplace(file.path, &file);

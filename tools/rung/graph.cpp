@@ -1,5 +1,5 @@
-// `rung graph`: each body in LD, FBD, CFC or SFC as an SVG file that is named after its POU: Pump.svg, Pump.Start.svg.
-// Pictures show what is written: the program need not compile, only parse. Nothing is written when there are errors.
+// `rung graph`: each body in LD, FBD, CFC or SFC as an SVG file named after its POU: Pump.svg, Pump.Start.svg.
+// Pictures show the source: the program need not compile, only parse. Nothing is written when there are errors.
 #include <algorithm>
 #include <unordered_set>
 
@@ -26,7 +26,7 @@ class Grapher {
   const Tree& tree_;
   const Names& names_;
   const int32_t page_;
-  std::unordered_set<std::string> taken_;  // folded: a file system may take large and small letters for the same
+  std::unordered_set<std::string> taken_;  // lower case: a file system may ignore the case of letters
   std::vector<TextFile> pictures_;
 };
 
@@ -39,8 +39,7 @@ void Grapher::add(const PouDecl& pou, const std::string& name) {
                                           : picture::drawNetworks(tree_, names_, pou.diagram, name, page_)});
 }
 
-// A condition of a transition that has a body of its own is an action that the parser made; it has the transition's
-// name here.
+// A condition of a transition with a body is an action that the parser made; its picture is named after the transition.
 void Grapher::visitPou(const PouDecl& pou, const std::string& name) {
   add(pou, name);
   for (const DeclId member : tree_.list(pou.members)) {

@@ -60,8 +60,8 @@ FileKind kindOfExtension(std::string_view path) {
   return FileKind::Unknown;
 }
 
-// Control characters and bytes that are not UTF-8 in a fifth of the first bytes, or a NUL: no text of any encoding that
-// editors of PLC code write.
+// True when a fifth of the first bytes is control characters or not UTF-8, or for a NUL: not a source in any encoding
+// that editors of PLC code write.
 bool isBinary(std::string_view text) {
   std::string_view head = text.substr(0, 4096);
   if (head.find('\0') != std::string_view::npos) return true;
@@ -161,7 +161,7 @@ class Collector {
     return normal;
   }
 
-  // A name in the same folder that is nearly the one that does not exist.
+  // A name in the same folder similar to the missing one.
   std::string similar(const std::string& path) const {
     size_t slash = path.rfind('/');
     std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
@@ -204,7 +204,7 @@ class Collector {
     candidates_.push_back({absolute(path), path, {}, true});
   }
 
-  // A PROGRAM of a library is for trying it.
+  // A PROGRAM of a library is there for trying it out.
   static bool holdsProgram(const std::string& path) {
     if (!hasExtension(path, ".tcpou")) return false;
     const std::string text = readFile(path).content;
@@ -212,7 +212,7 @@ class Collector {
     return begin != std::string::npos && vendor::firstWord(std::string_view(text).substr(begin + 9)) == "PROGRAM";
   }
 
-  // What the project file of TwinCAT lists, relative to its folder. Of a library tasks and programs do not count.
+  // The files listed by a TwinCAT project, relative to its folder. Tasks and programs of a library are left out.
   void addPlcProject(const std::string& path, bool is_library = false) {
     ReadResult read = readFile(path);
     if (!read.error.empty()) return fail(diag::CannotRead, path, {path, read.error});
@@ -240,7 +240,7 @@ class Collector {
     for (vendor::ProjectEntry& library : project.libraries) inputs_.libraries.push_back(std::move(library));
   }
 
-  // `path` below the folder, in the letter case that the disk has: project files come from systems that do not care.
+  // `path` below the folder, in the letter case on disk: project files may come from case-insensitive systems.
   static std::string sameFile(const std::string& folder, const std::string& path) {
     struct stat info;
     if (stat((folder + path).c_str(), &info) == 0) return folder + path;
@@ -294,7 +294,7 @@ class Collector {
     }
   }
 
-  // Hidden entries and links to folders are passed over: neither loops nor `.git` belong to a project.
+  // Hidden entries and links to folders are skipped: loops and `.git` do not belong to a project.
   void addFolder(const std::string& folder) {
     const size_t before = candidates_.size();
     inputs_.read.push_back(folder);
@@ -302,7 +302,7 @@ class Collector {
     if (candidates_.size() == before && !diagnostics_.hasErrors()) fail(diag::EmptyFolder, folder, {folder});
   }
 
-  // A folder with a .plcproj takes what that lists.
+  // A folder with a .plcproj takes the files that it lists.
   void scan(const std::string& folder, int depth) {
     DIR* dir = opendir(folder.c_str());
     if (dir == nullptr) {
@@ -370,7 +370,7 @@ class Collector {
   }
 
   void addFile(const Candidate& candidate) {
-    // Before it is read: such a file would not fit the memory either.
+    // Checked before reading: such a file would not fit the memory either.
     struct stat info;
     if (stat(candidate.path.c_str(), &info) == 0 && static_cast<uint64_t>(info.st_size) >= UINT32_MAX)
       return fail(diag::TooMuchInput, candidate.path, {candidate.path});
@@ -415,7 +415,7 @@ class Collector {
 
 // ---- POUs in two files
 
-// Two files of one name, of which one begins a POU and the other no declaration, are that POU and its body.
+// When one of two files with equal names begins a POU and the other has no declaration, they are the POU and its body.
 void joinPairs(Sources& sources, std::vector<InputFile>& files) {
   std::vector<std::pair<std::string, size_t>> bodies, declarations;
   for (size_t i = 0; i < files.size(); i++) {
@@ -463,10 +463,10 @@ FileKind kindOf(std::string_view path, std::string_view text) {
   if (first != std::string_view::npos && start.substr(first).starts_with("<") && by_name != FileKind::St)
     return FileKind::Xml;
   if (by_name == FileKind::Unknown && startsDeclaration(text)) return FileKind::St;
-  // Named so, but no XML.
+  // The extension claims XML, the content is not.
   if (by_name == FileKind::Xml || by_name == FileKind::TwinCat || by_name == FileKind::PlcProject)
     return FileKind::Unknown;
-  if (by_name == FileKind::Codesys2) return FileKind::St;  // without the comments of an export
+  if (by_name == FileKind::Codesys2) return FileKind::St;  // an export without its comments
   return by_name;
 }
 

@@ -1,6 +1,7 @@
-// The inputs of a run: files and folders named on the command line, and the rung.project that a folder may hold.
-// In: the words of the command line. Out: text files with their kind, sorted by path from the project's root, so that
-// no order of words or of directory entries shows in the output. Mistakes become diagnostics. Called by compile.cpp.
+// The inputs of a run: files and folders named on the command line, and the rung.project that a folder may contain.
+// In: arguments of the command line. Out: source files with their kind, sorted by path from the project's root, so the
+// output does not depend on the order of arguments or directory entries. Mistakes become diagnostics. Called by
+// compile.cpp.
 #pragma once
 
 #include <string>
@@ -31,13 +32,13 @@ enum class FileKind : uint8_t {
   Binary
 };
 
-// By content, then extension. `text` may be cut.
+// By content, then extension. `text` may be only the beginning.
 FileKind kindOf(std::string_view path, std::string_view text);
 
 struct InputFile {
   std::string path;   // to open it
-  std::string shown;  // as messages name it: what the user wrote, with what stands below a folder behind it
-  std::string below;  // relative to the root: what generated code and the symbol map name
+  std::string shown;  // the display path: what the user wrote, for files of a folder with their path below it
+  std::string below;  // relative to the root: the path in generated code and the symbol map
   FileKind kind = FileKind::Unknown;
   FileId file;
 };
@@ -47,15 +48,15 @@ struct Inputs {
   std::vector<InputFile> files;   // the ones to compile, sorted by `below`
   std::vector<std::string> read;  // every file and folder looked at, for depfiles
   ProjectFile project;
-  std::vector<vendor::ProjectEntry> libraries;  // that .plcproj and .xml files among them ask for
-  std::vector<std::string> project_names;       // of these files: `TcUnit.FB_TestSuite` names what the project declares
-  bool unread = false;                          // a vendor's file could not be understood: what it declares is missing
-  bool io_error = false;                        // something could not be read: exit 2
+  std::vector<vendor::ProjectEntry> libraries;  // requested by .plcproj and .xml files among them
+  std::vector<std::string> project_names;  // of these files: `TcUnit.FB_TestSuite` names a declaration of the project
+  bool unread = false;                     // a vendor's file could not be understood: its declarations are missing
+  bool io_error = false;                   // something could not be read: exit 2
 };
 
 void readInputs(const Options& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs);
 
-// Puts the program in place of each vendor's file, and one text in place of the two files of a POU.
+// Replaces each vendor's file by its program in ST, and the two files of one POU by one source.
 void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs);
 
 }  // namespace rung::tool

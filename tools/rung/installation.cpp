@@ -1,4 +1,4 @@
-// Where the parts of Rung are; see installation.h.
+// The installed parts of Rung; see installation.h.
 #include "tools/rung/installation.h"
 
 #include <unistd.h>

@@ -45,7 +45,7 @@ void LibrarySet::addAlias(const std::string& alias, const std::string& library) 
   aliases_.push_back({shown, contents_.back().c_str()});
 }
 
-// Files of the folder are one library of its name; each folder in it is one, too.
+// Files of the folder are one library of its name; so is each folder inside.
 std::string LibrarySet::addFolder(const std::string& folder, std::string_view called, bool with_folders) {
   DIR* dir = opendir(folder.c_str());
   if (dir == nullptr) return "cannot read the library folder `" + folder + "`: " + strerror(errno);

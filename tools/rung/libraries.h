@@ -1,5 +1,5 @@
 // The libraries that a program may use: those built into the tool (stdlib/*/*.st) and those of -I folders.
-// In: Options. Out: their texts, which live as long as this object. Called by compile.cpp and list.cpp.
+// In: Options. Out: their sources, which live as long as this object. Called by compile.cpp and list.cpp.
 #pragma once
 
 #include <deque>
@@ -12,7 +12,7 @@
 namespace rung::tool {
 
 struct LibraryPath {
-  std::string called;  // empty: as the folder
+  std::string called;  // empty: the name of the folder
   std::string folder;
 };
 // `-I DIR` and `-I NAME=DIR`.
@@ -20,9 +20,9 @@ LibraryPath libraryPath(const std::string& written);
 
 class LibrarySet {
  public:
-  // The error names what could not be read.
+  // The error names the file that could not be read.
   [[nodiscard]] std::string load(const Options& options);
-  // Another name for a library: `Std.TON` where a project refers to Tc2_Standard as Std.
+  // Another name for a library: `Std.TON` when a project refers to Tc2_Standard as Std.
   void addAlias(const std::string& alias, const std::string& library);
   const std::vector<sema::LibraryFile>& files() const { return files_; }
   const std::vector<sema::LibraryAlias>& aliases() const { return aliases_; }

@@ -67,7 +67,7 @@ int listWarnings() {
   return printResult(out);
 }
 
-// Every name that the libraries declare, with the range of its text.
+// Visits every name that the libraries declare, with the range of its source.
 template <class Visit>
 void eachBlock(const LibrarySet& libraries, Visit visit) {
   for (const sema::LibraryFile& file : libraries.files())
@@ -106,7 +106,7 @@ int listLibraries(const Options& options) {
   return printResult(out);
 }
 
-// The header of a declaration: all up to the body, with the doc comment above it.
+// The header of a declaration: everything up to the body, with the doc comment above it.
 std::string header(std::string_view text, const sema::IndexedBlock& block) {
   size_t begin = block.begin;
   for (;;) {  // `///` lines above

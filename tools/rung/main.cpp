@@ -1,4 +1,4 @@
-// rung: reads the command line and calls the command. Exit codes are those of options.h; nothing else decides them.
+// rung: parses the command line and runs the command. All exit codes are those of options.h.
 #include <csignal>
 #include <cstdio>
 
@@ -31,7 +31,7 @@ int runCommand(const rung::tool::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  signal(SIGXFSZ, SIG_IGN);  // a limit for files is an error of the write, as a full disk is
+  signal(SIGXFSZ, SIG_IGN);  // makes exceeding a file size limit a write error, like a full disk
   rung::tool::installCrashHandler(argv + 1, argc > 0 ? argc - 1 : 0);
   rung::setPhase("command line");
   std::vector<std::string> arguments;

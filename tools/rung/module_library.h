@@ -16,7 +16,7 @@ class ModuleLibrary {
   ~ModuleLibrary();
 
   [[nodiscard]] std::string open(const std::string& path);
-  // `<name>_module()`; null and `error` when it is not there or of another version.
+  // `<name>_module()`; null, with `error`, when it is missing or has another version.
   const rung_module* find(const std::string& name, std::string& error) const;
 
  private:

@@ -1,4 +1,4 @@
-// The namespace of a library by its folder below stdlib/, and the names that other tools have for our libraries. Called
+// The namespace of a library by its folder below stdlib/, and the names that other tools have for the libraries. Called
 // by libraries.cpp, compile.cpp and the tool native_table.
 #pragma once
 

@@ -45,7 +45,7 @@ std::vector<std::string> splitFlags(const char* text) {
 
 std::string baseName(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-// Which executable a command starts, with size and time: a new compiler makes new objects.
+// Hashes which executable a command starts, with size and time: a new compiler makes new objects.
 void addIdentity(Hash& hash, const std::vector<std::string>& command) {
   for (const std::string& word : command) {
     hash.add(word);
@@ -75,7 +75,7 @@ void addFile(Hash& hash, const std::string& path) {
   hash.add(read.content);
 }
 
-// Contents of all headers below a folder, in a fixed order.
+// Hashes the contents of all headers below a folder, in a fixed order.
 void addHeaders(Hash& hash, const std::string& folder) {
   std::vector<std::string> names;
   if (DIR* dir = opendir(folder.c_str())) {
@@ -98,7 +98,7 @@ void addHeaders(Hash& hash, const std::string& folder) {
 struct Unit {
   std::string source;  // path below the work folder
   std::string key, object;
-  const OutputFile* user_file = nullptr;  // holds a body in C++ that the user wrote
+  const OutputFile* user_file = nullptr;  // contains a body in C++ that the user wrote
 };
 
 class Builder {
@@ -111,7 +111,7 @@ class Builder {
 
   NativeResult& result() { return result_; }
 
-  // Makes every object; false: result() says why.
+  // Makes every object; false: result() has the error.
   bool compile() {
     if (!installation().error.empty()) return fail(kUsage, installation().error);
     if (cache_.folder().empty()) return fail(kUsage, "cannot create a temporary folder for the C++ compiler");
@@ -136,7 +136,7 @@ class Builder {
     return compileUnits(missing);
   }
 
-  // Links the objects to `out` in the work folder; `before` and `after` stand around them.
+  // Links the objects to `out` in the work folder, with `before` and `after` around them.
   bool link(const std::vector<std::string>& before, const std::vector<std::string>& after, const std::string& out) {
     std::vector<Process> processes(1);
     Process& process = processes[0];
@@ -161,7 +161,7 @@ class Builder {
     process.arguments = archiver;
     process.arguments.push_back("rcsD");
     process.arguments.push_back(out);
-    // ar keeps base names only: the units' own names, not the cache's, so that `ar t` says what is in it.
+    // ar keeps base names only: the units' own names instead of the cache's, so `ar t` shows readable names.
     for (const Unit& unit : units_) {
       std::string name = work_ + "/" + baseName(unit.source) + ".o";
       if (::link(unit.object.c_str(), name.c_str()) != 0 && symlink(unit.object.c_str(), name.c_str()) != 0)
@@ -172,14 +172,14 @@ class Builder {
     return run(processes, "archiving");
   }
 
-  // A shared library for a product: one name to call, the others cannot meet those of another module.
+  // A shared library for a product: exports one name, so the others cannot clash with those of another module.
   bool linkModule(const std::string& module_name, const std::string& output) {
     return needWork() && writePlain("exports.map", "{ global: " + module_name + "_module; local: *; };\n") &&
            link({"-shared", "-Wl,--version-script=" + work_ + "/exports.map"}, {installation().runtime_library},
                 output);
   }
 
-  // The host's main() for an executable.
+  // Adds the host's main() for an executable.
   bool addMain(const std::string& module_name) {
     if (!needWork()) return false;
     std::string text = "#include \"rung/host.h\"\nextern \"C\" const rung_module* " + module_name +
@@ -226,7 +226,7 @@ class Builder {
   }
 
  private:
-  // The hash of a file with all that it includes of its own part.
+  // The hash of a file with everything that it includes from its own part.
   const std::string& closure(const NativePart& part,
                              const std::unordered_map<std::string_view, const OutputFile*>& files,
                              const OutputFile& file) {
@@ -261,7 +261,7 @@ class Builder {
     return entry->second;
   }
 
-  // Names in `#include "…"` lines; they stand at the top of generated files, one block.
+  // Names in `#include "…"` lines; generated files have them at the top, in one block.
   const std::vector<std::string>& includes(const NativePart& part, const OutputFile& file) {
     auto [entry, fresh] = includes_.try_emplace(part.folder + "/" + file.path);
     if (!fresh) return entry->second;
@@ -324,7 +324,7 @@ class Builder {
     return true;
   }
 
-  // Nobody else sees the work folder: no rename needed.
+  // No other process uses the work folder: no rename needed.
   bool writePlain(const std::string& path, const std::string& text) {
     for (size_t slash = path.find('/'); slash != std::string::npos; slash = path.find('/', slash + 1))
       mkdir((work_ + "/" + path.substr(0, slash)).c_str(), 0777);
@@ -357,16 +357,16 @@ class Builder {
     return true;
   }
 
-  // Debuggers look for the sources in the folder they stand in, and no path of this machine gets into an object.
+  // Debuggers look for the sources in their own folder, and no path of this machine gets into an object.
   void hideFolders(std::vector<std::string>& arguments) const {
     arguments.push_back("-ffile-prefix-map=" + installation().include + "=rung/include");
     arguments.push_back("-ffile-prefix-map=" + cache_.folder() + "=rung/cache");
-    arguments.push_back("-ffile-prefix-map=" + work_ + "=.");  // the last that fits counts, and work_ is in the cache
+    arguments.push_back("-ffile-prefix-map=" + work_ + "=.");  // the last match counts, and work_ is in the cache
   }
 
   std::string objectPart(size_t i) const { return work_ + "/" + std::to_string(i) + ".o"; }
 
-  // The path to give to -include, or empty when there is none and making one does not pay.
+  // The path for -include, or empty when there is none and making one does not pay.
   std::string precompiled(size_t units) {
     Hash hash;
     hash.add(tool_key_);
@@ -374,7 +374,7 @@ class Builder {
     hash.add("header in the cache");
     const std::string compiled = cache_.path(hash.hex(), "gch");  // …/KEY.gch beside the header …/KEY
     std::string header = compiled.substr(0, compiled.size() - 4);
-    // clang++ remembers the header's path and time: it is compiled where it stays, and never marked as used.
+    // clang++ remembers the header's path and time: it is compiled in its final folder, and its time never updated.
     const bool has_header = access(header.c_str(), R_OK) == 0;
     if (has_header && cache_.has(compiled)) return header;
     if (units < kPrecompileFrom) return {};
@@ -394,7 +394,7 @@ class Builder {
     return header;
   }
 
-  // What g++ says of a body that the user wrote, at its own lines.
+  // The messages of g++ about a body that the user wrote, with their original lines.
   static std::vector<Refusal> refusalsOf(const OutputFile& file, const std::string& log) {
     std::vector<Refusal> refusals;
     for (size_t at = 0; at < log.size();) {
@@ -418,7 +418,7 @@ class Builder {
     return refusals;
   }
 
-  // `units`: what the processes compile, one each.
+  // `units`: the unit that each process compiles.
   bool run(std::vector<Process>& processes, const char* label, const std::vector<Unit*>* units = nullptr) {
     uint32_t jobs = request_.jobs != 0 ? request_.jobs : processorCount();
     const Process* failed = runAll(processes, jobs, label);
@@ -435,7 +435,7 @@ class Builder {
       first += "  " + log.content.substr(at, end - at) + "\n";
       at = end + 1;
     }
-    // What the machine or the user's flags refuse is no mistake of the code that rung made.
+    // Errors of the machine or of the user's flags are not bugs of the generated code.
     for (const char* phrase : {"No space left", "unrecognized command", "unrecognized argument", "unknown argument",
                                "cannot execute", "Cannot allocate memory", "Killed signal", "Disk quota"})
       if (log.content.find(phrase) != std::string::npos || failed->exit_code > 128)
@@ -464,7 +464,7 @@ class Builder {
 
 std::string moveInto(const std::string& from, const std::string& to) {
   if (rename(from.c_str(), to.c_str()) == 0) return {};
-  // Another file system: copy beside the place, then rename.
+  // Another file system: copy to a file beside the target, then rename.
   ReadResult read = readFile(from);
   if (!read.error.empty()) return "cannot read `" + from + "`: " + read.error;
   struct stat info;

@@ -1,6 +1,6 @@
-// From generated C++ to a library or program: g++ for what the cache does not hold, in parallel, then the linker.
-// In: generated files of one or more modules. Out: paths of a shared object, or the written output; an internal error
-// (70) with the first lines when g++ refuses code that rung made. Called by build, run and test.
+// From generated C++ to a library or program: runs g++ in parallel for everything that is not in the cache, then the
+// linker. In: generated files of one or more modules. Out: paths of a shared object, or the written output; an internal
+// error (70) with the first lines when g++ rejects generated code. Called by build, run and test.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace rung::tool {
 
-// The files of one module, in a folder of their own.
+// The files of one module, in a separate folder.
 struct NativePart {
   std::string folder;  // inside the work folder; empty: the work folder itself
   std::vector<codegen::OutputFile> files;
@@ -20,13 +20,13 @@ struct NativePart {
 
 struct NativeRequest {
   std::vector<NativePart> parts;
-  uint32_t batches = 0;  // > 0: so many translation units that include the parts' .cpp files
-  int level = 1;         // -O of the C++ compiler, unless $CXXFLAGS says another
+  uint32_t batches = 0;  // > 0: the number of translation units that include the parts' .cpp files
+  int level = 1;         // -O of the C++ compiler, unless $CXXFLAGS has another
   uint32_t jobs = 0;
-  bool keep = false;  // keep the generated files and say where
+  bool keep = false;  // keep the generated files and print their folder
 };
 
-// What g++ says of a body that the user wrote in C++, at its own place: the path as diagnostics print it.
+// A message of g++ about a body that the user wrote in C++, with its original location; the path is a display path.
 struct Refusal {
   std::string path;
   uint32_t line, column;
@@ -34,15 +34,15 @@ struct Refusal {
 };
 
 struct NativeResult {
-  int exit = kSuccess;  // kSuccess, kUsage, kInternal, or kInputErrors: g++ refused a body that the user wrote in C++
-  std::string message;  // what went wrong
-  std::vector<Refusal> refusals;  // kInputErrors: empty where g++ names no place in the body, see `message`
+  int exit = kSuccess;  // kSuccess, kUsage, kInternal, or kInputErrors: g++ rejected a body that the user wrote in C++
+  std::string message;  // the error
+  std::vector<Refusal> refusals;  // kInputErrors: empty when g++ names no location in the body, see `message`
   std::string path;               // the shared object
 };
 
 // Compiles and links to a shared object in the cache, or finds it there.
 NativeResult makeShared(Cache& cache, const NativeRequest& request);
-// Compiles, links and puts the result at `output`: an executable with the bundled host, a shared or a static library.
+// Compiles, links and writes `output`: an executable with the bundled host, a shared or a static library.
 NativeResult makeOutput(Cache& cache, const NativeRequest& request, BuildKind kind, const std::string& module_name,
                         const std::string& output);
 

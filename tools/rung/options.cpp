@@ -38,7 +38,7 @@ constexpr CommandRow kCommands[] = {
     {Command::Version, "version", "", "print the version of rung"},
 };
 
-// Commands that the documentation of the project announces.
+// Commands announced in the project's documentation.
 constexpr std::string_view kLaterCommands[] = {"fmt", "cam", "lint", "lsp", "monitor"};
 
 enum class Key : uint8_t {
@@ -83,8 +83,8 @@ enum class Key : uint8_t {
 
 struct OptionRow {
   Key key;
-  const char* name;   // as written: "--root", "-o"
-  const char* value;  // what follows; null: nothing does
+  const char* name;   // as the user types it: "--root", "-o"
+  const char* value;  // the name of its value; null: none
   uint32_t commands;
   const char* help;  // null: not in the help
 };
@@ -181,7 +181,7 @@ std::string withSuggestion(std::string message, std::string_view written,
   return message;
 }
 
-// One of `a|b|c` by position.
+// The position of `value` in `a|b|c`.
 std::string parseChoice(std::string_view option, std::string_view value, std::string_view choices, uint32_t& index) {
   uint32_t position = 0;
   std::vector<std::string_view> names;
@@ -315,7 +315,7 @@ const OptionRow* findOption(std::string_view name) {
   return nullptr;
 }
 
-// `-O2`, `-Wno-x`, `-Idir`, `-j4`, `-oout`: the value is glued to a one-letter option.
+// `-O2`, `-Wno-x`, `-Idir`, `-j4`, `-oout`: the value follows a one-letter option without a blank.
 const OptionRow* findGlued(std::string_view word) {
   if (word.size() < 3 || word[1] == '-') return nullptr;
   const OptionRow* row = findOption(word.substr(0, 2));
@@ -516,7 +516,7 @@ std::string expandResponseFiles(std::vector<std::string>& arguments) {
     arguments.erase(arguments.begin() + static_cast<ptrdiff_t>(i));
     arguments.insert(arguments.begin() + static_cast<ptrdiff_t>(i), std::make_move_iterator(inner.begin()),
                      std::make_move_iterator(inner.end()));
-    i--;  // the first of the new words may be a response file too
+    i--;  // the first of the new arguments may be a response file too
   }
   return {};
 }

@@ -1,5 +1,5 @@
-// The command line of rung: its commands and options, from one table that the parser, "did you mean" and --help read.
-// In: argv. Out: Options, or a Usage error (exit 2). Called by main.cpp; the commands read the result.
+// The command line of rung: its commands and options, in one table for the parser, "did you mean" and --help.
+// In: argv. Out: Options, or a usage error (exit 2). Called by main.cpp; the commands read the result.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ inline constexpr uint32_t kCommandCount = static_cast<uint32_t>(Command::Help) +
 enum class EmitKind : uint8_t { Cpp, Ir, Tree };
 enum class ConvertTo : uint8_t { None, St, Xml };
 enum class BuildKind : uint8_t { Executable, Shared, Static };
-// What runs a program: instructions over its memory, at once, or compiled C++.
-enum class Engine : uint8_t { Auto, Native, Interpreter };  // Auto: the interpreter where it can
+// The engine that runs a program: the interpreter of the IR, or compiled C++.
+enum class Engine : uint8_t { Auto, Native, Interpreter };  // Auto: the interpreter when possible
 enum class Color : uint8_t { Auto, Always, Never };
 
 // The exit codes of rung (docs/cli.md).
@@ -69,13 +69,13 @@ struct Options {
   ConvertTo to = ConvertTo::None;
 
   // graph
-  uint32_t page_width = 1200;  // 0: without end
+  uint32_t page_width = 1200;  // 0: unlimited
 
   // build
   BuildKind build = BuildKind::Executable;
   bool keep = false;
 
-  // run: options that the host parses (rung::host::parseRunOptions), one `--name=value` each
+  // run: options for the host (rung::host::parseRunOptions), one `--name=value` each
   std::vector<std::string> host_arguments;
   uint32_t pointer_size = 8;
   int64_t default_interval_ns = 10'000'000;  // set from --interval by run.cpp
@@ -87,7 +87,7 @@ struct Options {
 
   // test
   std::string filter, junit, lcov;
-  bool coverage = false;           // as text
+  bool coverage = false;           // as a table
   std::vector<std::string> mocks;  // sema::Options::mocks, set by test.cpp
   bool counts() const { return coverage || !lcov.empty(); }
   bool separate = false;
@@ -98,10 +98,10 @@ struct Options {
   std::string moduleName() const { return name.empty() ? "plc" : name; }
 };
 
-// Parses the words after the program's name. The error is one message for the user; empty: good.
+// Parses the arguments after the program's name. Returns an error message for the user, or an empty string.
 [[nodiscard]] std::string parseOptions(const std::vector<std::string>& arguments, Options& options);
 
-// Reads `@file` words (shell-like: blanks separate, quotes and backslash group) in place; files may name files.
+// Expands `@file` arguments (shell-like: blanks separate, quotes and backslash group) in place; files may name files.
 [[nodiscard]] std::string expandResponseFiles(std::vector<std::string>& arguments);
 
 // The bits of `div,index,…`, `default`, `all` or `none`.
@@ -114,7 +114,7 @@ struct Options {
 std::string helpText(Command command);
 const char* commandName(Command command);
 
-// The valid C identifier nearest to what --name or a file's stem says.
+// True for a valid C identifier, as --name and the stem of a file must be.
 bool isIdentifier(std::string_view name);
 
 }  // namespace rung::tool

@@ -33,7 +33,7 @@ pid_t start(const Process& process) {
   return pid;
 }
 
-// A counter on stderr while a person waits there.
+// A counter on stderr when that is a terminal.
 class Progress {
  public:
   Progress(const char* label, size_t all)
@@ -76,7 +76,7 @@ const Process* runAll(std::vector<Process>& processes, unsigned jobs, const char
     if (running.empty()) break;
     int status = 0;
     pid_t pid = 0;
-    // With a terminal the wait is cut in slices, so that the counter appears while the first compiler still works.
+    // With a terminal the wait is split, so the counter appears while the first compiler still works.
     if (isatty(2)) {
       pid = waitpid(-1, &status, WNOHANG);
       if (pid == 0) {

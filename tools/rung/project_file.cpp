@@ -10,7 +10,7 @@
 namespace rung::tool {
 namespace {
 
-// Which sections there are, whether they have a name, and their keys; null: any key (paths, parameters).
+// The sections, whether they have a name, and their keys; null: any key (paths, parameters).
 struct Schema {
   const char* kind;
   bool named;
@@ -20,7 +20,7 @@ constexpr Schema kSchemas[] = {
     {"project", false, "name sources std libraries checks optimize warnings defines"},
     {"task", true, "kind interval priority trigger watchdog sensitivity programs"},
     {"module", true, "type slot inputs outputs address station parameters"},
-    {"axis", true, nullptr},   // the parameters of the axis: their names are checked by the motion library
+    {"axis", true, nullptr},   // the parameters of the axis; the motion library checks their names
     {"safe", false, nullptr},  // PATH = VALUE
     {"nc", false, nullptr},
     {"pool", true, nullptr},  // `new`: bytes
@@ -95,7 +95,7 @@ class Reader {
           .note(entry.key_loc, diag::DeclaredHere);
       return;
     }
-    // An empty value still has a place: one past the sign.
+    // An empty value still has a location: one past the sign.
     Loc value_loc = value.empty() ? loc(line.substr(equals)) : loc(value);
     project_.sections.back().entries.push_back({std::string(key), std::string(value), loc(key), value_loc});
   }
@@ -182,7 +182,7 @@ void readProjectSection(const ProjectSection& section, Diagnostics& diagnostics,
   }
 }
 
-// [pool new]: the memory behind __NEW.
+// [pool new]: the memory for __NEW.
 void readPoolSection(const ProjectSection& section, Diagnostics& diagnostics, ProjectFile& project) {
   constexpr uint64_t kMax = uint64_t{1} << 30;
   if (section.name != "new") return;
@@ -209,8 +209,8 @@ std::string duration(const std::string& value) {
   return "T#" + value;
 }
 
-// Everything that goes into the generated text must be a word, number or path of ST, so that no value can break out of
-// its place.
+// Everything that goes into the generated ST must be a word, number or path of ST, so that no value can inject other
+// code.
 bool isPlain(std::string_view value) {
   if (value.empty()) return false;
   for (char c : value)
@@ -286,7 +286,7 @@ void applyProjectFile(const ProjectFile& project, Options& options) {
   if (project.has_level && !options.level_given) options.level = project.level;
   if (options.name.empty()) options.name = project.name;
   options.warnings.insert(options.warnings.begin(), project.warnings.begin(), project.warnings.end());
-  // Of two with one name the later one counts: the command line's.
+  // The last of two defines with one name counts: the command line's.
   options.defines.insert(options.defines.begin(), project.defines.begin(), project.defines.end());
   for (const std::string& written : project.libraries) {
     const LibraryPath library = libraryPath(written);

@@ -1,6 +1,6 @@
-// rung.project: the INI file that a project folder may hold (docs/cli.md lists its sections and keys).
-// In: its text. Out: settings that stand where the command line says nothing, and one generated CONFIGURATION for the
-// tasks. Unknown sections and keys are errors at their place. Called by inputs.cpp.
+// rung.project: the INI file that a project folder may have (docs/cli.md lists its sections and keys). In: its content.
+// Out: settings, which the command line overrides, and one generated CONFIGURATION for the tasks. Unknown sections and
+// keys are errors at their location. Called by inputs.cpp.
 #pragma once
 
 #include <string>
@@ -46,7 +46,7 @@ struct ProjectFile {
 
 void parseProjectFile(const Sources& sources, FileId file, Diagnostics& diagnostics, ProjectFile& project);
 
-// Settings of the file where the command line was silent.
+// Applies the settings of the file that the command line does not have.
 void applyProjectFile(const ProjectFile& project, Options& options);
 
 }  // namespace rung::tool

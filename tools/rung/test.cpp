@@ -1,6 +1,6 @@
-// `rung test`: all POUs marked {test}, interpreted or in one shared object, run on the bundled host. Tests that take
-// the same mocks are one module. With --separate each file is a project of its own, so that names of different files
-// never clash; a few C++ units include the code of many.
+// `rung test`: all POUs marked {test}, interpreted or in one shared object, run on the bundled host. Tests with the
+// same mocks are one module. With --separate each file is a separate project, so names of different files never
+// clash; a few C++ units include the code of many.
 #include <algorithm>
 #include <cstdio>
 
@@ -17,7 +17,7 @@
 namespace rung::tool {
 namespace {
 
-// Modules in one C++ unit: enough that starting g++ costs little, few enough that one changed file costs little.
+// Modules in one C++ unit: a compromise between the starts of g++ and the cost of one changed file.
 constexpr size_t kModulesPerUnit = 16;
 
 struct Module {
@@ -29,7 +29,7 @@ struct Module {
 
 constexpr uint8_t kMemoryChecks = ir::kCheckDiv | ir::kCheckIndex | ir::kCheckNull | ir::kCheckCast;
 
-// A power of two, so that one file more seldom moves the others to other units.
+// A power of two, so that an added file seldom moves the others to other units.
 uint32_t batchCount(size_t modules) {
   uint32_t count = 1;
   while (count * kModulesPerUnit < modules) count *= 2;
@@ -38,7 +38,7 @@ uint32_t batchCount(size_t modules) {
 
 using MockSets = std::vector<std::vector<std::string>>;
 
-// The sets of mocks that the chosen tests name; none first, whether there is a test without mocks or not.
+// The sets of mocks that the chosen tests name; the empty set comes first, with or without such tests.
 MockSets mockSets(const sema::Project& project, const host::TestOptions& options) {
   MockSets sets{{}};
   for (const sema::Pou& pou : project.pous) {
@@ -69,8 +69,8 @@ class Tester {
   }
 
  private:
-  // The modules of one project: of the tests without mocks, then of each set of mocks. `file`: the only one of a
-  // project whose errors are those of a failed test.
+  // Compiles the modules of one project: the tests without mocks, then each set of mocks. `file`: the only file of a
+  // project whose errors count as a failed test.
   int compileProject(const Options& options, const InputFile* file) {
     MockSets sets{{}};
     std::string name;
@@ -78,7 +78,7 @@ class Tester {
       Options one = options;
       one.mocks = sets[i];
       if (i > 0) one.name = name + "_mocks_" + std::to_string(i);
-      if (options.counts()) {  // each statement as it is written
+      if (options.counts()) {  // counts each statement as written
         one.level = 0;
         one.level_given = true;
       }
@@ -115,7 +115,7 @@ class Tester {
     return kSuccess;
   }
 
-  // Interpreted where it can be, else as C++ files.
+  // Interpreted when possible, else as C++ files.
   bool makeModule(Compilation& compilation, Module& module, NativePart& part) {
     std::string why;
     if (!compilation.translate(true, module.program, why)) return false;
@@ -127,7 +127,7 @@ class Tester {
   }
 
   int compileSeparately() {
-    // The files are found once, as one project; the texts are read again for each.
+    // The files are found once, as one project; their sources are read again for each.
     Compilation all(options_, times_);
     if (!all.read()) return all.finish();
     std::string root = options_.root.empty() ? all.inputs.root : options_.root;
@@ -180,7 +180,7 @@ class Tester {
     return error.empty() ? exit : usageError(error);
   }
 
-  // What g++ said of a body, with the text of its file; the other messages were printed before.
+  // Prints the messages of g++ about a body, with the source of its file; the other messages were printed before.
   void refuse(const NativeResult& result) const {
     for (const std::unique_ptr<Compilation>& compilation : with_cpp_)
       if (compilation->printRefusals(result)) return;
@@ -193,7 +193,7 @@ class Tester {
       printf("FAIL %s: does not compile\n", module.shown.c_str());
       results.failed++;
       results.tests.push_back({"compile", module.below, 1, host::TestResult::Broken, 0, 0, module.messages});
-      return kSuccess;  // the other files count; the exit code says that a test failed
+      return kSuccess;  // the other files count; the exit code reports a failed test
     }
     std::string error;
     const rung_module* description = module.program ? &module.program->description() : library.find(module.name, error);
@@ -221,7 +221,7 @@ class Tester {
   std::vector<std::unique_ptr<Compilation>> with_cpp_;  // those with bodies in C++
   Coverage coverage_;
   bool checked_ = true;
-  std::string why_;  // an error of use
+  std::string why_;  // a usage error
 };
 
 }  // namespace

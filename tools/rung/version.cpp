@@ -1,4 +1,4 @@
-// `rung version`: the version, and where the parts are that generated code needs.
+// `rung version`: the version, and the paths of the parts that generated code needs.
 #include "tools/rung/commands.h"
 #include "tools/rung/compile.h"
 #include "tools/rung/installation.h"

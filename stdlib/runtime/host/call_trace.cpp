@@ -1,4 +1,4 @@
-// Which POUs ran in a cycle: see call_trace.h.
+// The calls of a cycle: see call_trace.h.
 #include "call_trace.h"
 
 #include <cstring>
@@ -26,7 +26,7 @@ std::string CallTrace::line(int64_t cycle) {
   return out + '\n';
 }
 
-// An instance in a variable of a function has no path: its type alone is said.
+// An instance in a variable of a function has no path: only its type is printed.
 std::string CallTrace::nameOf(const char* pou, const uint8_t* instance) const {
   if (instance == nullptr) return pou;
   for (uint32_t i = 0; i < module_.symbol_count; ++i) {
@@ -44,7 +44,7 @@ std::string CallTrace::nameOf(const char* pou, const uint8_t* instance) const {
   return pou;
 }
 
-// `.field[1]` from a variable to the instance at `offset` in it; `.` is the variable itself, and empty: none is there.
+// `.field[1]` from a variable to the instance at `offset` in it; `.` is the variable itself. Empty: not found.
 std::string CallTrace::pathInside(const rung_type* type, uint32_t offset, const char* pou) const {
   std::string path;
   for (;;) {

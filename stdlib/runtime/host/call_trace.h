@@ -1,6 +1,6 @@
-// Which POUs ran in a cycle, as `rung run --trace-calls` prints them. In: the calls that an interpreted module tells
-// (rung_host::called). Out: `cycle 3: Main, Main.rest (TON) x2, Ramp`: instances by path and type, functions by name,
-// in the order of their first call.
+// The POUs that ran in a cycle, as `rung run --trace-calls` prints them. In: the calls that an interpreted module
+// reports (rung_host::called). Out: `cycle 3: Main, Main.rest (TON) x2, Ramp`: instances by path and type, functions by
+// name, in the order of their first call.
 #pragma once
 
 #include <map>
@@ -17,7 +17,7 @@ class CallTrace {
   CallTrace(const rung_module& module, const Memory& memory) : module_(module), memory_(memory) {}
 
   void called(const char* pou, const void* instance);
-  // The line of what was called since the last one.
+  // The line for the calls since the previous line.
   std::string line(int64_t cycle);
 
  private:
@@ -31,7 +31,7 @@ class CallTrace {
   const rung_module& module_;
   const Memory& memory_;
   std::vector<Call> calls_;
-  std::map<std::pair<const void*, const char*>, size_t> index_;  // of an instance and its type; into calls_
+  std::map<std::pair<const void*, const char*>, size_t> index_;  // by instance and type; index into calls_
 };
 
 }  // namespace rung::host

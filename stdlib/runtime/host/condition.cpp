@@ -1,3 +1,4 @@
+// Parser and evaluator of --stop-on conditions: see condition.h.
 #include "condition.h"
 
 #include <cstring>
@@ -18,13 +19,13 @@ bool isWordCharacter(char c) {
 
 bool isNumber(const rung_type& type) { return type.kind >= RUNG_BYTE && type.kind <= RUNG_LREAL; }
 
-// Two numbers compare whatever their types; all else with its own kind, and an enumeration with itself.
+// Numbers compare with numbers of any type, other values only with their own kind, and an enumeration with itself.
 bool comparable(const rung_type& a, const rung_type& b) {
   if (isNumber(a) && isNumber(b)) return true;
   return a.kind == b.kind && (a.kind != RUNG_ENUM || &a == &b);
 }
 
-// -1, 0, 1 for texts as their code units order them.
+// -1, 0 or 1: compares strings by code units.
 template <typename Unit>
 int compareStrings(const uint8_t* a, const uint8_t* b) {
   for (;; a += sizeof(Unit), b += sizeof(Unit)) {
@@ -60,7 +61,7 @@ bool Condition::takeWord(std::string_view word) {
   size_t length = 0;
   while (length < rest_.size() && isWordCharacter(rest_[length])) ++length;
   if (lowerCase(rest_.substr(0, length)) != word) return false;
-  if (length < rest_.size() && (rest_[length] == '.' || rest_[length] == '#')) return false;  // an instance so named
+  if (length < rest_.size() && (rest_[length] == '.' || rest_[length] == '#')) return false;  // the name of an instance
   rest_.remove_prefix(length);
   return true;
 }
@@ -159,7 +160,7 @@ bool Condition::parseOperand(uint32_t& node) {
     while (length < rest_.size() && isWordCharacter(rest_[length])) ++length;
     is_literal = is_number || (length < rest_.size() && rest_[length] == '#');
     if (is_literal) {
-      // Literals hold `-`, `+`, `.` and `:`: DT#2026-01-31-12:30:00, 1.5e-3.
+      // Literals may contain `-`, `+`, `.` and `:`: DT#2026-01-31-12:30:00, 1.5e-3.
       while (length < rest_.size() && (isWordCharacter(rest_[length]) || strchr("#-+.:", rest_[length]) != nullptr))
         ++length;
     } else {

@@ -1,5 +1,5 @@
-// The condition of --stop-on: a BOOL expression over program variables, `Main.n >= 10 AND NOT Main.busy`. In: its text
-// and the symbols. Out: its value now, or what is wrong with it. Called by run.cpp.
+// The condition of --stop-on: a BOOL expression over program variables, `Main.n >= 10 AND NOT Main.busy`. In: its
+// source and the symbols. Out: its current value, or an error message. Called by run.cpp.
 #pragma once
 
 #include <deque>
@@ -11,15 +11,15 @@
 
 namespace rung::host {
 
-// Paths as in --watch, literals, parentheses, and of the operators of ST with their precedence:
+// Takes paths as in --watch, literals, parentheses, and these operators of ST with their precedence:
 // NOT, < > <= >=, = <>, AND &, XOR, OR. A literal has the type of the variable that it is compared with.
 class Condition {
  public:
   explicit Condition(const Symbols& symbols) : symbols_(symbols) {}
 
-  // False: `error` says what is wrong.
+  // False: `error` has the message.
   bool parse(std::string_view text, std::string& error);
-  // A comparison through a pointer that is null is FALSE.
+  // A comparison through a null pointer is FALSE.
   bool holds() const { return value(root_); }
 
  private:
@@ -31,7 +31,7 @@ class Condition {
     uint32_t left = 0, right = 0;  // nodes
     Variable variable;             // of a literal: once its type is known, in `storage_`
     std::string text;              // as written
-    std::string unknown;           // of a name that is no variable, perhaps an item of an enumeration
+    std::string unknown;           // of a name that is not a variable; it may be an item of an enumeration
   };
 
   bool parseBinary(uint32_t level, uint32_t depth, uint32_t& node);

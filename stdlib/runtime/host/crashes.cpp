@@ -1,3 +1,4 @@
+// Signals of the program as faults: see crashes.h.
 #include "crashes.h"
 
 #include <ucontext.h>
@@ -15,7 +16,7 @@ FindSite find_site = nullptr;
 constexpr size_t kStackBytes = size_t{64} << 10;
 constexpr uintptr_t kNearStack = uintptr_t{64} << 10;
 
-// A stack for the handler, for when that of the thread is used up.
+// A stack for the handler, which still works when that of the thread is used up.
 struct AlternateStack {
   AlternateStack() {
     stack_t now{};
@@ -68,7 +69,7 @@ uint8_t guarded(rung_context* ctx, void (*run)(rung_context*)) {
 void catchCrashes() {
   struct sigaction action {};
   action.sa_sigaction = handle;
-  action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;  // it may be left by longjmp, and the next one caught
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;  // the handler may be left by longjmp, and must run again
   for (const int number : {SIGSEGV, SIGBUS}) sigaction(number, &action, nullptr);
 }
 

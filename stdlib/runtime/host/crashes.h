@@ -1,5 +1,5 @@
-// Memory that the program may not touch: a pointer that it computed leads nowhere, or calls of compiled code nest too
-// deep. The signal becomes a fault like any other (rung/module.h), so outputs get safe values and __TRY sees it.
+// Crashes of the program: it accesses memory through a bad pointer, or calls of compiled code nest too deep. The signal
+// becomes a fault like any other (rung/module.h), so outputs get safe values and __TRY sees it.
 // In: the activation, the signal. Out: RUNG_FAULT_NULL with RUNG_BAD_ADDRESS, or RUNG_FAULT_STACK.
 #pragma once
 
@@ -7,10 +7,10 @@
 
 namespace rung::host {
 
-// rung_guarded, with such signals as faults where catchCrashes was called.
+// rung_guarded, with these signals as faults once catchCrashes has been called.
 uint8_t guarded(rung_context* ctx, void (*run)(rung_context*));
 
-// Handles the signals from now on; an application calls it once. The tool has a handler of its own: raiseCrash.
+// Handles the signals from now on; an application calls it once. The tool has its own handler, which calls raiseCrash.
 void catchCrashes();
 
 }  // namespace rung::host

@@ -1,3 +1,4 @@
+// Reading and quoting CSV: see csv.h.
 #include "csv.h"
 
 namespace rung::host {

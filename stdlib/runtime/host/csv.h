@@ -1,4 +1,4 @@
-// Comma-separated values as RFC 4180 says: reading the table of --inputs, quoting cells of the trace.
+// Comma-separated values (RFC 4180): reads the table of --inputs, quotes cells of the trace.
 #pragma once
 
 #include <string>
@@ -15,9 +15,9 @@ struct CsvRow {
   std::vector<Position> positions;  // where each begins
 };
 
-// Reads a whole text; empty lines are passed over. False: `error` is "LINE:COLUMN: what is wrong".
+// Reads a whole table; empty lines are ignored. False: `error` is "LINE:COLUMN: message".
 bool readCsv(std::string_view text, std::vector<CsvRow>& rows, std::string& error);
-// The cell, in quotes where it holds a comma, quote or line break.
+// The cell, in quotes when it has a comma, quote or line break.
 void appendCell(std::string& to, std::string_view cell);
 
 }  // namespace rung::host

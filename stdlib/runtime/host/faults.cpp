@@ -1,3 +1,4 @@
+// Formatting of faults: see faults.h.
 #include "faults.h"
 
 namespace rung::host {

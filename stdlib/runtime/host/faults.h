@@ -1,4 +1,4 @@
-// Faults as the user reads them: `path:line: fault[div]: division by zero in Main`.
+// Formats faults for the user: `path:line: fault[div]: division by zero in Main`.
 #pragma once
 
 #include <string>

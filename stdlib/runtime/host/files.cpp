@@ -1,3 +1,4 @@
+// Files of the program: see files.h.
 #include "files.h"
 
 #include <fcntl.h>
@@ -11,7 +12,7 @@
 namespace rung::host {
 namespace {
 
-constexpr size_t kMaxFiles = 256;  // a program that never closes gets an error, not the machine
+constexpr size_t kMaxFiles = 256;  // a program that never closes its files gets an error
 
 int64_t errorOf(int number) {
   if (number == ENOENT || number == ENOTDIR) return RUNG_FILE_MISSING;
@@ -24,7 +25,7 @@ int64_t resultOf(int64_t result) { return result < 0 ? errorOf(errno) : result; 
 
 Files& of(void* data) { return *static_cast<Files*>(data); }
 
-// Calls `action` with the paths of the names, when all stay in the folder.
+// Calls `action` with the paths of the names, when all are inside the folder.
 template <typename Action>
 int64_t onPath(void* data, const char* name, Action action) {
   const std::string path = of(data).pathOf(name);

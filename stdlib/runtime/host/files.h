@@ -1,6 +1,6 @@
 // Files of the program, below one folder of this machine (--files-root). In: names as programs write them: `/` or `\`
-// between folders, a leading `/` or `C:` means the folder itself. Out: rung_files for the host table. A name that would
-// leave the folder by `..` is refused. Calls may come from several tasks.
+// between folders, a leading `/` or `C:` means the folder itself. Out: rung_files for the host table. A name that
+// leaves the folder by `..` is rejected. Calls may come from several tasks.
 #pragma once
 
 #include <mutex>

@@ -1,3 +1,4 @@
+// Values set from outside: see inputs.h.
 #include "inputs.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 namespace rung::host {
 namespace {
 
-// `a[1,2]` unquoted in a header was split at its comma: joined again while brackets are open.
+// An unquoted `a[1,2]` in a header was split at its comma: joins it again while brackets are open.
 CsvRow joinBrackets(const CsvRow& header) {
   CsvRow joined;
   bool open = false;
@@ -66,7 +67,7 @@ bool Inputs::load(const std::string& path, std::string& error) {
   constexpr uint32_t kIgnored = ~0u;
   std::vector<uint32_t> columns = {kIgnored};
   for (size_t i = 1; i < names.size(); ++i) {
-    if (names[i] == "time_ms") {  // a trace may be an input
+    if (names[i] == "time_ms") {  // a trace may serve as input
       columns.push_back(kIgnored);
       continue;
     }

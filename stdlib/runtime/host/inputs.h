@@ -1,5 +1,5 @@
-// What is set from outside: the table of --inputs and the values of --set (design §11). In: paths and literals. Out:
-// variables set before their cycle. Everything is checked before the run begins.
+// Values set from outside: the table of --inputs and the values of --set. In: paths and literals. Out: variables set
+// before their cycle. Everything is checked before the run begins.
 #pragma once
 
 #include <string>
@@ -12,9 +12,9 @@ namespace rung::host {
 class Inputs {
  public:
   explicit Inputs(const Symbols& symbols) : symbols_(symbols) {}
-  // False: `error` is complete, with file and line.
+  // False: `error` is a complete message, with file and line.
   bool load(const std::string& path, std::string& error);
-  // Sets the variables of all rows of this cycle; called with rising cycles.
+  // Sets the variables of all rows of this cycle; called with ascending cycles.
   void apply(int64_t cycle);
   // The last cycle that a row names, or -1.
   int64_t lastCycle() const { return last_cycle_; }
@@ -32,10 +32,10 @@ class Inputs {
   int64_t last_cycle_ = -1;
 };
 
-// PATH=VALUE of --set. Empty: good, else what is wrong.
+// Applies PATH=VALUE of --set. Returns an error message, or an empty string.
 std::string applySet(const Symbols& symbols, const std::string& path, const std::string& value);
 
-// Reads a whole file ("-": standard input); false when the system refused, `error` says why.
+// Reads a whole file ("-": standard input); false when the system fails, with the reason in `error`.
 bool readFile(const std::string& path, std::string& content, std::string& error);
 
 }  // namespace rung::host

@@ -17,7 +17,7 @@ std::string escaped(std::string_view text) {
       case '"': to += "&quot;"; break;
       default:
         if (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n')
-          to += '?';  // XML 1.0 has no such character
+          to += '?';  // XML 1.0 does not allow this character
         else
           to += c;
     }
@@ -35,7 +35,7 @@ std::string attribute(const char* name, double seconds) {
   return attribute(name, std::string_view(text));
 }
 
-// `tests/level.st` is the class `tests.level`: its readers take what stands before the last point as the package.
+// `tests/level.st` is the class `tests.level`: readers take the part before the last dot as the package.
 std::string className(const std::string& file) {
   std::string name = file.substr(0, file.find_last_of('.'));
   for (char& c : name)

@@ -1,4 +1,4 @@
-// Test results as JUnit XML, as Jenkins and GitLab read it: a <testsuite> for each file of tests. Called by test.cpp.
+// Test results as JUnit XML for Jenkins and GitLab: a <testsuite> for each file of tests. Called by test.cpp.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// The memory of a module: see memory.h.
 #include "memory.h"
 
 #include <cstring>
@@ -9,7 +10,7 @@ namespace {
 
 uint8_t* allocate(std::vector<std::unique_ptr<uint8_t[]>>& storage, size_t size, size_t align) {
   if (align == 0) align = 1;
-  // Eight bytes more: a 64-bit view at the end of an image stays inside.
+  // Eight more bytes keep a 64-bit view at the end of an image inside.
   storage.push_back(std::make_unique<uint8_t[]>(size + align + 8));
   const uintptr_t address = reinterpret_cast<uintptr_t>(storage.back().get());
   return storage.back().get() + ((address + align - 1) / align * align - address);

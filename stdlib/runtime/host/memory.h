@@ -18,11 +18,11 @@ class Memory {
   rung_context& context() { return context_; }
   uint8_t* block(uint32_t index) const { return blocks_[index]; }
   uint8_t* image(uint32_t area) const { return images_[area]; }
-  // Zeroes everything and runs the module's init; RUNG_FAULT_NONE or what it raised.
+  // Zeroes everything and runs the module's init; RUNG_FAULT_NONE or the fault that it raised.
   uint8_t reset();
-  // Ends all objects (FB_Exit); the same.
+  // Ends all objects (FB_Exit); returns the same.
   uint8_t end();
-  // Outputs to their safe values, after a fault.
+  // Sets outputs to their safe values, after a fault.
   void makeOutputsSafe();
 
  private:
@@ -34,7 +34,7 @@ class Memory {
   uint8_t* images_[3] = {};
 };
 
-// Why a module cannot run here (another ABI or pointer size), or nullptr.
+// The reason why a module cannot run here (another ABI or pointer size), or nullptr.
 const char* refusal(const rung_module& module);
 
 }  // namespace rung::host

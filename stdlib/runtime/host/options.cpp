@@ -12,7 +12,7 @@
 namespace rung::host {
 namespace {
 
-// `T#10ms`, `10ms`, `1.5s`: nanoseconds above 0.
+// Reads `T#10ms`, `10ms`, `1.5s` as nanoseconds, above 0.
 bool readDuration(const std::string& text, int64_t& ns) {
   const std::string literal = text.find('#') == std::string::npos ? "LT#" + text : text;
   return rung_parse(RUNG_LTIME, true, 0, literal.data(), literal.size(), &ns) && ns > 0;
@@ -117,7 +117,7 @@ std::string parseRunOptions(const std::vector<std::string>& arguments, RunOption
 }
 
 int applicationMain(const rung_module& module, int argc, char** argv) {
-  signal(SIGXFSZ, SIG_IGN);  // a limit for files is an error of the write, as a full disk is
+  signal(SIGXFSZ, SIG_IGN);  // makes exceeding a file size limit a write error, like a full disk
   catchCrashes();
   RunOptions options;
   std::vector<std::string> rest;

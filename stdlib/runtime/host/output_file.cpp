@@ -1,3 +1,4 @@
+// Output files that appear whole or not at all: see output_file.h.
 #include "output_file.h"
 
 #include <sys/stat.h>
@@ -9,7 +10,7 @@
 namespace rung::host {
 namespace {
 
-constexpr size_t kMax = 4;         // unfinished files at a time
+constexpr size_t kMax = 4;         // unfinished files at the same time
 constexpr size_t kLongest = 4096;  // characters of a path
 char unfinished[kMax][kLongest];   // read by the handler
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};

@@ -1,6 +1,6 @@
-// A file that appears whole or not at all: written beside its place and renamed at the end. An unfinished one goes when
-// the object goes and when a signal ends the process, also in an endless loop of the program. Used by traces, plots and
-// test results.
+// A file that appears whole or not at all: written beside its final path and renamed at the end. An unfinished file is
+// removed by the destructor, and when a signal ends the process, also in an endless loop of the program. Used by
+// traces, plots and test results.
 #pragma once
 
 #include <cstdio>
@@ -15,10 +15,10 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  // "-" is standard output; devices and pipes are written directly. False: `error` says what is wrong.
+  // "-" is standard output; devices and pipes are written directly. False: `error` has the message.
   bool open(const std::string& path, std::string& error);
   bool isOpen() const { return file_ != nullptr; }
-  // What the system refuses shows at close().
+  // Errors of the system show at close().
   void write(const std::string& text);
   bool close(std::string& error);
 

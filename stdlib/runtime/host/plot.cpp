@@ -1,3 +1,4 @@
+// The trace as an SVG: see plot.h.
 #include "plot.h"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ std::string escapedForSvg(std::string_view text) {
   return out;
 }
 
-// Tenths of a pixel are enough.
+// Tenths of a pixel are precise enough.
 std::string pixels(double value) {
   char text[32];
   snprintf(text, sizeof text, "%.1f", value);
@@ -104,7 +105,7 @@ void Plot::row() {
   }
 }
 
-// Twice as many rows in half as many columns.
+// Merges pairs of columns, so each represents twice as many rows.
 void Plot::halve() {
   for (Lane& lane : lanes_) {
     for (size_t i = 0; i + 1 < lane.columns.size(); i += 2) {

@@ -1,5 +1,5 @@
 // The trace as a picture (--plot): an SVG with a lane per variable over the time. In: the rows of a run. Out: a file of
-// bounded size, however long the run: a column of it holds the lowest and highest value of its rows.
+// bounded size, however long the run: each column keeps the lowest and highest value of its rows.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace rung::host {
 class Plot {
  public:
   explicit Plot(const rung_module& module) : module_(module) {}
-  // Takes the numbers, times, enumerations and BOOLs among the variables. False: `error` says what is wrong.
+  // Takes the numbers, times, enumerations and BOOLs among the variables. False: `error` has the message.
   bool open(const std::string& path, const std::vector<Variable>& variables, std::string& error);
   void row();
   bool close(int64_t row_ns, std::string& error);

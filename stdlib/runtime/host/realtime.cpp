@@ -1,3 +1,4 @@
+// Tasks as threads in real time: see realtime.h.
 #include "realtime.h"
 
 #include <pthread.h>
@@ -33,7 +34,7 @@ void sleepUntil(int64_t ns) {
 
 struct Worker {
   const Schedule::Item* item;
-  rung_context context;  // the shared memory, an own time and fault
+  rung_context context;  // shares the memory, has its own time and fault
   bool makes_rows = false;
   std::atomic<int64_t> running_since{0};  // 0: idle
   int64_t activations = 0, skipped = 0, overruns_in_a_row = 0;
@@ -50,9 +51,9 @@ struct Shared {
   const std::function<void(int64_t)>*before, *after;
 };
 
-std::atomic<Shared*> running_host{nullptr};  // for what has only the program's context
+std::atomic<Shared*> running_host{nullptr};  // for callbacks that only have the program's context
 
-// Called by a task that waits for a MUTEX or SEMA. Sleeps, so that a task of lower priority may run.
+// Called by a task that waits for a MUTEX or SEMA. Sleeps, so a task of lower priority may run.
 int waitForOthers(void*) {
   constexpr int64_t kMoment = 50'000;
   const Shared* const shared = running_host.load();
@@ -61,7 +62,7 @@ int waitForOthers(void*) {
   return 1;
 }
 
-// Priority 0 is the highest of 32; SCHED_FIFO needs a right that the user may not have, and then is not used.
+// Priority 0 is the highest of 32; without the right to use SCHED_FIFO nothing changes.
 void raisePriority(uint32_t priority) {
   sched_param parameters{};
   parameters.sched_priority = std::max(1, 80 - 2 * static_cast<int>(std::min(priority, 31u)));
@@ -80,7 +81,7 @@ bool activate(Shared& shared, Worker& worker, int64_t now_ns) {
   const int64_t took = monotonicNs() - begin;
   worker.longest_run_ns = std::max(worker.longest_run_ns, took);
   ++worker.activations;
-  if (fault == RUNG_FAULT_LOCK && shared.stop.load()) return false;  // it waited when the run ended
+  if (fault == RUNG_FAULT_LOCK && shared.stop.load()) return false;  // it was waiting when the run ended
   if (fault != RUNG_FAULT_NONE) {
     const std::lock_guard<std::mutex> lock(shared.mutex);
     if (!shared.result.faulted) shared.result.fault = worker.context.fault;
@@ -88,7 +89,7 @@ bool activate(Shared& shared, Worker& worker, int64_t now_ns) {
     shared.stop.store(true);
     return false;
   }
-  // Too long `sensitivity` times in a row stops the run; the caller's thread sees tasks that never end.
+  // Too long `sensitivity` times in a row stops the run; tasks that never end are noticed by the caller's thread.
   const int64_t limit = worker.item->task->watchdog_ns;
   worker.overruns_in_a_row = limit > 0 && took > limit ? worker.overruns_in_a_row + 1 : 0;
   if (limit > 0 && worker.overruns_in_a_row >= std::max<int64_t>(1, worker.item->task->sensitivity)) {
@@ -115,7 +116,7 @@ void runCyclic(Shared& shared, Worker& worker) {
       shared.rows_done.store(n + 1);
       if (shared.rows >= 0 && n + 1 >= shared.rows) shared.stop.store(true);
     } else {
-      // A missed start is skipped and counted; the task that makes rows catches up instead, so that no row is lost.
+      // A missed start is skipped and counted; the task that makes rows catches up instead, so no row is lost.
       const int64_t missed = (monotonicNs() - deadline) / interval;
       if (missed > 0) {
         worker.skipped += missed;
@@ -220,7 +221,7 @@ RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t ro
   for (const std::unique_ptr<Worker>& worker : workers) {
     if (!worker->thread.joinable()) continue;
     if (hung && worker->running_since.load() != 0)
-      worker->thread.detach();  // never ends; the process will
+      worker->thread.detach();  // the task never ends; the process will
     else
       worker->thread.join();
   }

@@ -1,5 +1,5 @@
 // Real time: a thread per task with absolute deadlines, SCHED_FIFO where the system permits, watchdogs, and statistics
-// of periods. In: a schedule and the hooks of a row. Out: what ended the run. Stops at a signal (SIGINT, SIGTERM).
+// of periods. In: a schedule and the hooks of a row. Out: why the run ended. Stops at a signal (SIGINT, SIGTERM).
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@ struct RealtimeResult {
 };
 
 // `before(row)` and `after(row)` run in the thread of the fastest cyclic task, around its activation. `rows` < 0: until
-// a signal comes. `idle` runs about once a second in the caller's thread.
+// a signal arrives. `idle` runs about once a second in the caller's thread.
 RealtimeResult runRealtime(Schedule& schedule, rung_context& context, int64_t rows,
                            const std::function<void(int64_t)>& before, const std::function<void(int64_t)>& after,
                            const std::function<void()>& idle);

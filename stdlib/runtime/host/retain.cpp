@@ -1,6 +1,7 @@
-// Slot: magic, sequence, layout hash, length, CRC of all that and of the payload, then the payload: the bytes of the
-// retain ranges, of the persistent ranges, and a directory of their variables (`path TAB kind TAB offset TAB size`).
-// Both slots have the same size, a multiple of 4096, so that they share no sector.
+// Retained variables: see retain.h. A slot has magic, sequence, layout hash, length, and the CRC of all that and of the
+// payload; then the payload: the bytes of the retain ranges, of the persistent ranges, and a directory of their
+// variables (`path TAB kind TAB offset TAB size`). Both slots have the same size, a multiple of 4096, and so share no
+// sector.
 #include "retain.h"
 
 #include <fcntl.h>
@@ -157,7 +158,7 @@ bool Retain::restore(rung_start start, const Symbols& symbols, std::string& erro
   if (!open(error)) return false;
   Slot slots[2];
   const bool ok[2] = {readSlot(0, slots[0]), readSlot(1, slots[1])};
-  if (!ok[0] && !ok[1]) return true;  // nothing whole in it: initial values
+  if (!ok[0] && !ok[1]) return true;  // neither slot is complete: initial values
   const Slot& slot = ok[1] && (!ok[0] || slots[1].sequence > slots[0].sequence) ? slots[1] : slots[0];
   sequence_ = slot.sequence;
   if (start == RUNG_ORIGIN) return true;
@@ -244,7 +245,7 @@ bool Retain::save(const Symbols& symbols, std::string& error) {
   if (fstat(file_, &status) != 0) return error = path_ + ": " + strerror(errno), false;
   bool ok = true;
   if (static_cast<uint64_t>(status.st_size) != 2 * header.slot_bytes) {
-    // Another size of state: a new file beside it takes the place of the old one, whole.
+    // The size of the state has changed: a new file replaces the old one as a whole.
     const std::string next = path_ + ".new";
     const int file = ::open(next.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0) return error = next + ": " + strerror(errno), false;

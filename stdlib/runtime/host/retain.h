@@ -1,5 +1,5 @@
 // Retained and persistent variables in a file (--retain). The file has two slots, each with sequence number, layout
-// hash, length and CRC-32. A save writes the older slot and syncs it before it returns, so that a power cut at any
+// hash, length and CRC-32. A save writes the older slot and syncs it before it returns, so a power failure at any
 // instruction leaves the old or the new state, whole. In: the ranges of the module. Out: memory restored.
 #pragma once
 
@@ -19,10 +19,10 @@ class Retain {
   Retain& operator=(const Retain&) = delete;
 
   bool exists() const;
-  // Restores after init: warm what is retained and persistent, cold what is persistent, origin nothing. A file of
-  // another layout restores what has the same path and type. False: `error` says what the system refused.
+  // Restores after init: a warm start keeps retained and persistent variables, a cold start persistent ones, origin
+  // none. From a file of another layout, variables with the same path and type are restored. False: `error` is set.
   bool restore(rung_start start, const Symbols& symbols, std::string& error);
-  // Writes the present values.
+  // Writes the current values.
   bool save(const Symbols& symbols, std::string& error);
 
  private:

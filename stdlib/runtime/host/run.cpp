@@ -1,4 +1,4 @@
-// `rung run` and executables of `rung build`: a module in virtual or real time (design §11). See rung/host.h.
+// `rung run` and executables of `rung build`: runs a module in virtual or real time. See rung/host.h.
 #include <unistd.h>
 #include <algorithm>
 #include <cstdio>
@@ -91,7 +91,7 @@ struct Run {
   Files files;
   std::optional<Retain> retain;
   rung_host host{};
-  std::vector<std::string> reported;  // places of violated assertions
+  std::vector<std::string> reported;  // locations of violated assertions
   std::mutex reported_mutex;          // tasks in real time are threads
   int64_t cycles = 0;
   int64_t rows_done = 0;
@@ -107,7 +107,7 @@ void onMessage(void* data, uint8_t severity, const char* text) {
 }
 void onCall(void* data, const char* pou, const void* instance) { static_cast<Run*>(data)->calls.called(pou, instance); }
 
-// A violated ASSERT outside of tests is told once for each place; the program goes on.
+// A violated ASSERT outside of tests is reported once per location; the program continues.
 void onAssertion(void* data, const rung_assertion* assertion, bool passed, const char* expected, const char* actual) {
   if (passed) return;
   Run& run = *static_cast<Run*>(data);
@@ -123,7 +123,7 @@ void onAssertion(void* data, const rung_assertion* assertion, bool passed, const
 int Run::prepare() {
   std::string error;
   if (!schedule.prepare(error)) return refuse(error);
-  // Everything that the user wrote is checked before anything runs or is written.
+  // All input of the user is checked before anything runs or is written.
   if (!options.inputs_path.empty() && !inputs.load(options.inputs_path, error)) return refuse(error);
   if (!trace.choose(options.watch, error)) return refuse("--watch: " + error);
   if (!options.stop_on.empty() && !stop_on.parse(options.stop_on, error)) return refuse("--stop-on: " + error);
@@ -235,7 +235,7 @@ int Run::runInRealTime() {
     fflush(stdout);
     fprintf(stderr, "fault[watchdog]: task `%s` ran longer than its watchdog allows\n", result.watchdog.c_str());
     fflush(stderr);
-    _exit(kFaulted);  // a thread may hang in the program
+    _exit(kFaulted);  // a thread may still be inside the program
   }
   return finish(result.faulted, result.fault, result.statistics);
 }

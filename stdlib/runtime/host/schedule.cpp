@@ -1,3 +1,4 @@
+// Tasks in virtual time: see schedule.h.
 #include "schedule.h"
 
 #include <algorithm>
@@ -49,7 +50,7 @@ uint8_t Schedule::run(int64_t row, rung_context& context) {
     Item& item = items_[i];
     switch (static_cast<rung_task_kind>(item.task->kind)) {
       case RUNG_CYCLIC:
-        // Not faster than a row, so once at most.
+        // The period is at least a row, so at most once.
         if (item.next_ns >= end) break;
         due_.push_back({item.next_ns, item.task->priority, i});
         item.next_ns += item.interval_ns;
@@ -64,7 +65,7 @@ uint8_t Schedule::run(int64_t row, rung_context& context) {
       case RUNG_STATUS:
         if (readBool(item.trigger)) due_.push_back({begin, item.task->priority, i});
         break;
-      case RUNG_EXTERNAL: break;  // nothing outside happens in virtual time
+      case RUNG_EXTERNAL: break;  // virtual time has no external events
     }
   }
   if (due_.size() > 1)

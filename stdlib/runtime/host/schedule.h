@@ -1,5 +1,5 @@
-// Virtual time (design §11): which tasks run in a row, in which order, and at which time. A row is one period of the
-// fastest cyclic task. In: the tasks of a module. Out: each activation run; faults stop the row.
+// Virtual time: which tasks run in a row, in which order, and at which time. A row is one period of the fastest cyclic
+// task. In: the tasks of a module. Out: each activation run; faults stop the row.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@ namespace rung::host {
 
 class Schedule {
  public:
-  // `interval_ns` is the period of cyclic tasks without one, and the row where there is no cyclic task at all.
+  // `interval_ns` is the period of cyclic tasks without one, and of a row when there is no cyclic task.
   Schedule(const Symbols& symbols, int64_t interval_ns);
-  // False: a trigger that is no BOOL, in `error`.
+  // False: a trigger is not a BOOL; `error` has the message.
   bool prepare(std::string& error);
   int64_t rowNs() const { return row_ns_; }
-  // Runs all activations of row k. RUNG_FAULT_NONE, or the fault that stopped it.
+  // Runs all activations of row k. Returns RUNG_FAULT_NONE, or the fault that stopped it.
   uint8_t run(int64_t row, rung_context& context);
 
   struct Item {

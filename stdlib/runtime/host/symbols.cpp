@@ -1,3 +1,4 @@
+// Paths of variables: see symbols.h.
 #include "symbols.h"
 
 #include <algorithm>
@@ -93,7 +94,7 @@ Symbols::Symbols(const rung_module& module, const Memory& memory) : module_(modu
     const std::string name = lowerCase(text(module.symbols[i].name));
     if (name.empty()) continue;
     roots_.emplace(name, i);
-    // `Config.Resource.` may stand before it, and `Resource.` alone.
+    // `Config.Resource.` may precede it, or `Resource.` alone.
     const std::string prefix = lowerCase(text(module.symbols[i].path));
     for (size_t begin = 0; begin < prefix.size();) {
       roots_.emplace(prefix.substr(begin) + name, i);
@@ -172,7 +173,7 @@ bool Symbols::findAddress(std::string_view path, Variable& variable, std::string
   return true;
 }
 
-// A field of a record, its own or inherited. False: `names` has those that there are.
+// A field of a record, its own or inherited. False: `names` lists the existing ones.
 bool Symbols::enter(Variable& variable, std::string_view name, std::vector<std::string_view>& names) const {
   const rung_type& type = *variable.type;
   const rung_field* base = nullptr;
@@ -278,7 +279,7 @@ bool Symbols::find(std::string_view path, Variable& variable, std::string& error
   while (!path.empty() && path.back() == ' ') path.remove_suffix(1);
   if (path.empty()) return error = "expected the path of a variable", false;
 
-  // The longest root that ends where a name ends.
+  // The longest root that ends at the end of a name.
   const std::string lower = lowerCase(path);
   size_t root_length = 0;
   for (size_t i = 1; i <= lower.size(); ++i) {
@@ -353,7 +354,7 @@ std::vector<Variable> Symbols::ofPrograms() const {
   for (uint32_t i = 0; i < module_.symbol_count; ++i) {
     if (!module_.symbols[i].is_program) continue;
     expand(root(i), all);
-    // Its located variables are roots of their own: `Main.valve`.
+    // Its located variables are separate roots: `Main.valve`.
     const std::string prefix = std::string(text(module_.symbols[i].name)) + '.';
     for (uint32_t j = 0; j < module_.symbol_count; ++j)
       if (strncmp(text(module_.symbols[j].name), prefix.c_str(), prefix.size()) == 0 && !module_.symbols[j].is_program)

@@ -1,5 +1,5 @@
-// Paths of variables, `Instance.var[1,2].field` (design §11). In: the module's symbol tables and its memory. Out:
-// variables that can be read, printed and set. Used by inputs, traces, --set, tasks' triggers and retain files.
+// Paths of variables, `Instance.var[1,2].field`. In: the module's symbol tables and its memory. Out:
+// variables that can be read, printed and set. Used by inputs, traces, --set, task triggers and retain files.
 #pragma once
 
 #include <string>
@@ -18,15 +18,15 @@ struct Variable {
   uint32_t offset = 0;
   uint32_t flags = 0;          // rung_field_flags of the last field
   uint8_t bit = 255;           // BOOL inside an image or integer: 0..7, else 255
-  std::vector<uint32_t> hops;  // each: follow the pointer that stands there, then this far
+  std::vector<uint32_t> hops;  // each: follow the pointer stored there, then add this offset
 
   void setFlags(uint32_t of_field) {
     flags = of_field;
     if ((flags & RUNG_FIELD_BIT) != 0) bit = static_cast<uint8_t>((flags >> RUNG_FIELD_BIT_SHIFT & 15) - 1);
   }
-  // The offset that a further field or element moves.
+  // The offset that a further field or element changes.
   uint32_t& lastOffset() { return hops.empty() ? offset : hops.back(); }
-  // nullptr when a pointer on the way is null.
+  // nullptr when a pointer on the path is null.
   uint8_t* address() const {
     uint8_t* at = base + offset;
     for (const uint32_t hop : hops) {
@@ -42,11 +42,11 @@ class Symbols {
  public:
   Symbols(const rung_module& module, const Memory& memory);
 
-  // True, or false with what is wrong in `error` ("did you mean" included).
+  // False: `error` has the message ("did you mean" included).
   bool find(std::string_view path, Variable& variable, std::string& error) const;
-  // The elementary variables, enumerations and pointers that `variable` holds, in order of declaration.
+  // The elementary variables, enumerations and pointers inside `variable`, in order of declaration.
   void expand(const Variable& variable, std::vector<Variable>& to) const;
-  // All elementary variables of all program instances; in-outs, pointers and constants are passed over.
+  // All elementary variables of all program instances, without in-outs, pointers and constants.
   std::vector<Variable> ofPrograms() const;
   // Every root, whole.
   std::vector<Variable> roots() const;
@@ -67,9 +67,9 @@ class Symbols {
 
 // "; did you mean `x`?" for the candidate nearest to `written`, or empty.
 std::string didYouMean(std::string_view written, const std::vector<std::string_view>& candidates);
-std::string backquoted(std::string_view text);  // `text`, as messages have it
+std::string backquoted(std::string_view text);  // `text` in backquotes, as messages quote it
 std::string lowerCase(std::string_view text);
-// Splits at commas outside brackets and quotes; blanks around the parts go.
+// Splits at commas outside of brackets and quotes, and trims blanks around the parts.
 std::vector<std::string> splitList(std::string_view list);
 
 }  // namespace rung::host

@@ -1,5 +1,5 @@
-// `rung test`: runs the tests of a module, each from fresh memory in virtual time, and reports (design §11). A failing
-// assertion or a fault fails its test and no other. See rung/host.h.
+// `rung test`: runs the tests of a module, each from fresh memory in virtual time, and reports. A failing assertion or
+// a fault fails its test only. See rung/host.h.
 #include <fnmatch.h>
 #include <unistd.h>
 #include <chrono>
@@ -37,13 +37,13 @@ int64_t testClock(void* data) { return static_cast<Case*>(data)->context->now_ns
 
 bool isOfName(char c) { return c == '_' || (c >= '0' && c <= '9') || ((c | 32) >= 'a' && (c | 32) <= 'z'); }
 
-// The line of the program with the assertion's name marked, as diagnostics show it.
+// The source line with the assertion's name underlined, as diagnostics show it.
 std::string excerpt(const rung_assertion& assertion) {
   const std::string number = std::to_string(assertion.line);
   std::string underline;
   const char* at = assertion.source;
   for (uint32_t column = 1; column < assertion.column && *at != 0; ++column) {
-    underline += *at == '\t' ? '\t' : ' ';  // kept, so that the mark stands right whatever a tab is worth
+    underline += *at == '\t' ? '\t' : ' ';  // kept, so that the underline is aligned for any tab width
     do ++at;
     while ((*at & 0xc0) == 0x80);
   }
@@ -81,7 +81,7 @@ void runCycles(const rung_module& module, const rung_test& test, Memory& memory,
                                       ": `done` is still FALSE after " + std::to_string(kMaxCycles) + " cycles");
 }
 
-// The memory as a program finds it, the test, and the ends of all objects (FB_Exit), after a fault too.
+// Sets up the memory as for a program, runs the test, and ends all objects (FB_Exit), after a fault too.
 void runCase(const rung_module& module, const rung_test& test, Memory& memory, Case& result,
              const std::function<void()>& onCycle) {
   rung_context& context = memory.context();

@@ -1,3 +1,4 @@
+// The trace as CSV: see trace.h.
 #include "trace.h"
 
 #include "csv.h"
@@ -22,7 +23,7 @@ bool Trace::choose(const std::string& watch, std::string& error) {
   for (const std::string& path : splitList(watch)) {
     Variable variable;
     if (!symbols_.find(path, variable, error)) return false;
-    variable.path = path;  // columns are named as the user wrote them
+    variable.path = path;  // the header shows names as the user wrote them
     if (variable.type->kind == RUNG_POINTER)
       variables_.push_back(variable);
     else

@@ -1,5 +1,5 @@
-// The trace of a run (design §11): CSV rows after each cycle, or the last row as `path = value` lines. In: the watched
-// variables. Out: a file that appears whole or not at all, or standard output.
+// The trace of a run: CSV rows after each cycle, or the last row as `path = value` lines. In: the watched variables.
+// Out: a file that appears whole or not at all, or standard output.
 #pragma once
 
 #include <string>
@@ -14,14 +14,14 @@ class Trace {
  public:
   explicit Trace(const Symbols& symbols) : symbols_(symbols) {}
 
-  // `watch`: the list of --watch, or empty for all variables of all programs. False: `error` says what is wrong.
+  // `watch`: the list of --watch, or empty for all variables of all programs. False: `error` has the message.
   bool choose(const std::string& watch, std::string& error);
   // `path`: --trace, "-" for standard output, empty for none.
   bool open(const std::string& path, std::string& error);
   void row(int64_t cycle, int64_t time_ns);
-  // Writes what is left and puts the file into place.
+  // Writes the rest and renames the file to its final path.
   bool close(std::string& error);
-  // `path = value` lines of the variables now.
+  // The current values as `path = value` lines.
   std::string lastRow() const;
   const std::vector<Variable>& variables() const { return variables_; }
 

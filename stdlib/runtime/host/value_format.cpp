@@ -1,3 +1,4 @@
+// Formatting and parsing of variables: see value_format.h.
 #include "value_format.h"
 
 #include <cstring>

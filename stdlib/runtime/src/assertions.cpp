@@ -1,5 +1,5 @@
-// ASSERT, ASSERT_EQ and ASSERT_NEAR of tests (rung/code.h): compares, spells the values of what failed as the trace
-// does, and reports to the host's `assertion` callback. A failing assertion does not end the test.
+// ASSERT, ASSERT_EQ and ASSERT_NEAR of tests (rung/code.h): compares, formats the values of a failure like the trace,
+// and reports to the host's `assertion` callback. A failing assertion does not end the test.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -14,7 +14,7 @@ void report(rung_context* ctx, const rung_assertion* assertion, bool passed, con
     ctx->host->assertion(ctx->host_data, assertion, passed, expected, actual);
 }
 
-// Room for texts of the functions' 255 characters, each as `$hhhh`.
+// Room for the functions' strings of 255 characters, each as `$hhhh`.
 constexpr uint32_t kRoom = 5 * 255 + 2;
 struct Formatted {
   char text[kRoom + 1];
@@ -27,7 +27,7 @@ const Char* stringAt(uint64_t bits) {
 
 bool isReal(uint8_t kind) { return kind == RUNG_REAL || kind == RUNG_LREAL; }
 
-// `Red`, or the number when no item has it.
+// `Red`, or the number when it is not an item.
 void formatItem(const char* items, uint64_t bits, Formatted& out) {
   rung_format(RUNG_LINT, true, &bits, out.text, kRoom);
   while (items != nullptr && *items != 0) {

@@ -11,7 +11,7 @@ uint8_t rung_guarded(rung_context* ctx, void (*run)(rung_context*)) {
   void* const outer = ctx->fault_target;
   ctx->fault_target = &target;
   ctx->fault.kind = RUNG_FAULT_NONE;
-  // No local changes after setjmp, so all of them are still valid after longjmp.
+  // Locals do not change after setjmp, so they are all still valid after longjmp.
   if (setjmp(target) == 0) {
     run(ctx);
     ctx->fault_target = outer;
@@ -25,7 +25,7 @@ void rung_raise(rung_context* ctx, uint8_t kind, uint32_t site, int64_t value) {
   ctx->fault.kind = kind;
   ctx->fault.site = site;
   ctx->fault.value = value;
-  if (ctx->fault_target == nullptr) abort();  // the host called generated code without a guard: its bug
+  if (ctx->fault_target == nullptr) abort();  // the host called generated code without a guard: a bug of the host
   longjmp(*static_cast<jmp_buf*>(ctx->fault_target), 1);
 }
 

@@ -1,5 +1,5 @@
 // STRING, WSTRING and USTRING in place (rung/code.h): assignment, comparison, conversion between them and to scalars.
-// In: NUL-terminated texts. Out: texts of at most `capacity` characters. `to` may overlap `from`.
+// In: NUL-terminated strings. Out: strings of at most `capacity` characters. `to` may overlap `from`.
 #include <charconv>
 #include <cstdint>
 #include <cstring>
@@ -9,11 +9,11 @@
 
 namespace {
 
-// Text of a scalar that TO_STRING spells; enough for every elementary type.
+// Room for a scalar formatted by TO_STRING; enough for every elementary type.
 constexpr uint32_t kScalarRoom = RUNG_FORMATTED_SCALAR;
 
-// The digits of a number below 10000 in the bytes of a word, the first in the lowest: divided by 100, then both halves
-// by 10.
+// The digits of a number below 10000 in the bytes of a 32-bit word, the first in the lowest byte: divided by 100, then
+// both halves by 10.
 uint32_t fourDigits(uint32_t number) {
   const uint32_t hundreds = number * 5243 >> 19;
   const uint32_t halves = hundreds | (number - hundreds * 100) << 16;
@@ -39,13 +39,13 @@ uint32_t formatScalar(uint8_t kind, uint64_t bits, char* out) {
     const float value = static_cast<float>(rung_f64_of(bits));
     return rung_format(kind, false, &value, out, kScalarRoom);
   }
-  // Sign-extended where the type is signed, so the sign of 64 bits is the sign of the value.
+  // `bits` is sign-extended when the type is signed, so the sign of 64 bits is the sign of the value.
   return rung_format(kind, static_cast<int64_t>(bits) < 0, &bits, out, kScalarRoom);
 }
 
 bool isSurrogate(uint32_t code) { return code >= 0xd800 && code < 0xe000; }
 
-// UTF-8 of a code point: how many bytes; '?' for what is none.
+// UTF-8 of a code point, returns the number of bytes; '?' for an invalid one.
 uint32_t encode(uint32_t code, char (&bytes)[4]) {
   if (code >= 0x110000 || isSurrogate(code)) code = '?';
   uint32_t count = 0;
@@ -64,12 +64,12 @@ uint32_t encode(uint32_t code, char (&bytes)[4]) {
   return count;
 }
 
-// The bytes of the character that begins with `lead`; 1 where none does.
+// The bytes of the character that begins with `lead`; 1 when it begins none.
 uint32_t bytesOf(unsigned char lead) {
   return lead >= 0xf0 && lead < 0xf5 ? 4 : lead >= 0xe0 && lead < 0xf0 ? 3 : lead >= 0xc2 && lead < 0xe0 ? 2 : 1;
 }
 
-// The code point at `at`, which moves behind it; '?' where the bytes are none.
+// The code point at `at`, which advances past it; '?' for invalid bytes.
 uint32_t decode(const unsigned char*& at) {
   const uint32_t lead = *at++;
   if (lead < 0x80) return lead;
@@ -116,7 +116,7 @@ T readLeadingReal(const char* string) {
   if (*string == '-' || *string == '+') return 0;
   const std::from_chars_result read = std::from_chars(string, string + strlen(string), value);
   if (read.ec == std::errc::result_out_of_range) {
-    // Too large or too small: the exponent's sign tells.
+    // Too large or too small: the sign of the exponent decides.
     for (const char* p = string; p != read.ptr; ++p)
       if ((*p == 'e' || *p == 'E') && p[1] == '-') return 0;
     value = static_cast<T>(__builtin_inf());
@@ -218,7 +218,7 @@ int64_t rung_ustring_offset(const char* string, int64_t count) {
     ++offset;
     while ((static_cast<unsigned char>(string[offset]) & 0xc0) == 0x80) ++offset;
   }
-  return offset + count;  // a negative count stays one
+  return offset + count;  // a negative count stays negative
 }
 
 uint32_t rung_ustring_code(const char* string) {
@@ -236,7 +236,7 @@ uint32_t rung_ustring_of_code(char* to, uint32_t capacity, uint32_t code) {
 }
 
 uint32_t rung_ustring_of_string(char* to, uint32_t capacity, const char* from) {
-  // A '?' is no longer than the bytes that it stands for, so `to` may be `from`.
+  // A '?' is no longer than the bytes that it replaces, so `to` may be `from`.
   uint32_t length = 0;
   const unsigned char* at = reinterpret_cast<const unsigned char*>(from);
   while (*at != 0) {
@@ -253,12 +253,13 @@ uint32_t rung_ustring_of_string(char* to, uint32_t capacity, const char* from) {
 uint32_t rung_string_of_integer(char* to, uint32_t capacity, bool negative, uint64_t magnitude) {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
   if (magnitude < 1000000 && capacity >= 7) {
-    // All digits at once; then the zeros in front go, zeros come in behind, and one store is text and NUL.
+    // All digits at once; then leading zeros are shifted out, zeros come in at the end, and one store writes digits and
+    // NUL.
     const auto number = static_cast<uint32_t>(magnitude);
     const bool is_short = number < 10000;
     const uint64_t digits =
         is_short ? fourDigits(number) : fourDigits(number / 10000) | uint64_t{fourDigits(number % 10000)} << 32;
-    const uint32_t last = is_short ? 24 : 56;  // the bit where the last digit begins, which may be a zero
+    const uint32_t last = is_short ? 24 : 56;  // the bit where the last digit begins; that digit may be a zero
     const uint32_t zeros = static_cast<uint32_t>(__builtin_ctzll(digits | uint64_t{1} << last)) & ~7u;
     uint64_t word = (digits | uint64_t{0x3030303030303030} >> (56 - last)) >> zeros;
     if (negative) word = word << 8 | '-';

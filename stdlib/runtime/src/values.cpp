@@ -1,5 +1,5 @@
-// Values as text, see rung/values.h. Dates count from 1970-01-01 in the Gregorian calendar: DATE and DT in 32-bit
-// seconds, TOD in 32-bit milliseconds since midnight, the L-forms in 64-bit nanoseconds.
+// Formats and parses values, see rung/values.h. Dates count from 1970-01-01 in the Gregorian calendar: DATE and DT in
+// 32-bit seconds, TOD in 32-bit milliseconds since midnight, the L-forms in 64-bit nanoseconds.
 #include "rung/values.h"
 
 #include "rung/code.h"
@@ -14,7 +14,7 @@ namespace {
 constexpr uint64_t kNsPerMs = 1'000'000, kNsPerSecond = 1'000'000'000;
 constexpr uint64_t kSecondsPerDay = 86'400, kNsPerDay = kSecondsPerDay * kNsPerSecond;
 
-// ---- spelling
+// ---- formatting
 
 class Writer {
  public:
@@ -126,7 +126,7 @@ void formatDate(Writer& to, int64_t days) {
   to.number(civil.day, 2);
 }
 
-// hh:mm:ss, then the fraction without trailing zeros where there is one.
+// hh:mm:ss, and the fraction, unless zero, without trailing zeros.
 void formatClock(Writer& to, uint64_t ns) {
   to.number(ns / (3600 * kNsPerSecond), 2);
   to.put(':');
@@ -141,7 +141,7 @@ void formatClock(Writer& to, uint64_t ns) {
   to.number(fraction, digits);
 }
 
-// One character of a text between `quote`s; `code` below 0x80.
+// One character of a string between `quote`s; `code` below 0x80.
 void formatAscii(Writer& to, uint32_t code, char quote, int hex_digits) {
   switch (code) {
     case '$': return to.put("$$");
@@ -215,7 +215,7 @@ void formatWString(Writer& to, const char16_t* text) {
   to.put('"');
 }
 
-// ---- reading
+// ---- parsing
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
 
@@ -229,7 +229,7 @@ struct Reader {
     ++at;
     return true;
   }
-  // A word in any case, whole or not at all.
+  // Takes a word in any case, whole or not at all.
   bool take(const char* word) {
     const char* p = at;
     for (; *word != 0; ++word, ++p)
@@ -259,7 +259,7 @@ struct Reader {
 const char* const kTypeNames[] = {"bool", "byte",  "word", "dword", "lword", "sint", "int",  "dint",
                                   "lint", "usint", "uint", "udint", "ulint", "real", "lreal"};
 
-// `INT#` before a number: any elementary type's name, the value must fit anyway.
+// Skips `INT#` before a number: the name of any elementary type, since the value must fit anyway.
 void skipTypePrefix(Reader& from) {
   for (const char* name : kTypeNames) {
     Reader ahead = from;
@@ -446,8 +446,8 @@ bool readDate(uint8_t kind, Reader from, uint64_t& ns) {
   return from.done();
 }
 
-// The next character of a quoted text: a code unit of `hex_digits` digits or a code point in braces, or false at the
-// closing quote. `bad` when an escape is none.
+// The next character of a quoted string: a code unit of `hex_digits` digits or a code point in braces; false at the
+// closing quote. `bad` is set for an invalid escape.
 bool readEscaped(Reader& from, char quote, int hex_digits, uint32_t& code, bool& bad) {
   if (from.done() || *from.at == quote) return false;
   if (*from.at != '$') {
@@ -486,7 +486,7 @@ bool readEscaped(Reader& from, char quote, int hex_digits, uint32_t& code, bool&
   return !bad;
 }
 
-// Reads `'...'`; with `to` null only checks. `length` characters at most are stored, then NUL.
+// Reads `'...'`; with `to` null only checks. At most `length` characters are stored, then NUL.
 bool readString(Reader from, uint32_t length, char* to) {
   if (!from.take("string#")) from.take("ustring#");
   if (!from.take('\'')) return false;
@@ -513,7 +513,7 @@ bool readWString(Reader from, uint32_t length, char16_t* to) {
   bool bad = false;
   for (;;) {
     const unsigned char* at = reinterpret_cast<const unsigned char*>(from.at);
-    // The closing quote is ASCII, so a sequence never reads past it; a cut one ends at `end`.
+    // The closing quote is ASCII, so a sequence never reads past it; an incomplete one ends at `end`.
     if (!from.done() && *at >= 0x80) {
       unsigned char sequence[5] = {0, 0, 0, 0, 0};
       for (int i = 0; i < 4 && from.at + i != from.end; ++i) sequence[i] = at[i];
@@ -531,7 +531,7 @@ bool readWString(Reader from, uint32_t length, char16_t* to) {
         to[n++] = static_cast<char16_t>(0xd800 + ((code - 0x10000) >> 10));
         to[n++] = static_cast<char16_t>(0xdc00 + ((code - 0x10000) & 0x3ff));
       } else {
-        length = n;  // no half of a pair
+        length = n;  // never half of a pair
       }
     } else if (n < length) {
       to[n++] = static_cast<char16_t>(code);
@@ -632,7 +632,7 @@ uint32_t rung_format(uint8_t kind, bool is_signed, const void* value, char* out,
     case RUNG_ENUM:
     case RUNG_ARRAY:
     case RUNG_RECORD:
-    case RUNG_POINTER: break;  // the host's: they need the module's tables
+    case RUNG_POINTER: break;  // parsed by the host: they need the module's tables
   }
   return to.finish();
 }

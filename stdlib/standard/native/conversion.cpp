@@ -1,4 +1,4 @@
-// Native bodies of conversion.st: values to and from text, BCD, byte order.
+// Native bodies of conversion.st: values to and from strings, BCD, byte order.
 #include <cstring>
 #include <type_traits>
 
@@ -35,8 +35,8 @@ uint32_t stringOfInteger(T value, char* out, uint32_t capacity) {
   return rung_string_of_integer(out, capacity, negative, negative ? 0 - bits : bits);
 }
 
-// TIME is signed where the module says so; the C type is unsigned in any dialect.
-// Whether the module's dialect gives TIME or LTIME a sign, which the bits do not tell.
+// True when the dialect of the module gives TIME or LTIME a sign: the C type is unsigned in any dialect. `unknown`: the
+// answer when the module does not have the type.
 bool isSigned(const rung_context* ctx, rung_type_kind kind, bool unknown) {
   if (ctx->module == nullptr) return unknown;
   for (uint32_t i = 0; i < ctx->module->type_count; ++i)
@@ -57,19 +57,19 @@ uint64_t fromBcd(uint64_t bcd) {
   for (int shift = 60; shift >= 0; shift -= 4) value = value * 10 + (bcd >> shift & 15);
   return value;
 }
-// The digits that fit `digits` places, the low ones.
+// The low `digits` decimal digits of the value as BCD.
 uint64_t toBcd(uint64_t value, int digits) {
   uint64_t bcd = 0;
   for (int i = 0; i < digits; ++i, value /= 10) bcd |= value % 10 << (4 * i);
   return bcd;
 }
-// A CHAR and a WCHAR are the code points of their numbers.
+// Formats a scalar; CHAR, WCHAR and UCHAR values are code points.
 uint32_t stringOfUnicode(rung_type_kind kind, uint64_t bits, char* out, uint32_t capacity) {
   if (kind >= RUNG_CHAR && kind <= RUNG_UCHAR) return rung_ustring_of_code(out, capacity, static_cast<uint32_t>(bits));
   return rung_string_of_scalar(out, capacity, kind, bits);
 }
 
-// What is no code point is '?', and so is a character that a CHAR or WCHAR has no place for.
+// '?' for an invalid code point, or one that does not fit a CHAR or WCHAR.
 uint32_t codeOf(uint64_t number) {
   return number < 0x110000 && (number < 0xd800 || number >= 0xe000) ? static_cast<uint32_t>(number) : uint32_t{'?'};
 }
@@ -92,7 +92,7 @@ uint8_t isBcd(uint64_t bcd) {
 
 extern "C" {
 
-// ---- text. TYPE: the name that the language gives the type; KIND: that of rung_type_kind.
+// ---- strings. TYPE: the name of the type in the language; KIND: that of rung_type_kind.
 #define RUNG_STRING_OF(TYPE, KIND, T, bits)                                                         \
   uint32_t rung_standard_TO_STRING__##TYPE(rung_context* ctx, T in, char* out, uint32_t capacity) { \
     (void)ctx;                                                                                      \

@@ -11,7 +11,7 @@ template <class Integer>
 Integer truncated(double value) {
   if (std::isnan(value)) return 0;
   if (value <= static_cast<double>(std::numeric_limits<Integer>::min())) return std::numeric_limits<Integer>::min();
-  // Of 64-bit types max is not exact in a double: rounded up, which the comparison wants.
+  // The maximum of a 64-bit type is not exact in a double: it is rounded up, as this comparison needs.
   if (value >= static_cast<double>(std::numeric_limits<Integer>::max())) return std::numeric_limits<Integer>::max();
   return static_cast<Integer>(value);
 }

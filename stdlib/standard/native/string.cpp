@@ -1,6 +1,6 @@
-// Native bodies of string.st. Positions count from 1, by bytes of a STRING and 16-bit units of a WSTRING. A result has
-// at most 255 characters and at most `capacity`; `out` may be one of the inputs. Lengths and positions outside a text
-// are clipped, so nothing outside it is ever touched.
+// Native bodies of string.st. Positions count from 1, in bytes of a STRING and 16-bit units of a WSTRING. A result has
+// at most 255 characters and at most `capacity`; `out` may be one of the inputs. Lengths and positions outside of a
+// string are clipped, so nothing outside of it is ever accessed.
 #include <cstring>
 
 #include "rung/code.h"
@@ -18,7 +18,7 @@ int64_t lengthOf(const Unit* string) {
 }
 inline int64_t lengthOf(const char* string) { return static_cast<int64_t>(strlen(string)); }
 
-// As lengthOf, but looks no further than `most`.
+// Like lengthOf, but looks no further than `most`.
 template <class Unit>
 int64_t lengthUpTo(const Unit* string, int64_t most) {
   int64_t length = 0;
@@ -34,7 +34,7 @@ int64_t clip(int64_t value, int64_t low, int64_t high) { return value < low ? lo
 
 uint32_t limitOf(uint32_t capacity) { return capacity < kLongest ? capacity : kLongest; }
 
-// `count` characters from `from`, which may lie in `out`. Like all that make a text, gives its length.
+// `count` characters from `from`, which may be inside `out`. Like all functions that make a string, returns its length.
 template <class Unit>
 uint32_t give(const Unit* from, int64_t count, Unit* out, uint32_t capacity) {
   const int64_t taken = clip(count, 0, limitOf(capacity));
@@ -43,7 +43,7 @@ uint32_t give(const Unit* from, int64_t count, Unit* out, uint32_t capacity) {
   return static_cast<uint32_t>(taken);
 }
 
-// Whether the `length` characters of `string` lie in the memory that `out` writes.
+// True when the `length` characters of `string` are inside the memory that `out` writes.
 template <class Unit>
 bool overlaps(const Unit* string, int64_t length, const Unit* out, uint32_t capacity) {
   const uintptr_t at = reinterpret_cast<uintptr_t>(string), begin = reinterpret_cast<uintptr_t>(out);
@@ -51,7 +51,7 @@ bool overlaps(const Unit* string, int64_t length, const Unit* out, uint32_t capa
          begin <= at + static_cast<size_t>(length) * sizeof(Unit);
 }
 
-// Collects a result part by part: in `out` itself where no input lies there, else apart.
+// Collects a result part by part: directly in `out` when no input is there, else in a buffer.
 template <class Unit>
 class Result {
  public:
@@ -93,7 +93,7 @@ uint32_t right(const Unit* in, int64_t count, Unit* out, uint32_t capacity) {
   return give(in + length - taken, taken, out, capacity);
 }
 
-// Appends in place where `out` is in1.
+// Appends in place when `out` is in1.
 template <class Unit>
 uint32_t concat(const Unit* in1, const Unit* in2, Unit* out, uint32_t capacity) {
   const int64_t limit = limitOf(capacity);
@@ -221,7 +221,7 @@ RUNG_STRING_FUNCTIONS(WSTRING_255, char16_t)
 uint32_t rung_string_join(const char* in1, uint32_t length1, const char* in2, uint32_t length2, char* out,
                           uint32_t capacity) {
   const uint32_t limit = limitOf(capacity);
-  if ((out != in1 || capacity > limit) && length1 > limit) length1 = limit;  // what is in `out` fits it
+  if ((out != in1 || capacity > limit) && length1 > limit) length1 = limit;  // the content of `out` fits it
   if (length2 > limit - length1) length2 = limit - length1;
   memmove(out + length1, in2, length2);  // first: `out` may be in2
   if (out != in1) memcpy(out, in1, length1);
@@ -252,7 +252,7 @@ uint32_t rung_string_search(const char* in, uint32_t length, char unit) {
     memcpy(&last, in + length - 4, 4);
     const uint64_t found = rung_string_units(first | static_cast<uint64_t>(last) << 8 * (length - 4), unit);
     const uint32_t at = found != 0 ? static_cast<uint32_t>(__builtin_ctzll(found)) / 8 : length;
-    return at < length ? at : length;  // behind the text are zeros
+    return at < length ? at : length;  // zeros follow the string
   }
 #endif
   for (uint32_t i = 0; i < length; ++i) {

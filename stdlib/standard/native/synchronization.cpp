@@ -1,5 +1,5 @@
-// Native bodies of synchronization.st. Tasks in real time are threads, so what they share is atomic; waiting is the
-// host's (rung_host::wait). In virtual time no task runs while another waits, so waiting is an error at once.
+// Native bodies of synchronization.st. Tasks in real time are threads, so shared state is atomic; the host waits
+// (rung_host::wait). In virtual time no task runs while another waits, so waiting is an error at once.
 #include "rung/code.h"
 
 namespace {

@@ -1,13 +1,13 @@
-// Native bodies of time.st: the time of the activation, and dates put together and taken apart. DATE and DT count
-// seconds since 1970-01-01, TOD milliseconds since midnight, the L-forms nanoseconds. What does not exist in the
-// calendar (month 13, 29 February 2026) carries over into the next month or day, as counting on does.
+// Native bodies of time.st: the time of the activation; composes and splits dates. DATE and DT count
+// seconds since 1970-01-01, TOD milliseconds since midnight, the L-forms nanoseconds. Dates that do not exist in the
+// calendar (month 13, 29 February 2026) carry over into the next month or day.
 #include "rung/code.h"
 
 namespace {
 
 constexpr int64_t kNsPerSecond = 1'000'000'000, kSecondsPerDay = 86'400;
 
-// Howard Hinnant's days_from_civil and its inverse, with 1970-01-01 as day 0; months beyond 12 go into the year.
+// Howard Hinnant's days_from_civil and its inverse, with 1970-01-01 as day 0; months beyond 12 carry into the year.
 int64_t dayNumberOf(int64_t year, int64_t month, int64_t day) {
   year += (month - 1) / 12;
   month = (month - 1) % 12 + 1;
@@ -37,7 +37,7 @@ DateParts datePartsOf(int64_t days) {
           static_cast<int16_t>(day_of_year - (153 * shifted + 2) / 5 + 1)};
 }
 
-// Outputs that a call leaves out may be null.
+// Outputs omitted in a call may be null.
 void put(int16_t* to, int64_t value) {
   if (to != nullptr) *to = static_cast<int16_t>(value);
 }
@@ -66,7 +66,7 @@ uint32_t rung_standard_TASK_TIME(rung_context* ctx) { return static_cast<uint32_
 int64_t rung_standard_TASK_LTIME(rung_context* ctx) { return ctx->now_ns; }
 void rung_standard_TEST_ADVANCE(rung_context* ctx, uint64_t duration) {
   const int64_t step = static_cast<int64_t>(duration);
-  constexpr int64_t kLatest = INT64_MAX / 2;  // the cycles that follow do not overflow
+  constexpr int64_t kLatest = INT64_MAX / 2;  // the following cycles do not overflow
   if (step > 0) ctx->now_ns = step < kLatest - ctx->now_ns ? ctx->now_ns + step : kLatest;
 }
 uint32_t rung_standard_TIME(rung_context* ctx) { return rung_standard_TASK_TIME(ctx); }

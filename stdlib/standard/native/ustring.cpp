@@ -1,6 +1,5 @@
-// The functions of string.st for USTRING, whose positions and lengths count characters: they become bytes, the function
-// of STRING does the work, and what it has cut inside a character loses the piece. And LEN_CODE_UNIT, and texts as
-// bytes.
+// The functions of string.st for USTRING, whose positions and lengths count characters: converted to bytes, passed to
+// the function of STRING, and a character cut in its middle is dropped. Also LEN_CODE_UNIT, and strings as bytes.
 #include <cstring>
 
 #include "rung/code.h"
@@ -103,7 +102,7 @@ int32_t rung_standard_LEN_CODE_UNIT__USTRING_255(rung_context*, const char* in) 
   return static_cast<int32_t>(unitsOf(in));
 }
 
-// ---- texts as bytes: the memory of the text, of a WSTRING the low byte first
+// ---- strings as bytes: the memory of the string, for a WSTRING the low byte first
 uint8_t rung_standard_BYTES_OF_STRING(rung_context*, const char* in, void* out, uint64_t size) {
   fill(in, unitsOf(in), out, size);
   return 1;

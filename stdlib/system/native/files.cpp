@@ -1,4 +1,4 @@
-// Native bodies of files.st: each hands its call to the host's files. Without a host that has any, opening is denied.
+// Native bodies of files.st: each forwards its call to the host's files. Without such a host, opening is denied.
 #include "rung/code.h"
 
 namespace {

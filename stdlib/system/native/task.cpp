@@ -1,4 +1,4 @@
-// Native bodies of task.st: the task that runs, and messages to the operator.
+// Native bodies of task.st: the current task, and messages to the operator.
 #include "rung/code.h"
 
 extern "C" {

@@ -1,4 +1,4 @@
-// Native body of FORMAT_ARGUMENTS in format.st: a format with places, and arguments by their addresses, become a text.
+// Native body of FORMAT_ARGUMENTS in format.st: formats arguments, given by their addresses, into a string.
 // Nothing is read outside of the format and of the arguments; no heap.
 #include <stdio.h>
 
@@ -59,7 +59,7 @@ bool isWhole(int16_t type) {
   return type >= kByte && type <= kULInt && type != kReal && type != kLReal && type != kString;
 }
 
-// The value of a whole number; `width` gets its bits.
+// The value of an integer; `width` is set to its bits.
 int64_t wholeOf(const Argument& argument, int& width) {
   switch (static_cast<ArgumentType>(argument.type)) {
     case kByte:
@@ -90,7 +90,7 @@ struct Specifier {
   int precision;  // -1: none
 };
 
-// %b, which printf does not have: digits, then blanks or zeros to the width.
+// %b, which printf lacks: digits, then blanks or zeros to the width.
 void putBits(Output& out, const Specifier& specifier, uint64_t bits) {
   char digits[64 + 1];
   int count = 0;
@@ -117,7 +117,7 @@ void putBits(Output& out, const Specifier& specifier, uint64_t bits) {
   for (int i = 0; left && i < blank_count; ++i) out.put(" ", 1);
 }
 
-// printf's form of a place: its flags, `*` for width and precision, the length of the number, the type.
+// Writes a conversion for printf: its flags, `*` for width and precision, the length modifier, the type.
 void specify(char* spec, const Specifier& specifier, const char* length, char type) {
   *spec++ = '%';
   for (int i = 0; i < specifier.flag_count; ++i) *spec++ = specifier.flags[i];
@@ -194,7 +194,7 @@ class Arguments {
   const Argument *next_, *end_;
 };
 
-// A width or a precision: digits, or `*`, which takes an argument.
+// Reads a width or a precision: digits, or `*`, which takes an argument.
 bool readNumber(const char*& at, Arguments& arguments, int most, int& number, Trouble& trouble) {
   if (*at == '*') {
     ++at;

@@ -1,5 +1,5 @@
-// The kernels as a C++ programmer writes them; kernels.st is the same work in ST. Prints who, name, rounds, seconds of
-// the best of five runs, and the check sum, which must be that of the generated code.
+// The kernels as a C++ programmer writes them; kernels.st does the same work in ST. Prints who, name, rounds, seconds
+// of the best of five runs, and the checksum, which must equal that of the generated code.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Times the tasks of a generated module: task T_name runs program instance P_name with the inputs `rounds` and the
-// output `check`. Arguments: name=rounds. Prints as hand.cpp does.
+// output `check`. Arguments: name=rounds. Prints the same columns as hand.cpp.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -13,7 +13,7 @@ extern "C" const rung_module* plc_module(void);
 
 namespace {
 
-// Where a field of a program instance lies; null when there is none.
+// The address of a field of a program instance; null when there is none.
 int32_t* field(const rung_module& m, rung_context& ctx, const std::string& program, const char* name) {
   for (uint32_t s = 0; s < m.symbol_count; ++s) {
     const rung_symbol& symbol = m.symbols[s];

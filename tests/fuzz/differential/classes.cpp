@@ -1,5 +1,5 @@
-// Objects as edition 3 has them: a line of classes with methods that are replaced and overloaded, an interface, REF_TO,
-// attempts (?=), overloaded functions, characters of texts, structures whose members overlap.
+// Objects of edition 3: a chain of classes with overridden and overloaded methods, an interface, REF_TO, assignment
+// attempts (?=), overloaded functions, characters of strings, structures whose members overlap.
 #include "frontend/source/dialect.h"
 #include "tests/fuzz/differential/generator.h"
 
@@ -7,7 +7,7 @@ namespace rung::differential {
 
 namespace {
 
-constexpr int kLine = 3;  // classes, each extending the one before
+constexpr int kLine = 3;  // classes, each extending the previous one
 
 }  // namespace
 

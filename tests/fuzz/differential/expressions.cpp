@@ -65,7 +65,7 @@ std::string Generator::readable(int type) {
   return writable(type);
 }
 
-// A variable of the type. Every body may use the same local ones; declarations() finds which it does.
+// A variable of the type. Every body may use the same local ones; declarations() finds those that it uses.
 std::string Generator::writable(int type) {
   const std::string name = lowered(kTypes[type].name);
   if (chance(25)) {
@@ -88,7 +88,7 @@ std::string Generator::writable(int type) {
   return "v_" + name + (chance(40) ? "2" : "");
 }
 
-// A bit, byte, word or double word of a variable; empty where the type is none of them.
+// A bit, byte, word or double word of a variable; empty when the type is none of them.
 std::string Generator::part(int type) {
   if (dialect_ == Dialect::Iec2 || (type != kBool && (type < kByte || type > kDword))) return "";
   int whole = (type == kBool ? kByte : type + 1) + below(type == kBool ? 4 : kLword - type);
@@ -190,7 +190,7 @@ Node Generator::boolean(int depth) {
   }
 }
 
-// What may be 0 but is not known to be: rung refuses a division by a constant 0.
+// A value that may be 0 but is not known to be: rung rejects a division by a constant 0.
 Node Generator::variable(int type) {
   Node node = Expr{type, writable(type)};
   node.fixed = true;
@@ -250,7 +250,7 @@ Node Generator::subscript(int first, int last, int depth) {
   return offset(first, last, depth);
 }
 
-// Always within: nothing checks what a pointer leads to.
+// Always inside the array: nothing checks where a pointer points.
 Node Generator::offset(int first, int last, int depth) {
   const std::string low = std::to_string(first), high = std::to_string(last);
   Node node = Expr{kInt, "LIMIT(" + low + ", \1, " + high + ")", {expr(kInt, depth)}};

@@ -1,4 +1,4 @@
-// What generates a program from a seed: types, random numbers, and the parts that make expressions, statements and
+// Generates a program from a seed: types, random numbers, and the parts that make expressions, statements and
 // POUs. Private to this folder: expressions.cpp, statements.cpp, objects.cpp, classes.cpp, program.cpp.
 #pragma once
 
@@ -55,7 +55,7 @@ constexpr int kBool = 0, kSint = 1, kInt = 2, kDint = 3, kLint = 4, kUsint = 5, 
 
 std::string lowered(const char* name);
 
-// Made with braces, so that the random numbers are drawn from left to right with every compiler.
+// Made with braces, so the random numbers are drawn from left to right with every compiler.
 struct Fixed : Node {
   Fixed(std::string text_, std::vector<Node> children_ = {}) {
     text = std::move(text_);
@@ -82,7 +82,7 @@ class Generator {
  public:
   Generator(uint64_t seed, unsigned index, Faults faults, Dialect dialect)
       : state_(seed), index_(index), prefix_("P" + std::to_string(index)), faults_(faults), dialect_(dialect) {
-    state_ = random();  // the numbers of the next seed must not be these, one further on
+    state_ = random();  // the sequence of the next seed must not be this one, shifted by one
   }
 
   Node program();
@@ -185,12 +185,12 @@ class Generator {
   std::vector<Function> functions_;
   std::vector<std::vector<int>> blocks_;  // input types
   std::vector<Method> methods_;           // M0, M1, M2 of every block with a base; empty: not made, or not yet
-  int method_ = -1;                       // in a method: its number, which those it calls are below
-  bool chained_ = false;                  // O2 extends O1, else O0 as O1 does
+  int method_ = -1;                       // in a method: its number; it calls only methods with smaller ones
+  bool chained_ = false;                  // O2 extends O1; otherwise O0, like O1
   int start_ = 0;                         // type of the input of these blocks
   std::vector<Lvalue> lvalues_;
   int loops_ = 0;   // around the statement
-  int cases_ = 0;   // around it, in which a label would be one of the CASE
+  int cases_ = 0;   // around it, in which a label would belong to the CASE
   int labels_ = 0;  // of the body so far
 };
 

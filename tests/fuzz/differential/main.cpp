@@ -1,12 +1,12 @@
 // Differential testing: generated programs must behave alike however they are run.
 //   differential [--first=SEED] [--count=N] [--ways=interp|native|all|turns|one|suite] [-j N] [--rung=PATH]
 //   [--folder=PATH] differential --print=SEED
-// The judge is the interpreter at -O0: slow and plain. Each other way must give its exit code, its fault and its trace
-// of all variables, with checks and without. `turns` compiles each batch in three of the twelve native ways, another
-// three for the next; `one` in one, and interprets nothing; `suite` compiles one batch in two. What differs is made
-// small and printed; the exit code is then 1. Seeds go in batches of 25, one dialect each: one run of the C++ compiler
+// The reference is the interpreter at -O0: slow and plain. Each other way must give its exit code, its fault and its
+// trace of all variables, with checks and without. `turns` compiles each batch in three of the twelve native ways,
+// another three for the next; `one` in one, and interprets nothing; `suite` compiles one batch in two. A difference is
+// shrunk and printed; the exit code is then 1. Seeds go in batches of 25, one dialect each: one run of the C++ compiler
 // serves a batch, and the last of each, which may fault, run alone in the same module. Called by tests/runner with few
-// seeds and by hand with many: SIGINT and SIGTERM give the summary so far.
+// seeds and by hand with many: SIGINT and SIGTERM print the summary so far.
 #include <signal.h>
 #include <unistd.h>
 
@@ -49,7 +49,7 @@ const Way kNative[] = {{"g++", "--engine=native", "-O0"},     {"g++", "--engine=
                        {"clang++", "--engine=native", "-O1"}, {"clang++", "--engine=native", "-O2"}};
 constexpr uint64_t kNativeCount = sizeof kNative / sizeof kNative[0];
 
-// Checks on request make most programs fault, so a batch of four has them instead of the default ones.
+// Checks on request make most programs fault, so one batch in four has them instead of the default ones.
 bool isRangeBatch(uint64_t seed) { return seed / kBatch % 4 == 3; }
 
 Faults faultsOf(uint64_t seed) {
@@ -78,7 +78,7 @@ struct Outcome {
   bool ran() const { return exit_code == 0 || exit_code == 3; }
 };
 
-// What a run is given beside its text.
+// The settings of a run, besides the source.
 struct Setting {
   Way way;
   std::string checks;
@@ -94,12 +94,12 @@ std::string commandOf(const std::string& rung, const Setting& s) {
   return command + " differential.st";
 }
 
-// What all workers share.
+// Shared by all workers.
 class Progress {
  public:
   explicit Progress(const Options& options) : options_(options), begin_(std::chrono::steady_clock::now()) {}
 
-  // The next batch; false: none is left, or the run was ended.
+  // Takes the next batch; false: none is left, or the run was ended.
   bool take(uint64_t& seed) {
     seed = options_.first + next_.fetch_add(kBatch);
     return !ended && seed < options_.first + options_.count;
@@ -134,7 +134,7 @@ void Progress::done(uint64_t programs, unsigned differ) {
   if (seconds >= last + 60 && printed_.compare_exchange_strong(last, seconds)) print("so far: ");
 }
 
-// Compares batches one after the other in a folder of its own.
+// Compares batches one after the other, in a separate folder.
 class Worker {
  public:
   Worker(const Options& options, Progress& progress, std::string folder)
@@ -154,9 +154,9 @@ class Worker {
   const Options& options_;
   Progress& progress_;
   std::string folder_;
-  std::unordered_map<std::string, Outcome> judged_;  // of the batch at hand
-  std::vector<uint64_t> reported_;                   // of the batch at hand; made small once
-  bool refused_ = false;                             // by the judge: no other way needs to be tried
+  std::unordered_map<std::string, Outcome> judged_;  // of the current batch
+  std::vector<uint64_t> reported_;                   // of the current batch; shrunk once
+  bool refused_ = false;                             // by the reference: no other way needs to be tried
 };
 
 // A run that does not end is a difference like any other.
@@ -187,14 +187,14 @@ const Outcome& Worker::judge(const std::string& text, const Setting& setting) {
   return entry->second;
 }
 
-// Programs that rung refuses are differences too: they are valid.
+// Programs that rung rejects are differences too: they are valid.
 bool Worker::differs(const std::string& text, const Setting& setting) {
   const Outcome& wanted = judge(text, setting);
   refused_ |= !wanted.ran();
   return !wanted.ran() || !(run(text, setting) == wanted);
 }
 
-// The programs and, where a batch has several, the tasks that they run in.
+// The programs and, when a batch has several, the tasks that they run in.
 std::string textOf(uint64_t first, uint64_t count) {
   std::string text = "VAR_GLOBAL differential_only : INT := -1; END_VAR\n";
   std::string instances;
@@ -215,7 +215,7 @@ std::string textOf(uint64_t first, uint64_t count) {
          instances + "END_RESOURCE\nEND_CONFIGURATION\n";
 }
 
-// One program without tasks, as small as it can be.
+// Prints one program without tasks, as small as possible.
 void Worker::report(uint64_t seed, const Setting& setting) {
   if (std::find(reported_.begin(), reported_.end(), seed) != reported_.end()) {
     std::printf("seed %llu differs also: %s\n", static_cast<unsigned long long>(seed),
@@ -229,7 +229,7 @@ void Worker::report(uint64_t seed, const Setting& setting) {
   program.text += kChild;
   const Outcome wanted = run(program.print(), {kJudge, setting.checks, setting.dialect, setting.only});
   const Outcome other = wanted.ran() ? run(program.print(), setting) : wanted;
-  // What a smaller program must show: the same kind of difference.
+  // A smaller program must show the same kind of difference.
   const std::string code = other.errors.substr(0, other.errors.find('\n'));
   const size_t bracket = code.find("error[");
   const std::string error = bracket == std::string::npos ? "" : code.substr(bracket, 12);
@@ -259,7 +259,7 @@ void Worker::report(uint64_t seed, const Setting& setting) {
   std::fflush(stdout);
 }
 
-// The programs among `count` that make the difference.
+// The programs among `count` that cause the difference.
 unsigned Worker::narrow(uint64_t first, uint64_t count, const Setting& setting) {
   if (count == 0 || progress_.ended || !differs(textOf(first, count), setting)) return 0;
   if (count == 1) {
@@ -287,7 +287,7 @@ unsigned Worker::compare(uint64_t first, uint64_t count, const Way& way, const s
     // Without the check an index beyond the array is undefined.
     if (checks == "none" && faults == Faults::Index) continue;
     setting.only = static_cast<int>(seed % kBatch);
-    // Interpreted, the others would cost more than it; compiled, they cost nothing any more.
+    // Interpreted, the other programs would cost more than this one; compiled, they cost nothing any more.
     if (!differs(way.compiler == nullptr ? textOf(seed, 1) : text, setting)) continue;
     report(seed, setting);
     ++found;
@@ -331,7 +331,7 @@ void Worker::work() {
   std::filesystem::remove_all(folder_, error);
 }
 
-// Waits for SIGINT and SIGTERM, which all threads hold back; a command under way is waited for.
+// Waits for SIGINT and SIGTERM, which all threads block; a command under way is waited for.
 void watchSignals(Progress& progress, const sigset_t& signals) {
   int which = 0;
   if (sigwait(&signals, &which) != 0) return;

@@ -1,6 +1,6 @@
 // Blocks with methods, properties, actions and bases in generated programs, the interfaces, pointers and references
-// that lead to them, and memory from the pool. Only in the dialect of CODESYS.
-// A method calls only methods with a smaller number, so that every call ends, whatever the object is.
+// to them, and memory from the pool. Only in the codesys dialect.
+// A method calls only methods with a smaller number, so every call ends, whatever the object is.
 #include <cctype>
 
 #include "frontend/source/dialect.h"
@@ -14,11 +14,11 @@ constexpr const char* kClasses[] = {"O0", "O1", "O2"};
 constexpr int kClassCount = sizeof kClasses / sizeof kClasses[0];
 constexpr int kMethodCount = 3;
 
-// What a method may be called on, and how many of M0, M1, M2 it has.
+// An object for method calls, and how many of M0, M1, M2 it has.
 struct Receiver {
   const char* text;
   int methods;
-  bool is_block;  // its inputs, body and action can be reached, too
+  bool is_block;  // its inputs, body and action are accessible, too
 };
 
 constexpr Receiver kReceivers[] = {{"o0", 3, true},
@@ -40,7 +40,7 @@ constexpr Receiver kReceivers[] = {{"o0", 3, true},
                                    {"cells[\1].block", 3, true}};
 constexpr int kReceiverCount = sizeof kReceivers / sizeof kReceivers[0];
 
-// Puts `end` behind the names of the body's variables: a block may not have those of its base again.
+// Appends `end` to the names of the body's variables: a block may not declare those of its base again.
 void rename(Node& node, const std::string& end) {
   const auto isPart = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
   std::string text;
@@ -65,7 +65,8 @@ void rename(Node& node, const std::string& end) {
 
 // ---- blocks
 
-// The arguments of method `number`; in a method itself they are its own parameters' successors.
+// A call of method `number` with its arguments; `before`: the parts of the receiver. Inside an object only variables
+// that exist there are passed by reference.
 Node Generator::methodCall(const std::string& receiver, int number, std::vector<Node> before, int depth) {
   const Method& method = methods_[static_cast<size_t>(number)];
   std::string text = receiver + "M" + std::to_string(number) + "(";
@@ -100,7 +101,7 @@ std::string Generator::receiver(int number, bool is_block, std::vector<Node>& pa
   return text + ".";
 }
 
-// A call of a method with that result; nothing where none has it or none may be called here.
+// Calls a method with that result type; false when none has it or none may be called here.
 bool Generator::methodOf(int type, int depth, Node& result) {
   if (methods_.empty() || loops_ > (body_ == Body::Program ? 1 : 0)) return false;
   const int reach = body_ == Body::Program ? kMethodCount : inObject() ? method_ : 0;
@@ -287,7 +288,7 @@ void Generator::makeObjects(std::vector<Node>& parts) {
 
 // ---- in programs
 
-// An instance, a pointer or what it leads to, as the right side of a binding.
+// An instance, a pointer or its target, as the right side of a binding.
 std::string Generator::instance(bool second) {
   if (second) return pick({"o1", "o2", "objs[0]", "objs[2]"});
   return pick({"o0", "o1", "o2", "objs[1]", "ro", "po^"});
@@ -332,7 +333,7 @@ Node Generator::objectStatement() {
     }
     case 0:
     case 1: {
-      // Counted children must stand in the text: a subscript that nothing needs is left out.
+      // Counted children must appear in the source: a subscript that nothing needs is left out.
       Node node = bindObject();
       if (node.text.find(kChild) == std::string::npos) node.children.clear();
       return node;
@@ -446,7 +447,7 @@ Node Generator::pointerStatement() {
   }
 }
 
-// What leads to a variable of the type; empty where nothing does.
+// An indirect lvalue of the type; empty when there is none.
 std::string Generator::led(int type) {
   if (!codesys() || methods_.empty()) return "";
   if (inObject()) {
@@ -482,7 +483,7 @@ Node Generator::pointerQuestion() {
                            "(po = po1)", "(any0 = any1)", "(itfs[1] = o1)"})};
 }
 
-// The variables of a program that the above uses, and what binds them in its first cycle or in each.
+// The variables of a program for the above, and the bindings in its first cycle or in each.
 const std::vector<Generator::Lvalue>& Generator::lvalues() {
   if (lvalues_.empty() && dialect_ == Dialect::Iec3) lvalues_ = classLvalues();
   if (!lvalues_.empty() || !codesys()) return lvalues_;

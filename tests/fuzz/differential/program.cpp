@@ -1,4 +1,4 @@
-// POUs and declarations of generated programs, and the text of a program.
+// POUs and declarations of generated programs, and the source of a program.
 #include "tests/fuzz/differential/program.h"
 
 #include <cctype>
@@ -12,7 +12,7 @@ namespace rung::differential {
 
 namespace {
 
-// Whether the text holds the name: `v_int` is not in `v_int2`.
+// True when the text contains the name: `v_int` is not in `v_int2`.
 bool uses(const std::string& text, const std::string& name) {
   const auto isPart = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
   for (size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
@@ -24,8 +24,8 @@ bool uses(const std::string& text, const std::string& name) {
 
 }  // namespace
 
-// What the parts of a body use, two variables and a constant of each type and what loops need, in sections that it may
-// stand in.
+// The declarations used by the parts of a body, two variables and a constant of each type and those that loops need, in
+// sections that are allowed there.
 Node Generator::declarations(std::initializer_list<const Node*> users) {
   std::string used;
   for (const Node* user : users) used += user->print();
@@ -40,7 +40,7 @@ Node Generator::declarations(std::initializer_list<const Node*> users) {
       const std::string name = "v_" + lowered(kTypes[type].name) + suffix;
       Node init = Expr{type, literal(type)};
       const int where = below(100);
-      // A temporary starts anew in each call; what is static is shared by all calls and instances.
+      // A temporary is initialised in each call; a static variable is shared by all calls and instances.
       const bool kept = where < 20 && codesys() && body_ != Body::Program;
       const int section = where < 12 ? 1 : kept ? 2 : where < 30 && body_ == Body::Method ? 4 : 0;
       if (uses(used, name)) add(section, Stmt{name + " : " + kTypes[type].name + " := \1;\n", {std::move(init)}});
@@ -88,7 +88,7 @@ Node Generator::makeFunction(int number) {
   return Stmt{head + "END_VAR\n\1\1\1END_FUNCTION\n\n", {std::move(vars), std::move(body), std::move(last)}};
 }
 
-// A function with what goes by reference: an in-out, a structure, an array and a text.
+// A function with by-reference parameters: an in-out, a structure, an array and a string.
 Node Generator::makeAccess() {
   own_inputs_.clear();
   own_ = prefix_ + "_Access";
@@ -146,7 +146,7 @@ Node Generator::program() {
     parts.push_back(
         Stmt{"TYPE " + prefix_ + "_Mix : UNION whole : DWORD; bytes : ARRAY[0..3] OF BYTE; END_UNION END_TYPE\n"});
   }
-  // The located ones see the same memory.
+  // The located variables share the same memory.
   const unsigned base = index_ * 16;
   std::string globals = "VAR_GLOBAL\n";
   std::vector<Node> global_lines;
@@ -173,7 +173,7 @@ Node Generator::program() {
   body_ = Body::Program;
   own_inputs_.clear();
 
-  // The same each time, from numbers that no check objects to.
+  // The same each time, from numbers that pass every check.
   std::vector<Node> inputs{Stmt{"noise := noise * 48271 MOD 2147483647;\n"}};
   for (int i = 0; i < 8; ++i) {
     const int type = chance(40) ? kReal + below(2) : anyType();
@@ -192,7 +192,7 @@ Node Generator::program() {
                         Stmt{"g_string := " + prefix_ + "_g_string;\n"},
                         Stmt{"at_dword := " + prefix_ + "_at_dword;\n"}, Stmt{"at_int := " + prefix_ + "_at_int;\n"}}};
   std::string used = body.print() + results.print();
-  // What a binding uses may need one itself.
+  // The lvalues in a binding may need a binding themselves.
   const std::vector<Lvalue>& all = lvalues();
   std::vector<bool> is_bound(all.size());
   for (bool grows = true; grows;) {

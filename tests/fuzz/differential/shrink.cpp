@@ -1,9 +1,10 @@
+// Shrinks generated programs: see shrink.h.
 #include "tests/fuzz/differential/shrink.h"
 
 namespace rung::differential {
 namespace {
 
-// Outer nodes first: one run of the program may then save many. True when something went.
+// Outer nodes first: one run of the program may then save many. True when something was removed.
 bool shrinkNode(Node& node, const std::function<bool()>& shows) {
   if (node.simplified) return false;
   bool changed = false;
@@ -22,7 +23,7 @@ bool shrinkNode(Node& node, const std::function<bool()>& shows) {
     }
   }
   if (node.hoisted >= 0) return shrinkNode(node.children[static_cast<size_t>(node.hoisted)], shows) || changed;
-  // From the end: what is used is declared before.
+  // From the end: declarations precede their uses.
   for (size_t i = node.children.size(); i > 0; --i) changed |= shrinkNode(node.children[i - 1], shows);
   return changed;
 }

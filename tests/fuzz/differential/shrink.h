@@ -1,4 +1,4 @@
-// Makes a program small while it still shows what it shows.
+// Shrinks a program that shows a difference.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,8 @@
 
 namespace rung::differential {
 
-// Leaves out statements and declarations, and puts literals or operands where expressions stand, until nothing more
-// can go. `shows` runs the program; it is true for `program` as given and for what stands there afterwards.
+// Removes statements and declarations, and replaces expressions by literals or operands, until nothing more can go.
+// `shows` runs the program; it is true for `program` as given and for the result.
 void shrink(Node& program, const std::function<bool()>& shows);
 
 }  // namespace rung::differential

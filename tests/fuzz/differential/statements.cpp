@@ -21,7 +21,7 @@ Node Generator::assignment() {
   }
   if (codesys() && chance(3)) {
     const std::string first = writable(type), second = writable(type);
-    if ((first + second).find('(') == std::string::npos) {  // a chain takes no call
+    if ((first + second).find('(') == std::string::npos) {  // a chain allows no call
       return Stmt{first + " := " + second + " := \1;\n", {expr(type, 2)}};
     }
   }
@@ -162,7 +162,7 @@ Node Generator::blockCall() {
   }
 }
 
-// Over statements, or back while a counter allows it.
+// Forward over statements, or back while a counter allows it.
 Node Generator::jump(int depth) {
   const std::string n = std::to_string(labels_++), label = "l" + n;
   if (chance(60)) {
@@ -188,7 +188,7 @@ Node Generator::guardedCall() {
               std::move(arguments)};
 }
 
-// What was written before the fault stays written.
+// Variables written before the fault keep their values.
 Node Generator::attempt(int depth) {
   ++cases_;
   const int type = anyInteger();

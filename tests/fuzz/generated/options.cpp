@@ -1,3 +1,4 @@
+// Command line of the tools for generated programs: see options.h.
 #include "tests/fuzz/generated/options.h"
 
 #include <unistd.h>

@@ -1,6 +1,6 @@
-// The command line that the tools of generated programs share: differential, il_differential, sfc_differential,
-// network_differential. In: the words. Out: Options, with rung beside the tool and a folder of its own where none is
-// given.
+// The command line shared by the tools for generated programs: differential, il_differential, sfc_differential,
+// network_differential. In: the arguments. Out: Options; by default rung is beside the tool, and a temporary folder is
+// made.
 #pragma once
 
 #include <algorithm>
@@ -23,12 +23,12 @@ struct Options {
   uint64_t print = 0;
 };
 
-// `taken`: the names that this tool has beside --first, --count, --rung, --folder and --print. False: an unknown word,
-// told on stderr.
+// `taken`: the options that this tool has besides --first, --count, --rung, --folder and --print. False: an unknown
+// option, reported on stderr.
 bool readOptions(int argc, char** argv, const char* tool, const char* taken, Options& options);
 
-// Gives all seeds in batches to `options.jobs` workers, each made by `makeWorker(folder)`, whose compare(first, count)
-// tells how many differ. The sum of what they tell.
+// Distributes all seeds in batches to `options.jobs` workers, each made by `makeWorker(folder)`, whose
+// compare(first, count) returns how many differ. Returns the sum.
 template <class MakeWorker>
 unsigned runJobs(const Options& options, uint64_t batch, MakeWorker makeWorker) {
   std::atomic<uint64_t> next{options.first};

@@ -1,3 +1,4 @@
+// Function blocks as ST and IL from one tree of expressions and statements: see generator.h.
 #include "tests/fuzz/il/generator.h"
 
 #include <initializer_list>
@@ -12,7 +13,7 @@ enum Type : uint8_t { kBool, kDint, kInt, kReal, kTypes };
 // An expression as ST, and as the instructions that leave its value in the accumulator.
 struct Expr {
   std::string st, il;
-  bool leaf = false;     // `il` is one LD of what `st` says
+  bool leaf = false;     // `il` is one LD of `st`
   bool literal = false;  // untyped
 };
 
@@ -95,7 +96,7 @@ Expr Generator::leaf(Type type, bool literals) {
   return e;
 }
 
-// The right operand stands in the instruction, in deferred parentheses, or in those with a LD of their own.
+// The right operand is in the instruction, in deferred parentheses, or in parentheses with a LD inside.
 Expr Generator::binary(const Expr& left, const std::string& st_op, const std::string& il_op, const Expr& right,
                        bool negated) {
   Expr e;
@@ -115,7 +116,7 @@ Expr Generator::binary(const Expr& left, const std::string& st_op, const std::st
   return e;
 }
 
-// Operands behind the name must be leaves; else the function is called with names, which IL allows for lists too.
+// Operands after the name must be leaves; else the function is called with names, which IL allows for lists too.
 Expr Generator::call(const std::string& name, const std::vector<Expr>& operands) {
   Expr e;
   e.st = name + "(";
@@ -160,7 +161,7 @@ Expr Generator::expr(Type type, int depth) {
     }
   }
   const Expr left = expr(type, depth - 1);
-  // Literals among themselves are computed exactly, and what comes out need not fit the type.
+  // Literals among themselves are computed exactly, and the result need not fit the type.
   Expr right = expr(type, depth - 1);
   if (left.literal && right.literal) right = leaf(type, false);
   switch (below(type == kReal ? 5 : 8)) {
@@ -268,7 +269,7 @@ void Generator::blockCall() {
   }
 }
 
-// Two ways bring the accumulator to one label.
+// Two paths bring the accumulator to one label.
 void Generator::joinedValue() {
   const Type type = static_cast<Type>(below(kTypes));
   const Expr condition = expr(kBool, 2), one = expr(type, 2), two = expr(type, 2);

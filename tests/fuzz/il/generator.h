@@ -1,5 +1,5 @@
-// The same logic twice: a generated function block as ST and as IL, each from one tree. In: a seed. Out: two texts with
-// equal declarations and equal names, whose traces must be equal. Called by main.cpp.
+// The same logic twice: a generated function block as ST and as IL, each from one tree. In: a seed. Out: two sources
+// with equal declarations and equal names, whose traces must be equal. Called by main.cpp.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ struct Twins {
   std::string st, il;
 };
 
-// The block `B<index>` of a seed. Its inputs are called a … d (BOOL), i, j (DINT), k (INT), x (REAL); what it computes
-// lies in its outputs.
+// The block `B<index>` of a seed. Its inputs are a … d (BOOL), i, j (DINT), k (INT), x (REAL); its outputs hold the
+// results.
 Twins generate(uint64_t seed, unsigned index);
 
 }  // namespace rung::il_differential

@@ -33,7 +33,7 @@ odd := sum MOD 2 <> 0;
 END_FUNCTION_BLOCK
 )";
 
-// Gives each block its inputs of the cycle and takes up its outputs.
+// Sets the inputs of each block for the cycle and adds its outputs to the checksum.
 std::string driver(uint64_t first, uint64_t count) {
   std::string vars = "PROGRAM Main\nVAR\nstate : UDINT := " + std::to_string(first + 1) + "; pattern : Pattern;\n",
               body;
@@ -47,7 +47,7 @@ std::string driver(uint64_t first, uint64_t count) {
     body += sum + " := ROL(" + sum + ", 5) XOR DINT_TO_DWORD(" + b + ".m) XOR ROL(DINT_TO_DWORD(" + b + ".n), 7);\n";
     body += sum + " := ROL(" + sum + ", 3) XOR INT_TO_DWORD(" + b + ".s) XOR ROL(INT_TO_DWORD(" + b + ".u), 9);\n";
     for (const char* real : {".y", ".z", ".mem.level"}) {
-      body += "pattern.r := " + b + real + ";\n";  // of a NaN the sign may differ
+      body += "pattern.r := " + b + real + ";\n";  // the sign of a NaN may differ
       body += "IF pattern.r = pattern.r THEN " + sum + " := ROL(" + sum + ", 1) XOR pattern.w; END_IF\n";
     }
     body +=
@@ -65,7 +65,7 @@ class Worker {
     std::filesystem::create_directories(folder_, error);
   }
 
-  // The number of blocks that differ.
+  // Returns the number of blocks that differ.
   unsigned compare(uint64_t first, uint64_t count) {
     std::string st = kDeclarations, il = kDeclarations;
     for (uint64_t k = 0; k < count; ++k) {

@@ -1,3 +1,4 @@
+// Draws the logic of a block in LD, FBD or CFC: see drawing.h.
 #include "tests/fuzz/networks/drawing.h"
 
 #include <algorithm>
@@ -99,11 +100,11 @@ uint64_t Drawer::input(const std::string& text, bool negated) {
   return inputs_[key] = put(e);
 }
 
-// Drawn by contacts alone.
+// True when the node can be drawn by contacts alone.
 bool Drawer::contactable(int number) const {
   const Node& n = node(number);
   if (n.type != Type::Bool) return false;
-  const auto isLeaf = [&](int leaf) {  // a shared one has a wire, which makes one network of those who read it
+  const auto isLeaf = [&](int leaf) {  // a shared one has a wire, which joins all its readers into one network
     return node(leaf).kind == NodeKind::Leaf && node(leaf).uses < 2;
   };
   if (n.kind == NodeKind::Leaf) return isLeaf(number);
@@ -160,7 +161,7 @@ void Drawer::flatten(int number, const std::string& op, std::vector<int>& out) c
   out.push_back(n.operands[1]);
 }
 
-// An input pin that reads a node: an inversion or an edge may be a mark of the pin.
+// An input pin that reads a node: an inversion or an edge may be a modifier of the pin.
 Pin Drawer::pinFor(const std::string& name, int number) {
   Pin pin;
   pin.name = name;
@@ -398,7 +399,7 @@ void Drawer::items(const std::vector<Item>& items) {
   }
 }
 
-// Some wires go through connectors.
+// Replaces some wires by connectors.
 void Drawer::connect() {
   const size_t count = out_.elements.size();
   for (size_t k = 0; k < count; ++k) {
@@ -424,7 +425,7 @@ void Drawer::connect() {
 Drawing Drawer::run() {
   items(logic_.items);
   connect();
-  // Connectors stand in their networks, where they change nothing.
+  // Moves connectors into their networks, where they change nothing.
   std::stable_sort(out_.elements.begin(), out_.elements.end(),
                    [](const Element& a, const Element& b) { return a.network < b.network; });
   return out_;

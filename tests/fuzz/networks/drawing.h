@@ -1,4 +1,4 @@
-// The elements and wires of a block's logic as an editor of LD, FBD or CFC would have drawn them, and their files: the
+// The elements and wires of a block's logic as an editor of LD, FBD or CFC would draw them, and their files: the
 // notation of networks, and PLCopen XML in the manner of several editors. Private to this folder.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace rung::network_differential {
 
-enum class Language : uint8_t { Ladder, Blocks, Ordered, Flow };  // LD, FBD, CFC with turns and without
+enum class Language : uint8_t { Ladder, Blocks, Ordered, Flow };  // LD, FBD, CFC with and without execution order
 
 struct Wire {
   uint64_t from;
@@ -15,7 +15,7 @@ struct Wire {
 using Wires = std::vector<Wire>;
 enum class Sense : uint8_t { None, Rising, Falling };
 struct Pin {
-  std::string name;  // empty: of an element with one input
+  std::string name;  // empty: the only input of its element
   bool output = false, in_out = false;
   bool negated = false;
   Sense edge = Sense::None;
@@ -23,9 +23,9 @@ struct Pin {
   Wires wires;
 };
 struct Element {
-  std::string kind;  // the word of the notation
+  std::string kind;  // the keyword of the notation
   uint64_t number = 0;
-  std::string name;     // of what a box calls, a label, a connector
+  std::string name;     // of the called POU, a label, a connector
   std::string operand;  // a variable, the instance of a box
   bool negated = false;
   Sense edge = Sense::None;
@@ -38,14 +38,14 @@ struct Element {
 };
 struct Drawing {
   Language language;
-  std::vector<Element> elements;  // in the order of evaluation
+  std::vector<Element> elements;  // in execution order
 };
 
 Drawing draw(const Logic& logic, Language language, uint64_t seed);
 
 std::string notation(const Logic& logic, const Drawing& drawing, const std::string& name, uint64_t seed);
 
-enum class Editor : uint8_t { Plain, Pixels, Vendor, Ordered };  // no places; Beremiz; CODESYS; Bachmann
+enum class Editor : uint8_t { Plain, Pixels, Vendor, Ordered };  // no positions; Beremiz; CODESYS; Bachmann
 constexpr int kEditors = 4;
 std::string xmlPou(const Logic& logic, const Drawing& drawing, const std::string& name, Editor editor, uint64_t seed);
 std::string xmlProject(const std::string& pous, Editor editor);

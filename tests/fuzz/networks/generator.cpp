@@ -1,3 +1,4 @@
+// Generates the logic of a block: see logic.h.
 #include <algorithm>
 #include <initializer_list>
 #include <map>
@@ -182,7 +183,7 @@ int Generator::function(Type type, int depth) {
   return node;
 }
 
-// A node that nobody reads yet.
+// A node without readers yet.
 int Generator::fresh(Type type, int depth) {
   if (depth <= 0 || chance(15)) return leaf(type, false);
   if (type == Type::Bool) {
@@ -221,7 +222,7 @@ int Generator::fresh(Type type, int depth) {
   }
 }
 
-// A node of the open network that is there already, or a new one.
+// An existing node of the open network, or a new one.
 int Generator::expr(Type type, int depth) {
   if (chance(25)) {
     std::vector<int> fitting;
@@ -231,14 +232,14 @@ int Generator::expr(Type type, int depth) {
   }
   const int node = fresh(type, depth);
   const Node& n = logic_.nodes[static_cast<size_t>(node)];
-  // A variable that the network may write is read anew each time; inputs of the block nobody writes.
+  // A variable that the network may write is read again each time; inputs of the block are never written.
   const bool constant =
       n.kind == NodeKind::Leaf && !n.literal && n.text.size() == 1 && n.text.find_first_of("abcdijkx") == 0;
   if ((n.kind != NodeKind::Leaf || constant) && chance(35)) offered_.push_back(node);
   return node;
 }
 
-// An operator or function with its own value of the last cycle.
+// An operator or function that reads its own value of the last cycle.
 int Generator::feedback(Type type) {
   const int other = expr(type, 1);
   Node n;
@@ -370,7 +371,7 @@ void Generator::execute() {
   if (a.en != kNone && chance(40)) pin(number, Type::Bool, "ENO");
 }
 
-// A function in its own turn, before whoever reads it.
+// Executes a function on its own, before its readers.
 void Generator::evaluate() {
   Action a{};
   a.kind = ActionKind::Evaluate;
@@ -379,7 +380,7 @@ void Generator::evaluate() {
   logic_.nodes[static_cast<size_t>(a.value)].forced = true;
   offered_.push_back(a.value);
   act(a);
-  if (chance(70)) {  // what it reads changes before it is read
+  if (chance(70)) {  // its operands change before it is read
     for (unsigned k = 1 + below(2); k > 0; --k) assignment();
     Action late{};
     late.kind = ActionKind::Assign;
@@ -411,7 +412,7 @@ void Generator::count(int node) {
     if (operand >= 0) count(operand);
 }
 
-// Without marks in the file, elements are of one network where wires connect them: each such part becomes a network.
+// In a file without network numbers, wires connect the elements of one network: each such part becomes a network.
 void Generator::closeNetwork(std::vector<Item>& out) {
   std::map<int, int> owner;  // node: the first action that reads it
   std::vector<int> part(logic_.actions.size());

@@ -1,6 +1,7 @@
-// What all languages of a generated block say: networks of actions over expressions, with one order of execution. An
-// action evaluates what it needs and nobody has evaluated before; what several read is evaluated once. In: a seed.
-// Called by main.cpp; printed by st_and_il.cpp (ST, the reference, and IL), drawn by drawing.cpp (LD, FBD, CFC).
+// The common meaning of a generated block in all languages: networks of actions over expressions, with one execution
+// order. An action evaluates what it needs and is not evaluated yet; a node with several readers is evaluated once.
+// In: a seed. Called by main.cpp; printed by st_and_il.cpp (ST, the reference, and IL), drawn by drawing.cpp (LD, FBD,
+// CFC).
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ enum class NodeKind : uint8_t {
   Operator,  // `text`: AND, ADD, GT …
   Function,  // `text`: MAX, SEL, Blend …
   Pin,       // output `text` of `action`, which ran before
-  Last,      // output `text` of `action`, which is to come: its value of the last cycle
+  Last,      // output `text` of `action`, which runs later: its value of the last cycle
   Edge,      // `text`: the R_TRIG or F_TRIG that senses the operand
 };
 constexpr int kNone = -1;
@@ -60,7 +61,7 @@ struct Action {
   int value = kNone;
   std::string target;
   bool negated = false, rising = true;
-  bool nameless = false;  // no other network names the instance
+  bool nameless = false;  // the instance is used in no other network
   std::string type, instance;
   std::vector<Argument> arguments;
   std::vector<std::string> outputs;
@@ -70,7 +71,7 @@ struct Action {
 struct Item {
   enum Kind : uint8_t { Network, Skip, Loop } kind = Network;
   std::vector<int> actions;  // of a network
-  std::vector<Item> body;    // Skip: the jump of the network before leads behind it. Loop: that of its last network
+  std::vector<Item> body;    // Skip: the jump of the previous network goes past them. Loop: that of its last network
   std::string label;
 };
 
@@ -78,12 +79,12 @@ struct Logic {
   std::vector<Node> nodes;
   std::vector<Action> actions;
   std::vector<Item> items;
-  std::string variables;  // declarations beside those that all blocks have
+  std::string variables;  // declarations besides those that all blocks have
 };
 
 Logic generate(uint64_t seed);
 
-// FUNCTION_BLOCK name and its variables; temporaries() belong to ST and IL alone.
+// FUNCTION_BLOCK name and its variables; temporaries() belong to ST and IL only.
 std::string declarations(const Logic& logic);
 std::string structuredText(const Logic& logic, const std::string& name);
 std::string instructionList(const Logic& logic, const std::string& name);

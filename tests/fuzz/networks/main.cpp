@@ -70,7 +70,7 @@ struct File {
   std::string name, text;
 };
 
-// The project of some seeds, and the variables that hold the checksums.
+// The project of some seeds, and the variables with the checksums.
 std::vector<File> project(uint64_t first, uint64_t count, std::string& watch) {
   std::string text = kDeclarations, pous[kEditors];
   std::string vars = "PROGRAM Main\nVAR\nstate : UDINT := " + std::to_string(static_cast<uint32_t>(first + 1)) + ";\n",
@@ -114,7 +114,7 @@ class Worker {
  public:
   Worker(const Options& options, std::string folder) : options_(options), folder_(std::move(folder)) {}
 
-  // The number of blocks that differ.
+  // Returns the number of blocks that differ.
   unsigned compare(uint64_t first, uint64_t count) {
     fs::remove_all(folder_);
     fs::create_directories(folder_);

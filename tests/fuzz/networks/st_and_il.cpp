@@ -42,7 +42,7 @@ class Printer {
   void items(const std::vector<Item>& items);
 
   // IL
-  std::string load(int n);     // leaves the value in the accumulator; what it needs before is written at once
+  std::string load(int n);     // leaves the value in the accumulator; writes its prerequisites at once
   std::string operand(int n);  // a variable or literal
   std::string compute(int n);
   void listed(int number);
@@ -85,7 +85,7 @@ std::string Printer::expr(int number) const {
   return {};
 }
 
-// Computes what is read more than once, and calls what senses edges.
+// Computes nodes that are read more than once, and calls the edge detectors.
 void Printer::demand(int number) {
   const Node& n = node(number);
   if (done_[static_cast<size_t>(number)]) return;

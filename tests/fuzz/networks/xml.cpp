@@ -1,4 +1,4 @@
-// Drawings as PLCopen TC6 XML, each editor with its habits: see file-formats in the project's notes and docs/files.md.
+// Drawings as PLCopen TC6 XML, each editor with its habits: see docs/files.md.
 #include <algorithm>
 #include <map>
 
@@ -55,7 +55,7 @@ class Writer {
   uint64_t state_;
   std::map<uint64_t, uint64_t> ids_;
   std::map<uint64_t, const Element*> by_number_;
-  std::string connectors_;  // that CODESYS puts into each wire of a CFC
+  std::string connectors_;  // those that CODESYS puts into each wire of a CFC
   uint64_t next_connector_ = 100000;
   unsigned first_order_ = 1;
 };
@@ -87,7 +87,7 @@ std::string Writer::head(const std::string& kind, const Element& e, const std::s
   return text + ">" + positionXml(e);
 }
 
-// Operators have no names for their pins in CODESYS.
+// CODESYS gives the pins of operators no names.
 std::string Writer::pinName(const Element& e, const Pin& pin, size_t at) const {
   const bool control = pin.name == "EN" || pin.name == "ENO";
   static constexpr const char* kOperators[] = {"AND", "OR", "XOR", "NOT", "ADD", "SUB", "MUL", "DIV", "MOD",

@@ -1,5 +1,5 @@
-// A generated chart, its text, and what it does by a simple evaluator that knows nothing of the compiler: it visits all
-// steps, transitions and actions in each cycle, as section 5.9.8 of the syntax manual and tables 59 and 60 say.
+// A generated chart, its source, and its behaviour according to a simple evaluator, independent of the compiler: it
+// visits all steps, transitions and actions in each cycle (syntax manual 5.9.8; IEC 61131-3 ed. 3 tables 59 and 60).
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Transition {
   int priority = 0;         // 0: none
 };
 constexpr int kVariables = 6, kActions = 12;  // the first are BOOL variables
-struct Macro {                                // the steps from `begin` to before `end`, and what stands inside of them
+struct Macro {                                // the steps from `begin` to before `end`, and the elements inside
   int begin, end, entry, exit;
 };
 struct Chart {
@@ -37,15 +37,15 @@ struct Chart {
 
 Chart generate(uint64_t seed);
 std::string textOf(const Chart& chart, const std::string& name);
-// The name of a step of the nested chart where the trace shows it: its own where the block has no other step of it.
+// The path of a step of the nested chart in the trace: its bare name when no other step of the block has it.
 std::string nestedStep(const Chart& chart, size_t step);
 
-// The chart without what PLCopen XML has no words for: least times and numbered priorities.
+// The chart without features that PLCopen XML cannot express: minimum times and numbered priorities.
 Chart withoutTextForms(Chart chart);
 // The chart as a <pou>, drawn in one of many ways.
 std::string xmlOf(const Chart& chart, const std::string& name, uint64_t seed);
 
-// What can be seen after a cycle.
+// The observable state after a cycle.
 struct Seen {
   std::vector<bool> active;  // steps
   bool variables[kVariables];

@@ -1,4 +1,4 @@
-// The judge of charts: slow and plain. See chart.h.
+// The reference evaluator of charts: slow and plain. See chart.h.
 #include <algorithm>
 #include <memory>
 
@@ -40,7 +40,7 @@ class Evaluator {
     uint32_t& order = outer_ != nullptr ? outer_->order_ : order_;
     order = order * 31 + static_cast<uint32_t>(action) + (outer_ != nullptr ? 100 : 0);
   }
-  // Whether the action is active, and whether it has its final scan.
+  // The result: the action is active; it has its final scan.
   std::pair<bool, bool> control(int action, int now);
   bool fires(const Transition& t, uint32_t random, int now) const;
   void judge(uint32_t random, int now);
@@ -106,7 +106,7 @@ bool Evaluator::fires(const Transition& t, uint32_t random, int now) const {
   return random / 65536 % t.modulus == t.value;
 }
 
-// Steps in their order; of a step's transitions the numbered ones first.
+// Evaluates steps in their order; of a step's transitions the numbered ones first.
 void Evaluator::judge(uint32_t random, int now) {
   for (size_t s = 0; s < steps_.size(); ++s) {
     std::vector<const Transition*> ways;

@@ -1,5 +1,5 @@
-// Charts by structure: sequences of steps, alternatives, loops and parallel branches within each other, so that each is
-// safe; conditions, qualifiers and times by chance.
+// Charts by structure: nested sequences of steps, alternatives, loops and parallel branches, so each chart is safe;
+// conditions, qualifiers and times by chance.
 #include <random>
 
 #include "tests/fuzz/sfc/chart.h"
@@ -17,7 +17,7 @@ class Generator {
   bool chance(int percent) { return upTo(100) < percent; }
   int addStep();
   void connect(std::vector<int> from, std::vector<int> to);
-  // Goes on behind `last`; gives the step at which the sequence ends. `region`: steps that a loop may lead to.
+  // Continues after `last`; returns the step at which the sequence ends. `region`: steps that a loop may jump to.
   int sequence(int last, int depth, std::vector<int>& region);
 
   std::mt19937_64 random_;
@@ -109,7 +109,7 @@ Chart Generator::run(bool may_nest) {
   return chart_;
 }
 
-// A way may name the macro instead of its entry or exit; `key` decides.
+// A connection may name the macro instead of its entry or exit; `key` decides.
 std::string stepName(const Chart& chart, int step, bool to, size_t key) {
   for (size_t m = 0; m < chart.macros.size(); ++m)
     if ((to ? chart.macros[m].entry : chart.macros[m].exit) == step && (key + m) % 3 != 0)
@@ -117,7 +117,7 @@ std::string stepName(const Chart& chart, int step, bool to, size_t key) {
   return "s" + std::to_string(step);
 }
 
-// The nested chart has the same names for its steps and actions, and variables of its own.
+// The nested chart has the same names for its steps and actions, and its own variables.
 std::string bodyOf(const Chart& chart, bool nested) {
   static const char* const kKeywords[] = {"N", "R", "S", "L", "D", "P", "P0", "P1", "SD", "DS", "SL"};
   const char* const variable = nested ? "w" : "v";

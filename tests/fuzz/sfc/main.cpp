@@ -33,7 +33,7 @@ std::vector<std::string> cells(const std::string& line) {
   return out;
 }
 
-// The first thing that differs, or nothing.
+// Returns the first difference, or an empty string.
 std::string compare(const std::string& trace, uint64_t first, const std::vector<Chart>& charts, uint64_t cycles) {
   std::stringstream lines(trace);
   std::string line;
@@ -82,7 +82,7 @@ std::string compare(const std::string& trace, uint64_t first, const std::vector<
   return {};
 }
 
-// What compare() reads, in its order.
+// The variables that compare() reads, in its order.
 std::string watchOf(const std::vector<Chart>& charts) {
   std::string watch;
   for (size_t k = 0; k < charts.size(); ++k) {

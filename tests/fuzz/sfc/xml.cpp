@@ -1,6 +1,6 @@
-// A chart as PLCopen XML. What TC6 has several ways to draw is drawn in one of them by chance: alternatives with and
-// without divergences, ways that meet in a step, in a convergence or by a jump, double lines inside each other,
-// conditions in the transition, wired to it or named.
+// A chart as PLCopen XML. Where TC6 has several ways to draw something, one is chosen at random: alternatives with and
+// without divergences, paths that meet in a step, in a convergence or by a jump, nested double lines, conditions in the
+// transition, wired to it or named.
 #include <random>
 
 #include "tests/fuzz/sfc/chart.h"
@@ -22,7 +22,7 @@ class Printer {
   int id() { return next_id_++; }
   static std::string wire(int from) { return "<connection refLocalId=\"" + std::to_string(from) + "\"/>"; }
   static std::string in(const std::string& wires) { return "<connectionPointIn>" + wires + "</connectionPointIn>"; }
-  // Adds an element, gives its localId.
+  // Adds an element, returns its localId.
   int add(const std::string& kind, const std::string& content, int own = 0) {
     const int number = own != 0 ? own : id();
     elements_ += "<" + kind + " localId=\"" + std::to_string(number) + "\">" + content + "</" + kind + ">\n";
@@ -39,12 +39,12 @@ class Printer {
   std::mt19937_64 random_;
   int next_id_ = 100000;
   std::string elements_, named_;
-  std::vector<int> divergence_;                    // of each step, behind which its transitions stand; 0: none
-  std::vector<std::string> wires_into_;            // each step
-  std::vector<std::vector<int>> converging_into_;  // each step, by a convergence
+  std::vector<int> divergence_;                    // of each step, the divergence before its transitions; 0: none
+  std::vector<std::string> wires_into_;            // for each step
+  std::vector<std::vector<int>> converging_into_;  // for each step, by a convergence
 };
 
-// One double line above all, or some of them under one of their own.
+// Draws one double line above all, or separate ones above some of them.
 int Printer::unite(std::vector<int> from) {
   if (from.size() > 2 && chance(40)) {
     const std::vector<int> inner(from.begin(), from.begin() + 2);

@@ -1,4 +1,4 @@
-// The smallest host: it places the memory, opens and closes the press five times, and prints the strokes.
+// The smallest host: it allocates the memory, opens and closes the press five times, and prints the strokes.
 #include <cstdio>
 #include <cstring>
 #include <vector>

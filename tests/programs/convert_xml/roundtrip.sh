@@ -1,7 +1,7 @@
 #!/bin/sh
-# Writes each program as PLCopen XML, checks the file by the rules of the schema, and compares the IR of the program with
-# that of the file: places, and the order of declarations, may differ.
-# --std=… is taken from a line `// args:` of a file. Tests become programs, since a product has none of them.
+# Writes each program as PLCopen XML, checks the file by the rules of the schema, and compares the IR of the program
+# with that of the file: locations and the order of declarations may differ.
+# --std=… is taken from a line `// args:` of a file. Tests become programs, because a product has no tests.
 #   roundtrip.sh FILE|FOLDER...
 here=$(dirname "$0")
 out=$(mktemp -d)

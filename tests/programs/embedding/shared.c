@@ -1,4 +1,4 @@
-/* A compiled project as a shared library: loaded at run time, found by the name of its one function. */
+/* A compiled project as a shared library: loaded at run time, with its single exported function found by name. */
 #include <dlfcn.h>
 #include <stdio.h>
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# No accepted program fails in g++ or clang++: words of C, C++, POSIX, common macros and names of generated code as
-# variables, fields, enumeration items, functions, blocks, types, programs, tasks and pins. Words that `rung check` refuses
-# as words of IEC 61131-3 are left out by it.
+# No accepted program fails in g++ or clang++: keywords of C and C++, words of POSIX, common macros and names of
+# generated code as variables, fields, enumeration items, functions, blocks, types, programs, tasks and pins. Words that
+# `rung check` rejects as keywords of IEC 61131-3 are left out.
 #   tests/programs/identifiers/check.sh RUNG [COMPILER ...]
 set -eu
 rung=$(readlink -f "$1")
@@ -12,13 +12,13 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
-# What the language itself refuses: words of its own, `_` at an end or twice in codesys warnings.
+# Leaves out the words that the language rejects: its keywords, `_` at an end or twice in codesys warnings.
 accepted=""
 for word in $(cat "$words"); do
   printf 'PROGRAM Tester\nVAR %s : INT; END_VAR\n%s := %s + 1;\nEND_PROGRAM\n' "$word" "$word" "$word" >word.st
   if "$rung" check word.st >word.log 2>&1; then accepted="$accepted $word"; elif ! grep -q 'E0215\|E0217\|E01' word.log; then cat word.log; exit 1; fi
 done
-# Names differ in IEC 61131-3 only when they differ without regard to case.
+# Two names of IEC 61131-3 are different only when they differ in more than case.
 accepted=$(for word in $accepted; do echo "$word"; done | sort -fu)
 
 each() { for word in $accepted; do echo "${1//@/$word}"; done; }

@@ -59,7 +59,7 @@ struct ArithmeticTest : testing::Test {
     return values;
   }
 
-  // A row of the driver's table: the function with these operands gives this.
+  // Adds a row to the driver's table: the function with these operands must give this result.
   void addCall(const std::string& name, TypeId result, TypeId a, uint64_t x, TypeId b, uint64_t y,
                const Value& expected) {
     if (name != last) {
@@ -105,7 +105,7 @@ namespace plc_ {
     EXPECT_EQ(result.output.substr(0, 2000), "");
   }
 
-  // NaN has many spellings.
+  // NaN has many representations.
   static Value plain(Value value, bool is_real) {
     if (is_real && std::isnan(value.asReal())) value.bits = 1;
     return value;
@@ -173,7 +173,7 @@ TEST_F(ArithmeticTest, ConversionsAgreeWithTheKernel) {
   expectAgreement("-O1");
 }
 
-// Chains of + - * with constants, as index arithmetic and averages write them: cut once, at the end.
+// Chains of + - * with constants, as in index arithmetic and averages: cut once, at the end.
 TEST_F(ArithmeticTest, ChainsAreCutAtTheirWidth) {
   for (TypeKind kind : {TypeKind::SInt, TypeKind::Int, TypeKind::UInt, TypeKind::DInt, TypeKind::UDInt, TypeKind::LInt,
                         TypeKind::Time}) {

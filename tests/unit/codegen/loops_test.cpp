@@ -1,5 +1,5 @@
-// FOR: the number of turns and the value that the control has afterwards (design §8), on the edges of every integer
-// type, as a plain loop and as one whose body changes the control.
+// FOR: the number of iterations and the final value of the control, at the limits of every integer type, as a plain
+// loop and as one whose body changes the control.
 #include <gtest/gtest.h>
 
 #include "codegen/emit.h"

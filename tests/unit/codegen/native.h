@@ -1,5 +1,5 @@
-// Compiles what codegen makes of a module with a driver beside it, and runs the program. In: a module, the text of a
-// main() that may call its functions. Out: what the program printed, or the compiler's messages. Warnings are errors.
+// Compiles the generated C++ of a module together with a driver, and runs the program. In: a module, the source of a
+// main() that may call its functions. Out: the program's output, or the compiler's messages. Warnings are errors.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ struct NativeResult {
   bool ok = false;
   std::string output;
 };
-// `flags`: of the compiler, besides the strict ones.
+// `flags`: for the compiler, besides the strict ones.
 NativeResult runNatively(const ir::Module& module, const std::string& driver, const std::string& flags);
 
 }  // namespace rung::codegen

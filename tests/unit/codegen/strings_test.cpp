@@ -1,4 +1,4 @@
-// Texts in generated code: assignments cut to the capacity, comparisons with literals, and self-assignment.
+// Strings in generated code: assignments cut to the capacity, comparisons with literals, and self-assignment.
 #include <gtest/gtest.h>
 
 #include "codegen/emit.h"
@@ -13,7 +13,7 @@ using types::Op;
 struct StringTest : testing::Test {
   StringTest() : types(names, 8), module(types, names, sources) {}
 
-  // function NAME : BOOL of one text variable of this capacity, to which `from` is assigned; the result is from f.
+  // function NAME : BOOL with one string variable of this capacity, to which `from` is assigned; f makes the result.
   template <class F>
   void function(const std::string& name, uint32_t capacity, const std::string& from, F&& f) {
     ir::Body& body = module.bodies.emplace_back();

@@ -1,5 +1,5 @@
 // Files of IEC 61131-10 cut at every byte, and with bytes changed at random: each is read and parsed, nothing crashes
-// or hangs, and every place is in the file. The seed is fixed.
+// or hangs, and every location is in the file. The seed is fixed.
 #include <gtest/gtest.h>
 
 #include <random>

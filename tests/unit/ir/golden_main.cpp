@@ -1,7 +1,7 @@
 // Runs the golden tests of the passes. In: folders or files *.ir, of which line 1 is the purpose; then IR text; then
 //   ; run: @F(1, -2) == 3          the value, or `fault div`, before any pass and after each expected one; computed by
 //                                  the evaluator and by the interpreter
-//   ; expect <passes>: body @F {   what the passes (one, or several joined by `+`, or `all`) make of the body,
+//   ; expect <passes>: body @F {   the body after the passes (one, or several joined by `+`, or `all`),
 //   ;   ...                        the following comment lines belong to it
 //   ; }
 // The module is verified before and after. Prints a difference and the command that repeats it; exit code 4 when
@@ -47,7 +47,7 @@ std::string trim(std::string text) {
   return text.substr(from);
 }
 
-// `@F(1, -2) == 3`; what follows two blanks is a remark.
+// `@F(1, -2) == 3`; the rest after two blanks is a remark.
 bool parseRun(const std::string& text, Run& run) {
   run.text = text;
   const size_t open = text.find('('), close = text.find(')'), equal = text.find("==");
@@ -154,7 +154,7 @@ class Golden {
     return problems.empty();
   }
 
-  // Reads the module anew, runs the passes over all bodies, checks the run lines; gives the body of `function`.
+  // Reads the module again, runs the passes over all bodies, checks the run lines; returns the body of `function`.
   std::string afterPasses(const std::string& passes, const std::string& function, const std::vector<Run>& runs) {
     TestModule m(text_, path_);
     if (!m.ok) return m.errors();

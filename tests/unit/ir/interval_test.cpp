@@ -1,4 +1,4 @@
-// Interval arithmetic holds every result of the kernel: all operands of small intervals of SINT, USINT and BYTE.
+// Interval arithmetic contains every result of the kernel: all operands of small intervals of SINT, USINT and BYTE.
 #include "ir/passes/interval.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A module read from IR text, with all that it needs to live. For the tests of ir/.
+// A module read from IR text, together with everything that it refers to. For the tests of ir/.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ struct TestModule {
   Body* find(std::string_view name);  // function or block
 };
 
-// Blanks and line ends folded to one blank: for comparison of printed bodies.
+// Folds blanks and line ends to one blank, for comparing printed bodies.
 std::string squeeze(std::string_view text);
 
 }  // namespace rung::ir

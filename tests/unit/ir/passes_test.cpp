@@ -1,5 +1,5 @@
 // Passes over random functions: the verifier accepts each step, the evaluator gives the same value or fault before and
-// after, and a second run changes nothing that the first did not. What each pass does is in tests/golden/ir.
+// after, and a second run changes nothing. The tests of single passes are in tests/golden/ir.
 #include "ir/passes/passes.h"
 
 #include <gtest/gtest.h>
@@ -115,7 +115,7 @@ class Writer {
         return;
       case 9:
       case 10: {
-        // The control of the outer loop is another local, so that both end.
+        // The control of the outer loop is another local, so both loops end.
         text_ += std::string("for ") + (depth > 2 ? "x" : "y") + " = " + integer(1) + " to " + integer(1) + " by " +
                  (pick(2) ? "1" : "-2") + " {\n";
         ++loops_;

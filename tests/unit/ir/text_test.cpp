@@ -1,4 +1,4 @@
-// The text form: every node prints as docs/ir.md says, and what is printed reads back to the same print.
+// The text form: every node prints as in docs/ir.md, and printed text reads back to the same print.
 #include "ir/text.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ std::string verified(const Module& module) {
   return out;
 }
 
-// Text that is already in printed form: reads without error, verifies, and prints to the byte.
+// Text in printed form: reads without error, verifies, and prints identically to the byte.
 void expectStable(const std::string& text) {
   TestModule first(text);
   ASSERT_TRUE(first.ok) << first.errors();

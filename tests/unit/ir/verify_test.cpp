@@ -1,4 +1,4 @@
-// The verifier: for each number of its list a module that breaks it, and nothing else.
+// The verifier: for each number of its list a module that breaks this rule and no other.
 #include "ir/verify.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace rung::ir {
 namespace {
 
-// Everything that the statements of the tests use.
+// Declares everything that the statements of the tests use.
 std::string withStatements(const std::string& statements, const std::string& attributes = "faults") {
   return "struct @Point { x: real; link: pointer to @Point }\n"
          "block @Ramp { in up: bool; inout level: real }\n"

@@ -1,6 +1,6 @@
-// Spoilt and hostile networks and charts, drawn and written as PLCopen XML: whatever can be parsed gives pictures and
-// files that are well-formed, in bounded time. RUNG_MUTATION_SEED and RUNG_MUTATION_COUNT try other mutants; a build
-// with sanitizers (preset asan) judges what they touch.
+// Corrupted and hostile networks and charts, drawn and written as PLCopen XML: everything that parses gives well-formed
+// pictures and files, in bounded time. RUNG_MUTATION_SEED and RUNG_MUTATION_COUNT try other mutants; a build with
+// sanitizers (preset asan) checks their memory accesses.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -51,7 +51,7 @@ void drawMembers(const Tree& tree, const Names& names, Slice<DeclId> decls, cons
     if (tree.kind(id) == DeclKind::Pou) draw(tree, names, tree.as<PouDecl>(id), program, out);
 }
 
-// Parsed, drawn, and written where all of it could be parsed, as `rung graph` and `rung convert` do.
+// Parses and draws the program, and writes it if it parses completely, as `rung graph` and `rung convert` do.
 Outcome outcomeOf(const std::string& program) {
   Sources sources;
   Names names;
@@ -81,7 +81,7 @@ uint32_t numberFrom(const char* variable, uint32_t otherwise) {
   return value != nullptr ? static_cast<uint32_t>(std::strtoul(value, nullptr, 10)) : otherwise;
 }
 
-// The drawn conformance programs, as text and as XML.
+// The drawn conformance programs, as ST and as XML.
 std::vector<std::string> programs() {
   std::vector<std::string> all;
   for (const char* folder : {"table54", "table56", "table58", "table61", "table73", "table74", "table75", "table76",
@@ -134,7 +134,7 @@ TEST(DrawingMutation, corrupted_drawings_give_well_formed_files) {
     const bool xml = plcopen::isPlcopen(text);
     for (size_t n = 1 + below(3); n > 0; --n) {
       size_t at = below(text.size());
-      if (below(2) == 0) at = std::min(text.find_first_of("0123456789", at), text.size() - 1);  // a wire, a place
+      if (below(2) == 0) at = std::min(text.find_first_of("0123456789", at), text.size() - 1);  // a wire or a position
       const size_t length = below(3) == 0 ? 0 : 1 + below(below(4) == 0 ? 12 : 2);
       const std::string put = below(3) == 0          ? ""
                               : xml && below(4) != 0 ? std::to_string(below(40))
@@ -153,7 +153,7 @@ TEST(DrawingMutation, corrupted_drawings_give_well_formed_files) {
   EXPECT_GE(written, count / 8);
 }
 
-// Names that there are not, elements at one place, circles, and places beyond any page.
+// Unknown names, several elements at one position, cycles, and positions outside of any page.
 TEST(DrawingMutation, what_sema_would_refuse_is_drawn_and_written) {
   const std::string chart = "PROGRAM p\nVAR a : BOOL; END_VAR\nINITIAL_STEP s: END_STEP\n";
   for (const char* transitions :

@@ -1,4 +1,4 @@
-// One wrong token, one error, on its line: valid programs are spoilt token by token and checked, parser and sema
+// One wrong token, one error, on its line: valid programs are corrupted token by token and checked, parser and sema
 // together. The seed is fixed; RUNG_MUTATION_SEED and RUNG_MUTATION_COUNT try others, RUNG_MUTATION_SHOW=1 prints each
 // mutant that has its first error elsewhere, or more than one.
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ constexpr const char* kCharts[] = {
     "tests/conformance/tm_tp_5_5/step_times.st",
 };
 
-// The texts of the libraries that the programs use, kept for all runs.
+// The sources of the libraries that the programs use, kept for all runs.
 const std::vector<sema::LibraryFile>& libraryFiles() {
   static std::vector<std::unique_ptr<std::string>> texts;
   static const std::vector<sema::LibraryFile> files = [] {
@@ -139,7 +139,7 @@ class Mutator {
 
   uint32_t below(size_t n) { return static_cast<uint32_t>(random_() % n); }
 
-  // Spoils one piece; `what` says how.
+  // Corrupts one piece; `what` describes the change.
   std::string mutate(const std::string& program, const std::vector<Piece>& pieces, uint32_t& line, std::string& what) {
     const Piece& piece = pieces[below(pieces.size())];
     const std::string own = program.substr(piece.begin, piece.length);
@@ -183,8 +183,8 @@ uint32_t numberFrom(const char* variable, uint32_t otherwise) {
   return value != nullptr ? static_cast<uint32_t>(std::strtoul(value, nullptr, 10)) : otherwise;
 }
 
-// Spoils the programs one after the other; says how many of the first errors are on the line of the wrong token, and
-// how many errors there are.
+// Corrupts the programs one after the other; prints how many of the first errors are on the line of the wrong token,
+// and how many errors there are.
 void spoil(std::span<const char* const> paths, uint32_t seed, uint32_t count, double least_share, double most_errors) {
   std::vector<std::string> programs;
   std::vector<std::vector<Piece>> pieces;

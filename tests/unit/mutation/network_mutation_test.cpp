@@ -1,6 +1,6 @@
-// Spoilt and hostile networks, in the notation and in PLCopen XML: whatever a file holds, checking it ends, in time
-// that grows with its size, and what is cut off is told. RUNG_MUTATION_SEED and RUNG_MUTATION_COUNT try other mutants;
-// a build with sanitizers (preset asan) judges what they touch.
+// Corrupted and hostile networks, in the notation and in PLCopen XML: checking any file ends, in time that grows with
+// its size, and a message reports what is cut off. RUNG_MUTATION_SEED and RUNG_MUTATION_COUNT try other mutants; a
+// build with sanitizers (preset asan) checks their memory accesses.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -98,7 +98,7 @@ const char* const kXml = R"(<?xml version="1.0" encoding="utf-8"?>
 </FBD></body></pou></pous></types></project>
 )";
 
-// ---- cut off, and spoilt
+// ---- truncated and corrupted
 
 TEST(NetworkMutation, what_is_cut_off_inside_a_network_is_reported) {
   uint32_t cuts = 0;
@@ -135,7 +135,7 @@ TEST(NetworkMutation, corrupted_networks_are_checked_to_the_end) {
         "1", "2", "3", "5", "8",   "99",      "NOT",  "OR", "SET",          ":=",   "=>", "[",
         "]", "(", ")", ";", "box", "contact", "jump", "EN", "{network ST}", "TRUE", "Q"};
     for (size_t n = 1 + below(2); n > 0; --n) {
-      // A number, which is an element or where a wire comes from, or any place.
+      // A number (an element or the start of a wire), or any position.
       size_t at = begin + below(end - begin);
       if (below(2) == 0) at = std::min(text.find_first_of("0123456789", at), end);
       const size_t length = below(3) == 0 ? 0 : 1 + below(below(4) == 0 ? 12 : 2);

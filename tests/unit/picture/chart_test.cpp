@@ -1,4 +1,4 @@
-// Pictures of charts: nothing overlaps, and every way of the chart is a line or a jump with the name of its step.
+// Pictures of charts: nothing overlaps, and every path of the chart is a line or a jump with the name of its step.
 #include "frontend/picture/chart_plan.h"
 #include "frontend/picture/picture.h"
 #include "frontend/syntax/sfc.h"
@@ -7,7 +7,7 @@
 namespace rung::picture {
 namespace {
 
-// `placed`: mostly from top to bottom, as an editor has them.
+// `placed`: with positions, mostly from top to bottom, as an editor writes them.
 std::string randomChart(uint32_t seed, bool placed) {
   Numbers random(seed);
   const auto at = [&](uint32_t row) {
@@ -70,7 +70,7 @@ TEST(Chart, random_charts_are_readable) {
         }
       }
     }
-    // What a node leads to hangs at the lines below it.
+    // The successors of a node are connected to the lines below it.
     Connected all(lines);
     const auto leads = [&](const ChartNode& from, const ChartNode& to, NameId name) {
       const Point below{from.origin.x, from.origin.y + from.below};
@@ -140,7 +140,7 @@ TEST(Chart, positions_of_the_file_are_taken) {
   ChartPlan plan = measureChart(drawn.tree, drawn.names, *drawn.pou);
   ASSERT_TRUE(takeChartPositions(drawn.tree, drawn.names, *drawn.pou, plan));
   const auto& n = plan.nodes;
-  // The middles of steps and transitions that the file has in a column still are; s0 is right of s1 and left of s2.
+  // Steps and transitions that form a column in the file keep it; s0 is right of s1 and left of s2.
   EXPECT_EQ(n[1].origin.x, n[3].origin.x);
   EXPECT_EQ(n[1].origin.x, n[5].origin.x);
   EXPECT_EQ(n[2].origin.x, n[4].origin.x);
@@ -149,7 +149,7 @@ TEST(Chart, positions_of_the_file_are_taken) {
   EXPECT_LT(n[0].origin.x, n[2].origin.x);
   EXPECT_GT(n[5].origin.y, n[1].origin.y + n[1].area.height);  // three actions are higher than the file's step
   EXPECT_EQ(1u, plan.jumps.size());
-  // s2 below s1's transition: the line from the other branch would run through nothing, and both meet.
+  // s2 below s1's transition: the line from the other branch crosses nothing, and both meet.
   const Drawn moved(source(100));
   ChartPlan other = measureChart(moved.tree, moved.names, *moved.pou);
   ASSERT_TRUE(takeChartPositions(moved.tree, moved.names, *moved.pou, other));
@@ -157,7 +157,7 @@ TEST(Chart, positions_of_the_file_are_taken) {
 }
 
 TEST(Chart, a_chart_without_usable_positions_is_laid_out) {
-  for (const char* places : {"", " AT 0, 0"}) {  // none; what CODESYS writes
+  for (const char* places : {"", " AT 0, 0"}) {  // no positions; those that CODESYS writes
     const std::string at = places;
     const Drawn drawn("PROGRAM p\nVAR a : BOOL; END_VAR\nINITIAL_STEP s0" + at + ": END_STEP STEP s1" + at +
                       ": END_STEP\nTRANSITION" + at + " FROM s0 TO s1 := a; END_TRANSITION\nEND_PROGRAM\n");

@@ -1,4 +1,4 @@
-// Parses a program, and what the tests of pictures ask about lines and boxes.
+// Parses a program and draws it; helpers of the picture tests for lines and boxes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ struct Drawn {
   const PouDecl* pou;
 };
 
-// The same numbers on every machine.
+// Random numbers that are the same on every machine.
 class Numbers {
  public:
   explicit Numbers(uint32_t seed) : state_(seed * 2654435761u + 1) {}
@@ -47,14 +47,14 @@ struct Segment {
            p.y <= std::max(a.y, b.y);
   }
   bool touches(const Segment& o) const { return holds(o.a) || holds(o.b) || o.holds(a) || o.holds(b); }
-  // Runs through the inside of the box.
+  // True when the line runs through the inside of the box.
   bool cuts(const Rect& r) const {
     return std::max(a.x, b.x) > r.x && std::min(a.x, b.x) < r.right() && std::max(a.y, b.y) > r.y &&
            std::min(a.y, b.y) < r.bottom();
   }
 };
 
-// Which of many lines are connected.
+// Finds which of many lines are connected.
 class Connected {
  public:
   explicit Connected(std::vector<Segment> lines) : lines_(std::move(lines)), group_(lines_.size()) {
@@ -63,7 +63,7 @@ class Connected {
       for (size_t k = 0; k < i; ++k)
         if (lines_[i].touches(lines_[k])) group_[find(i)] = find(k);
   }
-  // Of the line that holds the point; the number of lines where none does.
+  // The group of the line that contains the point; the number of lines when there is none.
   size_t groupAt(Point p) {
     for (size_t i = 0; i < lines_.size(); ++i)
       if (lines_[i].holds(p)) return find(i);

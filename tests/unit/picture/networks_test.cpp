@@ -1,5 +1,5 @@
-// Pictures of networks, for the drawings of many random programs: nothing overlaps, wires lead from pin to pin and
-// around elements, and every name can be read.
+// Pictures of networks, for the drawings of many random programs: nothing overlaps, wires connect pin to pin and avoid
+// elements, and every name can be read.
 #include <map>
 #include <set>
 #include <tuple>
@@ -11,12 +11,12 @@
 namespace rung::picture {
 namespace {
 
-// Elements that are wired to those before them, and now and then to one behind: a circle.
+// Elements that are wired to earlier ones, and now and then to a later one: a feedback loop.
 std::string randomNetworks(uint32_t seed, const char* language, bool placed) {
   Numbers random(seed);
   std::string out = "PROGRAM p\n{network " + std::string(language) + "}\n";
   const bool ladder = std::string_view(language) == "LD";
-  std::vector<uint32_t> bits, values;  // elements that give something
+  std::vector<uint32_t> bits, values;  // elements with an output
   const uint32_t count = 2 + random.below(24);
   if (ladder) {
     out += placed ? "rail 1 AT 0, 0, 3, 100;\n" : "rail 1;\n";
@@ -82,7 +82,7 @@ void checkPlan(const Plan& plan, const std::string& source) {
     }
     std::vector<End> ends = net.sources;
     ends.insert(ends.end(), net.targets.begin(), net.targets.end());
-    for (const End& end : ends)  // a rail connects what ends at it
+    for (const End& end : ends)  // a rail connects the ends on it
       if (const int32_t length = plan.terminal(end).length; length > 0) {
         const Point p = plan.point(end);
         lines.push_back({p, {p.x, p.y + length}});
@@ -116,7 +116,7 @@ TEST(Networks, random_networks_are_readable) {
   }
 }
 
-// In the plan of one network: where the element with this number stands.
+// The position of the element with this number in the plan of one network.
 Point originOf(const Drawn& drawn, const Plan& plan, uint64_t number) {
   for (const Item& item : plan.items)
     if (item.element != kNone && drawn.tree.list(drawn.pou->diagram.elements)[item.element].number == number)
@@ -182,10 +182,10 @@ TEST(Networks, a_joint_in_a_circle_and_a_wire_of_a_box_to_itself_end) {
   EXPECT_EQ(1u, plansOf(drawn)[0].nets.size());
 }
 
-// Which pins give to which, by the file's elements; through marks with the same number.
+// Which pins are connected to which, by the file's elements, or by continuations with the same number.
 using Wired = std::set<std::tuple<uint32_t, uint32_t, uint32_t, uint32_t>>;
 Wired wiredIn(const Plan& plan) {
-  std::map<uint32_t, std::vector<End>> into, out_of;  // by mark
+  std::map<uint32_t, std::vector<End>> into, out_of;  // by continuation
   for (const Net& net : plan.nets)
     for (const End& from : net.sources)
       for (const End& to : net.targets) {
@@ -234,7 +234,7 @@ TEST(Networks, a_narrow_page_keeps_every_element_and_every_wire) {
   }
 }
 
-// `count` elements in a row, each wired to the one before.
+// `count` elements in a row, each wired to the previous one.
 std::string row(uint32_t count, const char* language) {
   const bool ladder = std::string_view(language) == "LD";
   std::string out =

@@ -1,5 +1,5 @@
 // Projects cut at every byte, with bytes, ids, attributes and elements changed at random: each is read and parsed, each
-// message has a place in the file, and nothing crashes or hangs. The seed is fixed; RUNG_SPOILT_SEED and
+// message has a location in the file, and nothing crashes or hangs. The seed is fixed; RUNG_SPOILT_SEED and
 // RUNG_SPOILT_COUNT try others.
 #include <gtest/gtest.h>
 
@@ -90,7 +90,7 @@ class Spoiler {
     }
   }
 
-  // The value of an attribute becomes another's, or nothing.
+  // Replaces the value of an attribute by that of another, or by nothing.
   void quoted(std::string& text, bool empty) {
     const size_t open = text.find('"', at(text));
     const size_t close = open == std::string::npos ? open : text.find('"', open + 1);
@@ -101,7 +101,7 @@ class Spoiler {
     if (value.find('<') == std::string::npos) text.replace(open + 1, close - open - 1, value);
   }
 
-  // An element without content goes, or is doubled somewhere else.
+  // Removes an element without content, or repeats it somewhere else.
   void element(std::string& text) {
     const size_t close = text.find("/>", at(text));
     const size_t open = close == std::string::npos ? close : text.rfind('<', close);

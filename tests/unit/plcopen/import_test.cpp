@@ -1,4 +1,4 @@
-// PLCopen projects are told by their content, and become one ST text whose places are those of the XML.
+// PLCopen projects are recognized by their content, and become one ST source whose locations are those of the XML.
 #include <gtest/gtest.h>
 
 #include "tests/unit/plcopen/read_helper.h"
@@ -55,7 +55,7 @@ TEST(Plcopen, SectionsAndTheirKeywords) {
       "VAR NON_RETAIN\nEND_VAR\nVAR_TEMP\nEND_VAR\nEND_FUNCTION\n");
 }
 
-// A text without quotes is what Beremiz keeps (TC6 2.01); CODESYS keeps expressions.
+// Beremiz writes strings without quotes (TC6 2.01); CODESYS writes expressions.
 TEST(Plcopen, StringsWithoutQuotes) {
   const std::string inner =
       "<pou name='P' pouType='program'><interface><localVars><variable name='s'><type><string/></type><initialValue>"
@@ -128,7 +128,7 @@ TEST(Plcopen, ExtensionsAreMentionedOncePerKind) {
       "3:13 the extension `urn:b` is not read; its content is ignored\n");
 }
 
-// Wires that meet and part again at each of many lines would be 2^n ways.
+// Wires that meet and part again at each of many lines would form 2^n paths.
 TEST(Plcopen, ChartsWithoutEndAreRefused) {
   std::string chart = "<step localId='0' name='A' initialStep='true'/>";
   const auto wire = [](int from) { return "<connection refLocalId='" + std::to_string(from) + "'/>"; };
@@ -149,7 +149,7 @@ TEST(Plcopen, ChartsWithoutEndAreRefused) {
   EXPECT_EQ(reading.diagnostics.all()[0].message, "too many paths through one chart; the limit is 1000000");
 }
 
-// Found by the spoiler: a variable has no inputs, whatever is wired to it.
+// Found by corrupted_test: a variable has no inputs, whatever is wired to it.
 TEST(Plcopen, VariableWiredToItself) {
   const Reading reading(project(
       "<pou name='P' pouType='program'><body><SFC><step localId='1' name='A' initialStep='true'/><inVariable "

@@ -1,4 +1,4 @@
-// A PLCopen project read as the tool reads it.
+// Reads a PLCopen project like the tool does.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct Reading {
     program = readProject(sources, file, diagnostics, libraries);
   }
   std::string text() const { return program ? std::string(sources.sourceText(program)) : "none"; }
-  // "line:column" in the XML of the first place where the text has `what`.
+  // "line:column" in the XML for the first position where the source has `what`.
   std::string locationOf(std::string_view what) const {
     const size_t at = sources.sourceText(program).find(what);
     if (at == std::string_view::npos) return "none";

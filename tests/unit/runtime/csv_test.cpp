@@ -1,4 +1,4 @@
-// CSV as RFC 4180 says.
+// Reading and writing CSV (RFC 4180).
 #include "stdlib/runtime/host/csv.h"
 
 #include <gtest/gtest.h>

@@ -77,7 +77,7 @@ TEST(Run, InputsSetVariablesBeforeTheirCycle) {
   EXPECT_EQ(read(trace),
             "cycle,time_ms,Main.count,\"Main.table[2,1]\",Main.name,%QB0\n"
             "0,0,10,0,'a$'b',4\n1,10,15,5,\"'x,y'\",4\n2,20,20,5,\"'x,y'\",4\n3,30,25,6,\"'x,y'\",5\n");
-  // A trace is an input: time_ms is passed over.
+  // A trace may serve as input: time_ms is ignored.
   write(inputs, "cycle,time_ms,Main.count\n0,0,100\n");
   options.trace_path.clear();
   options.watch = "Main.count";

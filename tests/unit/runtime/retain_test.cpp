@@ -65,7 +65,7 @@ TEST(RetainFile, AnotherLayoutKeepsWhatHasTheSameName) {
   EXPECT_EQ(load(path, RUNG_COLD, sample::changedModule()), std::make_pair(5, 70));
 }
 
-// Cuts the write of the newer state at every 64th byte: always the old state, or the new one when all is there.
+// Cuts the write of the newer state at every 64th byte: always the old state, or the new one when it is complete.
 TEST(RetainFile, ATornWriteLeavesTheOldState) {
   const std::string path = freshPath();
   const auto content = [&] {

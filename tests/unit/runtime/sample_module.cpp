@@ -1,3 +1,4 @@
+// The module written by hand: see sample_module.h.
 #include "sample_module.h"
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// A module written by hand, as generated code would make it: one program, a fast and a slow task, an event task, an
-// image, retained data, tests. The host is tested against it, without any compiler.
+// A module written by hand in the form of generated code: one program, a fast and a slow task, an event task, an
+// image, retained data, tests. The host is tested with it, without any compiler.
 #pragma once
 
 #include <string>
@@ -34,7 +34,7 @@ const rung_module& module();
 // The same with another layout hash: the retained variables are found by name.
 const rung_module& changedModule();
 
-// What ran, for order: letters appended by the tasks.
+// Letters appended by the tasks, in the order in which they ran.
 extern std::string ran;
 
 }  // namespace sample

@@ -1,4 +1,4 @@
-// The text functions of the library Standard, in both native forms, against the words of their declarations
+// The string functions of the library Standard, in both native forms, against the descriptions of their declarations
 // (standard/string.st) written with std::string: all small arguments, all capacities, and the target as each input.
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ constexpr uint32_t kMaxCapacity = 8;
 const std::string kFirst[] = {"", "a", "abc", "abab", "abcdefgh"};
 const std::string kSecond[] = {"", "x", "ab", "xyz"};
 
-// As many characters as there are, none for a count of 0 or less.
+// As many characters as there are; none for a count of 0 or less.
 std::string part(const std::string& text, int64_t begin, int64_t count) {
   if (begin < 0 || begin >= static_cast<int64_t>(text.size()) || count <= 0) return "";
   return text.substr(static_cast<size_t>(begin), static_cast<size_t>(count));
@@ -113,7 +113,7 @@ const Case kCases[] = {
      }},
 };
 
-// The target apart, as the first input, as the second, and both inputs at once.
+// The target separate, as the first input, as the second, and as both inputs.
 void check(const Case& one, const Arguments& x, uint32_t capacity) {
   for (int alias = 0; alias < 4; ++alias) {
     Arguments used = x;
@@ -170,7 +170,7 @@ TEST(SizedString, FindInStringsOfEveryLength) {
   }
   EXPECT_EQ(0, rung_standard_FIND__STRING_255_sized("abc", 3, "", 0));
   EXPECT_EQ(0, rung_standard_FIND__STRING_255_sized("ab", 2, "abc", 3));
-  // A byte that differs from the one before it by its highest bit, or by one.
+  // A byte that differs from the previous one by its highest bit, or by one.
   EXPECT_EQ(3, rung_standard_FIND__STRING_255_sized("\x80\x02\x01\x01\x01\x01\x01\x01\x01", 9, "\x01", 1));
 }
 

@@ -1,4 +1,4 @@
-// Native functions of the library Standard: values from the manuals' samples, edges of positions and lengths, results
+// Native functions of the library Standard: values from the manuals' samples, limits of positions and lengths, results
 // that overlap inputs.
 #include <gtest/gtest.h>
 

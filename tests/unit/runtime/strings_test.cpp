@@ -1,4 +1,4 @@
-// The text functions and assertions of rung/code.h, and faults through guards.
+// The string functions and assertions of rung/code.h, and faults through guards.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ TEST(Text, BetweenTheTwoKinds) {
   rung_string_of_wstring(narrow, 7, u"a\u00fc\U0001F600");
   EXPECT_STREQ(narrow, "a\xC3\xBC\xF0\x9F\x98\x80");
   rung_string_of_wstring(narrow, 5, u"a\u00fc\U0001F600");
-  EXPECT_STREQ(narrow, "a\xC3\xBC");  // no half character
+  EXPECT_STREQ(narrow, "a\xC3\xBC");  // never half a character
   rung_string_of_wstring(narrow, 7, u"\xD800x");
   EXPECT_STREQ(narrow, "?x");
   char16_t wide[5];

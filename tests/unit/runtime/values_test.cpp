@@ -1,4 +1,4 @@
-// Values as text and back: the spelling of design §11 and every literal form.
+// Formats and parses values: every format of the trace and every form of literal.
 #include "rung/values.h"
 
 #include <gtest/gtest.h>
@@ -137,7 +137,7 @@ TEST(Values, Texts) {
   EXPECT_TRUE(rung_parse(RUNG_WSTRING, false, 3, emoji.data(), emoji.size(), wide));
   EXPECT_EQ(std::u16string(wide), u"a\U0001F600");
   EXPECT_TRUE(rung_parse(RUNG_WSTRING, false, 2, emoji.data(), emoji.size(), wide));
-  EXPECT_EQ(std::u16string(wide), u"a");  // no half of a pair
+  EXPECT_EQ(std::u16string(wide), u"a");  // never half of a pair
 }
 
 }  // namespace

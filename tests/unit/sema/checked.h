@@ -1,4 +1,4 @@
-// A checked project for tests of declarations: texts in, tables and diagnostics out.
+// A checked project for tests of declarations. In: sources. Out: tables and diagnostics.
 #pragma once
 
 #include <string>

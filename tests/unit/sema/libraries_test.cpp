@@ -1,4 +1,4 @@
-// Libraries: the index, reading on first use, name spaces, generic functions.
+// Libraries: the index, reading on first use, namespaces, generic functions.
 #include "sema/declarations/libraries.h"
 
 #include <gtest/gtest.h>

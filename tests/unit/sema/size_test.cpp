@@ -13,7 +13,7 @@ struct Clock {
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
 };
 
-// The limits are far above what is needed, and far below what a quadratic step would take.
+// The limits are far above the actual time, and far below that of a quadratic step.
 std::string blocksInAChain(int count) {
   std::string text;
   for (int i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-// Types as declared: aliases, enumerations, subranges, arrays, texts, structures; cycles and bounds.
+// Types as declared: aliases, enumerations, subranges, arrays, strings, structures; cycles and bounds.
 #include <gtest/gtest.h>
 
 #include "tests/unit/sema/checked.h"

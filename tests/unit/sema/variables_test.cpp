@@ -90,8 +90,8 @@ TEST(Variables, addresses) {
   EXPECT_EQ(checked.var("c").image.bit, 1u);
   EXPECT_TRUE(checked.var("d").image.is_bit);
   EXPECT_EQ(checked.var("e").image.byte, 192u);
-  EXPECT_EQ(checked.var("i").image.byte, 216u);  // allocated behind all others
-  EXPECT_EQ(checked.var("j").image.byte, 218u);  // and this one behind them, aligned
+  EXPECT_EQ(checked.var("i").image.byte, 216u);  // allocated after all others
+  EXPECT_EQ(checked.var("j").image.byte, 218u);  // and this one after them, aligned
   EXPECT_EQ(checked.project.image_bytes[0], 220u);
 }
 

@@ -1,3 +1,4 @@
+// Checks programs and prints the checked tree: see checked.h.
 #include "tests/unit/sema_bodies/checked.h"
 
 #include "frontend/source/dialect.h"

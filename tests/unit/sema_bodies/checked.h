@@ -1,5 +1,5 @@
-// A program checked for a test: source text in, diagnostics as `line:column code` out, and the checked tree as text in
-// which implicit conversions, types of literals and resolved calls can be seen. A small library stands behind it.
+// Checks a program for a test, with a small library. In: the source. Out: diagnostics as `line:column code`, and the
+// checked tree in a text form with implicit conversions, types of literals and resolved calls.
 #pragma once
 
 #include <string>
@@ -27,7 +27,7 @@ struct Checked {
 
 // The diagnostics of statements in a program with these variables; lines count from the first statement, 1.
 std::string codesOf(const std::string& vars, const std::string& statements, Dialect dialect = Dialect::Codesys);
-// The statements as the tree has them after the check; diagnostics instead when there are errors.
+// The statements in the tree after the check; diagnostics instead when there are errors.
 std::string treeOf(const std::string& vars, const std::string& statements, Dialect dialect = Dialect::Codesys);
 
 }  // namespace rung::sema_test

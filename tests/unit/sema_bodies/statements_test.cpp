@@ -1,4 +1,4 @@
-// Rules of statements: conditions, CASE labels, loops, jumps, targets, what is never reached or used.
+// Rules of statements: conditions, CASE labels, loops, jumps, targets, unreachable and unused code.
 #include <gtest/gtest.h>
 
 #include "frontend/source/dialect.h"

@@ -1,4 +1,4 @@
-// What the tree looks like after the check: types of literals, implicit conversions, resolved calls.
+// The tree after the check: types of literals, implicit conversions, resolved calls.
 #include <gtest/gtest.h>
 
 #include "tests/unit/sema_bodies/checked.h"

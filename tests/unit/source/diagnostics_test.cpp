@@ -1,4 +1,4 @@
-// The list of reports: duplicates, limits, switches, order.
+// The list of diagnostics: duplicates, limits, switches, order.
 #include "frontend/source/diagnostics.h"
 
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ TEST(Diagnostics, SwitchesOfWarnings) {
   Sources sources;
   Diagnostics diagnostics(sources);
   EXPECT_FALSE(diagnostics.setWarning("no-such-warning", false));
-  EXPECT_FALSE(diagnostics.setWarning("E0401", false));  // errors stay
+  EXPECT_FALSE(diagnostics.setWarning("E0401", false));  // errors cannot be switched off
   EXPECT_TRUE(diagnostics.setWarning("all", true));
   for (const DiagInfo& info : allDiags()) {
     if (info.severity != Severity::Warning) continue;

@@ -1,4 +1,4 @@
-// Locations: lines, columns in characters, tokens, several files, texts that are not clean.
+// Locations: lines, columns in characters, tokens, several files, sources with invalid bytes.
 #include "frontend/source/files.h"
 
 #include <gtest/gtest.h>
@@ -101,7 +101,7 @@ TEST(Files, SourceMappedTextHasTheLocationsOfItsParts) {
       {{0, at(sources, a, 6), true}, {3, at(sources, a, 9), false}, {8, at(sources, b, 0), true}});
   EXPECT_EQ(sources.location(at(sources, created, 0)).line, 2u);
   EXPECT_EQ(sources.location(at(sources, created, 2)).column, 5u);
-  EXPECT_EQ(sources.location(at(sources, created, 5)).column, 6u);  // END stands behind `two`
+  EXPECT_EQ(sources.location(at(sources, created, 5)).column, 6u);  // END follows `two`
   EXPECT_EQ(sources.lineNumber(at(sources, created, 5)), 2u);
   EXPECT_EQ(sources.location(at(sources, created, 9)).file, b);
   EXPECT_EQ(sources.location(at(sources, created, 9)).column, 2u);

@@ -1,4 +1,4 @@
-// Interning: one id per spelling, one key per identifier, texts that stay where they are.
+// Interning: one id per spelling, one key per identifier, strings that do not move.
 #include "frontend/source/names.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// "Did you mean": near names are found whatever their case; far ones and ties behave.
+// "Did you mean": similar names are found in any case; distant names give none, ties the first by name.
 #include <gtest/gtest.h>
 
 #include "frontend/source/diagnostics.h"

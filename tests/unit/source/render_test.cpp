@@ -1,4 +1,4 @@
-// What people and tools read: text with marks, JSON, SARIF; hostile bytes; cut lines; limits.
+// Diagnostics for people and tools: source with underlines, JSON, SARIF; hostile bytes; cut lines; limits.
 #include "frontend/source/render.h"
 #include "frontend/syntax/diagnostics.h"
 #include "sema/diagnostics.h"

@@ -1,4 +1,4 @@
-// Storage of the tree: nodes over chunk borders, lists, texts, and where an expression begins.
+// Storage of the tree: nodes over chunk borders, lists, strings, and where an expression begins.
 #include "frontend/syntax/tree.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Every token, comment and pragma form, and what the lexer says about text that is none.
+// Every form of token, comment and pragma, and the diagnostics for invalid source.
 #include "frontend/text/lexer.h"
 #include "frontend/source/dialect.h"
 

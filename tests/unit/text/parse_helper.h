@@ -1,4 +1,4 @@
-// Parses a text and keeps what came out: the tree's text and the diagnostics as "line:column code" words.
+// Parses a source. Out: the tree in its text form, and the diagnostics as "line:column code".
 #pragma once
 
 #include <string>
@@ -34,7 +34,7 @@ struct Parsed {
   std::string printed;
 };
 
-// The statements, two blanks deep less, of a program around them.
+// The statements, indented two blanks less, of a program around them.
 inline std::string body(const std::string& statements, Dialect dialect = Dialect::Codesys) {
   const Parsed parsed("PROGRAM p\n" + statements + "\nEND_PROGRAM\n", dialect);
   if (!parsed.codes().empty()) return parsed.codes();

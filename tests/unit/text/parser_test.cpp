@@ -1,4 +1,4 @@
-// Expressions by dialect, words that are keywords only here and there, limits, docs and pragmas.
+// Expressions by dialect, context-dependent keywords, limits, doc comments and pragmas.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -57,7 +57,7 @@ TEST(Recovery, TypicalSlips) {
 }
 
 TEST(Recovery, BlockKeywords) {
-  // A missing END_… is told by the indentation; the END_… of the outer block then stays with it.
+  // The indentation shows which END_… is missing; the END_… of the outer block then belongs to that block.
   EXPECT_EQ(statementErrors("IF a THEN\n  IF b THEN\n    c := 1;\n  ;\n  d := 1;\nEND_IF\ne := 1;"), "5:3 E0210");
   EXPECT_EQ(statementErrors("FOR i := 1 TO 2 DO\n  WHILE b DO\n    c := 1;\n  ;\nEND_FOR\ne := 1;"), "5:3 E0210");
   EXPECT_EQ(statementErrors("IF a THEN\n  c := 1;\nEND_FOR\ne := 1;"), "4:1 E0212");

@@ -1,5 +1,5 @@
-// rung_add_program() of an installed Rung, moved to another folder: tests/programs/cmake_project/check.sh has the
-// steps.
+// rung_add_program() of an installed Rung, moved to another folder: the steps are in
+// tests/programs/cmake_project/check.sh.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// The cache of compiled C++: entries, limits, abandoned folders, concurrent writers.
 #include "tools/rung/cache.h"
 
 #include <fcntl.h>
@@ -81,7 +82,7 @@ TEST_F(CacheTest, TrimTakesTheLongestUnused) {
   cache.trim(250'000);
   EXPECT_FALSE(cache.has(oldest));
   EXPECT_EQ(access(older.c_str(), F_OK), 0);
-  cache.trim(0);  // what was used in the last minutes may be in use
+  cache.trim(0);  // entries used in the last minutes may be in use
   EXPECT_NE(access(older.c_str(), F_OK), 0);
   EXPECT_EQ(access(young.c_str(), F_OK), 0);
 }
@@ -116,7 +117,7 @@ TEST_F(CacheTest, ManyWritersOneEntry) {
         std::string entry = fill(cache, "sharedkey", 4096);
         struct stat info;
         ASSERT_EQ(stat(entry.c_str(), &info), 0);
-        ASSERT_EQ(info.st_size, 4096);  // never a part
+        ASSERT_EQ(info.st_size, 4096);  // never a part of it
       }
     });
   for (std::thread& thread : threads) thread.join();

@@ -1,4 +1,4 @@
-// The tool as a user meets it: exit codes, messages, outputs that are whole or absent, the cache, several runs at once.
+// The tool from a user's view: exit codes, messages, outputs that are whole or absent, the cache, concurrent runs.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -147,7 +147,7 @@ TEST_F(CommandTest, BlanksAndUtf8InPaths) {
 TEST_F(CommandTest, UnchangedRunUsesTheCache) {
   folder.write("a.st", kCounter);
   ASSERT_EQ(shell("rung run --engine=native a.st --cycles 1").exit, 0);
-  // Without a compiler, only the cache can answer; another compiler makes another entry.
+  // Without a compiler, only the cache can serve; another compiler makes another entry.
   EXPECT_EQ(shell("PATH=/nowhere; rung run --engine=native a.st --cycles 1").exit, 2);
   EXPECT_EQ(shell("rung run --engine=native a.st --cycles 1").exit, 0);
   EXPECT_EQ(shell("ls '" + cache.path() + "/work' | wc -l").out, "0\n");
@@ -161,7 +161,7 @@ TEST_F(CommandTest, InterpretsWithoutACompiler) {
   EXPECT_EQ(shell("PATH=/nowhere; rung test test.st").out, "pass t\n1 passed, 0 failed\n");
 }
 
-// Native functions of a user's library are not in rung: such a program is compiled, and says so.
+// rung lacks the native functions of a user's library: such a program is compiled, with a message.
 TEST_F(CommandTest, CompilesWhatItCannotInterpret) {
   folder.write("lib/plant/own.st", "{native}\nFUNCTION OwnCount : INT\nEND_FUNCTION\n");
   folder.write("a.st", "PROGRAM Main\nVAR x : INT; END_VAR\nx := OwnCount();\nEND_PROGRAM\n");
@@ -239,7 +239,8 @@ TEST_F(CommandTest, Explain) {
   expect("rung explain E9999", 2, "unknown diagnostic `E9999`");
 }
 
-// A change of a block's fields is one of its users' text; only what many use is in a header (codegen/records.h).
+// A change of a block's fields changes its users' code only; just records with many users have a header
+// (codegen/records.h).
 TEST_F(CommandTest, AnInterfaceChangesItsUsersOnly) {
   std::string text = "TYPE Shared : STRUCT n : INT; END_STRUCT END_TYPE\n";
   for (int i = 0; i < 400; ++i) {

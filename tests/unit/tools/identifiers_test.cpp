@@ -1,5 +1,5 @@
-// What `rung check` accepts never fails in a C++ compiler for its names: tests/programs/identifiers/check.sh has the
-// words and the places.
+// Names that `rung check` accepts never fail in a C++ compiler: the words and where they are used are in
+// tests/programs/identifiers/check.sh.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// Inputs: folders and their order, missing and unreadable files, project files, pairs of files, kinds of files.
 #include "tools/rung/inputs.h"
 #include "frontend/source/dialect.h"
 #include "frontend/syntax/diagnostics.h"
@@ -97,7 +98,7 @@ TEST_F(InputsTest, BinaryAndUtf16) {
 
 TEST_F(InputsTest, FileThatFitsNoMemory) {
   std::string path = folder.write("huge.st", kProgram);
-  ASSERT_EQ(truncate(path.c_str(), off_t{5} << 30), 0);  // a hole: no disk space
+  ASSERT_EQ(truncate(path.c_str(), off_t{5} << 30), 0);  // a sparse file: no disk space
   read({path});
   EXPECT_TRUE(inputs.io_error);
   EXPECT_STREQ(diagInfo(diagnostics.all()[0].diag).code, "E0107");
@@ -134,7 +135,7 @@ TEST_F(InputsTest, ProjectOfTwinCatTakesWhatItLists) {
   EXPECT_FALSE(inputs.io_error);
 }
 
-// -I X.plcproj: what the project lists but its programs and tasks; its name qualifies what it declares.
+// -I X.plcproj: the files of the project without its programs and tasks; its name qualifies their declarations.
 TEST_F(InputsTest, ProjectOfTwinCatAsLibrary) {
   const std::string head = "<Project xmlns=\"http://schemas.microsoft.com/developer/msbuild/2003\">";
   const std::string library = folder.write("lib/Parts.plcproj", head +
@@ -177,10 +178,10 @@ TEST_F(InputsTest, PairsOfFilesAreOnePou) {
   folder.write("p/a.pou", "PROGRAM a\nVAR x : INT; END_VAR\n");
   folder.write("p/A.st", "x := 1;");
   folder.write("p/b.st", kProgram);
-  folder.write("p/c_body.st", "y := 1;");  // whose declaration is nowhere
+  folder.write("p/c_body.st", "y := 1;");  // without any declaration
   folder.write("p/two.decl", "PROGRAM two\n");
   folder.write("p/two.pou", "PROGRAM two\n");
-  folder.write("p/two.impl", ";");  // of which?
+  folder.write("p/two.impl", ";");  // it is not clear of which POU
   read({folder.path() + "/p"});
   readPrograms(sources, diagnostics, inputs);
   EXPECT_EQ(paths(), (std::vector<std::string>{"a.pou", "b.st", "c_body.st", "two.decl", "two.impl", "two.pou"}));

@@ -1,5 +1,5 @@
 // Large inputs: linear in time and memory, never quadratic. Each is so large that a quadratic step would take minutes
-// where the tool takes well under a second, so that the limit of CPU time cannot fail on a slow machine.
+// where the tool takes well under a second, so the limit of CPU time cannot fail on a slow machine.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -18,7 +18,7 @@ constexpr rlim_t kSeconds = 20;
 constexpr long kKilobytes = 300 * 1024;
 
 struct LargeTest : testing::Test {
-  // Runs `rung emit` on the text; its exit code, or -1 when it took too long.
+  // Runs `rung emit` on the source; returns its exit code, or -1 when it took too long.
   int emit(const std::string& text) {
     const std::string in = folder.write("large.st", text), out = folder.path() + "/out";
     const pid_t child = fork();
@@ -100,7 +100,7 @@ TEST_F(LargeTest, Cases) {
                  "END_IF;\nEND_PROGRAM\n"),
             0);
 }
-// Deeper than any stack could take it: refused, soon and once.
+// Deeper than any stack: rejected, quickly and with one error.
 TEST_F(LargeTest, Terms) {
   EXPECT_EQ(emit("PROGRAM Main\nVAR n : DINT; END_VAR\nn := n" + repeated(100000, "\n + #") + ";\nEND_PROGRAM\n"), 1);
   EXPECT_NE(messages().find("error[E0220]"), std::string::npos);

@@ -1,3 +1,4 @@
+// The command line: every form of a value, defaults, mistakes, help, response files.
 #include "tools/rung/options.h"
 #include "frontend/source/dialect.h"
 

@@ -1,3 +1,4 @@
+// Child processes: folder, output, the first failure.
 #include "tools/rung/process.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// rung.project: all sections, mistakes with their location, tasks as a CONFIGURATION.
 #include "tools/rung/project_file.h"
 #include "frontend/source/dialect.h"
 

@@ -1,4 +1,4 @@
-// A folder of one test, gone at its end.
+// A folder of one test, removed at its end.
 #pragma once
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// The arithmetic kernel against design §6; expected values computed by hand.
+// The arithmetic kernel: docs/language.md, Arithmetic and faults; expected values computed by hand.
 #include "sema/types/arithmetic.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Types and values as messages and traces print them (design §11).
+// Types and values as messages and traces print them.
 #include <gtest/gtest.h>
 
 #include <limits>

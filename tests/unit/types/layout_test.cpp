@@ -1,4 +1,4 @@
-// Sizes, alignments and offsets as design §6 fixes them.
+// Sizes, alignments and offsets: docs/language.md, Types and memory.
 #include <gtest/gtest.h>
 
 #include "sema/types/types.h"

@@ -1,4 +1,4 @@
-// Vendors' files are told apart by their content, and become one ST text in one order.
+// Vendors' files are recognized by their content, and become one ST source in one order.
 #include <gtest/gtest.h>
 
 #include "tests/unit/vendor/read_helper.h"

@@ -1,4 +1,4 @@
-// What an assembled text says of its places: the line and column of the file on disk.
+// Locations in source-mapped text: the line and column of the file on disk.
 #include <gtest/gtest.h>
 
 #include "tests/unit/vendor/read_helper.h"
@@ -17,7 +17,7 @@ TEST(Places, PartsEntitiesAndAddedKeywords) {
   EXPECT_EQ(reading.locationOf("< 1"), "5:30");
   EXPECT_EQ(reading.locationOf(" 1;"), "5:34");
   EXPECT_EQ(reading.locationOf("y;"), "6:3");
-  EXPECT_EQ(reading.locationOf("END_PROGRAM"), "6:5");  // behind what stands before it
+  EXPECT_EQ(reading.locationOf("END_PROGRAM"), "6:5");  // after the token before it
   EXPECT_EQ(reading.sources.path(reading.program), "P.TcPOU");
 }
 

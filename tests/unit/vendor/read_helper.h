@@ -1,4 +1,4 @@
-// A vendor's file read as the tool reads it.
+// Reads a vendor's file like the tool does.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct Reading {
     program = readProgram(sources, file, formatOf(sources.sourceText(file)), diagnostics);
   }
   std::string text() const { return program ? std::string(sources.sourceText(program)) : "none"; }
-  // "line:column" in the vendor's file of the first place where the program has `what`.
+  // "line:column" in the vendor's file for the first position where the program has `what`.
   std::string locationOf(std::string_view what) const {
     const size_t at = sources.sourceText(program).find(what);
     if (at == std::string_view::npos) return "none";

@@ -1,4 +1,4 @@
-// The XML reader: elements, attributes, decoded text and its places, and broken input of every kind.
+// The XML reader: elements, attributes, decoded text and its locations, and broken input of every kind.
 #include "frontend/xml/xml.h"
 
 #include <gtest/gtest.h>

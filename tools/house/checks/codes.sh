@@ -21,7 +21,7 @@ for code in $codes; do
     echo "$page:1: the title is not \`# $code: ...\`"
     bad=1
   fi
-  # The broken program of the page is run by the tests, too; a page without one says why.
+  # The tests run the broken program of the page, too; a page without one gives the reason.
   if ! grep -qx "$code" <<<"$provoked" && ! grep -qsE '^(```[a-z]+ broken|<!-- no program: )' "$page"; then
     echo "$code: no test provokes it"
     bad=1

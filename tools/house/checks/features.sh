@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every feature that a test names is a row of the standard's tables as tests/conformance/features.tsv lists them.
+# Checks that every feature named by a test is a row of the standard's tables in tests/conformance/features.tsv.
 set -eu
 cd "$(dirname "$0")/../../.."
 unknown=$(grep -rnE '^(//|#|<!--) features:' tests/conformance tests/programs tests/golden |

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every C++ file is as clang-format 14 leaves it. Other versions format differently, so they are not asked.
+# Checks that every C++ file is formatted by clang-format 14. Other versions format differently and are not used.
 set -eu
 cd "$(dirname "$0")/../../.."
 if ! clang-format --version 2>/dev/null | grep -q 'version 14\.'; then

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# No file includes a header of a later layer (design: each layer uses only those before it), the runtime includes no
+# No file includes a header of a later layer (each layer uses only those before it), the runtime includes no
 # compiler code, of the compiler only the interpreter includes the runtime, and nothing includes tests. The registry of
 # messages includes the lists of all layers.
 set -eu
 cd "$(dirname "$0")/../../.."
 tools/house/tracked .h .cpp .def | grep -v '^tests/' | xargs -d '\n' grep -Hn '^#include "' | awk '
-  # The layers in order; a path belongs to the longest prefix that matches. Equal numbers may not see each other,
-  # except through their own folder.
+  # The layers in order; a path belongs to the longest prefix that matches. Equal numbers may not include each other,
+  # except in their own folder.
   BEGIN {
     layer["frontend/source/"] = 1
     layer["frontend/syntax/"] = 2

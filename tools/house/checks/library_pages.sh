@@ -1,4 +1,4 @@
 #!/usr/bin/env bash
-# The pages of docs/library say what the doc comments of stdlib/ say.
+# Checks that the pages of docs/library agree with the doc comments of stdlib/.
 set -eu
 exec "$(dirname "$0")/../../library_pages/library_pages.sh" --check

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every relative link in a Markdown file points to a file that is there, and so does every back-quoted path of a file of
-# the project in README, CONTRIBUTING and docs/.
+# Checks that every relative link in a Markdown file points to an existing file, and that every back-quoted path of a
+# project file in README, CONTRIBUTING and docs/ exists.
 set -eu
 cd "$(dirname "$0")/../../.."
 dead=$({

@@ -1,7 +1,8 @@
-/* What generated code includes, besides its own headers: C++17, no <cmath>, no templates. In: nothing but the compiler
- * and <string.h>. Out: inline helpers for arithmetic with the semantics of design §6, image access, and the
- * declarations of what librung_runtime holds out of line (stdlib/runtime/src). The names of the helpers are a contract
- * with codegen/expressions.cpp; they agree with the arithmetic kernel (sema/types/arithmetic.cpp) bit for bit. */
+/* The runtime header of generated code, included besides its own headers: C++17, no <cmath>, no templates. In: nothing
+ * but the compiler and <string.h>. Out: inline helpers for arithmetic with IEC semantics (docs/language.md, Arithmetic
+ * and faults), image access, and the declarations of the functions that librung_runtime holds out of line
+ * (stdlib/runtime/src). The names of the helpers are a contract with codegen/expressions.cpp; they agree with the
+ * arithmetic kernel (sema/types/arithmetic.cpp) bit for bit. */
 #ifndef RUNG_CODE_H
 #define RUNG_CODE_H
 
@@ -9,7 +10,7 @@
 
 #include "rung/module.h"
 
-/* What the user wrote may compare a USINT with 0 or never read a variable: rung has said so where it matters. */
+/* The user may compare a USINT with 0 or never read a variable: rung has warned where it matters. */
 #ifdef RUNG_GENERATED
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #pragma GCC diagnostic ignored "-Wunused-variable"
@@ -30,11 +31,11 @@
 #define RUNG_PURE __attribute__((pure))
 /* A small function that its file calls in loops: g++ may inline it there, and others call it. */
 #define RUNG_INLINE __attribute__((used)) inline
-/* What g++ does for a body (codegen/effort.h). Straight: its loops do little, the quick passes are enough; the three
- * that are switched off took 8 % of the time and left the code as it is, since the others find the same. Loops: two
- * neighbours that change places must not become one wide load and store, whose next load waits for both: four times
- * slower in every sort; loops are vectorized all the same; aligned, since a loop's speed hangs on where it lies in
- * lines of the cache by up to 15 %. As attributes: a pragma costs time at each declaration. */
+/* Optimization of a body (codegen/effort.h). Straight: its loops do little, the quick passes are enough; the three
+ * passes that are off took 8 % of the time without effect, since the others find the same. Loops: a swap of two
+ * neighbours must not become one wide load and store, whose next load waits for both (every sort would be four times
+ * slower); loops are still vectorized; aligned, since the speed of a loop depends by up to 15 % on its position in
+ * cache lines. As attributes: a pragma costs time at each declaration. */
 #if defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && defined(__GNUC__) && !defined(__clang__)
 #define RUNG_STRAIGHT __attribute__((optimize("Og", "no-forward-propagate", "no-cprop-registers", "no-tree-ccp")))
 #define RUNG_LOOPS __attribute__((aligned(64), optimize("no-tree-slp-vectorize")))
@@ -43,7 +44,7 @@
 #define RUNG_LOOPS
 #endif
 
-/* Scalars behind POINTER and UNION: memory of any type. */
+/* Scalars accessed through POINTER and UNION: memory of any type. */
 typedef int8_t RUNG_MAY_ALIAS rung_i8_at;
 typedef int16_t RUNG_MAY_ALIAS rung_i16_at;
 typedef int32_t RUNG_MAY_ALIAS rung_i32_at;
@@ -64,7 +65,7 @@ typedef void* RUNG_MAY_ALIAS rung_pointer_at;
     goto fault;                       \
   }
 
-/* The type id with which an object begins: the number of its class. */
+/* The type id at the beginning of an object: its class number. */
 static inline uint32_t rung_class_of(const void* object) {
   uint32_t number;
   memcpy(&number, object, sizeof number);
@@ -89,8 +90,8 @@ static inline int64_t rung_mod_i64(int64_t a, int64_t b) { return b == 0 || b ==
 static inline uint64_t rung_div_u64(uint64_t a, uint64_t b) { return b == 0 ? 0 : a / b; }
 static inline uint64_t rung_mod_u64(uint64_t a, uint64_t b) { return b == 0 ? 0 : a % b; }
 
-/* ---- shifts by a count in 64 bits (a negative one is huge): counts from the width on give 0; rotations are modulo
- * the width. `a` is zero-extended. */
+/* ---- shifts by a count in 64 bits (a negative one is huge): a count of the width or more gives 0; rotations are
+ * modulo the width. `a` is zero-extended. */
 static inline uint32_t rung_shl(uint32_t a, uint64_t n) { return n >= 32 ? 0 : a << n; }
 static inline uint32_t rung_shr(uint32_t a, uint64_t n) { return n >= 32 ? 0 : a >> n; }
 static inline uint64_t rung_shl64(uint64_t a, uint64_t n) { return n >= 64 ? 0 : a << n; }
@@ -140,7 +141,7 @@ static inline bool rung_round_saturates(double x, double low, double high) {
   return !(x >= low - 0.5 && x <= high + 0.5);
 }
 
-/* ---- minimum, maximum, magnitude. As the kernel does: the first operand unless the second is beyond it. */
+/* ---- minimum, maximum, magnitude. As in the kernel: the first operand unless the second is beyond it. */
 static inline int32_t rung_min_i32(int32_t a, int32_t b) { return a < b ? a : b; }
 static inline int32_t rung_max_i32(int32_t a, int32_t b) { return a > b ? a : b; }
 static inline uint32_t rung_min_u32(uint32_t a, uint32_t b) { return a < b ? a : b; }
@@ -201,44 +202,43 @@ static inline uint64_t rung_bits_of_f64(double v) {
 #ifdef __cplusplus
 extern "C" {
 
-/* ---- text. In place, NUL-terminated, `capacity` without the NUL; too long results are cut. `to` may be `from`, also
- * in part. The same holds for every native function of a library: `out` may be one of its text inputs. What makes a
- * text gives its length. */
+/* ---- strings. In place, NUL-terminated, `capacity` without the NUL; results that are too long are cut. `to` may be
+ * `from`, or overlap it. The same holds for every native function of a library: `out` may be one of its string inputs.
+ * Functions that make a string return its length. */
 uint32_t rung_string_assign(char* to, uint32_t capacity, const char* from);
 uint32_t rung_wstring_assign(char16_t* to, uint32_t capacity, const char16_t* from);
-/* Below, at or above 0, by unsigned units. */
-/* USTRING: UTF-8, cut between characters. Compared as STRING is: that order is the order of code points. */
+/* USTRING: UTF-8, cut between characters. Compared like STRING: that order is the order of code points. */
 uint32_t rung_ustring_assign(char* to, uint32_t capacity, const char* from);
-/* The length of a text that ends in a piece of a character without that piece, which goes. */
+/* Drops an incomplete character at the end of a string; returns its length without it. */
 uint32_t rung_ustring_whole(char* string, uint32_t length);
 uint32_t rung_ustring_length(const char* string) RUNG_PURE; /* in characters */
-/* Where `count` characters end, in bytes; beyond the end of the text a byte for each that there is not. */
+/* The offset in bytes where `count` characters end; each character beyond the end of the string counts as one byte. */
 int64_t rung_ustring_offset(const char* string, int64_t count) RUNG_PURE;
-uint32_t rung_ustring_code(
-    const char* string) RUNG_PURE; /* the first character; 0 of an empty text, '?' of what is none */
+uint32_t rung_ustring_code(const char* string) RUNG_PURE; /* the first character; 0 when empty, '?' when invalid */
 uint32_t rung_ustring_of_code(char* to, uint32_t capacity, uint32_t code);
 uint32_t rung_ustring_of_string(char* to, uint32_t capacity,
                                 const char* from); /* of a STRING, which may hold any bytes */
+/* Negative, 0 or positive; compares unsigned units. */
 int rung_string_compare(const char* a, const char* b) RUNG_PURE;
 int rung_wstring_compare(const char16_t* a, const char16_t* b) RUNG_PURE;
 uint32_t rung_wstring_length(const char16_t* string) RUNG_PURE;
 static inline uint32_t rung_string_length(const char* string) { return (uint32_t)strlen(string); }
-/* As rung_string_assign, of a text whose length is known; `to` and `from` are one variable or apart. */
+/* As rung_string_assign, with a known length; `to` and `from` are one variable or do not overlap. */
 static inline uint32_t rung_string_put(char* to, uint32_t capacity, const char* from, uint32_t length) {
   if (length > capacity) length = capacity;
   memmove(to, from, length);
   to[length] = 0;
   return length;
 }
-/* STRING is UTF-8 here, WSTRING UTF-16; what is no code point becomes '?'. */
+/* STRING is UTF-8 here, WSTRING UTF-16; an invalid code point becomes '?'. */
 uint32_t rung_string_of_wstring(char* to, uint32_t capacity, const char16_t* from);
 uint32_t rung_wstring_of_string(char16_t* to, uint32_t capacity, const char* from);
-/* A scalar as text, as <T>_TO_STRING spells it, and back. `kind`: rung_type_kind; `bits`: the value, sign- or
- * zero-extended (REAL and LREAL: the bits of a double). Reading gives 0 where the text is no such value; the result
- * is to be cut to the type's width. */
+/* A scalar as <T>_TO_STRING formats it, and back. `kind`: rung_type_kind; `bits`: the value, sign- or
+ * zero-extended (REAL and LREAL: the bits of a double). Reading gives 0 when the string is not such a value; the caller
+ * cuts the result to the type's width. */
 uint32_t rung_string_of_scalar(char* to, uint32_t capacity, uint8_t kind, uint64_t bits);
 uint32_t rung_wstring_of_scalar(char16_t* to, uint32_t capacity, uint8_t kind, uint64_t bits);
-/* The most frequent of them: a decimal number. */
+/* The most frequent case: a decimal number. */
 uint32_t rung_string_of_integer(char* to, uint32_t capacity, bool negative, uint64_t magnitude);
 uint64_t rung_scalar_of_string(uint8_t kind, const char* string) RUNG_PURE;
 uint64_t rung_scalar_of_wstring(uint8_t kind, const char16_t* string) RUNG_PURE;
@@ -247,16 +247,16 @@ uint64_t rung_scalar_of_wstring(uint8_t kind, const char16_t* string) RUNG_PURE;
 /* Runs `run(frame)` and catches its faults: RUNG_FAULT_NONE, or the kind, details in ctx->fault. Nests. For __TRY. */
 uint8_t rung_try(rung_context* ctx, void (*run)(void* frame), void* frame);
 
-/* ---- assertions of tests, reported to ctx->host->assertion. `kind` and bits: as rung_string_of_scalar takes them, and
- * RUNG_ENUM; of RUNG_STRING and RUNG_WSTRING the bits are the address. Equal means IEC `=` (NaN is equal to NaN here).
+/* ---- assertions of tests, reported to ctx->host->assertion. `kind` and bits: as in rung_string_of_scalar, and
+ * RUNG_ENUM; for RUNG_STRING and RUNG_WSTRING the bits are the address. Equal means IEC `=` (NaN is equal to NaN here).
  */
 void rung_assert(rung_context* ctx, const rung_assertion* assertion, bool ok);
-/* The same for a comparison, whose sides the report shows. */
+/* The same for a comparison; the report shows both sides. */
 void rung_assert_compared(rung_context* ctx, const rung_assertion* assertion, bool ok, uint8_t kind, uint64_t left,
                           uint64_t right);
 void rung_assert_equal(rung_context* ctx, const rung_assertion* assertion, uint8_t kind, uint64_t expected,
                        uint64_t actual);
-/* kind: RUNG_REAL or RUNG_LREAL; good when |expected - actual| <= tolerance, or both are equal. */
+/* kind: RUNG_REAL or RUNG_LREAL; passes when |expected - actual| <= tolerance, or both are equal. */
 void rung_assert_near(rung_context* ctx, const rung_assertion* assertion, uint8_t kind, double expected, double actual,
                       double tolerance);
 

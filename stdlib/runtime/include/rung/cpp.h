@@ -1,7 +1,7 @@
-/* What a body in C++ sees of IEC types (syntax manual 5.8). In: nothing but the standard library. Out: the elementary
- * types by their names, texts with c_str() and size(), arrays with `table`, and views of the program's memory as those.
+/* IEC types for a body in C++ (syntax manual 5.8). In: nothing but the standard library. Out: the elementary types by
+ * their names, strings with c_str() and size(), arrays with `table`, and views of the program's memory as those.
  * Included by the file that rung makes for such a body (codegen/cpp_bodies.cpp), which adds the times, the structures,
- * the enumerations and the blocks of the program. All of it lies in place: no type here owns memory. */
+ * the enumerations and the blocks of the program. All are views in place: no type here owns memory. */
 #ifndef RUNG_CPP_H
 #define RUNG_CPP_H
 
@@ -47,7 +47,7 @@ typedef uint8_t CHAR;
 typedef uint16_t WCHAR;
 typedef uint32_t UCHAR;
 
-/* STRING[N], USTRING[N], WSTRING[N]: characters and a NUL; what does not fit is cut, of a USTRING between characters.
+/* STRING[N], USTRING[N], WSTRING[N]: characters and a NUL; values that do not fit are cut, USTRING between characters.
  */
 template <class Char, uint32_t N, bool Utf8 = false>
 struct RUNG_MAY_ALIAS BasicString {
@@ -85,7 +85,7 @@ struct RUNG_MAY_ALIAS BasicString {
   }
 
  private:
-  void assign(const Char* string, size_t length) {  // `string` may lie in *this
+  void assign(const Char* string, size_t length) {  // `string` may be part of *this
     if (length > N) {
       length = N;
       while (Utf8 && length > 0 && (static_cast<unsigned char>(string[length]) & 0xc0) == 0x80) --length;
@@ -110,7 +110,7 @@ struct RUNG_MAY_ALIAS Array {
   Table table;
 };
 
-/* Memory of generated code as the type that a body in C++ has for it, and the other way about. */
+/* Memory of generated code, seen as the type that a body in C++ has for it, and vice versa. */
 template <class To, class From>
 To& view(From& memory) {
   static_assert(sizeof(To) == sizeof(From), "a view has the size of what it shows");
@@ -129,7 +129,7 @@ To bits(const From& value) {
   return copy;
 }
 
-/* Milliseconds or seconds into a type of time, whose range they do not leave. */
+/* Converts milliseconds or seconds to a type of time; saturates at its range. */
 template <class Time>
 Time time(double units) {
   const double low = static_cast<Time>(-1) < static_cast<Time>(0) ? -2147483648.0 : 0.0;

@@ -1,6 +1,6 @@
 /* Functions of the standard that work on many types, for bodies in C++: ADD, LIMIT, MUX, SHL, LEN and so on, in upper
- * case like all functions there. In: values of the types of rung/cpp.h. Out: templates with the semantics of design §6:
- * integers wrap, x / 0 is 0, SEL and MUX choose. Functions of one type are generated for each body instead. */
+ * case like all functions there. In: values of the types of rung/cpp.h. Out: templates with IEC semantics: integers
+ * wrap, x / 0 is 0, SEL and MUX choose. Functions of one type are generated for each body instead. */
 #ifndef RUNG_CPP_FUNCTIONS_H
 #define RUNG_CPP_FUNCTIONS_H
 
@@ -19,7 +19,7 @@ using Common = std::common_type_t<Values...>;
 template <class T>
 constexpr bool kIsInteger = std::is_integral<T>::value && !std::is_same<T, bool>::value;
 
-/* Of integers in unsigned, so that they wrap. */
+/* Computes integers as unsigned, so that they wrap. */
 template <class T, class Operation>
 T wrapped(T a, T b, Operation operation) {
   if constexpr (kIsInteger<T>) {
@@ -108,7 +108,7 @@ template <class A, class B>
 Common<A, B> SEL(bool second, A a, B b) {
   return second ? static_cast<Common<A, B>>(b) : static_cast<Common<A, B>>(a);
 }
-/* The last one where `which` names none. */
+/* The last one when `which` is out of range. */
 template <class A, class... More>
 Common<A, More...> MUX(int64_t which, A a, More... more) {
   const Common<A, More...> values[] = {static_cast<Common<A, More...>>(a), static_cast<Common<A, More...>>(more)...};

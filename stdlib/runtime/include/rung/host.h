@@ -1,7 +1,7 @@
-// The bundled host: runs a module in virtual or real time, with CSV inputs, traces, retain files and tests (design §9,
-// §11). In: a module and the options of `rung run` or `rung test`. Out: exit codes 0, 2, 3, 4 and text on
-// stdout/stderr. Linked into the tool (which loads modules as shared objects) and into executables made by `rung
-// build`.
+// The bundled host: runs a module in virtual or real time, with CSV inputs, traces, retain files and tests
+// (docs/embedding.md). In: a module and the options of `rung run` or `rung test`. Out: exit codes 0, 2, 3, 4 and output
+// on stdout and stderr. Linked into the tool (which loads modules as shared objects) and into executables made by
+// `rung build`.
 #pragma once
 
 #include <csignal>
@@ -26,13 +26,13 @@ struct RunOptions {
   std::string files_root = ".";                           // --files-root
   int start = -1;            // --start: rung_start, -1: warm when the retain file exists, else cold
   std::string stop_on;       // --stop-on CONDITION
-  bool trace_calls = false;  // --trace-calls, of interpreted modules that tell of their calls
+  bool trace_calls = false;  // --trace-calls, for interpreted modules that report their calls
   bool realtime = false;
   bool color = false;
   std::string hint_when_long;  // printed once on a terminal when the run takes long; empty: nothing
 };
 
-// Runs as `rung run` does; prints what it prints.
+// Runs and prints like `rung run`.
 int run(const rung_module& module, const RunOptions& options);
 
 struct TestOptions {
@@ -42,7 +42,7 @@ struct TestOptions {
 };
 int test(const rung_module& module, const TestOptions& options);
 
-// The same in two steps, for a run over many modules: runs and prints the tests of one, then writes all results.
+// `rung test` in two steps, for many modules: runs and prints the tests of one, then writes all results.
 struct TestResult {
   std::string name, file;
   uint32_t line = 0;
@@ -54,27 +54,27 @@ struct TestResult {
 struct TestResults {
   uint32_t passed = 0, failed = 0;
   std::vector<TestResult> tests;
-  double seconds = 0;   // that all of them took
+  double seconds = 0;   // for all of them
   bool hinted = false;  // TestOptions::hint_when_long was printed
 };
-// Whether --filter takes a test of this name.
+// True when --filter accepts a test of this name.
 bool isChosen(const TestOptions& options, const std::string& name);
-// Empty, or why the module cannot run here. `options.junit_path` is not written.
+// Returns why the module cannot run here, or an empty string. Does not write `options.junit_path`.
 std::string runTests(const rung_module& module, const TestOptions& options, TestResults& results);
-// 0, 2 or 4, as test() gives them.
+// Returns 0, 2 or 4, like test().
 int reportTests(const TestResults& results, const TestOptions& options);
 
 // main() of an executable made by `rung build`: the options of `rung run` on its own command line.
 int applicationMain(const rung_module& module, int argc, char** argv);
 
-// For a handler of SIGSEGV and SIGBUS: does not return when the program's code accessed memory that it may not, or
-// nested calls too deep; that is a fault of the program then. `details`: ucontext_t. applicationMain has a handler.
+// For a handler of SIGSEGV and SIGBUS: does not return when the program's code accessed invalid memory or nested calls
+// too deep; the program gets a fault then. `details`: ucontext_t. applicationMain has a handler.
 void raiseCrash(int number, const siginfo_t* info, const void* details);
-// Finds the site at which interpreted code stands, or RUNG_NONE; compiled code tells none.
+// Finds the current site of interpreted code, or RUNG_NONE; unknown for compiled code.
 using FindSite = uint32_t (*)(const rung_context* ctx, const void* details);
 void setFindSite(FindSite find);
 
-// Parses the run options from arguments; unknown ones stay in `rest`. Empty result: good, else what is wrong.
+// Parses the run options from arguments; unknown ones stay in `rest`. Returns an error message, or an empty string.
 std::string parseRunOptions(const std::vector<std::string>& arguments, RunOptions& options,
                             std::vector<std::string>& rest);
 

@@ -1,6 +1,6 @@
-/* The module interface: what a compiled project looks like to the product that runs it (docs/embedding.md).
- * A module is code without writable statics. The host owns all memory: it places the blocks and images, calls init,
- * then runs tasks; it may look at and force every variable through the symbols. Plain C, no heap, no locks.
+/* The module interface: how a compiled project looks to the product that runs it (docs/embedding.md).
+ * A module is code without writable statics. The host owns all memory: it allocates the blocks and images, calls init,
+ * then runs tasks; it may read and force every variable through the symbols. Plain C, no heap, no locks.
  * The bundled host (rung/host.h) is one user of this header. */
 #ifndef RUNG_MODULE_H
 #define RUNG_MODULE_H
@@ -72,8 +72,8 @@ enum rung_field_flags {
   RUNG_FIELD_PERSISTENT = 8,
   RUNG_FIELD_INPUT = 16,
   RUNG_FIELD_OUTPUT = 32,
-  RUNG_FIELD_BASE = 64,       /* what a block extends: its fields are named as if they stood here */
-  RUNG_FIELD_READ_ONLY = 128, /* of a VAR_ACCESS: may be looked at, not set */
+  RUNG_FIELD_BASE = 64,       /* the block that this one extends: its fields are named as if declared here */
+  RUNG_FIELD_READ_ONLY = 128, /* of a VAR_ACCESS: may be read, not set */
   RUNG_FIELD_BIT = 0xf00      /* of a BOOL that is one bit of the byte at its offset: the bit's number + 1; else 0 */
 };
 #define RUNG_FIELD_BIT_SHIFT 8
@@ -99,10 +99,10 @@ typedef struct rung_symbol {
   uint32_t block;  /* RUNG_IN_BLOCK */
   uint32_t offset; /* bytes in the block or image */
   uint32_t flags;  /* rung_field_flags */
-  uint32_t path;   /* `Config.Resource.` or '' that may stand before it: offset in strings */
+  uint32_t path;   /* `Config.Resource.` or '' that may precede it: offset in strings */
 } rung_symbol;
 
-/* A range that warm starts keep (retain) or downloads keep too (persistent). */
+/* A range that warm starts keep (retain) or that downloads keep too (persistent). */
 typedef struct rung_range {
   uint32_t block, offset, size;
 } rung_range;
@@ -149,18 +149,18 @@ typedef enum rung_fault_kind {
   RUNG_FAULT_LOCK, /* a MUTEX or SEMA: value is a rung_lock_error */
   RUNG_FAULT_STACK /* calls nest too deep; noticed in interpreted modules, and by the bundled host */
 } rung_fault_kind;
-/* rung_fault.value of two faults that are told apart from others of their kind. */
-#define RUNG_NO_SUCH_METHOD 1 /* CAST: a call of what is no object with that method */
+/* rung_fault.value of two faults that differ from others of their kind. */
+#define RUNG_NO_SUCH_METHOD 1 /* CAST: a call of something that is not an object with that method */
 enum rung_lock_error {
   RUNG_LOCK_FREE,    /* no error */
-  RUNG_LOCK_HELD,    /* LOCK: another task has it, and waiting gives it no chance to unlock it */
+  RUNG_LOCK_HELD,    /* LOCK: another task has it, and cannot unlock it while this one waits */
   RUNG_LOCK_OWN,     /* LOCK: this task has it */
   RUNG_LOCK_NOT_OWN, /* UNLOCK: this task does not have it */
-  RUNG_SEMA_EMPTY,   /* ACQUIRE: all are taken, and waiting gives no task a chance to release one */
+  RUNG_SEMA_EMPTY,   /* ACQUIRE: all are taken, and no task can release one while this one waits */
   RUNG_SEMA_FULL     /* RELEASE: none is taken */
 };
-#define RUNG_BAD_ADDRESS (-1) /* NULL: memory that the program may not touch; of the bundled host */
-/* Where a check stands: a table of the module, indexed by the number that the code passes. */
+#define RUNG_BAD_ADDRESS (-1) /* NULL: the program accessed invalid memory; from the bundled host */
+/* The location of a check: a table of the module, indexed by the number that the code passes. */
 typedef struct rung_site {
   uint32_t pou, file; /* offsets in strings */
   uint32_t line, column;
@@ -169,36 +169,36 @@ typedef struct rung_site {
 typedef struct rung_fault {
   uint8_t kind;  /* rung_fault_kind */
   uint32_t site; /* index into module->sites */
-  int64_t value; /* the index, say */
+  int64_t value; /* for example the index */
 } rung_fault;
 
-/* An assertion of a test: where it stands and what its report shows. A text that is not there is null. */
+/* An assertion of a test: its location and the content of its report. Absent strings are null. */
 typedef struct rung_assertion {
   const char* file;
   uint32_t line, column;
   const char* source;  /* the line of the program */
   const char* message; /* of its author */
-  const char* shown;   /* ASSERT(a > b): `a > b`, `a` and `b`, a line each; empty for a literal */
+  const char* shown;   /* ASSERT(a > b): `a > b`, `a` and `b`, one per line; empty for a literal */
   const char* items;   /* enumerations: `name\0value\0name\0value\0\0`, values decimal */
 } rung_assertion;
 
 /* ---- the host's side */
 
-/* Files of the program. Names have '/' between folders; a file is a number > 0. What fails gives a negative
+/* Files of the program. Names have '/' between folders; a file is a number > 0. A failing call returns a negative
  * rung_file_error. Positions and counts are bytes. */
 typedef enum rung_file_error {
   RUNG_FILE_MISSING = -1,
   RUNG_FILE_DENIED = -2,
   RUNG_FILE_EXISTS = -3,
   RUNG_FILE_NAME = -4,   /* leaves the folder that the program may use, or is empty */
-  RUNG_FILE_HANDLE = -5, /* not open, or not for this */
+  RUNG_FILE_HANDLE = -5, /* not open, or not open for this */
   RUNG_FILE_FAILED = -6
 } rung_file_error;
 enum rung_file_mode {
   RUNG_FILE_READ = 1,
   RUNG_FILE_WRITE = 2,
   RUNG_FILE_APPEND = 4, /* every write goes to the end */
-  RUNG_FILE_CREATE = 8, /* when it is not there */
+  RUNG_FILE_CREATE = 8, /* if it does not exist */
   RUNG_FILE_TRUNCATE = 16
 };
 typedef struct rung_files {
@@ -219,17 +219,17 @@ enum rung_severity { RUNG_MESSAGE_NOTE, RUNG_MESSAGE_WARNING, RUNG_MESSAGE_ERROR
 typedef struct rung_host {
   /* Wall clock, nanoseconds since 1970-01-01 UTC. Default: 0 at the start, then task time. */
   int64_t (*wall_clock)(void* data);
-  /* An assertion of a test. Values are spelled as the trace spells them; null when it passed. */
+  /* An assertion of a test. Values are formatted as in the trace; null when it passed. */
   void (*assertion)(void* data, const rung_assertion* assertion, bool passed, const char* expected, const char* actual);
   /* A call of a POU in an interpreted module whose calls are traced; `instance` is null for a function. */
   void (*called)(void* data, const char* pou, const void* instance);
-  /* What the program tells its operator (ADSLOGSTR). Default: nothing. `severity` is a rung_severity. */
+  /* A message of the program to its operator (ADSLOGSTR). Default: none. `severity` is a rung_severity. */
   void (*message)(void* data, uint8_t severity, const char* text);
   /* Default (null): opening fails as RUNG_FILE_DENIED. */
   const rung_files* files;
   void* files_data;
-  /* Lets other tasks run while this one waits for a MUTEX or SEMA; 0: they cannot, or the program ends. Default (null):
-   * 0. */
+  /* Lets other tasks run while this one waits for a MUTEX or SEMA; returns 0 when they cannot, or the program ends.
+   * Default (null): 0. */
   int (*wait)(void* data);
 } rung_host;
 
@@ -242,8 +242,8 @@ struct rung_context {
   void* host_data;
   rung_fault fault;   /* of the last run that faulted */
   void* fault_target; /* jmp_buf of the innermost rung_guarded call or __TRY */
-  /* The rung_task or rung_test whose function runs, set by a host that takes interpreted modules: there one function
-   * serves all of them. Compiled modules do not read it. */
+  /* The rung_task or rung_test whose function runs, set by a host that runs interpreted modules: one function serves
+   * all of them. Compiled modules do not read it. */
   const void* entry;
   uint32_t task;       /* the number of the task that runs, from 1; 0 outside of tasks */
   uint32_t activation; /* of that task: 1 the first time */
@@ -283,7 +283,7 @@ typedef struct rung_module {
   uint32_t test_count;
   /* Sets every variable to its initial value; located variables without one leave the image as it is. */
   void (*init)(rung_context*);
-  /* Ends all objects (FB_Exit); to be called once, before the memory is given up or init is called again. Or null. */
+  /* Ends all objects (FB_Exit); called once, before the memory is released or init is called again. May be null. */
   void (*exit)(rung_context*);
 } rung_module;
 

@@ -1,8 +1,8 @@
-/* Text functions of the library Standard for texts whose lengths the generated code keeps in C++ locals: the sized
+/* String functions of the library Standard for strings whose lengths the generated code keeps in C++ locals: the sized
  * forms of the functions marked {sized} in standard/string.st, and the slice forms of those marked {slice}. In: each
- * text followed by its length. Out: the result in `out`, and its length. Semantics are those of
+ * string followed by its length. Out: the result in `out`, and its length. Semantics are those of
  * standard/native/string.cpp: a result has at most 255 characters and at most `capacity`. `out` is one of the inputs or
- * apart from all; included by generated code that calls one of them. */
+ * overlaps none. Included by generated code that calls one of them. */
 #ifndef RUNG_STANDARD_H
 #define RUNG_STANDARD_H
 
@@ -28,7 +28,7 @@ static inline int16_t rung_standard_LEN__STRING_255_sized(const char*, uint32_t 
   return length > INT16_MAX ? INT16_MAX : (int16_t)length;
 }
 
-/* The slice forms tell which part of the input the result is: they give its beginning, and set its length. */
+/* The slice forms return the beginning of the result, which is a part of the input, and set its length. */
 static inline const char* rung_standard_LEFT__STRING_255_slice(const char* in, uint32_t length, int32_t l,
                                                                uint32_t capacity, uint32_t* result) {
   const uint32_t limit = rung_string_limit(capacity);
@@ -92,26 +92,26 @@ uint32_t rung_string_search(const char* in, uint32_t length, char unit) RUNG_PUR
 int16_t rung_string_find(const char* in1, uint32_t length1, const char* in2, uint32_t length2) RUNG_PURE;
 }
 
-/* Appends in place where `out` is in1. */
+/* Appends in place when `out` is in1. */
 static inline uint32_t rung_standard_CONCAT__STRING_255_sized(const char* in1, uint32_t length1, const char* in2,
                                                               uint32_t length2, char* out, uint32_t capacity) {
   const uint32_t limit = rung_string_limit(capacity);
   if (out != in1) return rung_string_join(in1, length1, in2, length2, out, capacity);
   if (capacity > limit && length1 > limit) length1 = limit;
   const uint32_t room = limit - length1;
-  if (length2 <= room) return length1 + rung_string_part(out + length1, in2, length2); /* a constant length stays one */
+  if (length2 <= room) return length1 + rung_string_part(out + length1, in2, length2); /* keeps a constant length */
   return limit - room + rung_string_part(out + length1, in2, room);
 }
 
-/* A bit at the top of each byte that is `unit`; the lowest bit set is that of the first one. */
+/* Sets the top bit of each byte that equals `unit`; the lowest bit set is that of the first one. */
 static inline uint64_t rung_string_units(uint64_t word, char unit) {
   const uint64_t ones = 0x0101010101010101ULL;
   word ^= ones * (uint8_t)unit;
   return (word - ones) & ~word & ones << 7;
 }
 
-/* Index of the first `unit`, or `length`. A set of a few characters, such as the digits, is looked up without a call:
- * as two words whose bytes are compared at once; so is what stands near in a longer text. */
+/* Index of the first `unit`, or `length`. A set of a few characters, such as the digits, is searched without a call:
+ * as two words whose bytes are compared at once; so is the beginning of a longer string. */
 static inline uint32_t rung_string_find_unit(const char* in, uint32_t length, char unit) {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
   if (length >= 8 && length <= 16) {

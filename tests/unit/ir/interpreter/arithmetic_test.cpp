@@ -1,5 +1,5 @@
 // The interpreter's instructions against the arithmetic kernel: every operator and conversion of every scalar type on
-// values at the edges, with operands in the instance, in the frame and constant.
+// values at the limits, with operands in the instance, in the frame and constant.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -19,7 +19,7 @@ FunctionResult runText(const std::string& text, std::vector<types::Value> argume
 }
 types::Value ofInt(int64_t value) { return {types::kInt, static_cast<uint64_t>(value)}; }
 
-// The INT that the body of @f gives for n.
+// The INT that the body of @f returns for n.
 int64_t value(const std::string& body, int64_t n, const std::string& before = "") {
   const FunctionResult r =
       runText(before + "function @f faults { in n: int; result int }\nbody @f {\n" + body + "\n}\n", {ofInt(n)});
@@ -35,7 +35,7 @@ TEST(InterpreterFunction, ForAtTheEdgesOfTheType) {
   const std::string count =
       "var u: usint\n for u = 250 to 255 by 1 { result = add int result, 1 }\n"
       " result = add int (mul int result, 1000), (convert int u)";
-  EXPECT_EQ(value(count, 0), 6255);  // six turns; the next value does not fit
+  EXPECT_EQ(value(count, 0), 6255);  // six iterations; the next value does not fit
   const std::string down =
       "var s: sint\n for s = -127 to -128 by -1 { result = add int result, 1 }\n"
       " result = add int (mul int result, 1000), (convert int s)";
@@ -54,7 +54,7 @@ TEST(InterpreterFunction, ForAtTheEdgesOfTheType) {
             106);
 }
 
-// A control that other code sees is read and written at each turn.
+// A control that other code can reach is read and written in each iteration.
 TEST(InterpreterFunction, ForOverAnInOut) {
   EXPECT_EQ(value("var i: int\n temp t: int\n %t = call @count(i)\n result = add int (mul int i, 100), %t", 0,
                   "function @count { inout c: int; result int }\n"
@@ -103,7 +103,7 @@ TEST(InterpreterFunction, TriesAndTheirExits) {
       "} }";
   EXPECT_EQ(value(exits, 1), 110);
   EXPECT_EQ(value(exits, 3), 111 + 110 + 110);
-  // The result is taken when return runs; the finally blocks come after it.
+  // `return` evaluates its result first; the finally blocks run after it.
   EXPECT_EQ(value(exits, 9), 1000 + 111 + 110 + 111 + 110);
   // A fault passes through finally, and through catch when it faults again.
   EXPECT_EQ(
@@ -149,7 +149,7 @@ TEST(InterpreterFunction, ArraysByReferenceAndByCopy) {
             34);
 }
 
-// What stands first faults first.
+// The first check in source order faults first.
 TEST(InterpreterFunction, ChecksAreInOrder) {
   EXPECT_EQ(fault("var a: array[1..3] of int\n a = zero\n a[n]! = div! int 1, (sub int n, n)", 9), types::Fault::Index);
   EXPECT_EQ(fault("var a: array[1..3] of int\n a = zero\n a[n]! = div! int 1, (sub int n, n)", 2), types::Fault::Div);
