@@ -280,7 +280,7 @@ class Describer {
       }
     }
     if (rows.empty()) row(rows, {"0", "0", "0", "0", "0", "0"});
-    return "// Where the checks stand: see rung_site in rung/module.h.\n#include \"rung/module.h\"\n\nnamespace " +
+    return "// Where the checks are: see rung_site in rung/module.h.\n#include \"rung/module.h\"\n\nnamespace " +
            name_space_ + " {\n\n" + numbers + "extern const uint32_t site_count = " + number(count) +
            ";\nextern const rung_site sites[] = {\n" + rows + "};\n\n}  // namespace " + name_space_ + "\n";
   }

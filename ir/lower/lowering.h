@@ -117,7 +117,7 @@ class BodyLowering {
   void lowerPou();
   // For Init bodies: code that gives `place` the initial value of a variable of `type` declared with `init` (or none).
   void storeInitial(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero);
-  // activation.cpp: the code of ProgramInstance::run and setup. `call` is none without connections.
+  // activation.cpp: the code of ProgramInstance::run and setup. without connections there is no `call`.
   void lowerActivation(uint32_t program, BodyId code, rung::ExprId call, std::span<const sema::InstancePath> places);
   void lowerSetup(uint32_t program, std::span<const sema::InstancePath> places);
 

@@ -82,7 +82,7 @@ class Machine {
       }
       return stopped() ? nullptr : &memory_[b_.expr(ExprId{e.a}).a][at];
     }
-    stop("a place that is no local");
+    stop("a place that is not a local");
     return nullptr;
   }
 

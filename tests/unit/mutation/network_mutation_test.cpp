@@ -161,7 +161,7 @@ struct Hostile {
 std::string of(size_t n) { return std::to_string(n); }
 const Hostile kHostile[] = {
     {"contacts in a row", [](size_t k, size_t) { return "contact " + of(k + 1) + " (a) := " + of(k) + ";"; }, false},
-    {"contacts in a circle",
+    {"contacts in a loop",
      [](size_t k, size_t n) {
        return "contact " + of(k + 1) + " (a) := " + of((k + 1) % n + 1) + ";" +
               (k == 0 ? "coil 9999999 (q) := 1;" : "");
@@ -173,13 +173,13 @@ const Hostile kHostile[] = {
               of(n + k + 1) + " (q) SET := " + of(k + 1) + ";";
      },
      false},
-    {"connectors in a circle, each read",
+    {"connectors in a loop, each read",
      [](size_t k, size_t n) {
        return "connector " + of(k + 1) + " := " + of((k + 1) % n + 1) + "; coil " + of(n + k + 1) +
               " (q) SET := " + of(k + 1) + ";";
      },
      true},
-    {"boxes in a circle",
+    {"boxes in a loop",
      [](size_t k, size_t n) {
        return "box " + of(k + 1) + " AND [IN1 := " + of((k + 1) % n + 1) + ", IN2 := 0, OUT =>];";
      },
@@ -189,7 +189,7 @@ const Hostile kHostile[] = {
     {"boxes that read the one before twice",
      [](size_t k, size_t) { return "box " + of(k + 1) + " AND [IN1 := " + of(k) + ", IN2 := " + of(k) + ", OUT =>];"; },
      false},
-    {"function blocks in a circle",
+    {"function blocks in a loop",
      [](size_t k, size_t n) { return "box " + of(k + 1) + " R_TRIG [CLK := " + of((k + 1) % n + 1) + "(Q), Q =>];"; },
      false},
     {"outputs that a box does not have",

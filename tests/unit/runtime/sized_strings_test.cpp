@@ -134,7 +134,7 @@ void check(const Case& one, const Arguments& x, uint32_t capacity) {
       ASSERT_EQ(expected, out) << one.name << "('" << used.in1 << "', '" << used.in2 << "', L " << x.l << ", P " << x.p
                                << ") in " << capacity << ", alias " << alias;
       ASSERT_EQ(expected.size(), given) << one.name;
-      ASSERT_EQ('#', out[capacity + 1]) << one.name << " wrote behind its target";
+      ASSERT_EQ('#', out[capacity + 1]) << one.name << " wrote past its target";
     }
   }
 }
