@@ -168,7 +168,7 @@ ExprId Scheduler::readBox(uint32_t source) {
     }
     value = memberExpr(instance, pin, loc);
   } else {
-    diagnostics_.report(diag::ReadBeforeTurn, loc, {describe(tree_, names_, e)});
+    diagnostics_.report(diag::ReadBeforeExecution, loc, {describe(tree_, names_, e)});
     return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
   }
   const DiagramPin* out = outputNamed(e, s.pin);

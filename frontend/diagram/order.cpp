@@ -6,7 +6,6 @@
 
 #include "frontend/diagram/diagnostics.h"
 #include "frontend/diagram/graph.h"
-#include "frontend/syntax/diagnostics.h"
 #include "frontend/syntax/diagram.h"
 
 namespace rung::diagram {
@@ -124,8 +123,8 @@ bool Graph::connect() {
     if (connectors[k].first != connectors[k - 1].first) continue;
     ok = false;
     const Ident& name = elements[connectors[k].second].name;
-    diagnostics_->report(diag::ConnectorTwice, name.loc, {names_->string(name.name)})
-        .note(elements[connectors[k - 1].second].name.loc, diag::DeclaredHere);
+    diagnostics_->report(diag::DuplicateConnector, name.loc, {names_->string(name.name)})
+        .declaredHere(elements[connectors[k - 1].second].name.loc);
   }
   for (DiagramElement& e : elements) {
     if (e.kind != ElementKind::Continuation) continue;
@@ -249,7 +248,7 @@ void Graph::checkExecutionOrder() {
     const DiagramElement& before = elements[roots[k - 1]];
     const DiagramElement& e = elements[roots[k]];
     if (e.order == 0 || e.order != before.order) continue;
-    diagnostics_->report(diag::TurnTwice, e.loc, {std::to_string(e.order)}).note(before.loc, diag::DeclaredHere);
+    diagnostics_->report(diag::DuplicateExecutionOrder, e.loc, {std::to_string(e.order)}).declaredHere(before.loc);
   }
 }
 

@@ -5,7 +5,6 @@
 
 #include "frontend/diagram/diagnostics.h"
 #include "frontend/diagram/scheduler.h"
-#include "frontend/syntax/diagnostics.h"
 #include "frontend/syntax/diagram.h"
 
 namespace rung::diagram {
@@ -204,7 +203,7 @@ ExprId Scheduler::read(uint32_t source) {
     case ElementKind::Comment: break;
   }
   // Not computed yet: possible only if it is later in the execution order.
-  diagnostics_.report(diag::ReadBeforeTurn, e.loc, {describe(tree_, names_, e)});
+  diagnostics_.report(diag::ReadBeforeExecution, e.loc, {describe(tree_, names_, e)});
   return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, e.loc)});
 }
 
@@ -473,7 +472,7 @@ void Scheduler::checkCoils() {
   for (size_t k = 1; k < coils.size(); ++k) {
     if (coils[k].first != coils[k - 1].first) continue;
     const DiagramElement& e = graph_.elements[coils[k].second];
-    diagnostics_.report(diag::CoilTwice, tree_.loc(e.operand), {names_.string(tree_.as<NameExpr>(e.operand).name)})
+    diagnostics_.report(diag::DuplicateCoil, tree_.loc(e.operand), {names_.string(tree_.as<NameExpr>(e.operand).name)})
         .note(tree_.loc(graph_.elements[coils[k - 1].second].operand), diag::OtherCoil);
   }
 }
@@ -491,7 +490,7 @@ void Scheduler::checkHolding(const PouDecl& pou) {
         for (const Ident& declared : tree_.list(tree_.as<VarDecl>(v).names))
           if (names_.same(declared.name, name))
             diagnostics_.report(diag::CoilNotRetained, tree_.loc(e.operand), {names_.string(name)})
-                .note(declared.loc, diag::DeclaredHere);
+                .declaredHere(declared.loc);
     }
   }
 }

@@ -7,7 +7,6 @@
 
 #include "frontend/plcopen/diagnostics.h"
 #include "frontend/source/names.h"
-#include "frontend/syntax/diagnostics.h"
 #include "frontend/xml/diagnostics.h"
 
 namespace rung::plcopen {
@@ -56,9 +55,9 @@ void Chart::readNodes() {
     if (id == nullptr) continue;
     const auto [known, fresh] = by_id_.emplace(id->raw, index);
     if (!fresh)
-      report(diag::ChartIdTwice, id->loc, {id->raw})
+      report(diag::DuplicateLocalId, id->loc, {id->raw})
           .length(static_cast<uint32_t>(id->raw.size()))
-          .note(nodes_[known->second].element->loc, diag::AlsoDeclaredHere);
+          .alsoDeclaredHere(nodes_[known->second].element->loc);
   }
   behind_.resize(nodes_.size());
   for (uint32_t i = 0; i < nodes_.size(); ++i) {
@@ -216,7 +215,7 @@ void Chart::addUnited(Ways& ways, uint32_t node, uint32_t depth) {
     const uint32_t from = wires_[w].from;
     if (nodes_[from].kind == NodeKind::Jump) {
       if (!ways.never)
-        import_.diagnostics.report(diag::ChartNeverUnites, nodes_[from].element->loc, {nameOf(from), nameOf(node)});
+        import_.diagnostics.report(diag::ChartNeverConverges, nodes_[from].element->loc, {nameOf(from), nameOf(node)});
       ways.never = true;
       continue;
     }

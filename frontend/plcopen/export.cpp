@@ -376,7 +376,7 @@ void ProjectExport::checkTexts() {
     for (size_t p = 0; p < bad; ++p)
       if (static_cast<unsigned char>(text[p]) < ' ' && text[p] != '\t' && text[p] != '\n' && text[p] != '\r') bad = p;
     if (bad == text.size()) continue;
-    to_.diagnostics.report(diag::XmlCannotHold, {to_.sources.begin(unit.file).offset + static_cast<uint32_t>(bad)})
+    to_.diagnostics.report(diag::XmlCharacter, {to_.sources.begin(unit.file).offset + static_cast<uint32_t>(bad)})
         .length(1);
   }
 }

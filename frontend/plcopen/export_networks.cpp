@@ -302,7 +302,7 @@ void NetworkExport::element(uint32_t k) {
 void NetworkExport::network(uint32_t index) {
   const DiagramNetwork& n = to_.tree.list(diagram_.networks)[index - 1];
   if (n.disabled) {
-    to_.diagnostics.report(diag::XmlNetworkLeftOut, n.loc, {std::to_string(n.number)});
+    to_.diagnostics.report(diag::XmlNetworkSkipped, n.loc, {std::to_string(n.number)});
     return;
   }
   if (n.title_length == 0) return;

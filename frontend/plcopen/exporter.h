@@ -25,7 +25,7 @@ struct Export {
   std::string_view string(NameId name) const { return names.string(name); }
   std::string printed(ExprId expr) const { return printExpr(expr); }
   std::string printExpr(ExprId expr) const;
-  void reportInexpressible(Loc loc, std::string_view what) { diagnostics.report(diag::XmlCannotSay, loc, {what}); }
+  void reportInexpressible(Loc loc, std::string_view what) { diagnostics.report(diag::XmlNotExpressible, loc, {what}); }
   // Warns about a construct that is written to Rung's addData: other tools ignore it.
   void onlyRung(Loc loc, std::string_view what) { diagnostics.report(diag::XmlOnlyRung, loc, {what}); }
   // <data name="…" handleUnknown="…">, closed by its caller.

@@ -53,8 +53,12 @@ Report& Report::note(Loc loc, Note note, std::initializer_list<std::string_view>
   return *this;
 }
 
+Report& Report::declaredHere(Loc loc) { return note(loc, Note{"declared here"}); }
+
+Report& Report::alsoDeclaredHere(Loc loc) { return note(loc, Note{"also declared here"}); }
+
 Report& Report::didYouMean(std::string_view candidate) {
-  return candidate.empty() ? *this : note({}, diag::DidYouMean, {candidate});
+  return candidate.empty() ? *this : note({}, Note{"did you mean `{0}`?"}, {candidate});
 }
 
 Report& Report::length(uint32_t bytes) {

@@ -40,10 +40,6 @@ struct Note {
 #define RUNG_INFO(code, name, text) inline constexpr Diag name = diagOf(#code);
 #define RUNG_NOTE(name, text) inline constexpr Note name{text};
 
-namespace diag {
-#include "frontend/source/diagnostics.def"
-}
-
 struct DiagInfo {
   Diag diag;
   const char* code;  // "E0412"
@@ -80,6 +76,8 @@ class Report {
  public:
   explicit Report(Diagnostic* diagnostic) : diagnostic_(diagnostic) {}
   Report& note(Loc loc, Note note, std::initializer_list<std::string_view> args = {});
+  Report& declaredHere(Loc loc);
+  Report& alsoDeclaredHere(Loc loc);
   Report& didYouMean(std::string_view candidate);  // empty: nothing is added
   Report& length(uint32_t bytes);
   Report& element(std::string text);

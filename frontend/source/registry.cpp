@@ -23,7 +23,6 @@ namespace {
 constexpr DiagInfo kRows[] = {
 #include "frontend/diagram/diagnostics.def"
 #include "frontend/plcopen/diagnostics.def"
-#include "frontend/source/diagnostics.def"
 #include "frontend/syntax/diagnostics.def"
 #include "frontend/text/diagnostics.def"
 #include "frontend/vendor/diagnostics.def"

@@ -295,7 +295,7 @@ DeclId Parser::parseVar(SectionKind section) {
         last_error_ = t_;
       advance();
     } else {
-      fail(diag::MissingValueBehind, word, {"`AT`"});
+      fail(diag::MissingValueAfter, word, {"`AT`"});
     }
   }
   if (!panic_ && !at(Tok::Colon)) skipStray(peek() == Tok::Colon, diag::StrayToken);

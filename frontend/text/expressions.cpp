@@ -91,7 +91,7 @@ ExprId Parser::parseExpr(uint32_t least) {
     advance();
     // The value is missing: the next line begins with a new statement.
     if (atLineStart() && !panic_ && isName(kind()) && peek() == Tok::Assign) {
-      fail(diag::MissingValueBehind, op, {describe(op)});
+      fail(diag::MissingValueAfter, op, {describe(op)});
       return errorExpr(loc(op));
     }
     const ExprId right = parseExpr(row.precedence + 1u);
@@ -215,7 +215,7 @@ ExprId Parser::parsePrimary() {
   const Token* before = t_ - 1;
   const bool is_punctuation = kind() > Tok::Semicolon && kind() <= Tok::EqualLess;
   if (((atLineStart() && !is_punctuation) || at(Tok::End)) && index() > 0 && before->kind != Tok::Semicolon)
-    fail(diag::MissingValueBehind, before, {describe(before)});
+    fail(diag::MissingValueAfter, before, {describe(before)});
   else
     fail(diag::MissingValue, t_, {describe(t_)});
   return errorExpr(start);
@@ -366,7 +366,7 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
     const Token* pin = negated ? t_ + 1 : t_;
     Tok binder = pin[1].kind;
     if (binder == Tok::Colon && isName(pin->kind)) {  // `IN : TRUE`
-      slip(diag::WrongWord, pin + 1, {":", ":="});
+      slip(diag::WrongKeyword, pin + 1, {":", ":="});
       binder = Tok::Assign;
     }
     if ((isName(pin->kind) || isTypeWord(pin->kind)) && (binder == Tok::Assign || binder == Tok::Arrow)) {
@@ -419,7 +419,7 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
                (t->flags & kLineStart) == 0)
           ++t;
         if (t->kind == Tok::RightParen) {
-          slip(diag::WrongWord, t_, {";", ","});
+          slip(diag::WrongKeyword, t_, {";", ","});
           advance();
           continue;
         }

@@ -280,7 +280,7 @@ void Parser::endInstruction() {
     if (isInfix(kind()))
       fail(diag::IlExpression, t_, {textOf(t_)});
     else
-      fail(diag::BehindInstruction, t_, {describe(t_)});
+      fail(diag::AfterInstruction, t_, {describe(t_)});
   }
   if (!panic_) return;
   panic_ = false;

@@ -73,8 +73,8 @@ void collectLabels(const Tree& tree, const Names& names, Diagnostics& diagnostic
   for (size_t n = 1; n < flow.labels.size(); ++n) {
     if (!twice(flow.labels[n - 1], flow.labels[n])) continue;
     const Ident second = tree.list(list)[flow.labels[n].second].label;
-    diagnostics.report(diag::JumpLabelTwice, second.loc, {names.string(second.name)})
-        .note(tree.list(list)[flow.labels[n - 1].second].label.loc, diag::DeclaredHere);
+    diagnostics.report(diag::DuplicateJumpLabel, second.loc, {names.string(second.name)})
+        .declaredHere(tree.list(list)[flow.labels[n - 1].second].label.loc);
   }
   flow.labels.erase(std::unique(flow.labels.begin(), flow.labels.end(), twice), flow.labels.end());
 }

@@ -260,8 +260,9 @@ void Parser::connectWires(const std::vector<DiagramElement>& elements, uint32_t 
   std::sort(numbers.begin(), numbers.end());
   for (size_t k = 1; k < numbers.size(); ++k) {
     if (numbers[k].first != numbers[k - 1].first) continue;
-    diagnostics_.report(diag::ElementTwice, elements[numbers[k].second].loc, {std::to_string(numbers[k].first)})
-        .note(elements[numbers[k - 1].second].loc, diag::DeclaredHere);
+    diagnostics_
+        .report(diag::DuplicateElementNumber, elements[numbers[k].second].loc, {std::to_string(numbers[k].first)})
+        .declaredHere(elements[numbers[k - 1].second].loc);
   }
   const Slice<DiagramWire> all{first_wire, static_cast<uint32_t>(wire_numbers_.size())};
   for (uint32_t k = 0; k < all.count; ++k) {

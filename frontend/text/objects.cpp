@@ -72,7 +72,7 @@ void Parser::parseModifiers(AccessLevel& access, uint8_t& modifiers, bool before
     const Token** earlier = nullptr;
     const uint8_t modifier = modifierOf(textOf(t_));
     if ((modifiers & modifier) != 0) {
-      diagnostics_.report(diag::WordTwice, loc(word), {textOf(word)});
+      diagnostics_.report(diag::DuplicateKeyword, loc(word), {textOf(word)});
       advance();
     } else if (modifier != 0) {
       modifiers = static_cast<uint8_t>(modifiers | modifier);
@@ -85,9 +85,9 @@ void Parser::parseModifiers(AccessLevel& access, uint8_t& modifiers, bool before
     }
     if (earlier == nullptr) continue;
     if (*earlier != nullptr && sameIdentifier(textOf(*earlier), textOf(word)))
-      diagnostics_.report(diag::WordTwice, loc(word), {textOf(word)});
+      diagnostics_.report(diag::DuplicateKeyword, loc(word), {textOf(word)});
     else if (*earlier != nullptr)
-      diagnostics_.report(diag::WordsContradict, loc(word), {textOf(word), textOf(*earlier)});
+      diagnostics_.report(diag::KeywordsContradict, loc(word), {textOf(word), textOf(*earlier)});
     *earlier = word;
   }
 }
@@ -161,7 +161,7 @@ DeclId Parser::parseProperty() {
     const bool is_set = at(Tok::Set);
     const DeclId accessor = parseAccessor(name, d);
     DeclId& slot = is_set ? d.set : d.get;
-    if (slot) diagnostics_.report(diag::WordTwice, tree_.loc(accessor), {is_set ? "SET" : "GET"});
+    if (slot) diagnostics_.report(diag::DuplicateKeyword, tree_.loc(accessor), {is_set ? "SET" : "GET"});
     slot = accessor;
   }
   --in_property_;

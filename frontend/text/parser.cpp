@@ -127,7 +127,7 @@ bool Parser::expect(Tok wanted) {
            at(Tok::Semicolon))
     slip(diag::MissingToken, t_, {spelling(wanted), describe(t_)});
   else
-    fail(diag::WrongWord, t_, {textOf(t_), spelling(wanted)});
+    fail(diag::WrongKeyword, t_, {textOf(t_), spelling(wanted)});
   return false;
 }
 
@@ -330,7 +330,7 @@ DeclId Parser::parsePou() {
     if (!atTopLevelWord() && !at(Tok::End) && !outer_ends) {
       // An END_… of something else, which block repair would have removed.
       if (d.body_kind == BodyKind::Cpp)
-        slip(diag::BehindCpp, t_, {describe(t_)});
+        slip(diag::AfterCppBody, t_, {describe(t_)});
       else
         slip(diag::StrayEnd, t_, {textOf(t_)});
       advance();

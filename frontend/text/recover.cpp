@@ -373,7 +373,7 @@ void Balancer::visit(uint32_t i) {
       return close(i, closer);
     }
     if (i > region_first_ && tokens_[i - 1].kind == k && !atLineStart(i)) {
-      diagnostics_.report(diag::WordTwice, loc(i), {textOf(i)});
+      diagnostics_.report(diag::DuplicateKeyword, loc(i), {textOf(i)});
       markReported(i);
       edit(i, EditKind::Remove, Tok::End);
       return;
@@ -440,7 +440,7 @@ void Balancer::close(uint32_t i, Tok closer) {
   // END_IF END_IF
   if (i > region_first_ && tokens_[i - 1].kind == closer && !line_start &&
       (stack_.empty() || stack_.back().column < line_column_ || isPouOpener(stack_.back().kind))) {
-    diagnostics_.report(diag::WordTwice, loc(i), {textOf(i)});
+    diagnostics_.report(diag::DuplicateKeyword, loc(i), {textOf(i)});
     markReported(i);
     edit(i, EditKind::Remove, Tok::End);
     return;
@@ -482,7 +482,7 @@ void Balancer::close(uint32_t i, Tok closer) {
       const bool function_without_result = top.kind == Tok::Function && tokens_[top.index + 2].kind != Tok::Colon;
       if ((isStatementOpener(top.kind) && !belongs(top.connective, top.kind) && belongs(top.connective, openers[0])) ||
           (function_without_result && isPouCloser(closer))) {
-        diagnostics_.report(diag::WrongWord, loc(top.index), {textOf(top.index), spelling(openers[0])});
+        diagnostics_.report(diag::WrongKeyword, loc(top.index), {textOf(top.index), spelling(openers[0])});
         markReported(top.index);
         edit(top.index, EditKind::Respell, openers[0]);
       } else {
@@ -595,7 +595,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
       if (!atLineStart(at + 1) &&
           (isName(next) || next == Tok::Not || next == Tok::Number ||
            (!isName(tokens_[at].kind) && tokens_[at].kind != Tok::LeftParen && next == Tok::LeftParen))) {
-        diagnostics_.report(diag::WrongWord, loc(at), {textOf(at), spelling(openers[0])})
+        diagnostics_.report(diag::WrongKeyword, loc(at), {textOf(at), spelling(openers[0])})
             .length(static_cast<uint32_t>(textOf(at).size()));
         markReported(at);
         edit(at, EditKind::Respell, openers[0]);
@@ -650,7 +650,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
        (isName(tokens_[decl_start_ + 1].kind) &&
         (tokens_[decl_start_ + 2].kind == Tok::Colon || tokens_[decl_start_ + 2].kind == Tok::Comma ||
          tokens_[decl_start_ + 2].kind == Tok::At)))) {
-    diagnostics_.report(diag::WrongWord, loc(decl_start_), {textOf(decl_start_), "VAR"})
+    diagnostics_.report(diag::WrongKeyword, loc(decl_start_), {textOf(decl_start_), "VAR"})
         .length(static_cast<uint32_t>(textOf(decl_start_).size()));
     markReported(decl_start_);
     edit(decl_start_, EditKind::Respell, Tok::Var);
@@ -663,7 +663,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
       outside_start_ < i) {
     const uint32_t at = outside_start_;
     if (!isName(tokens_[at].kind) && !opens(at) && (isName(tokens_[at + 1].kind) || atLineStart(at + 1))) {
-      diagnostics_.report(diag::WrongWord, loc(at), {textOf(at), spelling(openers[0])})
+      diagnostics_.report(diag::WrongKeyword, loc(at), {textOf(at), spelling(openers[0])})
           .length(static_cast<uint32_t>(textOf(at).size()));
       markReported(at);
       edit(at, EditKind::Respell, openers[0]);

@@ -175,7 +175,7 @@ void Parser::parseStepTimes(SfcStep& step) {
   do {
     const bool least = is(t_, "TMIN");
     if (!least && !is(t_, "TMAX")) {
-      fail(diag::WrongWord, t_, {textOf(t_), "TMIN` or `TMAX"});
+      fail(diag::WrongKeyword, t_, {textOf(t_), "TMIN` or `TMAX"});
       return;
     }
     advance();
@@ -255,7 +255,7 @@ bool Parser::parseSteps(Slice<Ident>& out) {
     steps.push_back(step);
   } while (several && accept(Tok::Comma));
   if (several && !accept(Tok::RightParen)) {
-    fail(diag::WrongWord, t_, {textOf(t_), ")"});
+    fail(diag::WrongKeyword, t_, {textOf(t_), ")"});
     return false;
   }
   out = tree_.addList<Ident>(steps);
@@ -292,11 +292,11 @@ bool Parser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId
       if (is(t_, "TO"))
         advance();
       else
-        fail(diag::WrongWord, t_, {textOf(t_), "TO"});
+        fail(diag::WrongKeyword, t_, {textOf(t_), "TO"});
       if (!panic_) parseSteps(t.to);
     }
   } else if (!panic_ && !at(Tok::Assign) && !at(Tok::Colon) && !at(Tok::Semicolon) && !at(Tok::EndTransition)) {
-    fail(diag::WrongWord, t_, {textOf(t_), "FROM"});
+    fail(diag::WrongKeyword, t_, {textOf(t_), "FROM"});
   }
   if (!panic_) parseCondition(t, members);
   const bool ok = !panic_;

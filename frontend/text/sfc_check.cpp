@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "frontend/source/dialect.h"
-#include "frontend/syntax/diagnostics.h"
 #include "frontend/syntax/sfc.h"
 #include "frontend/text/diagnostics.h"
 #include "frontend/text/sfc_schedule.h"
@@ -102,7 +101,7 @@ void Checker::checkInitial() {
       continue;
     }
     report(diag::SfcSeveralInitial, steps_[i].name.loc, {string(steps_[i].name.name)})
-        .note(steps_[first].name.loc, diag::AlsoDeclaredHere);
+        .alsoDeclaredHere(steps_[first].name.loc);
     return;
   }
   if (!any)

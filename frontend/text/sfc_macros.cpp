@@ -22,7 +22,7 @@ void Parser::openMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& ope
     do {
       const bool entry = is(t_, "ENTRY");
       if (!entry && !is(t_, "EXIT")) {
-        fail(diag::WrongWord, t_, {textOf(t_), "ENTRY` or `EXIT"});
+        fail(diag::WrongKeyword, t_, {textOf(t_), "ENTRY` or `EXIT"});
         break;
       }
       advance();
@@ -90,7 +90,7 @@ void Parser::inlineMacros(std::span<const SfcMacro> macros, std::span<const SfcS
     return found == by_name.end() ? nullptr : found->second;
   };
   const auto reportTwice = [&](const Ident& name, Loc first) {
-    diagnostics_.report(diag::DeclaredTwice, name.loc, {names_.string(name.name)}).note(first, diag::AlsoDeclaredHere);
+    diagnostics_.report(diag::DuplicateDeclaration, name.loc, {names_.string(name.name)}).alsoDeclaredHere(first);
   };
   for (const SfcMacro& macro : macros) {
     if (const SfcMacro* first = find(macro.name.name)) return reportTwice(macro.name, first->name.loc);

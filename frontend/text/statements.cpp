@@ -423,7 +423,7 @@ void Parser::finishHeader(Tok connective) {
     if (accept(connective)) return;
     const Tok candidates[] = {connective};
     if (at(Tok::Then) || at(Tok::Do) || at(Tok::Of)) {
-      slip(diag::WrongWord, t_, {textOf(t_), spelling(connective)});
+      slip(diag::WrongKeyword, t_, {textOf(t_), spelling(connective)});
       advance();
       return;
     }
@@ -454,7 +454,7 @@ void Parser::finishHeader(Tok connective) {
     else if (isOperand(kind()))
       fail(diag::MissingOperator, t_, {describe(t_)});
     else
-      fail(diag::WrongWord, t_, {textOf(t_), spelling(connective)});
+      fail(diag::WrongKeyword, t_, {textOf(t_), spelling(connective)});
     t_ = const_cast<Token*>(t) + 1;
     panic_ = false;
     return;
@@ -591,7 +591,7 @@ void Parser::parseCaseLabels(std::vector<ExprId>& out) {
   }
   if (!panic_) {
     if (at(Tok::Assign) || at(Tok::Semicolon) || at(Tok::Equal)) {
-      slip(diag::WrongWord, t_, {textOf(t_), ":"});
+      slip(diag::WrongKeyword, t_, {textOf(t_), ":"});
       advance();
       return;
     }

@@ -302,7 +302,7 @@ TypeExprId Parser::parseArray() {
   advance();
   if (!accept(Tok::LeftBracket)) {
     if (at(Tok::LeftParen)) {
-      slip(diag::WrongWord, t_, {"(", "["});
+      slip(diag::WrongKeyword, t_, {"(", "["});
       advance();
     } else {
       slip(diag::MissingToken, t_, {"[", describe(t_)});
@@ -336,7 +336,7 @@ TypeExprId Parser::parseArray() {
     bounds.push_back(bound);
   } while (!panic_ && accept(Tok::Comma));
   if (!panic_ && at(Tok::RightParen)) {
-    slip(diag::WrongWord, t_, {")", "]"});
+    slip(diag::WrongKeyword, t_, {")", "]"});
     advance();
   } else if (!panic_ && at(Tok::Of)) {
     slip(diag::MissingToken, t_, {"]", describe(t_)});

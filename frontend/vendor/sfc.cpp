@@ -176,7 +176,8 @@ void ChartReader::branch(const Element& element, Front& front) {
     }
     if (!line.transitions.empty())
       return report(diag::ChartNoStepBetween, element.end, before(line), std::string("the end of a parallel branch"));
-    if (line.steps.empty()) diagnostics_.report(diag::ChartNeverUnites, element.end, {"a jump", "the parallel branch"});
+    if (line.steps.empty())
+      diagnostics_.report(diag::ChartNeverConverges, element.end, {"a jump", "the parallel branch"});
     if (line.steps.size() * united.size() > kMaxWays) return report(diag::ChartTooManyWays, element.loc);
     std::vector<Steps> all;
     for (const Steps& one : united)

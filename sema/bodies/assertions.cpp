@@ -72,7 +72,7 @@ TypeId checkAssertion(Context& context, ExprId& expr, Assertion assertion) {
                          context.tree().as<LiteralExpr>(message).literal() == LiteralKind::String;
     if (!literal) {
       check(context, message, {}, Access::Read);
-      context.report(diag::AssertionText, context.tree().begin(message), {name});
+      context.report(diag::AssertionMessage, context.tree().begin(message), {name});
       ok = false;
     } else {
       check(context, message, {}, Access::Read);

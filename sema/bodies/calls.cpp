@@ -67,7 +67,7 @@ struct Slots {
       const Argument& argument = context.tree().list(node.arguments)[index];
       const Argument& first = context.tree().list(node.arguments)[out.slots[slot] - 1];
       const Ident& pin = argument.pin.name ? argument.pin : first.pin;
-      context.report(diag::PinGivenTwice, argument.pin.name ? argument.pin.loc : argument.loc,
+      context.report(diag::DuplicatePin, argument.pin.name ? argument.pin.loc : argument.loc,
                      {string(context, pin.name)});
       out.ok = false;
       return false;
@@ -292,7 +292,7 @@ TypeId callValue(Context& context, ExprId& expr, TypeId type, bool as_statement)
   Report report =
       context.report(diag::NotCallable, node.h.loc,
                      {name ? string(context, name) : std::string_view("this"), context.types().toString(type)});
-  if (called.entityKind() == EntityKind::Var) report.note(context.symbols.vars[called.index].loc, diag::DeclaredHere);
+  if (called.entityKind() == EntityKind::Var) report.declaredHere(context.symbols.vars[called.index].loc);
   return refuse(context, node);
 }
 

@@ -250,7 +250,7 @@ bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId t
   if (context.tree().kind(expr) == ExprKind::Literal && !context.tree().as<LiteralExpr>(expr).prefix && own != wanted &&
       TypeTable::isString(own) && TypeTable::isString(wanted)) {
     const bool wide = own == TypeKind::WString;
-    context.report(diag::TextQuotes, loc,
+    context.report(diag::StringQuotes, loc,
                    {wide ? "double" : "single", wide ? "WSTRING" : "STRING",
                     string(context, context.types().info(types::idOf(wanted)).name), wide ? "single" : "double",
                     wide ? "'" : "\""});
@@ -356,7 +356,7 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
     const types::TypeInfo& info = context.types().info(context.types().resolve(to));
     if (TypeTable::isString(info.kind) && context.tree().kind(expr) == ExprKind::Literal &&
         context.types().info(context.types().resolve(from)).length > info.length) {
-      context.report(diag::TextTooLong, context.tree().loc(expr),
+      context.report(diag::StringTooLong, context.tree().loc(expr),
                      {std::to_string(context.types().info(context.types().resolve(from)).length),
                       context.types().toString(to), std::to_string(info.length)});
     }

@@ -1,6 +1,5 @@
 // Names in expressions: variables, enumeration items, members of records, and qualified names (`GVL.x`, `Lib.f`).
 // In: NameExpr, TypedNameExpr, MemberExpr. Out: their entity and type. Called for every operand of every body.
-#include "frontend/syntax/diagnostics.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/temporaries.h"
@@ -391,8 +390,7 @@ std::optional<TypeId> checkNamedBit(Context& context, ExprId& expr, TypeId base)
   if (var.constant) ensureInitialValue(context, id);
   markAccess(context, VarId{found.index}, Access::Read);
   if (!var.constant || !var.has_value) {
-    context.report(diag::NamedBitNotConstant, node.h.loc, {string(context, node.member)})
-        .note(var.loc, diag::DeclaredHere);
+    context.report(diag::NamedBitNotConstant, node.h.loc, {string(context, node.member)}).declaredHere(var.loc);
     return types::kError;
   }
   BitAccessExpr bit{};

@@ -348,7 +348,7 @@ TypeId combine(Context& context, ExprId& self, TypeId expected) {
   }
   if (op == BinaryOp::Add && TypeTable::isString(context.types().plainKind(left)) &&
       TypeTable::isString(context.types().plainKind(right))) {
-    context.report(diag::TextsAdded, node.h.loc);
+    context.report(diag::StringsAdded, node.h.loc);
     return node.h.type = types::kError;
   }
   ExprId operands[2] = {node.left, node.right};

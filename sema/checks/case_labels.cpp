@@ -45,7 +45,7 @@ void checkCaseLabels(Context& context, CaseLabels& labels, TypeId selector, bool
     if (widest != nullptr && !less(widest->high, label.low, is_signed)) {
       const Label& later = widest->loc < label.loc ? label : *widest;
       const Label& first = widest->loc < label.loc ? *widest : label;
-      context.report(diag::LabelTwice, later.loc, {toString(context, later.low, later.high, selector)})
+      context.report(diag::DuplicateLabel, later.loc, {toString(context, later.low, later.high, selector)})
           .note(first.loc, diag::FirstLabel);
     }
     if (widest == nullptr || less(widest->high, label.high, is_signed)) widest = &label;

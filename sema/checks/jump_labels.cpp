@@ -22,8 +22,8 @@ void checkJumpLabels(Context& context) {
   std::sort(body.labels.begin(), body.labels.end(), before);
   for (size_t i = 1; i < body.labels.size(); ++i) {
     if (!names.same(body.labels[i - 1].label.name, body.labels[i].label.name)) continue;
-    context.report(diag::JumpLabelTwice, body.labels[i].label.loc, {names.string(body.labels[i].label.name)})
-        .note(body.labels[i - 1].label.loc, diag::DeclaredHere);
+    context.report(diag::DuplicateJumpLabel, body.labels[i].label.loc, {names.string(body.labels[i].label.name)})
+        .declaredHere(body.labels[i - 1].label.loc);
   }
   for (const BodyState::LabelUse& jump : body.jumps) {
     const BodyState::LabelUse wanted{{jump.label.name, {}}, 0};
@@ -39,7 +39,7 @@ void checkJumpLabels(Context& context) {
     while (block != 0 && block != found->block) block = body.block_parents[block - 1];
     if (block == found->block) continue;
     context.report(diag::JumpIntoStatement, jump.label.loc, {names.string(jump.label.name)})
-        .note(found->label.loc, diag::DeclaredHere);
+        .declaredHere(found->label.loc);
   }
 }
 

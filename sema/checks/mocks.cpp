@@ -13,7 +13,6 @@
 
 #include <algorithm>
 
-#include "frontend/syntax/diagnostics.h"
 #include "sema/checks/diagnostics.h"
 #include "sema/declarations/declarations.h"
 #include "sema/project.h"
@@ -84,7 +83,7 @@ void compare(Context& context, PouId mock_id, PouId original_id) {
                          original_name = context.names().string(original.name);
   const auto differs = [&](Loc loc, Loc there, std::string_view what, std::string_view is, std::string_view is_there) {
     Report report = context.report(diag::MockDiffers, loc, {what, is, mock_name, is_there, original_name});
-    if (there) report.note(there, diag::DeclaredHere);
+    if (there) report.declaredHere(there);
   };
   const auto resultOf = [&](const Pou& pou) {
     return pou.result ? '`' + context.types().toString(pou.result) + '`' : std::string("missing");
@@ -127,7 +126,7 @@ void checkReplaced(Context& context, PouId id, const Pragma& pragma) {
   const PouId original{found.index};
   if (!canBeReplaced(context.symbols.pou(original), mock)) {
     reportPragma(context, diag::MockOfOtherKind, pragma, {context.names().string(mock.name), wanted})
-        .note(context.symbols.pou(original).loc, diag::DeclaredHere);
+        .declaredHere(context.symbols.pou(original).loc);
     return;
   }
   if (isBroken(context, id) || isBroken(context, original)) return;

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 
-#include "frontend/syntax/diagnostics.h"
 #include "sema/checks/diagnostics.h"
 #include "sema/declarations/declarations.h"
 
@@ -49,7 +48,7 @@ void checkAccess(Context& context, PouId method, PouId replaced) {
       .report(diag::NarrowerAccess, pou.loc,
               {string(context, pou.name), pou.access == AccessLevel::Private ? "PRIVATE" : "PROTECTED",
                string(context, context.symbols.pou(other.owner).name)})
-      .note(other.loc, diag::DeclaredHere);
+      .declaredHere(other.loc);
 }
 
 void checkSignature(Context& context, PouId method, PouId replaced) {
@@ -87,7 +86,7 @@ void checkSignature(Context& context, PouId method, PouId replaced) {
   context
       .report(diag::OtherSignature, pou.loc,
               {string(context, pou.name), string(context, context.symbols.pou(other.owner).name), difference})
-      .note(other.loc, diag::DeclaredHere);
+      .declaredHere(other.loc);
 }
 
 struct Demands {
@@ -116,7 +115,7 @@ struct Demands {
         .report(diag::MemberMissing, loc,
                 {string(context, pou.name), kindName(wanted), string(context, wanted.name),
                  string(context, context.symbols.pou(wanted.owner).name)})
-        .note(wanted.loc, diag::DeclaredHere);
+        .declaredHere(wanted.loc);
   }
 };
 
@@ -148,8 +147,7 @@ void checkMethod(Context& context, PouId object, PouId id) {
   const Pou& other = context.symbols.pou(replaced);
   const std::string_view base = string(context, context.symbols.pou(other.owner).name);
   if ((other.modifiers & kFinal) != 0) {
-    context.report(diag::OverridesFinal, method.loc, {string(context, method.name), base})
-        .note(other.loc, diag::DeclaredHere);
+    context.report(diag::OverridesFinal, method.loc, {string(context, method.name), base}).declaredHere(other.loc);
   } else if (isLifeMethod(context, method.name)) {
     return;  // the parameters of FB_Init may differ
   } else if (context.iec() && (method.modifiers & kOverride) == 0) {
@@ -167,7 +165,7 @@ void checkHalves(Context& context, const Property& property) {
   const Pou& setter = context.symbols.pou(property.set);
   const auto report = [&](const std::string& set, const std::string& get) {
     context.report(diag::PropertyHalves, setter.loc, {string(context, property.name), set, get})
-        .note(getter.loc, diag::DeclaredHere);
+        .declaredHere(getter.loc);
   };
   const TypeId read = getter.result, written = context.symbols.var(pinsOf(context, property.set)[0]).type;
   if (read == types::kError || written == types::kError) return;

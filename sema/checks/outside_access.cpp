@@ -7,7 +7,6 @@
 // Called by names.cpp for each `instance.pin`.
 #include "sema/checks/outside_access.h"
 
-#include "frontend/syntax/diagnostics.h"
 #include "sema/checks/diagnostics.h"
 
 namespace rung::sema {
@@ -27,7 +26,7 @@ bool checkOutsideAccess(Context& context, const MemberExpr& node, VarId member, 
   const std::string_view pin = string(context, var.name);
   const std::string block = context.types().toString(record);
   const auto refuse = [&](Diag diag) {
-    context.report(diag, node.h.loc, {pin, block}).note(var.loc, diag::DeclaredHere);
+    context.report(diag, node.h.loc, {pin, block}).declaredHere(var.loc);
     return false;
   };
   switch (var.section) {

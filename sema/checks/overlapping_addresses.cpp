@@ -7,7 +7,6 @@
 
 #include <algorithm>
 
-#include "frontend/syntax/diagnostics.h"
 #include "sema/checks/diagnostics.h"
 
 namespace rung::sema {
@@ -50,8 +49,7 @@ void checkOverlappingAddresses(Context& context) {
       const bool in_order = first.loc.offset < second.loc.offset;
       const Var& later = in_order ? second : first;
       const Var& earlier = in_order ? first : second;
-      context.report(diag::AddressOverlap, later.loc, {name(later), name(earlier)})
-          .note(earlier.loc, diag::DeclaredHere);
+      context.report(diag::AddressOverlap, later.loc, {name(later), name(earlier)}).declaredHere(earlier.loc);
     }
     if (!overlaps || other.end > one.end) last = i;
   }

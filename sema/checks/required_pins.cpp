@@ -6,7 +6,6 @@
 // Called for every resolved call of any language.
 #include "sema/checks/required_pins.h"
 
-#include "frontend/syntax/diagnostics.h"
 #include "sema/checks/diagnostics.h"
 #include "sema/diagnostics.h"
 
@@ -29,7 +28,7 @@ bool checkRequiredPins(Context& context, const CallExpr& node, PouId id, const A
     }
     if (must) {
       context.report(diag::PinNotConnected, node.h.loc, {string(context, pin.name), string(context, pou.name)})
-          .note(pin.loc, diag::DeclaredHere);
+          .declaredHere(pin.loc);
       ok = false;
     } else if (by_position && pin.section == SectionKind::Input && !pin.init) {
       if (!isBroken(context, id))

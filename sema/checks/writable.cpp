@@ -6,7 +6,6 @@
 // Called for every target of an assignment, output binding and in-out argument.
 #include "sema/checks/writable.h"
 
-#include "frontend/syntax/diagnostics.h"
 #include "sema/checks/diagnostics.h"
 
 namespace rung::sema {
@@ -17,12 +16,12 @@ bool checkVariable(Context& context, VarId id, Loc loc) {
   const Var& var = context.symbols.var(id);
   const std::string_view name = string(context, var.name);
   if (var.constant || (var.external && context.symbols.var(var.external).constant)) {
-    context.report(diag::AssignToConstant, loc, {name}).note(var.loc, diag::DeclaredHere);
+    context.report(diag::AssignToConstant, loc, {name}).declaredHere(var.loc);
     return false;
   }
   if (var.section == SectionKind::Input && var.pou == context.pou && !context.library) {
     if (context.types().isOpenArray(var.type)) {
-      context.report(diag::OpenInputWritten, loc, {name}).note(var.loc, diag::DeclaredHere);
+      context.report(diag::OpenInputWritten, loc, {name}).declaredHere(var.loc);
       return false;
     }
     context.report(context.iec() ? diag::AssignToInput : diag::InputWritten, loc, {name});
@@ -66,13 +65,13 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
           const bool passed = purpose.phrase != "assigned to";  // a whole step may be passed to an in-out
           return (passed || checkOfChart(context, var, node.h.loc, {})) && checkVariable(context, var, node.h.loc);
         }
-        context.report(diag::NotAPlace, node.h.loc, {purpose.toString(context)});
+        context.report(diag::NotAnLvalue, node.h.loc, {purpose.toString(context)});
         return false;
       }
       case ExprKind::Member: {
         const MemberExpr& node = tree.as<MemberExpr>(expr);
         if (node.entity.entityKind() != EntityKind::Var) {
-          context.report(diag::NotAPlace, node.h.loc, {purpose.toString(context)});
+          context.report(diag::NotAnLvalue, node.h.loc, {purpose.toString(context)});
           return false;
         }
         const VarId var{node.entity.index};
@@ -85,7 +84,7 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
         if (isWhole(context, node)) return checkVariable(context, var, node.h.loc);
         if (context.symbols.var(var).constant) {
           context.report(diag::AssignToConstant, node.h.loc, {string(context, node.member)})
-              .note(context.symbols.var(var).loc, diag::DeclaredHere);
+              .declaredHere(context.symbols.var(var).loc);
           return false;
         }
         const types::TypeInfo& info = context.types().info(context.types().resolve(tree.expr(node.base).type));
@@ -116,7 +115,7 @@ bool checkWritable(Context& context, ExprId expr, const Purpose& purpose) {
       case ExprKind::New:
       case ExprKind::AnyValue:
       case ExprKind::AddressOf:
-        context.report(diag::NotAPlace, tree.begin(whole), {purpose.toString(context)});
+        context.report(diag::NotAnLvalue, tree.begin(whole), {purpose.toString(context)});
         return false;
     }
   }

@@ -55,8 +55,8 @@ const Pragma* findPragma(const Context& context, const DeclHeader& header, NameI
 //   passes  FUNCTION f … FUNCTION g …
 //   fails   FUNCTION f … FUNCTION F …                  E0301
 void reportTwice(Context& context, NameId name, Loc loc, Loc first) {
-  Report report = context.report(diag::DeclaredTwice, loc, {context.names().string(name)});
-  if (first) report.note(first, diag::AlsoDeclaredHere);
+  Report report = context.report(diag::DuplicateDeclaration, loc, {context.names().string(name)});
+  if (first) report.alsoDeclaredHere(first);
 }
 
 NamedType& addNamed(Context& context, TypeId type) {
@@ -286,7 +286,7 @@ void addGlobals(Context& context, ListId list_id, DeclId section_id, NameMap& ba
     const std::string_view there =
         context.names().string(project.global_lists[project.vars[other.index].list.index].name);
     context.report(diag::GlobalAlsoDeclared, var.loc, {context.names().string(var.name), there, here})
-        .note(project.vars[other.index].loc, diag::AlsoDeclaredHere);
+        .alsoDeclaredHere(project.vars[other.index].loc);
   }
 }
 

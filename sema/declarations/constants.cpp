@@ -349,7 +349,7 @@ std::optional<int64_t> constantBound(Context& context, ExprId& expr) {
   if (!value) return std::nullopt;
   if (kind == TypeKind::ULInt || kind == TypeKind::LWord) {
     if (value->asSigned() < 0) {
-      context.report(diag::NoValueOfType, context.tree().begin(expr), {std::to_string(value->bits), "LINT"});
+      context.report(diag::ValueOutOfType, context.tree().begin(expr), {std::to_string(value->bits), "LINT"});
       return std::nullopt;
     }
   }

@@ -139,7 +139,7 @@ struct InitialOrder {
     for (auto step = at; step != path.end(); ++step) way += "`" + toString(context, var(*step).name) + "` reads ";
     way += "`" + toString(context, var(again).name) + "`";
     const Loc loc = var(again).init ? tree().begin(var(again).init) : var(again).loc;
-    context.report(diag::InitialValueCircle, loc, {toString(context, var(again).name), way});
+    context.report(diag::InitialValueCycle, loc, {toString(context, var(again).name), way});
   }
 
   // Depth first with an explicit stack, in order of declaration; `same`: which variables are ordered together.

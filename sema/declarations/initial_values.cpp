@@ -3,7 +3,6 @@
 // place; surplus array elements are removed and repetition counts are literals.
 #include <algorithm>
 
-#include "frontend/syntax/diagnostics.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 #include "sema/diagnostics.h"
@@ -299,7 +298,7 @@ struct Initializer {
       }
       const Var& var = context.symbols.var(member);
       if (!seen.insert(keyOf(context, var.name), entity(member))) {
-        context.report(diag::MemberSetTwice, given.field.loc, {name});
+        context.report(diag::DuplicateMember, given.field.loc, {name});
         continue;
       }
       const bool settable =
@@ -307,7 +306,7 @@ struct Initializer {
           (!var.pou || var.section == SectionKind::Input || var.access == AccessLevel::Public || !context.iec());
       if (!settable) {
         context.report(diag::MemberNotSettable, given.field.loc, {name, context.types().toString(type)})
-            .note(var.loc, diag::DeclaredHere);
+            .declaredHere(var.loc);
         continue;
       }
       given.field.name = var.name;  // an alias means its pin

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "frontend/syntax/diagnostics.h"
 #include "sema/bodies/bodies.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
@@ -226,8 +225,8 @@ struct InstancePathResolver {
   // Forbids two lines of VAR_CONFIG for one variable.   fails  Main.start AT %IX0 : BOOL; Main.start AT %IX1 : BOOL;
   // E0830
   void reportConfiguredTwice(const Ident& variable, Loc first) {
-    Report report = context.report(diag::ConfigTwice, variable.loc, {string(variable.name)});
-    if (first) report.note(first, diag::AlsoDeclaredHere);
+    Report report = context.report(diag::DuplicateConfigPath, variable.loc, {string(variable.name)});
+    if (first) report.alsoDeclaredHere(first);
   }
 
   static bool samePath(const InstancePath& a, const InstancePath& b) {
@@ -253,18 +252,18 @@ struct InstancePathResolver {
       context
           .report(diag::ExternalType, tree().loc(decl.type),
                   {string(last.name), context.types().toString(type), context.types().toString(var.type)})
-          .note(var.loc, diag::DeclaredHere);
+          .declaredHere(var.loc);
       return;
     }
     if (decl.located && !var.open_address) {
-      context.report(diag::ConfigNotOpen, decl.address_loc, {string(last.name)}).note(var.loc, diag::DeclaredHere);
+      context.report(diag::ConfigNotOpen, decl.address_loc, {string(last.name)}).declaredHere(var.loc);
       return;
     }
     std::optional<ImageView> view;
     if (decl.located) {
       if (decl.address.area != var.image.area) {
         const std::string area(1, areaLetter(var.image.area));
-        context.report(diag::ConfigArea, decl.address_loc, {string(last.name), area}).note(var.loc, diag::DeclaredHere);
+        context.report(diag::ConfigArea, decl.address_loc, {string(last.name), area}).declaredHere(var.loc);
         return;
       }
       if (decl.address.incomplete) {

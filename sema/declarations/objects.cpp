@@ -8,7 +8,6 @@
 // is that of a field, and no pointer is cast. If only the derived one has a type id, it comes first.
 #include <algorithm>
 
-#include "frontend/syntax/diagnostics.h"
 #include "sema/charts.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
@@ -192,7 +191,7 @@ void addInterface(Context& there, Pou& pou, PouId interface, Loc loc) {
   if (std::find(pou.interfaces.begin(), pou.interfaces.end(), interface) == pou.interfaces.end())
     pou.interfaces.push_back(interface);
   else
-    there.report(diag::InterfaceTwice, loc, {there.names().string(there.symbols.pou(interface).name)});
+    there.report(diag::DuplicateInterface, loc, {there.names().string(there.symbols.pou(interface).name)});
 }
 
 }  // namespace
@@ -234,8 +233,7 @@ void resolveHeader(Context& context, PouId id) {
     } else if (symbols.pou(id).base) {
       there.report(diag::SeveralBases, context.tree().loc(written), {context.names().string(symbols.pou(id).name)});
     } else if ((symbols.pou(base).modifiers & kFinal) != 0) {
-      there.report(diag::ExtendsFinal, context.tree().loc(written), {name})
-          .note(symbols.pou(base).loc, diag::DeclaredHere);
+      there.report(diag::ExtendsFinal, context.tree().loc(written), {name}).declaredHere(symbols.pou(base).loc);
     } else {
       symbols.pou(id).base = base;
       if (!symbols.pou(base).native) symbols.pou(base).extended = true;

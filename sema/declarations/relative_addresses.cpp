@@ -4,7 +4,6 @@
 // members have offsets, in source order.
 #include <algorithm>
 
-#include "frontend/syntax/diagnostics.h"
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/diagnostics.h"
 
@@ -89,7 +88,7 @@ void layOutMembers(Context& context, TypeId record, std::span<const VarId> membe
     const types::TypeInfo& info = context.types().info(context.types().resolve(var.type));
     const VarDecl& decl = context.tree().as<VarDecl>(var.decl);
     if (item.bit >= 0 && info.kind != types::TypeKind::Bool) {
-      context.report(diag::PlaceOfBit, decl.address_loc, {name, context.types().toString(var.type)});
+      context.report(diag::BitOffset, decl.address_loc, {name, context.types().toString(var.type)});
       addField(context, record, item.var);
       continue;
     }
@@ -97,13 +96,13 @@ void layOutMembers(Context& context, TypeId record, std::span<const VarId> membe
         item.bit >= 0 && bits && bits_at == item.byte && (!overlaps || (bits_used >> item.bit & 1) == 0);
     const uint64_t at = item.given ? item.byte : (end + info.align - 1) / info.align * info.align;
     if (!overlaps && (same_byte ? (bits_used >> item.bit & 1) != 0 : at < end)) {
-      Report report = context.report(diag::PlaceOverlaps, decl.located ? decl.address_loc : loc, {name});
-      if (last) report.note(context.symbols.var(last).loc, diag::AlsoDeclaredHere);
+      Report report = context.report(diag::MemberOverlaps, decl.located ? decl.address_loc : loc, {name});
+      if (last) report.alsoDeclaredHere(context.symbols.var(last).loc);
       addField(context, record, item.var);
       continue;
     }
     if (item.bit < 0 && at % info.align != 0) {
-      context.report(diag::PlaceAlignment, decl.address_loc,
+      context.report(diag::MemberAlignment, decl.address_loc,
                      {name, context.types().toString(var.type), std::to_string(info.align)});
       addField(context, record, item.var);
       continue;

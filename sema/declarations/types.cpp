@@ -32,7 +32,7 @@ std::string toString(int64_t number) { return std::to_string(number); }
 void reportUnknownType(Context& context, NameId name, Loc loc, Entity found) {
   const std::string_view text = context.names().string(name);
   if (found.entityKind() == EntityKind::Pou) {
-    context.report(diag::FunctionAsType, loc, {text}).note(context.symbols.pous[found.index].loc, diag::DeclaredHere);
+    context.report(diag::FunctionAsType, loc, {text}).declaredHere(context.symbols.pous[found.index].loc);
     return;
   }
   if (!isFirstReport(context, name)) return;
@@ -150,7 +150,7 @@ TypeId resolveString(Context& context, TypeExprId id) {
   const auto length = constantBound(context, expr.length);
   if (!length) return types::kError;
   if (*length < 1 || *length > kMaxStringLength) {
-    context.report(diag::TextLength, context.tree().begin(expr.length),
+    context.report(diag::StringLength, context.tree().begin(expr.length),
                    {toString(*length), toString(kMaxStringLength)});
     return types::kError;
   }
@@ -218,7 +218,7 @@ TypeId integerBase(Context& context, TypeExprId base, Diag diag) {
 bool fits(Context& context, TypeId base, int64_t number, Loc loc) {
   const types::Value value{types::idOf(TypeKind::LInt), static_cast<uint64_t>(number)};
   if (!types::convert(context.types(), value, base).overflow) return true;
-  context.report(diag::NoValueOfType, loc, {toString(number), context.types().toString(base)});
+  context.report(diag::ValueOutOfType, loc, {toString(number), context.types().toString(base)});
   return false;
 }
 

@@ -1,6 +1,5 @@
 // Variables of POUs and global lists: their names first, then types and storage, then initial values; each on demand.
 #include "frontend/diagram/schedule.h"
-#include "frontend/syntax/diagnostics.h"
 #include "sema/bodies/signatures.h"
 #include "sema/checks/object_members.h"
 #include "sema/checks/uncopied.h"
@@ -205,7 +204,7 @@ void matchExternal(Context& context, VarId id) {
     context
         .report(diag::ExternalType, loc,
                 {context.names().string(name), table.toString(var.type), table.toString(global.type)})
-        .note(global.loc, diag::DeclaredHere);
+        .declaredHere(global.loc);
     var.type = types::kError;
     return;
   }

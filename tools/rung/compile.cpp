@@ -130,7 +130,7 @@ void Compilation::noteLibraries() {
                        std::any_of(libraries.aliases().begin(), libraries.aliases().end(),
                                    [&](const sema::LibraryAlias& alias) { return called(alias.alias); });
     if (!known)
-      diagnostics.report(diag::LibraryNotKnown, wanted.loc, {wanted.name})
+      diagnostics.report(diag::UnknownLibrary, wanted.loc, {wanted.name})
           .length(static_cast<uint32_t>(wanted.name.size()));
   }
 }

@@ -393,7 +393,7 @@ class Collector {
       case FileKind::Nct:
       case FileKind::Cam:
         if (candidate.named) return fail(diag::KindNotRead, candidate.path, {candidate.path, describe(kind)});
-        diagnostics_.report(diag::KindPassedOver, {}, {candidate.path, describe(kind)}).path(candidate.path);
+        diagnostics_.report(diag::KindIgnored, {}, {candidate.path, describe(kind)}).path(candidate.path);
         return;
       case FileKind::PlcProject:
       case FileKind::Project: return;

@@ -3,7 +3,6 @@
 
 #include <charconv>
 
-#include "frontend/syntax/diagnostics.h"
 #include "tools/rung/diagnostics.h"
 #include "tools/rung/libraries.h"
 
@@ -90,9 +89,9 @@ class Reader {
     if (schema_->keys != nullptr && !known(key)) return;
     for (const ProjectEntry& entry : project_.sections.back().entries) {
       if (entry.key != key) continue;
-      diagnostics_.report(diag::ProjectTwice, loc(key), {key})
+      diagnostics_.report(diag::DuplicateKey, loc(key), {key})
           .length(static_cast<uint32_t>(key.size()))
-          .note(entry.key_loc, diag::DeclaredHere);
+          .declaredHere(entry.key_loc);
       return;
     }
     // An empty value still has a location: one past the sign.

@@ -1,6 +1,5 @@
 // Diagnostics for people and tools: source with underlines, JSON, SARIF; hostile bytes; cut lines; limits.
 #include "frontend/source/render.h"
-#include "frontend/syntax/diagnostics.h"
 #include "sema/diagnostics.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +31,7 @@ TEST_F(Render, LineCaretAndNote) {
 
 TEST_F(Render, NoteWithALocationShowsIt) {
   const Loc loc = sources.begin(sources.add("a.st", "first\nsecond\n"));
-  diagnostics.report(diag::UnknownName, {loc.offset + 6}, {"second"}).note(loc, diag::DeclaredHere);
+  diagnostics.report(diag::UnknownName, {loc.offset + 6}, {"second"}).declaredHere(loc);
   EXPECT_EQ(text(),
             "a.st:2:1: error[E0401]: `second` is not declared\n"
             " 2 | second\n"
