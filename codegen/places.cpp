@@ -25,10 +25,10 @@ void BodyWriter::place(ExprId id) {
   switch (e.kind) {
     case ExprKind::Local: {
       const ir::Local& local = body_->locals[e.a];
-      const bool behind = local.by_reference && !isString(local.type);
-      if (behind) out_ += "(*";
+      const bool after = local.by_reference && !isString(local.type);
+      if (after) out_ += "(*";
       variable(out_, local);
-      if (behind) out_ += ')';
+      if (after) out_ += ')';
       return;
     }
     case ExprKind::Self: out_ += "self"; return;
@@ -59,12 +59,12 @@ void BodyWriter::place(ExprId id) {
         appendMangled(out_, string(field.name));
         return;
       }
-      const bool behind = field.by_reference && !isString(field.type);
-      if (behind) includeRecord(field.type);
-      if (behind) out_ += "(*";
+      const bool after = field.by_reference && !isString(field.type);
+      if (after) includeRecord(field.type);
+      if (after) out_ += "(*";
       member(base);
       appendMangled(out_, string(field.name));
-      if (behind) out_ += ')';
+      if (after) out_ += ')';
       return;
     }
     case ExprKind::Index: {

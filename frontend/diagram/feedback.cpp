@@ -69,13 +69,13 @@ class Search {
         phase_[from] = Phase::Busy;
         stack.push_back({from, 0, 0});
       } else if (phase_[from] == Phase::Busy && !isKept(from)) {
-        breakCircle(stack, from);
+        breakCycle(stack, from);
       }
     }
   }
 
   // The loop is the end of the stack from `first` on. Nothing to do if an element of it keeps its value.
-  void breakCircle(const std::vector<Frame>& stack, uint32_t first) {
+  void breakCycle(const std::vector<Frame>& stack, uint32_t first) {
     uint32_t box = kNone;
     for (size_t k = stack.size(); k > 0; --k) {
       const uint32_t element = stack[k - 1].element;

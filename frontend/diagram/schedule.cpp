@@ -236,7 +236,7 @@ void Scheduler::visit(uint32_t root) {
         push(next, false);
       } else if (phase_[next] == Phase::Busy && graph_.elements[next].order == 0 &&
                  !keepsState(graph_.elements[next])) {  // otherwise its value of the last cycle is read
-        breakCircle(next);
+        breakCycle(next);
       }
     }
   }
@@ -251,7 +251,7 @@ void Scheduler::push(uint32_t element, bool begins) {
 // its value runs first: one that already had to, or the last one before `first`. The elements above `first` are visited
 // again later.
 //   fails   a loop without such a box        E1006
-void Scheduler::breakCircle(uint32_t first) {
+void Scheduler::breakCycle(uint32_t first) {
   uint32_t keeper = kNone, begun = kNone;
   for (;;) {
     const Frame frame = stack_.back();

@@ -39,7 +39,7 @@ class Scheduler {
   // ---- the walk
   void visit(uint32_t root);
   void push(uint32_t element, bool begins);
-  void breakCircle(uint32_t first);
+  void breakCycle(uint32_t first);
   uint32_t nextInput(Frame& frame) const;
   void resolve(uint32_t element);
 

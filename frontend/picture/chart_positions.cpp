@@ -113,10 +113,10 @@ void Placer::spreadNodes() {
     const ChartNode& n = plan_.nodes[k];
     x.wanted.push_back(wanted_[k].x);
     x.before.push_back(-n.area.x);
-    x.behind.push_back(n.area.right());
+    x.after.push_back(n.area.right());
     y.wanted.push_back(wanted_[k].y);
     y.before.push_back(0);
-    y.behind.push_back(std::max(n.area.height, n.below + (jumps_[k].empty() ? 0 : kJumpHeight)));
+    y.after.push_back(std::max(n.area.height, n.below + (jumps_[k].empty() ? 0 : kJumpHeight)));
   }
   const auto connected = [&](uint32_t a, uint32_t b) {
     return std::find(down_[a].begin(), down_[a].end(), b) != down_[a].end();
@@ -127,13 +127,13 @@ void Placer::spreadNodes() {
       const bool single = down_[upper].size() == 1 && up_[lower].size() == 1;
       return single && wanted_[a].x == wanted_[b].x ? kStretch : 2 * kStretch + kDouble;
     }
-    const bool apart = wanted_[a].x - x.before[a] >= wanted_[b].x + x.behind[b] ||
-                       wanted_[b].x - x.before[b] >= wanted_[a].x + x.behind[a];
+    const bool apart = wanted_[a].x - x.before[a] >= wanted_[b].x + x.after[b] ||
+                       wanted_[b].x - x.before[b] >= wanted_[a].x + x.after[a];
     return apart ? -1 : kStretch;
   };
   const std::vector<int32_t> ys = spread(y, gapY);
   const auto gapX = [&](uint32_t a, uint32_t b) {
-    return std::max(ys[a], ys[b]) < std::min(ys[a] + y.behind[a], ys[b] + y.behind[b]) ? kBranchGap : -1;
+    return std::max(ys[a], ys[b]) < std::min(ys[a] + y.after[a], ys[b] + y.after[b]) ? kBranchGap : -1;
   };
   const std::vector<int32_t> xs = spread(x, gapX);
   for (uint32_t k = 0; k < count; ++k) plan_.nodes[k].origin = {xs[k], ys[k]};

@@ -207,7 +207,7 @@ void moveBy(Plan& plan, Point by) {
 void drawPlan(Svg& svg, const Body& body, const Plan& plan) {
   for (const Net& net : plan.nets) {
     for (const std::vector<Point>& line : net.lines) svg.path(route(line.data(), line.size()));
-    for (const Point p : net.dots) svg.circle(p, 2, "d");
+    for (const Point p : net.dots) svg.cycle(p, 2, "d");
   }
   for (const Item& item : plan.items) drawItem(svg, body, item);
 }

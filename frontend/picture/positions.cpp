@@ -93,9 +93,9 @@ bool takeFilePositions(const Body& body, Plan& plan) {
     x.wanted.push_back(onGrid(int64_t{e.x} * unit + centre));
     y.wanted.push_back(onGrid(int64_t{e.y} * unit + middle));
     x.before.push_back(-item.area.x);
-    x.behind.push_back(item.area.right());
+    x.after.push_back(item.area.right());
     y.before.push_back(-item.area.y);
-    y.behind.push_back(item.area.bottom());
+    y.after.push_back(item.area.bottom());
     const int64_t limit = 1 << 29;
     guess[k] = item.area.at({static_cast<int32_t>(std::clamp(x.wanted[k], -limit, limit)), 0});
   }
@@ -110,7 +110,7 @@ bool takeFilePositions(const Body& body, Plan& plan) {
   const std::vector<int32_t> ys = spread(y, gapY);
   const auto gapX = [&](uint32_t a, uint32_t b) {
     const int32_t above = std::max(ys[a] - y.before[a], ys[b] - y.before[b]);
-    const int32_t below = std::min(ys[a] + y.behind[a], ys[b] + y.behind[b]);
+    const int32_t below = std::min(ys[a] + y.after[a], ys[b] + y.after[b]);
     return rail(a) || rail(b) || above < below ? kElementGap : -1;
   };
   const std::vector<int32_t> xs = spread(x, gapX);

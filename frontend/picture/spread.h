@@ -13,7 +13,7 @@ namespace rung::picture {
 // For each item: its position in the file, and its extent before and after that point.
 struct Axis {
   std::vector<int64_t> wanted;
-  std::vector<int32_t> before, behind;
+  std::vector<int32_t> before, after;
 };
 
 constexpr int32_t kWidest = 300;  // between adjacent columns with no column in between
@@ -38,7 +38,7 @@ std::vector<int32_t> spread(const Axis& axis, Gap gap) {
     for (size_t k = first; k < last; ++k)
       for (size_t other = 0; other < first; ++other)
         if (const int32_t free = gap(order[k], order[other]); free >= 0)
-          now = std::max<int64_t>(now, at[order[other]] + axis.behind[order[other]] + free + axis.before[order[k]]);
+          now = std::max<int64_t>(now, at[order[other]] + axis.after[order[other]] + free + axis.before[order[k]]);
     now = (now + kGrid - 1) / kGrid * kGrid;
     for (size_t k = first; k < last; ++k) at[order[k]] = static_cast<int32_t>(now);
     first = last;

@@ -118,7 +118,7 @@ void Svg::rect(const Rect& r, std::string_view kind) {
            "\" height=\"" + number(r.height) + "\"/>\n";
 }
 
-void Svg::circle(Point centre, int32_t radius, std::string_view kind) {
+void Svg::cycle(Point centre, int32_t radius, std::string_view kind) {
   body_ += "<circle" + classOf(kind) + " cx=\"" + number(centre.x) + "\" cy=\"" + number(centre.y) + "\" r=\"" +
            number(radius) + "\"/>\n";
 }

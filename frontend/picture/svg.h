@@ -43,7 +43,7 @@ class Svg {
   void path(std::string_view data, std::string_view kind = {});
   void line(Point a, Point b, std::string_view kind = {});
   void rect(const Rect& r, std::string_view kind = {});
-  void circle(Point centre, int32_t radius, std::string_view kind = {});
+  void cycle(Point centre, int32_t radius, std::string_view kind = {});
   void text(Point base, Anchor anchor, std::string_view text, std::string_view kind = {});
   void open(std::string_view id);  // a group of shapes
   void openFaded();                // a group of disabled elements

@@ -133,7 +133,7 @@ void addLineTerminals(const Body& body, const DiagramElement& e, bool input, boo
 
 void drawModifiers(Svg& svg, const DiagramPin& pin, Point border, bool left) {
   const int32_t out = left ? -1 : 1;
-  if (pin.negated) svg.circle({border.x + out * 4, border.y}, 4, "w");
+  if (pin.negated) svg.cycle({border.x + out * 4, border.y}, 4, "w");
   if (pin.storage != PinStorage::None)
     svg.text({border.x + out * 6, border.y - 5}, Anchor::Middle, pin.storage == PinStorage::Set ? "S" : "R", "s");
   if (pin.edge == EdgeKind::None) return;

@@ -59,13 +59,13 @@ void Chart::readNodes() {
           .length(static_cast<uint32_t>(id->raw.size()))
           .alsoDeclaredHere(nodes_[known->second].element->loc);
   }
-  behind_.resize(nodes_.size());
+  after_.resize(nodes_.size());
   for (uint32_t i = 0; i < nodes_.size(); ++i) {
     nodes_[i].first_wire = static_cast<uint32_t>(wires_.size());
     for (const ChartWire& wire : wiresOf(*nodes_[i].element)) {
       wires_.push_back(wire);
-      std::vector<uint32_t>& behind = behind_[wire.from];
-      if (behind.empty() || behind.back() != i) behind.push_back(i);
+      std::vector<uint32_t>& next = after_[wire.from];
+      if (next.empty() || next.back() != i) next.push_back(i);
     }
     nodes_[i].end_wire = static_cast<uint32_t>(wires_.size());
   }
@@ -88,11 +88,11 @@ void Chart::addWaitingSteps() {
       const uint32_t from = wires_[w].from;
       if (nodes_[from].kind != NodeKind::Transition && nodes_[from].kind != NodeKind::SelectionConvergence) continue;
       const auto wait = static_cast<uint32_t>(nodes_.size());
-      const auto behind = std::find(behind_[from].begin(), behind_[from].end(), i);
-      if (behind == behind_[from].end()) continue;  // duplicate wire
-      *behind = wait;
+      const auto next = std::find(after_[from].begin(), after_[from].end(), i);
+      if (next == after_[from].end()) continue;  // duplicate wire
+      *next = wait;
       nodes_.push_back({nodes_[from].element, NodeKind::Wait, 0, 0});
-      behind_.push_back({i});
+      after_.push_back({i});
       for (uint32_t same = w; same < nodes_[i].end_wire; ++same)
         if (wires_[same].from == from) wires_[same].from = wait;
     }
@@ -164,7 +164,7 @@ void Chart::joinConnectors() {
     if (from == connectors.end()) continue;
     nodes_[i].first_wire = nodes_[from->second].first_wire;
     nodes_[i].end_wire = nodes_[from->second].end_wire;
-    behind_[from->second].push_back(i);
+    after_[from->second].push_back(i);
   }
 }
 
@@ -191,70 +191,70 @@ bool Chart::spend(uint32_t node, size_t steps) {
 }
 
 // Adds one set of steps for each path to the node.
-void Chart::addWays(Ways& ways, uint32_t node, uint32_t depth) {
+void Chart::addPaths(Paths& paths, uint32_t node, uint32_t depth) {
   for (uint32_t w = nodes_[node].first_wire; w < nodes_[node].end_wire; ++w) {
     const uint32_t from = wires_[w].from;
     if (nodes_[from].kind == NodeKind::Transition || nodes_[from].kind == NodeKind::Jump) {
       report(diag::ChartNoStepBetween, wires_[w].loc, {nameOf(from), nameOf(node)});
       continue;
     }
-    const Ways& inner = before(from, depth + 1);
-    ways.never = ways.never || inner.never;
+    const Paths& inner = before(from, depth + 1);
+    paths.never = paths.never || inner.never;
     for (const Steps& steps : inner.sets) {
       if (!spend(node, steps.size())) return;
-      ways.sets.push_back(steps);
+      paths.sets.push_back(steps);
     }
   }
 }
 
 // One set from each input, in all combinations; usually there is one. A branch that ends with a jump never reaches the
 // convergence that editors draw after it.
-void Chart::addUnited(Ways& ways, uint32_t node, uint32_t depth) {
-  ways.sets.push_back({});
+void Chart::addUnited(Paths& paths, uint32_t node, uint32_t depth) {
+  paths.sets.push_back({});
   for (uint32_t w = nodes_[node].first_wire; w < nodes_[node].end_wire; ++w) {
     const uint32_t from = wires_[w].from;
     if (nodes_[from].kind == NodeKind::Jump) {
-      if (!ways.never)
+      if (!paths.never)
         import_.diagnostics.report(diag::ChartNeverConverges, nodes_[from].element->loc, {nameOf(from), nameOf(node)});
-      ways.never = true;
+      paths.never = true;
       continue;
     }
     if (nodes_[from].kind == NodeKind::Transition) {
       report(diag::ChartNoStepBetween, wires_[w].loc, {nameOf(from), nameOf(node)});
       continue;
     }
-    const Ways& inner = before(from, depth + 1);
-    ways.never = ways.never || inner.never;
+    const Paths& inner = before(from, depth + 1);
+    paths.never = paths.never || inner.never;
     std::vector<Steps> united;
-    for (const Steps& a : ways.sets) {
+    for (const Steps& a : paths.sets) {
       for (const Steps& b : inner.sets) {
         if (!spend(node, a.size() + b.size())) return;
         united.push_back(a);
         united.back().insert(united.back().end(), b.begin(), b.end());
       }
     }
-    ways.sets = std::move(united);
+    paths.sets = std::move(united);
   }
 }
 
-const Chart::Ways& Chart::before(uint32_t node, uint32_t depth) {
-  Ways& ways = ways_[node];
-  if (ways.state == Ways::State::Known) return ways;
-  if (ways.state == Ways::State::Busy || depth == kMaxWires) {
-    ways.state = Ways::State::Known;
+const Chart::Paths& Chart::before(uint32_t node, uint32_t depth) {
+  Paths& paths = ways_[node];
+  if (paths.state == Paths::State::Known) return paths;
+  if (paths.state == Paths::State::Busy || depth == kMaxWires) {
+    paths.state = Paths::State::Known;
     report(diag::ChartCycle, nodes_[node].element->loc, {nameOf(node)});
-    return ways;
+    return paths;
   }
-  ways.state = Ways::State::Busy;
+  paths.state = Paths::State::Busy;
   switch (nodes_[node].kind) {
     case NodeKind::Step:
     case NodeKind::Wait:
-    case NodeKind::MacroStep: ways.sets.push_back({node}); break;
+    case NodeKind::MacroStep: paths.sets.push_back({node}); break;
     case NodeKind::SelectionDivergence:
     case NodeKind::SelectionConvergence:
     case NodeKind::Connector:
-    case NodeKind::Continuation: addWays(ways, node, depth); break;
-    case NodeKind::SimultaneousConvergence: addUnited(ways, node, depth); break;
+    case NodeKind::Continuation: addPaths(paths, node, depth); break;
+    case NodeKind::SimultaneousConvergence: addUnited(paths, node, depth); break;
     case NodeKind::SimultaneousDivergence:
     case NodeKind::Transition:
     case NodeKind::Jump:
@@ -266,8 +266,8 @@ const Chart::Ways& Chart::before(uint32_t node, uint32_t depth) {
       report(diag::ChartNoStepBetween, nodes_[node].element->loc, {nameOf(node), "a transition"});
       break;
   }
-  ways.state = Ways::State::Known;
-  return ways;
+  paths.state = Paths::State::Known;
+  return paths;
 }
 
 // The steps and jumps that the transition activates when it fires, found by following the wires out of `node`.
@@ -279,7 +279,7 @@ void Chart::after(uint32_t node, uint32_t transition, uint32_t depth) {
   passed_[node] = transition;
   std::vector<uint32_t>& out = targets_[transition];
   bool any = false;
-  for (const uint32_t next : behind_[node]) {
+  for (const uint32_t next : after_[node]) {
     if (nodes_[next].kind == NodeKind::Other || nodes_[next].kind == NodeKind::ActionBlock) continue;
     if (any && nodes_[node].kind != NodeKind::SimultaneousDivergence) {
       report(diag::ChartSplits, nodes_[next].element->loc, {nameOf(node), nameOf(next)});
@@ -321,12 +321,12 @@ void Chart::after(uint32_t node, uint32_t transition, uint32_t depth) {
 // Forbids a transition without a step before or after it. IEC 61131-3 ed. 3, 6.7.3.
 //   fails   <transition localId="3"> without connectionPointIn          E1062
 void Chart::connectTransition(uint32_t node) {
-  Ways& ways = ways_[node];
+  Paths& paths = ways_[node];
   const uint32_t errors = import_.diagnostics.errorCount();
-  addWays(ways, node, 0);
-  if (ways.never) ways.sets.clear();
-  if (import_.diagnostics.errorCount() != errors || ways.never) return;
-  if (ways.sets.empty())
+  addPaths(paths, node, 0);
+  if (paths.never) paths.sets.clear();
+  if (import_.diagnostics.errorCount() != errors || paths.never) return;
+  if (paths.sets.empty())
     report(diag::ChartNoStepBefore, nodes_[node].element->loc, {nameOf(node)});
   else
     after(node, node, 0);

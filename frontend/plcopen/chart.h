@@ -67,7 +67,7 @@ class Chart {
 
   using Steps = std::vector<uint32_t>;  // nodes
   // The steps that must be active before an element can be reached: all steps of one of the sets.
-  struct Ways {
+  struct Paths {
     enum class State : uint8_t { Unknown, Busy, Known } state = State::Unknown;
     bool never = false;  // after a branch that ends with a jump
     std::vector<Steps> sets;
@@ -112,9 +112,9 @@ class Chart {
   void checkOrder();
   void connectActionBlocks();
   void connectTransition(uint32_t node);
-  const Ways& before(uint32_t node, uint32_t depth);
-  void addWays(Ways& ways, uint32_t node, uint32_t depth);
-  void addUnited(Ways& ways, uint32_t node, uint32_t depth);
+  const Paths& before(uint32_t node, uint32_t depth);
+  void addPaths(Paths& paths, uint32_t node, uint32_t depth);
+  void addUnited(Paths& paths, uint32_t node, uint32_t depth);
   void after(uint32_t node, uint32_t transition, uint32_t depth);
   bool spend(uint32_t node, size_t steps);
   void connect();
@@ -163,8 +163,8 @@ class Chart {
   std::vector<ChartWire> wires_;
   std::unordered_map<std::string_view, uint32_t> by_id_;
   std::unordered_map<std::string, uint32_t> labels_;  // of parallel branches, in upper case
-  std::vector<std::vector<uint32_t>> behind_;         // by node: its successors, in file order
-  std::vector<Ways> ways_;                            // by node
+  std::vector<std::vector<uint32_t>> after_;          // by node: its successors, in file order
+  std::vector<Paths> ways_;                           // by node
   std::vector<std::vector<uint32_t>> targets_;        // by node, of transitions
   std::vector<uint32_t> passed_;  // by node: the last transition whose wires were followed through it
   std::vector<std::vector<uint32_t>> action_blocks_;            // by node, of steps

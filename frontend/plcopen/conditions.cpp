@@ -233,9 +233,9 @@ void Chart::writeOperand(uint32_t node) {
   const std::vector<uint32_t> from = sourcesOf(node);
   if (nodes_[node].kind == NodeKind::Rail) return import_.out.put(e.loc, "TRUE");
   if (nodes_[node].kind == NodeKind::Continuation || nodes_[node].kind == NodeKind::Connector) return writeWires(from);
-  const bool behind_rail =
+  const bool after_rail =
       std::all_of(from.begin(), from.end(), [&](uint32_t before) { return nodes_[before].kind == NodeKind::Rail; });
-  if (!behind_rail) {
+  if (!after_rail) {
     import_.out.word("(");
     writeWires(from);
     import_.out.word(" AND ");
@@ -246,7 +246,7 @@ void Chart::writeOperand(uint32_t node) {
     import_.out.word("FALSE");
   else
     writeText(import_, *text);
-  import_.out.word(behind_rail ? ")" : "))");
+  import_.out.word(after_rail ? ")" : "))");
 }
 
 void Chart::writeExpression(const Condition& condition) {

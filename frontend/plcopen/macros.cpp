@@ -10,7 +10,7 @@ namespace rung::plcopen {
 void Chart::findEnd(Macro& macro, bool entry) {
   const ChartNode& node = nodes_[macro.node];
   bool needed = entry && node.first_wire != node.end_wire;
-  for (const uint32_t next : behind_[macro.node]) needed |= !entry && nodes_[next].kind != NodeKind::Other;
+  for (const uint32_t next : after_[macro.node]) needed |= !entry && nodes_[next].kind != NodeKind::Other;
   if (!needed) return;
   const Chart& chart = *macro.chart;
   uint32_t& end = entry ? macro.entry : macro.exit;
@@ -19,7 +19,7 @@ void Chart::findEnd(Macro& macro, bool entry) {
     const ChartNode& n = chart.nodes_[i];
     if (n.kind != NodeKind::Step && n.kind != NodeKind::MacroStep) continue;
     bool is_end = !entry || n.first_wire == n.end_wire;
-    for (const uint32_t next : chart.behind_[i])
+    for (const uint32_t next : chart.after_[i])
       is_end &= entry || chart.nodes_[next].kind == NodeKind::Other || chart.nodes_[next].kind == NodeKind::ActionBlock;
     if (!is_end) continue;
     ++found;

@@ -124,8 +124,8 @@ Loc Parser::docAfter(const Token* t) const {
 // ---- names
 
 // Reports and skips one token that is not allowed here when the token after it is.
-void Parser::skipStray(bool fits_behind, Diag diag) {
-  if (panic_ || !fits_behind || endsDeclarations(kind())) return;
+void Parser::skipStray(bool fits_after, Diag diag) {
+  if (panic_ || !fits_after || endsDeclarations(kind())) return;
   if (at(Tok::Error))
     last_error_ = t_;
   else
@@ -197,7 +197,7 @@ DeclId Parser::parseSection() {
   if (at(Tok::Ident) && !atLineStart() && (t_[1].flags & kLineStart) != 0) {
     static constexpr Tok kKeywords[] = {Tok::Constant, Tok::Retain, Tok::NonRetain, Tok::Persistent};
     if (const Tok meant = nearKeyword(t_, kKeywords); meant != Tok::End) {
-      respell(meant);
+      correctSpelling(meant);
       d.h.bits |= meant == Tok::Constant     ? kConstant
                   : meant == Tok::Retain     ? kRetain
                   : meant == Tok::Persistent ? kPersistent

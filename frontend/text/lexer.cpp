@@ -444,8 +444,8 @@ const char* Lexer::punct(const char* p) {
 
 const char* Lexer::lineComment(const char* p) {
   if (p[2] == '/' && p[3] != '/') {
-    const bool behind = (flags_ & kLineStart) == 0 && !out_.tokens.empty();
-    if (behind) {
+    const bool after = (flags_ & kLineStart) == 0 && !out_.tokens.empty();
+    if (after) {
       out_.tokens.back().flags |= kDocAfter;
       out_.docs_after.push_back({out_.tokens.back().offset, at(p)});
     } else if (doc_ == 0) {

@@ -117,7 +117,7 @@ bool Parser::expect(Tok wanted) {
   if (panic_) return false;
   const Tok candidates[] = {wanted};
   if (at(Tok::Ident) && isReserved(wanted) && nearKeyword(t_, candidates) == wanted) {
-    respell(wanted);
+    correctSpelling(wanted);
     advance();
     return false;
   }
@@ -135,7 +135,7 @@ Tok Parser::nearKeyword(const Token* t, std::span<const Tok> candidates) const {
   return nearestKeyword(textOf(t), candidates);
 }
 
-bool Parser::respell(Tok wanted) {
+bool Parser::correctSpelling(Tok wanted) {
   slip(diag::MisspelledKeyword, t_, {textOf(t_), spelling(wanted)});
   const uint32_t length = lengthOf(t_);
   t_->kind = wanted;
@@ -204,7 +204,7 @@ void Parser::parseTopLevel(std::vector<DeclId>& out) {
                                         Tok::Type,     Tok::Configuration, Tok::VarGlobal};
     if (const Tok meant = nearKeyword(t_, kKeywords);
         meant != Tok::End && (isName(peek()) || (t_[1].flags & kLineStart) != 0)) {
-      respell(meant);
+      correctSpelling(meant);
       return;
     }
   }
@@ -436,7 +436,7 @@ void Parser::parseMembers(Tok end, std::vector<DeclId>& out) {
       static constexpr Tok kKeywords[] = {Tok::Resource, Tok::Task, Tok::Program, Tok::VarGlobal};
       if (at(Tok::Ident) && isName(peek())) {
         if (const Tok meant = nearKeyword(t_, kKeywords); meant != Tok::End) {
-          respell(meant);
+          correctSpelling(meant);
           continue;
         }
       }

@@ -68,7 +68,7 @@ class Parser {
   bool expect(Tok wanted);
   // The keyword of `candidates` that is nearest to the name at t, or End.
   Tok nearKeyword(const Token* t, std::span<const Tok> candidates) const;
-  bool respell(Tok wanted);  // t_ is a misspelled `wanted`: reports and corrects it
+  bool correctSpelling(Tok wanted);  // t_ is a misspelled `wanted`: reports and corrects it
   void tooDeep(const char* what, uint32_t limit);
 
   // ---- files, POUs, configurations (parser.cpp)
@@ -109,7 +109,7 @@ class Parser {
   DeclId parseVar(SectionKind section);
   void parseVars(SectionKind section, Tok end, std::vector<DeclId>& out);
   void syncDeclaration(Tok end);
-  void skipStray(bool fits_behind, Diag diag);
+  void skipStray(bool fits_after, Diag diag);
   bool beginsType(const Token* t) const;
   bool parseName(Ident& out);
   // CODESYS knows NULL as a value only: items and members may have this name.

@@ -102,7 +102,7 @@ class Balancer {
   struct Orphan {  // THEN, DO or OF without its IF, WHILE, CASE, …
     uint32_t index, line_first, column;
   };
-  enum class EditKind : uint8_t { Insert, Remove, Respell };
+  enum class EditKind : uint8_t { Insert, Remove, Correction };
   struct Edit {
     uint32_t index;
     EditKind kind;
@@ -369,7 +369,7 @@ void Balancer::visit(uint32_t i) {
           .length(static_cast<uint32_t>(written.size()));
       markReported(i);
       edit(i - 1, EditKind::Remove, Tok::End);
-      edit(i, EditKind::Respell, closer);
+      edit(i, EditKind::Correction, closer);
       return close(i, closer);
     }
     if (i > region_first_ && tokens_[i - 1].kind == k && !atLineStart(i)) {
@@ -399,7 +399,7 @@ void Balancer::visit(uint32_t i) {
         diagnostics_.report(diag::MisspelledKeyword, loc(i), {word, spelling(meant)})
             .length(static_cast<uint32_t>(word.size()));
         markReported(i);
-        edit(i, EditKind::Respell, meant);
+        edit(i, EditKind::Correction, meant);
         return close(i, meant);
       }
     }
@@ -484,12 +484,12 @@ void Balancer::close(uint32_t i, Tok closer) {
           (function_without_result && isPouCloser(closer))) {
         diagnostics_.report(diag::WrongKeyword, loc(top.index), {textOf(top.index), spelling(openers[0])});
         markReported(top.index);
-        edit(top.index, EditKind::Respell, openers[0]);
+        edit(top.index, EditKind::Correction, openers[0]);
       } else {
         const Tok right = closerOf(top.kind);
         diagnostics_.report(diag::WrongEnd, loc(i), {textOf(i), spelling(top.kind), lineOf(top), spelling(right)});
         markReported(i);
-        edit(i, EditKind::Respell, right);
+        edit(i, EditKind::Correction, right);
       }
       stack_.pop_back();
       leftOutermost(i, closer);
@@ -538,7 +538,7 @@ void Balancer::leaveOpen(const Open& open, uint32_t forced) {
         .length(tokens_[child].offset + 2 - tokens_[child - 1].offset);
     markReported(child);
     edit(child - 1, EditKind::Remove, Tok::End);
-    edit(child, EditKind::Respell, Tok::Elsif);
+    edit(child, EditKind::Correction, Tok::Elsif);
     if (open.is_chain && !stack_.empty()) stack_.back().chain_child = open.index;
     return;
   }
@@ -576,7 +576,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
     diagnostics_.report(diag::MisspelledKeyword, loc(k), {textOf(k), spelling(meant)})
         .length(static_cast<uint32_t>(textOf(k).size()));
     markReported(k);
-    edit(k, EditKind::Respell, meant);
+    edit(k, EditKind::Correction, meant);
     leftOutermost(i, closer);
     return;
   }
@@ -598,7 +598,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
         diagnostics_.report(diag::WrongKeyword, loc(at), {textOf(at), spelling(openers[0])})
             .length(static_cast<uint32_t>(textOf(at).size()));
         markReported(at);
-        edit(at, EditKind::Respell, openers[0]);
+        edit(at, EditKind::Correction, openers[0]);
         return;
       }
       diagnostics_.report(diag::MissingOpener, loc(at), {spelling(openers[0]), describe(at)})
@@ -653,7 +653,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
     diagnostics_.report(diag::WrongKeyword, loc(decl_start_), {textOf(decl_start_), "VAR"})
         .length(static_cast<uint32_t>(textOf(decl_start_).size()));
     markReported(decl_start_);
-    edit(decl_start_, EditKind::Respell, Tok::Var);
+    edit(decl_start_, EditKind::Correction, Tok::Var);
     decl_start_ = i + 1;
     return;
   }
@@ -666,7 +666,7 @@ void Balancer::stray(uint32_t i, Tok closer) {
       diagnostics_.report(diag::WrongKeyword, loc(at), {textOf(at), spelling(openers[0])})
           .length(static_cast<uint32_t>(textOf(at).size()));
       markReported(at);
-      edit(at, EditKind::Respell, openers[0]);
+      edit(at, EditKind::Correction, openers[0]);
       leftOutermost(i, closer);
       return;
     }
@@ -723,7 +723,7 @@ bool Balancer::insideExpression(uint32_t i) const {
 void Balancer::spoil(uint32_t i) {
   diagnostics_.report(diag::MissingValue, loc(i), {describe(i)}).length(static_cast<uint32_t>(textOf(i).size()));
   markReported(i);
-  edit(i, EditKind::Respell, Tok::Error);
+  edit(i, EditKind::Correction, Tok::Error);
 }
 
 void Balancer::apply() {
@@ -733,7 +733,7 @@ void Balancer::apply() {
   size_t e = 0;
   for (uint32_t i = 0; i < tokens_.size(); ++i) {
     bool removed = false;
-    Tok respelled = Tok::End;
+    Tok corrected = Tok::End;
     for (; e < edits_.size() && edits_[e].index == i; ++e) {
       switch (edits_[e].kind) {
         case EditKind::Insert:
@@ -742,7 +742,7 @@ void Balancer::apply() {
           if (!isCloser(edits_[e].word)) tokens_[i].flags &= static_cast<uint8_t>(~kLineStart);
           break;
         case EditKind::Remove: removed = true; break;
-        case EditKind::Respell: respelled = edits_[e].word; break;
+        case EditKind::Correction: corrected = edits_[e].word; break;
       }
     }
     if (removed) {
@@ -751,9 +751,9 @@ void Balancer::apply() {
       continue;
     }
     Token token = tokens_[i];
-    if (respelled != Tok::End) {
+    if (corrected != Tok::End) {
       token.value = static_cast<uint32_t>(textOf(i).size());
-      token.kind = respelled;
+      token.kind = corrected;
     }
     out.push_back(token);
   }

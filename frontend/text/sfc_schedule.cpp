@@ -215,24 +215,24 @@ void SfcScheduler::fire(uint32_t way, uint32_t depth) {
 }
 
 // An IF statement: the first transition whose condition is TRUE fires.
-void SfcScheduler::chain(const std::vector<uint32_t>& ways, size_t at, uint32_t depth) {
+void SfcScheduler::chain(const std::vector<uint32_t>& paths, size_t at, uint32_t depth) {
   const auto prepared = [&](size_t k) {
-    const SfcTransition& t = conditionOf(chart_.transitions_[ways[k]]);
+    const SfcTransition& t = conditionOf(chart_.transitions_[paths[k]]);
     return t.body || chart_.keepsCondition(t);
   };
-  if (prepared(at)) prepare(ways[at], depth);
-  out_.at(chart_.transitions_[ways[at]].loc);
+  if (prepared(at)) prepare(paths[at], depth);
+  out_.at(chart_.transitions_[paths[at]].loc);
   for (size_t k = at;; ++k) {
     out_.put(std::string(2 * depth, ' '));
     out_.put(k == at ? "IF " : "ELSIF ");
-    condition(ways[k]);
-    out_.at(chart_.transitions_[ways[k]].loc);
+    condition(paths[k]);
+    out_.at(chart_.transitions_[paths[k]].loc);
     out_.put(" THEN\n");
-    fire(ways[k], depth + 1);
-    if (k + 1 == ways.size()) break;
+    fire(paths[k], depth + 1);
+    if (k + 1 == paths.size()) break;
     if (prepared(k + 1)) {
       out_.line(depth, "ELSE");
-      chain(ways, k + 1, depth + 1);
+      chain(paths, k + 1, depth + 1);
       break;
     }
   }
@@ -241,28 +241,28 @@ void SfcScheduler::chain(const std::vector<uint32_t>& ways, size_t at, uint32_t 
 
 // The transitions evaluated with each step: a transition from several steps with the first of them.
 std::vector<std::vector<uint32_t>> SfcScheduler::waysBySteps() const {
-  std::vector<std::vector<uint32_t>> ways(chart_.steps_.size());
+  std::vector<std::vector<uint32_t>> paths(chart_.steps_.size());
   for (uint32_t i = 0; i < chart_.transitions_.size(); ++i)
     if (!chart_.transitions_[i].from.empty())
-      ways[chart_.index_.of(tree_.list(chart_.transitions_[i].from)[0].name)].push_back(i);
+      paths[chart_.index_.of(tree_.list(chart_.transitions_[i].from)[0].name)].push_back(i);
   // By ascending priority number, then those without a priority, in source order.
   const auto rank = [&](uint32_t i) {
     return chart_.transitions_[i].has_priority ? chart_.transitions_[i].priority : UINT32_MAX;
   };
-  for (std::vector<uint32_t>& of : ways)
+  for (std::vector<uint32_t>& of : paths)
     std::stable_sort(of.begin(), of.end(), [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
-  return ways;
+  return paths;
 }
 
 void SfcScheduler::transitions() {
-  const std::vector<std::vector<uint32_t>> ways = waysBySteps();
+  const std::vector<std::vector<uint32_t>> paths = waysBySteps();
   std::vector<bool> joined(chart_.steps_.size());  // may be left by a transition that is evaluated with another step
   for (const SfcTransition& t : chart_.transitions_) {
     const std::span<const Ident> from = tree_.list(t.from);
     for (size_t i = 1; i < from.size(); ++i) joined[chart_.index_.of(from[i].name)] = true;
   }
   scan(
-      0, "sfc_steps", chart_.steps_.size(), [&](uint32_t i) { return !ways[i].empty(); }, stepNames(),
+      0, "sfc_steps", chart_.steps_.size(), [&](uint32_t i) { return !paths[i].empty(); }, stepNames(),
       [&](uint32_t i, uint32_t depth) {
         const SfcStep& step = chart_.steps_[i];
         const bool guarded = step.min.value || joined[i];
@@ -280,7 +280,7 @@ void SfcScheduler::transitions() {
           }
           out_.put(" THEN\n");
         }
-        chain(ways[i], 0, depth + (guarded ? 1 : 0));
+        chain(paths[i], 0, depth + (guarded ? 1 : 0));
         if (guarded) out_.line(depth, "END_IF");
       });
   if (const Ident* flag = chart_.flag(SfcFlag::Trans)) {

@@ -49,7 +49,7 @@ class SfcScheduler {
   SfcExpr part(const SfcExpr& e) const;
   void actions();
   void transitions();
-  void chain(const std::vector<uint32_t>& ways, size_t at, uint32_t depth);
+  void chain(const std::vector<uint32_t>& paths, size_t at, uint32_t depth);
   void condition(uint32_t way);
   void prepare(uint32_t way, uint32_t depth);
   void fire(uint32_t way, uint32_t depth);

@@ -347,7 +347,7 @@ bool Parser::misspelledStart(const Token* first) {
       (first[1].flags & kLineStart) == 0)
     return false;
   t_ = const_cast<Token*>(first);
-  return respell(meant);
+  return correctSpelling(meant);
 }
 
 void Parser::endStatement(const Token*) {
@@ -429,7 +429,7 @@ void Parser::finishHeader(Tok connective) {
     }
     if (at(Tok::Ident) && (!atLineStart() || (t_[1].flags & kLineStart) != 0) &&
         nearKeyword(t_, candidates) == connective) {
-      respell(connective);
+      correctSpelling(connective);
       advance();
       return;
     }
@@ -512,7 +512,7 @@ void Parser::parseIf() {
   branch.body = parseStatements(kStopElse | kStopElsif);
   if_branches_.push_back(branch);
   while (at(Tok::Elsif) || at(Tok::Elseif)) {
-    if (at(Tok::Elseif)) respell(Tok::Elsif);
+    if (at(Tok::Elseif)) correctSpelling(Tok::Elsif);
     advance();
     IfBranch next{parseHeader(Tok::Then), {}};
     next.body = parseStatements(kStopElse | kStopElsif);
@@ -675,7 +675,7 @@ void Parser::parseFor() {
   s.to = panic_ ? errorExpr(here()) : parseExpr();
   if (!panic_ && at(Tok::Ident)) {
     const Tok candidates[] = {Tok::By, Tok::Do};
-    if (nearKeyword(t_, candidates) == Tok::By && peek() != Tok::Assign) respell(Tok::By);
+    if (nearKeyword(t_, candidates) == Tok::By && peek() != Tok::Assign) correctSpelling(Tok::By);
   }
   if (!panic_ && accept(Tok::By)) s.step = parseExpr();
   finishHeader(Tok::Do);

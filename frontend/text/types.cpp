@@ -171,7 +171,7 @@ TypeExprId Parser::parseNamedType() {
     static constexpr Tok kArray[] = {Tok::Array};
     if (nearKeyword(first, kArray) == Tok::Array) {
       t_ = const_cast<Token*>(first);
-      respell(Tok::Array);
+      correctSpelling(Tok::Array);
       return parseArray();
     }
   }
@@ -179,7 +179,7 @@ TypeExprId Parser::parseNamedType() {
     static constexpr Tok kPointers[] = {Tok::Pointer, Tok::Reference};
     if (const Tok meant = nearKeyword(first, kPointers); meant != Tok::End) {
       t_ = const_cast<Token*>(first);
-      respell(meant);
+      correctSpelling(meant);
       return parseType();
     }
   }

@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view kName = "{38391c6d", kInitial = "{6844a48e", kMain = "{700a583f", kEntry = "{a6b08bd8",
                            kExit = "{a2621e18", kParallel = "{23bdaa98", kQualifier = "{e174fc0d",
                            kMinimum = "{cacf1a68", kMaximum = "{b693554c";
-constexpr size_t kMaxWays = 10'000;  // sets of steps before one transition
+constexpr size_t kMaxPaths = 10'000;  // sets of steps before one transition
 
 using Element = xml::Element;
 using Steps = std::vector<const Element*>;
@@ -171,14 +171,14 @@ void ChartReader::branch(const Element& element, Front& front) {
     if (!parallel) {
       front.steps.insert(front.steps.end(), line.steps.begin(), line.steps.end());
       front.transitions.insert(front.transitions.end(), line.transitions.begin(), line.transitions.end());
-      if (front.steps.size() > kMaxWays) return report(diag::ChartTooManyWays, element.loc);
+      if (front.steps.size() > kMaxPaths) return report(diag::ChartTooManyWays, element.loc);
       continue;
     }
     if (!line.transitions.empty())
       return report(diag::ChartNoStepBetween, element.end, before(line), std::string("the end of a parallel branch"));
     if (line.steps.empty())
       diagnostics_.report(diag::ChartNeverConverges, element.end, {"a jump", "the parallel branch"});
-    if (line.steps.size() * united.size() > kMaxWays) return report(diag::ChartTooManyWays, element.loc);
+    if (line.steps.size() * united.size() > kMaxPaths) return report(diag::ChartTooManyWays, element.loc);
     std::vector<Steps> all;
     for (const Steps& one : united)
       for (const Steps& other : line.steps) {

@@ -462,7 +462,7 @@ class Analysis {
     for (uint32_t i = 0; i < s.c; ++i) {
       const Case& one = body_.cases[s.b + i];
       falling += branch(one.block, [&] {
-        const uint32_t v = variableBehind(ExprId{s.a});
+        const uint32_t v = variableAfter(ExprId{s.a});
         if (v == kNone) return;
         Interval hull{bound(body_.ranges[one.first_range].low), bound(body_.ranges[one.first_range].high)};
         for (uint32_t k = 1; k < one.range_count; ++k) {
@@ -505,7 +505,7 @@ class Analysis {
   // ---- comparisons
 
   // The variable whose value an expression is, also through conversions that keep every value.
-  uint32_t variableBehind(ExprId id) const {
+  uint32_t variableAfter(ExprId id) const {
     while (body_.expr(id).kind == ExprKind::Convert) {
       const Expr& e = body_.expr(id);
       const ExprId inner{e.a};
@@ -548,7 +548,7 @@ class Analysis {
 
   // `one op other` (or `other op one` when swapped) gave `outcome`: narrows `one`.
   void compare(Op op, bool outcome, ExprId one, ExprId other, bool swapped) {
-    const uint32_t v = variableBehind(one);
+    const uint32_t v = variableAfter(one);
     if (v == kNone) return;
     // Evaluated without clearing checks: they ran before the condition had an outcome.
     const bool outer = asking_;

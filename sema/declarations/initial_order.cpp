@@ -133,7 +133,7 @@ struct InitialOrder {
 
   // Forbids initial values that depend on each other.
   //   fails   VAR_GLOBAL a : INT := b; b : INT := a + 1; END_VAR       E0365
-  void reportCircle(const std::vector<VarId>& path, VarId again) const {
+  void reportCycle(const std::vector<VarId>& path, VarId again) const {
     auto at = std::find(path.begin(), path.end(), again);
     std::string way;
     for (auto step = at; step != path.end(); ++step) way += "`" + toString(context, var(*step).name) + "` reads ";
@@ -170,7 +170,7 @@ struct InitialOrder {
         const VarId read = known->second[top.next++];
         if (!same(read)) continue;
         State& state = states[read.index];
-        if (state == State::Busy) reportCircle(path, read);
+        if (state == State::Busy) reportCycle(path, read);
         if (state != State::New) continue;
         state = State::Busy;
         stack.push_back({read, 0});

@@ -338,8 +338,8 @@ std::string projectContent(std::string_view text) {
     const size_t end = std::min(text.find('\n', p), text.size() - 1) + 1;
     const std::string_view line = text.substr(p, end - p);
     const size_t word = std::min(line.find_first_not_of(" \t"), line.size());
-    const size_t behind = line.find_first_of(" \t=", word);
-    if (line.substr(word, behind - word) != "sources") out += line;
+    const size_t after = line.find_first_of(" \t=", word);
+    if (line.substr(word, after - word) != "sources") out += line;
     p = end;
   }
   return out;

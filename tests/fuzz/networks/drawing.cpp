@@ -62,7 +62,7 @@ class Drawer {
   std::map<int, Wires> drawn_;              // shared nodes
   std::map<std::string, uint64_t> inputs_;  // of one action
   std::map<int, uint64_t> boxes_;           // of actions
-  std::map<int, Wires> behind_;             // LD: the last coil that takes a shared node
+  std::map<int, Wires> after_;              // LD: the last coil that takes a shared node
   uint64_t next_ = 1, rail_ = 0;
   unsigned network_ = 0, order_ = 0;
   int row_ = 0;
@@ -282,8 +282,8 @@ void Drawer::action(int number) {
     case ActionKind::Pulse: {
       const bool coil = a.kind != ActionKind::Assign || (is_bool && (ladder() ? chance(90) : chance(10)));
       e = element(coil ? "coil" : "output");
-      const auto behind = behind_.find(a.value);
-      Wires wires = coil && ladder() && behind != behind_.end() && chance(50) ? behind->second : value(a.value);
+      const auto found = after_.find(a.value);
+      Wires wires = coil && ladder() && found != after_.end() && chance(50) ? found->second : value(a.value);
       e.operand = a.target;
       e.negated = a.negated;
       if (a.kind == ActionKind::Set) e.storage = "set";
@@ -291,7 +291,7 @@ void Drawer::action(int number) {
       if (a.kind == ActionKind::Pulse) e.edge = a.rising ? Sense::Rising : Sense::Falling;
       e.pins = {plain(wires)};
       const uint64_t own = put(e);
-      if (coil && ladder() && node(a.value).shared()) behind_[a.value] = {{own, ""}};
+      if (coil && ladder() && node(a.value).shared()) after_[a.value] = {{own, ""}};
       return;
     }
     case ActionKind::Return:
@@ -386,7 +386,7 @@ void Drawer::items(const std::vector<Item>& items) {
       rail_ = 0;
       ++row_;
       drawn_.clear();
-      behind_.clear();
+      after_.clear();
       if (chance(20)) {
         Element comment = element("comment");
         comment.statements = "network $'" + std::to_string(network_) + "$' <of> this & that";

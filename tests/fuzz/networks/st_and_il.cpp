@@ -206,16 +206,16 @@ void Printer::listed(int number) {
     arguments += (arguments.empty() ? "" : ", ") + argument.pin +
                  " := " + (argument.node >= 0 ? operand(argument.node) : argument.variable);
   std::string value = a.value >= 0 ? load(a.value) : std::string();
-  std::string behind;
+  std::string after;
   if (a.en >= 0) {
     if (!value.empty()) {
       const std::string name = temporary(node(a.value).type);
       out_ += value + "ST " + name + "\n";
       value = "LD " + name + "\n";
     }
-    behind = "e" + std::to_string(labels_++);
+    after = "e" + std::to_string(labels_++);
     out_ += load(a.en);
-    out_ += "ST " + outputOf(number, "ENO") + "\nJMPCN " + behind + "\n";
+    out_ += "ST " + outputOf(number, "ENO") + "\nJMPCN " + after + "\n";
   }
   switch (a.kind) {
     case ActionKind::Assign: out_ += value + (a.negated ? "STN " : "ST ") + a.target + "\n"; break;
@@ -236,7 +236,7 @@ void Printer::listed(int number) {
     case ActionKind::Return: out_ += value + "RETC\n"; break;
     case ActionKind::Jump: out_ += value + "JMPC " + a.target + "\n"; break;
   }
-  if (!behind.empty()) out_ += behind + ":\n";
+  if (!after.empty()) out_ += after + ":\n";
 }
 
 void Printer::listedItems(const std::vector<Item>& items) {

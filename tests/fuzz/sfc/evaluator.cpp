@@ -109,13 +109,13 @@ bool Evaluator::fires(const Transition& t, uint32_t random, int now) const {
 // Evaluates steps in their order; of a step's transitions the numbered ones first.
 void Evaluator::judge(uint32_t random, int now) {
   for (size_t s = 0; s < steps_.size(); ++s) {
-    std::vector<const Transition*> ways;
+    std::vector<const Transition*> paths;
     for (const Transition& t : chart_.transitions)
-      if (t.from[0] == static_cast<int>(s)) ways.push_back(&t);
-    std::stable_sort(ways.begin(), ways.end(), [](const Transition* a, const Transition* b) {
+      if (t.from[0] == static_cast<int>(s)) paths.push_back(&t);
+    std::stable_sort(paths.begin(), paths.end(), [](const Transition* a, const Transition* b) {
       return (a->priority > 0 ? a->priority : 1000) < (b->priority > 0 ? b->priority : 1000);
     });
-    for (const Transition* t : ways) {
+    for (const Transition* t : paths) {
       if (!fires(*t, random, now)) continue;
       for (const int from : t->from) steps_[static_cast<size_t>(from)].leaves = true;
       for (const int to : t->to) steps_[static_cast<size_t>(to)].enters = true;
