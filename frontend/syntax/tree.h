@@ -551,6 +551,23 @@ struct FileUnit {
   Slice<DeclId> decls;
 };
 
+// The kind of a node struct, which Tree::as() checks in debug builds.
+template <class Node>
+inline constexpr int kind_of_node = -1;
+#define RUNG_EXPR(kind, word) \
+  template <>                 \
+  inline constexpr ExprKind kind_of_node<kind##Expr> = ExprKind::kind;
+#define RUNG_STMT(kind, word) \
+  template <>                 \
+  inline constexpr StmtKind kind_of_node<kind##Stmt> = StmtKind::kind;
+#define RUNG_TYPE_EXPR(kind, word) \
+  template <>                      \
+  inline constexpr TypeExprKind kind_of_node<kind##TypeExpr> = TypeExprKind::kind;
+#define RUNG_DECL(kind, word) \
+  template <>                 \
+  inline constexpr DeclKind kind_of_node<kind##Decl> = DeclKind::kind;
+#include "frontend/syntax/nodes.def"
+
 class Tree {
  public:
   Tree();
@@ -579,35 +596,35 @@ class Tree {
 
   template <class Node>
   Node& as(ExprId id) {
-    return header<Node>(id.word);
+    return node<Node>(kind(id), id.word);
   }
   template <class Node>
   Node& as(StmtId id) {
-    return header<Node>(id.word);
+    return node<Node>(kind(id), id.word);
   }
   template <class Node>
   Node& as(DeclId id) {
-    return header<Node>(id.word);
+    return node<Node>(kind(id), id.word);
   }
   template <class Node>
   Node& as(TypeExprId id) {
-    return header<Node>(id.word);
+    return node<Node>(kind(id), id.word);
   }
   template <class Node>
   const Node& as(ExprId id) const {
-    return header<Node>(id.word);
+    return node<Node>(kind(id), id.word);
   }
   template <class Node>
   const Node& as(StmtId id) const {
-    return header<Node>(id.word);
+    return node<Node>(kind(id), id.word);
   }
   template <class Node>
   const Node& as(DeclId id) const {
-    return header<Node>(id.word);
+    return node<Node>(kind(id), id.word);
   }
   template <class Node>
   const Node& as(TypeExprId id) const {
-    return header<Node>(id.word);
+    return node<Node>(kind(id), id.word);
   }
 
   // ---- writing
@@ -635,6 +652,13 @@ class Tree {
   template <class Node>
   Node& header(uint32_t word) const {
     return *std::launder(reinterpret_cast<Node*>(chunks_[word / kChunkWords] + word % kChunkWords));
+  }
+  template <class Node, class Kind>
+  Node& node([[maybe_unused]] Kind kind, uint32_t word) const {
+#ifndef NDEBUG
+    RUNG_INVARIANT(kind == kind_of_node<Node>, "a node is read as what it is");
+#endif
+    return header<Node>(word);
   }
   uint32_t store(const void* node, size_t bytes);
 
