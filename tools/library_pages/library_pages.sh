@@ -2,7 +2,7 @@
 # Writes docs/library/NAME.md for each library in stdlib/: every function, block and type with its doc comment and its
 # pins, from stdlib/NAME/*.st. Declarations of one file with equal comments share an entry.
 #   tools/library_pages/library_pages.sh [--check]    --check: writes nothing, fails when a page is stale
-# Called with --check by tools/house/library_pages.sh.
+# Called with --check by tools/house/checks/library_pages.sh.
 set -eu
 cd "$(dirname "$0")/../.."
 made=$(mktemp)
@@ -116,6 +116,9 @@ for folder in stdlib/*/; do
   { printf '# Library `%s`\n\n' "$name"
     echo "Generated from the doc comments in \`stdlib/$name\` by \`tools/library_pages/library_pages.sh\`; do not edit. \`rung list --signature NAME\` shows"
     echo "the declaration. Functions and blocks that do the same for several types share an entry, which lists the pins of the first."
+    if grep -q "{std '" "$folder"*.st; then
+      echo 'Dialects in parentheses are the only ones that have an entry; with `else qualified`, the others reach it as `Library.NAME`.'
+    fi
     entries "$folder"; } >"$made"
   if [ "${1:-}" != --check ]; then
     cmp -s "$made" "$page" || cp "$made" "$page"

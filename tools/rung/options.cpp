@@ -24,18 +24,18 @@ struct CommandRow {
   const char* summary;
 };
 constexpr CommandRow kCommands[] = {
-    {Command::Check, "check", "FILE|DIR ...", "parse and check, no output"},
+    {Command::Check, "check", "FILE|DIR ...", "parse and check; print only diagnostics"},
     {Command::Emit, "emit", "FILE|DIR ... -o DIR", "write C++ (or print the IR or the tree)"},
     {Command::Build, "build", "FILE|DIR ... -o FILE", "emit, compile and link"},
-    {Command::Run, "run", "FILE|DIR ...", "simulate, with inputs and traces"},
+    {Command::Run, "run", "FILE|DIR ...", "run a program, with inputs and traces"},
     {Command::Test, "test", "FILE|DIR ...", "run the POUs marked {test}"},
     {Command::Convert, "convert", "FILE|DIR ... --to st|xml -o DIR",
      "convert files to ST, or a project to PLCopen XML"},
     {Command::Graph, "graph", "FILE|DIR ... -o DIR", "draw LD, FBD, CFC and SFC as SVG pictures"},
     {Command::List, "list", "libraries|warnings | pous PATH ... | --signature NAME",
-     "list libraries, warnings or POUs"},
+     "list libraries, warnings, POUs or a declaration"},
     {Command::Explain, "explain", "CODE", "print the page of a diagnostic, such as E0401"},
-    {Command::Version, "version", "", "print the version of rung"},
+    {Command::Version, "version", "", "print the version and where the runtime is"},
 };
 
 // Commands announced in the project's documentation.
@@ -94,29 +94,29 @@ constexpr OptionRow kOptions[] = {
     {Key::Emit, "--emit", "cpp|ir|tree", bit(Command::Emit), "cpp to files, ir or tree to stdout (default: cpp)"},
     {Key::To, "--to", "st|xml", bit(Command::Convert), "Structured Text, or one PLCopen XML file"},
     {Key::PageWidth, "--page-width", "N", bit(Command::Graph), "wrap networks at N pixels; 0: never (default: 1200)"},
-    {Key::Depfile, "--depfile", "FILE", bit(Command::Emit), "write the inputs as a make rule"},
+    {Key::Depfile, "--depfile", "FILE", bit(Command::Emit), "write a make rule that lists every file read"},
     {Key::DepfileTarget, "--depfile-target", "PATH", bit(Command::Emit),
      "the rule's target (default: DIR/rung.manifest)"},
     {Key::ListOutputs, "--list-outputs", nullptr, bit(Command::Emit), "print the file names without writing the files"},
-    {Key::Bundles, "--bundles", "N", bit(Command::Emit), "write N more files, which include all others"},
+    {Key::Bundles, "--bundles", "N", bit(Command::Emit), "write N more files that include all the others"},
     {Key::Shared, "--shared", nullptr, bit(Command::Build), "make a shared library"},
     {Key::Static, "--static", nullptr, bit(Command::Build), "make a static library"},
     {Key::Keep, "--keep", nullptr, bit(Command::Build) | bit(Command::Run) | bit(Command::Test),
      "keep the generated C++ and print its folder"},
     {Key::Engine, "--engine", "native|interp", bit(Command::Run) | bit(Command::Test),
-     "run compiled C++, or interpret (starts at once)"},
+     "compile to C++, or interpret (default: interp)"},
     {Key::Host, "--cycles", "N", bit(Command::Run), "run N cycles (default: 100, or all of --inputs)"},
     {Key::Host, "--for", "T", bit(Command::Run), "run for a time, such as T#2s"},
-    {Key::Host, "--interval", "T", bit(Command::Run), "cycle time without tasks (default: T#10ms)"},
-    {Key::Host, "--inputs", "FILE", bit(Command::Run), "CSV (cycle,PATH,...): values to set before cycles"},
+    {Key::Host, "--interval", "T", bit(Command::Run), "cycle time if there are no tasks (default: T#10ms)"},
+    {Key::Host, "--inputs", "FILE", bit(Command::Run), "CSV (cycle,PATH,...): values set before each cycle"},
     {Key::Host, "--set", "PATH=VALUE", bit(Command::Run), "set a variable before cycle 0; may be repeated"},
     {Key::Host, "--watch", "PATH,...", bit(Command::Run), "variables to trace (default: all)"},
     {Key::Host, "--trace", "FILE", bit(Command::Run), "write a CSV row after each cycle; - is stdout"},
     {Key::Host, "--plot", "FILE", bit(Command::Run), "plot the variables over time, as SVG"},
-    {Key::Host, "--retain", "FILE", bit(Command::Run), "keep retained variables in FILE"},
+    {Key::Host, "--retain", "FILE", bit(Command::Run), "keep retained variables in FILE between runs"},
     {Key::Host, "--start", "cold|warm|origin", bit(Command::Run), "default: warm if the retain file exists, else cold"},
-    {Key::Host, "--files-root", "DIR", bit(Command::Run), "folder of the program's files (default: current)"},
-    {Key::Host, "--stop-on", "CONDITION", bit(Command::Run), "stop after the cycle that makes it TRUE"},
+    {Key::Host, "--files-root", "DIR", bit(Command::Run), "folder for the program's files (default: current)"},
+    {Key::Host, "--stop-on", "CONDITION", bit(Command::Run), "stop after the cycle that makes CONDITION TRUE"},
     {Key::Host, "--trace-calls", nullptr, bit(Command::Run), "print which POUs ran in each cycle"},
     {Key::Host, "--realtime", nullptr, bit(Command::Run), "run in real time"},
     {Key::Filter, "--filter", "GLOB", bit(Command::Test), "run only tests whose name matches"},
@@ -131,21 +131,21 @@ constexpr OptionRow kOptions[] = {
      "convert,overflow, or default, all, none\n"
      "(default: div,index,null,cast)"},
     {Key::Level, "-O", "0|1|2", kCompile, "optimization level (default: 1)"},
-    {Key::Warning, "-W", "NAME", kReads, "enable a warning by name or code; -Wno-NAME: disable"},
+    {Key::Warning, "-W", "NAME", kReads, "enable a warning by name or code; -Wno-NAME disables"},
     {Key::Werror, "--werror", nullptr, kReads, "treat warnings as errors"},
-    {Key::MaxErrors, "--max-errors", "N", kReads, "stop listing after N errors; 0: never (default: 100)"},
+    {Key::MaxErrors, "--max-errors", "N", kReads, "list at most N errors; 0: all (default: 100)"},
     {Key::Format, "--format", "text|json|sarif", kReads, "format of diagnostics (default: text)"},
-    {Key::Color, "--color", "auto|always|never", kReads, "colours (default: auto, on a terminal)"},
+    {Key::Color, "--color", "auto|always|never", kReads, "use colours (auto: on a terminal; default: auto)"},
     {Key::Define, "-D", "NAME[=VALUE]", kReads, "define NAME for {IF defined (NAME)}; may be repeated"},
-    {Key::Library, "-I", "DIR", kReads, "library folder; may be repeated"},
+    {Key::Library, "-I", "DIR", kReads, "folder with libraries; may be repeated"},
     {Key::Root, "--root", "DIR", kReads, "make paths in the output relative to DIR"},
     {Key::Name, "--name", "ID", kCompile, "prefix of the module's symbols (default: plc)"},
     {Key::TargetPointer, "--target-pointer", "8|4", bit(Command::Emit) | bit(Command::Build),
-     "bytes of a pointer on the target (default: 8)"},
+     "size of a pointer on the target (default: 8 bytes)"},
     {Key::Jobs, "-j", "N", bit(Command::Build) | bit(Command::Run) | bit(Command::Test),
-     "C++ compilers to run at a time"},
+     "number of C++ compilers to run in parallel"},
     {Key::DumpAfter, "--dump-after", "NAME", kCompile, "print the result of parse, lower or a pass to stderr"},
-    {Key::TimePhases, "--time-phases", nullptr, kCompile, "print time and lines per second of each phase"},
+    {Key::TimePhases, "--time-phases", nullptr, kCompile, "print the time and lines per second of each phase"},
     {Key::Later, "--serial", "N=DEVICE", bit(Command::Run), nullptr},
     {Key::Later, "--plc-period", "T", bit(Command::Run), nullptr},
     {Key::Later, "--time-slice", "T", bit(Command::Run), nullptr},
@@ -593,8 +593,8 @@ std::string helpText(Command command) {
     out +=
         "\n`rung COMMAND --help` lists the options of a command. Inputs are files or\n"
         "folders; `@file` reads arguments from a file. Diagnostics go to stderr.\n\n"
-        "exit codes: 0 success, 1 the input has errors, 2 usage or I/O, 3 the program\n"
-        "faulted, 4 a test failed, 70 internal error\n";
+        "exit codes: 0 success, 1 the input has errors, 2 usage or I/O error, 3 the\n"
+        "program faulted, 4 a test failed, 70 internal error\n";
     return out;
   }
   for (const CommandRow& row : kCommands)

@@ -22,16 +22,16 @@ const char kHelp[] =
     "options\n"
     "  --cycles N            run N cycles of the fastest task (default: 100, or all of --inputs)\n"
     "  --for TIME            run for this time: --for T#2s\n"
-    "  --interval TIME       cycle time of programs built without one (default: T#10ms)\n"
-    "  --inputs FILE         CSV with header cycle,PATH,...: variables set before each cycle\n"
+    "  --interval TIME       cycle time if there are no tasks (default: T#10ms)\n"
+    "  --inputs FILE         CSV with header cycle,PATH,...: values set before each cycle\n"
     "  --set PATH=VALUE      set a variable once, before cycle 0\n"
     "  --watch PATH,...      the variables to trace (default: all)\n"
     "  --trace FILE|-        write a CSV row after each cycle\n"
     "  --plot FILE           plot the variables over time, as SVG\n"
-    "  --retain FILE         keep retained variables in FILE\n"
-    "  --files-root DIR      the folder of the program's files (default: the current one)\n"
+    "  --retain FILE         keep retained variables in FILE between runs\n"
+    "  --files-root DIR      the folder for the program's files (default: the current one)\n"
     "  --start cold|warm|origin   default: warm if the retain file exists, else cold\n"
-    "  --stop-on CONDITION   stop after the cycle that makes it TRUE: --stop-on 'Main.n >= 10'\n"
+    "  --stop-on CONDITION   stop after the cycle that makes CONDITION TRUE: --stop-on 'Main.n >= 10'\n"
     "  --realtime            run in real time, until the cycles are done or Ctrl-C\n";
 
 }  // namespace
