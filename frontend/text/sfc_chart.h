@@ -2,7 +2,6 @@
 // writer of the generated ST. Private to frontend/text: sfc_declare.cpp, sfc_schedule.cpp, sfc_flags.cpp.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 

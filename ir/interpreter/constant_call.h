@@ -5,7 +5,6 @@
 // later layer.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 

@@ -546,6 +546,9 @@ void resolvePou(Context& context, PouId id) {
     if (var.edge != EdgeKind::None && var.storage == Storage::Field) edges.push_back(var_id);
     if (context.types().isOpenArray(var.type)) open_arrays.push_back(var_id);
   }
+  // A call with more arguments is folded from the left, f(f(a, b), c), which takes two inputs.
+  const auto isInput = [&](VarId var) { return symbols.var(var).section == SectionKind::Input; };
+  if (std::count_if(pou.vars.begin(), pou.vars.end(), isInput) < 2) pou.extensible = false;
   // Forbids generic types outside of functions: an instance of a block has one layout.
   if (pou.generic && (pou.kind != PouKind::Function || pou.owner)) {
     context.report(diag::GenericBlock, pou.loc, {context.names().string(pou.name)});
