@@ -15,10 +15,6 @@ using types::TypeTable;
 
 namespace {
 
-bool isParameter(LocalKind kind) {
-  return kind == LocalKind::Input || kind == LocalKind::Output || kind == LocalKind::InOut;
-}
-
 // Arrays and records have no C type that a library could know.
 void appendParameter(std::string& out, const TypeTable& types, const ir::Local& local, std::string_view name,
                      bool native) {
@@ -74,7 +70,7 @@ void BodyWriter::appendSignature(std::string& out, const ir::Module& module, con
   }
   std::string name;
   for (const ir::Local& local : body.locals) {
-    if (!isParameter(local.kind)) continue;
+    if (!isParameter(local)) continue;
     out += ", ";
     name.clear();
     appendMangled(name, module.names.string(local.name));
@@ -140,7 +136,7 @@ void BodyWriter::declareVariables() {
     includeRecord(local.type);
     const bool is_result = local.kind == LocalKind::Result && !local.by_reference;
     const Variable& use = locals_[i];
-    if (isParameter(local.kind)) {
+    if (isParameter(local)) {
       if (use.wide != 0) RUNG_INVARIANT(!local.by_reference, "a wide control is a local");
       continue;
     }

@@ -371,7 +371,7 @@ class Writer {
     bool ok = true;
     uint32_t count = 0;
     for (const Local& local : function.locals) {
-      if (local.kind != LocalKind::Input && local.kind != LocalKind::Output && local.kind != LocalKind::InOut) continue;
+      if (!isParameter(local)) continue;
       const std::string seen = view(local.type);
       ok = ok && !seen.empty() && !holdsBlock(local.type);
       need(local.type);

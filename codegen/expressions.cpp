@@ -137,10 +137,7 @@ void BodyWriter::callExpr(const Expr& e) {
   out_ += "(ctx";
   uint32_t i = 0;
   for (const ir::Local& parameter : callee.locals) {
-    if (parameter.kind != ir::LocalKind::Input && parameter.kind != ir::LocalKind::Output &&
-        parameter.kind != ir::LocalKind::InOut) {
-      continue;
-    }
+    if (!isParameter(parameter)) continue;
     if (i >= e.c) break;
     const ExprId operand = body_->operands[e.b + i++];
     out_ += ", ";

@@ -148,8 +148,7 @@ class Describer {
     uint32_t count = 0;
     for (const ir::Local& local : body.locals) {
       const bool is_result = local.kind == ir::LocalKind::Result;
-      const bool is_pin = local.kind == ir::LocalKind::Input || local.kind == ir::LocalKind::Output ||
-                          local.kind == ir::LocalKind::InOut;
+      const bool is_pin = isParameter(local);
       if (!is_pin && !(is_result && local.by_reference)) continue;
       const std::string name = "p" + number(++count);
       if (types_.kind(elementOf(types_, local.type)) == TypeKind::Record) return "";  // sema rejects tests with pins

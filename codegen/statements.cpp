@@ -376,10 +376,7 @@ void BodyWriter::callStatement(const Stmt& stmt) {
   const std::string arguments = captured([&] {
     uint32_t i = 0;
     for (const ir::Local& parameter : callee.locals) {
-      if (parameter.kind != ir::LocalKind::Input && parameter.kind != ir::LocalKind::Output &&
-          parameter.kind != ir::LocalKind::InOut) {
-        continue;
-      }
+      if (!isParameter(parameter)) continue;
       if (i >= stmt.d) break;
       const ExprId operand = body_->operands[stmt.c + i++];
       out_ += ", ";

@@ -151,6 +151,10 @@ struct Local {
   bool by_reference = false;  // Output, InOut; Input of array, record or string type (read only); Result of such a type
   Loc loc;
 };
+// A parameter of a function: an operand of its calls, in the order of the locals.
+constexpr bool isParameter(const Local& local) {
+  return local.kind == LocalKind::Input || local.kind == LocalKind::Output || local.kind == LocalKind::InOut;
+}
 
 enum class BodyKind : uint8_t {
   Function,  // parameters are the locals of kind Input, Output, InOut, in order

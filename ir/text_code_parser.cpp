@@ -207,9 +207,6 @@ std::vector<ExprId> Reader::operands(const Body& callee) {
   if (accept(")")) return given;
   size_t parameter = 0;
   do {
-    auto isParameter = [&](const Local& local) {
-      return local.kind == LocalKind::Input || local.kind == LocalKind::Output || local.kind == LocalKind::InOut;
-    };
     while (parameter < callee.locals.size() && !isParameter(callee.locals[parameter])) ++parameter;
     const TypeId wanted = parameter < callee.locals.size() ? callee.locals[parameter].type : TypeId{};
     ++parameter;

@@ -38,7 +38,7 @@ void Printer::calleeOperands(const Body& callee, uint32_t first, uint32_t count)
   put("(");
   uint32_t i = 0;
   for (const Local& local : callee.locals) {
-    if (local.kind != LocalKind::Input && local.kind != LocalKind::Output && local.kind != LocalKind::InOut) continue;
+    if (!isParameter(local)) continue;
     if (i == count) break;
     if (i > 0) put(", ");
     ExprId id = body_->operands[first + i];

@@ -69,10 +69,6 @@ namespace {
 
 bool isPointer(TypeKind kind) { return kind == TypeKind::Pointer || kind == TypeKind::Reference; }
 bool isIntegral(TypeKind kind) { return TypeTable::isInteger(kind) || TypeTable::isBits(kind); }
-bool isParameter(const Local& local) {
-  return local.kind == LocalKind::Input || local.kind == LocalKind::Output || local.kind == LocalKind::InOut;
-}
-
 class Verifier {
  public:
   explicit Verifier(const Module& module) : module_(module), types_(module.types) {}

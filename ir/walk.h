@@ -87,8 +87,7 @@ void forEachRoot(const Module& module, BodyT& body, StmtT& stmt, F&& f) {
       const Body& callee = module.body(BodyId{stmt.a});
       uint32_t i = 0;
       for (const Local& local : callee.locals) {
-        if (local.kind != LocalKind::Input && local.kind != LocalKind::Output && local.kind != LocalKind::InOut)
-          continue;
+        if (!isParameter(local)) continue;
         if (i == stmt.d) break;
         visit(body.operands[stmt.c + i].index, local.kind == LocalKind::Input ? Use::Read : Use::Reference);
         ++i;

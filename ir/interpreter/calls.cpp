@@ -25,10 +25,7 @@ std::vector<BodyTranslator::Argument> BodyTranslator::arguments(const Body& call
   std::vector<Argument> out;
   uint32_t i = 0;
   for (const Local& parameter : callee.locals) {
-    if (parameter.kind != LocalKind::Input && parameter.kind != LocalKind::Output &&
-        parameter.kind != LocalKind::InOut) {
-      continue;
-    }
+    if (!isParameter(parameter)) continue;
     if (i == count) break;
     out.push_back({&parameter, body_->operands[first + i], {at + 8 * i, true}, false, {}});
     ++i;

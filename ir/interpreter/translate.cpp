@@ -14,10 +14,6 @@ constexpr uint32_t kNowhere = ~0u;
 
 uint32_t alignUp(uint64_t value, uint32_t align) { return static_cast<uint32_t>((value + align - 1) / align * align); }
 
-bool isParameter(LocalKind kind) {
-  return kind == LocalKind::Input || kind == LocalKind::Output || kind == LocalKind::InOut;
-}
-
 }  // namespace
 
 // ---- instructions and labels
@@ -68,12 +64,12 @@ void BodyTranslator::begin() {
 void BodyTranslator::layOutLocals() {
   local_offset_.resize(body_->locals.size());
   for (size_t i = 0; i < body_->locals.size(); ++i) {
-    if (isParameter(body_->locals[i].kind)) local_offset_[i] = slot().offset;
+    if (isParameter(body_->locals[i])) local_offset_[i] = slot().offset;
   }
   result_slot_ = slot();
   for (size_t i = 0; i < body_->locals.size(); ++i) {
     const Local& local = body_->locals[i];
-    if (isParameter(local.kind)) continue;
+    if (isParameter(local)) continue;
     if (local.kind == LocalKind::Result) {
       local_offset_[i] = result_slot_.offset;
     } else {
@@ -179,7 +175,7 @@ Code::Entry BodyTranslator::translateSteps(std::span<const Step> steps) {
       uint32_t at = kFrameHeader;
       const uint32_t before = top_;
       for (const Local& local : callee.locals) {
-        if (!isParameter(local.kind) && !(local.kind == LocalKind::Result && local.by_reference)) continue;
+        if (!isParameter(local) && !(local.kind == LocalKind::Result && local.by_reference)) continue;
         const uint32_t to = at;
         if (local.kind != LocalKind::Result) at += 8;
         if (local.by_reference) {
