@@ -21,7 +21,9 @@ void appendArgument(std::string& out, std::string_view argument) {
   out += "...";
 }
 
-std::string format(const char* text, std::initializer_list<std::string_view> args) {
+}  // namespace
+
+std::string formatMessage(const char* text, std::initializer_list<std::string_view> args) {
   std::string out;
   for (const char* at = text; *at != '\0'; ++at) {
     const bool placeholder = at[0] == '{' && at[1] >= '0' && at[1] <= '9' && at[2] == '}';
@@ -36,8 +38,6 @@ std::string format(const char* text, std::initializer_list<std::string_view> arg
   return out;
 }
 
-}  // namespace
-
 std::string switchName(const DiagInfo& info) {
   std::string name;
   for (const char* at = info.name; *at != '\0'; ++at) {
@@ -49,7 +49,7 @@ std::string switchName(const DiagInfo& info) {
 }
 
 Report& Report::note(Loc loc, Note note, std::initializer_list<std::string_view> args) {
-  if (diagnostic_ != nullptr) diagnostic_->notes.push_back({loc, format(note.text, args)});
+  if (diagnostic_ != nullptr) diagnostic_->notes.push_back({loc, formatMessage(note.text, args)});
   return *this;
 }
 
@@ -116,7 +116,7 @@ Report Diagnostics::report(Diag diag, Loc loc, std::initializer_list<std::string
       return Report(nullptr);
     }
   }
-  list_.push_back({diag, severity, loc, {}, {}, 0, format(info.text, args), {}, {}});
+  list_.push_back({diag, severity, loc, {}, {}, 0, formatMessage(info.text, args), {}, {}});
   return Report(&list_.back());
 }
 

@@ -50,6 +50,8 @@ struct DiagInfo {
 const DiagInfo& diagInfo(Diag diag);
 // The row with this code ("E0412", any case), or null.
 const DiagInfo* findDiag(std::string_view code);
+// A template with its arguments in place of {0} {1}, each cut to a few hundred bytes.
+std::string formatMessage(const char* text, std::initializer_list<std::string_view> args);
 // The name of the row in `-W`: "unused-variable" for UnusedVariable.
 std::string switchName(const DiagInfo& info);
 // All rows, by number.

@@ -3,27 +3,20 @@ prose of the docs (not in code blocks and back-quoted words). Prints file:line, 
 checks/phrases.sh."""
 import os
 import re
-import subprocess
 import sys
 
-HOUSE = os.path.dirname(os.path.realpath(__file__))
-ROOT = os.path.join(HOUSE, "..", "..")
+from sources import HOUSE, TOKEN, read, tracked
+
 NOT_SEARCHED = re.compile(r"^(docs/compliance\.md|tests/conformance/features\.tsv|tools/house/phrases\.|tests/golden/|LICENSE)")
 
-C_TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)\'', re.S)
 ST_COMMENT = re.compile(r"//[^\n]*|\(\*.*?\*\)|'[^'\n]*'", re.S)
-
-
-def tracked():
-    return subprocess.run([os.path.join(HOUSE, "tracked"), ".md", ".cpp", ".h", ".def", ".st", ".sh", ".txt", ".cmake"],
-                          check=True, text=True, stdout=subprocess.PIPE).stdout.splitlines()
 
 
 def prose_of_code(source):
     """(line, prose) of each comment and each string that reads like a sentence."""
-    for match in C_TOKEN.finditer(source):
+    for match in TOKEN.finditer(source):
         token = match.group()
-        if token[0] in "\"'R" and " " not in token:
+        if token[0] == "#" or (token[0] in "\"'R" and " " not in token):
             continue
         first = source.count("\n", 0, match.start()) + 1
         for offset, line in enumerate(token.split("\n")):
@@ -76,11 +69,10 @@ def main():
             rules.append((re.compile(pattern, re.I), instead, re.compile(allowed[0], re.I) if allowed else None))
     quick = re.compile("|".join(f"(?:{pattern.pattern})" for pattern, _, _ in rules), re.I)
     found = 0
-    for path in tracked():
+    for path in tracked(".md", ".cpp", ".h", ".def", ".st", ".sh", ".txt", ".cmake"):
         if NOT_SEARCHED.match(path):
             continue
-        with open(os.path.join(ROOT, path), encoding="utf-8", errors="replace") as file:
-            source = file.read()
+        source = read(path)
         if not quick.search(source):
             continue
         for number, line in prose_of(path, source):

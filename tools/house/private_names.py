@@ -2,15 +2,11 @@
 tools/quickstart.sh makes, compiles such files together. Functions may share a name when their parameters differ.
 Called by checks/private_names.sh."""
 import collections
-import os
 import re
-import subprocess
 import sys
 
-HOUSE = os.path.dirname(os.path.realpath(__file__))
-ROOT = os.path.join(HOUSE, "..", "..")
-TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:[^"\\\n]|\\.)*"|(?<!\d)\'(?:[^\'\\\n]|\\.)+\'|^#(?:[^\n]*\\\n)*[^\n]*',
-                   re.S | re.M)
+from sources import code_only, read, tracked
+
 TEMPLATE = re.compile(r"template <(?:[^<>]|<[^<>]*>)*> ?(?:requires .*?\) )?")
 TYPE = re.compile(r"(?:struct|class|enum class|enum|union) (\w+)")
 FUNCTION = re.compile(r"(?:[\w:<>,*&\[\]]+ )+?[*&]*(\w+)\((.*)\)")
@@ -31,7 +27,7 @@ def target_of(path):
 
 def private_declarations(source):
     """(name, parameters) of what stands directly in an unnamed namespace; parameters is None of types and variables."""
-    source = TOKEN.sub(lambda token: re.sub(r"[^\n]", " ", token.group()), source)
+    source = code_only(source)
     for opening in re.finditer(r"\bnamespace\s*\{", source):
         at, depth, begin = opening.end(), 0, opening.end()
         while at < len(source) and not (depth == 0 and source[at] == "}"):
@@ -63,14 +59,12 @@ def declaration(head):
 
 
 def main():
-    listed = subprocess.run([os.path.join(HOUSE, "tracked"), ".cpp"], check=True, text=True, stdout=subprocess.PIPE)
     names = collections.defaultdict(set)
-    for path in listed.stdout.splitlines():
+    for path in tracked(".cpp"):
         if path.startswith(("tests/", "stdlib/")) and not path.startswith("stdlib/runtime/host/"):
             continue  # programs of their own, and a library of which products link single files
-        with open(os.path.join(ROOT, path), encoding="utf-8") as file:
-            for name, parameters in private_declarations(file.read()):
-                names[target_of(path), name].add((path, parameters))
+        for name, parameters in private_declarations(read(path)):
+            names[target_of(path), name].add((path, parameters))
     bad = 0
     for (_, name), places in sorted(names.items()):
         kinds = collections.Counter(parameters for _, parameters in places)

@@ -3,15 +3,11 @@
 # lines are mostly rows `{…},` or `case …:` of one line each is a table.
 #   tools/house/sizes.py [--lines N] [--members N]      exit code 1 when there are any
 import argparse
-import os
 import re
-import subprocess
 import sys
 
-HOUSE = os.path.dirname(os.path.realpath(__file__))
-ROOT = os.path.join(HOUSE, "..", "..")
-TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:[^"\\\n]|\\.)*"|(?<!\d)\'(?:[^\'\\\n]|\\.)+\'|^#(?:[^\n]*\\\n)*[^\n]*',
-                   re.S | re.M)
+from sources import code_only, read, tracked
+
 FUNCTION = re.compile(r"([\w:~<>]+|operator\S+)\s*\([^;{}]*\)\s*(?:const|noexcept|override|-> [\w:<>]+|\s)*(?::\s*[^;{}]*(?:\{[^{}]*\}[^;{}]*)*)?$",
                       re.S)
 CLASS = re.compile(r"\b(?:class|struct)\s+([\w:]+)(?:\s+final)?\s*(?::[^;{}()]*)?$")
@@ -21,7 +17,7 @@ NOT_FUNCTIONS = {"if", "for", "while", "switch", "catch", "return", "sizeof", "r
 
 def blocks(source):
     """(head, first line, last line, text, depth of classes around it) of each brace block outside of functions."""
-    source = TOKEN.sub(lambda token: re.sub(r"[^\n]", " ", token.group()), source)
+    source = code_only(source)
     stack, begin = [], 0
     for at, c in enumerate(source):
         if c == "{":
@@ -47,11 +43,9 @@ def main():
     parser.add_argument("--lines", type=int, default=100)
     parser.add_argument("--members", type=int, default=60)
     options = parser.parse_args()
-    listed = subprocess.run([os.path.join(HOUSE, "tracked"), ".cpp", ".h"], check=True, text=True, stdout=subprocess.PIPE)
     functions, classes = [], []
-    for path in listed.stdout.splitlines():
-        with open(os.path.join(ROOT, path), encoding="utf-8") as file:
-            original = file.read()
+    for path in tracked(".cpp", ".h"):
+        original = read(path)
         lines = original.split("\n")
         for head, opened, closed, source, around in blocks(original):
             first, last = source.count("\n", 0, opened) + 1, source.count("\n", 0, closed) + 1

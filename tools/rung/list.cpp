@@ -55,13 +55,9 @@ int listWarnings() {
   std::string out;
   for (const DiagInfo& info : allDiags()) {
     if (info.severity == Severity::Error) continue;
-    std::string name = switchName(info), message;
+    std::string name = switchName(info);
     name.resize(std::max<size_t>(name.size(), 30), ' ');
-    for (const char* at = info.text; *at != '\0'; ++at) {
-      const bool argument = at[0] == '{' && at[1] >= '0' && at[1] <= '9' && at[2] == '}';
-      message += argument ? static_cast<char>(at[1] - '0' + 'A') : *at;
-      if (argument) at += 2;
-    }
+    const std::string message = formatMessage(info.text, {"A", "B", "C", "D", "E", "F"});
     out += std::string(info.code) + "  " + name + "  " + message + "\n";
   }
   return printResult(out);
