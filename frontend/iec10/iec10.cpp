@@ -81,10 +81,10 @@ bool ProjectReader::writeHeader(const Element& pou, const PouKeywords& keywords)
   for (const std::string_view modifier : {"abstract", "final", "override"})
     if (plcopen::isTrue(import_, pou, modifier)) import_.out.word(plcopen::upper(modifier) + " ");
   plcopen::writeName(import_, pou);
-  for (const auto& [element, word] : {std::pair{"Extends", " EXTENDS "}, std::pair{"Implements", " IMPLEMENTS "}}) {
+  for (const auto& list : {std::pair{"Extends", " EXTENDS "}, std::pair{"Implements", " IMPLEMENTS "}}) {
     bool first = true;
-    forEach(pou, element, [&](const Element& base) {
-      import_.out.word(first ? word : ", ");
+    forEach(pou, list.first, [&](const Element& base) {
+      import_.out.word(first ? list.second : ", ");
       first = false;
       writeTypeRef(import_, base);
     });

@@ -287,6 +287,7 @@ std::vector<Plan> planNetworks(const Body& body, int32_t page) {
   }
   if (laid_out) alignRightRails(bands, body);
   std::vector<Plan> plans;
+  plans.reserve(bands.size());
   for (std::vector<Plan>& network : bands) plans.push_back(stacked(network));
   return plans;
 }

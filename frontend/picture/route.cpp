@@ -129,8 +129,8 @@ bool Router::setGrid() {
   for (const Item& item : plan_.items) all.include(item.bounds());
   left_ = all.x - kMargin * kGrid;
   top_ = all.y - kMargin * kGrid;
-  columns_ = static_cast<size_t>(all.width / kGrid + 2 * kMargin + 1);
-  rows_ = static_cast<size_t>(all.height / kGrid + 2 * kMargin + 1);
+  columns_ = static_cast<size_t>(all.width / kGrid) + 2 * kMargin + 1;
+  rows_ = static_cast<size_t>(all.height / kGrid) + 2 * kMargin + 1;
   if (columns_ * rows_ > kMaxCells) return false;
   cells_.resize(columns_ * rows_);
   steps_.resize(4 * cells_.size());

@@ -63,7 +63,7 @@ std::optional<uint64_t> isoDuration(std::string_view text) {
 
 // A time in ST notation, from `PT0.05S`, `T#50ms` or `50` with a unit; empty: not a time, which was reported.
 std::string timeOf(Import& import, const xml::Attribute& attribute, std::string unit) {
-  const std::string text = import.document.decoded(attribute);
+  std::string text = import.document.decoded(attribute);
   if (const auto duration = isoDuration(text)) return "T#" + std::to_string(*duration) + "ns";
   if (text.find('#') != std::string::npos) return text;
   uint64_t number = 0;

@@ -87,6 +87,7 @@ void NetworkExport::number() {
   for (const DiagramNetwork& n : to_.tree.list(diagram_.networks))
     networks.push_back(n.number > networks.back() ? n.number : networks.back() + 1);
   std::vector<uint64_t> next;
+  next.reserve(networks.size());
   for (const uint64_t n : networks) next.push_back(n * kNumbersPerNetwork + 1);
   titles_.resize(networks.size());
   std::unordered_set<uint64_t> taken;

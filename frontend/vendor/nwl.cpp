@@ -263,7 +263,7 @@ Wires NetworkReader::value(const Element& tree) {
     return input == nullptr ? rail(tree.loc) : value(*input);
   }
   const Element* source = archive_.member(tree, "RValue");
-  const Wires wires = source == nullptr ? Wires{} : value(*source);
+  Wires wires = source == nullptr ? Wires{} : value(*source);
   for (const Element* target : itemsOf(listOf(tree, "OutputItems", "OutputItems")))
     assign(*target, flagsOf(*target) | (flagsOf(tree) & (kJump | kReturn)), wires);
   return wires;
@@ -437,7 +437,7 @@ Wires NetworkReader::demux(const Element& tree) {
 // Parallel lines: AND of their common input with the OR of all lines.
 Wires NetworkReader::parallel(const Element& tree) {
   const Element* input = archive_.member(tree, "Input");
-  const Wires before = input == nullptr ? Wires{} : value(*input);
+  Wires before = input == nullptr ? Wires{} : value(*input);
   std::vector<Wires> lines;
   for (const Element* line : itemsOf(archive_.member(tree, "Trees"))) lines.push_back(value(*line));
   if (lines.empty()) return before;

@@ -8,9 +8,6 @@
 
 namespace rung::ir::interpreter {
 
-using types::TypeInfo;
-using types::TypeKind;
-
 namespace {
 
 constexpr uint64_t kLargestTable = 1024;  // entries of a switch that is a table

@@ -64,6 +64,7 @@ BodyId ModuleLowering::endsOf(NameId name, const char* suffix, std::span<const u
   if (ends.empty()) return {};
   const BodyId created = addHelper(name, {}, suffix);
   std::vector<BodyId> bodies;  // before the lowering begins: they create bodies
+  bodies.reserve(ends.size());
   for (const End& end : ends) bodies.push_back(exitOf(end.record));
   Body& body = module.body(created);
   BodyLowering lowering(*this, body, {});

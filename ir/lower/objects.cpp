@@ -161,8 +161,9 @@ BodyId ModuleLowering::kindTestOf(sema::PouId wanted) {
 }
 
 void ModuleLowering::fillKindTests() {
-  for (const auto& [wanted, test] : kind_tests_) {
-    Body& body = module.body(test);
+  for (const auto& test : kind_tests_) {
+    const auto wanted = test.first;
+    Body& body = module.body(test.second);
     const Loc loc = body.loc;
     BodyLowering lowering(*this, body, {});
     auto holds = [&](size_t c) {

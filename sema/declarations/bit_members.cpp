@@ -6,8 +6,6 @@
 
 namespace rung::sema {
 
-using types::TypeKind;
-
 bool isNamedBit(const Context& context, NameId name) { return sameIdentifier(context.names().string(name), "BIT"); }
 
 bool isBit(Context& context, TypeExprId written) {

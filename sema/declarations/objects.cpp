@@ -23,7 +23,7 @@ bool isLifeMethod(const Context& context, NameId name) {
 namespace {
 
 // `Motor__Start`: unique among functions and members of the project.
-NameId uniqueName(Context& context, const Pou& owner, std::string name) {
+NameId uniqueName(Context& context, const Pou& owner, const std::string& name) {
   Scopes& scopes = context.scopes;
   std::string unique = toString(context, owner.unique_name) + "__" + name;
   for (uint32_t n = 2;; ++n) {
