@@ -1,7 +1,7 @@
 // Scheduling of charts (SFC). In: the context of the POU whose chart is scheduled.
 #pragma once
 
-#include "frontend/text/sfc_schedule.h"
+#include "frontend/schedule/sfc_schedule.h"
 #include "sema/context.h"
 
 namespace rung::sema {

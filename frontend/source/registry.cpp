@@ -21,12 +21,11 @@ namespace rung {
 namespace {
 
 constexpr DiagInfo kRows[] = {
-#include "frontend/diagram/diagnostics.def"
-#include "frontend/plcopen/diagnostics.def"
+#include "frontend/export/diagnostics.def"
+#include "frontend/import/diagnostics.def"
+#include "frontend/parse/diagnostics.def"
+#include "frontend/schedule/diagnostics.def"
 #include "frontend/syntax/diagnostics.def"
-#include "frontend/text/diagnostics.def"
-#include "frontend/vendor/diagnostics.def"
-#include "frontend/xml/diagnostics.def"
 #include "ir/diagnostics.def"
 #include "sema/bodies/diagnostics.def"
 #include "sema/checks/diagnostics.def"

@@ -1,8 +1,7 @@
 // A body of networks as the parser creates it: the elements of LD, FBD and CFC with their wires, in the order of the
-// file. It stays in the tree until the scheduler (frontend/diagram/schedule.h) turns it into statements. One model
-// serves the three languages, which differ only in how an editor shows them. IEC 61131-3 ed. 3, 8; TM/TP manual 5.1 to
-// 5.3 and 5.6.
-// `rung graph` draws from here too, so an element keeps its position where the file has one.
+// file. It stays in the tree until the scheduler (frontend/schedule/network_schedule.h) turns it into statements. One
+// model serves the three languages, which differ only in how an editor shows them. IEC 61131-3 ed. 3, 8; TM/TP
+// manual 5.1 to 5.3 and 5.6. `rung graph` draws from here too, so an element keeps its position where the file has one.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 // Statements. In: the statement list of a POU. Out: the same tree with every expression checked and converted.
 // Called by checkBody() below, which sema::check() calls for each POU and for each library POU in use.
-#include "frontend/diagram/schedule.h"
+#include "frontend/schedule/il_schedule.h"
+#include "frontend/schedule/network_schedule.h"
+#include "frontend/schedule/sfc_schedule.h"
 #include "frontend/syntax/diagnostics.h"
-#include "frontend/text/il_schedule.h"
-#include "frontend/text/sfc_schedule.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/signatures.h"

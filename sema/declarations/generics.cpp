@@ -1,7 +1,7 @@
 // Instances of generic library functions: the source of the function is parsed again for each tuple of types, so that
 // its body is checked and lowered like any other.
+#include "frontend/parse/parse.h"
 #include "frontend/source/dialect.h"
-#include "frontend/text/parse.h"
 #include "sema/declarations/declarations.h"
 
 namespace rung::sema {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "frontend/text/parse.h"
+#include "frontend/parse/parse.h"
 
 namespace rung::sema {
 

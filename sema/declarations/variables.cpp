@@ -1,7 +1,7 @@
 // Variables of POUs and global lists: their names first, then types and storage, then initial values; each on demand.
 #include <algorithm>
 
-#include "frontend/diagram/schedule.h"
+#include "frontend/schedule/network_schedule.h"
 #include "sema/bodies/signatures.h"
 #include "sema/checks/object_members.h"
 #include "sema/checks/uncopied.h"

@@ -12,10 +12,10 @@
 #include <ctime>
 #include <filesystem>
 
-#include "frontend/diagram/elements.h"
+#include "frontend/parse/parse.h"
+#include "frontend/schedule/network_elements.h"
 #include "frontend/source/invariant.h"
 #include "frontend/source/render.h"
-#include "frontend/text/parse.h"
 #include "ir/interpreter/constant_call.h"
 #include "ir/lower.h"
 #include "ir/passes/passes.h"

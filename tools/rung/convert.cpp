@@ -9,7 +9,7 @@
 #include <span>
 #include <unordered_set>
 
-#include "frontend/plcopen/export.h"
+#include "frontend/export/plcopen.h"
 #include "frontend/syntax/sfc.h"
 #include "frontend/syntax/st_printer.h"
 #include "sema/project.h"

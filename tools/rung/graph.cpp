@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "frontend/picture/picture.h"
+#include "frontend/render/picture.h"
 #include "frontend/syntax/sfc.h"
 #include "tools/rung/commands.h"
 #include "tools/rung/compile.h"

@@ -9,8 +9,8 @@
 #include <cstring>
 #include <filesystem>
 
-#include "frontend/iec10/iec10.h"
-#include "frontend/plcopen/plcopen.h"
+#include "frontend/import/iec10/iec10.h"
+#include "frontend/import/plcopen/plcopen.h"
 #include "frontend/source/names.h"
 #include "frontend/syntax/diagnostics.h"
 #include "tools/rung/diagnostics.h"

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "frontend/import/vendor.h"
 #include "frontend/source/diagnostics.h"
-#include "frontend/vendor/vendor.h"
 #include "tools/rung/options.h"
 #include "tools/rung/project_file.h"
 

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "frontend/parse/conditions.h"
+#include "frontend/parse/parse.h"
 #include "frontend/source/dialect.h"
 #include "frontend/source/render.h"
-#include "frontend/text/conditions.h"
-#include "frontend/text/parse.h"
 
 namespace rung::tool {
 

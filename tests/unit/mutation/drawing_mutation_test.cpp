@@ -9,12 +9,12 @@
 #include <filesystem>
 #include <random>
 
-#include "frontend/picture/picture.h"
-#include "frontend/plcopen/export.h"
-#include "frontend/plcopen/plcopen.h"
+#include "frontend/export/plcopen.h"
+#include "frontend/import/plcopen/plcopen.h"
+#include "frontend/import/xml.h"
+#include "frontend/parse/parse.h"
+#include "frontend/render/picture.h"
 #include "frontend/source/dialect.h"
-#include "frontend/text/parse.h"
-#include "frontend/xml/xml.h"
 
 namespace rung {
 namespace {

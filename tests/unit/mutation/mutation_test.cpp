@@ -10,8 +10,8 @@
 #include <random>
 #include <span>
 
+#include "frontend/parse/lexer.h"
 #include "frontend/source/dialect.h"
-#include "frontend/text/lexer.h"
 #include "sema/project.h"
 
 namespace rung {

@@ -10,8 +10,8 @@
 #include <memory>
 #include <random>
 
-#include "frontend/plcopen/plcopen.h"
-#include "frontend/text/parse.h"
+#include "frontend/import/plcopen/plcopen.h"
+#include "frontend/parse/parse.h"
 #include "sema/project.h"
 
 namespace rung {

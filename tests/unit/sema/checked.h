@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "frontend/text/parse.h"
+#include "frontend/parse/parse.h"
 #include "sema/project.h"
 
 namespace rung::sema {

@@ -1,8 +1,8 @@
 // Checks programs and prints the checked tree: see checked.h.
 #include "tests/unit/sema_bodies/checked.h"
 
+#include "frontend/parse/parse.h"
 #include "frontend/source/dialect.h"
-#include "frontend/text/parse.h"
 #include "sema/types/arithmetic.h"
 
 namespace rung::sema_test {

@@ -11,8 +11,10 @@ tools/house/tracked .h .cpp .def | grep -v '^tests/' | xargs -d '\n' grep -Hn '^
     layer["frontend/source/"] = 1
     layer["frontend/syntax/"] = 2
     layer["sema/types/"] = 3
-    layer["frontend/text/"] = 4;  layer["frontend/xml/"] = 4;  layer["frontend/diagram/"] = 5; layer["frontend/picture/"] = 5
-    layer["frontend/plcopen/"] = 6;  layer["frontend/nct/"] = 6;  layer["frontend/vendor/"] = 7;  layer["frontend/iec10/"] = 7
+    layer["frontend/parse/"] = 4
+    layer["frontend/schedule/"] = 5
+    layer["frontend/import/"] = 6
+    layer["frontend/export/"] = 7; layer["frontend/render/"] = 7
     layer["sema/"] = 8
     layer["ir/"] = 9
     layer["codegen/"] = 10

@@ -1,0 +1,83 @@
+#include "frontend/export/xml_writer.h"
+
+#include <algorithm>
+
+namespace rung::xml {
+
+void Writer::endTag() {
+  if (in_tag_) out_ += ">\n";
+  in_tag_ = false;
+}
+
+Writer& Writer::open(std::string_view name) {
+  endTag();
+  out_.append(2 * open_.size(), ' ').append("<").append(name);
+  open_.push_back(name);
+  in_tag_ = true;
+  return *this;
+}
+
+void Writer::escaped(std::string_view text, bool in_attribute) {
+  for (const char c : text) {
+    switch (c) {
+      case '&': out_ += "&amp;"; break;
+      case '<': out_ += "&lt;"; break;
+      case '>': out_ += "&gt;"; break;
+      case '"': out_ += in_attribute ? "&quot;" : "\""; break;
+      case '\n': out_ += in_attribute ? "&#10;" : "\n"; break;
+      case '\t': out_ += in_attribute ? "&#9;" : "\t"; break;
+      case '\r': break;
+      default: out_ += c;
+    }
+  }
+}
+
+Writer& Writer::attribute(std::string_view name, std::string_view value) {
+  out_.append(" ").append(name).append("=\"");
+  escaped(value, true);
+  out_ += '"';
+  return *this;
+}
+
+void Writer::close() {
+  const std::string_view name = open_.back();
+  open_.pop_back();
+  if (in_tag_) {
+    out_ += "/>\n";
+  } else {
+    if (!inline_) out_.append(2 * open_.size(), ' ');
+    out_.append("</").append(name).append(">\n");
+  }
+  in_tag_ = inline_ = false;
+}
+
+void Writer::text(std::string_view text) {
+  if (in_tag_) out_ += '>';
+  in_tag_ = false;
+  inline_ = true;
+  escaped(text, false);
+}
+
+void Writer::element(std::string_view name, std::string_view content) {
+  open(name);
+  text(content);
+  close();
+}
+
+// CDATA; it may contain anything but its own terminator.
+void Writer::formatted(std::string_view name, std::string_view content) {
+  open(name);
+  text({});
+  out_ += "<xhtml:p><![CDATA[";
+  for (size_t p = 0; p < content.size();) {
+    const size_t end = std::min(content.find("]]>", p), content.size());
+    for (const char c : content.substr(p, end - p))
+      if (c != '\r') out_ += c;
+    if (end < content.size()) out_ += "]]]]><![CDATA[>";
+    p = end == content.size() ? end : end + 3;
+  }
+  out_ += "]]></xhtml:p>";
+  close();
+}
+
+}  // namespace rung::xml

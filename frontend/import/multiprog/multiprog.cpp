@@ -1,0 +1,64 @@
+// MULTIPROG and PC Worx: one POU, type sheet or global sheet per file. The tool's data is in comments that begin with
+// `(*@`; descriptions between them are plain text, and each worksheet names its language.
+#include <algorithm>
+
+#include "frontend/import/diagnostics.h"
+#include "frontend/import/readers.h"
+#include "frontend/import/scanner.h"
+#include "frontend/import/source_mapped_text.h"
+
+namespace rung::vendor {
+namespace {
+
+// The value of `KEY: value` on a separate line in a comment, as a view into `source`.
+std::string_view valueOf(std::string_view source, size_t comment, size_t end, std::string_view key) {
+  const std::string_view inside = source.substr(comment, end - comment);
+  const size_t found = inside.find(key);
+  if (found == std::string_view::npos) return {};
+  std::string_view value = inside.substr(found + key.size());
+  while (!value.empty() && (value[0] == ' ' || value[0] == '\t')) value.remove_prefix(1);
+  return value.substr(0, value.find_first_of("\r\n*"));
+}
+
+}  // namespace
+
+FileId readMultiprog(Sources& sources, FileId file, Diagnostics& diagnostics) {
+  const std::string_view source = sources.sourceText(file);
+  const uint32_t base = sources.begin(file).offset;
+  const auto loc = [&](size_t at) { return Loc{base + static_cast<uint32_t>(at)}; };
+  xml::SourceMappedText program(sources);
+  size_t kept = 0;  // everything before is copied or excluded
+  // Excludes the source up to the comment that contains `closing`.
+  const auto exclude = [&](size_t begin, std::string_view closing) {
+    const size_t word = std::min(source.find(closing, begin), source.size());
+    const size_t comment = source.substr(begin, word - begin).rfind("(*");
+    program.add(loc(kept), loc(begin));
+    kept = comment == std::string_view::npos ? word : begin + comment;
+    return kept;
+  };
+  for (size_t p = source.find("(*"); p != std::string_view::npos; p = source.find("(*", p)) {
+    const std::string_view rest = source.substr(p);
+    const size_t end = endOfComment(source, p);
+    if (rest.starts_with("(*@KEY@:DESCRIPTION") || rest.starts_with("(*@KEY@: DESCRIPTION")) {
+      p = exclude(end, "END_DESCRIPTION");
+      continue;
+    }
+    if (rest.starts_with("(*@KEY@: WORKSHEET") || rest.starts_with("(*@KEY@:WORKSHEET")) {
+      const std::string_view language = valueOf(source, p, end, "IEC_LANGUAGE:");
+      if (!language.empty() && language != "ST" && language != "IL") {
+        const std::string_view name = valueOf(source, p, end, "NAME:");
+        const std::string how = "drawn in " + std::string(language);
+        diagnostics.report(diag::NetworkBody, loc(static_cast<size_t>(language.data() - source.data())), {name, how})
+            .length(static_cast<uint32_t>(language.size()));
+        p = exclude(end, "END_WORKSHEET");
+        continue;
+      }
+    }
+    p = end;
+  }
+  if (kept == 0) return file;
+  program.add(loc(kept), loc(source.size()));
+  return program.finish(sources, file);
+}
+
+}  // namespace rung::vendor

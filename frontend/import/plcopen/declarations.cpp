@@ -1,0 +1,157 @@
+// Interfaces, sections of variables and lists of globals as ST; see import.h.
+#include <algorithm>
+#include <utility>
+
+#include "frontend/import/plcopen/import.h"
+#include "frontend/source/names.h"
+
+namespace rung::plcopen {
+namespace {
+
+constexpr std::pair<std::string_view, std::string_view> kSections[] = {
+    {"inputVars", "VAR_INPUT"},   {"outputVars", "VAR_OUTPUT"}, {"inOutVars", "VAR_IN_OUT"},
+    {"localVars", "VAR"},         {"tempVars", "VAR_TEMP"},     {"externalVars", "VAR_EXTERNAL"},
+    {"globalVars", "VAR_GLOBAL"}, {"staticVars", "VAR_STAT"},   {"instanceVars", "VAR_INST"}};
+
+std::string_view sectionWordOf(std::string_view list) {
+  for (const auto& [name, word] : kSections)
+    if (name == list) return word;
+  return {};
+}
+
+// The inputs of FB_Init are arguments of the declaration.
+const xml::Element* initialiserOf(const Import& import, std::string_view block) {
+  const std::string name = upper(block);
+  const auto found = std::lower_bound(import.initialisers.begin(), import.initialisers.end(), name,
+                                      [](const auto& entry, const std::string& key) { return entry.first < key; });
+  return found == import.initialisers.end() || found->first != name ? nullptr : found->second;
+}
+
+// `(5, port := 1)`: arguments of FB_Init by position or name. `(speed := 2)`: values of variables, which other exports
+// write as an initial value. False: no assignments of the requested kind.
+bool writeAssignments(Import& import, const xml::Element& type, const xml::Element& assignments, bool arguments) {
+  const xml::Element* derived = import.document.child(type, "derived");
+  const xml::Element* initialiser =
+      derived == nullptr ? nullptr : initialiserOf(import, import.document.value(*derived, "name"));
+  bool any = false;
+  for (const xml::Element* e = import.document.firstChild(assignments); e != nullptr; e = import.document.next(*e)) {
+    const xml::Element* name = import.document.child(*e, "Name");
+    const xml::Element* value = import.document.child(*e, "Value");
+    if (value == nullptr) continue;
+    if (name != nullptr && isBlank(import.document.text(*name, import.sources))) name = nullptr;
+    const bool is_argument =
+        name == nullptr || (initialiser != nullptr && declares(import, *initialiser, textOf(import, *name)));
+    if (is_argument != arguments) continue;
+    import.out.word(any ? ", " : arguments ? "(" : " := (");
+    any = true;
+    if (name != nullptr) {
+      import.out.add(import.document, *name);
+      import.out.word(" := ");
+    }
+    import.out.add(import.document, *value);
+  }
+  if (any) import.out.word(")");
+  return any;
+}
+
+void writeVariable(Import& import, const xml::Element& variable, uint32_t depth) {
+  if (!checkName(import, variable)) return;
+  writeDocumentation(import, variable);
+  writeAttributes(import, variable);
+  writeName(import, variable);
+  if (hasName(import, variable, "address")) {
+    import.out.word(" AT ");
+    writeName(import, variable, "address");
+  }
+  import.out.word(" : ");
+  writeType(import, variable, depth);
+  const xml::Element* type = import.document.child(variable, "type");
+  const xml::Element* assignments = dataOf(import, variable, "inputassignments");
+  if (assignments != nullptr && type != nullptr) writeAssignments(import, *type, *assignments, true);
+  if (assignments == nullptr || type == nullptr || !writeAssignments(import, *type, *assignments, false))
+    writeInitialValue(import, variable, type);
+  import.out.word(";\n");
+}
+
+}  // namespace
+
+const xml::Element* plainText(const Import& import, const xml::Element& owner) {
+  const xml::Element* interface = import.document.child(owner, "interface");
+  for (const xml::Element* holder : {&owner, interface}) {
+    if (holder == nullptr) continue;
+    if (const xml::Element* plain = dataOf(import, *holder, "interfaceasplaintext"))
+      if (!isBlank(import.document.text(*plain, import.sources))) return plain;
+    if (const xml::Element* declaration = dataOf(import, *holder, "plcopenxml")) {  // www.bachmann.at/plc/plcopenxml
+      const xml::Element* content =
+          declaration->name == "textDeclaration" ? import.document.child(*declaration, "content") : nullptr;
+      if (content != nullptr && !isBlank(import.document.text(*content, import.sources))) return content;
+    }
+  }
+  return import.document.child(owner, "InterfaceAsPlainText");  // of methods, in older exports
+}
+
+void writeVariables(Import& import, const xml::Element& list, uint32_t depth) {
+  for (const xml::Element* e = import.document.firstChild(list); e != nullptr; e = import.document.next(*e))
+    if (e->name == "variable") writeVariable(import, *e, depth);
+}
+
+void writeSection(Import& import, const xml::Element& list, std::string_view word) {
+  writeAttributes(import, list);
+  import.out.put(list.loc, word);
+  static constexpr std::pair<std::string_view, std::string_view> kKeywords[] = {
+      {"constant", " CONSTANT"}, {"retain", " RETAIN"}, {"nonretain", " NON_RETAIN"}, {"persistent", " PERSISTENT"}};
+  for (const auto& [attribute, text] : kKeywords)
+    if (isTrue(import, list, attribute)) import.out.word(text);
+  import.out.word("\n");
+  writeVariables(import, list);
+  import.out.word("END_VAR\n");
+}
+
+void writeSections(Import& import, const xml::Element& interface) {
+  for (const xml::Element* e = import.document.firstChild(interface); e != nullptr; e = import.document.next(*e))
+    if (const std::string_view word = sectionWordOf(e->name); !word.empty()) writeSection(import, *e, word);
+}
+
+// A list may consist of several sections, constants and others: MixedAttrsVarList.
+void writeGlobals(Import& import, const xml::Element& globals) {
+  const std::string name = import.document.value(globals, "name");
+  import.out.put(globals.loc, "{list '" + (isBlank(name) ? name : identifierOf(name)) + "'}\n");
+  if (const xml::Element* plain = plainText(import, globals)) {
+    writeText(import, *plain);
+    import.out.word("\n");
+    return;
+  }
+  const xml::Element* mixed = dataOf(import, globals, "mixedattrsvarlist");
+  if (mixed == nullptr) return writeSection(import, globals, "VAR_GLOBAL");
+  for (const xml::Element* e = import.document.firstChild(*mixed); e != nullptr; e = import.document.next(*e)) {
+    if (e->name != "globalVars") continue;
+    writeAttributes(import, globals);
+    writeSection(import, *e, "VAR_GLOBAL");
+  }
+}
+
+bool declares(const Import& import, const xml::Element& owner, std::string_view variable) {
+  if (const xml::Element* plain = plainText(import, owner)) {
+    const std::string text = import.document.text(*plain, import.sources);
+    const auto is_word = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    };
+    for (size_t begin = 0; begin < text.size();) {
+      size_t end = begin;
+      while (end < text.size() && is_word(text[end])) ++end;
+      if (sameIdentifier(std::string_view(text).substr(begin, end - begin), variable)) return true;
+      begin = end + 1;
+    }
+    return false;
+  }
+  const xml::Element* interface = import.document.child(owner, "interface");
+  for (const xml::Element* list = interface == nullptr ? nullptr : import.document.firstChild(*interface);
+       list != nullptr; list = import.document.next(*list)) {
+    if (sectionWordOf(list->name).empty()) continue;
+    for (const xml::Element* e = import.document.firstChild(*list); e != nullptr; e = import.document.next(*e))
+      if (e->name == "variable" && sameIdentifier(import.document.value(*e, "name"), variable)) return true;
+  }
+  return false;
+}
+
+}  // namespace rung::plcopen

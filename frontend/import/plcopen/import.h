@@ -1,0 +1,150 @@
+// Shared by the parts of the import. Private to frontend/import/plcopen: plcopen.cpp (the project), types.cpp,
+// declarations.cpp, pous.cpp, configuration.cpp, sfc.cpp, networks.h. The functions for names and content (content.cpp)
+// serve frontend/import/iec10 as well.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "frontend/import/source_mapped_text.h"
+#include "frontend/source/diagnostics.h"
+
+namespace rung::plcopen {
+
+// Nesting depth of elements: types in types, actions in charts, wires in a row.
+constexpr uint32_t kMaxNesting = 200;
+
+// An action whose body is in a step, or a variable that a step refers to by more than a name.
+struct OwnAction {
+  std::string name;
+  const xml::Element* body;  // null: `variable`
+  const xml::Attribute* variable;
+};
+
+// Appended to an action with the name of a step: in ST, members of a block share one name space.
+constexpr std::string_view kActionSuffix = "_action";
+
+std::string upper(std::string_view name);
+
+struct Import {
+  const Sources& sources;
+  const xml::Document& document;
+  Diagnostics& diagnostics;
+  xml::SourceMappedText& out;
+  bool unquoted_strings = false;  // TC6 1.01 and 2.01, in which Beremiz writes strings without quotes
+  // Names of the library Beremiz that this file uses but does not declare; empty for files of other tools.
+  std::vector<std::string_view> beremiz_names = {};
+  // FB_Init of the blocks that declare it, by the block's name in upper case, sorted.
+  std::vector<std::pair<std::string, const xml::Element*>> initialisers = {};
+  std::unordered_set<const xml::Element*> left_out = {};  // resources that repeat the names of an earlier one
+
+  // For the current POU: the steps of its charts and the actions with the name of one, in upper case, and the actions
+  // that its charts cannot write in a step.
+  std::unordered_set<std::string> step_names = {}, renamed_actions = {};
+  std::vector<OwnAction> own_actions = {};
+  uint32_t own_action_count = 0;
+
+  bool isStepName(std::string_view name) const { return step_names.count(upper(name)) != 0; }
+  bool isRenamed(std::string_view action) const {
+    return !renamed_actions.empty() && renamed_actions.count(upper(action)) != 0;
+  }
+  // "Beremiz." if the name denotes a type of that library.
+  const char* libraryOf(std::string_view type) const;
+  bool isLeftOut(const xml::Element& resource) const { return left_out.count(&resource) != 0; }
+};
+
+// ---- content.cpp: reading and writing names, values and content
+
+// The <text> of Rung's addData, which replaces all other content of `owner`; null: missing.
+const xml::Element* ownTextOf(const Import& import, const xml::Element& owner);
+
+// The content of the first addData of `owner` whose name ends with this kind: "method" of
+// http://www.3s-software.com/plcopenxml/method. Null: missing.
+const xml::Element* dataOf(const Import& import, const xml::Element& owner, std::string_view kind);
+// The last part of a `data@name`.
+std::string_view kindOfData(const Import& import, const xml::Element& data);
+// Visits the `data` elements of this kind in the addData of `owner`.
+template <class Visit>
+void forEachData(const Import& import, const xml::Element& owner, std::string_view kind, Visit visit) {
+  for (const xml::Element* all = import.document.firstChild(owner); all != nullptr; all = import.document.next(*all)) {
+    if (all->name != "addData") continue;
+    for (const xml::Element* data = import.document.firstChild(*all); data != nullptr;
+         data = import.document.next(*data))
+      if (data->name == "data" && kindOfData(import, *data) == kind) visit(*data);
+  }
+}
+
+bool isTrue(const Import& import, const xml::Element& element, std::string_view attribute);
+std::string textOf(const Import& import, const xml::Element& element);  // without leading and trailing blanks
+bool isBlank(std::string_view text);
+
+// The content of the element in ST or IL, regardless of wrapper elements: a line for each paragraph.
+void writeText(Import& import, const xml::Element& element);
+// Forbids an element without this attribute, or with an empty one.
+//   fails   <pou pouType="program">          E1050
+bool checkName(Import& import, const xml::Element& element, std::string_view attribute = "name");
+// Writes the attribute, if it exists; an invalid name is reported.
+bool writeName(Import& import, const xml::Element& element, std::string_view attribute = "name");
+bool hasName(const Import& import, const xml::Element& element, std::string_view attribute = "name");
+// Writes its documentation, as comments before a declaration.
+void writeDocumentation(Import& import, const xml::Element& element);
+// {attribute 'qualified_only'} for each Attribute in its addData.
+void writeAttributes(Import& import, const xml::Element& element);
+// Converts a name to an identifier: other characters become `_`.
+std::string identifierOf(std::string_view name);
+// Whether it is an identifier already.
+bool isIdentifier(std::string_view text);
+
+// ---- types.cpp
+
+// The type in `holder`, an element such as <type> or <baseType>.
+void writeType(Import& import, const xml::Element& holder, uint32_t depth = 0);
+// ` := value`, of an element that may contain <initialValue>; `type` contains its type.
+void writeInitialValue(Import& import, const xml::Element& declared, const xml::Element* type);
+void writeDataType(Import& import, const xml::Element& data_type);
+
+// ---- declarations.cpp
+
+// The declaration as text: InterfaceAsPlainText, textDeclaration. Null: only its structure is given.
+const xml::Element* plainText(const Import& import, const xml::Element& owner);
+// The variables of <inputVars>, <struct> …, one line each.
+void writeVariables(Import& import, const xml::Element& list, uint32_t depth = 0);
+// VAR_INPUT … END_VAR for a list of variables; `word` is VAR_INPUT.
+void writeSection(Import& import, const xml::Element& list, std::string_view word);
+// The sections of an <interface>.
+void writeSections(Import& import, const xml::Element& interface);
+// {list 'name'} VAR_GLOBAL … of a list with a name.
+void writeGlobals(Import& import, const xml::Element& globals);
+// Whether the interface of `owner` declares the variable.
+bool declares(const Import& import, const xml::Element& owner, std::string_view variable);
+
+// ---- pous.cpp
+
+void writePou(Import& import, const xml::Element& pou);
+void writeInterface(Import& import, const xml::Element& interface);
+// The statements, instructions, chart or networks of `owner`, an element with bodies; messages use `name` for it. `pou`
+// has the named transitions of charts.
+void writeBodies(Import& import, const xml::Element& owner, const xml::Element& pou, const std::string& name);
+// The same for one <body> or <inline>. False: it could not be read, which was reported.
+bool writeBody(Import& import, const xml::Element& body, const xml::Element& pou, const std::string& name);
+
+// ---- action_blocks.cpp
+
+// The variables of the action blocks in the LD and FBD bodies of a POU.
+void writeControls(Import& import, const xml::Element& pou);
+
+// ---- configuration.cpp
+
+void writeConfiguration(Import& import, const xml::Element& configuration);
+
+// ---- sfc.cpp
+
+void writeChart(Import& import, const xml::Element& chart, const xml::Element& pou, const std::string& name);
+void writeOwnActions(Import& import, const xml::Element& pou, const std::string& name);
+// The variables for the flags that the settings of `owner` enable but its interface does not declare.
+void writeFlags(Import& import, const xml::Element& owner);
+
+}  // namespace rung::plcopen

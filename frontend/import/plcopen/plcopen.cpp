@@ -1,0 +1,257 @@
+// Distinguishes TC6 files from other XML, and reads the project as a whole; see plcopen.h.
+#include "frontend/import/plcopen/plcopen.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "frontend/import/diagnostics.h"
+#include "frontend/import/plcopen/import.h"
+#include "frontend/source/names.h"
+
+namespace rung::plcopen {
+namespace {
+
+bool endsName(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '>' || c == '/'; }
+
+// The parts of a project besides configurations.
+enum class Part : uint8_t { None, DataType, Pou, Interface, Globals };
+
+class ProjectReader {
+ public:
+  ProjectReader(Import& import, std::vector<Library>& libraries) : import_(import), libraries_(libraries) {}
+
+  void run();
+
+ private:
+  Part partOf(const xml::Element& element) const;
+  const xml::Element* parentOf(const xml::Element& element) const {
+    return element.parent == xml::kNone ? nullptr : &import_.document.elements[element.parent];
+  }
+  const xml::Element* resourceOf(const xml::Element& element) const;
+  void findBeremizNames();
+  void findInitialisers();
+  void excludeApplications();
+  void addLibraries(const xml::Element& libraries);
+  void noteExtensions();
+  bool holdsProgram(const xml::Element& configuration) const;
+
+  Import& import_;
+  std::vector<Library>& libraries_;
+};
+
+Part ProjectReader::partOf(const xml::Element& element) const {
+  const xml::Element* parent = parentOf(element);
+  if (element.name == "pou") {
+    const bool is_pou = import_.document.attribute(element, "pouType") != nullptr ||
+                        import_.document.child(element, "interface") != nullptr ||
+                        import_.document.child(element, "body") != nullptr;
+    return is_pou ? Part::Pou : Part::None;
+  }
+  if (element.name == "dataType")
+    return import_.document.child(element, "baseType") != nullptr || plainText(import_, element) != nullptr
+               ? Part::DataType
+               : Part::None;
+  if (element.name == "Interface") return parent != nullptr && parent->name == "data" ? Part::Interface : Part::None;
+  if (element.name != "globalVars" || parent == nullptr) return Part::None;
+  if (parent->name == "interface" || parent->name == "MixedAttrsVarList") return Part::None;
+  const bool in_configuration = parent->name == "resource" || parent->name == "configuration";
+  return in_configuration && !hasName(import_, element) ? Part::None : Part::Globals;
+}
+
+const xml::Element* ProjectReader::resourceOf(const xml::Element& element) const {
+  const xml::Element* e = parentOf(element);
+  while (e != nullptr && e->name != "resource") e = parentOf(*e);
+  return e;
+}
+
+// Beremiz and OpenPLC write TC6 1.01 and 2.01, CODESYS and TwinCAT 2.0.
+void ProjectReader::findBeremizNames() {
+  static constexpr std::string_view kNames[] = {"DERIVATIVE", "HYSTERESIS", "INTEGRAL", "LOGGER",
+                                                "LOGLEVEL",   "PID",        "RAMP"};
+  if (!import_.unquoted_strings) return;
+  std::vector<std::string_view>& names = import_.beremiz_names;
+  names.assign(std::begin(kNames), std::end(kNames));
+  for (const xml::Element& e : import_.document.elements) {
+    const bool is_rung = e.name == "fileHeader" && import_.document.value(e, "productName") == "Rung";
+    if (is_rung) return names.clear();
+    if (e.name == "pou" || e.name == "dataType") std::erase(names, upper(import_.document.value(e, "name")));
+  }
+}
+
+void ProjectReader::findInitialisers() {
+  for (const xml::Element& pou : import_.document.elements) {
+    if (pou.name != "pou") continue;
+    forEachData(import_, pou, "method", [&](const xml::Element& data) {
+      const xml::Element* method = import_.document.firstChild(data);
+      if (method != nullptr && sameIdentifier(import_.document.value(*method, "name"), "FB_Init"))
+        import_.initialisers.emplace_back(upper(import_.document.value(pou, "name")), method);
+    });
+  }
+  std::sort(import_.initialisers.begin(), import_.initialisers.end());
+}
+
+// A project of CODESYS may contain applications for several devices, each with its PLC_PRG: the first one is read, and
+// later ones that repeat one of its names are excluded.
+void ProjectReader::excludeApplications() {
+  std::unordered_map<std::string, const xml::Element*> resource_of_name;
+  for (const xml::Element& element : import_.document.elements) {
+    const Part part = partOf(element);
+    if (part == Part::None) continue;
+    const xml::Element* resource = resourceOf(element);
+    if (resource == nullptr || import_.isLeftOut(*resource)) continue;
+    const std::string name = upper(import_.document.value(element, "name"));
+    const auto [known, fresh] = resource_of_name.emplace(name, resource);
+    if (fresh || known->second == resource) continue;
+    import_.left_out.insert(resource);
+    const xml::Attribute* called = import_.document.attribute(*resource, "name");
+    import_.diagnostics
+        .report(diag::XmlSecondApplication, called == nullptr ? resource->loc : called->loc,
+                {import_.document.value(*resource, "name"), import_.document.value(*known->second, "name"),
+                 import_.document.value(element, "name")})
+        .length(called == nullptr ? 0 : static_cast<uint32_t>(called->raw.size()));
+  }
+}
+
+bool ProjectReader::holdsProgram(const xml::Element& configuration) const {
+  for (const xml::Element* e = import_.document.firstChild(configuration); e != nullptr; e = import_.document.next(*e))
+    if ((e->name == "resource" && !import_.isLeftOut(*e)) || e->name == "globalVars" || e->name == "accessVars" ||
+        e->name == "configVars")
+      return true;
+  return false;
+}
+
+// <Library Name="#Standard" …/>, <Library Name="Util, 3.5.17.0 (System)" …/>. Libraries that a system library depends
+// on are ignored.
+void ProjectReader::addLibraries(const xml::Element& libraries) {
+  for (const xml::Element* e = import_.document.firstChild(libraries); e != nullptr; e = import_.document.next(*e)) {
+    const xml::Attribute* name = e->name == "Library" ? import_.document.attribute(*e, "Name") : nullptr;
+    if (name == nullptr || isTrue(import_, *e, "SystemLibrary")) continue;
+    std::string title = import_.document.decoded(*name);
+    title = title.substr(0, title.find(','));
+    Loc loc = name->loc;
+    if (title.starts_with("#")) {
+      title.erase(0, 1);
+      ++loc.offset;
+    }
+    while (!title.empty() && title.back() == ' ') title.pop_back();
+    const bool seen = std::any_of(libraries_.begin(), libraries_.end(),
+                                  [&](const Library& library) { return sameIdentifier(library.name, title); });
+    if (!title.empty() && !seen) {
+      const xml::Attribute* space = import_.document.attribute(*e, "Namespace");
+      libraries_.push_back({std::move(title), space == nullptr ? "" : import_.document.decoded(*space), loc});
+    }
+  }
+}
+
+// Reports each kind of extension that is not read, once; except those that the file allows to discard.
+void ProjectReader::noteExtensions() {
+  static constexpr std::string_view kKnown[] = {"method",
+                                                "property",
+                                                "interfaceasplaintext",
+                                                "plcopenxml",
+                                                "attributes",
+                                                "inputassignments",
+                                                "pouinheritance",
+                                                "datatypeinheritance",
+                                                "accessmodifiers",
+                                                "interface",
+                                                "globalvars",
+                                                "mixedattrsvarlist",
+                                                "pou",
+                                                "datatype",
+                                                "tasksettings",
+                                                "libraries",
+                                                "cfc",
+                                                "sfcsettings",
+                                                "element",
+                                                "objectid",
+                                                "projectstructure",
+                                                "projectinformation",
+                                                "buildproperties",
+                                                "application",
+                                                "Device",
+                                                "enumvaluedocumentation",
+                                                "cfccalltype",
+                                                "fbdcalltype",
+                                                "cfcelementtype",
+                                                "fbdelementtype",
+                                                "stcode",
+                                                "ldbranchid",
+                                                "inputparamtypes",
+                                                "outputparamtypes",
+                                                "implementationattributes",
+                                                "configurations",
+                                                "ExplicitConnector",
+                                                "negated"};
+  std::vector<std::string_view> noted;
+  for (const xml::Element& element : import_.document.elements) {
+    const xml::Element* parent = element.name == "data" ? parentOf(element) : nullptr;
+    const xml::Attribute* name =
+        parent == nullptr || parent->name != "addData" ? nullptr : import_.document.attribute(element, "name");
+    if (name == nullptr || import_.document.value(element, "handleUnknown") == "discard") continue;
+    const std::string_view kind = kindOfData(import_, element);
+    if (std::find(std::begin(kKnown), std::end(kKnown), kind) != std::end(kKnown)) continue;
+    if (std::find(noted.begin(), noted.end(), name->raw) != noted.end() || noted.size() == 100) continue;
+    noted.push_back(name->raw);
+    import_.diagnostics.report(diag::XmlExtension, name->loc, {import_.document.decoded(*name)})
+        .length(static_cast<uint32_t>(name->raw.size()));
+  }
+}
+
+void ProjectReader::run() {
+  const xml::Attribute* space = import_.document.attribute(import_.document.elements[0], "xmlns");
+  import_.unquoted_strings = space == nullptr || !space->raw.ends_with("0200");
+  findBeremizNames();
+  findInitialisers();
+  excludeApplications();
+  forEachData(import_, import_.document.elements[0], "extension", [&](const xml::Element& data) {
+    const xml::Element* text = import_.document.child(data, "text");  // namespaces, exported by Rung
+    if (text == nullptr) return;
+    import_.out.put(text->loc, "");
+    writeText(import_, *text);
+    import_.out.word("\n");
+  });
+  for (const xml::Element& element : import_.document.elements) {
+    const Part part = partOf(element);
+    if (element.name == "Libraries") addLibraries(element);
+    if (part == Part::None) continue;
+    if (!import_.left_out.empty()) {
+      const xml::Element* resource = resourceOf(element);
+      if (resource != nullptr && import_.isLeftOut(*resource)) continue;
+    }
+    switch (part) {
+      case Part::None: break;
+      case Part::DataType: writeDataType(import_, element); break;
+      case Part::Pou: writePou(import_, element); break;
+      case Part::Interface: writeInterface(import_, element); break;
+      case Part::Globals: writeGlobals(import_, element); break;
+    }
+  }
+  for (const xml::Element& element : import_.document.elements)
+    if (element.name == "configuration" && holdsProgram(element)) writeConfiguration(import_, element);
+  noteExtensions();
+}
+
+}  // namespace
+
+bool isPlcopen(std::string_view text) {
+  std::string_view tag = xml::rootTag(text);
+  if (tag.empty()) return false;
+  tag.remove_prefix(1);
+  size_t end = 0;
+  while (end < tag.size() && !endsName(tag[end])) ++end;
+  std::string_view root = tag.substr(0, end);
+  if (const size_t colon = root.find(':'); colon != std::string_view::npos) root.remove_prefix(colon + 1);
+  return (root == "project" || root == "pou") && tag.find("www.plcopen.org/xml/tc6") != std::string_view::npos;
+}
+
+FileId readProject(Sources& sources, FileId file, Diagnostics& diagnostics, std::vector<Library>& libraries) {
+  xml::Document document;
+  if (!xml::read(sources, file, diagnostics, document)) return {};
+  xml::SourceMappedText program(sources);
+  Import import{sources, document, diagnostics, program};
+  ProjectReader(import, libraries).run();
+  return program.finish(sources, file);
+}
+
+}  // namespace rung::plcopen

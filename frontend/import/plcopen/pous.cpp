@@ -1,0 +1,266 @@
+// POUs, interfaces and their members as ST; see import.h. The parts of a POU are written in this order:
+//
+//   declaration {ACTION | METHOD | PROPERTY} body END_…
+#include <utility>
+
+#include "frontend/import/diagnostics.h"
+#include "frontend/import/plcopen/import.h"
+#include "frontend/import/plcopen/networks.h"
+#include "frontend/source/names.h"
+#include "frontend/syntax/diagram.h"
+
+namespace rung::plcopen {
+namespace {
+
+struct PouKeywords {
+  std::string_view type, begin, end;
+};
+constexpr PouKeywords kPous[] = {{"function", "FUNCTION ", "END_FUNCTION"},
+                                 {"functionBlock", "FUNCTION_BLOCK ", "END_FUNCTION_BLOCK"},
+                                 {"program", "PROGRAM ", "END_PROGRAM"},
+                                 {"class", "CLASS ", "END_CLASS"},
+                                 {"interface", "INTERFACE ", "END_INTERFACE"}};
+
+// Forbids an unknown kind of POU. TC6, pouType.
+//   fails   <pou name="P" pouType="programm">          E1052
+const PouKeywords* keywordsOf(Import& import, const xml::Element& pou) {
+  const xml::Attribute* type = import.document.attribute(pou, "pouType");
+  if (const xml::Element* own = dataOf(import, pou, "extension"))  // exported by Rung: class
+    if (const xml::Attribute* named = import.document.attribute(*own, "pouType")) type = named;
+  for (const PouKeywords& keywords : kPous)
+    if (type != nullptr && sameIdentifier(type->raw, keywords.type)) return &keywords;
+  if (type == nullptr)
+    import.diagnostics.report(diag::XmlNoName, pou.loc, {pou.name, "pouType"});
+  else
+    import.diagnostics.report(diag::XmlPouType, type->loc, {type->raw}).length(static_cast<uint32_t>(type->raw.size()));
+  return nullptr;
+}
+
+// `data` of the element or of its interface: editors differ in where they write it.
+const xml::Element* dataOfEither(const Import& import, const xml::Element& owner, std::string_view kind) {
+  const xml::Element* found = dataOf(import, owner, kind);
+  const xml::Element* interface = import.document.child(owner, "interface");
+  return found != nullptr || interface == nullptr ? found : dataOf(import, *interface, kind);
+}
+
+// PRIVATE FINAL
+void writeModifiers(Import& import, const xml::Element& owner) {
+  const xml::Element* modifiers = dataOfEither(import, owner, "accessmodifiers");
+  if (modifiers == nullptr) return;
+  for (const std::string_view word : {"Public", "Private", "Protected", "Internal", "Final", "Abstract", "Override"})
+    if (isTrue(import, *modifiers, word)) import.out.put(modifiers->loc, upper(word) + " ");
+}
+
+// EXTENDS a IMPLEMENTS b, c
+void writeInheritance(Import& import, const xml::Element& owner, std::string_view kind) {
+  const xml::Element* inheritance = dataOfEither(import, owner, kind);
+  if (inheritance == nullptr) inheritance = import.document.child(owner, "Inheritance");  // of an interface
+  if (inheritance == nullptr) return;
+  for (const auto& [name, word] : {std::pair{"Extends", "EXTENDS"}, std::pair{"Implements", "IMPLEMENTS"}}) {
+    bool first = true;
+    for (const xml::Element* e = import.document.firstChild(*inheritance); e != nullptr; e = import.document.next(*e)) {
+      if (e->name != name || isBlank(import.document.text(*e, import.sources))) continue;
+      import.out.word(first ? std::string(" ") + word + " " : ", ");
+      first = false;
+      writeText(import, *e);
+    }
+  }
+}
+
+void writeResult(Import& import, const xml::Element& owner) {
+  const xml::Element* interface = import.document.child(owner, "interface");
+  const xml::Element* result = interface == nullptr ? nullptr : import.document.child(*interface, "returnType");
+  if (result == nullptr || import.document.firstChild(*result) == nullptr) return;
+  import.out.word(" : ");
+  writeType(import, *result);
+}
+
+// The declaration of a POU, method or interface: the text kept by the editor, or else made from its structure. False:
+// it has no name, which was reported.
+bool writeHeader(Import& import, const xml::Element& owner, std::string_view word, std::string_view inheritance) {
+  if (const xml::Element* plain = plainText(import, owner)) {
+    import.out.put(plain->loc, "");
+    writeText(import, *plain);
+    import.out.word("\n");
+    return true;
+  }
+  if (!checkName(import, owner)) return false;
+  const xml::Element* interface = import.document.child(owner, "interface");
+  writeDocumentation(
+      import, interface != nullptr && import.document.child(owner, "documentation") == nullptr ? *interface : owner);
+  writeAttributes(import, owner);
+  if (interface != nullptr) writeAttributes(import, *interface);
+  import.out.put(owner.loc, word);
+  writeModifiers(import, owner);
+  writeName(import, owner);
+  if (!inheritance.empty()) writeInheritance(import, owner, inheritance);
+  writeResult(import, owner);
+  import.out.word("\n");
+  if (interface != nullptr) writeSections(import, *interface);
+  return true;
+}
+
+std::string nameOf(const Import& import, const xml::Element& element) { return import.document.value(element, "name"); }
+
+// A member that was exported as text by Rung.
+bool writeOwnText(Import& import, const xml::Element& owner) {
+  const xml::Element* text = ownTextOf(import, owner);
+  if (text == nullptr) return false;
+  import.out.put(text->loc, "");
+  writeText(import, *text);
+  import.out.word("\n");
+  return true;
+}
+
+void writeMethod(Import& import, const xml::Element& method, const xml::Element& pou) {
+  if (writeOwnText(import, method)) return;
+  if (!writeHeader(import, method, "METHOD ", {})) return;
+  writeBodies(import, method, pou, nameOf(import, pou) + "." + nameOf(import, method));
+  import.out.put(method.end, "END_METHOD\n");
+}
+
+void writeProperty(Import& import, const xml::Element& property, const xml::Element& pou) {
+  if (!writeHeader(import, property, "PROPERTY ", {})) return;
+  for (const auto& [element, word] : {std::pair{"GetAccessor", "GET"}, std::pair{"SetAccessor", "SET"}}) {
+    const xml::Element* accessor = import.document.child(property, element);
+    if (accessor == nullptr) continue;
+    const std::string begin = std::string(word) + " ", end = std::string("END_") + word + "\n";
+    import.out.put(accessor->loc, begin);
+    writeModifiers(import, *accessor);
+    if (const xml::Element* plain = plainText(import, *accessor)) {
+      writeText(import, *plain);
+      import.out.word("\n");
+    } else {
+      import.out.word("\n");
+      if (const xml::Element* interface = import.document.child(*accessor, "interface"))
+        writeSections(import, *interface);
+    }
+    writeBodies(import, *accessor, pou, nameOf(import, pou) + "." + nameOf(import, property));
+    import.out.put(accessor->end, end);
+  }
+  import.out.put(property.end, "END_PROPERTY\n");
+}
+
+void writeMembers(Import& import, const xml::Element& owner) {
+  forEachData(import, owner, "method", [&](const xml::Element& data) {
+    if (const xml::Element* method = import.document.firstChild(data)) writeMethod(import, *method, owner);
+  });
+  forEachData(import, owner, "property", [&](const xml::Element& data) {
+    if (const xml::Element* property = import.document.firstChild(data)) writeProperty(import, *property, owner);
+  });
+}
+
+void writeActions(Import& import, const xml::Element& pou) {
+  const xml::Element* actions = import.document.child(pou, "actions");
+  for (const xml::Element* e = actions == nullptr ? nullptr : import.document.firstChild(*actions); e != nullptr;
+       e = import.document.next(*e)) {
+    if (e->name != "action" || writeOwnText(import, *e) || !checkName(import, *e)) continue;
+    import.out.put(e->loc, "ACTION ");
+    writeName(import, *e);
+    if (import.isRenamed(nameOf(import, *e))) import.out.word(kActionSuffix);
+    import.out.word(" :\n");
+    writeBodies(import, *e, pou, nameOf(import, pou) + "." + nameOf(import, *e));
+    import.out.put(e->end, "END_ACTION\n");
+    writeOwnActions(import, pou, nameOf(import, pou));
+  }
+}
+
+// The <CFC> in the addData beside an empty <ST>.
+const xml::Element* cfcOf(const Import& import, const xml::Element& body) {
+  const xml::Element* cfc = dataOf(import, body, "cfc");
+  return cfc != nullptr && cfc->name == "CFC" ? cfc : nullptr;
+}
+
+// The steps of all charts of a POU.
+void findSteps(Import& import, const xml::Element& pou) {
+  import.step_names.clear();
+  import.renamed_actions.clear();
+  const auto find = [&](auto& self, const xml::Element& owner) -> void {
+    const xml::Element* body = import.document.child(owner, "body");
+    const xml::Element* chart = body == nullptr ? nullptr : import.document.child(*body, "SFC");
+    for (const xml::Element* e = chart == nullptr ? nullptr : import.document.firstChild(*chart); e != nullptr;
+         e = import.document.next(*e)) {
+      if (e->name == "step") import.step_names.insert(upper(nameOf(import, *e)));
+      if (e->name == "macroStep") self(self, *e);
+    }
+  };
+  find(find, pou);
+  const xml::Element* actions = import.document.child(pou, "actions");
+  for (const xml::Element* e = actions == nullptr ? nullptr : import.document.firstChild(*actions); e != nullptr;
+       e = import.document.next(*e))
+    find(find, *e);
+  for (const xml::Element* e = actions == nullptr ? nullptr : import.document.firstChild(*actions); e != nullptr;
+       e = import.document.next(*e))
+    if (import.isStepName(nameOf(import, *e))) import.renamed_actions.insert(upper(nameOf(import, *e)));
+}
+
+}  // namespace
+
+bool writeBody(Import& import, const xml::Element& body, const xml::Element& pou, const std::string& name) {
+  const auto networks = [&](const xml::Element& diagram, NetworkLanguage language) {
+    writeNetworks(import.sources, import.document, {diagram, language}, import.out);
+  };
+  if (const xml::Element* cfc = cfcOf(import, body)) {
+    networks(*cfc, NetworkLanguage::Continuous);
+    return true;
+  }
+  if (writeOwnText(import, body)) return true;
+  bool ok = true;
+  for (const xml::Element* e = import.document.firstChild(body); e != nullptr; e = import.document.next(*e)) {
+    if (e->name == "ST" || e->name == "IL") {
+      import.out.put(e->loc, "");
+      writeText(import, *e);
+      import.out.word("\n");
+    } else if (e->name == "LD") {
+      networks(*e, NetworkLanguage::Ladder);
+    } else if (e->name == "FBD") {
+      networks(*e, NetworkLanguage::Blocks);
+    } else if (e->name == "CFC") {
+      networks(*e, NetworkLanguage::Continuous);
+    } else if (e->name == "SFC") {
+      writeChart(import, *e, pou, name);
+    } else if (e->name != "addData" && e->name != "documentation") {
+      import.diagnostics.report(diag::XmlBodyLanguage, e->loc, {name, e->name});
+      ok = false;
+    }
+  }
+  return ok;
+}
+
+void writeBodies(Import& import, const xml::Element& owner, const xml::Element& pou, const std::string& name) {
+  for (const xml::Element* e = import.document.firstChild(owner); e != nullptr; e = import.document.next(*e))
+    if (e->name == "body") writeBody(import, *e, pou, name);
+}
+
+void writePou(Import& import, const xml::Element& pou) {
+  const PouKeywords* keywords = keywordsOf(import, pou);
+  if (keywords == nullptr) return;
+  if (!writeHeader(import, pou, keywords->begin, "pouinheritance")) return;
+  writeFlags(import, pou);
+  writeControls(import, pou);
+  findSteps(import, pou);
+  import.own_action_count = 0;
+  writeActions(import, pou);
+  writeMembers(import, pou);
+  writeBodies(import, pou, pou, nameOf(import, pou));
+  writeOwnActions(import, pou, nameOf(import, pou));
+  import.out.put(pou.end, keywords->end);
+  import.out.word("\n");
+}
+
+// The 3S extension: <Interface name> with Methods and Properties.
+void writeInterface(Import& import, const xml::Element& interface) {
+  if (!writeHeader(import, interface, "INTERFACE ", "pouinheritance")) return;
+  for (const xml::Element* list = import.document.firstChild(interface); list != nullptr;
+       list = import.document.next(*list)) {
+    if (list->name != "Methods" && list->name != "Properties") continue;
+    for (const xml::Element* e = import.document.firstChild(*list); e != nullptr; e = import.document.next(*e)) {
+      if (e->name == "Method") writeMethod(import, *e, interface);
+      if (e->name == "Property") writeProperty(import, *e, interface);
+    }
+  }
+  writeMembers(import, interface);
+  import.out.put(interface.end, "END_INTERFACE\n");
+}
+
+}  // namespace rung::plcopen

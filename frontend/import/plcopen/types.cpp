@@ -1,0 +1,198 @@
+// Types, data types and initial values of the XML as ST; see import.h.
+#include "frontend/import/diagnostics.h"
+#include "frontend/import/plcopen/import.h"
+#include "frontend/source/names.h"
+
+namespace rung::plcopen {
+namespace {
+
+// ARRAY [1..2, 0..9] OF …
+void writeArray(Import& import, const xml::Element& array, uint32_t depth) {
+  import.out.put(array.loc, "ARRAY [");
+  bool first = true;
+  for (const xml::Element* e = import.document.firstChild(array); e != nullptr; e = import.document.next(*e)) {
+    if (e->name != "dimension") continue;
+    if (!first) import.out.word(", ");
+    first = false;
+    writeName(import, *e, "lower");
+    import.out.word("..");
+    writeName(import, *e, "upper");
+  }
+  import.out.word("] OF ");
+  writeType(import, array, depth);
+}
+
+// (red, green := 4) BYTE
+void writeEnum(Import& import, const xml::Element& type, uint32_t depth) {
+  import.out.put(type.loc, "(");
+  bool first = true;
+  const xml::Element* values = import.document.child(type, "values");
+  for (const xml::Element* e = values == nullptr ? nullptr : import.document.firstChild(*values); e != nullptr;
+       e = import.document.next(*e)) {
+    if (e->name != "value") continue;
+    if (!first) import.out.word(", ");
+    first = false;
+    writeName(import, *e);
+    if (!hasName(import, *e, "value")) continue;
+    import.out.word(" := ");
+    writeName(import, *e, "value");
+  }
+  import.out.word(")");
+  if (import.document.child(type, "baseType") == nullptr) return;
+  import.out.word(" ");
+  writeType(import, type, depth);
+}
+
+// INT (0..9)
+void writeSubrange(Import& import, const xml::Element& type, uint32_t depth) {
+  writeType(import, type, depth);
+  const xml::Element* range = import.document.child(type, "range");
+  if (range == nullptr) return;
+  import.out.word(" (");
+  writeName(import, *range, "lower");
+  import.out.word("..");
+  writeName(import, *range, "upper");
+  import.out.word(")");
+}
+
+void writeString(Import& import, const xml::Element& type) {
+  import.out.put(type.loc, sameIdentifier(type.name, "string") ? "STRING" : "WSTRING");
+  if (!hasName(import, type, "length")) return;
+  import.out.word("[");
+  writeName(import, type, "length");
+  import.out.word("]");
+}
+
+const xml::Element* typeIn(const Import& import, const xml::Element& holder) {
+  const bool is_type = holder.name == "type" || holder.name == "baseType" || holder.name == "returnType";
+  const xml::Element* inner = is_type ? &holder : import.document.child(holder, "baseType");
+  if (inner == nullptr) inner = import.document.child(holder, "type");
+  for (const xml::Element* e = inner == nullptr ? nullptr : import.document.firstChild(*inner); e != nullptr;
+       e = import.document.next(*e))
+    if (e->name != "addData" && e->name != "documentation") return e;
+  return nullptr;
+}
+
+void writeValue(Import& import, const xml::Element& value, const xml::Element* type, uint32_t depth);
+
+// The only child of <value>, <initialValue>.
+const xml::Element* valueIn(const Import& import, const xml::Element& holder) {
+  for (const xml::Element* e = import.document.firstChild(holder); e != nullptr; e = import.document.next(*e))
+    if (e->name == "simpleValue" || e->name == "arrayValue" || e->name == "structValue") return e;
+  return nullptr;
+}
+
+// [1, 3(0)] or (x := 1, y := 2)
+void writeValues(Import& import, const xml::Element& list, uint32_t depth) {
+  const bool is_array = list.name == "arrayValue";
+  import.out.put(list.loc, is_array ? "[" : "(");
+  bool first = true;
+  for (const xml::Element* e = import.document.firstChild(list); e != nullptr; e = import.document.next(*e)) {
+    const xml::Element* value = e->name == "value" ? valueIn(import, *e) : nullptr;
+    if (value == nullptr) continue;
+    if (!first) import.out.word(", ");
+    first = false;
+    const bool repeated =
+        is_array && hasName(import, *e, "repetitionValue") && import.document.value(*e, "repetitionValue") != "1";
+    if (!is_array) {
+      writeName(import, *e, "member");
+      import.out.word(" := ");
+    } else if (repeated) {
+      writeName(import, *e, "repetitionValue");
+      import.out.word("(");
+    }
+    writeValue(import, *value, nullptr, depth);
+    if (repeated) import.out.word(")");
+  }
+  import.out.word(is_array ? "]" : ")");
+}
+
+void writeValue(Import& import, const xml::Element& value, const xml::Element* type, uint32_t depth) {
+  if (depth == kMaxNesting) {
+    import.diagnostics.report(diag::XmlTooLarge, value.loc, {std::to_string(kMaxNesting), "nested values"});
+    return;
+  }
+  if (value.name != "simpleValue") return writeValues(import, value, depth + 1);
+  const xml::Attribute* text = import.document.attribute(value, "value");
+  const bool is_wide = type != nullptr && sameIdentifier(type->name, "wstring");
+  const bool is_string = is_wide || (type != nullptr && sameIdentifier(type->name, "string"));
+  const std::string_view quote = is_wide ? "\"" : "'";
+  const bool bare = import.unquoted_strings && is_string &&
+                    (text == nullptr || import.document.decoded(*text).find(quote) == std::string::npos);
+  if (bare) import.out.put(value.loc, quote);
+  if (text != nullptr) import.out.add(import.document, *text);
+  if (bare) import.out.word(quote);
+}
+
+}  // namespace
+
+void writeType(Import& import, const xml::Element& holder, uint32_t depth) {
+  const xml::Element* type = typeIn(import, holder);
+  if (type == nullptr) {
+    import.diagnostics.report(diag::XmlNoType, holder.loc, {holder.name});
+    import.out.word("INT");
+    return;
+  }
+  if (depth == kMaxNesting) {
+    import.diagnostics.report(diag::XmlTooLarge, type->loc, {std::to_string(kMaxNesting), "nested types"});
+    import.out.word("INT");
+    return;
+  }
+  ++depth;
+  if (type->name == "array") return writeArray(import, *type, depth);
+  if (type->name == "enum") return writeEnum(import, *type, depth);
+  if (type->name == "subrangeSigned" || type->name == "subrangeUnsigned") return writeSubrange(import, *type, depth);
+  if (sameIdentifier(type->name, "string") || sameIdentifier(type->name, "wstring")) return writeString(import, *type);
+  if (type->name == "derived") {
+    import.out.word(import.libraryOf(import.document.value(*type, "name")));
+    if (!writeName(import, *type)) import.out.word("INT");
+  } else if (type->name == "struct" || type->name == "union") {
+    import.out.put(type->loc, type->name == "struct" ? "STRUCT\n" : "UNION\n");
+    writeVariables(import, *type, depth);
+    import.out.word(type->name == "struct" ? "END_STRUCT" : "END_UNION");
+  } else if (type->name == "pointer" || type->name == "reference") {
+    import.out.put(type->loc, type->name == "pointer" ? "POINTER TO " : "REFERENCE TO ");
+    writeType(import, *type, depth);
+  } else {
+    import.out.replace(type->loc, {type->loc.offset + static_cast<uint32_t>(type->name.size())}, type->name);
+  }
+}
+
+void writeInitialValue(Import& import, const xml::Element& declared, const xml::Element* type) {
+  const xml::Element* holder = import.document.child(declared, "initialValue");
+  const xml::Element* value = holder == nullptr ? nullptr : valueIn(import, *holder);
+  if (value == nullptr) return;
+  const xml::Element* of = type == nullptr ? nullptr : typeIn(import, *type);
+  const bool is_string = of != nullptr && (sameIdentifier(of->name, "string") || sameIdentifier(of->name, "wstring"));
+  const bool may_be_empty = import.unquoted_strings && is_string;
+  if (value->name == "simpleValue" && !may_be_empty && !hasName(import, *value, "value")) return;
+  import.out.word(" := ");
+  writeValue(import, *value, of, 0);
+}
+
+// TYPE name [EXTENDS base] : type [:= value]; END_TYPE
+void writeDataType(Import& import, const xml::Element& data_type) {
+  import.out.put(data_type.loc, "");
+  if (const xml::Element* plain = plainText(import, data_type)) {
+    writeText(import, *plain);
+    import.out.word("\n");
+    return;
+  }
+  if (!checkName(import, data_type)) return;
+  writeDocumentation(import, data_type);
+  writeAttributes(import, data_type);
+  import.out.put(data_type.loc, "TYPE ");
+  writeName(import, data_type);
+  if (const xml::Element* inheritance = dataOf(import, data_type, "datatypeinheritance")) {
+    if (const xml::Element* base = import.document.child(*inheritance, "Extends")) {
+      import.out.word(" EXTENDS ");
+      writeText(import, *base);
+    }
+  }
+  import.out.word(" : ");
+  writeType(import, data_type);
+  writeInitialValue(import, data_type, import.document.child(data_type, "baseType"));
+  import.out.word(";\nEND_TYPE\n");
+}
+
+}  // namespace rung::plcopen

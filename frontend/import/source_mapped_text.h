@@ -1,0 +1,50 @@
+// ST put together from parts of one or more files, with a segment for each part that leads its bytes back to the file.
+// In: source ranges, content of XML elements, keywords that the files leave out. Out: a source-mapped file of Sources.
+// Used by all readers of vendor files.
+// Thus the parser knows no vendor, and every message, fault and `#line` has its location in the file on disk. Copying
+// costs less than the complexity of a second lexer for ranges.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/import/xml.h"
+#include "frontend/source/files.h"
+
+namespace rung::xml {
+
+class SourceMappedText {
+ public:
+  explicit SourceMappedText(const Sources& sources) : sources_(sources) {}
+
+  // Bytes [begin, end) of a file, unchanged.
+  void add(Loc begin, Loc end);
+  // The content of an XML element, decoded.
+  void add(const Document& document, const Element& element);
+  // Runs [first, end) of the document, decoded.
+  void addRuns(const Document& document, uint32_t first, uint32_t end);
+  // The value of an attribute, decoded.
+  void add(const Document& document, const Attribute& attribute);
+  // A keyword that the file leaves out. Errors in it are reported at the end of the part before it.
+  void word(std::string_view text);
+  // Replaces bytes [begin, end) of a file by `text`.
+  void replace(Loc begin, Loc end, std::string_view text);
+  // A keyword that the file leaves out; errors in it are reported at `loc`.
+  void put(Loc loc, std::string_view text) { replace(loc, loc, text); }
+
+  bool empty() const { return text_.empty(); }
+  const std::string& text() const { return text_; }
+  // Registers it as the program of `file`.
+  FileId finish(Sources& sources, FileId file);
+
+ private:
+  void segment(Loc from, bool verbatim);
+
+  const Sources& sources_;
+  std::string text_;
+  std::vector<Segment> segments_;
+  Loc end_;  // of the last part, in its file
+};
+
+}  // namespace rung::xml

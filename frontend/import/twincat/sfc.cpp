@@ -1,0 +1,349 @@
+// Charts of TwinCAT; see archive.h. A chart is a sequence of steps, transitions, jumps and branches, whose lines are
+// sequences again. It becomes textual SFC, with the steps before and after each transition.
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "frontend/import/diagnostics.h"
+#include "frontend/import/twincat/archive.h"
+#include "frontend/source/names.h"
+
+namespace rung::vendor {
+namespace {
+
+// The attributes of elements, by the first digits of their GUID.
+constexpr std::string_view kName = "{38391c6d", kInitial = "{6844a48e", kMain = "{700a583f", kEntry = "{a6b08bd8",
+                           kExit = "{a2621e18", kParallel = "{23bdaa98", kQualifier = "{e174fc0d",
+                           kMinimum = "{cacf1a68", kMaximum = "{b693554c";
+constexpr size_t kMaxPaths = 10'000;  // sets of steps before one transition
+
+using Element = xml::Element;
+using Steps = std::vector<const Element*>;
+
+struct Transition {
+  const Element* element;
+  std::vector<Steps> from;
+  Steps to;
+};
+// The predecessors of the next element: sets of steps, or transitions without a target yet.
+struct Front {
+  std::vector<Steps> steps;
+  std::vector<size_t> transitions;
+  bool begins = false;  // at the start of the chart: any element is allowed
+};
+
+const Element* attributeOf(const Archive& archive, const Element& element, std::string_view guid) {
+  for (const Element* e = archive.first(archive.member(element, "Attributes")); e != nullptr; e = archive.next(*e)) {
+    if (!archive.text(*e, "AttributeId").starts_with(guid)) continue;
+    const Element* value = archive.member(*e, "Value");
+    const Element* text = value == nullptr ? nullptr : archive.member(*value, "Value");
+    return text != nullptr && !archive.text(*text).empty() ? text : nullptr;
+  }
+  return nullptr;
+}
+
+bool isSet(const Archive& archive, const Element& element, std::string_view guid) {
+  const Element* value = attributeOf(archive, element, guid);
+  return value != nullptr && sameIdentifier(archive.text(*value), "TRUE");
+}
+
+const Element* innerList(const Archive& archive, const Element& owner) {
+  const Element* list = archive.member(owner, "ElementList");
+  return list == nullptr ? nullptr : archive.member(*list, "InnerList");
+}
+
+template <class Visit>
+void forEachStep(const Archive& archive, const Element& segment, Visit visit) {
+  for (const Element* e = archive.first(innerList(archive, segment)); e != nullptr; e = archive.next(*e)) {
+    const std::string type = archive.typeOf(*e);
+    if (type == "SFCStep")
+      visit(*e);
+    else if (type == "SFCBranch" || type == "SFCSegment")
+      forEachStep(archive, *e, visit);
+  }
+}
+
+class ChartReader {
+ public:
+  ChartReader(const Archive& archive, const std::string& name, Diagnostics& diagnostics, xml::SourceMappedText& out)
+      : archive_(archive), name_(name), diagnostics_(diagnostics), out_(out) {}
+
+  void run(const Element& root);
+
+ private:
+  template <class... Args>
+  void report(Diag diag, Loc loc, Args... args) {
+    ok_ = false;
+    diagnostics_.report(diag, loc, {args...});
+  }
+  std::string called(const Element& element) const;
+  std::string before(const Front& front) const;
+  Loc locOf(const Element& element) const;
+  void walk(const Element& segment, Front& front);
+  void step(const Element& element, Front& front);
+  void transition(const Element& element, Front& front);
+  void jump(const Element& element, Front& front);
+  void branch(const Element& element, Front& front);
+  void writeStep(const Element& element);
+  void writeTransition(const Transition& transition);
+  void writeSteps(const Steps& steps);
+  void writeAction(const Element& name);
+  bool isStep(std::string_view name) const {
+    return std::any_of(steps_.begin(), steps_.end(), [&](const Element* e) {
+      const Element* own = attributeOf(archive_, *e, kName);
+      return own != nullptr && sameIdentifier(archive_.text(*own), name);
+    });
+  }
+
+  const Archive& archive_;
+  const std::string& name_;
+  Diagnostics& diagnostics_;
+  xml::SourceMappedText& out_;
+  bool ok_ = true;
+  Steps steps_;
+  std::vector<Transition> transitions_;
+  std::vector<std::pair<bool, size_t>> written_;  // in chart order: a step, or a transition
+};
+
+std::string ChartReader::called(const Element& element) const {
+  const std::string type = archive_.typeOf(element);
+  const Element* name = attributeOf(archive_, element, kName);
+  const std::string of = name == nullptr ? "" : " `" + archive_.text(*name) + "`";
+  return (type == "SFCStep" ? "step" : type == "SFCJump" ? "the jump to" : "the transition") + of;
+}
+
+std::string ChartReader::before(const Front& front) const {
+  if (!front.transitions.empty()) return called(*transitions_[front.transitions[0]].element);
+  return front.steps.empty() || front.steps[0].empty() ? "a jump" : called(*front.steps[0][0]);
+}
+
+Loc ChartReader::locOf(const Element& element) const {
+  const Element* name = attributeOf(archive_, element, kName);
+  return name == nullptr ? element.loc : archive_.locOf(*name);
+}
+
+// Forbids a step directly after a step.
+//   fails   SFCStep SFCStep          E1091
+void ChartReader::step(const Element& element, Front& front) {
+  if (attributeOf(archive_, element, kName) == nullptr) return report(diag::ArchiveNoName, element.loc, "step");
+  if (!front.steps.empty()) return report(diag::ChartNoTransition, locOf(element), before(front), called(element));
+  for (const size_t t : front.transitions) transitions_[t].to.push_back(&element);
+  steps_.push_back(&element);
+  written_.emplace_back(true, steps_.size() - 1);
+  front = {{{&element}}, {}, false};
+}
+
+// Forbids a transition directly after a transition, and one without a condition.
+//   fails   SFCTransition SFCTransition                              E1063
+//   fails   an SFCTransition whose name, its condition, is empty     E1066
+void ChartReader::transition(const Element& element, Front& front) {
+  if (attributeOf(archive_, element, kName) == nullptr) return report(diag::ChartNoCondition, element.loc);
+  if (!front.transitions.empty() || (front.steps.empty() && front.begins))
+    return report(diag::ChartNoStepBetween, locOf(element),
+                  front.transitions.empty() ? std::string("the beginning") : before(front), called(element));
+  transitions_.push_back({&element, front.steps, {}});
+  written_.emplace_back(false, transitions_.size() - 1);
+  front = {{}, {transitions_.size() - 1}, false};
+}
+
+// Forbids a jump to an undefined step, and one directly after a step.
+//   fails   SFCStep SFCJump          E1091
+void ChartReader::jump(const Element& element, Front& front) {
+  if (attributeOf(archive_, element, kName) == nullptr) return report(diag::ArchiveNoName, element.loc, "jump");
+  if (!front.steps.empty()) return report(diag::ChartNoTransition, locOf(element), before(front), called(element));
+  for (const size_t t : front.transitions) transitions_[t].to.push_back(&element);
+  front = {};
+}
+
+// Alternative lines, each with a transition; or parallel lines, each beginning with a step.
+void ChartReader::branch(const Element& element, Front& front) {
+  const bool parallel = isSet(archive_, element, kParallel);
+  const Front incoming = front;
+  front = {};
+  std::vector<Steps> united = {{}};
+  for (const Element* e = archive_.first(innerList(archive_, element)); e != nullptr && ok_; e = archive_.next(*e)) {
+    Front line = incoming;
+    walk(*e, line);
+    if (!ok_) return;
+    if (!parallel) {
+      front.steps.insert(front.steps.end(), line.steps.begin(), line.steps.end());
+      front.transitions.insert(front.transitions.end(), line.transitions.begin(), line.transitions.end());
+      if (front.steps.size() > kMaxPaths) return report(diag::ChartTooManyWays, element.loc);
+      continue;
+    }
+    if (!line.transitions.empty())
+      return report(diag::ChartNoStepBetween, element.end, before(line), std::string("the end of a parallel branch"));
+    if (line.steps.empty())
+      diagnostics_.report(diag::ChartNeverConverges, element.end, {"a jump", "the parallel branch"});
+    if (line.steps.size() * united.size() > kMaxPaths) return report(diag::ChartTooManyWays, element.loc);
+    std::vector<Steps> all;
+    for (const Steps& one : united)
+      for (const Steps& other : line.steps) {
+        all.push_back(one);
+        all.back().insert(all.back().end(), other.begin(), other.end());
+      }
+    united = std::move(all);
+  }
+  if (parallel && united != std::vector<Steps>{{}}) front.steps = std::move(united);
+}
+
+//   fails   <o t="SFCMacro">          E1087
+void ChartReader::walk(const Element& segment, Front& front) {
+  for (const Element* e = archive_.first(innerList(archive_, segment)); e != nullptr && ok_; e = archive_.next(*e)) {
+    if (Archive::isNothing(*e)) continue;
+    const std::string type = archive_.typeOf(*e);
+    if (type == "SFCStep") {
+      step(*e, front);
+    } else if (type == "SFCTransition") {
+      transition(*e, front);
+    } else if (type == "SFCJump") {
+      jump(*e, front);
+    } else if (type == "SFCBranch") {
+      branch(*e, front);
+    } else {
+      const xml::Attribute* type_attribute = archive_.document().attribute(*e, "t");
+      report(diag::ArchiveObject, type_attribute == nullptr ? e->loc : type_attribute->loc,
+             type.empty() ? std::string("?") : type, std::string("SFC"), name_);
+    }
+  }
+}
+
+void ChartReader::writeAction(const Element& name) {
+  archive_.write(name, out_);
+  if (isStep(archive_.text(name))) out_.word(kActionSuffix);
+}
+
+// STEP name (TMIN := t, TMAX := u): {entry} a; {active} b; {exit} c; d(N); END_STEP
+void ChartReader::writeStep(const Element& element) {
+  out_.put(element.loc, isSet(archive_, element, kInitial) ? "INITIAL_STEP " : "STEP ");
+  archive_.write(*attributeOf(archive_, element, kName), out_);
+  const char* before = " (";
+  for (const auto& [guid, word] : {std::pair{kMinimum, "TMIN := "}, std::pair{kMaximum, "TMAX := "}}) {
+    const Element* time = attributeOf(archive_, element, guid);
+    if (time == nullptr) continue;
+    out_.put(time->loc, before + std::string(word));
+    archive_.write(*time, out_);
+    before = ", ";
+  }
+  out_.word(before[0] == ',' ? "):\n" : ":\n");
+  static constexpr std::pair<std::string_view, std::string_view> kOwn[] = {
+      {kEntry, "{entry} "}, {kMain, "{active} "}, {kExit, "{exit} "}};
+  for (const auto& [guid, pragma] : kOwn) {
+    const Element* action = attributeOf(archive_, element, guid);
+    if (action == nullptr) continue;
+    out_.put(action->loc, pragma);
+    writeAction(*action);
+    out_.word(";\n");
+  }
+  for (const Element* e = archive_.first(innerList(archive_, element)); e != nullptr; e = archive_.next(*e)) {
+    const Element* action = attributeOf(archive_, *e, kName);
+    const Element* qualifier = attributeOf(archive_, *e, kQualifier);
+    if (action == nullptr) continue;
+    writeAction(*action);
+    // `D T#50ms`
+    std::string how = qualifier == nullptr ? "N" : archive_.text(*qualifier);
+    if (const size_t blank = how.find(' '); blank != std::string::npos) how.insert(blank, ",");
+    out_.put(qualifier == nullptr ? action->loc : qualifier->loc, "(" + how + ");\n");
+  }
+  out_.put(element.end, "END_STEP\n");
+}
+
+void ChartReader::writeSteps(const Steps& steps) {
+  if (steps.size() > 1) out_.word("(");
+  for (size_t k = 0; k < steps.size(); ++k) {
+    if (k > 0) out_.word(", ");
+    archive_.write(*attributeOf(archive_, *steps[k], kName), out_);
+  }
+  if (steps.size() > 1) out_.word(")");
+}
+
+// TRANSITION FROM a TO b := x; END_TRANSITION for each set of steps from which it can fire.
+void ChartReader::writeTransition(const Transition& transition) {
+  for (const Steps& from : transition.from) {
+    out_.put(transition.element->loc, "TRANSITION FROM ");
+    writeSteps(from);
+    out_.put(transition.element->loc, " TO ");
+    writeSteps(transition.to);
+    out_.word(" := ");
+    archive_.write(*attributeOf(archive_, *transition.element, kName), out_);
+    out_.word("\n;");
+    out_.put(transition.element->end, " END_TRANSITION\n");
+  }
+}
+
+// Forbids a transition without a successor. A chart with an error is not written, to avoid follow-up errors.
+//   fails   SFCStep SFCTransition          E1065
+void ChartReader::run(const Element& root) {
+  Front front;
+  front.begins = true;
+  walk(root, front);
+  for (const Transition& t : transitions_)
+    if (ok_ && t.to.empty()) report(diag::ChartLeadsNowhere, locOf(*t.element), called(*t.element));
+  if (!ok_) return;
+  for (const auto& [is_step, at] : written_) {
+    if (is_step)
+      writeStep(*steps_[at]);
+    else
+      writeTransition(transitions_[at]);
+  }
+}
+
+}  // namespace
+
+void writeSfc(const Archive& archive, const xml::Element& body, const std::string& name, Diagnostics& diagnostics,
+              xml::SourceMappedText& out) {
+  const xml::Element* object = archive.root(body, "SFCImplementationObject");
+  const xml::Element* root = object == nullptr ? nullptr : archive.member(*object, "Root");
+  if (root == nullptr) {
+    diagnostics.report(diag::ArchiveEmpty, body.loc, {name, "SFCImplementationObject"});
+    return;
+  }
+  ChartReader(archive, name, diagnostics, out).run(*root);
+}
+
+bool hasStep(const Archive& archive, const xml::Element& body, std::string_view name) {
+  const xml::Element* object = archive.root(body, "SFCImplementationObject");
+  const xml::Element* root = object == nullptr ? nullptr : archive.member(*object, "Root");
+  bool found = false;
+  if (root != nullptr)
+    forEachStep(archive, *root, [&](const xml::Element& step) {
+      const xml::Element* own = attributeOf(archive, step, kName);
+      found = found || (own != nullptr && sameIdentifier(archive.text(*own), name));
+    });
+  return found;
+}
+
+// <d2 n="Flags"> <v>Init</v> <o> <v n="Use">true</v> … The chart uses the variables only if they are declared.
+void writeSfcFlags(const Archive& archive, const xml::Element& pou, xml::SourceMappedText& out) {
+  static constexpr std::pair<std::string_view, std::string_view> kFlags[] = {
+      {"Init", "VAR_INPUT SFCInit : BOOL"},
+      {"Reset", "VAR_INPUT SFCReset : BOOL"},
+      {"QuitError", "VAR_INPUT SFCQuitError : BOOL"},
+      {"Pause", "VAR_INPUT SFCPause : BOOL"},
+      {"Tip", "VAR_INPUT SFCTip : BOOL"},
+      {"TipMode", "VAR_INPUT SFCTipMode : BOOL"},
+      {"EnableLimit", "VAR_INPUT SFCEnableLimit : BOOL"},
+      {"Error", "VAR_OUTPUT SFCError : BOOL"},
+      {"Trans", "VAR_OUTPUT SFCTrans : BOOL"},
+      {"ErrorStep", "VAR_OUTPUT SFCErrorStep : STRING"},
+      {"ErrorPOU", "VAR_OUTPUT SFCErrorPOU : STRING"},
+      {"CurrentStep", "VAR_OUTPUT SFCCurrentStep : STRING"}};
+  const xml::Element* properties = archive.document().child(pou, "ObjectProperties");
+  const xml::Element* settings = properties == nullptr ? nullptr : archive.root(*properties, "SFCProperty");
+  if (settings == nullptr || archive.isTrue(*settings, "UseDefaults")) return;
+  const xml::Element* list = archive.member(*settings, "Flags");
+  std::string key;
+  for (const xml::Element* e = archive.first(list); e != nullptr; e = archive.next(*e)) {
+    if (e->name == "v") {
+      key = archive.text(*e);
+      continue;
+    }
+    if (!archive.isTrue(*e, "Use") || !archive.isTrue(*e, "Declare")) continue;
+    for (const auto& [flag, declaration] : kFlags)
+      if (key == flag) out.put(e->loc, std::string(declaration) + "; END_VAR\n");
+  }
+}
+
+}  // namespace rung::vendor

@@ -1,0 +1,194 @@
+// TwinCAT 3: .TcPOU, .TcDUT, .TcTLEO, .TcGVL, .TcIO and .TcTTO. An object of the project is an element with a
+// <Declaration> in ST; POUs also have an <Implementation> and members. Drawn bodies are object archives (archive.h). A
+// body of an unsupported kind is an error, but the declarations of its POU are read all the same.
+#include <string>
+
+#include "frontend/import/diagnostics.h"
+#include "frontend/import/readers.h"
+#include "frontend/import/scanner.h"
+#include "frontend/import/source_mapped_text.h"
+#include "frontend/import/twincat/archive.h"
+#include "frontend/import/vendor.h"
+
+namespace rung::vendor {
+namespace {
+
+constexpr uint64_t kLowestPriority = 31;  // of Rung's tasks; TwinCAT allows larger numbers
+
+// How messages describe the elements of unsupported bodies.
+const char* languageOf(std::string_view element) {
+  if (element == "FBD" || element == "LD" || element == "LADDER") return "drawn in networks (FBD or LD)";
+  if (element == "StateChart" || element == "UML") return "a state chart";
+  if (element == "IL") return "written in IL";
+  return nullptr;
+}
+
+class TwinCatReader {
+ public:
+  TwinCatReader(const Sources& sources, const xml::Document& document, Diagnostics& diagnostics)
+      : document_(document),
+        sources_(sources),
+        archive_(sources, document),
+        diagnostics_(diagnostics),
+        program_(sources) {}
+
+  xml::SourceMappedText& run() {
+    for (const xml::Element* e = document_.firstChild(document_.elements[0]); e != nullptr; e = document_.next(*e)) {
+      if (e->name == "POU" || e->name == "Itf") {
+        readPou(*e);
+      } else if (e->name == "DUT" || e->name == "GVL" || e->name == "EnumerationTextList") {
+        part(*e, "Declaration");
+      } else if (e->name == "Task") {
+        readTask(*e);
+      }  // others are pictures and lists of strings
+    }
+    return program_;
+  }
+
+ private:
+  void part(const xml::Element& element, std::string_view name) {
+    const xml::Element* text = document_.child(element, name);
+    if (text == nullptr) return;
+    program_.add(document_, *text);
+    program_.word("\n");
+  }
+
+  // POU = declaration {member} body END_…
+  void readPou(const xml::Element& pou) {
+    const xml::Element* declaration = document_.child(pou, "Declaration");
+    if (declaration == nullptr) return;
+    const std::string name = document_.value(pou, "Name");
+    const xml::Element* body = document_.child(pou, "Implementation");
+    chart_ = body == nullptr ? nullptr : document_.child(*body, "SFC");
+    part(pou, "Declaration");
+    if (chart_ != nullptr) writeSfcFlags(archive_, pou, program_);
+    for (const xml::Element* e = document_.firstChild(pou); e != nullptr; e = document_.next(*e)) {
+      if (e->name == "Method") readMethod(*e, name);
+      if (e->name == "Property") readProperty(*e, name);
+      if (e->name == "Action") readAction(*e, name);
+      if (e->name == "Transition") readTransition(*e, name);
+    }
+    readBody(pou, name);
+    closeWith(endWordOf(firstWord(document_.text(*declaration, sources_))));
+  }
+
+  void readMethod(const xml::Element& method, const std::string& owner) {
+    part(method, "Declaration");
+    readBody(method, owner + "." + document_.value(method, "Name"));
+    closeWith("END_METHOD");
+  }
+
+  void readProperty(const xml::Element& property, const std::string& owner) {
+    part(property, "Declaration");
+    for (const xml::Element* e = document_.firstChild(property); e != nullptr; e = document_.next(*e)) {
+      const bool get = e->name == "Get";
+      if (!get && e->name != "Set") continue;
+      program_.word(get ? "GET " : "SET ");  // modifiers, as in `GET PROTECTED`, follow in the declaration
+      part(*e, "Declaration");
+      program_.word("\n");
+      readBody(*e, owner + "." + document_.value(property, "Name"));
+      closeWith(get ? "END_GET" : "END_SET");
+    }
+    closeWith("END_PROPERTY");
+  }
+
+  void readAction(const xml::Element& action, const std::string& owner) {
+    const xml::Attribute* name = document_.attribute(action, "Name");
+    if (name == nullptr) return;
+    program_.word("ACTION ");
+    program_.add(name->loc, {name->loc.offset + static_cast<uint32_t>(name->raw.size())});
+    if (chart_ != nullptr && hasStep(archive_, *chart_, document_.decoded(*name))) program_.word(kActionSuffix);
+    program_.word(" :\n");
+    readBody(action, owner + "." + document_.value(action, "Name"));
+    closeWith("END_ACTION");
+  }
+
+  // TRANSITION name : body END_TRANSITION; the body assigns to the name.
+  void readTransition(const xml::Element& transition, const std::string& owner) {
+    const xml::Attribute* name = document_.attribute(transition, "Name");
+    if (name == nullptr) return;
+    program_.word("TRANSITION ");
+    program_.add(name->loc, {name->loc.offset + static_cast<uint32_t>(name->raw.size())});
+    program_.word(" :\n");
+    readBody(transition, owner + "." + document_.value(transition, "Name"));
+    closeWith("END_TRANSITION");
+  }
+
+  void readBody(const xml::Element& owner, const std::string& name) {
+    const xml::Element* body = document_.child(owner, "Implementation");
+    if (body == nullptr) return;
+    for (const xml::Element* e = document_.firstChild(*body); e != nullptr; e = document_.next(*e)) {
+      if (e->name == "ST") {
+        program_.add(document_, *e);
+        program_.word("\n");
+      } else if (e->name == "NWL") {
+        writeNwl(archive_, *e, name, diagnostics_, program_);
+      } else if (e->name == "CFC") {
+        writeCfc(archive_, *e, name, diagnostics_, program_);
+      } else if (e->name == "SFC") {
+        writeSfc(archive_, *e, name, diagnostics_, program_);
+      } else if (const char* language = languageOf(e->name)) {
+        diagnostics_.report(diag::NetworkBody, e->loc, {name, language});
+      }
+    }
+  }
+
+  void closeWith(std::string_view word) {
+    program_.word(word);
+    program_.word("\n");
+  }
+
+  // A cyclic task and the programs that it calls. <CycleTime> is in microseconds.
+  void readTask(const xml::Element& task) {
+    const xml::Attribute* name = document_.attribute(task, "Name");
+    const xml::Element* cycle = document_.child(task, "CycleTime");
+    if (name == nullptr || cycle == nullptr) return;
+    const auto addName = [&] { program_.add(name->loc, {name->loc.offset + static_cast<uint32_t>(name->raw.size())}); };
+    program_.word("CONFIGURATION ");
+    addName();
+    program_.word("_configuration\nRESOURCE ");
+    addName();
+    program_.word("_resource ON PLC\nTASK ");
+    addName();
+    program_.word("(INTERVAL := T#" + document_.text(*cycle, sources_) +
+                  "us, PRIORITY := " + std::to_string(priorityOf(task)) + ");\n");
+    for (const xml::Element* call = document_.firstChild(task); call != nullptr; call = document_.next(*call)) {
+      const xml::Element* called = call->name == "PouCall" ? document_.child(*call, "Name") : nullptr;
+      if (called == nullptr) continue;
+      program_.word("PROGRAM ");
+      program_.add(document_, *called);
+      program_.word(" WITH ");
+      addName();
+      program_.word(" : ");
+      program_.add(document_, *called);
+      program_.word(";\n");
+    }
+    program_.word("END_RESOURCE\nEND_CONFIGURATION\n");
+  }
+
+  uint64_t priorityOf(const xml::Element& task) const {
+    const xml::Element* priority = document_.child(task, "Priority");
+    if (priority == nullptr) return kLowestPriority;
+    uint64_t value = 0;
+    for (const char c : document_.text(*priority, sources_))
+      if (c >= '0' && c <= '9' && value < kLowestPriority) value = value * 10 + static_cast<uint64_t>(c - '0');
+    return value < kLowestPriority ? value : kLowestPriority;
+  }
+
+  const xml::Document& document_;
+  const Sources& sources_;
+  Archive archive_;
+  Diagnostics& diagnostics_;
+  xml::SourceMappedText program_;
+  const xml::Element* chart_ = nullptr;  // the <SFC> of the current POU
+};
+
+}  // namespace
+
+FileId readTwinCat(Sources& sources, FileId file, Diagnostics& diagnostics) {
+  xml::Document document;
+  if (!xml::read(sources, file, diagnostics, document)) return {};
+  return TwinCatReader(sources, document, diagnostics).run().finish(sources, file);
+}
+
+}  // namespace rung::vendor

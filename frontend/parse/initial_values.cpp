@@ -1,0 +1,120 @@
+// Initial values of declarations: expressions, arrays with repetitions, structures. In: the tokens after `:=`. Out:
+// expressions of the tree; sema decides whether `n(1, 2)` is a call or a repetition.
+#include <utility>
+
+#include "frontend/parse/diagnostics.h"
+#include "frontend/parse/parser.h"
+#include "frontend/parse/recover.h"
+#include "frontend/source/dialect.h"
+
+namespace rung::text {
+
+// The value after `:=` of a declaration. CODESYS 2.3 writes the values of an array without brackets.
+ExprId Parser::parseDeclaredInit(TypeExprId type) {
+  if (dialect_ != Dialect::Codesys || at(Tok::LeftBracket) || tree_.kind(type) != TypeExprKind::Array)
+    return parseInit();
+  const Loc start = here();
+  const size_t first = exprs_.size();
+  parseElements(Tok::Semicolon);
+  if (exprs_.size() == first) return errorExpr(start);
+  if (exprs_.size() == first + 1 && tree_.kind(exprs_[first]) != ExprKind::Repeat) {
+    const ExprId only = exprs_[first];
+    exprs_.resize(first);
+    return only;
+  }
+  return tree_.add<ExprId>(ArrayInitExpr{exprHeader(ExprKind::ArrayInit, start), listFrom(exprs_, first)});
+}
+
+// init = expr | "[" elements "]" | "(" [field ":=" init {"," …}] ")"
+ExprId Parser::parseInit() {
+  if (at(Tok::LeftBracket)) return parseArrayInit();
+  if (at(Tok::LeftParen) && isName(peek()) && peek(2) == Tok::Assign) return parseStructInit();
+  if (at(Tok::LeftParen) && peek() == Tok::RightParen && dialect_ == Dialect::Codesys) return parseStructInit();
+  return parseExpr();
+}
+
+// elements = element {"," element}; element = init | count "(" [elements] ")". Left on exprs_.
+void Parser::parseElements(Tok close) {
+  while (!panic_ && !at(close)) {
+    // N(1, 2) looks like a call; sema tells them apart.
+    const bool named =
+        isName(kind()) && peek() == Tok::LeftParen &&
+        (peek(2) == Tok::LeftBracket || (peek(2) == Tok::LeftParen && isName(peek(3)) && peek(4) == Tok::Assign));
+    if (named || (at(Tok::Number) && peek() == Tok::LeftParen)) {
+      const Loc count_loc = here();
+      const ExprId count = named ? tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, count_loc), nameOf(t_), {}})
+                                 : parseNumber({}, false, count_loc);
+      if (named) advance();
+      advance();
+      const size_t inner = exprs_.size();
+      while (!panic_ && !at(Tok::RightParen)) {
+        exprs_.push_back(parseInit());
+        if (!accept(Tok::Comma)) break;
+      }
+      closeParen(Tok::RightParen, true);
+      const Slice<ExprId> elements = listFrom(exprs_, inner);
+      exprs_.push_back(tree_.add<ExprId>(RepeatExpr{exprHeader(ExprKind::Repeat, count_loc), count, elements}));
+    } else {
+      exprs_.push_back(parseInit());
+    }
+    if (accept(Tok::Comma)) continue;
+    if (!panic_ && isOperand(kind()) && !atLineStart()) {
+      slip(diag::MissingToken, t_, {",", describe(t_)});
+      continue;
+    }
+    break;
+  }
+}
+
+ExprId Parser::parseArrayInit() {
+  const Loc start = here();
+  if (++expr_depth_ > kMaxExprDepth) {
+    tooDeep("initial values", kMaxExprDepth);
+    --expr_depth_;
+    return errorExpr(start);
+  }
+  advance();
+  const size_t first = exprs_.size();
+  parseElements(Tok::RightBracket);
+  closeParen(Tok::RightBracket, true);
+  --expr_depth_;
+  return tree_.add<ExprId>(ArrayInitExpr{exprHeader(ExprKind::ArrayInit, start), listFrom(exprs_, first)});
+}
+
+ExprId Parser::parseStructInit() {
+  const Loc start = here();
+  if (++expr_depth_ > kMaxExprDepth) {
+    tooDeep("initial values", kMaxExprDepth);
+    --expr_depth_;
+    return errorExpr(start);
+  }
+  advance();
+  std::vector<FieldInit> fields;
+  while (!panic_ && !at(Tok::RightParen)) {
+    FieldInit field{};
+    if (!parseName(field.field)) break;
+    if (at(Tok::Equal)) {
+      slip(diag::AssignWithEqual, t_, {"="});
+      advance();
+    } else if (!accept(Tok::Assign)) {
+      fail(diag::MissingToken, t_, {":=", describe(t_)});
+      break;
+    }
+    field.value = parseInit();
+    fields.push_back(field);
+    if (accept(Tok::Comma)) continue;
+    if (!panic_ && isName(kind()) && peek() == Tok::Assign) {
+      if (atLineStart())
+        missing(diag::MissingToken, {",", describe(t_)});
+      else
+        slip(diag::MissingToken, t_, {",", describe(t_)});
+      continue;
+    }
+    break;
+  }
+  closeParen(Tok::RightParen, true);
+  --expr_depth_;
+  return tree_.add<ExprId>(StructInitExpr{exprHeader(ExprKind::StructInit, start), tree_.addList<FieldInit>(fields)});
+}
+
+}  // namespace rung::text

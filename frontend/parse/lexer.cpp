@@ -1,0 +1,664 @@
+#include "frontend/parse/lexer.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+
+#include "frontend/parse/diagnostics.h"
+#include "frontend/parse/foreign.h"
+#include "frontend/source/dialect.h"
+#include "frontend/source/invariant.h"
+#include "frontend/source/nested_comments.h"
+#include "frontend/syntax/diagnostics.h"
+
+namespace rung::text {
+namespace {
+
+enum CharClass : uint8_t { kStray, kSpace, kNewline, kLetter, kDigit, kPunct, kQuote, kNul };
+
+constexpr std::array<uint8_t, 256> makeClasses() {
+  std::array<uint8_t, 256> c{};
+  c[0] = kNul;
+  c[' '] = c['\t'] = c['\f'] = c['\v'] = kSpace;
+  c['\n'] = c['\r'] = kNewline;
+  for (int i = 'a'; i <= 'z'; ++i) c[static_cast<size_t>(i)] = c[static_cast<size_t>(i - 32)] = kLetter;
+  c['_'] = kLetter;
+  for (int i = '0'; i <= '9'; ++i) c[static_cast<size_t>(i)] = kDigit;
+  for (char p : {';', ':', ',', '.', '(', ')', '[', ']', '^', '#', '=', '+',
+                 '-', '*', '/', '<', '>', '&', '!', '|', '%', '{', '?'})
+    c[static_cast<unsigned char>(p)] = kPunct;
+  c['\''] = c['"'] = kQuote;
+  return c;
+}
+constexpr std::array<uint8_t, 256> kClasses = makeClasses();
+
+constexpr std::array<bool, 256> makeWordChars() {
+  std::array<bool, 256> w{};
+  for (size_t i = 0; i < 256; ++i) w[i] = kClasses[i] == kLetter || kClasses[i] == kDigit;
+  return w;
+}
+constexpr std::array<bool, 256> kWordChar = makeWordChars();
+
+constexpr unsigned char fold(unsigned char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<unsigned char>(c | 0x20) : c;
+}
+
+struct Spelling {
+  const char* text;
+  uint8_t length;
+};
+constexpr uint8_t lengthOf(const char* s) {
+  uint8_t n = 0;
+  while (s[n] != 0) ++n;
+  return n;
+}
+constexpr Spelling kSpellings[] = {
+#define RUNG_TOKEN(name, what) {what, lengthOf(what)},
+#define RUNG_PUNCT(name, spelling) {spelling, lengthOf(spelling)},
+#define RUNG_WORD(name, spelling) {spelling, lengthOf(spelling)},
+#define RUNG_TYPE_WORD(name, spelling) {spelling, lengthOf(spelling)},
+#define RUNG_SOFT_WORD(name, spelling) {spelling, lengthOf(spelling)},
+#include "frontend/parse/tokens.def"
+};
+
+// The keyword table: open addressing on length and three letters, so that nearly every name hits an empty slot.
+constexpr size_t kWordSlots = 1024;
+constexpr uint32_t wordHash(const char* s, uint32_t n) {
+  const auto a = static_cast<unsigned char>(s[0] | 0x20);
+  const auto b = static_cast<unsigned char>(s[n / 2] | 0x20);
+  const auto c = static_cast<unsigned char>(s[n - 1] | 0x20);
+  return (n * 131u + a * 7u + b * 61u + c * 313u + (static_cast<unsigned char>(s[n > 5 ? 5 : 0] | 0x20) * 29u)) &
+         (kWordSlots - 1);
+}
+struct KeywordTable {
+  uint8_t slot[kWordSlots] = {};
+  constexpr KeywordTable() {
+    for (uint32_t k = static_cast<uint32_t>(Tok::And); k < kTokCount; ++k) {
+      uint32_t h = wordHash(kSpellings[k].text, kSpellings[k].length);
+      while (slot[h] != 0) h = (h + 1) & (kWordSlots - 1);
+      slot[h] = static_cast<uint8_t>(k);
+    }
+  }
+};
+constexpr KeywordTable kKeywords;
+constexpr uint32_t kLongestKeyword = 18;  // END_FUNCTION_BLOCK
+
+Tok findKeyword(const char* s, uint32_t n) {
+  if (n > kLongestKeyword) return Tok::Ident;
+  for (uint32_t h = wordHash(s, n);; h = (h + 1) & (kWordSlots - 1)) {
+    const uint8_t k = kKeywords.slot[h];
+    if (k == 0) return Tok::Ident;
+    if (kSpellings[k].length != n) continue;
+    uint32_t i = 0;
+    while (i < n && fold(static_cast<unsigned char>(s[i])) == fold(static_cast<unsigned char>(kSpellings[k].text[i])))
+      ++i;
+    if (i == n) return static_cast<Tok>(k);
+  }
+}
+
+// Keywords that open, divide or close blocks; recover.cpp checks that they balance.
+constexpr std::array<bool, kTokCount> makeBlockKeywords() {
+  std::array<bool, kTokCount> b{};
+  for (
+      Tok t :
+      {Tok::If,        Tok::EndIf,       Tok::Case,          Tok::EndCase,          Tok::For,         Tok::EndFor,
+       Tok::While,     Tok::EndWhile,    Tok::Repeat,        Tok::EndRepeat,        Tok::Try,         Tok::EndTry,
+       Tok::Type,      Tok::EndType,     Tok::Struct,        Tok::EndStruct,        Tok::Union,       Tok::EndUnion,
+       Tok::Var,       Tok::VarInput,    Tok::VarOutput,     Tok::VarInOut,         Tok::VarTemp,     Tok::VarExternal,
+       Tok::VarGlobal, Tok::VarStat,     Tok::VarAccess,     Tok::VarInst,          Tok::VarConfig,   Tok::EndVar,
+       Tok::Function,  Tok::EndFunction, Tok::FunctionBlock, Tok::EndFunctionBlock, Tok::Program,     Tok::EndProgram,
+       Tok::Method,    Tok::EndMethod,   Tok::Property,      Tok::PropertyGet,      Tok::PropertySet, Tok::EndProperty,
+       Tok::Action,    Tok::EndAction,   Tok::Interface,     Tok::EndInterface,     Tok::Class,       Tok::EndClass,
+       Tok::Namespace, Tok::Using,       Tok::Configuration, Tok::EndConfiguration, Tok::Resource,    Tok::EndResource})
+    b[static_cast<size_t>(t)] = true;
+  return b;
+}
+constexpr std::array<bool, kTokCount> kBlockKeyword = makeBlockKeywords();
+
+bool isLongType(Tok kind) { return kind == Tok::Ltime || kind == Tok::Ldate || kind == Tok::Ltod || kind == Tok::Ldt; }
+
+enum class Prefix : uint8_t { None, Duration, Date, TimeOfDay, DateTime };
+Prefix prefixOf(std::string_view word) {
+  struct Row {
+    const char* word;
+    Prefix prefix;
+  };
+  static constexpr Row kRows[] = {{"T", Prefix::Duration},
+                                  {"TIME", Prefix::Duration},
+                                  {"LT", Prefix::Duration},
+                                  {"LTIME", Prefix::Duration},
+                                  {"D", Prefix::Date},
+                                  {"DATE", Prefix::Date},
+                                  {"LD", Prefix::Date},
+                                  {"LDATE", Prefix::Date},
+                                  {"TOD", Prefix::TimeOfDay},
+                                  {"LTOD", Prefix::TimeOfDay},
+                                  {"TIME_OF_DAY", Prefix::TimeOfDay},
+                                  {"LTIME_OF_DAY", Prefix::TimeOfDay},
+                                  {"DT", Prefix::DateTime},
+                                  {"LDT", Prefix::DateTime},
+                                  {"DATE_AND_TIME", Prefix::DateTime},
+                                  {"LDATE_AND_TIME", Prefix::DateTime}};
+  for (const Row& row : kRows)
+    if (sameIdentifier(word, row.word)) return row.prefix;
+  return Prefix::None;
+}
+
+class Lexer {
+ public:
+  Lexer(TokenStream& out, Names& names, const Sources& sources, FileId file, Dialect dialect, Diagnostics& diagnostics)
+      : out_(out),
+        names_(names),
+        dialect_(dialect),
+        diagnostics_(diagnostics),
+        base_(sources.begin(file).offset),
+        source_(sources.sourceText(file)),
+        path_(sources.path(file)),
+        names_seen_(names.count()) {}
+
+  void run(uint32_t begin, uint32_t end);
+
+ private:
+  using Byte = unsigned char;
+
+  uint32_t at(const char* p) const { return static_cast<uint32_t>(p - source_.data()); }
+  Loc loc(const char* p) const { return {base_ + at(p)}; }
+  void push(Tok kind, const char* begin, uint32_t value) {
+    out_.tokens.push_back({at(begin), value, kind, flags_, 0});
+    flags_ = 0;
+  }
+  const char* word(const char* p);
+  const char* number(const char* p);
+  const char* quoted(const char* p);
+  const char* address(const char* p);
+  const char* punct(const char* p);
+  const char* blockComment(const char* p, bool slash);
+  const char* lineComment(const char* p);
+  const char* pragma(const char* p);
+  bool atCppBody(const char* p) const { return end_ - p > 5 && sameIdentifier({p, 5}, "{C++}"); }
+  const char* cppBody(const char* p);
+  // `ST?` of Instruction List, without a space.
+  bool behindSt(const char* p) const {
+    return at(p) >= 2 && sameIdentifier({p - 2, 2}, "ST") && (at(p) == 2 || !kWordChar[static_cast<Byte>(p[-3])]);
+  }
+  const char* stray(const char* p);
+  const char* prefixed(const char* begin, const char* p, Prefix prefix);
+  void message(const char* begin, const char* end);
+  void checkPragma(std::string_view word, const char* rest, const char* end);
+  void checkUnderscores(const char* begin, const char* end);
+  void resolveLongTypes();
+  Tok last() const { return out_.tokens.empty() ? Tok::End : out_.tokens.back().kind; }
+
+  TokenStream& out_;
+  Names& names_;
+  Dialect dialect_;
+  bool nests_ = true;  // CODESYS 2.3: comments nest in the current object
+  Diagnostics& diagnostics_;
+  uint32_t base_;
+  std::string_view source_;
+  std::string_view path_;
+  const char* end_ = nullptr;
+  uint32_t names_seen_;
+  uint8_t flags_ = kLineStart;
+  uint32_t pending_pragmas_ = 0;  // pragmas at the end of out_.pragmas that wait for their token
+  bool long_types_ = false;       // LTIME, LDATE, LTOD or LDT was read
+  uint32_t doc_ = 0;              // first `///` line above the next token; 0: none, else offset + 1
+};
+
+void Lexer::run(uint32_t begin, uint32_t end) {
+  const char* p = source_.data() + begin;
+  end_ = source_.data() + end;
+  out_.tokens.reserve((end - begin) / 4 + 16);
+  if (const void* nul = std::memchr(p, 0, end - begin); nul != nullptr) {
+    diagnostics_.report(diag::BinaryFile, loc(static_cast<const char*>(nul)), {path_});
+    end_ = p;
+  }
+  const auto flushPending = [&] {
+    // Pragmas and docs wait for the token that follows them.
+    const uint32_t offset = at(p);
+    if (pending_pragmas_ > 0) {
+      for (size_t i = out_.pragmas.size() - pending_pragmas_; i < out_.pragmas.size(); ++i)
+        out_.pragmas[i].token_offset = offset;
+      pending_pragmas_ = 0;
+      flags_ |= kPragma;
+    }
+    if (doc_ != 0) {
+      out_.docs.push_back({offset, doc_ - 1});
+      doc_ = 0;
+      flags_ |= kDoc;
+    }
+  };
+  while (p < end_) {
+    const auto cls = static_cast<CharClass>(kClasses[static_cast<Byte>(*p)]);
+    if (cls == kSpace) {
+      ++p;
+      continue;
+    }
+    if (cls == kNewline) {
+      ++p;
+      flags_ |= kLineStart;
+      continue;
+    }
+    if (cls == kPunct) {
+      if (*p == '/' && p[1] == '/') {
+        p = lineComment(p);
+        continue;
+      }
+      if ((*p == '(' || *p == '/') && p[1] == '*') {
+        p = blockComment(p, *p == '/');
+        continue;
+      }
+      if (*p == '{' && !atCppBody(p)) {
+        p = pragma(p);
+        continue;
+      }
+    }
+    if ((pending_pragmas_ | doc_) != 0) flushPending();
+    switch (cls) {
+      case kLetter: p = word(p); break;
+      case kDigit: p = number(p); break;
+      case kPunct: p = *p == '{' ? cppBody(p) : punct(p); break;
+      case kQuote: p = quoted(p); break;
+      case kStray:
+      case kNul: p = stray(p); break;
+      case kSpace:
+      case kNewline: break;
+    }
+  }
+  p = end_;
+  flushPending();
+  flags_ |= kLineStart;
+  for (uint32_t i = 0; i < kLookahead; ++i) out_.tokens.push_back({at(end_), 0, Tok::End, flags_, 0});
+  if (long_types_ && dialect_ == Dialect::Codesys) resolveLongTypes();
+}
+
+const char* Lexer::word(const char* begin) {
+  const char* p = begin + 1;
+  while (kWordChar[static_cast<Byte>(*p)]) ++p;
+  if (static_cast<Byte>(*p) >= 0x80) return stray(begin);
+  const auto length = static_cast<uint32_t>(p - begin);
+  if (*p == '#' && p < end_)
+    if (const Prefix prefix = prefixOf({begin, length}); prefix != Prefix::None) return prefixed(begin, p + 1, prefix);
+  const Tok kind = findKeyword(begin, length);
+  if (kBlockKeyword[static_cast<size_t>(kind)]) out_.blocks.push_back(static_cast<uint32_t>(out_.tokens.size()));
+  if (isReserved(kind)) {
+    push(kind, begin, length);
+    return p;
+  }
+  const NameId name = names_.intern({begin, length});
+  if (names_.count() != names_seen_) {  // a new spelling: checked only once
+    names_seen_ = names_.count();
+    checkUnderscores(begin, p);
+  }
+  push(kind, begin, name.index);
+  long_types_ = long_types_ || isLongType(kind);
+  return p;
+}
+
+// CODESYS 2.3 had no LTIME, LDATE, LTOD and LDT. In a source that declares a variable of such a name, the keyword is
+// that name wherever a type is not possible.
+void Lexer::resolveLongTypes() {
+  std::vector<Token>& tokens = out_.tokens;
+  bool declared[kTokCount] = {};
+  for (size_t i = 0; i < tokens.size(); ++i)
+    if (isLongType(tokens[i].kind) && (tokens[i + 1].kind == Tok::Colon || tokens[i + 1].kind == Tok::Comma) &&
+        (tokens[i].flags & kLineStart) != 0)
+      declared[static_cast<size_t>(tokens[i].kind)] = true;
+  Tok before = Tok::Semicolon;
+  for (Token& token : tokens) {
+    const bool type = before == Tok::Colon || before == Tok::Of || before == Tok::To || before == Tok::RefTo;
+    before = token.kind;
+    if (declared[static_cast<size_t>(token.kind)] && !type) token.kind = Tok::Ident;
+  }
+}
+
+void Lexer::checkUnderscores(const char* begin, const char* end) {
+  const std::string_view name(begin, static_cast<size_t>(end - begin));
+  if (name.size() < 2 || (name.back() != '_' && name.find("__") == std::string_view::npos)) return;
+  if (dialect_ == Dialect::Codesys) {
+    if (name.substr(0, 2) != "__") diagnostics_.report(diag::UnderscoresInNameWarning, loc(begin), {name});
+  } else {
+    diagnostics_.report(diag::UnderscoresInName, loc(begin), {name});
+  }
+}
+
+// T#1d2h  D#2026-12-31  TOD#12:30:00.5  DT#2026-12-31-12:30:00: p points after the #.
+const char* Lexer::prefixed(const char* begin, const char* p, Prefix prefix) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  Tok kind = Tok::Duration;
+  if (prefix == Prefix::Duration) {
+    if (*p == '-' || *p == '+') ++p;
+    while (kWordChar[static_cast<Byte>(*p)] || (*p == '.' && digit(p[1]))) ++p;
+  } else {
+    kind = prefix == Prefix::Date ? Tok::Date : prefix == Prefix::TimeOfDay ? Tok::TimeOfDay : Tok::DateTime;
+    int dashes = prefix == Prefix::Date ? 2 : prefix == Prefix::DateTime ? 3 : 0;
+    while (kWordChar[static_cast<Byte>(*p)] || ((*p == ':' || *p == '.') && digit(p[1])) ||
+           (*p == '-' && dashes > 0 && digit(p[1]))) {
+      if (*p == '-') --dashes;
+      ++p;
+    }
+  }
+  push(kind, begin, static_cast<uint32_t>(p - begin));
+  return p;
+}
+
+// 12  1_000  16#FF  1.5  1.5e-3; `1..5` is 1, .., 5. Letters that follow are part of it, so that 12ab is one malformed
+// number.
+const char* Lexer::number(const char* begin) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  const char* p = begin;
+  while (digit(*p) || *p == '_') ++p;
+  if (*p == '#') {
+    ++p;
+    while (kWordChar[static_cast<Byte>(*p)]) ++p;
+  } else {
+    if (*p == '.' && digit(p[1]) && last() != Tok::Dot) {
+      ++p;
+      while (digit(*p) || *p == '_') ++p;
+    }
+    if ((*p == 'e' || *p == 'E') && (digit(p[1]) || ((p[1] == '+' || p[1] == '-') && digit(p[2])))) {
+      p += 2;
+      while (digit(*p)) ++p;
+    }
+    while (kWordChar[static_cast<Byte>(*p)]) ++p;
+  }
+  push(Tok::Number, begin, static_cast<uint32_t>(p - begin));
+  return p;
+}
+
+const char* Lexer::quoted(const char* begin) {
+  const char quote = *begin;
+  const char* p = begin + 1;
+  while (*p != quote) {
+    if (*p == '\n' || *p == '\r' || p >= end_) {
+      diagnostics_.report(diag::UnterminatedString, loc(begin), {std::string_view(&quote, 1)})
+          .length(static_cast<uint32_t>(p - begin));
+      flags_ |= kReported;
+      push(quote == '\'' ? Tok::StringLiteral : Tok::WideStringLiteral, begin, static_cast<uint32_t>(p - begin));
+      return p;
+    }
+    if (*p == '$' && p[1] != '\n' && p[1] != '\r' && p + 1 < end_) ++p;
+    ++p;
+  }
+  ++p;
+  push(quote == '\'' ? Tok::StringLiteral : Tok::WideStringLiteral, begin, static_cast<uint32_t>(p - begin));
+  return p;
+}
+
+const char* Lexer::address(const char* begin) {
+  const char* p = begin + 1;
+  while (kWordChar[static_cast<Byte>(*p)] || *p == '*' || (*p == '.' && p[1] >= '0' && p[1] <= '9')) {
+    if (*p == '*') {
+      ++p;
+      break;
+    }
+    ++p;
+  }
+  push(Tok::Address, begin, static_cast<uint32_t>(p - begin));
+  return p;
+}
+
+const char* Lexer::punct(const char* p) {
+  const auto one = [&](Tok kind) {
+    push(kind, p, 1);
+    return p + 1;
+  };
+  const auto two = [&](Tok kind) {
+    push(kind, p, 2);
+    return p + 2;
+  };
+  switch (*p) {
+    case ';': return one(Tok::Semicolon);
+    case ':': return p[1] == '=' ? two(Tok::Assign) : one(Tok::Colon);
+    case ',': return one(Tok::Comma);
+    case '.': return p[1] == '.' ? two(Tok::DotDot) : one(Tok::Dot);
+    case '(': return one(Tok::LeftParen);
+    case ')': return one(Tok::RightParen);
+    case '[': return one(Tok::LeftBracket);
+    case ']': return one(Tok::RightBracket);
+    case '^': return one(Tok::Caret);
+    case '#': return one(Tok::Hash);
+    case '=':
+      return p[1] == '>'   ? two(Tok::Arrow)
+             : p[1] == '=' ? two(Tok::EqualEqual)
+             : p[1] == '<' ? two(Tok::EqualLess)
+                           : one(Tok::Equal);
+    case '+': return p[1] == '=' ? two(Tok::PlusAssign) : one(Tok::Plus);
+    case '-': return p[1] == '=' ? two(Tok::MinusAssign) : one(Tok::Minus);
+    case '*': return p[1] == '*' ? two(Tok::Power) : p[1] == '=' ? two(Tok::StarAssign) : one(Tok::Star);
+    case '/': return p[1] == '=' ? two(Tok::SlashAssign) : one(Tok::Slash);
+    case '<': return p[1] == '>' ? two(Tok::NotEqual) : p[1] == '=' ? two(Tok::LessEqual) : one(Tok::Less);
+    case '>': return p[1] == '=' ? two(Tok::GreaterEqual) : one(Tok::Greater);
+    case '&': return p[1] == '&' ? two(Tok::AmpersandTwice) : one(Tok::Ampersand);
+    case '?': return p[1] == '=' ? two(Tok::TryAssign) : behindSt(p) ? one(Tok::Question) : stray(p);
+    case '!': return p[1] == '=' ? two(Tok::BangEqual) : one(Tok::Bang);
+    case '|': return p[1] == '|' ? two(Tok::BarTwice) : one(Tok::Bar);
+    case '%': {
+      const auto next = static_cast<Byte>(p[1]);
+      return kClasses[next] == kLetter && p[1] != '_' ? address(p) : one(Tok::Percent);
+    }
+    default: return stray(p);
+  }
+}
+
+const char* Lexer::lineComment(const char* p) {
+  if (p[2] == '/' && p[3] != '/') {
+    const bool after = (flags_ & kLineStart) == 0 && !out_.tokens.empty();
+    if (after) {
+      out_.tokens.back().flags |= kDocAfter;
+      out_.docs_after.push_back({out_.tokens.back().offset, at(p)});
+    } else if (doc_ == 0) {
+      doc_ = at(p) + 1;
+    }
+  }
+  const auto* newline = static_cast<const char*>(std::memchr(p, '\n', static_cast<size_t>(end_ - p)));
+  return newline != nullptr ? newline : end_;
+}
+
+const char* Lexer::blockComment(const char* begin, bool slash) {
+  const char open = slash ? '/' : '(', close = slash ? '/' : ')';
+  const char* p = begin + 2;
+  const bool nests = dialect_ != Dialect::Iec2 && nests_;
+  bool reported = false;
+  uint32_t depth = 1;
+  for (; p < end_; ++p) {
+    if (*p == '*' && p[1] == close) {
+      p += 2;
+      if (--depth == 0) {
+        if (const char* const nesting = nestingOf({begin, static_cast<size_t>(p - begin)})) nests_ = *nesting == 'Y';
+        return p;
+      }
+      --p;
+    } else if (*p == open && p[1] == '*') {
+      // `(*)` and `/*/` close the comment in edition 2, where comments do not nest.
+      if (nests) {
+        ++depth;
+        ++p;
+      } else if (nests_ && p[2] != close) {
+        if (!reported) diagnostics_.report(diag::NestedComment, loc(p), {std::string_view(p, 2)}).length(2);
+        reported = true;
+        ++depth;  // its end is most likely there, too
+        ++p;
+      }
+    } else if (*p == '\n' || *p == '\r') {
+      flags_ |= kLineStart;
+    }
+  }
+  diagnostics_.report(diag::UnterminatedComment, loc(begin), {slash ? "*/" : "*)"}).length(2);
+  return end_;
+}
+
+// {C++} … {END_C++}
+const char* Lexer::cppBody(const char* begin) {
+  const char* p = begin + 5;
+  while (p < end_ && !(*p == '{' && end_ - p >= 9 && sameIdentifier({p, 9}, "{END_C++}"))) ++p;
+  if (p == end_) {
+    diagnostics_.report(diag::UnterminatedPragma, loc(begin), {"{END_C++}"}).length(5);
+    return end_;
+  }
+  p += 9;
+  push(Tok::CppBody, begin, static_cast<uint32_t>(p - begin));
+  return p;
+}
+
+// {network}, {network CFC}, {end_network}: the delimiters of a body of networks. End: another pragma.
+Tok networkKeyword(std::string_view text) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  const size_t length = static_cast<size_t>(std::find_if(text.begin(), text.end(), blank) - text.begin());
+  const std::string_view word = text.substr(0, length);
+  if (sameIdentifier(word, "network")) return Tok::Network;
+  return sameIdentifier(word, "end_network") ? Tok::EndNetwork : Tok::End;
+}
+
+// { … }: strings inside may contain braces.
+const char* Lexer::pragma(const char* begin) {
+  const std::string_view rest(begin, static_cast<size_t>(end_ - begin));
+  if (const size_t end = endOfDoubleBrace(rest, 0); end != std::string_view::npos) {
+    diagnostics_.report(diag::CodeInC, loc(begin)).length(2);
+    return begin + end;
+  }
+  const char* p = begin + 1;
+  while (p < end_ && *p != '}') {
+    if (*p == '\'' || *p == '"') {
+      const char* q = p + 1;
+      while (q < end_ && *q != *p && *q != '\n') ++q;
+      if (q < end_ && *q == *p) p = q;
+    }
+    ++p;
+  }
+  if (p >= end_) {
+    diagnostics_.report(diag::UnterminatedPragma, loc(begin), {"}"}).length(1);
+    p = begin;
+    while (p < end_ && *p != '\n') ++p;
+    return p;
+  }
+  if (const Tok network = networkKeyword({begin + 1, static_cast<size_t>(p - begin - 1)}); network != Tok::End) {
+    push(network, begin, static_cast<uint32_t>(p + 1 - begin));
+    return p + 1;
+  }
+  message(begin + 1, p);
+  out_.pragmas.push_back({0, at(begin), at(p) + 1});
+  ++pending_pragmas_;
+  return p + 1;
+}
+
+// A name close to that of a known pragma is most likely a typing error and reported; other unknown pragmas are ignored.
+void Lexer::checkPragma(std::string_view word, const char* rest, const char* end) {
+  static const std::vector<std::string_view> kPragmas = {
+      "attribute", "test",       "info",   "warning", "error",    "text",      "define", "undefine",
+      "IF",        "ELSIF",      "ELSE",   "END_IF",  "region",   "endregion", "native", "alias",
+      "required",  "extensible", "lazy",   "pure",    "operator", "replaces",  "std",    "sized",
+      "list",      "entry",      "active", "exit",    "fault",    "no_copy",   "bytes"};
+  static const std::vector<std::string_view> kAttributes = {"qualified_only", "strict", "test", "no_final_scan"};
+  const std::vector<std::string_view>* known = &kPragmas;
+  if (sameIdentifier(word, "attribute")) {
+    while (rest < end && *rest != '\'') ++rest;
+    if (rest == end) return;
+    const char* close = static_cast<const char*>(std::memchr(rest + 1, '\'', static_cast<size_t>(end - rest - 1)));
+    if (close == nullptr) return;
+    word = {rest + 1, static_cast<size_t>(close - rest - 1)};
+    known = &kAttributes;
+  }
+  for (const std::string_view name : *known)
+    if (sameIdentifier(name, word) && !sameIdentifier(name, "IF") && !sameIdentifier(name, "exit")) return;
+  if (holdsC({word.data(), static_cast<size_t>(end - word.data())})) {
+    diagnostics_.report(diag::CodeInC, loc(word.data())).length(1);
+    return;
+  }
+  if (sameIdentifier(word, "IF") || sameIdentifier(word, "exit")) return;
+  const std::string_view near = nearest(word, *known);
+  if (near.empty()) return;
+  diagnostics_.report(diag::UnknownPragma, loc(word.data()), {word}).didYouMean(near);
+}
+
+// {info 'string'}, {text 'string'}, {WARNING: "string"}, {error 'string'}
+void Lexer::message(const char* begin, const char* end) {
+  const auto skip = [&] {
+    while (begin < end && (*begin == ' ' || *begin == '\t')) ++begin;
+  };
+  skip();
+  const char* word_begin = begin;
+  while (begin < end && kWordChar[static_cast<Byte>(*begin)]) ++begin;
+  const std::string_view word(word_begin, static_cast<size_t>(begin - word_begin));
+  const bool info = sameIdentifier(word, "info") || sameIdentifier(word, "text"),
+             warning = sameIdentifier(word, "warning"), error = sameIdentifier(word, "error");
+  if (!info && !warning && !error) return checkPragma(word, begin, end);
+  skip();
+  if (begin < end && *begin == ':') ++begin;
+  skip();
+  if (begin == end || (*begin != '\'' && *begin != '"')) return;  // {warning disable C0195}
+  const char quote = *begin++;
+  const char* string_end = end;
+  while (string_end > begin && string_end[-1] != quote) --string_end;
+  if (string_end > begin) --string_end;
+  const std::string_view text(begin, static_cast<size_t>(string_end - begin));
+  const Diag diag = info ? diag::PragmaInfo : warning ? diag::PragmaWarning : diag::PragmaError;
+  diagnostics_.report(diag, loc(word_begin), {text});
+}
+
+// A run of characters that cannot begin a token: one error for all of it.
+const char* Lexer::stray(const char* begin) {
+  const char* p = begin;
+  const auto c = static_cast<Byte>(*p);
+  if (c >= 0x80 || kClasses[c] == kLetter) {
+    while (p < end_ && (static_cast<Byte>(*p) >= 0x80 || kWordChar[static_cast<Byte>(*p)])) ++p;
+  } else {
+    ++p;
+    while (p < end_ && (kClasses[static_cast<Byte>(*p)] == kStray && static_cast<Byte>(*p) < 0x20)) ++p;
+  }
+  std::string shown;
+  if (c < 0x20 || c == 0x7f) {
+    static const char* kHex = "0123456789ABCDEF";
+    shown = std::string("16#") + kHex[c >> 4] + kHex[c & 15];
+  } else {
+    shown.assign(begin, static_cast<size_t>(p - begin < 40 ? p - begin : 40));
+    if (findInvalidUtf8(shown) != std::string::npos) shown = "a byte that is not UTF-8";
+  }
+  if (c >= 0x80 || kClasses[c] == kLetter)
+    diagnostics_.report(diag::NotAscii, loc(begin), {shown}).length(static_cast<uint32_t>(p - begin));
+  else
+    diagnostics_.report(c == '}' ? diag::StrayBrace : diag::StrayCharacter, loc(begin), {shown})
+        .length(static_cast<uint32_t>(p - begin));
+  flags_ |= kReported;
+  push(Tok::Error, begin, static_cast<uint32_t>(p - begin));
+  return p;
+}
+
+}  // namespace
+
+bool endsPart(Tok kind) {
+  switch (static_cast<int>(kind)) {
+    case static_cast<int>(Tok::End):
+    case static_cast<int>(Tok::EndVar):
+    case static_cast<int>(Tok::EndStruct):
+    case static_cast<int>(Tok::EndUnion):
+    case static_cast<int>(Tok::EndType):
+    case static_cast<int>(Tok::EndFunction):
+    case static_cast<int>(Tok::EndFunctionBlock):
+    case static_cast<int>(Tok::EndProgram):
+    case static_cast<int>(Tok::EndConfiguration):
+    case static_cast<int>(Tok::EndResource):
+    case static_cast<int>(Tok::EndMethod):
+    case static_cast<int>(Tok::EndProperty):
+    case static_cast<int>(Tok::EndGet):
+    case static_cast<int>(Tok::EndSet):
+    case static_cast<int>(Tok::EndAction):
+    case static_cast<int>(Tok::EndStep):
+    case static_cast<int>(Tok::EndTransition):
+    case static_cast<int>(Tok::EndInterface):
+    case static_cast<int>(Tok::EndClass):
+    case static_cast<int>(Tok::EndNamespace): return true;
+    default: return false;
+  }
+}
+
+const char* spelling(Tok kind) { return kSpellings[static_cast<size_t>(kind)].text; }
+
+void lex(TokenStream& out, Names& names, const Sources& sources, FileId file, uint32_t begin, uint32_t end,
+         Dialect dialect, Diagnostics& diagnostics) {
+  Lexer(out, names, sources, file, dialect, diagnostics).run(begin, end);
+}
+
+}  // namespace rung::text

@@ -1,0 +1,90 @@
+// The lexer of the text languages. In: the source of a file, which ends in a NUL. Out: one array of tokens, closed by
+// kLookahead End tokens, with the pragmas and doc comments beside it. Names are interned directly from the source.
+// Literals are evaluated by literals.h only when the parser consumes them, so a token that recovery skips causes no
+// diagnostic. Called by parser.cpp.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "frontend/parse/parse.h"
+#include "frontend/source/diagnostics.h"
+#include "frontend/source/dialect.h"
+#include "frontend/source/names.h"
+
+namespace rung::text {
+
+enum class Tok : uint8_t {
+#define RUNG_TOKEN(name, what) name,
+#define RUNG_PUNCT(name, spelling) name,
+#define RUNG_WORD(name, spelling) name,
+#define RUNG_TYPE_WORD(name, spelling) name,
+#define RUNG_SOFT_WORD(name, spelling) name,
+#include "frontend/parse/tokens.def"
+};
+constexpr uint32_t kTokCount = static_cast<uint32_t>(Tok::EndSlip) + 1;
+
+// Usable as a name: an identifier, or a soft keyword.
+inline bool isName(Tok kind) { return kind == Tok::Ident || kind >= Tok::At; }
+inline bool isTypeWord(Tok kind) { return kind >= Tok::Bool && kind <= Tok::Wstring; }
+// Keywords that begin the declaration of an object where a name follows, and are names elsewhere
+// (resolveObjectKeywords).
+inline bool isObjectWord(Tok kind) {
+  return kind == Tok::Method || kind == Tok::Property || kind == Tok::Action || kind == Tok::Interface ||
+         kind == Tok::Class || kind == Tok::Namespace;
+}
+// END_… of a declaration, a block of variables or a POU or its part, and the end of the file; not of statements.
+bool endsPart(Tok kind);
+inline bool isReserved(Tok kind) { return kind >= Tok::And && kind <= Tok::EndResource; }
+// The fixed spelling of an operator or keyword; for other tokens the description in messages ("a number").
+const char* spelling(Tok kind);
+
+enum TokenFlag : uint8_t {
+  kLineStart = 1,   // the first token of its line
+  kPragma = 2,      // pragmas precede it
+  kDoc = 4,         // `///` lines above it
+  kDocAfter = 8,    // `///` follows on its line
+  kReported = 16,   // the lexer has reported this token
+  kSynthetic = 32,  // inserted by recovery, at the offset of the next real token
+};
+struct Token {
+  uint32_t offset;  // in the file
+  uint32_t value;   // NameId of names and type words, length of all others
+  Tok kind;
+  uint8_t flags;
+  uint16_t spare;
+};
+
+// Pragmas and doc comments are looked up by the token to which they belong.
+struct PragmaRange {
+  uint32_t token_offset;  // of the token that follows
+  uint32_t begin, end;    // with its braces
+};
+struct DocRange {
+  uint32_t token_offset;  // of the token that follows, or of the preceding one for `///` after it
+  uint32_t begin;
+};
+
+constexpr uint32_t kLookahead = 4;
+
+struct TokenStream {
+  std::vector<Token> tokens;
+  std::vector<PragmaRange> pragmas;
+  std::vector<DocRange> docs;
+  std::vector<DocRange> docs_after;
+  std::vector<uint32_t> blocks;  // indices of the keywords that open or close blocks, for recover.h
+};
+
+// Reads [begin, end) of the file's source.
+void lex(TokenStream& out, Names& names, const Sources& sources, FileId file, uint32_t begin, uint32_t end,
+         Dialect dialect, Diagnostics& diagnostics);
+
+// Whether a line begins with an instruction of IL that cannot begin a statement or declaration: an operator such as LD
+// or JMP, followed by an operand (il.cpp).
+bool beginsIl(Tok kind, std::string_view text, const Token& next);
+
+// Turns object keywords that begin no declaration into names (objects.cpp).
+void resolveObjectKeywords(TokenStream& stream);
+
+}  // namespace rung::text

@@ -1,0 +1,435 @@
+#include "frontend/parse/literals.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "frontend/parse/diagnostics.h"
+
+namespace rung::text {
+namespace {
+
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c; }
+int hexDigit(char c) {
+  if (isDigit(c)) return c - '0';
+  c = lower(c);
+  return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+}
+
+// `_` only between digits.
+bool checkUnderscores(std::string_view digits, std::string_view text, Loc loc, Diagnostics& diagnostics) {
+  for (size_t i = 0; i < digits.size(); ++i) {
+    if (digits[i] != '_') continue;
+    if (i > 0 && i + 1 < digits.size() && digits[i - 1] != '_' && hexDigit(digits[i - 1]) >= 0 &&
+        hexDigit(digits[i + 1]) >= 0)
+      continue;
+    diagnostics.report(diag::NumberUnderscore, loc, {text});
+    return false;
+  }
+  return true;
+}
+
+// Reads the unsigned number at the front of text; false when it has no digit or does not fit.
+bool takeNumber(std::string_view& text, uint64_t& value) {
+  value = 0;
+  size_t i = 0;
+  for (; i < text.size() && (isDigit(text[i]) || (text[i] == '_' && i > 0)); ++i) {
+    if (text[i] == '_') continue;
+    if (__builtin_mul_overflow(value, 10u, &value) ||
+        __builtin_add_overflow(value, static_cast<uint64_t>(text[i] - '0'), &value))
+      return false;
+  }
+  if (i == 0 || text[i - 1] == '_') return false;
+  text.remove_prefix(i);
+  return true;
+}
+bool take(std::string_view& text, char c) {
+  if (text.empty() || text.front() != c) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+std::string_view afterHash(std::string_view text) { return text.substr(text.find('#') + 1); }
+bool isLong(std::string_view text) { return lower(text.front()) == 'l'; }
+
+// A fraction ".25" of a unit in nanoseconds, truncated to nanoseconds.
+uint64_t fractionOf(std::string_view digits, uint64_t unit) {
+  uint64_t value = 0, scale = unit;
+  // unit is at most a day: 8.64e13; each digit divides once.
+  __uint128_t sum = 0, place = static_cast<__uint128_t>(scale) * 1000000u;
+  for (char c : digits) {
+    if (c == '_') continue;
+    place /= 10;
+    sum += place * static_cast<unsigned>(c - '0');
+  }
+  value = static_cast<uint64_t>(sum / 1000000u);
+  return value;
+}
+
+constexpr uint64_t kSecond = 1000000000u, kMinute = 60 * kSecond, kHour = 60 * kMinute, kDay = 24 * kHour;
+
+// Days since 1970-01-01 of the Gregorian calendar (Howard Hinnant's days_from_civil).
+int64_t daysFromCivil(int64_t y, unsigned m, unsigned d) {
+  y -= m <= 2;
+  const int64_t era = (y >= 0 ? y : y - 399) / 400;
+  const auto yoe = static_cast<unsigned>(y - era * 400);
+  const unsigned doy = (153 * (m > 2 ? m - 3 : m + 9) + 2) / 5 + d - 1;
+  const unsigned doe = yoe * 365 + yoe / 4 - yoe / 100 + doy;
+  return era * 146097 + static_cast<int64_t>(doe) - 719468;
+}
+
+// y-m-d at the front of text.
+bool takeDate(std::string_view& text, std::string_view whole, const char* sample, Loc loc, Diagnostics& diagnostics,
+              int64_t& days) {
+  uint64_t y = 0, m = 0, d = 0;
+  if (!takeNumber(text, y) || !take(text, '-') || !takeNumber(text, m) || !take(text, '-') || !takeNumber(text, d)) {
+    diagnostics.report(diag::DateForm, loc, {whole, sample});
+    return false;
+  }
+  static constexpr unsigned kLengths[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  const bool leap = (y % 4 == 0 && y % 100 != 0) || y % 400 == 0;
+  // The range of 64 bits of nanoseconds, in whole years.
+  const bool ok =
+      y >= 1678 && y <= 2261 && m >= 1 && m <= 12 && d >= 1 && d <= kLengths[m - 1] + (m == 2 && leap ? 1u : 0u);
+  if (!ok) {
+    diagnostics.report(diag::NoSuchDay, loc, {afterHash(whole).substr(0, afterHash(whole).size() - text.size())});
+    return false;
+  }
+  days = daysFromCivil(static_cast<int64_t>(y), static_cast<unsigned>(m), static_cast<unsigned>(d));
+  return true;
+}
+
+// h:m[:s[.fraction]] up to the end of text.
+bool takeTime(std::string_view text, std::string_view whole, const char* sample, bool hours_free, Loc loc,
+              Diagnostics& diagnostics, uint64_t& nanoseconds) {
+  uint64_t h = 0, m = 0, s = 0, fraction = 0;
+  bool ok = takeNumber(text, h) && take(text, ':') && takeNumber(text, m);
+  if (ok && take(text, ':')) {
+    ok = takeNumber(text, s);
+    if (ok && take(text, '.')) {
+      size_t n = 0;
+      while (n < text.size() && (isDigit(text[n]) || text[n] == '_')) ++n;
+      fraction = fractionOf(text.substr(0, n), kSecond);
+      ok = n > 0;
+      text.remove_prefix(n);
+    }
+  }
+  if (!ok || !text.empty() || m > 59 || s > 59 || h > (hours_free ? 1193u : 23u)) {
+    diagnostics.report(diag::TimeOfDayForm, loc, {whole, sample});
+    return false;
+  }
+  if (h > 23) diagnostics.report(diag::TimeOfDayLong, loc, {whole});
+  nanoseconds = h * kHour + m * kMinute + s * kSecond + fraction;
+  return true;
+}
+
+}  // namespace
+
+bool readNumber(std::string_view text, Loc loc, Diagnostics& diagnostics, NumberValue& value) {
+  value = {};
+  if (text.size() < 10) {  // the everyday case: a few decimal digits
+    uint64_t n = 0;
+    size_t i = 0;
+    while (i < text.size() && isDigit(text[i])) n = n * 10 + static_cast<uint64_t>(text[i++] - '0');
+    if (i == text.size()) {
+      value.integer = n;
+      return true;
+    }
+  }
+  if (const size_t hash = text.find('#'); hash != std::string_view::npos) {
+    const std::string_view base_digits = text.substr(0, hash), digits = text.substr(hash + 1);
+    const uint32_t base = base_digits == "2"    ? 2
+                          : base_digits == "8"  ? 8
+                          : base_digits == "16" ? 16
+                          : base_digits == "10" ? 10
+                                                : 0;
+    if (base == 0) {
+      diagnostics.report(diag::NumberBase, loc, {text});
+      return false;
+    }
+    if (digits.empty()) {
+      diagnostics.report(diag::NumberDigit, loc, {text, base_digits});
+      return false;
+    }
+    value.is_based = true;
+    for (char c : digits) {
+      if (c == '_') continue;
+      const int digit = hexDigit(c);
+      if (digit < 0 || digit >= static_cast<int>(base)) {
+        diagnostics.report(diag::NumberDigit, loc, {std::string_view(&c, 1), base_digits});
+        return false;
+      }
+      if (__builtin_mul_overflow(value.integer, static_cast<uint64_t>(base), &value.integer) ||
+          __builtin_add_overflow(value.integer, static_cast<uint64_t>(digit), &value.integer)) {
+        diagnostics.report(diag::NumberTooLarge, loc, {text});
+        return false;
+      }
+    }
+    return checkUnderscores(digits, text, loc, diagnostics);
+  }
+  size_t i = 0;
+  while (i < text.size() && (isDigit(text[i]) || text[i] == '_')) ++i;
+  value.is_real = i < text.size() && (text[i] == '.' || ((text[i] | 0x20) == 'e' && i + 1 < text.size()));
+  if (value.is_real) {
+    std::string plain;
+    for (char c : text)
+      if (c != '_') plain += c;
+    const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value.real);
+    if (end != plain.data() + plain.size()) {
+      diagnostics.report(diag::NumberSuffix, loc, {text});
+      return false;
+    }
+    if (error == std::errc::result_out_of_range) {
+      // Underflow is zero; overflow is reported here, since later phases could not tell it from infinity.
+      const size_t e = plain.find_first_of("eE");
+      const bool tiny = e != std::string::npos && plain[e + 1] == '-';
+      value.real = 0;
+      if (!tiny) {
+        diagnostics.report(diag::NumberTooLarge, loc, {text});
+        return false;
+      }
+    }
+    return checkUnderscores(text.substr(0, text.find_first_of("eE")), text, loc, diagnostics);
+  }
+  if (i != text.size()) {
+    diagnostics.report(diag::NumberSuffix, loc, {text});
+    return false;
+  }
+  for (char c : text) {
+    if (c == '_') continue;
+    if (__builtin_mul_overflow(value.integer, 10u, &value.integer) ||
+        __builtin_add_overflow(value.integer, static_cast<uint64_t>(c - '0'), &value.integer)) {
+      diagnostics.report(diag::NumberTooLarge, loc, {text});
+      return false;
+    }
+  }
+  return checkUnderscores(text, text, loc, diagnostics);
+}
+
+// duration = ["-"] number unit {["_"] number unit}; every unit may exceed its range (T#100s12ms, T#29h90m).
+bool readDuration(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value) {
+  value.kind = LiteralKind::Duration;
+  value.is_long = isLong(text);
+  std::string_view rest = afterHash(text);
+  const auto at = [&] { return Loc{loc.offset + static_cast<uint32_t>(text.size() - rest.size())}; };
+  value.is_negative = take(rest, '-');
+  if (!value.is_negative) take(rest, '+');
+  struct Unit {
+    const char* name;
+    uint64_t nanoseconds;
+  };
+  static constexpr Unit kUnits[] = {{"d", kDay},     {"h", kHour}, {"m", kMinute}, {"s", kSecond},
+                                    {"ms", 1000000}, {"us", 1000}, {"ns", 1}};
+  size_t next_unit = 0;
+  bool had_fraction = false;
+  uint64_t sum = 0;
+  bool fits = true;
+  Loc last_part;
+  std::string_view last_text;
+  if (rest.empty()) {
+    diagnostics.report(diag::TimeUnit, loc, {text});
+    return false;
+  }
+  while (!rest.empty()) {
+    if (next_unit > 0) take(rest, '_');
+    const Loc part = at();
+    const std::string_view part_text = rest;
+    if (had_fraction) {
+      diagnostics.report(diag::TimeFraction, last_part, {last_text}).length(static_cast<uint32_t>(last_text.size()));
+      return false;
+    }
+    size_t n = 0;
+    while (n < rest.size() && (isDigit(rest[n]) || rest[n] == '_')) ++n;
+    std::string_view digits = rest.substr(0, n);
+    rest.remove_prefix(n);
+    std::string_view fraction;
+    if (take(rest, '.')) {
+      n = 0;
+      while (n < rest.size() && (isDigit(rest[n]) || rest[n] == '_')) ++n;
+      fraction = rest.substr(0, n);
+      rest.remove_prefix(n);
+      had_fraction = true;
+    }
+    n = 0;
+    while (n < rest.size() && !isDigit(rest[n]) && rest[n] != '_' && rest[n] != '.') ++n;
+    const std::string_view unit = rest.substr(0, n);
+    size_t u = 0;
+    while (u < 7 && !sameIdentifier(unit, kUnits[u].name)) ++u;
+    if (u == 7 || digits.empty()) {
+      const std::string_view shown = unit.empty() || digits.empty() ? part_text : unit;
+      diagnostics.report(diag::TimeUnit, unit.empty() || digits.empty() ? part : at(), {shown})
+          .length(static_cast<uint32_t>(shown.size()));
+      return false;
+    }
+    if (u < next_unit) {
+      diagnostics.report(diag::TimeUnitOrder, at(), {unit}).length(static_cast<uint32_t>(n));
+      return false;
+    }
+    rest.remove_prefix(n);
+    last_part = part;
+    last_text = part_text.substr(0, part_text.size() - rest.size());
+    next_unit = u + 1;
+    uint64_t amount = 0, product = 0;
+    if (!checkUnderscores(digits, text, loc, diagnostics)) return false;
+    fits = fits && takeNumber(digits, amount) && !__builtin_mul_overflow(amount, kUnits[u].nanoseconds, &product) &&
+           !__builtin_add_overflow(sum, product, &sum) &&
+           !__builtin_add_overflow(sum, fractionOf(fraction, kUnits[u].nanoseconds), &sum);
+  }
+  if (!fits || (value.is_negative && sum > (1ull << 63))) {
+    diagnostics.report(diag::TimeTooLong, loc, {text});
+    return false;
+  }
+  value.value = value.is_negative ? 0 - sum : sum;
+  return true;
+}
+
+bool readDate(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value) {
+  value.kind = LiteralKind::Date;
+  value.is_long = isLong(text);
+  std::string_view rest = afterHash(text);
+  int64_t days = 0;
+  if (!takeDate(rest, text, "D#2026-12-31", loc, diagnostics, days)) return false;
+  if (!rest.empty()) {
+    diagnostics.report(diag::DateForm, loc, {text, "D#2026-12-31"});
+    return false;
+  }
+  value.value = static_cast<uint64_t>(days) * kDay;
+  return true;
+}
+
+bool readTimeOfDay(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value) {
+  value.kind = LiteralKind::TimeOfDay;
+  value.is_long = isLong(text);
+  return takeTime(afterHash(text), text, "TOD#23:59:59.999", !value.is_long, loc, diagnostics, value.value);
+}
+
+bool readDateTime(std::string_view text, Loc loc, Diagnostics& diagnostics, TimeValue& value) {
+  static const char* const kSample = "DT#2026-12-31-23:59:59";
+  value.kind = LiteralKind::DateTime;
+  value.is_long = isLong(text);
+  std::string_view rest = afterHash(text);
+  int64_t days = 0;
+  uint64_t time = 0;
+  if (!takeDate(rest, text, kSample, loc, diagnostics, days)) return false;
+  if (!take(rest, '-')) {
+    diagnostics.report(diag::DateForm, loc, {text, kSample});
+    return false;
+  }
+  if (!takeTime(rest, text, kSample, false, loc, diagnostics, time)) return false;
+  value.value = static_cast<uint64_t>(days) * kDay + time;
+  return true;
+}
+
+bool readString(std::string_view text, bool wide, Loc loc, Diagnostics& diagnostics, std::string& value) {
+  std::string_view inner = text.substr(1);
+  if (!inner.empty() && inner.back() == text.front()) inner.remove_suffix(1);
+  value.clear();
+  bool ok = true;
+  uint32_t high_surrogate = 0;
+  for (size_t i = 0; i < inner.size(); ++i) {
+    const char c = inner[i];
+    if (c != '$') {
+      value += c;
+      continue;
+    }
+    const size_t start = i;
+    const char next = i + 1 < inner.size() ? inner[i + 1] : '\0';
+    const size_t digits = wide ? 4 : 2;
+    bool is_code = i + digits < inner.size();
+    uint32_t code = 0;
+    for (size_t k = 1; is_code && k <= digits; ++k) {
+      const int h = hexDigit(inner[i + k]);
+      is_code = h >= 0;
+      code = code * 16 + static_cast<uint32_t>(h);
+    }
+    ++i;
+    switch (lower(next)) {
+      case '$':
+      case '\'':
+      case '"': value += next; continue;
+      case 'l': value += '\n'; continue;
+      case 'n': value += '\n'; continue;
+      case 'p': value += '\f'; continue;
+      case 'r': value += '\r'; continue;
+      case 't': value += '\t'; continue;
+      default: break;
+    }
+    if (next == '{') {
+      const size_t end = std::min(inner.find('}', i), inner.size());
+      uint64_t point = 0;
+      bool is_point = end < inner.size() && end > i + 1;
+      for (size_t k = i + 1; is_point && k < end; ++k) {
+        const int h = hexDigit(inner[k]);
+        is_point = h >= 0 && point < 0x110000;
+        point = point * 16 + static_cast<uint64_t>(h);
+      }
+      if (is_point && point < 0x110000 && !(point >= 0xD800 && point < 0xE000)) {
+        appendUtf8(value, static_cast<uint32_t>(point));
+      } else {
+        const std::string_view shown = inner.substr(start, end + 1 - start);
+        diagnostics.report(diag::NoCodePoint, Loc{loc.offset + 1 + static_cast<uint32_t>(start)}, {shown})
+            .length(static_cast<uint32_t>(shown.size()));
+        ok = false;
+      }
+      i = end;
+      continue;
+    }
+    if (!is_code) {
+      const std::string_view shown = inner.substr(start, next == '\0' ? 1 : 2);
+      diagnostics
+          .report(diag::StringEscape, Loc{loc.offset + 1 + static_cast<uint32_t>(start)},
+                  {shown, wide ? "four" : "two"})
+          .length(static_cast<uint32_t>(shown.size()));
+      ok = false;
+      continue;
+    }
+    i = start + digits;
+    if (!wide) {
+      value += static_cast<char>(code);
+    } else if (code >= 0xD800 && code < 0xDC00) {
+      high_surrogate = code;
+    } else if (code >= 0xDC00 && code < 0xE000 && high_surrogate != 0) {
+      appendUtf8(value, 0x10000 + ((high_surrogate - 0xD800) << 10) + (code - 0xDC00));
+      high_surrogate = 0;
+    } else {
+      appendUtf8(value, code);
+    }
+  }
+  return ok;
+}
+
+// %area [size] (number {. number} | *)
+bool readAddress(std::string_view text, Loc loc, Diagnostics& diagnostics, DirectAddress& address,
+                 std::vector<uint32_t>& path) {
+  address = {};
+  path.clear();
+  std::string_view rest = text.substr(1);
+  const char area = rest.empty() ? '\0' : lower(rest.front());
+  bool ok = area == 'i' || area == 'q' || area == 'm';
+  address.area = area == 'i' ? ImageArea::Input : area == 'q' ? ImageArea::Output : ImageArea::Memory;
+  address.size = 'X';
+  if (ok) rest.remove_prefix(1);
+  if (ok && !rest.empty()) {
+    const char size = lower(rest.front());
+    if (size == 'x' || size == 'b' || size == 'w' || size == 'd' || size == 'l') {
+      address.size = static_cast<char>(size & ~0x20);
+      address.size_given = true;
+      rest.remove_prefix(1);
+    }
+  }
+  if (ok && take(rest, '*')) {
+    address.incomplete = true;
+    ok = rest.empty();
+  } else if (ok) {
+    do {
+      uint64_t number = 0;
+      ok = takeNumber(rest, number) && number <= 0xffffffffu;
+      path.push_back(static_cast<uint32_t>(number));
+    } while (ok && take(rest, '.'));
+    ok = ok && rest.empty();
+  }
+  if (!ok) diagnostics.report(diag::AddressForm, loc, {text});
+  return ok;
+}
+
+}  // namespace rung::text

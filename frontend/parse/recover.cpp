@@ -1,0 +1,787 @@
+#include "frontend/parse/recover.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "frontend/parse/diagnostics.h"
+#include "frontend/source/dialect.h"
+
+namespace rung::text {
+namespace {
+
+// The keyword that closes a block opened by `open`, or End when it opens no block.
+Tok closerOf(Tok open) {
+  switch (static_cast<int>(open)) {
+    case static_cast<int>(Tok::If): return Tok::EndIf;
+    case static_cast<int>(Tok::Case): return Tok::EndCase;
+    case static_cast<int>(Tok::For): return Tok::EndFor;
+    case static_cast<int>(Tok::While): return Tok::EndWhile;
+    case static_cast<int>(Tok::Repeat): return Tok::EndRepeat;
+    case static_cast<int>(Tok::Try): return Tok::EndTry;
+    case static_cast<int>(Tok::Type): return Tok::EndType;
+    case static_cast<int>(Tok::Struct): return Tok::EndStruct;
+    case static_cast<int>(Tok::Union): return Tok::EndUnion;
+    case static_cast<int>(Tok::Function): return Tok::EndFunction;
+    case static_cast<int>(Tok::FunctionBlock): return Tok::EndFunctionBlock;
+    case static_cast<int>(Tok::Program): return Tok::EndProgram;
+    case static_cast<int>(Tok::Configuration): return Tok::EndConfiguration;
+    case static_cast<int>(Tok::Resource): return Tok::EndResource;
+    case static_cast<int>(Tok::Method): return Tok::EndMethod;
+    case static_cast<int>(Tok::Property): return Tok::EndProperty;
+    case static_cast<int>(Tok::Action): return Tok::EndAction;
+    case static_cast<int>(Tok::Interface): return Tok::EndInterface;
+    case static_cast<int>(Tok::Class): return Tok::EndClass;
+    default: return open >= Tok::Var && open <= Tok::VarConfig ? Tok::EndVar : Tok::End;
+  }
+}
+
+constexpr Tok kClosers[] = {Tok::EndIf,       Tok::EndCase,          Tok::EndFor,       Tok::EndWhile,
+                            Tok::EndRepeat,   Tok::EndTry,           Tok::EndType,      Tok::EndStruct,
+                            Tok::EndUnion,    Tok::EndVar,           Tok::EndFunction,  Tok::EndFunctionBlock,
+                            Tok::EndProgram,  Tok::EndConfiguration, Tok::EndResource,  Tok::EndMethod,
+                            Tok::EndProperty, Tok::EndAction,        Tok::EndInterface, Tok::EndClass};
+bool isCloser(Tok k) { return std::find(std::begin(kClosers), std::end(kClosers), k) != std::end(kClosers); }
+bool isVarWord(Tok k) { return k >= Tok::Var && k <= Tok::VarConfig; }
+bool isMember(Tok k) { return k == Tok::Method || k == Tok::Property || k == Tok::Action; }
+bool isPouOpener(Tok k) {
+  return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program || k == Tok::Interface || k == Tok::Class ||
+         isMember(k);
+}
+bool isPouCloser(Tok k) {
+  return k == Tok::EndFunction || k == Tok::EndFunctionBlock || k == Tok::EndProgram || k == Tok::EndInterface ||
+         k == Tok::EndClass || k == Tok::EndMethod || k == Tok::EndProperty || k == Tok::EndAction;
+}
+bool isMemberCloser(Tok k) { return k == Tok::EndMethod || k == Tok::EndProperty || k == Tok::EndAction; }
+bool isStatementOpener(Tok k) {
+  return k == Tok::If || k == Tok::Case || k == Tok::For || k == Tok::While || k == Tok::Repeat;
+}
+
+// The keywords that can open a block closed by `closer`.
+std::span<const Tok> openersFor(Tok closer) {
+  static constexpr Tok kVars[] = {Tok::Var,         Tok::VarInput,  Tok::VarOutput, Tok::VarInOut,  Tok::VarTemp,
+                                  Tok::VarExternal, Tok::VarGlobal, Tok::VarStat,   Tok::VarAccess, Tok::VarConfig};
+  static constexpr Tok kOthers[] = {Tok::If,      Tok::Case,          Tok::For,      Tok::While,    Tok::Repeat,
+                                    Tok::Type,    Tok::Struct,        Tok::Union,    Tok::Function, Tok::FunctionBlock,
+                                    Tok::Program, Tok::Configuration, Tok::Resource, Tok::Method,   Tok::Property,
+                                    Tok::Action,  Tok::Interface,     Tok::Class};
+  if (closer == Tok::EndVar) return kVars;
+  for (const Tok& t : kOthers)
+    if (closerOf(t) == closer) return {&t, 1};
+  return {};
+}
+
+class Balancer {
+ public:
+  Balancer(TokenStream& stream, const Names& names, const Sources& sources, FileId file, Dialect dialect,
+           Diagnostics& diagnostics)
+      : stream_(stream),
+        tokens_(stream.tokens),
+        names_(names),
+        sources_(sources),
+        dialect_(dialect),
+        diagnostics_(diagnostics),
+        base_(sources.begin(file).offset),
+        source_(sources.sourceText(file)),
+        count_(static_cast<uint32_t>(tokens_.size()) - kLookahead) {}
+
+  void run();
+
+ private:
+  struct Open {
+    Tok kind;
+    uint32_t index;
+    uint32_t column;
+    bool line_start;       // the first token of its line
+    bool is_chain;         // the IF of an ELSE IF
+    uint32_t suspect;      // where its END_… seems to be missing; 0: not known
+    uint32_t chain_child;  // index of the IF of an inner ELSE IF that took its END_IF; 0: none
+    Tok connective;        // THEN, DO or OF of its header
+    uint32_t line;         // of the keyword; computed on demand
+  };
+  struct Orphan {  // THEN, DO or OF without its IF, WHILE, CASE, …
+    uint32_t index, line_first, column;
+  };
+  enum class EditKind : uint8_t { Insert, Remove, Correction };
+  struct Edit {
+    uint32_t index;
+    EditKind kind;
+    Tok word;
+  };
+
+  // ---- reading tokens
+  bool atLineStart(uint32_t i) const { return (tokens_[i].flags & kLineStart) != 0; }
+  bool isProgramInstance(uint32_t i) const {
+    uint32_t n = i + 1;
+    if ((tokens_[n].kind == Tok::Retain || tokens_[n].kind == Tok::NonRetain) && isName(tokens_[n + 1].kind))
+      return true;
+    if (isName(tokens_[n].kind) && tokens_[n + 1].kind == Tok::With) return true;
+    if (!in_configuration_) return false;
+    // An instance ends with `;` on its line or has arguments, a POU's header does not.
+    if (isName(tokens_[n].kind) && tokens_[n + 1].kind == Tok::Colon && isName(tokens_[n + 2].kind) &&
+        tokens_[n + 3].kind == Tok::LeftParen)
+      return true;
+    for (uint32_t k = n; k < count_ && k < n + 40 && !atLineStart(k) && !isVarWord(tokens_[k].kind); ++k)
+      if (tokens_[k].kind == Tok::Semicolon) return true;
+    return false;
+  }
+  bool isResource(uint32_t i) const {
+    return isName(tokens_[i + 1].kind) &&
+           (tokens_[i + 2].kind == Tok::On || (atLineStart(i) && isName(tokens_[i + 2].kind) && !atLineStart(i + 2)));
+  }
+  bool opens(uint32_t i) const {
+    const Tok k = tokens_[i].kind;
+    if (k == Tok::Program) return !isProgramInstance(i);
+    if (k == Tok::Resource) return isResource(i);
+    if (isMember(k)) return std::find(members_closed_.begin(), members_closed_.end(), k) != members_closed_.end();
+    return closerOf(k) != Tok::End;
+  }
+  // Keywords that begin a new region regardless of open blocks.
+  bool beginsRegion(uint32_t i) const {
+    const Tok k = tokens_[i].kind;
+    if (!atLineStart(i) && i > 0 && !isCloser(tokens_[i - 1].kind) && tokens_[i - 1].kind != Tok::Semicolon)
+      return false;
+    return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Type || k == Tok::Configuration ||
+           k == Tok::Interface || k == Tok::Class || (k == Tok::Program && !isProgramInstance(i));
+  }
+  std::string_view textOf(uint32_t i) const {
+    const Token& t = tokens_[i];
+    const size_t length = isName(t.kind) || isTypeWord(t.kind) ? names_.string({t.value}).size() : t.value;
+    return source_.substr(t.offset, length);
+  }
+  Loc loc(uint32_t i) const { return {base_ + tokens_[i].offset}; }
+  uint32_t columnOf(uint32_t i) const {
+    uint32_t offset = tokens_[i].offset;
+    const uint32_t end = offset;
+    while (offset > 0 && source_[offset - 1] != '\n') --offset;
+    return end - offset;
+  }
+  std::string describe(uint32_t i) const {
+    if (tokens_[i].kind == Tok::End) return spelling(Tok::End);
+    std::string shown(1, '`');
+    shown.append(textOf(i).substr(0, 40));
+    shown += '`';
+    return shown;
+  }
+  std::string lineOf(const Open& open) const { return std::to_string(sources_.location(loc(open.index)).line); }
+
+  // ---- the two passes over a region
+  bool balanced(size_t first_block, size_t end_block);
+  void repair(uint32_t first, uint32_t end);
+  void visit(uint32_t i);
+  void open(uint32_t i, Tok kind);
+  void close(uint32_t i, Tok closer);
+  void stray(uint32_t i, Tok closer);
+  void leftOutermost(uint32_t i, Tok closer);
+  bool comesBehind(uint32_t i, Tok closer) const {
+    while (++i < region_end_)
+      if (tokens_[i].kind == closer) return true;
+    return false;
+  }
+  bool insideExpression(uint32_t i) const;
+  void spoil(uint32_t i);
+  void missingOpener(uint32_t at, Tok word);
+  void leaveOpen(const Open& open, uint32_t forced);
+  uint32_t findOpener(uint32_t i, Tok closer, Tok& meant);
+  bool belongs(Tok connective, Tok opener) const;
+  Loc gapBefore(uint32_t i, uint32_t& length) const;
+  void edit(uint32_t index, EditKind kind, Tok word) { edits_.push_back({index, kind, word}); }
+  void markReported(uint32_t i) { tokens_[i].flags |= kReported; }
+  void apply();
+
+  TokenStream& stream_;
+  std::vector<Token>& tokens_;
+  const Names& names_;
+  const Sources& sources_;
+  Dialect dialect_;
+  Diagnostics& diagnostics_;
+  uint32_t base_;
+  std::string_view source_;
+  uint32_t count_;
+  bool in_configuration_ = false;
+  std::vector<Tok> members_closed_;  // METHOD, PROPERTY, ACTION whose END_… the file writes (all of them in iec)
+
+  std::vector<Open> stack_;
+  std::vector<Orphan> orphans_;
+  std::vector<Edit> edits_;
+  uint32_t region_first_ = 0, region_end_ = 0;
+  uint32_t line_first_ = 0, line_column_ = 0;
+  uint32_t pending_header_ = 0;  // index + 1 of the IF, ELSIF, FOR, WHILE, CASE or ARRAY waiting for its THEN, DO or OF
+  uint32_t decl_start_ = 0;      // first token of a line where declarations without a VAR may begin
+  uint32_t outside_start_ = 0;   // first token after the last closed POU
+  uint32_t searches_ = 0;
+  bool global_section_ = false;  // the last section was at file level
+};
+
+void Balancer::run() {
+  // Regions are delimited by keywords that occur only at file level, so that an error in one POU does not affect
+  // others.
+  const std::vector<uint32_t>& blocks = stream_.blocks;
+  for (const Tok member : {Tok::Method, Tok::Property, Tok::Action}) {
+    const auto closes = [&](uint32_t b) { return tokens_[b].kind == closerOf(member); };
+    if (dialect_ != Dialect::Codesys || std::any_of(blocks.begin(), blocks.end(), closes))
+      members_closed_.push_back(member);
+  }
+  size_t start = 0;
+  bool any = false;
+  std::vector<std::pair<uint32_t, uint32_t>> broken;
+  for (size_t b = 0; b < blocks.size();) {
+    start = b;
+    in_configuration_ = tokens_[blocks[b]].kind == Tok::Configuration;
+    ++b;
+    while (b < blocks.size() && !beginsRegion(blocks[b])) ++b;
+    if (!balanced(start, b)) {
+      const uint32_t first = start == 0 ? 0 : blocks[start];
+      const uint32_t end = b < blocks.size() ? blocks[b] : count_;
+      broken.push_back({first, end});
+      any = true;
+    }
+  }
+  if (!any) return;
+  for (const auto& [first, end] : broken) repair(first, end);
+  apply();
+}
+
+bool Balancer::balanced(size_t first_block, size_t end_block) {
+  static thread_local std::vector<Tok> stack;
+  stack.clear();
+  for (size_t b = first_block; b < end_block; ++b) {
+    const uint32_t i = stream_.blocks[b];
+    const Tok k = tokens_[i].kind;
+    if (opens(i)) {
+      // Sections contain no blocks but structures; structures contain no statements.
+      if (!stack.empty() && (isVarWord(stack.back()) || stack.back() == Tok::Type) && k != Tok::Struct &&
+          k != Tok::Union)
+        return false;
+      stack.push_back(k);
+    } else if (isCloser(k)) {
+      if (stack.empty() || closerOf(stack.back()) != k) return false;
+      stack.pop_back();
+    }
+  }
+  if (dialect_ == Dialect::Codesys && stack.size() == 1 && isPouOpener(stack.back())) return true;
+  return stack.empty();
+}
+
+void Balancer::repair(uint32_t first, uint32_t end) {
+  stack_.clear();
+  orphans_.clear();
+  region_first_ = first;
+  region_end_ = end;
+  pending_header_ = 0;
+  decl_start_ = outside_start_ = first;
+  in_configuration_ = tokens_[first].kind == Tok::Configuration;
+  line_first_ = first;
+  line_column_ = columnOf(first);
+  for (uint32_t i = first; i < end; ++i) {
+    if (atLineStart(i)) {
+      line_first_ = i;
+      line_column_ = columnOf(i);
+    }
+    visit(i);
+  }
+  while (!stack_.empty()) {
+    const Open open = stack_.back();
+    stack_.pop_back();
+    if (isPouOpener(open.kind) && dialect_ == Dialect::Codesys) continue;
+    leaveOpen(open, end);
+  }
+}
+
+// If the line above token i is blank, the missing keyword most likely belongs there: returns that gap, else the token.
+Loc Balancer::gapBefore(uint32_t i, uint32_t& length) const {
+  length = 1;
+  if (i > 0) {
+    const Token& before = tokens_[i - 1];
+    uint32_t p = before.offset + static_cast<uint32_t>(textOf(i - 1).size());
+    while (p < tokens_[i].offset && source_[p] != '\n') ++p;
+    if (p < tokens_[i].offset) {
+      ++p;
+      const uint32_t line = p;
+      while (p < tokens_[i].offset && (source_[p] == ' ' || source_[p] == '\t')) ++p;
+      if (p < source_.size() && (source_[p] == '\n' || source_[p] == '\r')) return {base_ + (p > line ? p - 1 : p)};
+    }
+  }
+  if (tokens_[i].kind != Tok::End) {
+    length = static_cast<uint32_t>(textOf(i).size());
+    return loc(i);
+  }
+  if (i == 0) return loc(i);
+  return {base_ + tokens_[i - 1].offset + static_cast<uint32_t>(textOf(i - 1).size())};
+}
+
+void Balancer::visit(uint32_t i) {
+  const Tok k = tokens_[i].kind;
+  // A line that is not indented deeper than the block it should be in: the block's end is likely missing before it.
+  if (i == line_first_ && !stack_.empty()) {
+    Open& top = stack_.back();
+    if (top.suspect == 0 && top.index < i && !isCloser(k) && !isPouOpener(top.kind) && top.kind != Tok::Configuration &&
+        top.kind != Tok::Resource) {
+      const bool names_something = isName(k) && (tokens_[i + 1].kind == Tok::Colon ||
+                                                 tokens_[i + 1].kind == Tok::Comma || tokens_[i + 1].kind == Tok::At);
+      bool suspicious = false;
+      if (isVarWord(top.kind) || top.kind == Tok::Type) {
+        suspicious = (isVarWord(top.kind) && !names_something && (isName(k) || isStatementOpener(k)) &&
+                      (tokens_[i + 1].kind == Tok::Assign || tokens_[i + 1].kind == Tok::LeftParen ||
+                       isStatementOpener(k) || tokens_[i + 1].kind == Tok::Dot ||
+                       tokens_[i + 1].kind == Tok::LeftBracket || beginsIl(k, textOf(i), tokens_[i + 1])));
+      } else if (line_column_ <= top.column) {
+        const bool middle = ((k == Tok::Else || k == Tok::Elsif || k == Tok::Elseif) &&
+                             (top.kind == Tok::If || (k == Tok::Else && top.kind == Tok::Case))) ||
+                            (k == Tok::Until && top.kind == Tok::Repeat) || k == Tok::Then || k == Tok::Do ||
+                            k == Tok::Of;
+        const bool label =
+            top.kind == Tok::Case && (k == Tok::Number || names_something || tokens_[i + 1].kind == Tok::Hash ||
+                                      tokens_[i + 1].kind == Tok::DotDot);
+        suspicious =
+            top.line_start && !label && (!middle || line_column_ < top.column) &&
+            !(k == Tok::Ident && (textOf(i)[0] | 0x20) == 'e' && nearestKeyword(textOf(i), kClosers) != Tok::End);
+      }
+      if (suspicious) top.suspect = i;
+    }
+  }
+  switch (static_cast<int>(k)) {
+    case static_cast<int>(Tok::Elsif):
+    case static_cast<int>(Tok::Elseif):
+    case static_cast<int>(Tok::Array): pending_header_ = i + 1; return;
+    case static_cast<int>(Tok::Then):
+    case static_cast<int>(Tok::Do):
+    case static_cast<int>(Tok::Of):
+      if (pending_header_ == 0) {
+        orphans_.push_back({i, line_first_, line_column_});
+      } else {
+        const uint32_t header = pending_header_ - 1;
+        if (!stack_.empty() && stack_.back().index == header) stack_.back().connective = k;
+        pending_header_ = 0;
+      }
+      return;
+    case static_cast<int>(Tok::Semicolon): pending_header_ = 0; return;
+    default: break;
+  }
+  if ((isCloser(k) || opens(i)) && insideExpression(i)) return spoil(i);
+  if (isCloser(k)) return close(i, k);
+  if (opens(i)) {
+    // END IF
+    if (i > region_first_ && tokens_[i - 1].kind == Tok::EndSlip && !atLineStart(i)) {
+      const std::string written = std::string(textOf(i - 1)) + " " + std::string(textOf(i));
+      const Tok closer = closerOf(k);
+      diagnostics_.report(diag::MisspelledKeyword, loc(i - 1), {written, spelling(closer)})
+          .length(static_cast<uint32_t>(written.size()));
+      markReported(i);
+      edit(i - 1, EditKind::Remove, Tok::End);
+      edit(i, EditKind::Correction, closer);
+      return close(i, closer);
+    }
+    if (i > region_first_ && tokens_[i - 1].kind == k && !atLineStart(i)) {
+      diagnostics_.report(diag::DuplicateKeyword, loc(i), {textOf(i)});
+      markReported(i);
+      edit(i, EditKind::Remove, Tok::End);
+      return;
+    }
+    return open(i, k);
+  }
+  // END_FI, ENDIF, END_FUCTION
+  if (k == Tok::Ident && i > region_first_) {
+    const std::string_view word = textOf(i);
+    if (!atLineStart(i) && tokens_[i - 1].kind != Tok::Semicolon &&
+        !(word.size() > 4 && sameIdentifier(word.substr(0, 4), "END_")))
+      return;
+    const Tok next = tokens_[i + 1].kind;
+    if (word.size() >= 4 && (word[0] | 0x20) == 'e' && next != Tok::Assign && next != Tok::Dot && next != Tok::Colon &&
+        next != Tok::LeftParen && next != Tok::LeftBracket && next != Tok::Comma) {
+      Tok meant = nearestKeyword(word, kClosers);
+      if (meant != Tok::End) {
+        // Of two close candidates, the one that closes the open block.
+        if (!stack_.empty() && closerOf(stack_.back().kind) != meant) {
+          const Tok wanted[] = {closerOf(stack_.back().kind)};
+          if (nearestKeyword(word, wanted) != Tok::End) meant = wanted[0];
+        }
+        diagnostics_.report(diag::MisspelledKeyword, loc(i), {word, spelling(meant)})
+            .length(static_cast<uint32_t>(word.size()));
+        markReported(i);
+        edit(i, EditKind::Correction, meant);
+        return close(i, meant);
+      }
+    }
+  }
+}
+
+void Balancer::open(uint32_t i, Tok kind) {
+  // A section that is still open where the next one, a statement or a POU begins.
+  if (!stack_.empty() && (isVarWord(stack_.back().kind) || stack_.back().kind == Tok::Type) && kind != Tok::Struct &&
+      kind != Tok::Union) {
+    const Open section = stack_.back();
+    stack_.pop_back();
+    leaveOpen(section, i);
+  }
+  const bool chain = kind == Tok::If && i > region_first_ && tokens_[i - 1].kind == Tok::Else && !atLineStart(i);
+  stack_.push_back({kind, i, line_column_, i == line_first_ || chain || kind == Tok::Struct || kind == Tok::Union,
+                    chain, 0, 0, Tok::End, 0});
+  if (isStatementOpener(kind) && kind != Tok::Repeat) pending_header_ = i + 1;
+  if (isVarWord(kind)) global_section_ = kind == Tok::VarGlobal || kind == Tok::VarConfig || kind == Tok::VarAccess;
+  if (isPouOpener(kind)) {
+    decl_start_ = i + 1;
+    while (decl_start_ < region_end_ && !atLineStart(decl_start_)) ++decl_start_;
+  }
+}
+
+bool Balancer::belongs(Tok connective, Tok opener) const {
+  switch (static_cast<int>(opener)) {
+    case static_cast<int>(Tok::If): return connective == Tok::Then;
+    case static_cast<int>(Tok::For):
+    case static_cast<int>(Tok::While): return connective == Tok::Do;
+    case static_cast<int>(Tok::Case): return connective == Tok::Of;
+    default: return false;
+  }
+}
+
+void Balancer::close(uint32_t i, Tok closer) {
+  const bool line_start = i == line_first_;
+  // END_IF END_IF
+  if (i > region_first_ && tokens_[i - 1].kind == closer && !line_start &&
+      (stack_.empty() || stack_.back().column < line_column_ || isPouOpener(stack_.back().kind))) {
+    diagnostics_.report(diag::DuplicateKeyword, loc(i), {textOf(i)});
+    markReported(i);
+    edit(i, EditKind::Remove, Tok::End);
+    return;
+  }
+  // The nearest block closed by this keyword, within the POU.
+  size_t found = stack_.size();
+  while (found > 0) {
+    const Tok k = stack_[found - 1].kind;
+    if (closerOf(k) == closer) break;
+    if (isPouOpener(k) && !isPouCloser(closer)) {
+      found = 0;
+      break;
+    }
+    --found;
+  }
+  // If the indentation matches an outer block, the inner ones are left open.
+  if (found > 0 && line_start && stack_[found - 1].column != line_column_ && !isPouCloser(closer)) {
+    for (size_t outer = found; outer-- > 1;) {
+      const Open& o = stack_[outer - 1];
+      if (isPouOpener(o.kind)) break;
+      if (closerOf(o.kind) == closer && o.line_start && o.column == line_column_) {
+        found = outer;
+        break;
+      }
+    }
+  }
+  // END_ACTION without ACTION is not a misspelled END_… of its block, which still follows.
+  if (found == 0 && isMemberCloser(closer) && !stack_.empty() && isPouOpener(stack_.back().kind) &&
+      !isMember(stack_.back().kind) && comesBehind(i, closerOf(stack_.back().kind)))
+    return stray(i, closer);
+  const bool top_matches = !stack_.empty() && found == stack_.size();
+  if (!top_matches && !stack_.empty() && !(isPouOpener(stack_.back().kind) && !isPouCloser(closer))) {
+    Open& top = stack_.back();
+    const bool found_by_column = found > 0 && stack_[found - 1].column == line_column_;
+    const bool misplaced_keyword =
+        isPouOpener(top.kind) || (line_start && top.line_start && top.column == line_column_ && !found_by_column);
+    if (misplaced_keyword && (found == 0 || !isPouOpener(top.kind))) {
+      const std::span<const Tok> openers = openersFor(closer);
+      const bool function_without_result = top.kind == Tok::Function && tokens_[top.index + 2].kind != Tok::Colon;
+      if ((isStatementOpener(top.kind) && !belongs(top.connective, top.kind) && belongs(top.connective, openers[0])) ||
+          (function_without_result && isPouCloser(closer))) {
+        diagnostics_.report(diag::WrongKeyword, loc(top.index), {textOf(top.index), spelling(openers[0])});
+        markReported(top.index);
+        edit(top.index, EditKind::Correction, openers[0]);
+      } else {
+        const Tok right = closerOf(top.kind);
+        diagnostics_.report(diag::WrongEnd, loc(i), {textOf(i), spelling(top.kind), lineOf(top), spelling(right)});
+        markReported(i);
+        edit(i, EditKind::Correction, right);
+      }
+      stack_.pop_back();
+      leftOutermost(i, closer);
+      return;
+    }
+  }
+  if (found == 0) return stray(i, closer);
+  // `END_IF` of a line whose IF is missing or misspelled must not close the blocks around it.
+  if (!top_matches && line_start && stack_[found - 1].column != line_column_ &&
+      isStatementOpener(stack_[found - 1].kind)) {
+    bool orphan = false;
+    for (const Orphan& o : orphans_)
+      orphan = orphan || (o.index > stack_.back().index && o.column == line_column_ &&
+                          belongs(tokens_[o.index].kind, stack_[found - 1].kind));
+    Tok meant = Tok::End;
+    if (orphan || (stack_.back().column < line_column_ && findOpener(i, closer, meant) != 0)) return stray(i, closer);
+  }
+  while (stack_.size() > found) {
+    const Open open = stack_.back();
+    stack_.pop_back();
+    leaveOpen(open, i);
+  }
+  const Open done = stack_.back();
+  stack_.pop_back();
+  if (done.is_chain && !stack_.empty()) stack_.back().chain_child = done.index;
+  if (isVarWord(done.kind)) {
+    decl_start_ = i + 1;
+    while (decl_start_ < region_end_ && !atLineStart(decl_start_)) ++decl_start_;
+  }
+  leftOutermost(i, closer);
+}
+
+void Balancer::leftOutermost(uint32_t i, Tok closer) {
+  if (closer == Tok::EndVar && stack_.empty() && global_section_ && line_column_ == 0) outside_start_ = i + 1;
+  if (stack_.empty() && (isPouCloser(closer) || closer == Tok::EndType || closer == Tok::EndConfiguration))
+    outside_start_ = i + 1;
+}
+
+// A block without end. forced: the last token at which the end could be missing.
+void Balancer::leaveOpen(const Open& open, uint32_t forced) {
+  const Tok closer = closerOf(open.kind);
+  if (open.chain_child != 0) {
+    const uint32_t child = open.chain_child;
+    const std::string written = std::string(textOf(child - 1)) + " " + std::string(textOf(child));
+    diagnostics_.report(diag::ElseIf, loc(child - 1), {written})
+        .length(tokens_[child].offset + 2 - tokens_[child - 1].offset);
+    markReported(child);
+    edit(child - 1, EditKind::Remove, Tok::End);
+    edit(child, EditKind::Correction, Tok::Elsif);
+    if (open.is_chain && !stack_.empty()) stack_.back().chain_child = open.index;
+    return;
+  }
+  const uint32_t at = open.suspect != 0 && open.suspect < forced ? open.suspect : forced;
+  uint32_t length = 1;
+  const Loc gap = gapBefore(at, length);
+  diagnostics_.report(diag::MissingEnd, gap, {spelling(closer), textOf(open.index), lineOf(open)}).length(length);
+  markReported(at);
+  if (at == count_ && at > 0) markReported(at - 1);
+  edit(at, EditKind::Insert, closer);
+  if (isVarWord(open.kind)) decl_start_ = at;
+}
+
+// The keyword on an earlier line that was most likely meant to open the block closed by `closer`.
+uint32_t Balancer::findOpener(uint32_t i, Tok closer, Tok& meant) {
+  if (++searches_ > 50) return 0;
+  const std::span<const Tok> openers = openersFor(closer);
+  const uint32_t low = stack_.empty() ? outside_start_ : stack_.back().index + 1;
+  for (uint32_t k = i; k-- > low;) {
+    const bool behind_colon =
+        (closer == Tok::EndStruct || closer == Tok::EndUnion) && k > 0 && tokens_[k - 1].kind == Tok::Colon;
+    if (tokens_[k].kind != Tok::Ident || (!atLineStart(k) && !behind_colon)) continue;
+    const Tok next = tokens_[k + 1].kind;
+    if (next == Tok::Assign || next == Tok::Colon || next == Tok::Comma || next == Tok::Dot) continue;
+    meant = nearestKeyword(textOf(k), openers);
+    if (meant != Tok::End) return k + 1;
+  }
+  return 0;
+}
+
+void Balancer::stray(uint32_t i, Tok closer) {
+  Tok meant = Tok::End;
+  if (const uint32_t found = findOpener(i, closer, meant); found != 0) {
+    const uint32_t k = found - 1;
+    diagnostics_.report(diag::MisspelledKeyword, loc(k), {textOf(k), spelling(meant)})
+        .length(static_cast<uint32_t>(textOf(k).size()));
+    markReported(k);
+    edit(k, EditKind::Correction, meant);
+    leftOutermost(i, closer);
+    return;
+  }
+  const uint32_t low = stack_.empty() ? outside_start_ : stack_.back().index + 1;
+  const std::span<const Tok> openers = openersFor(closer);
+  // The header is there, its first keyword is missing.
+  if (closer == Tok::EndIf || closer == Tok::EndFor || closer == Tok::EndWhile || closer == Tok::EndCase) {
+    const Orphan* best = nullptr;
+    for (const Orphan& o : orphans_)
+      if (o.index >= low && belongs(tokens_[o.index].kind, openers[0]) && (o.column == line_column_ || best == nullptr))
+        best = &o;
+    if (best != nullptr) {
+      const uint32_t at = best->line_first;
+      orphans_.erase(orphans_.begin() + (best - orphans_.data()));
+      const Tok next = tokens_[at + 1].kind;
+      if (!atLineStart(at + 1) &&
+          (isName(next) || next == Tok::Not || next == Tok::Number ||
+           (!isName(tokens_[at].kind) && tokens_[at].kind != Tok::LeftParen && next == Tok::LeftParen))) {
+        diagnostics_.report(diag::WrongKeyword, loc(at), {textOf(at), spelling(openers[0])})
+            .length(static_cast<uint32_t>(textOf(at).size()));
+        markReported(at);
+        edit(at, EditKind::Correction, openers[0]);
+        return;
+      }
+      diagnostics_.report(diag::MissingOpener, loc(at), {spelling(openers[0]), describe(at)})
+          .length(static_cast<uint32_t>(textOf(at).size()));
+      markReported(at);
+      edit(at, EditKind::Insert, openers[0]);
+      return;
+    }
+  }
+  // `name : <line end>` without STRUCT; `name ON type` without RESOURCE; the indented lines above UNTIL without REPEAT.
+  if (closer == Tok::EndStruct || closer == Tok::EndUnion || closer == Tok::EndResource || closer == Tok::EndRepeat) {
+    uint32_t at = 0;
+    uint32_t until = 0;
+    for (uint32_t k = i, steps = 0; k-- > low && at == 0 && steps < 20000; ++steps) {
+      if (closer == Tok::EndResource) {
+        if (atLineStart(k) && isName(tokens_[k].kind) && tokens_[k + 1].kind == Tok::On) at = k;
+      } else if (closer == Tok::EndRepeat) {
+        if (tokens_[k].kind == Tok::Until && until == 0) until = k;
+        if (until != 0 && k < until && atLineStart(k) && columnOf(k) <= line_column_) {
+          at = k + 1;
+          while (at < until && !atLineStart(at)) ++at;
+        }
+      } else if (tokens_[k].kind == Tok::Colon && atLineStart(k + 1)) {
+        at = k + 1;
+      }
+    }
+    if (at != 0) {
+      if (closer == Tok::EndStruct || closer == Tok::EndUnion) {
+        diagnostics_.report(diag::MissingOpener, {loc(at - 1).offset + 1}, {spelling(openers[0]), describe(at)})
+            .length(1);
+        markReported(at - 1);
+        edit(at, EditKind::Insert, openers[0]);
+      } else {
+        missingOpener(at, openers[0]);
+      }
+      return;
+    }
+  }
+  // Another word is written where VAR should be; it may have been reported and removed already.
+  if (closer == Tok::EndVar && decl_start_ < i && (tokens_[decl_start_].flags & kReported) != 0 &&
+      !isName(tokens_[decl_start_].kind)) {
+    markReported(decl_start_ + 1);
+    edit(decl_start_ + 1, EditKind::Insert, Tok::Var);
+    decl_start_ = i + 1;
+    return;
+  }
+  if (closer == Tok::EndVar && decl_start_ < i && !isName(tokens_[decl_start_].kind) &&
+      (atLineStart(decl_start_ + 1) ||
+       (isName(tokens_[decl_start_ + 1].kind) &&
+        (tokens_[decl_start_ + 2].kind == Tok::Colon || tokens_[decl_start_ + 2].kind == Tok::Comma ||
+         tokens_[decl_start_ + 2].kind == Tok::At)))) {
+    diagnostics_.report(diag::WrongKeyword, loc(decl_start_), {textOf(decl_start_), "VAR"})
+        .length(static_cast<uint32_t>(textOf(decl_start_).size()));
+    markReported(decl_start_);
+    edit(decl_start_, EditKind::Correction, Tok::Var);
+    decl_start_ = i + 1;
+    return;
+  }
+  uint32_t insert = 0;
+  if (closer == Tok::EndVar && decl_start_ < i && isName(tokens_[decl_start_].kind)) insert = decl_start_ + 1;
+  if ((isPouCloser(closer) || closer == Tok::EndConfiguration || closer == Tok::EndType) && stack_.empty() &&
+      outside_start_ < i) {
+    const uint32_t at = outside_start_;
+    if (!isName(tokens_[at].kind) && !opens(at) && (isName(tokens_[at + 1].kind) || atLineStart(at + 1))) {
+      diagnostics_.report(diag::WrongKeyword, loc(at), {textOf(at), spelling(openers[0])})
+          .length(static_cast<uint32_t>(textOf(at).size()));
+      markReported(at);
+      edit(at, EditKind::Correction, openers[0]);
+      leftOutermost(i, closer);
+      return;
+    }
+    insert = at + 1;
+  }
+  if (insert != 0) {
+    missingOpener(insert - 1, openers[0]);
+    leftOutermost(i, closer);
+    decl_start_ = i + 1;
+    return;
+  }
+  diagnostics_.report(diag::StrayEnd, loc(i), {textOf(i)});
+  markReported(i);
+  edit(i, EditKind::Remove, Tok::End);
+}
+
+void Balancer::missingOpener(uint32_t at, Tok word) {
+  uint32_t length = static_cast<uint32_t>(textOf(at).size());
+  // A keyword with its name on the same line is missing on this line, the others on the blank line above.
+  const Loc gap =
+      isPouOpener(word) || word == Tok::Configuration || word == Tok::Resource ? loc(at) : gapBefore(at, length);
+  diagnostics_.report(diag::MissingOpener, gap, {spelling(word), describe(at)}).length(length);
+  markReported(at);
+  edit(at, EditKind::Insert, word);
+}
+
+// A block keyword where only a value is allowed: `x := a + IF;`, `state END_VAR INT := 0;`
+bool Balancer::insideExpression(uint32_t i) const {
+  if (atLineStart(i) || i == region_first_) return false;
+  const Tok k = tokens_[i].kind, before = tokens_[i - 1].kind, next = tokens_[i + 1].kind;
+  if (before == Tok::Dot || before == Tok::Assign || before == Tok::LeftParen || before == Tok::Comma ||
+      before == Tok::LeftBracket || (before >= Tok::Plus && before <= Tok::EqualLess) ||
+      (before >= Tok::And && before <= Tok::Mod))
+    return true;
+  if (pending_header_ != 0 && isStatementOpener(k) && before != Tok::EndSlip && before != k) return true;
+  if (isPouOpener(k) && before != Tok::Semicolon && !isCloser(before)) return true;
+  const bool is_statement_word = isStatementOpener(k) || k == Tok::EndIf || k == Tok::EndCase || k == Tok::EndFor ||
+                                 k == Tok::EndWhile || k == Tok::EndRepeat;
+  if (is_statement_word && !stack_.empty() && (isVarWord(stack_.back().kind) || stack_.back().kind == Tok::Struct) &&
+      before != Tok::Semicolon && stack_.back().index + 1 != i)
+    return true;
+  // `f IF (x);`: after a value, a statement begins only where its header follows.
+  if (isStatementOpener(k) && k != Tok::Repeat && before != Tok::EndSlip &&
+      (isName(before) || (before >= Tok::Number && before <= Tok::Ident) || before == Tok::RightParen)) {
+    for (uint32_t n = i + 1; n < count_ && !atLineStart(n) && tokens_[n].kind != Tok::Semicolon; ++n)
+      if (tokens_[n].kind == Tok::Then || tokens_[n].kind == Tok::Do || tokens_[n].kind == Tok::Of) return false;
+    return true;
+  }
+  return (k == Tok::EndVar || k == Tok::EndStruct) && before != Tok::Semicolon && !isVarWord(before) &&
+         before != Tok::Struct && !atLineStart(i + 1) && next != Tok::Semicolon && !isVarWord(next);
+}
+
+// Makes the token an error token that has been reported.
+void Balancer::spoil(uint32_t i) {
+  diagnostics_.report(diag::MissingValue, loc(i), {describe(i)}).length(static_cast<uint32_t>(textOf(i).size()));
+  markReported(i);
+  edit(i, EditKind::Correction, Tok::Error);
+}
+
+void Balancer::apply() {
+  std::stable_sort(edits_.begin(), edits_.end(), [](const Edit& a, const Edit& b) { return a.index < b.index; });
+  std::vector<Token> out;
+  out.reserve(tokens_.size() + edits_.size());
+  size_t e = 0;
+  for (uint32_t i = 0; i < tokens_.size(); ++i) {
+    bool removed = false;
+    Tok corrected = Tok::End;
+    for (; e < edits_.size() && edits_[e].index == i; ++e) {
+      switch (edits_[e].kind) {
+        case EditKind::Insert:
+          out.push_back({tokens_[i].offset, 0, edits_[e].word,
+                         static_cast<uint8_t>(kSynthetic | (tokens_[i].flags & kLineStart)), 0});
+          if (!isCloser(edits_[e].word)) tokens_[i].flags &= static_cast<uint8_t>(~kLineStart);
+          break;
+        case EditKind::Remove: removed = true; break;
+        case EditKind::Correction: corrected = edits_[e].word; break;
+      }
+    }
+    if (removed) {
+      // The next token takes its position on the line.
+      if (i + 1 < tokens_.size()) tokens_[i + 1].flags |= tokens_[i].flags & (kLineStart | kPragma | kDoc | kReported);
+      continue;
+    }
+    Token token = tokens_[i];
+    if (corrected != Tok::End) {
+      token.value = static_cast<uint32_t>(textOf(i).size());
+      token.kind = corrected;
+    }
+    out.push_back(token);
+  }
+  tokens_ = std::move(out);
+}
+
+}  // namespace
+
+void balanceBlocks(TokenStream& stream, const Names& names, const Sources& sources, FileId file, Dialect dialect,
+                   Diagnostics& diagnostics) {
+  Balancer(stream, names, sources, file, dialect, diagnostics).run();
+}
+
+Tok nearestKeyword(std::string_view written, std::span<const Tok> candidates) {
+  std::vector<std::string_view> spellings;
+  spellings.reserve(candidates.size());
+  for (Tok t : candidates) spellings.push_back(spelling(t));
+  const std::string upper = [&] {
+    std::string s(written);
+    for (char& c : s)
+      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
+    return s;
+  }();
+  const std::string_view found = nearest(upper, spellings);
+  if (found.empty()) return Tok::End;
+  for (Tok t : candidates)
+    if (found == spelling(t)) return t;
+  return Tok::End;
+}
+
+}  // namespace rung::text

@@ -1,0 +1,352 @@
+// Types: the entries of TYPE … END_TYPE, and the types of variables and entries. In: the current tokens. Out: TypeDecl
+// and type expressions. Called by declarations.cpp, objects.cpp and parser.cpp.
+#include <algorithm>
+#include <utility>
+
+#include "frontend/parse/diagnostics.h"
+#include "frontend/parse/parser.h"
+#include "frontend/parse/recover.h"
+#include "frontend/source/dialect.h"
+
+namespace rung::text {
+
+// ---- TYPE
+
+// TYPE [access] {[access] name [EXTENDS type] ":" type [":=" init] [";"]} END_TYPE
+void Parser::parseTypes(std::vector<DeclId>& out) {
+  const Token* open = t_;
+  Slice<Pragma> pragmas = takePragmas();
+  Loc doc = takeDoc();
+  advance();
+  AccessLevel access{};
+  uint8_t modifiers = 0;
+  if (!atLineStart()) parseModifiers(access, modifiers, false);
+  for (;;) {
+    if (accept(Tok::Semicolon)) continue;
+    if (accept(Tok::EndType)) {
+      accept(Tok::Semicolon);
+      return;
+    }
+    if (endsDeclarations(kind())) {
+      const std::string line = std::to_string(sources_.location(loc(open)).line);
+      missing(diag::MissingEnd, {"END_TYPE", "TYPE", line});
+      return;
+    }
+    if (t_[0].flags & kPragma) pragmas = takePragmas();
+    if (t_[0].flags & kDoc) doc = takeDoc();
+    const DeclId entry = parseTypeEntry(pragmas, doc, access);
+    if (entry) out.push_back(entry);
+    pragmas = {};
+    doc = {};
+  }
+}
+
+DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessLevel access) {
+  lost_ = false;
+  while (at(Tok::Ident) && isName(peek()) && (is(t_, "PUBLIC") || is(t_, "INTERNAL") || is(t_, "ABSTRACT"))) {
+    if (is(t_, "INTERNAL")) access = AccessLevel::Internal;
+    advance();
+  }
+  skipStray(!isName(kind()) && isName(peek()) && peek(2) == Tok::Colon, diag::MissingName);
+  TypeDecl d{{DeclKind::Type, 0, 0, here(), doc, pragmas}, {}, {}, {}};
+  if (access == AccessLevel::Internal) d.h.bits |= kInternal;
+  Ident name;
+  if (!parseName(name)) {
+    tree_.lost_names = true;
+    if (!endsDeclarations(kind())) advance();
+    syncDeclaration(Tok::EndType);
+    return {};
+  }
+  d.name = name.name;
+  TypeExprId base;
+  if (at(Tok::Extends)) {
+    advance();
+    base = parseNamedType();
+  }
+  if (!panic_ && !at(Tok::Colon)) skipStray(peek() == Tok::Colon, diag::StrayToken);
+  if (!panic_) expect(Tok::Colon);
+  in_variable_ = false;
+  if (!panic_) d.type = parseType();
+  if (panic_ || !d.type || lost_) tree_.lost_names = true;
+  if (!d.type) d.type = tree_.add<TypeExprId>(ErrorTypeExpr{{TypeExprKind::Error, 0, 0, d.h.loc, {}}});
+  const bool is_struct = tree_.kind(d.type) == TypeExprKind::Struct;
+  if (base && is_struct) tree_.as<StructTypeExpr>(d.type).base = base;
+  if (!panic_) {
+    if (at(Tok::Equal)) {
+      slip(diag::AssignWithEqual, t_, {"="});
+      advance();
+      d.init = parseInit();
+    } else if (accept(Tok::Assign)) {
+      d.init = parseInit();
+    }
+  }
+  if (!panic_ && !accept(Tok::Semicolon) && !(is_struct && (at(Tok::EndType) || atLineStart()))) {
+    if (atLineStart() || endsDeclarations(kind()) || (isName(kind()) && peek() == Tok::Colon))
+      missing(diag::MissingSemicolon, {describe(t_ - 1)});
+    else if (at(Tok::RightParen) || at(Tok::RightBracket))
+      fail(diag::StrayParen, t_, {textOf(t_)});
+    else
+      fail(diag::StrayToken, t_, {describe(t_)});
+  }
+  if (panic_) {
+    tree_.lost_names = true;  // another declaration may have been skipped
+    syncDeclaration(Tok::EndType);
+  }
+  return tree_.add<DeclId>(d);
+}
+
+// ---- type expressions
+
+TypeExprId Parser::parseType() {
+  if (++type_depth_ > kMaxTypeDepth) {
+    tooDeep("types", kMaxTypeDepth);
+    --type_depth_;
+    return {};
+  }
+  TypeExprId type;
+  if (!beginsType(t_) && (!isName(kind()) || atLineStart()) && !at(Tok::Union) && !at(Tok::Semicolon))
+    skipStray(beginsType(t_ + 1) && (t_[1].flags & kLineStart) == 0, diag::MissingType);
+  const Loc start = here();
+  switch (static_cast<int>(kind())) {
+    case static_cast<int>(Tok::Array): type = parseArray(); break;
+    case static_cast<int>(Tok::Struct):
+    case static_cast<int>(Tok::Union): type = parseStruct(); break;
+    case static_cast<int>(Tok::LeftParen): type = parseEnum({}); break;
+    case static_cast<int>(Tok::RefTo): {
+      advance();
+      const TypeExprId target = parseType();
+      type =
+          tree_.add<TypeExprId>(PointerTypeExpr{{TypeExprKind::Pointer, 0, 0, start, {}}, target, PointerForm::RefTo});
+      break;
+    }
+    default:
+      if ((at(Tok::Pointer) || at(Tok::Reference)) && peek() == Tok::To) {
+        const PointerForm form = at(Tok::Pointer) ? PointerForm::Pointer : PointerForm::Reference;
+        advance();
+        advance();
+        const TypeExprId target = parseType();
+        type = tree_.add<TypeExprId>(PointerTypeExpr{{TypeExprKind::Pointer, 0, 0, start, {}}, target, form});
+      } else if (isName(kind()) || isTypeWord(kind())) {
+        type = parseNamedType();
+      } else if (at(Tok::Error)) {
+        last_error_ = t_;
+        panic_ = true;
+      } else if (atLineStart()) {
+        fail(diag::MissingType, t_ - 1, {describe(t_ - 1)});
+      } else {
+        fail(diag::MissingType, t_, {describe(t_)});
+      }
+      break;
+  }
+  --type_depth_;
+  return type;
+}
+
+// name {"." name} | (STRING | WSTRING | USTRING) ["[" expr "]" | "(" expr ")"] | INT "(" low ".." high ")" | INT "("
+// items ")"
+TypeExprId Parser::parseNamedType() {
+  const Loc start = here();
+  // USTRING is a keyword of edition 4 only: a type of the project may have its name.
+  const bool is_utf8 = at(Tok::Ident) && is(t_, "USTRING") && (peek() == Tok::LeftBracket || peek() == Tok::LeftParen);
+  if (at(Tok::String) || at(Tok::Wstring) || is_utf8) {
+    const StringEncoding code = is_utf8            ? StringEncoding::Utf8
+                                : at(Tok::Wstring) ? StringEncoding::Wide
+                                                   : StringEncoding::Bytes;
+    StringTypeExpr d{{TypeExprKind::String, 0, 0, start, {}}, {}, code};
+    advance();
+    if (at(Tok::LeftBracket) || at(Tok::LeftParen)) {
+      const Tok close = at(Tok::LeftBracket) ? Tok::RightBracket : Tok::RightParen;
+      advance();
+      d.length = parseExpr();
+      closeParen(close, false);
+    }
+    return tree_.add<TypeExprId>(d);
+  }
+  NamedTypeExpr named{{TypeExprKind::Named, 0, 0, start, {}}, {}, {}, false, {}};
+  const Token* first = t_;
+  parseNamePath(named.path);
+  const TypeExprId base = tree_.add<TypeExprId>(named);
+  if (panic_) return base;
+  if (at(Tok::LeftBracket) && first->kind == Tok::Ident) {
+    static constexpr Tok kArray[] = {Tok::Array};
+    if (nearKeyword(first, kArray) == Tok::Array) {
+      t_ = const_cast<Token*>(first);
+      correctSpelling(Tok::Array);
+      return parseArray();
+    }
+  }
+  if (at(Tok::To) && first->kind == Tok::Ident && t_ == first + 1) {
+    static constexpr Tok kPointers[] = {Tok::Pointer, Tok::Reference};
+    if (const Tok meant = nearKeyword(first, kPointers); meant != Tok::End) {
+      t_ = const_cast<Token*>(first);
+      correctSpelling(meant);
+      return parseType();
+    }
+  }
+  if (in_variable_ && at(Tok::LeftBracket) && peek() == Tok::LeftParen) {  // of FB_Init of each element
+    std::vector<ExprId> elements;
+    advance();
+    do {
+      CallExpr call{exprHeader(ExprKind::Call, here()), {}, {}, {}, {}};
+      if (!at(Tok::LeftParen)) break;
+      call.arguments = parseArguments(call.end);
+      elements.push_back(tree_.add<ExprId>(call));
+    } while (!panic_ && accept(Tok::Comma));
+    if (!panic_) expect(Tok::RightBracket);
+    tree_.as<NamedTypeExpr>(base).elements = tree_.addList<ExprId>(elements);
+    return base;
+  }
+  if (!at(Tok::LeftParen)) return base;
+  if (in_variable_ && !isTypeWord(first->kind) && !rangeFollows()) {  // of FB_Init
+    Loc end;
+    NamedTypeExpr& block = tree_.as<NamedTypeExpr>(base);
+    block.arguments = parseArguments(end);
+    block.has_arguments = true;
+    return base;
+  }
+  // `INT (a, b := 2)` is an enumeration, `INT (0..9)` a subrange.
+  const Tok next = peek(2);
+  if (isName(peek()) && (next == Tok::Comma || next == Tok::RightParen || next == Tok::Assign)) return parseEnum(base);
+  advance();
+  SubrangeTypeExpr d{{TypeExprKind::Subrange, 0, 0, start, {}}, base, {}, {}};
+  d.low = parseExpr();
+  if (!panic_) expect(Tok::DotDot);
+  d.high = panic_ ? errorExpr(here()) : parseExpr();
+  closeParen(Tok::RightParen, false);
+  return tree_.add<TypeExprId>(d);
+}
+
+// Whether the parentheses here contain `low .. high`.
+bool Parser::rangeFollows() const {
+  uint32_t depth = 0;
+  for (const Token* t = t_; t->kind != Tok::End && t->kind != Tok::Semicolon; ++t) {
+    if (t->kind == Tok::LeftParen) ++depth;
+    if (t->kind == Tok::RightParen && --depth == 0) return false;
+    if (t->kind == Tok::DotDot && depth == 1) return true;
+  }
+  return false;
+}
+
+// STRUCT [EXTENDS type] [OVERLAP] {variable} END_STRUCT, UNION {variable} END_UNION
+TypeExprId Parser::parseStruct() {
+  const Token* open = t_;
+  StructTypeExpr d{{TypeExprKind::Struct, 0, 0, here(), {}}, {}, {}, at(Tok::Union), false};
+  const Tok end = d.is_union ? Tok::EndUnion : Tok::EndStruct;
+  advance();
+  if (at(Tok::Extends) && isName(peek())) {
+    advance();
+    d.base = parseNamedType();
+  }
+  if (at(Tok::Ident) && is(t_, "OVERLAP") && isName(peek())) {
+    d.overlaps = true;
+    advance();
+  }
+  const size_t first = decls_.size();
+  const bool outer = std::exchange(in_structure_, true);
+  address_reported_ = false;
+  parseVars(SectionKind::Local, end, decls_);
+  in_structure_ = outer;
+  if (!accept(end)) {
+    const std::string line = std::to_string(sources_.location(loc(open)).line);
+    missing(diag::MissingEnd, {spelling(end), spelling(open->kind), line});
+  }
+  d.fields = listFrom(decls_, first);
+  return tree_.add<TypeExprId>(d);
+}
+
+// "(" name [":=" expr] {"," name [":=" expr]} ")" [type]
+TypeExprId Parser::parseEnum(TypeExprId base) {
+  EnumTypeExpr d{{TypeExprKind::Enum, 0, 0, here(), {}}, {}, base};
+  advance();
+  std::vector<EnumItem> items;
+  while (!panic_ && !at(Tok::RightParen)) {
+    EnumItem item{};
+    if (!parseName(item.item)) break;
+    if (at(Tok::Equal)) {
+      slip(diag::AssignWithEqual, t_, {"="});
+      advance();
+      item.value = parseExpr();
+    } else if (accept(Tok::Assign)) {
+      item.value = parseExpr();
+    }
+    items.push_back(item);
+    if (accept(Tok::Comma)) {
+      if (at(Tok::RightParen)) {
+        if (dialect_ == Dialect::Codesys)
+          diagnostics_.report(diag::TrailingCommaWarning, loc(t_ - 1));
+        else
+          slip(diag::TrailingComma, t_ - 1);
+      }
+      continue;
+    }
+    if (!panic_ && isName(kind()) && (peek() == Tok::Comma || peek() == Tok::RightParen || peek() == Tok::Assign)) {
+      if (atLineStart())
+        missing(diag::MissingToken, {",", describe(t_)});
+      else
+        slip(diag::MissingToken, t_, {",", describe(t_)});
+      continue;
+    }
+    break;
+  }
+  lost_ = lost_ || panic_;
+  closeParen(Tok::RightParen, true);
+  lost_ = lost_ || panic_;
+  d.items = tree_.addList<EnumItem>(items);
+  if (!panic_ && !d.base && (isName(kind()) || isTypeWord(kind())) && !atLineStart()) d.base = parseNamedType();
+  return tree_.add<TypeExprId>(d);
+}
+
+// ARRAY "[" (low ".." high | "*") {"," …} "]" OF type
+TypeExprId Parser::parseArray() {
+  ArrayTypeExpr d{{TypeExprKind::Array, 0, 0, here(), {}}, {}, {}};
+  advance();
+  if (!accept(Tok::LeftBracket)) {
+    if (at(Tok::LeftParen)) {
+      slip(diag::WrongKeyword, t_, {"(", "["});
+      advance();
+    } else {
+      slip(diag::MissingToken, t_, {"[", describe(t_)});
+    }
+  }
+  std::vector<ArrayBound> bounds;
+  do {
+    if (at(Tok::Star)) {
+      advance();
+      bounds.push_back({});
+      continue;
+    }
+    ArrayBound bound{parseExpr(), {}};
+    if (!panic_ && !accept(Tok::DotDot)) {
+      if (at(Tok::RightBracket) && tree_.kind(bound.low) == ExprKind::Literal &&
+          tree_.as<LiteralExpr>(bound.low).literal() == LiteralKind::Integer) {
+        const uint64_t size = tree_.as<LiteralExpr>(bound.low).value();
+        const std::string written = std::to_string(size), last = std::to_string(size == 0 ? 0 : size - 1);
+        slip(diag::ArraySize, t_ - 1, {written, last});
+        LiteralExpr end = tree_.as<LiteralExpr>(bound.low);
+        end.setValue(size == 0 ? 0 : size - 1);
+        bound.high = tree_.add<ExprId>(end);
+        tree_.as<LiteralExpr>(bound.low).setValue(0);
+      } else if (isOperand(kind())) {
+        slip(diag::MissingToken, t_, {"..", describe(t_)});
+      } else {
+        fail(diag::MissingToken, t_, {"..", describe(t_)});
+      }
+    }
+    if (!bound.high) bound.high = panic_ ? errorExpr(here()) : parseExpr();
+    bounds.push_back(bound);
+  } while (!panic_ && accept(Tok::Comma));
+  if (!panic_ && at(Tok::RightParen)) {
+    slip(diag::WrongKeyword, t_, {")", "]"});
+    advance();
+  } else if (!panic_ && at(Tok::Of)) {
+    slip(diag::MissingToken, t_, {"]", describe(t_)});
+  } else {
+    closeParen(Tok::RightBracket, false);
+  }
+  d.bounds = tree_.addList<ArrayBound>(bounds);
+  if (!panic_) expect(Tok::Of);
+  if (!panic_) d.element = parseType();
+  return tree_.add<TypeExprId>(d);
+}
+
+}  // namespace rung::text

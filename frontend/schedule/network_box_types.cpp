@@ -1,0 +1,286 @@
+// The result type of a box, found without sema: from the name of the operator or function, from the types of the
+// sources wired to the box, or from the variables that receive its value.
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+
+#include "frontend/schedule/network_feedback.h"
+#include "frontend/syntax/diagram.h"
+
+namespace rung::diagram {
+namespace {
+
+constexpr uint32_t kMaxDepth = 100;
+
+bool isOneOf(std::string_view name, std::initializer_list<std::string_view> words) {
+  return std::any_of(words.begin(), words.end(), [&](std::string_view word) { return sameIdentifier(word, name); });
+}
+
+}  // namespace
+
+// ---- boxes and wires
+
+// The type of each box is computed once, so that boxes which share their inputs cost linear time.
+TypeExprId BoxTypes::ofBox(uint32_t element, uint32_t depth) {
+  if (known_.empty()) {
+    known_.resize(graph_.elements.size());
+    tried_.resize(graph_.elements.size());
+  }
+  if (depth > kMaxDepth || tried_[element]) return known_[element];
+  tried_[element] = true;
+  return known_[element] = ofCall(element, depth);
+}
+
+TypeExprId BoxTypes::ofCall(uint32_t element, uint32_t depth) {
+  const DiagramElement& e = graph_.elements[element];
+  const std::string_view name = names_.string(e.name.name);
+  if (isOneOf(name, {"GT", "GE", "EQ", "LE", "LT", "NE"})) return named("BOOL", e.loc);
+  std::string upper(name);
+  for (char& c : upper) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 32 : c);
+  if (const size_t to = upper.rfind("TO_"); to == 0 || (to != std::string::npos && upper[to - 1] == '_'))
+    return named(upper.substr(to + 3), e.loc);
+  const bool selects = isOneOf(name, {"SEL", "MUX"});
+  if (selects || isOneOf(name, {"AND", "OR", "XOR", "NOT", "ADD", "SUB", "MUL", "DIV", "MOD", "MOVE", "MAX", "MIN",
+                                "LIMIT", "ABS", "SHL", "SHR", "ROL", "ROR", "EXPT"}))
+    return ofOperands(element, selects, depth);
+  const DeclId function = e.path && tree_.kind(e.path) == ExprKind::Name ? declared(e.name.name) : DeclId{};
+  if (function && tree_.kind(function) == DeclKind::Pou && tree_.as<PouDecl>(function).result)
+    return tree_.as<PouDecl>(function).result;
+  return ofReaders(element);
+}
+
+// The common type of the inputs; if their types are unknown, the type of the readers.
+TypeExprId BoxTypes::ofOperands(uint32_t element, bool selects, uint32_t depth) {
+  const Slice<DiagramPin> pins = graph_.elements[element].pins;
+  for (uint32_t p = 0; p < pins.count; ++p) {
+    const DiagramPin pin = tree_.list(pins)[p];
+    if (pin.direction == PinDirection::Output || isOneOf(names_.string(pin.name.name), {"EN"})) continue;
+    if (std::exchange(selects, false) || pin.wires.empty()) continue;
+    if (pin.edge != EdgeKind::None) return named("BOOL", pin.name.loc);
+    if (const TypeExprId type = ofSource(graph_.sourceOf(pin, 0), depth + 1)) return type;
+  }
+  return ofReaders(element);
+}
+
+TypeExprId BoxTypes::ofReaders(uint32_t element) {
+  if (reads_.empty()) {
+    for (uint32_t k = 0; k < graph_.elements.size(); ++k)
+      for (const DiagramPin& pin : tree_.list(graph_.elements[k].pins))
+        for (uint32_t w = 0; w < pin.wires.count; ++w)
+          if (const uint32_t source = graph_.sourceOf(pin, w); source != kNone)
+            reads_.emplace_back(graph_.sources[source].element, k);
+    std::sort(reads_.begin(), reads_.end());
+  }
+  for (auto at = std::lower_bound(reads_.begin(), reads_.end(), std::pair{element, 0u});
+       at != reads_.end() && at->first == element; ++at) {
+    const DiagramElement& reader = graph_.elements[at->second];
+    if (reader.kind == ElementKind::Coil || reader.kind == ElementKind::Contact) return named("BOOL", reader.loc);
+    if (reader.kind != ElementKind::Output) continue;
+    if (const TypeExprId type = ofExpr(reader.operand, 0)) return type;
+  }
+  return {};
+}
+
+TypeExprId BoxTypes::ofSource(uint32_t source, uint32_t depth) {
+  if (source == kNone) return {};
+  const Source& s = graph_.sources[source];
+  const DiagramElement& e = graph_.elements[s.element];
+  const NameId pin = s.pin.name;
+  switch (e.kind) {
+    case ElementKind::Contact:
+    case ElementKind::Rail:
+    case ElementKind::Coil:
+    case ElementKind::Execute: return named("BOOL", e.loc);
+    case ElementKind::Input:
+    case ElementKind::Output:
+    case ElementKind::InOut: return ofExpr(e.operand, 0);
+    case ElementKind::Select: {
+      const DeclId type = declared(e.name.name);
+      return type && tree_.kind(type) == DeclKind::Type ? ofMember(tree_.as<TypeDecl>(type).type, pin, 0)
+                                                        : TypeExprId{};
+    }
+    case ElementKind::Box: break;
+    case ElementKind::RightRail:
+    case ElementKind::Connector:
+    case ElementKind::Continuation:
+    case ElementKind::Jump:
+    case ElementKind::Label:
+    case ElementKind::Return:
+    case ElementKind::Compose:
+    case ElementKind::Comment: return {};
+  }
+  if (pin && isOneOf(names_.string(pin), {"ENO"})) return named("BOOL", e.loc);
+  const DeclId callee = e.path && tree_.kind(e.path) == ExprKind::Name ? declared(e.name.name) : DeclId{};
+  const bool pou = callee && tree_.kind(callee) == DeclKind::Pou;
+  if (pin && pou)
+    if (const TypeExprId type = ofVariable(tree_.as<PouDecl>(callee), pin, 0)) return type;
+  if (!e.operand && !e.hidden) return ofBox(s.element, depth);
+  const Signature signature = e.operand ? signatures_.of(e.operand) : signatures_.of(e.path);
+  const PinSignature* known = pin ? signature.find(names_, pin) : nullptr;
+  return known != nullptr && known->is_bool ? named("BOOL", e.loc) : TypeExprId{};
+}
+
+// ---- declarations
+
+TypeExprId BoxTypes::ofExpr(ExprId expr, uint32_t depth) {
+  if (!expr || depth > kMaxDepth) return {};
+  switch (tree_.kind(expr)) {
+    case ExprKind::Name: return ofName(tree_.as<NameExpr>(expr).name);
+    case ExprKind::Member: {
+      const MemberExpr& member = tree_.as<MemberExpr>(expr);
+      return ofMember(ofExpr(member.base, depth + 1), member.member, 0);
+    }
+    case ExprKind::Index: {
+      const TypeExprId base = resolved(ofExpr(tree_.as<IndexExpr>(expr).base, depth + 1));
+      const bool array = base && tree_.kind(base) == TypeExprKind::Array;
+      return array ? tree_.as<ArrayTypeExpr>(base).element : TypeExprId{};
+    }
+    case ExprKind::BitAccess: {
+      const bool bit = tree_.as<BitAccessExpr>(expr).width == 1;
+      return bit ? named("BOOL", tree_.loc(expr)) : TypeExprId{};
+    }
+    case ExprKind::Literal: {
+      const LiteralExpr& literal = tree_.as<LiteralExpr>(expr);
+      if (literal.prefix) return named(names_.string(literal.prefix), tree_.loc(expr));
+      return literal.literal() == LiteralKind::Bool ? named("BOOL", tree_.loc(expr)) : TypeExprId{};
+    }
+    case ExprKind::Unary: return ofExpr(tree_.as<UnaryExpr>(expr).operand, depth + 1);
+    case ExprKind::Binary: {
+      const auto op = static_cast<BinaryOp>(tree_.expr(expr).op);
+      if (op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual) return named("BOOL", tree_.loc(expr));
+      const BinaryExpr& binary = tree_.as<BinaryExpr>(expr);
+      const TypeExprId left = ofExpr(binary.left, depth + 1);
+      return left ? left : ofExpr(binary.right, depth + 1);
+    }
+    case ExprKind::Error:
+    case ExprKind::TypedName:
+    case ExprKind::Deref:
+    case ExprKind::This:
+    case ExprKind::Super:
+    case ExprKind::Address:
+    case ExprKind::Call:
+    case ExprKind::Range:
+    case ExprKind::ArrayInit:
+    case ExprKind::Repeat:
+    case ExprKind::StructInit:
+    case ExprKind::Convert:
+    case ExprKind::Bound:
+    case ExprKind::AnyValue:
+    case ExprKind::New:
+    case ExprKind::AddressOf: break;
+  }
+  return {};
+}
+
+TypeExprId BoxTypes::ofName(NameId name) {
+  if (const TypeExprId own = ofVariable(pou_, name, 0)) return own;
+  const PouDecl* owner = pou_.pou_kind == PouKind::Action || pou_.pou_kind == PouKind::Method ? ownerOf(pou_) : nullptr;
+  if (owner != nullptr)
+    if (const TypeExprId own = ofVariable(*owner, name, 0)) return own;
+  const DeclId global = declared(name);
+  return global && tree_.kind(global) == DeclKind::Var ? tree_.as<VarDecl>(global).type : TypeExprId{};
+}
+
+TypeExprId BoxTypes::ofMember(TypeExprId type, NameId member, uint32_t depth) {
+  type = resolved(type);
+  if (!type || depth > kMaxDepth) return {};
+  if (tree_.kind(type) == TypeExprKind::Struct) {
+    const StructTypeExpr& record = tree_.as<StructTypeExpr>(type);
+    const TypeExprId own = ofVariable(record.fields, member);
+    return own || !record.base ? own : ofMember(record.base, member, depth + 1);
+  }
+  if (tree_.kind(type) != TypeExprKind::Named) return {};
+  const Slice<Ident> path = tree_.as<NamedTypeExpr>(type).path;
+  const DeclId pou = declared(tree_.list(path)[path.count - 1].name);
+  return pou && tree_.kind(pou) == DeclKind::Pou ? ofVariable(tree_.as<PouDecl>(pou), member, 0) : TypeExprId{};
+}
+
+TypeExprId BoxTypes::ofVariable(const PouDecl& pou, NameId name, uint32_t depth) {
+  for (uint32_t s = 0; s < pou.sections.count; ++s)
+    if (const TypeExprId type = ofVariable(tree_.as<SectionDecl>(tree_.list(pou.sections)[s]).vars, name)) return type;
+  for (uint32_t b = 0; b < pou.bases.count && depth < kMaxDepth; ++b) {
+    const TypeExprId base = tree_.list(pou.bases)[b];
+    if (!base || tree_.kind(base) != TypeExprKind::Named) continue;
+    const Slice<Ident> path = tree_.as<NamedTypeExpr>(base).path;
+    const DeclId found = declared(tree_.list(path)[path.count - 1].name);
+    if (found && tree_.kind(found) == DeclKind::Pou)
+      if (const TypeExprId type = ofVariable(tree_.as<PouDecl>(found), name, depth + 1)) return type;
+  }
+  return {};
+}
+
+TypeExprId BoxTypes::ofVariable(Slice<DeclId> vars, NameId name) {
+  for (const DeclId v : tree_.list(vars)) {
+    const VarDecl& var = tree_.as<VarDecl>(v);
+    for (const Ident& ident : tree_.list(var.names))
+      if (names_.same(ident.name, name)) return var.type;
+  }
+  return {};
+}
+
+// Follows the names of TYPE declarations to the type.
+TypeExprId BoxTypes::resolved(TypeExprId type) {
+  for (uint32_t k = 0; k < kMaxDepth && type && tree_.kind(type) == TypeExprKind::Named; ++k) {
+    const Slice<Ident> path = tree_.as<NamedTypeExpr>(type).path;
+    const DeclId found = path.empty() ? DeclId{} : declared(tree_.list(path)[path.count - 1].name);
+    if (!found || tree_.kind(found) != DeclKind::Type) return type;
+    type = tree_.as<TypeDecl>(found).type;
+  }
+  return type;
+}
+
+TypeExprId BoxTypes::named(std::string_view type, Loc loc) {
+  const Ident ident{names_.intern(type), loc};
+  NamedTypeExpr node{};
+  node.h = {TypeExprKind::Named, 0, 0, loc, {}};
+  node.path = tree_.addList<Ident>({&ident, 1});
+  return tree_.add<TypeExprId>(node);
+}
+
+DeclId BoxTypes::declared(NameId name) {
+  if (declared_.empty()) {
+    for (const FileUnit& unit : tree_.files) index(unit.decls);
+    std::sort(declared_.begin(), declared_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  }
+  const uint32_t key = names_.key(name).index;
+  const auto found = std::lower_bound(declared_.begin(), declared_.end(), key,
+                                      [](const auto& row, uint32_t wanted) { return row.first < wanted; });
+  return found != declared_.end() && found->first == key ? found->second : DeclId{};
+}
+
+void BoxTypes::index(Slice<DeclId> decls) {
+  for (const DeclId decl : tree_.list(decls)) {
+    switch (tree_.kind(decl)) {
+      case DeclKind::Type: declared_.emplace_back(names_.key(tree_.as<TypeDecl>(decl).name).index, decl); break;
+      case DeclKind::Pou: {
+        const PouDecl& pou = tree_.as<PouDecl>(decl);
+        declared_.emplace_back(names_.key(pou.name).index, decl);
+        if (!pou.members.empty()) pous_.push_back(&pou);
+        break;
+      }
+      case DeclKind::Namespace: index(tree_.as<NamespaceDecl>(decl).decls); break;
+      case DeclKind::Section:
+        for (const DeclId var : tree_.list(tree_.as<SectionDecl>(decl).vars))
+          for (const Ident& ident : tree_.list(tree_.as<VarDecl>(var).names))
+            declared_.emplace_back(names_.key(ident.name).index, var);
+        break;
+      case DeclKind::Property:
+      case DeclKind::Var:
+      case DeclKind::Using:
+      case DeclKind::Configuration:
+      case DeclKind::Resource:
+      case DeclKind::Task:
+      case DeclKind::ProgramInstance: break;
+    }
+  }
+}
+
+const PouDecl* BoxTypes::ownerOf(const PouDecl& member) {
+  declared(member.name);
+  for (const PouDecl* pou : pous_)
+    for (const DeclId decl : tree_.list(pou->members))
+      if (tree_.kind(decl) == DeclKind::Pou && &tree_.as<PouDecl>(decl) == &member) return pou;
+  return nullptr;
+}
+
+}  // namespace rung::diagram

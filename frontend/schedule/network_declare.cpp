@@ -1,0 +1,122 @@
+// The hidden variables that networks need in addition to those declared.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "frontend/schedule/network_feedback.h"
+#include "frontend/schedule/network_schedule.h"
+#include "frontend/syntax/diagram.h"
+
+namespace rung::diagram {
+namespace {
+
+class Declarer {
+ public:
+  Declarer(Tree& tree, Names& names, Signatures& signatures, const PouDecl& pou, std::string_view prefix)
+      : tree_(tree), names_(names), signatures_(signatures), prefix_(prefix) {
+    for (uint32_t s = 0; s < pou.sections.count; ++s) {
+      const Slice<DeclId> vars = tree_.as<SectionDecl>(tree_.list(pou.sections)[s]).vars;
+      for (uint32_t v = 0; v < vars.count; ++v)
+        for (const Ident& name : tree_.list(tree_.as<VarDecl>(tree_.list(vars)[v]).names))
+          taken_.push_back(names_.key(name.name).index);
+    }
+    std::sort(taken_.begin(), taken_.end());
+  }
+
+  void run(Slice<DiagramElement> elements) {
+    for (uint32_t k = 0; k < elements.count; ++k) {
+      const DiagramElement e = tree_.list(elements)[k];
+      if (const NameId hidden = ofElement(e)) tree_.list(elements)[k].hidden = hidden;
+      for (uint32_t p = 0; p < e.pins.count; ++p) {
+        const DiagramPin pin = tree_.list(e.pins)[p];
+        if (pin.edge == EdgeKind::None) continue;
+        const std::string base = sensor(pin.edge) + number(e) + "_" + std::string(names_.string(pin.name.name));
+        const NameId hidden = declare(base, sensorType(pin.edge, pin.name.loc), pin.name.loc);
+        tree_.list(e.pins)[p].hidden = hidden;
+      }
+    }
+  }
+
+  // Variables for values that are read before they are computed. Call after run(), which tells blocks from functions.
+  void keepValues(Diagnostics& diagnostics, const PouDecl& pou) {
+    Graph graph;
+    if (!graph.build(tree_, names_, diagnostics, pou.diagram)) return;
+    BoxTypes types(tree_, names_, signatures_, pou, graph);
+    for (const uint32_t k : readBeforeExecution(tree_, graph)) {
+      const DiagramElement e = graph.elements[k];
+      const TypeExprId type = types.of(k);
+      if (!type) continue;
+      const NameId name = declare(std::string(names_.string(e.name.name)) + "_" + number(e), type, e.loc);
+      tree_.list(pou.diagram.elements)[k].stored = name;
+    }
+  }
+
+  const std::vector<DeclId>& vars() const { return vars_; }
+
+ private:
+  static std::string sensor(EdgeKind edge) { return edge == EdgeKind::Rising ? "R_TRIG_" : "F_TRIG_"; }
+  static std::string number(const DiagramElement& e) { return std::to_string(e.number); }
+
+  NameId ofElement(const DiagramElement& e) {
+    if (e.edge != EdgeKind::None) return declare(sensor(e.edge) + number(e), sensorType(e.edge, e.loc), e.loc);
+    const bool composes = e.kind == ElementKind::Compose;
+    const bool nameless = e.kind == ElementKind::Box && !e.operand && e.path;
+    if (!composes && !(nameless && signatures_.of(e.path).kind == SignatureKind::Block)) return {};
+    return declare(std::string(names_.string(e.name.name)) + "_" + number(e), typeOf(e.path), e.name.loc);
+  }
+
+  TypeExprId sensorType(EdgeKind edge, Loc loc) {
+    const Ident name{names_.intern(edge == EdgeKind::Rising ? "R_TRIG" : "F_TRIG"), loc};
+    return named({&name, 1}, loc);
+  }
+  // The path of a box as a type expression.
+  TypeExprId typeOf(ExprId path) {
+    std::vector<Ident> idents;
+    const Loc loc = tree_.loc(path);
+    for (; tree_.kind(path) == ExprKind::Member; path = tree_.as<MemberExpr>(path).base)
+      idents.push_back({tree_.as<MemberExpr>(path).member, tree_.loc(path)});
+    idents.push_back({tree_.as<NameExpr>(path).name, tree_.loc(path)});
+    std::reverse(idents.begin(), idents.end());
+    return named(idents, loc);
+  }
+  TypeExprId named(std::span<const Ident> path, Loc loc) {
+    NamedTypeExpr type{};
+    type.h = {TypeExprKind::Named, 0, 0, loc, {}};
+    type.path = tree_.addList<Ident>(path);
+    return tree_.add<TypeExprId>(type);
+  }
+  NameId declare(const std::string& base, TypeExprId type, Loc loc) {
+    std::string spelling = std::string(prefix_) + base;
+    NameId name = names_.intern(spelling);
+    while (std::binary_search(taken_.begin(), taken_.end(), names_.key(name).index))
+      name = names_.intern(spelling += "x");
+    const Ident ident{name, loc};
+    VarDecl decl{{DeclKind::Var, 0, 0, loc, {}, {}}, {}, type, {}, EdgeKind::None, false, {}, {}};
+    decl.names = tree_.addList<Ident>({&ident, 1});
+    vars_.push_back(tree_.add<DeclId>(decl));
+    return name;
+  }
+
+  Tree& tree_;
+  Names& names_;
+  Signatures& signatures_;
+  std::string_view prefix_;
+  std::vector<uint32_t> taken_;  // keys of the names that the POU declares, sorted
+  std::vector<DeclId> vars_;
+};
+
+}  // namespace
+
+DeclId declareNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures, const PouDecl& pou,
+                       SectionKind kind, std::string_view prefix) {
+  Declarer declarer(tree, names, signatures, pou, prefix);
+  declarer.run(pou.diagram.elements);
+  declarer.keepValues(diagnostics, pou);
+  if (declarer.vars().empty()) return {};
+  const Loc loc = tree.loc(declarer.vars().front());
+  SectionDecl section{{DeclKind::Section, kHidden, 0, loc, {}, {}}, kind, AccessLevel::None, {}};
+  section.vars = tree.addList<DeclId>(declarer.vars());
+  return tree.add<DeclId>(section);
+}
+
+}  // namespace rung::diagram

@@ -1,0 +1,127 @@
+// The implementation of scheduleNetworks(). Private to frontend/schedule: network_schedule.cpp (wires, contacts, coils,
+// jumps), network_boxes.cpp.
+//
+// How it works. Elements with an effect are visited in the order of the graph; the sources of their wires are resolved
+// first, by a walk with an explicit stack, so a chain of 100 000 contacts needs no recursion. Resolving an element
+// emits its statements, or decides that its reader makes it part of an expression. An expression is built only when
+// everything that it reads is resolved, so no statement is emitted in the middle of one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "frontend/schedule/network_graph.h"
+#include "frontend/syntax/clone.h"
+#include "frontend/syntax/diagram.h"
+
+namespace rung::diagram {
+
+// Of one expression; a larger one is cut by a temporary.
+constexpr uint16_t kMaxHeight = 100;
+
+class Scheduler {
+ public:
+  Scheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures)
+      : tree_(tree), names_(names), diagnostics_(diagnostics), signatures_(signatures) {}
+
+  Statements run(const PouDecl& pou);
+
+ private:
+  enum class Phase : uint8_t { New, Busy, Resolved };
+  struct Frame {
+    uint32_t element, pin, wire;
+    bool begins;  // runs early, because it is connected to itself
+  };
+
+  void checkCoils();
+  void checkHolding(const PouDecl& pou);
+
+  // ---- the walk
+  void visit(uint32_t root);
+  void push(uint32_t element, bool begins);
+  void breakCycle(uint32_t first);
+  uint32_t nextInput(Frame& frame) const;
+  void resolve(uint32_t element);
+
+  // ---- elements
+  void resolveContact(uint32_t element);
+  void resolveConnector(uint32_t element);
+  void resolveAssignment(uint32_t element);
+  void resolveComposer(uint32_t element);
+  void resolveExecute(uint32_t element);
+  void resolveJump(uint32_t element);
+  void assignTo(const DiagramElement& e, ExprId value);
+  ExprId operandOf(uint32_t element);
+  bool readable(uint32_t element);
+
+  // ---- boxes (network_boxes.cpp)
+  struct Call;
+  void resolveBox(uint32_t element);
+  bool isOperator(const DiagramElement& e) const;
+  void resolveOperator(uint32_t element, Call& call);
+  void resolveCall(uint32_t element, Call& call);
+  void giveResult(uint32_t element, uint32_t result, ExprId value);
+  uint32_t soleTarget(uint32_t source) const;
+  bool fillArguments(uint32_t element, Call& call);
+  bool hasPin(const Signature& signature, const Ident& pin) const;
+  const DiagramPin* outputNamed(const DiagramElement& e, const Ident& pin) const;
+  uint32_t resultOf(uint32_t element, const Signature& signature) const;
+  ExprId readBox(uint32_t source);
+
+  // ---- wires
+  // The value of a pin; none: not connected.
+  ExprId valueOf(const DiagramElement& e, const DiagramPin& pin);
+  ExprId read(uint32_t source);
+  bool isTrue(const DiagramPin& pin) const;
+  uint16_t heightOf(const DiagramElement& e) const;
+  ExprId joined(const DiagramPin& pin, uint32_t first, uint32_t count);
+  const DiagramPin* pinNamed(const DiagramElement& e, std::string_view name, PinDirection direction) const;
+  const DiagramPin* firstInput(const DiagramElement& e) const;
+
+  // ---- nodes
+  ExprHeader exprHeader(ExprKind kind, Loc loc, uint8_t op = 0) const { return {kind, 0, 0, 0, op, 0, loc, {}}; }
+  StmtHeader stmtHeader(StmtKind kind, Loc loc, uint8_t op = 0) const { return {kind, op, 0, loc}; }
+  ExprId nameExpr(NameId name, Loc loc) {
+    return tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, loc), name, {}});
+  }
+  ExprId memberExpr(ExprId base, NameId member, Loc loc) {
+    return tree_.add<ExprId>(MemberExpr{exprHeader(ExprKind::Member, loc), base, member, {}});
+  }
+  ExprId inverted(ExprId operand, Loc loc);
+  ExprId binary(BinaryOp op, ExprId left, ExprId right, Loc loc) {
+    return tree_.add<ExprId>(BinaryExpr{exprHeader(ExprKind::Binary, loc, static_cast<uint8_t>(op)), left, right});
+  }
+  ExprId trueExpr(Loc loc);
+  ExprId callExpr(ExprId callee, std::span<const Argument> arguments, Loc loc);
+  // The edge of `value`, detected by the instance `sensor`, which is called here.
+  ExprId sensed(NameId sensor, ExprId value, Loc loc);
+  void emit(StmtId statement);
+  void assign(ExprId target, ExprId value, Loc loc, AssignOp op = AssignOp::Assign) {
+    emit(tree_.add<StmtId>(AssignStmt{stmtHeader(StmtKind::Assign, loc, static_cast<uint8_t>(op)), target, value}));
+  }
+  void conditional(ExprId condition, Loc loc, StmtId statement);
+  NameId newTemporary(const std::string& base, Loc loc);
+  void keep(uint32_t source, const std::string& base);  // pending -> temporary
+  std::string wireName(uint32_t element) const;
+
+  Tree& tree_;
+  Names& names_;
+  Diagnostics& diagnostics_;
+  Signatures& signatures_;
+  NetworkLanguage language_ = NetworkLanguage::Ladder;
+  const char* function_ = nullptr;  // the kind of POU if it keeps no state
+  Graph graph_;
+  std::vector<Phase> phase_;
+  std::vector<bool> operand_taken_;
+  std::vector<bool> failed_;                            // boxes with a reported error: their readers report none
+  std::vector<bool> assigned_;                          // variables that a box with EN assigns itself
+  std::vector<uint32_t> order_of_;                      // of an element with an effect: its index among the roots
+  std::vector<uint32_t> calls_open_;                    // sources whose pending value contains a call
+  std::vector<std::pair<uint32_t, uint32_t>> written_;  // network, key of a name that it writes; sorted
+  std::vector<bool> network_calls_;                     // by the network's first element
+  std::vector<Frame> stack_;
+  std::vector<StmtId> out_;
+  std::vector<DeclId> temporaries_;
+};
+
+}  // namespace rung::diagram

@@ -1,0 +1,132 @@
+#include "frontend/schedule/sfc_chart.h"
+
+#include <algorithm>
+
+#include "frontend/syntax/sfc.h"
+
+namespace rung::text {
+
+StepIndex::StepIndex(const Charts& charts, const PouDecl& pou) : names_(charts.names), count_(pou.steps.count) {
+  const std::span<const SfcStep> steps = charts.tree.list(pou.steps);
+  for (uint32_t i = 0; i < steps.size(); ++i) by_name_.push_back({names_.key(steps[i].name.name).index, i});
+  std::sort(by_name_.begin(), by_name_.end());
+}
+
+uint32_t StepIndex::of(NameId name) const {
+  const uint32_t key = names_.key(name).index;
+  const auto found = std::lower_bound(by_name_.begin(), by_name_.end(), std::pair<uint32_t, uint32_t>{key, 0});
+  return found != by_name_.end() && found->first == key ? found->second : count_;
+}
+
+const char* keywordOf(SfcQualifier q) {
+  switch (q) {
+    case SfcQualifier::N: return "N";
+    case SfcQualifier::R: return "R";
+    case SfcQualifier::S: return "S";
+    case SfcQualifier::L: return "L";
+    case SfcQualifier::D: return "D";
+    case SfcQualifier::P: return "P";
+    case SfcQualifier::P0: return "P0";
+    case SfcQualifier::P1: return "P1";
+    case SfcQualifier::SD: return "SD";
+    case SfcQualifier::DS: return "DS";
+    case SfcQualifier::SL: return "SL";
+    case SfcQualifier::Entry:
+    case SfcQualifier::Active:
+    case SfcQualifier::Exit: break;
+  }
+  return "";
+}
+std::string literalOf(uint64_t word) {
+  static const char* const kHex = "0123456789ABCDEF";
+  std::string digits;
+  do digits.insert(digits.begin(), kHex[word & 15]);
+  while ((word >>= 4) != 0);
+  return "LWORD#16#" + digits;
+}
+
+Chart::Chart(const Charts& charts, const PouDecl& pou, const ChartContext& context)
+    : charts_(charts),
+      pou_(pou),
+      context_(context),
+      steps_(charts.tree.list(pou.steps)),
+      transitions_(charts.tree.list(pou.transitions)),
+      index_(charts, pou) {
+  for (const SfcStep& step : steps_)
+    for (const SfcAssociation& a : charts_.tree.list(step.actions))
+      if (isControlled(a.qualifier)) {
+        action_by_name_.push_back(
+            {charts_.names.key(a.action.name).index, static_cast<uint32_t>(action_by_name_.size())});
+        actions_.push_back(a.action);
+      }
+  // Keeps the first association of each name.
+  std::sort(action_by_name_.begin(), action_by_name_.end());
+  std::vector<bool> kept(actions_.size());
+  for (size_t i = 0; i < action_by_name_.size(); ++i)
+    kept[action_by_name_[i].second] = i == 0 || action_by_name_[i].first != action_by_name_[i - 1].first;
+  std::vector<Ident> actions;
+  std::vector<std::pair<uint32_t, uint32_t>> by_name;
+  for (size_t i = 0; i < actions_.size(); ++i) {
+    if (!kept[i]) continue;
+    by_name.push_back({charts_.names.key(actions_[i].name).index, static_cast<uint32_t>(actions.size())});
+    actions.push_back(actions_[i]);
+  }
+  std::sort(by_name.begin(), by_name.end());
+  actions_ = std::move(actions);
+  action_by_name_ = std::move(by_name);
+}
+
+uint32_t Chart::actionOf(NameId name) const {
+  const uint32_t key = charts_.names.key(name).index;
+  return std::lower_bound(action_by_name_.begin(), action_by_name_.end(), std::pair<uint32_t, uint32_t>{key, 0})
+      ->second;
+}
+
+std::string Chart::initialSteps() const {
+  std::string list;
+  for (uint32_t first = 0; first < steps_.size(); first += kWord) {
+    uint64_t word = 0;
+    for (uint32_t i = first; i < steps_.size() && i < first + kWord; ++i)
+      if (steps_[i].initial) word |= uint64_t{1} << (i % kWord);
+    list += (list.empty() ? "" : ", ") + literalOf(word);
+  }
+  return list;
+}
+
+const char* keywordOf(SfcFlag flag) {
+  static const char* const kKeywords[kSfcFlags] = {"SFCInit",
+                                                   "SFCReset",
+                                                   "SFCError",
+                                                   "SFCEnableLimit",
+                                                   "SFCErrorStep",
+                                                   "SFCErrorPOU",
+                                                   "SFCErrorAnalyzation",
+                                                   "SFCErrorAnalyzationTable",
+                                                   "SFCQuitError",
+                                                   "SFCPause",
+                                                   "SFCTrans",
+                                                   "SFCCurrentStep",
+                                                   "SFCTipMode",
+                                                   "SFCTip"};
+  return kKeywords[static_cast<size_t>(flag)];
+}
+
+// Flags of a block, inherited and global ones included, act on its own chart or, if its body is not a chart, on the
+// charts of its actions. A chart in an action or method of a block with a chart uses only the flags declared in that
+// action or method.
+void Chart::findFlags(Signatures& signatures) {
+  const Tree& tree = charts_.tree;
+  for (size_t i = 0; i < kSfcFlags; ++i) {
+    const NameId word = charts_.names.find(keywordOf(static_cast<SfcFlag>(i)));
+    if (!word) continue;
+    for (const DeclId section : tree.list(pou_.sections))
+      for (const DeclId var : tree.list(tree.as<SectionDecl>(section).vars))
+        for (const Ident& name : tree.list(tree.as<VarDecl>(var).names))
+          if (charts_.names.same(name.name, word)) flags_[i] = name;
+    const bool sees_block = context_.around.empty() || context_.around.back()->steps.empty();
+    if (!flags_[i] && sees_block && signatures.of(word).kind == SignatureKind::Value)
+      flags_[i] = Ident{charts_.names.intern(keywordOf(static_cast<SfcFlag>(i))), pou_.body_begin};
+  }
+}
+
+}  // namespace rung::text

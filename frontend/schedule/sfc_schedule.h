@@ -1,0 +1,61 @@
+// The scheduler of Sequential Function Charts: a chart becomes declarations and statements, written as source-mapped
+// ST, so that conditions and times are quoted with their locations in the chart and `rung convert` prints exactly the
+// ST that is compiled. In: steps, transitions and associations of a POU. Out: sections and statements in its PouDecl,
+// and the ST of both. Called by sema: declareSfc when it collects the POU, scheduleSfc when it is about to check the
+// body and knows which actions are variables. The behaviour of qualifiers is in the library (stdlib/iecsfc/sfc.st), not
+// here.
+//
+// The state. Each step is an SFCStepType of its name, each action an SFCActionControl of its name with the prefix `_`,
+// each named condition a BOOL. Sets of 64 steps per LWORD hold the active steps (sfc_steps), those left and those
+// entered by the transitions of the last cycle (sfc_left, sfc_entered): a cycle visits set bits only. Sets of actions
+// hold the control blocks with work to do (sfc_actions).
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "frontend/parse/parse.h"
+#include "frontend/source/diagnostics.h"
+#include "frontend/source/dialect.h"
+#include "frontend/syntax/signatures.h"
+#include "frontend/syntax/tree.h"
+
+namespace rung::text {
+
+struct Charts {
+  Tree& tree;
+  Names& names;
+  Sources& sources;
+  Diagnostics& diagnostics;
+  Dialect dialect;
+};
+
+// The context of a chart.
+struct ChartContext {
+  bool final_scan = true;  // actions run once more when they end
+  // Of a chart in an action or method: the charts of actions around it, then the block; else empty.
+  std::vector<const PouDecl*> around;
+};
+
+// Appends the sections of the chart's variables to those of the POU; of a POU without a chart those of its conditions,
+// which charts of its actions use.
+void declareSfc(const Charts& charts, PouDecl& pou, const ChartContext& context);
+// Fills the POU's statements. False: the chart has errors, which were reported.
+bool scheduleSfc(const Charts& charts, Signatures& signatures, PouDecl& pou, const ChartContext& context);
+// The rules for charts as a whole (sfc_check.cpp).
+bool checkSfc(const Charts& charts, Signatures& signatures, const PouDecl& pou, const ChartContext& context);
+
+// Looks up the steps of a chart by name.
+class StepIndex {
+ public:
+  StepIndex(const Charts& charts, const PouDecl& pou);
+  // The first step of this name, or the number of steps.
+  uint32_t of(NameId name) const;
+
+ private:
+  const Names& names_;
+  std::vector<std::pair<uint32_t, uint32_t>> by_name_;  // name key and step, sorted
+  uint32_t count_;
+};
+
+}  // namespace rung::text

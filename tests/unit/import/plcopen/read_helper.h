@@ -1,0 +1,40 @@
+// Reads a PLCopen project like the tool does.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "frontend/import/plcopen/plcopen.h"
+
+namespace rung::plcopen {
+
+struct Reading {
+  explicit Reading(std::string text) {
+    file = sources.add("p.xml", std::move(text));
+    program = readProject(sources, file, diagnostics, libraries);
+  }
+  std::string text() const { return program ? std::string(sources.sourceText(program)) : "none"; }
+  // "line:column" in the XML for the first position where the source has `what`.
+  std::string locationOf(std::string_view what) const {
+    const size_t at = sources.sourceText(program).find(what);
+    if (at == std::string_view::npos) return "none";
+    return location({sources.begin(program).offset + static_cast<uint32_t>(at)});
+  }
+  std::string location(Loc loc) const {
+    const SourceLocation p = sources.location(loc);
+    return std::to_string(p.line) + ":" + std::to_string(p.column);
+  }
+  // "line:column message" lines.
+  std::string errors() const {
+    std::string out;
+    for (const Diagnostic& d : diagnostics.all()) out += location(d.loc) + " " + d.message + "\n";
+    return out;
+  }
+
+  Sources sources;
+  Diagnostics diagnostics{sources};
+  std::vector<Library> libraries;
+  FileId file, program;
+};
+
+}  // namespace rung::plcopen
