@@ -241,6 +241,7 @@ void BodyWriter::write(ir::BodyId id) {
   loops_.clear();
   frames_.clear();
   blocks_declared_.clear();
+  areas_declared_ = 0;
   has_try_ = self_escapes_ = has_foreign_calls_ = has_calls_ = has_measured_ = has_leaving_calls_ = has_slices_ =
       uses_fault_ = uses_leave_ = false;
   names_created_ = 0;

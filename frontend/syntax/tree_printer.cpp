@@ -140,7 +140,7 @@ void Printer::pragmas(const DeclHeader& h) {
 
 void Printer::address(const DirectAddress& a) {
   out += '%';
-  out += a.area == ImageArea::Input ? 'I' : a.area == ImageArea::Output ? 'Q' : 'M';
+  out += a.area;
   if (a.size_given) out += a.size;
   if (a.incomplete) out += '*';
   bool first = true;

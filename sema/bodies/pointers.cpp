@@ -54,7 +54,7 @@ TypeId checkBitAddress(Context& context, ExprId& expr, ExprId lvalue) {
     context.report(diag::NoBitAddress, context.tree().begin(lvalue));
     return types::kError;
   }
-  const uint32_t area = view->area == ImageArea::Memory ? 1 : view->area == ImageArea::Input ? 2 : 3;
+  const uint32_t area = view->area == types::kMemoryArea ? 1 : view->area == types::kInputArea ? 2 : 3;
   expr = makeLiteral(context, LiteralKind::Integer, types::kDWord, uint64_t{area} << 30 | (view->byte * 8 + view->bit),
                      loc);
   return types::kDWord;

@@ -4,6 +4,7 @@
 #include "sema/bodies/diagnostics.h"
 #include "sema/checks/addressable.h"
 #include "sema/declarations/declarations.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 
@@ -66,7 +67,7 @@ void addLvalue(Facts& facts, ExprId lvalue) {
     if (var->storage == Storage::Global) area = 0, memory = 4;
     if (var->retain) memory = 3;
     if (var->storage == Storage::Image) {
-      const auto number = static_cast<int64_t>(var->image.area);  // I, Q, M
+      const auto number = static_cast<int64_t>(var->image.area.index);  // I, Q, M
       area = number + 1;
       memory = number == 2 ? 0 : number + 1;
       offset = var->image.byte;
@@ -110,7 +111,7 @@ ExprId byteOfImage(Context& context, ExprId lvalue) {
   byte.h.kind = ExprKind::Address;
   byte.h.loc = context.tree().loc(lvalue);
   byte.h.type = types::kByte;
-  byte.address.area = var->image.area;
+  byte.address.area = context.project.options.areas[var->image.area.index].letter;
   byte.address.size = 'B';
   byte.address.size_given = true;
   const uint32_t path[] = {var->image.byte};

@@ -292,12 +292,16 @@ void ensureVarType(Context& context, VarId id) {
     if (decl.located && decl.address.incomplete) {  // completed by resolveInstancePaths
       if (decl.address.size_given && addressType(decl.address) == types::kBool && type != types::kError &&
           context.types().kind(type) != TypeKind::Bool) {
-        const std::string address = {'%', areaLetter(decl.address.area), 'X', '*'};
+        const std::string address = {'%', decl.address.area, 'X', '*'};
         there.report(diag::AddressType, decl.address_loc, {address, context.types().toString(type)});
         var.type = types::kError;
       }
+      const std::optional<types::AreaId> area = areaOf(there, decl.address, decl.address_loc);
+      if (area)
+        var.image.area = *area;
+      else
+        var.type = types::kError;
       var.open_address = true;
-      var.image.area = decl.address.area;
       var.image.is_bit = type != types::kError && context.types().kind(type) == TypeKind::Bool;
     } else if (decl.located && !var.record && isHierarchical(there, decl.address)) {
       const VarId named = hierarchicalVar(there, decl.address, decl.address_loc, VarId{i});
