@@ -140,7 +140,7 @@ void Printer::pragmas(const DeclHeader& h) {
 
 void Printer::address(const DirectAddress& a) {
   out += '%';
-  out += a.area;
+  if (a.area != '\0') out += a.area;  // none: relative to a structure
   if (a.size_given) out += a.size;
   if (a.incomplete) out += '*';
   bool first = true;
