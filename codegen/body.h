@@ -44,8 +44,9 @@ class BodyWriter {
   static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body) {
     appendSignature(out, module, body, {});
   }
-  // Under another name.
-  static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body, std::string_view name);
+  // Under another name; a native body with another type of its instance than void.
+  static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body, std::string_view name,
+                              std::string_view self = {});
 
  private:
   using Body = ir::Body;
