@@ -25,7 +25,7 @@ struct OperatorFunction {
 // Null: not the name of an operator with two operands.
 const OperatorFunction* operatorFunction(std::string_view name);
 
-constexpr std::string_view kMove = "MOVE";
+constexpr std::string_view kNot = "NOT", kMove = "MOVE";
 
 // R_TRIG or F_TRIG.
 std::string_view edgeDetector(EdgeKind edge);

@@ -64,7 +64,7 @@ class TreeReader {
   Wires parallel(const Element& tree);
   Wires rail(Loc loc);
   Wires boxOf(std::string_view type, const std::vector<Wires>& inputs, Loc loc);
-  Wires plain(const Wires& wires, Loc loc) { return wires.flags == 0 ? wires : boxOf("MOVE", {wires}, loc); }
+  Wires plain(const Wires& wires, Loc loc) { return wires.flags == 0 ? wires : boxOf(kMove, {wires}, loc); }
   void assign(const Element& target, uint64_t flags, const Wires& wires, bool of_box = false);
   std::vector<WireSource> sourcesOf(const Wires& wires) const;
   void readInstance(const Element& tree, NetworkElement& out) const;
@@ -409,7 +409,7 @@ Wires TreeReader::demux(const Element& tree) {
   const bool resolved = wires.all.empty() || archive_.typeOf(*input) == "BoxTreeDemux" ||
                         archive_.typeOf(*input) == "BoxTreeTerminator" ||
                         (archive_.typeOf(*input) == "BoxTreeBox" && !(ladder_ && isSeries(*input, true)));
-  if (!resolved || wires.flags != 0) wires = boxOf("MOVE", {wires}, tree.loc);
+  if (!resolved || wires.flags != 0) wires = boxOf(kMove, {wires}, tree.loc);
   return branches_[branch] = wires;
 }
 
