@@ -6,6 +6,7 @@
 #include "frontend/parse/diagnostics.h"
 #include "frontend/parse/parser.h"
 #include "frontend/source/dialect.h"
+#include "frontend/syntax/standard_names.h"
 
 namespace rung::text {
 namespace {
@@ -118,7 +119,7 @@ ExprId Parser::parseUnary() {
     case static_cast<int>(Tok::Bang): slip(diag::ForeignOperator, t_, {"!", "NOT"}); [[fallthrough]];
     case static_cast<int>(Tok::Not):
       // NOT(EN := x, IN := y): the functional form, with pins
-      if (peek() == Tok::LeftParen && peek(3) == Tok::Assign && (is(t_ + 2, "EN") || is(t_ + 2, "IN"))) {
+      if (peek() == Tok::LeftParen && peek(3) == Tok::Assign && (is(t_ + 2, kEnable) || is(t_ + 2, "IN"))) {
         return parsePrimary();
       }
       op = UnaryOp::Not;

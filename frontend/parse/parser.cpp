@@ -6,6 +6,7 @@
 #include "frontend/source/dialect.h"
 #include "frontend/syntax/diagnostics.h"
 #include "frontend/syntax/sfc.h"
+#include "frontend/syntax/standard_names.h"
 
 namespace rung::text {
 
@@ -18,7 +19,7 @@ Parser::Parser(Tree& tree, Names& names, const Sources& sources, FileId file, Di
       diagnostics_(diagnostics),
       base_(sources.begin(file).offset),
       source_(sources.sourceText(file)) {
-  eno_ = names.intern("ENO");
+  eno_ = names.intern(kEnableOutput);
   const std::string_view path = sources.path(file);
   il_file_ = path.size() > 3 && sameIdentifier(path.substr(path.size() - 3), ".il");
 }

@@ -6,6 +6,7 @@
 #include "frontend/schedule/network_feedback.h"
 #include "frontend/schedule/network_schedule.h"
 #include "frontend/syntax/diagram.h"
+#include "frontend/syntax/standard_names.h"
 
 namespace rung::diagram {
 namespace {
@@ -54,7 +55,7 @@ class Declarer {
   const std::vector<DeclId>& vars() const { return vars_; }
 
  private:
-  static std::string sensor(EdgeKind edge) { return edge == EdgeKind::Rising ? "R_TRIG_" : "F_TRIG_"; }
+  static std::string sensor(EdgeKind edge) { return std::string(edgeDetector(edge)) + "_"; }
   static std::string number(const DiagramElement& e) { return std::to_string(e.number); }
 
   NameId ofElement(const DiagramElement& e) {
@@ -66,7 +67,7 @@ class Declarer {
   }
 
   TypeExprId sensorType(EdgeKind edge, Loc loc) {
-    const Ident name{names_.intern(edge == EdgeKind::Rising ? "R_TRIG" : "F_TRIG"), loc};
+    const Ident name{names_.intern(edgeDetector(edge)), loc};
     return named({&name, 1}, loc);
   }
   // The path of a box as a type expression.

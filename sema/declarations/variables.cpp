@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "frontend/schedule/network_schedule.h"
+#include "frontend/syntax/standard_names.h"
 #include "sema/bodies/signatures.h"
 #include "sema/checks/object_members.h"
 #include "sema/checks/uncopied.h"
@@ -450,7 +451,7 @@ static void declareHidden(Context& context, PouId id) {
 // IEC 61131-3 ed. 2, 2.5.1.2 and the function WEIGH of its annex F.
 static void declareEno(Context& context, PouId id) {
   Symbols& symbols = context.symbols;
-  const NameId name = context.names().intern("ENO");
+  const NameId name = context.names().intern(kEnableOutput);
   const VarId created{static_cast<uint32_t>(symbols.vars.size())};
   if (!context.scopes.pous[id.index].names.insert(keyOf(context, name), entity(created))) return;
   Var var;

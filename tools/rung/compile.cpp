@@ -114,7 +114,7 @@ bool Compilation::read() {
 // Reports the libraries that a project of another tool asks for and Rung does not have, and adds the project's names
 // for the others.
 void Compilation::noteLibraries() {
-  for (const vendor::ProjectEntry& wanted : inputs.libraries) {
+  for (const importer::Library& wanted : inputs.libraries) {
     if (!wanted.space.empty() && !sameIdentifier(wanted.space, wanted.name)) {
       const bool of_project = std::any_of(inputs.project_names.begin(), inputs.project_names.end(),
                                           [&](std::string_view name) { return sameIdentifier(name, wanted.name); });

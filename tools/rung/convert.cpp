@@ -376,8 +376,8 @@ std::string projectXml(Compilation& compilation) {
     if (std::any_of(compilation.inputs.files.begin(), compilation.inputs.files.end(),
                     [&](const InputFile& input) { return input.file == unit.file; }))
       units.push_back(unit);
-  return plcopen::writeProject({compilation.tree, compilation.names, compilation.sources, units},
-                               projectName(compilation), compilation.diagnostics);
+  return exporter::writeProject({compilation.tree, compilation.names, compilation.sources, units},
+                                projectName(compilation), compilation.diagnostics);
 }
 
 // The output folder must differ from that of the sources, or the next run would read both.

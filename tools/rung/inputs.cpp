@@ -9,9 +9,10 @@
 #include <cstring>
 #include <filesystem>
 
-#include "frontend/import/iec10/iec10.h"
-#include "frontend/import/plcopen/plcopen.h"
+#include "frontend/import/pairs.h"
+#include "frontend/import/twincat/twincat.h"
 #include "frontend/source/names.h"
+#include "frontend/source/scanner.h"
 #include "frontend/syntax/diagnostics.h"
 #include "tools/rung/diagnostics.h"
 
@@ -19,102 +20,6 @@ namespace rung::tool {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool hasExtension(std::string_view path, std::string_view extension) {
-  if (path.size() <= extension.size()) return false;
-  std::string_view end = path.substr(path.size() - extension.size());
-  for (size_t i = 0; i < end.size(); i++) {
-    char c = end[i] >= 'A' && end[i] <= 'Z' ? static_cast<char>(end[i] + 32) : end[i];
-    if (c != extension[i]) return false;
-  }
-  return true;
-}
-
-struct Extension {
-  const char* extension;
-  FileKind kind;
-};
-constexpr Extension kExtensions[] = {{".st", FileKind::St},
-                                     {".iecst", FileKind::St},
-                                     {".pou", FileKind::St},
-                                     {".decl", FileKind::St},
-                                     {".impl", FileKind::St},
-                                     {".exp", FileKind::Codesys2},
-                                     {".tcpou", FileKind::TwinCat},
-                                     {".tcdut", FileKind::TwinCat},
-                                     {".tcgvl", FileKind::TwinCat},
-                                     {".tcio", FileKind::TwinCat},
-                                     {".tctleo", FileKind::TwinCat},
-                                     {".tctto", FileKind::TwinCat},
-                                     {".plcproj", FileKind::PlcProject},
-                                     {".il", FileKind::Il},
-                                     {".xml", FileKind::Xml},
-                                     {".cfc", FileKind::Xml},
-                                     {".nct", FileKind::Nct},
-                                     {".cam", FileKind::Cam}};
-
-FileKind kindOfExtension(std::string_view path) {
-  if (path == "rung.project" || path.ends_with("/rung.project")) return FileKind::Project;
-  for (const Extension& row : kExtensions)
-    if (hasExtension(path, row.extension)) return row.kind;
-  return FileKind::Unknown;
-}
-
-// True when a fifth of the first bytes is control characters or not UTF-8, or for a NUL: not a source in any encoding
-// that editors of PLC code write.
-bool isBinary(std::string_view text) {
-  std::string_view head = text.substr(0, 4096);
-  if (head.find('\0') != std::string_view::npos) return true;
-  size_t bad = 0;
-  for (size_t i = 0; i < head.size(); i++) {
-    unsigned char c = static_cast<unsigned char>(head[i]);
-    if (c < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f' && c != '\v' && c != 0x1a) bad++;
-    if (c < 0x80) continue;
-    size_t follow = c >= 0xf0 ? 3 : c >= 0xe0 ? 2 : c >= 0xc0 ? 1 : 0;
-    size_t continued = 0;
-    while (continued < follow && i + continued + 1 < head.size() && (head[i + continued + 1] & 0xc0) == 0x80)
-      continued++;
-    if (follow == 0 || continued < follow) bad++;
-    i += continued;
-  }
-  return bad * 5 > head.size();
-}
-
-bool startsDeclaration(std::string_view text) {
-  static constexpr const char* kKeywords[] = {"PROGRAM",   "FUNCTION",      "FUNCTION_BLOCK", "TYPE",
-                                              "INTERFACE", "CONFIGURATION", "VAR_GLOBAL",     "NAMESPACE"};
-  const std::string word = vendor::firstWord(text);
-  for (const char* known : kKeywords)
-    if (word == known) return true;
-  return false;
-}
-
-vendor::Format formatOf(FileKind kind) {
-  return kind == FileKind::TwinCat     ? vendor::Format::TwinCat
-         : kind == FileKind::Codesys2  ? vendor::Format::Codesys2
-         : kind == FileKind::Multiprog ? vendor::Format::Multiprog
-                                       : vendor::Format::None;
-}
-
-const char* describe(FileKind kind) {
-  switch (kind) {
-    case FileKind::Xml: return "XML other than PLCopen's or that of IEC 61131-10";
-    case FileKind::Nct: return "machine-tool ladder";
-    case FileKind::Cam: return "a cam table";
-    case FileKind::Unknown:
-    case FileKind::St:
-    case FileKind::Il:
-    case FileKind::TwinCat:
-    case FileKind::PlcProject:
-    case FileKind::Plcopen:
-    case FileKind::Iec10:
-    case FileKind::Codesys2:
-    case FileKind::Multiprog:
-    case FileKind::Project:
-    case FileKind::Binary: break;
-  }
-  return "a file of another kind";
-}
 
 class Collector {
  public:
@@ -124,7 +29,7 @@ class Collector {
   void collect() {
     for (const std::string& word : options_.inputs) addInput(word);
     for (const std::string& library : options_.library_paths)
-      if (kindOfExtension(library) == FileKind::PlcProject) addPlcProject(library, true);
+      if (importer::kindOfExtension(library) == FileKind::PlcProject) addPlcProject(library, true);
     if (inputs_.io_error) return;
     findRoot();
     for (Candidate& candidate : candidates_)
@@ -188,7 +93,7 @@ class Collector {
       addProjectFolder(word);
     } else if (!S_ISREG(info.st_mode)) {
       fail(diag::CannotRead, word, {word, "not a file or folder"});
-    } else if (kindOfExtension(word) == FileKind::Project) {
+    } else if (importer::kindOfExtension(word) == FileKind::Project) {
       size_t slash = word.rfind('/');
       std::string folder = slash == std::string::npos ? "." : word.substr(0, slash);
       bases_.push_back(absolute(folder));
@@ -200,16 +105,16 @@ class Collector {
   }
 
   void addNamedFile(const std::string& path) {
-    if (kindOfExtension(path) == FileKind::PlcProject) return addPlcProject(path);
+    if (importer::kindOfExtension(path) == FileKind::PlcProject) return addPlcProject(path);
     candidates_.push_back({absolute(path), path, {}, true});
   }
 
   // A PROGRAM of a library is there for trying it out.
   static bool holdsProgram(const std::string& path) {
-    if (!hasExtension(path, ".tcpou")) return false;
+    if (!importer::hasExtension(path, ".tcpou")) return false;
     const std::string text = readFile(path).content;
     const size_t begin = text.find("<![CDATA[");
-    return begin != std::string::npos && vendor::firstWord(std::string_view(text).substr(begin + 9)) == "PROGRAM";
+    return begin != std::string::npos && firstWord(std::string_view(text).substr(begin + 9)) == "PROGRAM";
   }
 
   // The files listed by a TwinCAT project, relative to its folder. Tasks and programs of a library are left out.
@@ -219,25 +124,25 @@ class Collector {
     inputs_.read.push_back(path);
     const FileId file = sources_.add(path, std::move(read.content));
     if (!file) return fail(diag::TooMuchInput, path, {path});
-    vendor::Project project;
-    if (!vendor::readProject(sources_, file, diagnostics_, project)) return;
+    importer::twincat::Project project;
+    if (!importer::twincat::readProject(sources_, file, diagnostics_, project)) return;
     const size_t slash = path.rfind('/');
     const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
     inputs_.project_names.push_back(path.substr(folder.size(), path.rfind('.') - folder.size()));
-    for (const vendor::ProjectEntry& entry : project.files) {
-      const std::string listed = sameFile(folder, entry.name);
-      if (is_library && (hasExtension(entry.name, ".tctto") || holdsProgram(listed))) continue;
+    for (const importer::twincat::ProjectEntry& entry : project.files) {
+      const std::string listed = sameFile(folder, entry.path);
+      if (is_library && (importer::hasExtension(entry.path, ".tctto") || holdsProgram(listed))) continue;
       struct stat info;
       if (stat(listed.c_str(), &info) == 0) {
         candidates_.push_back({absolute(listed), listed, {}, true});
         continue;
       }
       const char* why = strerror(errno);
-      diagnostics_.report(diag::CannotRead, entry.loc, {entry.name, why})
-          .length(static_cast<uint32_t>(entry.name.size()));
+      diagnostics_.report(diag::CannotRead, entry.loc, {entry.path, why})
+          .length(static_cast<uint32_t>(entry.path.size()));
       inputs_.io_error = true;
     }
-    for (vendor::ProjectEntry& library : project.libraries) inputs_.libraries.push_back(std::move(library));
+    for (importer::Library& library : project.libraries) inputs_.libraries.push_back(std::move(library));
   }
 
   // `path` below the folder, in the letter case on disk: project files may come from case-insensitive systems.
@@ -272,7 +177,7 @@ class Collector {
     ReadResult read = readFile(file);
     if (!read.error.empty()) return fail(diag::CannotRead, file, {file, read.error});
     inputs_.read.push_back(file);
-    if (isBinary(read.content)) return fail(diag::BinaryFile, file, {file});
+    if (importer::isBinary(read.content)) return fail(diag::BinaryFile, file, {file});
     FileId id = sources_.add("rung.project", std::move(read.content));
     if (!id) return fail(diag::TooMuchInput, file, {file});
     inputs_.project.folder = folder;
@@ -327,7 +232,7 @@ class Collector {
       if (type == DT_DIR) {
         folders.push_back(std::move(path));
       } else if (type == DT_REG) {
-        FileKind kind = kindOfExtension(path);
+        const FileKind kind = importer::kindOfExtension(path);
         if (kind == FileKind::Unknown || kind == FileKind::Project) continue;
         if (kind == FileKind::PlcProject) {
           projects.push_back(std::move(path));
@@ -378,25 +283,15 @@ class Collector {
     if (!read.error.empty()) return fail(diag::CannotRead, candidate.path, {candidate.path, read.error});
     inputs_.read.push_back(candidate.path);
     if (!decodeUtf16(read.content)) return fail(diag::Utf16File, candidate.path, {candidate.path});
-    FileKind kind = kindOf(candidate.path, read.content);
-    switch (kind) {
-      case FileKind::St:
-      case FileKind::Il:
-      case FileKind::TwinCat:
-      case FileKind::Plcopen:
-      case FileKind::Iec10:
-      case FileKind::Codesys2:
-      case FileKind::Multiprog: break;
-      case FileKind::Binary: return fail(diag::BinaryFile, candidate.path, {candidate.path});
-      case FileKind::Unknown: return fail(diag::UnknownFileKind, candidate.path, {candidate.path});
-      case FileKind::Xml:
-      case FileKind::Nct:
-      case FileKind::Cam:
-        if (candidate.named) return fail(diag::KindNotRead, candidate.path, {candidate.path, describe(kind)});
-        diagnostics_.report(diag::KindIgnored, {}, {candidate.path, describe(kind)}).path(candidate.path);
-        return;
-      case FileKind::PlcProject:
-      case FileKind::Project: return;
+    const FileKind kind = importer::kindOf(candidate.path, read.content);
+    if (kind == FileKind::Binary) return fail(diag::BinaryFile, candidate.path, {candidate.path});
+    if (kind == FileKind::Unknown) return fail(diag::UnknownFileKind, candidate.path, {candidate.path});
+    if (kind == FileKind::PlcProject || kind == FileKind::Project) return;
+    if (!importer::holdsProgram(kind)) {
+      const std::string_view name = importer::formatOf(kind).name;
+      if (candidate.named) return fail(diag::KindNotRead, candidate.path, {candidate.path, name});
+      diagnostics_.report(diag::KindIgnored, {}, {candidate.path, name}).path(candidate.path);
+      return;
     }
     FileId file = sources_.add(candidate.below, std::move(read.content));
     if (!file) return fail(diag::TooMuchInput, candidate.path, {candidate.path});
@@ -413,84 +308,29 @@ class Collector {
   std::string project_shown_;
 };
 
-// ---- POUs in two files
-
-// When one of two files with equal names begins a POU and the other has no declaration, they are the POU and its body.
-void joinPairs(Sources& sources, std::vector<InputFile>& files) {
-  std::vector<std::pair<std::string, size_t>> bodies, declarations;
-  for (size_t i = 0; i < files.size(); i++) {
-    if (files[i].kind != FileKind::St) continue;
-    const std::string_view text = sources.sourceText(files[i].file);
-    const std::string word = vendor::firstWord(text);
-    if (word == "PROGRAM" || word == "FUNCTION" || word == "FUNCTION_BLOCK")
-      declarations.emplace_back(vendor::pairName(files[i].below), i);
-    else if (!startsDeclaration(text))
-      bodies.emplace_back(vendor::pairName(files[i].below), i);
-  }
-  std::sort(bodies.begin(), bodies.end());
-  std::sort(declarations.begin(), declarations.end());
-  for (size_t i = 0; i < bodies.size(); i++) {
-    const std::string& name = bodies[i].first;
-    if ((i > 0 && bodies[i - 1].first == name) || (i + 1 < bodies.size() && bodies[i + 1].first == name)) continue;
-    const auto from = std::lower_bound(declarations.begin(), declarations.end(), std::pair{name, size_t{0}});
-    if (from == declarations.end() || from->first != name) continue;
-    if (from + 1 != declarations.end() && (from + 1)->first == name) continue;
-    InputFile& declaration = files[from->second];
-    declaration.file = vendor::joinPair(sources, declaration.file, files[bodies[i].second].file);
-    files[bodies[i].second].file = {};
-  }
-  std::erase_if(files, [](const InputFile& file) { return !file.file; });
-}
-
 }  // namespace
-
-FileKind kindOf(std::string_view path, std::string_view text) {
-  FileKind by_name = kindOfExtension(path);
-  if (isBinary(text)) return FileKind::Binary;
-  switch (vendor::formatOf(text)) {
-    case vendor::Format::TwinCat: return FileKind::TwinCat;
-    case vendor::Format::TwinCatProject: return FileKind::PlcProject;
-    case vendor::Format::Codesys2: return FileKind::Codesys2;
-    case vendor::Format::Multiprog: return FileKind::Multiprog;
-    case vendor::Format::None: break;
-  }
-  std::string_view start = text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
-  size_t first = start.find_first_not_of(" \t\r\n");
-  if (first != std::string_view::npos && start.substr(first).starts_with("<") && plcopen::isPlcopen(start))
-    return FileKind::Plcopen;
-  if (first != std::string_view::npos && start.substr(first).starts_with("<") && iec10::isIec10(start))
-    return FileKind::Iec10;
-  if (first != std::string_view::npos && start.substr(first).starts_with("<") && by_name != FileKind::St)
-    return FileKind::Xml;
-  if (by_name == FileKind::Unknown && startsDeclaration(text)) return FileKind::St;
-  // The extension claims XML, the content is not.
-  if (by_name == FileKind::Xml || by_name == FileKind::TwinCat || by_name == FileKind::PlcProject)
-    return FileKind::Unknown;
-  if (by_name == FileKind::Codesys2) return FileKind::St;  // an export without its comments
-  return by_name;
-}
 
 void readInputs(const Options& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
   Collector(options, sources, diagnostics, inputs).collect();
 }
 
 void readPrograms(Sources& sources, Diagnostics& diagnostics, Inputs& inputs) {
-  joinPairs(sources, inputs.files);
-  std::vector<plcopen::Library> xml_libraries;
+  std::vector<importer::PairCandidate> halves;
+  for (const InputFile& input : inputs.files)
+    if (input.kind == FileKind::St) halves.push_back({input.below, input.file});
+  importer::joinPairs(sources, halves);
+  auto half = halves.begin();
+  for (InputFile& input : inputs.files)
+    if (input.kind == FileKind::St) input.file = (half++)->file;
+  std::erase_if(inputs.files, [](const InputFile& input) { return !input.file; });
+
+  importer::ReadContext context{sources, diagnostics, inputs.libraries};
   for (InputFile& input : inputs.files) {
-    const vendor::Format format = formatOf(input.kind);
-    if (input.kind == FileKind::Plcopen)
-      input.file = plcopen::readProject(sources, input.file, diagnostics, xml_libraries);
-    else if (input.kind == FileKind::Iec10)
-      input.file = iec10::readProject(sources, input.file, diagnostics);
-    else if (format != vendor::Format::None)
-      input.file = vendor::readProgram(sources, input.file, format, diagnostics);
-    else
-      continue;
+    const importer::Format& format = importer::formatOf(input.kind);
+    if (format.read == nullptr) continue;
+    input.file = format.read(context, input.file);
     if (!input.file) inputs.unread = true;
   }
-  for (plcopen::Library& library : xml_libraries)
-    inputs.libraries.push_back({std::move(library.name), std::move(library.space), library.loc});
   std::erase_if(inputs.files, [](const InputFile& input) { return !input.file; });
 }
 

@@ -8,32 +8,14 @@
 #include <string_view>
 #include <vector>
 
-#include "frontend/import/vendor.h"
+#include "frontend/import/formats.h"
 #include "frontend/source/diagnostics.h"
 #include "tools/rung/options.h"
 #include "tools/rung/project_file.h"
 
 namespace rung::tool {
 
-enum class FileKind : uint8_t {
-  Unknown,
-  St,
-  Il,
-  Xml,
-  Nct,
-  Cam,
-  TwinCat,
-  PlcProject,
-  Plcopen,
-  Iec10,
-  Codesys2,
-  Multiprog,
-  Project,
-  Binary
-};
-
-// By content, then extension. `text` may be only the beginning.
-FileKind kindOf(std::string_view path, std::string_view text);
+using importer::FileKind;
 
 struct InputFile {
   std::string path;   // to open it
@@ -48,10 +30,10 @@ struct Inputs {
   std::vector<InputFile> files;   // the ones to compile, sorted by `below`
   std::vector<std::string> read;  // every file and folder looked at, for depfiles
   ProjectFile project;
-  std::vector<vendor::ProjectEntry> libraries;  // requested by .plcproj and .xml files among them
-  std::vector<std::string> project_names;  // of these files: `TcUnit.FB_TestSuite` names a declaration of the project
-  bool unread = false;                     // a vendor's file could not be understood: its declarations are missing
-  bool io_error = false;                   // something could not be read: exit 2
+  std::vector<importer::Library> libraries;  // requested by .plcproj and .xml files among them
+  std::vector<std::string> project_names;    // of these files: `TcUnit.FB_TestSuite` names a declaration of the project
+  bool unread = false;                       // a vendor's file could not be understood: its declarations are missing
+  bool io_error = false;                     // something could not be read: exit 2
 };
 
 void readInputs(const Options& options, Sources& sources, Diagnostics& diagnostics, Inputs& inputs);

@@ -189,14 +189,15 @@ TEST_F(InputsTest, PairsOfFilesAreOnePou) {
 }
 
 TEST(KindOf, ContentThenExtension) {
-  EXPECT_EQ(kindOf("a.st", kProgram), FileKind::St);
-  EXPECT_EQ(kindOf("a.txt", "(* head *) // x\n{attribute 'a'}\nfunction_block b"), FileKind::St);
-  EXPECT_EQ(kindOf("a.txt", "just text"), FileKind::Unknown);
-  EXPECT_EQ(kindOf("a.exp", "\xef\xbb\xbf<?xml version='1.0'?>"), FileKind::Xml);
-  EXPECT_EQ(kindOf("a.st", ""), FileKind::St);
-  EXPECT_EQ(kindOf("a.st", std::string("\0\0", 2)), FileKind::Binary);
-  EXPECT_EQ(kindOf("a.st", "(* \xe4\xf6\xfc in Latin-1, as editors of the nineties wrote it *)"), FileKind::St);
-  EXPECT_EQ(kindOf("a.txt", "(* never closed"), FileKind::Unknown);
+  EXPECT_EQ(importer::kindOf("a.st", kProgram), FileKind::St);
+  EXPECT_EQ(importer::kindOf("a.txt", "(* head *) // x\n{attribute 'a'}\nfunction_block b"), FileKind::St);
+  EXPECT_EQ(importer::kindOf("a.txt", "just text"), FileKind::Unknown);
+  EXPECT_EQ(importer::kindOf("a.exp", "\xef\xbb\xbf<?xml version='1.0'?>"), FileKind::Xml);
+  EXPECT_EQ(importer::kindOf("a.st", ""), FileKind::St);
+  EXPECT_EQ(importer::kindOf("a.st", std::string("\0\0", 2)), FileKind::Binary);
+  EXPECT_EQ(importer::kindOf("a.st", "(* \xe4\xf6\xfc in Latin-1, as editors of the nineties wrote it *)"),
+            FileKind::St);
+  EXPECT_EQ(importer::kindOf("a.txt", "(* never closed"), FileKind::Unknown);
 }
 
 }  // namespace

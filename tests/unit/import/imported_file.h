@@ -1,20 +1,23 @@
-// Reads a PLCopen project like the tool does.
+// Reads a file of another tool as the driver does.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "frontend/import/plcopen/plcopen.h"
+#include "frontend/import/formats.h"
 
-namespace rung::plcopen {
+namespace rung::importer {
 
-struct Reading {
-  explicit Reading(std::string text) {
-    file = sources.add("p.xml", std::move(text));
-    program = readProject(sources, file, diagnostics, libraries);
+struct ImportedFile {
+  ImportedFile(const std::string& path, std::string text) : ImportedFile(path, text, kindOf(path, text)) {}
+  ImportedFile(const std::string& path, std::string text, FileKind kind) {
+    file = sources.add(path, std::move(text));
+    ReadContext context{sources, diagnostics, libraries};
+    const Format& format = formatOf(kind);
+    program = format.read == nullptr ? file : format.read(context, file);
   }
   std::string text() const { return program ? std::string(sources.sourceText(program)) : "none"; }
-  // "line:column" in the XML for the first position where the source has `what`.
+  // "line:column" in the file for the first position where the program has `what`.
   std::string locationOf(std::string_view what) const {
     const size_t at = sources.sourceText(program).find(what);
     if (at == std::string_view::npos) return "none";
@@ -37,4 +40,4 @@ struct Reading {
   FileId file, program;
 };
 
-}  // namespace rung::plcopen
+}  // namespace rung::importer
