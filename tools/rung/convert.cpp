@@ -142,7 +142,7 @@ void Converter::printHidden(sema::PouId id) {
   const Tree& tree = compilation_.tree;
   const PouDecl& decl = tree.as<PouDecl>(compilation_.project->pou(id).decl);
   std::string lines;
-  for (const DeclId s : tree.list(decl.sections)) {
+  for (const DeclId s : tree.list(decl.hidden)) {
     const SectionDecl& section = tree.as<SectionDecl>(s);
     if ((section.h.bits & kHidden) == 0) continue;
     for (const DeclId v : tree.list(section.vars)) {
@@ -154,8 +154,8 @@ void Converter::printHidden(sema::PouId id) {
     }
   }
   if (lines.empty()) return;
-  const std::string_view text = sources_.original(sources_.fileOf(decl.begin));
-  const uint32_t base = sources_.begin(sources_.fileOf(decl.begin)).offset;
+  const std::string_view text = sources_.original(sources_.fileOf(decl.h.begin));
+  const uint32_t base = sources_.begin(sources_.fileOf(decl.h.begin)).offset;
   size_t at = lineOf(text, decl.body_begin.offset - base);
   for (const DeclId member : tree.list(decl.members)) at = std::min(at, lineOf(text, tree.loc(member).offset - base));
   const Loc loc{base + static_cast<uint32_t>(at)};
@@ -172,7 +172,7 @@ std::vector<StComment> Converter::chartComments(const PouDecl& decl) const {
   for (const DeclId member : compilation_.tree.list(decl.members)) {
     if (compilation_.tree.kind(member) != DeclKind::Pou) continue;
     const PouDecl& action = compilation_.tree.as<PouDecl>(member);
-    quoted.push_back({action.begin, action.end});
+    quoted.push_back({action.h.begin, action.h.end});
   }
   for (const SfcTransition& t : compilation_.tree.list(decl.transitions))
     quoted.push_back({t.condition.begin, t.condition.end});
@@ -220,7 +220,7 @@ void Converter::printChart(sema::PouId id, const PouDecl& decl) {
   for (const DeclId member : compilation_.tree.list(decl.members)) {
     if (compilation_.tree.kind(member) != DeclKind::Pou) continue;
     const PouDecl& action = compilation_.tree.as<PouDecl>(member);
-    if (decl.body_begin <= action.begin && action.begin < decl.body_end) body.actions.push_back(member);
+    if (decl.body_begin <= action.h.begin && action.h.begin < decl.body_end) body.actions.push_back(member);
   }
   if (body.text.ends_with('\n')) body.text.pop_back();
   bodies_.push_back(std::move(body));
@@ -230,11 +230,11 @@ void Converter::printChart(sema::PouId id, const PouDecl& decl) {
 
 // Conditions in the actions of a POU without a chart: a variable and an action each.
 void Converter::printConditions(const PouDecl& decl) {
-  if (decl.transitions.empty() || !decl.steps.empty() || !conditions_done_.insert(decl.begin.offset).second) return;
+  if (decl.transitions.empty() || !decl.steps.empty() || !conditions_done_.insert(decl.h.begin.offset).second) return;
   Body variables{{}, decl.body_begin, {}, {}, true, {}};
   for (const DeclId member : compilation_.tree.list(decl.members))
     if (compilation_.tree.kind(member) == DeclKind::Pou)
-      variables.begin = std::min(variables.begin, compilation_.tree.as<PouDecl>(member).begin);
+      variables.begin = std::min(variables.begin, compilation_.tree.decl(member).begin);
   for (const SfcTransition& t : compilation_.tree.list(decl.transitions)) {
     variables.begin = std::min(variables.begin, t.begin);
     Body body{{}, t.begin, t.end, t.begin, true, {}};
@@ -251,7 +251,7 @@ void Converter::printConditions(const PouDecl& decl) {
 std::string Converter::action(DeclId id) const {
   const Tree& tree = compilation_.tree;
   const PouDecl& decl = tree.as<PouDecl>(id);
-  if (decl.begin != decl.body_begin) return convert(decl.begin, decl.end) + "\n";
+  if (decl.h.begin != decl.body_begin) return convert(decl.h.begin, decl.h.end) + "\n";
   std::string text = "ACTION " + std::string(compilation_.names.string(decl.name)) + ":\n";
   std::string body = convert(decl.body_begin, decl.body_end);
   for (const Body& converted : bodies_)
