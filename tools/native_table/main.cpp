@@ -21,7 +21,7 @@
 #include "sema/declarations/declarations.h"
 #include "sema/declarations/libraries.h"
 #include "sema/project.h"
-#include "tools/rung/namespaces.h"
+#include "tools/driver/namespaces.h"
 
 namespace {
 
@@ -264,7 +264,7 @@ int main(int argc, char** argv) {
       std::fprintf(stderr, "native_table: cannot read `%s`: %s\n", argv[i], read.error.c_str());
       return 2;
     }
-    libraries.names.push_back(rung::tool::namespaceOf(path.substr(folder + 1, name - folder - 1)));
+    libraries.names.push_back(rung::driver::namespaceOf(path.substr(folder + 1, name - folder - 1)));
     libraries.paths.push_back(path.substr(folder + 1));
     libraries.contents.push_back(std::move(read.content));
     libraries.files.push_back(

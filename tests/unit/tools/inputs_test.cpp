@@ -1,17 +1,17 @@
 // Inputs: folders and their order, missing and unreadable files, project files, pairs of files, kinds of files.
-#include "tools/rung/inputs.h"
+#include "tools/driver/inputs.h"
 #include "frontend/source/dialect.h"
 #include "frontend/syntax/diagnostics.h"
-#include "tools/rung/diagnostics.h"
+#include "tools/driver/diagnostics.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "tests/unit/tools/temporary_folder.h"
-#include "tools/rung/libraries.h"
+#include "tools/driver/libraries.h"
 
-namespace rung::tool {
+namespace rung::driver {
 namespace {
 
 constexpr const char* kProgram = "PROGRAM p\nEND_PROGRAM\n";
@@ -201,4 +201,4 @@ TEST(KindOf, ContentThenExtension) {
 }
 
 }  // namespace
-}  // namespace rung::tool
+}  // namespace rung::driver
