@@ -2,6 +2,7 @@
 #include "codegen/emit.h"
 
 #include <algorithm>
+#include <map>
 
 #include "codegen/body.h"
 #include "codegen/classes.h"
@@ -10,6 +11,7 @@
 #include "codegen/group.h"
 #include "codegen/module.h"
 #include "codegen/names.h"
+#include "codegen/native_header.h"
 #include "codegen/records.h"
 #include "codegen/types.h"
 #include "frontend/source/invariant.h"
@@ -109,6 +111,23 @@ std::string sourceOf(const ir::Module& module, const Group& group, RecordDefinit
   return around(module, group, records, name_space, std::move(out));
 }
 
+// One header for each library with native bodies that are not Rung's.
+void appendNativeHeaders(const ir::Module& module, const EmitOptions& options, std::vector<OutputFile>& files) {
+  std::map<std::string, std::vector<ir::BodyId>> bodies;  // by library
+  for (uint32_t i = 1; i < module.bodies.size(); ++i) {
+    const ir::Body& body = module.bodies[i];
+    if (body.native && !options.is_native_of_rung(ir::nativeName(module, body)))
+      bodies[std::string(module.names.string(body.library_name))].push_back({i});
+  }
+  for (auto& [library, ids] : bodies) {
+    std::sort(ids.begin(), ids.end(), [&](ir::BodyId a, ir::BodyId b) {
+      return module.names.string(module.body(a).name) < module.names.string(module.body(b).name);
+    });
+    files.push_back({nativeFolder(library) + "native_blocks.h",
+                     nativeHeader(nativeDeclarations(module, ids, ir::nativePrefix(library)))});
+  }
+}
+
 }  // namespace
 
 std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& options) {
@@ -187,8 +206,13 @@ std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& opt
   if (!module.classes.empty() || !module.dispatches.empty())
     files.push_back({"classes.cpp", classesSource(module, name_space)});
   files.push_back({"sites.cpp", std::move(description.sites)});
+  if (options.is_native_of_rung != nullptr) appendNativeHeaders(module, options, files);
   std::sort(files.begin(), files.end(), [](const OutputFile& a, const OutputFile& b) { return a.path < b.path; });
   return files;
+}
+
+std::string nativeFolder(std::string_view library) {
+  return library.empty() ? "native/" : "native/" + std::string(library) + "/";
 }
 
 }  // namespace rung::codegen

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ir/ir.h"
@@ -13,7 +14,8 @@ struct EmitOptions {
   std::string module_name = "plc";  // --name: the prefix of every external symbol
   bool line_directives = true;
   bool optimize_all = false;  // -O2: the C++ compiler optimizes every body, not only those that loop (effort.h)
-  bool with_tests = false;    // `rung test`: entries of the tests instead of tasks
+  bool (*is_native_of_rung)(std::string_view function) = nullptr;  // the others get a header; none: no header
+  bool with_tests = false;                                         // `rung test`: entries of the tests instead of tasks
 };
 
 struct OutputFile {
@@ -24,6 +26,9 @@ struct OutputFile {
 
 // Headers and sources of the module; `.cpp` files are the ones to compile. Sorted by path.
 std::vector<OutputFile> emitCpp(const ir::Module& module, const EmitOptions& options);
+
+// Where the header of a library's native blocks is, and the C++ files that include it; empty: of the project.
+std::string nativeFolder(std::string_view library);
 
 // The C++ name of a user's name: `nan` -> `nan_`. Never a keyword, macro or POSIX name, never two user names in one.
 std::string mangle(std::string_view name);

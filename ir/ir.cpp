@@ -216,12 +216,17 @@ StmtId Builder::placeLabel(uint32_t label) {
 
 StmtId Builder::fault(types::Fault fault, ExprId value) { return append(FaultStmt{value, fault}); }
 
+std::string nativePrefix(std::string_view library) {
+  std::string out = "rung_";
+  for (const char c : library.empty() ? "project" : library)
+    out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return out;
+}
+
 std::string nativeName(const Module& module, const Body& body) {
   const std::string_view library = module.names.string(body.library_name);
   std::string_view name = module.names.string(body.name);
-  std::string out = "rung_";
-  for (char c : library) out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  out += '_';
+  std::string out = nativePrefix(library) + '_';
   // A function that a user's one hides is `Standard__MID`: the C function has its plain name.
   if (name.size() > library.size() + 2 && name.substr(0, library.size()) == library &&
       name.substr(library.size(), 2) == "__") {

@@ -474,5 +474,7 @@ struct Module {
 
 // The C function of a native body: `rung_standard_MID`.
 std::string nativeName(const Module& module, const Body& body);
+// `rung_standard`: how those of one library begin; empty: of the project.
+std::string nativePrefix(std::string_view library);
 
 }  // namespace rung::ir

@@ -80,7 +80,9 @@ class Page {
       } else if (block.language == "st" && block.kind == "run") {
         runProgram(block, after);
       } else if (block.kind.find('.') != std::string::npos) {
-        writeContent(folder() + "/" + block.kind, textOf(block));
+        const std::filesystem::path path = folder() + "/" + block.kind;
+        std::filesystem::create_directories(path.parent_path());
+        writeContent(path.string(), textOf(block));
       }
     }
     const bool excused = std::any_of(lines_.begin(), lines_.end(),

@@ -18,8 +18,9 @@ int runBuild(const Options& options, Sink& sink) {
   Compilation compilation(options, times, sink);
   NativeRequest request;
   request.parts.resize(1);
-  const bool ok = compilation.emit(false, request.parts[0].files);
-  const bool later = ok && compilation.hasCppBodies();
+  const bool ok = (options.build != BuildKind::Executable || compilation.checkNatives()) &&
+                  compilation.emit(false, request.parts[0].files);
+  const bool later = ok && compilation.hasUserCpp();
   int exit = later ? compilation.exitCode() : compilation.finish();
   if (ok && exit == kSuccess) {
     times.begin("c++");

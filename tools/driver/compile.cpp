@@ -98,6 +98,7 @@ bool Compilation::read() {
     times_.lines += static_cast<uint64_t>(std::count(text.begin(), text.end(), '\n'));
     times_.bytes += text.size();
   }
+  if (usage_error_.empty() && !inputs.io_error) usage_error_ = natives.read(inputs, libraries, sources);
   const bool ok = usage_error_.empty() && !inputs.io_error && !diagnostics.hasErrors();
   if (ok) readPrograms(sources, diagnostics, inputs);
   noteLibraries();
@@ -175,7 +176,7 @@ bool Compilation::check() {
     sema_options.scheduled = scheduled;
     sema_options.call_constant = [](sema::Project& in, sema::PouId function, std::span<const types::Value> values,
                                     FunctionRef<bool(sema::PouId)> ready) {
-      return ir::interpreter::callConstant(in, function, values, {natives::table, natives::count}, ready);
+      return ir::interpreter::callConstant(in, function, values, {rung::natives::table, rung::natives::count}, ready);
     };
     project = std::make_unique<sema::Project>(sources, names, diagnostics, tree, sema_options);
     sema::check(*project);
@@ -219,10 +220,23 @@ bool Compilation::emit(bool with_tests, std::vector<codegen::OutputFile>& files)
   emit_options.module_name = options.moduleName();
   emit_options.with_tests = with_tests;
   emit_options.optimize_all = options.level >= 2;
+  emit_options.is_native_of_rung = isNativeOfRung;
   files = codegen::emitCpp(*module, emit_options);
+  natives.addTo(files, *module, sources);
   setPhaseSubject("", 0);
   times_.end();
   return true;
+}
+
+bool Compilation::checkNatives() {
+  if (!module && !lower()) return false;
+  for (const ir::Body& body : module->bodies) {
+    const std::string function = body.native ? ir::nativeName(*module, body) : std::string();
+    if (function.empty() || isNativeOfRung(function) || natives.mention(function, sources)) continue;
+    diagnostics.report(diag::NativeWithoutBody, body.loc,
+                       {names.string(body.spelling ? body.spelling : body.name), function});
+  }
+  return !diagnostics.hasErrors();
 }
 
 bool Compilation::translate(bool with_tests, std::unique_ptr<ir::interpreter::Program>& program, std::string& why) {
@@ -233,7 +247,7 @@ bool Compilation::translate(bool with_tests, std::unique_ptr<ir::interpreter::Pr
   const std::string name = options.moduleName();
   program_options.module_name = name;
   program_options.with_tests = with_tests;
-  program_options.natives = {natives::table, natives::count};
+  program_options.natives = {rung::natives::table, rung::natives::count};
   program_options.coverage = options.counts();
   program_options.trace_calls = options.trace_calls;
   program = std::make_unique<ir::interpreter::Program>(*module, program_options);

@@ -17,6 +17,7 @@
 #include "tools/driver/inputs.h"
 #include "tools/driver/libraries.h"
 #include "tools/driver/native.h"
+#include "tools/driver/native_sources.h"
 #include "tools/driver/options.h"
 #include "tools/driver/sink.h"
 
@@ -52,14 +53,17 @@ class Compilation {
   bool check();
   bool lower();  // and optimize
   bool emit(bool with_tests, std::vector<codegen::OutputFile>& files);
+  // Reports native bodies that no C++ file defines. Called before the code becomes a program; a library leaves them to
+  // the product that links it. False: stop.
+  bool checkNatives();
   // Makes the program that `rung run` and `rung test` interpret; none when it cannot be interpreted (the reason is in
   // `why`) or native code is requested. False: stop.
   bool translate(bool with_tests, std::unique_ptr<ir::interpreter::Program>& program, std::string& why);
 
   // Passes the diagnostics to the sink and returns the exit code: 0, 1, 2 or 70.
   int finish();
-  // The same after the C++ compiler, which may have rejected bodies in C++.
-  bool hasCppBodies() const { return module && !module->cpp_bodies.empty(); }
+  // The same after the C++ compiler, which may have rejected what the user wrote in C++.
+  bool hasUserCpp() const { return module && (!module->cpp_bodies.empty() || !natives.empty()); }
   int finish(const NativeResult& native);
   // Prints only the errors of the C++ compiler that belong to these files.
   bool printRefusals(const NativeResult& native) const;
@@ -76,6 +80,7 @@ class Compilation {
   Tree tree;
   Inputs inputs;
   LibrarySet libraries;
+  NativeSources natives;
   std::unique_ptr<sema::Project> project;
   std::unique_ptr<ir::Module> module;
 

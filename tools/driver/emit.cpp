@@ -45,7 +45,9 @@ void addBundles(uint32_t count, const std::string& name, std::vector<OutputFile>
       std::string_view text = at->content;
       for (size_t from = 0; (from = text.find("#include \"", from)) != std::string_view::npos;) {
         from += 10;
-        auto found = by_name.find(text.substr(from, text.find('"', from) - from));
+        const std::string beside(at->path.substr(0, at->path.rfind('/') + 1));
+        const std::string included = beside + std::string(text.substr(from, text.find('"', from) - from));
+        auto found = by_name.find(included);
         if (found != by_name.end() && seen.insert(found->second).second) stack.push_back(found->second);
       }
     }

@@ -167,6 +167,7 @@ class Collector {
   }
 
   void addProjectFolder(const std::string& folder) {
+    inputs_.folders.push_back(folder);
     const std::string file = (folder.back() == '/' ? folder : folder + "/") + "rung.project";
     struct stat info;
     const bool on_disk = stat(file.c_str(), &info) == 0 && S_ISREG(info.st_mode);

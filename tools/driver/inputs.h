@@ -26,9 +26,10 @@ struct InputFile {
 };
 
 struct Inputs {
-  std::string root;               // absolute
-  std::vector<InputFile> files;   // the ones to compile, sorted by `below`
-  std::vector<std::string> read;  // every file and folder looked at, for depfiles
+  std::string root;                  // absolute
+  std::vector<InputFile> files;      // the ones to compile, sorted by `below`
+  std::vector<std::string> folders;  // named on the command line
+  std::vector<std::string> read;     // every file and folder looked at, for depfiles
   ProjectFile project;
   std::vector<importer::Library> libraries;  // requested by .plcproj and .xml files among them
   std::vector<std::string> project_names;    // of these files: `TcUnit.FB_TestSuite` names a declaration of the project

@@ -60,6 +60,7 @@ std::string LibrarySet::addFolder(const std::string& folder, std::string_view ca
   while (name.size() > 1 && name.back() == '/') name.remove_suffix(1);
   contents_.emplace_back(called.empty() ? name.substr(name.rfind('/') + 1) : called);
   const char* library = contents_.back().c_str();
+  folders_.emplace_back(library, folder);
   for (const std::string& entry : names) {
     const std::string path = folder + "/" + entry;
     struct stat info;

@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sema/options.h"
@@ -26,6 +27,8 @@ class LibrarySet {
   void addAlias(const std::string& alias, const std::string& library);
   const std::vector<sema::LibraryFile>& files() const { return files_; }
   const std::vector<sema::LibraryAlias>& aliases() const { return aliases_; }
+  // The folders of -I: a library and where it is.
+  const std::vector<std::pair<std::string, std::string>>& folders() const { return folders_; }
   const std::vector<std::string>& read() const { return read_; }  // files and folders of -I, for depfiles
 
  private:
@@ -36,6 +39,7 @@ class LibrarySet {
   std::vector<sema::LibraryAlias> aliases_;
   std::deque<std::string> contents_;
   std::vector<std::string> read_;
+  std::vector<std::pair<std::string, std::string>> folders_;
 };
 
 }  // namespace rung::driver

@@ -243,7 +243,7 @@ class Builder {
       const OutputFile* at = stack.back();
       stack.pop_back();
       for (const std::string& name : includes(part, *at)) {
-        auto found = files.find(name);
+        auto found = files.find(at->path.substr(0, at->path.rfind('/') + 1) + name);  // beside the file
         if (found == files.end() || !seen.insert(found->second).second) continue;
         stack.push_back(found->second);
         hash.add(contentHash(part, *found->second));

@@ -30,8 +30,8 @@ int runRun(const Options& options, Sink& sink) {
   std::unique_ptr<ir::interpreter::Program> program;
   std::string why;
   bool ok = compilation.translate(false, program, why);
-  if (ok && !program) ok = compilation.emit(false, request.parts[0].files);
-  const bool later = ok && compilation.hasCppBodies() && compilation.exitCode() == kSuccess;
+  if (ok && !program) ok = compilation.checkNatives() && compilation.emit(false, request.parts[0].files);
+  const bool later = ok && compilation.hasUserCpp() && compilation.exitCode() == kSuccess;
   int exit = later ? kSuccess : compilation.finish();
   if (!ok || exit != kSuccess) {
     if (options.time_phases) sink.message(times.table());

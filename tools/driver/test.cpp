@@ -114,7 +114,7 @@ class Tester {
       if (file != nullptr || i > 0) part.folder = module.name;
       if (module.ok && !module.program) request_.parts.push_back(std::move(part));
       modules_.push_back(std::move(module));
-      if (compilation.hasCppBodies()) with_cpp_.push_back(std::move(owned));
+      if (compilation.hasUserCpp()) with_cpp_.push_back(std::move(owned));
     }
     return kSuccess;
   }
@@ -127,7 +127,7 @@ class Tester {
     const bool must = options_.engine == Engine::Interpreter || options_.counts();
     if (!why.empty() && must) why_ = "this program cannot be interpreted: " + why;
     if (!why.empty() && why_.empty()) sink_.message("rung: this program runs as compiled C++: " + why + "\n");
-    return compilation.emit(true, part.files);
+    return compilation.checkNatives() && compilation.emit(true, part.files);
   }
 
   int compileSeparately() {

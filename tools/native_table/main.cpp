@@ -198,9 +198,7 @@ void addDeclarations(const rung::ir::Module& module, std::map<std::string, std::
     if (body.native && body.self) bodies[std::string(module.names.string(body.library_name))].push_back({i});
   }
   for (const auto& [library, ids] : bodies) {
-    std::string name_space = "rung_" + library;
-    for (char& c : name_space) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c;
-    of_library[library] = rung::codegen::nativeDeclarations(module, ids, name_space);
+    of_library[library] = rung::codegen::nativeDeclarations(module, ids, rung::ir::nativePrefix(library));
   }
 }
 

@@ -165,7 +165,10 @@ TEST_F(CommandTest, InterpretsWithoutACompiler) {
 TEST_F(CommandTest, CompilesWhatItCannotInterpret) {
   folder.write("lib/plant/own.st", "{native}\nFUNCTION OwnCount : INT\nEND_FUNCTION\n");
   folder.write("a.st", "PROGRAM Main\nVAR x : INT; END_VAR\nx := OwnCount();\nEND_PROGRAM\n");
-  expect("rung run a.st -I lib --cycles 1", 70, "this program runs as compiled C++: the native function `OwnCount`");
+  expect("rung run a.st -I lib --cycles 1", 1, "no file in a folder `native` defines `rung_plant_OwnCount`");
+  folder.write("lib/plant/native/own.cpp",
+               "#include \"native_blocks.h\"\nint16_t rung_plant_OwnCount(rung_context*) { return 4; }\n");
+  expect("rung run a.st -I lib --cycles 1", 0, "this program runs as compiled C++: the native function `OwnCount`");
   expect("rung run a.st -I lib --cycles 1 --engine=interp", 2, "this program cannot be interpreted");
 }
 

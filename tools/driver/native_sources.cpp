@@ -1,0 +1,85 @@
+// The C++ files of a project's native blocks; see native_sources.h.
+#include "tools/driver/native_sources.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "frontend/source/names.h"
+#include "native_table.h"
+#include "tools/driver/file_provider.h"
+
+namespace rung::driver {
+
+namespace fs = std::filesystem;
+
+std::string NativeSources::readFolder(const std::string& folder, const std::string& library, Inputs& inputs,
+                                      Sources& sources) {
+  const fs::path natives = fs::path(folder) / "native";
+  std::error_code none;
+  std::vector<std::string> paths;
+  for (const fs::directory_entry& entry : fs::directory_iterator(natives, none))
+    if (const std::string extension = entry.path().extension(); extension == ".cpp" || extension == ".h")
+      paths.push_back(entry.path().string());
+  std::sort(paths.begin(), paths.end());
+  if (!paths.empty()) inputs.read.push_back(natives.string());
+  for (const std::string& path : paths) {
+    ReadResult text = rung::readFile(path);
+    if (!text.error.empty()) return "cannot read `" + path + "`: " + text.error;
+    inputs.read.push_back(path);
+    // Relative to the root, so the generated code is the same wherever the project lies.
+    const std::string shown = fs::path(absolutePath(path)).lexically_relative(inputs.root).generic_string();
+    const FileId file = sources.add(shown, std::move(text.content));
+    if (!file) return "the inputs together exceed 4 GiB with `" + path + "`";
+    sources.setDisplayPath(file, path);
+    sources_.push_back({library, fs::path(path).filename().string(), file});
+  }
+  return {};
+}
+
+std::string NativeSources::read(Inputs& inputs, const LibrarySet& libraries, Sources& sources) {
+  const std::vector<std::string> folders = inputs.folders;
+  for (const std::string& folder : folders)
+    if (std::string error = readFolder(folder, {}, inputs, sources); !error.empty()) return error;
+  for (const auto& [library, folder] : libraries.folders())
+    if (std::string error = readFolder(folder, library, inputs, sources); !error.empty()) return error;
+  return {};
+}
+
+void NativeSources::addTo(std::vector<codegen::OutputFile>& files, const ir::Module& module,
+                          const Sources& sources) const {
+  const auto isUsed = [&](const std::string& library) {
+    return std::any_of(module.bodies.begin(), module.bodies.end(), [&](const ir::Body& body) {
+      return body.native && sameIdentifier(module.names.string(body.library_name), library);
+    });
+  };
+  for (const Source& source : sources_) {
+    if (!isUsed(source.library)) continue;
+    const std::string text = "#line 1 \"" + std::string(sources.path(source.file)) + "\"\n";
+    files.push_back({codegen::nativeFolder(source.library) + source.name,
+                     text + std::string(sources.sourceText(source.file)), source.name.ends_with(".cpp")});
+  }
+  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
+}
+
+bool NativeSources::mention(std::string_view function, const Sources& sources) const {
+  const auto isWordCharacter = [](char c) { return isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (const Source& source : sources_) {
+    const std::string_view text = sources.sourceText(source.file);
+    for (size_t at = text.find(function); at != std::string_view::npos; at = text.find(function, at + 1)) {
+      const size_t end = at + function.size();
+      if ((at == 0 || !isWordCharacter(text[at - 1])) && (end == text.size() || !isWordCharacter(text[end])))
+        return true;
+    }
+  }
+  return false;
+}
+
+bool isNativeOfRung(std::string_view function) {
+  const auto* const end = natives::table + natives::count;
+  const auto* const found = std::lower_bound(natives::table, end, function, [](const auto& row, std::string_view name) {
+    return std::string_view(row.name) < name;
+  });
+  return found != end && found->name == function;
+}
+
+}  // namespace rung::driver
