@@ -238,12 +238,23 @@ void BodyWriter::indexValue(ExprId id, const types::Dimension& dimension) {
 
 // ---- the process image
 
+// An area is where it is for the whole call, which g++ cannot know of memory that bytes are stored to.
+void BodyWriter::area(uint32_t index) {
+  std::string name = "area";
+  name += module_.areas[index].letter;
+  if ((areas_declared_ >> index & 1) == 0) {
+    areas_declared_ |= 1u << index;
+    declarations_ += " uint8_t* const " + name + " = ctx->areas[";
+    appendUnsigned(declarations_, index);
+    declarations_ += "];";
+  }
+  out_ += name;
+}
+
 void BodyWriter::imageAddress(ExprId id) {
   const Expr& e = expr(id);
   if (e.kind == ExprKind::Image) {
-    out_ += "ctx->image[";
-    appendUnsigned(out_, e.a);
-    out_ += ']';
+    area(e.a);
     if (e.b != 0) {
       out_ += " + ";
       appendUnsigned(out_, e.b);
@@ -292,9 +303,9 @@ void BodyWriter::imageLoad(ExprId id, const Expr& e) {
     return;
   }
   if (e.kind == ExprKind::Image && e.c != ir::kNoBit) {
-    out_ += "(ctx->image[";
-    appendUnsigned(out_, e.a);
-    out_ += "][";
+    out_ += '(';
+    area(e.a);
+    out_ += '[';
     appendUnsigned(out_, e.b);
     out_ += "] >> ";
     appendUnsigned(out_, e.c);

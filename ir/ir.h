@@ -18,6 +18,7 @@
 #include "frontend/source/files.h"
 #include "frontend/source/names.h"
 #include "frontend/syntax/ids.h"
+#include "sema/types/areas.h"
 #include "sema/types/arithmetic.h"
 #include "sema/types/types.h"
 
@@ -52,7 +53,7 @@ enum class ExprKind : uint8_t {
   Self,     // the instance of a block body; type is the record
   Global,   // a: index into Module::lists; type is the list's record
   Program,  // a: index into Module::programs; type is the program's record
-  Image,    // a: area (0 I, 1 Q, 2 M), b: byte, c: bit 0..7 for a BOOL, else kNoBit
+  Image,    // a: AreaId, b: byte, c: bit 0..7 for a BOOL, else kNoBit
   Field,    // a: base place, b: field index. A by-reference field is the variable that it refers to (checks: null)
   Index,    // a: base place, (b, c): slice of Body::operands, one index per dimension (checks: index)
   Deref,    // a: pointer value (checks: null)
@@ -260,7 +261,7 @@ struct Task {
 struct Located {
   NameId name;
   TypeId type;
-  uint8_t area;
+  uint8_t area;  // AreaId
   uint32_t byte;
   uint32_t bit;               /* kNoBit: none */
   uint32_t owner_program = 0; /* index into programs + 1; 0: a global or unnamed */
@@ -337,7 +338,7 @@ struct Module {
   std::vector<Dispatch> dispatches;  // sorted by method
   std::vector<CppBody> cpp_bodies;
   std::vector<BodyId> tests;  // Block or Function bodies marked {test}; a Block's instance is in `programs`
-  uint32_t image_bytes[3] = {0, 0, 0};
+  types::MemoryAreas areas = types::standardAreas();  // `bytes`: as many as the program has
 
   Body& body(BodyId id) { return bodies[id.index]; }
   const Body& body(BodyId id) const { return bodies[id.index]; }

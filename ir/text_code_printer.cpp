@@ -355,7 +355,7 @@ void Printer::expr(ExprId id, TypeId expected) {
     case ExprKind::Image:
       type(e.type);
       put("%");
-      out += "IQM"[e.a];
+      out += module_.areas[e.a].letter;
       number(e.b);
       if (e.c != kNoBit) {
         put(".");

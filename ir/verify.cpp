@@ -591,9 +591,9 @@ void Verifier::node(const Expr& e) {
         wantType(e, module_.programs[e.a].record, 10);
       break;
     case ExprKind::Image: {
-      if (!require(e.a < 3, 10, "an image area that does not exist")) return;
+      if (!require(e.a < module_.areas.size(), 10, "an image area that does not exist")) return;
       const uint64_t size = e.c == kNoBit ? types_.info(e.type).size : 1;
-      require(e.b + size <= module_.image_bytes[e.a], 10, "an image view outside of its area");
+      require(e.b + size <= module_.areas[e.a].bytes, 10, "an image view outside of its area");
       if (e.c != kNoBit)
         require(e.c < 8 && types_.plainKind(e.type) == TypeKind::Bool, 10,
                 "an image bit is out of range or not a BOOL");

@@ -8,8 +8,7 @@
 #include <utility>
 
 #include "frontend/parse/diagnostics.h"
-#include "frontend/parse/parser.h"
-#include "frontend/syntax/il.h"
+#include "frontend/parse/il.h"
 #include "frontend/syntax/standard_names.h"
 
 namespace rung::text {
@@ -85,6 +84,13 @@ std::optional<Instruction> instructionAt(Tok kind, std::string_view text) {
 
 }  // namespace
 
+IlParser::IlParser(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
+                   Diagnostics& diagnostics)
+    : StatementParser(tree, names, sources, file, dialect, diagnostics) {
+  const std::string_view path = sources.path(file);
+  il_file_ = path.size() > 3 && sameIdentifier(path.substr(path.size() - 3), ".il");
+}
+
 bool beginsIl(Tok kind, std::string_view text, const Token& next) {
   if (!isName(kind) || (next.flags & kLineStart) != 0) return false;
   const std::optional<Instruction> word = findInstruction(text);
@@ -93,14 +99,14 @@ bool beginsIl(Tok kind, std::string_view text, const Token& next) {
 }
 
 // Whether an instruction may begin here, judged by its first token only.
-bool Parser::isInstruction(const Token* t) const {
+bool IlParser::isInstruction(const Token* t) const {
   if (t->kind == Tok::RightParen) return true;
   if (isName(t->kind) && t[1].kind == Tok::Colon) return true;
   return instructionAt(t->kind, textOf(t)).has_value();
 }
 
 // `LD x`, `JMP done`, `RET` on its own line, but not the statements `LD := 1;` and `AND(a, b);`.
-bool Parser::isPlainInstruction(const Token* t) const {
+bool IlParser::isPlainInstruction(const Token* t) const {
   const std::optional<Instruction> word = instructionAt(t->kind, textOf(t));
   if (!word) return false;
   const Token* next = t + 1;
@@ -130,7 +136,7 @@ bool Parser::isPlainInstruction(const Token* t) const {
 
 // Whether the body that begins here is in IL, decided by its first instruction. In a .il file a body is IL unless it
 // can only be ST.
-bool Parser::atIl() const {
+bool IlParser::atIl() const {
   const Token* t = t_;
   while (isName(t->kind) && t[1].kind == Tok::Colon && !isTypeWord(t[2].kind)) t += 2;
   if (isPlainInstruction(t)) return true;
@@ -159,7 +165,7 @@ bool Parser::atIl() const {
 }
 
 // The instructions up to the end of the body, or of the `(` around a nested list.
-Slice<IlInstruction> Parser::parseIl(bool nested) {
+Slice<IlInstruction> IlParser::parseIl(bool nested) {
   const size_t first = il_.size(), first_open = il_open_.size();
   const size_t outside = std::exchange(il_outside_, first_open);
   const bool outer = in_il_;
@@ -194,8 +200,7 @@ Slice<IlInstruction> Parser::parseIl(bool nested) {
       IlInstruction& deferred = il_[k];
       if ((deferred.flags & kIlDeferred) == 0 || deferred.loc != loc(open)) continue;
       deferred.flags &= static_cast<uint8_t>(~kIlDeferred);
-      const Argument nothing{{}, errorExpr(deferred.loc), false, false, deferred.loc};
-      deferred.operands = tree_.addList<Argument>({&nothing, 1});
+      deferred.operands = unknownOperand(deferred.loc);
       break;
     }
   }
@@ -204,7 +209,7 @@ Slice<IlInstruction> Parser::parseIl(bool nested) {
   return listFrom(il_, first);
 }
 
-void Parser::parseInstruction() {
+void IlParser::parseInstruction() {
   IlInstruction i{};
   i.kind = IlKind::Label;
   if (peek() == Tok::Colon && (isName(kind()) || nameReserved(t_))) {
@@ -251,17 +256,14 @@ void Parser::parseInstruction() {
 }
 
 // An error in it has been reported; a placeholder operand prevents follow-up errors.
-void Parser::resynchronize(IlInstruction& i) {
+void IlParser::resynchronize(IlInstruction& i) {
   if (i.kind == IlKind::Jump || i.kind == IlKind::Call) i.kind = IlKind::Label;  // its label is valid all the same
   if (i.kind == IlKind::Label || !i.operands.empty() || (i.flags & kIlDeferred) != 0) return;
-  Argument a{};
-  a.loc = i.loc;
-  a.value = errorExpr(i.loc);
-  i.operands = tree_.addList<Argument>({&a, 1});
+  i.operands = unknownOperand(i.loc);
 }
 
 // After an instruction: the end of its line. Anything else is skipped and reported once.
-void Parser::endInstruction() {
+void IlParser::endInstruction() {
   if (!panic_ && !atLineStart() && !atBlockEnd() && !at(Tok::RightParen)) {
     if (isPlainInstruction(t_) || (il_open_.size() > 0 && isInstruction(t_))) {
       if (!il_line_reported_) diagnostics_.report(diag::InstructionsOnLine, here());
@@ -289,14 +291,13 @@ void Parser::endInstruction() {
     defer.flags = kIlDeferred;
     defer.loc = loc(last);
     defer.word = names_.intern("(");
-    const Argument nothing{{}, errorExpr(defer.loc), false, false, defer.loc};
-    defer.operands = tree_.addList<Argument>({&nothing, 1});
+    defer.operands = unknownOperand(defer.loc);
     il_.push_back(defer);
     il_open_.push_back(last);
   }
 }
 
-void Parser::parseOperands(IlInstruction& i, const Token* op) {
+void IlParser::parseOperands(IlInstruction& i, const Token* op) {
   switch (i.kind) {
     case IlKind::Not:
     case IlKind::Return:
@@ -338,7 +339,7 @@ void Parser::parseOperands(IlInstruction& i, const Token* op) {
 }
 
 // operand {"," operand}
-void Parser::parseIlList(IlInstruction& i, const Token* op) {
+void IlParser::parseIlList(IlInstruction& i, const Token* op) {
   const size_t first = arguments_.size();
   const bool several = i.kind == IlKind::Function || (i.kind == IlKind::Binary && takesSeveral(i.op));
   do {
@@ -355,22 +356,21 @@ void Parser::parseIlList(IlInstruction& i, const Token* op) {
 }
 
 // A callee without its arguments: a name, a method, an instance in an array.
-ExprId Parser::parseIlCallee() {
+ExprId IlParser::parseIlCallee() {
   const Loc start = here();
   height_ = 1;
   ExprId base;
   if ((at(Tok::This) || at(Tok::Super)) && (peek() == Tok::Dot || peek() == Tok::Caret)) {
-    base = at(Tok::This) ? tree_.add<ExprId>(ThisExpr{exprHeader(ExprKind::This, start)})
-                         : tree_.add<ExprId>(SuperExpr{exprHeader(ExprKind::Super, start)});
+    base = at(Tok::This) ? build_.thisObject(start) : build_.superObject(start);
   } else {
-    base = tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, start), nameOf(t_), {}});
+    base = build_.name(nameOf(t_), start);
   }
   advance();
-  return parsePostfix(base, false);
+  return parsePostfix(ended(base), false);
 }
 
 // "(" arguments ")", which may hold lists of instructions.
-void Parser::parseIlPins(IlInstruction& i) {
+void IlParser::parseIlPins(IlInstruction& i) {
   const size_t nested = il_nested_.size();
   Loc end;
   i.flags |= kIlFormal | kIlInParens;
@@ -379,7 +379,7 @@ void Parser::parseIlPins(IlInstruction& i) {
 }
 
 // After an operator or a function: named pins, a list, or a deferred operator.
-void Parser::parseIlParens(IlInstruction& i, const Token* op) {
+void IlParser::parseIlParens(IlInstruction& i, const Token* op) {
   const Token* first = t_ + 1;
   const Token* pin = first->kind == Tok::Not ? first + 1 : first;
   const bool formal = first->kind == Tok::RightParen || ((isName(pin->kind) || isTypeWord(pin->kind)) &&
@@ -391,7 +391,7 @@ void Parser::parseIlParens(IlInstruction& i, const Token* op) {
         return;
       }
       i.kind = IlKind::Function;
-      i.callee = tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, loc(op)), names_.intern(textOf(op)), {}});
+      i.callee = build_.name(names_.intern(textOf(op)), loc(op));
     }
     return parseIlPins(i);
   }
@@ -415,7 +415,7 @@ void Parser::parseIlParens(IlInstruction& i, const Token* op) {
 }
 
 // `(a, b)` or `(a)`, but not `(a` followed by instructions.
-bool Parser::listFollows(const Token* first) const {
+bool IlParser::listFollows(const Token* first) const {
   uint32_t open = 0;
   for (const Token* t = first; t - first < 2000 && t->kind != Tok::End; ++t) {
     if (open == 0 && t != first) {
@@ -438,9 +438,9 @@ bool Parser::listFollows(const Token* first) const {
 }
 
 // `pin := (LD a  AND b)`: the value is the accumulator at the end of the list.
-bool Parser::atNestedIl() const { return in_il_ && at(Tok::LeftParen) && (isPlainInstruction(t_ + 1)); }
+bool IlParser::atNestedIl() const { return in_il_ && at(Tok::LeftParen) && (isPlainInstruction(t_ + 1)); }
 
-void Parser::parseNestedIl(uint32_t operand) {
+void IlParser::parseNestedIl(uint32_t operand) {
   if (++expr_depth_ > kMaxExprDepth) {
     tooDeep("parentheses", kMaxExprDepth);
     --expr_depth_;
@@ -454,7 +454,7 @@ void Parser::parseNestedIl(uint32_t operand) {
 }
 
 // A list in parentheses without `)` ends where the next instruction begins.
-void Parser::closeIlParen(Tok close) {
+void IlParser::closeIlParen(Tok close) {
   if (!panic_) {
     if (accept(close)) return;
     if (atLineStart() || atBlockEnd())
@@ -468,21 +468,21 @@ void Parser::closeIlParen(Tok close) {
 }
 
 // Statements among the instructions: one error for the whole body, since their effect is unknown.
-bool Parser::statementInIl() {
+bool IlParser::statementInIl() {
   const Token* t = t_;
   const bool word = isReserved(t->kind) && !instructionAt(t->kind, textOf(t)) && t[1].kind != Tok::Colon;
   while (isName(t->kind) && (t[1].kind == Tok::Dot || t[1].kind == Tok::Caret) && isName(t[2].kind)) t += 2;
   if (!word && !(isName(t->kind) && t[1].kind == Tok::Assign)) return false;
   slip(diag::StatementInIl, t_, {textOf(t_)});
-  while (!at(Tok::End) && kind() != pou_end_ && !atTopLevelWord()) advance();
+  skipBody();
   return true;
 }
 
 // Instructions among the statements of a body that began in ST: one error for all of them.
-bool Parser::instructionInSt() {
+bool IlParser::instructionInSt() {
   if (!isPlainInstruction(t_)) return false;
   slip(diag::InstructionInSt, t_, {textOf(t_)});
-  while (!at(Tok::End) && kind() != pou_end_ && !atTopLevelWord()) advance();
+  skipBody();
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include "frontend/schedule/network_feedback.h"
 #include "frontend/syntax/diagram.h"
 #include "frontend/syntax/standard_names.h"
+#include "frontend/syntax/tree_builder.h"
 
 namespace rung::diagram {
 namespace {
@@ -197,8 +198,9 @@ TypeExprId BoxTypes::ofMember(TypeExprId type, NameId member, uint32_t depth) {
 }
 
 TypeExprId BoxTypes::ofVariable(const PouDecl& pou, NameId name, uint32_t depth) {
-  for (uint32_t s = 0; s < pou.sections.count; ++s)
-    if (const TypeExprId type = ofVariable(tree_.as<SectionDecl>(tree_.list(pou.sections)[s]).vars, name)) return type;
+  for (const Slice<DeclId>& sections : {pou.sections, pou.hidden})
+    for (const DeclId section : tree_.list(sections))
+      if (const TypeExprId type = ofVariable(tree_.as<SectionDecl>(section).vars, name)) return type;
   for (uint32_t b = 0; b < pou.bases.count && depth < kMaxDepth; ++b) {
     const TypeExprId base = tree_.list(pou.bases)[b];
     if (!base || tree_.kind(base) != TypeExprKind::Named) continue;
@@ -232,10 +234,7 @@ TypeExprId BoxTypes::resolved(TypeExprId type) {
 
 TypeExprId BoxTypes::named(std::string_view type, Loc loc) {
   const Ident ident{names_.intern(type), loc};
-  NamedTypeExpr node{};
-  node.h = {TypeExprKind::Named, 0, 0, loc, {}};
-  node.path = tree_.addList<Ident>({&ident, 1});
-  return tree_.add<TypeExprId>(node);
+  return TreeBuilder(tree_).namedType({&ident, 1}, loc);
 }
 
 DeclId BoxTypes::declared(NameId name) {

@@ -108,7 +108,7 @@ ExprId BodyLowering::imagePlace(const sema::ImageView& view, TypeId type, Loc lo
   return add({.kind = ExprKind::Image,
               .type = strip(type),
               .loc = loc,
-              .a = static_cast<uint32_t>(view.area),
+              .a = view.area.index,
               .b = view.byte,
               .c = view.is_bit ? view.bit : kNoBit});
 }
@@ -150,7 +150,7 @@ void BodyLowering::lowerActivation(uint32_t program, BodyId code, rung::ExprId c
                                    std::span<const sema::InstancePath> paths) {
   const Loc loc = body_.loc;
   for (const sema::InstancePath& path : paths) {
-    if (!path.located || path.image.area == ImageArea::Output) continue;
+    if (!path.located || project_.options.areas[path.image.area.index].owner == types::AreaOwner::Output) continue;
     const TypeId type = project_.var(path.var).type;
     assign(instancePlace(program, path), imagePlace(path.image, type, loc), loc);
   }
@@ -161,7 +161,7 @@ void BodyLowering::lowerActivation(uint32_t program, BodyId code, rung::ExprId c
     append({.kind = StmtKind::Call, .loc = loc, .a = code.index, .b = programPlace(program, loc).index});
   }
   for (const sema::InstancePath& path : paths) {
-    if (!path.located || path.image.area == ImageArea::Input) continue;
+    if (!path.located || project_.options.areas[path.image.area.index].owner == types::AreaOwner::Input) continue;
     const TypeId type = project_.var(path.var).type;
     assign(imagePlace(path.image, type, loc), instancePlace(program, path), loc);
   }

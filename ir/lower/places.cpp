@@ -32,7 +32,7 @@ ExprId BodyLowering::varPlace(sema::VarId id, Loc loc) {
       return add({.kind = ExprKind::Image,
                   .type = type,
                   .loc = loc,
-                  .a = static_cast<uint32_t>(var->image.area),
+                  .a = var->image.area.index,
                   .b = var->image.byte,
                   .c = var->image.is_bit ? var->image.bit : kNoBit});
     case sema::Storage::Constant: return ofValue(var->value, loc);
@@ -172,7 +172,7 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
       return add({.kind = ExprKind::Image,
                   .type = type,
                   .loc = loc,
-                  .a = static_cast<uint32_t>(address.area),
+                  .a = types::findArea(project_.options.areas, address.area)->index,
                   .b = byte,
                   .c = bit});
     }

@@ -62,6 +62,7 @@ void BodyLowering::lowerStatement(rung::StmtId id) {
     case rung::StmtKind::Empty: return;
     case rung::StmtKind::Assign: return lowerAssign(tree_.as<AssignStmt>(id));
     case rung::StmtKind::Call: {
+      if (tree_.kind(tree_.as<CallStmt>(id).call) != rung::ExprKind::Call) return;  // a known value: nothing happens
       ExprId value = lowerCall(tree_.as<CallStmt>(id).call);
       // A pure call as a statement has no effect; only its faults count.
       if (value && mayFault(value)) append({.kind = StmtKind::Evaluate, .loc = loc, .a = value.index});
@@ -97,7 +98,7 @@ uint32_t BodyLowering::labelNumber(NameId label) {
 
 void BodyLowering::lowerAssign(const AssignStmt& stmt) {
   Loc loc = stmt.h.loc;
-  switch (stmt.op()) {
+  switch (stmt.effect()) {
     case AssignOp::Assign: {
       if (tree_.kind(stmt.target) == rung::ExprKind::Call) {  // SET of a property
         lowerCall(stmt.target);
@@ -130,7 +131,8 @@ void BodyLowering::lowerAssign(const AssignStmt& stmt) {
     case AssignOp::Set:
     case AssignOp::Reset: {
       ExprId condition = lowerValue(stmt.value);
-      StmtId then = block([&] { assign(lowerPlace(stmt.target), constantBool(stmt.op() == AssignOp::Set, loc), loc); });
+      StmtId then =
+          block([&] { assign(lowerPlace(stmt.target), constantBool(stmt.effect() == AssignOp::Set, loc), loc); });
       append({.kind = StmtKind::If, .loc = loc, .a = condition.index, .b = then.index});
       return;
     }
@@ -138,10 +140,10 @@ void BodyLowering::lowerAssign(const AssignStmt& stmt) {
     case AssignOp::Subtract:
     case AssignOp::Multiply:
     case AssignOp::Divide: {
-      Op op = stmt.op() == AssignOp::Add        ? Op::Add
-              : stmt.op() == AssignOp::Subtract ? Op::Sub
-              : stmt.op() == AssignOp::Multiply ? Op::Mul
-                                                : Op::Div;
+      Op op = stmt.effect() == AssignOp::Add        ? Op::Add
+              : stmt.effect() == AssignOp::Subtract ? Op::Sub
+              : stmt.effect() == AssignOp::Multiply ? Op::Mul
+                                                    : Op::Div;
       ExprId value = lowerValue(stmt.value);
       ExprId target = stable(lowerAfter({&value}, [&] { return lowerPlace(stmt.target); }));
       TypeId type = typeOf(target);

@@ -317,7 +317,7 @@ TypeId sizeOf(Context& context, ExprId& expr) {
   if (!context.types().layout(type)) return node.h.type = types::kError;
   const TypeId untyped = types::idOf(TypeKind::IntegerLiteral);
   const auto size = static_cast<int64_t>(context.types().info(context.types().resolve(type)).size);
-  expr = makeLiteral(context, LiteralKind::Integer, untyped, size, node.h.loc);
+  context.replace(expr, makeLiteral(context, LiteralKind::Integer, untyped, size, node.h.loc));
   return untyped;
 }
 
@@ -340,7 +340,7 @@ TypeId lengthLimit(Context& context, ExprId& expr) {
     return node.h.type = types::kError;
   }
   const TypeId untyped = types::idOf(TypeKind::IntegerLiteral);
-  expr = makeLiteral(context, LiteralKind::Integer, untyped, int64_t{info.length}, node.h.loc);
+  context.replace(expr, makeLiteral(context, LiteralKind::Integer, untyped, int64_t{info.length}, node.h.loc));
   return untyped;
 }
 

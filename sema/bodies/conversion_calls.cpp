@@ -97,13 +97,12 @@ OneInput oneInput(Context& context, const CallExpr& node, NameId name) {
 // Calls a library function instead: the callee becomes its name.
 TypeId callLibrary(Context& context, ExprId& expr, std::string_view function, TypeId expected, NameId written) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
-  NameExpr& callee = context.tree().as<NameExpr>(node.callee);
   const NameId name = context.names().intern(function);
   if (lookUp(context, name).entityKind() != EntityKind::Pou) {
     context.report(diag::UnknownName, node.h.loc, {string(context, written)});
     return node.h.type = types::kError;
   }
-  callee.name = name;
+  context.replace(node.callee, context.build().name(name, context.tree().loc(node.callee)));
   return checkCall(context, expr, expected, false);
 }
 
@@ -165,7 +164,7 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
   };
   if (target_is_string && rule.kind == Rule::Kind::Convert) {
     if (source == target) {
-      expr = value;
+      context.replace(expr, value);
       return context.tree().expr(expr).type;
     }
     replaceArgument();
@@ -204,7 +203,7 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
   wrapConvert(context, value, rule.to);
   context.tree().expr(value).loc = node.h.loc;
   if (input.en || input.eno) return guardValue(context, expr, value);
-  expr = value;
+  context.replace(expr, value);
   return rule.to;
 }
 
@@ -255,7 +254,7 @@ TypeId checkTypedCall(Context& context, ExprId& expr, std::string_view name, Typ
 }  // namespace
 
 TypeId guardValue(Context& context, ExprId& expr, ExprId value) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
+  const CallExpr& node = context.tree().as<CallExpr>(expr);
   if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.tree().expr(value).type);
   std::vector<Argument> arguments;
   for (const Argument& argument : context.tree().list(node.arguments)) {
@@ -263,7 +262,9 @@ TypeId guardValue(Context& context, ExprId& expr, ExprId value) {
     if (sameIdentifier(pin, argument.is_output ? kEnableOutput : kEnable)) arguments.push_back(argument);
   }
   arguments.push_back(Argument{{}, value, false, false, node.h.loc});
-  node.arguments = context.tree().addList<Argument>(arguments);
+  const ExprId guarded = context.tree().insertCopy(expr);
+  context.tree().as<CallExpr>(guarded).arguments = context.tree().addList<Argument>(arguments);
+  context.replace(expr, guarded);
   const NameId name = context.tree().as<NameExpr>(node.callee).name;
   return callLibrary(context, expr, kMove, context.tree().expr(value).type, name);
 }

@@ -167,6 +167,7 @@ bool Compilation::check() {
     sema_options.project_names = inputs.project_names;
     sema_options.free_subranges = !inputs.project_names.empty();
     sema_options.pool_bytes = inputs.project.pool_bytes;
+    sema_options.areas = inputs.project.areas;
     sema_options.default_interval_ns = options.default_interval_ns;
     sema_options.with_tests = options.with_tests;
     sema_options.mocks = options.mocks;

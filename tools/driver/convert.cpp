@@ -10,6 +10,7 @@
 #include <unordered_set>
 
 #include "frontend/export/plcopen.h"
+#include "frontend/source/scanner.h"
 #include "frontend/syntax/sfc.h"
 #include "frontend/syntax/st_printer.h"
 #include "sema/project.h"
@@ -37,51 +38,22 @@ struct Edit {
   bool begins_line = false;
 };
 
-// The end of the comment or string that begins at `p`; `p` itself when none begins.
-size_t endOfUnit(std::string_view text, size_t p) {
-  const std::string_view rest = text.substr(p);
-  if (rest.starts_with("//")) return std::min(text.find_first_of("\r\n", p), text.size());
-  if (rest.starts_with("(*") || rest.starts_with("/*")) {
-    const char mark = rest[0];
-    size_t depth = 1, at = p + 2;
-    for (; at < text.size() && depth > 0; ++at) {
-      if (text[at] == mark && text.substr(at + 1).starts_with("*")) {
-        ++depth;
-        ++at;
-      } else if (text[at] == '*' && text.substr(at + 1).starts_with(mark == '(' ? ")" : "/")) {
-        --depth;
-        ++at;
-      }
-    }
-    return at;
-  }
-  if (rest[0] != '\'' && rest[0] != '"') return p;
-  size_t at = p + 1;
-  while (at < text.size() && text[at] != rest[0]) at += text[at] == '$' ? 2 : 1;
-  return std::min(at + 1, text.size());
+size_t lineOf(std::string_view text, size_t at) {
+  while (at > 0 && text[at - 1] != '\n') --at;
+  return at;
 }
 
 // The comments of a body, each at the beginning of its line, so it goes in front of the statement of that line.
 std::vector<StComment> commentsOf(std::string_view text, size_t begin, size_t end, uint32_t base) {
   std::vector<StComment> comments;
-  size_t line = begin;
-  for (size_t p = begin; p < end;) {
-    const size_t next = endOfUnit(text, p);
-    if (next == p) {
-      if (text[p++] == '\n') line = p;
-      continue;
-    }
-    if (text[p] != '\'' && text[p] != '"')
-      comments.push_back({{base + static_cast<uint32_t>(line)}, text.substr(p, next - p)});
-    for (; p < next; ++p)
-      if (text[p] == '\n') line = p + 1;
+  Scanner scanner(text);
+  scanner.moveTo(begin);
+  for (Unit unit = scanner.next(); unit.kind != UnitKind::End && unit.begin < end; unit = scanner.next()) {
+    if (unit.kind != UnitKind::Comment) continue;
+    const size_t line = std::max(begin, lineOf(text, unit.begin));
+    comments.push_back({{base + static_cast<uint32_t>(line)}, scanner.textOf(unit)});
   }
   return comments;
-}
-
-size_t lineOf(std::string_view text, size_t at) {
-  while (at > 0 && text[at - 1] != '\n') --at;
-  return at;
 }
 
 class Converter {
@@ -143,7 +115,7 @@ void Converter::printHidden(sema::PouId id) {
   const Tree& tree = compilation_.tree;
   const PouDecl& decl = tree.as<PouDecl>(compilation_.project->pou(id).decl);
   std::string lines;
-  for (const DeclId s : tree.list(decl.sections)) {
+  for (const DeclId s : tree.list(decl.hidden)) {
     const SectionDecl& section = tree.as<SectionDecl>(s);
     if ((section.h.bits & kHidden) == 0) continue;
     for (const DeclId v : tree.list(section.vars)) {
@@ -155,8 +127,8 @@ void Converter::printHidden(sema::PouId id) {
     }
   }
   if (lines.empty()) return;
-  const std::string_view text = sources_.original(sources_.fileOf(decl.begin));
-  const uint32_t base = sources_.begin(sources_.fileOf(decl.begin)).offset;
+  const std::string_view text = sources_.original(sources_.fileOf(decl.h.begin));
+  const uint32_t base = sources_.begin(sources_.fileOf(decl.h.begin)).offset;
   size_t at = lineOf(text, decl.body_begin.offset - base);
   for (const DeclId member : tree.list(decl.members)) at = std::min(at, lineOf(text, tree.loc(member).offset - base));
   const Loc loc{base + static_cast<uint32_t>(at)};
@@ -173,7 +145,7 @@ std::vector<StComment> Converter::chartComments(const PouDecl& decl) const {
   for (const DeclId member : compilation_.tree.list(decl.members)) {
     if (compilation_.tree.kind(member) != DeclKind::Pou) continue;
     const PouDecl& action = compilation_.tree.as<PouDecl>(member);
-    quoted.push_back({action.begin, action.end});
+    quoted.push_back({action.h.begin, action.h.end});
   }
   for (const SfcTransition& t : compilation_.tree.list(decl.transitions))
     quoted.push_back({t.condition.begin, t.condition.end});
@@ -221,7 +193,7 @@ void Converter::printChart(sema::PouId id, const PouDecl& decl) {
   for (const DeclId member : compilation_.tree.list(decl.members)) {
     if (compilation_.tree.kind(member) != DeclKind::Pou) continue;
     const PouDecl& action = compilation_.tree.as<PouDecl>(member);
-    if (decl.body_begin <= action.begin && action.begin < decl.body_end) body.actions.push_back(member);
+    if (decl.body_begin <= action.h.begin && action.h.begin < decl.body_end) body.actions.push_back(member);
   }
   if (body.text.ends_with('\n')) body.text.pop_back();
   bodies_.push_back(std::move(body));
@@ -231,11 +203,11 @@ void Converter::printChart(sema::PouId id, const PouDecl& decl) {
 
 // Conditions in the actions of a POU without a chart: a variable and an action each.
 void Converter::printConditions(const PouDecl& decl) {
-  if (decl.transitions.empty() || !decl.steps.empty() || !conditions_done_.insert(decl.begin.offset).second) return;
+  if (decl.transitions.empty() || !decl.steps.empty() || !conditions_done_.insert(decl.h.begin.offset).second) return;
   Body variables{{}, decl.body_begin, {}, {}, true, {}};
   for (const DeclId member : compilation_.tree.list(decl.members))
     if (compilation_.tree.kind(member) == DeclKind::Pou)
-      variables.begin = std::min(variables.begin, compilation_.tree.as<PouDecl>(member).begin);
+      variables.begin = std::min(variables.begin, compilation_.tree.decl(member).begin);
   for (const SfcTransition& t : compilation_.tree.list(decl.transitions)) {
     variables.begin = std::min(variables.begin, t.begin);
     Body body{{}, t.begin, t.end, t.begin, true, {}};
@@ -252,7 +224,7 @@ void Converter::printConditions(const PouDecl& decl) {
 std::string Converter::action(DeclId id) const {
   const Tree& tree = compilation_.tree;
   const PouDecl& decl = tree.as<PouDecl>(id);
-  if (decl.begin != decl.body_begin) return convert(decl.begin, decl.end) + "\n";
+  if (decl.h.begin != decl.body_begin) return convert(decl.h.begin, decl.h.end) + "\n";
   std::string text = "ACTION " + std::string(compilation_.names.string(decl.name)) + ":\n";
   std::string body = convert(decl.body_begin, decl.body_end);
   for (const Body& converted : bodies_)

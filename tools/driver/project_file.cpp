@@ -19,7 +19,8 @@ constexpr Schema kSchemas[] = {
     {"project", false, "name sources std libraries checks optimize warnings defines"},
     {"task", true, "kind interval priority trigger watchdog sensitivity programs"},
     {"module", true, "type slot inputs outputs address station parameters"},
-    {"axis", true, nullptr},   // the parameters of the axis; the motion library checks their names
+    {"axis", true, nullptr},  // the parameters of the axis; the motion library checks their names
+    {"area", true, "owner bytes"},
     {"safe", false, nullptr},  // PATH = VALUE
     {"nc", false, nullptr},
     {"pool", true, nullptr},  // `new`: bytes
@@ -40,6 +41,8 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     text.remove_prefix(end + 1);
   }
 }
+
+char upperCase(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; }
 
 std::string_view trim(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
@@ -181,6 +184,14 @@ void readProjectSection(const ProjectSection& section, Diagnostics& diagnostics,
   }
 }
 
+bool readNumber(std::string_view text, uint64_t low, uint64_t high, uint32_t& out) {
+  uint64_t number = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (read.ec != std::errc{} || read.ptr != text.data() + text.size() || number < low || number > high) return false;
+  out = static_cast<uint32_t>(number);
+  return true;
+}
+
 // [pool new]: the memory for __NEW.
 void readPoolSection(const ProjectSection& section, Diagnostics& diagnostics, ProjectFile& project) {
   constexpr uint64_t kMax = uint64_t{1} << 30;
@@ -192,14 +203,35 @@ void readPoolSection(const ProjectSection& section, Diagnostics& diagnostics, Pr
           .didYouMean("bytes");
       continue;
     }
-    uint64_t bytes = 0;
-    const char* const end = entry.value.data() + entry.value.size();
-    const auto read = std::from_chars(entry.value.data(), end, bytes);
-    if (read.ec != std::errc{} || read.ptr != end || bytes < 16 || bytes > kMax)
+    if (!readNumber(entry.value, 16, kMax, project.pool_bytes))
       badValue(diagnostics, entry, "it takes a number of bytes from 16 to 1073741824");
-    else
-      project.pool_bytes = static_cast<uint32_t>(bytes);
   }
+}
+
+// [area R]: a memory area of the product, whose addresses are %RW4 and the like.
+void readAreaSection(const ProjectSection& section, Diagnostics& diagnostics, ProjectFile& project) {
+  const char letter = section.name.size() == 1 ? upperCase(section.name[0]) : '\0';
+  types::MemoryArea area{.letter = letter, .owner = types::AreaOwner::Memory};
+  const bool is_known = types::findArea(project.areas, letter).has_value();
+  if (!types::isAreaLetter(letter) || is_known) {
+    diagnostics.report(diag::AreaName, section.loc,
+                       {section.name, is_known ? "an area has this letter already"
+                                               : "use a letter other than the sizes X, B, W, D and L"});
+    return;
+  }
+  const ProjectEntry* const bytes = section.find("bytes");
+  if (bytes == nullptr) {
+    diagnostics.report(diag::AreaNoBytes, section.loc, {section.name});
+  } else if (!readNumber(bytes->value, 1, types::kMaxAreaBytes, area.bytes)) {
+    badValue(diagnostics, *bytes, "it takes a number of bytes from 1 to 16777216");
+  }
+  if (const ProjectEntry* const owner = section.find("owner")) {
+    if (const auto known = types::ownerCalled(owner->value))
+      area.owner = *known;
+    else
+      badValue(diagnostics, *owner, "it takes input, output or memory");
+  }
+  project.areas.push_back(area);
 }
 
 // `10ms` and `T#10ms` are the same time.
@@ -276,6 +308,8 @@ void parseProjectFile(const Sources& sources, FileId file, Diagnostics& diagnost
       readProjectSection(section, diagnostics, project);
     else if (section.kind == "pool" && !section.name.empty())
       readPoolSection(section, diagnostics, project);
+    else if (section.kind == "area" && !section.name.empty())
+      readAreaSection(section, diagnostics, project);
   writeTasks(sources, diagnostics, project);
 }
 

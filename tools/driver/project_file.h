@@ -9,6 +9,7 @@
 
 #include "frontend/source/diagnostics.h"
 #include "frontend/source/dialect.h"
+#include "sema/types/areas.h"
 #include "tools/driver/options.h"
 
 namespace rung::driver {
@@ -37,6 +38,7 @@ struct ProjectFile {
   uint8_t checks = 0;
   int level = 1;
   uint32_t pool_bytes = 0;  // 0: not given
+  types::MemoryAreas areas = types::standardAreas();
   std::vector<WarningSwitch> warnings;
   std::vector<text::Define> defines;
 
