@@ -73,8 +73,7 @@ void BodyWriter::appendSignature(std::string& out, const ir::Module& module, con
     out += "rung_context* ctx";
   }
   std::string name;
-  for (const ir::Local& local : body.locals) {
-    if (!isParameter(local)) continue;
+  for (const ir::Local& local : ir::parameters(body)) {
     out += ", ";
     name.clear();
     appendMangled(name, module.names.string(local.name));

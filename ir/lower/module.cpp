@@ -84,7 +84,6 @@ sema::PouId ModuleLowering::lowerBodies() {
     Body& body = module.body(body_of_[id.index]);
     BodyLowering lowering(*this, body, id);
     lowering.lowerPou();
-    lowering.finish();
   }
   return {};
 }
@@ -172,9 +171,10 @@ void ModuleLowering::markFaulting() {
     for (const Expr& expr : body.exprs) body.may_fault = body.may_fault || expr.checks != 0;
     for (const Stmt& stmt : body.stmts) {
       if (stmt.kind == StmtKind::Fault) body.may_fault = true;
-      if (stmt.kind != StmtKind::Call) continue;
-      callers[stmt.a].push_back(i);
-      body.may_fault = body.may_fault || (stmt.op & kVirtual) != 0;
+      const auto* call = stmt.tryAs<CallStmt>();
+      if (call == nullptr) continue;
+      callers[call->callee.index].push_back(i);
+      body.may_fault = body.may_fault || call->is_virtual;
     }
     if (body.may_fault) faulting.push_back(i);
   }
@@ -373,7 +373,7 @@ BodyId ModuleLowering::initOf(TypeId type) {
       sema::PouId first = pou;
       while (!project.pou(first).id_var) first = project.pou(first).base;
       const uint32_t field = project.var(project.pou(first).id_var).field;
-      ExprId number = lowering.add({.kind = ExprKind::Const, .type = types::kUDInt, .loc = loc, .c = type.index});
+      ExprId number = lowering.add(loc, types::kUDInt, ConstExpr{.number_of = type});
       ExprId place = lowering.field(lowering.asBase(lowering.self(loc), first, loc), field, types::kUDInt, loc);
       lowering.assign(place, number, loc);
     }
@@ -398,8 +398,7 @@ BodyId ModuleLowering::initOf(TypeId type) {
                                 init, !info.overlaps);
         if (info.record_kind == types::RecordKind::Union && !info.overlaps) break;
       }
-  body.first = lowering.block_.first;
-  lowering.finish();
+  body.first = lowering.build_.block().first;
   return id;
 }
 

@@ -160,11 +160,7 @@ void addThunks(const rung::ir::Module& module, std::map<std::string, std::string
     uint32_t slot = 0;
     const auto next = [&] { return "slots + " + std::to_string(slot++); };
     if (body.self) arguments += ", at<void*>(" + next() + ")";
-    for (const rung::ir::Local& local : body.locals) {
-      if (local.kind != rung::ir::LocalKind::Input && local.kind != rung::ir::LocalKind::Output &&
-          local.kind != rung::ir::LocalKind::InOut) {
-        continue;
-      }
+    for (const rung::ir::Local& local : rung::ir::parameters(body)) {
       const TypeKind kind = types.kind(local.type);
       std::string type = "void*";
       if (kind != TypeKind::Array && kind != TypeKind::Record) {
