@@ -5,6 +5,7 @@
 #include <string>
 
 #include "frontend/schedule/network_feedback.h"
+#include "frontend/source/scanner.h"
 #include "frontend/syntax/diagram.h"
 #include "frontend/syntax/standard_names.h"
 #include "frontend/syntax/tree_builder.h"
@@ -37,10 +38,9 @@ TypeExprId BoxTypes::ofCall(uint32_t element, uint32_t depth) {
   const DiagramElement& e = graph_.elements[element];
   const std::string_view name = names_.string(e.name.name);
   if (isOneOf(name, {"GT", "GE", "EQ", "LE", "LT", "NE"})) return named("BOOL", e.loc);
-  std::string upper(name);
-  for (char& c : upper) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 32 : c);
-  if (const size_t to = upper.rfind("TO_"); to == 0 || (to != std::string::npos && upper[to - 1] == '_'))
-    return named(upper.substr(to + 3), e.loc);
+  const std::string word = upper(name);
+  if (const size_t to = word.rfind("TO_"); to == 0 || (to != std::string::npos && word[to - 1] == '_'))
+    return named(word.substr(to + 3), e.loc);
   const bool selects = isOneOf(name, {"SEL", "MUX"});
   if (selects || isOneOf(name, {"AND", "OR", "XOR", "NOT", "ADD", "SUB", "MUL", "DIV", "MOD", "MOVE", "MAX", "MIN",
                                 "LIMIT", "ABS", "SHL", "SHR", "ROL", "ROR", "EXPT"}))

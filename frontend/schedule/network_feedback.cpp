@@ -11,9 +11,8 @@ bool isFunction(const DiagramElement& e) { return e.kind == ElementKind::Box && 
 
 class Search {
  public:
-  Search(const Tree& tree, const Graph& graph)
-      :
-        graph_(graph),
+  explicit Search(const Graph& graph)
+      : graph_(graph),
         phase_(graph.elements.size(), Phase::New),
         order_of_(graph.elements.size(), 0),
         is_found_(graph.elements.size(), false) {
@@ -80,6 +79,6 @@ class Search {
 
 }  // namespace
 
-std::vector<uint32_t> readBeforeExecution(const Tree& tree, const Graph& graph) { return Search(tree, graph).run(); }
+std::vector<uint32_t> readBeforeExecution(const Graph& graph) { return Search(graph).run(); }
 
 }  // namespace rung::diagram
