@@ -104,9 +104,8 @@ ExprId BodyLowering::programPlace(uint32_t program, Loc loc) {
 }
 
 ExprId BodyLowering::imagePlace(const sema::ImageView& view, TypeId type, Loc loc) {
-  return add(
-      loc, strip(type),
-      ImageExpr{.area = view.area.index, .byte = view.byte, .bit = view.is_bit ? view.bit : kNoBit});
+  return add(loc, strip(type),
+             ImageExpr{.area = view.area.index, .byte = view.byte, .bit = view.is_bit ? view.bit : kNoBit});
 }
 
 ExprId BodyLowering::instancePlace(uint32_t program, const sema::InstancePath& path) {

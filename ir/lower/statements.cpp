@@ -132,7 +132,8 @@ void BodyLowering::lowerAssign(const rung::AssignStmt& stmt) {
     case AssignOp::Set:
     case AssignOp::Reset: {
       ExprId condition = lowerValue(stmt.value);
-      StmtId then = block([&] { assign(lowerPlace(stmt.target), constantBool(stmt.effect() == AssignOp::Set, loc), loc); });
+      StmtId then =
+          block([&] { assign(lowerPlace(stmt.target), constantBool(stmt.effect() == AssignOp::Set, loc), loc); });
       append(loc, IfStmt{.condition = condition, .then_block = then});
       return;
     }
