@@ -456,7 +456,7 @@ void Scheduler::checkHolding(const PouDecl& pou) {
   }
 }
 
-Statements Scheduler::run(const PouDecl& pou) {
+ScheduledBody Scheduler::run(const PouDecl& pou) {
   const Diagram& diagram = pou.diagram;
   language_ = diagram.language;
   if (pou.pou_kind == PouKind::Function) function_ = "a function";
@@ -484,16 +484,11 @@ Statements Scheduler::run(const PouDecl& pou) {
   }
   std::sort(written_.begin(), written_.end());
   for (const uint32_t root : graph_.roots) visit(root);
-  Statements result{tree_.addList<StmtId>(out_), {}};
-  if (!temporaries_.empty()) {
-    const Loc loc = tree_.loc(temporaries_.front());
-    result.temporaries = build_.section(SectionKind::Temp, temporaries_, loc);
-  }
-  return result;
+  return scheduledBody(tree_, out_, temporaries_);
 }
 
-Statements scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
-                            const PouDecl& pou) {
+ScheduledBody scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
+                               const PouDecl& pou) {
   return Scheduler(tree, names, diagnostics, signatures).run(pou);
 }
 

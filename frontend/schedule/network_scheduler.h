@@ -25,7 +25,7 @@ class Scheduler {
   Scheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures)
       : tree_(tree), names_(names), diagnostics_(diagnostics), signatures_(signatures) {}
 
-  Statements run(const PouDecl& pou);
+  ScheduledBody run(const PouDecl& pou);
 
  private:
   enum class Phase : uint8_t { New, Busy, Resolved };
