@@ -51,6 +51,7 @@ class PouExport {
 
  private:
   void interfaceOf(const PouDecl& pou);
+  void extensions(AddData& data);
   void inheritance(AddData& data);
   void modifiers(AccessLevel access, uint8_t modifiers, AddData& data);
   void members(AddData& data);
@@ -311,15 +312,20 @@ void PouExport::run() {
       data.close();
     }
     to_.is_lossless = is_lossless;
-    exportAttributes(to_, pou_.h.pragmas, data);
-    const bool attributes_are_lossless = to_.is_lossless;
-    inheritance(data);
-    modifiers(pou_.access, pou_.modifiers, data);
-    members(data);
-    if (!attributes_are_lossless) exportPlainText(to_, header(pou_), data);
+    extensions(data);
   }
   to_.documentation(documentationOf(pou_));
   to_.xml.close();
+}
+
+// What TC6 has no elements for.
+void PouExport::extensions(AddData& data) {
+  exportAttributes(to_, pou_.h.pragmas, data);
+  const bool is_lossless = to_.is_lossless;
+  inheritance(data);
+  modifiers(pou_.access, pou_.modifiers, data);
+  members(data);
+  if (!is_lossless) exportPlainText(to_, header(pou_), data);
 }
 
 void PouExport::interface() {
@@ -327,12 +333,7 @@ void PouExport::interface() {
   to_.xml.open("Interface").attribute("name", to_.string(pou_.name));
   {
     AddData data(to_);
-    exportAttributes(to_, pou_.h.pragmas, data);
-    const bool is_lossless = to_.is_lossless;
-    inheritance(data);
-    modifiers(pou_.access, pou_.modifiers, data);
-    members(data);
-    if (!is_lossless) exportPlainText(to_, header(pou_), data);
+    extensions(data);
   }
   to_.documentation(documentationOf(pou_));
   to_.xml.close();

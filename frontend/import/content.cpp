@@ -183,4 +183,37 @@ void writeRange(Reading& reading, const xml::Element& range) {
   writeName(reading, range, "upper");
 }
 
+void writeEnumerator(Reading& reading, const Element& enumerator) {
+  writeName(reading, enumerator);
+  if (!hasName(reading, enumerator, "value")) return;
+  reading.out.word(" := ");
+  writeName(reading, enumerator, "value");
+}
+
+void writeAggregate(Reading& reading, const Element& list, FunctionRef<void(const Element& value)> write) {
+  const bool is_array = sameIdentifier(list.name, "arrayValue");
+  reading.out.put(list.loc, is_array ? "[" : "(");
+  Separator separator(reading.out);
+  for (const Element& e : reading.document.children(list)) {
+    const Element* value = sameIdentifier(e.name, "value") ? valueIn(reading, e) : nullptr;
+    if (value == nullptr) continue;
+    separator.next();
+    const bool repeated =
+        is_array && hasName(reading, e, "repetitionValue") && reading.document.value(e, "repetitionValue") != "1";
+    if (repeated || !is_array) {
+      writeName(reading, e, is_array ? "repetitionValue" : "member");
+      reading.out.word(is_array ? "(" : " := ");
+    }
+    write(*value);
+    if (repeated) reading.out.word(")");
+  }
+  reading.out.word(is_array ? "]" : ")");
+}
+
+bool writeNamed(Reading& reading, const Element& element, std::string_view word) {
+  if (!checkName(reading, element)) return false;
+  reading.out.put(element.loc, std::string(word) + " ");
+  return writeName(reading, element);
+}
+
 }  // namespace rung::importer

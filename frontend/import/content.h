@@ -7,6 +7,7 @@
 
 #include "frontend/import/source_mapped_text.h"
 #include "frontend/source/diagnostics.h"
+#include "frontend/source/function_ref.h"
 #include "frontend/source/scanner.h"
 
 namespace rung::importer {
@@ -79,6 +80,23 @@ class Separator {
   xml::SourceMappedText& out_;
   std::string_view before_;
 };
+
+// Writes the children of this name, separated by commas.
+template <class Write>
+void writeList(Reading& reading, const Element* parent, std::string_view name, Write write) {
+  Separator separator(reading.out);
+  for (const Element& e : reading.document.children(parent)) {
+    if (e.name != name) continue;
+    separator.next();
+    write(e);
+  }
+}
+// red, or red := 4
+void writeEnumerator(Reading& reading, const Element& enumerator);
+// [1, 3(0)] or (x := 1, y := 2); `write` writes a value inside.
+void writeAggregate(Reading& reading, const Element& list, FunctionRef<void(const Element& value)> write);
+// `TASK name`. False: it has no name, which was reported.
+bool writeNamed(Reading& reading, const Element& element, std::string_view word);
 
 // FUNCTION_BLOCK for `functionBlock` or `FunctionBlock`; empty: not a kind of POU.
 std::string_view pouWordOf(std::string_view name);

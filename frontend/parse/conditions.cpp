@@ -8,6 +8,7 @@
 #include "frontend/parse/diagnostics.h"
 #include "frontend/parse/foreign.h"
 #include "frontend/source/dialect.h"
+#include "frontend/source/scanner.h"
 #include "frontend/syntax/tree.h"
 
 namespace rung::text {
@@ -122,10 +123,6 @@ struct Range {
   uint32_t begin, end;  // in the file
 };
 
-bool isWordChar(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
 class FileConditions {
  public:
   FileConditions(std::string_view text, Loc base, std::vector<Define> defines, Dialect dialect,
@@ -152,8 +149,6 @@ class FileConditions {
   };
   bool reads() const { return open_.empty() || open_.back().reads; }
   Loc loc(size_t at) const { return {base_.offset + static_cast<uint32_t>(at)}; }
-  size_t skipComment(size_t at) const;
-  size_t skipQuoted(size_t at) const;
   size_t pragma(size_t at);
   bool directive(uint32_t at);
   void choose(Open& open, Truth value);
@@ -196,9 +191,9 @@ void FileConditions::run() {
     if (c == '/' && next == '/') {
       at = std::min(source_.find('\n', at), source_.size());
     } else if ((c == '(' || c == '/') && next == '*') {
-      at = skipComment(at);
+      at = endOfComment(source_, at, dialect_ != Dialect::Iec2);
     } else if (c == '\'' || c == '"') {
-      at = skipQuoted(at);
+      at = endOfString(source_, at);
     } else if (c == '{') {
       at = pragma(at);
     } else {
@@ -209,43 +204,12 @@ void FileConditions::run() {
   if (!reads()) blanks.push_back({static_cast<uint32_t>(blank_from_), static_cast<uint32_t>(source_.size())});
 }
 
-size_t FileConditions::skipComment(size_t at) const {
-  const char open = source_[at], close = open == '(' ? ')' : '/';
-  uint32_t depth = 0;
-  while (at + 1 < source_.size()) {
-    if (source_[at] == open && source_[at + 1] == '*' && (depth == 0 || dialect_ != Dialect::Iec2)) {
-      ++depth;
-      at += 2;
-    } else if (source_[at] == '*' && source_[at + 1] == close) {
-      at += 2;
-      if (--depth == 0) return at;
-    } else {
-      ++at;
-    }
-  }
-  return source_.size();
-}
-
-// A string ends on its line; `$'` does not end it.
-size_t FileConditions::skipQuoted(size_t at) const {
-  const char quote = source_[at++];
-  while (at < source_.size() && source_[at] != quote && source_[at] != '\n') at += source_[at] == '$' ? 2 : 1;
-  return std::min(at < source_.size() && source_[at] == '\n' ? at : at + 1, source_.size());
-}
-
 // Returns the offset after the pragma.
 size_t FileConditions::pragma(size_t at) {
   size_t end = endOfDoubleBrace(source_, at);
   if (end != std::string_view::npos) return end;
-  end = at + 1;
-  while (end < source_.size() && source_[end] != '}') {
-    if (source_[end] == '\'' || source_[end] == '"') {
-      const size_t close = source_.find_first_of(std::string_view(source_[end] == '"' ? "\"\n" : "'\n", 2), end + 1);
-      if (close != std::string_view::npos && source_[close] == source_[end]) end = close;
-    }
-    ++end;
-  }
-  if (end >= source_.size()) return at + 1;  // reported by the lexer
+  end = endOfPragma(source_, at) - 1;
+  if (end == at || source_[end] != '}') return at + 1;  // reported by the lexer
   p_ = at + 1;
   pragma_end_ = end;
   const bool read = reads();
@@ -329,7 +293,7 @@ void FileConditions::skipBlanks() {
 std::string_view FileConditions::word() {
   skipBlanks();
   const size_t begin = p_;
-  while (p_ < pragma_end_ && isWordChar(source_[p_])) ++p_;
+  while (p_ < pragma_end_ && isNameCharacter(source_[p_])) ++p_;
   return source_.substr(begin, p_ - begin);
 }
 
@@ -459,7 +423,7 @@ bool mayHaveConditions(std::string_view text) {
     size_t p = at + 1;
     while (p < text.size() && static_cast<unsigned char>(text[p]) <= ' ') ++p;
     size_t end = p;
-    while (end < text.size() && isWordChar(text[end])) ++end;
+    while (end < text.size() && isNameCharacter(text[end])) ++end;
     for (const char* word : {"IF", "ELSIF", "ELSE", "END_IF", "define", "undefine"})
       if (sameIdentifier(text.substr(p, end - p), word)) return true;
   }

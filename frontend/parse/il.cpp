@@ -58,8 +58,10 @@ std::optional<Instruction> findInstruction(std::string_view text) {
     if (const OperatorFunction* function = operatorFunction(text.substr(0, text.size() - 1));
         function != nullptr && takesNegation(function->op))
       return Instruction{IlKind::Binary, function->op, kIlNegated};
+  const char first = static_cast<char>(text[0] & ~0x20);  // most statements begin with a name of the program
   for (const InstructionWord& row : kInstructions)
-    if (sameIdentifier(row.word, text)) return Instruction{row.kind, {}, row.flags};
+    if (row.word[0] == first && row.word.size() == text.size() && sameIdentifier(row.word, text))
+      return Instruction{row.kind, {}, row.flags};
   return std::nullopt;
 }
 

@@ -31,7 +31,7 @@ class IlScheduler {
   IlScheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures, bool short_circuit)
       : tree_(tree), names_(names), diagnostics_(diagnostics), signatures_(signatures), short_circuit_(short_circuit) {}
 
-  IlStatements run(Slice<IlInstruction> list);
+  ScheduledBody run(Slice<IlInstruction> list);
 
  private:
   enum class State : uint8_t {
@@ -567,21 +567,16 @@ void IlScheduler::leave(const IlInstruction& i) {
   conditional(condition, i.loc, [&] { out_.push_back(make()); });
 }
 
-IlStatements IlScheduler::run(Slice<IlInstruction> list) {
+ScheduledBody IlScheduler::run(Slice<IlInstruction> list) {
   runList(list, false);
   structureJumps(tree_, names_, out_);
-  IlStatements result{tree_.addList<StmtId>(out_), {}};
-  if (!temporaries_.empty()) {
-    const Loc loc = tree_.loc(temporaries_.front());
-    result.temporaries = build_.section(SectionKind::Temp, temporaries_, loc);
-  }
-  return result;
+  return scheduledBody(tree_, out_, temporaries_);
 }
 
 }  // namespace
 
-IlStatements scheduleIl(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
-                        Slice<IlInstruction> instructions, bool short_circuit) {
+ScheduledBody scheduleIl(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
+                         Slice<IlInstruction> instructions, bool short_circuit) {
   return IlScheduler(tree, names, diagnostics, signatures, short_circuit).run(instructions);
 }
 

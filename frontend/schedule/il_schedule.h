@@ -4,6 +4,7 @@
 // declarations of all files are known and it is about to check the body.
 #pragma once
 
+#include "frontend/schedule/scheduled_body.h"
 #include "frontend/source/diagnostics.h"
 #include "frontend/syntax/il.h"
 #include "frontend/syntax/signatures.h"
@@ -11,13 +12,8 @@
 
 namespace rung::text {
 
-struct IlStatements {
-  Slice<StmtId> body;
-  DeclId temporaries;  // a section of variables without type; none: no temporaries
-};
-
 // `short_circuit`: AND and OR of the dialect may skip calls in their right operand; those of IL must always run.
-IlStatements scheduleIl(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
-                        Slice<IlInstruction> instructions, bool short_circuit);
+ScheduledBody scheduleIl(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
+                         Slice<IlInstruction> instructions, bool short_circuit);
 
 }  // namespace rung::text

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "frontend/schedule/network_feedback.h"
+#include "frontend/source/scanner.h"
 #include "frontend/syntax/diagram.h"
 #include "frontend/syntax/standard_names.h"
 #include "frontend/syntax/tree_builder.h"
@@ -17,6 +18,8 @@ constexpr uint32_t kMaxDepth = 100;
 bool isOneOf(std::string_view name, std::initializer_list<std::string_view> words) {
   return std::any_of(words.begin(), words.end(), [&](std::string_view word) { return sameIdentifier(word, name); });
 }
+
+bool compares(BinaryOp op) { return op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual; }
 
 }  // namespace
 
@@ -36,18 +39,18 @@ TypeExprId BoxTypes::ofBox(uint32_t element, uint32_t depth) {
 TypeExprId BoxTypes::ofCall(uint32_t element, uint32_t depth) {
   const DiagramElement& e = graph_.elements[element];
   const std::string_view name = names_.string(e.name.name);
-  if (isOneOf(name, {"GT", "GE", "EQ", "LE", "LT", "NE"})) return named("BOOL", e.loc);
-  std::string upper(name);
-  for (char& c : upper) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 32 : c);
-  if (const size_t to = upper.rfind("TO_"); to == 0 || (to != std::string::npos && upper[to - 1] == '_'))
-    return named(upper.substr(to + 3), e.loc);
+  const OperatorFunction* const function = operatorFunction(name);
+  if (function != nullptr && compares(function->op)) return named("BOOL", e.loc);
+  const std::string word = upper(name);
+  if (const size_t to = word.rfind("TO_"); to == 0 || (to != std::string::npos && word[to - 1] == '_'))
+    return named(word.substr(to + 3), e.loc);
   const bool selects = isOneOf(name, {"SEL", "MUX"});
-  if (selects || isOneOf(name, {"AND", "OR", "XOR", "NOT", "ADD", "SUB", "MUL", "DIV", "MOD", "MOVE", "MAX", "MIN",
-                                "LIMIT", "ABS", "SHL", "SHR", "ROL", "ROR", "EXPT"}))
+  if (selects || function != nullptr ||
+      isOneOf(name, {kNot, kMove, "MAX", "MIN", "LIMIT", "ABS", "SHL", "SHR", "ROL", "ROR", "EXPT"}))
     return ofOperands(element, selects, depth);
-  const DeclId function = e.path && tree_.kind(e.path) == ExprKind::Name ? declared(e.name.name) : DeclId{};
-  if (function && tree_.kind(function) == DeclKind::Pou && tree_.as<PouDecl>(function).result)
-    return tree_.as<PouDecl>(function).result;
+  const DeclId callee = e.path && tree_.kind(e.path) == ExprKind::Name ? declared(e.name.name) : DeclId{};
+  if (callee && tree_.kind(callee) == DeclKind::Pou && tree_.as<PouDecl>(callee).result)
+    return tree_.as<PouDecl>(callee).result;
   return ofReaders(element);
 }
 
@@ -149,7 +152,7 @@ TypeExprId BoxTypes::ofExpr(ExprId expr, uint32_t depth) {
     case ExprKind::Unary: return ofExpr(tree_.as<UnaryExpr>(expr).operand, depth + 1);
     case ExprKind::Binary: {
       const auto op = static_cast<BinaryOp>(tree_.expr(expr).op);
-      if (op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual) return named("BOOL", tree_.loc(expr));
+      if (compares(op)) return named("BOOL", tree_.loc(expr));
       const BinaryExpr& binary = tree_.as<BinaryExpr>(expr);
       const TypeExprId left = ofExpr(binary.left, depth + 1);
       return left ? left : ofExpr(binary.right, depth + 1);

@@ -41,7 +41,7 @@ class Declarer {
     Graph graph;
     if (!graph.build(tree_, names_, diagnostics, pou.diagram)) return;
     BoxTypes types(tree_, names_, signatures_, pou, graph);
-    for (const uint32_t k : readBeforeExecution(tree_, graph)) {
+    for (const uint32_t k : readBeforeExecution(graph)) {
       const DiagramElement e = graph.elements[k];
       const TypeExprId type = types.of(k);
       if (!type) continue;

@@ -11,9 +11,8 @@ bool isFunction(const DiagramElement& e) { return e.kind == ElementKind::Box && 
 
 class Search {
  public:
-  Search(const Tree& tree, const Graph& graph)
-      : tree_(tree),
-        graph_(graph),
+  explicit Search(const Graph& graph)
+      : graph_(graph),
         phase_(graph.elements.size(), Phase::New),
         order_of_(graph.elements.size(), 0),
         is_found_(graph.elements.size(), false) {
@@ -28,33 +27,18 @@ class Search {
 
  private:
   enum class Phase : uint8_t { New, Busy, Done };
-  struct Frame {
-    uint32_t element, pin, wire;
-  };
-
   void find(uint32_t element) {
     if (!is_found_[element]) found_.push_back(element);
     is_found_[element] = true;
   }
   bool isKept(uint32_t element) const { return keepsState(graph_.elements[element]) || is_found_[element]; }
 
-  uint32_t next(Frame& frame) const {
-    const DiagramElement& e = graph_.elements[frame.element];
-    while (frame.pin < e.pins.count) {
-      const DiagramPin& pin = tree_.list(e.pins)[frame.pin];
-      if (frame.wire < pin.wires.count) return graph_.sources[graph_.sourceOf(pin, frame.wire++)].element;
-      ++frame.pin;
-      frame.wire = 0;
-    }
-    return kNone;
-  }
-
   void walk(uint32_t root) {
     if (phase_[root] != Phase::New) return;
-    std::vector<Frame> stack{{root, 0, 0}};
+    std::vector<InputWalk> stack{{root, 0, 0}};
     phase_[root] = Phase::Busy;
     while (!stack.empty()) {
-      const uint32_t from = next(stack.back());
+      const uint32_t from = graph_.nextInput(stack.back());
       if (from == kNone) {
         phase_[stack.back().element] = Phase::Done;
         stack.pop_back();
@@ -75,7 +59,7 @@ class Search {
   }
 
   // The loop is the end of the stack from `first` on. Nothing to do if an element of it keeps its value.
-  void breakCycle(const std::vector<Frame>& stack, uint32_t first) {
+  void breakCycle(const std::vector<InputWalk>& stack, uint32_t first) {
     uint32_t box = kNone;
     for (size_t k = stack.size(); k > 0; --k) {
       const uint32_t element = stack[k - 1].element;
@@ -86,7 +70,6 @@ class Search {
     if (box != kNone) find(box);
   }
 
-  const Tree& tree_;
   const Graph& graph_;
   std::vector<Phase> phase_;
   std::vector<uint32_t> order_of_;
@@ -96,6 +79,6 @@ class Search {
 
 }  // namespace
 
-std::vector<uint32_t> readBeforeExecution(const Tree& tree, const Graph& graph) { return Search(tree, graph).run(); }
+std::vector<uint32_t> readBeforeExecution(const Graph& graph) { return Search(graph).run(); }
 
 }  // namespace rung::diagram

@@ -13,7 +13,7 @@
 namespace rung::diagram {
 
 // The elements that need a variable. The scheduler reports those without a known type.
-std::vector<uint32_t> readBeforeExecution(const Tree& tree, const Graph& graph);
+std::vector<uint32_t> readBeforeExecution(const Graph& graph);
 
 // The result types of boxes, as far as declarations determine them; none: unknown. network_box_types.cpp.
 class BoxTypes {

@@ -30,6 +30,11 @@ struct Source {
 // A box whose outputs can be read before it is called: they have the values of the last cycle.
 bool keepsState(const DiagramElement& e);
 
+// A visit of all elements connected to the inputs of one.
+struct InputWalk {
+  uint32_t element, pin, wire;
+};
+
 class Graph {
  public:
   // False: an error was reported.
@@ -45,6 +50,8 @@ class Graph {
   uint32_t sourceOf(const DiagramPin& pin, uint32_t wire) const {
     return source_of_wire_[pin.wires.first + wire - first_wire_];
   }
+  // The next element connected to an input, or kNone.
+  uint32_t nextInput(InputWalk& walk) const;
   uint32_t find(uint32_t element, NameId pin) const;  // a source, or kNone: without readers
 
  private:

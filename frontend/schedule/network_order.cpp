@@ -83,6 +83,17 @@ Graph::End Graph::endOf(uint32_t link) {
   return end;
 }
 
+uint32_t Graph::nextInput(InputWalk& walk) const {
+  const DiagramElement& e = elements[walk.element];
+  while (walk.pin < e.pins.count) {
+    const DiagramPin& pin = tree_->list(e.pins)[walk.pin];
+    if (walk.wire < pin.wires.count) return sources[sourceOf(pin, walk.wire++)].element;
+    ++walk.pin;
+    walk.wire = 0;
+  }
+  return kNone;
+}
+
 uint32_t Graph::find(uint32_t element, NameId pin) const {
   uint32_t steps = 0;
   for (uint32_t s = first_source[element]; s != kNone; s = sources[s].next) {

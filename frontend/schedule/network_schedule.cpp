@@ -186,24 +186,12 @@ ExprId Scheduler::read(uint32_t source) {
 
 // ---- the walk
 
-// The next element connected to an input of the frame's element, or kNone.
-uint32_t Scheduler::nextInput(Frame& frame) const {
-  const DiagramElement& e = graph_.elements[frame.element];
-  while (frame.pin < e.pins.count) {
-    const DiagramPin& pin = tree_.list(e.pins)[frame.pin];
-    if (frame.wire < pin.wires.count) return graph_.sources[graph_.sourceOf(pin, frame.wire++)].element;
-    ++frame.pin;
-    frame.wire = 0;
-  }
-  return kNone;
-}
-
 // Resolves `root` after everything that it reads.
 void Scheduler::visit(uint32_t root) {
   while (phase_[root] == Phase::New) {  // again when a box in a loop with it had to run first
     push(root, false);
     while (!stack_.empty()) {
-      const uint32_t next = nextInput(stack_.back());
+      const uint32_t next = graph_.nextInput(stack_.back());
       if (next == kNone) {
         const uint32_t done = stack_.back().element;
         stack_.pop_back();
@@ -468,7 +456,7 @@ void Scheduler::checkHolding(const PouDecl& pou) {
   }
 }
 
-Statements Scheduler::run(const PouDecl& pou) {
+ScheduledBody Scheduler::run(const PouDecl& pou) {
   const Diagram& diagram = pou.diagram;
   language_ = diagram.language;
   if (pou.pou_kind == PouKind::Function) function_ = "a function";
@@ -496,16 +484,11 @@ Statements Scheduler::run(const PouDecl& pou) {
   }
   std::sort(written_.begin(), written_.end());
   for (const uint32_t root : graph_.roots) visit(root);
-  Statements result{tree_.addList<StmtId>(out_), {}};
-  if (!temporaries_.empty()) {
-    const Loc loc = tree_.loc(temporaries_.front());
-    result.temporaries = build_.section(SectionKind::Temp, temporaries_, loc);
-  }
-  return result;
+  return scheduledBody(tree_, out_, temporaries_);
 }
 
-Statements scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
-                            const PouDecl& pou) {
+ScheduledBody scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
+                               const PouDecl& pou) {
   return Scheduler(tree, names, diagnostics, signatures).run(pou);
 }
 

@@ -9,18 +9,15 @@
 // its value of the last cycle.
 #pragma once
 
+#include "frontend/schedule/scheduled_body.h"
 #include "frontend/source/diagnostics.h"
 #include "frontend/syntax/signatures.h"
 #include "frontend/syntax/tree.h"
 
 namespace rung::diagram {
 
-struct Statements {
-  Slice<StmtId> body;
-  DeclId temporaries;  // a section of variables without type; none: no temporaries
-};
-Statements scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
-                            const PouDecl& pou);
+ScheduledBody scheduleNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures,
+                               const PouDecl& pou);
 
 // The hidden variables of a body of networks, as a section of `kind`: instances that detect edges, instances of blocks
 // without a name, composed structures, values of functions that are fed back. None: none needed. `prefix`: of their

@@ -25,12 +25,11 @@ class Scheduler {
   Scheduler(Tree& tree, Names& names, Diagnostics& diagnostics, Signatures& signatures)
       : tree_(tree), names_(names), diagnostics_(diagnostics), signatures_(signatures) {}
 
-  Statements run(const PouDecl& pou);
+  ScheduledBody run(const PouDecl& pou);
 
  private:
   enum class Phase : uint8_t { New, Busy, Resolved };
-  struct Frame {
-    uint32_t element, pin, wire;
+  struct Frame : InputWalk {
     bool begins;  // runs early, because it is connected to itself
   };
 
@@ -41,7 +40,6 @@ class Scheduler {
   void visit(uint32_t root);
   void push(uint32_t element, bool begins);
   void breakCycle(uint32_t first);
-  uint32_t nextInput(Frame& frame) const;
   void resolve(uint32_t element);
 
   // ---- elements

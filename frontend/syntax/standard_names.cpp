@@ -23,8 +23,10 @@ bool isEnableOutput(std::string_view pin) { return sameIdentifier(pin, kEnableOu
 
 const OperatorFunction* operatorFunction(std::string_view name) {
   if (name.size() < 2 || name.size() > 3) return nullptr;
-  const auto* found = std::find_if(std::begin(kFunctions), std::end(kFunctions),
-                                   [&](const OperatorFunction& row) { return sameIdentifier(row.name, name); });
+  const char first = static_cast<char>(name[0] & ~0x20);  // the parser asks for many names that are none of them
+  const auto* found = std::find_if(std::begin(kFunctions), std::end(kFunctions), [&](const OperatorFunction& row) {
+    return row.name[0] == first && sameIdentifier(row.name, name);
+  });
   return found == std::end(kFunctions) ? nullptr : found;
 }
 

@@ -4,6 +4,7 @@
 // Strings are converted by library functions: TO_STRING, TO_WSTRING, STRING_TO_<B>.
 #include <string>
 
+#include "frontend/source/scanner.h"
 #include "frontend/syntax/standard_names.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
@@ -31,13 +32,6 @@ TypeId typeNamed(Context& context, std::string_view word) {
   if (entity.entityKind() != EntityKind::Type) return {};
   const TypeKind plain = context.types().plainKind(TypeId{entity.index});
   return TypeTable::isElementary(plain) ? TypeId{entity.index} : TypeId{};
-}
-
-std::string upper(std::string_view word) {
-  std::string out(word);
-  for (char& c : out)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return out;
 }
 
 Rule ruleOf(Context& context, std::string_view name) {

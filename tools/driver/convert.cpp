@@ -10,6 +10,7 @@
 #include <unordered_set>
 
 #include "frontend/export/plcopen.h"
+#include "frontend/source/scanner.h"
 #include "frontend/syntax/sfc.h"
 #include "frontend/syntax/st_printer.h"
 #include "sema/project.h"
@@ -37,51 +38,22 @@ struct Edit {
   bool begins_line = false;
 };
 
-// The end of the comment or string that begins at `p`; `p` itself when none begins.
-size_t endOfUnit(std::string_view text, size_t p) {
-  const std::string_view rest = text.substr(p);
-  if (rest.starts_with("//")) return std::min(text.find_first_of("\r\n", p), text.size());
-  if (rest.starts_with("(*") || rest.starts_with("/*")) {
-    const char mark = rest[0];
-    size_t depth = 1, at = p + 2;
-    for (; at < text.size() && depth > 0; ++at) {
-      if (text[at] == mark && text.substr(at + 1).starts_with("*")) {
-        ++depth;
-        ++at;
-      } else if (text[at] == '*' && text.substr(at + 1).starts_with(mark == '(' ? ")" : "/")) {
-        --depth;
-        ++at;
-      }
-    }
-    return at;
-  }
-  if (rest[0] != '\'' && rest[0] != '"') return p;
-  size_t at = p + 1;
-  while (at < text.size() && text[at] != rest[0]) at += text[at] == '$' ? 2 : 1;
-  return std::min(at + 1, text.size());
+size_t lineOf(std::string_view text, size_t at) {
+  while (at > 0 && text[at - 1] != '\n') --at;
+  return at;
 }
 
 // The comments of a body, each at the beginning of its line, so it goes in front of the statement of that line.
 std::vector<StComment> commentsOf(std::string_view text, size_t begin, size_t end, uint32_t base) {
   std::vector<StComment> comments;
-  size_t line = begin;
-  for (size_t p = begin; p < end;) {
-    const size_t next = endOfUnit(text, p);
-    if (next == p) {
-      if (text[p++] == '\n') line = p;
-      continue;
-    }
-    if (text[p] != '\'' && text[p] != '"')
-      comments.push_back({{base + static_cast<uint32_t>(line)}, text.substr(p, next - p)});
-    for (; p < next; ++p)
-      if (text[p] == '\n') line = p + 1;
+  Scanner scanner(text);
+  scanner.moveTo(begin);
+  for (Unit unit = scanner.next(); unit.kind != UnitKind::End && unit.begin < end; unit = scanner.next()) {
+    if (unit.kind != UnitKind::Comment) continue;
+    const size_t line = std::max(begin, lineOf(text, unit.begin));
+    comments.push_back({{base + static_cast<uint32_t>(line)}, scanner.textOf(unit)});
   }
   return comments;
-}
-
-size_t lineOf(std::string_view text, size_t at) {
-  while (at > 0 && text[at - 1] != '\n') --at;
-  return at;
 }
 
 class Converter {

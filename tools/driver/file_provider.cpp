@@ -1,7 +1,9 @@
 #include "tools/driver/file_provider.h"
 
+#include <dirent.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace rung::driver {
@@ -14,6 +16,17 @@ std::string absolutePath(const std::string& path) {
   std::string normal = (error ? fs::path(path) : full).lexically_normal().generic_string();
   while (normal.size() > 1 && normal.back() == '/') normal.pop_back();
   return normal;
+}
+
+std::vector<std::string> namesIn(const std::string& folder) {
+  std::vector<std::string> names;
+  if (DIR* dir = opendir(folder.c_str())) {
+    while (const dirent* entry = readdir(dir))
+      if (entry->d_name[0] != '.') names.push_back(entry->d_name);
+    closedir(dir);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 FileProvider::FileProvider(const std::vector<UnsavedFile>& unsaved) {

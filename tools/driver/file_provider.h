@@ -14,6 +14,9 @@ namespace rung::driver {
 // The path from the root, without `.`, `..` and a slash at its end.
 std::string absolutePath(const std::string& path);
 
+// The names in a folder except hidden ones, sorted; none: it cannot be read.
+std::vector<std::string> namesIn(const std::string& folder);
+
 class FileProvider {
  public:
   explicit FileProvider(const std::vector<UnsavedFile>& unsaved);

@@ -68,13 +68,7 @@ class Collector {
   std::string similar(const std::string& path) const {
     size_t slash = path.rfind('/');
     std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
-    std::vector<std::string> names;
-    if (DIR* dir = opendir(folder.c_str())) {
-      while (const dirent* entry = readdir(dir))
-        if (entry->d_name[0] != '.') names.push_back(entry->d_name);
-      closedir(dir);
-    }
-    std::sort(names.begin(), names.end());
+    const std::vector<std::string> names = namesIn(folder);
     std::vector<std::string_view> views(names.begin(), names.end());
     std::string_view near = nearest(std::string_view(path).substr(slash == std::string::npos ? 0 : slash + 1), views);
     if (near.empty()) return {};

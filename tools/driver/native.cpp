@@ -1,7 +1,6 @@
 // From generated C++ to a library or program; see native.h.
 #include "tools/driver/native.h"
 
-#include <dirent.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -18,6 +17,7 @@
 #include "frontend/source/files.h"
 #include "tools/driver/compile.h"
 #include "tools/driver/diagnostics.h"
+#include "tools/driver/file_provider.h"
 #include "tools/driver/installation.h"
 #include "tools/driver/output_files.h"
 #include "tools/driver/process.h"
@@ -78,14 +78,7 @@ void addFile(Hash& hash, const std::string& path) {
 
 // Hashes the contents of all headers below a folder, in a fixed order.
 void addHeaders(Hash& hash, const std::string& folder) {
-  std::vector<std::string> names;
-  if (DIR* dir = opendir(folder.c_str())) {
-    while (const dirent* entry = readdir(dir))
-      if (entry->d_name[0] != '.') names.push_back(entry->d_name);
-    closedir(dir);
-  }
-  std::sort(names.begin(), names.end());
-  for (const std::string& name : names) {
+  for (const std::string& name : namesIn(folder)) {
     hash.add(name);
     struct stat info;
     std::string path = folder + "/" + name;

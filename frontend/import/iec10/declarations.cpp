@@ -33,20 +33,7 @@ void writeValue(Reading& import, const xml::Element& value, uint32_t depth) {
       writeText(import, value);
     return;
   }
-  const bool array = value.name == "ArrayValue";
-  import.out.put(value.loc, array ? "[" : "(");
-  Separator separator(import.out);
-  for (const xml::Element& e : import.document.children(value)) {
-    const xml::Element* inner = e.name == "Value" ? valueIn(import, e) : nullptr;
-    if (inner == nullptr) continue;
-    separator.next();
-    const bool repeated = array && hasName(import, e, "repetitionValue");
-    if (repeated || !array) writeName(import, e, array ? "repetitionValue" : "member");
-    import.out.word(repeated ? "(" : array ? "" : " := ");
-    writeValue(import, *inner, depth + 1);
-    if (repeated) import.out.word(")");
-  }
-  import.out.word(array ? "]" : ")");
+  writeAggregate(import, value, [&](const Element& inner) { writeValue(import, inner, depth + 1); });
 }
 
 void writeInitial(Reading& import, const xml::Element& declared) {
@@ -87,17 +74,13 @@ void writeVariable(Reading& import, const xml::Element& variable) {
 // ARRAY[1..3, 0..1] OF INT
 void writeArraySpec(Reading& import, const xml::Element& spec, uint32_t depth) {
   import.out.put(spec.loc, "ARRAY[");
-  Separator separator(import.out);
-  for (const xml::Element& e : import.document.children(spec)) {
-    if (e.name != "DimensionSpec") continue;
-    separator.next();
-    const xml::Element* range = import.document.child(e, "IndexRange");
-    if (range == nullptr) {
+  writeList(import, &spec, "DimensionSpec", [&](const Element& e) {
+    const Element* range = import.document.child(e, "IndexRange");
+    if (range == nullptr)
       import.out.put(e.loc, "*");
-      continue;
-    }
-    writeRange(import, *range);
-  }
+    else
+      writeRange(import, *range);
+  });
   import.out.word("] OF ");
   const xml::Element* base = import.document.child(spec, "BaseType");
   writeTypeRef(import, base == nullptr ? spec : *base, depth + 1);
@@ -105,15 +88,7 @@ void writeArraySpec(Reading& import, const xml::Element& spec, uint32_t depth) {
 
 void writeEnumerators(Reading& import, const xml::Element& spec) {
   import.out.put(spec.loc, "(");
-  Separator separator(import.out);
-  for (const xml::Element& e : import.document.children(spec)) {
-    if (e.name != "Enumerator" || !checkName(import, e)) continue;
-    separator.next();
-    writeName(import, e);
-    if (!hasName(import, e, "value")) continue;
-    import.out.word(" := ");
-    writeName(import, e, "value");
-  }
+  writeList(import, &spec, "Enumerator", [&](const Element& e) { writeEnumerator(import, e); });
   import.out.word(")");
   const xml::Element* base = import.document.child(spec, "BaseType");
   if (base == nullptr || isBlank(import.document.text(*base, import.sources))) return;

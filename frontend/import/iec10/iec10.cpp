@@ -94,8 +94,7 @@ void Iec10Reader::writeNamespace(const Element& space) {
   const bool named =
       space.name == "NamespaceDecl" && document_.child(space, "Program") == nullptr && hasName(import_, space);
   if (named) {
-    import_.out.put(space.loc, "NAMESPACE ");
-    writeName(import_, space);
+    writeNamed(import_, space, "NAMESPACE");
     import_.out.word("\n");
   }
   for (const xml::Element& e : document_.children(space)) {
@@ -126,9 +125,7 @@ void Iec10Reader::writeInterval(const Element& task) {
 }
 
 void Iec10Reader::writeTask(const Element& task) {
-  if (!checkName(import_, task)) return;
-  import_.out.put(task.loc, "TASK ");
-  writeName(import_, task);
+  if (!writeNamed(import_, task, "TASK")) return;
   import_.out.word("(");
   writeInterval(task);
   if (hasName(import_, task, "single")) {
@@ -145,16 +142,13 @@ void Iec10Reader::writeTask(const Element& task) {
 }
 
 void Iec10Reader::writeResource(const Element& resource) {
-  if (!checkName(import_, resource)) return;
-  import_.out.put(resource.loc, "RESOURCE ");
-  writeName(import_, resource);
+  if (!writeNamed(import_, resource, "RESOURCE")) return;
   import_.out.word(" ON PLC\n");
   writeVarLists(import_, resource);
   forEach(resource, "Task", [&](const Element& task) { writeTask(task); });
   const auto writeInstance = [&](const Element& instance, const Element* task) {
     if (!checkName(import_, instance) || !checkName(import_, instance, "typeName")) return;
-    import_.out.put(instance.loc, "PROGRAM ");
-    writeName(import_, instance);
+    writeNamed(import_, instance, "PROGRAM");
     if (task != nullptr || hasName(import_, instance, "associatedTaskName")) {
       import_.out.word(" WITH ");
       writeName(import_, task != nullptr ? *task : instance, task != nullptr ? "name" : "associatedTaskName");
@@ -183,9 +177,7 @@ void Iec10Reader::writeConfiguration(const Element& configuration) {
     forEach(configuration, "Resource", [&](const Element& resource) { writeVarLists(import_, resource); });
     return;
   }
-  if (!checkName(import_, configuration)) return;
-  import_.out.put(configuration.loc, "CONFIGURATION ");
-  writeName(import_, configuration);
+  if (!writeNamed(import_, configuration, "CONFIGURATION")) return;
   import_.out.word("\n");
   writeVarLists(import_, configuration);
   forEach(configuration, "Resource", [&](const Element& resource) { writeResource(resource); });

@@ -189,17 +189,23 @@ bool Chart::spend(uint32_t node, size_t steps) {
   return false;
 }
 
+// The paths to the source of the wire. Null: it comes from a transition, which was reported.
+const Chart::Paths* Chart::pathsThrough(const ChartWire& wire, uint32_t node, uint32_t depth) {
+  if (nodes_[wire.from].kind != NodeKind::Transition) return &before(wire.from, depth + 1);
+  report(diag::ChartNoStepBetween, wire.loc, {nameOf(wire.from), nameOf(node)});
+  return nullptr;
+}
+
 // Adds one set of steps for each path to the node.
 void Chart::addPaths(Paths& paths, uint32_t node, uint32_t depth) {
   for (uint32_t w = nodes_[node].first_wire; w < nodes_[node].end_wire; ++w) {
     const uint32_t from = wires_[w].from;
-    if (nodes_[from].kind == NodeKind::Transition || nodes_[from].kind == NodeKind::Jump) {
-      report(diag::ChartNoStepBetween, wires_[w].loc, {nameOf(from), nameOf(node)});
-      continue;
-    }
-    const Paths& inner = before(from, depth + 1);
-    paths.never = paths.never || inner.never;
-    for (const Steps& steps : inner.sets) {
+    const bool jumps = nodes_[from].kind == NodeKind::Jump;
+    if (jumps) report(diag::ChartNoStepBetween, wires_[w].loc, {nameOf(from), nameOf(node)});
+    const Paths* inner = jumps ? nullptr : pathsThrough(wires_[w], node, depth);
+    if (inner == nullptr) continue;
+    paths.never = paths.never || inner->never;
+    for (const Steps& steps : inner->sets) {
       if (!spend(node, steps.size())) return;
       paths.sets.push_back(steps);
     }
@@ -218,15 +224,12 @@ void Chart::addUnited(Paths& paths, uint32_t node, uint32_t depth) {
       paths.never = true;
       continue;
     }
-    if (nodes_[from].kind == NodeKind::Transition) {
-      report(diag::ChartNoStepBetween, wires_[w].loc, {nameOf(from), nameOf(node)});
-      continue;
-    }
-    const Paths& inner = before(from, depth + 1);
-    paths.never = paths.never || inner.never;
+    const Paths* inner = pathsThrough(wires_[w], node, depth);
+    if (inner == nullptr) continue;
+    paths.never = paths.never || inner->never;
     std::vector<Steps> united;
     for (const Steps& a : paths.sets) {
-      for (const Steps& b : inner.sets) {
+      for (const Steps& b : inner->sets) {
         if (!spend(node, a.size() + b.size())) return;
         united.push_back(a);
         united.back().insert(united.back().end(), b.begin(), b.end());

@@ -115,6 +115,7 @@ class Chart {
   void connectActionBlocks();
   void connectTransition(uint32_t node);
   const Paths& before(uint32_t node, uint32_t depth);
+  const Paths* pathsThrough(const ChartWire& wire, uint32_t node, uint32_t depth);
   void addPaths(Paths& paths, uint32_t node, uint32_t depth);
   void addUnited(Paths& paths, uint32_t node, uint32_t depth);
   void after(uint32_t node, uint32_t transition, uint32_t depth);

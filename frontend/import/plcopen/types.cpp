@@ -9,12 +9,7 @@ namespace {
 // ARRAY [1..2, 0..9] OF …
 void writeArray(Import& import, const xml::Element& array, uint32_t depth) {
   import.out.put(array.loc, "ARRAY [");
-  Separator separator(import.out);
-  for (const xml::Element& e : import.document.children(array)) {
-    if (e.name != "dimension") continue;
-    separator.next();
-    writeRange(import, e);
-  }
+  writeList(import, &array, "dimension", [&](const Element& e) { writeRange(import, e); });
   import.out.word("] OF ");
   writeType(import, array, depth);
 }
@@ -22,16 +17,8 @@ void writeArray(Import& import, const xml::Element& array, uint32_t depth) {
 // (red, green := 4) BYTE
 void writeEnum(Import& import, const xml::Element& type, uint32_t depth) {
   import.out.put(type.loc, "(");
-  Separator separator(import.out);
-  const xml::Element* values = import.document.child(type, "values");
-  for (const xml::Element& e : import.document.children(values)) {
-    if (e.name != "value") continue;
-    separator.next();
-    writeName(import, e);
-    if (!hasName(import, e, "value")) continue;
-    import.out.word(" := ");
-    writeName(import, e, "value");
-  }
+  writeList(import, import.document.child(type, "values"), "value",
+            [&](const Element& e) { writeEnumerator(import, e); });
   import.out.word(")");
   if (import.document.child(type, "baseType") == nullptr) return;
   import.out.word(" ");
@@ -65,38 +52,13 @@ const xml::Element* typeIn(const Import& import, const xml::Element& holder) {
   return nullptr;
 }
 
-void writeValue(Import& import, const xml::Element& value, const xml::Element* type, uint32_t depth);
-
-// [1, 3(0)] or (x := 1, y := 2)
-void writeValues(Import& import, const xml::Element& list, uint32_t depth) {
-  const bool is_array = list.name == "arrayValue";
-  import.out.put(list.loc, is_array ? "[" : "(");
-  Separator separator(import.out);
-  for (const xml::Element& e : import.document.children(list)) {
-    const xml::Element* value = e.name == "value" ? valueIn(import, e) : nullptr;
-    if (value == nullptr) continue;
-    separator.next();
-    const bool repeated =
-        is_array && hasName(import, e, "repetitionValue") && import.document.value(e, "repetitionValue") != "1";
-    if (!is_array) {
-      writeName(import, e, "member");
-      import.out.word(" := ");
-    } else if (repeated) {
-      writeName(import, e, "repetitionValue");
-      import.out.word("(");
-    }
-    writeValue(import, *value, nullptr, depth);
-    if (repeated) import.out.word(")");
-  }
-  import.out.word(is_array ? "]" : ")");
-}
-
 void writeValue(Import& import, const xml::Element& value, const xml::Element* type, uint32_t depth) {
   if (depth == kMaxNesting) {
     import.diagnostics.report(diag::XmlTooLarge, value.loc, {std::to_string(kMaxNesting), "nested values"});
     return;
   }
-  if (value.name != "simpleValue") return writeValues(import, value, depth + 1);
+  if (value.name != "simpleValue")
+    return writeAggregate(import, value, [&](const Element& inner) { writeValue(import, inner, nullptr, depth + 1); });
   const xml::Attribute* text = import.document.attribute(value, "value");
   const bool is_wide = type != nullptr && sameIdentifier(type->name, "wstring");
   const bool is_string = is_wide || (type != nullptr && sameIdentifier(type->name, "string"));

@@ -57,14 +57,18 @@ class Archive {
 // The name of a pin that has none, counted from 0: IN1, IN2; OUT, OUT1.
 std::string pinName(PinDirection direction, size_t index);
 
-// Write the body below `body`, an <NWL>, <CFC> or <SFC>; messages use `name` for it. If it has an error, that is
-// reported and nothing is written, to avoid follow-up errors.
-void writeNwl(const Archive& archive, const xml::Element& body, const std::string& name, Diagnostics& diagnostics,
-              xml::SourceMappedText& out);
-void writeCfc(const Archive& archive, const xml::Element& body, const std::string& name, Diagnostics& diagnostics,
-              xml::SourceMappedText& out);
-void writeSfc(const Archive& archive, const xml::Element& body, const std::string& name, Diagnostics& diagnostics,
-              xml::SourceMappedText& out);
+// A drawn body that is to be written.
+struct ArchivedBody {
+  const Archive& archive;
+  const xml::Element& object;  // of the body, in the archive
+  const std::string& name;     // for messages
+  Diagnostics& diagnostics;
+  xml::SourceMappedText& out;
+};
+// If the body has an error, that is reported and nothing is written, to avoid follow-up errors.
+void writeNwl(const ArchivedBody& body);
+void writeCfc(const ArchivedBody& body);
+void writeSfc(const ArchivedBody& body);
 
 // Whether the chart below `body` has a step of this name.
 bool hasStep(const Archive& archive, const xml::Element& body, std::string_view name);

@@ -44,8 +44,8 @@ bool isBox(ElementKind kind) {
 
 class CfcReader {
  public:
-  CfcReader(const Archive& archive, const std::string& name, Diagnostics& diagnostics, xml::SourceMappedText& out)
-      : archive_(archive), name_(name), diagnostics_(diagnostics), writer_(out) {}
+  explicit CfcReader(const ArchivedBody& body)
+      : archive_(body.archive), name_(body.name), diagnostics_(body.diagnostics), writer_(body.out) {}
 
   void run(const xml::Element& body);
 
@@ -254,12 +254,6 @@ void CfcReader::run(const Element& body) {
 
 }  // namespace
 
-void writeCfc(const Archive& archive, const xml::Element& body, const std::string& name, Diagnostics& diagnostics,
-              xml::SourceMappedText& out) {
-  if (const xml::Element* object = archive.root(body, "CFCImplementationObject"))
-    CfcReader(archive, name, diagnostics, out).run(*object);
-  else
-    diagnostics.report(diag::ArchiveEmpty, body.loc, {name, "CFCImplementationObject"});
-}
+void writeCfc(const ArchivedBody& body) { CfcReader(body).run(body.object); }
 
 }  // namespace rung::importer::twincat

@@ -44,8 +44,8 @@ Modifiers modifiersOf(uint64_t flags) {
 
 class TreeReader {
  public:
-  TreeReader(const Archive& archive, const std::string& name, Diagnostics& diagnostics, xml::SourceMappedText& out)
-      : archive_(archive), name_(name), diagnostics_(diagnostics), writer_(out) {}
+  explicit TreeReader(const ArchivedBody& body)
+      : archive_(body.archive), name_(body.name), diagnostics_(body.diagnostics), writer_(body.out) {}
 
   void run(const xml::Element& body);
 
@@ -497,12 +497,6 @@ Wires TreeReader::series(const Element& tree, Wires from) {
 
 }  // namespace
 
-void writeNwl(const Archive& archive, const xml::Element& body, const std::string& name, Diagnostics& diagnostics,
-              xml::SourceMappedText& out) {
-  if (const xml::Element* object = archive.root(body, "NWLImplementationObject"))
-    TreeReader(archive, name, diagnostics, out).run(*object);
-  else
-    diagnostics.report(diag::ArchiveEmpty, body.loc, {name, "NWLImplementationObject"});
-}
+void writeNwl(const ArchivedBody& body) { TreeReader(body).run(body.object); }
 
 }  // namespace rung::importer::twincat

@@ -72,8 +72,8 @@ const Element* rootOf(const Archive& archive, const Element& body) {
 
 class ChartReader {
  public:
-  ChartReader(const Archive& archive, const std::string& name, Diagnostics& diagnostics, xml::SourceMappedText& out)
-      : archive_(archive), name_(name), diagnostics_(diagnostics), out_(out), writer_(out) {}
+  explicit ChartReader(const ArchivedBody& body)
+      : archive_(body.archive), name_(body.name), diagnostics_(body.diagnostics), out_(body.out), writer_(body.out) {}
 
   void run(const Element& root);
 
@@ -290,12 +290,11 @@ void ChartReader::run(const Element& root) {
 
 }  // namespace
 
-void writeSfc(const Archive& archive, const xml::Element& body, const std::string& name, Diagnostics& diagnostics,
-              xml::SourceMappedText& out) {
-  if (const xml::Element* root = rootOf(archive, body))
-    ChartReader(archive, name, diagnostics, out).run(*root);
+void writeSfc(const ArchivedBody& body) {
+  if (const xml::Element* root = body.archive.member(body.object, "Root"))
+    ChartReader(body).run(*root);
   else
-    diagnostics.report(diag::ArchiveEmpty, body.loc, {name, "SFCImplementationObject"});
+    body.diagnostics.report(diag::ArchiveEmpty, body.object.loc, {body.name, "SFCImplementationObject"});
 }
 
 bool hasStep(const Archive& archive, const xml::Element& body, std::string_view name) {

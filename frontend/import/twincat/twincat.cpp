@@ -63,8 +63,8 @@ class TwinCatReader {
     for (const xml::Element& e : document_.children(pou)) {
       if (e.name == "Method") readMethod(e, name);
       if (e.name == "Property") readProperty(e, name);
-      if (e.name == "Action") readAction(e, name);
-      if (e.name == "Transition") readTransition(e, name);
+      if (e.name == "Action") readNamed(e, name, "ACTION");
+      if (e.name == "Transition") readNamed(e, name, "TRANSITION");
     }
     readBody(pou, name);
     closeWith(endWordOf(firstWord(document_.text(*declaration, sources_))));
@@ -90,26 +90,26 @@ class TwinCatReader {
     closeWith("END_PROPERTY");
   }
 
-  void readAction(const xml::Element& action, const std::string& owner) {
-    const xml::Attribute* name = document_.attribute(action, "Name");
+  // ACTION name : body END_ACTION, TRANSITION name : body END_TRANSITION; that of a transition assigns to the name.
+  void readNamed(const Element& member, const std::string& owner, const std::string& word) {
+    const xml::Attribute* name = document_.attribute(member, "Name");
     if (name == nullptr) return;
-    program_.word("ACTION ");
+    program_.word(word + " ");
     program_.add(name->loc, {name->loc.offset + static_cast<uint32_t>(name->raw.size())});
-    if (chart_ != nullptr && hasStep(archive_, *chart_, document_.decoded(*name))) program_.word(kActionSuffix);
+    const bool action = word == "ACTION";
+    if (action && chart_ != nullptr && hasStep(archive_, *chart_, document_.decoded(*name)))
+      program_.word(kActionSuffix);
     program_.word(" :\n");
-    readBody(action, owner + "." + document_.value(action, "Name"));
-    closeWith("END_ACTION");
+    readBody(member, owner + "." + document_.value(member, "Name"));
+    closeWith("END_" + word);
   }
 
-  // TRANSITION name : body END_TRANSITION; the body assigns to the name.
-  void readTransition(const xml::Element& transition, const std::string& owner) {
-    const xml::Attribute* name = document_.attribute(transition, "Name");
-    if (name == nullptr) return;
-    program_.word("TRANSITION ");
-    program_.add(name->loc, {name->loc.offset + static_cast<uint32_t>(name->raw.size())});
-    program_.word(" :\n");
-    readBody(transition, owner + "." + document_.value(transition, "Name"));
-    closeWith("END_TRANSITION");
+  void readDrawn(const Element& body, std::string_view object, const std::string& name,
+                 void (*write)(const ArchivedBody&)) {
+    if (const Element* found = archive_.root(body, object))
+      write({archive_, *found, name, diagnostics_, program_});
+    else
+      diagnostics_.report(diag::ArchiveEmpty, body.loc, {name, object});
   }
 
   void readBody(const xml::Element& owner, const std::string& name) {
@@ -120,11 +120,11 @@ class TwinCatReader {
         program_.add(document_, e);
         program_.word("\n");
       } else if (e.name == "NWL") {
-        writeNwl(archive_, e, name, diagnostics_, program_);
+        readDrawn(e, "NWLImplementationObject", name, writeNwl);
       } else if (e.name == "CFC") {
-        writeCfc(archive_, e, name, diagnostics_, program_);
+        readDrawn(e, "CFCImplementationObject", name, writeCfc);
       } else if (e.name == "SFC") {
-        writeSfc(archive_, e, name, diagnostics_, program_);
+        readDrawn(e, "SFCImplementationObject", name, writeSfc);
       } else if (const char* language = languageOf(e.name)) {
         diagnostics_.report(diag::NetworkBody, e.loc, {name, language});
       }
