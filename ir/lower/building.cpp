@@ -18,40 +18,6 @@ BodyLowering::BodyLowering(ModuleLowering& in, Body& body, sema::PouId pou)
   }
 }
 
-void BodyLowering::attach(ExprId& id) {
-  if (!id) return;
-  if (attached_.size() <= id.index) attached_.resize(body_.exprs.size() + 64);
-  if (attached_[id.index]) {
-    id = build_.copy(id);
-    attached_.resize(body_.exprs.size() + 64);
-  }
-  attached_[id.index] = true;
-}
-
-Slice<ExprId> BodyLowering::list(std::span<const ExprId> operands) {
-  std::vector<ExprId> own(operands.begin(), operands.end());
-  for (ExprId& operand : own) attach(operand);
-  return build_.list(own);
-}
-
-ExprId BodyLowering::addExpr(Expr expr) {
-  if (expr.kind == ExprKind::Index)
-    attach(expr.as<IndexExpr>().base);
-  else if (expr.kind != ExprKind::Call)
-    forEachOperand(body_, expr, [&](ExprId& operand) { attach(operand); });
-  return build_.push(expr);
-}
-
-StmtId BodyLowering::appendStmt(Stmt stmt) {
-  if (stmt.kind == StmtKind::Call) {
-    attach(stmt.as<CallStmt>().self);
-    attach(stmt.as<CallStmt>().result);
-  } else {
-    forEachRoot(in_.module, body_, stmt, [&](ExprId& root, Use) { attach(root); });
-  }
-  return build_.push(stmt);
-}
-
 uint32_t BodyLowering::effects() {
   for (; effects_counted_ < body_.stmts.size(); ++effects_counted_)
     effects_ += hasEffect(body_.stmts[effects_counted_]) ? 1 : 0;
@@ -140,9 +106,9 @@ ExprId BodyLowering::convert(ExprId operand, TypeId to, Loc loc) {
 
 void BodyLowering::assign(ExprId place, ExprId value, Loc loc) {
   if (guard_ && mayFault(value) && isTemp(place) && !isAggregate(typeOf(place))) {
-    append(loc, AssignStmt{.place = place, .value = zero(typeOf(place), loc)});
+    append(loc, AssignStmt{.place = copy(place), .value = zero(typeOf(place), loc)});
     StmtId then = block([&] { append(loc, AssignStmt{.place = place, .value = value}); });
-    append(loc, IfStmt{.condition = guard_, .then_block = then});
+    append(loc, IfStmt{.condition = copy(guard_), .then_block = then});
     return;
   }
   append(loc, AssignStmt{.place = place, .value = value});

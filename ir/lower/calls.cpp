@@ -12,7 +12,7 @@ namespace rung::ir {
 
 ExprId BodyLowering::placeOf(Target& target) {
   if (!target.place) target.place = stable(lowerPlace(target.expr));
-  return target.place;
+  return copy(target.place);
 }
 
 ExprId BodyLowering::lowerCall(rung::ExprId id, Target* target) {
@@ -38,7 +38,7 @@ ExprId BodyLowering::lowerCall(rung::ExprId id, Target* target) {
   // EN and ENO: nothing runs when EN is FALSE; a check that fails inside sets ENO FALSE and keeps the outputs.
   ExprId en = call.en ? lowerValue(call.en) : constantBool(true, loc);
   ExprId eno = temp(types::kBool, loc);
-  assign(eno, en, loc);
+  assign(copy(eno), en, loc);
   ExprId result;
   TypeId result_type = node.h.type ? strip(node.h.type) : TypeId{};
   bool has_result = result_type && types_.kind(result_type) != TypeKind::None &&
@@ -46,7 +46,7 @@ ExprId BodyLowering::lowerCall(rung::ExprId id, Target* target) {
                     call.kind != sema::CallKind::Assertion;
   if (has_result && !target) {
     result = temp(result_type, loc);
-    assign(result, zero(result_type, loc), loc);
+    assign(copy(result), zero(result_type, loc), loc);
   }
   StmtId body = block([&] {
     ExprId value = plain(nullptr);
@@ -55,20 +55,20 @@ ExprId BodyLowering::lowerCall(rung::ExprId id, Target* target) {
       ExprId place = lowerAfter({&value}, [&] { return placeOf(*target); });
       assign(place, convertValue(value, typeOf(place), loc), loc);
     } else {
-      assign(result, value, loc);
+      assign(copy(result), value, loc);
     }
   });
   if (call.eno) {
     StmtId guarded = body;
     body = block([&] {
-      StmtId failed = block([&] { assign(eno, constantBool(false, loc), loc); });
+      StmtId failed = block([&] { assign(copy(eno), constantBool(false, loc), loc); });
       append(loc, TryStmt{.body_block = guarded, .catch_block = failed, .catches = true});
     });
   }
-  append(loc, IfStmt{.condition = eno, .then_block = body});
+  append(loc, IfStmt{.condition = copy(eno), .then_block = body});
   if (call.eno && call.eno_is_pin) {  // the callee has set it, if it ran
     const StmtId none = block([&] { storeOutput(call.eno, constantBool(false, loc), false, loc); });
-    append(loc, IfStmt{.condition = unary(Op::Not, types::kBool, eno, loc), .then_block = none});
+    append(loc, IfStmt{.condition = unary(Op::Not, types::kBool, copy(eno), loc), .then_block = none});
   } else if (call.eno) {
     storeOutput(call.eno, eno, false, loc);
   }
@@ -130,7 +130,7 @@ ExprId BodyLowering::lowerArithmeticOperator(const sema::Call& call, const rung:
   for (size_t i = 0; i + 1 < operands.size(); ++i) {
     ExprId& right = operands[i + 1];
     if (i + 2 < operands.size() && !isStable(right) && !isAggregate(typeOf(right))) right = toTemp(right, loc);
-    ExprId link = binary(op, types::kBool, operands[i], right, loc);
+    ExprId link = binary(op, types::kBool, i == 0 ? operands[0] : copy(operands[i]), right, loc);
     value = value ? binary(Op::And, types::kBool, value, link, loc) : link;
   }
   return value;
@@ -160,7 +160,7 @@ ExprId BodyLowering::lowerSelect(const sema::Call& call, const rung::CallExpr& n
   auto finish = [&](Block created, ExprId value) {
     return block([&] {
       build_.block() = created;
-      assign(result, value, loc);
+      assign(copy(result), value, loc);
     });
   };
   StmtId when_true = finish(created1, value1);
@@ -180,8 +180,8 @@ ExprId BodyLowering::lowerMux(const sema::Call& call, const rung::CallExpr& node
   uint32_t inputs = static_cast<uint32_t>(call.bindings.size()) - 1;
   std::vector<StmtId> blocks;
   for (uint32_t i = 0; i < inputs; ++i)
-    blocks.push_back(
-        block([&] { assign(result, convertValue(operandOr0(call.bindings[i + 1], type, loc), type, loc), loc); }));
+    blocks.push_back(block(
+        [&] { assign(copy(result), convertValue(operandOr0(call.bindings[i + 1], type, loc), type, loc), loc); }));
   uint32_t first_case = static_cast<uint32_t>(body_.cases.size());
   for (uint32_t i = 0; i + 1 < inputs; ++i) {
     body_.cases.push_back({{static_cast<uint32_t>(body_.ranges.size()), 1}, blocks[i]});
@@ -202,7 +202,7 @@ ExprId BodyLowering::defaultArgument(sema::VarId pin_id, Loc loc) {
     if (in_.isZero(type)) return zero(type, loc);
   }
   ExprId place = temp(type, loc);
-  storeInitial(place, type, pin.init, false);
+  storeInitial(copy(place), type, pin.init, false);
   return place;
 }
 
@@ -215,9 +215,9 @@ ExprId BodyLowering::argumentPlace(ExprId value, TypeId pin_type, bool may_alias
   if (constant_memory || (same && !is_value && !may_alias)) return value;
   if (const uint32_t* index = localOf(expr); index != nullptr && body_.locals[*index].kind == LocalKind::Temp)
     return value;
-  ExprId copy = temp(same ? typeOf(value) : strip(pin_type), expr.loc);
-  assign(copy, value, loc);
-  return copy;
+  const ExprId own = temp(same ? typeOf(value) : strip(pin_type), expr.loc);
+  assign(copy(own), value, loc);
+  return own;
 }
 
 // The place of a VAR_IN_OUT: the variable, or a copy of the value that a VAR_IN_OUT CONSTANT is given.
@@ -226,9 +226,9 @@ ExprId BodyLowering::inOutPlace(rung::ExprId argument, TypeId pin_type) {
   ExprId place = lowerPlace(argument);
   if (sema::PouId wanted = in_.pouOfRecord(strip(pin_type))) place = asBase(place, wanted, loc);
   if (isPlace(body_.expr(place).kind)) return stable(place);
-  ExprId copy = temp(strip(pin_type), loc);
-  assign(copy, convertValue(place, strip(pin_type), loc), loc);
-  return copy;
+  const ExprId own = temp(strip(pin_type), loc);
+  assign(copy(own), convertValue(place, strip(pin_type), loc), loc);
+  return own;
 }
 
 // An unconditional call: without EN and ENO.
@@ -341,7 +341,7 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const rung::CallE
         if (chains && arguments.empty() && isPlainCall(binding->value)) {
           Target inner = *target;
           value = lowerCall(binding->value, &inner);
-          if (inner.stored) value = inner.place;
+          if (inner.stored) value = copy(inner.place);
         } else {
           value = lowerValue(binding->value);
         }
@@ -351,7 +351,7 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const rung::CallE
                    types_.info(typeOf(value)).length > types_.info(pin_type).length;
         if (cut) {
           argument = temp(pin_type, at);
-          assign(argument, value, at);
+          assign(copy(argument), value, at);
         } else {
           argument = argumentPlace(value, pin_type, may_alias, at);
         }
@@ -365,13 +365,12 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const rung::CallE
       const Expr& place = body_.expr(argument);
       bool part_of_byte = place.kind == ExprKind::Bits || isImageBit(place);
       if (part_of_byte) {  // a copy that is written back
-        ExprId copy = toTemp(argument, loc);
-        after.push_back({binding->value, copy, false});
-        argument = copy;
+        argument = toTemp(argument, loc);
+        after.push_back({binding->value, copy(argument), false});
       }
     } else if (!open) {
       argument = temp(pin_type, loc);
-      after.push_back({binding->value, argument, binding->negated});
+      after.push_back({binding->value, copy(argument), binding->negated});
     }
     spillArguments(point);
     arguments.push_back(argument);
@@ -402,12 +401,14 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const rung::CallE
                        .is_checked = call.is_virtual && in_.checksCasts()});
   for (const AfterCall& output : after) storeOutput(output.target, output.value, output.negated, loc);
   if (pou.faults && !(pou_ && project_.pou(pou_).library)) {
-    const StmtId fault = block(
-        [&] { append(loc, FaultStmt{.value = convert(result, types::kLInt, loc), .fault = types::Fault::Lock}); });
-    const ExprId bad = binary(Op::Ne, types::kBool, result, constant(result_type, 0, loc), loc);
+    const StmtId fault = block([&] {
+      append(loc, FaultStmt{.value = convert(copy(result), types::kLInt, loc), .fault = types::Fault::Lock});
+    });
+    const ExprId bad = binary(Op::Ne, types::kBool, copy(result), constant(result_type, 0, loc), loc);
     append(loc, IfStmt{.condition = bad, .then_block = fault});
   }
-  return result;
+  const bool is_stored = makes_string && target != &own;
+  return result && !is_stored ? copy(result) : ExprId{};
 }
 
 // ---- function blocks and programs ------------------------------------------------------------------------------
@@ -428,23 +429,22 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const rung::CallExpr& 
     Loc at = tree_.loc(binding.value);
     if (types_.isOpenArray(type)) {
       OpenArray array = passOpenArray(binding.value, type, false);
-      assign(field(asBase(instance, pin.pou, at), pin.field, typeOf(array.pointer), at), array.pointer, at);
+      assign(field(asBase(copy(instance), pin.pou, at), pin.field, typeOf(array.pointer), at), array.pointer, at);
       for (uint32_t i = 0; i < array.bounds.size(); ++i) {
         const sema::Var& bound = project_.var({pin.bounds.index + i});
-        assign(field(asBase(instance, pin.pou, at), bound.field, bound.type, at), array.bounds[i], at);
+        assign(field(asBase(copy(instance), pin.pou, at), bound.field, bound.type, at), array.bounds[i], at);
       }
       continue;
     }
-    ExprId place = pinPlace(instance, pin, at);
+    ExprId place = pinPlace(copy(instance), pin, at);
     if (pin.section == SectionKind::InOut) {
       ExprId variable = inOutPlace(binding.value, type);
       const Expr& expr = body_.expr(variable);
       if (expr.kind == ExprKind::Bits || isImageBit(expr)) {
-        ExprId copy = toTemp(variable, at);
-        copies.push_back({binding.value, copy});
-        variable = copy;
+        variable = toTemp(variable, at);
+        copies.push_back({binding.value, copy(variable)});
       }
-      if (isLocal(variable) && !isLocal(instance)) short_lived.push_back(place);
+      if (isLocal(variable) && !isLocal(instance)) short_lived.push_back(copy(place));
       append(at, BindStmt{.field = place, .place = variable});
     } else {
       assign(place, lowerValue(binding.value), at);
@@ -463,11 +463,11 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const rung::CallExpr& 
   }
   // The variables that they refer to end with this body or sooner, and a trace must not follow them there.
   for (const ExprId field : short_lived) append(loc, BindStmt{.field = field});
-  for (const CopyBack& copy : copies) storeOutput(copy.target, copy.value, false, loc);
+  for (const CopyBack& back : copies) storeOutput(back.target, back.value, false, loc);
   for (const sema::Binding& binding : call.bindings) {
     if (!binding.is_output || !binding.value) continue;
     const sema::Var& pin = project_.var(binding.pin);
-    storeOutput(binding.value, pinPlace(instance, pin, loc), binding.negated, loc);
+    storeOutput(binding.value, pinPlace(copy(instance), pin, loc), binding.negated, loc);
   }
 }
 
@@ -537,7 +537,7 @@ void BodyLowering::lowerAssertion(const sema::Call& call, const rung::CallExpr& 
     c = lowerAfter({&b}, [&] { return lowerValue(compared.right); });
     b = once(b);
     c = once(c);
-    a = binary(sema::operatorOf(compared.op()), types::kBool, b, c, compared.h.loc);
+    a = binary(sema::operatorOf(compared.op()), types::kBool, copy(b), copy(c), compared.h.loc);
   } else {
     a = lowerValue(condition);
     if (operands > 1) b = lowerAfter({&a}, [&] { return lowerValue(call.bindings[1].value); });

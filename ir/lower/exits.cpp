@@ -100,7 +100,7 @@ void BodyLowering::lowerExit(ExprId place, TypeId record) {
     sema::Call call;
     call.kind = sema::CallKind::Method;
     call.pou = methods[i];
-    lowerFunctionCall(call, node, nullptr, asBase(place, project_.pou(methods[i]).owner, loc));
+    lowerFunctionCall(call, node, nullptr, asBase(copy(place), project_.pou(methods[i]).owner, loc));
   }
   exitParts(place, record);
 }
@@ -112,7 +112,7 @@ void BodyLowering::exitParts(ExprId place, TypeId record) {
     const types::Field held = types_.info(record).fields[i];
     if (held.by_reference || !in_.hasExit(held.type)) continue;
     const TypeId type = strip(held.type);
-    const ExprId part = field(place, i, type, loc);
+    const ExprId part = field(copy(place), i, type, loc);
     if (held.role == types::FieldRole::Base) {
       exitParts(part, type);
       continue;

@@ -170,7 +170,7 @@ void BodyLowering::forEachElement(ExprId array, TypeId type, Loc loc, uint32_t d
     return;
   }
   ExprId control = temp(types::kDInt, loc);
-  indices.push_back(control);
+  indices.push_back(copy(control));
   StmtId body = block([&] { forEachElement(array, type, loc, dimension + 1, indices, store, backwards); });
   indices.pop_back();
   const types::Dimension range = types_.info(type).dimensions[dimension];
@@ -184,7 +184,7 @@ void BodyLowering::forEachElement(ExprId array, TypeId type, Loc loc, uint32_t d
 
 void BodyLowering::storeInitialRecord(ExprId place, TypeId type, rung::ExprId init) {
   if (BodyId initializer = in_.initOf(type))
-    append(body_.expr(place).loc, CallStmt{.callee = initializer, .self = place});
+    append(body_.expr(place).loc, CallStmt{.callee = initializer, .self = copy(place)});
   construct(place, type);
   if (init) storeMembers(place, init);
 }
@@ -239,7 +239,7 @@ void BodyLowering::construct(ExprId place, TypeId type) {
           call.bindings.push_back(binding);
           call.bindings.back().pin = pin;
         }
-    lowerFunctionCall(call, node, nullptr, asBase(place, project_.pou(method).owner, at.loc));
+    lowerFunctionCall(call, node, nullptr, asBase(copy(place), project_.pou(method).owner, at.loc));
   }
 }
 
@@ -255,7 +255,7 @@ void BodyLowering::storeMembers(ExprId place, rung::ExprId init) {
         if (!project_.names.same(info.fields[i].name, given.field.name)) continue;
         found = true;
         const TypeId type = info.fields[i].type;
-        const ExprId member = field(holder, i, type, loc);
+        const ExprId member = field(copy(holder), i, type, loc);
         if (in_.pouOfRecord(strip(type)) && tree_.kind(given.value) == rung::ExprKind::StructInit)
           storeMembers(member, given.value);
         else
@@ -263,7 +263,7 @@ void BodyLowering::storeMembers(ExprId place, rung::ExprId init) {
       }
       const sema::PouId object = in_.pouOfRecord(typeOf(holder));
       if (!object || !project_.pou(object).base) break;
-      holder = asBase(holder, project_.pou(object).base, loc);
+      holder = asBase(copy(holder), project_.pou(object).base, loc);
     }
   }
 }
@@ -303,12 +303,13 @@ void BodyLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId ini
     const bool whole = body_.expr(place).kind != ExprKind::Index;
     if (whole) element_ = 0;
     for (uint64_t i = 0; i < elementCount(info); ++i) {
-      storeInitial(elementAt(place, i, loc), info.base, {}, false);
+      storeInitial(elementAt(copy(place), i, loc), info.base, {}, false);
       if (in_.pouOfRecord(strip(info.base))) ++element_;
     }
   } else {
     std::vector<ExprId> indices;
-    forEachElement(place, type, loc, 0, indices, [&](ExprId element) { storeInitial(element, info.base, {}, false); });
+    forEachElement(copy(place), type, loc, 0, indices,
+                   [&](ExprId element) { storeInitial(element, info.base, {}, false); });
   }
   if (!init || tree_.kind(init) != rung::ExprKind::ArrayInit) return;
   // The elements that the initialiser lists, one by one.
@@ -334,7 +335,7 @@ void BodyLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId ini
   flatten(flatten, tree_.list(tree_.as<ArrayInitExpr>(init).elements));
   for (uint64_t i = 0; i < items.size() && i < count; ++i) {
     if (!items[i]) continue;
-    const ExprId element = elementAt(place, i, loc);
+    const ExprId element = elementAt(copy(place), i, loc);
     storeInitial(element, info.base, items[i], false);
   }
 }

@@ -128,21 +128,13 @@ class BodyLowering {
   // ---- building
   template <class T>
   ExprId add(Loc loc, TypeId type, const T& fields, uint8_t checks = 0) {
-    Expr expr;
-    expr.checks = checks;
-    expr.type = type;
-    expr.loc = loc;
-    expr.set(fields);
-    return addExpr(expr);
+    return build_.add(loc, type, fields, checks);
   }
   template <class T>
   StmtId append(Loc loc, const T& fields) {
-    Stmt stmt;
-    stmt.loc = loc;
-    stmt.set(fields);
-    return appendStmt(stmt);
+    return build_.append(loc, fields);
   }
-  Slice<ExprId> list(std::span<const ExprId> operands);
+  Slice<ExprId> list(std::span<const ExprId> operands) { return build_.list(operands); }
   ExprId constant(TypeId type, uint64_t bits, Loc loc);
   ExprId constantBool(bool value, Loc loc) { return constant(types::kBool, value ? 1 : 0, loc); }
   ExprId stringConstant(TypeId type, NameId string, Loc loc);
@@ -160,8 +152,7 @@ class BodyLowering {
   ExprId binary(Op op, TypeId type, ExprId left, ExprId right, Loc loc);
   ExprId convert(ExprId operand, TypeId to, Loc loc);
   void assign(ExprId place, ExprId value, Loc loc);
-  ExprId addExpr(Expr expr);
-  StmtId appendStmt(Stmt stmt);
+  ExprId copy(ExprId expr) { return build_.copy(expr); }  // for a second use
   TypeId typeOf(ExprId expr) const { return body_.expr(expr).type; }
   TypeId strip(TypeId type) const { return types_.resolve(type); }
   bool isAggregate(TypeId type) const;  // array, record or string: in memory, passed by reference
@@ -176,8 +167,6 @@ class BodyLowering {
     fill();
     return build_.close(outer);
   }
-  void attach(ExprId& expr);
-  std::vector<bool> attached_;
 
   // places.cpp
   ExprId lowerPlace(rung::ExprId expr);
@@ -189,7 +178,7 @@ class BodyLowering {
   ExprId pinPlace(ExprId instance, const sema::Var& pin, Loc loc);
   // The same place without operands that a later statement could change: indices and pointers go to temporaries.
   ExprId stable(ExprId place);
-  ExprId stableElement(const Expr& expr);
+  void makeStable(ExprId& operand, Loc loc);
   bool mayFault(ExprId expr) const { return ir::mayFault(body_, expr); }
   bool isStable(ExprId expr) const;  // a constant or a temporary: reading it later gives the same
 

@@ -207,9 +207,9 @@ ExprId BodyLowering::isKindOf(ExprId pointer, sema::PouId given, sema::PouId wan
 ExprId BodyLowering::checkedDowncast(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc) {
   if ((in_.options.checks & kCheckCast) == 0 || !project_.pou(given).dispatched) return pointer;
   pointer = toTemp(pointer, loc);
-  const ExprId is_set = binary(Op::Ne, types::kBool, pointer, constant(typeOf(pointer), 0, loc), loc);
+  const ExprId is_set = binary(Op::Ne, types::kBool, copy(pointer), constant(typeOf(pointer), 0, loc), loc);
   const StmtId test = block([&] {
-    const ExprId is_other = unary(Op::Not, types::kBool, isKindOf(pointer, given, wanted, loc), loc);
+    const ExprId is_other = unary(Op::Not, types::kBool, isKindOf(copy(pointer), given, wanted, loc), loc);
     const StmtId fault = block([&] { append(loc, FaultStmt{.fault = types::Fault::Cast}); });
     append(loc, IfStmt{.condition = is_other, .then_block = fault});
   });
@@ -221,16 +221,16 @@ ExprId BodyLowering::lowerAttempt(const sema::Call& call, Loc loc) {
   const ExprId source = toTemp(lowerValue(call.bindings[0].value), loc);
   const sema::PouId given = in_.pouOfRecord(strip(types_.info(typeOf(source)).base));
   const ExprId is = temp(types::kBool, loc);
-  assign(is, binary(Op::Ne, types::kBool, source, constant(typeOf(source), 0, loc), loc), loc);
+  assign(copy(is), binary(Op::Ne, types::kBool, copy(source), constant(typeOf(source), 0, loc), loc), loc);
   if (call.pou) {
-    const StmtId test = block([&] { assign(is, isKindOf(source, given, call.pou, loc), loc); });
-    append(loc, IfStmt{.condition = is, .then_block = test});
+    const StmtId test = block([&] { assign(copy(is), isKindOf(copy(source), given, call.pou, loc), loc); });
+    append(loc, IfStmt{.condition = copy(is), .then_block = test});
   }
   const ExprId target = stable(lowerPlace(call.bindings[1].value));
   const TypeId type = typeOf(target);
-  const StmtId taken = block([&] { assign(target, convertValue(source, type, loc), loc); });
+  const StmtId taken = block([&] { assign(copy(target), convertValue(source, type, loc), loc); });
   const StmtId refused = block([&] { assign(target, constant(type, 0, loc), loc); });
-  append(loc, IfStmt{.condition = is, .then_block = taken, .else_block = refused});
+  append(loc, IfStmt{.condition = copy(is), .then_block = taken, .else_block = refused});
   return is;
 }
 

@@ -47,10 +47,10 @@ ExprId BodyLowering::openArrayElement(const rung::IndexExpr& node) {
       return convertValue(openArrayBound(node.base, 2 * i + which, loc), number, loc);
     };
     if ((in_.options.checks & kCheckIndex) != 0) {
-      ExprId outside = binary(Op::Or, types::kBool, binary(Op::Lt, types::kBool, index, bound(0), loc),
-                              binary(Op::Gt, types::kBool, index, bound(1), loc), loc);
-      if (guard_) outside = binary(Op::And, types::kBool, guard_, outside, loc);
-      StmtId fault = block([&] { append(loc, FaultStmt{.value = index, .fault = types::Fault::Index}); });
+      ExprId outside = binary(Op::Or, types::kBool, binary(Op::Lt, types::kBool, copy(index), bound(0), loc),
+                              binary(Op::Gt, types::kBool, copy(index), bound(1), loc), loc);
+      if (guard_) outside = binary(Op::And, types::kBool, copy(guard_), outside, loc);
+      StmtId fault = block([&] { append(loc, FaultStmt{.value = copy(index), .fault = types::Fault::Index}); });
       append(loc, IfStmt{.condition = outside, .then_block = fault});
     }
     ExprId step = binary(Op::Sub, number, index, bound(0), loc);

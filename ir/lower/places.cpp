@@ -206,24 +206,33 @@ bool BodyLowering::isStable(ExprId id) const {
   return false;
 }
 
+// An index or pointer of a place goes to a temporary unless it is one.
+void BodyLowering::makeStable(ExprId& operand, Loc loc) {
+  if (isStable(operand)) return;
+  build_.detach(operand);  // from the place to an assignment
+  operand = toTemp(operand, loc);
+}
+
 ExprId BodyLowering::stable(ExprId place) {
-  const Expr expr = body_.expr(place);
-  switch (expr.kind) {
+  const Loc loc = body_.expr(place).loc;
+  switch (body_.expr(place).kind) {
     case ExprKind::Field:
-    case ExprKind::Bits: {
-      const ExprId own = baseOf(expr), base = stable(own);
-      if (base == own) return place;
-      Expr moved = expr;
-      forEachOperand(body_, moved, [&](ExprId& operand) { operand = base; });
-      return addExpr(moved);
+    case ExprKind::Bits: stable(baseOf(body_.expr(place))); return place;
+    case ExprKind::Index: {
+      stable(baseOf(body_.expr(place)));
+      const Slice<ExprId> indices = body_.expr(place).as<IndexExpr>().indices;
+      for (uint32_t i = 0; i < indices.count; ++i) {
+        ExprId index = body_.list(indices)[i];
+        makeStable(index, loc);
+        body_.list(indices)[i] = index;
+      }
+      break;
     }
-    case ExprKind::Index: return stableElement(expr);
     case ExprKind::Deref: {
-      ExprId pointer = expr.as<DerefExpr>().pointer;
-      if (!isStable(pointer)) pointer = toTemp(pointer, expr.loc);
-      if (expr.checks != 0)  // checked once, here
-        append(expr.loc, EvaluateStmt{add(expr.loc, expr.type, DerefExpr{pointer}, expr.checks)});
-      return add(expr.loc, expr.type, DerefExpr{pointer});
+      ExprId pointer = body_.expr(place).as<DerefExpr>().pointer;
+      makeStable(pointer, loc);
+      body_.expr(place).as<DerefExpr>().pointer = pointer;
+      break;
     }
     case ExprKind::None:
     case ExprKind::Const:
@@ -242,19 +251,11 @@ ExprId BodyLowering::stable(ExprId place) {
     case ExprKind::Call:
     case ExprKind::Address: return place;
   }
-  return place;
-}
-
-ExprId BodyLowering::stableElement(const Expr& expr) {
-  const ExprId base = stable(expr.as<IndexExpr>().base);
-  std::vector<ExprId> indices;
-  for (uint32_t i = 0; i < expr.as<IndexExpr>().indices.count; ++i) {
-    const ExprId index = body_.list(expr.as<IndexExpr>().indices)[i];
-    indices.push_back(isStable(index) ? index : toTemp(index, expr.loc));
+  if (body_.expr(place).checks != 0) {  // checked once, here
+    append(loc, EvaluateStmt{copy(place)});
+    body_.expr(place).checks = 0;
   }
-  if (expr.checks != 0)  // checked once, here
-    append(expr.loc, EvaluateStmt{add(expr.loc, expr.type, IndexExpr{base, list(indices)}, expr.checks)});
-  return add(expr.loc, expr.type, IndexExpr{base, list(indices)});
+  return place;
 }
 
 }  // namespace rung::ir

@@ -16,9 +16,9 @@ void BodyLowering::lowerPou() {
       // The caller's variable stays unchanged: a body that writes a by-reference input writes a copy, made here.
       uint32_t& index = local_of_[var.field];
       if (!var.written || !body_.locals[index - 1].by_reference) continue;
-      ExprId copy = temp(strip(var.type), var.loc);
-      assign(copy, local(index - 1, var.loc), var.loc);
-      index = *localOf(body_.expr(copy)) + 1;
+      const ExprId own = temp(strip(var.type), var.loc);
+      assign(own, local(index - 1, var.loc), var.loc);
+      index = *localOf(body_.expr(own)) + 1;
       continue;
     }
     storeInitial(local(local_of_[var.field] - 1, var.loc), strip(var.type), var.init, false);
@@ -145,7 +145,7 @@ void BodyLowering::lowerAssign(const rung::AssignStmt& stmt) {
       ExprId value = lowerValue(stmt.value);
       ExprId target = stable(lowerAfter({&value}, [&] { return lowerPlace(stmt.target); }));
       TypeId type = typeOf(target);
-      assign(target, binary(op, type, target, convertValue(value, type, loc), loc), loc);
+      assign(target, binary(op, type, copy(target), convertValue(value, type, loc), loc), loc);
       return;
     }
     case AssignOp::Attempt: break;  // sema made a call of it
@@ -248,25 +248,26 @@ void BodyLowering::lowerForOfSubrange(const rung::ForStmt& stmt, ExprId control,
   ExprId count = temp(plain, loc);
   ExprId first = toTemp(convertValue(from, plain, loc), loc), last = toTemp(convertValue(to, plain, loc), loc);
   auto store = [&](ExprId value) {  // in range: no check, no saturation
-    append(loc, AssignStmt{.place = control, .value = add(loc, type, ConvertExpr{.operand = value})});
+    append(loc, AssignStmt{.place = copy(control), .value = add(loc, type, ConvertExpr{.operand = value})});
   };
   auto iteration = [&] {
-    store(count);
+    store(copy(count));
     lowerStatements(stmt.body);
   };
   if (step) {
     StmtId body = block(iteration);
-    append(
-        loc,
-        ForStmt{
-            .control = count, .from = first, .to = last, .step = constant(plain, step->bits, loc), .body_block = body});
+    append(loc, ForStmt{.control = copy(count),
+                        .from = first,
+                        .to = copy(last),
+                        .step = constant(plain, step->bits, loc),
+                        .body_block = body});
   } else {
-    lowerForWithVariableStep(stmt, count, first, last, iteration);
+    lowerForWithVariableStep(stmt, copy(count), first, copy(last), iteration);
   }
   const TypeInfo& range = types_.info(type);
   auto bound = [&](int64_t value) { return constant(plain, static_cast<uint64_t>(value), loc); };
-  ExprId outside = binary(Op::Or, types::kBool, binary(Op::Lt, types::kBool, count, bound(range.low), loc),
-                          binary(Op::Gt, types::kBool, count, bound(range.high), loc), loc);
+  ExprId outside = binary(Op::Or, types::kBool, binary(Op::Lt, types::kBool, copy(count), bound(range.low), loc),
+                          binary(Op::Gt, types::kBool, copy(count), bound(range.high), loc), loc);
   StmtId at_limit = block([&] { store(last); });
   StmtId past = block([&] { store(count); });
   append(loc, IfStmt{.condition = outside, .then_block = at_limit, .else_block = past});
@@ -282,28 +283,30 @@ void BodyLowering::lowerForWithVariableStep(const rung::ForStmt& stmt, ExprId co
   to = toTemp(to, loc);
   ExprId step = toTemp(lowerValue(stmt.step), loc);
   TypeId step_type = typeOf(step);  // of an unsigned variable perhaps the signed type of its width
-  assign(control, from, loc);
+  assign(copy(control), from, loc);
   bool is_signed = types_.isSigned(types_.plainKind(step_type));
   ExprId upward = toTemp(
-      is_signed ? binary(Op::Ge, types::kBool, step, constant(step_type, 0, loc), loc) : constantBool(true, loc), loc);
+      is_signed ? binary(Op::Ge, types::kBool, copy(step), constant(step_type, 0, loc), loc) : constantBool(true, loc),
+      loc);
   step = toTemp(convertValue(step, type, loc), loc);
   ExprId next = temp(type, loc);
   StmtId leave = block([&] { append(loc, BreakStmt{}); });
+  auto comparison = [&](Op op, ExprId left, ExprId right) {
+    return binary(op, types::kBool, copy(left), copy(right), loc);
+  };
   auto chosen = [&](ExprId when_up, ExprId when_down) {
-    return add(loc, types::kBool, SelectExpr{.condition = upward, .when_true = when_up, .when_false = when_down});
+    return add(loc, types::kBool, SelectExpr{.condition = copy(upward), .when_true = when_up, .when_false = when_down});
   };
   StmtId body = block([&] {
-    ExprId past =
-        chosen(binary(Op::Gt, types::kBool, control, to, loc), binary(Op::Lt, types::kBool, control, to, loc));
+    ExprId past = chosen(comparison(Op::Gt, control, to), comparison(Op::Lt, control, to));
     append(loc, IfStmt{.condition = past, .then_block = leave});
     iteration();
   });
   StmtId advance = block([&] {
-    assign(next, binary(Op::Add, type, control, step, loc), loc);
-    ExprId wrapped =
-        chosen(binary(Op::Lt, types::kBool, next, control, loc), binary(Op::Gt, types::kBool, next, control, loc));
+    assign(copy(next), binary(Op::Add, type, copy(control), step, loc), loc);
+    ExprId wrapped = chosen(comparison(Op::Lt, next, control), comparison(Op::Gt, next, control));
     StmtId stop = block([&] {
-      assign(control, to, loc);
+      assign(copy(control), to, loc);
       append(loc, BreakStmt{});
     });
     append(loc, IfStmt{.condition = wrapped, .then_block = stop});
@@ -359,7 +362,7 @@ void BodyLowering::lowerTry(const rung::TryStmt& stmt) {
       ExprId code = constant(types::kUDInt, exceptionCode(types::Fault::Cast), loc);
       for (types::Fault fault : {types::Fault::Div, types::Fault::Index, types::Fault::Null, types::Fault::Overflow}) {
         ExprId is_it =
-            binary(Op::Eq, types::kBool, number, constant(types::kDInt, static_cast<uint64_t>(fault), loc), loc);
+            binary(Op::Eq, types::kBool, copy(number), constant(types::kDInt, static_cast<uint64_t>(fault), loc), loc);
         ExprId own = constant(types::kUDInt, exceptionCode(fault), loc);
         code = add(loc, types::kUDInt, SelectExpr{.condition = is_it, .when_true = own, .when_false = code});
       }

@@ -135,8 +135,8 @@ void BodyLowering::spillPlace(InsertionPoint point, ExprId& place) {
 }
 
 ExprId BodyLowering::toTemp(ExprId value, Loc loc) {
-  ExprId place = temp(typeOf(value), loc);
-  assign(place, value, loc);
+  const ExprId place = temp(typeOf(value), loc);
+  assign(copy(place), value, loc);
   return place;
 }
 
@@ -269,31 +269,30 @@ ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circu
   ExprId left = lowerValue(node.left);
   const ExprId chained = left == logical_ ? left : ExprId{};
   auto guarded = [&](ExprId result, StmtId right_block) {
-    const ExprId matters = is_and ? result : unary(Op::Not, types::kBool, result, loc);
+    const ExprId read = copy(result);
+    const ExprId matters = is_and ? read : unary(Op::Not, types::kBool, read, loc);
     append(loc, IfStmt{.condition = matters, .then_block = right_block});
     return logical_ = result;
   };
   // A chain such as `a AND b AND c` shares one temporary.
   auto holding = [&](ExprId value) {
     if (chained && value == chained) return value;
-    ExprId result = temp(types::kBool, loc);
-    assign(result, value, loc);
-    return result;
+    return toTemp(value, loc);
   };
 
   if (!short_circuit) {
     ExprId outer_guard = guard_;
     if (callsFunction(node.right)) {
       left = toTemp(left, loc);
-      ExprId matters = is_and ? left : unary(Op::Not, types::kBool, left, loc);
-      if (guard_) matters = binary(Op::And, types::kBool, guard_, matters, loc);
-      guard_ = is_and && !guard_ ? left : toTemp(matters, loc);
+      ExprId matters = is_and ? copy(left) : unary(Op::Not, types::kBool, copy(left), loc);
+      if (guard_) matters = binary(Op::And, types::kBool, copy(guard_), matters, loc);
+      guard_ = is_and && !guard_ ? matters : toTemp(matters, loc);
     }
     ExprId right = lowerAfter({&left}, [&] { return lowerValue(node.right); });
     guard_ = outer_guard;
     if (!mayFault(right)) return binary(op, types::kBool, left, right, loc);
     ExprId result = holding(left);
-    return guarded(result, block([&] { assign(result, right, loc); }));
+    return guarded(result, block([&] { assign(copy(result), right, loc); }));
   }
 
   const Block outer = build_.open();
@@ -304,7 +303,7 @@ ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circu
   ExprId result = holding(left);
   return guarded(result, block([&] {
                    build_.block() = inner;
-                   assign(result, right, loc);
+                   assign(copy(result), right, loc);
                  }));
 }
 
@@ -339,9 +338,9 @@ ExprId BodyLowering::lowerAnyValue(rung::ExprId id) {
   if (!isPlace(expr.kind) || is_bit) value = toTemp(value, loc);
   ExprId descriptor = temp(node.h.type, loc);
   const TypeInfo& record = types_.info(strip(node.h.type));
-  auto part = [&](uint32_t index) { return field(descriptor, index, record.fields[index].type, loc); };
+  auto part = [&](uint32_t index) { return field(copy(descriptor), index, record.fields[index].type, loc); };
   if (node.facts) {  // __VARINFO: the address is the first member
-    storeInitial(descriptor, node.h.type, node.facts, false);
+    storeInitial(copy(descriptor), node.h.type, node.facts, false);
     const TypeId to = types_.pointer(typeOf(value));
     types_.layout(to);
     const ExprId address = add(loc, to, AddressExpr{.place = value});
@@ -381,11 +380,11 @@ ExprId BodyLowering::lowerObjectConversion(const rung::ConvertExpr& node) {
     return add(loc, to, ConvertExpr{.operand = pointer});
   if (!isStable(pointer)) pointer = toTemp(pointer, loc);
   const ExprId result = temp(to, loc);
-  assign(result, constant(to, 0, loc), loc);
-  const ExprId is_null = binary(Op::Ne, types::kBool, pointer, constant(from, 0, loc), loc);
+  assign(copy(result), constant(to, 0, loc), loc);
+  const ExprId is_null = binary(Op::Ne, types::kBool, copy(pointer), constant(from, 0, loc), loc);
   const StmtId then = block([&] {
     const ExprId whole = add(loc, target, DerefExpr{.pointer = pointer});
-    assign(result, addressOf(asBase(whole, wanted, loc)), loc);
+    assign(copy(result), addressOf(asBase(whole, wanted, loc)), loc);
   });
   append(loc, IfStmt{.condition = is_null, .then_block = then});
   return result;
