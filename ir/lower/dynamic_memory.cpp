@@ -4,14 +4,14 @@
 
 namespace rung::ir {
 
-ExprId BodyLowering::callPool(sema::PouId function, std::initializer_list<ExprId> arguments, Loc loc) {
+ExprId ValueLowering::callPool(sema::PouId function, std::initializer_list<ExprId> arguments, Loc loc) {
   const BodyId body = in_.bodyOf(function);
   const ExprId result = temp(strip(project_.pou(function).result), loc);
   append(loc, CallStmt{.callee = body, .operands = list({arguments.begin(), arguments.size()}), .result = result});
   return copy(result);
 }
 
-ExprId BodyLowering::lowerNew(rung::ExprId id) {
+ExprId ValueLowering::lowerNew(rung::ExprId id) {
   const NewExpr node = tree_.as<NewExpr>(id);
   const Loc loc = node.h.loc;
   const TypeId pointer_type = strip(node.h.type), declared = types_.info(pointer_type).base, type = strip(declared);
@@ -27,12 +27,12 @@ ExprId BodyLowering::lowerNew(rung::ExprId id) {
   assign(copy(pointer), convertValue(memory, pointer_type, loc), loc);
   if (in_.isZero(declared)) return pointer;
   const ExprId is_there = binary(Op::Ne, types::kBool, copy(pointer), constant(pointer_type, 0, loc), loc);
-  const CallId outer = given_;
-  given_ = node.constructor;
+  const CallId outer = state_.given;
+  state_.given = node.constructor;
   const StmtId then = block([&] {
     if (!node.count) {
       const ExprId place = add(loc, type, DerefExpr{.pointer = copy(pointer)});
-      storeInitial(place, declared, {}, true);
+      objects().storeInitial(place, declared, {}, true);
       return;
     }
     constexpr uint64_t kMaxBytes = uint64_t{1} << 30;
@@ -44,7 +44,7 @@ ExprId BodyLowering::lowerNew(rung::ExprId id) {
     const ExprId elements = convert(copy(pointer), to_row, loc);
     const ExprId whole = add(loc, row, DerefExpr{.pointer = elements});
     const ExprId control = temp(types::kLInt, loc), number = copy(control);
-    const StmtId body = block([&] { storeInitial(element(whole, {&number, 1}, loc), declared, {}, true); });
+    const StmtId body = block([&] { objects().storeInitial(element(whole, {&number, 1}, loc), declared, {}, true); });
     const ExprId last = binary(Op::Sub, types::kLInt, copy(count), constant(types::kLInt, 1, loc), loc);
     append(loc, ForStmt{.control = control,
                         .from = constant(types::kLInt, 0, loc),
@@ -52,15 +52,15 @@ ExprId BodyLowering::lowerNew(rung::ExprId id) {
                         .step = constant(types::kLInt, 1, loc),
                         .body_block = body});
   });
-  given_ = outer;
+  state_.given = outer;
   append(loc, IfStmt{.condition = is_there, .then_block = then});
   return pointer;
 }
 
 // A null pointer stays null. Memory that is not of the pool, or was released before, is fault[null].
-void BodyLowering::lowerDelete(const sema::Call& call, Loc loc) {
+void ValueLowering::lowerDelete(const sema::Call& call, Loc loc) {
   const bool is_this = tree_.kind(call.instance) == rung::ExprKind::This;
-  const ExprId place = is_this ? lowerValue(call.instance) : stable(lowerPlace(call.instance));
+  const ExprId place = is_this ? lowerValue(call.instance) : stable(places().lowerPlace(call.instance));
   const TypeId pointer_type = typeOf(place), type = strip(types_.info(pointer_type).base);
   const ExprId pointer = toTemp(copy(place), loc);
   const TypeId bytes = strip(project_.var(project_.pou(call.pou).vars.front()).type);
@@ -80,9 +80,9 @@ void BodyLowering::lowerDelete(const sema::Call& call, Loc loc) {
       const StmtId ends = block([&] {
         const ExprId whole = add(loc, type, DerefExpr{.pointer = copy(pointer)});
         if (object)
-          callExit(whole, false, loc);
+          objects().callExit(whole, false, loc);
         else
-          exitElement(whole, type);
+          objects().exitElement(whole, type);
       });
       if (ends) append(loc, IfStmt{.condition = owned, .then_block = ends});
     }
