@@ -47,7 +47,9 @@ class Builder {
   }
   Slice<ExprId> list(std::span<const ExprId> operands);
   // Of a node that gives its operand away: the operand may be used once more.
-  void detach(ExprId operand) { attached_[operand.index] = false; }
+  void detach(ExprId operand) {
+    if (operand.index < attached_.size()) attached_[operand.index] = false;
+  }
 
   // ---- variables of the body
   uint32_t local(NameId name, TypeId type, LocalKind kind);  // by_reference follows from kind and type

@@ -157,7 +157,10 @@ ExprId Builder::address(TypeId pointer, ExprId place) { return add(pointer, Addr
 
 ExprId Builder::negation(ExprId condition) {
   const auto* inverse = body.expr(condition).tryAs<UnaryExpr>();
-  if (inverse != nullptr && inverse->op == Op::Not) return inverse->operand;
+  if (inverse != nullptr && inverse->op == Op::Not) {
+    detach(inverse->operand);
+    return inverse->operand;
+  }
   return unary(Op::Not, condition);
 }
 
