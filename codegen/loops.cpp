@@ -5,13 +5,10 @@
 
 namespace rung::codegen {
 
-// The condition of `if condition { break }`, with nothing to be done before it; none of other statements.
+// The condition of a loop's exit test, with nothing to be done before it; none of other statements.
 ir::ExprId BodyWriter::exitTest(StmtId id) const {
-  const auto* test = id ? body_->stmt(id).tryAs<ir::IfStmt>() : nullptr;
-  if (test == nullptr || test->else_block || !test->then_block) return {};
-  const Stmt& inner = body_->stmt(test->then_block);
-  const bool leaves = inner.kind == StmtKind::Break && !inner.next && !needsPreparation(test->condition);
-  return leaves ? test->condition : ExprId{};
+  const ExprId test = ir::exitTest(*body_, id);
+  return test && !needsPreparation(test) ? test : ExprId{};
 }
 
 void BodyWriter::loopStatement(const ir::LoopStmt& stmt) {

@@ -45,9 +45,11 @@ class Builder {
   StmtId append(const T& fields) {
     return append(loc, fields);
   }
-  ExprId push(const Expr& expr);
-  StmtId push(const Stmt& stmt);
   Slice<ExprId> list(std::span<const ExprId> operands);
+  // Of a node that gives its operand away: the operand may be used once more.
+  void detach(ExprId operand) {
+    if (operand.index < attached_.size()) attached_[operand.index] = false;
+  }
 
   // ---- variables of the body
   uint32_t local(NameId name, TypeId type, LocalKind kind);  // by_reference follows from kind and type
@@ -123,8 +125,12 @@ class Builder {
   ExprId add(TypeId type, const T& fields, uint8_t checks = 0) {
     return add(loc, strip(type), fields, checks);
   }
+  ExprId push(const Expr& expr);
+  StmtId push(const Stmt& stmt);
+  void attach(ExprId operand);
   TypeId strip(TypeId type) const { return module.types.resolve(type); }
   Block block_;
+  std::vector<bool> attached_;  // by expression that this builder made an operand
   uint32_t temps_ = 0;
 };
 

@@ -67,13 +67,25 @@ uint32_t Builder::label(NameId name) {
 
 // ---- expressions
 
+void Builder::attach(ExprId id) {
+  if (!id) return;
+  if (attached_.size() <= id.index) attached_.resize(body.exprs.size() + 64);
+  RUNG_INVARIANT(!attached_[id.index], "an expression is the operand of one node; a second one takes a copy");
+  attached_[id.index] = true;
+}
+
 ExprId Builder::push(const Expr& expr) {
   if (body.exprs.empty()) body.exprs.emplace_back();
+  if (const auto* index = expr.tryAs<IndexExpr>())  // `list` has attached those in a list
+    attach(index->base);
+  else if (expr.kind != ExprKind::Call)
+    forEachOperand(body, expr, [&](ExprId operand) { attach(operand); });
   body.exprs.push_back(expr);
   return ExprId{static_cast<uint32_t>(body.exprs.size()) - 1};
 }
 
 Slice<ExprId> Builder::list(std::span<const ExprId> operands) {
+  for (const ExprId operand : operands) attach(operand);
   const auto first = static_cast<uint32_t>(body.operands.size());
   body.operands.insert(body.operands.end(), operands.begin(), operands.end());
   return {first, static_cast<uint32_t>(operands.size())};
@@ -145,7 +157,10 @@ ExprId Builder::address(TypeId pointer, ExprId place) { return add(pointer, Addr
 
 ExprId Builder::negation(ExprId condition) {
   const auto* inverse = body.expr(condition).tryAs<UnaryExpr>();
-  if (inverse != nullptr && inverse->op == Op::Not) return inverse->operand;
+  if (inverse != nullptr && inverse->op == Op::Not) {
+    detach(inverse->operand);
+    return inverse->operand;
+  }
   return unary(Op::Not, condition);
 }
 
@@ -173,6 +188,12 @@ ExprId Builder::copy(ExprId original) {
 
 StmtId Builder::push(const Stmt& stmt) {
   if (body.stmts.empty()) body.stmts.emplace_back();
+  if (const auto* call = stmt.tryAs<CallStmt>()) {
+    attach(call->self);
+    attach(call->result);
+  } else {
+    forEachRoot(module, body, stmt, [&](ExprId root, Use) { attach(root); });
+  }
   body.stmts.push_back(stmt);
   StmtId id{static_cast<uint32_t>(body.stmts.size()) - 1};
   if (block_.last) body.stmt(block_.last).next = id;

@@ -119,69 +119,62 @@ enum class StmtKind : uint8_t {
 #undef RUNG_CASES
 #undef RUNG_VALUE
 
-// What all nodes have, and room for the fields of any kind: a body keeps its nodes in one vector, and a pass can give a
-// node another kind in place.
+// Room for the fields of a node of any kind: a body keeps its nodes in one vector, and a pass can give a node another
+// kind in place.
 //   const FieldExpr& field = expr.as<FieldExpr>();                     the kind is known
 //   if (const auto* field = expr.tryAs<FieldExpr>()) …                 null: another kind
 //   expr.set(LocalExpr{.local = temp});                                another kind from now on
 template <class Kind, size_t size>
-struct NodeFields {
-  alignas(uint32_t) unsigned char bytes[size] = {};
+class Node {
+  alignas(uint32_t) unsigned char fields_[size] = {};
+
+ public:
+  Kind kind = Kind::None;
 
   template <class T>
-  T& as(Kind kind) {
-    expect(kind, T::kKind);
-    return *std::launder(reinterpret_cast<T*>(bytes));
+  T& as() {
+    expectKind(T::kKind);
+    return *std::launder(reinterpret_cast<T*>(fields_));
   }
   template <class T>
-  const T& as(Kind kind) const {
-    expect(kind, T::kKind);
-    return *std::launder(reinterpret_cast<const T*>(bytes));
+  const T& as() const {
+    expectKind(T::kKind);
+    return *std::launder(reinterpret_cast<const T*>(fields_));
+  }
+  template <class T>
+  const T* tryAs() const {
+    return kind == T::kKind ? &as<T>() : nullptr;
   }
   template <class T>
   void set(const T& fields) {
     static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= size && alignof(T) <= alignof(uint32_t));
-    std::memcpy(bytes, &fields, sizeof fields);
+    kind = T::kKind;
+    std::memcpy(fields_, &fields, sizeof fields);
   }
-  static void expect([[maybe_unused]] Kind kind, [[maybe_unused]] Kind wanted) {
+
+ private:
+  void expectKind([[maybe_unused]] Kind wanted) const {
 #ifndef NDEBUG
     RUNG_INVARIANT(kind == wanted, "a node is read as what it is");
 #endif
   }
 };
 
-struct Expr {
-  ExprKind kind = ExprKind::None;
+struct Expr : Node<ExprKind, 12> {
   uint8_t checks = 0;
   TypeId type;
   Loc loc;
-  union {
-    NodeFields<ExprKind, 12> fields = {};
-    struct {
-      uint32_t a, b, c;
-    };
-  };
 
-  template <class T>
-  T& as() {
-    return fields.as<T>(kind);
-  }
-  template <class T>
-  const T& as() const {
-    return fields.as<T>(kind);
-  }
-  template <class T>
-  const T* tryAs() const {
-    return kind == T::kKind ? &fields.as<T>(kind) : nullptr;
-  }
-  template <class T>
-  void set(const T& to) {
-    kind = T::kKind;
-    fields.set(to);
-  }
+  // Of a Unary or Binary.
   Op op() const { return kind == ExprKind::Unary ? as<UnaryExpr>().op : as<BinaryExpr>().op; }
 };
 static_assert(sizeof(Expr) == 24 && std::is_trivially_copyable_v<Expr>);
+
+struct Stmt : Node<StmtKind, 24> {
+  Loc loc;
+  StmtId next;
+};
+static_assert(sizeof(Stmt) == 36 && std::is_trivially_copyable_v<Stmt>);
 
 inline bool isConst(const Expr& e) { return e.kind == ExprKind::Const; }
 inline uint64_t bitsOf(const Expr& constant) { return constant.as<ConstExpr>().bits; }
@@ -193,37 +186,6 @@ inline const uint32_t* localOf(const Expr& e) {
   const auto* local = e.tryAs<LocalExpr>();
   return local == nullptr ? nullptr : &local->local;
 }
-
-struct Stmt {
-  StmtKind kind = StmtKind::None;
-  Loc loc;
-  StmtId next;
-  union {
-    NodeFields<StmtKind, 24> fields = {};
-    struct {
-      uint32_t a, b, c, d, e;
-    };
-  };
-
-  template <class T>
-  T& as() {
-    return fields.as<T>(kind);
-  }
-  template <class T>
-  const T& as() const {
-    return fields.as<T>(kind);
-  }
-  template <class T>
-  const T* tryAs() const {
-    return kind == T::kKind ? &fields.as<T>(kind) : nullptr;
-  }
-  template <class T>
-  void set(const T& to) {
-    kind = T::kKind;
-    fields.set(to);
-  }
-};
-static_assert(sizeof(Stmt) == 36 && std::is_trivially_copyable_v<Stmt>);
 
 enum class LocalKind : uint8_t {
   Temp,      // made by the compiler, name `t1`

@@ -45,7 +45,8 @@ void Reader::stmt() {
   if (accept("var")) return localDeclaration(LocalKind::Variable);
   if (accept("assert_eq")) return assertion(Assertion::AssertEq);
   if (accept("assert_near")) return assertion(Assertion::AssertNear);
-  const StmtKind kind = isName() ? statementOf(token().text) : StmtKind::None;
+  const bool is_word = token().kind == TokenKind::Name && !token().quoted;
+  const StmtKind kind = is_word ? statementOf(token().text) : StmtKind::None;
   if (kind != StmtKind::None) ++at_;
   switch (kind) {
     case StmtKind::None:
@@ -80,8 +81,6 @@ void Reader::stmt() {
     case StmtKind::Evaluate: return append(loc, EvaluateStmt{.value = expr({})});
   }
 }
-
-StmtId Reader::optionalBlock(std::string_view word) { return accept(word) ? block() : StmtId{}; }
 
 void Reader::localDeclaration(LocalKind kind) {
   const Loc loc = token().loc;
@@ -352,7 +351,16 @@ ExprId Reader::primary(TypeId wanted) {
     return {};
   }
   if (accept("convert")) return conversion();
-  if (accept("select")) return selection();
+  if (accept("select")) {  // select int condition, yes, no
+    const Loc loc = b.loc;
+    const TypeId of = type();
+    SelectExpr node{.condition = expr(types::kBool)};
+    expect(",");
+    node.when_true = expr(of);
+    expect(",");
+    node.when_false = expr(of);
+    return failed_ ? ExprId{} : b.add(loc, types_.resolve(of), node);
+  }
   if (accept("address")) {
     const Loc loc = b.loc;
     const TypeId of = type();
@@ -423,18 +431,6 @@ ExprId Reader::conversion() {
   at_ = end;
   b.body.expr(id).checks = set;
   return id;
-}
-
-// select int condition, yes, no
-ExprId Reader::selection() {
-  const Loc loc = builder_->loc;
-  const TypeId of = type();
-  SelectExpr node{.condition = expr(types::kBool)};
-  expect(",");
-  node.when_true = expr(of);
-  expect(",");
-  node.when_false = expr(of);
-  return failed_ ? ExprId{} : builder_->add(loc, types_.resolve(of), node);
 }
 
 // add! int x, y   not bool x. The type is that of the operands.

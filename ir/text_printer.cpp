@@ -216,128 +216,103 @@ void Printer::origin(const Origin& origin, Loc loc) {
   number(line);
 }
 
-void Printer::items() {
-  for (const types::MemoryArea& area : module_.areas) {
-    if (area.bytes == 0) continue;
-    put("area ");
-    out += area.letter;
-    put(" ");
-    put(spelling(area.owner));
-    put(" ");
-    number(area.bytes);
-    put("\n");
+// A word and a number, a name or a body; nothing for 0 or none.
+void Printer::clause(const char* word, uint64_t value) {
+  if (value == 0) return;
+  put(word);
+  number(value);
+}
+void Printer::clause(const char* word, NameId value) {
+  if (!value) return;
+  put(word);
+  name(value);
+}
+void Printer::clause(const char* word, BodyId value) {
+  if (value) clause(word, module_.body(value).name);
+}
+
+void Printer::dataItem(size_t index) {
+  static constexpr char kHex[] = "0123456789abcdef";
+  const Data& data = module_.data[index];
+  put("data ");
+  number(index);
+  put(": ");
+  type(data.type);
+  put(" \"");
+  for (size_t k = 0; k < data.bytes.size(); ++k) {
+    if (k > 0 && k % 32 == 0)
+      put("\"\n  \"");
+    else if (k > 0 && k % 4 == 0)
+      put(" ");
+    out += kHex[data.bytes[k] >> 4];
+    out += kHex[data.bytes[k] & 15];
   }
-  for (size_t i = 0; i < module_.data.size(); ++i) {
-    static constexpr char kHex[] = "0123456789abcdef";
-    const Data& data = module_.data[i];
-    put("data ");
-    number(i);
-    put(": ");
-    type(data.type);
-    put(" \"");
-    for (size_t k = 0; k < data.bytes.size(); ++k) {
-      if (k > 0 && k % 32 == 0)
-        put("\"\n  \"");
-      else if (k > 0 && k % 4 == 0)
-        put(" ");
-      out += kHex[data.bytes[k] >> 4];
-      out += kHex[data.bytes[k] & 15];
-    }
-    put("\"\n");
+  put("\"\n");
+}
+
+void Printer::task(const Task& task) {
+  static constexpr const char* kKinds[] = {"cyclic", "freewheeling", "event", "status", "external"};
+  put("task ");
+  name(task.name);
+  put(" ");
+  put(kKinds[static_cast<size_t>(task.kind)]);
+  if (task.interval_ns != 0) {
+    put(" interval ");
+    signedNumber(task.interval_ns);
   }
-  for (const List& list : module_.lists) {
-    put("list @");
-    name(list.name);
-    put(": ");
-    type(list.record);
-    put("\n");
+  clause(" priority ", task.priority);
+  if (!task.trigger.empty()) {
+    put(" trigger ");
+    quoted(task.trigger, '"');
   }
-  for (const Task& task : module_.tasks) {
-    static constexpr const char* kKinds[] = {"cyclic", "freewheeling", "event", "status", "external"};
-    put("task ");
-    name(task.name);
-    put(" ");
-    put(kKinds[static_cast<size_t>(task.kind)]);
-    if (task.interval_ns != 0) {
-      put(" interval ");
-      signedNumber(task.interval_ns);
-    }
-    if (task.priority != 0) {
-      put(" priority ");
-      number(task.priority);
-    }
-    if (!task.trigger.empty()) {
-      put(" trigger ");
-      quoted(task.trigger, '"');
-    }
-    if (!task.external_event.empty()) {
-      put(" external ");
-      quoted(task.external_event, '"');
-    }
-    if (task.watchdog_ns != 0) {
-      put(" watchdog ");
-      signedNumber(task.watchdog_ns);
-    }
-    if (task.sensitivity != 0) {
-      put(" sensitivity ");
-      number(task.sensitivity);
-    }
-    put("\n");
+  if (!task.external_event.empty()) {
+    put(" external ");
+    quoted(task.external_event, '"');
   }
-  for (const ProgramInstance& instance : module_.programs) {
-    put("instance $");
-    name(instance.name);
-    put(": ");
-    type(instance.record);
-    if (instance.task != 0) {
-      put(" task ");
-      name(module_.tasks[instance.task - 1].name);
-    }
-    if (instance.is_test) put(" test");
-    if (instance.resource) {
-      put(" resource ");
-      name(instance.resource);
-    }
-    if (instance.configuration) {
-      put(" configuration ");
-      name(instance.configuration);
-    }
-    if (instance.run) {
-      put(" run @");
-      name(module_.body(instance.run).name);
-    }
-    if (instance.setup) {
-      put(" setup @");
-      name(module_.body(instance.setup).name);
-    }
-    if (instance.exit) {
-      put(" exit @");
-      name(module_.body(instance.exit).name);
-    }
-    put("\n");
+  if (task.watchdog_ns != 0) {
+    put(" watchdog ");
+    signedNumber(task.watchdog_ns);
   }
-  for (const Located& located : module_.located) {
-    put("located ");
-    if (located.name)
-      name(located.name);
-    else
-      put("_");
-    put(": ");
-    type(located.type);
-    put("%");
-    out += module_.areas[located.area].letter;
-    number(located.byte);
-    if (located.bit != kNoBit) {
-      put(".");
-      number(located.bit);
-    }
-    if (located.owner_program != 0) {
-      put(" of $");
-      name(module_.programs[located.owner_program - 1].name);
-    }
-    put("\n");
+  clause(" sensitivity ", task.sensitivity);
+  put("\n");
+}
+
+void Printer::instance(const ProgramInstance& instance) {
+  put("instance $");
+  name(instance.name);
+  put(": ");
+  type(instance.record);
+  if (instance.task != 0) clause(" task ", module_.tasks[instance.task - 1].name);
+  if (instance.is_test) put(" test");
+  clause(" resource ", instance.resource);
+  clause(" configuration ", instance.configuration);
+  clause(" run @", instance.run);
+  clause(" setup @", instance.setup);
+  clause(" exit @", instance.exit);
+  put("\n");
+}
+
+void Printer::located(const Located& located) {
+  put("located ");
+  if (located.name)
+    name(located.name);
+  else
+    put("_");
+  put(": ");
+  type(located.type);
+  put("%");
+  out += module_.areas[located.area].letter;
+  number(located.byte);
+  if (located.bit != kNoBit) {
+    put(".");
+    number(located.bit);
   }
-  // classes @Base, @Pump of @Base      dispatch @Base__Run from 1: @Base__Run, @Pump__Run
+  if (located.owner_program != 0) clause(" of $", module_.programs[located.owner_program - 1].name);
+  put("\n");
+}
+
+// classes @Base, @Pump of @Base      dispatch @Base__Run from 1: @Base__Run, @Pump__Run
+void Printer::classes() {
   for (size_t i = 0; i < module_.classes.size(); ++i) {
     put(i == 0 ? "classes " : ", ");
     type(module_.classes[i].record);
@@ -348,30 +323,48 @@ void Printer::items() {
     if (i + 1 == module_.classes.size()) put("\n");
   }
   for (const Dispatch& dispatch : module_.dispatches) {
-    put("dispatch @");
-    name(module_.body(dispatch.method).name);
+    clause("dispatch @", dispatch.method);
     put(" from ");
     number(dispatch.first);
     put(":");
     for (size_t i = 0; i < dispatch.bodies.size(); ++i) {
       put(i == 0 ? " " : ", ");
-      if (dispatch.bodies[i]) {
-        put("@");
-        name(module_.body(dispatch.bodies[i]).name);
-      } else {
-        put("_");
-      }
+      dispatch.bodies[i] ? clause("@", dispatch.bodies[i]) : put("_");
     }
     put("\n");
   }
+}
+
+void Printer::area(const types::MemoryArea& area) {
+  if (area.bytes == 0) return;
+  put("area ");
+  out += area.letter;
+  put(" ");
+  put(spelling(area.owner));
+  put(" ");
+  number(area.bytes);
+  put("\n");
+}
+
+void Printer::items() {
+  for (const types::MemoryArea& one : module_.areas) area(one);
+  for (size_t i = 0; i < module_.data.size(); ++i) dataItem(i);
+  for (const List& list : module_.lists) {
+    clause("list @", list.name);
+    put(": ");
+    type(list.record);
+    put("\n");
+  }
+  for (const Task& one : module_.tasks) task(one);
+  for (const ProgramInstance& one : module_.programs) instance(one);
+  for (const Located& one : module_.located) located(one);
+  classes();
   if (module_.exit) {
-    put("exit @");
-    name(module_.body(module_.exit).name);
+    clause("exit @", module_.exit);
     put("\n");
   }
   for (BodyId test : module_.tests) {
-    put("test @");
-    name(module_.body(test).name);
+    clause("test @", test);
     put("\n");
   }
 }

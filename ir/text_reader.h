@@ -34,7 +34,6 @@ class Reader {
   bool isWord(std::string_view word, size_t ahead = 0) const {
     return token(ahead).kind == TokenKind::Name && !token(ahead).quoted && token(ahead).text == word;
   }
-  bool isName() const { return token().kind == TokenKind::Name && !token().quoted; }
   bool accept(std::string_view text) {
     if (failed_ || !(isPunct(text) || isWord(text))) return false;
     ++at_;
@@ -86,7 +85,7 @@ class Reader {
     if (!failed_) builder_->append(loc, node);
   }
   void stmt();
-  StmtId optionalBlock(std::string_view word);
+  StmtId optionalBlock(std::string_view word) { return accept(word) ? block() : StmtId{}; }
   void localDeclaration(LocalKind kind);
   void assignment();
   void forStmt();
@@ -101,7 +100,6 @@ class Reader {
   ExprId primary(TypeId wanted);
   ExprId afterSigil();
   ExprId conversion();
-  ExprId selection();
   ExprId operation(Op op);
   uint32_t numberOf(const Map& by_name, std::string_view what);
   ExprId postfix(ExprId base);

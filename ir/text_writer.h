@@ -51,7 +51,16 @@ class Printer {
 
   // ---- module items
   void origin(const Origin& origin, Loc loc);
+  void area(const types::MemoryArea& area);
   void items();
+  void clause(const char* word, uint64_t value);
+  void clause(const char* word, NameId value);
+  void clause(const char* word, BodyId value);
+  void dataItem(size_t index);
+  void task(const Task& task);
+  void instance(const ProgramInstance& instance);
+  void located(const Located& located);
+  void classes();
   void header(const Body& body);
 
   // ---- code

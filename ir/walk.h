@@ -137,6 +137,14 @@ inline ExprId baseOf(const Expr& place) {
   return {};
 }
 
+// The condition of `if condition { break }`; none of other statements.
+inline ExprId exitTest(const Body& body, StmtId id) {
+  const auto* test = id ? body.stmt(id).tryAs<IfStmt>() : nullptr;
+  if (test == nullptr || test->else_block || !test->then_block) return {};
+  const Stmt& inner = body.stmt(test->then_block);
+  return inner.kind == StmtKind::Break && !inner.next ? test->condition : ExprId{};
+}
+
 // Whether the evaluation of a tree may fault.
 inline bool mayFault(const Body& body, ExprId root) {
   const Expr& expr = body.expr(root);

@@ -43,7 +43,7 @@ void BodyTranslator::passArgument(Argument& argument, Ref to) {
     return pointerInto({Base::Frame, memory, 0, 0, kNoBit}, to);
   }
   const Expr& e = expr(argument.operand);
-  if (isPlace(e.kind) && (e.kind == ExprKind::Bits || isImage(argument.operand))) {
+  if (isPlace(e.kind) && (e.kind == ExprKind::Bits || isImage(*body_, argument.operand))) {
     // Bits and views of the image are not variables in memory: copied in, and back after the call.
     argument.copied = true;
     argument.copy = {Base::Frame, slot(info(parameter.type).size, info(parameter.type).align), 0, 0, kNoBit};
@@ -62,7 +62,7 @@ void BodyTranslator::passArgument(Argument& argument, Ref to) {
 void BodyTranslator::passArguments(std::vector<Argument>& arguments) {
   bool nests = false;
   for (const Argument& argument : arguments) {
-    nests = nests || (argument.operand && contains(argument.operand, ExprKind::Call));
+    nests = nests || (argument.operand && contains(*body_, argument.operand, ExprKind::Call));
   }
   if (!nests) {
     for (Argument& argument : arguments) passArgument(argument, argument.to);
@@ -125,6 +125,9 @@ void BodyTranslator::emitVirtualCall(BodyId method, const Address& self, uint32_
 
 namespace {
 
+// Bytes before the arguments.
+uint32_t headerSize(const Body& callee) { return callee.native ? 0 : kFrameHeader; }
+
 // Bytes after the frame that a native function's slots take.
 uint32_t slotsOf(const Body& callee, size_t arguments) {
   return static_cast<uint32_t>((arguments + 4 + (callee.self ? 1 : 0)) * 8);
@@ -185,14 +188,14 @@ void BodyTranslator::callStatement(const CallStmt& stmt, Loc loc) {
   passArguments(passed);
   const Ref result{at + 8 * static_cast<uint32_t>(passed.size()), true};
   const ExprId to = stmt.result;
-  if (to && mayFault(to)) place(to);  // its checks come before the call
+  if (to && ir::mayFault(*body_, to)) place(to);  // its checks come before the call
 
   // A result in memory: written directly to its target, if nothing that the callee reads can be there.
   const bool by_reference = callee.result && ir::isAggregate(types_, callee.result);
   Address memory;
   bool direct_result = false;
   if (by_reference) {
-    if (to && !isImage(to) && expr(to).kind != ExprKind::Bits) {
+    if (to && !isImage(*body_, to) && expr(to).kind != ExprKind::Bits) {
       const TypeId type = expr(to).type;
       const uint32_t* root = localOf(expr(rootOf(*body_, to)));
       direct_result = callee.native || (root != nullptr && !body_->locals[*root].by_reference);
@@ -235,7 +238,7 @@ void BodyTranslator::callStatement(const CallStmt& stmt, Loc loc) {
   } else if (to && !by_reference && callee.result) {
     const Scalar type = scalarOf(to);
     Operand value{Mode::Frame, result, 0};
-    if (contains(to, ExprKind::Call)) {  // the place would overwrite it
+    if (contains(*body_, to, ExprKind::Call)) {  // the place would overwrite it
       value = temp();
       move(type, {Mode::Frame, result, 0}, value);
     }

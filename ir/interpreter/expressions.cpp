@@ -25,42 +25,17 @@ Op mirrored(Op op) {
   return op;
 }
 
-}  // namespace
-
-Scalar BodyTranslator::scalarOf(TypeId type) const {
-  const TypeKind kind = types_.plainKind(type);
-  if (kind == TypeKind::Real) return Scalar::F32;
-  if (kind == TypeKind::LReal) return Scalar::F64;
-  if (kind == TypeKind::Bool) return Scalar::Bool;
-  const bool is_signed = TypeTable::isScalar(kind) && types_.isSigned(kind);
-  switch (TypeTable::bitWidth(kind)) {
-    case 8: return is_signed ? Scalar::I8 : Scalar::U8;
-    case 16: return is_signed ? Scalar::I16 : Scalar::U16;
-    case 32: return is_signed ? Scalar::I32 : Scalar::U32;
-    default: return is_signed ? Scalar::I64 : Scalar::U64;  // pointers too
-  }
-}
-
-bool BodyTranslator::mayFault(ExprId id) const {
+// Memory that may not exist where nothing is checked.
+bool touchesForeignMemory(const Module& module, const Body& body, ExprId root) {
   bool found = false;
-  forEachExpr(*body_, id, [&](ExprId at) { found = found || expr(at).checks != 0; });
-  return found;
-}
-
-bool BodyTranslator::touchesForeignMemory(ExprId id) const {
-  bool found = false;
-  forEachExpr(*body_, id, [&](ExprId at) {
-    const Expr& e = expr(at);
-    found = found || e.kind == ExprKind::Deref || e.kind == ExprKind::Index || isReference(module_, *body_, e);
+  forEachExpr(body, root, [&](ExprId at) {
+    const Expr& e = body.expr(at);
+    found = found || e.kind == ExprKind::Deref || e.kind == ExprKind::Index || isReference(module, body, e);
   });
   return found;
 }
 
-bool BodyTranslator::contains(ExprId id, ExprKind kind) const {
-  bool found = false;
-  forEachExpr(*body_, id, [&](ExprId at) { found = found || expr(at).kind == kind; });
-  return found;
-}
+}  // namespace
 
 // ---- operands
 
@@ -70,18 +45,6 @@ Operand BodyTranslator::constant(const Expr& e) const {
     return {Mode::Constant, {}, static_cast<int64_t>(rung_bits_of_f32(number))};
   }
   return {Mode::Constant, {}, static_cast<int64_t>(bitsOf(e))};
-}
-
-void BodyTranslator::move(Scalar type, const Operand& from, const Operand& to) {
-  if (from == to) return;
-  emit(moveHandler(type, from.mode, to.mode), to.ref, from.ref, {}, 0, from.imm);
-}
-
-Operand BodyTranslator::inFrame(const Operand& from, Scalar type) {
-  if (from.mode == Mode::Frame) return from;
-  const Operand to = temp();
-  move(type, from, to);
-  return to;
 }
 
 void BodyTranslator::valueInto(ExprId id, const Operand& to) { move(scalarOf(id), value(id, &to), to); }
@@ -157,7 +120,8 @@ Operand BodyTranslator::binary(const Expr& e, const Operand* want) {
   if (op == Op::Power) return power(e, want);
   const Scalar type = scalarOf(a);
   const TypeKind kind = kindOf(a);
-  if (type == Scalar::Bool && (op == Op::And || op == Op::Or) && !mayFault(b) && touchesForeignMemory(b)) {
+  if (type == Scalar::Bool && (op == Op::And || op == Op::Or) && !ir::mayFault(*body_, b) &&
+      touchesForeignMemory(module_, *body_, b)) {
     // Nothing is checked: memory that the left operand guards is not read, as in native code.
     const Operand to = temp();
     const Label decided = newLabel();
@@ -251,7 +215,7 @@ Operand BodyTranslator::power(const Expr& e, const Operand* want) {
 Operand BodyTranslator::select(const Expr& e, const Operand* want) {
   const auto [condition, yes, no] = e.as<SelectExpr>();
   const Scalar type = scalarOf(e.type);
-  if (mayFault(yes) || mayFault(no)) {  // both are evaluated
+  if (ir::mayFault(*body_, yes) || ir::mayFault(*body_, no)) {  // both are evaluated
     const Operand chooses = inFrame(value(condition), Scalar::Bool);
     const Operand a = inFrame(value(yes), type), b = inFrame(value(no), type), to = temp();
     emit(selectHandler(type), to.ref, a.ref, b.ref);
@@ -282,7 +246,7 @@ void BodyTranslator::branch(ExprId id, bool sense, Label to) {
   if (e.kind == ExprKind::Binary && types_.plainKind(e.type) == TypeKind::Bool) {
     auto [a, b, op] = e.as<BinaryExpr>();
     const bool is_and = op == Op::And;
-    if ((is_and || op == Op::Or) && !mayFault(b)) {
+    if ((is_and || op == Op::Or) && !ir::mayFault(*body_, b)) {
       if (is_and == sense) {  // both must agree
         const Label out = newLabel();
         branch(a, !sense, out);

@@ -57,6 +57,121 @@ types::Value valueOf(const TypeTable& types, TypeId type, uint64_t bits) {
   return {type, bits};
 }
 
+// The frame of a function that runs alone: its arguments, and the memory that by-reference ones point to.
+class Call {
+ public:
+  Call(const Module& module, const Body& body, uint32_t frame)
+      : types_(module.types),
+        body_(body),
+        stack_(std::make_unique<uint64_t[]>((kConstantStack + 2 * size_t{frame}) / 8)) {
+    *reinterpret_cast<Linkage*>(fp()) = {&halt_, nullptr, nullptr};
+  }
+  uint8_t* fp() { return reinterpret_cast<uint8_t*>(stack_.get()); }
+
+  void pass(std::span<const types::Value> arguments, const Names& names);
+  types::Value result(Names& names);
+
+ private:
+  uint64_t* room(TypeId type) {
+    memory_.push_back(std::make_unique<uint64_t[]>(types_.info(types_.resolve(type)).size / 8 + 1));
+    return memory_.back().get();
+  }
+  void put(uint64_t bits) {
+    memcpy(fp() + at_, &bits, 8);
+    at_ += 8;
+  }
+  uint32_t capacityOf(TypeId type) const { return types_.info(types_.resolve(type)).length; }
+  void store(const Local& parameter, const types::Value& value, const Names& names, uint64_t* cell);
+
+  const TypeTable& types_;
+  const Body& body_;
+  const Insn halt_{haltHandler(), 0, 0, 0, 0, 0};
+  std::unique_ptr<uint64_t[]> stack_;
+  std::vector<std::unique_ptr<uint64_t[]>> memory_;
+  uint64_t* result_memory_ = nullptr;
+  uint32_t at_ = 0;  // of the next argument, then of the result
+};
+
+// A value in the memory of a by-reference parameter.
+void Call::store(const Local& parameter, const types::Value& value, const Names& names, uint64_t* cell) {
+  const TypeKind kind = types_.kind(parameter.type);
+  if (!TypeTable::isString(kind)) {
+    if (types_.info(types_.resolve(parameter.type)).size <= 8) cell[0] = memoryBits(types_, parameter.type, value);
+    return;
+  }
+  if (!value.type) return;
+  const std::string text(names.string(NameId{static_cast<uint32_t>(value.bits)}));
+  const uint32_t capacity = capacityOf(parameter.type);
+  if (kind == TypeKind::WString) {
+    rung_wstring_of_string(reinterpret_cast<char16_t*>(cell), capacity, text.c_str());
+  } else if (kind == TypeKind::UString) {
+    rung_ustring_assign(reinterpret_cast<char*>(cell), capacity, text.c_str());
+  } else {
+    rung_string_assign(reinterpret_cast<char*>(cell), capacity, text.c_str());
+  }
+}
+
+void Call::pass(std::span<const types::Value> arguments, const Names& names) {
+  at_ = body_.native ? 0 : kFrameHeader;
+  size_t next = 0;
+  for (const Local& parameter : parameters(body_)) {
+    types::Value value;
+    if (parameter.kind != LocalKind::Output && next < arguments.size()) value = arguments[next++];
+    if (parameter.by_reference) {
+      uint64_t* const cell = room(parameter.type);
+      store(parameter, value, names, cell);
+      put(reinterpret_cast<uintptr_t>(cell));
+    } else {
+      put(memoryBits(types_, parameter.type, value));
+    }
+  }
+  if (!body_.result || !isAggregate(types_, body_.result)) return;
+  result_memory_ = room(body_.result);
+  memcpy(fp() + at_, &result_memory_, 8);
+  const uint64_t capacity = capacityOf(body_.result);
+  if (body_.native) memcpy(fp() + at_ + 8, &capacity, 8);
+}
+
+types::Value Call::result(Names& names) {
+  if (!body_.result) return {};
+  const TypeKind kind = types_.kind(body_.result);
+  if (result_memory_ == nullptr) {
+    uint64_t bits;
+    memcpy(&bits, fp() + at_, 8);
+    return valueOf(types_, body_.result, bits);
+  }
+  if (kind == TypeKind::String || kind == TypeKind::UString)
+    return {body_.result, names.intern(reinterpret_cast<const char*>(result_memory_)).index};
+  if (kind != TypeKind::WString) return {};
+  const uint32_t capacity = capacityOf(body_.result);
+  std::string text(size_t{capacity} * 3 + 1, '\0');
+  rung_string_of_wstring(text.data(), capacity * 3, reinterpret_cast<const char16_t*>(result_memory_));
+  return {body_.result, names.intern(text.c_str()).index};
+}
+
+// Runs translated or native code in a frame; returns the fault.
+uint8_t runGuarded(NativeThunk native, const Insn* ip, uint8_t* fp, int64_t budget) {
+  rung_context ctx{};
+  Machine machine;
+  machine.ctx = &ctx;
+  machine.limit = fp + kConstantStack;
+  machine.budget = budget;
+  struct Start {
+    NativeThunk native;
+    const Insn* ip;
+    uint8_t* fp;
+    Machine* m;
+  } start{native, ip, fp, &machine};
+  return rung_try(
+      &ctx,
+      [](void* data) {
+        const Start& from = *static_cast<Start*>(data);
+        if (from.native != nullptr) return from.native(from.m->ctx, reinterpret_cast<uint64_t*>(from.fp));
+        execute(from.ip, from.fp, nullptr, from.m);
+      },
+      &start);
+}
+
 }  // namespace
 
 FunctionResult runFunction(const Module& module, BodyId function, std::span<const types::Value> arguments,
@@ -83,88 +198,16 @@ FunctionResult runFunction(const Module& module, BodyId function, std::span<cons
     return result;
   }
 
-  const Insn halt{haltHandler(), 0, 0, 0, 0, 0};
-  const auto stack = std::make_unique<uint64_t[]>((kConstantStack + 2 * size_t{code.bodies[function.index].frame}) / 8);
-  auto* const fp = reinterpret_cast<uint8_t*>(stack.get());
-  *reinterpret_cast<Linkage*>(fp) = {&halt, nullptr, nullptr};
-  std::vector<std::unique_ptr<uint64_t[]>> memory;
-  uint32_t at = body.native ? 0 : kFrameHeader;
-  size_t next = 0;
-  uint64_t* result_memory = nullptr;
-  const auto room = [&](TypeId type) {
-    memory.push_back(std::make_unique<uint64_t[]>(module.types.info(module.types.resolve(type)).size / 8 + 1));
-    return memory.back().get();
-  };
-  for (const Local& local : parameters(body)) {
-    const bool takes = local.kind != LocalKind::Output;
-    uint64_t bits = 0;
-    types::Value value;
-    if (takes && next < arguments.size()) value = arguments[next++];
-    const bool is_string = TypeTable::isString(module.types.kind(local.type));
-    if (!is_string) bits = memoryBits(module.types, local.type, value);
-    if (local.by_reference) {
-      uint64_t* const cell = room(local.type);
-      if (is_string && value.type) {
-        auto* const to = reinterpret_cast<char*>(cell);
-        const uint32_t capacity = module.types.info(module.types.resolve(local.type)).length;
-        const std::string text(names.string(NameId{static_cast<uint32_t>(value.bits)}));
-        if (module.types.kind(local.type) == TypeKind::WString) {
-          rung_wstring_of_string(reinterpret_cast<char16_t*>(to), capacity, text.c_str());
-        } else if (module.types.kind(local.type) == TypeKind::UString) {
-          rung_ustring_assign(to, capacity, text.c_str());
-        } else {
-          rung_string_assign(to, capacity, text.c_str());
-        }
-      } else if (!is_string && module.types.info(module.types.resolve(local.type)).size <= 8) {
-        cell[0] = bits;
-      }
-      bits = reinterpret_cast<uintptr_t>(cell);
-    }
-    memcpy(fp + at, &bits, 8);
-    at += 8;
-  }
-  if (body.result && isAggregate(module.types, body.result)) {
-    result_memory = room(body.result);
-    memcpy(fp + at, &result_memory, 8);
-    const uint64_t capacity = module.types.info(module.types.resolve(body.result)).length;
-    if (body.native) memcpy(fp + at + 8, &capacity, 8);
-  }
-
-  rung_context ctx{};
-  Machine machine;
-  machine.ctx = &ctx;
-  machine.limit = fp + kConstantStack;
-  machine.budget = budget;
-  struct Start {
-    NativeThunk native;
-    const Insn* ip;
-    uint8_t* fp;
-    Machine* m;
-  } start{native, code.insns.data() + code.bodies[function.index].at, fp, &machine};
-  const uint8_t fault = rung_try(
-      &ctx,
-      [](void* data) {
-        const Start& from = *static_cast<Start*>(data);
-        if (from.native != nullptr) return from.native(from.m->ctx, reinterpret_cast<uint64_t*>(from.fp));
-        execute(from.ip, from.fp, nullptr, from.m);
-      },
-      &start);
+  const Code::Entry& entry = code.bodies[function.index];
+  Call call(module, body, entry.frame);
+  call.pass(arguments, names);
+  const uint8_t fault = runGuarded(native, code.insns.data() + entry.at, call.fp(), budget);
   if (fault == RUNG_FAULT_STACK) {
     result.trouble = "does not end within its bounds";
   } else if (fault != RUNG_FAULT_NONE) {
     result.fault = static_cast<types::Fault>(fault);
-  } else if (body.result && result_memory == nullptr) {
-    uint64_t bits;
-    memcpy(&bits, fp + at, 8);
-    result.value = valueOf(module.types, body.result, bits);
-  } else if (body.result && (module.types.kind(body.result) == TypeKind::String ||
-                             module.types.kind(body.result) == TypeKind::UString)) {
-    result.value = {body.result, names.intern(reinterpret_cast<const char*>(result_memory)).index};
-  } else if (body.result && module.types.kind(body.result) == TypeKind::WString) {
-    const uint32_t capacity = module.types.info(module.types.resolve(body.result)).length;
-    std::string text(size_t{capacity} * 3 + 1, '\0');
-    rung_string_of_wstring(text.data(), capacity * 3, reinterpret_cast<const char16_t*>(result_memory));
-    result.value = {body.result, names.intern(text.c_str()).index};
+  } else {
+    result.value = call.result(names);
   }
   return result;
 }

@@ -10,56 +10,6 @@ using types::Field;
 using types::TypeInfo;
 using types::TypeTable;
 
-bool BodyTranslator::isImage(ExprId id) const { return expr(rootOf(*body_, id)).kind == ExprKind::Image; }
-
-Address BodyTranslator::shifted(Address a, uint64_t bytes) {
-  if (a.base == Base::Pointer || a.base == Base::Constant) {
-    a.offset += static_cast<uint32_t>(bytes);
-  } else {
-    a.ref.offset += static_cast<uint32_t>(bytes);
-  }
-  return a;
-}
-
-void BodyTranslator::pointerInto(const Address& a, Ref to) {
-  emit(leaHandler(a.base), to, a.ref, {a.offset, false}, 0, a.imm);
-}
-
-Ref BodyTranslator::pointerTo(const Address& a) {
-  if (a.base == Base::Pointer && a.offset == 0) return a.ref;
-  const Ref to = slot();
-  pointerInto(a, to);
-  return to;
-}
-
-Operand BodyTranslator::read(const Address& from, Scalar type, const Operand* want) {
-  if (isDirect(from)) return direct(from);
-  if (from.bit != kNoBit) {
-    const Operand to = want != nullptr && want->mode == Mode::Frame ? *want : temp();
-    const bool is_pointer = from.base == Base::Pointer;
-    const Ref pointer = is_pointer ? from.ref : pointerTo(from);
-    emit(loadBitHandler(), to.ref, pointer, {is_pointer ? from.offset : 0, false}, from.bit);
-    return to;
-  }
-  const bool is_pointer = from.base == Base::Pointer;
-  const Ref pointer = is_pointer ? from.ref : pointerTo(from);
-  const Operand to = target(want);
-  emit(loadHandler(type, to.mode), to.ref, pointer, {is_pointer ? from.offset : 0, false});
-  return to;
-}
-
-void BodyTranslator::write(const Address& to, Scalar type, const Operand& value) {
-  if (isDirect(to)) return move(type, value, direct(to));
-  const bool is_pointer = to.base == Base::Pointer;
-  const Ref pointer = is_pointer ? to.ref : pointerTo(to);
-  const Ref offset{is_pointer ? to.offset : 0, false};
-  if (to.bit != kNoBit) {
-    emit(storeBitHandler(), pointer, offset, inFrame(value, Scalar::Bool).ref, to.bit);
-  } else {
-    emit(storeHandler(type, value.mode), pointer, offset, value.ref, 0, value.imm);
-  }
-}
-
 Address BodyTranslator::fieldMemory(const Expr& e) {
   const auto [base, field] = e.as<FieldExpr>();
   const uint64_t offset = info(expr(base).type).fields[field].offset;
@@ -222,7 +172,8 @@ bool BodyTranslator::loadOfTwo(ExprId id, const Operand* want, Operand& to) {
   const ExprId first = body_->list(node.indices)[0], second = body_->list(node.indices)[1];
   const Scalar type = scalarOf(first);
   if (expr(first).kind == ExprKind::Const || expr(second).kind == ExprKind::Const || type != scalarOf(second) ||
-      (type != Scalar::I16 && type != Scalar::I32) || mayFault(second) || contains(second, ExprKind::Call))
+      (type != Scalar::I16 && type != Scalar::I32) || ir::mayFault(*body_, second) ||
+      contains(*body_, second, ExprKind::Call))
     return false;
   const TypeInfo& array = info(expr(node.base).type);
   const Dimension &rows = array.dimensions[0], &columns = array.dimensions[1];

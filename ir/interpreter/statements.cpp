@@ -117,15 +117,6 @@ void BodyTranslator::statement(const Stmt& stmt) {
 
 // ---- assignments
 
-void BodyTranslator::copyAggregate(const Address& to, const Address& from, uint64_t size) {
-  const auto base = [&](const Address& a) -> Address {
-    if (a.base == Base::Frame || a.base == Base::Self || (a.base == Base::Constant && a.offset == 0)) return a;
-    return {Base::Pointer, pointerTo(a), 0, 0, kNoBit};
-  };
-  const Address a = base(to), b = base(from);
-  emit(copyHandler(a.base, b.base), a.ref, b.ref, {static_cast<uint32_t>(size), false}, 0, b.imm);
-}
-
 void BodyTranslator::assign(ExprId to, ExprId from) {
   const TypeId type = expr(to).type;
   if (isString(type)) {
@@ -145,7 +136,7 @@ void BodyTranslator::assign(ExprId to, ExprId from) {
   const Scalar scalar = scalarOf(to);
   // The checks of the place come first.
   Element element_at;
-  if (expr(to).kind == ExprKind::Index && !mayFault(from) && !contains(from, ExprKind::Call) &&
+  if (expr(to).kind == ExprKind::Index && !ir::mayFault(*body_, from) && !contains(*body_, from, ExprKind::Call) &&
       element(expr(to), element_at)) {
     const Operand created = inMemory(value(from), scalar);
     emit(storeElementHandler(scalar, element_at.index_type, element_at.base.base, element_at.index.mode, created.mode),
@@ -222,21 +213,13 @@ void BodyTranslator::switchStatement(const SwitchStmt& stmt) {
 
 // ---- loops
 
-// The condition of `if condition { break }`; none of other statements.
-ExprId BodyTranslator::exitTest(StmtId id) const {
-  const auto* test = id ? body_->stmt(id).tryAs<IfStmt>() : nullptr;
-  if (test == nullptr || test->else_block || !test->then_block) return {};
-  const Stmt& inner = body_->stmt(test->then_block);
-  return inner.kind == StmtKind::Break && !inner.next ? test->condition : ExprId{};
-}
-
 // The test of a WHILE follows its body, so that an iteration takes one branch.
 void BodyTranslator::loopStatement(const LoopStmt& stmt) {
   const auto depth = static_cast<uint32_t>(tries_.size());
   const Label iteration = newLabel(), on_continue = newLabel(), end = newLabel();
   loops_.push_back({end, on_continue, depth});
   auto [first, next] = stmt;
-  const ExprId test = next ? ExprId{} : exitTest(first);
+  const ExprId test = next ? ExprId{} : exitTest(*body_, first);
   if (test) {
     first = body_->stmt(first).next;
     jump(on_continue);
@@ -247,8 +230,8 @@ void BodyTranslator::loopStatement(const LoopStmt& stmt) {
   place(on_continue);
   if (test) {
     branch(test, false, iteration);
-  } else if (exitTest(next) && !body_->stmt(next).next) {  // REPEAT
-    branch(exitTest(next), false, iteration);
+  } else if (exitTest(*body_, next) && !body_->stmt(next).next) {  // REPEAT
+    branch(exitTest(*body_, next), false, iteration);
   } else {
     block(next);
     jump(iteration);

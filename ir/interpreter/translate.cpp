@@ -1,4 +1,4 @@
-// Instructions, labels and frames of a body: see translate.h.
+// Whole bodies and entries, and the data beside them: see translate.h.
 #include "ir/interpreter/translate.h"
 
 #include <algorithm>
@@ -8,57 +8,14 @@
 
 namespace rung::ir::interpreter {
 
-namespace {
-
-constexpr uint32_t kNowhere = ~0u;
-
-uint32_t alignUp(uint64_t value, uint32_t align) { return static_cast<uint32_t>((value + align - 1) / align * align); }
-
-}  // namespace
-
-// ---- instructions and labels
-
-uint32_t BodyTranslator::emit(Handler run, Ref a, Ref b, Ref c, uint32_t d, int64_t imm) {
-  RUNG_INVARIANT(run != nullptr, "an instruction for these operands exists");
-  const auto at = static_cast<uint32_t>(code_.insns.size());
-  code_.insns.push_back({run, a.offset, b.offset, c.offset, d, imm});
-  if (a.outgoing) outgoing_.push_back({at, 0});
-  if (b.outgoing) outgoing_.push_back({at, 1});
-  if (c.outgoing) outgoing_.push_back({at, 2});
-  return at;
-}
-
-BodyTranslator::Label BodyTranslator::newLabel() {
-  labels_.push_back(kNowhere);
-  return static_cast<Label>(labels_.size() - 1);
-}
-
-void BodyTranslator::place(Label label) { labels_[label] = static_cast<uint32_t>(code_.insns.size()); }
-
-void BodyTranslator::jump(Label label) { jumpTo(emit(jumpHandler()), label); }
-
-// ---- the frame
-
-Ref BodyTranslator::slot(uint64_t size, uint32_t align) {
-  const uint32_t at = alignUp(top_, std::max(align, 8u));
-  top_ = at + static_cast<uint32_t>(size);
-  frame_ = std::max(frame_, top_);
-  return {at, false};
-}
-
 void BodyTranslator::begin() {
+  beginFrame();
   local_offset_.clear();
   block_slots_.clear();
   image_slots_.clear();
-  outgoing_.clear();
-  labels_.clear();
-  jumps_.clear();
-  table_jumps_.clear();
   loops_.clear();
   tries_.clear();
   user_labels_.clear();
-  top_ = frame_ = kFrameHeader;
-  native_slots_ = 0;
 }
 
 void BodyTranslator::layOutLocals() {
@@ -128,13 +85,6 @@ void BodyTranslator::clearVariables() {
   }
 }
 
-uint32_t BodyTranslator::site(Loc loc, int64_t low, int64_t high) {
-  const FilePosition at = filePosition(module_, *body_, loc);
-  const NameId pou = body_->spelling ? body_->spelling : body_->name;
-  code_.sites.push_back({pool_.add(module_.names.string(pou)), pool_.add(at.path), at.line, at.column, low, high});
-  return static_cast<uint32_t>(code_.sites.size());
-}
-
 void BodyTranslator::translate(BodyId id) {
   body_ = &module_.body(id);
   const auto first = static_cast<uint32_t>(code_.insns.size());
@@ -153,7 +103,7 @@ void BodyTranslator::translate(BodyId id) {
   block(body_->first);
   place(return_label_);
   emit(returnHandler());
-  code_.bodies[id.index] = finish(first);
+  code_.bodies[id.index] = finishFrame(first);
 }
 
 Code::Entry BodyTranslator::translateSteps(std::span<const Step> steps) {
@@ -193,19 +143,7 @@ Code::Entry BodyTranslator::translateSteps(std::span<const Step> steps) {
     }
   }
   emit(haltHandler());
-  return finish(first);
-}
-
-// The frame now has its size: resolves where outgoing arguments are and where jumps go.
-Code::Entry BodyTranslator::finish(uint32_t first) {
-  const uint32_t size = alignUp(frame_, kFrameAlign);
-  for (const Outgoing& out : outgoing_) {
-    Insn& insn = code_.insns[out.insn];
-    (out.field == 0 ? insn.a : out.field == 1 ? insn.b : insn.c) += size;
-  }
-  for (const auto& [insn, label] : jumps_) code_.insns[insn].d = labels_[label] - insn;
-  for (const TableJump& jump : table_jumps_) *jump.to = static_cast<int32_t>(labels_[jump.label] - jump.insn);
-  return {first, size + native_slots_ + kFrameHeader};
+  return finishFrame(first);
 }
 
 void translateData(const Module& module, Code& code) {

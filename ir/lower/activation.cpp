@@ -56,13 +56,13 @@ void ModuleLowering::addActivation(uint32_t program, const sema::ProgramInstance
   if (call || copies) {
     const BodyId id = make("__run");
     BodyLowering lowering(*this, module.body(id), {});
-    lowering.lowerActivation(program, module.programs[program].body, call, paths);
+    lowering.statements.lowerActivation(program, module.programs[program].body, call, paths);
     module.programs[program].run = id;
   }
   if (sets) {
     const BodyId id = make("__setup");
     BodyLowering lowering(*this, module.body(id), {});
-    lowering.lowerSetup(program, paths);
+    lowering.statements.lowerSetup(program, paths);
     module.programs[program].setup = id;
   }
 }
@@ -85,30 +85,31 @@ void ModuleLowering::addBlockTasks() {
     body.loc = task.loc;
     body.file = project.sources.fileOf(body.loc);
     BodyLowering lowering(*this, body, {});
-    lowering.lowerBlockTask(program, task.block);
+    lowering.statements.lowerBlockTask(program, task.block);
     module.block_tasks.push_back({task.task, id});
   }
 }
 
-void BodyLowering::lowerBlockTask(uint32_t program, sema::VarId block) {
+void StatementLowering::lowerBlockTask(uint32_t program, sema::VarId block) {
   const Loc loc = body_.loc;
   const sema::Var& var = project_.var(block);
-  const ExprId instance = field(asBase(programPlace(program, loc), var.pou, loc), var.field, strip(var.type), loc);
+  const ExprId instance =
+      field(asBase(places().programPlace(program, loc), var.pou, loc), var.field, strip(var.type), loc);
   const BodyId code = in_.bodyOf(in_.pouOfRecord(strip(var.type)));
   append(loc, CallStmt{.callee = code, .self = instance});
   body_.first = build_.block().first;
 }
 
-ExprId BodyLowering::programPlace(uint32_t program, Loc loc) {
+ExprId PlaceLowering::programPlace(uint32_t program, Loc loc) {
   return add(loc, in_.module.programs[program].record, ProgramExpr{.program = program});
 }
 
-ExprId BodyLowering::imagePlace(const sema::ImageView& view, TypeId type, Loc loc) {
+ExprId PlaceLowering::imagePlace(const sema::ImageView& view, TypeId type, Loc loc) {
   return add(loc, strip(type),
              ImageExpr{.area = view.area.index, .byte = view.byte, .bit = view.is_bit ? view.bit : kNoBit});
 }
 
-ExprId BodyLowering::instancePlace(uint32_t program, const sema::InstancePath& path) {
+ExprId PlaceLowering::instancePlace(uint32_t program, const sema::InstancePath& path) {
   const Loc loc = body_.loc;
   ExprId at = path.program ? programPlace(program, loc) : ExprId{};
   for (const sema::PathStep& step : path.path) {
@@ -134,36 +135,36 @@ ExprId BodyLowering::instancePlace(uint32_t program, const sema::InstancePath& p
   return at;
 }
 
-void BodyLowering::lowerActivation(uint32_t program, BodyId code, rung::ExprId call,
-                                   std::span<const sema::InstancePath> paths) {
+void StatementLowering::lowerActivation(uint32_t program, BodyId code, rung::ExprId call,
+                                        std::span<const sema::InstancePath> paths) {
   const Loc loc = body_.loc;
   for (const sema::InstancePath& path : paths) {
     if (!path.located || project_.options.areas[path.image.area.index].owner == types::AreaOwner::Output) continue;
     const TypeId type = project_.var(path.var).type;
-    assign(instancePlace(program, path), imagePlace(path.image, type, loc), loc);
+    assign(places().instancePlace(program, path), places().imagePlace(path.image, type, loc), loc);
   }
   if (call) {
     const rung::CallExpr& node = tree_.as<rung::CallExpr>(call);
-    lowerBlockCall(project_.call(node.call), node, programPlace(program, loc));
+    calls().lowerBlockCall(project_.call(node.call), node, places().programPlace(program, loc));
   } else {
-    append(loc, CallStmt{.callee = code, .self = programPlace(program, loc)});
+    append(loc, CallStmt{.callee = code, .self = places().programPlace(program, loc)});
   }
   for (const sema::InstancePath& path : paths) {
     if (!path.located || project_.options.areas[path.image.area.index].owner == types::AreaOwner::Input) continue;
     const TypeId type = project_.var(path.var).type;
-    assign(imagePlace(path.image, type, loc), instancePlace(program, path), loc);
+    assign(places().imagePlace(path.image, type, loc), places().instancePlace(program, path), loc);
   }
   body_.first = build_.block().first;
 }
 
-void BodyLowering::lowerSetup(uint32_t program, std::span<const sema::InstancePath> paths) {
+void StatementLowering::lowerSetup(uint32_t program, std::span<const sema::InstancePath> paths) {
   const Loc loc = body_.loc;
   for (const sema::InstancePath& path : paths) {
     const sema::Var& var = project_.var(path.var);
-    if (path.init) storeInitial(instancePlace(program, path), var.type, path.init, false);
+    if (path.init) objects().storeInitial(places().instancePlace(program, path), var.type, path.init, false);
     // Without an initial value, the value in the image counts.
     if (path.located && (path.init || var.init))
-      assign(imagePlace(path.image, var.type, loc), instancePlace(program, path), loc);
+      assign(places().imagePlace(path.image, var.type, loc), places().instancePlace(program, path), loc);
   }
   body_.first = build_.block().first;
 }

@@ -4,9 +4,9 @@
 
 namespace rung::ir {
 
-bool BodyLowering::isPlainPlace(rung::ExprId id) const { return static_cast<bool>(rootVar(id)); }
+bool PlaceLowering::isPlainPlace(rung::ExprId id) const { return static_cast<bool>(rootVar(id)); }
 
-sema::VarId BodyLowering::rootVar(rung::ExprId id) const {
+sema::VarId PlaceLowering::rootVar(rung::ExprId id) const {
   while (true) {
     if (tree_.kind(id) == rung::ExprKind::Name) {
       Entity entity = tree_.as<NameExpr>(id).entity;
@@ -21,7 +21,7 @@ sema::VarId BodyLowering::rootVar(rung::ExprId id) const {
   }
 }
 
-bool BodyLowering::areApart(sema::VarId a, sema::VarId b) const {
+bool PlaceLowering::areApart(sema::VarId a, sema::VarId b) const {
   if (project_.var(a).external) a = project_.var(a).external;
   if (project_.var(b).external) b = project_.var(b).external;
   if (a == b) return false;
@@ -29,7 +29,7 @@ bool BodyLowering::areApart(sema::VarId a, sema::VarId b) const {
   // Memory of this call alone. A result's memory is a temporary of the caller.
   auto isOwn = [&](sema::VarId id, const sema::Var& var) {
     if (id == project_.pou(pou_).result_var) return true;
-    return var.storage == sema::Storage::Local && !body_.locals[local_of_[var.field] - 1].by_reference;
+    return var.storage == sema::Storage::Local && !body_.locals[state_.local_of[var.field] - 1].by_reference;
   };
   if (isOwn(a, x) || isOwn(b, y)) return true;
   auto isReference = [&](const sema::Var& var) {
@@ -48,7 +48,7 @@ bool BodyLowering::areApart(sema::VarId a, sema::VarId b) const {
   return holdsNoInstance(x) && holdsNoInstance(y);
 }
 
-bool BodyLowering::isApart(rung::ExprId id, sema::VarId variable) const {
+bool PlaceLowering::isApart(rung::ExprId id, sema::VarId variable) const {
   constexpr uint8_t kChecksOfConversions = kCheckSubrange | kCheckConvert;
   switch (tree_.kind(id)) {
     case rung::ExprKind::Literal:
@@ -73,7 +73,7 @@ bool BodyLowering::isApart(rung::ExprId id, sema::VarId variable) const {
       return isApart(node.left, variable) && isApart(node.right, variable);
     }
     case rung::ExprKind::Call: {
-      if (!isPlainCall(id)) return false;
+      if (!calls().isPlainCall(id)) return false;
       const sema::Call& call = project_.call(tree_.as<rung::CallExpr>(id).call);
       if (call.kind != sema::CallKind::Function) return false;
       const sema::Pou& pou = project_.pou(call.pou);

@@ -4,14 +4,14 @@
 
 namespace rung::ir {
 
-ExprId BodyLowering::callPool(sema::PouId function, std::initializer_list<ExprId> arguments, Loc loc) {
+ExprId ValueLowering::callPool(sema::PouId function, std::initializer_list<ExprId> arguments, Loc loc) {
   const BodyId body = in_.bodyOf(function);
   const ExprId result = temp(strip(project_.pou(function).result), loc);
   append(loc, CallStmt{.callee = body, .operands = list({arguments.begin(), arguments.size()}), .result = result});
-  return result;
+  return copy(result);
 }
 
-ExprId BodyLowering::lowerNew(rung::ExprId id) {
+ExprId ValueLowering::lowerNew(rung::ExprId id) {
   const NewExpr node = tree_.as<NewExpr>(id);
   const Loc loc = node.h.loc;
   const TypeId pointer_type = strip(node.h.type), declared = types_.info(pointer_type).base, type = strip(declared);
@@ -19,20 +19,20 @@ ExprId BodyLowering::lowerNew(rung::ExprId id) {
   ExprId count = constant(types::kLInt, 1, loc);
   if (node.count) {
     count = temp(types::kLInt, loc);
-    assign(count, lowerValue(node.count), loc);
+    assign(copy(count), lowerValue(node.count), loc);
   }
   const ExprId size = constant(types::kLInt, types_.info(type).size, loc);
   const ExprId memory = callPool(project_.call(node.memory).pou, {count, size}, loc);
   const ExprId pointer = temp(pointer_type, loc);
-  assign(pointer, convertValue(memory, pointer_type, loc), loc);
+  assign(copy(pointer), convertValue(memory, pointer_type, loc), loc);
   if (in_.isZero(declared)) return pointer;
-  const ExprId is_there = binary(Op::Ne, types::kBool, pointer, constant(pointer_type, 0, loc), loc);
-  const CallId outer = given_;
-  given_ = node.constructor;
+  const ExprId is_there = binary(Op::Ne, types::kBool, copy(pointer), constant(pointer_type, 0, loc), loc);
+  const CallId outer = state_.given;
+  state_.given = node.constructor;
   const StmtId then = block([&] {
     if (!node.count) {
-      const ExprId place = add(loc, type, DerefExpr{.pointer = pointer});
-      storeInitial(place, declared, {}, true);
+      const ExprId place = add(loc, type, DerefExpr{.pointer = copy(pointer)});
+      objects().storeInitial(place, declared, {}, true);
       return;
     }
     constexpr uint64_t kMaxBytes = uint64_t{1} << 30;
@@ -41,34 +41,34 @@ ExprId BodyLowering::lowerNew(rung::ExprId id) {
     const TypeId row = types_.array(type, {&all, 1}), to_row = types_.pointer(row);
     types_.layout(row);
     types_.layout(to_row);
-    const ExprId elements = convert(pointer, to_row, loc);
+    const ExprId elements = convert(copy(pointer), to_row, loc);
     const ExprId whole = add(loc, row, DerefExpr{.pointer = elements});
-    const ExprId control = temp(types::kLInt, loc);
-    const StmtId body = block([&] { storeInitial(element(whole, {&control, 1}, loc), declared, {}, true); });
-    const ExprId last = binary(Op::Sub, types::kLInt, count, constant(types::kLInt, 1, loc), loc);
+    const ExprId control = temp(types::kLInt, loc), number = copy(control);
+    const StmtId body = block([&] { objects().storeInitial(element(whole, {&number, 1}, loc), declared, {}, true); });
+    const ExprId last = binary(Op::Sub, types::kLInt, copy(count), constant(types::kLInt, 1, loc), loc);
     append(loc, ForStmt{.control = control,
                         .from = constant(types::kLInt, 0, loc),
                         .to = last,
                         .step = constant(types::kLInt, 1, loc),
                         .body_block = body});
   });
-  given_ = outer;
+  state_.given = outer;
   append(loc, IfStmt{.condition = is_there, .then_block = then});
   return pointer;
 }
 
 // A null pointer stays null. Memory that is not of the pool, or was released before, is fault[null].
-void BodyLowering::lowerDelete(const sema::Call& call, Loc loc) {
+void ValueLowering::lowerDelete(const sema::Call& call, Loc loc) {
   const bool is_this = tree_.kind(call.instance) == rung::ExprKind::This;
-  const ExprId place = is_this ? lowerValue(call.instance) : stable(lowerPlace(call.instance));
+  const ExprId place = is_this ? lowerValue(call.instance) : stable(places().lowerPlace(call.instance));
   const TypeId pointer_type = typeOf(place), type = strip(types_.info(pointer_type).base);
-  const ExprId pointer = toTemp(place, loc);
+  const ExprId pointer = toTemp(copy(place), loc);
   const TypeId bytes = strip(project_.var(project_.pou(call.pou).vars.front()).type);
-  const auto memory = [&] { return convertValue(pointer, bytes, loc); };
+  const auto memory = [&] { return convertValue(copy(pointer), bytes, loc); };
   const auto require = [&](ExprId ok) {
     if ((in_.options.checks & kCheckNull) == 0) return;
     const ExprId failed = unary(Op::Not, types::kBool, ok, loc);
-    const ExprId value = convert(pointer, types::kLInt, loc);
+    const ExprId value = convert(copy(pointer), types::kLInt, loc);
     const StmtId fault = block([&] { append(loc, FaultStmt{.value = value, .fault = types::Fault::Null}); });
     append(loc, IfStmt{.condition = failed, .then_block = fault});
   };
@@ -76,13 +76,13 @@ void BodyLowering::lowerDelete(const sema::Call& call, Loc loc) {
     const sema::PouId object = in_.pouOfRecord(type);
     if (in_.hasExit(type) || (object && project_.pou(object).dispatched)) {
       const ExprId owned = callPool(call.owns, {memory()}, loc);
-      require(owned);
+      require(copy(owned));
       const StmtId ends = block([&] {
-        const ExprId whole = add(loc, type, DerefExpr{.pointer = pointer});
+        const ExprId whole = add(loc, type, DerefExpr{.pointer = copy(pointer)});
         if (object)
-          callExit(whole, false, loc);
+          objects().callExit(whole, false, loc);
         else
-          exitElement(whole, type);
+          objects().exitElement(whole, type);
       });
       if (ends) append(loc, IfStmt{.condition = owned, .then_block = ends});
     }

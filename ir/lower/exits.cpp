@@ -30,8 +30,8 @@ BodyId ModuleLowering::exitOf(TypeId record) {
   Body& body = module.body(created);
   body.self = record;
   BodyLowering lowering(*this, body, {});
-  lowering.lowerExit(lowering.self(body.loc), record);
-  body.first = lowering.build_.block().first;
+  lowering.objects.lowerExit(lowering.code.self(body.loc), record);
+  lowering.finish();
   return created;
 }
 
@@ -69,11 +69,11 @@ BodyId ModuleLowering::endsOf(NameId name, const char* suffix, std::span<const u
   BodyLowering lowering(*this, body, {});
   for (size_t i = ends.size(); i-- > 0;) {
     const ExprId place = ends[i].is_list
-                             ? lowering.add(body.loc, ends[i].record, GlobalExpr{.list = ends[i].index})
-                             : lowering.add(body.loc, ends[i].record, ProgramExpr{.program = ends[i].index});
-    lowering.append(body.loc, CallStmt{.callee = bodies[i], .self = place});
+                             ? lowering.code.add(body.loc, ends[i].record, GlobalExpr{.list = ends[i].index})
+                             : lowering.code.add(body.loc, ends[i].record, ProgramExpr{.program = ends[i].index});
+    lowering.code.append(body.loc, CallStmt{.callee = bodies[i], .self = place});
   }
-  body.first = lowering.build_.block().first;
+  lowering.finish();
   return created;
 }
 
@@ -91,7 +91,7 @@ void ModuleLowering::addExit() {
   module.exit = endsOf(module.names.intern("FB_Exit"), "~", lists, programs);
 }
 
-void BodyLowering::lowerExit(ExprId place, TypeId record) {
+void ObjectLowering::lowerExit(ExprId place, TypeId record) {
   const Loc loc = body_.loc;
   const std::vector<sema::PouId> methods = in_.lifeMethodsOf(in_.pouOfRecord(record), "FB_Exit");
   rung::CallExpr node{};
@@ -100,19 +100,19 @@ void BodyLowering::lowerExit(ExprId place, TypeId record) {
     sema::Call call;
     call.kind = sema::CallKind::Method;
     call.pou = methods[i];
-    lowerFunctionCall(call, node, nullptr, asBase(place, project_.pou(methods[i]).owner, loc));
+    calls().lowerFunctionCall(call, node, nullptr, asBase(copy(place), project_.pou(methods[i]).owner, loc));
   }
   exitParts(place, record);
 }
 
-void BodyLowering::exitParts(ExprId place, TypeId record) {
+void ObjectLowering::exitParts(ExprId place, TypeId record) {
   const Loc loc = body_.loc;
   const auto count = static_cast<uint32_t>(types_.info(record).fields.size());
   for (uint32_t i = count; i-- > 0;) {
     const types::Field held = types_.info(record).fields[i];
     if (held.by_reference || !in_.hasExit(held.type)) continue;
     const TypeId type = strip(held.type);
-    const ExprId part = field(place, i, type, loc);
+    const ExprId part = field(copy(place), i, type, loc);
     if (held.role == types::FieldRole::Base) {
       exitParts(part, type);
       continue;
@@ -121,7 +121,7 @@ void BodyLowering::exitParts(ExprId place, TypeId record) {
   }
 }
 
-void BodyLowering::exitElement(ExprId place, TypeId type) {
+void ObjectLowering::exitElement(ExprId place, TypeId type) {
   const Loc loc = body_.loc;
   if (types_.kind(type) == TypeKind::Array) {
     std::vector<ExprId> indices;
@@ -132,7 +132,7 @@ void BodyLowering::exitElement(ExprId place, TypeId type) {
   append(loc, CallStmt{.callee = in_.exitOf(type), .self = place});
 }
 
-void BodyLowering::callExit(ExprId place, bool exact, Loc loc) {
+void ObjectLowering::callExit(ExprId place, bool exact, Loc loc) {
   const sema::PouId object = in_.pouOfRecord(typeOf(place));
   const bool is_virtual = object && !exact && project_.pou(object).dispatched;
   const BodyId end = is_virtual ? in_.exitCallOf(object) : in_.exitOf(typeOf(place));

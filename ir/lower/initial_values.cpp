@@ -65,7 +65,7 @@ bool storeScalar(const TypeTable& types, const Value& value, TypeId type, uint8_
 }  // namespace
 
 // The bytes of a type's default. False: not expressible as bytes (it needs code).
-bool BodyLowering::writeDefault(TypeId declared, uint8_t* to) {
+bool ObjectLowering::writeDefault(TypeId declared, uint8_t* to) {
   for (TypeId t = declared;; t = types_.info(t).base) {
     if (t.index < project_.type_inits.size() && project_.type_inits[t.index])
       return writeBytes(declared, project_.type_inits[t.index], to);
@@ -99,7 +99,7 @@ bool BodyLowering::writeDefault(TypeId declared, uint8_t* to) {
   return storeScalar(types_, value, type, to);
 }
 
-bool BodyLowering::writeBytes(TypeId type, rung::ExprId init, uint8_t* to) {
+bool ObjectLowering::writeBytes(TypeId type, rung::ExprId init, uint8_t* to) {
   type = strip(type);
   if (tree_.kind(init) == rung::ExprKind::ArrayInit) return writeArray(type, init, to);
   if (tree_.kind(init) == rung::ExprKind::StructInit) {
@@ -124,7 +124,7 @@ bool BodyLowering::writeBytes(TypeId type, rung::ExprId init, uint8_t* to) {
 
 // Array initial values fill the elements in row-major order; missing elements get the default, surplus values are
 // dropped (syntax manual 5.3.3; sema warns).
-bool BodyLowering::writeArray(TypeId type, rung::ExprId init, uint8_t* to) {
+bool ObjectLowering::writeArray(TypeId type, rung::ExprId init, uint8_t* to) {
   const TypeInfo& info = types_.info(type);
   TypeId element = info.base;
   const uint64_t size = types_.info(strip(element)).size, count = elementCount(info);
@@ -162,15 +162,15 @@ bool BodyLowering::writeArray(TypeId type, rung::ExprId init, uint8_t* to) {
   return ok;
 }
 
-void BodyLowering::forEachElement(ExprId array, TypeId type, Loc loc, uint32_t dimension, std::vector<ExprId>& indices,
-                                  FunctionRef<void(ExprId)> store, bool backwards) {
+void ObjectLowering::forEachElement(ExprId array, TypeId type, Loc loc, uint32_t dimension,
+                                    std::vector<ExprId>& indices, FunctionRef<void(ExprId)> store, bool backwards) {
   const TypeInfo& info = types_.info(type);
   if (dimension == info.dimensions.size()) {
     store(element(array, indices, loc));
     return;
   }
   ExprId control = temp(types::kDInt, loc);
-  indices.push_back(control);
+  indices.push_back(copy(control));
   StmtId body = block([&] { forEachElement(array, type, loc, dimension + 1, indices, store, backwards); });
   indices.pop_back();
   const types::Dimension range = types_.info(type).dimensions[dimension];
@@ -182,15 +182,15 @@ void BodyLowering::forEachElement(ExprId array, TypeId type, Loc loc, uint32_t d
                       .body_block = body});
 }
 
-void BodyLowering::storeInitialRecord(ExprId place, TypeId type, rung::ExprId init) {
+void ObjectLowering::storeInitialRecord(ExprId place, TypeId type, rung::ExprId init) {
   if (BodyId initializer = in_.initOf(type))
-    append(body_.expr(place).loc, CallStmt{.callee = initializer, .self = place});
+    append(body_.expr(place).loc, CallStmt{.callee = initializer, .self = copy(place)});
   construct(place, type);
   if (init) storeMembers(place, init);
 }
 
 // The variable to which a place belongs, if its declaration gives arguments to FB_Init.
-const sema::Var* BodyLowering::constructedVar(ExprId place) const {
+const sema::Var* ObjectLowering::constructedVar(ExprId place) const {
   while (const auto* index = body_.expr(place).tryAs<IndexExpr>()) place = index->base;
   const Expr& at = body_.expr(place);
   if (const auto* part = at.tryAs<FieldExpr>()) return in_.constructedVar(typeOf(part->base), part->field);
@@ -198,14 +198,14 @@ const sema::Var* BodyLowering::constructedVar(ExprId place) const {
   if (index == nullptr || !pou_) return nullptr;
   for (sema::VarId id : project_.pou(pou_).vars) {
     const sema::Var& var = project_.var(id);
-    if (var.storage == sema::Storage::Local && local_of_[var.field] == *index + 1 && var.constructor.index != 0)
+    if (var.storage == sema::Storage::Local && state_.local_of[var.field] == *index + 1 && var.constructor.index != 0)
       return &var;
   }
   return nullptr;
 }
 
 // FB_Init of an instance whose declared values are set, those of its bases first. Codesys.
-void BodyLowering::construct(ExprId place, TypeId type) {
+void ObjectLowering::construct(ExprId place, TypeId type) {
   const sema::PouId object = in_.pouOfRecord(type);
   if (!object) return;
   const std::vector<sema::PouId> methods = in_.lifeMethodsOf(object, "FB_Init");
@@ -220,10 +220,10 @@ void BodyLowering::construct(ExprId place, TypeId type) {
   }
   CallId given;
   if (at.kind == ExprKind::Deref) {
-    given = given_;
+    given = state_.given;
   } else if (const sema::Var* var = constructedVar(place)) {
     given = var->constructor;
-    if (var->element_constructors != 0) given.index += element_;
+    if (var->element_constructors != 0) given.index += state_.element;
   }
   rung::CallExpr node{};
   node.h.loc = at.loc;
@@ -239,12 +239,12 @@ void BodyLowering::construct(ExprId place, TypeId type) {
           call.bindings.push_back(binding);
           call.bindings.back().pin = pin;
         }
-    lowerFunctionCall(call, node, nullptr, asBase(place, project_.pou(method).owner, at.loc));
+    calls().lowerFunctionCall(call, node, nullptr, asBase(copy(place), project_.pou(method).owner, at.loc));
   }
 }
 
 // The values that a declaration gives to members of a record whose other values are set.
-void BodyLowering::storeMembers(ExprId place, rung::ExprId init) {
+void ObjectLowering::storeMembers(ExprId place, rung::ExprId init) {
   Loc loc = body_.expr(place).loc;
   for (uint32_t g = 0; g < tree_.as<StructInitExpr>(init).fields.count; ++g) {
     const FieldInit given = tree_.list(tree_.as<StructInitExpr>(init).fields)[g];
@@ -255,7 +255,7 @@ void BodyLowering::storeMembers(ExprId place, rung::ExprId init) {
         if (!project_.names.same(info.fields[i].name, given.field.name)) continue;
         found = true;
         const TypeId type = info.fields[i].type;
-        const ExprId member = field(holder, i, type, loc);
+        const ExprId member = field(copy(holder), i, type, loc);
         if (in_.pouOfRecord(strip(type)) && tree_.kind(given.value) == rung::ExprKind::StructInit)
           storeMembers(member, given.value);
         else
@@ -263,13 +263,13 @@ void BodyLowering::storeMembers(ExprId place, rung::ExprId init) {
       }
       const sema::PouId object = in_.pouOfRecord(typeOf(holder));
       if (!object || !project_.pou(object).base) break;
-      holder = asBase(holder, project_.pou(object).base, loc);
+      holder = asBase(copy(holder), project_.pou(object).base, loc);
     }
   }
 }
 
 // An element by its number, counted row by row.
-ExprId BodyLowering::elementAt(ExprId array, uint64_t number, Loc loc) {
+ExprId ObjectLowering::elementAt(ExprId array, uint64_t number, Loc loc) {
   const TypeInfo& info = types_.info(typeOf(array));
   std::vector<ExprId> at(info.dimensions.size());
   for (size_t d = info.dimensions.size(); d-- > 0;) {
@@ -281,7 +281,7 @@ ExprId BodyLowering::elementAt(ExprId array, uint64_t number, Loc loc) {
   return element(array, at, loc);
 }
 
-void BodyLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero) {
+void ObjectLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId init, bool place_is_zero) {
   Loc loc = body_.expr(place).loc;
   const TypeInfo& info = types_.info(type);
   std::vector<uint8_t> bytes(info.size);
@@ -301,14 +301,15 @@ void BodyLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId ini
   // Elements that need code: FB instances, and types that hold them.
   if (const sema::Var* var = constructedVar(place); var != nullptr && var->element_constructors != 0) {
     const bool whole = body_.expr(place).kind != ExprKind::Index;
-    if (whole) element_ = 0;
+    if (whole) state_.element = 0;
     for (uint64_t i = 0; i < elementCount(info); ++i) {
-      storeInitial(elementAt(place, i, loc), info.base, {}, false);
-      if (in_.pouOfRecord(strip(info.base))) ++element_;
+      storeInitial(elementAt(copy(place), i, loc), info.base, {}, false);
+      if (in_.pouOfRecord(strip(info.base))) ++state_.element;
     }
   } else {
     std::vector<ExprId> indices;
-    forEachElement(place, type, loc, 0, indices, [&](ExprId element) { storeInitial(element, info.base, {}, false); });
+    forEachElement(copy(place), type, loc, 0, indices,
+                   [&](ExprId element) { storeInitial(element, info.base, {}, false); });
   }
   if (!init || tree_.kind(init) != rung::ExprKind::ArrayInit) return;
   // The elements that the initialiser lists, one by one.
@@ -334,12 +335,12 @@ void BodyLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId ini
   flatten(flatten, tree_.list(tree_.as<ArrayInitExpr>(init).elements));
   for (uint64_t i = 0; i < items.size() && i < count; ++i) {
     if (!items[i]) continue;
-    const ExprId element = elementAt(place, i, loc);
+    const ExprId element = elementAt(copy(place), i, loc);
     storeInitial(element, info.base, items[i], false);
   }
 }
 
-void BodyLowering::storeInitial(ExprId place, TypeId declared, rung::ExprId init, bool place_is_zero) {
+void ObjectLowering::storeInitial(ExprId place, TypeId declared, rung::ExprId init, bool place_is_zero) {
   Loc loc = body_.expr(place).loc;
   if (!init)
     for (TypeId t = declared;; t = types_.info(t).base) {
@@ -364,7 +365,7 @@ void BodyLowering::storeInitial(ExprId place, TypeId declared, rung::ExprId init
     assign(place, ofValue(value, loc), loc);
     return;
   }
-  ExprId value = convertValue(lowerValue(init), type, loc);
+  ExprId value = convertValue(values().lowerValue(init), type, loc);
   const Expr& expr = body_.expr(value);
   if (place_is_zero && isConst(expr) && bitsOf(expr) == 0) return;
   assign(place, value, loc);

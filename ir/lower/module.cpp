@@ -83,7 +83,7 @@ sema::PouId ModuleLowering::lowerBodies() {
     setPhaseSubject(name.data(), name.size());
     Body& body = module.body(body_of_[id.index]);
     BodyLowering lowering(*this, body, id);
-    lowering.lowerPou();
+    lowering.statements.lowerPou();
   }
   return {};
 }
@@ -351,19 +351,20 @@ BodyId ModuleLowering::initOf(TypeId type) {
 
   BodyLowering lowering(*this, body, pou);
   Loc loc = body.loc;
-  lowering.assign(lowering.self(loc), lowering.zero(type, loc), loc);
+  lowering.code.assign(lowering.code.self(loc), lowering.code.zero(type, loc), loc);
   auto storeVar = [&](sema::VarId id_of_var) {
     const sema::Var& var = project.var(id_of_var);
     if (var.storage == sema::Storage::Image) {
       if (var.init)
-        lowering.storeInitial(lowering.varPlace(id_of_var, var.loc), types.resolve(var.type), var.init, false);
+        lowering.objects.storeInitial(lowering.places.varPlace(id_of_var, var.loc), types.resolve(var.type), var.init,
+                                      false);
       return;
     }
     if (var.storage != sema::Storage::Field && var.storage != sema::Storage::Global) return;
     if (var.section == SectionKind::InOut || var.is_bit) return;
     if (!var.init && isZero(var.type)) return;
-    lowering.storeInitial(lowering.field(lowering.self(var.loc), var.field, var.type, var.loc), var.type, var.init,
-                          true);
+    lowering.objects.storeInitial(lowering.code.field(lowering.code.self(var.loc), var.field, var.type, var.loc),
+                                  var.type, var.init, true);
   };
   if (pou) {
     for (sema::VarId var : project.pou(pou).vars)
@@ -373,9 +374,10 @@ BodyId ModuleLowering::initOf(TypeId type) {
       sema::PouId first = pou;
       while (!project.pou(first).id_var) first = project.pou(first).base;
       const uint32_t field = project.var(project.pou(first).id_var).field;
-      ExprId number = lowering.add(loc, types::kUDInt, ConstExpr{.number_of = type});
-      ExprId place = lowering.field(lowering.asBase(lowering.self(loc), first, loc), field, types::kUDInt, loc);
-      lowering.assign(place, number, loc);
+      ExprId number = lowering.code.add(loc, types::kUDInt, ConstExpr{.number_of = type});
+      ExprId place =
+          lowering.code.field(lowering.code.asBase(lowering.code.self(loc), first, loc), field, types::kUDInt, loc);
+      lowering.code.assign(place, number, loc);
     }
   } else if (list) {
     for (sema::VarId var : project.global_lists[list.index].vars)
@@ -383,8 +385,8 @@ BodyId ModuleLowering::initOf(TypeId type) {
     // Values that read other lists are set when all lists have theirs, and before those of programs.
     for (size_t i = 0; sets_late && i < project.late.size(); ++i) {
       const sema::Var& var = project.var(project.late[i]);
-      lowering.storeInitial(lowering.varPlace(project.late[i], var.loc), var.type, var.init,
-                            var.storage == sema::Storage::Global);
+      lowering.objects.storeInitial(lowering.places.varPlace(project.late[i], var.loc), var.type, var.init,
+                                    var.storage == sema::Storage::Global);
     }
   } else
     for (const bool written : {false, true})  // where members overlap, explicit values win
@@ -394,11 +396,11 @@ BodyId ModuleLowering::initOf(TypeId type) {
           init = project.field_inits[type.index][i];
         if (info.overlaps ? init ? written : !written && !isZero(info.fields[i].type)
                           : !written && (init || !isZero(info.fields[i].type)))
-          lowering.storeInitial(lowering.field(lowering.self(loc), i, info.fields[i].type, loc), info.fields[i].type,
-                                init, !info.overlaps);
+          lowering.objects.storeInitial(lowering.code.field(lowering.code.self(loc), i, info.fields[i].type, loc),
+                                        info.fields[i].type, init, !info.overlaps);
         if (info.record_kind == types::RecordKind::Union && !info.overlaps) break;
       }
-  body.first = lowering.build_.block().first;
+  lowering.finish();
   return id;
 }
 

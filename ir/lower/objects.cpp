@@ -143,8 +143,8 @@ BodyId ModuleLowering::blockCallOf(sema::PouId block) {
   Body& body = module.body(created);
   body.self = project.pou(block).record;
   BodyLowering lowering(*this, body, {});
-  lowering.append(body.loc, CallStmt{.callee = code, .self = lowering.self(body.loc)});
-  body.first = lowering.build_.block().first;
+  lowering.code.append(body.loc, CallStmt{.callee = code, .self = lowering.code.self(body.loc)});
+  lowering.finish();
   return created;
 }
 
@@ -171,28 +171,28 @@ void ModuleLowering::fillKindTests() {
       return c < module.classes.size() && isKindOf(pou_of_record_[module.classes[c].record.index], wanted);
     };
     auto compare = [&](Op op, size_t c) {
-      const ExprId number = lowering.add(loc, types::kUDInt, ConstExpr{.number_of = module.classes[c].record});
-      return lowering.binary(op, types::kBool, lowering.local(0, loc), number, loc);
+      const ExprId number = lowering.code.add(loc, types::kUDInt, ConstExpr{.number_of = module.classes[c].record});
+      return lowering.code.binary(op, types::kBool, lowering.code.local(0, loc), number, loc);
     };
     ExprId is;
     for (size_t c = 0; c < module.classes.size(); ++c) {
       if (!holds(c)) continue;
       const size_t first = c;
       while (holds(c + 1)) ++c;
-      const ExprId run = first == c
-                             ? compare(Op::Eq, c)
-                             : lowering.binary(Op::And, types::kBool, compare(Op::Ge, first), compare(Op::Le, c), loc);
-      is = is ? lowering.binary(Op::Or, types::kBool, is, run, loc) : run;
+      const ExprId run =
+          first == c ? compare(Op::Eq, c)
+                     : lowering.code.binary(Op::And, types::kBool, compare(Op::Ge, first), compare(Op::Le, c), loc);
+      is = is ? lowering.code.binary(Op::Or, types::kBool, is, run, loc) : run;
     }
-    lowering.assign(lowering.local(1, loc), is ? is : lowering.constantBool(false, loc), loc);
-    body.first = lowering.build_.block().first;
+    lowering.code.assign(lowering.code.local(1, loc), is ? is : lowering.code.constantBool(false, loc), loc);
+    lowering.finish();
   }
 }
 
 // ---- in bodies
 
 // Whether the object at a pointer that is not null is of a kind.
-ExprId BodyLowering::isKindOf(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc) {
+ExprId ValueLowering::isKindOf(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc) {
   if (!project_.pou(given).dispatched) return constantBool(in_.isKindOf(given, wanted), loc);
   const TypeId record = strip(types_.info(typeOf(pointer)).base);
   sema::PouId first = given;
@@ -204,12 +204,12 @@ ExprId BodyLowering::isKindOf(ExprId pointer, sema::PouId given, sema::PouId wan
 }
 
 // Converts a pointer to a base to one to an object that extends it; fault[cast] when the object is of another kind.
-ExprId BodyLowering::checkedDowncast(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc) {
+ExprId ValueLowering::checkedDowncast(ExprId pointer, sema::PouId given, sema::PouId wanted, Loc loc) {
   if ((in_.options.checks & kCheckCast) == 0 || !project_.pou(given).dispatched) return pointer;
   pointer = toTemp(pointer, loc);
-  const ExprId is_set = binary(Op::Ne, types::kBool, pointer, constant(typeOf(pointer), 0, loc), loc);
+  const ExprId is_set = binary(Op::Ne, types::kBool, copy(pointer), constant(typeOf(pointer), 0, loc), loc);
   const StmtId test = block([&] {
-    const ExprId is_other = unary(Op::Not, types::kBool, isKindOf(pointer, given, wanted, loc), loc);
+    const ExprId is_other = unary(Op::Not, types::kBool, isKindOf(copy(pointer), given, wanted, loc), loc);
     const StmtId fault = block([&] { append(loc, FaultStmt{.fault = types::Fault::Cast}); });
     append(loc, IfStmt{.condition = is_other, .then_block = fault});
   });
@@ -217,20 +217,20 @@ ExprId BodyLowering::checkedDowncast(ExprId pointer, sema::PouId given, sema::Po
   return pointer;
 }
 
-ExprId BodyLowering::lowerAttempt(const sema::Call& call, Loc loc) {
+ExprId ValueLowering::lowerAttempt(const sema::Call& call, Loc loc) {
   const ExprId source = toTemp(lowerValue(call.bindings[0].value), loc);
   const sema::PouId given = in_.pouOfRecord(strip(types_.info(typeOf(source)).base));
   const ExprId is = temp(types::kBool, loc);
-  assign(is, binary(Op::Ne, types::kBool, source, constant(typeOf(source), 0, loc), loc), loc);
+  assign(copy(is), binary(Op::Ne, types::kBool, copy(source), constant(typeOf(source), 0, loc), loc), loc);
   if (call.pou) {
-    const StmtId test = block([&] { assign(is, isKindOf(source, given, call.pou, loc), loc); });
-    append(loc, IfStmt{.condition = is, .then_block = test});
+    const StmtId test = block([&] { assign(copy(is), isKindOf(copy(source), given, call.pou, loc), loc); });
+    append(loc, IfStmt{.condition = copy(is), .then_block = test});
   }
-  const ExprId target = stable(lowerPlace(call.bindings[1].value));
+  const ExprId target = stable(places().lowerPlace(call.bindings[1].value));
   const TypeId type = typeOf(target);
-  const StmtId taken = block([&] { assign(target, convertValue(source, type, loc), loc); });
+  const StmtId taken = block([&] { assign(copy(target), convertValue(source, type, loc), loc); });
   const StmtId refused = block([&] { assign(target, constant(type, 0, loc), loc); });
-  append(loc, IfStmt{.condition = is, .then_block = taken, .else_block = refused});
+  append(loc, IfStmt{.condition = copy(is), .then_block = taken, .else_block = refused});
   return is;
 }
 

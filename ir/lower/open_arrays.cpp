@@ -12,23 +12,25 @@ constexpr uint64_t kMaxBytes = uint64_t{1} << 30;
 }  // namespace
 
 // The pointer or a bound: a local of a function, a field of the instance.
-ExprId BodyLowering::openArrayPart(rung::ExprId array, sema::VarId part, Loc loc) {
+ExprId PlaceLowering::openArrayPart(rung::ExprId array, sema::VarId part, Loc loc) {
   const sema::Var& var = project_.var(part);
   const TypeId type =
       types_.isOpenArray(var.type) ? types_.pointer(types_.info(strip(var.type)).base) : strip(var.type);
-  if (var.storage == sema::Storage::Local) return local(local_of_[var.field] - 1, loc);
+  if (var.storage == sema::Storage::Local) return local(state_.local_of[var.field] - 1, loc);
   if (tree_.kind(array) == rung::ExprKind::Member)
     return field(lowerPlace(tree_.as<MemberExpr>(array).base), var.field, type, loc);
   return field(self(loc), var.field, type, loc);
 }
 
-ExprId BodyLowering::openArrayPointer(rung::ExprId array, Loc loc) { return openArrayPart(array, rootVar(array), loc); }
+ExprId PlaceLowering::openArrayPointer(rung::ExprId array, Loc loc) {
+  return openArrayPart(array, rootVar(array), loc);
+}
 
-ExprId BodyLowering::openArrayBound(rung::ExprId array, uint32_t index, Loc loc) {
+ExprId PlaceLowering::openArrayBound(rung::ExprId array, uint32_t index, Loc loc) {
   return openArrayPart(array, {project_.var(rootVar(array)).bounds.index + index}, loc);
 }
 
-ExprId BodyLowering::openArrayElement(const rung::IndexExpr& node) {
+ExprId PlaceLowering::openArrayElement(const rung::IndexExpr& node) {
   const Loc loc = node.h.loc;
   const TypeId element = strip(node.h.type);
   const TypeId number = types::kLInt;
@@ -36,7 +38,7 @@ ExprId BodyLowering::openArrayElement(const rung::IndexExpr& node) {
   std::vector<ExprId> indices;
   for (rung::ExprId index : tree_.list(node.indices)) {
     InsertionPoint point = here();
-    ExprId value = lowerValue(index);
+    ExprId value = values().lowerValue(index);
     for (ExprId& earlier : indices) spill(point, {&earlier});
     indices.push_back(value);
   }
@@ -47,10 +49,10 @@ ExprId BodyLowering::openArrayElement(const rung::IndexExpr& node) {
       return convertValue(openArrayBound(node.base, 2 * i + which, loc), number, loc);
     };
     if ((in_.options.checks & kCheckIndex) != 0) {
-      ExprId outside = binary(Op::Or, types::kBool, binary(Op::Lt, types::kBool, index, bound(0), loc),
-                              binary(Op::Gt, types::kBool, index, bound(1), loc), loc);
-      if (guard_) outside = binary(Op::And, types::kBool, guard_, outside, loc);
-      StmtId fault = block([&] { append(loc, FaultStmt{.value = index, .fault = types::Fault::Index}); });
+      ExprId outside = binary(Op::Or, types::kBool, binary(Op::Lt, types::kBool, copy(index), bound(0), loc),
+                              binary(Op::Gt, types::kBool, copy(index), bound(1), loc), loc);
+      if (state_.guard) outside = binary(Op::And, types::kBool, copy(state_.guard), outside, loc);
+      StmtId fault = block([&] { append(loc, FaultStmt{.value = copy(index), .fault = types::Fault::Index}); });
       append(loc, IfStmt{.condition = outside, .then_block = fault});
     }
     ExprId step = binary(Op::Sub, number, index, bound(0), loc);
@@ -73,7 +75,7 @@ ExprId BodyLowering::openArrayElement(const rung::IndexExpr& node) {
   return this->element(base, {&offset, 1}, loc);
 }
 
-BodyLowering::OpenArray BodyLowering::noOpenArray(TypeId pin_type, Loc loc) {
+OpenArray PlaceLowering::noOpenArray(TypeId pin_type, Loc loc) {
   const TypeInfo& pin = types_.info(strip(pin_type));
   OpenArray passed;
   passed.pointer = constant(types_.pointer(pin.base), 0, loc);
@@ -82,7 +84,7 @@ BodyLowering::OpenArray BodyLowering::noOpenArray(TypeId pin_type, Loc loc) {
   return passed;
 }
 
-BodyLowering::OpenArray BodyLowering::passOpenArray(rung::ExprId argument, TypeId pin_type, bool copies) {
+OpenArray PlaceLowering::passOpenArray(rung::ExprId argument, TypeId pin_type, bool copies) {
   const Loc loc = tree_.loc(argument);
   const TypeInfo& given = types_.info(strip(tree_.expr(argument).type));
   const uint32_t count = 2 * types_.info(strip(pin_type)).length;
@@ -94,7 +96,7 @@ BodyLowering::OpenArray BodyLowering::passOpenArray(rung::ExprId argument, TypeI
   }
   const TypeId pointer = types_.pointer(types_.info(strip(pin_type)).base);
   ExprId place = lowerPlace(argument);
-  if (copies) place = argumentPlace(place, typeOf(place), true, loc);
+  if (copies) place = calls().argumentPlace(place, typeOf(place), true, loc);
   place = isPlace(body_.expr(place).kind) ? stable(place) : toTemp(place, loc);
   passed.pointer = add(loc, pointer, AddressExpr{.place = place});
   for (uint32_t i = 0; i < count; ++i) {

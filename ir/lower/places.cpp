@@ -1,16 +1,15 @@
 // Lowering of lvalues: variables, fields, elements, image views. In: checked expressions. Out: IR place expressions.
 #include "ir/lower/lowering.h"
-#include "ir/walk.h"
 
 namespace rung::ir {
 
-ExprId BodyLowering::varPlace(sema::VarId id, Loc loc) {
+ExprId PlaceLowering::varPlace(sema::VarId id, Loc loc) {
   const sema::Var* var = &project_.var(id);
   if (var->external) var = &project_.var(id = var->external);
   TypeId type = fieldType(*var);
   switch (var->storage) {
     case sema::Storage::Field: {
-      for (const auto& [pin, edge] : edge_locals_)
+      for (const auto& [pin, edge] : state_.edge_locals)
         if (pin == id.index) return local(edge, loc);
       if (!var->pou) return field(self(loc), var->field, type, loc);
       for (sema::PouId at = pou_ ? in_.objectOf(pou_) : sema::PouId{}; at; at = project_.pou(at).base)
@@ -21,9 +20,9 @@ ExprId BodyLowering::varPlace(sema::VarId id, Loc loc) {
       return field(add(loc, record, ProgramExpr{.program = instance}), var->field, type, loc);
     }
     case sema::Storage::Local:
-      RUNG_INVARIANT(var->field < local_of_.size() && local_of_[var->field] != 0,
+      RUNG_INVARIANT(var->field < state_.local_of.size() && state_.local_of[var->field] != 0,
                      "a local variable belongs to its POU");
-      return local(local_of_[var->field] - 1, loc);
+      return local(state_.local_of[var->field] - 1, loc);
     case sema::Storage::Global: {
       uint32_t list = in_.listIndex(var->list);
       ExprId base = add(loc, in_.module.lists[list].record, GlobalExpr{.list = list});
@@ -39,9 +38,9 @@ ExprId BodyLowering::varPlace(sema::VarId id, Loc loc) {
   return {};
 }
 
-ExprId BodyLowering::memberPlace(rung::ExprId id) {
+ExprId PlaceLowering::memberPlace(rung::ExprId id) {
   const MemberExpr& node = tree_.as<MemberExpr>(id);
-  if (node.entity.entityKind() != EntityKind::Var) return lowerValue(id);
+  if (node.entity.entityKind() != EntityKind::Var) return values().lowerValue(id);
   sema::VarId var_id{node.entity.index};
   const sema::Var& var = project_.var(var_id);
   TypeId base_type = strip(tree_.expr(node.base).type);
@@ -56,9 +55,9 @@ ExprId BodyLowering::memberPlace(rung::ExprId id) {
   return field(base, var.field, fieldType(var), node.h.loc);
 }
 
-TypeId BodyLowering::fieldType(const sema::Var& var) const { return var.is_bit ? types::kByte : strip(var.type); }
+TypeId PlaceLowering::fieldType(const sema::Var& var) const { return var.is_bit ? types::kByte : strip(var.type); }
 
-ExprId BodyLowering::pinPlace(ExprId instance, const sema::Var& pin, Loc loc) {
+ExprId PlaceLowering::pinPlace(ExprId instance, const sema::Var& pin, Loc loc) {
   const ExprId place = field(asBase(instance, pin.pou, loc), pin.field, fieldType(pin), loc);
   if (!pin.is_bit) return place;
   return add(loc, types::kBool, BitsExpr{.base = place, .position = pin.bit});
@@ -66,7 +65,7 @@ ExprId BodyLowering::pinPlace(ExprId instance, const sema::Var& pin, Loc loc) {
 
 // A string as the array of its bytes or words, including the final zero where it is only read; or of its characters,
 // which count from 1.
-ExprId BodyLowering::characters(ExprId string, TypeId unit, bool writes) {
+ExprId PlaceLowering::characters(ExprId string, TypeId unit, bool writes) {
   const Expr place = body_.expr(string);
   const types::TypeInfo& info = types_.info(types_.resolve(place.type));
   const bool from_one = types_.kind(unit) == TypeKind::Char || types_.kind(unit) == TypeKind::WChar;
@@ -80,87 +79,89 @@ ExprId BodyLowering::characters(ExprId string, TypeId unit, bool writes) {
   return add(place.loc, array, DerefExpr{.pointer = string});
 }
 
-ExprId BodyLowering::lowerPlace(rung::ExprId id) {
-  Loc loc = tree_.loc(id);
+ExprId PlaceLowering::named(rung::ExprId id) {
+  const Loc loc = tree_.loc(id);
+  const Entity entity = tree_.as<NameExpr>(id).entity;
+  switch (entity.entityKind()) {
+    case EntityKind::Var: {
+      const sema::VarId var{entity.index};
+      if (state_.result_local != kNoBit && var == project_.pou(pou_).result_var) return local(state_.result_local, loc);
+      return varPlace(var, loc);
+    }
+    case EntityKind::Pou: return programPlace(in_.instanceOf({entity.index}), loc);
+    case EntityKind::Program: return programPlace(in_.programOfInstance(entity.index), loc);
+    case EntityKind::None:
+    case EntityKind::Error:
+    case EntityKind::Type:
+    case EntityKind::EnumValue:
+    case EntityKind::GlobalList:
+    case EntityKind::Property:
+    case EntityKind::Namespace: return values().lowerValue(id);
+  }
+  return {};
+}
+
+ExprId PlaceLowering::indexed(const rung::IndexExpr& node) {
+  if (isOpenArray(types_, tree_.expr(node.base).type)) return openArrayElement(node);
+  ExprId base = lowerPlace(node.base);
+  if (TypeTable::isString(types_.kind(body_.expr(base).type)))
+    base = characters(base, strip(node.h.type), (node.h.bits & kWritesCharacter) != 0);
+  std::vector<ExprId> indices;
+  for (rung::ExprId index : tree_.list(node.indices)) {
+    InsertionPoint point = here();
+    ExprId value = values().lowerValue(index);
+    spillPlace(point, base);
+    for (ExprId& earlier : indices) spill(point, {&earlier});
+    indices.push_back(value);
+  }
+  return add(node.h.loc, strip(node.h.type), IndexExpr{.base = base, .indices = list(indices)},
+             static_cast<uint8_t>(in_.options.checks & kCheckIndex));
+}
+
+ExprId PlaceLowering::dereferenced(rung::ExprId id) {
+  const Loc loc = tree_.loc(id);
+  const rung::ExprId target = tree_.as<rung::DerefExpr>(id).base;
+  if (tree_.kind(target) == rung::ExprKind::This) return self(loc);
+  if (tree_.kind(target) == rung::ExprKind::Super) return asBase(self(loc), project_.pou(in_.objectOf(pou_)).base, loc);
+  const ExprId pointer = values().lowerValue(target);
+  return add(loc, strip(tree_.expr(id).type), DerefExpr{.pointer = pointer},
+             static_cast<uint8_t>(in_.options.checks & kCheckNull));
+}
+
+ExprId PlaceLowering::directAddress(rung::ExprId id) {
+  const DirectAddress& address = tree_.as<rung::AddressExpr>(id).address;
+  auto path = tree_.list(address.path);
+  TypeId type = strip(tree_.expr(id).type);
+  uint32_t width = TypeTable::bitWidth(types_.kind(type));
+  uint32_t byte = path.empty() ? 0 : path[0];
+  uint32_t bit = kNoBit;
+  if (width == 1) {
+    bit = path.size() > 1 ? path[1] : 0;
+    if (path.size() == 1) {  // %IX5 is byte 0, bit 5
+      bit = byte % 8;
+      byte = byte / 8;
+    }
+  } else {
+    byte *= width / 8;
+  }
+  const uint32_t area = types::findArea(project_.options.areas, address.area)->index;
+  return add(tree_.loc(id), type, ImageExpr{.area = area, .byte = byte, .bit = bit});
+}
+
+ExprId PlaceLowering::lowerPlace(rung::ExprId id) {
   switch (tree_.kind(id)) {
-    case rung::ExprKind::Name: {
-      const NameExpr& node = tree_.as<NameExpr>(id);
-      switch (node.entity.entityKind()) {
-        case EntityKind::Var: {
-          sema::VarId var{node.entity.index};
-          if (result_local_ != kNoBit && var == project_.pou(pou_).result_var) return local(result_local_, loc);
-          return varPlace(var, loc);
-        }
-        case EntityKind::Pou:
-        case EntityKind::Program: {
-          uint32_t instance = node.entity.entityKind() == EntityKind::Program ? in_.programOfInstance(node.entity.index)
-                                                                              : in_.instanceOf({node.entity.index});
-          TypeId record = in_.module.programs[instance].record;
-          return add(loc, record, ProgramExpr{.program = instance});
-        }
-        case EntityKind::None:
-        case EntityKind::Error:
-        case EntityKind::Type:
-        case EntityKind::EnumValue:
-        case EntityKind::GlobalList:
-        case EntityKind::Property:
-        case EntityKind::Namespace: return lowerValue(id);
-      }
-      return {};
-    }
+    case rung::ExprKind::Name: return named(id);
     case rung::ExprKind::Member: return memberPlace(id);
-    case rung::ExprKind::Index: {
-      const rung::IndexExpr& node = tree_.as<rung::IndexExpr>(id);
-      if (isOpenArray(types_, tree_.expr(node.base).type)) return openArrayElement(node);
-      ExprId base = lowerPlace(node.base);
-      if (TypeTable::isString(types_.kind(body_.expr(base).type)))
-        base = characters(base, strip(node.h.type), (node.h.bits & kWritesCharacter) != 0);
-      std::vector<ExprId> indices;
-      for (rung::ExprId index : tree_.list(node.indices)) {
-        InsertionPoint point = here();
-        ExprId value = lowerValue(index);
-        spillPlace(point, base);
-        for (ExprId& earlier : indices) spill(point, {&earlier});
-        indices.push_back(value);
-      }
-      return add(loc, strip(node.h.type), IndexExpr{.base = base, .indices = list(indices)},
-                 static_cast<uint8_t>(in_.options.checks & kCheckIndex));
-    }
-    case rung::ExprKind::This:
-    case rung::ExprKind::Super: return lowerValue(id);
-    case rung::ExprKind::Deref: {
-      const rung::ExprId target = tree_.as<rung::DerefExpr>(id).base;
-      if (tree_.kind(target) == rung::ExprKind::This) return self(loc);
-      if (tree_.kind(target) == rung::ExprKind::Super)
-        return asBase(self(loc), project_.pou(in_.objectOf(pou_)).base, loc);
-      ExprId pointer = lowerValue(tree_.as<rung::DerefExpr>(id).base);
-      return add(loc, strip(tree_.expr(id).type), DerefExpr{.pointer = pointer},
-                 static_cast<uint8_t>(in_.options.checks & kCheckNull));
-    }
+    case rung::ExprKind::Index: return indexed(tree_.as<rung::IndexExpr>(id));
+    case rung::ExprKind::Deref: return dereferenced(id);
     case rung::ExprKind::BitAccess: {
       const BitAccessExpr& node = tree_.as<BitAccessExpr>(id);
-      ExprId base = lowerPlace(node.base);
-      return add(loc, strip(node.h.type), BitsExpr{.base = base, .position = node.position});
+      const ExprId base = lowerPlace(node.base);
+      return add(node.h.loc, strip(node.h.type), BitsExpr{.base = base, .position = node.position});
     }
-    case rung::ExprKind::Address: {
-      const DirectAddress& address = tree_.as<rung::AddressExpr>(id).address;
-      auto path = tree_.list(address.path);
-      TypeId type = strip(tree_.expr(id).type);
-      uint32_t width = TypeTable::bitWidth(types_.kind(type));
-      uint32_t byte = path.empty() ? 0 : path[0];
-      uint32_t bit = kNoBit;
-      if (width == 1) {
-        bit = path.size() > 1 ? path[1] : 0;
-        if (path.size() == 1) {  // %IX5 is byte 0, bit 5
-          bit = byte % 8;
-          byte = byte / 8;
-        }
-      } else {
-        byte *= width / 8;
-      }
-      const uint32_t area = types::findArea(project_.options.areas, address.area)->index;
-      return add(loc, type, ImageExpr{.area = area, .byte = byte, .bit = bit});
-    }
+    case rung::ExprKind::Address: return directAddress(id);
+    case rung::ExprKind::This:
+    case rung::ExprKind::Super:
     case rung::ExprKind::Error:
     case rung::ExprKind::Literal:
     case rung::ExprKind::TypedName:
@@ -175,87 +176,9 @@ ExprId BodyLowering::lowerPlace(rung::ExprId id) {
     case rung::ExprKind::Bound:
     case rung::ExprKind::New:
     case rung::ExprKind::AnyValue:
-    case rung::ExprKind::AddressOf: return lowerValue(id);
+    case rung::ExprKind::AddressOf: return values().lowerValue(id);
   }
   return {};
-}
-
-bool BodyLowering::isStable(ExprId id) const {
-  const Expr& expr = body_.expr(id);
-  switch (expr.kind) {
-    case ExprKind::None:
-    case ExprKind::Const:
-    case ExprKind::String:
-    case ExprKind::Data:
-    case ExprKind::Zero:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program: return true;
-    case ExprKind::Local: return body_.locals[expr.as<LocalExpr>().local].kind == LocalKind::Temp;
-    case ExprKind::Convert: return expr.checks == 0 && isStable(expr.as<ConvertExpr>().operand);
-    case ExprKind::Image:
-    case ExprKind::Field:
-    case ExprKind::Index:
-    case ExprKind::Deref:
-    case ExprKind::Bits:
-    case ExprKind::Unary:
-    case ExprKind::Binary:
-    case ExprKind::Select:
-    case ExprKind::Call:
-    case ExprKind::Address: return false;
-  }
-  return false;
-}
-
-ExprId BodyLowering::stable(ExprId place) {
-  const Expr expr = body_.expr(place);
-  switch (expr.kind) {
-    case ExprKind::Field:
-    case ExprKind::Bits: {
-      const ExprId own = baseOf(expr), base = stable(own);
-      if (base == own) return place;
-      Expr moved = expr;
-      forEachOperand(body_, moved, [&](ExprId& operand) { operand = base; });
-      return addExpr(moved);
-    }
-    case ExprKind::Index: return stableElement(expr);
-    case ExprKind::Deref: {
-      ExprId pointer = expr.as<DerefExpr>().pointer;
-      if (!isStable(pointer)) pointer = toTemp(pointer, expr.loc);
-      if (expr.checks != 0)  // checked once, here
-        append(expr.loc, EvaluateStmt{add(expr.loc, expr.type, DerefExpr{pointer}, expr.checks)});
-      return add(expr.loc, expr.type, DerefExpr{pointer});
-    }
-    case ExprKind::None:
-    case ExprKind::Const:
-    case ExprKind::String:
-    case ExprKind::Data:
-    case ExprKind::Zero:
-    case ExprKind::Local:
-    case ExprKind::Self:
-    case ExprKind::Global:
-    case ExprKind::Program:
-    case ExprKind::Image:
-    case ExprKind::Unary:
-    case ExprKind::Binary:
-    case ExprKind::Convert:
-    case ExprKind::Select:
-    case ExprKind::Call:
-    case ExprKind::Address: return place;
-  }
-  return place;
-}
-
-ExprId BodyLowering::stableElement(const Expr& expr) {
-  const ExprId base = stable(expr.as<IndexExpr>().base);
-  std::vector<ExprId> indices;
-  for (uint32_t i = 0; i < expr.as<IndexExpr>().indices.count; ++i) {
-    const ExprId index = body_.list(expr.as<IndexExpr>().indices)[i];
-    indices.push_back(isStable(index) ? index : toTemp(index, expr.loc));
-  }
-  if (expr.checks != 0)  // checked once, here
-    append(expr.loc, EvaluateStmt{add(expr.loc, expr.type, IndexExpr{base, list(indices)}, expr.checks)});
-  return add(expr.loc, expr.type, IndexExpr{base, list(indices)});
 }
 
 }  // namespace rung::ir

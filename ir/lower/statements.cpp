@@ -4,7 +4,7 @@
 
 namespace rung::ir {
 
-void BodyLowering::lowerPou() {
+void StatementLowering::lowerPou() {
   const sema::Pou& pou = project_.pou(pou_);
   // Locals of a call, output parameters included, start from their initial values.
   for (sema::VarId id : pou.vars) {
@@ -14,18 +14,18 @@ void BodyLowering::lowerPou() {
       continue;
     if (var.section == SectionKind::Input) {
       // The caller's variable stays unchanged: a body that writes a by-reference input writes a copy, made here.
-      uint32_t& index = local_of_[var.field];
+      uint32_t& index = state_.local_of[var.field];
       if (!var.written || !body_.locals[index - 1].by_reference) continue;
-      ExprId copy = temp(strip(var.type), var.loc);
-      assign(copy, local(index - 1, var.loc), var.loc);
-      index = *localOf(body_.expr(copy)) + 1;
+      const ExprId own = temp(strip(var.type), var.loc);
+      assign(own, local(index - 1, var.loc), var.loc);
+      index = *localOf(body_.expr(own)) + 1;
       continue;
     }
-    storeInitial(local(local_of_[var.field] - 1, var.loc), strip(var.type), var.init, false);
+    objects().storeInitial(local(state_.local_of[var.field] - 1, var.loc), strip(var.type), var.init, false);
   }
-  if (result_local_ != kNoBit) {
-    const Local& result = body_.locals[result_local_];
-    storeInitial(local(result_local_, result.loc), result.type, {}, false);
+  if (state_.result_local != kNoBit) {
+    const Local& result = body_.locals[state_.result_local];
+    objects().storeInitial(local(state_.result_local, result.loc), result.type, {}, false);
   }
   detectEdges();
   lowerStatements(tree_.as<PouDecl>(pou.decl).body);
@@ -33,7 +33,7 @@ void BodyLowering::lowerPou() {
 }
 
 // An R_EDGE or F_EDGE pin is TRUE inside the block for the one call in which the input has changed (ed. 3 table 12).
-void BodyLowering::detectEdges() {
+void StatementLowering::detectEdges() {
   for (sema::VarId id : project_.pou(pou_).vars) {
     const sema::Var& var = project_.var(id);
     if (!var.edge_memory) continue;
@@ -48,15 +48,15 @@ void BodyLowering::detectEdges() {
                   var.loc),
            var.loc);
     assign(memory(), input(), var.loc);
-    edge_locals_.push_back({id.index, edge_local});
+    state_.edge_locals.push_back({id.index, edge_local});
   }
 }
 
-void BodyLowering::lowerStatements(Slice<rung::StmtId> statements) {
+void StatementLowering::lowerStatements(Slice<rung::StmtId> statements) {
   for (uint32_t i = 0; i < statements.count; ++i) lowerStatement(tree_.list(statements)[i]);
 }
 
-void BodyLowering::lowerStatement(rung::StmtId id) {
+void StatementLowering::lowerStatement(rung::StmtId id) {
   Loc loc = tree_.loc(id);
   switch (tree_.kind(id)) {
     case rung::StmtKind::Empty: return;
@@ -64,7 +64,7 @@ void BodyLowering::lowerStatement(rung::StmtId id) {
     case rung::StmtKind::Call: {
       const rung::ExprId call = tree_.as<rung::CallStmt>(id).call;
       if (tree_.kind(call) != rung::ExprKind::Call) return;  // a known value: nothing happens
-      ExprId value = lowerCall(call);
+      ExprId value = calls().lowerCall(call);
       // A pure call as a statement has no effect; only its faults count.
       if (value && mayFault(value)) append(loc, EvaluateStmt{.value = value});
       return;
@@ -89,20 +89,20 @@ void BodyLowering::lowerStatement(rung::StmtId id) {
   RUNG_INVARIANT(false, "a statement with an error is not lowered");
 }
 
-uint32_t BodyLowering::labelNumber(NameId label) {
+uint32_t StatementLowering::labelNumber(NameId label) {
   body_.has_labels = true;
   const auto next = static_cast<uint32_t>(body_.labels.size());
-  const auto [known, is_new] = label_numbers_.emplace(project_.names.key(label).index, next);
+  const auto [known, is_new] = state_.label_numbers.emplace(project_.names.key(label).index, next);
   if (is_new) body_.labels.push_back(label);
   return known->second;
 }
 
-void BodyLowering::lowerAssign(const rung::AssignStmt& stmt) {
+void StatementLowering::lowerAssign(const rung::AssignStmt& stmt) {
   Loc loc = stmt.h.loc;
   switch (stmt.effect()) {
     case AssignOp::Assign: {
       if (tree_.kind(stmt.target) == rung::ExprKind::Call) {  // SET of a property
-        lowerCall(stmt.target);
+        calls().lowerCall(stmt.target);
         return;
       }
       rung::ExprId source = stmt.value;
@@ -115,25 +115,25 @@ void BodyLowering::lowerAssign(const rung::AssignStmt& stmt) {
       }
       if (tree_.kind(source) == rung::ExprKind::Call) {
         bool string = TypeTable::isString(types_.kind(tree_.expr(source).type));
-        if (string || !isPlainCall(source)) {
-          Target target{.expr = stmt.target, .early = isPlainPlace(stmt.target)};
-          ExprId value = lowerCall(source, &target);
+        if (string || !calls().isPlainCall(source)) {
+          Target target{.expr = stmt.target, .early = places().isPlainPlace(stmt.target)};
+          ExprId value = calls().lowerCall(source, &target);
           if (target.stored) return;
-          ExprId place = lowerAfter({&value}, [&] { return placeOf(target); });
+          ExprId place = lowerAfter({&value}, [&] { return calls().placeOf(target); });
           assign(place, convertValue(value, typeOf(place), loc), loc);
           return;
         }
       }
-      ExprId value = lowerValue(stmt.value);
-      ExprId target = lowerAfter({&value}, [&] { return lowerPlace(stmt.target); });
+      ExprId value = values().lowerValue(stmt.value);
+      ExprId target = lowerAfter({&value}, [&] { return places().lowerPlace(stmt.target); });
       assign(target, convertValue(value, typeOf(target), loc), loc);
       return;
     }
     case AssignOp::Set:
     case AssignOp::Reset: {
-      ExprId condition = lowerValue(stmt.value);
-      StmtId then =
-          block([&] { assign(lowerPlace(stmt.target), constantBool(stmt.effect() == AssignOp::Set, loc), loc); });
+      ExprId condition = values().lowerValue(stmt.value);
+      StmtId then = block(
+          [&] { assign(places().lowerPlace(stmt.target), constantBool(stmt.effect() == AssignOp::Set, loc), loc); });
       append(loc, IfStmt{.condition = condition, .then_block = then});
       return;
     }
@@ -145,28 +145,28 @@ void BodyLowering::lowerAssign(const rung::AssignStmt& stmt) {
               : stmt.effect() == AssignOp::Subtract ? Op::Sub
               : stmt.effect() == AssignOp::Multiply ? Op::Mul
                                                     : Op::Div;
-      ExprId value = lowerValue(stmt.value);
-      ExprId target = stable(lowerAfter({&value}, [&] { return lowerPlace(stmt.target); }));
+      ExprId value = values().lowerValue(stmt.value);
+      ExprId target = stable(lowerAfter({&value}, [&] { return places().lowerPlace(stmt.target); }));
       TypeId type = typeOf(target);
-      assign(target, binary(op, type, target, convertValue(value, type, loc), loc), loc);
+      assign(target, binary(op, type, copy(target), convertValue(value, type, loc), loc), loc);
       return;
     }
     case AssignOp::Attempt: break;  // sema made a call of it
     case AssignOp::Reference: {     // sema made the value an address
-      ExprId value = lowerValue(stmt.value);
-      ExprId target = lowerAfter({&value}, [&] { return lowerPlace(stmt.target); });
+      ExprId value = values().lowerValue(stmt.value);
+      ExprId target = lowerAfter({&value}, [&] { return places().lowerPlace(stmt.target); });
       assign(target, value, loc);
       return;
     }
   }
 }
 
-void BodyLowering::lowerIf(const rung::IfStmt& stmt) {
+void StatementLowering::lowerIf(const rung::IfStmt& stmt) {
   lowerIfFrom(tree_.list(stmt.branches), stmt.otherwise, stmt.h.loc);
 }
 
 // ELSIF nests in the else block; a loop, not a recursion, so that a thousand of them need no deep stack.
-void BodyLowering::lowerIfFrom(std::span<const IfBranch> branches, Slice<rung::StmtId> otherwise, Loc loc) {
+void StatementLowering::lowerIfFrom(std::span<const IfBranch> branches, Slice<rung::StmtId> otherwise, Loc loc) {
   struct Level {
     Block outer;
     StmtId branch;
@@ -178,7 +178,7 @@ void BodyLowering::lowerIfFrom(std::span<const IfBranch> branches, Slice<rung::S
       levels.push_back({build_.open(), branch});
       loc = tree_.loc(branches[i].condition);
     }
-    ExprId condition = lowerValue(branches[i].condition);
+    ExprId condition = values().lowerValue(branches[i].condition);
     StmtId then = block([&] { lowerStatements(branches[i].body); });
     append(loc, IfStmt{.condition = condition, .then_block = then});
   }
@@ -192,8 +192,8 @@ void BodyLowering::lowerIfFrom(std::span<const IfBranch> branches, Slice<rung::S
   }
 }
 
-void BodyLowering::lowerCase(const CaseStmt& stmt) {
-  ExprId selector = lowerValue(stmt.selector);
+void StatementLowering::lowerCase(const CaseStmt& stmt) {
+  ExprId selector = values().lowerValue(stmt.selector);
   std::vector<Case> cases;
   for (uint32_t i = 0; i < stmt.branches.count; ++i) {
     const CaseBranch branch = tree_.list(stmt.branches)[i];
@@ -220,14 +220,14 @@ void BodyLowering::lowerCase(const CaseStmt& stmt) {
       SwitchStmt{.selector = selector, .cases = {first, static_cast<uint32_t>(cases.size())}, .else_block = otherwise});
 }
 
-void BodyLowering::lowerFor(const rung::ForStmt& stmt) {
+void StatementLowering::lowerFor(const rung::ForStmt& stmt) {
   Loc loc = stmt.h.loc;
-  ExprId control = stable(lowerPlace(stmt.control));
+  ExprId control = stable(places().lowerPlace(stmt.control));
   TypeId type = typeOf(control), plain = types_.plain(type);
   std::optional<Value> step = Value{plain, 1};
   if (stmt.step) step = constantOf(project_, stmt.step);
-  ExprId from = lowerValue(stmt.from);
-  ExprId to = lowerAfter({&from}, [&] { return lowerValue(stmt.to); });
+  ExprId from = values().lowerValue(stmt.from);
+  ExprId to = lowerAfter({&from}, [&] { return values().lowerValue(stmt.to); });
   from = convertValue(from, type, loc);
   to = convertValue(to, type, loc);
   // An unsigned variable that counts down by a constant (codesys) needs the test of the direction, like an unknown
@@ -244,32 +244,33 @@ void BodyLowering::lowerFor(const rung::ForStmt& stmt) {
 
 // FOR with a control variable of a subrange type counts in the plain type, since the first value that fails the test
 // may be outside the subrange. Then the variable is left at the limit.
-void BodyLowering::lowerForOfSubrange(const rung::ForStmt& stmt, ExprId control, ExprId from, ExprId to,
-                                      const std::optional<Value>& step) {
+void StatementLowering::lowerForOfSubrange(const rung::ForStmt& stmt, ExprId control, ExprId from, ExprId to,
+                                           const std::optional<Value>& step) {
   Loc loc = stmt.h.loc;
   TypeId type = typeOf(control), plain = types_.plain(type);
   ExprId count = temp(plain, loc);
   ExprId first = toTemp(convertValue(from, plain, loc), loc), last = toTemp(convertValue(to, plain, loc), loc);
   auto store = [&](ExprId value) {  // in range: no check, no saturation
-    append(loc, AssignStmt{.place = control, .value = add(loc, type, ConvertExpr{.operand = value})});
+    append(loc, AssignStmt{.place = copy(control), .value = add(loc, type, ConvertExpr{.operand = value})});
   };
   auto iteration = [&] {
-    store(count);
+    store(copy(count));
     lowerStatements(stmt.body);
   };
   if (step) {
     StmtId body = block(iteration);
-    append(
-        loc,
-        ForStmt{
-            .control = count, .from = first, .to = last, .step = constant(plain, step->bits, loc), .body_block = body});
+    append(loc, ForStmt{.control = copy(count),
+                        .from = first,
+                        .to = copy(last),
+                        .step = constant(plain, step->bits, loc),
+                        .body_block = body});
   } else {
-    lowerForWithVariableStep(stmt, count, first, last, iteration);
+    lowerForWithVariableStep(stmt, copy(count), first, copy(last), iteration);
   }
   const TypeInfo& range = types_.info(type);
   auto bound = [&](int64_t value) { return constant(plain, static_cast<uint64_t>(value), loc); };
-  ExprId outside = binary(Op::Or, types::kBool, binary(Op::Lt, types::kBool, count, bound(range.low), loc),
-                          binary(Op::Gt, types::kBool, count, bound(range.high), loc), loc);
+  ExprId outside = binary(Op::Or, types::kBool, binary(Op::Lt, types::kBool, copy(count), bound(range.low), loc),
+                          binary(Op::Gt, types::kBool, copy(count), bound(range.high), loc), loc);
   StmtId at_limit = block([&] { store(last); });
   StmtId past = block([&] { store(count); });
   append(loc, IfStmt{.condition = outside, .then_block = at_limit, .else_block = past});
@@ -277,36 +278,38 @@ void BodyLowering::lowerForOfSubrange(const rung::ForStmt& stmt, ExprId control,
 
 // FOR with a step that is only known at run time: the direction is tested in each iteration, and the loop ends when the
 // next value does not fit the type.
-void BodyLowering::lowerForWithVariableStep(const rung::ForStmt& stmt, ExprId control, ExprId from, ExprId to,
-                                            FunctionRef<void()> iteration) {
+void StatementLowering::lowerForWithVariableStep(const rung::ForStmt& stmt, ExprId control, ExprId from, ExprId to,
+                                                 FunctionRef<void()> iteration) {
   Loc loc = stmt.h.loc;
   TypeId type = typeOf(control);
   from = toTemp(from, loc);
   to = toTemp(to, loc);
-  ExprId step = toTemp(lowerValue(stmt.step), loc);
+  ExprId step = toTemp(values().lowerValue(stmt.step), loc);
   TypeId step_type = typeOf(step);  // of an unsigned variable perhaps the signed type of its width
-  assign(control, from, loc);
+  assign(copy(control), from, loc);
   bool is_signed = types_.isSigned(types_.plainKind(step_type));
   ExprId upward = toTemp(
-      is_signed ? binary(Op::Ge, types::kBool, step, constant(step_type, 0, loc), loc) : constantBool(true, loc), loc);
+      is_signed ? binary(Op::Ge, types::kBool, copy(step), constant(step_type, 0, loc), loc) : constantBool(true, loc),
+      loc);
   step = toTemp(convertValue(step, type, loc), loc);
   ExprId next = temp(type, loc);
   StmtId leave = block([&] { append(loc, BreakStmt{}); });
+  auto comparison = [&](Op op, ExprId left, ExprId right) {
+    return binary(op, types::kBool, copy(left), copy(right), loc);
+  };
   auto chosen = [&](ExprId when_up, ExprId when_down) {
-    return add(loc, types::kBool, SelectExpr{.condition = upward, .when_true = when_up, .when_false = when_down});
+    return add(loc, types::kBool, SelectExpr{.condition = copy(upward), .when_true = when_up, .when_false = when_down});
   };
   StmtId body = block([&] {
-    ExprId past =
-        chosen(binary(Op::Gt, types::kBool, control, to, loc), binary(Op::Lt, types::kBool, control, to, loc));
+    ExprId past = chosen(comparison(Op::Gt, control, to), comparison(Op::Lt, control, to));
     append(loc, IfStmt{.condition = past, .then_block = leave});
     iteration();
   });
   StmtId advance = block([&] {
-    assign(next, binary(Op::Add, type, control, step, loc), loc);
-    ExprId wrapped =
-        chosen(binary(Op::Lt, types::kBool, next, control, loc), binary(Op::Gt, types::kBool, next, control, loc));
+    assign(copy(next), binary(Op::Add, type, copy(control), step, loc), loc);
+    ExprId wrapped = chosen(comparison(Op::Lt, next, control), comparison(Op::Gt, next, control));
     StmtId stop = block([&] {
-      assign(control, to, loc);
+      assign(copy(control), to, loc);
       append(loc, BreakStmt{});
     });
     append(loc, IfStmt{.condition = wrapped, .then_block = stop});
@@ -315,10 +318,10 @@ void BodyLowering::lowerForWithVariableStep(const rung::ForStmt& stmt, ExprId co
   append(loc, LoopStmt{.body_block = body, .next_block = advance});
 }
 
-void BodyLowering::lowerWhile(const WhileStmt& stmt) {
+void StatementLowering::lowerWhile(const WhileStmt& stmt) {
   Loc loc = stmt.h.loc;
   StmtId body = block([&] {
-    ExprId condition = lowerValue(stmt.condition);
+    ExprId condition = values().lowerValue(stmt.condition);
     StmtId leave = block([&] { append(loc, BreakStmt{}); });
     append(loc, IfStmt{.condition = unary(Op::Not, types::kBool, condition, loc), .then_block = leave});
     lowerStatements(stmt.body);
@@ -326,11 +329,11 @@ void BodyLowering::lowerWhile(const WhileStmt& stmt) {
   append(loc, LoopStmt{.body_block = body});
 }
 
-void BodyLowering::lowerRepeat(const RepeatStmt& stmt) {
+void StatementLowering::lowerRepeat(const RepeatStmt& stmt) {
   Loc loc = tree_.loc(stmt.until);
   StmtId body = block([&] { lowerStatements(stmt.body); });
   StmtId test = block([&] {
-    ExprId condition = lowerValue(stmt.until);
+    ExprId condition = values().lowerValue(stmt.until);
     StmtId leave = block([&] { append(loc, BreakStmt{}); });
     append(loc, IfStmt{.condition = condition, .then_block = leave});
   });
@@ -353,7 +356,7 @@ static uint32_t exceptionCode(types::Fault fault) {
   return 0xffffffff;  // RTSEXCPT_UNKNOWN
 }
 
-void BodyLowering::lowerTry(const rung::TryStmt& stmt) {
+void StatementLowering::lowerTry(const rung::TryStmt& stmt) {
   const Loc loc = stmt.h.loc;
   StmtId body = block([&] { lowerStatements(stmt.body); });
   ExprId number = stmt.code ? temp(types::kDInt, loc) : ExprId{};
@@ -362,11 +365,11 @@ void BodyLowering::lowerTry(const rung::TryStmt& stmt) {
       ExprId code = constant(types::kUDInt, exceptionCode(types::Fault::Cast), loc);
       for (types::Fault fault : {types::Fault::Div, types::Fault::Index, types::Fault::Null, types::Fault::Overflow}) {
         ExprId is_it =
-            binary(Op::Eq, types::kBool, number, constant(types::kDInt, static_cast<uint64_t>(fault), loc), loc);
+            binary(Op::Eq, types::kBool, copy(number), constant(types::kDInt, static_cast<uint64_t>(fault), loc), loc);
         ExprId own = constant(types::kUDInt, exceptionCode(fault), loc);
         code = add(loc, types::kUDInt, SelectExpr{.condition = is_it, .when_true = own, .when_false = code});
       }
-      ExprId place = lowerPlace(stmt.code);
+      ExprId place = places().lowerPlace(stmt.code);
       assign(place, convertValue(code, typeOf(place), loc), loc);
     }
     lowerStatements(stmt.handler);

@@ -1,5 +1,5 @@
-// Lowering of values: literals, operators, conversions, and the order of evaluation. In: checked expressions. Out: IR
-// expressions; calls inside them become statements before, and values that were read before a call move to a temporary.
+// Lowering of values: literals, operators, conversions. In: checked expressions. Out: IR expressions; calls inside them
+// become statements before, and values that were read before a call move to a temporary (evaluation_order.cpp).
 #include "frontend/source/dialect.h"
 #include "ir/lower/lowering.h"
 
@@ -81,70 +81,11 @@ std::optional<Value> constantOf(const sema::Project& project, rung::ExprId id) {
   return std::nullopt;
 }
 
-bool BodyLowering::isTemp(ExprId place) const {
-  const uint32_t* root = localOf(body_.expr(rootOf(body_, place)));
-  return root != nullptr && body_.locals[*root].kind == LocalKind::Temp;
-}
-
-bool BodyLowering::hasEffect(const Stmt& stmt) const {
-  switch (stmt.kind) {
-    case StmtKind::Assign: return !isTemp(stmt.as<AssignStmt>().place);
-    case StmtKind::For: return !isTemp(stmt.as<ForStmt>().control);
-    case StmtKind::Call: {
-      const CallStmt& call = stmt.as<CallStmt>();
-      return !in_.module.body(call.callee).pure || (call.result && !isTemp(call.result));
-    }
-    case StmtKind::None:
-    case StmtKind::If:
-    case StmtKind::Switch:
-    case StmtKind::Loop:
-    case StmtKind::Break:
-    case StmtKind::Continue:
-    case StmtKind::Return:
-    case StmtKind::Jump:
-    case StmtKind::Label:
-    case StmtKind::Try:
-    case StmtKind::Evaluate: return false;
-    case StmtKind::Bind:
-    case StmtKind::Fault:
-    case StmtKind::Assert: return true;
-  }
-  return true;
-}
-
-bool BodyLowering::mustSpill(InsertionPoint point, ExprId value) {
-  if (!value || build_.block().last == point.last || isStable(value)) return false;
-  return effects() != point.effects || mayFault(value);
-}
-
-void BodyLowering::spill(InsertionPoint point, std::initializer_list<ExprId*> values) {
-  bool any = false;
-  for (ExprId* value : values) any = any || mustSpill(point, *value);
-  if (!any) return;
-  std::vector<ExprId*> moved;
-  for (ExprId* value : values)
-    if (mustSpill(point, *value)) moved.push_back(value);
-  insertAt(point, [&] {
-    for (ExprId* value : moved) *value = toTemp(*value, body_.expr(*value).loc);
-  });
-}
-
-void BodyLowering::spillPlace(InsertionPoint point, ExprId& place) {
-  if (!mustSpill(point, place)) return;
-  insertAt(point, [&] { place = stable(place); });
-}
-
-ExprId BodyLowering::toTemp(ExprId value, Loc loc) {
-  ExprId place = temp(typeOf(value), loc);
-  assign(place, value, loc);
-  return place;
-}
-
-ExprId BodyLowering::lowerLiteral(rung::ExprId id) {
+ExprId ValueLowering::lowerLiteral(rung::ExprId id) {
   return ofValue(sema::valueOf(project_, tree_.as<LiteralExpr>(id)), tree_.loc(id));
 }
 
-ExprId BodyLowering::lowerValue(rung::ExprId id) {
+ExprId ValueLowering::lowerValue(rung::ExprId id) {
   switch (tree_.kind(id)) {
     case rung::ExprKind::Literal: return lowerLiteral(id);
     case rung::ExprKind::Name:
@@ -156,7 +97,7 @@ ExprId BodyLowering::lowerValue(rung::ExprId id) {
         const MemberExpr& node = tree_.as<MemberExpr>(id);
         RUNG_INVARIANT(node.entity.entityKind() == EntityKind::Var, "a member is a variable or a constant");
       }
-      return lowerPlace(id);
+      return places().lowerPlace(id);
     }
     case rung::ExprKind::This:
     case rung::ExprKind::Super: {
@@ -168,7 +109,7 @@ ExprId BodyLowering::lowerValue(rung::ExprId id) {
     case rung::ExprKind::Index:
     case rung::ExprKind::Deref:
     case rung::ExprKind::BitAccess:
-    case rung::ExprKind::Address: return lowerPlace(id);
+    case rung::ExprKind::Address: return places().lowerPlace(id);
     case rung::ExprKind::Unary: return lowerUnary(id);
     case rung::ExprKind::Binary: return lowerBinary(id);
     case rung::ExprKind::Convert: return lowerConvert(id);
@@ -177,9 +118,9 @@ ExprId BodyLowering::lowerValue(rung::ExprId id) {
     case rung::ExprKind::New: return lowerNew(id);
     case rung::ExprKind::Bound: {
       const BoundExpr& node = tree_.as<BoundExpr>(id);
-      return openArrayBound(node.array, node.index, node.h.loc);
+      return places().openArrayBound(node.array, node.index, node.h.loc);
     }
-    case rung::ExprKind::Call: return lowerCall(id);
+    case rung::ExprKind::Call: return calls().lowerCall(id);
     case rung::ExprKind::Error:
     case rung::ExprKind::Range:
     case rung::ExprKind::ArrayInit:
@@ -190,7 +131,7 @@ ExprId BodyLowering::lowerValue(rung::ExprId id) {
   return {};
 }
 
-ExprId BodyLowering::lowerUnary(rung::ExprId id) {
+ExprId ValueLowering::lowerUnary(rung::ExprId id) {
   const rung::UnaryExpr& node = tree_.as<rung::UnaryExpr>(id);
   if (auto value = constantOf(project_, id)) return ofValue(*value, node.h.loc);
   ExprId operand = lowerValue(node.operand);
@@ -203,7 +144,7 @@ ExprId BodyLowering::lowerUnary(rung::ExprId id) {
   return {};
 }
 
-ExprId BodyLowering::lowerBinary(rung::ExprId id) {
+ExprId ValueLowering::lowerBinary(rung::ExprId id) {
   const rung::BinaryExpr& node = tree_.as<rung::BinaryExpr>(id);
   BinaryOp op = node.op();
   bool logical = op == BinaryOp::And || op == BinaryOp::Or || op == BinaryOp::AndThen || op == BinaryOp::OrElse;
@@ -219,7 +160,7 @@ ExprId BodyLowering::lowerBinary(rung::ExprId id) {
 }
 
 // Whether the expression contains a call of a function that may have an effect.
-bool BodyLowering::callsFunction(rung::ExprId id) const {
+bool ValueLowering::callsFunction(rung::ExprId id) const {
   switch (tree_.kind(id)) {
     case rung::ExprKind::Unary: return callsFunction(tree_.as<rung::UnaryExpr>(id).operand);
     case rung::ExprKind::Convert: return callsFunction(tree_.as<rung::ConvertExpr>(id).operand);
@@ -262,38 +203,37 @@ bool BodyLowering::callsFunction(rung::ExprId id) const {
 
 // BOOL AND and OR. codesys: calls in both operands run, but a check in the right one counts only when the left operand
 // does not decide the result. iec and AND_THEN, OR_ELSE: the right operand is not evaluated at all then.
-ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circuit) {
+ExprId ValueLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circuit) {
   const rung::BinaryExpr& node = tree_.as<rung::BinaryExpr>(id);
   Loc loc = node.h.loc;
   Op op = is_and ? Op::And : Op::Or;
   ExprId left = lowerValue(node.left);
-  const ExprId chained = left == logical_ ? left : ExprId{};
+  const ExprId chained = left == state_.logical ? left : ExprId{};
   auto guarded = [&](ExprId result, StmtId right_block) {
-    const ExprId matters = is_and ? result : unary(Op::Not, types::kBool, result, loc);
+    const ExprId read = copy(result);
+    const ExprId matters = is_and ? read : unary(Op::Not, types::kBool, read, loc);
     append(loc, IfStmt{.condition = matters, .then_block = right_block});
-    return logical_ = result;
+    return state_.logical = result;
   };
   // A chain such as `a AND b AND c` shares one temporary.
   auto holding = [&](ExprId value) {
     if (chained && value == chained) return value;
-    ExprId result = temp(types::kBool, loc);
-    assign(result, value, loc);
-    return result;
+    return toTemp(value, loc);
   };
 
   if (!short_circuit) {
-    ExprId outer_guard = guard_;
+    ExprId outer_guard = state_.guard;
     if (callsFunction(node.right)) {
       left = toTemp(left, loc);
-      ExprId matters = is_and ? left : unary(Op::Not, types::kBool, left, loc);
-      if (guard_) matters = binary(Op::And, types::kBool, guard_, matters, loc);
-      guard_ = is_and && !guard_ ? left : toTemp(matters, loc);
+      ExprId matters = is_and ? copy(left) : unary(Op::Not, types::kBool, copy(left), loc);
+      if (state_.guard) matters = binary(Op::And, types::kBool, copy(state_.guard), matters, loc);
+      state_.guard = is_and && !state_.guard ? matters : toTemp(matters, loc);
     }
     ExprId right = lowerAfter({&left}, [&] { return lowerValue(node.right); });
-    guard_ = outer_guard;
+    state_.guard = outer_guard;
     if (!mayFault(right)) return binary(op, types::kBool, left, right, loc);
     ExprId result = holding(left);
-    return guarded(result, block([&] { assign(result, right, loc); }));
+    return guarded(result, block([&] { assign(copy(result), right, loc); }));
   }
 
   const Block outer = build_.open();
@@ -304,11 +244,11 @@ ExprId BodyLowering::lowerLogical(rung::ExprId id, bool is_and, bool short_circu
   ExprId result = holding(left);
   return guarded(result, block([&] {
                    build_.block() = inner;
-                   assign(result, right, loc);
+                   assign(copy(result), right, loc);
                  }));
 }
 
-ExprId BodyLowering::lowerConvert(rung::ExprId id) {
+ExprId ValueLowering::lowerConvert(rung::ExprId id) {
   if (auto value = constantOf(project_, id)) return ofValue(*value, tree_.loc(id));
   const rung::ConvertExpr& node = tree_.as<rung::ConvertExpr>(id);
   if (ExprId object = lowerObjectConversion(node)) return object;
@@ -316,32 +256,32 @@ ExprId BodyLowering::lowerConvert(rung::ExprId id) {
 }
 
 // The address of the target of a pointer or reference is its value: nothing is read.
-ExprId BodyLowering::lowerAddressOf(rung::ExprId id) {
+ExprId ValueLowering::lowerAddressOf(rung::ExprId id) {
   const AddressOfExpr& node = tree_.as<AddressOfExpr>(id);
   const TypeId type = strip(node.h.type);
   if (isOpenArray(types_, tree_.expr(node.lvalue).type))
-    return convertValue(openArrayPointer(node.lvalue, node.h.loc), type, node.h.loc);
+    return convertValue(places().openArrayPointer(node.lvalue, node.h.loc), type, node.h.loc);
   // ADR(p^) is p, even if p points nowhere; for p[i] the base is a place that will be used.
   if (tree_.kind(node.lvalue) == rung::ExprKind::Deref && (node.h.bits & kMustLeadSomewhere) == 0)
     return convertValue(lowerValue(tree_.as<rung::DerefExpr>(node.lvalue).base), type, node.h.loc);
-  const ExprId place = lowerPlace(node.lvalue);
+  const ExprId place = places().lowerPlace(node.lvalue);
   if (body_.expr(place).kind == ExprKind::Field) body_.expr(place).checks = 0;  // an in-out that is not bound: null
   return add(node.h.loc, type, AddressExpr{.place = place});
 }
 
 // A descriptor of the value in a temporary; a value that is not an lvalue is stored in a temporary.
-ExprId BodyLowering::lowerAnyValue(rung::ExprId id) {
+ExprId ValueLowering::lowerAnyValue(rung::ExprId id) {
   const AnyValueExpr& node = tree_.as<AnyValueExpr>(id);
   const Loc loc = node.h.loc;
-  ExprId value = lowerPlace(node.value);
+  ExprId value = places().lowerPlace(node.value);
   const Expr& expr = body_.expr(value);
   const bool is_bit = expr.kind == ExprKind::Bits || isImageBit(expr);
   if (!isPlace(expr.kind) || is_bit) value = toTemp(value, loc);
   ExprId descriptor = temp(node.h.type, loc);
   const TypeInfo& record = types_.info(strip(node.h.type));
-  auto part = [&](uint32_t index) { return field(descriptor, index, record.fields[index].type, loc); };
+  auto part = [&](uint32_t index) { return field(copy(descriptor), index, record.fields[index].type, loc); };
   if (node.facts) {  // __VARINFO: the address is the first member
-    storeInitial(descriptor, node.h.type, node.facts, false);
+    objects().storeInitial(copy(descriptor), node.h.type, node.facts, false);
     const TypeId to = types_.pointer(typeOf(value));
     types_.layout(to);
     const ExprId address = add(loc, to, AddressExpr{.place = value});
@@ -357,7 +297,7 @@ ExprId BodyLowering::lowerAnyValue(rung::ExprId id) {
 }
 
 // An object as a pointer to an interface, and a pointer to an object as one to its base; none for other conversions.
-ExprId BodyLowering::lowerObjectConversion(const rung::ConvertExpr& node) {
+ExprId ValueLowering::lowerObjectConversion(const rung::ConvertExpr& node) {
   const TypeId to = strip(node.h.type), from = strip(tree_.expr(node.operand).type);
   if (types_.kind(to) != TypeKind::Pointer && types_.kind(to) != TypeKind::Reference) return {};
   const sema::PouId wanted = in_.pouOfRecord(strip(types_.info(to).base));
@@ -368,7 +308,7 @@ ExprId BodyLowering::lowerObjectConversion(const rung::ConvertExpr& node) {
     const ExprId address = add(loc, pointer, AddressExpr{.place = place});
     return pointer == to ? address : add(loc, to, ConvertExpr{.operand = address});
   };
-  if (types_.kind(from) == TypeKind::Record) return addressOf(lowerPlace(node.operand));
+  if (types_.kind(from) == TypeKind::Record) return addressOf(places().lowerPlace(node.operand));
   if (types_.kind(from) != TypeKind::Pointer && types_.kind(from) != TypeKind::Reference) return {};
   const TypeId target = strip(types_.info(from).base);
   const sema::PouId object = in_.pouOfRecord(target);
@@ -381,24 +321,14 @@ ExprId BodyLowering::lowerObjectConversion(const rung::ConvertExpr& node) {
     return add(loc, to, ConvertExpr{.operand = pointer});
   if (!isStable(pointer)) pointer = toTemp(pointer, loc);
   const ExprId result = temp(to, loc);
-  assign(result, constant(to, 0, loc), loc);
-  const ExprId is_null = binary(Op::Ne, types::kBool, pointer, constant(from, 0, loc), loc);
+  assign(copy(result), constant(to, 0, loc), loc);
+  const ExprId is_null = binary(Op::Ne, types::kBool, copy(pointer), constant(from, 0, loc), loc);
   const StmtId then = block([&] {
     const ExprId whole = add(loc, target, DerefExpr{.pointer = pointer});
-    assign(result, addressOf(asBase(whole, wanted, loc)), loc);
+    assign(copy(result), addressOf(asBase(whole, wanted, loc)), loc);
   });
   append(loc, IfStmt{.condition = is_null, .then_block = then});
   return result;
-}
-
-ExprId BodyLowering::convertValue(ExprId value, TypeId to, Loc loc) {
-  to = strip(to);
-  TypeId from = typeOf(value);
-  if (from == to) return value;
-  if (body_.expr(value).kind == ExprKind::Const && TypeTable::isScalar(types_.plainKind(to)) &&
-      TypeTable::isScalar(types_.plainKind(from)))
-    return ofValue(types::convert(types_, {from, bitsOf(body_.expr(value))}, to).value, loc);
-  return convert(value, to, loc);
 }
 
 }  // namespace rung::ir

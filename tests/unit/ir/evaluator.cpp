@@ -196,6 +196,29 @@ class Machine {
     return stopped() ? Flow::Stop : flow;
   }
 
+  Flow forLoop(const ForStmt& node) {
+    Value* control = place(node.control);
+    const Value from = value(node.from);
+    const Value to = value(node.to);
+    const int64_t by = value(node.step).asSigned();
+    if (control == nullptr || stopped()) return Flow::Stop;
+    control->bits = from.bits;
+    while (by > 0 ? control->asSigned() <= to.asSigned() : control->asSigned() >= to.asSigned()) {
+      bool leave = false;
+      const Flow flow = iterate(node.body_block, leave);
+      if (flow != Flow::Next || leave) return flow;
+      const types::Outcome next =
+          types::apply(t_, m_.names, types::Op::Add, *control, Value{control->type, static_cast<uint64_t>(by)});
+      if (next.overflow) {
+        control->bits = to.bits;
+        break;
+      }
+      control->bits = next.value.bits;
+      if (++steps_ > kMaxSteps) return stop("the run does not end");
+    }
+    return Flow::Next;
+  }
+
   Flow step(const Stmt& s) {
     switch (s.kind) {
       case StmtKind::Assign: {
@@ -253,29 +276,7 @@ class Machine {
           flow = block(s.as<LoopStmt>().next_block);
           if (flow != Flow::Next) return flow == Flow::Break ? Flow::Next : flow;
         }
-      case StmtKind::For: {
-        const ForStmt& node = s.as<ForStmt>();
-        Value* control = place(node.control);
-        const Value from = value(node.from);
-        const Value to = value(node.to);
-        const int64_t by = value(node.step).asSigned();
-        if (control == nullptr || stopped()) return Flow::Stop;
-        control->bits = from.bits;
-        while (by > 0 ? control->asSigned() <= to.asSigned() : control->asSigned() >= to.asSigned()) {
-          bool leave = false;
-          const Flow flow = iterate(node.body_block, leave);
-          if (flow != Flow::Next || leave) return flow;
-          const types::Outcome next =
-              types::apply(t_, m_.names, types::Op::Add, *control, Value{control->type, static_cast<uint64_t>(by)});
-          if (next.overflow) {
-            control->bits = to.bits;
-            break;
-          }
-          control->bits = next.value.bits;
-          if (++steps_ > kMaxSteps) return stop("the run does not end");
-        }
-        return Flow::Next;
-      }
+      case StmtKind::For: return forLoop(s.as<ForStmt>());
       case StmtKind::Break: return Flow::Break;
       case StmtKind::Continue: return Flow::Continue;
       case StmtKind::Return: return Flow::Return;

@@ -1,0 +1,162 @@
+// The order of evaluation in lowering: which values move to a temporary, because a statement that follows could change
+// what they read. In: expressions that are not part of a statement yet. Out: the same values, and the assignments of
+// the temporaries. Called by all parts of lowering (body_part.h).
+#include "ir/lower/lowering.h"
+
+namespace rung::ir {
+
+uint32_t BodyPart::effects() {
+  for (; state_.effects_counted < body_.stmts.size(); ++state_.effects_counted)
+    state_.effects += hasEffect(body_.stmts[state_.effects_counted]) ? 1 : 0;
+  return state_.effects;
+}
+
+bool BodyPart::isStable(ExprId id) const {
+  const Expr& expr = body_.expr(id);
+  switch (expr.kind) {
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::String:
+    case ExprKind::Data:
+    case ExprKind::Zero:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program: return true;
+    case ExprKind::Local: return body_.locals[expr.as<LocalExpr>().local].kind == LocalKind::Temp;
+    case ExprKind::Convert: return expr.checks == 0 && isStable(expr.as<ConvertExpr>().operand);
+    case ExprKind::Image:
+    case ExprKind::Field:
+    case ExprKind::Index:
+    case ExprKind::Deref:
+    case ExprKind::Bits:
+    case ExprKind::Unary:
+    case ExprKind::Binary:
+    case ExprKind::Select:
+    case ExprKind::Call:
+    case ExprKind::Address: return false;
+  }
+  return false;
+}
+
+// An index or pointer of a place goes to a temporary unless it is one.
+void BodyPart::makeStable(ExprId& operand, Loc loc) {
+  if (isStable(operand)) return;
+  build_.detach(operand);  // from the place to an assignment
+  operand = toTemp(operand, loc);
+}
+
+ExprId BodyPart::stable(ExprId place) {
+  const Loc loc = body_.expr(place).loc;
+  switch (body_.expr(place).kind) {
+    case ExprKind::Field:
+    case ExprKind::Bits: stable(baseOf(body_.expr(place))); return place;
+    case ExprKind::Index: {
+      stable(baseOf(body_.expr(place)));
+      const Slice<ExprId> indices = body_.expr(place).as<IndexExpr>().indices;
+      for (uint32_t i = 0; i < indices.count; ++i) {
+        ExprId index = body_.list(indices)[i];
+        makeStable(index, loc);
+        body_.list(indices)[i] = index;
+      }
+      break;
+    }
+    case ExprKind::Deref: {
+      ExprId pointer = body_.expr(place).as<DerefExpr>().pointer;
+      makeStable(pointer, loc);
+      body_.expr(place).as<DerefExpr>().pointer = pointer;
+      break;
+    }
+    case ExprKind::None:
+    case ExprKind::Const:
+    case ExprKind::String:
+    case ExprKind::Data:
+    case ExprKind::Zero:
+    case ExprKind::Local:
+    case ExprKind::Self:
+    case ExprKind::Global:
+    case ExprKind::Program:
+    case ExprKind::Image:
+    case ExprKind::Unary:
+    case ExprKind::Binary:
+    case ExprKind::Convert:
+    case ExprKind::Select:
+    case ExprKind::Call:
+    case ExprKind::Address: return place;
+  }
+  if (body_.expr(place).checks != 0) {  // checked once, here
+    append(loc, EvaluateStmt{copy(place)});
+    body_.expr(place).checks = 0;
+  }
+  return place;
+}
+
+bool BodyPart::isTemp(ExprId place) const {
+  const uint32_t* root = localOf(body_.expr(rootOf(body_, place)));
+  return root != nullptr && body_.locals[*root].kind == LocalKind::Temp;
+}
+
+bool BodyPart::hasEffect(const Stmt& stmt) const {
+  switch (stmt.kind) {
+    case StmtKind::Assign: return !isTemp(stmt.as<AssignStmt>().place);
+    case StmtKind::For: return !isTemp(stmt.as<ForStmt>().control);
+    case StmtKind::Call: {
+      const CallStmt& call = stmt.as<CallStmt>();
+      return !in_.module.body(call.callee).pure || (call.result && !isTemp(call.result));
+    }
+    case StmtKind::None:
+    case StmtKind::If:
+    case StmtKind::Switch:
+    case StmtKind::Loop:
+    case StmtKind::Break:
+    case StmtKind::Continue:
+    case StmtKind::Return:
+    case StmtKind::Jump:
+    case StmtKind::Label:
+    case StmtKind::Try:
+    case StmtKind::Evaluate: return false;
+    case StmtKind::Bind:
+    case StmtKind::Fault:
+    case StmtKind::Assert: return true;
+  }
+  return true;
+}
+
+bool BodyPart::mustSpill(InsertionPoint point, ExprId value) {
+  if (!value || build_.block().last == point.last || isStable(value)) return false;
+  return effects() != point.effects || mayFault(value);
+}
+
+void BodyPart::spill(InsertionPoint point, std::initializer_list<ExprId*> values) {
+  bool any = false;
+  for (ExprId* value : values) any = any || mustSpill(point, *value);
+  if (!any) return;
+  std::vector<ExprId*> moved;
+  for (ExprId* value : values)
+    if (mustSpill(point, *value)) moved.push_back(value);
+  insertAt(point, [&] {
+    for (ExprId* value : moved) *value = toTemp(*value, body_.expr(*value).loc);
+  });
+}
+
+void BodyPart::spillPlace(InsertionPoint point, ExprId& place) {
+  if (!mustSpill(point, place)) return;
+  insertAt(point, [&] { place = stable(place); });
+}
+
+ExprId BodyPart::toTemp(ExprId value, Loc loc) {
+  const ExprId place = temp(typeOf(value), loc);
+  assign(copy(place), value, loc);
+  return place;
+}
+
+ExprId BodyPart::convertValue(ExprId value, TypeId to, Loc loc) {
+  to = strip(to);
+  TypeId from = typeOf(value);
+  if (from == to) return value;
+  if (body_.expr(value).kind == ExprKind::Const && TypeTable::isScalar(types_.plainKind(to)) &&
+      TypeTable::isScalar(types_.plainKind(from)))
+    return ofValue(types::convert(types_, {from, bitsOf(body_.expr(value))}, to).value, loc);
+  return convert(value, to, loc);
+}
+
+}  // namespace rung::ir
