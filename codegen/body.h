@@ -44,8 +44,9 @@ class BodyWriter {
   static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body) {
     appendSignature(out, module, body, {});
   }
-  // Under another name.
-  static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body, std::string_view name);
+  // Under another name; a native body with another type of its instance than void.
+  static void appendSignature(std::string& out, const ir::Module& module, const ir::Body& body, std::string_view name,
+                              std::string_view self = {});
 
  private:
   using Body = ir::Body;
@@ -203,6 +204,7 @@ class BodyWriter {
   void indexValue(ExprId id, const types::Dimension& dimension);
   ExprId peelIndex(ExprId id, const types::Dimension& dimension, int64_t& addend) const;
   bool isImagePlace(ExprId id) const;
+  void area(uint32_t index);
   void imageAddress(ExprId id);  // a uint8_t* without const
   void imageLoad(ExprId id, const Expr& expr);
   bool isLvalue(ExprId id) const;
@@ -274,6 +276,7 @@ class BodyWriter {
   std::vector<ExprId> unknown_;    // collectUnknown: one lvalue for each string whose length a loop needs
   std::vector<uint8_t> private_loop_;
   std::vector<uint32_t> blocks_declared_;
+  uint32_t areas_declared_ = 0;                                 // a bit for each
   std::vector<std::pair<uint32_t, std::string>> materialized_;  // expression, variable that holds its string
   bool has_try_ = false, self_escapes_ = false, has_foreign_calls_ = false, has_calls_ = false, has_measured_ = false,
        has_leaving_calls_ = false, has_slices_ = false, slices_changed_ = false;

@@ -245,12 +245,23 @@ void BodyWriter::indexValue(ExprId id, const types::Dimension& dimension) {
 
 // ---- the process image
 
+// An area is where it is for the whole call, which g++ cannot know of memory that bytes are stored to.
+void BodyWriter::area(uint32_t index) {
+  std::string name = "area";
+  name += module_.areas[index].letter;
+  if ((areas_declared_ >> index & 1) == 0) {
+    areas_declared_ |= 1u << index;
+    declarations_ += " uint8_t* const " + name + " = ctx->areas[";
+    appendUnsigned(declarations_, index);
+    declarations_ += "];";
+  }
+  out_ += name;
+}
+
 void BodyWriter::imageAddress(ExprId id) {
   const Expr& e = expr(id);
   if (const auto* image = e.tryAs<ir::ImageExpr>()) {
-    out_ += "ctx->image[";
-    appendUnsigned(out_, image->area);
-    out_ += ']';
+    area(image->area);
     if (image->byte != 0) {
       out_ += " + ";
       appendUnsigned(out_, image->byte);
@@ -300,9 +311,9 @@ void BodyWriter::imageLoad(ExprId id, const Expr& e) {
   }
   if (ir::isImageBit(e)) {
     const ir::ImageExpr& image = e.as<ir::ImageExpr>();
-    out_ += "(ctx->image[";
-    appendUnsigned(out_, image.area);
-    out_ += "][";
+    out_ += '(';
+    area(image.area);
+    out_ += '[';
     appendUnsigned(out_, image.byte);
     out_ += "] >> ";
     appendUnsigned(out_, image.bit);

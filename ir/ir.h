@@ -23,6 +23,7 @@
 #include "frontend/source/invariant.h"
 #include "frontend/source/names.h"
 #include "frontend/syntax/ids.h"
+#include "sema/types/areas.h"
 #include "sema/types/arithmetic.h"
 #include "sema/types/types.h"
 
@@ -350,7 +351,7 @@ struct Task {
 struct Located {
   NameId name;
   TypeId type;
-  uint8_t area;
+  uint8_t area;  // AreaId
   uint32_t byte;
   uint32_t bit;               /* kNoBit: none */
   uint32_t owner_program = 0; /* index into programs + 1; 0: a global or unnamed */
@@ -427,7 +428,7 @@ struct Module {
   std::vector<Dispatch> dispatches;  // sorted by method
   std::vector<CppBody> cpp_bodies;
   std::vector<BodyId> tests;  // Block or Function bodies marked {test}; a Block's instance is in `programs`
-  uint32_t image_bytes[3] = {0, 0, 0};
+  types::MemoryAreas areas = types::standardAreas();  // `bytes`: as many as the program has
 
   Body& body(BodyId id) { return bodies[id.index]; }
   const Body& body(BodyId id) const { return bodies[id.index]; }

@@ -473,20 +473,14 @@ ExprId Reader::afterType(TypeId of) {
   if (accept("#")) return literal(types_.resolve(of));
   expect("%");
   if (failed_) return {};
-  const std::string_view area = token().text;
-  const size_t letter = std::string_view("IQM").find(area.empty() ? '?' : area[0]);
-  if (token().kind != TokenKind::Name || letter == std::string_view::npos || area.size() < 2) {
-    expected("an area and a byte such as I4");
-    return {};
-  }
-  uint32_t byte = 0, bit = kNoBit;
-  std::from_chars(area.data() + 1, area.data() + area.size(), byte);
-  ++at_;
+  const std::optional<AddressInArea> address = addressInArea();
+  if (!address) return {};
+  uint32_t bit = kNoBit;
   if (isPunct(".") && token(1).kind == TokenKind::Number) {
     ++at_;
     bit = static_cast<uint32_t>(integer());
   }
-  return failed_ ? ExprId{} : postfix(b.image(of, static_cast<uint32_t>(letter), byte, bit));
+  return failed_ ? ExprId{} : postfix(b.image(of, address->area.index, address->byte, bit));
 }
 
 ExprId Reader::literal(TypeId of) {

@@ -351,7 +351,7 @@ void Printer::place(const Expr& e) {
       const ImageExpr& image = e.as<ImageExpr>();
       type(e.type);
       put("%");
-      out += "IQM"[image.area];
+      out += module_.areas[image.area].letter;
       number(image.byte);
       if (image.bit == kNoBit) return;
       put(".");

@@ -60,6 +60,12 @@ class Reader {
   void dispatch();
   void task();
   void instance();
+  void area();
+  struct AddressInArea {
+    types::AreaId area;
+    uint32_t byte;
+  };
+  std::optional<AddressInArea> addressInArea();
   void located();
   void function();
   void blockBody(BodyKind kind);

@@ -579,9 +579,9 @@ void Verifier::constant(const Expr& e) {
 
 void Verifier::image(const Expr& e) {
   const ImageExpr& image = e.as<ImageExpr>();
-  if (!require(image.area < 3, 10, "an image area that does not exist")) return;
+  if (!require(image.area < module_.areas.size(), 10, "an image area that does not exist")) return;
   const uint64_t size = image.bit == kNoBit ? types_.info(e.type).size : 1;
-  require(image.byte + size <= module_.image_bytes[image.area], 10, "an image view outside of its area");
+  require(image.byte + size <= module_.areas[image.area].bytes, 10, "an image view outside of its area");
   if (image.bit == kNoBit) return;
   require(image.bit < 8 && types_.plainKind(e.type) == TypeKind::Bool, 10,
           "an image bit is out of range or not a BOOL");

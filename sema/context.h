@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "frontend/source/dialect.h"
+#include "frontend/syntax/tree_builder.h"
 #include "sema/entities.h"
 
 namespace rung::sema {
@@ -39,6 +40,9 @@ struct Context {
   Tree& tree() const { return symbols.tree; }
   types::TypeTable& types() const { return symbols.types; }
   Names& names() const { return symbols.names; }
+  // Nodes that make explicit what the source leaves implicit; replace() puts one into the slot of what was written.
+  TreeBuilder build() const { return TreeBuilder(tree(), TreeBuilder::Origin::Inserted); }
+  void replace(ExprId& slot, ExprId by) const { tree().replace(slot, by); }
   Report report(Diag diag, Loc loc, std::initializer_list<std::string_view> args = {}) const {
     return symbols.diagnostics.report(diag, loc, args);
   }
@@ -133,7 +137,9 @@ bool checkExprAs(Context& context, ExprId& expr, TypeId to, std::string_view wha
 TypeId checkLvalue(Context& context, ExprId& expr, std::string_view what);
 // Makes an lvalue the target of a reference of this type; reports when the reference cannot be bound to it.
 bool bindReference(Context& context, ExprId& lvalue, TypeId reference);
-// A literal of a known type (synthesized_nodes.cpp).
+// Gives a new node its type (synthesized_nodes.cpp).
+ExprId typed(Context& context, ExprId created, TypeId type);
+// A literal of a known type.
 ExprId makeLiteral(Context& context, LiteralKind kind, TypeId type, int64_t value, Loc loc);
 // A string that lives in the tree, of the type STRING(its length).
 ExprId makeStringLiteral(Context& context, std::string_view text, Loc loc);

@@ -9,7 +9,7 @@
 #include "frontend/export/exporter.h"
 #include "frontend/syntax/sfc.h"
 
-namespace rung::plcopen {
+namespace rung::exporter {
 namespace {
 
 // The GUIDs that 3S uses for the step actions without a qualifier.
@@ -317,8 +317,8 @@ void ChartExport::comments() {
     for (const DeclId member : to_.tree.list(pou_.members)) {
       if (to_.tree.kind(member) != DeclKind::Pou) continue;
       const auto& action = to_.tree.as<PouDecl>(member);
-      quoted =
-          quoted || (source.commentsBefore(source.at(action.begin)) <= span.begin && span.end <= source.at(action.end));
+      quoted = quoted ||
+               (source.commentsBefore(source.at(action.h.begin)) <= span.begin && span.end <= source.at(action.h.end));
     }
     for (const SfcTransition& t : transitions_)
       quoted = quoted || (t.condition.value && holds(t.condition.begin, t.condition.end));
@@ -357,4 +357,4 @@ void exportTransitions(Export& to, const PouDecl& pou) {
   if (any) to.xml.close();
 }
 
-}  // namespace rung::plcopen
+}  // namespace rung::exporter

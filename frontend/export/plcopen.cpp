@@ -8,7 +8,7 @@
 #include "frontend/export/exporter.h"
 #include "frontend/syntax/st_printer.h"
 
-namespace rung::plcopen {
+namespace rung::exporter {
 
 void Export::openData(std::string_view name, std::string_view unknown) {
   xml.open("data").attribute("name", name).attribute("handleUnknown", unknown);
@@ -77,13 +77,13 @@ bool PouExport::isOwnAction(DeclId member) const {
   if (to_.tree.kind(member) != DeclKind::Pou) return false;
   const auto& action = to_.tree.as<PouDecl>(member);
   return action.pou_kind == PouKind::Action &&
-         !(action.begin == action.body_begin && !action.h.pragmas.count && action.end == action.body_end);
+         !(action.h.begin == action.body_begin && !action.h.pragmas.count && action.h.end == action.body_end);
 }
 
 size_t PouExport::beginOf(DeclId member) const {
-  if (to_.tree.kind(member) == DeclKind::Pou) return source_.at(to_.tree.as<PouDecl>(member).begin);
+  if (to_.tree.kind(member) == DeclKind::Pou) return source_.at(to_.tree.decl(member).begin);
   const auto& property = to_.tree.as<PropertyDecl>(member);
-  size_t begin = source_.at(property.begin);
+  size_t begin = source_.at(property.h.begin);
   for (const Pragma& pragma : to_.tree.list(property.h.pragmas)) begin = std::min(begin, source_.at(pragma.loc));
   return begin;
 }
@@ -102,14 +102,14 @@ size_t PouExport::endOfHeader(const PouDecl& pou) const {
 
 // The declaration as written, with the comments above it.
 std::string PouExport::header(const PouDecl& pou) const {
-  const size_t begin = source_.at(pou.begin);
+  const size_t begin = source_.at(pou.h.begin);
   std::string_view text = source_.cut(source_.commentsBefore(begin), endOfHeader(pou));
   while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
   return std::string(text);
 }
 
 std::string PouExport::documentationOf(const PouDecl& pou) const {
-  const size_t begin = source_.at(pou.begin);
+  const size_t begin = source_.at(pou.h.begin);
   return source_.comments(source_.commentsBefore(begin), begin);
 }
 
@@ -204,7 +204,7 @@ void PouExport::ownText(const PouDecl& pou) {
   if (!hasOwnText(pou)) return;
   to_.onlyRung(pou.h.loc, "actions and conditions inside an action or method");
   AddData data(to_);
-  exportOwnText(to_, source_.cut(source_.at(pou.begin), source_.at(pou.end)), data);
+  exportOwnText(to_, source_.cut(source_.at(pou.h.begin), source_.at(pou.h.end)), data);
 }
 
 void PouExport::accessor(DeclId id, std::string_view element, const PropertyDecl& of) {
@@ -250,12 +250,12 @@ void PouExport::property(const PropertyDecl& property) {
       size_t end = source_.endOfWord(name, "END_PROPERTY");
       end = source_.wordBefore(end, "END_PROPERTY");
       for (const DeclId id : {property.get, property.set})
-        if (id) end = std::min(end, source_.at(to_.tree.as<PouDecl>(id).begin));
-      const size_t behind_word = source_.at(property.begin) + (property.h.bits == kInHalves ? 12 : 8);
+        if (id) end = std::min(end, source_.at(to_.tree.decl(id).begin));
+      const size_t behind_word = source_.at(property.h.begin) + (property.h.bits == kInHalves ? 12 : 8);
       exportPlainText(to_, "PROPERTY" + std::string(source_.cut(behind_word, end)), data);
     }
   }
-  const size_t begin = source_.at(property.begin);
+  const size_t begin = source_.at(property.h.begin);
   to_.documentation(source_.comments(source_.commentsBefore(begin), begin));
   to_.xml.close();
 }
@@ -460,8 +460,8 @@ void ProjectExport::ownTexts(AddData& data) {
     const auto& pou = to_.tree.as<PouDecl>(id);
     if (!sharesWithInner(pou)) return;
     to_.onlyRung(pou.h.loc, "actions and conditions inside an action or method");
-    const size_t begin = to_.source->at(pou.begin);
-    exportOwnText(to_, to_.source->cut(to_.source->commentsBefore(begin), to_.source->at(pou.end)), data);
+    const size_t begin = to_.source->at(pou.h.begin);
+    exportOwnText(to_, to_.source->cut(to_.source->commentsBefore(begin), to_.source->at(pou.h.end)), data);
   });
 }
 
@@ -542,4 +542,4 @@ std::string writeProject(const Program& program, const std::string& project, Dia
   return to.xml.out();
 }
 
-}  // namespace rung::plcopen
+}  // namespace rung::exporter

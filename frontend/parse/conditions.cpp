@@ -80,7 +80,7 @@ void Declared::add(Slice<DeclId> decls, Loc begin, Loc end) {
       case DeclKind::Pou: {
         const PouDecl& pou = tree_.as<PouDecl>(id);
         addNamed(pou.name, {"pou", {}, {}, pragmas, {}});
-        add(pou.sections, pou.begin, pou.end);
+        add(pou.sections, pou.h.begin, pou.h.end);
         break;
       }
       case DeclKind::Var: {

@@ -1,11 +1,11 @@
 // Expressions: precedence climbing over kOperators, postfix chains, literals and arguments.
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 #include "frontend/parse/diagnostics.h"
-#include "frontend/parse/parser.h"
+#include "frontend/parse/expressions.h"
 #include "frontend/source/dialect.h"
+#include "frontend/syntax/standard_names.h"
 
 namespace rung::text {
 namespace {
@@ -17,65 +17,51 @@ struct Operator {
 constexpr uint32_t kPowerPrecedence = 8;
 
 // expr = or {...}; weakest first: OR, XOR, AND, = <>, < > <= >=, + -, * / MOD, **. All associate to the left.
-constexpr std::array<Operator, kTokCount> makeOperators() {
-  std::array<Operator, kTokCount> t{};
-  const auto set = [&](Tok tok, uint8_t precedence, BinaryOp op) { t[static_cast<size_t>(tok)] = {precedence, op}; };
-  set(Tok::Or, 1, BinaryOp::Or);
-  set(Tok::OrElse, 1, BinaryOp::OrElse);
-  set(Tok::BarTwice, 1, BinaryOp::Or);
-  set(Tok::Bar, 1, BinaryOp::Or);
-  set(Tok::Xor, 2, BinaryOp::Xor);
-  set(Tok::And, 3, BinaryOp::And);
-  set(Tok::AndThen, 3, BinaryOp::AndThen);
-  set(Tok::Ampersand, 3, BinaryOp::And);
-  set(Tok::AmpersandTwice, 3, BinaryOp::And);
-  set(Tok::Equal, 4, BinaryOp::Equal);
-  set(Tok::EqualEqual, 4, BinaryOp::Equal);
-  set(Tok::NotEqual, 4, BinaryOp::NotEqual);
-  set(Tok::BangEqual, 4, BinaryOp::NotEqual);
-  set(Tok::Less, 5, BinaryOp::Less);
-  set(Tok::LessEqual, 5, BinaryOp::LessEqual);
-  set(Tok::EqualLess, 5, BinaryOp::LessEqual);
-  set(Tok::Greater, 5, BinaryOp::Greater);
-  set(Tok::GreaterEqual, 5, BinaryOp::GreaterEqual);
-  set(Tok::Plus, 6, BinaryOp::Add);
-  set(Tok::Minus, 6, BinaryOp::Subtract);
-  set(Tok::Star, 7, BinaryOp::Multiply);
-  set(Tok::Slash, 7, BinaryOp::Divide);
-  set(Tok::Mod, 7, BinaryOp::Modulo);
-  set(Tok::Percent, 7, BinaryOp::Modulo);
-  set(Tok::Power, kPowerPrecedence, BinaryOp::Power);
-  return t;
-}
-constexpr std::array<Operator, kTokCount> kOperators = makeOperators();
+constexpr TokMap<Operator> kOperators = {
+    {Tok::Or, {1, BinaryOp::Or}},
+    {Tok::OrElse, {1, BinaryOp::OrElse}},
+    {Tok::BarTwice, {1, BinaryOp::Or}},
+    {Tok::Bar, {1, BinaryOp::Or}},
+    {Tok::Xor, {2, BinaryOp::Xor}},
+    {Tok::And, {3, BinaryOp::And}},
+    {Tok::AndThen, {3, BinaryOp::AndThen}},
+    {Tok::Ampersand, {3, BinaryOp::And}},
+    {Tok::AmpersandTwice, {3, BinaryOp::And}},
+    {Tok::Equal, {4, BinaryOp::Equal}},
+    {Tok::EqualEqual, {4, BinaryOp::Equal}},
+    {Tok::NotEqual, {4, BinaryOp::NotEqual}},
+    {Tok::BangEqual, {4, BinaryOp::NotEqual}},
+    {Tok::Less, {5, BinaryOp::Less}},
+    {Tok::LessEqual, {5, BinaryOp::LessEqual}},
+    {Tok::EqualLess, {5, BinaryOp::LessEqual}},
+    {Tok::Greater, {5, BinaryOp::Greater}},
+    {Tok::GreaterEqual, {5, BinaryOp::GreaterEqual}},
+    {Tok::Plus, {6, BinaryOp::Add}},
+    {Tok::Minus, {6, BinaryOp::Subtract}},
+    {Tok::Star, {7, BinaryOp::Multiply}},
+    {Tok::Slash, {7, BinaryOp::Divide}},
+    {Tok::Mod, {7, BinaryOp::Modulo}},
+    {Tok::Percent, {7, BinaryOp::Modulo}},
+    {Tok::Power, {kPowerPrecedence, BinaryOp::Power}},
+};
 
 // The ST operator for an operator of another language.
-const char* nativeOperator(Tok kind) {
-  switch (static_cast<int>(kind)) {
-    case static_cast<int>(Tok::EqualEqual): return "=";
-    case static_cast<int>(Tok::BangEqual): return "<>";
-    case static_cast<int>(Tok::Bang): return "NOT";
-    case static_cast<int>(Tok::AmpersandTwice): return "AND";
-    case static_cast<int>(Tok::BarTwice):
-    case static_cast<int>(Tok::Bar): return "OR";
-    case static_cast<int>(Tok::Percent): return "MOD";
-    case static_cast<int>(Tok::EqualLess): return "<=";
-    default: return nullptr;
-  }
-}
+constexpr TokMap<const char*> kNativeOperators = {
+    {Tok::EqualEqual, "="}, {Tok::BangEqual, "<>"}, {Tok::Bang, "NOT"},    {Tok::AmpersandTwice, "AND"},
+    {Tok::BarTwice, "OR"},  {Tok::Bar, "OR"},       {Tok::Percent, "MOD"}, {Tok::EqualLess, "<="},
+};
 
 }  // namespace
 
-bool Parser::isOperand(Tok kind) const {
-  return (kind >= Tok::Number && kind <= Tok::Ident) || isName(kind) || isTypeWord(kind) || kind == Tok::True ||
-         kind == Tok::False || kind == Tok::Null || kind == Tok::LeftParen || kind == Tok::Not;
-}
+ExpressionParser::ExpressionParser(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
+                                   Diagnostics& diagnostics)
+    : Cursor(tree, names, sources, file, dialect, diagnostics), eno_(names.intern(kEnableOutput)) {}
 
-ExprId Parser::parseExpr(uint32_t least) {
+ExprId ExpressionParser::parseExpr(uint32_t least) {
   ExprId left = parseUnary();
   uint32_t height = height_;
   for (;;) {
-    const Operator row = kOperators[static_cast<size_t>(t_->kind)];
+    const Operator row = kOperators[t_->kind];
     if (row.precedence < least || row.precedence == 0) {
       height_ = height;
       return left;
@@ -87,49 +73,41 @@ ExprId Parser::parseExpr(uint32_t least) {
       return left;
     }
     if (op->kind >= Tok::EqualEqual && op->kind <= Tok::EqualLess)
-      slip(diag::ForeignOperator, op, {spelling(op->kind), nativeOperator(op->kind)});
+      slip(diag::ForeignOperator, op, {spelling(op->kind), kNativeOperators[op->kind]});
     advance();
     // The value is missing: the next line begins with a new statement.
     if (atLineStart() && !panic_ && isName(kind()) && peek() == Tok::Assign) {
       fail(diag::MissingValueAfter, op, {describe(op)});
-      return errorExpr(loc(op));
+      return build_.error(loc(op));
     }
     const ExprId right = parseExpr(row.precedence + 1u);
     height = std::max(height, height_) + 1;
     if (height > kMaxExprHeight + 1) {
       tooDeep("operators", kMaxChain);
       height_ = 1;
-      return errorExpr(loc(op));
+      return build_.error(loc(op));
     }
     if (row.op == BinaryOp::Power && dialect_ != Dialect::Codesys && tree_.kind(left) == ExprKind::Unary &&
         tree_.expr(left).in_parens == 0 && tree_.as<UnaryExpr>(left).op() == UnaryOp::Negate)
       diagnostics_.report(diag::NegatedPower, tree_.loc(left), {"tighter"});
-    left =
-        tree_.add<ExprId>(BinaryExpr{exprHeader(ExprKind::Binary, loc(op), static_cast<uint8_t>(row.op)), left, right});
+    left = ended(build_.binary(row.op, left, right, loc(op)));
   }
 }
 
 // unary = ["-" | "+" | NOT] operand. In codesys `**` binds tighter than the sign, in the standard weaker.
-ExprId Parser::parseUnary() {
-  UnaryOp op;
-  switch (static_cast<int>(kind())) {
-    case static_cast<int>(Tok::Minus): op = UnaryOp::Negate; break;
-    case static_cast<int>(Tok::Plus): op = UnaryOp::Plus; break;
-    case static_cast<int>(Tok::Bang): slip(diag::ForeignOperator, t_, {"!", "NOT"}); [[fallthrough]];
-    case static_cast<int>(Tok::Not):
-      // NOT(EN := x, IN := y): the functional form, with pins
-      if (peek() == Tok::LeftParen && peek(3) == Tok::Assign && (is(t_ + 2, "EN") || is(t_ + 2, "IN"))) {
-        return parsePrimary();
-      }
-      op = UnaryOp::Not;
-      break;
-    default: return parsePrimary();
-  }
+ExprId ExpressionParser::parseUnary() {
+  const bool is_not = at(Tok::Not) || at(Tok::Bang);
+  if (!is_not && !at(Tok::Minus) && !at(Tok::Plus)) return parsePrimary();
+  const UnaryOp op = is_not ? UnaryOp::Not : at(Tok::Minus) ? UnaryOp::Negate : UnaryOp::Plus;
+  if (at(Tok::Bang)) slip(diag::ForeignOperator, t_, {"!", "NOT"});
+  // NOT(EN := x, IN := y): the functional form, with pins
+  if (is_not && peek() == Tok::LeftParen && peek(3) == Tok::Assign && (is(t_ + 2, kEnable) || is(t_ + 2, "IN")))
+    return parsePrimary();
   const Loc start = here();
   if (++expr_depth_ > kMaxExprDepth) {
     tooDeep("expressions", kMaxExprDepth);
     --expr_depth_;
-    return errorExpr(start);
+    return build_.error(start);
   }
   advance();
   const ExprId operand = dialect_ == Dialect::Codesys ? parseExpr(kPowerPrecedence) : parseUnary();
@@ -137,79 +115,79 @@ ExprId Parser::parseUnary() {
   if (++height_ > kMaxExprHeight + 1) {
     tooDeep("operators", kMaxChain);
     height_ = 1;
-    return errorExpr(start);
+    return build_.error(start);
   }
   if (op == UnaryOp::Negate && tree_.kind(operand) == ExprKind::Binary && tree_.expr(operand).in_parens == 0)
     diagnostics_.report(diag::NegatedPower, start, {"looser"});
-  return tree_.add<ExprId>(UnaryExpr{exprHeader(ExprKind::Unary, start, static_cast<uint8_t>(op)), operand});
+  return ended(build_.unary(op, operand, start));
 }
 
-ExprId Parser::parsePrimary() {
+ExprId ExpressionParser::parsePrimary() {
   const Loc start = here();
   height_ = 1;
-  switch (static_cast<int>(kind())) {
-    case static_cast<int>(Tok::Number): return parseNumber({}, false, start);
-    case static_cast<int>(Tok::StringLiteral):
-    case static_cast<int>(Tok::WideStringLiteral): return parseStringLiteral({}, start);
-    case static_cast<int>(Tok::Duration):
-    case static_cast<int>(Tok::Date):
-    case static_cast<int>(Tok::TimeOfDay):
-    case static_cast<int>(Tok::DateTime): return parseTime();
-    case static_cast<int>(Tok::True):
-    case static_cast<int>(Tok::False): {
-      const bool value = at(Tok::True);
-      advance();
-      return boolLiteral(value, {}, start);
-    }
-    case static_cast<int>(Tok::Null): {
-      advance();
-      return tree_.add<ExprId>(
-          LiteralExpr{exprHeader(ExprKind::Literal, start, static_cast<uint8_t>(LiteralKind::Null)), {}, 0, 0});
-    }
-    case static_cast<int>(Tok::Address): return parsePostfix(parseAddress());
-    case static_cast<int>(Tok::LeftParen): {
-      if (++expr_depth_ > kMaxExprDepth) {
-        tooDeep("parentheses", kMaxExprDepth);
-        --expr_depth_;
-        return errorExpr(start);
-      }
-      advance();
-      ExprId inner = parseExpr();
-      if (at(Tok::Assign)) inner = parseCompared(inner);
-      closeParen(Tok::RightParen, false);
-      --expr_depth_;
-      tree_.expr(inner).in_parens = 1;
-      return parsePostfix(inner);
-    }
-    default: break;
-  }
-  if (isName(kind()) || isTypeWord(kind())) {
-    if (peek() == Tok::Hash) return parseTyped();
-    if ((at(Tok::This) || at(Tok::Super)) && peek() != Tok::LeftParen) {
-      const bool is_this = at(Tok::This);
-      advance();
-      return parsePostfix(is_this ? tree_.add<ExprId>(ThisExpr{exprHeader(ExprKind::This, start)})
-                                  : tree_.add<ExprId>(SuperExpr{exprHeader(ExprKind::Super, start)}));
-    }
-    if (names_.same(nameOf(t_), eno_)) eno_used_ = true;
-    const ExprId name = tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, start), nameOf(t_), {}});
+  if (isName(kind()) || isTypeWord(kind())) return parseOperandName();
+  if (at(Tok::Number)) return ended(parseNumber({}, false, start));
+  if (at(Tok::StringLiteral) || at(Tok::WideStringLiteral)) return ended(parseStringLiteral({}, start));
+  if (kind() >= Tok::Duration && kind() <= Tok::DateTime) return ended(parseTime());
+  if (at(Tok::True) || at(Tok::False)) {
+    const bool value = at(Tok::True);
     advance();
-    const Tok next = kind();
-    if (next == Tok::Dot || next == Tok::LeftParen || next == Tok::LeftBracket || next == Tok::Caret)
-      return parsePostfix(name);
-    return name;
+    return ended(build_.boolean(value, start));
   }
+  if (accept(Tok::Null)) return ended(build_.literal(LiteralKind::Null, 0, start));
+  if (at(Tok::Address)) return parsePostfix(ended(parseAddress()));
+  if (at(Tok::LeftParen)) return parseInParens();
   // The functional form of operators that are keywords: AND(a, b)
   if ((at(Tok::And) || at(Tok::Or) || at(Tok::Xor) || at(Tok::Mod) || at(Tok::Not)) && peek() == Tok::LeftParen) {
-    const ExprId name = tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, start), names_.intern(textOf(t_)), {}});
+    const ExprId name = build_.name(names_.intern(textOf(t_)), start);
     advance();
-    return parsePostfix(name);
+    return parsePostfix(ended(name));
   }
+  return missingOperand();
+}
+
+// name | type "#" value | THIS | SUPER, with what follows
+ExprId ExpressionParser::parseOperandName() {
+  const Loc start = here();
+  if (peek() == Tok::Hash) return ended(parseTyped());
+  if ((at(Tok::This) || at(Tok::Super)) && peek() != Tok::LeftParen) {
+    const ExprId object = at(Tok::This) ? build_.thisObject(start) : build_.superObject(start);
+    advance();
+    return parsePostfix(ended(object));
+  }
+  if (names_.same(nameOf(t_), eno_)) eno_used_ = true;
+  const ExprId name = build_.name(nameOf(t_), start);
+  advance();
+  ended(name);
+  const Tok next = kind();
+  if (next == Tok::Dot || next == Tok::LeftParen || next == Tok::LeftBracket || next == Tok::Caret)
+    return parsePostfix(name);
+  return name;
+}
+
+// "(" expr ")", with what follows
+ExprId ExpressionParser::parseInParens() {
+  const Loc start = here();
+  if (++expr_depth_ > kMaxExprDepth) {
+    tooDeep("parentheses", kMaxExprDepth);
+    --expr_depth_;
+    return build_.error(start);
+  }
+  advance();
+  const ExprId inner = parseCompared(parseExpr());
+  closeParen(Tok::RightParen, false);
+  --expr_depth_;
+  tree_.parenthesize(inner, start, endOfPrevious());
+  return parsePostfix(inner);
+}
+
+ExprId ExpressionParser::missingOperand() {
+  const Loc start = here();
   if (at(Tok::Error)) {
     last_error_ = t_;
     advance();
     panic_ = true;
-    return errorExpr(start);
+    return build_.error(start);
   }
   // At the start of a line, the error is at the end of the line above.
   const Token* before = t_ - 1;
@@ -218,12 +196,12 @@ ExprId Parser::parsePrimary() {
     fail(diag::MissingValueAfter, before, {describe(before)});
   else
     fail(diag::MissingValue, t_, {describe(t_)});
-  return errorExpr(start);
+  return build_.error(start);
 }
 
 // postfix = {"." (name | bit | "%X" bit) | "[" expr {"," expr} "]" | "^" | "(" arguments ")"}; without `calls` it ends
 // at a `(`.
-ExprId Parser::parsePostfix(ExprId base, bool calls) {
+ExprId ExpressionParser::parsePostfix(ExprId base, bool calls) {
   uint32_t height = height_;
   for (;; ++height) {
     height_ = height;
@@ -234,219 +212,138 @@ ExprId Parser::parsePostfix(ExprId base, bool calls) {
       tooDeep("accesses", kMaxChain);
       return base;
     }
-    switch (static_cast<int>(next)) {
-      case static_cast<int>(Tok::Dot): {
-        const Token* dot = t_;
-        advance();
-        const Loc at_member = here();
-        const bool same_line = !atLineStart();
-        if (isName(kind()) || isNullName(t_) || (isTypeWord(kind()) && same_line)) {
-          base = tree_.add<ExprId>(MemberExpr{exprHeader(ExprKind::Member, at_member), base, nameOf(t_), {}});
-          advance();
-        } else if (at(Tok::Number)) {
-          NumberValue value;
-          const std::string_view digits = textOf(t_);
-          if (readNumber(digits, at_member, diagnostics_, value) &&
-              (value.is_real || value.is_based || value.integer > 63))
-            fail(diag::MissingName, t_, {describe(t_)});
-          base = tree_.add<ExprId>(BitAccessExpr{exprHeader(ExprKind::BitAccess, at_member), base,
-                                                 static_cast<uint32_t>(value.integer & 63), 1});
-          advance();
-        } else if (at(Tok::Address)) {
-          // %X3 %B1 %W0 %D0; the lexer reads the `.7` of `%B1.7` as part of an address
-          const std::string_view token = textOf(t_);
-          const std::string_view part = token.substr(0, token.find('.'));
-          const std::string_view bit = token.substr(std::min(part.size() + 1, token.size()));
-          const char size = part.size() > 2 ? static_cast<char>(part[1] & ~0x20) : '\0';
-          const uint32_t width = size == 'X' ? 1 : size == 'B' ? 8 : size == 'W' ? 16 : size == 'D' ? 32 : 0;
-          uint32_t position = 0;
-          bool ok = width != 0 && part.size() <= 4;
-          for (char c : part.substr(ok ? 2 : part.size())) {
-            ok = ok && c >= '0' && c <= '9';
-            position = position * 10 + static_cast<uint32_t>(c - '0');
-          }
-          ok = ok && bit.size() <= 2 && bit.find_first_not_of("0123456789") == std::string_view::npos;
-          ok = ok && token.size() == part.size() + (bit.empty() ? 0 : bit.size() + 1);
-          if (!ok) fail(diag::AddressForm, t_, {token});
-          base = tree_.add<ExprId>(BitAccessExpr{exprHeader(ExprKind::BitAccess, at_member), base, ok ? position : 0,
-                                                 static_cast<uint8_t>(ok ? width : 1)});
-          if (ok && !bit.empty()) {
-            uint32_t number = 0;
-            for (const char c : bit) number = number * 10 + static_cast<uint32_t>(c - '0');
-            const Loc at_bit = Loc{at_member.offset + static_cast<uint32_t>(part.size()) + 1};
-            base = tree_.add<ExprId>(BitAccessExpr{exprHeader(ExprKind::BitAccess, at_bit), base, number, 1});
-          }
-          advance();
-        } else {
-          if (same_line)
-            fail(diag::MissingName, t_, {describe(t_)});
-          else
-            fail(diag::MissingName, dot, {describe(dot)});
-          return errorExpr(loc(dot));
-        }
-        break;
-      }
-      case static_cast<int>(Tok::LeftBracket): {
-        const Loc start = tree_.loc(base);
-        if (++expr_depth_ > kMaxExprDepth) {
-          tooDeep("indices", kMaxExprDepth);
-          --expr_depth_;
-          return base;
-        }
-        advance();
-        const size_t first = exprs_.size();
-        do {
-          exprs_.push_back(parseExpr());
-          height = std::max(height, height_);
-        } while (!panic_ && accept(Tok::Comma));
-        closeParen(Tok::RightBracket, false);
-        --expr_depth_;
-        base = tree_.add<ExprId>(IndexExpr{exprHeader(ExprKind::Index, start), base, listFrom(exprs_, first)});
-        break;
-      }
-      case static_cast<int>(Tok::Caret):
-        base = tree_.add<ExprId>(DerefExpr{exprHeader(ExprKind::Deref, here()), base});
-        advance();
-        break;
-      default: {
-        const Loc start = tree_.loc(base);
-        if (++expr_depth_ > kMaxExprDepth) {
-          tooDeep("calls", kMaxExprDepth);
-          --expr_depth_;
-          return base;
-        }
-        Loc end;
-        height_ = 0;
-        if (isNew(base)) {
-          base = parseNew(base);
-          height = std::max(height, height_);
-          --expr_depth_;
-          break;
-        }
-        const Slice<Argument> arguments = parseArguments(end);
-        height = std::max(height, height_);
-        --expr_depth_;
-        base = tree_.add<ExprId>(CallExpr{exprHeader(ExprKind::Call, start), base, arguments, end, {}});
-        break;
-      }
+    if (next == Tok::Caret) {
+      base = build_.deref(base, here());
+      advance();
+      ended(base);
+      continue;
     }
+    if (next == Tok::Dot) {
+      base = parseDot(base);
+      if (tree_.kind(base) == ExprKind::Error) return base;
+      continue;
+    }
+    const char* const what = next == Tok::LeftBracket ? "indices" : "calls";
+    if (++expr_depth_ > kMaxExprDepth) {
+      tooDeep(what, kMaxExprDepth);
+      --expr_depth_;
+      return base;
+    }
+    base = ended(next == Tok::LeftBracket ? parseIndex(base, height) : parseCall(base, height));
+    --expr_depth_;
   }
 }
 
-bool Parser::isNew(ExprId callee) const {
+// "." (name | bit | "%X" bit)
+ExprId ExpressionParser::parseDot(ExprId base) {
+  const Token* dot = t_;
+  advance();
+  const Loc at_member = here();
+  const bool same_line = !atLineStart();
+  if (isName(kind()) || isNullName(t_) || (isTypeWord(kind()) && same_line)) {
+    base = build_.member(base, nameOf(t_), at_member);
+  } else if (at(Tok::Number)) {
+    NumberValue value;
+    if (readNumber(textOf(t_), at_member, diagnostics_, value) &&
+        (value.is_real || value.is_based || value.integer > 63))
+      fail(diag::MissingName, t_, {describe(t_)});
+    base = build_.bitAccess(base, static_cast<uint32_t>(value.integer & 63), 1, at_member);
+  } else if (at(Tok::Address)) {
+    base = parsePartAccess(base, at_member);
+  } else {
+    const Token* const marked = same_line ? t_ : dot;
+    fail(diag::MissingName, marked, {describe(marked)});
+    return build_.error(loc(dot));
+  }
+  advance();
+  return ended(base);
+}
+
+// %X3 %B1 %W0 %D0; the lexer reads the `.7` of `%B1.7` as part of an address.
+ExprId ExpressionParser::parsePartAccess(ExprId base, Loc at_member) {
+  const std::string_view token = textOf(t_);
+  const std::string_view part = token.substr(0, token.find('.'));
+  const std::string_view bit = token.substr(std::min(part.size() + 1, token.size()));
+  const char size = part.size() > 2 ? static_cast<char>(part[1] & ~0x20) : '\0';
+  const uint32_t width = size == 'X' ? 1 : size == 'B' ? 8 : size == 'W' ? 16 : size == 'D' ? 32 : 0;
+  uint32_t position = 0;
+  bool ok = width != 0 && part.size() <= 4;
+  for (char c : part.substr(ok ? 2 : part.size())) {
+    ok = ok && c >= '0' && c <= '9';
+    position = position * 10 + static_cast<uint32_t>(c - '0');
+  }
+  ok = ok && bit.size() <= 2 && bit.find_first_not_of("0123456789") == std::string_view::npos;
+  ok = ok && token.size() == part.size() + (bit.empty() ? 0 : bit.size() + 1);
+  if (!ok) fail(diag::AddressForm, t_, {token});
+  base = build_.bitAccess(base, ok ? position : 0, static_cast<uint8_t>(ok ? width : 1), at_member);
+  if (!ok || bit.empty()) return base;
+  uint32_t number = 0;
+  for (const char c : bit) number = number * 10 + static_cast<uint32_t>(c - '0');
+  const uint32_t end = at_member.offset + static_cast<uint32_t>(part.size());
+  tree_.expr(base).end = Loc{end};
+  return build_.bitAccess(base, number, 1, Loc{end + 1});
+}
+
+// "[" expr {"," expr} "]"
+ExprId ExpressionParser::parseIndex(ExprId base, uint32_t& height) {
+  const Loc start = tree_.loc(base);
+  advance();
+  const size_t first = exprs_.size();
+  do {
+    exprs_.push_back(parseExpr());
+    height = std::max(height, height_);
+  } while (!panic_ && accept(Tok::Comma));
+  closeParen(Tok::RightBracket, false);
+  return build_.index(base, listFrom(exprs_, first), start);
+}
+
+// "(" arguments ")" of a call, or of __NEW
+ExprId ExpressionParser::parseCall(ExprId base, uint32_t& height) {
+  const Loc start = tree_.loc(base);
+  Loc end;
+  height_ = 0;
+  if (isNew(base)) {
+    const ExprId created = parseNew(base);
+    height = std::max(height, height_);
+    return created;
+  }
+  const Slice<Argument> arguments = parseArguments(end);
+  height = std::max(height, height_);
+  return build_.call(base, arguments, start, end);
+}
+
+bool ExpressionParser::isNew(ExprId callee) const {
   return tree_.kind(callee) == ExprKind::Name &&
          sameIdentifier(names_.string(tree_.as<NameExpr>(callee).name), "__NEW");
 }
 
 // new = "__NEW" "(" type ["," expr] ")"
-ExprId Parser::parseNew(ExprId callee) {
-  NewExpr node{};
-  node.h = exprHeader(ExprKind::New, tree_.loc(callee));
+ExprId ExpressionParser::parseNew(ExprId callee) {
+  TypeExprId allocated;
+  ExprId count;
   advance();
   const bool was_in_variable = in_variable_;
   in_variable_ = true;  // after the name of a block type come arguments of FB_Init
-  node.allocated = parseType();
+  allocated = parseType();
   in_variable_ = was_in_variable;
-  if (!panic_ && accept(Tok::Comma)) node.count = parseExpr();
+  if (!panic_ && accept(Tok::Comma)) count = parseExpr();
   closeParen(Tok::RightParen, false);
-  return tree_.add<ExprId>(node);
+  return build_.newObject(allocated, count, tree_.loc(callee));
 }
 
 // arguments = "(" [argument {"," argument} [","]] ")"
 // argument  = expr | name ":=" [expr] | [NOT] name "=>" [target]
-Slice<Argument> Parser::parseArguments(Loc& end) {
+Slice<Argument> ExpressionParser::parseArguments(Loc& end) {
   const size_t first = arguments_.size();
   uint32_t height = 0;
   advance();
   bool open = !at(Tok::RightParen);
   while (open) {
-    Argument a{};
-    a.loc = here();
-    const bool negated = at(Tok::Not) && (isName(peek()) || isTypeWord(peek())) && peek(2) == Tok::Arrow;
-    const Token* pin = negated ? t_ + 1 : t_;
-    Tok binder = pin[1].kind;
-    if (binder == Tok::Colon && isName(pin->kind)) {  // `IN : TRUE`
-      slip(diag::WrongKeyword, pin + 1, {":", ":="});
-      binder = Tok::Assign;
-    }
-    if ((isName(pin->kind) || isTypeWord(pin->kind)) && (binder == Tok::Assign || binder == Tok::Arrow)) {
-      a.pin = ident(pin);
-      a.negated = negated;
-      a.is_output = binder == Tok::Arrow;
-      t_ = const_cast<Token*>(pin) + 2;
-      if (at(Tok::Comma) || at(Tok::RightParen)) {
-        if (dialect_ != Dialect::Codesys) slip(diag::EmptyBinding, pin, {textOf(pin)});
-      } else if (atNestedIl()) {
-        parseNestedIl(static_cast<uint32_t>(arguments_.size() - first));
-      } else {
-        a.value = parseExpr();
-      }
-    } else {
-      a.value = parseExpr();
-    }
+    const Argument a = parseArgument(first);
     height = std::max(height, height_);
     arguments_.push_back(a);
-    if (at(Tok::With) && !panic_) {  // PROGRAM p : Main (block WITH task)
-      const ExprId block = a.value;
-      const bool named = block && tree_.kind(block) == ExprKind::Name && !a.pin.name;
-      if (!in_program_instance_ || !named || !isName(peek())) fail(diag::StrayToken, t_, {describe(t_)});
-      arguments_.pop_back();
-      advance();
-      if (!panic_) {
-        block_tasks_.push_back({tree_.as<NameExpr>(block).name, a.loc});
-        block_tasks_.push_back(ident(t_));
-        advance();
-      }
-    }
-    if (!panic_) {
-      if (at(Tok::RightParen)) break;
-      if (at(Tok::Comma)) {
-        if (peek() == Tok::RightParen) {
-          if (dialect_ == Dialect::Codesys)
-            diagnostics_.report(diag::TrailingCommaWarning, here());
-          else
-            slip(diag::TrailingComma, t_);
-          advance();
-          break;
-        }
-        advance();
-        continue;
-      }
-      // `f(a := 1; b := 2)`
-      if (at(Tok::Semicolon) && isName(peek()) && (peek(2) == Tok::Assign || peek(2) == Tok::Arrow)) {
-        const Token* t = t_ + 1;
-        while (t->kind != Tok::Semicolon && t->kind != Tok::RightParen && t->kind != Tok::End &&
-               (t->flags & kLineStart) == 0)
-          ++t;
-        if (t->kind == Tok::RightParen) {
-          slip(diag::WrongKeyword, t_, {";", ","});
-          advance();
-          continue;
-        }
-      }
-      // `f(a b)` and, over lines, `f(a := 1 <line end> b := 2)`: the comma is missing if the list is closed later.
-      bool closes = false;
-      if (isOperand(kind())) {
-        uint32_t depth = 0;
-        for (const Token* t = t_; t->kind != Tok::Semicolon && t->kind != Tok::End && !isReserved(t->kind); ++t) {
-          if (t->kind == Tok::LeftParen) ++depth;
-          if (t->kind == Tok::RightParen && depth-- == 0) {
-            closes = true;
-            break;
-          }
-          if (t - t_ > 2000) break;
-        }
-      }
-      if (closes) {
-        if (atLineStart())
-          missing(diag::MissingToken, {",", describe(t_)});
-        else
-          slip(diag::MissingToken, t_, {",", describe(t_)});
-        continue;
-      }
-      if (at(Tok::Assign) || at(Tok::Arrow)) fail(diag::NotInArguments, t_, {describe(t_)});
-    }
-    break;
+    if (at(Tok::With) && !panic_) parseWithTask(a);
+    open = !panic_ && continuesArguments();
   }
   end = here();
   closeParen(Tok::RightParen, true);
@@ -454,8 +351,102 @@ Slice<Argument> Parser::parseArguments(Loc& end) {
   return listFrom(arguments_, first);
 }
 
+// expr | name ":=" [expr] | [NOT] name "=>" [target]; `first`: where the list begins on arguments_.
+Argument ExpressionParser::parseArgument(size_t first) {
+  Argument a{};
+  a.loc = here();
+  const bool negated = at(Tok::Not) && (isName(peek()) || isTypeWord(peek())) && peek(2) == Tok::Arrow;
+  const Token* pin = negated ? t_ + 1 : t_;
+  Tok binder = pin[1].kind;
+  if (binder == Tok::Colon && isName(pin->kind)) {  // `IN : TRUE`
+    slip(diag::WrongKeyword, pin + 1, {":", ":="});
+    binder = Tok::Assign;
+  }
+  if ((isName(pin->kind) || isTypeWord(pin->kind)) && (binder == Tok::Assign || binder == Tok::Arrow)) {
+    a.pin = ident(pin);
+    a.negated = negated;
+    a.is_output = binder == Tok::Arrow;
+    t_ = const_cast<Token*>(pin) + 2;
+    if (at(Tok::Comma) || at(Tok::RightParen)) {
+      if (dialect_ != Dialect::Codesys) slip(diag::EmptyBinding, pin, {textOf(pin)});
+    } else if (atNestedIl()) {
+      parseNestedIl(static_cast<uint32_t>(arguments_.size() - first));
+    } else {
+      a.value = parseExpr();
+    }
+  } else {
+    a.value = parseExpr();
+  }
+  return a;
+}
+
+// PROGRAM p : Main (block WITH task)
+void ExpressionParser::parseWithTask(const Argument& argument) {
+  const ExprId block = argument.value;
+  const bool named = block && tree_.kind(block) == ExprKind::Name && !argument.pin.name;
+  if (!in_program_instance_ || !named || !isName(peek())) fail(diag::StrayToken, t_, {describe(t_)});
+  arguments_.pop_back();
+  advance();
+  if (!panic_) {
+    block_tasks_.push_back({tree_.as<NameExpr>(block).name, argument.loc});
+    block_tasks_.push_back(ident(t_));
+    advance();
+  }
+}
+
+// After an argument: whether another one follows. Reports what is between them.
+bool ExpressionParser::continuesArguments() {
+  if (at(Tok::RightParen)) return false;
+  if (at(Tok::Comma)) {
+    if (peek() == Tok::RightParen) {
+      if (dialect_ == Dialect::Codesys)
+        diagnostics_.report(diag::TrailingCommaWarning, here());
+      else
+        slip(diag::TrailingComma, t_);
+      advance();
+      return false;
+    }
+    advance();
+    return true;
+  }
+  // `f(a := 1; b := 2)`
+  if (at(Tok::Semicolon) && isName(peek()) && (peek(2) == Tok::Assign || peek(2) == Tok::Arrow)) {
+    const Token* t = t_ + 1;
+    while (t->kind != Tok::Semicolon && t->kind != Tok::RightParen && t->kind != Tok::End &&
+           (t->flags & kLineStart) == 0)
+      ++t;
+    if (t->kind == Tok::RightParen) {
+      slip(diag::WrongKeyword, t_, {";", ","});
+      advance();
+      return true;
+    }
+  }
+  // `f(a b)` and, over lines, `f(a := 1 <line end> b := 2)`: the comma is missing if the list is closed later.
+  bool closes = false;
+  if (isOperand(kind())) {
+    uint32_t depth = 0;
+    for (const Token* t = t_; t->kind != Tok::Semicolon && t->kind != Tok::End && !isReserved(t->kind); ++t) {
+      if (t->kind == Tok::LeftParen) ++depth;
+      if (t->kind == Tok::RightParen && depth-- == 0) {
+        closes = true;
+        break;
+      }
+      if (t - t_ > 2000) break;
+    }
+  }
+  if (closes) {
+    if (atLineStart())
+      missing(diag::MissingToken, {",", describe(t_)});
+    else
+      slip(diag::MissingToken, t_, {",", describe(t_)});
+    return true;
+  }
+  if (at(Tok::Assign) || at(Tok::Arrow)) fail(diag::NotInArguments, t_, {describe(t_)});
+  return false;
+}
+
 // `:=` after a condition or in parentheses most likely means `=`, and is parsed as `=`.
-ExprId Parser::parseCompared(ExprId left) {
+ExprId ExpressionParser::parseCompared(ExprId left) {
   if (!at(Tok::Assign) || panic_) return left;
   const Loc op = here();
   const uint32_t height = height_;
@@ -463,12 +454,11 @@ ExprId Parser::parseCompared(ExprId left) {
   advance();
   const ExprId right = parseExpr();
   height_ = std::max(height, height_) + 1;
-  return tree_.add<ExprId>(
-      BinaryExpr{exprHeader(ExprKind::Binary, op, static_cast<uint8_t>(BinaryOp::Equal)), left, right});
+  return ended(build_.binary(BinaryOp::Equal, left, right, op));
 }
 
 // Consumes the closing bracket; if it is missing, reports it and finds the resynchronization point.
-void Parser::closeParen(Tok close, bool is_arguments) {
+void ExpressionParser::closeParen(Tok close, bool is_arguments) {
   if (in_il_) return closeIlParen(close);
   if (!panic_) {
     if (accept(close)) return;
@@ -507,8 +497,7 @@ void Parser::closeParen(Tok close, bool is_arguments) {
       if (depth == 0) break;
       --depth;
     }
-    if (k == Tok::Semicolon || k == Tok::End ||
-        (isReserved(k) && !isOperand(k) && kOperators[static_cast<size_t>(k)].precedence == 0))
+    if (k == Tok::Semicolon || k == Tok::End || (isReserved(k) && !isOperand(k) && kOperators[k].precedence == 0))
       break;
   }
   depth = 0;
@@ -525,20 +514,14 @@ void Parser::closeParen(Tok close, bool is_arguments) {
       }
       --depth;
     }
-    if (k == Tok::Semicolon || k == Tok::End ||
-        (isReserved(k) && !isOperand(k) && kOperators[static_cast<size_t>(k)].precedence == 0))
+    if (k == Tok::Semicolon || k == Tok::End || (isReserved(k) && !isOperand(k) && kOperators[k].precedence == 0))
       return;
     if (atLineStart() && startsStatement(t_)) return;
   }
 }
 
-ExprId Parser::boolLiteral(bool value, NameId prefix, Loc loc) {
-  return tree_.add<ExprId>(LiteralExpr{exprHeader(ExprKind::Literal, loc, static_cast<uint8_t>(LiteralKind::Bool)),
-                                       prefix, value ? 1u : 0u, 0});
-}
-
 // INT#-5  INT#16#FF  BOOL#TRUE  STRING#'x'  Color#Red
-ExprId Parser::parseTyped() {
+ExprId ExpressionParser::parseTyped() {
   const Token* type = t_;
   const Loc start = here();
   const NameId prefix = nameOf(t_);
@@ -556,35 +539,34 @@ ExprId Parser::parseTyped() {
     if (isTypeWord(type->kind) && type->kind != Tok::Bool) {
       slip(diag::LiteralPrefix, t_, {textOf(t_), textOf(type)});
       advance();
-      return errorExpr(start);
+      return build_.error(start);
     }
     advance();
-    return boolLiteral(value, prefix, start);
+    return build_.boolean(value, start, prefix);
   }
   if (isName(kind())) {
-    const ExprId e =
-        tree_.add<ExprId>(TypedNameExpr{exprHeader(ExprKind::TypedName, start), ident(type), ident(t_), {}});
+    const ExprId e = build_.typedName(ident(type), ident(t_));
     advance();
     return e;
   }
   fail(diag::MissingValue, t_, {describe(t_)});
-  return errorExpr(start);
+  return build_.error(start);
 }
 
-ExprId Parser::parseNumber(NameId prefix, bool negative, Loc start) {
+ExprId ExpressionParser::parseNumber(NameId prefix, bool negative, Loc start) {
   const Token* token = t_;
   advance();
   NumberValue value;
   if (!readNumber(textOf(token), loc(token), diagnostics_, value)) {
     last_error_ = token;
-    return errorExpr(start);
+    return build_.error(start);
   }
   uint8_t bits = static_cast<uint8_t>((negative ? kLiteralNegative : 0) | (value.is_based ? kLiteralBased : 0));
   if (prefix) {
     const Token* type = token - (negative || token[-1].kind == Tok::Plus ? 3 : 2);
     const bool is_real_type = type->kind == Tok::Real || type->kind == Tok::Lreal;
     if (type->kind == Tok::Bool && !value.is_real && value.integer <= 1 && !negative)
-      return boolLiteral(value.integer != 0, prefix, start);
+      return build_.boolean(value.integer != 0, start, prefix);
     if (is_real_type && !value.is_real && !value.is_based) {
       value.is_real = true;
       value.real = static_cast<double>(value.integer);
@@ -593,21 +575,13 @@ ExprId Parser::parseNumber(NameId prefix, bool negative, Loc start) {
         ((value.is_real && !is_real_type) || (is_real_type && value.is_based) || type->kind == Tok::Bool ||
          type->kind == Tok::String || type->kind == Tok::Wstring)) {
       slip(diag::LiteralPrefix, token, {textOf(token), textOf(type)});
-      return errorExpr(start);
+      return build_.error(start);
     }
     if (value.is_real && negative) value.real = -value.real;
   }
-  LiteralExpr e{exprHeader(ExprKind::Literal, start,
-                           static_cast<uint8_t>(value.is_real ? LiteralKind::Real : LiteralKind::Integer), bits),
-                prefix, 0, 0};
-  if (value.is_real) {
-    uint64_t raw = 0;
-    std::memcpy(&raw, &value.real, sizeof raw);
-    e.setValue(raw);
-  } else {
-    e.setValue(value.integer);
-  }
-  return tree_.add<ExprId>(e);
+  uint64_t raw = value.integer;
+  if (value.is_real) std::memcpy(&raw, &value.real, sizeof raw);
+  return build_.literal(value.is_real ? LiteralKind::Real : LiteralKind::Integer, raw, start, prefix, bits);
 }
 
 // The string types of edition 4 and its short prefixes, with the keyword whose quotes they take.
@@ -622,7 +596,7 @@ static constexpr StringPrefix kStringPrefixes[] = {
     {"UCHAR", "UCHAR", Tok::Char}, {"USTRING", "USTRING", Tok::String},
 };
 
-ExprId Parser::parseStringLiteral(NameId prefix, Loc start) {
+ExprId ExpressionParser::parseStringLiteral(NameId prefix, Loc start) {
   const Token* token = t_;
   advance();
   bool wide = token->kind == Tok::WideStringLiteral;
@@ -639,48 +613,41 @@ ExprId Parser::parseStringLiteral(NameId prefix, Loc start) {
     wide = wide || double_byte;
     if (!ok) {
       slip(diag::LiteralPrefix, token, {textOf(token), textOf(token - 2)});
-      return errorExpr(start);
+      return build_.error(start);
     }
   }
   readString(textOf(token), wide, loc(token), diagnostics_, buffer_);
-  const StringId text = tree_.addString(buffer_);
-  return tree_.add<ExprId>(LiteralExpr{
-      exprHeader(ExprKind::Literal, start, static_cast<uint8_t>(wide ? LiteralKind::WString : LiteralKind::String)),
-      prefix, text.first, text.length});
+  return build_.text(wide ? LiteralKind::WString : LiteralKind::String, buffer_, start, prefix);
 }
 
-ExprId Parser::parseTime() {
+ExprId ExpressionParser::parseTime() {
   const Token* token = t_;
   advance();
   TimeValue value;
-  bool ok = false;
-  switch (static_cast<int>(token->kind)) {
-    case static_cast<int>(Tok::Duration): ok = readDuration(textOf(token), loc(token), diagnostics_, value); break;
-    case static_cast<int>(Tok::Date): ok = readDate(textOf(token), loc(token), diagnostics_, value); break;
-    case static_cast<int>(Tok::TimeOfDay): ok = readTimeOfDay(textOf(token), loc(token), diagnostics_, value); break;
-    default: ok = readDateTime(textOf(token), loc(token), diagnostics_, value); break;
-  }
+  const auto read = token->kind == Tok::Duration    ? readDuration
+                    : token->kind == Tok::Date      ? readDate
+                    : token->kind == Tok::TimeOfDay ? readTimeOfDay
+                                                    : readDateTime;
+  const bool ok = read(textOf(token), loc(token), diagnostics_, value);
   if (!ok) {
     last_error_ = token;
-    return errorExpr(loc(token));
+    return build_.error(loc(token));
   }
   const auto bits =
       static_cast<uint8_t>((value.is_long ? kLiteralLong : 0) | (value.is_negative ? kLiteralNegative : 0));
-  LiteralExpr e{exprHeader(ExprKind::Literal, loc(token), static_cast<uint8_t>(value.kind), bits), {}, 0, 0};
-  e.setValue(value.value);
-  return tree_.add<ExprId>(e);
+  return build_.literal(value.kind, value.value, loc(token), {}, bits);
 }
 
-ExprId Parser::parseAddress() {
+ExprId ExpressionParser::parseAddress() {
   const Token* token = t_;
   advance();
-  AddressExpr e{exprHeader(ExprKind::Address, loc(token)), {}};
-  if (!readAddress(textOf(token), loc(token), diagnostics_, e.address, numbers_)) {
+  DirectAddress address{};
+  if (!readAddress(textOf(token), loc(token), diagnostics_, address, numbers_)) {
     last_error_ = token;
-    return errorExpr(loc(token));
+    return build_.error(loc(token));
   }
-  e.address.path = tree_.addList<uint32_t>(numbers_);
-  return tree_.add<ExprId>(e);
+  address.path = tree_.addList<uint32_t>(numbers_);
+  return build_.address(address, loc(token));
 }
 
 }  // namespace rung::text

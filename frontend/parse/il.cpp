@@ -4,74 +4,63 @@
 //   operands    = operand {"," operand} | "(" operand {"," operand} ")" | "(" [pin ":=" operand …] ")" | "(" [operand]
 // The last form defers the operator up to a `)` on its own line.
 #include <algorithm>
-#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "frontend/parse/diagnostics.h"
-#include "frontend/parse/parser.h"
-#include "frontend/syntax/il.h"
+#include "frontend/parse/il.h"
+#include "frontend/syntax/standard_names.h"
 
 namespace rung::text {
 namespace {
 
 struct Instruction {
-  std::string_view text;  // sorted
   IlKind kind;
   BinaryOp op;
   uint8_t flags;
 };
-constexpr Instruction kInstructions[] = {
-    {"ADD", IlKind::Binary, BinaryOp::Add, 0},
-    {"AND", IlKind::Binary, BinaryOp::And, 0},
-    {"ANDN", IlKind::Binary, BinaryOp::And, kIlNegated},
-    {"CAL", IlKind::Call, {}, 0},
-    {"CALC", IlKind::Call, {}, kIlConditional},
-    {"CALCN", IlKind::Call, {}, kIlConditional | kIlNegated},
-    {"CALN", IlKind::Call, {}, kIlConditional | kIlNegated},
-    {"DIV", IlKind::Binary, BinaryOp::Divide, 0},
-    {"EQ", IlKind::Binary, BinaryOp::Equal, 0},
-    {"GE", IlKind::Binary, BinaryOp::GreaterEqual, 0},
-    {"GT", IlKind::Binary, BinaryOp::Greater, 0},
-    {"JMP", IlKind::Jump, {}, 0},
-    {"JMPC", IlKind::Jump, {}, kIlConditional},
-    {"JMPCN", IlKind::Jump, {}, kIlConditional | kIlNegated},
-    {"JMPN", IlKind::Jump, {}, kIlConditional | kIlNegated},
-    {"LD", IlKind::Load, {}, 0},
-    {"LDN", IlKind::Load, {}, kIlNegated},
-    {"LE", IlKind::Binary, BinaryOp::LessEqual, 0},
-    {"LT", IlKind::Binary, BinaryOp::Less, 0},
-    {"MOD", IlKind::Binary, BinaryOp::Modulo, 0},
-    {"MUL", IlKind::Binary, BinaryOp::Multiply, 0},
-    {"NE", IlKind::Binary, BinaryOp::NotEqual, 0},
-    {"NOT", IlKind::Not, {}, 0},
-    {"OR", IlKind::Binary, BinaryOp::Or, 0},
-    {"ORN", IlKind::Binary, BinaryOp::Or, kIlNegated},
-    {"R", IlKind::Reset, {}, 0},
-    {"RET", IlKind::Return, {}, 0},
-    {"RETC", IlKind::Return, {}, kIlConditional},
-    {"RETCN", IlKind::Return, {}, kIlConditional | kIlNegated},
-    {"RETN", IlKind::Return, {}, kIlConditional | kIlNegated},
-    {"S", IlKind::Set, {}, 0},
-    {"ST", IlKind::Store, {}, 0},
-    {"STN", IlKind::Store, {}, kIlNegated},
-    {"SUB", IlKind::Binary, BinaryOp::Subtract, 0},
-    {"XOR", IlKind::Binary, BinaryOp::Xor, 0},
-    {"XORN", IlKind::Binary, BinaryOp::Xor, kIlNegated},
+struct InstructionWord {
+  std::string_view word;
+  IlKind kind;
+  uint8_t flags;
 };
-constexpr Instruction kAmpersand = {"&", IlKind::Binary, BinaryOp::And, 0};
-constexpr Instruction kAmpersandN = {"&N", IlKind::Binary, BinaryOp::And, kIlNegated};
+// Besides the operators of frontend/syntax/standard_names.h.
+constexpr InstructionWord kInstructions[] = {
+    {"LD", IlKind::Load, 0},
+    {"LDN", IlKind::Load, kIlNegated},
+    {"ST", IlKind::Store, 0},
+    {"STN", IlKind::Store, kIlNegated},
+    {"S", IlKind::Set, 0},
+    {"R", IlKind::Reset, 0},
+    {"NOT", IlKind::Not, 0},
+    {"CAL", IlKind::Call, 0},
+    {"CALC", IlKind::Call, kIlConditional},
+    {"CALCN", IlKind::Call, kIlConditional | kIlNegated},
+    {"CALN", IlKind::Call, kIlConditional | kIlNegated},
+    {"JMP", IlKind::Jump, 0},
+    {"JMPC", IlKind::Jump, kIlConditional},
+    {"JMPCN", IlKind::Jump, kIlConditional | kIlNegated},
+    {"JMPN", IlKind::Jump, kIlConditional | kIlNegated},
+    {"RET", IlKind::Return, 0},
+    {"RETC", IlKind::Return, kIlConditional},
+    {"RETCN", IlKind::Return, kIlConditional | kIlNegated},
+    {"RETN", IlKind::Return, kIlConditional | kIlNegated},
+};
 constexpr size_t kLongestInstruction = 5;
 
-const Instruction* findInstruction(std::string_view text) {
-  char upper[kLongestInstruction];
-  if (text.size() > kLongestInstruction) return nullptr;
-  for (size_t i = 0; i < text.size(); ++i)
-    upper[i] = static_cast<char>(text[i] >= 'a' && text[i] <= 'z' ? text[i] - 32 : text[i]);
-  const std::string_view wanted(upper, text.size());
-  const Instruction* found =
-      std::lower_bound(std::begin(kInstructions), std::end(kInstructions), wanted,
-                       [](const Instruction& word, std::string_view t) { return word.text < t; });
-  return found != std::end(kInstructions) && found->text == wanted ? found : nullptr;
+// AND, OR and XOR may be followed by N.
+bool takesNegation(BinaryOp op) { return op == BinaryOp::And || op == BinaryOp::Or || op == BinaryOp::Xor; }
+
+std::optional<Instruction> findInstruction(std::string_view text) {
+  if (text.empty() || text.size() > kLongestInstruction) return std::nullopt;
+  if (const OperatorFunction* function = operatorFunction(text)) return Instruction{IlKind::Binary, function->op, 0};
+  if (foldedCharacter(text.back()) == 'n')
+    if (const OperatorFunction* function = operatorFunction(text.substr(0, text.size() - 1));
+        function != nullptr && takesNegation(function->op))
+      return Instruction{IlKind::Binary, function->op, kIlNegated};
+  for (const InstructionWord& row : kInstructions)
+    if (sameIdentifier(row.word, text)) return Instruction{row.kind, {}, row.flags};
+  return std::nullopt;
 }
 
 // ADD, MUL, AND, OR, XOR take a list: `ADD 10, 12, 14`.
@@ -85,33 +74,41 @@ bool endsOperand(Tok k) {
 }
 bool isInfix(Tok k) { return (k >= Tok::Plus && k <= Tok::EqualLess) || (k >= Tok::And && k <= Tok::Mod); }
 
-const Instruction* instructionAt(Tok kind, std::string_view text) {
+std::optional<Instruction> instructionAt(Tok kind, std::string_view text) {
   if (isName(kind) || kind == Tok::And || kind == Tok::Or || kind == Tok::Xor || kind == Tok::Not || kind == Tok::Mod ||
       kind == Tok::Jmp)
     return findInstruction(text);
-  return kind == Tok::Ampersand ? &kAmpersand : nullptr;
+  if (kind != Tok::Ampersand) return std::nullopt;
+  return Instruction{IlKind::Binary, BinaryOp::And, 0};
 }
 
 }  // namespace
 
+IlParser::IlParser(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect,
+                   Diagnostics& diagnostics)
+    : StatementParser(tree, names, sources, file, dialect, diagnostics) {
+  const std::string_view path = sources.path(file);
+  il_file_ = path.size() > 3 && sameIdentifier(path.substr(path.size() - 3), ".il");
+}
+
 bool beginsIl(Tok kind, std::string_view text, const Token& next) {
   if (!isName(kind) || (next.flags & kLineStart) != 0) return false;
-  const Instruction* word = findInstruction(text);
-  return word != nullptr && (isName(next.kind) || next.kind == Tok::Number || next.kind == Tok::True ||
-                             next.kind == Tok::False || next.kind == Tok::Address);
+  const std::optional<Instruction> word = findInstruction(text);
+  return word && (isName(next.kind) || next.kind == Tok::Number || next.kind == Tok::True || next.kind == Tok::False ||
+                  next.kind == Tok::Address);
 }
 
 // Whether an instruction may begin here, judged by its first token only.
-bool Parser::isInstruction(const Token* t) const {
+bool IlParser::isInstruction(const Token* t) const {
   if (t->kind == Tok::RightParen) return true;
   if (isName(t->kind) && t[1].kind == Tok::Colon) return true;
-  return instructionAt(t->kind, textOf(t)) != nullptr;
+  return instructionAt(t->kind, textOf(t)).has_value();
 }
 
 // `LD x`, `JMP done`, `RET` on its own line, but not the statements `LD := 1;` and `AND(a, b);`.
-bool Parser::isPlainInstruction(const Token* t) const {
-  const Instruction* word = instructionAt(t->kind, textOf(t));
-  if (word == nullptr) return false;
+bool IlParser::isPlainInstruction(const Token* t) const {
+  const std::optional<Instruction> word = instructionAt(t->kind, textOf(t));
+  if (!word) return false;
   const Token* next = t + 1;
   const bool alone = (next->flags & kLineStart) != 0 || next->kind == Tok::End;
   const bool operand = !alone && next->kind != Tok::LeftParen && t[2].kind != Tok::Equal &&  // not `r REF= x`
@@ -139,7 +136,7 @@ bool Parser::isPlainInstruction(const Token* t) const {
 
 // Whether the body that begins here is in IL, decided by its first instruction. In a .il file a body is IL unless it
 // can only be ST.
-bool Parser::atIl() const {
+bool IlParser::atIl() const {
   const Token* t = t_;
   while (isName(t->kind) && t[1].kind == Tok::Colon && !isTypeWord(t[2].kind)) t += 2;
   if (isPlainInstruction(t)) return true;
@@ -168,7 +165,7 @@ bool Parser::atIl() const {
 }
 
 // The instructions up to the end of the body, or of the `(` around a nested list.
-Slice<IlInstruction> Parser::parseIl(bool nested) {
+Slice<IlInstruction> IlParser::parseIl(bool nested) {
   const size_t first = il_.size(), first_open = il_open_.size();
   const size_t outside = std::exchange(il_outside_, first_open);
   const bool outer = in_il_;
@@ -203,8 +200,7 @@ Slice<IlInstruction> Parser::parseIl(bool nested) {
       IlInstruction& deferred = il_[k];
       if ((deferred.flags & kIlDeferred) == 0 || deferred.loc != loc(open)) continue;
       deferred.flags &= static_cast<uint8_t>(~kIlDeferred);
-      const Argument nothing{{}, errorExpr(deferred.loc), false, false, deferred.loc};
-      deferred.operands = tree_.addList<Argument>({&nothing, 1});
+      deferred.operands = unknownOperand(deferred.loc);
       break;
     }
   }
@@ -213,7 +209,7 @@ Slice<IlInstruction> Parser::parseIl(bool nested) {
   return listFrom(il_, first);
 }
 
-void Parser::parseInstruction() {
+void IlParser::parseInstruction() {
   IlInstruction i{};
   i.kind = IlKind::Label;
   if (peek() == Tok::Colon && (isName(kind()) || nameReserved(t_))) {
@@ -229,17 +225,17 @@ void Parser::parseInstruction() {
     }
   }
   const Token* op = t_;
-  const Instruction* word = instructionAt(kind(), textOf(t_));
+  std::optional<Instruction> word = instructionAt(kind(), textOf(t_));
   i.loc = here();
   i.word = isName(kind()) ? nameOf(t_) : names_.intern(textOf(t_));
   if (at(Tok::RightParen)) {
     advance();
     i.kind = IlKind::Close;
     il_open_.pop_back();
-  } else if (word != nullptr && peek() != Tok::Assign && peek() != Tok::Dot) {
+  } else if (word && peek() != Tok::Assign && peek() != Tok::Dot) {
     advance();
-    if (word == &kAmpersand && at(Tok::Ident) && is(t_, "N") && t_->offset == op->offset + 1) {
-      word = &kAmpersandN;
+    if (op->kind == Tok::Ampersand && at(Tok::Ident) && is(t_, "N") && t_->offset == op->offset + 1) {
+      word->flags = kIlNegated;
       advance();
     }
     const bool attempt = word->kind == IlKind::Store && accept(Tok::Question);
@@ -260,17 +256,14 @@ void Parser::parseInstruction() {
 }
 
 // An error in it has been reported; a placeholder operand prevents follow-up errors.
-void Parser::resynchronize(IlInstruction& i) {
+void IlParser::resynchronize(IlInstruction& i) {
   if (i.kind == IlKind::Jump || i.kind == IlKind::Call) i.kind = IlKind::Label;  // its label is valid all the same
   if (i.kind == IlKind::Label || !i.operands.empty() || (i.flags & kIlDeferred) != 0) return;
-  Argument a{};
-  a.loc = i.loc;
-  a.value = errorExpr(i.loc);
-  i.operands = tree_.addList<Argument>({&a, 1});
+  i.operands = unknownOperand(i.loc);
 }
 
 // After an instruction: the end of its line. Anything else is skipped and reported once.
-void Parser::endInstruction() {
+void IlParser::endInstruction() {
   if (!panic_ && !atLineStart() && !atBlockEnd() && !at(Tok::RightParen)) {
     if (isPlainInstruction(t_) || (il_open_.size() > 0 && isInstruction(t_))) {
       if (!il_line_reported_) diagnostics_.report(diag::InstructionsOnLine, here());
@@ -298,14 +291,13 @@ void Parser::endInstruction() {
     defer.flags = kIlDeferred;
     defer.loc = loc(last);
     defer.word = names_.intern("(");
-    const Argument nothing{{}, errorExpr(defer.loc), false, false, defer.loc};
-    defer.operands = tree_.addList<Argument>({&nothing, 1});
+    defer.operands = unknownOperand(defer.loc);
     il_.push_back(defer);
     il_open_.push_back(last);
   }
 }
 
-void Parser::parseOperands(IlInstruction& i, const Token* op) {
+void IlParser::parseOperands(IlInstruction& i, const Token* op) {
   switch (i.kind) {
     case IlKind::Not:
     case IlKind::Return:
@@ -347,7 +339,7 @@ void Parser::parseOperands(IlInstruction& i, const Token* op) {
 }
 
 // operand {"," operand}
-void Parser::parseIlList(IlInstruction& i, const Token* op) {
+void IlParser::parseIlList(IlInstruction& i, const Token* op) {
   const size_t first = arguments_.size();
   const bool several = i.kind == IlKind::Function || (i.kind == IlKind::Binary && takesSeveral(i.op));
   do {
@@ -364,22 +356,21 @@ void Parser::parseIlList(IlInstruction& i, const Token* op) {
 }
 
 // A callee without its arguments: a name, a method, an instance in an array.
-ExprId Parser::parseIlCallee() {
+ExprId IlParser::parseIlCallee() {
   const Loc start = here();
   height_ = 1;
   ExprId base;
   if ((at(Tok::This) || at(Tok::Super)) && (peek() == Tok::Dot || peek() == Tok::Caret)) {
-    base = at(Tok::This) ? tree_.add<ExprId>(ThisExpr{exprHeader(ExprKind::This, start)})
-                         : tree_.add<ExprId>(SuperExpr{exprHeader(ExprKind::Super, start)});
+    base = at(Tok::This) ? build_.thisObject(start) : build_.superObject(start);
   } else {
-    base = tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, start), nameOf(t_), {}});
+    base = build_.name(nameOf(t_), start);
   }
   advance();
-  return parsePostfix(base, false);
+  return parsePostfix(ended(base), false);
 }
 
 // "(" arguments ")", which may hold lists of instructions.
-void Parser::parseIlPins(IlInstruction& i) {
+void IlParser::parseIlPins(IlInstruction& i) {
   const size_t nested = il_nested_.size();
   Loc end;
   i.flags |= kIlFormal | kIlInParens;
@@ -388,7 +379,7 @@ void Parser::parseIlPins(IlInstruction& i) {
 }
 
 // After an operator or a function: named pins, a list, or a deferred operator.
-void Parser::parseIlParens(IlInstruction& i, const Token* op) {
+void IlParser::parseIlParens(IlInstruction& i, const Token* op) {
   const Token* first = t_ + 1;
   const Token* pin = first->kind == Tok::Not ? first + 1 : first;
   const bool formal = first->kind == Tok::RightParen || ((isName(pin->kind) || isTypeWord(pin->kind)) &&
@@ -400,7 +391,7 @@ void Parser::parseIlParens(IlInstruction& i, const Token* op) {
         return;
       }
       i.kind = IlKind::Function;
-      i.callee = tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, loc(op)), names_.intern(textOf(op)), {}});
+      i.callee = build_.name(names_.intern(textOf(op)), loc(op));
     }
     return parseIlPins(i);
   }
@@ -424,7 +415,7 @@ void Parser::parseIlParens(IlInstruction& i, const Token* op) {
 }
 
 // `(a, b)` or `(a)`, but not `(a` followed by instructions.
-bool Parser::listFollows(const Token* first) const {
+bool IlParser::listFollows(const Token* first) const {
   uint32_t open = 0;
   for (const Token* t = first; t - first < 2000 && t->kind != Tok::End; ++t) {
     if (open == 0 && t != first) {
@@ -447,9 +438,9 @@ bool Parser::listFollows(const Token* first) const {
 }
 
 // `pin := (LD a  AND b)`: the value is the accumulator at the end of the list.
-bool Parser::atNestedIl() const { return in_il_ && at(Tok::LeftParen) && (isPlainInstruction(t_ + 1)); }
+bool IlParser::atNestedIl() const { return in_il_ && at(Tok::LeftParen) && (isPlainInstruction(t_ + 1)); }
 
-void Parser::parseNestedIl(uint32_t operand) {
+void IlParser::parseNestedIl(uint32_t operand) {
   if (++expr_depth_ > kMaxExprDepth) {
     tooDeep("parentheses", kMaxExprDepth);
     --expr_depth_;
@@ -463,7 +454,7 @@ void Parser::parseNestedIl(uint32_t operand) {
 }
 
 // A list in parentheses without `)` ends where the next instruction begins.
-void Parser::closeIlParen(Tok close) {
+void IlParser::closeIlParen(Tok close) {
   if (!panic_) {
     if (accept(close)) return;
     if (atLineStart() || atBlockEnd())
@@ -477,21 +468,21 @@ void Parser::closeIlParen(Tok close) {
 }
 
 // Statements among the instructions: one error for the whole body, since their effect is unknown.
-bool Parser::statementInIl() {
+bool IlParser::statementInIl() {
   const Token* t = t_;
-  const bool word = isReserved(t->kind) && instructionAt(t->kind, textOf(t)) == nullptr && t[1].kind != Tok::Colon;
+  const bool word = isReserved(t->kind) && !instructionAt(t->kind, textOf(t)) && t[1].kind != Tok::Colon;
   while (isName(t->kind) && (t[1].kind == Tok::Dot || t[1].kind == Tok::Caret) && isName(t[2].kind)) t += 2;
   if (!word && !(isName(t->kind) && t[1].kind == Tok::Assign)) return false;
   slip(diag::StatementInIl, t_, {textOf(t_)});
-  while (!at(Tok::End) && kind() != pou_end_ && !atTopLevelWord()) advance();
+  skipBody();
   return true;
 }
 
 // Instructions among the statements of a body that began in ST: one error for all of them.
-bool Parser::instructionInSt() {
+bool IlParser::instructionInSt() {
   if (!isPlainInstruction(t_)) return false;
   slip(diag::InstructionInSt, t_, {textOf(t_)});
-  while (!at(Tok::End) && kind() != pou_end_ && !atTopLevelWord()) advance();
+  skipBody();
   return true;
 }
 

@@ -2,31 +2,31 @@
 // expressions of the tree; sema decides whether `n(1, 2)` is a call or a repetition.
 #include <utility>
 
+#include "frontend/parse/declarations.h"
 #include "frontend/parse/diagnostics.h"
-#include "frontend/parse/parser.h"
 #include "frontend/parse/recover.h"
 #include "frontend/source/dialect.h"
 
 namespace rung::text {
 
 // The value after `:=` of a declaration. CODESYS 2.3 writes the values of an array without brackets.
-ExprId Parser::parseDeclaredInit(TypeExprId type) {
+ExprId DeclarationParser::parseDeclaredInit(TypeExprId type) {
   if (dialect_ != Dialect::Codesys || at(Tok::LeftBracket) || tree_.kind(type) != TypeExprKind::Array)
     return parseInit();
   const Loc start = here();
   const size_t first = exprs_.size();
   parseElements(Tok::Semicolon);
-  if (exprs_.size() == first) return errorExpr(start);
+  if (exprs_.size() == first) return build_.error(start);
   if (exprs_.size() == first + 1 && tree_.kind(exprs_[first]) != ExprKind::Repeat) {
     const ExprId only = exprs_[first];
     exprs_.resize(first);
     return only;
   }
-  return tree_.add<ExprId>(ArrayInitExpr{exprHeader(ExprKind::ArrayInit, start), listFrom(exprs_, first)});
+  return ended(build_.arrayInit(listFrom(exprs_, first), start));
 }
 
 // init = expr | "[" elements "]" | "(" [field ":=" init {"," …}] ")"
-ExprId Parser::parseInit() {
+ExprId DeclarationParser::parseInit() {
   if (at(Tok::LeftBracket)) return parseArrayInit();
   if (at(Tok::LeftParen) && isName(peek()) && peek(2) == Tok::Assign) return parseStructInit();
   if (at(Tok::LeftParen) && peek() == Tok::RightParen && dialect_ == Dialect::Codesys) return parseStructInit();
@@ -34,7 +34,7 @@ ExprId Parser::parseInit() {
 }
 
 // elements = element {"," element}; element = init | count "(" [elements] ")". Left on exprs_.
-void Parser::parseElements(Tok close) {
+void DeclarationParser::parseElements(Tok close) {
   while (!panic_ && !at(close)) {
     // N(1, 2) looks like a call; sema tells them apart.
     const bool named =
@@ -42,9 +42,9 @@ void Parser::parseElements(Tok close) {
         (peek(2) == Tok::LeftBracket || (peek(2) == Tok::LeftParen && isName(peek(3)) && peek(4) == Tok::Assign));
     if (named || (at(Tok::Number) && peek() == Tok::LeftParen)) {
       const Loc count_loc = here();
-      const ExprId count = named ? tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, count_loc), nameOf(t_), {}})
-                                 : parseNumber({}, false, count_loc);
+      const ExprId count = named ? build_.name(nameOf(t_), count_loc) : parseNumber({}, false, count_loc);
       if (named) advance();
+      ended(count);
       advance();
       const size_t inner = exprs_.size();
       while (!panic_ && !at(Tok::RightParen)) {
@@ -53,7 +53,7 @@ void Parser::parseElements(Tok close) {
       }
       closeParen(Tok::RightParen, true);
       const Slice<ExprId> elements = listFrom(exprs_, inner);
-      exprs_.push_back(tree_.add<ExprId>(RepeatExpr{exprHeader(ExprKind::Repeat, count_loc), count, elements}));
+      exprs_.push_back(ended(build_.repeat(count, elements, count_loc)));
     } else {
       exprs_.push_back(parseInit());
     }
@@ -66,27 +66,27 @@ void Parser::parseElements(Tok close) {
   }
 }
 
-ExprId Parser::parseArrayInit() {
+ExprId DeclarationParser::parseArrayInit() {
   const Loc start = here();
   if (++expr_depth_ > kMaxExprDepth) {
     tooDeep("initial values", kMaxExprDepth);
     --expr_depth_;
-    return errorExpr(start);
+    return build_.error(start);
   }
   advance();
   const size_t first = exprs_.size();
   parseElements(Tok::RightBracket);
   closeParen(Tok::RightBracket, true);
   --expr_depth_;
-  return tree_.add<ExprId>(ArrayInitExpr{exprHeader(ExprKind::ArrayInit, start), listFrom(exprs_, first)});
+  return ended(build_.arrayInit(listFrom(exprs_, first), start));
 }
 
-ExprId Parser::parseStructInit() {
+ExprId DeclarationParser::parseStructInit() {
   const Loc start = here();
   if (++expr_depth_ > kMaxExprDepth) {
     tooDeep("initial values", kMaxExprDepth);
     --expr_depth_;
-    return errorExpr(start);
+    return build_.error(start);
   }
   advance();
   std::vector<FieldInit> fields;
@@ -114,7 +114,7 @@ ExprId Parser::parseStructInit() {
   }
   closeParen(Tok::RightParen, true);
   --expr_depth_;
-  return tree_.add<ExprId>(StructInitExpr{exprHeader(ExprKind::StructInit, start), tree_.addList<FieldInit>(fields)});
+  return ended(build_.structInit(fields, start));
 }
 
 }  // namespace rung::text

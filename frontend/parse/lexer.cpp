@@ -629,29 +629,12 @@ const char* Lexer::stray(const char* begin) {
 }  // namespace
 
 bool endsPart(Tok kind) {
-  switch (static_cast<int>(kind)) {
-    case static_cast<int>(Tok::End):
-    case static_cast<int>(Tok::EndVar):
-    case static_cast<int>(Tok::EndStruct):
-    case static_cast<int>(Tok::EndUnion):
-    case static_cast<int>(Tok::EndType):
-    case static_cast<int>(Tok::EndFunction):
-    case static_cast<int>(Tok::EndFunctionBlock):
-    case static_cast<int>(Tok::EndProgram):
-    case static_cast<int>(Tok::EndConfiguration):
-    case static_cast<int>(Tok::EndResource):
-    case static_cast<int>(Tok::EndMethod):
-    case static_cast<int>(Tok::EndProperty):
-    case static_cast<int>(Tok::EndGet):
-    case static_cast<int>(Tok::EndSet):
-    case static_cast<int>(Tok::EndAction):
-    case static_cast<int>(Tok::EndStep):
-    case static_cast<int>(Tok::EndTransition):
-    case static_cast<int>(Tok::EndInterface):
-    case static_cast<int>(Tok::EndClass):
-    case static_cast<int>(Tok::EndNamespace): return true;
-    default: return false;
-  }
+  static constexpr TokSet kEnds = {
+      Tok::End,         Tok::EndVar,           Tok::EndStruct,    Tok::EndUnion,         Tok::EndType,
+      Tok::EndFunction, Tok::EndFunctionBlock, Tok::EndProgram,   Tok::EndConfiguration, Tok::EndResource,
+      Tok::EndMethod,   Tok::EndProperty,      Tok::EndGet,       Tok::EndSet,           Tok::EndAction,
+      Tok::EndStep,     Tok::EndTransition,    Tok::EndInterface, Tok::EndClass,         Tok::EndNamespace};
+  return kEnds.has(kind);
 }
 
 const char* spelling(Tok kind) { return kSpellings[static_cast<size_t>(kind)].text; }

@@ -9,36 +9,12 @@
 #include <vector>
 
 #include "frontend/parse/parse.h"
+#include "frontend/parse/tokens.h"
 #include "frontend/source/diagnostics.h"
 #include "frontend/source/dialect.h"
 #include "frontend/source/names.h"
 
 namespace rung::text {
-
-enum class Tok : uint8_t {
-#define RUNG_TOKEN(name, what) name,
-#define RUNG_PUNCT(name, spelling) name,
-#define RUNG_WORD(name, spelling) name,
-#define RUNG_TYPE_WORD(name, spelling) name,
-#define RUNG_SOFT_WORD(name, spelling) name,
-#include "frontend/parse/tokens.def"
-};
-constexpr uint32_t kTokCount = static_cast<uint32_t>(Tok::EndSlip) + 1;
-
-// Usable as a name: an identifier, or a soft keyword.
-inline bool isName(Tok kind) { return kind == Tok::Ident || kind >= Tok::At; }
-inline bool isTypeWord(Tok kind) { return kind >= Tok::Bool && kind <= Tok::Wstring; }
-// Keywords that begin the declaration of an object where a name follows, and are names elsewhere
-// (resolveObjectKeywords).
-inline bool isObjectWord(Tok kind) {
-  return kind == Tok::Method || kind == Tok::Property || kind == Tok::Action || kind == Tok::Interface ||
-         kind == Tok::Class || kind == Tok::Namespace;
-}
-// END_… of a declaration, a block of variables or a POU or its part, and the end of the file; not of statements.
-bool endsPart(Tok kind);
-inline bool isReserved(Tok kind) { return kind >= Tok::And && kind <= Tok::EndResource; }
-// The fixed spelling of an operator or keyword; for other tokens the description in messages ("a number").
-const char* spelling(Tok kind);
 
 enum TokenFlag : uint8_t {
   kLineStart = 1,   // the first token of its line

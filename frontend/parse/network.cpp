@@ -15,34 +15,12 @@
 #include <utility>
 
 #include "frontend/parse/diagnostics.h"
-#include "frontend/parse/parser.h"
+#include "frontend/parse/network.h"
 #include "frontend/syntax/diagnostics.h"
 #include "frontend/syntax/diagram.h"
 
 namespace rung::text {
 namespace {
-
-struct ElementName {
-  std::string_view word;
-  ElementKind kind;
-};
-constexpr ElementName kElementNames[] = {{"rail", ElementKind::Rail},
-                                         {"right_rail", ElementKind::RightRail},
-                                         {"contact", ElementKind::Contact},
-                                         {"coil", ElementKind::Coil},
-                                         {"box", ElementKind::Box},
-                                         {"input", ElementKind::Input},
-                                         {"output", ElementKind::Output},
-                                         {"inout", ElementKind::InOut},
-                                         {"connector", ElementKind::Connector},
-                                         {"continuation", ElementKind::Continuation},
-                                         {"jump", ElementKind::Jump},
-                                         {"label", ElementKind::Label},
-                                         {"return", ElementKind::Return},
-                                         {"execute", ElementKind::Execute},
-                                         {"compose", ElementKind::Compose},
-                                         {"select", ElementKind::Select},
-                                         {"comment", ElementKind::Comment}};
 
 // The variable or expression of the element is mandatory.
 bool needsOperand(ElementKind kind) {
@@ -70,7 +48,7 @@ std::string plainText(std::string_view quoted) {
 }  // namespace
 
 // Takes a keyword of any kind as a name: pins and boxes are called AND, MOD, DO.
-bool Parser::takeWord(Ident& out) {
+bool NetworkParser::takeWord(Ident& out) {
   const bool word = isName(kind()) || nameReserved(t_);
   if (!word) {
     fail(diag::MissingName, t_, {describe(t_)});
@@ -81,7 +59,7 @@ bool Parser::takeWord(Ident& out) {
   return true;
 }
 
-bool Parser::takeNumber(uint64_t& out) {
+bool NetworkParser::takeNumber(uint64_t& out) {
   const std::string_view digits = at(Tok::Number) ? textOf(t_) : std::string_view{};
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out);
   if (digits.empty() || error != std::errc{} || end != digits.data() + digits.size()) {
@@ -92,7 +70,7 @@ bool Parser::takeNumber(uint64_t& out) {
   return true;
 }
 
-bool Parser::takeCoordinate(int32_t& out) {
+bool NetworkParser::takeCoordinate(int32_t& out) {
   const bool minus = accept(Tok::Minus);
   uint64_t value = 0;
   if (!takeNumber(value)) return false;
@@ -103,7 +81,7 @@ bool Parser::takeCoordinate(int32_t& out) {
 
 // NOT, RISING, FALLING, SET, RESET
 template <class Modifiable>
-bool Parser::takeModifier(Modifiable& out) {
+bool NetworkParser::takeModifier(Modifiable& out) {
   if (at(Tok::Not)) {
     out.negated = !out.negated;
   } else if (is(t_, "RISING")) {
@@ -121,7 +99,7 @@ bool Parser::takeModifier(Modifiable& out) {
   return true;
 }
 
-void Parser::parseWires(DiagramPin& pin) {
+void NetworkParser::parseWires(DiagramPin& pin) {
   const size_t first = wires_.size();
   do {
     DiagramWire wire{kNoElement, {}, here()};
@@ -137,7 +115,7 @@ void Parser::parseWires(DiagramPin& pin) {
   pin.wires = listFrom(wires_, first);
 }
 
-void Parser::parsePins(std::vector<DiagramPin>& out) {
+void NetworkParser::parsePins(std::vector<DiagramPin>& out) {
   while (!panic_ && !at(Tok::RightBracket)) {
     DiagramPin pin{};
     if (!takeWord(pin.name)) return;
@@ -157,28 +135,28 @@ void Parser::parsePins(std::vector<DiagramPin>& out) {
 }
 
 // A path or a name: the callee of a box, the label of a jump.
-ExprId Parser::parseElementPath(Ident& name) {
+ExprId NetworkParser::parseElementPath(Ident& name) {
   if (!takeWord(name)) return {};
-  ExprId path = tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, name.loc), name.name, {}});
+  ExprId path = ended(build_.name(name));
   while (accept(Tok::Dot)) {
     Ident member;
     if (!takeWord(member)) return {};
-    path = tree_.add<ExprId>(MemberExpr{exprHeader(ExprKind::Member, member.loc), path, member.name, {}});
+    path = ended(build_.member(path, member.name, member.loc));
   }
   return path;
 }
 
-void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
+void NetworkParser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
   const Token* word = t_;
-  const auto* known = std::find_if(std::begin(kElementNames), std::end(kElementNames),
-                                   [&](const ElementName& w) { return is(word, w.word); });
-  if (known == std::end(kElementNames)) {
+  const auto* known =
+      std::find_if(std::begin(kElementWords), std::end(kElementWords), [&](std::string_view w) { return is(word, w); });
+  if (known == std::end(kElementWords)) {
     fail(diag::NoElement, t_, {textOf(t_)});
     return;
   }
   advance();
   DiagramElement e{};
-  e.kind = known->kind;
+  e.kind = static_cast<ElementKind>(known - std::begin(kElementWords));
   e.network = network;
   e.loc = here();
   if (!takeNumber(e.number)) return;
@@ -235,7 +213,7 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
       e.comment_length = text.length;
       advance();
     } else {
-      fail(diag::NoPartOfElement, t_, {describe(t_), known->word});
+      fail(diag::NoPartOfElement, t_, {describe(t_), *known});
     }
   }
   e.end = here();
@@ -243,7 +221,7 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
   const bool open =
       (e.kind == ElementKind::Box || e.kind == ElementKind::Jump || e.kind == ElementKind::Label) && !e.name.name;
   if (open || (needsOperand(e.kind) && !e.operand)) {
-    fail(diag::ElementUnnamed, named - 1, {known->word, open ? "name" : "variable"});
+    fail(diag::ElementUnnamed, named - 1, {*known, open ? "name" : "variable"});
     return;
   }
   e.pins = tree_.addList<DiagramPin>(pins);
@@ -253,7 +231,7 @@ void Parser::parseElement(std::vector<DiagramElement>& out, uint32_t network) {
 // Resolves the numbers in wires to elements.
 //   fails   output 5 (y) := 3;  without an element 3                             E1001
 //   fails   two elements 3                                                       E1002
-void Parser::connectWires(const std::vector<DiagramElement>& elements, uint32_t first_wire) {
+void NetworkParser::connectWires(std::span<const DiagramElement> elements) {
   std::vector<std::pair<uint64_t, uint32_t>> numbers;
   numbers.reserve(elements.size());
   for (uint32_t k = 0; k < elements.size(); ++k) numbers.emplace_back(elements[k].number, k);
@@ -264,19 +242,22 @@ void Parser::connectWires(const std::vector<DiagramElement>& elements, uint32_t 
         .report(diag::DuplicateElementNumber, elements[numbers[k].second].loc, {std::to_string(numbers[k].first)})
         .declaredHere(elements[numbers[k - 1].second].loc);
   }
-  const Slice<DiagramWire> all{first_wire, static_cast<uint32_t>(wire_numbers_.size())};
-  for (uint32_t k = 0; k < all.count; ++k) {
-    DiagramWire& wire = tree_.list(all)[k];
-    const auto found = std::lower_bound(numbers.begin(), numbers.end(), std::pair{wire_numbers_[k], 0u});
-    if (found != numbers.end() && found->first == wire_numbers_[k])
-      wire.from = found->second;
-    else
-      diagnostics_.report(diag::WireFromNothing, wire.loc, {std::to_string(wire_numbers_[k])});
+  size_t next = 0;  // of wire_numbers_, which are in the order of the file
+  for (const DiagramElement& element : elements) {
+    for (const DiagramPin& pin : tree_.list(element.pins)) {
+      for (DiagramWire& wire : tree_.list(pin.wires)) {
+        const uint64_t number = wire_numbers_[next++];
+        const auto found = std::lower_bound(numbers.begin(), numbers.end(), std::pair{number, 0u});
+        if (found != numbers.end() && found->first == number)
+          wire.from = found->second;
+        else
+          diagnostics_.report(diag::WireFromNothing, wire.loc, {std::to_string(number)});
+      }
+    }
   }
-  wire_numbers_.clear();
 }
 
-void Parser::parseNetworks(PouDecl& d) {
+void NetworkParser::parseNetworks(PouDecl& d) {
   const Token* open = t_;
   const std::string_view opener = textOf(t_);
   d.body_kind = BodyKind::Network;
@@ -285,7 +266,6 @@ void Parser::parseNetworks(PouDecl& d) {
                                                                       : NetworkLanguage::Ladder;
   advance();
   const uint32_t errors = diagnostics_.errorCount();
-  const uint32_t first_wire = tree_.addList<DiagramWire>({}).first;
   std::vector<DiagramElement> elements;
   std::vector<DiagramNetwork> networks;
   uint32_t network = 0;
@@ -323,10 +303,9 @@ void Parser::parseNetworks(PouDecl& d) {
   panic_ = false;
   const bool cut_off = at(Tok::End) && diagnostics_.errorCount() != errors;  // which was reported
   if (!accept(Tok::EndNetwork) && !cut_off) {
-    const std::string line = std::to_string(sources_.location(loc(open)).line);
-    missing(diag::MissingEnd, {"{end_network}", "{network}", line});
+    missingEnd("{end_network}", open, "{network}");
   }
-  if (diagnostics_.errorCount() == errors) connectWires(elements, first_wire);
+  if (diagnostics_.errorCount() == errors) connectWires(elements);
   wire_numbers_.clear();
   if (diagnostics_.errorCount() != errors) {  // elements with syntax errors would be reported as missing
     d.body_kind = BodyKind::None;

@@ -31,80 +31,6 @@ void resolveObjectKeywords(TokenStream& stream) {
   stream.blocks.resize(kept);
 }
 
-namespace {
-
-AccessLevel accessOf(std::string_view word) {
-  return sameIdentifier(word, "PUBLIC")      ? AccessLevel::Public
-         : sameIdentifier(word, "PRIVATE")   ? AccessLevel::Private
-         : sameIdentifier(word, "PROTECTED") ? AccessLevel::Protected
-         : sameIdentifier(word, "INTERNAL")  ? AccessLevel::Internal
-                                             : AccessLevel::None;
-}
-uint8_t modifierOf(std::string_view word) {
-  return sameIdentifier(word, "ABSTRACT")   ? uint8_t{kAbstract}
-         : sameIdentifier(word, "FINAL")    ? uint8_t{kFinal}
-         : sameIdentifier(word, "OVERRIDE") ? uint8_t{kOverride}
-                                            : uint8_t{0};
-}
-
-}  // namespace
-
-bool Parser::acceptAccess(AccessLevel& access) {
-  const AccessLevel level = at(Tok::Ident) ? accessOf(textOf(t_)) : AccessLevel::None;
-  if (level == AccessLevel::None) return false;
-  access = level;
-  advance();
-  return true;
-}
-
-// {PUBLIC | PRIVATE | PROTECTED | INTERNAL | ABSTRACT | FINAL | OVERRIDE} before a name, or (of accessors) at the end
-// of the line.
-// Forbids contradictory modifiers: two access levels, and ABSTRACT FINAL, which could never be instantiated.
-//   fails   FUNCTION_BLOCK ABSTRACT FINAL Pump                                         E0345
-void Parser::parseModifiers(AccessLevel& access, uint8_t& modifiers, bool before_name) {
-  const Token* access_word = nullptr;
-  const Token* final_word = nullptr;  // FINAL or ABSTRACT
-  while (at(Tok::Ident) && !atLineStart()) {
-    const bool name_follows =
-        isName(peek()) && (t_[1].flags & kLineStart) == 0 && peek() != Tok::Extends && peek() != Tok::Implements;
-    if (before_name && !name_follows) return;
-    const Token* const word = t_;
-    const Token** earlier = nullptr;
-    const uint8_t modifier = modifierOf(textOf(t_));
-    if ((modifiers & modifier) != 0) {
-      diagnostics_.report(diag::DuplicateKeyword, loc(word), {textOf(word)});
-      advance();
-    } else if (modifier != 0) {
-      modifiers = static_cast<uint8_t>(modifiers | modifier);
-      if ((modifier & (kAbstract | kFinal)) != 0) earlier = &final_word;
-      advance();
-    } else if (acceptAccess(access)) {
-      earlier = &access_word;
-    } else {
-      return;
-    }
-    if (earlier == nullptr) continue;
-    if (*earlier != nullptr && sameIdentifier(textOf(*earlier), textOf(word)))
-      diagnostics_.report(diag::DuplicateKeyword, loc(word), {textOf(word)});
-    else if (*earlier != nullptr)
-      diagnostics_.report(diag::KeywordsContradict, loc(word), {textOf(word), textOf(*earlier)});
-    *earlier = word;
-  }
-}
-
-// type {"," type}
-Slice<TypeExprId> Parser::parseTypeNames() {
-  std::vector<TypeExprId> list;
-  advance();
-  do {
-    NamedTypeExpr named{{TypeExprKind::Named, 0, 0, here(), {}}, {}, {}, false, {}};
-    parseNamePath(named.path);
-    if (panic_) break;
-    list.push_back(tree_.add<TypeExprId>(named));
-  } while (accept(Tok::Comma));
-  return tree_.addList<TypeExprId>(list);
-}
-
 // METHOD … END_METHOD | ACTION … END_ACTION | PROPERTY … END_PROPERTY
 void Parser::parseMember(std::vector<DeclId>& out) {
   const bool declared_in_body = declared_in_body_, lost = lost_;
@@ -124,16 +50,9 @@ void Parser::parseMember(std::vector<DeclId>& out) {
   pou_closes_ = pou_closes;
 }
 
-bool Parser::atAccessor() const {
-  if (!at(Tok::Get) && !at(Tok::Set)) return false;
-  const Tok next = peek();
-  return (t_[1].flags & kLineStart) != 0 || next == Tok::Semicolon || next < Tok::Semicolon || next > Tok::EqualLess;
-}
-
 // [PROPERTY | PROPERTY_GET | PROPERTY_SET] modifiers name ":" type [";"]
 Ident Parser::parsePropertyHeader(PropertyDecl& d) {
-  d.h = {DeclKind::Property, 0, 0, here(), takeDoc(), takePragmas()};
-  d.begin = here();
+  d.h = declHeader(DeclKind::Property);
   advance();
   parseModifiers(d.access, d.modifiers, true);
   Ident name{{}, here()};
@@ -146,7 +65,7 @@ Ident Parser::parsePropertyHeader(PropertyDecl& d) {
     while (!atLineStart() && !at(Tok::End)) advance();
     panic_ = false;
   }
-  if (!d.type) d.type = tree_.add<TypeExprId>(ErrorTypeExpr{{TypeExprKind::Error, 0, 0, d.h.loc, {}}});
+  if (!d.type) d.type = build_.errorType(d.h.loc);
   accept(Tok::Semicolon);
   return name;
 }
@@ -168,10 +87,9 @@ DeclId Parser::parseProperty() {
   if (accept(Tok::EndProperty)) {
     accept(Tok::Semicolon);
   } else if (dialect_ != Dialect::Codesys) {
-    const std::string line = std::to_string(sources_.location(loc(open)).line);
-    missing(diag::MissingEnd, {"END_PROPERTY", "PROPERTY", line});
+    missingEnd("END_PROPERTY", open, "PROPERTY");
   }
-  return tree_.add<DeclId>(d);
+  return finish(d);
 }
 
 // PROPERTY_GET header sections statements END_PROPERTY | PROPERTY_SET …: edition 4. Two of the same name are one
@@ -183,14 +101,13 @@ void Parser::parseHalfProperty(std::vector<DeclId>& out) {
   const Ident name = parsePropertyHeader(d);
   d.h.bits = kInHalves;
   PouDecl accessor{};
-  accessor.h = {DeclKind::Pou, 0, 0, d.h.loc, {}, {}};
+  accessor.h = header(DeclKind::Pou, d.h.loc);
   accessor.access = d.access;
   accessor.modifiers = d.modifiers;
-  accessor.begin = here();
+  accessor.h.begin = here();
   (is_set ? d.set : d.get) = parseAccessorBody(accessor, name, d, is_set, Tok::EndProperty);
   if (t_[-1].kind != Tok::EndProperty && t_[-1].kind != Tok::Semicolon) {
-    const std::string line = std::to_string(sources_.location(loc(open)).line);
-    missing(diag::MissingEnd, {"END_PROPERTY", is_set ? "PROPERTY_SET" : "PROPERTY_GET", line});
+    missingEnd("END_PROPERTY", open, is_set ? "PROPERTY_SET" : "PROPERTY_GET");
   }
   for (const DeclId known : out) {
     if (tree_.kind(known) != DeclKind::Property) continue;
@@ -201,15 +118,14 @@ void Parser::parseHalfProperty(std::vector<DeclId>& out) {
     other.modifiers &= d.modifiers;  // of the whole property; each half keeps its own
     return;
   }
-  out.push_back(tree_.add<DeclId>(d));
+  out.push_back(finish(d));
 }
 
 DeclId Parser::parseAccessor(const Ident& property, const PropertyDecl& of) {
   PouDecl d{};
-  d.h = {DeclKind::Pou, 0, 0, here(), takeDoc(), takePragmas()};
+  d.h = declHeader(DeclKind::Pou);
   d.access = of.access;
   d.modifiers = of.modifiers;
-  d.begin = here();
   const bool is_set = at(Tok::Set);
   advance();
   parseModifiers(d.access, d.modifiers, false);
@@ -223,12 +139,8 @@ DeclId Parser::parseAccessorBody(PouDecl& d, const Ident& property, const Proper
   d.pou_kind = PouKind::Method;
   const size_t first = decls_.size();
   if (is_set) {
-    VarDecl value{{DeclKind::Var, 0, 0, property.loc, {}, {}}, {}, of.type, {}, EdgeKind::None, false, {}, {}};
-    value.names = tree_.addList<Ident>({&property, 1});
-    SectionDecl input{{DeclKind::Section, 0, 0, property.loc, {}, {}}, SectionKind::Input, AccessLevel::None, {}};
-    const DeclId var = tree_.add<DeclId>(value);
-    input.vars = tree_.addList<DeclId>({&var, 1});
-    decls_.push_back(tree_.add<DeclId>(input));
+    const DeclId value = build_.variable(property, of.type);
+    decls_.push_back(build_.section(SectionKind::Input, {&value, 1}, property.loc));
   } else {
     d.result = of.type;
   }
@@ -244,13 +156,13 @@ DeclId Parser::parseAccessorBody(PouDecl& d, const Ident& property, const Proper
   if (lost_ || declared_in_body_) d.h.bits |= kBrokenDeclarations;
   d.closed = true;
   if (accept(end)) accept(Tok::Semicolon);
-  d.end = index() > 0 ? endOf(t_ - 1) : here();
+  d.h.end = index() > 0 ? endOf(t_ - 1) : here();
   return tree_.add<DeclId>(d);
 }
 
 // NAMESPACE [INTERNAL] a.b {declaration} END_NAMESPACE
 DeclId Parser::parseNamespace() {
-  NamespaceDecl d{{DeclKind::Namespace, 0, 0, here(), takeDoc(), takePragmas()}, {}, {}};
+  NamespaceDecl d{declHeader(DeclKind::Namespace), {}, {}};
   const Token* open = t_;
   advance();
   AccessLevel access{};
@@ -267,22 +179,21 @@ DeclId Parser::parseNamespace() {
   if (accept(Tok::EndNamespace)) {
     accept(Tok::Semicolon);
   } else {
-    const std::string line = std::to_string(sources_.location(loc(open)).line);
-    missing(diag::MissingEnd, {"END_NAMESPACE", "NAMESPACE", line});
+    missingEnd("END_NAMESPACE", open, "NAMESPACE");
   }
-  return tree_.add<DeclId>(d);
+  return finish(d);
 }
 
 // USING a.b {"," c} ";"
 void Parser::parseUsing(std::vector<DeclId>& out) {
   advance();
   do {
-    UsingDecl d{{DeclKind::Using, 0, 0, here(), {}, {}}, {}};
+    UsingDecl d{header(DeclKind::Using, here()), {}};
     parseNamePath(d.path);
     if (panic_) break;
-    out.push_back(tree_.add<DeclId>(d));
+    out.push_back(finish(d));
   } while (accept(Tok::Comma));
-  endStatement(nullptr);
+  endStatement();
 }
 
 }  // namespace rung::text

@@ -10,30 +10,31 @@
 namespace rung::text {
 namespace {
 
+bool isVarWord(Tok k) { return k >= Tok::Var && k <= Tok::VarConfig; }
+
 // The keyword that closes a block opened by `open`, or End when it opens no block.
 Tok closerOf(Tok open) {
-  switch (static_cast<int>(open)) {
-    case static_cast<int>(Tok::If): return Tok::EndIf;
-    case static_cast<int>(Tok::Case): return Tok::EndCase;
-    case static_cast<int>(Tok::For): return Tok::EndFor;
-    case static_cast<int>(Tok::While): return Tok::EndWhile;
-    case static_cast<int>(Tok::Repeat): return Tok::EndRepeat;
-    case static_cast<int>(Tok::Try): return Tok::EndTry;
-    case static_cast<int>(Tok::Type): return Tok::EndType;
-    case static_cast<int>(Tok::Struct): return Tok::EndStruct;
-    case static_cast<int>(Tok::Union): return Tok::EndUnion;
-    case static_cast<int>(Tok::Function): return Tok::EndFunction;
-    case static_cast<int>(Tok::FunctionBlock): return Tok::EndFunctionBlock;
-    case static_cast<int>(Tok::Program): return Tok::EndProgram;
-    case static_cast<int>(Tok::Configuration): return Tok::EndConfiguration;
-    case static_cast<int>(Tok::Resource): return Tok::EndResource;
-    case static_cast<int>(Tok::Method): return Tok::EndMethod;
-    case static_cast<int>(Tok::Property): return Tok::EndProperty;
-    case static_cast<int>(Tok::Action): return Tok::EndAction;
-    case static_cast<int>(Tok::Interface): return Tok::EndInterface;
-    case static_cast<int>(Tok::Class): return Tok::EndClass;
-    default: return open >= Tok::Var && open <= Tok::VarConfig ? Tok::EndVar : Tok::End;
-  }
+  static_assert(Tok{} == Tok::End);
+  static constexpr TokMap<Tok> kClosers = {{Tok::If, Tok::EndIf},
+                                           {Tok::Case, Tok::EndCase},
+                                           {Tok::For, Tok::EndFor},
+                                           {Tok::While, Tok::EndWhile},
+                                           {Tok::Repeat, Tok::EndRepeat},
+                                           {Tok::Try, Tok::EndTry},
+                                           {Tok::Type, Tok::EndType},
+                                           {Tok::Struct, Tok::EndStruct},
+                                           {Tok::Union, Tok::EndUnion},
+                                           {Tok::Function, Tok::EndFunction},
+                                           {Tok::FunctionBlock, Tok::EndFunctionBlock},
+                                           {Tok::Program, Tok::EndProgram},
+                                           {Tok::Configuration, Tok::EndConfiguration},
+                                           {Tok::Resource, Tok::EndResource},
+                                           {Tok::Method, Tok::EndMethod},
+                                           {Tok::Property, Tok::EndProperty},
+                                           {Tok::Action, Tok::EndAction},
+                                           {Tok::Interface, Tok::EndInterface},
+                                           {Tok::Class, Tok::EndClass}};
+  return isVarWord(open) ? Tok::EndVar : kClosers[open];
 }
 
 constexpr Tok kClosers[] = {Tok::EndIf,       Tok::EndCase,          Tok::EndFor,       Tok::EndWhile,
@@ -42,7 +43,6 @@ constexpr Tok kClosers[] = {Tok::EndIf,       Tok::EndCase,          Tok::EndFor
                             Tok::EndProgram,  Tok::EndConfiguration, Tok::EndResource,  Tok::EndMethod,
                             Tok::EndProperty, Tok::EndAction,        Tok::EndInterface, Tok::EndClass};
 bool isCloser(Tok k) { return std::find(std::begin(kClosers), std::end(kClosers), k) != std::end(kClosers); }
-bool isVarWord(Tok k) { return k >= Tok::Var && k <= Tok::VarConfig; }
 bool isMember(Tok k) { return k == Tok::Method || k == Tok::Property || k == Tok::Action; }
 bool isPouOpener(Tok k) {
   return k == Tok::Function || k == Tok::FunctionBlock || k == Tok::Program || k == Tok::Interface || k == Tok::Class ||
@@ -172,6 +172,9 @@ class Balancer {
   void open(uint32_t i, Tok kind);
   void close(uint32_t i, Tok closer);
   void stray(uint32_t i, Tok closer);
+  bool openAtHeader(uint32_t low, Tok closer);
+  bool openAtContent(uint32_t i, uint32_t low, Tok closer);
+  bool openSection(uint32_t i);
   void leftOutermost(uint32_t i, Tok closer);
   bool comesBehind(uint32_t i, Tok closer) const {
     while (++i < region_end_)
@@ -340,23 +343,23 @@ void Balancer::visit(uint32_t i) {
       if (suspicious) top.suspect = i;
     }
   }
-  switch (static_cast<int>(k)) {
-    case static_cast<int>(Tok::Elsif):
-    case static_cast<int>(Tok::Elseif):
-    case static_cast<int>(Tok::Array): pending_header_ = i + 1; return;
-    case static_cast<int>(Tok::Then):
-    case static_cast<int>(Tok::Do):
-    case static_cast<int>(Tok::Of):
-      if (pending_header_ == 0) {
-        orphans_.push_back({i, line_first_, line_column_});
-      } else {
-        const uint32_t header = pending_header_ - 1;
-        if (!stack_.empty() && stack_.back().index == header) stack_.back().connective = k;
-        pending_header_ = 0;
-      }
-      return;
-    case static_cast<int>(Tok::Semicolon): pending_header_ = 0; return;
-    default: break;
+  if (k == Tok::Elsif || k == Tok::Elseif || k == Tok::Array) {
+    pending_header_ = i + 1;
+    return;
+  }
+  if (k == Tok::Then || k == Tok::Do || k == Tok::Of) {
+    if (pending_header_ == 0) {
+      orphans_.push_back({i, line_first_, line_column_});
+    } else {
+      const uint32_t header = pending_header_ - 1;
+      if (!stack_.empty() && stack_.back().index == header) stack_.back().connective = k;
+      pending_header_ = 0;
+    }
+    return;
+  }
+  if (k == Tok::Semicolon) {
+    pending_header_ = 0;
+    return;
   }
   if ((isCloser(k) || opens(i)) && insideExpression(i)) return spoil(i);
   if (isCloser(k)) return close(i, k);
@@ -426,13 +429,9 @@ void Balancer::open(uint32_t i, Tok kind) {
 }
 
 bool Balancer::belongs(Tok connective, Tok opener) const {
-  switch (static_cast<int>(opener)) {
-    case static_cast<int>(Tok::If): return connective == Tok::Then;
-    case static_cast<int>(Tok::For):
-    case static_cast<int>(Tok::While): return connective == Tok::Do;
-    case static_cast<int>(Tok::Case): return connective == Tok::Of;
-    default: return false;
-  }
+  static constexpr TokMap<Tok> kConnectives = {
+      {Tok::If, Tok::Then}, {Tok::For, Tok::Do}, {Tok::While, Tok::Do}, {Tok::Case, Tok::Of}};
+  return connective == kConnectives[opener];
 }
 
 void Balancer::close(uint32_t i, Tok closer) {
@@ -569,6 +568,89 @@ uint32_t Balancer::findOpener(uint32_t i, Tok closer, Tok& meant) {
   return 0;
 }
 
+// The header of a block is there, its first keyword is missing or another word.
+bool Balancer::openAtHeader(uint32_t low, Tok closer) {
+  static constexpr TokSet kWithHeader = {Tok::EndIf, Tok::EndFor, Tok::EndWhile, Tok::EndCase};
+  if (!kWithHeader.has(closer)) return false;
+  const std::span<const Tok> openers = openersFor(closer);
+  const Orphan* best = nullptr;
+  for (const Orphan& o : orphans_)
+    if (o.index >= low && belongs(tokens_[o.index].kind, openers[0]) && (o.column == line_column_ || best == nullptr))
+      best = &o;
+  if (best == nullptr) return false;
+  const uint32_t at = best->line_first;
+  orphans_.erase(orphans_.begin() + (best - orphans_.data()));
+  const Tok next = tokens_[at + 1].kind;
+  if (!atLineStart(at + 1) &&
+      (isName(next) || next == Tok::Not || next == Tok::Number ||
+       (!isName(tokens_[at].kind) && tokens_[at].kind != Tok::LeftParen && next == Tok::LeftParen))) {
+    diagnostics_.report(diag::WrongKeyword, loc(at), {textOf(at), spelling(openers[0])})
+        .length(static_cast<uint32_t>(textOf(at).size()));
+    markReported(at);
+    edit(at, EditKind::Correction, openers[0]);
+    return true;
+  }
+  diagnostics_.report(diag::MissingOpener, loc(at), {spelling(openers[0]), describe(at)})
+      .length(static_cast<uint32_t>(textOf(at).size()));
+  markReported(at);
+  edit(at, EditKind::Insert, openers[0]);
+  return true;
+}
+
+// `name : <line end>` without STRUCT; `name ON type` without RESOURCE; the indented lines above UNTIL without REPEAT.
+bool Balancer::openAtContent(uint32_t i, uint32_t low, Tok closer) {
+  static constexpr TokSet kByContent = {Tok::EndStruct, Tok::EndUnion, Tok::EndResource, Tok::EndRepeat};
+  if (!kByContent.has(closer)) return false;
+  const std::span<const Tok> openers = openersFor(closer);
+  uint32_t at = 0;
+  uint32_t until = 0;
+  for (uint32_t k = i, steps = 0; k-- > low && at == 0 && steps < 20000; ++steps) {
+    if (closer == Tok::EndResource) {
+      if (atLineStart(k) && isName(tokens_[k].kind) && tokens_[k + 1].kind == Tok::On) at = k;
+    } else if (closer == Tok::EndRepeat) {
+      if (tokens_[k].kind == Tok::Until && until == 0) until = k;
+      if (until != 0 && k < until && atLineStart(k) && columnOf(k) <= line_column_) {
+        at = k + 1;
+        while (at < until && !atLineStart(at)) ++at;
+      }
+    } else if (tokens_[k].kind == Tok::Colon && atLineStart(k + 1)) {
+      at = k + 1;
+    }
+  }
+  if (at == 0) return false;
+  if (closer == Tok::EndStruct || closer == Tok::EndUnion) {
+    diagnostics_.report(diag::MissingOpener, {loc(at - 1).offset + 1}, {spelling(openers[0]), describe(at)}).length(1);
+    markReported(at - 1);
+    edit(at, EditKind::Insert, openers[0]);
+  } else {
+    missingOpener(at, openers[0]);
+  }
+  return true;
+}
+
+// Another word is written where VAR should be; it may have been reported and removed already.
+bool Balancer::openSection(uint32_t i) {
+  if (decl_start_ < i && (tokens_[decl_start_].flags & kReported) != 0 && !isName(tokens_[decl_start_].kind)) {
+    markReported(decl_start_ + 1);
+    edit(decl_start_ + 1, EditKind::Insert, Tok::Var);
+    decl_start_ = i + 1;
+    return true;
+  }
+  if (decl_start_ < i && !isName(tokens_[decl_start_].kind) &&
+      (atLineStart(decl_start_ + 1) ||
+       (isName(tokens_[decl_start_ + 1].kind) &&
+        (tokens_[decl_start_ + 2].kind == Tok::Colon || tokens_[decl_start_ + 2].kind == Tok::Comma ||
+         tokens_[decl_start_ + 2].kind == Tok::At)))) {
+    diagnostics_.report(diag::WrongKeyword, loc(decl_start_), {textOf(decl_start_), "VAR"})
+        .length(static_cast<uint32_t>(textOf(decl_start_).size()));
+    markReported(decl_start_);
+    edit(decl_start_, EditKind::Correction, Tok::Var);
+    decl_start_ = i + 1;
+    return true;
+  }
+  return false;
+}
+
 void Balancer::stray(uint32_t i, Tok closer) {
   Tok meant = Tok::End;
   if (const uint32_t found = findOpener(i, closer, meant); found != 0) {
@@ -581,82 +663,9 @@ void Balancer::stray(uint32_t i, Tok closer) {
     return;
   }
   const uint32_t low = stack_.empty() ? outside_start_ : stack_.back().index + 1;
+  if (openAtHeader(low, closer) || openAtContent(i, low, closer)) return;
+  if (closer == Tok::EndVar && openSection(i)) return;
   const std::span<const Tok> openers = openersFor(closer);
-  // The header is there, its first keyword is missing.
-  if (closer == Tok::EndIf || closer == Tok::EndFor || closer == Tok::EndWhile || closer == Tok::EndCase) {
-    const Orphan* best = nullptr;
-    for (const Orphan& o : orphans_)
-      if (o.index >= low && belongs(tokens_[o.index].kind, openers[0]) && (o.column == line_column_ || best == nullptr))
-        best = &o;
-    if (best != nullptr) {
-      const uint32_t at = best->line_first;
-      orphans_.erase(orphans_.begin() + (best - orphans_.data()));
-      const Tok next = tokens_[at + 1].kind;
-      if (!atLineStart(at + 1) &&
-          (isName(next) || next == Tok::Not || next == Tok::Number ||
-           (!isName(tokens_[at].kind) && tokens_[at].kind != Tok::LeftParen && next == Tok::LeftParen))) {
-        diagnostics_.report(diag::WrongKeyword, loc(at), {textOf(at), spelling(openers[0])})
-            .length(static_cast<uint32_t>(textOf(at).size()));
-        markReported(at);
-        edit(at, EditKind::Correction, openers[0]);
-        return;
-      }
-      diagnostics_.report(diag::MissingOpener, loc(at), {spelling(openers[0]), describe(at)})
-          .length(static_cast<uint32_t>(textOf(at).size()));
-      markReported(at);
-      edit(at, EditKind::Insert, openers[0]);
-      return;
-    }
-  }
-  // `name : <line end>` without STRUCT; `name ON type` without RESOURCE; the indented lines above UNTIL without REPEAT.
-  if (closer == Tok::EndStruct || closer == Tok::EndUnion || closer == Tok::EndResource || closer == Tok::EndRepeat) {
-    uint32_t at = 0;
-    uint32_t until = 0;
-    for (uint32_t k = i, steps = 0; k-- > low && at == 0 && steps < 20000; ++steps) {
-      if (closer == Tok::EndResource) {
-        if (atLineStart(k) && isName(tokens_[k].kind) && tokens_[k + 1].kind == Tok::On) at = k;
-      } else if (closer == Tok::EndRepeat) {
-        if (tokens_[k].kind == Tok::Until && until == 0) until = k;
-        if (until != 0 && k < until && atLineStart(k) && columnOf(k) <= line_column_) {
-          at = k + 1;
-          while (at < until && !atLineStart(at)) ++at;
-        }
-      } else if (tokens_[k].kind == Tok::Colon && atLineStart(k + 1)) {
-        at = k + 1;
-      }
-    }
-    if (at != 0) {
-      if (closer == Tok::EndStruct || closer == Tok::EndUnion) {
-        diagnostics_.report(diag::MissingOpener, {loc(at - 1).offset + 1}, {spelling(openers[0]), describe(at)})
-            .length(1);
-        markReported(at - 1);
-        edit(at, EditKind::Insert, openers[0]);
-      } else {
-        missingOpener(at, openers[0]);
-      }
-      return;
-    }
-  }
-  // Another word is written where VAR should be; it may have been reported and removed already.
-  if (closer == Tok::EndVar && decl_start_ < i && (tokens_[decl_start_].flags & kReported) != 0 &&
-      !isName(tokens_[decl_start_].kind)) {
-    markReported(decl_start_ + 1);
-    edit(decl_start_ + 1, EditKind::Insert, Tok::Var);
-    decl_start_ = i + 1;
-    return;
-  }
-  if (closer == Tok::EndVar && decl_start_ < i && !isName(tokens_[decl_start_].kind) &&
-      (atLineStart(decl_start_ + 1) ||
-       (isName(tokens_[decl_start_ + 1].kind) &&
-        (tokens_[decl_start_ + 2].kind == Tok::Colon || tokens_[decl_start_ + 2].kind == Tok::Comma ||
-         tokens_[decl_start_ + 2].kind == Tok::At)))) {
-    diagnostics_.report(diag::WrongKeyword, loc(decl_start_), {textOf(decl_start_), "VAR"})
-        .length(static_cast<uint32_t>(textOf(decl_start_).size()));
-    markReported(decl_start_);
-    edit(decl_start_, EditKind::Correction, Tok::Var);
-    decl_start_ = i + 1;
-    return;
-  }
   uint32_t insert = 0;
   if (closer == Tok::EndVar && decl_start_ < i && isName(tokens_[decl_start_].kind)) insert = decl_start_ + 1;
   if ((isPouCloser(closer) || closer == Tok::EndConfiguration || closer == Tok::EndType) && stack_.empty() &&

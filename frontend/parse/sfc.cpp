@@ -6,8 +6,8 @@
 //   position   = AT x "," y ["," width "," height]
 // A transition with a body, or whose condition several transitions use, becomes a hidden action.
 #include "frontend/syntax/sfc.h"
+#include "frontend/parse/chart.h"
 #include "frontend/parse/diagnostics.h"
-#include "frontend/parse/parser.h"
 #include "frontend/syntax/il.h"
 
 namespace rung::text {
@@ -26,7 +26,7 @@ constexpr Qualifier kQualifiers[] = {{"N", SfcQualifier::N},   {"R", SfcQualifie
 }  // namespace
 
 // `INITIAL_STEP a`, `STEP a:`, `TRANSITION FROM`, which cannot begin a statement. STEP is a name elsewhere.
-bool Parser::atSfc() const {
+bool ChartParser::atSfc() const {
   if (!isName(kind()) || (t_[1].flags & kLineStart) != 0) return false;
   if (!isName(peek()) && !nameReserved(t_ + 1) && peek() != Tok::LeftParen) return false;
   if (is(t_, "STEP") || is(t_, "MACRO_STEP"))
@@ -36,13 +36,13 @@ bool Parser::atSfc() const {
 }
 
 // `TRANSITION name :=` and `TRANSITION name :`, a condition for transitions of this name in all charts of the block.
-bool Parser::atCondition() const {
+bool ChartParser::atCondition() const {
   return isName(kind()) && is(t_, "TRANSITION") && isName(peek()) && (peek(2) == Tok::Assign || peek(2) == Tok::Colon);
 }
 
 // An ACTION in the chart of an action or method whose END_… is still ahead. Without END_ACTION, which codesys allows,
 // it is the next action of the block.
-bool Parser::atOwnAction() const {
+bool ChartParser::atOwnAction() const {
   if (!at(Tok::Action)) return false;
   uint32_t depth = 0;
   for (const Token* t = t_;; ++t) {
@@ -55,7 +55,8 @@ bool Parser::atOwnAction() const {
 }
 
 // Members and shared conditions, before the body.
-void Parser::parseMembersOf(const PouDecl& d, std::vector<DeclId>& members, std::vector<SfcTransition>& conditions) {
+void ChartParser::parseMembersOf(const PouDecl& d, std::vector<DeclId>& members,
+                                 std::vector<SfcTransition>& conditions) {
   const bool is_member = d.pou_kind == PouKind::Method || d.pou_kind == PouKind::Action;
   while (is_member ? atOwnAction() : atMember() || atCondition()) {
     if (atCondition())
@@ -66,7 +67,7 @@ void Parser::parseMembersOf(const PouDecl& d, std::vector<DeclId>& members, std:
   }
 }
 
-void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members, std::vector<SfcTransition>& transitions) {
+void ChartParser::parseSfc(PouDecl& d, std::vector<DeclId>& members, std::vector<SfcTransition>& transitions) {
   const Token* first = t_;
   const uint32_t errors = diagnostics_.errorCount();
   const bool is_member = d.pou_kind == PouKind::Method || d.pou_kind == PouKind::Action;
@@ -116,8 +117,7 @@ void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members, std::vector<SfcT
   if (d.body_kind == BodyKind::None) {
     transitions.clear();
     std::erase_if(members, [&](DeclId member) {  // generated for transitions that were dropped
-      return tree_.kind(member) == DeclKind::Pou &&
-             tree_.as<PouDecl>(member).begin == tree_.as<PouDecl>(member).body_begin;
+      return tree_.kind(member) == DeclKind::Pou && tree_.decl(member).begin == tree_.as<PouDecl>(member).body_begin;
     });
     return;
   }
@@ -125,7 +125,7 @@ void Parser::parseSfc(PouDecl& d, std::vector<DeclId>& members, std::vector<SfcT
 }
 
 // After an error: skips to the END_… of the element, or to the next one.
-void Parser::syncChart(Tok end) {
+void ChartParser::syncChart(Tok end) {
   const Token* open = t_;
   panic_ = false;
   while (!at(end) && !atSfc() && !atMacroEnd() && !(atMember() && t_ != open) && !at(Tok::EndStep) &&
@@ -133,7 +133,7 @@ void Parser::syncChart(Tok end) {
     advance();
 }
 
-void Parser::parseStep(std::vector<SfcStep>& out) {
+void ChartParser::parseStep(std::vector<SfcStep>& out) {
   const Token* open = t_;
   SfcStep step{};
   step.initial = is(t_, "INITIAL_STEP");
@@ -152,15 +152,14 @@ void Parser::parseStep(std::vector<SfcStep>& out) {
   }
   if (panic_) syncChart(Tok::EndStep);
   if (!accept(Tok::EndStep)) {
-    const std::string line = std::to_string(sources_.location(loc(open)).line);
-    missing(diag::MissingEnd, {"END_STEP", textOf(open), line});
+    missingEnd("END_STEP", open, textOf(open));
   }
   if (!step.name.name) return;
   step.actions = tree_.addList<SfcAssociation>(actions);
   out.push_back(step);
 }
 
-void Parser::parsePosition(SfcPosition& position) {
+void NetworkParser::parsePosition(SfcPosition& position) {
   if (!is(t_, "AT") || (peek() != Tok::Number && peek() != Tok::Minus)) return;
   advance();
   int32_t* const numbers[] = {&position.x, &position.y, &position.width, &position.height};
@@ -170,7 +169,7 @@ void Parser::parsePosition(SfcPosition& position) {
 }
 
 // "(" TMIN ":=" expression ["," TMAX ":=" expression] ")"
-void Parser::parseStepTimes(SfcStep& step) {
+void ChartParser::parseStepTimes(SfcStep& step) {
   advance();
   do {
     const bool least = is(t_, "TMIN");
@@ -185,7 +184,7 @@ void Parser::parseStepTimes(SfcStep& step) {
   if (!panic_) expect(Tok::RightParen);
 }
 
-SfcExpr Parser::parseSfcExpr() {
+SfcExpr ChartParser::parseSfcExpr() {
   SfcExpr e{{}, here(), {}};
   e.value = parseExpr();
   e.end = t_ == tokens_.data() ? here() : endOf(t_ - 1);
@@ -193,7 +192,7 @@ SfcExpr Parser::parseSfcExpr() {
 }
 
 // [{entry} | {active} | {exit}] name ["(" [qualifier ["," time]] {"," indicator} ")"]
-bool Parser::parseAssociation(std::vector<SfcAssociation>& out) {
+bool ChartParser::parseAssociation(std::vector<SfcAssociation>& out) {
   const Token* first = t_;
   SfcAssociation a{};
   a.loc = here();
@@ -246,7 +245,7 @@ bool Parser::parseAssociation(std::vector<SfcAssociation>& out) {
 }
 
 // step | "(" step {"," step} ")"
-bool Parser::parseSteps(Slice<Ident>& out) {
+bool ChartParser::parseSteps(Slice<Ident>& out) {
   std::vector<Ident> steps;
   const bool several = accept(Tok::LeftParen);
   do {
@@ -262,7 +261,7 @@ bool Parser::parseSteps(Slice<Ident>& out) {
   return true;
 }
 
-bool Parser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId>& members) {
+bool ChartParser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId>& members) {
   const Token* open = t_;
   SfcTransition t{};
   t.loc = t.begin = here();
@@ -302,8 +301,7 @@ bool Parser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId
   const bool ok = !panic_;
   if (panic_) syncChart(Tok::EndTransition);
   if (!accept(Tok::EndTransition)) {
-    const std::string line = std::to_string(sources_.location(loc(open)).line);
-    missing(diag::MissingEnd, {"END_TRANSITION", "TRANSITION", line});
+    missingEnd("END_TRANSITION", open, "TRANSITION");
   }
   t.end = endOf(t_ - 1);
   if (ok) out.push_back(t);
@@ -311,10 +309,10 @@ bool Parser::parseTransition(std::vector<SfcTransition>& out, std::vector<DeclId
 }
 
 // ":=" expression [";"] | ":" statements | ":" instructions | nothing: the transition or variable of its name
-void Parser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
+void ChartParser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
   const Token* first = t_;
   PouDecl d{};
-  d.h = {DeclKind::Pou, 0, 0, t.loc, {}, {}};
+  d.h = header(DeclKind::Pou, t.loc);
   d.pou_kind = PouKind::Action;
   d.closed = true;
   if (t.name.name) {
@@ -322,18 +320,13 @@ void Parser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
   } else {  // for a body in IL, or of networks
     t.target = {names_.intern("Transition_" + std::to_string(sources_.location(t.loc).line)), t.loc};
   }
-  const auto target = [&] {
-    return tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, t.target.loc), t.target.name, {}});
-  };
+  const auto target = [&] { return build_.name(t.target.name, t.target.loc); };
   if (accept(Tok::Assign)) {
     t.condition = parseSfcExpr();
     if (panic_) return;
     if (!accept(Tok::Semicolon)) missing(diag::MissingSemicolon, {describe(t_ - 1)});
     if (!t.from.empty()) return;
-    AssignStmt assign{header(StmtKind::Assign, t.condition.begin, static_cast<uint8_t>(AssignOp::Assign)), {}, {}};
-    assign.target = target();
-    assign.value = t.condition.value;
-    const StmtId id = tree_.add<StmtId>(assign);
+    const StmtId id = build_.assign(AssignOp::Assign, target(), t.condition.value, t.condition.begin);
     d.body = tree_.addList<StmtId>({&id, 1});
     d.body_kind = BodyKind::St;
     d.body_begin = t.condition.begin;
@@ -377,10 +370,18 @@ void Parser::parseCondition(SfcTransition& t, std::vector<DeclId>& members) {
     return;
   }
   d.name = names_.intern(std::string(names_.string(t.target.name)) + "_condition");
-  d.begin = d.body_begin;
-  d.end = d.body_end;
+  d.h.begin = d.body_begin;
+  d.h.end = d.body_end;
   t.body = tree_.add<DeclId>(d);
   members.push_back(t.body);
+}
+
+// Steps among the statements of a body that began in ST: one error for all of them.
+bool ChartParser::chartInSt() {
+  if (!atSfc()) return false;
+  slip(diag::SfcNotInChart, t_, {describe(t_)});
+  skipBody();
+  return true;
 }
 
 }  // namespace rung::text

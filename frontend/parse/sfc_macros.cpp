@@ -4,14 +4,14 @@
 // these are its first and its last step in the source. TM/TP manual 5.5.2.5.
 #include <unordered_map>
 
+#include "frontend/parse/chart.h"
 #include "frontend/parse/diagnostics.h"
-#include "frontend/parse/parser.h"
 #include "frontend/syntax/diagnostics.h"
 #include "frontend/syntax/sfc.h"
 
 namespace rung::text {
 
-void Parser::openMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& open, size_t steps) {
+void ChartParser::openMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& open, size_t steps) {
   SfcMacro macro{};
   macro.open = t_;
   macro.errors = diagnostics_.errorCount();
@@ -41,7 +41,8 @@ void Parser::openMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& ope
 //   passes  MACRO_STEP Heat: STEP a: END_STEP END_MACRO_STEP
 //   fails   MACRO_STEP Heat: END_MACRO_STEP                                            E0744
 //   fails   MACRO_STEP Heat (ENTRY := b): STEP a: END_STEP END_MACRO_STEP              E0745
-void Parser::closeMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& open, std::span<const SfcStep> steps) {
+void ChartParser::closeMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& open,
+                             std::span<const SfcStep> steps) {
   SfcMacro& macro = macros[open.back()];
   const uint32_t first_inner = open.back() + 1;
   open.pop_back();
@@ -81,8 +82,8 @@ void Parser::closeMacro(std::vector<SfcMacro>& macros, std::vector<uint32_t>& op
 }
 
 // Forbids a macro step with the name of a step or of another macro: transitions to it would be ambiguous.
-void Parser::inlineMacros(std::span<const SfcMacro> macros, std::span<const SfcStep> steps,
-                          std::vector<SfcTransition>& transitions) {
+void ChartParser::inlineMacros(std::span<const SfcMacro> macros, std::span<const SfcStep> steps,
+                               std::vector<SfcTransition>& transitions) {
   if (macros.empty()) return;
   std::unordered_map<uint32_t, const SfcMacro*> by_name;
   const auto find = [&](NameId name) -> const SfcMacro* {

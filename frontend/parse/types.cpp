@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "frontend/parse/declarations.h"
 #include "frontend/parse/diagnostics.h"
-#include "frontend/parse/parser.h"
 #include "frontend/parse/recover.h"
 #include "frontend/source/dialect.h"
 
@@ -13,7 +13,7 @@ namespace rung::text {
 // ---- TYPE
 
 // TYPE [access] {[access] name [EXTENDS type] ":" type [":=" init] [";"]} END_TYPE
-void Parser::parseTypes(std::vector<DeclId>& out) {
+void DeclarationParser::parseTypes(std::vector<DeclId>& out) {
   const Token* open = t_;
   Slice<Pragma> pragmas = takePragmas();
   Loc doc = takeDoc();
@@ -28,8 +28,7 @@ void Parser::parseTypes(std::vector<DeclId>& out) {
       return;
     }
     if (endsDeclarations(kind())) {
-      const std::string line = std::to_string(sources_.location(loc(open)).line);
-      missing(diag::MissingEnd, {"END_TYPE", "TYPE", line});
+      missingEnd("END_TYPE", open, "TYPE");
       return;
     }
     if (t_[0].flags & kPragma) pragmas = takePragmas();
@@ -41,14 +40,14 @@ void Parser::parseTypes(std::vector<DeclId>& out) {
   }
 }
 
-DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessLevel access) {
+DeclId DeclarationParser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessLevel access) {
   lost_ = false;
   while (at(Tok::Ident) && isName(peek()) && (is(t_, "PUBLIC") || is(t_, "INTERNAL") || is(t_, "ABSTRACT"))) {
     if (is(t_, "INTERNAL")) access = AccessLevel::Internal;
     advance();
   }
   skipStray(!isName(kind()) && isName(peek()) && peek(2) == Tok::Colon, diag::MissingName);
-  TypeDecl d{{DeclKind::Type, 0, 0, here(), doc, pragmas}, {}, {}, {}};
+  TypeDecl d{header(DeclKind::Type, here(), doc, pragmas), {}, {}, {}};
   if (access == AccessLevel::Internal) d.h.bits |= kInternal;
   Ident name;
   if (!parseName(name)) {
@@ -68,7 +67,7 @@ DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessLevel access
   in_variable_ = false;
   if (!panic_) d.type = parseType();
   if (panic_ || !d.type || lost_) tree_.lost_names = true;
-  if (!d.type) d.type = tree_.add<TypeExprId>(ErrorTypeExpr{{TypeExprKind::Error, 0, 0, d.h.loc, {}}});
+  if (!d.type) d.type = build_.errorType(d.h.loc);
   const bool is_struct = tree_.kind(d.type) == TypeExprKind::Struct;
   if (base && is_struct) tree_.as<StructTypeExpr>(d.type).base = base;
   if (!panic_) {
@@ -92,12 +91,12 @@ DeclId Parser::parseTypeEntry(Slice<Pragma> pragmas, Loc doc, AccessLevel access
     tree_.lost_names = true;  // another declaration may have been skipped
     syncDeclaration(Tok::EndType);
   }
-  return tree_.add<DeclId>(d);
+  return finish(d);
 }
 
 // ---- type expressions
 
-TypeExprId Parser::parseType() {
+TypeExprId DeclarationParser::parseType() {
   if (++type_depth_ > kMaxTypeDepth) {
     tooDeep("types", kMaxTypeDepth);
     --type_depth_;
@@ -107,44 +106,36 @@ TypeExprId Parser::parseType() {
   if (!beginsType(t_) && (!isName(kind()) || atLineStart()) && !at(Tok::Union) && !at(Tok::Semicolon))
     skipStray(beginsType(t_ + 1) && (t_[1].flags & kLineStart) == 0, diag::MissingType);
   const Loc start = here();
-  switch (static_cast<int>(kind())) {
-    case static_cast<int>(Tok::Array): type = parseArray(); break;
-    case static_cast<int>(Tok::Struct):
-    case static_cast<int>(Tok::Union): type = parseStruct(); break;
-    case static_cast<int>(Tok::LeftParen): type = parseEnum({}); break;
-    case static_cast<int>(Tok::RefTo): {
-      advance();
-      const TypeExprId target = parseType();
-      type =
-          tree_.add<TypeExprId>(PointerTypeExpr{{TypeExprKind::Pointer, 0, 0, start, {}}, target, PointerForm::RefTo});
-      break;
-    }
-    default:
-      if ((at(Tok::Pointer) || at(Tok::Reference)) && peek() == Tok::To) {
-        const PointerForm form = at(Tok::Pointer) ? PointerForm::Pointer : PointerForm::Reference;
-        advance();
-        advance();
-        const TypeExprId target = parseType();
-        type = tree_.add<TypeExprId>(PointerTypeExpr{{TypeExprKind::Pointer, 0, 0, start, {}}, target, form});
-      } else if (isName(kind()) || isTypeWord(kind())) {
-        type = parseNamedType();
-      } else if (at(Tok::Error)) {
-        last_error_ = t_;
-        panic_ = true;
-      } else if (atLineStart()) {
-        fail(diag::MissingType, t_ - 1, {describe(t_ - 1)});
-      } else {
-        fail(diag::MissingType, t_, {describe(t_)});
-      }
-      break;
+  if (at(Tok::Array)) {
+    type = parseArray();
+  } else if (at(Tok::Struct) || at(Tok::Union)) {
+    type = parseStruct();
+  } else if (at(Tok::LeftParen)) {
+    type = parseEnum({});
+  } else if (at(Tok::RefTo) || ((at(Tok::Pointer) || at(Tok::Reference)) && peek() == Tok::To)) {
+    const PointerForm form = at(Tok::RefTo)     ? PointerForm::RefTo
+                             : at(Tok::Pointer) ? PointerForm::Pointer
+                                                : PointerForm::Reference;
+    advance();
+    if (form != PointerForm::RefTo) advance();
+    const TypeExprId target = parseType();
+    type = tree_.add<TypeExprId>(PointerTypeExpr{header(TypeExprKind::Pointer, start), target, form});
+  } else if (isName(kind()) || isTypeWord(kind())) {
+    type = parseNamedType();
+  } else if (at(Tok::Error)) {
+    last_error_ = t_;
+    panic_ = true;
+  } else {
+    const Token* const marked = atLineStart() ? t_ - 1 : t_;
+    fail(diag::MissingType, marked, {describe(marked)});
   }
   --type_depth_;
-  return type;
+  return ended(type);
 }
 
 // name {"." name} | (STRING | WSTRING | USTRING) ["[" expr "]" | "(" expr ")"] | INT "(" low ".." high ")" | INT "("
 // items ")"
-TypeExprId Parser::parseNamedType() {
+TypeExprId DeclarationParser::namedType() {
   const Loc start = here();
   // USTRING is a keyword of edition 4 only: a type of the project may have its name.
   const bool is_utf8 = at(Tok::Ident) && is(t_, "USTRING") && (peek() == Tok::LeftBracket || peek() == Tok::LeftParen);
@@ -152,7 +143,7 @@ TypeExprId Parser::parseNamedType() {
     const StringEncoding code = is_utf8            ? StringEncoding::Utf8
                                 : at(Tok::Wstring) ? StringEncoding::Wide
                                                    : StringEncoding::Bytes;
-    StringTypeExpr d{{TypeExprKind::String, 0, 0, start, {}}, {}, code};
+    StringTypeExpr d{header(TypeExprKind::String, start), {}, code};
     advance();
     if (at(Tok::LeftBracket) || at(Tok::LeftParen)) {
       const Tok close = at(Tok::LeftBracket) ? Tok::RightBracket : Tok::RightParen;
@@ -162,10 +153,10 @@ TypeExprId Parser::parseNamedType() {
     }
     return tree_.add<TypeExprId>(d);
   }
-  NamedTypeExpr named{{TypeExprKind::Named, 0, 0, start, {}}, {}, {}, false, {}};
+  NamedTypeExpr named{header(TypeExprKind::Named, start), {}, {}, false, {}};
   const Token* first = t_;
   parseNamePath(named.path);
-  const TypeExprId base = tree_.add<TypeExprId>(named);
+  const TypeExprId base = ended(tree_.add<TypeExprId>(named));
   if (panic_) return base;
   if (at(Tok::LeftBracket) && first->kind == Tok::Ident) {
     static constexpr Tok kArray[] = {Tok::Array};
@@ -187,10 +178,11 @@ TypeExprId Parser::parseNamedType() {
     std::vector<ExprId> elements;
     advance();
     do {
-      CallExpr call{exprHeader(ExprKind::Call, here()), {}, {}, {}, {}};
       if (!at(Tok::LeftParen)) break;
-      call.arguments = parseArguments(call.end);
-      elements.push_back(tree_.add<ExprId>(call));
+      const Loc open = here();
+      Loc end;
+      const Slice<Argument> arguments = parseArguments(end);
+      elements.push_back(ended(build_.call({}, arguments, open, end)));
     } while (!panic_ && accept(Tok::Comma));
     if (!panic_) expect(Tok::RightBracket);
     tree_.as<NamedTypeExpr>(base).elements = tree_.addList<ExprId>(elements);
@@ -208,16 +200,16 @@ TypeExprId Parser::parseNamedType() {
   const Tok next = peek(2);
   if (isName(peek()) && (next == Tok::Comma || next == Tok::RightParen || next == Tok::Assign)) return parseEnum(base);
   advance();
-  SubrangeTypeExpr d{{TypeExprKind::Subrange, 0, 0, start, {}}, base, {}, {}};
+  SubrangeTypeExpr d{header(TypeExprKind::Subrange, start), base, {}, {}};
   d.low = parseExpr();
   if (!panic_) expect(Tok::DotDot);
-  d.high = panic_ ? errorExpr(here()) : parseExpr();
+  d.high = panic_ ? build_.error(here()) : parseExpr();
   closeParen(Tok::RightParen, false);
   return tree_.add<TypeExprId>(d);
 }
 
 // Whether the parentheses here contain `low .. high`.
-bool Parser::rangeFollows() const {
+bool DeclarationParser::rangeFollows() const {
   uint32_t depth = 0;
   for (const Token* t = t_; t->kind != Tok::End && t->kind != Tok::Semicolon; ++t) {
     if (t->kind == Tok::LeftParen) ++depth;
@@ -228,9 +220,9 @@ bool Parser::rangeFollows() const {
 }
 
 // STRUCT [EXTENDS type] [OVERLAP] {variable} END_STRUCT, UNION {variable} END_UNION
-TypeExprId Parser::parseStruct() {
+TypeExprId DeclarationParser::parseStruct() {
   const Token* open = t_;
-  StructTypeExpr d{{TypeExprKind::Struct, 0, 0, here(), {}}, {}, {}, at(Tok::Union), false};
+  StructTypeExpr d{header(TypeExprKind::Struct, here()), {}, {}, at(Tok::Union), false};
   const Tok end = d.is_union ? Tok::EndUnion : Tok::EndStruct;
   advance();
   if (at(Tok::Extends) && isName(peek())) {
@@ -247,16 +239,15 @@ TypeExprId Parser::parseStruct() {
   parseVars(SectionKind::Local, end, decls_);
   in_structure_ = outer;
   if (!accept(end)) {
-    const std::string line = std::to_string(sources_.location(loc(open)).line);
-    missing(diag::MissingEnd, {spelling(end), spelling(open->kind), line});
+    missingEnd(spelling(end), open, spelling(open->kind));
   }
   d.fields = listFrom(decls_, first);
   return tree_.add<TypeExprId>(d);
 }
 
 // "(" name [":=" expr] {"," name [":=" expr]} ")" [type]
-TypeExprId Parser::parseEnum(TypeExprId base) {
-  EnumTypeExpr d{{TypeExprKind::Enum, 0, 0, here(), {}}, {}, base};
+TypeExprId DeclarationParser::parseEnum(TypeExprId base) {
+  EnumTypeExpr d{header(TypeExprKind::Enum, here()), {}, base};
   advance();
   std::vector<EnumItem> items;
   while (!panic_ && !at(Tok::RightParen)) {
@@ -297,8 +288,8 @@ TypeExprId Parser::parseEnum(TypeExprId base) {
 }
 
 // ARRAY "[" (low ".." high | "*") {"," …} "]" OF type
-TypeExprId Parser::parseArray() {
-  ArrayTypeExpr d{{TypeExprKind::Array, 0, 0, here(), {}}, {}, {}};
+TypeExprId DeclarationParser::parseArray() {
+  ArrayTypeExpr d{header(TypeExprKind::Array, here()), {}, {}};
   advance();
   if (!accept(Tok::LeftBracket)) {
     if (at(Tok::LeftParen)) {
@@ -322,9 +313,7 @@ TypeExprId Parser::parseArray() {
         const uint64_t size = tree_.as<LiteralExpr>(bound.low).value();
         const std::string written = std::to_string(size), last = std::to_string(size == 0 ? 0 : size - 1);
         slip(diag::ArraySize, t_ - 1, {written, last});
-        LiteralExpr end = tree_.as<LiteralExpr>(bound.low);
-        end.setValue(size == 0 ? 0 : size - 1);
-        bound.high = tree_.add<ExprId>(end);
+        bound.high = build_.literal(LiteralKind::Integer, size == 0 ? 0 : size - 1, tree_.loc(bound.low));
         tree_.as<LiteralExpr>(bound.low).setValue(0);
       } else if (isOperand(kind())) {
         slip(diag::MissingToken, t_, {"..", describe(t_)});
@@ -332,7 +321,7 @@ TypeExprId Parser::parseArray() {
         fail(diag::MissingToken, t_, {"..", describe(t_)});
       }
     }
-    if (!bound.high) bound.high = panic_ ? errorExpr(here()) : parseExpr();
+    if (!bound.high) bound.high = panic_ ? build_.error(here()) : parseExpr();
     bounds.push_back(bound);
   } while (!panic_ && accept(Tok::Comma));
   if (!panic_ && at(Tok::RightParen)) {

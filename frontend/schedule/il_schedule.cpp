@@ -15,8 +15,10 @@
 #include "frontend/schedule/diagnostics.h"
 #include "frontend/schedule/il_flow.h"
 #include "frontend/schedule/il_structure.h"
+#include "frontend/syntax/clone.h"
 #include "frontend/syntax/diagnostics.h"
 #include "frontend/syntax/il.h"
+#include "frontend/syntax/tree_builder.h"
 
 namespace rung::text {
 namespace {
@@ -87,31 +89,21 @@ class IlScheduler {
   void keepOrDrop();
 
   // ---- nodes
-  ExprHeader exprHeader(ExprKind kind, Loc loc, uint8_t op = 0) const { return {kind, 0, 0, 0, op, 0, loc, {}}; }
-  StmtHeader stmtHeader(StmtKind kind, Loc loc, uint8_t op = 0) const { return {kind, op, 0, loc}; }
-  ExprId nameExpr(NameId name, Loc loc) {
-    return tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, loc), name, {}});
-  }
-  ExprId unary(UnaryOp op, ExprId operand, Loc loc) {
-    return tree_.add<ExprId>(UnaryExpr{exprHeader(ExprKind::Unary, loc, static_cast<uint8_t>(op)), operand});
-  }
-  ExprId copy(ExprId constant);
   void emit(StmtId statement) {
     finalizeOpen();
     out_.push_back(statement);
   }
   void assign(ExprId target, ExprId value, Loc loc, AssignOp op = AssignOp::Assign) {
-    emit(tree_.add<StmtId>(AssignStmt{stmtHeader(StmtKind::Assign, loc, static_cast<uint8_t>(op)), target, value}));
+    emit(build_.assign(op, target, value, loc));
   }
-  void callStatement(ExprId call) {
-    emit(tree_.add<StmtId>(CallStmt{stmtHeader(StmtKind::Call, tree_.loc(call)), call}));
-  }
+  void callStatement(ExprId call) { emit(build_.callStatement(call)); }
   // IF condition THEN statements emitted by `body` END_IF
   template <class Body>
   void conditional(ExprId condition, Loc loc, Body body);
   NameId newTemporary(Loc loc);
 
   Tree& tree_;
+  TreeBuilder build_{tree_};
   Names& names_;
   Diagnostics& diagnostics_;
   Signatures& signatures_;
@@ -150,9 +142,7 @@ NameId IlScheduler::newTemporary(Loc loc) {
     ++next_temporary_;
     ident.name = names_.intern(name);
   } while (signatures_.of(ident.name).kind != SignatureKind::Unknown);
-  VarDecl decl{{DeclKind::Var, 0, 0, loc, {}, {}}, {}, {}, {}, EdgeKind::None, false, {}, {}};
-  decl.names = tree_.addList<Ident>({&ident, 1});
-  temporaries_.push_back(tree_.add<DeclId>(decl));
+  temporaries_.push_back(build_.variable(ident, {}));
   return ident.name;
 }
 
@@ -166,21 +156,11 @@ IlScheduler::Value IlScheduler::valueOf(ExprId operand, Loc loc) const {
   return value;
 }
 
-ExprId IlScheduler::copy(ExprId constant) {
-  const ExprKind kind = tree_.kind(constant);
-  if (kind == ExprKind::TypedName) return tree_.add<ExprId>(TypedNameExpr(tree_.as<TypedNameExpr>(constant)));
-  if (kind == ExprKind::Literal) return tree_.add<ExprId>(LiteralExpr(tree_.as<LiteralExpr>(constant)));
-  UnaryExpr node = tree_.as<UnaryExpr>(constant);
-  node.operand = copy(node.operand);
-  return tree_.add<ExprId>(node);
-}
-
 // Evaluates the value now, into a temporary.
 void IlScheduler::spill(Value& value) {
   if (value.state != State::Known || value.constant || value.temporary) return;
   const NameId name = newTemporary(value.loc);
-  out_.push_back(
-      tree_.add<StmtId>(AssignStmt{stmtHeader(StmtKind::Assign, value.loc), nameExpr(name, value.loc), value.expr}));
+  out_.push_back(build_.assign(AssignOp::Assign, build_.name(name, value.loc), value.expr, value.loc));
   value.expr = {};
   value.temporary = name;
   value.literals = value.calls = false;
@@ -211,9 +191,9 @@ void IlScheduler::require(Value& value, const IlInstruction& reader) {
 // The value as an expression of the tree.
 ExprId IlScheduler::take(Value& value, Loc reader) {
   value.read = true;
-  if (value.state != State::Known) return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, reader)});
-  if (value.temporary) return nameExpr(value.temporary, reader);
-  return value.constant ? copy(value.expr) : value.expr;
+  if (value.state != State::Known) return build_.error(reader);
+  if (value.temporary) return build_.name(value.temporary, reader);
+  return value.constant ? clone(tree_, value.expr) : value.expr;
 }
 
 // The accumulator for an instruction that does not change it.
@@ -227,7 +207,7 @@ ExprId IlScheduler::use(const IlInstruction& reader) {
 
 IlScheduler::Value IlScheduler::negated(Value value, Loc loc) {
   Value result = value;
-  result.expr = unary(UnaryOp::Not, take(value, loc), loc);
+  result.expr = build_.unary(UnaryOp::Not, take(value, loc), loc);
   result.state = value.state == State::Broken ? State::Broken : State::Known;
   result.temporary = {};
   result.constant = result.read = false;
@@ -251,8 +231,7 @@ IlScheduler::Value IlScheduler::combined(Value left, BinaryOp op, Value right, L
   result.height = static_cast<uint16_t>(std::max(left.height, right.height) + 1);
   result.loc = loc;
   const ExprId first = take(left, loc), second = take(right, loc);
-  result.expr =
-      tree_.add<ExprId>(BinaryExpr{exprHeader(ExprKind::Binary, loc, static_cast<uint8_t>(op)), first, second});
+  result.expr = build_.binary(op, first, second, loc);
   limit(result);
   return result;
 }
@@ -285,10 +264,10 @@ void IlScheduler::conditional(ExprId condition, Loc loc, Body body) {
   finalizeOpen();
   const size_t first = out_.size();
   body();
-  IfBranch branch{condition, tree_.addList<StmtId>(std::span<const StmtId>(out_).subspan(first))};
+  const StmtId statement =
+      build_.ifStatement(condition, std::span<const StmtId>(out_).subspan(first), loc, kConditionalOp);
   out_.resize(first);
-  const Slice<IfBranch> branches = tree_.addList<IfBranch>({&branch, 1});
-  out_.push_back(tree_.add<StmtId>(IfStmt{stmtHeader(StmtKind::If, loc, kConditionalOp), branches, {}}));
+  out_.push_back(statement);
 }
 
 // Forbids instructions that leave open parentheses, and statements in the list of an argument.
@@ -348,7 +327,7 @@ void IlScheduler::label(const IlInstruction& i) {
   if (isLive(at_)) {
     if (!temporary) temporary = newTemporary(i.label.loc);
     if (falls_ && acc_.state == State::Empty) empty_ways_.push_back({at_, i.label.loc});
-    if (acc_.state == State::Known) assign(nameExpr(temporary, acc_.loc), take(acc_, acc_.loc), acc_.loc);
+    if (acc_.state == State::Known) assign(build_.name(temporary, acc_.loc), take(acc_, acc_.loc), acc_.loc);
     acc_ = {};
     acc_.state = State::Known;
     acc_.temporary = temporary;
@@ -356,7 +335,7 @@ void IlScheduler::label(const IlInstruction& i) {
   } else {
     drop();
   }
-  emit(tree_.add<StmtId>(LabelStmt{stmtHeader(StmtKind::Label, i.label.loc), i.label}));
+  emit(build_.label(i.label));
   falls_ = true;
 }
 
@@ -416,7 +395,7 @@ void IlScheduler::store(const IlInstruction& i) {
   else if ((i.flags & kIlAttempt) != 0)
     assign(target, value, i.loc, AssignOp::Attempt);
   else
-    assign(target, (i.flags & kIlNegated) != 0 ? unary(UnaryOp::Not, value, i.loc) : value, i.loc);
+    assign(target, (i.flags & kIlNegated) != 0 ? build_.unary(UnaryOp::Not, value, i.loc) : value, i.loc);
 }
 
 void IlScheduler::binary(const IlInstruction& i) {
@@ -458,9 +437,7 @@ IlScheduler::Value IlScheduler::called(ExprId callee, std::vector<Argument>& arg
   value.calls = true;
   value.height = static_cast<uint16_t>(height + 1);
   value.loc = loc;
-  CallExpr node{exprHeader(ExprKind::Call, tree_.loc(callee)), callee, {}, loc, {}};
-  node.arguments = tree_.addList<Argument>(arguments);
-  value.expr = tree_.add<ExprId>(node);
+  value.expr = build_.call(callee, tree_.addList<Argument>(arguments), tree_.loc(callee), loc);
   return value;
 }
 
@@ -523,7 +500,7 @@ void IlScheduler::call(const IlInstruction& i) {
   if ((i.flags & kIlConditional) != 0) {
     require(acc_, i);
     ExprId condition = use(i);
-    if ((i.flags & kIlNegated) != 0) condition = unary(UnaryOp::Not, condition, i.loc);
+    if ((i.flags & kIlNegated) != 0) condition = build_.unary(UnaryOp::Not, condition, i.loc);
     conditional(condition, i.loc, [&] { callStatement(make().expr); });
     return;
   }
@@ -539,7 +516,7 @@ void IlScheduler::call(const IlInstruction& i) {
 void IlScheduler::jump(const IlInstruction& i) {
   const bool conditioned = (i.flags & kIlConditional) != 0;
   if (conditioned) require(acc_, i);
-  const StmtId statement = tree_.add<StmtId>(JumpStmt{stmtHeader(StmtKind::Jump, i.loc), i.target});
+  const StmtId statement = build_.jump(i.target, i.loc);
   const uint32_t target = flow_->labelOf(names_, i.target);
   NameId temporary;
   if (target != kNoInstruction && isLive(target)) {
@@ -550,7 +527,7 @@ void IlScheduler::jump(const IlInstruction& i) {
   const auto bring = [&] {
     if (acc_.state == State::Empty) empty_ways_.push_back({target, i.loc});
     if (acc_.state == State::Known && acc_.temporary != temporary)
-      assign(nameExpr(temporary, i.loc), take(acc_, i.loc), i.loc);
+      assign(build_.name(temporary, i.loc), take(acc_, i.loc), i.loc);
   };
   if (!conditioned) {
     if (temporary)
@@ -571,13 +548,13 @@ void IlScheduler::jump(const IlInstruction& i) {
     }
   }
   ExprId condition = use(i);
-  if ((i.flags & kIlNegated) != 0) condition = unary(UnaryOp::Not, condition, i.loc);
+  if ((i.flags & kIlNegated) != 0) condition = build_.unary(UnaryOp::Not, condition, i.loc);
   conditional(condition, i.loc, [&] { out_.push_back(statement); });
 }
 
 void IlScheduler::leave(const IlInstruction& i) {
   const bool conditioned = (i.flags & kIlConditional) != 0;
-  const auto make = [&] { return tree_.add<StmtId>(ReturnStmt{stmtHeader(StmtKind::Return, i.loc)}); };
+  const auto make = [&] { return build_.returnStatement(i.loc); };
   if (!conditioned) {
     drop();
     emit(make());
@@ -586,7 +563,7 @@ void IlScheduler::leave(const IlInstruction& i) {
   }
   require(acc_, i);
   ExprId condition = use(i);
-  if ((i.flags & kIlNegated) != 0) condition = unary(UnaryOp::Not, condition, i.loc);
+  if ((i.flags & kIlNegated) != 0) condition = build_.unary(UnaryOp::Not, condition, i.loc);
   conditional(condition, i.loc, [&] { out_.push_back(make()); });
 }
 
@@ -596,9 +573,7 @@ IlStatements IlScheduler::run(Slice<IlInstruction> list) {
   IlStatements result{tree_.addList<StmtId>(out_), {}};
   if (!temporaries_.empty()) {
     const Loc loc = tree_.loc(temporaries_.front());
-    SectionDecl section{{DeclKind::Section, 0, 0, loc, {}, {}}, SectionKind::Temp, AccessLevel::None, {}};
-    section.vars = tree_.addList<DeclId>(temporaries_);
-    result.temporaries = tree_.add<DeclId>(section);
+    result.temporaries = build_.section(SectionKind::Temp, temporaries_, loc);
   }
   return result;
 }

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "frontend/syntax/tree_builder.h"
+
 namespace rung::text {
 namespace {
 
@@ -117,8 +119,7 @@ void Structurer::flushPending(StmtId statement) {
     if (tree_.kind(branch.condition) == ExprKind::Unary && tree_.as<UnaryExpr>(branch.condition).op() == UnaryOp::Not)
       created.condition = tree_.as<UnaryExpr>(branch.condition).operand;
     else
-      created.condition = tree_.add<ExprId>(
-          UnaryExpr{{ExprKind::Unary, 0, 0, 0, static_cast<uint8_t>(UnaryOp::Not), 0, loc, {}}, branch.condition});
+      created.condition = TreeBuilder(tree_).unary(UnaryOp::Not, branch.condition, loc);
     created.body = skipped;
   } else {
     created.body = tree_.addList<StmtId>(body);

@@ -6,6 +6,8 @@
 
 #include "frontend/schedule/network_feedback.h"
 #include "frontend/syntax/diagram.h"
+#include "frontend/syntax/standard_names.h"
+#include "frontend/syntax/tree_builder.h"
 
 namespace rung::diagram {
 namespace {
@@ -54,7 +56,7 @@ TypeExprId BoxTypes::ofOperands(uint32_t element, bool selects, uint32_t depth) 
   const Slice<DiagramPin> pins = graph_.elements[element].pins;
   for (uint32_t p = 0; p < pins.count; ++p) {
     const DiagramPin pin = tree_.list(pins)[p];
-    if (pin.direction == PinDirection::Output || isOneOf(names_.string(pin.name.name), {"EN"})) continue;
+    if (pin.direction == PinDirection::Output || isOneOf(names_.string(pin.name.name), {kEnable})) continue;
     if (std::exchange(selects, false) || pin.wires.empty()) continue;
     if (pin.edge != EdgeKind::None) return named("BOOL", pin.name.loc);
     if (const TypeExprId type = ofSource(graph_.sourceOf(pin, 0), depth + 1)) return type;
@@ -109,7 +111,7 @@ TypeExprId BoxTypes::ofSource(uint32_t source, uint32_t depth) {
     case ElementKind::Compose:
     case ElementKind::Comment: return {};
   }
-  if (pin && isOneOf(names_.string(pin), {"ENO"})) return named("BOOL", e.loc);
+  if (pin && isOneOf(names_.string(pin), {kEnableOutput})) return named("BOOL", e.loc);
   const DeclId callee = e.path && tree_.kind(e.path) == ExprKind::Name ? declared(e.name.name) : DeclId{};
   const bool pou = callee && tree_.kind(callee) == DeclKind::Pou;
   if (pin && pou)
@@ -196,8 +198,9 @@ TypeExprId BoxTypes::ofMember(TypeExprId type, NameId member, uint32_t depth) {
 }
 
 TypeExprId BoxTypes::ofVariable(const PouDecl& pou, NameId name, uint32_t depth) {
-  for (uint32_t s = 0; s < pou.sections.count; ++s)
-    if (const TypeExprId type = ofVariable(tree_.as<SectionDecl>(tree_.list(pou.sections)[s]).vars, name)) return type;
+  for (const Slice<DeclId>& sections : {pou.sections, pou.hidden})
+    for (const DeclId section : tree_.list(sections))
+      if (const TypeExprId type = ofVariable(tree_.as<SectionDecl>(section).vars, name)) return type;
   for (uint32_t b = 0; b < pou.bases.count && depth < kMaxDepth; ++b) {
     const TypeExprId base = tree_.list(pou.bases)[b];
     if (!base || tree_.kind(base) != TypeExprKind::Named) continue;
@@ -231,10 +234,7 @@ TypeExprId BoxTypes::resolved(TypeExprId type) {
 
 TypeExprId BoxTypes::named(std::string_view type, Loc loc) {
   const Ident ident{names_.intern(type), loc};
-  NamedTypeExpr node{};
-  node.h = {TypeExprKind::Named, 0, 0, loc, {}};
-  node.path = tree_.addList<Ident>({&ident, 1});
-  return tree_.add<TypeExprId>(node);
+  return TreeBuilder(tree_).namedType({&ident, 1}, loc);
 }
 
 DeclId BoxTypes::declared(NameId name) {

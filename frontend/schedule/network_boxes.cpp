@@ -5,47 +5,39 @@
 // see a temporary that is 0 (the initial value) in cycles in which EN is FALSE.
 #include <algorithm>
 #include <cctype>
-#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "frontend/schedule/diagnostics.h"
 #include "frontend/schedule/network_scheduler.h"
 #include "frontend/syntax/diagram.h"
+#include "frontend/syntax/standard_names.h"
 
 namespace rung::diagram {
 namespace {
 
 enum class Form : uint8_t { Chain, Pair, Invert, Move };  // a op b op c …, a op b, NOT a, a
 struct Operator {
-  std::string_view name;
   Form form;
   BinaryOp op;
 };
-constexpr Operator kOperators[] = {{"AND", Form::Chain, BinaryOp::And},      {"OR", Form::Chain, BinaryOp::Or},
-                                   {"XOR", Form::Chain, BinaryOp::Xor},      {"ADD", Form::Chain, BinaryOp::Add},
-                                   {"MUL", Form::Chain, BinaryOp::Multiply}, {"SUB", Form::Pair, BinaryOp::Subtract},
-                                   {"DIV", Form::Pair, BinaryOp::Divide},    {"MOD", Form::Pair, BinaryOp::Modulo},
-                                   {"GT", Form::Pair, BinaryOp::Greater},    {"GE", Form::Pair, BinaryOp::GreaterEqual},
-                                   {"EQ", Form::Pair, BinaryOp::Equal},      {"LE", Form::Pair, BinaryOp::LessEqual},
-                                   {"LT", Form::Pair, BinaryOp::Less},       {"NE", Form::Pair, BinaryOp::NotEqual},
-                                   {"NOT", Form::Invert, BinaryOp::Or},      {"MOVE", Form::Move, BinaryOp::Or}};
-
-const Operator* operatorNamed(std::string_view name) {
-  const auto* found = std::find_if(std::begin(kOperators), std::end(kOperators),
-                                   [&](const Operator& op) { return sameIdentifier(op.name, name); });
-  return found == std::end(kOperators) ? nullptr : found;
+// The function of an operator that a box without instance calls.
+std::optional<Operator> operatorNamed(std::string_view name) {
+  if (const OperatorFunction* function = operatorFunction(name))
+    return Operator{function->extensible ? Form::Chain : Form::Pair, function->op};
+  if (sameIdentifier(name, kNot)) return Operator{Form::Invert, BinaryOp::Or};
+  if (sameIdentifier(name, kMove)) return Operator{Form::Move, BinaryOp::Or};
+  return std::nullopt;
 }
 
-bool isControl(const Names& names, NameId pin) {
-  return sameIdentifier(names.string(pin), "EN") || sameIdentifier(names.string(pin), "ENO");
-}
+bool isControl(const Names& names, NameId pin) { return rung::isControl(names.string(pin)); }
 
 }  // namespace
 
 struct Scheduler::Call {
   Signature signature;
   ExprId callee;
-  const Operator* op = nullptr;
+  std::optional<Operator> op;
   std::vector<Argument> arguments;
   DiagramPin en{};
   bool has_en = false;
@@ -53,7 +45,7 @@ struct Scheduler::Call {
 
 bool Scheduler::isOperator(const DiagramElement& e) const {
   return e.kind == ElementKind::Box && !e.operand && e.path && tree_.kind(e.path) == ExprKind::Name &&
-         operatorNamed(names_.string(e.name.name)) != nullptr;
+         operatorNamed(names_.string(e.name.name)).has_value();
 }
 
 // The pin that a wire comes from; for a wire without a pin name the only one besides ENO.
@@ -145,10 +137,10 @@ ExprId Scheduler::readBox(uint32_t source) {
       wired != nullptr && !wired->wires.empty())  // the wire of an in-out continues after the box
     return read(graph_.sourceOf(*wired, 0));
   ExprId value;
-  if (e.stored) return nameExpr(e.stored, loc);
-  if (failed_[s.element]) return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
+  if (e.stored) return build_.name(e.stored, loc);
+  if (failed_[s.element]) return build_.error(loc);
   if (keepsState(e)) {
-    const ExprId instance = e.operand ? clone(tree_, e.operand) : nameExpr(e.hidden, e.loc);
+    const ExprId instance = e.operand ? clone(tree_, e.operand) : build_.name(e.hidden, e.loc);
     const Signature signature = e.operand ? signatures_.of(e.operand) : signatures_.of(e.hidden);
     NameId pin = s.pin.name;
     if (signature.kind == SignatureKind::Instance) {
@@ -163,13 +155,13 @@ ExprId Scheduler::readBox(uint32_t source) {
         for (const PinSignature& candidate : signature.pins) candidates.push_back(names_.string(candidate.name));
         diagnostics_.report(diag::NoSuchPin, loc, {describe(tree_, names_, e), "output", names_.string(pin)})
             .didYouMean(nearest(names_.string(pin), candidates));
-        return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
+        return build_.error(loc);
       }
     }
-    value = memberExpr(instance, pin, loc);
+    value = build_.member(instance, pin, loc);
   } else {
     diagnostics_.report(diag::ReadBeforeExecution, loc, {describe(tree_, names_, e)});
-    return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, loc)});
+    return build_.error(loc);
   }
   const DiagramPin* out = outputNamed(e, s.pin);
   return out != nullptr && out->negated ? inverted(value, loc) : value;
@@ -194,7 +186,7 @@ void Scheduler::giveResult(uint32_t element, uint32_t result, ExprId value) {
   if (const DiagramPin* out = outputNamed(e, s.pin); out != nullptr && out->negated) value = inverted(value, e.loc);
   if (e.stored) {
     s.temporary = e.stored;
-    return assign(nameExpr(e.stored, e.loc), value, e.loc);
+    return assign(build_.name(e.stored, e.loc), value, e.loc);
   }
   s.pending = value;
   s.height = heightOf(e);
@@ -227,18 +219,19 @@ void Scheduler::resolveOperator(uint32_t element, Call& call) {
   }
   ExprId value = call.arguments[0].value;
   if (call.op->form == Form::Invert) value = inverted(value, e.loc);
-  for (size_t k = 1; k < call.arguments.size(); ++k) value = binary(call.op->op, value, call.arguments[k].value, e.loc);
+  for (size_t k = 1; k < call.arguments.size(); ++k)
+    value = build_.binary(call.op->op, value, call.arguments[k].value, e.loc);
 
-  const uint32_t eno = graph_.find(element, names_.intern("ENO"));
+  const uint32_t eno = graph_.find(element, names_.intern(kEnableOutput));
   const uint32_t result = resultOf(element, {});
   if (!call.has_en) {
     if (eno != kNone) {
-      graph_.sources[eno].pending = trueExpr(e.loc);
+      graph_.sources[eno].pending = build_.boolean(true, e.loc);
       keep(eno, wireName(element) + "_ENO");
     }
     if (result != kNone) return giveResult(element, result, value);
     const NameId unread = newTemporary(wireName(element), e.loc);
-    return assign(nameExpr(unread, e.loc), value, e.loc);
+    return assign(build_.name(unread, e.loc), value, e.loc);
   }
   ExprId condition = valueOf(e, call.en);
   if (eno != kNone) {
@@ -253,17 +246,15 @@ void Scheduler::resolveOperator(uint32_t element, Call& call) {
   } else {
     const NameId name = newTemporary(wireName(element), e.loc);
     if (result != kNone) graph_.sources[result].temporary = name;
-    target = nameExpr(name, e.loc);
+    target = build_.name(name, e.loc);
   }
-  conditional(condition, e.loc,
-              tree_.add<StmtId>(AssignStmt{stmtHeader(StmtKind::Assign, e.loc, static_cast<uint8_t>(AssignOp::Assign)),
-                                           target, value}));
+  conditional(condition, e.loc, build_.assign(AssignOp::Assign, target, value, e.loc));
 }
 
 // The call of an instance, or of a POU without result.
 void Scheduler::resolveCall(uint32_t element, Call& call) {
   const DiagramElement e = graph_.elements[element];
-  const uint32_t eno = graph_.find(element, names_.intern("ENO"));
+  const uint32_t eno = graph_.find(element, names_.intern(kEnableOutput));
   if (call.has_en) {
     const Loc loc = call.en.name.loc;
     call.arguments.insert(call.arguments.begin(), {call.en.name, valueOf(e, call.en), false, false, loc});
@@ -272,7 +263,7 @@ void Scheduler::resolveCall(uint32_t element, Call& call) {
     const NameId name = newTemporary(wireName(element) + "_ENO", e.loc);
     graph_.sources[eno].temporary = name;
     const Ident pin = graph_.sources[eno].pin;
-    call.arguments.push_back({pin, nameExpr(name, pin.loc), true, false, pin.loc});
+    call.arguments.push_back({pin, build_.name(name, pin.loc), true, false, pin.loc});
   }
   const bool function = call.signature.kind == SignatureKind::Function ||
                         call.signature.kind == SignatureKind::Method || call.signature.kind == SignatureKind::Unknown;
@@ -289,13 +280,14 @@ void Scheduler::resolveCall(uint32_t element, Call& call) {
       source.temporary = newTemporary(wireName(element) + "_" + std::string(names_.string(source.pin.name)), e.loc);
       const DiagramPin* out = pinNamed(e, names_.string(source.pin.name), PinDirection::Output);
       source.inverted = out != nullptr && out->negated;
-      call.arguments.push_back({source.pin, nameExpr(source.temporary, source.pin.loc), true, false, source.pin.loc});
+      call.arguments.push_back(
+          {source.pin, build_.name(source.temporary, source.pin.loc), true, false, source.pin.loc});
       outputs = true;
     }
   }
-  const ExprId value = callExpr(call.callee, call.arguments, tree_.loc(call.callee));
+  const ExprId value = build_.call(call.callee, call.arguments, tree_.loc(call.callee));
   if (result == kNone) {
-    emit(tree_.add<StmtId>(CallStmt{stmtHeader(StmtKind::Call, e.loc), value}));
+    emit(build_.callStatement(value));
     return;
   }
   if (call.has_en || outputs) {
@@ -330,7 +322,7 @@ void Scheduler::resolveBox(uint32_t element) {
     failed_[element] = true;
     return;
   }
-  call.callee = e.operand ? operandOf(element) : e.hidden ? nameExpr(e.hidden, e.loc) : e.path;
+  call.callee = e.operand ? operandOf(element) : e.hidden ? build_.name(e.hidden, e.loc) : e.path;
   resolveCall(element, call);
 }
 

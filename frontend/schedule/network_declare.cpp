@@ -5,7 +5,10 @@
 
 #include "frontend/schedule/network_feedback.h"
 #include "frontend/schedule/network_schedule.h"
+#include "frontend/syntax/children.h"
 #include "frontend/syntax/diagram.h"
+#include "frontend/syntax/standard_names.h"
+#include "frontend/syntax/tree_builder.h"
 
 namespace rung::diagram {
 namespace {
@@ -14,25 +17,21 @@ class Declarer {
  public:
   Declarer(Tree& tree, Names& names, Signatures& signatures, const PouDecl& pou, std::string_view prefix)
       : tree_(tree), names_(names), signatures_(signatures), prefix_(prefix) {
-    for (uint32_t s = 0; s < pou.sections.count; ++s) {
-      const Slice<DeclId> vars = tree_.as<SectionDecl>(tree_.list(pou.sections)[s]).vars;
-      for (uint32_t v = 0; v < vars.count; ++v)
-        for (const Ident& name : tree_.list(tree_.as<VarDecl>(tree_.list(vars)[v]).names))
+    forEachSection(tree_, pou, [&](const SectionDecl& section) {
+      for (const DeclId var : tree_.list(section.vars))
+        for (const Ident& name : tree_.list(tree_.as<VarDecl>(var).names))
           taken_.push_back(names_.key(name.name).index);
-    }
+    });
     std::sort(taken_.begin(), taken_.end());
   }
 
   void run(Slice<DiagramElement> elements) {
-    for (uint32_t k = 0; k < elements.count; ++k) {
-      const DiagramElement e = tree_.list(elements)[k];
-      if (const NameId hidden = ofElement(e)) tree_.list(elements)[k].hidden = hidden;
-      for (uint32_t p = 0; p < e.pins.count; ++p) {
-        const DiagramPin pin = tree_.list(e.pins)[p];
+    for (DiagramElement& e : tree_.list(elements)) {
+      if (const NameId hidden = ofElement(e)) e.hidden = hidden;
+      for (DiagramPin& pin : tree_.list(e.pins)) {
         if (pin.edge == EdgeKind::None) continue;
         const std::string base = sensor(pin.edge) + number(e) + "_" + std::string(names_.string(pin.name.name));
-        const NameId hidden = declare(base, sensorType(pin.edge, pin.name.loc), pin.name.loc);
-        tree_.list(e.pins)[p].hidden = hidden;
+        pin.hidden = declare(base, sensorType(pin.edge, pin.name.loc), pin.name.loc);
       }
     }
   }
@@ -54,7 +53,7 @@ class Declarer {
   const std::vector<DeclId>& vars() const { return vars_; }
 
  private:
-  static std::string sensor(EdgeKind edge) { return edge == EdgeKind::Rising ? "R_TRIG_" : "F_TRIG_"; }
+  static std::string sensor(EdgeKind edge) { return std::string(edgeDetector(edge)) + "_"; }
   static std::string number(const DiagramElement& e) { return std::to_string(e.number); }
 
   NameId ofElement(const DiagramElement& e) {
@@ -66,8 +65,8 @@ class Declarer {
   }
 
   TypeExprId sensorType(EdgeKind edge, Loc loc) {
-    const Ident name{names_.intern(edge == EdgeKind::Rising ? "R_TRIG" : "F_TRIG"), loc};
-    return named({&name, 1}, loc);
+    const Ident name{names_.intern(edgeDetector(edge)), loc};
+    return TreeBuilder(tree_).namedType({&name, 1}, loc);
   }
   // The path of a box as a type expression.
   TypeExprId typeOf(ExprId path) {
@@ -77,13 +76,7 @@ class Declarer {
       idents.push_back({tree_.as<MemberExpr>(path).member, tree_.loc(path)});
     idents.push_back({tree_.as<NameExpr>(path).name, tree_.loc(path)});
     std::reverse(idents.begin(), idents.end());
-    return named(idents, loc);
-  }
-  TypeExprId named(std::span<const Ident> path, Loc loc) {
-    NamedTypeExpr type{};
-    type.h = {TypeExprKind::Named, 0, 0, loc, {}};
-    type.path = tree_.addList<Ident>(path);
-    return tree_.add<TypeExprId>(type);
+    return TreeBuilder(tree_).namedType(idents, loc);
   }
   NameId declare(const std::string& base, TypeExprId type, Loc loc) {
     std::string spelling = std::string(prefix_) + base;
@@ -91,9 +84,7 @@ class Declarer {
     while (std::binary_search(taken_.begin(), taken_.end(), names_.key(name).index))
       name = names_.intern(spelling += "x");
     const Ident ident{name, loc};
-    VarDecl decl{{DeclKind::Var, 0, 0, loc, {}, {}}, {}, type, {}, EdgeKind::None, false, {}, {}};
-    decl.names = tree_.addList<Ident>({&ident, 1});
-    vars_.push_back(tree_.add<DeclId>(decl));
+    vars_.push_back(TreeBuilder(tree_).variable(ident, type));
     return name;
   }
 
@@ -114,9 +105,7 @@ DeclId declareNetworks(Tree& tree, Names& names, Diagnostics& diagnostics, Signa
   declarer.keepValues(diagnostics, pou);
   if (declarer.vars().empty()) return {};
   const Loc loc = tree.loc(declarer.vars().front());
-  SectionDecl section{{DeclKind::Section, kHidden, 0, loc, {}, {}}, kind, AccessLevel::None, {}};
-  section.vars = tree.addList<DeclId>(declarer.vars());
-  return tree.add<DeclId>(section);
+  return TreeBuilder(tree).section(kind, declarer.vars(), loc, kHidden);
 }
 
 }  // namespace rung::diagram

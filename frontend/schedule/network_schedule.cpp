@@ -6,6 +6,7 @@
 #include "frontend/schedule/diagnostics.h"
 #include "frontend/schedule/network_scheduler.h"
 #include "frontend/syntax/diagram.h"
+#include "frontend/syntax/standard_names.h"
 
 namespace rung::diagram {
 namespace {
@@ -17,21 +18,6 @@ constexpr uint32_t kManyWires = 32;
 
 // ---- nodes
 
-ExprId Scheduler::inverted(ExprId operand, Loc loc) {
-  return tree_.add<ExprId>(UnaryExpr{exprHeader(ExprKind::Unary, loc, static_cast<uint8_t>(UnaryOp::Not)), operand});
-}
-
-ExprId Scheduler::trueExpr(Loc loc) {
-  const LiteralExpr node{exprHeader(ExprKind::Literal, loc, static_cast<uint8_t>(LiteralKind::Bool)), {}, 1, 0};
-  return tree_.add<ExprId>(node);
-}
-
-ExprId Scheduler::callExpr(ExprId callee, std::span<const Argument> arguments, Loc loc) {
-  CallExpr node{exprHeader(ExprKind::Call, loc), callee, {}, loc, {}};
-  node.arguments = tree_.addList<Argument>(arguments);
-  return tree_.add<ExprId>(node);
-}
-
 //   fails   an edge in a function        E1012
 ExprId Scheduler::sensed(NameId sensor, ExprId value, Loc loc) {
   if (function_ != nullptr) {
@@ -39,8 +25,8 @@ ExprId Scheduler::sensed(NameId sensor, ExprId value, Loc loc) {
     return value;
   }
   const Argument clk{{names_.intern("CLK"), loc}, value, false, false, loc};
-  emit(tree_.add<StmtId>(CallStmt{stmtHeader(StmtKind::Call, loc), callExpr(nameExpr(sensor, loc), {&clk, 1}, loc)}));
-  return memberExpr(nameExpr(sensor, loc), names_.intern("Q"), loc);
+  emit(build_.callStatement(build_.call(build_.name(sensor, loc), {&clk, 1}, loc)));
+  return build_.member(build_.name(sensor, loc), names_.intern("Q"), loc);
 }
 
 // Pending values that contain calls are evaluated before another statement.
@@ -50,20 +36,11 @@ void Scheduler::emit(StmtId statement) {
   out_.push_back(statement);
 }
 
-void Scheduler::conditional(ExprId condition, Loc loc, StmtId statement) {
-  const IfBranch branch{condition, tree_.addList<StmtId>({&statement, 1})};
-  IfStmt node{stmtHeader(StmtKind::If, loc, kConditionalOp), {}, {}};
-  node.branches = tree_.addList<IfBranch>({&branch, 1});
-  emit(tree_.add<StmtId>(node));
-}
-
 NameId Scheduler::newTemporary(const std::string& base, Loc loc) {
   Ident ident{names_.intern(base), loc};
   for (int k = 2; signatures_.of(ident.name).kind != SignatureKind::Unknown; ++k)
     ident.name = names_.intern(base + "_" + std::to_string(k));
-  VarDecl decl{{DeclKind::Var, 0, 0, loc, {}, {}}, {}, {}, {}, EdgeKind::None, false, {}, {}};
-  decl.names = tree_.addList<Ident>({&ident, 1});
-  temporaries_.push_back(tree_.add<DeclId>(decl));
+  temporaries_.push_back(build_.variable(ident, {}));
   return ident.name;
 }
 
@@ -81,7 +58,7 @@ void Scheduler::keep(uint32_t source, const std::string& base) {
   const ExprId value = std::exchange(graph_.sources[source].pending, {});
   graph_.sources[source].temporary = name;
   graph_.sources[source].height = 1;
-  assign(nameExpr(name, loc), value, loc);
+  assign(build_.name(name, loc), value, loc);
 }
 
 // ---- wires
@@ -117,12 +94,12 @@ uint16_t Scheduler::heightOf(const DiagramElement& e) const {
 ExprId Scheduler::joined(const DiagramPin& pin, uint32_t first, uint32_t count) {
   if (count > kManyWires) {
     const ExprId left = joined(pin, first, count / 2);
-    return binary(BinaryOp::Or, left, joined(pin, first + count / 2, count - count / 2), pin.name.loc);
+    return build_.binary(BinaryOp::Or, left, joined(pin, first + count / 2, count - count / 2), pin.name.loc);
   }
   ExprId value = read(graph_.sourceOf(pin, first));
   for (uint32_t w = 1; w < count; ++w) {
     const Loc loc = tree_.list(pin.wires)[first + w].loc;
-    value = binary(BinaryOp::Or, value, read(graph_.sourceOf(pin, first + w)), loc);
+    value = build_.binary(BinaryOp::Or, value, read(graph_.sourceOf(pin, first + w)), loc);
   }
   return value;
 }
@@ -132,7 +109,7 @@ ExprId Scheduler::valueOf(const DiagramElement& e, const DiagramPin& pin) {
   if (pin.wires.empty()) return {};
   ExprId value;
   if (isTrue(pin)) {
-    value = trueExpr(e.loc);
+    value = build_.boolean(true, e.loc);
   } else {
     if (pin.wires.count > 1 && language_ != NetworkLanguage::Ladder) {
       bool ladder = false;
@@ -165,12 +142,12 @@ ExprId Scheduler::read(uint32_t source) {
   Source& s = graph_.sources[source];
   const DiagramElement& e = graph_.elements[s.element];
   if (s.temporary) {
-    const ExprId value = nameExpr(s.temporary, e.loc);
+    const ExprId value = build_.name(s.temporary, e.loc);
     return s.inverted ? inverted(value, e.loc) : value;
   }
   if (s.pending) return std::exchange(s.pending, {});
   switch (e.kind) {
-    case ElementKind::Rail: return trueExpr(e.loc);
+    case ElementKind::Rail: return build_.boolean(true, e.loc);
     case ElementKind::Input:
     case ElementKind::InOut: {
       const ExprId value = operandOf(s.element);
@@ -183,11 +160,11 @@ ExprId Scheduler::read(uint32_t source) {
       if (pin == nullptr || pin->wires.empty() || isTrue(*pin)) return value;
       const DiagramPin copy = *pin;
       const ExprId left = valueOf(e, copy);
-      return binary(BinaryOp::And, left, value, e.loc);
+      return build_.binary(BinaryOp::And, left, value, e.loc);
     }
     case ElementKind::Box:
     case ElementKind::Execute: return readBox(source);
-    case ElementKind::Compose: return nameExpr(e.hidden, e.loc);
+    case ElementKind::Compose: return build_.name(e.hidden, e.loc);
     case ElementKind::Connector: {
       const DiagramPin pin = *firstInput(e);
       return valueOf(e, pin);
@@ -204,7 +181,7 @@ ExprId Scheduler::read(uint32_t source) {
   }
   // Not computed yet: possible only if it is later in the execution order.
   diagnostics_.report(diag::ReadBeforeExecution, e.loc, {describe(tree_, names_, e)});
-  return tree_.add<ExprId>(ErrorExpr{exprHeader(ExprKind::Error, e.loc)});
+  return build_.error(e.loc);
 }
 
 // ---- the walk
@@ -326,7 +303,7 @@ void Scheduler::resolveContact(uint32_t element) {
     if (pin != nullptr && !pin->wires.empty() && !isTrue(*pin)) {
       const DiagramPin copy = *pin;
       const ExprId left = valueOf(e, copy);
-      value = binary(BinaryOp::And, left, value, e.loc);
+      value = build_.binary(BinaryOp::And, left, value, e.loc);
     }
     graph_.sources[source].pending = value;
   }
@@ -401,12 +378,13 @@ void Scheduler::resolveComposer(uint32_t element) {
     if (pin.direction == PinDirection::Output || pin.wires.empty()) continue;
     const ExprId value = valueOf(e, pin);
     if (e.kind == ElementKind::Compose) {
-      if (e.hidden) assign(memberExpr(nameExpr(e.hidden, e.loc), pin.name.name, pin.name.loc), value, pin.name.loc);
+      if (e.hidden)
+        assign(build_.member(build_.name(e.hidden, e.loc), pin.name.name, pin.name.loc), value, pin.name.loc);
       continue;
     }
     for (uint32_t s = graph_.first_source[element]; s != kNone; s = graph_.sources[s].next) {
       const Ident member = graph_.sources[s].pin;
-      graph_.sources[s].pending = memberExpr(clone(tree_, value), member.name, member.loc);
+      graph_.sources[s].pending = build_.member(clone(tree_, value), member.name, member.loc);
       keep(s, wireName(element) + "_" + std::string(names_.string(member.name)));
     }
     return;
@@ -416,7 +394,7 @@ void Scheduler::resolveComposer(uint32_t element) {
 
 void Scheduler::resolveExecute(uint32_t element) {
   const DiagramElement e = graph_.elements[element];
-  const DiagramPin* en = pinNamed(e, "EN", PinDirection::Input);
+  const DiagramPin* en = pinNamed(e, kEnable, PinDirection::Input);
   ExprId condition;
   if (en != nullptr && !en->wires.empty()) {
     const DiagramPin copy = *en;
@@ -427,7 +405,7 @@ void Scheduler::resolveExecute(uint32_t element) {
   }
   const uint32_t eno = graph_.first_source[element];
   if (eno != kNone) {
-    graph_.sources[eno].pending = condition ? condition : trueExpr(e.loc);
+    graph_.sources[eno].pending = condition ? condition : build_.boolean(true, e.loc);
     keep(eno, wireName(element));
     if (condition) condition = read(eno);
   }
@@ -435,21 +413,16 @@ void Scheduler::resolveExecute(uint32_t element) {
     for (uint32_t k = 0; k < e.body.count; ++k) emit(tree_.list(e.body)[k]);
     return;
   }
-  const IfBranch branch{condition, e.body};
-  IfStmt node{stmtHeader(StmtKind::If, e.loc, kConditionalOp), {}, {}};
-  node.branches = tree_.addList<IfBranch>({&branch, 1});
-  emit(tree_.add<StmtId>(node));
+  emit(build_.ifStatement(condition, tree_.list(e.body), e.loc, kConditionalOp));
 }
 
 void Scheduler::resolveJump(uint32_t element) {
   const DiagramElement e = graph_.elements[element];
   if (e.kind == ElementKind::Label) {
-    emit(tree_.add<StmtId>(LabelStmt{stmtHeader(StmtKind::Label, e.name.loc), e.name}));
+    emit(build_.label(e.name));
     return;
   }
-  const StmtId leave = e.kind == ElementKind::Jump
-                           ? tree_.add<StmtId>(JumpStmt{stmtHeader(StmtKind::Jump, e.name.loc), e.name})
-                           : tree_.add<StmtId>(ReturnStmt{stmtHeader(StmtKind::Return, e.loc)});
+  const StmtId leave = e.kind == ElementKind::Jump ? build_.jump(e.name, e.name.loc) : build_.returnStatement(e.loc);
   const DiagramPin* pin = firstInput(e);
   if (pin == nullptr || pin->wires.empty() || (isTrue(*pin) && !e.negated)) return emit(leave);
   const DiagramPin copy = *pin;
@@ -526,9 +499,7 @@ Statements Scheduler::run(const PouDecl& pou) {
   Statements result{tree_.addList<StmtId>(out_), {}};
   if (!temporaries_.empty()) {
     const Loc loc = tree_.loc(temporaries_.front());
-    SectionDecl section{{DeclKind::Section, 0, 0, loc, {}, {}}, SectionKind::Temp, AccessLevel::None, {}};
-    section.vars = tree_.addList<DeclId>(temporaries_);
-    result.temporaries = tree_.add<DeclId>(section);
+    result.temporaries = build_.section(SectionKind::Temp, temporaries_, loc);
   }
   return result;
 }

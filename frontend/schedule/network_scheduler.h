@@ -13,6 +13,7 @@
 #include "frontend/schedule/network_graph.h"
 #include "frontend/syntax/clone.h"
 #include "frontend/syntax/diagram.h"
+#include "frontend/syntax/tree_builder.h"
 
 namespace rung::diagram {
 
@@ -79,32 +80,22 @@ class Scheduler {
   const DiagramPin* firstInput(const DiagramElement& e) const;
 
   // ---- nodes
-  ExprHeader exprHeader(ExprKind kind, Loc loc, uint8_t op = 0) const { return {kind, 0, 0, 0, op, 0, loc, {}}; }
-  StmtHeader stmtHeader(StmtKind kind, Loc loc, uint8_t op = 0) const { return {kind, op, 0, loc}; }
-  ExprId nameExpr(NameId name, Loc loc) {
-    return tree_.add<ExprId>(NameExpr{exprHeader(ExprKind::Name, loc), name, {}});
-  }
-  ExprId memberExpr(ExprId base, NameId member, Loc loc) {
-    return tree_.add<ExprId>(MemberExpr{exprHeader(ExprKind::Member, loc), base, member, {}});
-  }
-  ExprId inverted(ExprId operand, Loc loc);
-  ExprId binary(BinaryOp op, ExprId left, ExprId right, Loc loc) {
-    return tree_.add<ExprId>(BinaryExpr{exprHeader(ExprKind::Binary, loc, static_cast<uint8_t>(op)), left, right});
-  }
-  ExprId trueExpr(Loc loc);
-  ExprId callExpr(ExprId callee, std::span<const Argument> arguments, Loc loc);
+  ExprId inverted(ExprId operand, Loc loc) { return build_.unary(UnaryOp::Not, operand, loc); }
   // The edge of `value`, detected by the instance `sensor`, which is called here.
   ExprId sensed(NameId sensor, ExprId value, Loc loc);
   void emit(StmtId statement);
   void assign(ExprId target, ExprId value, Loc loc, AssignOp op = AssignOp::Assign) {
-    emit(tree_.add<StmtId>(AssignStmt{stmtHeader(StmtKind::Assign, loc, static_cast<uint8_t>(op)), target, value}));
+    emit(build_.assign(op, target, value, loc));
   }
-  void conditional(ExprId condition, Loc loc, StmtId statement);
+  void conditional(ExprId condition, Loc loc, StmtId statement) {
+    emit(build_.ifStatement(condition, {&statement, 1}, loc, kConditionalOp));
+  }
   NameId newTemporary(const std::string& base, Loc loc);
   void keep(uint32_t source, const std::string& base);  // pending -> temporary
   std::string wireName(uint32_t element) const;
 
   Tree& tree_;
+  TreeBuilder build_{tree_};
   Names& names_;
   Diagnostics& diagnostics_;
   Signatures& signatures_;

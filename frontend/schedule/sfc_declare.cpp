@@ -58,11 +58,8 @@ void declareSfc(const Charts& charts, PouDecl& pou, const ChartContext& context)
   Writer out(charts, pou.body_begin);
   writeSections(chart, out);
   pou.chart_sections = out.finish();
-  std::vector<DeclId> sections(charts.tree.list(pou.sections).begin(), charts.tree.list(pou.sections).end());
-  const Slice<DeclId> created =
+  pou.hidden =
       parseSections(charts.tree, charts.names, charts.sources, pou.chart_sections, charts.dialect, charts.diagnostics);
-  for (const DeclId section : charts.tree.list(created)) sections.push_back(section);
-  pou.sections = charts.tree.addList<DeclId>(sections);
 }
 
 }  // namespace rung::text

@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "frontend/schedule/sfc_scheduler.h"
+#include "frontend/syntax/children.h"
 #include "frontend/syntax/sfc.h"
 
 namespace rung::text {
@@ -299,13 +300,14 @@ void SfcScheduler::run() {
   transitions();
 }
 
-// False: a duplicate name, which sema has reported.
+// False: a duplicate name, which was reported.
 static bool namesDiffer(const Charts& charts, const PouDecl& pou) {
   std::vector<uint32_t> keys;
-  for (const DeclId section : charts.tree.list(pou.sections))
-    for (const DeclId var : charts.tree.list(charts.tree.as<SectionDecl>(section).vars))
+  forEachSection(charts.tree, pou, [&](const SectionDecl& section) {
+    for (const DeclId var : charts.tree.list(section.vars))
       for (const Ident& name : charts.tree.list(charts.tree.as<VarDecl>(var).names))
         keys.push_back(charts.names.key(name.name).index);
+  });
   for (const DeclId member : charts.tree.list(pou.members))
     if (charts.tree.kind(member) == DeclKind::Pou)
       keys.push_back(charts.names.key(charts.tree.as<PouDecl>(member).name).index);

@@ -1,5 +1,5 @@
 // Copies of expressions as the parser creates them: for expressions that a diagram or a list uses several times, so
-// that sema can annotate each copy separately.
+// that each copy has its own annotations.
 #pragma once
 
 #include "frontend/syntax/tree.h"

@@ -1,4 +1,5 @@
-// Messages that the parser shares with importers, sema or the tools. One constant for each row of diagnostics.def.
+// Messages that the parser shares with importers, the checker or the tools. One constant for each row of
+// diagnostics.def.
 #pragma once
 
 #include "frontend/source/diagnostics.h"

@@ -1,4 +1,4 @@
-// Ids of the syntax tree, and the ids that sema writes into it. The tree treats sema's ids as opaque numbers.
+// Ids of the syntax tree, and the ids with which a checked tree is annotated, opaque numbers to the tree itself.
 #pragma once
 
 #include <cstdint>
@@ -36,32 +36,32 @@ struct TypeExprId {
   friend bool operator==(TypeExprId, TypeExprId) = default;
 };
 
-// A run of elements in the tree's list storage of that element type.
+// A list in the tree's arena: the word of its first element. Empty: no word.
 template <class T>
 struct Slice {
   uint32_t first = 0, count = 0;
   bool empty() const { return count == 0; }
 };
 
-// Written by sema. TypeId: index in types::TypeTable; 0 none, 1 the Error type that silences followers.
+// Annotation: a type. 0: none; 1: the Error type that silences followers.
 struct TypeId {
   uint32_t index = 0;
   explicit operator bool() const { return index != 0; }
   friend bool operator==(TypeId, TypeId) = default;
 };
 
-// The entity that a name denotes; index is into the table of sema::Project that the kind names.
+// Annotation: what a name denotes, as an index into a table of that kind.
 enum class EntityKind : uint8_t {
   None,
   Error,
-  Var,         // Project::vars: local, pin, field, global
-  Pou,         // Project::pous
-  Type,        // index is a TypeId
-  EnumValue,   // Project::enum_values
-  GlobalList,  // Project::global_lists (a GVL used as a qualifier)
-  Namespace,   // Project::namespaces (a library used as a qualifier)
-  Program,     // Project::program_instances
-  Property,    // Project::properties
+  Var,  // local, pin, field, global
+  Pou,
+  Type,  // the index is a TypeId
+  EnumValue,
+  GlobalList,  // a GVL used as a qualifier
+  Namespace,   // a library used as a qualifier
+  Program,     // an instance of one
+  Property,
 };
 struct Entity {
   uint32_t kind : 4 = 0;
@@ -76,7 +76,7 @@ struct Entity {
   explicit operator bool() const { return kind != 0; }
 };
 
-// Index into Project::calls of a call that sema has resolved. 0: not resolved.
+// Annotation: a resolved call. 0: not resolved.
 struct CallId {
   uint32_t index = 0;
   explicit operator bool() const { return index != 0; }

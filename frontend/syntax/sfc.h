@@ -1,6 +1,6 @@
 // A Sequential Function Chart as the parser creates it: steps and transitions in source order, which is the order in
-// which they are evaluated. Actions are members of the POU; of a MACRO_STEP only its steps and transitions remain. Sema
-// has the chart turned into statements when it is about to check the body (frontend/schedule/sfc_schedule.h). IEC
+// which they are evaluated. Actions are members of the POU; of a MACRO_STEP only its steps and transitions remain. The
+// chart becomes statements when the body is about to be checked (frontend/schedule/sfc_schedule.h). IEC
 // 61131-3 ed. 3, 6.7; TM/TP manual 5.5.
 #pragma once
 

@@ -59,6 +59,9 @@ class StPrinter {
   void list(Slice<ExprId> ids);
   void arguments(Slice<Argument> arguments);
   void newExpr(const NewExpr& e);
+  void unary(ExprId id, int least);
+  void binary(ExprId id, int least);
+  void structInit(const StructInitExpr& e);
   void literal(const LiteralExpr& e);
   void quoted(std::string_view s, char quote);
   void time(const LiteralExpr& e);
@@ -215,7 +218,7 @@ void StPrinter::literal(const LiteralExpr& e) {
 
 void StPrinter::address(const DirectAddress& a) {
   out += '%';
-  out += a.area == ImageArea::Input ? 'I' : a.area == ImageArea::Output ? 'Q' : 'M';
+  out += a.area;
   if (a.size_given) out += a.size;
   if (a.incomplete) out += '*';
   bool first = true;
@@ -286,7 +289,46 @@ void StPrinter::newExpr(const NewExpr& e) {
   out += ')';
 }
 
+void StPrinter::unary(ExprId id, int least) {
+  const auto& e = tree_.as<UnaryExpr>(id);
+  if (least > kUnary) return operand(id, 0, true);
+  out += spelling(e.op());
+  if (e.op() == UnaryOp::Not) out += ' ';
+  const ExprKind inner = tree_.kind(e.operand);
+  return operand(e.operand, kPrimary, inner == ExprKind::Binary || inner == ExprKind::Unary);
+}
+
+void StPrinter::binary(ExprId id, int least) {
+  const auto& e = tree_.as<BinaryExpr>(id);
+  const int own = precedenceOf(e.op());
+  if (own < least) return operand(id, 0, true);
+  // Mixed comparisons, logic and powers are easier to read with parentheses.
+  const auto apart = [&](ExprId side, bool right) {
+    if (tree_.kind(side) == ExprKind::Unary) return e.op() == BinaryOp::Power || (right && own > 3);
+    if (tree_.kind(side) != ExprKind::Binary) return false;
+    const BinaryOp op = tree_.as<BinaryExpr>(side).op();
+    return own <= 5 && op != e.op() && precedenceOf(op) <= 5;
+  };
+  operand(e.left, own, apart(e.left, false));
+  out.append(" ").append(spelling(e.op())).append(" ");
+  return operand(e.right, own + 1, apart(e.right, true));
+}
+
+void StPrinter::structInit(const StructInitExpr& e) {
+  bool first = true;
+  out += '(';
+  for (const FieldInit& field : tree_.list(e.fields)) {
+    if (!first) out += ", ";
+    first = false;
+    name(field.field.name);
+    out += " := ";
+    expr(field.value, 0);
+  }
+  out += ')';
+}
+
 void StPrinter::expr(ExprId id, int least) {
+  id = tree_.written(id);
   switch (tree_.kind(id)) {
     case ExprKind::Literal: return literal(tree_.as<LiteralExpr>(id));
     case ExprKind::Name: return name(tree_.as<NameExpr>(id).name);
@@ -324,29 +366,8 @@ void StPrinter::expr(ExprId id, int least) {
       return;
     }
     case ExprKind::Address: return address(tree_.as<AddressExpr>(id).address);
-    case ExprKind::Unary: {
-      const auto& e = tree_.as<UnaryExpr>(id);
-      if (least > kUnary) return operand(id, 0, true);
-      out += spelling(e.op());
-      if (e.op() == UnaryOp::Not) out += ' ';
-      const ExprKind inner = tree_.kind(e.operand);
-      return operand(e.operand, kPrimary, inner == ExprKind::Binary || inner == ExprKind::Unary);
-    }
-    case ExprKind::Binary: {
-      const auto& e = tree_.as<BinaryExpr>(id);
-      const int own = precedenceOf(e.op());
-      if (own < least) return operand(id, 0, true);
-      // Mixed comparisons, logic and powers are easier to read with parentheses.
-      const auto apart = [&](ExprId side, bool right) {
-        if (tree_.kind(side) == ExprKind::Unary) return e.op() == BinaryOp::Power || (right && own > 3);
-        if (tree_.kind(side) != ExprKind::Binary) return false;
-        const BinaryOp op = tree_.as<BinaryExpr>(side).op();
-        return own <= 5 && op != e.op() && precedenceOf(op) <= 5;
-      };
-      operand(e.left, own, apart(e.left, false));
-      out.append(" ").append(spelling(e.op())).append(" ");
-      return operand(e.right, own + 1, apart(e.right, true));
-    }
+    case ExprKind::Unary: return unary(id, least);
+    case ExprKind::Binary: return binary(id, least);
     case ExprKind::Call: {
       const auto& e = tree_.as<CallExpr>(id);
       expr(e.callee, kPrimary);
@@ -373,26 +394,14 @@ void StPrinter::expr(ExprId id, int least) {
       out += ')';
       return;
     }
-    case ExprKind::StructInit: {
-      bool first = true;
-      out += '(';
-      for (const FieldInit& field : tree_.list(tree_.as<StructInitExpr>(id).fields)) {
-        if (!first) out += ", ";
-        first = false;
-        name(field.field.name);
-        out += " := ";
-        expr(field.value, 0);
-      }
-      out += ')';
-      return;
-    }
+    case ExprKind::StructInit: return structInit(tree_.as<StructInitExpr>(id));
     case ExprKind::Error:
     case ExprKind::Convert:
     case ExprKind::Bound:
     case ExprKind::AnyValue:
     case ExprKind::AddressOf: break;
   }
-  RUNG_INVARIANT(false, "statements are printed before sema has changed them, and only where they have no errors");
+  RUNG_INVARIANT(false, "statements are printed where they have no errors");
 }
 
 // ---- statements

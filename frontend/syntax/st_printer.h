@@ -1,5 +1,5 @@
-// Statements as Structured Text: the output of `rung convert --to st` for bodies that a scheduler made, before sema
-// changes them. In: the tree as parsers and schedulers create it. Out: source that parses to the same tree.
+// Statements as Structured Text: the output of `rung convert --to st` for bodies that a scheduler made, before they
+// are checked. In: the tree as parsers and schedulers create it. Out: source that parses to the same tree.
 #pragma once
 
 #include <span>

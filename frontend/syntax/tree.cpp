@@ -1,5 +1,7 @@
 #include "frontend/syntax/tree.h"
 
+#include <algorithm>
+
 #include "frontend/syntax/diagram.h"
 #include "frontend/syntax/il.h"
 #include "frontend/syntax/sfc.h"
@@ -53,58 +55,150 @@ const char* spelling(AssignOp op) {
   return "";
 }
 
+ExprShape shape(ExprKind kind) {
+  static constexpr ExprShape kShapes[] = {
+#define RUNG_EXPR(kind, word, shape, ...) ExprShape::shape,
+#include "frontend/syntax/nodes.def"
+  };
+  return kShapes[static_cast<size_t>(kind)];
+}
+
+// ---- storage
+
 Tree::Tree() = default;
 
 Tree::~Tree() {
-  for (const uint32_t* chunk : chunks_) delete[] chunk;
+  for (const uint32_t* block : blocks_) delete[] block;
 }
 
-uint32_t Tree::store(const void* node, size_t bytes) {
-  const auto words = static_cast<uint32_t>((bytes + 3) / 4);
-  if (next_word_ % kChunkWords + words > kChunkWords) next_word_ = (next_word_ / kChunkWords + 1) * kChunkWords;
-  const uint32_t chunk = next_word_ / kChunkWords;
-  if (chunk == chunks_.size()) chunks_.push_back(new uint32_t[kChunkWords]);
+uint32_t Tree::allocate(uint32_t words, uint32_t alignment) {
+  if (alignment > 1) next_word_ += next_word_ % alignment;
+  const uint32_t used = next_word_ % kChunkWords;
+  if (used == 0 || used + words > kChunkWords) {
+    next_word_ = static_cast<uint32_t>(chunks_.size()) * kChunkWords;
+    if (next_word_ == 0) next_word_ = 2;  // 0 means no node
+    const uint32_t count = (next_word_ % kChunkWords + words + kChunkWords - 1) / kChunkWords;
+    blocks_.push_back(new uint32_t[size_t{count} * kChunkWords]);
+    for (uint32_t k = 0; k < count; ++k) chunks_.push_back(blocks_.back() + size_t{k} * kChunkWords);
+  }
   const uint32_t word = next_word_;
-  std::memcpy(chunks_[chunk] + word % kChunkWords, node, bytes);
   next_word_ += words;
   return word;
 }
 
-Loc Tree::begin(ExprId id) const {
-  for (;;) {
-    switch (kind(id)) {
-      case ExprKind::Member: id = as<MemberExpr>(id).base; break;
-      case ExprKind::Index: id = as<IndexExpr>(id).base; break;
-      case ExprKind::This:
-      case ExprKind::Super: return loc(id);
-      case ExprKind::Deref: id = as<DerefExpr>(id).base; break;
-      case ExprKind::BitAccess: id = as<BitAccessExpr>(id).base; break;
-      case ExprKind::Binary: id = as<BinaryExpr>(id).left; break;
-      case ExprKind::Call: id = as<CallExpr>(id).callee; break;
-      case ExprKind::Range: id = as<RangeExpr>(id).low; break;
-      case ExprKind::Repeat: id = as<RepeatExpr>(id).count; break;
-      case ExprKind::Convert: id = as<ConvertExpr>(id).operand; break;
-      case ExprKind::AnyValue: id = as<AnyValueExpr>(id).value; break;
-      case ExprKind::New:
-      case ExprKind::AddressOf:
-      case ExprKind::Bound:
-      case ExprKind::Error:
-      case ExprKind::Literal:
-      case ExprKind::Name:
-      case ExprKind::TypedName:
-      case ExprKind::Address:
-      case ExprKind::Unary:
-      case ExprKind::ArrayInit:
-      case ExprKind::StructInit: return loc(id);
-    }
-    if (!id) return {};
-  }
+uint32_t Tree::store(const void* node, size_t bytes) {
+  const uint32_t word = allocate(static_cast<uint32_t>((bytes + 3) / 4));
+  std::memcpy(address(word), node, bytes);
+  return word;
 }
 
 StringId Tree::addString(std::string_view text) {
-  const StringId id{static_cast<uint32_t>(strings_.size()), static_cast<uint32_t>(text.size())};
-  strings_.insert(strings_.end(), text.begin(), text.end());
-  return id;
+  if (text.empty()) return {};
+  return {store(text.data(), text.size()), static_cast<uint32_t>(text.size())};
 }
+
+// ---- what was written
+
+ExprId Tree::insertCopy(ExprId original) {
+  // clang-format off
+  switch (kind(original)) {
+#define RUNG_EXPR(kind, word, shape, ...) \
+  case ExprKind::kind: return insert(as<kind##Expr>(original));
+#include "frontend/syntax/nodes.def"
+  }
+  // clang-format on
+  return {};
+}
+
+void Tree::replace(ExprId& slot, ExprId by) {
+  const bool is_new = expr(by).synthesized != 0 && !at<ExprId>(by.word - 1);
+  if (!is_new) by = insertCopy(by);
+  at<ExprId>(by.word - 1) = slot;
+  slot = by;
+}
+
+void Tree::parenthesize(ExprId id, Loc open, Loc close_end) {
+  expr(id).in_parens = 1;
+  // The node was made last, so that it is at the end, or there already from a pair of parentheses inside these.
+  auto it = parens_.end();
+  while (it != parens_.begin() && it[-1].of.word >= id.word) --it;
+  if (it != parens_.end() && it->of == id)
+    *it = {id, open, close_end};
+  else
+    parens_.insert(it, {id, open, close_end});
+}
+
+// ---- where nodes begin and end
+
+namespace {
+
+// The operand with which an expression begins; none: it begins with a token of its own.
+ExprId firstOperand(const Tree& tree, ExprId id) {
+  switch (tree.kind(id)) {
+    case ExprKind::Member: return tree.as<MemberExpr>(id).base;
+    case ExprKind::Index: return tree.as<IndexExpr>(id).base;
+    case ExprKind::Deref: return tree.as<DerefExpr>(id).base;
+    case ExprKind::BitAccess: return tree.as<BitAccessExpr>(id).base;
+    case ExprKind::Binary: return tree.as<BinaryExpr>(id).left;
+    case ExprKind::Call: return tree.as<CallExpr>(id).callee;
+    case ExprKind::Range: return tree.as<RangeExpr>(id).low;
+    case ExprKind::Repeat: return tree.as<RepeatExpr>(id).count;
+    case ExprKind::Convert: return tree.as<ConvertExpr>(id).operand;
+    case ExprKind::AnyValue: return tree.as<AnyValueExpr>(id).value;
+    case ExprKind::This:
+    case ExprKind::Super:
+    case ExprKind::New:
+    case ExprKind::AddressOf:
+    case ExprKind::Bound:
+    case ExprKind::Error:
+    case ExprKind::Literal:
+    case ExprKind::Name:
+    case ExprKind::TypedName:
+    case ExprKind::Address:
+    case ExprKind::Unary:
+    case ExprKind::ArrayInit:
+    case ExprKind::StructInit: return {};
+  }
+  return {};
+}
+
+}  // namespace
+
+Loc Tree::begin(ExprId id) const {
+  while (const ExprId first = firstOperand(*this, id)) id = first;
+  return loc(id);
+}
+
+Range Tree::range(ExprId id) const {
+  id = written(id);
+  if (!id) return {};
+  Range range{{}, expr(id).end};
+  for (ExprId at = id; !range.begin;) {
+    if (expr(at).in_parens != 0) {
+      const auto found = std::lower_bound(parens_.begin(), parens_.end(), at.word,
+                                          [](const Parens& p, uint32_t word) { return p.of.word < word; });
+      if (found != parens_.end() && found->of == at) {
+        range.begin = found->open;
+        if (at == id) range.end = found->end;
+        break;
+      }
+    }
+    const ExprId first = written(firstOperand(*this, at));
+    if (!first) range.begin = loc(at);
+    at = first;
+  }
+  return range;
+}
+
+Range Tree::range(StmtId id) const {
+  const StmtHeader& h = stmt(id);
+  if (h.kind == StmtKind::Assign) return {range(as<AssignStmt>(id).target).begin, h.end};
+  if (h.kind == StmtKind::Call) return {range(as<CallStmt>(id).call).begin, h.end};
+  return {h.loc, h.end};
+}
+
+Range Tree::range(TypeExprId id) const { return {typeExpr(id).loc, typeExpr(id).end}; }
+
+Range Tree::range(DeclId id) const { return {decl(id).begin, decl(id).end}; }
 
 }  // namespace rung

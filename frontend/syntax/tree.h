@@ -1,7 +1,11 @@
-// The syntax tree of all languages. In: nodes from the parsers (and from the schedulers of diagrams, IL and NCT). Out:
-// the same tree, annotated by sema, read by lowering and by the ST printer.
-// Nodes are trivial structs in one arena, addressed by typed 32-bit ids; references to nodes never become invalid.
-// nodes.def lists the kinds. Fields marked "sema" are empty until sema fills them.
+// The syntax tree of all languages. In: nodes from the parsers (and from the schedulers of diagrams, IL and NCT), made
+// by tree_builder.h. Out: what was written, with its source ranges, and the annotations of a checked program.
+// Nodes and lists are trivial structs in one arena of fixed chunks, addressed by typed 32-bit ids; references to nodes,
+// lists and strings never become invalid. nodes.def lists the kinds.
+//
+// Who checks a program writes only the fields marked "annotation", and makes explicit what the source leaves implicit
+// (a conversion, a dereference, a known value) by inserting nodes: replace() puts one into the slot of another, which
+// written() finds again. So the tree as written can be read before and after.
 #pragma once
 
 #include <cstdint>
@@ -21,20 +25,36 @@
 namespace rung {
 
 enum class ExprKind : uint8_t {
-#define RUNG_EXPR(kind, word) kind,
+#define RUNG_EXPR(kind, word, shape, ...) kind,
 #include "frontend/syntax/nodes.def"
 };
 enum class StmtKind : uint8_t {
-#define RUNG_STMT(kind, word) kind,
+#define RUNG_STMT(kind, word, ...) kind,
 #include "frontend/syntax/nodes.def"
 };
 enum class TypeExprKind : uint8_t {
-#define RUNG_TYPE_EXPR(kind, word) kind,
+#define RUNG_TYPE_EXPR(kind, word, ...) kind,
 #include "frontend/syntax/nodes.def"
 };
 enum class DeclKind : uint8_t {
-#define RUNG_DECL(kind, word) kind,
+#define RUNG_DECL(kind, word, ...) kind,
 #include "frontend/syntax/nodes.def"
+};
+
+// What an expression is made of.
+enum class ExprShape : uint8_t {
+  Leaf,         // a name, a literal, an address
+  Step,         // one step of a path: `base`, then .member, [index], ^ or .bit
+  Operation,    // a value from operands
+  Initializer,  // of an array or structure
+  Inserted,     // never written: only a check of the program makes it
+};
+ExprShape shape(ExprKind kind);
+
+// A source range: its first byte, and one past its last. Empty: of what was not written.
+struct Range {
+  Loc begin, end;
+  friend bool operator==(Range, Range) = default;
 };
 
 // Strings stored in the tree: string literals (decoded) and values of pragmas. A WSTRING is UTF-8 too.
@@ -92,13 +112,18 @@ enum class LiteralKind : uint8_t {
 struct ExprHeader {
   ExprKind kind;
   uint8_t in_parens : 1;    // written in parentheses (needed by the printer and for `-2**2`)
-  uint8_t is_constant : 1;  // sema: value known at compile time
-  uint8_t writable : 1;     // sema: an lvalue that may be assigned
+  uint8_t synthesized : 1;  // inserted by a check of the program: see Tree::written()
+  uint8_t is_constant : 1;  // annotation: value known at compile time
+  uint8_t writable : 1;     // annotation: an lvalue that may be assigned
   uint8_t op;               // UnaryOp, BinaryOp or LiteralKind
-  uint8_t bits;             // LiteralExpr, IndexExpr, CallExpr: flags below
+  uint8_t bits;             // LiteralExpr, CallExpr: flags below; of other kinds an annotation
   Loc loc;                  // first token; for Binary the operator, for Member the member name, for Call the callee
-  TypeId type;              // sema
+  Loc end;                  // one past the last token, without parentheses around it; none: not written
+  TypeId type;              // annotation
 };
+constexpr ExprHeader header(ExprKind kind, Loc loc, uint8_t op = 0, uint8_t bits = 0) {
+  return {kind, 0, 0, 0, 0, op, bits, loc, {}, {}};
+}
 
 struct ErrorExpr {
   ExprHeader h;
@@ -121,29 +146,29 @@ struct LiteralExpr {
 struct NameExpr {
   ExprHeader h;
   NameId name;
-  Entity entity; /* sema */
+  Entity entity;  // annotation
 };
 struct TypedNameExpr {
   ExprHeader h;
   Ident type_name;
   Ident item;
-  Entity entity; /* sema */
+  Entity entity;  // annotation
 };
 struct MemberExpr {  // h.loc is the member's name
   ExprHeader h;
   ExprId base;
   NameId member;
-  Entity entity;  // sema: Var for a field or pin (base is the record), else the entity that `base.member` as a whole
-                  // denotes
+  Entity entity;  // annotation: Var for a field or pin (base is the record), else the entity that `base.member` as a
+                  // whole denotes
 };
 struct IndexExpr {  // base[i, j]; h.bits of a character of a string: kWritesCharacter
   ExprHeader h;
   ExprId base;
   Slice<ExprId> indices;
 };
-constexpr uint8_t kWritesCharacter = 1;    // sema
-constexpr uint8_t kBitMember = 1;          // sema
-constexpr uint8_t kMustLeadSomewhere = 1;  // sema
+constexpr uint8_t kWritesCharacter = 1;    // annotation
+constexpr uint8_t kBitMember = 1;          // annotation
+constexpr uint8_t kMustLeadSomewhere = 1;  // annotation
 struct ThisExpr {
   ExprHeader h;
 };
@@ -154,7 +179,7 @@ struct DerefExpr {
   ExprHeader h;
   ExprId base;
 };
-// width 1: bit, 8, 16, 32: part of a bit string; position in units of width. h.bits: kBitMember: created by sema;
+// width 1: bit, 8, 16, 32: part of a bit string; position in units of width. h.bits: kBitMember: inserted;
 // `base` names a member of type BIT and denotes the byte that contains it.
 struct BitAccessExpr {
   ExprHeader h;
@@ -163,9 +188,8 @@ struct BitAccessExpr {
   uint8_t width;
 };
 
-enum class ImageArea : uint8_t { Input, Output, Memory };
-struct DirectAddress {  // %IX0.3, %QW*, %M5
-  ImageArea area;
+struct DirectAddress {   // %IX0.3, %QW*, %M5
+  char area;             // 'I', the letter of a memory area
   char size;             // 'X' 'B' 'W' 'D' 'L'
   bool incomplete;       // %I*
   bool size_given;       // %I5 has none
@@ -200,7 +224,7 @@ struct CallExpr {
   ExprId callee;
   Slice<Argument> arguments;
   Loc end;      // the closing parenthesis
-  CallId call;  // sema
+  CallId call;  // annotation
 };
 struct RangeExpr {
   ExprHeader h;
@@ -242,8 +266,8 @@ struct NewExpr {  // __NEW(what), __NEW(what, count)
   ExprHeader h;
   TypeExprId allocated;
   ExprId count;        // none: one
-  CallId constructor;  // sema: the arguments of FB_Init
-  CallId memory;       // sema: a call of __SYSTEM.Allocate, without its arguments
+  CallId constructor;  // annotation: the arguments of FB_Init
+  CallId memory;       // annotation: a call of __SYSTEM.Allocate, without its arguments
 };
 // h.type: a pointer or reference to the type of the lvalue. h.bits: kMustLeadSomewhere: of p^ for p[i], where a null p
 // is a fault although nothing is read there.
@@ -257,9 +281,12 @@ struct AddressOfExpr {
 struct StmtHeader {
   StmtKind kind;
   uint8_t op;
-  uint16_t spare;
+  uint8_t effect;  // annotation of AssignStmt
+  bool checked;    // annotation of an AssignStmt to a temporary: its value has a type
   Loc loc;
+  Loc end;  // one past the last token, with its `;`; none: made by a scheduler
 };
+constexpr StmtHeader header(StmtKind kind, Loc loc, uint8_t op = 0) { return {kind, op, op, false, loc, {}}; }
 // := S= R= REF= += -= *= /= ?=
 enum class AssignOp : uint8_t { Assign, Set, Reset, Reference, Add, Subtract, Multiply, Divide, Attempt };
 const char* spelling(AssignOp op);
@@ -273,11 +300,14 @@ struct AssignStmt {
   StmtHeader h;  // op: AssignOp; loc: the operator
   ExprId target, value;
   AssignOp op() const { return static_cast<AssignOp>(h.op); }
+  // Annotation: what remains to be done with the checked operands, for example Assign where a sum was made explicit.
+  AssignOp effect() const { return static_cast<AssignOp>(h.effect); }
+  void setEffect(AssignOp op) { h.effect = static_cast<uint8_t>(op); }
 };
 struct CallStmt {
   StmtHeader h;
   ExprId call;
-};  // a CallExpr
+};  // a CallExpr; a known value in its slot: nothing happens
 struct IfBranch {
   ExprId condition;
   Slice<StmtId> body;
@@ -346,8 +376,10 @@ struct TypeExprHeader {
   uint8_t bits;
   uint16_t spare;
   Loc loc;
-  TypeId type;  // sema
+  Loc end;      // one past the last token
+  TypeId type;  // annotation
 };
+constexpr TypeExprHeader header(TypeExprKind kind, Loc loc) { return {kind, 0, 0, loc, {}, {}}; }
 struct ErrorTypeExpr {
   TypeExprHeader h;
 };
@@ -408,11 +440,15 @@ struct PointerTypeExpr {
 struct DeclHeader {
   DeclKind kind;
   uint8_t bits;
-  uint16_t spare;
-  Loc loc;  // of the name where there is one, else the keyword
-  Loc doc;  // first `///` line above; none: no doc comment
+  uint16_t progress;  // annotation: how far a declaration has been checked
+  Loc loc;            // of the name where there is one, else the keyword
+  Loc doc;            // first `///` line above; none: no doc comment
   Slice<Pragma> pragmas;
+  Loc begin, end;  // of the whole declaration; of a POU begin is the first pragma before it
 };
+constexpr DeclHeader header(DeclKind kind, Loc loc, Loc doc = {}, Slice<Pragma> pragmas = {}) {
+  return {kind, 0, 0, loc, doc, pragmas, loc, {}};
+}
 // DeclHeader::bits of a POU and of a TYPE entry: syntax errors removed declarations from it, so a name that is missing
 // in it is not reported again.
 constexpr uint8_t kBrokenDeclarations = 1;
@@ -451,24 +487,25 @@ struct PouDecl {
   DeclHeader h;
   NameId name;
   PouKind pou_kind;
-  BodyKind body_kind;  // Il, Sfc and Network: St after sema has had them scheduled, which fills `body`
-  bool closed;         // has its END_…
-  bool uses_eno;       // ENO is an operand in its body
-  TypeExprId result;   // functions; none: no result
+  BodyKind body_kind;
+  bool scheduled;     // annotation: the statements of a body in IL, SFC or networks have been made: see `body`
+  bool closed;        // has its END_…
+  bool uses_eno;      // ENO is an operand in its body
+  TypeExprId result;  // functions; none: no result
   Slice<DeclId> sections;
-  Slice<StmtId> body;
+  Slice<DeclId> hidden;  // annotation: sections that a chart or networks need and the source does not declare
+  Slice<StmtId> body;    // of a body in ST as written; of a scheduled body an annotation
   Slice<IlInstruction> il;
   Diagram diagram;                    // of a body of networks
   Slice<SfcStep> steps;               // the chart of a body in SFC
   Slice<SfcTransition> transitions;   // in other bodies: conditions used by the charts of their actions
-  FileId chart_sections, chart_body;  // sema: the ST made from the chart
+  FileId chart_sections, chart_body;  // annotation: the ST made from the chart
   AccessLevel access;
   uint8_t modifiers;        // Modifier
   Slice<TypeExprId> bases;  // EXTENDS; several of an INTERFACE
   Slice<TypeExprId> implements;
   Slice<DeclId> members;  // METHOD, ACTION: Pou; Property
   Slice<DeclId> usings;
-  Loc begin, end;            // the first pragma before it, else the header keyword; one past END_…: the whole POU
   Loc body_begin, body_end;  // its statements or instructions; Cpp: with {C++} and {END_C++}
 };
 
@@ -483,7 +520,6 @@ struct PropertyDecl {
   uint8_t modifiers;
   TypeExprId type;
   DeclId get, set;  // Pou; none: not declared
-  Loc begin;        // its first keyword
 };
 
 struct NamespaceDecl {
@@ -509,7 +545,7 @@ struct SectionDecl {
 struct VarDecl {
   DeclHeader h;
   Slice<Ident> names;  // empty: unnamed located variable; VAR_CONFIG: the path; VAR_ACCESS: the name (`init`: the path)
-  TypeExprId type;     // none: a temporary of the compiler, whose type sema infers from its assignments
+  TypeExprId type;     // none: a temporary of the compiler, whose type follows from its assignments
   ExprId init;         // none: the type's default
   EdgeKind edge;
   bool located;
@@ -554,17 +590,17 @@ struct FileUnit {
 // The kind of a node struct, which Tree::as() checks in debug builds.
 template <class Node>
 inline constexpr int kind_of_node = -1;
-#define RUNG_EXPR(kind, word) \
-  template <>                 \
-  inline constexpr ExprKind kind_of_node<kind##Expr> = ExprKind::kind;
-#define RUNG_STMT(kind, word) \
-  template <>                 \
-  inline constexpr StmtKind kind_of_node<kind##Stmt> = StmtKind::kind;
-#define RUNG_TYPE_EXPR(kind, word) \
+#define RUNG_EXPR(kind, word, ...) \
   template <>                      \
+  inline constexpr ExprKind kind_of_node<kind##Expr> = ExprKind::kind;
+#define RUNG_STMT(kind, word, ...) \
+  template <>                      \
+  inline constexpr StmtKind kind_of_node<kind##Stmt> = StmtKind::kind;
+#define RUNG_TYPE_EXPR(kind, word, ...) \
+  template <>                           \
   inline constexpr TypeExprKind kind_of_node<kind##TypeExpr> = TypeExprKind::kind;
-#define RUNG_DECL(kind, word) \
-  template <>                 \
+#define RUNG_DECL(kind, word, ...) \
+  template <>                      \
   inline constexpr DeclKind kind_of_node<kind##Decl> = DeclKind::kind;
 #include "frontend/syntax/nodes.def"
 
@@ -576,189 +612,128 @@ class Tree {
   Tree& operator=(const Tree&) = delete;
 
   // ---- reading. The node must be of the kind asked for (checked in debug builds).
-  ExprKind kind(ExprId id) const { return header<ExprHeader>(id.word).kind; }
-  StmtKind kind(StmtId id) const { return header<StmtHeader>(id.word).kind; }
-  DeclKind kind(DeclId id) const { return header<DeclHeader>(id.word).kind; }
-  TypeExprKind kind(TypeExprId id) const { return header<TypeExprHeader>(id.word).kind; }
-  ExprHeader& expr(ExprId id) { return header<ExprHeader>(id.word); }
-  const ExprHeader& expr(ExprId id) const { return header<ExprHeader>(id.word); }
-  const StmtHeader& stmt(StmtId id) const { return header<StmtHeader>(id.word); }
-  DeclHeader& decl(DeclId id) { return header<DeclHeader>(id.word); }
-  const DeclHeader& decl(DeclId id) const { return header<DeclHeader>(id.word); }
-  TypeExprHeader& typeExpr(TypeExprId id) { return header<TypeExprHeader>(id.word); }
-  const TypeExprHeader& typeExpr(TypeExprId id) const { return header<TypeExprHeader>(id.word); }
+  ExprKind kind(ExprId id) const { return at<ExprHeader>(id.word).kind; }
+  StmtKind kind(StmtId id) const { return at<StmtHeader>(id.word).kind; }
+  DeclKind kind(DeclId id) const { return at<DeclHeader>(id.word).kind; }
+  TypeExprKind kind(TypeExprId id) const { return at<TypeExprHeader>(id.word).kind; }
+  ExprHeader& expr(ExprId id) { return at<ExprHeader>(id.word); }
+  const ExprHeader& expr(ExprId id) const { return at<ExprHeader>(id.word); }
+  StmtHeader& stmt(StmtId id) { return at<StmtHeader>(id.word); }
+  const StmtHeader& stmt(StmtId id) const { return at<StmtHeader>(id.word); }
+  DeclHeader& decl(DeclId id) { return at<DeclHeader>(id.word); }
+  const DeclHeader& decl(DeclId id) const { return at<DeclHeader>(id.word); }
+  TypeExprHeader& typeExpr(TypeExprId id) { return at<TypeExprHeader>(id.word); }
+  const TypeExprHeader& typeExpr(TypeExprId id) const { return at<TypeExprHeader>(id.word); }
   Loc loc(ExprId id) const { return expr(id).loc; }
   Loc loc(StmtId id) const { return stmt(id).loc; }
   Loc loc(DeclId id) const { return decl(id).loc; }
   Loc loc(TypeExprId id) const { return typeExpr(id).loc; }
-  // The location where an expression begins: the leftmost token of its operands.
+  // The location where an expression begins: the leftmost token of its operands, without parentheses around it.
   Loc begin(ExprId id) const;
+  // The source range of a node as written, with parentheses around it. Empty: nothing was written here.
+  Range range(ExprId id) const;
+  Range range(StmtId id) const;
+  Range range(TypeExprId id) const;
+  Range range(DeclId id) const;
 
-  template <class Node>
-  Node& as(ExprId id) {
+  template <class Node, class Id>
+  Node& as(Id id) {
     return node<Node>(kind(id), id.word);
   }
-  template <class Node>
-  Node& as(StmtId id) {
-    return node<Node>(kind(id), id.word);
-  }
-  template <class Node>
-  Node& as(DeclId id) {
-    return node<Node>(kind(id), id.word);
-  }
-  template <class Node>
-  Node& as(TypeExprId id) {
-    return node<Node>(kind(id), id.word);
-  }
-  template <class Node>
-  const Node& as(ExprId id) const {
-    return node<Node>(kind(id), id.word);
-  }
-  template <class Node>
-  const Node& as(StmtId id) const {
-    return node<Node>(kind(id), id.word);
-  }
-  template <class Node>
-  const Node& as(DeclId id) const {
-    return node<Node>(kind(id), id.word);
-  }
-  template <class Node>
-  const Node& as(TypeExprId id) const {
+  template <class Node, class Id>
+  const Node& as(Id id) const {
     return node<Node>(kind(id), id.word);
   }
 
-  // ---- writing
+  // ---- writing: see tree_builder.h
   template <class Id, class Node>
   Id add(const Node& node) {
     return Id{store(&node, sizeof(Node))};
   }
+  // Notes the parentheses around an expression.
+  void parenthesize(ExprId expr, Loc open, Loc close_end);
 
-  // Lists of ids and of small structs. The span is valid until the next list of that element type is added.
+  // Nodes that a check of the program inserts know what they replace.
+  template <class Node>
+  ExprId insert(Node node) {
+    node.h.synthesized = 1;
+    const uint32_t word = allocate(1 + sizeof(Node) / 4);
+    at<ExprId>(word) = {};  // what it replaces
+    std::memcpy(address(word + 1), &node, sizeof(Node));
+    return {word + 1};
+  }
+  // A node of the same kind and with the same fields, which may be changed where the original may not.
+  ExprId insertCopy(ExprId original);
+  // Puts `by`, or a copy of it if it is used elsewhere, into the slot.
+  void replace(ExprId& slot, ExprId by);
+  // What was written where `id` is now: the node itself unless it is inserted. None: nothing.
+  ExprId written(ExprId id) const {
+    while (id && expr(id).synthesized != 0) id = at<ExprId>(id.word - 1);
+    return id;
+  }
+
+  // Lists of ids and of small structs.
   template <class T>
-  Slice<T> addList(std::span<const T> items);
+  Slice<T> addList(std::span<const T> items) {
+    static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0);
+    if (items.empty()) return {};
+    const uint32_t first = allocate(static_cast<uint32_t>(items.size() * (sizeof(T) / 4)), alignof(T) / 4);
+    std::memcpy(address(first), items.data(), items.size_bytes());
+    return {first, static_cast<uint32_t>(items.size())};
+  }
   template <class T>
-  std::span<T> list(Slice<T> slice);
+  std::span<T> list(Slice<T> slice) {
+    return slice.empty() ? std::span<T>() : std::span<T>(&at<T>(slice.first), slice.count);
+  }
   template <class T>
-  std::span<const T> list(Slice<T> slice) const;
+  std::span<const T> list(Slice<T> slice) const {
+    return slice.empty() ? std::span<const T>() : std::span<const T>(&at<T>(slice.first), slice.count);
+  }
 
   StringId addString(std::string_view text);
-  std::string_view string(StringId id) const { return {strings_.data() + id.first, id.length}; }
+  std::string_view string(StringId id) const {
+    return id.length == 0 ? std::string_view()
+                          : std::string_view(reinterpret_cast<char*>(address(id.first)), id.length);
+  }
 
   std::vector<FileUnit> files;
   bool lost_names = false;  // likewise of types and globals: names visible in the whole project
 
  private:
+  // A node, list or string lies within one chunk, or in chunks made for it. Tiny ones in debug builds, so that every
+  // test crosses them.
+#ifdef NDEBUG
   static constexpr uint32_t kChunkWords = 1u << 16;
-  template <class Node>
-  Node& header(uint32_t word) const {
-    return *std::launder(reinterpret_cast<Node*>(chunks_[word / kChunkWords] + word % kChunkWords));
+#else
+  static constexpr uint32_t kChunkWords = 1u << 6;
+#endif
+  uint32_t* address(uint32_t word) const { return chunks_[word / kChunkWords] + word % kChunkWords; }
+  template <class T>
+  T& at(uint32_t word) const {
+    return *std::launder(reinterpret_cast<T*>(address(word)));
   }
   template <class Node, class Kind>
   Node& node([[maybe_unused]] Kind kind, uint32_t word) const {
 #ifndef NDEBUG
     RUNG_INVARIANT(kind == kind_of_node<Node>, "a node is read as what it is");
 #endif
-    return header<Node>(word);
+    return at<Node>(word);
   }
+  uint32_t allocate(uint32_t words, uint32_t alignment = 1);
   uint32_t store(const void* node, size_t bytes);
 
-  std::vector<uint32_t*> chunks_;  // owned
-  uint32_t next_word_ = 1;
-  std::vector<char> strings_;
-  // One vector per element type of addList.
-  std::vector<ExprId> expr_ids_;
-  std::vector<StmtId> stmt_ids_;
-  std::vector<DeclId> decl_ids_;
-  std::vector<TypeExprId> type_expr_ids_;
-  std::vector<Ident> idents_;
-  std::vector<Argument> arguments_;
-  std::vector<IfBranch> if_branches_;
-  std::vector<CaseBranch> case_branches_;
-  std::vector<FieldInit> field_inits_;
-  std::vector<EnumItem> enum_items_;
-  std::vector<ArrayBound> array_bounds_;
-  std::vector<Pragma> pragmas_;
-  std::vector<IlInstruction> il_;
-  std::vector<IlNested> il_nested_;
-  std::vector<SfcStep> sfc_steps_;
-  std::vector<SfcTransition> sfc_transitions_;
-  std::vector<SfcAssociation> sfc_associations_;
-  std::vector<DiagramWire> diagram_wires_;
-  std::vector<DiagramPin> diagram_pins_;
-  std::vector<DiagramElement> diagram_elements_;
-  std::vector<DiagramNetwork> diagram_networks_;
-  std::vector<uint32_t> numbers_;
-
-  template <class T>
-  std::vector<T>& storage();
+  struct Parens {
+    ExprId of;
+    Loc open, end;
+  };
+  std::vector<uint32_t*> chunks_;  // some point into a larger block
+  std::vector<uint32_t*> blocks_;  // owned
+  uint32_t next_word_ = 0;
+  std::vector<Parens> parens_;  // sorted by `of`
 };
 
-template <class T>
-std::vector<T>& Tree::storage() {
-  if constexpr (std::is_same_v<T, ExprId>)
-    return expr_ids_;
-  else if constexpr (std::is_same_v<T, StmtId>)
-    return stmt_ids_;
-  else if constexpr (std::is_same_v<T, DeclId>)
-    return decl_ids_;
-  else if constexpr (std::is_same_v<T, TypeExprId>)
-    return type_expr_ids_;
-  else if constexpr (std::is_same_v<T, Ident>)
-    return idents_;
-  else if constexpr (std::is_same_v<T, Argument>)
-    return arguments_;
-  else if constexpr (std::is_same_v<T, IfBranch>)
-    return if_branches_;
-  else if constexpr (std::is_same_v<T, CaseBranch>)
-    return case_branches_;
-  else if constexpr (std::is_same_v<T, FieldInit>)
-    return field_inits_;
-  else if constexpr (std::is_same_v<T, EnumItem>)
-    return enum_items_;
-  else if constexpr (std::is_same_v<T, ArrayBound>)
-    return array_bounds_;
-  else if constexpr (std::is_same_v<T, Pragma>)
-    return pragmas_;
-  else if constexpr (std::is_same_v<T, IlInstruction>)
-    return il_;
-  else if constexpr (std::is_same_v<T, IlNested>)
-    return il_nested_;
-  else if constexpr (std::is_same_v<T, SfcStep>)
-    return sfc_steps_;
-  else if constexpr (std::is_same_v<T, SfcTransition>)
-    return sfc_transitions_;
-  else if constexpr (std::is_same_v<T, SfcAssociation>)
-    return sfc_associations_;
-  else if constexpr (std::is_same_v<T, DiagramWire>)
-    return diagram_wires_;
-  else if constexpr (std::is_same_v<T, DiagramPin>)
-    return diagram_pins_;
-  else if constexpr (std::is_same_v<T, DiagramElement>)
-    return diagram_elements_;
-  else if constexpr (std::is_same_v<T, DiagramNetwork>)
-    return diagram_networks_;
-  else {
-    static_assert(std::is_same_v<T, uint32_t>, "a list element type needs its storage");
-    return numbers_;
-  }
-}
-template <class T>
-Slice<T> Tree::addList(std::span<const T> items) {
-  std::vector<T>& to = storage<T>();
-  Slice<T> slice{static_cast<uint32_t>(to.size()), static_cast<uint32_t>(items.size())};
-  to.insert(to.end(), items.begin(), items.end());
-  return slice;
-}
-template <class T>
-std::span<T> Tree::list(Slice<T> slice) {
-  return std::span<T>(storage<T>()).subspan(slice.first, slice.count);
-}
-template <class T>
-std::span<const T> Tree::list(Slice<T> slice) const {
-  return std::span<const T>(const_cast<Tree*>(this)->storage<T>()).subspan(slice.first, slice.count);
-}
-
 // The tree as indented text (rung emit --emit=tree), with the words of nodes.def; golden tests read it.
+// As written: without what a check of the program inserted.
 std::string printTree(const Tree& tree, const Names& names, const FileUnit& unit);
 
 }  // namespace rung

@@ -105,9 +105,8 @@ ExprId PlaceLowering::programPlace(uint32_t program, Loc loc) {
 }
 
 ExprId PlaceLowering::imagePlace(const sema::ImageView& view, TypeId type, Loc loc) {
-  return add(
-      loc, strip(type),
-      ImageExpr{.area = static_cast<uint32_t>(view.area), .byte = view.byte, .bit = view.is_bit ? view.bit : kNoBit});
+  return add(loc, strip(type),
+             ImageExpr{.area = view.area.index, .byte = view.byte, .bit = view.is_bit ? view.bit : kNoBit});
 }
 
 ExprId PlaceLowering::instancePlace(uint32_t program, const sema::InstancePath& path) {
@@ -140,7 +139,7 @@ void StatementLowering::lowerActivation(uint32_t program, BodyId code, rung::Exp
                                         std::span<const sema::InstancePath> paths) {
   const Loc loc = body_.loc;
   for (const sema::InstancePath& path : paths) {
-    if (!path.located || path.image.area == ImageArea::Output) continue;
+    if (!path.located || project_.options.areas[path.image.area.index].owner == types::AreaOwner::Output) continue;
     const TypeId type = project_.var(path.var).type;
     assign(places().instancePlace(program, path), places().imagePlace(path.image, type, loc), loc);
   }
@@ -151,7 +150,7 @@ void StatementLowering::lowerActivation(uint32_t program, BodyId code, rung::Exp
     append(loc, CallStmt{.callee = code, .self = places().programPlace(program, loc)});
   }
   for (const sema::InstancePath& path : paths) {
-    if (!path.located || path.image.area == ImageArea::Input) continue;
+    if (!path.located || project_.options.areas[path.image.area.index].owner == types::AreaOwner::Input) continue;
     const TypeId type = project_.var(path.var).type;
     assign(places().imagePlace(path.image, type, loc), places().instancePlace(program, path), loc);
   }

@@ -64,7 +64,8 @@ void ModuleLowering::run() {
   addTasks();
   addLocated();
   addAccessPaths();
-  for (int area = 0; area < 3; ++area) module.image_bytes[area] = project.image_bytes[area];
+  module.areas = project.options.areas;
+  for (size_t area = 0; area < module.areas.size(); ++area) module.areas[area].bytes = project.area_bytes[area];
   setPhaseSubject("", 0);
 }
 
@@ -506,7 +507,7 @@ void ModuleLowering::addAccessPaths() {
     created.type = types.resolve(path.type);
     created.read_only = path.read_only;
     if (path.located) {
-      created.index = static_cast<uint32_t>(path.image.area);
+      created.index = path.image.area.index;
       created.offset = path.image.byte;
       if (path.image.is_bit) created.bit = path.image.bit;
     } else {
@@ -527,7 +528,7 @@ void ModuleLowering::addLocated() {
     Located created;
     created.name = var.name;
     created.type = types.resolve(var.type);
-    created.area = static_cast<uint8_t>(var.image.area);
+    created.area = var.image.area.index;
     created.byte = var.image.byte;
     created.bit = var.image.is_bit ? var.image.bit : kNoBit;
     if (var.pou && project.pou(var.pou).kind == PouKind::Program) created.owner_program = instanceOf(var.pou) + 1;

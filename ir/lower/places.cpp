@@ -30,7 +30,7 @@ ExprId PlaceLowering::varPlace(sema::VarId id, Loc loc) {
     }
     case sema::Storage::Image:
       return add(loc, type,
-                 ImageExpr{.area = static_cast<uint32_t>(var->image.area),
+                 ImageExpr{.area = var->image.area.index,
                            .byte = var->image.byte,
                            .bit = var->image.is_bit ? var->image.bit : kNoBit});
     case sema::Storage::Constant: return ofValue(var->value, loc);
@@ -144,7 +144,8 @@ ExprId PlaceLowering::directAddress(rung::ExprId id) {
   } else {
     byte *= width / 8;
   }
-  return add(tree_.loc(id), type, ImageExpr{.area = static_cast<uint32_t>(address.area), .byte = byte, .bit = bit});
+  const uint32_t area = types::findArea(project_.options.areas, address.area)->index;
+  return add(tree_.loc(id), type, ImageExpr{.area = area, .byte = byte, .bit = bit});
 }
 
 ExprId PlaceLowering::lowerPlace(rung::ExprId id) {

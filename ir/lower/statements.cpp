@@ -62,7 +62,9 @@ void StatementLowering::lowerStatement(rung::StmtId id) {
     case rung::StmtKind::Empty: return;
     case rung::StmtKind::Assign: return lowerAssign(tree_.as<rung::AssignStmt>(id));
     case rung::StmtKind::Call: {
-      ExprId value = calls().lowerCall(tree_.as<rung::CallStmt>(id).call);
+      const rung::ExprId call = tree_.as<rung::CallStmt>(id).call;
+      if (tree_.kind(call) != rung::ExprKind::Call) return;  // a known value: nothing happens
+      ExprId value = calls().lowerCall(call);
       // A pure call as a statement has no effect; only its faults count.
       if (value && mayFault(value)) append(loc, EvaluateStmt{.value = value});
       return;
@@ -97,7 +99,7 @@ uint32_t StatementLowering::labelNumber(NameId label) {
 
 void StatementLowering::lowerAssign(const rung::AssignStmt& stmt) {
   Loc loc = stmt.h.loc;
-  switch (stmt.op()) {
+  switch (stmt.effect()) {
     case AssignOp::Assign: {
       if (tree_.kind(stmt.target) == rung::ExprKind::Call) {  // SET of a property
         calls().lowerCall(stmt.target);
@@ -130,8 +132,8 @@ void StatementLowering::lowerAssign(const rung::AssignStmt& stmt) {
     case AssignOp::Set:
     case AssignOp::Reset: {
       ExprId condition = values().lowerValue(stmt.value);
-      StmtId then =
-          block([&] { assign(places().lowerPlace(stmt.target), constantBool(stmt.op() == AssignOp::Set, loc), loc); });
+      StmtId then = block(
+          [&] { assign(places().lowerPlace(stmt.target), constantBool(stmt.effect() == AssignOp::Set, loc), loc); });
       append(loc, IfStmt{.condition = condition, .then_block = then});
       return;
     }
@@ -139,10 +141,10 @@ void StatementLowering::lowerAssign(const rung::AssignStmt& stmt) {
     case AssignOp::Subtract:
     case AssignOp::Multiply:
     case AssignOp::Divide: {
-      Op op = stmt.op() == AssignOp::Add        ? Op::Add
-              : stmt.op() == AssignOp::Subtract ? Op::Sub
-              : stmt.op() == AssignOp::Multiply ? Op::Mul
-                                                : Op::Div;
+      Op op = stmt.effect() == AssignOp::Add        ? Op::Add
+              : stmt.effect() == AssignOp::Subtract ? Op::Sub
+              : stmt.effect() == AssignOp::Multiply ? Op::Mul
+                                                    : Op::Div;
       ExprId value = values().lowerValue(stmt.value);
       ExprId target = stable(lowerAfter({&value}, [&] { return places().lowerPlace(stmt.target); }));
       TypeId type = typeOf(target);

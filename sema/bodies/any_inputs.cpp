@@ -83,13 +83,8 @@ void bindAny(Context& context, const Pou& pou, const Var& pin, ExprId& value) {
   }
   if (const PouId record = pouOf(context, type)) resolvePou(context, record);
   if (!ensureLayout(context, type)) return;
-  AnyValueExpr node{};
-  node.h.kind = ExprKind::AnyValue;
-  node.h.loc = loc;
-  node.h.type = pin.type;
-  node.value = value;
-  node.type_class = typeClassOf(context, type);
-  value = context.tree().add<ExprId>(node);
+  const ExprId passed = context.build().anyValue(value, {}, typeClassOf(context, type), loc);
+  context.replace(value, typed(context, passed, pin.type));
 }
 
 }  // namespace rung::sema

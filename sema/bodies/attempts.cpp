@@ -27,12 +27,7 @@ PouId checkSource(Context& context, ExprId& source, std::string_view word) {
   if (const PouId object = pointedObject(context, type)) return object;
   const PouId object = context.types().kind(type) == TypeKind::Record ? pouOf(context, type) : PouId{};
   if (object && context.symbols.pou(object).kind != PouKind::Program) {
-    AddressOfExpr address{};
-    address.h.kind = ExprKind::AddressOf;
-    address.h.loc = context.tree().loc(source);
-    address.h.type = context.types().pointer(type);
-    address.lvalue = source;
-    source = context.tree().add<ExprId>(address);
+    context.replace(source, makeAddressOf(context, source, context.types().pointer(type), context.tree().loc(source)));
     return object;
   }
   context.report(diag::AttemptNeedsObject, context.tree().begin(source),
@@ -72,14 +67,9 @@ ExprId makeAttempt(Context& context, ExprId source, PouId given, ExprId target, 
   call.bindings.resize(2);
   call.bindings[0].value = source;
   call.bindings[1].value = target;
-  CallExpr node{};
-  node.h.kind = ExprKind::Call;
-  node.h.loc = loc;
-  node.h.type = types::kBool;
-  node.callee = target;
-  node.end = loc;
-  node.call = addCall(context, std::move(call));
-  return context.tree().add<ExprId>(node);
+  const ExprId created = context.build().call(target, Slice<Argument>{}, loc, loc);
+  context.tree().as<CallExpr>(created).call = addCall(context, std::move(call));
+  return typed(context, created, types::kBool);
 }
 
 }  // namespace
@@ -91,8 +81,8 @@ void checkAttempt(Context& context, AssignStmt& node) {
   const PouId given = checkSource(context, node.value, "?=");
   if (!wanted || !given) return;
   const ExprId call = makeAttempt(context, node.value, given, node.target, wanted, node.h.loc);
-  node.h.op = static_cast<uint8_t>(AssignOp::Assign);
-  node.target = call;
+  node.setEffect(AssignOp::Assign);
+  context.replace(node.target, call);
 }
 
 TypeId checkQueryCall(Context& context, ExprId& expr, NameId name) {
@@ -117,7 +107,7 @@ TypeId checkQueryCall(Context& context, ExprId& expr, NameId name) {
     return context.tree().expr(expr).type = types::kError;
   }
   if (!given) return context.tree().expr(expr).type = types::kError;
-  expr = makeAttempt(context, source, given, target, wanted, node.h.loc);
+  context.replace(expr, makeAttempt(context, source, given, target, wanted, node.h.loc));
   return types::kBool;
 }
 

@@ -88,7 +88,7 @@ inline bool isUntyped(const Context& context, TypeId type) {
   return kind == TypeKind::IntegerLiteral || kind == TypeKind::RealLiteral;
 }
 // Types a literal without a prefix, of a character or string, like `wanted`, if its quotes allow that.
-void retypeString(Context& context, LiteralExpr& node, TypeId wanted);
+void retypeString(Context& context, ExprId& expr, TypeId wanted);
 TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected);
 // The type of an untyped expression whose context gives it none: INT, DINT, LINT, ULINT; REAL.
 TypeId defaultType(Context& context, ExprId expr);
@@ -209,6 +209,9 @@ ExprId storageOfLiteral(Context& context, ExprId literal);
 // ---- synthesized_nodes.cpp: nodes that need not be checked again; makeLiteral is in context.h
 ExprId makeBinary(Context& context, BinaryOp op, ExprId left, ExprId right, TypeId type, Loc loc);
 ExprId makeDeref(Context& context, ExprId pointer, TypeId target, Loc loc);
+ExprId makeAddressOf(Context& context, ExprId lvalue, TypeId type, Loc loc);
+// An integer of either sign.
+ExprId makeInteger(Context& context, TypeId type, __int128 value, Loc loc);
 
 // ---- open_arrays.cpp
 // LOWER_BOUND(a, n), UPPER_BOUND(a, n). None for another name.

@@ -4,6 +4,7 @@
 // Strings are converted by library functions: TO_STRING, TO_WSTRING, STRING_TO_<B>.
 #include <string>
 
+#include "frontend/syntax/standard_names.h"
 #include "sema/bodies/bodies.h"
 #include "sema/bodies/diagnostics.h"
 #include "sema/bodies/generic_calls.h"
@@ -73,9 +74,9 @@ OneInput oneInput(Context& context, const CallExpr& node, NameId name) {
   for (uint32_t i = 0; i < node.arguments.count; ++i) {
     const Argument argument = context.tree().list(node.arguments)[i];
     const std::string_view pin = argument.pin.name ? string(context, argument.pin.name) : std::string_view();
-    if (sameIdentifier(pin, "EN") && !argument.is_output) {
+    if (isEnable(pin) && !argument.is_output) {
       out.en = argument.value;
-    } else if (sameIdentifier(pin, "ENO") && argument.is_output) {
+    } else if (isEnableOutput(pin) && argument.is_output) {
       out.eno = argument.value;
     } else if (!pin.empty() && !sameIdentifier(pin, "IN")) {
       context.report(diag::UnknownPin, argument.pin.loc, {string(context, name), pin}).didYouMean("IN");
@@ -96,13 +97,12 @@ OneInput oneInput(Context& context, const CallExpr& node, NameId name) {
 // Calls a library function instead: the callee becomes its name.
 TypeId callLibrary(Context& context, ExprId& expr, std::string_view function, TypeId expected, NameId written) {
   CallExpr& node = context.tree().as<CallExpr>(expr);
-  NameExpr& callee = context.tree().as<NameExpr>(node.callee);
   const NameId name = context.names().intern(function);
   if (lookUp(context, name).entityKind() != EntityKind::Pou) {
     context.report(diag::UnknownName, node.h.loc, {string(context, written)});
     return node.h.type = types::kError;
   }
-  callee.name = name;
+  context.replace(node.callee, context.build().name(name, context.tree().loc(node.callee)));
   return checkCall(context, expr, expected, false);
 }
 
@@ -164,7 +164,7 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
   };
   if (target_is_string && rule.kind == Rule::Kind::Convert) {
     if (source == target) {
-      expr = value;
+      context.replace(expr, value);
       return context.tree().expr(expr).type;
     }
     replaceArgument();
@@ -203,7 +203,7 @@ TypeId checkConversion(Context& context, ExprId& expr, NameId name, const Rule& 
   wrapConvert(context, value, rule.to);
   context.tree().expr(value).loc = node.h.loc;
   if (input.en || input.eno) return guardValue(context, expr, value);
-  expr = value;
+  context.replace(expr, value);
   return rule.to;
 }
 
@@ -254,17 +254,19 @@ TypeId checkTypedCall(Context& context, ExprId& expr, std::string_view name, Typ
 }  // namespace
 
 TypeId guardValue(Context& context, ExprId& expr, ExprId value) {
-  CallExpr& node = context.tree().as<CallExpr>(expr);
+  const CallExpr& node = context.tree().as<CallExpr>(expr);
   if (context.tree().kind(value) != ExprKind::Convert) wrapConvert(context, value, context.tree().expr(value).type);
   std::vector<Argument> arguments;
   for (const Argument& argument : context.tree().list(node.arguments)) {
     const std::string_view pin = argument.pin.name ? string(context, argument.pin.name) : std::string_view();
-    if (sameIdentifier(pin, argument.is_output ? "ENO" : "EN")) arguments.push_back(argument);
+    if (sameIdentifier(pin, argument.is_output ? kEnableOutput : kEnable)) arguments.push_back(argument);
   }
   arguments.push_back(Argument{{}, value, false, false, node.h.loc});
-  node.arguments = context.tree().addList<Argument>(arguments);
+  const ExprId guarded = context.tree().insertCopy(expr);
+  context.tree().as<CallExpr>(guarded).arguments = context.tree().addList<Argument>(arguments);
+  context.replace(expr, guarded);
   const NameId name = context.tree().as<NameExpr>(node.callee).name;
-  return callLibrary(context, expr, "MOVE", context.tree().expr(value).type, name);
+  return callLibrary(context, expr, kMove, context.tree().expr(value).type, name);
 }
 
 TypeId checkRuleCall(Context& context, ExprId& expr, NameId name, TypeId expected) {

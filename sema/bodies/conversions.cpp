@@ -210,14 +210,9 @@ TypeId commonNumber(const Context& context, TypeId a, TypeId b) {
 }
 
 void wrapConvert(Context& context, ExprId& expr, TypeId to) {
-  Tree& tree = context.tree();
-  ConvertExpr node{};
-  node.h.kind = ExprKind::Convert;
-  node.h.loc = tree.loc(expr);
-  node.h.type = to;
-  node.h.is_constant = tree.expr(expr).is_constant;
-  node.operand = expr;
-  expr = tree.add<ExprId>(node);
+  const ExprId created = context.build().convert(expr, context.tree().loc(expr));
+  context.tree().expr(created).is_constant = context.tree().expr(expr).is_constant;
+  context.replace(expr, typed(context, created, to));
 }
 
 bool reportFit(Context& context, Fit fitness, ExprId expr, TypeId from, TypeId to, const Purpose& purpose) {
@@ -321,8 +316,7 @@ bool takeItem(Context& context, ExprId& expr, TypeId to, bool& ok) {
       is_item = true;
   }
   if (!is_item) return false;
-  expr = makeLiteral(context, LiteralKind::Integer, to, static_cast<int64_t>(number < 0 ? -number : number), loc);
-  if (number < 0) context.tree().expr(expr).bits = kLiteralNegative;
+  context.replace(expr, makeInteger(context, to, number, loc));
   return true;
 }
 
@@ -335,7 +329,7 @@ bool convert(Context& context, ExprId& expr, TypeId to, const Purpose& purpose) 
   __int128 number = 1;
   if (!context.iec() && isUntyped(context, from) && untypedValue(context, expr, number) && number == 0 &&
       isInterface(context, context.types().info(context.types().resolve(to)))) {  // 0: no object
-    expr = makeLiteral(context, LiteralKind::Null, to, 0, context.tree().loc(expr));
+    context.replace(expr, makeLiteral(context, LiteralKind::Null, to, 0, context.tree().loc(expr)));
     return true;
   }
   if (bool ok = true; takeItem(context, expr, to, ok)) return ok;

@@ -24,7 +24,8 @@ CallId poolCall(Context& context, const char* name, Loc loc) {
     const ExprId init = var.init;
     if (init && context.tree().kind(init) == ExprKind::Literal) {
       const uint64_t units = (uint64_t{options.pool_bytes} + 7) / 8;
-      context.tree().as<LiteralExpr>(init).setValue(units);
+      var.init = makeLiteral(context, LiteralKind::Integer, context.tree().expr(init).type, static_cast<int64_t>(units),
+                             context.tree().loc(init));
       var.value.bits = units;
     }
   }

@@ -72,13 +72,12 @@ TypeId checkIndex(Context& context, ExprId& expr, Access access) {
   }
   bool ok = array && dimensions == count;
   for (uint32_t i = 0; i < count; ++i) {
-    ExprId index = context.tree().list(node.indices)[i];
+    ExprId& index = context.tree().list(node.indices)[i];
     if (checkIndexValue(context, index) == types::kError) {
       ok = false;
     } else if (ok) {
       checkConstantIndex(context, index, info->dimensions.empty() ? nullptr : &info->dimensions[i], base);
     }
-    context.tree().list(node.indices)[i] = index;
   }
   if (!ok) return node.h.type = types::kError;
   node.h.writable = context.tree().expr(node.base).writable;
@@ -111,16 +110,14 @@ TypeId checkAddress(Context& context, ExprId& expr) {
   AddressExpr& node = context.tree().as<AddressExpr>(expr);
   node.h.writable = 1;
   if (isHierarchical(context, node.address)) {
-    NameExpr name{};
-    name.h = node.h;
-    name.h.kind = ExprKind::Name;
     const VarId named = hierarchicalVar(context, node.address, node.h.loc, {});
     if (!named) return node.h.type = types::kError;
-    name.name = context.symbols.var(named).name;
-    name.entity = Entity::of(EntityKind::Var, named.index);
-    name.h.type = context.symbols.var(named).type;
-    expr = context.tree().add<ExprId>(name);
-    return name.h.type;
+    const Var& var = context.symbols.var(named);
+    const ExprId name = context.build().name(var.name, node.h.loc, Entity::of(EntityKind::Var, named.index));
+    context.tree().expr(name).in_parens = node.h.in_parens;
+    context.tree().expr(name).writable = 1;
+    context.replace(expr, typed(context, name, var.type));
+    return var.type;
   }
   if (!resolveAddress(context, node.address, node.h.loc, {})) return node.h.type = types::kError;
   return node.h.type = addressType(node.address);
@@ -130,7 +127,7 @@ TypeId checkAddress(Context& context, ExprId& expr) {
 TypeId throughReference(Context& context, ExprId& expr, TypeId type) {
   const types::TypeInfo& info = context.types().info(context.types().resolve(type));
   if (info.kind != TypeKind::Reference) return type;
-  expr = makeDeref(context, expr, info.base, context.tree().loc(expr));
+  context.replace(expr, makeDeref(context, expr, info.base, context.tree().loc(expr)));
   return info.base;
 }
 

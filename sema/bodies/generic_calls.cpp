@@ -86,16 +86,16 @@ TypeId foldCall(Context& context, ExprId& expr, PouId pou, const Arguments& argu
     std::vector<Argument> some;
     if (inner) some.push_back(Argument{{}, inner, false, false, node.h.loc});
     while (some.size() < declared && from < values.size()) some.push_back(values[from++]);
-    CallExpr link = node;
+    const ExprId link = context.tree().insertCopy(expr);
     if (from == values.size()) {  // EN and ENO belong to the whole
       for (const uint32_t control : {arguments.en, arguments.eno}) {
         if (control != 0) some.push_back(context.tree().list(node.arguments)[control - 1]);
       }
     }
-    link.arguments = context.tree().addList<Argument>(some);
-    inner = context.tree().add<ExprId>(link);
+    context.tree().as<CallExpr>(link).arguments = context.tree().addList<Argument>(some);
+    inner = link;
   }
-  expr = inner;
+  context.replace(expr, inner);
   return checkGenericCall(context, expr, pou, expected, {});
 }
 

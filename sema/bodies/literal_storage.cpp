@@ -33,13 +33,8 @@ ExprId storageOfLiteral(Context& context, ExprId literal) {
     symbols.vars.push_back(var);
     literal_storage.undeclared.push_back({context.pou, storage});
   }
-  NameExpr name{};
-  name.h.kind = ExprKind::Name;
-  name.h.loc = loc;
-  name.h.type = symbols.var(storage).type;
-  name.name = symbols.var(storage).name;
-  name.entity = entity(storage);
-  return context.tree().add<ExprId>(name);
+  const Var& var = symbols.var(storage);
+  return typed(context, context.build().name(var.name, loc, entity(storage)), var.type);
 }
 
 void declareLiteralStorage(Context& context, PouId pou) {

@@ -137,9 +137,9 @@ void setIntegerType(Context& context, ExprId& expr, TypeId to) {
     setIntegerType(context, node.operand, to);
     if (node.op() == UnaryOp::Negate && tree.kind(node.operand) == ExprKind::Literal) {
       // -32768 is one value: its magnitude alone does not fit.
-      LiteralExpr& literal = tree.as<LiteralExpr>(node.operand);
-      literal.h.bits ^= kLiteralNegative;
-      expr = node.operand;
+      const ExprId literal = tree.insertCopy(node.operand);
+      tree.expr(literal).bits ^= kLiteralNegative;
+      context.replace(expr, literal);
     }
   } else if (tree.kind(expr) == ExprKind::Binary) {
     BinaryExpr& node = tree.as<BinaryExpr>(expr);
@@ -168,15 +168,7 @@ bool adaptInteger(Context& context, ExprId& expr, TypeId to, Bounds bounds) {
     setIntegerType(context, expr, to);
     return true;
   }
-  LiteralExpr folded{};
-  folded.h.kind = ExprKind::Literal;
-  folded.h.op = static_cast<uint8_t>(LiteralKind::Integer);
-  folded.h.loc = tree.begin(expr);
-  folded.h.is_constant = 1;
-  folded.h.bits = value < 0 ? kLiteralNegative : 0;
-  folded.h.type = to;
-  folded.setValue(static_cast<uint64_t>(value < 0 ? -value : value));
-  expr = tree.add<ExprId>(folded);
+  context.replace(expr, makeInteger(context, to, value, tree.begin(expr)));
   return true;
 }
 
@@ -190,7 +182,7 @@ bool adaptNegative(Context& context, ExprId& expr, TypeId to, TypeKind kind) {
   const Int128 bits = (Int128{1} << width) + value;
   const Loc loc = context.tree().begin(expr);
   context.report(diag::NegativeWithoutSign, loc, {toString(value), context.types().toString(to), toString(bits)});
-  expr = makeLiteral(context, LiteralKind::Integer, to, static_cast<int64_t>(bits), loc);
+  context.replace(expr, makeLiteral(context, LiteralKind::Integer, to, static_cast<int64_t>(bits), loc));
   return true;
 }
 
@@ -247,7 +239,8 @@ uint32_t lengthOf(std::string_view value, TypeKind kind) {
 }
 
 // '$E9' is a byte of a STRING. In Unicode strings, bytes that are not UTF-8 are the characters of these codes.
-void makeUnicode(Context& context, LiteralExpr& node) {
+void makeUnicode(Context& context, ExprId& expr) {
+  const LiteralExpr& node = context.tree().as<LiteralExpr>(expr);
   std::string_view rest = context.tree().string(node.string());
   if (node.literal() == LiteralKind::WString || isUtf8(rest)) return;  // those of "..." are codes of 16 bits already
   std::string out;
@@ -258,8 +251,10 @@ void makeUnicode(Context& context, LiteralExpr& node) {
   }
   out.append(rest);
   const StringId characters = context.tree().addString(out);
-  node.low = characters.first;
-  node.high = characters.length;
+  const ExprId created = context.tree().insertCopy(expr);
+  context.tree().as<LiteralExpr>(created).low = characters.first;
+  context.tree().as<LiteralExpr>(created).high = characters.length;
+  context.replace(expr, created);
 }
 
 TypeId prefixType(Context& context, LiteralExpr& node) {
@@ -301,16 +296,17 @@ TypeId checkTypedNumber(Context& context, ExprId& expr) {
   if (kind == TypeKind::Bool && node.literal() == LiteralKind::Bool) return node.h.type = type;
   if ((types::TypeTable::isString(kind) || types::TypeTable::isCharacter(kind)) &&
       (node.literal() == LiteralKind::String || node.literal() == LiteralKind::WString)) {
-    if (kind != TypeKind::String && kind != TypeKind::Char) makeUnicode(context, node);
-    const uint32_t length = lengthOf(context.tree().string(node.string()), kind);
-    if (types::TypeTable::isString(kind)) return node.h.type = context.types().string(kind, length);
-    if (length == 1) return node.h.type = type;
-    const uint64_t value = context.names().intern(context.tree().string(node.string())).index;
+    if (kind != TypeKind::String && kind != TypeKind::Char) makeUnicode(context, expr);
+    LiteralExpr& text = context.tree().as<LiteralExpr>(expr);
+    const uint32_t length = lengthOf(context.tree().string(text.string()), kind);
+    if (types::TypeTable::isString(kind)) return text.h.type = context.types().string(kind, length);
+    if (length == 1) return text.h.type = type;
+    const uint64_t value = context.names().intern(context.tree().string(text.string())).index;
     context.report(diag::NotOneCharacter, node.h.loc,
                    {types::toString(context.types(), context.names(),
                                     {context.types().string(types::TypeTable::stringOf(kind), 1), value}),
                     context.types().toString(type)});
-    return node.h.type = types::kError;
+    return text.h.type = types::kError;
   }
   context.report(diag::NotALiteralType, node.h.loc, {string(context, node.prefix)});
   return node.h.type = types::kError;
@@ -346,16 +342,18 @@ TypeId checkSpan(Context& context, LiteralExpr& node, TypeId expected, TypeKind 
   return node.h.type = types::idOf(shorter);
 }
 
-TypeId checkString(Context& context, LiteralExpr& node, TypeId expected) {
+TypeId checkString(Context& context, ExprId& expr, TypeId expected) {
+  LiteralExpr& node = context.tree().as<LiteralExpr>(expr);
   const TypeKind own = node.literal() == LiteralKind::WString ? TypeKind::WString : TypeKind::String;
   node.h.type = context.types().string(own, lengthOf(context.tree().string(node.string()), own));
-  if (expected) retypeString(context, node, expected);
-  return node.h.type;
+  if (expected) retypeString(context, expr, expected);
+  return context.tree().expr(expr).type;
 }
 
 }  // namespace
 
-void retypeString(Context& context, LiteralExpr& node, TypeId wanted) {
+void retypeString(Context& context, ExprId& expr, TypeId wanted) {
+  const LiteralExpr& node = context.tree().as<LiteralExpr>(expr);
   const TypeKind kind = context.types().plainKind(wanted);
   const bool is_string = types::TypeTable::isString(kind), wide = node.literal() == LiteralKind::WString;
   if (node.prefix || (node.literal() != LiteralKind::String && !wide)) return;
@@ -366,13 +364,14 @@ void retypeString(Context& context, LiteralExpr& node, TypeId wanted) {
   const std::string_view value = context.tree().string(node.string());
   if (kind != TypeKind::String && kind != TypeKind::Char && !wide && !isUtf8(value)) {
     if (!is_string && value.size() != 1) return;
-    makeUnicode(context, node);
+    makeUnicode(context, expr);
   }
-  const uint32_t length = lengthOf(context.tree().string(node.string()), kind);
+  LiteralExpr& text = context.tree().as<LiteralExpr>(expr);
+  const uint32_t length = lengthOf(context.tree().string(text.string()), kind);
   if (is_string)
-    node.h.type = context.types().string(kind, length);
+    text.h.type = context.types().string(kind, length);
   else if (length == 1)
-    node.h.type = wanted;
+    text.h.type = wanted;
 }
 
 TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected) {
@@ -386,7 +385,7 @@ TypeId checkLiteral(Context& context, ExprId& expr, TypeId expected) {
       return node.prefix ? checkTypedNumber(context, expr) : node.h.type = types::idOf(TypeKind::RealLiteral);
     case LiteralKind::String:
     case LiteralKind::WString:
-      return node.prefix ? checkTypedNumber(context, expr) : checkString(context, node, expected);
+      return node.prefix ? checkTypedNumber(context, expr) : checkString(context, expr, expected);
     case LiteralKind::Duration: return checkSpan(context, node, expected, TypeKind::Time, TypeKind::LTime, 1'000'000);
     case LiteralKind::Date: return checkSpan(context, node, expected, TypeKind::Date, TypeKind::LDate, 1'000'000'000);
     case LiteralKind::TimeOfDay:

@@ -49,16 +49,16 @@ TypeId typeOf(const Context& context, VarId id) {
 
 // A member of type BIT becomes a bit of the hidden byte that holds it.
 TypeId useBit(Context& context, ExprId& expr, const Var& var) {
-  context.tree().expr(expr).type = types::kByte;
-  BitAccessExpr bit{};
-  bit.h = context.tree().expr(expr);
-  bit.h.kind = ExprKind::BitAccess;
-  bit.h.bits = kBitMember;
-  bit.h.type = types::kBool;
-  bit.base = expr;
-  bit.position = var.bit;
-  bit.width = 1;
-  expr = context.tree().add<ExprId>(bit);
+  ExprHeader& byte = context.tree().expr(expr);
+  byte.type = types::kByte;
+  const ExprId created = context.build().bitAccess(expr, var.bit, 1, byte.loc);
+  ExprHeader& bit = context.tree().expr(created);
+  bit.in_parens = byte.in_parens;
+  bit.is_constant = byte.is_constant;
+  bit.writable = byte.writable;
+  bit.bits = kBitMember;
+  bit.type = types::kBool;
+  context.replace(expr, created);
   return types::kBool;
 }
 
@@ -393,13 +393,8 @@ std::optional<TypeId> checkNamedBit(Context& context, ExprId& expr, TypeId base)
     context.report(diag::NamedBitNotConstant, node.h.loc, {string(context, node.member)}).declaredHere(var.loc);
     return types::kError;
   }
-  BitAccessExpr bit{};
-  bit.h.kind = ExprKind::BitAccess;
-  bit.h.loc = node.h.loc;
-  bit.base = node.base;
-  bit.position = static_cast<uint32_t>(std::min<uint64_t>(var.value.bits, 0x7fffffff));
-  bit.width = 1;
-  expr = context.tree().add<ExprId>(bit);
+  const auto position = static_cast<uint32_t>(std::min<uint64_t>(var.value.bits, 0x7fffffff));
+  context.replace(expr, context.build().bitAccess(node.base, position, 1, node.h.loc));
   return checkBitOf(context, expr);
 }
 

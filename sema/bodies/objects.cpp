@@ -119,14 +119,13 @@ TypeId checkSuper(Context& context, ExprId expr) {
 
 TypeId checkThisOrSuper(Context& context, ExprId& expr, TypeId expected, Access access) {
   const bool is_this = context.tree().kind(expr) == ExprKind::This;
-  NameExpr name{};
-  name.h = context.tree().expr(expr);
-  name.h.kind = ExprKind::Name;
-  name.name = context.names().intern(is_this ? "THIS" : "SUPER");
-  const Entity found = lookUp(context, name.name);
+  const NameId name = context.names().intern(is_this ? "THIS" : "SUPER");
+  const Entity found = lookUp(context, name);
   if (found.entityKind() != EntityKind::Var || context.symbols.vars[found.index].type == types::kError)
     return is_this ? checkThis(context, expr) : checkSuper(context, expr);
-  expr = context.tree().add<ExprId>(name);
+  const ExprId created = context.build().name(name, context.tree().loc(expr));
+  context.tree().expr(created).in_parens = context.tree().expr(expr).in_parens;
+  context.replace(expr, created);
   return checkName(context, expr, expected, access);
 }
 
@@ -135,7 +134,7 @@ TypeId throughObject(Context& context, ExprId& expr, TypeId type) {
   const ExprKind kind = context.tree().kind(expr);
   if (kind != ExprKind::This && kind != ExprKind::Super && !interfaceOf(context, type)) return type;
   const TypeId target = context.types().info(context.types().resolve(type)).base;
-  expr = makeDeref(context, expr, target, context.tree().loc(expr));
+  context.replace(expr, makeDeref(context, expr, target, context.tree().loc(expr)));
   return target;
 }
 
@@ -228,16 +227,12 @@ TypeId useMember(Context& context, ExprId& expr, Entity member, ExprId instance,
   const Pou& getter = context.symbols.pou(property.get);
   if (!mayAccess(context, getter.access, getter.owner, property.name, loc)) return header.type = types::kError;
   noteCall(context, property.get, loc);
-  CallExpr call{};
-  call.h.kind = ExprKind::Call;
-  call.h.loc = loc;
-  call.h.type = getter.result ? getter.result : types::kError;
-  call.callee = expr;
-  call.end = loc;
-  call.call = addMethodCall(context, property.get, instance, {});
+  const TypeId type = getter.result ? getter.result : types::kError;
+  const ExprId call = context.build().call(expr, Slice<Argument>{}, loc, loc);
+  context.tree().as<CallExpr>(call).call = addMethodCall(context, property.get, instance, {});
   header.type = {};
-  expr = context.tree().add<ExprId>(call);
-  return call.h.type;
+  context.replace(expr, typed(context, call, type));
+  return type;
 }
 
 std::optional<TypeId> checkObjectMember(Context& context, ExprId& expr, PouId object, Access access, PouId method) {
@@ -273,20 +268,12 @@ bool checkPropertyAssign(Context& context, AssignStmt& node) {
       return true;
     }
     if (!bindReference(context, node.value, pin_type)) return true;
-    node.h.op = static_cast<uint8_t>(AssignOp::Assign);
+    node.setEffect(AssignOp::Assign);
   } else if (node.op() != AssignOp::Assign) {  // x.p += 1 reads it first
-    ExprId read = context.tree().kind(node.target) == ExprKind::Member
-                      ? context.tree().add<ExprId>(MemberExpr(context.tree().as<MemberExpr>(node.target)))
-                      : context.tree().add<ExprId>(NameExpr(context.tree().as<NameExpr>(node.target)));
+    ExprId read = context.tree().insertCopy(node.target);
     useMember(context, read, found, instance, Access::Read);
-    BinaryExpr sum{};
-    sum.h.kind = ExprKind::Binary;
-    sum.h.op = static_cast<uint8_t>(binaryOf(node.op()));
-    sum.h.loc = node.h.loc;
-    sum.left = read;
-    sum.right = node.value;
-    node.value = context.tree().add<ExprId>(sum);
-    node.h.op = static_cast<uint8_t>(AssignOp::Assign);
+    context.replace(node.value, context.build().binary(binaryOf(node.op()), read, node.value, node.h.loc));
+    node.setEffect(AssignOp::Assign);
     const TypeId type = context.symbols.var(pin).type;
     check(context, context.tree().as<BinaryExpr>(node.value).right, type, Access::Read);
     if (combine(context, node.value, type) == types::kError) return true;
@@ -299,14 +286,10 @@ bool checkPropertyAssign(Context& context, AssignStmt& node) {
   Binding binding;
   binding.pin = pin;
   binding.value = node.value;
-  CallExpr call{};
-  call.h.kind = ExprKind::Call;
-  call.h.loc = loc;
-  call.callee = node.target;
-  call.end = loc;
-  call.call = addMethodCall(context, property.set, instance, {binding});
+  const ExprId call = context.build().call(node.target, Slice<Argument>{}, loc, loc);
+  context.tree().as<CallExpr>(call).call = addMethodCall(context, property.set, instance, {binding});
   context.tree().expr(node.target).type = {};
-  node.target = context.tree().add<ExprId>(call);
+  context.replace(node.target, call);
   return true;
 }
 

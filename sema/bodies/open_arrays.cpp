@@ -32,18 +32,12 @@ TypeId checkBoundCall(Context& context, ExprId& expr, NameId name) {
   }
   const auto index = static_cast<uint32_t>(*dimension - 1);
   if (info.dimensions.empty()) {
-    BoundExpr bound{};
-    bound.h.kind = ExprKind::Bound;
-    bound.h.loc = node.h.loc;
-    bound.h.type = types::kDInt;
-    bound.array = array;
-    bound.index = 2 * index + (upper ? 1 : 0);
-    expr = context.tree().add<ExprId>(bound);
+    const ExprId bound = context.build().bound(array, 2 * index + (upper ? 1 : 0), node.h.loc);
+    context.replace(expr, typed(context, bound, types::kDInt));
     return types::kDInt;
   }
   const int64_t value = lower ? info.dimensions[index].low : info.dimensions[index].high;
-  expr = makeLiteral(context, LiteralKind::Integer, types::kDInt, value < 0 ? -value : value, node.h.loc);
-  if (value < 0) context.tree().expr(expr).bits = kLiteralNegative;
+  context.replace(expr, makeInteger(context, types::kDInt, value, node.h.loc));
   return types::kDInt;
 }
 

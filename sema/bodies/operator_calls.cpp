@@ -78,17 +78,10 @@ TypeId infixTimes(Context& context, ExprId& expr, const Arguments& arguments, Bi
   if (!times || open || operands.size() < 2) return {};
   ExprId value = operands[0];
   for (size_t i = 1; i < operands.size(); ++i) {
-    BinaryExpr link{};
-    link.h.kind = ExprKind::Binary;
-    link.h.op = static_cast<uint8_t>(op);
-    link.h.loc = node.h.loc;
-    link.h.in_parens = 1;
-    link.left = value;
-    link.right = operands[i];
-    value = context.tree().add<ExprId>(link);
+    value = makeBinary(context, op, value, operands[i], {}, node.h.loc);
     if (combine(context, value, expected) == types::kError) return types::kError;
   }
-  expr = value;
+  expr = value;  // of checkOperatorCall, which puts it in place of the call
   return context.tree().expr(value).type;
 }
 
@@ -113,7 +106,7 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
     ExprId value = expr;
     if (const TypeId type = infixTimes(context, value, arguments, infix, expected, forced)) {
       if (type != types::kError && (arguments.en != 0 || arguments.eno != 0)) return guardValue(context, expr, value);
-      expr = value;
+      context.replace(expr, value);
       return context.tree().expr(expr).type = type;
     }
     checked = true;
@@ -136,7 +129,7 @@ TypeId checkOperatorCall(Context& context, ExprId& expr, PouId id, TypeId expect
     ExprId value = operands.values.empty() ? ExprId{} : operands.values[0];
     if (!value) return node.h.type = types::kError;
     wrapConvert(context, value, forced ? forced : result);
-    expr = value;
+    context.replace(expr, value);
     return context.tree().expr(expr).type;
   }
   Call call;

@@ -110,15 +110,14 @@ bool accepts(Context& context, Operands accepted, TypeId type) {
 
 // 'x' = c: next to a character a string literal of one character is that character, and next to a WSTRING or USTRING
 // one in single quotes is a string of that kind.
-void typeCharacters(Context& context, std::span<const ExprId> operands) {
+void typeCharacters(Context& context, std::span<ExprId> operands) {
   for (const ExprId operand : operands) {
     const TypeKind kind = context.types().plainKind(context.tree().expr(operand).type);
     if (!TypeTable::isCharacter(kind) && kind != TypeKind::WString && kind != TypeKind::UString) continue;
     const bool is_literal = context.tree().kind(operand) == ExprKind::Literal;
     if (is_literal && !context.tree().as<LiteralExpr>(operand).prefix) continue;
-    for (const ExprId other : operands) {
-      if (context.tree().kind(other) == ExprKind::Literal)
-        retypeString(context, context.tree().as<LiteralExpr>(other), types::idOf(kind));
+    for (ExprId& other : operands) {
+      if (context.tree().kind(other) == ExprKind::Literal) retypeString(context, other, types::idOf(kind));
     }
     return;
   }

@@ -10,15 +10,6 @@ namespace rung::sema {
 
 namespace {
 
-ExprId addressOf(Context& context, ExprId lvalue, TypeId type, Loc loc) {
-  AddressOfExpr node{};
-  node.h.kind = ExprKind::AddressOf;
-  node.h.loc = loc;
-  node.h.type = type;
-  node.lvalue = lvalue;
-  return context.tree().add<ExprId>(node);
-}
-
 // ADR(x), REF(x): the type is that of the operand, so that the target of the assignment decides whether it fits.
 TypeId checkAddress(Context& context, ExprId& expr, ExprId lvalue) {
   const Loc loc = context.tree().loc(expr);
@@ -35,7 +26,7 @@ TypeId checkAddress(Context& context, ExprId& expr, ExprId lvalue) {
   if (kind == ExprKind::Literal && types::TypeTable::isString(context.types().kind(type)) && !context.iec())
     type = context.tree().expr(lvalue = storageOfLiteral(context, lvalue)).type;
   if (!checkAddressable(context, lvalue)) return types::kError;
-  expr = addressOf(context, lvalue, context.types().pointer(type), loc);
+  context.replace(expr, makeAddressOf(context, lvalue, context.types().pointer(type), loc));
   return context.tree().expr(expr).type;
 }
 
@@ -54,19 +45,15 @@ TypeId checkBitAddress(Context& context, ExprId& expr, ExprId lvalue) {
     context.report(diag::NoBitAddress, context.tree().begin(lvalue));
     return types::kError;
   }
-  const uint32_t area = view->area == ImageArea::Memory ? 1 : view->area == ImageArea::Input ? 2 : 3;
-  expr = makeLiteral(context, LiteralKind::Integer, types::kDWord, uint64_t{area} << 30 | (view->byte * 8 + view->bit),
-                     loc);
+  const uint32_t area = view->area == types::kMemoryArea ? 1 : view->area == types::kInputArea ? 2 : 3;
+  const auto number = static_cast<int64_t>(uint64_t{area} << 30 | (view->byte * 8 + view->bit));
+  context.replace(expr, makeLiteral(context, LiteralKind::Integer, types::kDWord, number, loc));
   return types::kDWord;
 }
 
 // VAL(p) is p^. IEC syntax manual 5.3.1.3.2.
 TypeId checkVal(Context& context, ExprId& expr, ExprId pointer) {
-  DerefExpr deref{};
-  deref.h.kind = ExprKind::Deref;
-  deref.h.loc = context.tree().loc(expr);
-  deref.base = pointer;
-  expr = context.tree().add<ExprId>(deref);
+  context.replace(expr, context.build().deref(pointer, context.tree().loc(expr)));
   return check(context, expr, {}, Access::Read);
 }
 
@@ -83,12 +70,13 @@ TypeId checkIsValid(Context& context, ExprId& expr, ExprId operand) {
     const ExprKind kind = context.tree().kind(operand);
     if (var.section == SectionKind::InOut && (kind == ExprKind::Name || kind == ExprKind::Member)) {
       if (var.storage == Storage::Local) {
-        expr = makeLiteral(context, LiteralKind::Bool, types::kBool, 1, loc);
+        context.replace(expr, makeLiteral(context, LiteralKind::Bool, types::kBool, 1, loc));
         return types::kBool;
       }
       const TypeId pointer = context.types().pointer(type);
-      expr = makeBinary(context, BinaryOp::NotEqual, addressOf(context, operand, pointer, loc),
-                        makeLiteral(context, LiteralKind::Null, pointer, 0, loc), types::kBool, loc);
+      const ExprId address = makeAddressOf(context, operand, pointer, loc);
+      const ExprId null = makeLiteral(context, LiteralKind::Null, pointer, 0, loc);
+      context.replace(expr, makeBinary(context, BinaryOp::NotEqual, address, null, types::kBool, loc));
       return types::kBool;
     }
   }
@@ -97,7 +85,7 @@ TypeId checkIsValid(Context& context, ExprId& expr, ExprId operand) {
     return types::kError;
   }
   const ExprId null = makeLiteral(context, LiteralKind::Null, own, 0, loc);
-  expr = makeBinary(context, BinaryOp::NotEqual, operand, null, types::kBool, loc);
+  context.replace(expr, makeBinary(context, BinaryOp::NotEqual, operand, null, types::kBool, loc));
   return types::kBool;
 }
 
@@ -137,7 +125,7 @@ bool bindReference(Context& context, ExprId& lvalue, TypeId reference) {
                     context.tree().as<LiteralExpr>(lvalue).value() == 0;
   const Loc loc = context.tree().loc(lvalue);
   if (zero) {  // REF= 0: it refers to nothing
-    lvalue = makeLiteral(context, LiteralKind::Null, reference, 0, loc);
+    context.replace(lvalue, makeLiteral(context, LiteralKind::Null, reference, 0, loc));
     return true;
   }
   const TypeId type = check(context, lvalue, {}, Access::Address);
@@ -149,7 +137,7 @@ bool bindReference(Context& context, ExprId& lvalue, TypeId reference) {
   if (!checkAddressable(context, lvalue)) return false;
   const Fit fitness = fit(context, context.types().pointer(type), context.types().pointer(wanted));
   if (fitness == Fit::Lossless) {  // an object of a derived block
-    lvalue = addressOf(context, lvalue, context.types().pointer(type), loc);
+    context.replace(lvalue, makeAddressOf(context, lvalue, context.types().pointer(type), loc));
     wrapConvert(context, lvalue, reference);
     return true;
   }
@@ -158,7 +146,7 @@ bool bindReference(Context& context, ExprId& lvalue, TypeId reference) {
                    {context.types().toString(type), "bound to the reference", context.types().toString(reference)});
     return false;
   }
-  lvalue = addressOf(context, lvalue, reference, loc);
+  context.replace(lvalue, makeAddressOf(context, lvalue, reference, loc));
   return true;
 }
 
@@ -185,13 +173,13 @@ TypeId checkPointerIndex(Context& context, ExprId& expr) {
   const uint64_t size = context.types().info(context.types().resolve(target)).size;
   const ExprId width = makeLiteral(context, LiteralKind::Integer, types::kLInt, size, loc);
   // The address of the pointer's target: a null pointer is found before the offset hides it.
-  ExprId sum = addressOf(context, makeDeref(context, pointer, target, loc), type, loc);
+  ExprId sum = makeAddressOf(context, makeDeref(context, pointer, target, loc), type, loc);
   context.tree().as<AddressOfExpr>(sum).h.bits = kMustLeadSomewhere;
   toNumber(context, sum);
   sum = makeBinary(context, BinaryOp::Add, sum,
                    makeBinary(context, BinaryOp::Multiply, index, width, types::kLInt, loc), types::kLInt, loc);
   wrapConvert(context, sum, type);
-  expr = makeDeref(context, sum, target, loc);
+  context.replace(expr, makeDeref(context, sum, target, loc));
   return target;
 }
 

@@ -57,7 +57,13 @@ void checkReferenceAssign(Context& context, AssignStmt& node) {
     check(context, node.value, {}, Access::Address);
     return;
   }
-  if (context.tree().kind(node.target) == ExprKind::Deref) node.target = context.tree().as<DerefExpr>(node.target).base;
+  if (context.tree().kind(node.target) == ExprKind::Deref) {
+    const ExprId reference = context.tree().as<DerefExpr>(node.target).base;
+    if (context.tree().expr(node.target).synthesized != 0)
+      node.target = reference;
+    else
+      context.replace(node.target, reference);
+  }
   if (checkPropertyAssign(context, node)) return;
   const TypeId own = context.tree().expr(node.target).type;
   if (context.types().kind(own) != TypeKind::Reference) {
@@ -95,13 +101,7 @@ void checkCompoundAssign(Context& context, AssignStmt& node) {
     return;
   }
   if (checkPropertyAssign(context, node)) return;
-  BinaryExpr sum{};
-  sum.h.kind = ExprKind::Binary;
-  sum.h.op = static_cast<uint8_t>(binaryOf(node.op()));
-  sum.h.loc = node.h.loc;
-  sum.left = node.target;
-  sum.right = node.value;
-  ExprId value = context.tree().add<ExprId>(sum);
+  ExprId value = context.build().binary(binaryOf(node.op()), node.target, node.value, node.h.loc);
   check(context, context.tree().as<BinaryExpr>(value).right, type, Access::Read);
   if (combine(context, value, type) == types::kError) return;
   if (context.tree().kind(value) == ExprKind::Binary) {
@@ -111,8 +111,8 @@ void checkCompoundAssign(Context& context, AssignStmt& node) {
       return;
     }
   }
-  node.value = value;
-  node.h.op = static_cast<uint8_t>(AssignOp::Assign);
+  context.replace(node.value, value);
+  node.setEffect(AssignOp::Assign);
   convert(context, node.value, type, Purpose{"assigned to", lvalueName(context, node.target), {}});
 }
 
@@ -158,15 +158,14 @@ void checkCallStatement(Context& context, StmtId id) {
   if (context.tree().kind(node.call) == ExprKind::Call) return;
   const TypeId type = context.tree().expr(node.call).type;
   if (isUntyped(context, type)) finalizeUntyped(context, node.call);
-  if (type != types::kError) context.report(diag::ResultUnused, node.h.loc);
-  node.h.kind = StmtKind::Empty;  // a conversion: nothing happens
+  if (type != types::kError) context.report(diag::ResultUnused, node.h.loc);  // a conversion: nothing happens
 }
 
 bool checkIf(Context& context, const IfStmt& node) {
   bool falls = false;
   const uint32_t elsifs_around = context.body->elsif_depth;
   for (uint32_t i = 0; i < node.branches.count; ++i) {
-    IfBranch branch = context.tree().list(node.branches)[i];
+    IfBranch& branch = context.tree().list(node.branches)[i];
     if (i > 0 && ++context.body->elsif_depth > kMaxElsifDepth) {
       context.report(diag::StatementsTooDeep, context.tree().begin(branch.condition), {std::to_string(kMaxElsifDepth)});
       break;
@@ -175,7 +174,6 @@ bool checkIf(Context& context, const IfStmt& node) {
                    node.h.op == kConditionalOp ? "used as a condition"
                    : i == 0                    ? "used as the condition of IF"
                                                : "used as the condition of ELSIF");
-    context.tree().list(node.branches)[i].condition = branch.condition;
     checkConstantCondition(context, branch.condition);
     falls |= checkStatements(context, branch.body);
   }
@@ -184,27 +182,27 @@ bool checkIf(Context& context, const IfStmt& node) {
   return falls || otherwise;
 }
 
-ExprId checkLabel(Context& context, ExprId label, TypeId selector, CaseLabels& labels, int64_t* value) {
+void checkLabel(Context& context, ExprId& label, TypeId selector, CaseLabels& labels, int64_t* value) {
   const bool enumeration = context.types().kind(selector) == TypeKind::Enum;
   TypeId type = check(context, label, selector, Access::Read);
-  if (type == types::kError) return label;
+  if (type == types::kError) return;
   TypeId wanted = selector;
   if (enumeration && isUntyped(context, type) && !context.iec() &&
       !context.types().info(context.types().resolve(selector)).strict) {
     wanted = context.types().plain(selector);
   }
-  if (!convert(context, label, wanted, Purpose{"used as a CASE label", {}, {}})) return label;
+  if (!convert(context, label, wanted, Purpose{"used as a CASE label", {}, {}})) return;
   const std::optional<int64_t> known = constantInteger(context, label);
   if (!known) {
     context.report(diag::LabelNotConstant, context.tree().begin(label));
-    return label;
+    return;
   }
   *value = *known;
   labels.ok = true;
-  if (entityOf(context, label) || context.tree().kind(label) == ExprKind::Literal) return label;
+  if (entityOf(context, label) || context.tree().kind(label) == ExprKind::Literal) return;
   // Lowering need not compute it again.
-  return makeLiteral(context, LiteralKind::Integer, context.tree().expr(label).type, *known,
-                     context.tree().begin(label));
+  context.replace(label, makeLiteral(context, LiteralKind::Integer, context.tree().expr(label).type, *known,
+                                     context.tree().begin(label)));
 }
 
 bool checkCase(Context& context, CaseStmt& node) {
@@ -218,9 +216,8 @@ bool checkCase(Context& context, CaseStmt& node) {
   CaseLabels labels;
   bool falls = false;
   for (uint32_t b = 0; b < node.branches.count; ++b) {
-    const CaseBranch branch = context.tree().list(node.branches)[b];
-    for (uint32_t i = 0; i < branch.labels.count; ++i) {
-      ExprId label = context.tree().list(branch.labels)[i];
+    const CaseBranch& branch = context.tree().list(node.branches)[b];
+    for (ExprId& label : context.tree().list(branch.labels)) {
       const Loc loc = context.tree().begin(label);
       if (selector == types::kError) {
         if (context.tree().kind(label) != ExprKind::Range) checkExpr(context, label);
@@ -228,19 +225,18 @@ bool checkCase(Context& context, CaseStmt& node) {
         RangeExpr& range = context.tree().as<RangeExpr>(label);
         int64_t low = 0, high = 0;
         labels.ok = false;
-        range.low = checkLabel(context, range.low, selector, labels, &low);
+        checkLabel(context, range.low, selector, labels, &low);
         const bool ok = labels.ok;
         labels.ok = false;
-        range.high = checkLabel(context, range.high, selector, labels, &high);
+        checkLabel(context, range.high, selector, labels, &high);
         range.h.type = selector;
         if (ok && labels.ok) addCaseLabel(context, labels, low, high, loc, context.types().isSigned(kind));
       } else {
         int64_t value = 0;
         labels.ok = false;
-        label = checkLabel(context, label, selector, labels, &value);
+        checkLabel(context, label, selector, labels, &value);
         if (labels.ok) addCaseLabel(context, labels, value, value, loc, true);
       }
-      context.tree().list(branch.labels)[i] = label;
     }
     falls |= checkStatements(context, branch.body);
   }
@@ -415,11 +411,11 @@ bool checkStatements(Context& context, Slice<StmtId> list) {
 // Turns a body in IL or SFC into statements, once the declarations of all files are known.
 static void schedule(Context& context, PouDecl& decl) {
   const BodyKind kind = decl.body_kind;
-  if (kind != BodyKind::Il && kind != BodyKind::Sfc && kind != BodyKind::Network) return;
+  if (decl.scheduled || (kind != BodyKind::Il && kind != BodyKind::Sfc && kind != BodyKind::Network)) return;
   ProjectSignatures signatures(context);
   Tree& tree = context.tree();
   Diagnostics& diagnostics = context.symbols.diagnostics;
-  decl.body_kind = BodyKind::St;
+  decl.scheduled = true;
   const auto take = [&](const auto& created) {
     decl.body = created.body;
     declareTemporaries(context, created.temporaries);

@@ -4,47 +4,44 @@
 
 namespace rung::sema {
 
-ExprId makeLiteral(Context& context, LiteralKind kind, TypeId type, int64_t value, Loc loc) {
-  LiteralExpr node{};
-  node.h.kind = ExprKind::Literal;
-  node.h.op = static_cast<uint8_t>(kind);
-  node.h.loc = loc;
-  node.h.is_constant = 1;
-  node.h.type = type;
-  node.setValue(static_cast<uint64_t>(value));
-  return context.tree().add<ExprId>(node);
-}
-
-ExprId makeStringLiteral(Context& context, std::string_view text, Loc loc) {
-  const TypeId type = context.types().string(static_cast<uint32_t>(text.empty() ? 1 : text.size()));
-  const ExprId created = makeLiteral(context, LiteralKind::String, type, 0, loc);
-  const StringId id = context.tree().addString(text);
-  auto& node = context.tree().as<LiteralExpr>(created);
-  node.low = id.first;
-  node.high = id.length;
+ExprId typed(Context& context, ExprId created, TypeId type) {
+  context.tree().expr(created).type = type;
   return created;
 }
 
+ExprId makeLiteral(Context& context, LiteralKind kind, TypeId type, int64_t value, Loc loc) {
+  const ExprId created = context.build().literal(kind, static_cast<uint64_t>(value), loc);
+  context.tree().expr(created).is_constant = 1;
+  return typed(context, created, type);
+}
+
+ExprId makeInteger(Context& context, TypeId type, __int128 value, Loc loc) {
+  const ExprId created =
+      makeLiteral(context, LiteralKind::Integer, type, static_cast<int64_t>(value < 0 ? -value : value), loc);
+  if (value < 0) context.tree().expr(created).bits = kLiteralNegative;
+  return created;
+}
+
+ExprId makeStringLiteral(Context& context, std::string_view text, Loc loc) {
+  const ExprId created = context.build().text(LiteralKind::String, text, loc);
+  context.tree().expr(created).is_constant = 1;
+  return typed(context, created, context.types().string(static_cast<uint32_t>(text.empty() ? 1 : text.size())));
+}
+
 ExprId makeBinary(Context& context, BinaryOp op, ExprId left, ExprId right, TypeId type, Loc loc) {
-  BinaryExpr node{};
-  node.h.kind = ExprKind::Binary;
-  node.h.op = static_cast<uint8_t>(op);
-  node.h.loc = loc;
-  node.h.type = type;
-  node.h.in_parens = 1;
-  node.left = left;
-  node.right = right;
-  return context.tree().add<ExprId>(node);
+  const ExprId created = context.build().binary(op, left, right, loc);
+  context.tree().expr(created).in_parens = 1;
+  return typed(context, created, type);
 }
 
 ExprId makeDeref(Context& context, ExprId pointer, TypeId target, Loc loc) {
-  DerefExpr node{};
-  node.h.kind = ExprKind::Deref;
-  node.h.loc = loc;
-  node.h.writable = 1;
-  node.h.type = target;
-  node.base = pointer;
-  return context.tree().add<ExprId>(node);
+  const ExprId created = context.build().deref(pointer, loc);
+  context.tree().expr(created).writable = 1;
+  return typed(context, created, target);
+}
+
+ExprId makeAddressOf(Context& context, ExprId lvalue, TypeId type, Loc loc) {
+  return typed(context, context.build().addressOf(lvalue, loc), type);
 }
 
 }  // namespace rung::sema

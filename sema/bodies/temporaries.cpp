@@ -12,7 +12,6 @@ namespace {
 
 using Temporary = BodyState::Temporary;
 
-constexpr uint16_t kChecked = 1;        // StmtHeader::spare: the value was checked ahead of its statement
 constexpr uint32_t kMaxLookAhead = 50;  // temporaries that wait for each other's types
 
 Temporary& stateOf(Context& context, VarId id) {
@@ -81,8 +80,8 @@ void finalizeType(Context& context, Temporary& state, TypeId type, Loc first) {
 }
 
 void checkValue(Context& context, Temporary& state, AssignStmt& node) {
-  if (node.h.spare == kChecked) return;
-  node.h.spare = kChecked;
+  if (node.h.checked) return;
+  node.h.checked = true;
   TypeId type = check(context, node.value, state.type, Access::Read);
   if (!type) type = types::kError;
   if (state.type) return adaptValue(context, state, node);

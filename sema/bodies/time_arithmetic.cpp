@@ -46,7 +46,7 @@ TypeId scale(Context& context, ExprId& self, BinaryOp op, ExprId span, ExprId fa
   if (TypeTable::isReal(by) || by == TypeKind::RealLiteral) {
     if (by == TypeKind::RealLiteral && !adapt(context, factor, types::kLReal, {})) return types::kError;
     span = converted(context, converted(context, span, counter(context, kind)), types::kLReal);
-    self = makeBinary(context, op, span, converted(context, factor, types::kLReal), types::kLReal, loc);
+    context.replace(self, makeBinary(context, op, span, converted(context, factor, types::kLReal), types::kLReal, loc));
     // The count is rounded like any REAL.
     self = converted(context, converted(context, self, counter(context, kind)), duration);
     return duration;
@@ -66,7 +66,7 @@ TypeId scale(Context& context, ExprId& self, BinaryOp op, ExprId span, ExprId fa
     }
   }
   span = converted(context, span, units);
-  self = makeBinary(context, op, span, converted(context, factor, units), units, loc);
+  context.replace(self, makeBinary(context, op, span, converted(context, factor, units), units, loc));
   self = converted(context, self, duration);
   return duration;
 }
@@ -90,7 +90,8 @@ TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, Ex
   if (op == BinaryOp::Modulo && span_left && span_right && !context.iec()) {
     const TypeKind kind = isLong(a) || isLong(b) ? TypeKind::LTime : TypeKind::Time;
     const TypeId units = counter(context, kind);
-    self = makeBinary(context, op, spanIn(context, left, kind, loc), spanIn(context, right, kind, loc), units, loc);
+    context.replace(
+        self, makeBinary(context, op, spanIn(context, left, kind, loc), spanIn(context, right, kind, loc), units, loc));
     self = converted(context, self, types::idOf(kind));
     return types::idOf(kind);
   }
@@ -105,13 +106,15 @@ TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, Ex
   if (TypeTable::isDate(a) && span_right) {
     if (a == TypeKind::Date || a == TypeKind::LDate) return {};  // a DATE has no time of day to add to
     const TypeId units = counter(context, a);
-    self = makeBinary(context, op, converted(context, left, units), spanIn(context, right, a, loc), units, loc);
+    context.replace(
+        self, makeBinary(context, op, converted(context, left, units), spanIn(context, right, a, loc), units, loc));
     self = converted(context, self, types::idOf(a));
     return types::idOf(a);
   }
   if (op == BinaryOp::Add && span_left && TypeTable::isDate(b) && b != TypeKind::Date && b != TypeKind::LDate) {
     const TypeId units = counter(context, b);
-    self = makeBinary(context, op, spanIn(context, left, b, loc), converted(context, right, units), units, loc);
+    context.replace(
+        self, makeBinary(context, op, spanIn(context, left, b, loc), converted(context, right, units), units, loc));
     self = converted(context, self, types::idOf(b));
     return types::idOf(b);
   }
@@ -134,7 +137,7 @@ TypeId combineTimes(Context& context, ExprId& self, BinaryOp op, ExprId left, Ex
       difference = makeBinary(context, BinaryOp::Multiply, difference,
                               makeLiteral(context, LiteralKind::Integer, count, 1000, loc), count, loc);
     }
-    self = converted(context, difference, span);
+    context.replace(self, converted(context, difference, span));
     return span;
   }
   return {};

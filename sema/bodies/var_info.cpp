@@ -4,6 +4,7 @@
 #include "sema/bodies/diagnostics.h"
 #include "sema/checks/addressable.h"
 #include "sema/declarations/declarations.h"
+#include "sema/project.h"
 
 namespace rung::sema {
 
@@ -21,9 +22,7 @@ struct Facts {
   }
   void add(std::string_view name, int64_t value) {
     const TypeId type = context.types().plain(typeOf(name));
-    const ExprId literal = makeLiteral(context, LiteralKind::Integer, type, value < 0 ? -value : value, loc);
-    if (value < 0) context.tree().expr(literal).bits = kLiteralNegative;
-    fields.push_back({{context.names().intern(name), loc}, literal});
+    fields.push_back({{context.names().intern(name), loc}, makeInteger(context, type, value, loc)});
   }
   void add(std::string_view name, std::string_view text) {
     fields.push_back({{context.names().intern(name), loc}, makeStringLiteral(context, text, loc)});
@@ -66,7 +65,7 @@ void addLvalue(Facts& facts, ExprId lvalue) {
     if (var->storage == Storage::Global) area = 0, memory = 4;
     if (var->retain) memory = 3;
     if (var->storage == Storage::Image) {
-      const auto number = static_cast<int64_t>(var->image.area);  // I, Q, M
+      const auto number = static_cast<int64_t>(var->image.area.index);  // I, Q, M
       area = number + 1;
       memory = number == 2 ? 0 : number + 1;
       offset = var->image.byte;
@@ -106,16 +105,10 @@ ExprId byteOfImage(Context& context, ExprId lvalue) {
   const Var* var = &context.symbols.vars[entity.index];
   if (var->external) var = &context.symbols.var(var->external);
   if (var->storage != Storage::Image || !var->image.is_bit) return {};
-  AddressExpr byte{};
-  byte.h.kind = ExprKind::Address;
-  byte.h.loc = context.tree().loc(lvalue);
-  byte.h.type = types::kByte;
-  byte.address.area = var->image.area;
-  byte.address.size = 'B';
-  byte.address.size_given = true;
-  const uint32_t path[] = {var->image.byte};
-  byte.address.path = context.tree().addList<uint32_t>(path);
-  return context.tree().add<ExprId>(byte);
+  const Slice<uint32_t> path = context.tree().addList<uint32_t>({&var->image.byte, 1});
+  const char letter = context.project.options.areas[var->image.area.index].letter;
+  const DirectAddress byte{.area = letter, .size = 'B', .incomplete = false, .size_given = true, .path = path};
+  return typed(context, context.build().address(byte, context.tree().loc(lvalue)), types::kByte);
 }
 
 TypeId checkVarInfo(Context& context, ExprId& expr, ExprId lvalue) {
@@ -145,18 +138,8 @@ TypeId checkVarInfo(Context& context, ExprId& expr, ExprId lvalue) {
   addLvalue(facts, lvalue);
   addType(facts, type, is_bit);
   facts.add("Symbol", written.substr(0, 39));
-  StructInitExpr init{};
-  init.h.kind = ExprKind::StructInit;
-  init.h.loc = loc;
-  init.h.type = facts.record;
-  init.fields = context.tree().addList<FieldInit>(facts.fields);
-  AnyValueExpr node{};
-  node.h.kind = ExprKind::AnyValue;
-  node.h.loc = loc;
-  node.h.type = facts.record;
-  node.value = whole;
-  node.facts = context.tree().add<ExprId>(init);
-  expr = context.tree().add<ExprId>(node);
+  const ExprId members = typed(context, context.build().structInit(facts.fields, loc), facts.record);
+  context.replace(expr, typed(context, context.build().anyValue(whole, members, 0, loc), facts.record));
   return facts.record;
 }
 
@@ -191,7 +174,8 @@ TypeId checkKnownCall(Context& context, ExprId& expr, NameId name) {
     const TypeId type = checkVarInfo(context, expr, context.tree().list(node.arguments)[0].value);
     return context.tree().expr(expr).type = type;
   }
-  expr = makeStringLiteral(context, pou ? pouName(context) : position(context, node.h.loc), node.h.loc);
+  const std::string text = pou ? pouName(context) : position(context, node.h.loc);
+  context.replace(expr, makeStringLiteral(context, text, node.h.loc));
   return context.tree().expr(expr).type;
 }
 

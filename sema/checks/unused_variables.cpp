@@ -27,7 +27,7 @@ void checkUnusedVariables(Context& context) {
     const Pou& pou = context.symbols.pous[i];
     if (pou.library || pou.native || !pou.checked || !pou.decl) continue;
     const PouDecl& decl = context.tree().as<PouDecl>(pou.decl);
-    if (decl.body_kind != BodyKind::St || decl.body.empty()) continue;
+    if (decl.body.empty()) continue;
     for (const VarId id : pou.vars) {
       const Var& var = context.symbols.var(id);
       if (!var.name || var.temporary != 0 || var.storage == Storage::Image || var.open_address || var.constant ||

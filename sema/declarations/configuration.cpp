@@ -309,18 +309,8 @@ void addInstance(Context& context, const Part& part, const ProgramInstanceDecl& 
     context.report(diag::ProgramWithoutTask, decl.h.loc, {context.names().string(decl.name)});
   }
   if (!decl.arguments.empty()) {
-    NameExpr callee{};
-    callee.h.kind = ExprKind::Name;
-    callee.h.loc = type.loc;
-    callee.name = type.name;
-    callee.entity = found;
-    CallExpr call{};
-    call.h.kind = ExprKind::Call;
-    call.h.loc = type.loc;
-    call.callee = context.tree().add<ExprId>(callee);
-    call.arguments = decl.arguments;
-    call.end = type.loc;
-    instance.connections = context.tree().add<ExprId>(call);
+    const ExprId callee = context.build().name(type.name, type.loc, found);
+    instance.connections = context.build().call(callee, decl.arguments, type.loc, type.loc);
     checkConnections(context, instance.connections, instance.program);
   }
   for (const ProgramInstance& other : project.instances) {

@@ -63,7 +63,7 @@ PouId instantiate(Context& context, PouId generic_id, std::span<const TypeId> ty
 
   const PouDecl& written = context.tree().as<PouDecl>(generic.decl);
   const Slice<DeclId> decls =
-      text::parseDeclarations(symbols.tree, symbols.names, symbols.sources, written.begin, written.end,
+      text::parseDeclarations(symbols.tree, symbols.names, symbols.sources, written.h.begin, written.h.end,
                               generic.library ? Dialect::Codesys : symbols.dialect, symbols.diagnostics);
   for (uint32_t i = 0; i < decls.count; ++i) {
     const DeclId decl = symbols.tree.list(decls)[i];

@@ -149,24 +149,19 @@ struct Initializer {
   }
 
   // N(1, 2) with a constant N is a repetition like 3(1, 2); other calls stay calls.
-  ExprId repetition(ExprId id) const {
+  void findRepetition(ExprId& id) const {
     const CallExpr& call = tree().as<CallExpr>(id);
-    if (tree().kind(call.callee) != ExprKind::Name) return id;
+    if (tree().kind(call.callee) != ExprKind::Name) return;
     const Entity found = lookUp(context, tree().as<NameExpr>(call.callee).name);
-    if (found.entityKind() != EntityKind::Var || !context.symbols.vars[found.index].constant) return id;
-    if (!TypeTable::isInteger(context.types().plainKind(context.symbols.vars[found.index].type))) return id;
+    if (found.entityKind() != EntityKind::Var || !context.symbols.vars[found.index].constant) return;
+    if (!TypeTable::isInteger(context.types().plainKind(context.symbols.vars[found.index].type))) return;
     std::vector<ExprId> values;
     for (uint32_t i = 0; i < call.arguments.count; ++i) {
       const Argument& argument = tree().list(call.arguments)[i];
-      if (argument.pin.name) return id;
+      if (argument.pin.name) return;
       values.push_back(argument.value);
     }
-    RepeatExpr repeat{};
-    repeat.h.kind = ExprKind::Repeat;
-    repeat.h.loc = call.h.loc;
-    repeat.count = call.callee;
-    repeat.elements = tree().addList<ExprId>(values);
-    return tree().add<ExprId>(repeat);
+    context.replace(id, context.build().repeat(call.callee, tree().addList<ExprId>(values), call.h.loc));
   }
 
   // Checks the elements that fit; returns how many values there are, the surplus included.
@@ -174,12 +169,9 @@ struct Initializer {
     uint64_t count = 0;
     uint32_t kept = slice.count;
     for (uint32_t i = 0; i < slice.count; ++i) {
-      ExprId id = tree().list(slice)[i];
+      ExprId& id = tree().list(slice)[i];
       if (tree().kind(id) == ExprKind::Error) broken = true;
-      if (tree().kind(id) == ExprKind::Call) {
-        id = repetition(id);
-        tree().list(slice)[i] = id;
-      }
+      if (tree().kind(id) == ExprKind::Call) findRepetition(id);
       if (count >= room && kept == slice.count) {
         kept = i;
         if (!surplus) surplus = tree().begin(id);
@@ -196,13 +188,16 @@ struct Initializer {
           continue;
         }
         if (tree().kind(repeat.count) != ExprKind::Literal) {
-          repeat.count = makeLiteral(context, LiteralKind::Integer, types::idOf(TypeKind::LInt), *repetitions,
-                                     tree().loc(repeat.count));
+          context.replace(repeat.count, makeLiteral(context, LiteralKind::Integer, types::idOf(TypeKind::LInt),
+                                                    *repetitions, tree().loc(repeat.count)));
         }
         uint64_t group = 1;
         Loc inner;
         if (!repeat.elements.empty()) {
-          group = elements(repeat.elements, element, count < room ? room - count : 0, inner);
+          Slice<ExprId> fitting = repeat.elements;
+          group = elements(fitting, element, count < room ? room - count : 0, inner);
+          if (fitting.count < repeat.elements.count)
+            context.replace(id, context.build().repeat(repeat.count, fitting, repeat.h.loc));
         }
         const uint64_t total = group * std::min<uint64_t>(static_cast<uint64_t>(*repetitions), uint64_t{1} << 32);
         if (count < room && total > room - count && !surplus) surplus = tree().begin(id);
@@ -210,13 +205,25 @@ struct Initializer {
         continue;
       }
       if (count < room) {
-        value(id, element);
-        tree().list(slice)[i] = id;
+        ExprId checked = id;
+        value(checked, element);
+        if (checked)
+          id = checked;
+        else  // was reported
+          context.replace(id, context.build().error(tree().loc(id)));
       }
       ++count;
     }
     slice.count = kept;
     return count;
+  }
+
+  // What was written stays below the value of another variable; without one there is no value.
+  void takeOver(ExprId& init, ExprId value) const {
+    if (value)
+      context.replace(init, tree().insertCopy(value));
+    else
+      init = {};
   }
 
   // codesys: `limits : Limits := kLimits` copies the initial value that kLimits is declared with.
@@ -235,7 +242,7 @@ struct Initializer {
     const Var& var = context.symbols.var(other);
     if (var.storage != Storage::Global && var.storage != Storage::Field) return true;
     ensureInitialValue(context, other);
-    if (!var.record || var.list) init = context.symbols.var(other).init;
+    if (!var.record || var.list) takeOver(init, context.symbols.var(other).init);
     return true;
   }
 
@@ -255,7 +262,10 @@ struct Initializer {
     ArrayInitExpr& node = tree().as<ArrayInitExpr>(init);
     node.h.type = type;
     Loc surplus;
-    const uint64_t count = elements(node.elements, info.base, room, surplus);
+    Slice<ExprId> fitting = node.elements;
+    const uint64_t count = elements(fitting, info.base, room, surplus);
+    if (fitting.count < node.elements.count)
+      context.replace(init, typed(context, context.build().arrayInit(fitting, node.h.loc), type));
     if (surplus && !broken)
       context.report(diag::SurplusElements, surplus, {std::to_string(count), std::to_string(room)});
   }
@@ -285,10 +295,12 @@ struct Initializer {
     }
     StructInitExpr& node = tree().as<StructInitExpr>(init);
     node.h.type = type;
+    std::vector<FieldInit> fields;  // as they are set: by the names of members, with bits together in their bytes
     NameMap seen;
     std::vector<std::pair<VarId, uint8_t>> bytes;  // bytes that hold members of type BIT, with the given values
-    for (uint32_t i = 0; i < node.fields.count; ++i) {
-      FieldInit given = tree().list(node.fields)[i];
+    for (FieldInit& written : tree().list(node.fields)) {
+      FieldInit given = written;
+      fields.push_back(given);
       const std::string_view name = context.names().string(given.field.name);
       const VarId member = findMember(context, type, given.field.name);
       if (!member) {
@@ -315,17 +327,23 @@ struct Initializer {
         setBit(bytes, type, member, given.value);
         given.value = {};
       }
-      tree().list(node.fields)[i] = given;
+      if (given.value) written.value = given.value;
+      fields.back() = given;
     }
-    dropEmpty(node);
-    if (bytes.empty()) return;
-    std::vector<FieldInit> fields(tree().list(node.fields).begin(), tree().list(node.fields).end());
+    const auto same = [](const FieldInit& a, const FieldInit& b) {
+      return a.field.name == b.field.name && a.value == b.value;
+    };
+    std::erase_if(fields, [](const FieldInit& given) { return !given.value; });  // reported, or a bit
+    const auto as_written = tree().list(node.fields);
+    if (bytes.empty() && fields.size() == as_written.size() &&
+        std::equal(fields.begin(), fields.end(), as_written.begin(), same))
+      return;
     for (const auto& [byte, bits] : bytes) {
       const Loc loc = node.h.loc;
       fields.push_back(
           {{context.symbols.var(byte).name, loc}, makeLiteral(context, LiteralKind::Integer, types::kByte, bits, loc)});
     }
-    node.fields = tree().addList<FieldInit>(fields);
+    context.replace(init, typed(context, context.build().structInit(fields, node.h.loc), type));
   }
 
   // Sets the bit of a member of type BIT in the byte that holds it.
@@ -345,16 +363,6 @@ struct Initializer {
     uint8_t& bits = bytes.back().second;
     const auto mask = static_cast<uint8_t>(1u << var.bit);
     bits = static_cast<uint8_t>(bit->bits != 0 ? bits | mask : bits & ~mask);
-  }
-
-  // Removes members whose value was reported.
-  void dropEmpty(StructInitExpr& node) const {
-    auto fields = tree().list(node.fields);
-    uint32_t kept = 0;
-    for (const FieldInit& given : fields) {
-      if (given.value) fields[kept++] = given;
-    }
-    node.fields.count = kept;
   }
 
   std::string_view nearestMember(TypeId type, NameId written) const {

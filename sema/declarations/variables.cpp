@@ -2,6 +2,8 @@
 #include <algorithm>
 
 #include "frontend/schedule/network_schedule.h"
+#include "frontend/syntax/children.h"
+#include "frontend/syntax/standard_names.h"
 #include "sema/bodies/signatures.h"
 #include "sema/checks/object_members.h"
 #include "sema/checks/uncopied.h"
@@ -292,12 +294,16 @@ void ensureVarType(Context& context, VarId id) {
     if (decl.located && decl.address.incomplete) {  // completed by resolveInstancePaths
       if (decl.address.size_given && addressType(decl.address) == types::kBool && type != types::kError &&
           context.types().kind(type) != TypeKind::Bool) {
-        const std::string address = {'%', areaLetter(decl.address.area), 'X', '*'};
+        const std::string address = {'%', decl.address.area, 'X', '*'};
         there.report(diag::AddressType, decl.address_loc, {address, context.types().toString(type)});
         var.type = types::kError;
       }
+      const std::optional<types::AreaId> area = areaOf(there, decl.address, decl.address_loc);
+      if (area)
+        var.image.area = *area;
+      else
+        var.type = types::kError;
       var.open_address = true;
-      var.image.area = decl.address.area;
       var.image.is_bit = type != types::kError && context.types().kind(type) == TypeKind::Bool;
     } else if (decl.located && !var.record && isHierarchical(there, decl.address)) {
       const VarId named = hierarchicalVar(there, decl.address, decl.address_loc, VarId{i});
@@ -321,7 +327,7 @@ void ensureInitialValue(Context& context, VarId id) {
   Symbols& symbols = context.symbols;
   if (!symbols.var(id).decl) return;
   VarDecl& decl = context.tree().as<VarDecl>(symbols.var(id).decl);
-  if (decl.h.spare == static_cast<uint16_t>(State::Done)) return;
+  if (decl.h.progress == static_cast<uint16_t>(State::Done)) return;
   if (symbols.var(id).section == SectionKind::External && symbols.var(id).external && !decl.init) return;
   Context there = contextOf(context, id);
   const auto setUnknown = [&] {  // silences follow-up errors
@@ -333,7 +339,7 @@ void ensureInitialValue(Context& context, VarId id) {
     if (types::TypeTable::isReal(kind)) var.value = types::Value::ofReal(var.type, 1.0);
     if (types::TypeTable::isInteger(kind) && var.value.bits == 0) var.value.bits = 1;
   };
-  if (decl.h.spare == static_cast<uint16_t>(State::Busy)) {
+  if (decl.h.progress == static_cast<uint16_t>(State::Busy)) {
     if (symbols.var(id).constant && !symbols.var(id).has_value) {
       context.report(diag::ConstantCycle, symbols.var(id).loc, {context.names().string(symbols.var(id).name)});
       setUnknown();
@@ -345,7 +351,7 @@ void ensureInitialValue(Context& context, VarId id) {
     context.report(diag::DeclarationsTooDeep, symbols.var(id).loc, {context.names().string(symbols.var(id).name)});
     return setUnknown();
   }
-  decl.h.spare = static_cast<uint16_t>(State::Busy);
+  decl.h.progress = static_cast<uint16_t>(State::Busy);
   const TypeId type = symbols.var(id).type;
   ExprId init = decl.init;
   const Var& var = symbols.var(id);
@@ -370,12 +376,12 @@ void ensureInitialValue(Context& context, VarId id) {
     reads = checkInitializerAs(there, init, type, what, may);
     ok = symbols.diagnostics.errorCount() == errors;
     --context.scopes.depth;
-    decl.init = init;
+    if (init) decl.init = init;
   }
   const bool makes_object = var.section != SectionKind::InOut && var.section != SectionKind::External;
   uint32_t elements = 0;
   const CallId constructor = decl.type && makes_object ? checkConstructor(there, decl.type, elements) : CallId{};
-  decl.h.spare = static_cast<uint16_t>(State::Done);
+  decl.h.progress = static_cast<uint16_t>(State::Done);
   const TypeKind kind = context.types().plainKind(type);
   std::optional<types::Value> value;
   if (var.constant && init && types::TypeTable::isElementary(kind)) {
@@ -437,16 +443,15 @@ static void declareHidden(Context& context, PouId id) {
     if (action.pou_kind == PouKind::Action) declare(action, toString(context, action.name) + "_");
   }
   if (added.empty()) return;
-  std::vector<DeclId> sections(tree.list(decl.sections).begin(), tree.list(decl.sections).end());
-  sections.insert(sections.end(), added.begin(), added.end());
-  decl.sections = tree.addList<DeclId>(sections);
+  added.insert(added.begin(), tree.list(decl.hidden).begin(), tree.list(decl.hidden).end());  // of a chart
+  decl.hidden = tree.addList<DeclId>(added);
 }
 
 // ENO in the body of a function is an output that need not be declared; TRUE until the body assigns it.
 // IEC 61131-3 ed. 2, 2.5.1.2 and the function WEIGH of its annex F.
 static void declareEno(Context& context, PouId id) {
   Symbols& symbols = context.symbols;
-  const NameId name = context.names().intern("ENO");
+  const NameId name = context.names().intern(kEnableOutput);
   const VarId created{static_cast<uint32_t>(symbols.vars.size())};
   if (!context.scopes.pous[id.index].names.insert(keyOf(context, name), entity(created))) return;
   Var var;
@@ -460,6 +465,43 @@ static void declareEno(Context& context, PouId id) {
   symbols.pou(id).vars.push_back(created);
 }
 
+// The variables of one section of a POU.
+static void declareSection(Context& there, PouId id, const PouDecl& decl, const SectionDecl& section) {
+  Symbols& symbols = there.symbols;
+  PouScope& scope = there.scopes.pous[id.index];
+  const PouKind kind = decl.pou_kind;
+  const bool is_member = kind == PouKind::Method || kind == PouKind::Action;
+  // Forbids sections that a POU cannot have. IEC 61131-3 ed. 3 table 14.
+  if (section.section == SectionKind::Global && mayHoldGlobals(there, kind)) return;  // collect.cpp
+  if (section.section == SectionKind::Access && kind == PouKind::Program) return;     // access_paths.cpp
+  const bool misplaced = section.section == SectionKind::Global || section.section == SectionKind::Access ||
+                         section.section == SectionKind::Config || kind == PouKind::Interface ||
+                         (section.section == SectionKind::Stat && there.iec()) ||
+                         (section.section == SectionKind::Inst && !is_member);
+  if (misplaced) {
+    there.report(diag::SectionNotAllowed, section.h.loc, {sectionWord(section.section), kindWord(kind)});
+    if (section.section != SectionKind::Global && section.section != SectionKind::Stat) return;
+  }
+  const bool of_chart = decl.chart_sections && symbols.sources.fileOf(section.h.loc) == decl.chart_sections;
+  const size_t first_var = symbols.vars.size();
+  for (uint32_t i = 0; i < section.vars.count; ++i) {
+    const DeclId var = there.tree().list(section.vars)[i];
+    if (section.section == SectionKind::Stat) {
+      // One for all instances and calls: a separate list, visible only in this POU. codesys.
+      const std::string name = toString(there, symbols.pou(id).unique_name) + "__static";
+      const ListId list = listNamed(there, name, symbols.pou(id).file, section.h.loc, there.scopes.qualifiers);
+      declareVars(there, var, section, id, list, &scope.names, symbols.global_lists[list.index].vars);
+      continue;
+    }
+    if (section.section == SectionKind::Inst && is_member) {
+      declareInstanceVars(there, var, section, id);
+      continue;
+    }
+    declareVars(there, var, section, id, {}, &scope.names, symbols.pou(id).vars);
+  }
+  for (size_t i = first_var; of_chart && i < symbols.vars.size(); ++i) symbols.vars[i].of_chart = true;
+}
+
 void declarePou(Context& context, PouId id) {
   PouScope& scope = context.scopes.pous[id.index];
   if (scope.declared) return;
@@ -470,7 +512,6 @@ void declarePou(Context& context, PouId id) {
   const PouDecl& decl = tree.as<PouDecl>(symbols.pou(id).decl);
   Context there = atPou(context, id);
   const PouKind kind = decl.pou_kind;
-  const bool is_member = kind == PouKind::Method || kind == PouKind::Action;
   if (decl.result) {
     Var var;
     var.name = decl.name;
@@ -480,38 +521,7 @@ void declarePou(Context& context, PouId id) {
     symbols.vars.push_back(var);
     symbols.pou(id).result_var = VarId{static_cast<uint32_t>(symbols.vars.size() - 1)};
   }
-  for (uint32_t s = 0; s < decl.sections.count; ++s) {
-    const SectionDecl& section = tree.as<SectionDecl>(tree.list(decl.sections)[s]);
-    // Forbids sections that a POU cannot have. IEC 61131-3 ed. 3 table 14.
-    if (section.section == SectionKind::Global && mayHoldGlobals(context, kind)) continue;  // collect.cpp
-    if (section.section == SectionKind::Access && kind == PouKind::Program) continue;       // access_paths.cpp
-    const bool misplaced = section.section == SectionKind::Global || section.section == SectionKind::Access ||
-                           section.section == SectionKind::Config || kind == PouKind::Interface ||
-                           (section.section == SectionKind::Stat && context.iec()) ||
-                           (section.section == SectionKind::Inst && !is_member);
-    if (misplaced) {
-      there.report(diag::SectionNotAllowed, section.h.loc, {sectionWord(section.section), kindWord(kind)});
-      if (section.section != SectionKind::Global && section.section != SectionKind::Stat) continue;
-    }
-    const bool of_chart = decl.chart_sections && symbols.sources.fileOf(section.h.loc) == decl.chart_sections;
-    const size_t first_var = symbols.vars.size();
-    for (uint32_t i = 0; i < section.vars.count; ++i) {
-      const DeclId var = tree.list(section.vars)[i];
-      if (section.section == SectionKind::Stat) {
-        // One for all instances and calls: a separate list, visible only in this POU. codesys.
-        const std::string name = toString(context, symbols.pou(id).unique_name) + "__static";
-        const ListId list = listNamed(context, name, symbols.pou(id).file, section.h.loc, context.scopes.qualifiers);
-        declareVars(there, var, section, id, list, &scope.names, symbols.global_lists[list.index].vars);
-        continue;
-      }
-      if (section.section == SectionKind::Inst && is_member) {
-        declareInstanceVars(there, var, section, id);
-        continue;
-      }
-      declareVars(there, var, section, id, {}, &scope.names, symbols.pou(id).vars);
-    }
-    for (size_t i = first_var; of_chart && i < symbols.vars.size(); ++i) symbols.vars[i].of_chart = true;
-  }
+  forEachSection(tree, decl, [&](const SectionDecl& section) { declareSection(there, id, decl, section); });
   declareMembers(context, id);
   if (kind == PouKind::Function && decl.uses_eno) declareEno(context, id);
   if (symbols.pou(id).result_var) {

@@ -105,7 +105,7 @@ TEST(Verify, Rule9Constants) {
 }
 TEST(Verify, Rule10Variables) {
   expectStatementBroken(10, "  i = int%I2");
-  expectBroken(10, "image I 4 Q 0 M 0\nfunction @f { in i: int }\nbody @f { i = int%I2.3 }\n");
+  expectBroken(10, "area I input 4\nfunction @f { in i: int }\nbody @f { i = int%I2.3 }\n");
   expectBrokenBy(10, "  i = 1",
                  [](TestModule&, Body& body) { firstOf(body, ExprKind::Local).set(LocalExpr{.local = 99}); });
 }

@@ -106,7 +106,7 @@ END_FUNCTION_BLOCK
   const DeclId pou_id = parsed.tree.list(parsed.tree.files[0].decls)[0];
   const auto& pou = parsed.tree.as<PouDecl>(pou_id);
   EXPECT_EQ(parsed.sources.location(pou.h.doc).line, 1u);
-  EXPECT_EQ(parsed.sources.location(pou.begin).line, 3u);
+  EXPECT_EQ(parsed.sources.location(pou.h.begin).line, 3u);
   EXPECT_EQ(pou.body_kind, BodyKind::Native);
   ASSERT_EQ(pou.h.pragmas.count, 2u);
   const auto section = parsed.tree.as<SectionDecl>(parsed.tree.list(pou.sections)[0]);
@@ -128,12 +128,13 @@ TEST(Declarations, OneDeclarationOutOfAFile) {
   const FileUnit unit = parseFile(tree, names, sources, file, Dialect::Codesys, diagnostics);
   ASSERT_EQ(unit.decls.count, 3u);
   const PouDecl f = tree.as<PouDecl>(tree.list(unit.decls)[1]);
-  const Slice<DeclId> again = parseDeclarations(tree, names, sources, f.begin, f.end, Dialect::Codesys, diagnostics);
+  const Slice<DeclId> again =
+      parseDeclarations(tree, names, sources, f.h.begin, f.h.end, Dialect::Codesys, diagnostics);
   ASSERT_EQ(again.count, 1u);
   const auto& copy = tree.as<PouDecl>(tree.list(again)[0]);
   EXPECT_EQ(copy.name, f.name);
   EXPECT_EQ(copy.body_kind, BodyKind::Native);
-  EXPECT_EQ(copy.end, f.end);
+  EXPECT_EQ(copy.h.end, f.h.end);
   EXPECT_FALSE(diagnostics.hasErrors());
 }
 

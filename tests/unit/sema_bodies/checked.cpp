@@ -79,7 +79,7 @@ class Printer {
       const AssignStmt& node = tree_.as<AssignStmt>(id);
       const char* ops[] = {":=", "S=", "R=", "REF=", "+=", "-=", "*=", "/="};
       expr(node.target);
-      out.append(" ").append(ops[node.h.op]).append(" ");
+      out.append(" ").append(ops[node.h.effect]).append(" ");
       expr(node.value);
     } else if (tree_.kind(id) == StmtKind::Call) {
       expr(tree_.as<CallStmt>(id).call);

@@ -1,5 +1,6 @@
-// Storage of the tree: nodes over chunk borders, lists, strings, and where an expression begins.
-#include "frontend/syntax/tree.h"
+// Storage of the tree: nodes and lists over chunk borders, strings, inserted nodes, and where an expression begins and
+// ends.
+#include "frontend/syntax/tree_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +9,7 @@
 namespace rung {
 namespace {
 
-ExprId name(Tree& tree, uint32_t offset) {
-  return tree.add<ExprId>(NameExpr{{ExprKind::Name, 0, 0, 0, 0, 0, {offset}, {}}, {offset}, {}});
-}
+ExprId name(Tree& tree, uint32_t offset) { return TreeBuilder(tree).name(NameId{offset}, Loc{offset}); }
 
 TEST(Tree, NodesStayAcrossChunks) {
   Tree tree;
@@ -33,18 +32,69 @@ TEST(Tree, ListsAndStrings) {
   EXPECT_EQ(tree.list(a)[2], 3u);
   EXPECT_TRUE(b.empty());
   EXPECT_EQ(tree.string(tree.addString("pump")), "pump");
+  EXPECT_EQ(tree.string(tree.addString("")), "");
+}
+
+// A list is a span that stays where it is while others are added, even one that is larger than a chunk.
+TEST(Tree, ListsStayWhileOthersAreAdded) {
+  Tree tree;
+  std::vector<Slice<uint32_t>> slices;
+  std::vector<std::span<uint32_t>> spans;
+  for (uint32_t count = 1; count <= 300; ++count) {
+    slices.push_back(tree.addList<uint32_t>(std::vector<uint32_t>(count, count)));
+    spans.push_back(tree.list(slices.back()));
+  }
+  const std::vector<uint32_t> large(200'000, 7);
+  const std::span<uint32_t> whole = tree.list(tree.addList<uint32_t>(large));
+  name(tree, 1);
+  EXPECT_EQ(std::vector<uint32_t>(whole.begin(), whole.end()), large);
+  for (uint32_t k = 0; k < slices.size(); ++k) {
+    ASSERT_EQ(spans[k].data(), tree.list(slices[k]).data());
+    ASSERT_EQ(std::vector<uint32_t>(spans[k].begin(), spans[k].end()), std::vector<uint32_t>(k + 1, k + 1));
+  }
 }
 
 TEST(Tree, BeginIsTheLeftmostToken) {
   Tree tree;
-  const ExprId a = name(tree, 10), b = name(tree, 20);
-  const ExprId sum =
-      tree.add<ExprId>(BinaryExpr{{ExprKind::Binary, 0, 0, 0, static_cast<uint8_t>(BinaryOp::Add), 0, {15}, {}}, a, b});
+  TreeBuilder build(tree);
+  const ExprId sum = build.binary(BinaryOp::Add, name(tree, 10), name(tree, 20), Loc{15});
   EXPECT_EQ(tree.loc(sum).offset, 15u);
   EXPECT_EQ(tree.begin(sum).offset, 10u);
-  const ExprId negated =
-      tree.add<ExprId>(UnaryExpr{{ExprKind::Unary, 0, 0, 0, static_cast<uint8_t>(UnaryOp::Negate), 0, {9}, {}}, sum});
-  EXPECT_EQ(tree.begin(negated).offset, 9u);
+  EXPECT_EQ(tree.begin(build.unary(UnaryOp::Negate, sum, Loc{9})).offset, 9u);
+}
+
+// A node that is put into the slot of another leads back to what was written there.
+TEST(Tree, WhatWasWrittenStaysBelowInsertedNodes) {
+  Tree tree;
+  TreeBuilder insert(tree, TreeBuilder::Origin::Inserted);
+  const ExprId written = name(tree, 10);
+  ExprId slot = written;
+  tree.replace(slot, insert.convert(slot, Loc{10}));
+  tree.replace(slot, insert.literal(LiteralKind::Integer, 7, Loc{10}));
+  EXPECT_EQ(tree.kind(slot), ExprKind::Literal);
+  EXPECT_EQ(tree.written(slot), written);
+  EXPECT_FALSE(tree.written(insert.name(NameId{1}, Loc{10})));
+  // A node that is in use is copied: its own slot is as it was.
+  const ExprId other = name(tree, 20);
+  tree.replace(slot, other);
+  EXPECT_FALSE(slot == other);
+  EXPECT_EQ(tree.written(slot), written);
+  EXPECT_EQ(tree.written(other), other);
+}
+
+TEST(Tree, ParenthesesBelongToTheRange) {
+  Tree tree;
+  TreeBuilder build(tree);
+  const auto ended = [&](ExprId id, uint32_t end) {
+    tree.expr(id).end = Loc{end};
+    return id;
+  };
+  const ExprId left = ended(build.name(NameId{1}, Loc{11}), 12), right = ended(build.name(NameId{2}, Loc{15}), 16);
+  tree.parenthesize(left, Loc{10}, Loc{13});
+  const ExprId sum = ended(build.binary(BinaryOp::Add, left, right, Loc{14}), 16);
+  EXPECT_EQ(tree.range(left), (Range{Loc{10}, Loc{13}}));
+  EXPECT_EQ(tree.range(sum), (Range{Loc{10}, Loc{16}}));
+  EXPECT_EQ(tree.begin(sum), Loc{11});
 }
 
 }  // namespace

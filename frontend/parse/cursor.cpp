@@ -1,0 +1,163 @@
+// Tokens and error reporting of the parser.
+#include "frontend/parse/cursor.h"
+
+#include "frontend/parse/diagnostics.h"
+#include "frontend/parse/recover.h"
+#include "frontend/syntax/diagnostics.h"
+
+namespace rung::text {
+
+Cursor::Cursor(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect, Diagnostics& diagnostics)
+    : tree_(tree),
+      names_(names),
+      sources_(sources),
+      file_(file),
+      dialect_(dialect),
+      diagnostics_(diagnostics),
+      base_(sources.begin(file).offset),
+      source_(sources.sourceText(file)) {}
+
+void Cursor::read(uint32_t begin, uint32_t end) {
+  lex(stream_, names_, sources_, file_, begin, end, dialect_, diagnostics_);
+  resolveObjectKeywords(stream_);
+  balanceBlocks(stream_, names_, sources_, file_, dialect_, diagnostics_);
+  tokens_ = std::move(stream_.tokens);
+  t_ = tokens_.data();
+}
+
+// ---- tokens
+
+uint32_t Cursor::lengthOf(const Token* t) const {
+  if (isName(t->kind) || isTypeWord(t->kind))
+    return (t->flags & kSynthetic) != 0 ? 0 : static_cast<uint32_t>(names_.string({t->value}).size());
+  return t->value;
+}
+
+Loc Cursor::endOfPrevious() const {
+  const Token* t = t_;
+  while (t > tokens_.data())
+    if (((--t)->flags & kSynthetic) == 0) return endOf(t);
+  return here();
+}
+
+std::string Cursor::describe(const Token* t) const {
+  while ((t->flags & kSynthetic) != 0 && t > tokens_.data()) --t;
+  if (t->kind == Tok::End) return spelling(Tok::End);
+  std::string_view text = textOf(t);
+  std::string shown = "`";
+  // A long literal is truncated, between UTF-8 characters.
+  if (text.size() > 40) {
+    size_t n = 37;
+    while (n > 0 && (static_cast<unsigned char>(text[n]) & 0xC0) == 0x80) --n;
+    shown.append(text.substr(0, n));
+    shown += "...";
+  } else {
+    shown.append(text);
+  }
+  shown += '`';
+  return shown;
+}
+
+bool Cursor::isOperand(Tok kind) const {
+  return (kind >= Tok::Number && kind <= Tok::Ident) || isName(kind) || isTypeWord(kind) || kind == Tok::True ||
+         kind == Tok::False || kind == Tok::Null || kind == Tok::LeftParen || kind == Tok::Not;
+}
+
+// ---- errors
+
+// One syntax error per line: the next error on the line most likely follows from the first.
+bool Cursor::mayReport(const Token* t) {
+  if (panic_) return false;
+  const auto sameLine = [](const Token* a, const Token* b) {
+    if (a > b) std::swap(a, b);
+    while (a < b)
+      if (((++a)->flags & kLineStart) != 0) return false;
+    return true;
+  };
+  if (last_error_ != nullptr && sameLine(last_error_, t)) {
+    if (t > last_error_) last_error_ = t;
+    return false;
+  }
+  // Reported by the lexer or the block repair.
+  for (const Token* p = t; t - p < 200; --p) {
+    if ((p->flags & kReported) != 0) {
+      last_error_ = t;
+      return false;
+    }
+    if ((p->flags & kLineStart) != 0 || p == tokens_.data()) break;
+  }
+  for (const Token* p = t + 1; p - t < 200 && (p->flags & kLineStart) == 0 && p->kind != Tok::End; ++p) {
+    if ((p->flags & kReported) != 0) {
+      last_error_ = t;
+      return false;
+    }
+  }
+  return true;
+}
+
+Report Cursor::fail(Diag diag, const Token* t, std::initializer_list<std::string_view> args) {
+  const bool report = mayReport(t);
+  panic_ = true;
+  if (!report) return Report(nullptr);
+  last_error_ = t;
+  return diagnostics_.report(diag, loc(t), args).length(t->kind == Tok::End ? 1 : lengthOf(t));
+}
+
+Report Cursor::slip(Diag diag, const Token* t, std::initializer_list<std::string_view> args) {
+  if (!mayReport(t)) return Report(nullptr);
+  last_error_ = t;
+  return diagnostics_.report(diag, loc(t), args).length(t->kind == Tok::End ? 1 : lengthOf(t));
+}
+
+Report Cursor::missing(Diag diag, std::initializer_list<std::string_view> args) {
+  const Token* before = t_;
+  if (before > tokens_.data()) --before;
+  while ((before->flags & kSynthetic) != 0 && before > tokens_.data()) --before;
+  if (!mayReport(before)) return Report(nullptr);
+  last_error_ = before;
+  return diagnostics_.report(diag, endOf(before), args).length(1);
+}
+
+bool Cursor::expect(Tok wanted) {
+  if (accept(wanted)) return true;
+  if (panic_) return false;
+  const Tok candidates[] = {wanted};
+  if (at(Tok::Ident) && isReserved(wanted) && nearKeyword(t_, candidates) == wanted) {
+    correctSpelling(wanted);
+    advance();
+    return false;
+  }
+  if (atLineStart() || at(Tok::End))
+    missing(diag::MissingToken, {spelling(wanted), describe(t_)});
+  else if (isOperand(kind()) || at(Tok::Minus) || at(Tok::Array) || at(Tok::Struct) || at(Tok::Colon) ||
+           at(Tok::Semicolon))
+    slip(diag::MissingToken, t_, {spelling(wanted), describe(t_)});
+  else
+    fail(diag::WrongKeyword, t_, {textOf(t_), spelling(wanted)});
+  return false;
+}
+
+Tok Cursor::nearKeyword(const Token* t, std::span<const Tok> candidates) const {
+  return nearestKeyword(textOf(t), candidates);
+}
+
+bool Cursor::correctSpelling(Tok wanted) {
+  slip(diag::MisspelledKeyword, t_, {textOf(t_), spelling(wanted)});
+  const uint32_t length = lengthOf(t_);
+  t_->kind = wanted;
+  if (!isName(wanted) && !isTypeWord(wanted)) t_->value = length;
+  t_->flags |= kReported;
+  return true;
+}
+
+void Cursor::tooDeep(const char* what, uint32_t limit) {
+  const std::string number = std::to_string(limit);
+  fail(diag::TooDeep, t_, {what, number});
+}
+
+void Cursor::missingEnd(std::string_view end, const Token* open, std::string_view word) {
+  const std::string line = std::to_string(sources_.location(loc(open)).line);
+  missing(diag::MissingEnd, {end, word, line});
+}
+
+}  // namespace rung::text

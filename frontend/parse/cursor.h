@@ -1,0 +1,124 @@
+// The token cursor that all parts of the parser share: the current token, errors, and the ends of nodes. Private to
+// frontend/parse. The parser is a chain of classes, one subject each, which all see the same tokens:
+//   Cursor > ExpressionParser > DeclarationParser > StatementParser > IlParser > NetworkParser > ChartParser > Parser
+// Where the grammar goes back to a later subject, as from an expression to a type, a virtual function leads there.
+//
+// Errors. fail() reports and sets panic_: no further errors are reported until the current construct has found its
+// synchronization point (`;`, a keyword, a line that begins a statement). slip() reports an error whose intended
+// meaning is clear and continues as if it had been written correctly. One line gets at most one syntax error.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frontend/parse/lexer.h"
+#include "frontend/parse/literals.h"
+#include "frontend/parse/parse.h"
+#include "frontend/source/dialect.h"
+#include "frontend/syntax/tree_builder.h"
+
+namespace rung::text {
+
+class Cursor {
+ public:
+  Cursor(Tree& tree, Names& names, const Sources& sources, FileId file, Dialect dialect, Diagnostics& diagnostics);
+
+  // Lexes [begin, end) of the file and balances its blocks.
+  void read(uint32_t begin, uint32_t end);
+
+ protected:
+  // ---- tokens
+  Tok kind() const { return t_->kind; }
+  bool at(Tok kind) const { return t_->kind == kind; }
+  Tok peek(uint32_t n = 1) const { return t_[n].kind; }
+  bool atLineStart() const { return (t_->flags & kLineStart) != 0; }
+  void advance() {
+    if (t_->kind != Tok::End) ++t_;
+  }
+  bool accept(Tok kind) {
+    if (t_->kind != kind) return false;
+    ++t_;
+    return true;
+  }
+  uint32_t index() const { return static_cast<uint32_t>(t_ - tokens_.data()); }
+  Loc loc(const Token* t) const { return {base_ + t->offset}; }
+  Loc here() const { return loc(t_); }
+  NameId nameOf(const Token* t) const { return {t->value}; }
+  Ident ident(const Token* t) const { return {nameOf(t), loc(t)}; }
+  uint32_t lengthOf(const Token* t) const;
+  std::string_view textOf(const Token* t) const { return source_.substr(t->offset, lengthOf(t)); }
+  Loc endOf(const Token* t) const { return {base_ + t->offset + lengthOf(t)}; }
+  bool is(const Token* t, std::string_view word) const { return sameIdentifier(textOf(t), word); }
+  std::string describe(const Token* t) const;  // "`x`", "the end of the file"
+
+  bool isOperand(Tok kind) const;
+  // CODESYS knows NULL as a value only: items and members may have this name.
+  bool isNullName(const Token* t) const { return t->kind == Tok::Null && dialect_ == Dialect::Codesys; }
+
+  // ---- errors
+  Report fail(Diag diag, const Token* t, std::initializer_list<std::string_view> args = {});
+  Report slip(Diag diag, const Token* t, std::initializer_list<std::string_view> args = {});
+  Report missing(Diag diag, std::initializer_list<std::string_view> args);  // at the end of the previous token
+  bool mayReport(const Token* t);
+  bool nameReserved(const Token* t) const { return isReserved(t->kind) || isTypeWord(t->kind); }
+  // Consumes `wanted`. If it is missing: slip(), or fail() when the next token makes no sense. True when it was there.
+  bool expect(Tok wanted);
+  // The keyword of `candidates` that is nearest to the name at t, or End.
+  Tok nearKeyword(const Token* t, std::span<const Tok> candidates) const;
+  bool correctSpelling(Tok wanted);  // t_ is a misspelled `wanted`: reports and corrects it
+  void tooDeep(const char* what, uint32_t limit);
+
+  // END_… of what begins at `open` is missing.
+  void missingEnd(std::string_view end, const Token* open, std::string_view word);
+
+  // ---- nodes
+  // The end of the last token that was read.
+  Loc endOfPrevious() const;
+  // Notes that a node ends with the last token that was read.
+  ExprId ended(ExprId expr) {
+    tree_.expr(expr).end = endOfPrevious();
+    return expr;
+  }
+  TypeExprId ended(TypeExprId type) {
+    if (type) tree_.typeExpr(type).end = endOfPrevious();
+    return type;
+  }
+  template <class Node>
+  DeclId finish(Node& node) {
+    node.h.end = endOfPrevious();
+    return tree_.add<DeclId>(node);
+  }
+  DeclHeader declHeader(DeclKind kind) { return header(kind, here(), takeDoc(), takePragmas()); }
+
+  template <class T>
+  Slice<T> listFrom(std::vector<T>& scratch, size_t first) {
+    const Slice<T> slice = tree_.addList<T>(std::span<const T>(scratch).subspan(first));
+    scratch.resize(first);
+    return slice;
+  }
+
+  // ---- pragmas and doc comments (pragmas.cpp)
+  Slice<Pragma> takePragmas();
+  Pragma readPragma(const PragmaRange& pragma);
+  Loc takeDoc();
+  Loc docAfter(const Token* t) const;
+  bool pragmaNamed(Slice<Pragma> pragmas, std::string_view name) const;
+
+  Tree& tree_;
+  TreeBuilder build_{tree_};
+  Names& names_;
+  const Sources& sources_;
+  FileId file_;
+  Dialect dialect_;
+  Diagnostics& diagnostics_;
+  uint32_t base_;
+  std::string_view source_;
+  TokenStream stream_;
+  std::vector<Token> tokens_;
+  Token* t_ = nullptr;
+  bool panic_ = false;
+  const Token* last_error_ = nullptr;
+};
+
+}  // namespace rung::text
