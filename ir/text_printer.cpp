@@ -335,19 +335,17 @@ void Printer::classes() {
   }
 }
 
-void Printer::area(const types::MemoryArea& area) {
-  if (area.bytes == 0) return;
-  put("area ");
-  out += area.letter;
-  put(" ");
-  put(spelling(area.owner));
-  put(" ");
-  number(area.bytes);
-  put("\n");
-}
-
 void Printer::items() {
-  for (const types::MemoryArea& one : module_.areas) area(one);
+  for (const types::MemoryArea& area : module_.areas) {
+    if (area.bytes == 0) continue;
+    put("area ");
+    out += area.letter;
+    put(" ");
+    put(spelling(area.owner));
+    put(" ");
+    number(area.bytes);
+    put("\n");
+  }
   for (size_t i = 0; i < module_.data.size(); ++i) dataItem(i);
   for (const List& list : module_.lists) {
     clause("list @", list.name);

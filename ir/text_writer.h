@@ -51,7 +51,6 @@ class Printer {
 
   // ---- module items
   void origin(const Origin& origin, Loc loc);
-  void area(const types::MemoryArea& area);
   void items();
   void clause(const char* word, uint64_t value);
   void clause(const char* word, NameId value);
