@@ -16,12 +16,12 @@ using types::RecordKind;
 
 // ---- tokens
 
-void Reader::fail(Diag diag, Loc loc, std::initializer_list<std::string_view> args) {
+void TokenReader::fail(Diag diag, Loc loc, std::initializer_list<std::string_view> args) {
   if (!failed_) diagnostics_.report(diag, loc, args);
   failed_ = true;
 }
 
-void Reader::expected(std::string_view what) {
+void TokenReader::expected(std::string_view what) {
   const Token& seen = token();
   std::string quoted;
   if (what.size() < 3 || isReserved(what)) quoted = "`" + std::string(what) + "`";
@@ -29,7 +29,7 @@ void Reader::expected(std::string_view what) {
        {quoted.empty() ? what : quoted, seen.kind == TokenKind::End ? std::string_view("end of file") : seen.text});
 }
 
-NameId Reader::name() {
+NameId TokenReader::name() {
   if (failed_) return {};
   const Token& t = token();
   if (t.kind != TokenKind::Name || (!t.quoted && isReserved(t.text))) {
@@ -37,13 +37,13 @@ NameId Reader::name() {
     return {};
   }
   ++at_;
-  return module_.names.intern(t.quoted ? unescape(t.text) : std::string(t.text));
+  return names_.intern(t.quoted ? unescape(t.text) : std::string(t.text));
 }
 
-std::string Reader::sigilName() {
+std::string TokenReader::sigilName() {
   expect("@");
   NameId id = name();
-  std::string text(module_.names.string(id));
+  std::string text(names_.string(id));
   if (isPunct(".") && token(1).kind == TokenKind::Number) {
     text += "." + std::string(token(1).text);
     at_ += 2;
@@ -51,7 +51,7 @@ std::string Reader::sigilName() {
   return text;
 }
 
-std::string Reader::quotedText(TokenKind kind) {
+std::string TokenReader::quotedText(TokenKind kind) {
   if (failed_) return {};
   if (token().kind != kind) {
     expected(kind == TokenKind::Text ? "a string in single quotes" : "a string in double quotes");
@@ -60,7 +60,7 @@ std::string Reader::quotedText(TokenKind kind) {
   return unescape(tokens_[at_++].text);
 }
 
-int64_t Reader::integer() {
+int64_t TokenReader::integer() {
   const bool negative = accept("-");
   if (failed_) return 0;
   const Token& t = token();

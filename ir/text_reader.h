@@ -15,18 +15,13 @@ using types::TypeTable;
 
 constexpr uint32_t kMaxDepth = 1000;
 
-class Reader {
- public:
-  Reader(const Sources& sources, FileId file, Module& module, Diagnostics& diagnostics)
-      : module_(module), types_(module.types), diagnostics_(diagnostics), file_(file) {
+// Takes tokens one after the other. After a mistake `failed_` is set, and nothing is accepted any more.
+class TokenReader {
+ protected:
+  TokenReader(const Sources& sources, FileId file, Names& names, Diagnostics& diagnostics)
+      : names_(names), diagnostics_(diagnostics) {
     tokens_ = tokenize(sources.sourceText(file), sources.begin(file));
   }
-  bool read();
-
- private:
-  using Map = std::unordered_map<uint32_t, uint32_t>;
-
-  // ---- tokens
   const Token& token(size_t ahead = 0) const { return tokens_[std::min(at_ + ahead, tokens_.size() - 1)]; }
   bool isPunct(std::string_view text, size_t ahead = 0) const {
     return token(ahead).kind == TokenKind::Punct && token(ahead).text == text;
@@ -48,6 +43,22 @@ class Reader {
   std::string sigilName();  // after `@`: `Color`, `Color.2`
   std::string quotedText(TokenKind kind);
   int64_t integer();  // with sign; up to 2^64-1 as bits
+
+  Names& names_;
+  Diagnostics& diagnostics_;
+  std::vector<Token> tokens_;
+  size_t at_ = 0;
+  bool failed_ = false;
+};
+
+class Reader : TokenReader {
+ public:
+  Reader(const Sources& sources, FileId file, Module& module, Diagnostics& diagnostics)
+      : TokenReader(sources, file, module.names, diagnostics), module_(module), types_(module.types), file_(file) {}
+  bool read();
+
+ private:
+  using Map = std::unordered_map<uint32_t, uint32_t>;
 
   // ---- items
   void findItems();
@@ -113,11 +124,7 @@ class Reader {
 
   Module& module_;
   TypeTable& types_;
-  Diagnostics& diagnostics_;
   FileId file_;
-  std::vector<Token> tokens_;
-  size_t at_ = 0;
-  bool failed_ = false;
   uint32_t depth_ = 0;
 
   std::vector<size_t> items_;
