@@ -76,7 +76,7 @@ uint32_t Tree::allocate(uint32_t words, uint32_t alignment) {
   const uint32_t used = next_word_ % kChunkWords;
   if (used == 0 || used + words > kChunkWords) {
     next_word_ = static_cast<uint32_t>(chunks_.size()) * kChunkWords;
-    if (next_word_ == 0) next_word_ = 2;  // 0 is none
+    if (next_word_ == 0) next_word_ = 2;  // word 0 means none
     const uint32_t count = (next_word_ % kChunkWords + words + kChunkWords - 1) / kChunkWords;
     blocks_.push_back(new uint32_t[size_t{count} * kChunkWords]);
     for (uint32_t k = 0; k < count; ++k) chunks_.push_back(blocks_.back() + size_t{k} * kChunkWords);
@@ -187,18 +187,29 @@ Range Tree::range(ExprId id) const {
     if (!first) range.begin = loc(at);
     at = first;
   }
+  if (range.end < range.begin) range.end = range.begin;
   return range;
 }
 
+// A node without an end is not written: it has a location, and an empty range there.
+static Range rangeFrom(Loc begin, Loc end) { return {begin, end < begin ? begin : end}; }
+
 Range Tree::range(StmtId id) const {
   const StmtHeader& h = stmt(id);
-  if (h.kind == StmtKind::Assign) return {range(as<AssignStmt>(id).target).begin, h.end};
-  if (h.kind == StmtKind::Call) return {range(as<CallStmt>(id).call).begin, h.end};
-  return {h.loc, h.end};
+  Loc begin = h.loc;
+  if (h.kind == StmtKind::Assign) begin = range(as<AssignStmt>(id).target).begin;
+  if (h.kind == StmtKind::Call) begin = range(as<CallStmt>(id).call).begin;
+  return rangeFrom(begin, h.end);
 }
 
-Range Tree::range(TypeExprId id) const { return {typeExpr(id).loc, typeExpr(id).end}; }
+Range Tree::range(TypeExprId id) const {
+  const TypeExprHeader& h = typeExpr(id);
+  Loc begin = h.loc;
+  if (h.kind == TypeExprKind::Enum)  // INT (a, b), but not (a, b) INT
+    if (const TypeExprId base = as<EnumTypeExpr>(id).base) begin = std::min(begin, typeExpr(base).loc);
+  return rangeFrom(begin, h.end);
+}
 
-Range Tree::range(DeclId id) const { return {decl(id).begin, decl(id).end}; }
+Range Tree::range(DeclId id) const { return rangeFrom(decl(id).begin, decl(id).end); }
 
 }  // namespace rung

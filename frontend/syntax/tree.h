@@ -736,5 +736,6 @@ class Tree {
 // The tree as indented text (rung emit --emit=tree), with the words of nodes.def; golden tests read it.
 // As written: without what a check of the program inserted.
 std::string printTree(const Tree& tree, const Names& names, const FileUnit& unit);
+std::string printExpression(const Tree& tree, const Names& names, ExprId expr);
 
 }  // namespace rung

@@ -273,11 +273,13 @@ struct InstancePathResolver {
       view = resolveAddress(context, decl.address, decl.address_loc, type);
       if (!view) return;
     }
-    if (decl.init) {
-      checkInitializerAs(context, decl.init, type, "the initial value of `" + toString(context, last.name) + "`");
+    ExprId init = decl.init;
+    if (init) {
+      checkInitializerAs(context, init, type, "the initial value of `" + toString(context, last.name) + "`");
       for (const PathStep& step : target.path) {  // a configured variable has a value though no body writes it
         if (step.var) context.symbols.var(step.var).written = true;
       }
+      if (init) decl.init = init;  // otherwise it was reported
     }
     if (inField(var) || !var.open_address) {
       for (InstancePath& known : targets) {
@@ -285,7 +287,7 @@ struct InstancePathResolver {
         if (known.configured) return reportConfiguredTwice(last, known.loc);
         known.configured = true;
         known.loc = last.loc;
-        known.init = decl.init;
+        known.init = init;
         if (view) {
           known.image = *view;
           known.located = true;
@@ -294,7 +296,7 @@ struct InstancePathResolver {
       }
       target.configured = true;
       target.loc = last.loc;
-      target.init = decl.init;
+      target.init = init;
       targets.push_back(target);
       return;
     }
@@ -304,10 +306,10 @@ struct InstancePathResolver {
       complete = view.has_value();
       if (view) var.image = *view;
     }
-    if (decl.init) {
+    if (init) {
       target.configured = true;
       target.loc = last.loc;
-      target.init = decl.init;
+      target.init = init;
       targets.push_back(target);
     }
   }
