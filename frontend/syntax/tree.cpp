@@ -169,6 +169,11 @@ Loc Tree::begin(ExprId id) const {
   return loc(id);
 }
 
+ExprId Tree::base(ExprId step) const {
+  RUNG_INVARIANT(shape(kind(step)) == ExprShape::Step, "only a step of a path has a base");
+  return firstOperand(*this, step);
+}
+
 Range Tree::range(ExprId id) const {
   id = written(id);
   if (!id) return {};

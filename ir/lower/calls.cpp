@@ -90,20 +90,20 @@ ExprId BodyLowering::operandOr0(const sema::Binding& binding, TypeId type, Loc l
 
 ExprId BodyLowering::lowerOperator(const sema::Call& call, const CallExpr& node) {
   const sema::Pou& pou = project_.pou(call.pou);
-  switch (pou.operator_kind) {
-    case sema::Pou::Operator::Op: return lowerArithmeticOperator(call, node);
-    case sema::Pou::Operator::Select: return lowerSelect(call, node);
-    case sema::Pou::Operator::Mux: return lowerMux(call, node);
-    case sema::Pou::Operator::Move:
-    case sema::Pou::Operator::Convert:
-    case sema::Pou::Operator::None:
+  switch (pou.pragmas.operator_kind) {
+    case sema::OperatorKind::Op: return lowerArithmeticOperator(call, node);
+    case sema::OperatorKind::Select: return lowerSelect(call, node);
+    case sema::OperatorKind::Mux: return lowerMux(call, node);
+    case sema::OperatorKind::Move:
+    case sema::OperatorKind::Convert:
+    case sema::OperatorKind::None:
       return convertValue(operandOr0(call.bindings.front(), strip(node.h.type), node.h.loc), node.h.type, node.h.loc);
   }
   return {};
 }
 
 ExprId BodyLowering::lowerArithmeticOperator(const sema::Call& call, const CallExpr& node) {
-  Op op = project_.pou(call.pou).op;
+  Op op = project_.pou(call.pou).pragmas.op;
   Loc loc = node.h.loc;
   TypeId type = strip(node.h.type);
   TypeId operand_type = type;
@@ -255,7 +255,8 @@ bool BodyLowering::isPlainCall(rung::ExprId expr) const {
 bool BodyLowering::mayChain(const sema::Call& call, const Target& target) const {
   const sema::Pou& pou = project_.pou(call.pou);
   if (!target.early) return false;
-  if (!pou.prefix && types_.info(typeOf(target.place)).length < types_.info(strip(pou.result)).length) return false;
+  if (!pou.pragmas.prefix && types_.info(typeOf(target.place)).length < types_.info(strip(pou.result)).length)
+    return false;
   if (isTemp(target.place)) return true;
   for (size_t i = 1; i < call.bindings.size(); ++i)
     if (call.bindings[i].value && !isApart(call.bindings[i].value, rootVar(target.expr))) return false;
@@ -302,7 +303,7 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
 
   // A native string function writes directly into the target: it allows inputs that are the target itself.
   TypeId result_type = pou.result ? strip(pou.result) : TypeId{};
-  bool makes_string = result_type && pou.native && TypeTable::isString(types_.kind(result_type));
+  bool makes_string = result_type && pou.pragmas.native && TypeTable::isString(types_.kind(result_type));
   Target own;
   if (target && makes_string) {
     TypeId type = target->place ? typeOf(target->place) : strip(tree_.expr(target->expr).type);
@@ -346,7 +347,7 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
       if (open) {
         argument = defaultArgument(pin_id, loc);
       } else if (isAggregate(pin_type)) {
-        bool may_alias = !callee_is_pure && (!pou.native || has_reference_outputs);
+        bool may_alias = !callee_is_pure && (!pou.pragmas.native || has_reference_outputs);
         ExprId value;
         if (chains && arguments.empty() && isPlainCall(binding->value)) {
           Target inner = *target;
@@ -357,7 +358,7 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
         }
         Loc at = tree_.loc(binding->value);
         // A body in ST sees no more of a string than its pin takes; the library's C functions take any length.
-        bool cut = !pou.native && TypeTable::isString(types_.kind(pin_type)) &&
+        bool cut = !pou.pragmas.native && TypeTable::isString(types_.kind(pin_type)) &&
                    types_.info(typeOf(value)).length > types_.info(pin_type).length;
         if (cut) {
           argument = temp(pin_type, at);
@@ -415,7 +416,7 @@ ExprId BodyLowering::lowerFunctionCall(const sema::Call& call, const CallExpr& n
           .d = count,
           .e = result.index});
   for (const AfterCall& output : after) storeOutput(output.target, output.value, output.negated, loc);
-  if (pou.faults && !(pou_ && project_.pou(pou_).library)) {
+  if (pou.pragmas.faults && !(pou_ && project_.pou(pou_).library)) {
     const StmtId fault = block([&] {
       append({.kind = StmtKind::Fault,
               .op = static_cast<uint8_t>(types::Fault::Lock),
@@ -448,7 +449,7 @@ void BodyLowering::lowerBlockCall(const sema::Call& call, const CallExpr& node, 
       OpenArray array = passOpenArray(binding.value, type, false);
       assign(field(asBase(instance, pin.pou, at), pin.field, typeOf(array.pointer), at), array.pointer, at);
       for (uint32_t i = 0; i < array.bounds.size(); ++i) {
-        const sema::Var& bound = project_.var({pin.bounds.index + i});
+        const sema::Var& bound = project_.var({pin.open_array.bounds.index + i});
         assign(field(asBase(instance, pin.pou, at), bound.field, bound.type, at), array.bounds[i], at);
       }
       continue;

@@ -90,7 +90,7 @@ void BodyLowering::lowerDelete(const sema::Call& call, Loc loc) {
   };
   const StmtId then = block([&] {
     const sema::PouId object = in_.pouOfRecord(type);
-    if (in_.hasExit(type) || (object && project_.pou(object).dispatched)) {
+    if (in_.hasExit(type) || (object && project_.pou(object).object.dispatched)) {
       const ExprId owned = callPool(call.owns, {memory()}, loc);
       require(owned);
       const StmtId ends = block([&] {

@@ -206,7 +206,7 @@ const sema::Var* BodyLowering::constructedVar(ExprId place) const {
   if (at.kind != ExprKind::Local || !pou_) return nullptr;
   for (sema::VarId id : project_.pou(pou_).vars) {
     const sema::Var& var = project_.var(id);
-    if (var.storage == sema::Storage::Local && local_of_[var.field] == at.a + 1 && var.constructor.index != 0)
+    if (var.storage == sema::Storage::Local && local_of_[var.field] == at.a + 1 && var.start.constructor.index != 0)
       return &var;
   }
   return nullptr;
@@ -222,15 +222,16 @@ void BodyLowering::construct(ExprId place, TypeId type) {
   while (at.kind == ExprKind::Index) at = body_.expr(ExprId{at.a});
   if (at.kind == ExprKind::Field) {
     const sema::PouId derived = in_.pouOfRecord(typeOf(ExprId{at.a}));
-    if (derived && project_.pou(derived).base_var && project_.var(project_.pou(derived).base_var).field == at.b)
+    if (derived && project_.pou(derived).object.base_var &&
+        project_.var(project_.pou(derived).object.base_var).field == at.b)
       return;  // the whole is not made yet
   }
   CallId given;
   if (at.kind == ExprKind::Deref) {
     given = given_;
   } else if (const sema::Var* var = constructedVar(place)) {
-    given = var->constructor;
-    if (var->element_constructors != 0) given.index += element_;
+    given = var->start.constructor;
+    if (var->start.element_constructors != 0) given.index += element_;
   }
   CallExpr node{};
   node.h.loc = at.loc;
@@ -313,7 +314,7 @@ void BodyLowering::storeInitialArray(ExprId place, TypeId type, rung::ExprId ini
     return;
   }
   // Elements that need code: FB instances, and types that hold them.
-  if (const sema::Var* var = constructedVar(place); var != nullptr && var->element_constructors != 0) {
+  if (const sema::Var* var = constructedVar(place); var != nullptr && var->start.element_constructors != 0) {
     const bool whole = body_.expr(place).kind != ExprKind::Index;
     if (whole) element_ = 0;
     for (uint64_t i = 0; i < elementCount(info); ++i) {

@@ -25,7 +25,7 @@ ExprId BodyLowering::openArrayPart(rung::ExprId array, sema::VarId part, Loc loc
 ExprId BodyLowering::openArrayPointer(rung::ExprId array, Loc loc) { return openArrayPart(array, rootVar(array), loc); }
 
 ExprId BodyLowering::openArrayBound(rung::ExprId array, uint32_t index, Loc loc) {
-  return openArrayPart(array, {project_.var(rootVar(array)).bounds.index + index}, loc);
+  return openArrayPart(array, {project_.var(rootVar(array)).open_array.bounds.index + index}, loc);
 }
 
 ExprId BodyLowering::openArrayElement(const IndexExpr& node) {

@@ -57,12 +57,12 @@ ExprId BodyLowering::memberPlace(rung::ExprId id) {
   return field(base, var.field, fieldType(var), node.h.loc);
 }
 
-TypeId BodyLowering::fieldType(const sema::Var& var) const { return var.is_bit ? types::kByte : strip(var.type); }
+TypeId BodyLowering::fieldType(const sema::Var& var) const { return var.bits.is_bit ? types::kByte : strip(var.type); }
 
 ExprId BodyLowering::pinPlace(ExprId instance, const sema::Var& pin, Loc loc) {
   const ExprId place = field(asBase(instance, pin.pou, loc), pin.field, fieldType(pin), loc);
-  if (!pin.is_bit) return place;
-  return add({.kind = ExprKind::Bits, .type = types::kBool, .loc = loc, .a = place.index, .b = pin.bit});
+  if (!pin.bits.is_bit) return place;
+  return add({.kind = ExprKind::Bits, .type = types::kBool, .loc = loc, .a = place.index, .b = pin.bits.bit});
 }
 
 // A string as the array of its bytes or words, including the final zero where it is only read; or of its characters,

@@ -10,12 +10,13 @@ void BodyLowering::lowerPou() {
   for (sema::VarId id : pou.vars) {
     const sema::Var& var = project_.var(id);
     if (var.storage != sema::Storage::Local) continue;
-    if (var.section == SectionKind::InOut || var.hidden_input || var.temporary != 0 || types_.isOpenArray(var.type))
+    if (var.section == SectionKind::InOut || var.open_array.hidden_input || var.temporary != 0 ||
+        types_.isOpenArray(var.type))
       continue;
     if (var.section == SectionKind::Input) {
       // The caller's variable stays unchanged: a body that writes a by-reference input writes a copy, made here.
       uint32_t& index = local_of_[var.field];
-      if (!var.written || !body_.locals[index - 1].by_reference) continue;
+      if (!var.use.written || !body_.locals[index - 1].by_reference) continue;
       ExprId copy = temp(strip(var.type), var.loc);
       assign(copy, local(index - 1, var.loc), var.loc);
       index = body_.expr(copy).a + 1;
@@ -193,8 +194,7 @@ void BodyLowering::lowerIfFrom(std::span<const IfBranch> branches, Slice<rung::S
 void BodyLowering::lowerCase(const CaseStmt& stmt) {
   ExprId selector = lowerValue(stmt.selector);
   std::vector<Case> cases;
-  for (uint32_t i = 0; i < stmt.branches.count; ++i) {
-    const CaseBranch branch = tree_.list(stmt.branches)[i];
+  for (const CaseBranch& branch : tree_.list(stmt.branches)) {
     StmtId body = block([&] { lowerStatements(branch.body); });
     Case created{static_cast<uint32_t>(body_.ranges.size()), 0, body};
     for (rung::ExprId label : tree_.list(branch.labels)) {

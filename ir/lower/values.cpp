@@ -238,7 +238,7 @@ bool BodyLowering::callsFunction(rung::ExprId id) const {
     }
     case rung::ExprKind::Call: {
       const sema::Call& call = project_.call(tree_.as<CallExpr>(id).call);
-      if (call.kind != sema::CallKind::Operator && !project_.pou(call.pou).pure) return true;
+      if (call.kind != sema::CallKind::Operator && !project_.pou(call.pou).pragmas.pure) return true;
       for (const sema::Binding& binding : call.bindings)
         if (binding.value && callsFunction(binding.value)) return true;
       return call.en && callsFunction(call.en);
@@ -380,7 +380,8 @@ ExprId BodyLowering::lowerObjectConversion(const ConvertExpr& node) {
   if (in_.isKindOf(wanted, object)) pointer = checkedDowncast(pointer, object, wanted, loc);
   const sema::Pou& pou = project_.pou(object);
   // The pointer changes only where the base lies after the type id of the derived object.
-  if (project_.pou(wanted).kind == PouKind::Interface || !pou.dispatched || project_.pou(wanted).dispatched)
+  if (project_.pou(wanted).kind == PouKind::Interface || !pou.object.dispatched ||
+      project_.pou(wanted).object.dispatched)
     return add({.kind = ExprKind::Convert, .type = to, .loc = loc, .a = pointer.index});
   if (!isStable(pointer)) pointer = toTemp(pointer, loc);
   const ExprId result = temp(to, loc);

@@ -137,7 +137,7 @@ void checkFieldInits(Context& context, TypeId type) {
   std::vector<ExprId> list(named.fields.size());
   for (size_t i = 0; i < list.size(); ++i) {
     ensureInitialValue(context, named.fields[i]);
-    if (Var& var = context.symbols.var(named.fields[i]); var.holds_bits) {
+    if (Var& var = context.symbols.var(named.fields[i]); var.bits.holds_bits) {
       const uint8_t value = initialBits(context, type, named.fields[i]);
       if (value != 0) var.init = makeLiteral(context, LiteralKind::Integer, types::kByte, value, var.loc);
     }
